@@ -1,0 +1,83 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "medial/vec2.h"
+
+namespace medial {
+
+/// A centre and a radius, in units of the input.
+struct Disk {
+  Vec2 center;
+  double radius = 0;
+};
+
+enum class SiteKind : std::uint8_t {
+  segment,  ///< an edge of the shape, both ends included
+  vertex,   ///< a reflex vertex
+};
+
+/// What a maximal disk can touch. Convex vertices are no sites.
+struct Site {
+  Vec2 start;                ///< a vertex site has start == end
+  Vec2 end;                  ///< the interior lies on the left of start -> end
+  std::uint32_t ring = 0;    ///< ring of the input (for a segment: of its start)
+  std::uint32_t vertex = 0;  ///< vertex in that ring
+  SiteKind kind = SiteKind::segment;
+};
+
+enum class NodeKind : std::uint8_t {
+  leaf,         ///< one edge: a convex corner, radius 0
+  site_change,  ///< two edges: the axis passes on to another site
+  branching,    ///< three edges or more
+};
+
+struct Node {
+  Disk disk;
+  std::uint32_t component = 0;  ///< of the shape
+  NodeKind kind = NodeKind::leaf;
+};
+
+/// A piece of the axis between two sites: the rational quadratic Bezier curve in (x, y, r) with
+/// control points node[0], `control`, node[1] and weights 1, `weight`, 1. It is the exact bisector:
+/// a line (two segments), a parabola (segment and vertex; weight 1) or a line whose radius is a
+/// hyperbola (two vertices; weight >= 1).
+struct Edge {
+  std::array<std::uint32_t, 2> node;  ///< from, to
+  std::array<std::uint32_t, 2> site;  ///< on the left and on the right of from -> to
+  Disk control;                       ///< the radius of a control point may be negative
+  double weight = 1;
+};
+
+/// What an engine counted and how long it took.
+struct Statistics {
+  std::uint64_t queries = 0;            ///< nearest-site queries
+  std::uint64_t apollonius = 0;         ///< disks computed from three sites
+  std::uint64_t brackets = 0;           ///< nodes found by bracketing, where the closed form failed
+  std::uint64_t precision_retries = 0;  ///< nodes recomputed in higher precision
+  std::uint64_t cuts = 0;               ///< disks that connected a hole
+  double largest_residual = 0;          ///< largest |distance - radius| over the nodes' contacts
+  double seconds_sites = 0;
+  double seconds_tree = 0;
+  double seconds_connect = 0;
+  double seconds_walk = 0;
+  double seconds_collect = 0;
+  double seconds = 0;  ///< all of compute()
+  int threads = 1;
+};
+
+/// The medial axis transform: a graph of exact curves in (x, y, r).
+struct MedialAxis {
+  std::string method;     ///< the engine's name: "disks"
+  double tolerance = 0;   ///< in units of the input: what |distance - radius| stays below
+  double resolution = 0;  ///< 0: exact; otherwise the step of a sampled method
+  std::vector<Site> sites;
+  std::vector<Node> nodes;
+  std::vector<Edge> edges;
+  Statistics statistics;
+};
+
+}  // namespace medial

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <atomic>
+#include <functional>
+
+#include "medial/axis.h"
+#include "medial/error.h"
+#include "medial/shape.h"
+
+namespace medial {
+
+struct Options {
+  /// Disks whose residuals stay below this count as touching. Relative to the diagonal of the
+  /// bounding box, in (0, 1e-3]; 0: the default, 4e-15, or what the coordinates' own spacing allows
+  /// where the shape lies far from the origin.
+  double tolerance = 0;
+  /// Threads to use; 0: all of the machine. The result is the same, byte for byte.
+  int threads = 0;
+  /// Called now and then, from any thread, with the share of the work done in [0, 1].
+  std::function<void(double)> progress;
+  /// When set to true, compute() returns ErrorCode::cancelled as soon as it can.
+  const std::atomic<bool>* cancel = nullptr;
+};
+
+/// The exact medial axis transform of a shape, by the `disks` engine: O(n log n) expected.
+///
+/// The graph has one connected part for each component of the shape and exactly one independent
+/// cycle for each hole. Errors: invalid_option, cancelled, too_large, internal.
+Result<MedialAxis> compute(const Shape& shape, const Options& options = {});
+
+}  // namespace medial

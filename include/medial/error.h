@@ -1,0 +1,87 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+
+#include "medial/vec2.h"
+
+namespace medial {
+
+/// What went wrong. The names are stable: they are what `--json` prints (see name_of).
+enum class ErrorCode : std::uint8_t {
+  not_finite,        ///< a coordinate is NaN or infinite
+  too_few_points,    ///< a ring has fewer than three distinct points
+  no_area,           ///< a ring (or the whole input) encloses no area
+  crossing,          ///< two edges cross
+  overlap,           ///< two edges share more than a point
+  hole_outside,      ///< a hole lies outside every outer ring
+  nested_outer,      ///< an outer ring lies in the inside of another outer ring
+  too_large,         ///< more sites than 32-bit indices can name
+  empty,             ///< no ring, no feature, nothing to do
+  unreadable,        ///< a file cannot be opened or read
+  malformed,         ///< a file's content is not what its format says
+  unsupported,       ///< a format, geometry or option that this build or verb does not know
+  unwritable,        ///< an output cannot be written
+  invalid_option,    ///< an option's value is out of its range
+  cancelled,         ///< the caller asked to stop
+  internal,          ///< a broken promise of the library itself: please report
+};
+
+/// The name of a code as it is spelled above, for example "crossing".
+const char* name_of(ErrorCode code);
+
+/// Where it went wrong; every part is optional.
+struct Place {
+  std::string file;
+  std::optional<std::uint64_t> feature;  ///< index of the feature (shape) in the file, from 0
+  std::optional<std::uint64_t> ring;     ///< index of the ring in the input, from 0
+  std::optional<std::uint64_t> vertex;   ///< index of the vertex in that ring, from 0
+  std::optional<Vec2> point;             ///< coordinates, in units of the input
+  std::optional<std::uint64_t> line;     ///< line of a text file, from 1
+};
+
+/// An error as a value. The library never prints, never throws across its surface, never exits.
+struct Error {
+  ErrorCode code = ErrorCode::internal;
+  std::string text;  ///< one sentence, no trailing full stop, no place
+  Place place;
+};
+
+/// "FILE: feature 3, ring 1, vertex 7 at (x, y): text [code]".
+std::string to_string(const Error& error);
+
+/// Either a value or an error.
+template <class T>
+class [[nodiscard]] Result {
+ public:
+  Result(T value) : content_(std::move(value)) {}
+  Result(Error error) : content_(std::move(error)) {}
+
+  bool ok() const { return content_.index() == 0; }
+  explicit operator bool() const { return ok(); }
+
+  T& value() & { return std::get<0>(content_); }
+  const T& value() const& { return std::get<0>(content_); }
+  T&& value() && { return std::get<0>(std::move(content_)); }
+  T* operator->() { return &std::get<0>(content_); }
+  const T* operator->() const { return &std::get<0>(content_); }
+  T& operator*() & { return std::get<0>(content_); }
+  const T& operator*() const& { return std::get<0>(content_); }
+  T&& operator*() && { return std::get<0>(std::move(content_)); }
+
+  Error& error() & { return std::get<1>(content_); }
+  const Error& error() const& { return std::get<1>(content_); }
+  Error&& error() && { return std::get<1>(std::move(content_)); }
+
+ private:
+  std::variant<T, Error> content_;
+};
+
+/// The result of an action without a value.
+using Status = Result<std::monostate>;
+inline Status success() { return std::monostate{}; }
+
+}  // namespace medial

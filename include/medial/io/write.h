@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "medial/error.h"
+#include "medial/io/read.h"
+
+namespace medial::io {
+
+struct WriteOptions {
+  double chord = 1e-3;  ///< chords stay within this fraction of the bounding box diagonal
+  // pictures (.svg .pdf .png .ps)
+  double width = 1024;        ///< of the picture, in pixels or points
+  int disks = 0;              ///< draw about this many maximal disks; 0: none
+  bool contacts = false;      ///< draw the feet of the nodes' disks
+  bool shape = true;          ///< draw the shape
+  bool nodes = false;         ///< draw the nodes by kind
+};
+
+/// Writes axes by the extension of `path`: .json (native) .geojson .gpkg .shp .fgb .wkt .csv
+/// .svg .pdf .png .ps; `-` is standard output and takes `format` (an extension without its dot).
+/// Writes to a temporary name beside the target and renames: never a partial file.
+/// Errors: unsupported, unwritable.
+Status write_axes(const std::string& path, const std::string& format, const NativeFile& file,
+                  const WriteOptions& options = {});
+
+/// The extensions write_axes() takes, for help texts.
+std::string known_output_formats();
+
+/// Removes temporary files of writes under way; safe to call from a signal handler.
+void remove_partial_files() noexcept;
+
+}  // namespace medial::io

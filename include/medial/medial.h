@@ -1,0 +1,9 @@
+#pragma once
+
+// The whole core library in one include.
+#include "medial/axis.h"
+#include "medial/compute.h"
+#include "medial/error.h"
+#include "medial/query.h"
+#include "medial/shape.h"
+#include "medial/verify.h"

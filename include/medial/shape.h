@@ -1,0 +1,88 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "medial/error.h"
+#include "medial/vec2.h"
+
+namespace medial {
+
+/// What a source says of a ring.
+enum class RingRole : std::uint8_t {
+  any,    ///< nothing: the even-odd rule decides (plain text, loose loops)
+  outer,  ///< the outer ring of a polygon
+  hole,   ///< a hole of a polygon
+};
+
+/// A ring as it was read: any orientation, closed or not, cleaned or not.
+struct Ring {
+  std::vector<Vec2> points;
+  RingRole role = RingRole::any;
+};
+
+/// Where a vertex of a Shape comes from: ring and vertex of the input, both from 0.
+struct VertexSource {
+  std::uint32_t ring = 0;
+  std::uint32_t vertex = 0;
+};
+
+/// What build_shape() cleaned away or rearranged.
+struct ShapeReport {
+  std::uint64_t input_rings = 0;
+  std::uint64_t input_points = 0;
+  std::uint64_t closing_points = 0;     ///< last points equal to the first, dropped
+  std::uint64_t unclosed_rings = 0;     ///< rings that came without a closing point
+  std::uint64_t repeated_points = 0;    ///< zero-length edges, dropped
+  std::uint64_t collinear_points = 0;   ///< vertices in the inside of a straight run, dropped
+  std::uint64_t reversed_rings = 0;     ///< rings that had the interior on the right
+  std::uint64_t touching_vertices = 0;  ///< places where rings touch in a vertex
+  std::uint64_t split_edges = 0;        ///< edges split where a vertex touches their inside
+};
+
+/// A bounded planar region: closed loops of straight edges with the interior on the left
+/// (outer loops counter-clockwise, holes clockwise).
+///
+/// What always holds for a Shape made by build_shape(): all coordinates are finite; every loop has
+/// at least three vertices; neighbouring vertices differ and no three in a row are collinear, except
+/// at a vertex where loops touch; edges meet in vertices only; different loops have no
+/// point in common (loops that touched are joined: one loop passes through the common vertex once
+/// for every wedge of interior there). Each component is one outer loop and its holes.
+struct Shape {
+  std::vector<Vec2> points;                ///< the vertices of all loops, loop after loop
+  std::vector<VertexSource> sources;       ///< of each point
+  std::vector<std::uint32_t> loop_begin;   ///< loop i is points [loop_begin[i], loop_begin[i + 1])
+  std::vector<std::uint32_t> component;    ///< of each loop; components count from 0
+  std::vector<bool> hole;                  ///< of each loop
+
+  std::size_t loop_count() const { return component.size(); }
+  std::span<const Vec2> loop(std::size_t i) const {
+    return std::span(points).subspan(loop_begin[i], loop_begin[i + 1] - loop_begin[i]);
+  }
+  std::size_t component_count() const;
+  std::size_t hole_count() const;
+};
+
+struct Box {
+  Vec2 low;
+  Vec2 high;
+};
+
+/// The bounding box of the shape's points, and the length of its diagonal.
+Box bounding_box(const Shape& shape);
+double diagonal(const Box& box);
+
+/// The area enclosed by the shape (holes subtracted), in squared units of the input.
+double area(const Shape& shape);
+
+/// Cleans, checks, orients and nests rings into a Shape. O(n log n).
+///
+/// Repeated points, zero-length edges, exactly collinear runs and missing closing points are mended
+/// and counted in `report` (may be null). Rings may touch in vertices, or with a vertex in the inside
+/// of an edge. Every decision is exact for the coordinates given.
+/// Errors: not_finite, too_few_points, no_area, crossing, overlap (the place names ring, vertex and
+/// the point), hole_outside, nested_outer, empty, too_large.
+Result<Shape> build_shape(std::span<const Ring> rings, ShapeReport* report = nullptr);
+
+}  // namespace medial
