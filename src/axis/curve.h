@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstddef>
+
+#include "medial/axis.h"
+
+namespace medial {
+
+/// An edge of the axis as a curve, with its control points relative to its first one: coordinates are
+/// subtracted before anything is multiplied, so far from the origin no digits are lost.
+struct Curve {
+  Vec2 origin;  ///< centre of the first disk
+  Vec2 end;     ///< of the last disk
+  Vec2 p1;      ///< control - origin
+  Vec2 p2;      ///< end - origin
+  double r0 = 0, r1 = 0, r2 = 0;
+  double weight = 1;
+
+  Curve(const Disk& from, const Disk& control, const Disk& to, double control_weight)
+      : origin(from.center),
+        end(to.center),
+        p1(control.center - from.center),
+        p2(to.center - from.center),
+        r0(from.radius),
+        r1(control.radius),
+        r2(to.radius),
+        weight(control_weight) {}
+
+  /// The disk at t in [0, 1]; the end disks exactly at 0 and 1. Error: a few units in the last place
+  /// of the control polygon's size, and the rounding of the centre's coordinates.
+  Disk at(double t) const;
+  /// at(t).center - origin, without the rounding of the addition.
+  Vec2 offset(double t) const;
+
+  /// First and second derivatives by t of offset() and of the radius.
+  struct Derivatives {
+    Vec2 first, second;
+    double radius_first = 0, radius_second = 0;
+  };
+  Derivatives derivatives(double t) const;
+
+  /// Whether the centres run along a straight line: all edges but a segment's with a vertex.
+  bool straight() const;
+
+  /// Length in the plane from 0 to t. For weight 1 the closed form of a parabola's arc; all other
+  /// edges are straight. Relative error below 1e-13.
+  double length(double t = 1) const;
+  /// The t at which length(t) == s, for s in [0, length()].
+  double at_length(double s) const;
+
+  /// The t in [0, 1] of the point nearest to p in the plane.
+  double nearest(Vec2 p) const;
+};
+
+inline Curve curve_of(const MedialAxis& axis, const Edge& edge) {
+  return {axis.nodes[edge.node[0]].disk, edge.control, axis.nodes[edge.node[1]].disk, edge.weight};
+}
+
+}  // namespace medial

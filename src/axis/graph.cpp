@@ -1,0 +1,75 @@
+#include <algorithm>
+
+#include "medial/query.h"
+
+namespace medial {
+
+Incidence::Incidence(const MedialAxis& axis)
+    : begin_(axis.nodes.size() + 1, 0), edges_(2 * axis.edges.size()) {
+  for (const Edge& edge : axis.edges)
+    for (const std::uint32_t node : edge.node) ++begin_[node + 1];
+  for (std::size_t i = 1; i < begin_.size(); ++i) begin_[i] += begin_[i - 1];
+  std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
+  for (std::size_t i = 0; i < axis.edges.size(); ++i)
+    for (const std::uint32_t node : axis.edges[i].node)
+      edges_[next[node]++] = static_cast<std::uint32_t>(i);
+}
+
+namespace {
+
+/// The node where a step begins or ends.
+std::uint32_t head(const MedialAxis& axis, Step step) {
+  return axis.edges[step.edge].node[step.forward ? 1 : 0];
+}
+
+/// The step that continues a chain through a node of degree two.
+Step next_step(const MedialAxis& axis, const Incidence& incidence, Step step) {
+  const std::uint32_t node = head(axis, step);
+  const auto around = incidence.edges(node);
+  const std::uint32_t edge = around[0] == step.edge ? around[1] : around[0];
+  if (edge == step.edge) return step;  // an edge from the node to itself
+  return {edge, axis.edges[edge].node[0] == node};
+}
+
+}  // namespace
+
+std::vector<Branch> branches(const MedialAxis& axis) {
+  const Incidence incidence(axis);
+  std::vector<bool> used(axis.edges.size(), false);
+  std::vector<Branch> out;
+  for (std::size_t i = 0; i < axis.edges.size(); ++i) {
+    if (used[i]) continue;
+    const Step lowest{static_cast<std::uint32_t>(i), true};
+    used[i] = true;
+    Branch branch;
+    // Backward from the lowest edge, then turned round; then forward from it.
+    const auto extend = [&](Step step) {
+      while (incidence.degree(head(axis, step)) == 2) {
+        step = next_step(axis, incidence, step);
+        if (used[step.edge]) break;  // once around
+        used[step.edge] = true;
+        branch.steps.push_back(step);
+      }
+    };
+    extend({lowest.edge, false});
+    std::reverse(branch.steps.begin(), branch.steps.end());
+    for (Step& step : branch.steps) step.forward = !step.forward;
+    branch.steps.push_back(lowest);
+    extend(lowest);
+    const Step first = branch.steps.front();
+    branch.from = axis.edges[first.edge].node[first.forward ? 0 : 1];
+    branch.to = head(axis, branch.steps.back());
+    out.push_back(std::move(branch));
+  }
+  return out;
+}
+
+std::uint32_t deepest_node(const MedialAxis& axis) {
+  const auto deepest =
+      std::max_element(axis.nodes.begin(), axis.nodes.end(), [](const Node& a, const Node& b) {
+        return a.disk.radius < b.disk.radius;
+      });
+  return static_cast<std::uint32_t>(deepest - axis.nodes.begin());
+}
+
+}  // namespace medial

@@ -1,0 +1,168 @@
+#include <algorithm>
+#include <boost/multiprecision/cpp_int.hpp>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "axis/curve.h"
+#include "medial/query.h"
+
+namespace medial {
+namespace {
+
+constexpr std::size_t kFanOut = 8;
+
+Box hull(const Box& a, const Box& b) {
+  return {{std::min(a.low.x, b.low.x), std::min(a.low.y, b.low.y)},
+          {std::max(a.high.x, b.high.x), std::max(a.high.y, b.high.y)}};
+}
+
+double squared_distance(const Box& box, Vec2 p) {
+  const double dx = std::max({box.low.x - p.x, 0.0, p.x - box.high.x});
+  const double dy = std::max({box.low.y - p.y, 0.0, p.y - box.high.y});
+  return dx * dx + dy * dy;
+}
+
+/// A box that holds the edge: by its weights, a curve stays in the hull of its control points.
+Box box_of(const MedialAxis& axis, const Edge& edge) {
+  const Vec2 a = axis.nodes[edge.node[0]].disk.center;
+  const Vec2 b = edge.control.center;
+  const Vec2 c = axis.nodes[edge.node[1]].disk.center;
+  return {{std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y})},
+          {std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y})}};
+}
+
+/// Puts the items [begin, end) into an order in which every aligned run of kFanOut^k is compact:
+/// halves at multiples of kFanOut, along the longer side of the centres' box.
+void order_by_place(std::vector<std::uint32_t>& order, const std::vector<Vec2>& center,
+                    std::size_t begin, std::size_t end) {
+  const std::size_t count = end - begin;
+  if (count <= kFanOut) return;
+  Box box{center[order[begin]], center[order[begin]]};
+  for (std::size_t i = begin; i < end; ++i) box = hull(box, {center[order[i]], center[order[i]]});
+  const bool by_x = box.high.x - box.low.x >= box.high.y - box.low.y;
+  // The left part takes the largest power of the fan-out below the count, several times: whole
+  // nodes of the tree.
+  std::size_t whole = kFanOut;
+  while (whole * kFanOut < count) whole *= kFanOut;
+  const std::size_t nodes = (count + whole - 1) / whole;
+  const std::size_t middle = begin + (nodes / 2) * whole;
+  std::nth_element(order.begin() + static_cast<std::ptrdiff_t>(begin),
+                   order.begin() + static_cast<std::ptrdiff_t>(middle),
+                   order.begin() + static_cast<std::ptrdiff_t>(end),
+                   [&](std::uint32_t a, std::uint32_t b) {
+                     return by_x ? center[a].x < center[b].x : center[a].y < center[b].y;
+                   });
+  order_by_place(order, center, begin, middle);
+  order_by_place(order, center, middle, end);
+}
+
+/// The sign of cross(b - a, p - a), exactly. A floating-point filter decides almost always: its
+/// error is below 4 units in the last place of the sum of the products' magnitudes (Shewchuk's
+/// bound is 3.3); the rest is left to rational arithmetic.
+int orientation(Vec2 a, Vec2 b, Vec2 p) {
+  const double left = (b.x - a.x) * (p.y - a.y), right = (b.y - a.y) * (p.x - a.x);
+  const double value = left - right;
+  const double error = 2 * std::numeric_limits<double>::epsilon() * (std::abs(left) + std::abs(right));
+  if (std::abs(value) > error && error > std::numeric_limits<double>::min())
+    return value > 0 ? 1 : -1;
+  using Exact = boost::multiprecision::cpp_rational;
+  const Exact ax(a.x), ay(a.y);
+  const Exact exact = (Exact(b.x) - ax) * (Exact(p.y) - ay) - (Exact(b.y) - ay) * (Exact(p.x) - ax);
+  return exact.sign();
+}
+
+}  // namespace
+
+/// A tree without pointers: level 0 holds the boxes of runs of kFanOut edges in `order`, every next
+/// level those of kFanOut boxes below.
+struct AxisLocator::Index {
+  const MedialAxis* axis = nullptr;
+  std::vector<std::uint32_t> order;
+  std::vector<std::vector<Box>> levels;
+
+  explicit Index(const MedialAxis& medial_axis) : axis(&medial_axis), order(axis->edges.size()) {
+    std::iota(order.begin(), order.end(), 0U);
+    std::vector<Vec2> center;
+    center.reserve(order.size());
+    for (const Edge& edge : axis->edges) {
+      const Box box = box_of(*axis, edge);
+      center.push_back(midpoint(box.low, box.high));
+    }
+    order_by_place(order, center, 0, order.size());
+    std::vector<Box> boxes;
+    boxes.reserve(order.size());
+    for (const std::uint32_t edge : order) boxes.push_back(box_of(*axis, axis->edges[edge]));
+    while (true) {
+      std::vector<Box> parents;
+      for (std::size_t i = 0; i < boxes.size(); i += kFanOut) {
+        Box box = boxes[i];
+        for (std::size_t j = i + 1; j < std::min(i + kFanOut, boxes.size()); ++j)
+          box = hull(box, boxes[j]);
+        parents.push_back(box);
+      }
+      levels.push_back(parents);
+      if (parents.size() <= 1) return;
+      boxes = std::move(parents);
+    }
+  }
+
+  /// Visits node `index` of `level`, its children nearest first, unless it is farther than `best`.
+  void visit(std::size_t level, std::size_t index, Vec2 p, AxisPoint& best) const {
+    if (level == 0) {
+      const std::size_t end = std::min((index + 1) * kFanOut, order.size());
+      for (std::size_t i = index * kFanOut; i < end; ++i) {
+        const Curve curve = curve_of(*axis, axis->edges[order[i]]);
+        const double t = curve.nearest(p);
+        // From the curve's own origin, where the point is not yet rounded.
+        const double d = norm(curve.offset(t) - (p - curve.origin));
+        if (d < best.distance || (d == best.distance && order[i] < best.edge))
+          best = {order[i], t, curve.at(t), d};
+      }
+      return;
+    }
+    const std::vector<Box>& boxes = levels[level - 1];
+    const std::size_t begin = index * kFanOut, end = std::min(begin + kFanOut, boxes.size());
+    std::array<std::pair<double, std::size_t>, kFanOut> child;
+    for (std::size_t i = begin; i < end; ++i)
+      child[i - begin] = {std::sqrt(squared_distance(boxes[i], p)), i};
+    std::sort(child.begin(), child.begin() + static_cast<std::ptrdiff_t>(end - begin));
+    for (std::size_t i = 0; i < end - begin; ++i)
+      if (child[i].first <= best.distance) visit(level - 1, child[i].second, p, best);
+  }
+};
+
+AxisLocator::AxisLocator(const MedialAxis& axis) : index_(std::make_unique<Index>(axis)) {}
+AxisLocator::~AxisLocator() = default;
+AxisLocator::AxisLocator(AxisLocator&&) noexcept = default;
+
+AxisPoint AxisLocator::nearest(Vec2 p) const {
+  AxisPoint best;
+  best.distance = std::numeric_limits<double>::infinity();
+  if (!index_->order.empty()) index_->visit(index_->levels.size() - 1, 0, p, best);
+  return best;
+}
+
+double clearance(const Shape& shape, Vec2 p) {
+  double best = std::numeric_limits<double>::infinity();
+  bool inside = false;
+  for (std::size_t i = 0; i < shape.loop_count(); ++i) {
+    const auto loop = shape.loop(i);
+    for (std::size_t j = 0; j < loop.size(); ++j) {
+      const Vec2 a = loop[j], b = loop[j + 1 < loop.size() ? j + 1 : 0];
+      const Vec2 d = b - a, q = p - a;
+      // The distance to the segment: perpendicular where p lies beside it, else to the nearer end.
+      const double size = norm(d), along = dot(d, q);
+      double distance_to_edge = std::abs(cross(d, q)) / size;
+      if (along <= 0) distance_to_edge = norm(q);
+      if (along >= size * size) distance_to_edge = norm(p - b);
+      best = std::min(best, distance_to_edge);
+      // A ray to the right, by the half-open rule: it crosses upward edges that have p on the left.
+      if ((a.y <= p.y) != (b.y <= p.y) && (orientation(a, b, p) > 0) == (a.y <= p.y))
+        inside = !inside;
+    }
+  }
+  return inside ? best : -best;
+}
+
+}  // namespace medial
