@@ -29,9 +29,9 @@ struct Basis {
 ///
 /// Along b, with u the coordinate in its direction and h the distance of a from it, this is the
 /// integral of 2 sqrt(u^2 + h^2) / |b| over an interval of width |b|. Its closed form divides a
-/// difference by |b|, so a nearly straight arc (|b| <= |a| / 4) takes Gauss-Legendre's rule instead:
-/// the integrand's singularities lie at least 6 half widths away, where the error of eight points
-/// is below 12^-16.
+/// difference by |b|, so a nearly straight arc (|b| <= |a| / 4) takes Gauss-Legendre's rule
+/// instead: the integrand's singularities lie at least 6 half widths away, where the error of eight
+/// points is below 12^-16.
 double arc_length(Vec2 a, Vec2 b) {
   const double size = std::hypot(b.x, b.y);
   const double start_speed = std::hypot(a.x, a.y);
@@ -71,7 +71,8 @@ double bracketed_root(Function f, double low, double high) {
     ((value < 0) == rising ? low : high) = t;
     double next = t - value / slope;
     if (i % 2 == 1 || !(next > low && next < high)) next = 0.5 * (low + high);
-    if (i % 2 == 0 && std::abs(next - t) <= 0.25 * std::numeric_limits<double>::epsilon()) return next;
+    if (i % 2 == 0 && std::abs(next - t) <= 0.25 * std::numeric_limits<double>::epsilon())
+      return next;
     if (next == t) return t;
     t = next;
   }
@@ -114,8 +115,7 @@ Curve::Derivatives Curve::derivatives(double t) const {
   const double q = basis.b1 * q1 + basis.b2 * q2;
   Derivatives out;
   out.first = (1 / d) * (2 * (s - t) * weight * p1 + 2 * t * p2 - d_first * value);
-  out.second =
-      (1 / d) * (-4 * weight * p1 + 2 * p2 - 2 * d_first * out.first - d_second * value);
+  out.second = (1 / d) * (-4 * weight * p1 + 2 * p2 - 2 * d_first * out.first - d_second * value);
   out.radius_first = (2 * (s - t) * weight * q1 + 2 * t * q2 - d_first * q) / d;
   out.radius_second =
       (-4 * weight * q1 + 2 * q2 - 2 * d_first * out.radius_first - d_second * q) / d;
@@ -137,10 +137,7 @@ double Curve::at_length(double s) const {
   if (s <= 0) return 0;
   if (s >= length()) return 1;
   return bracketed_root(
-      [&](double t) {
-        return std::pair(length(t) - s, norm(derivatives(t).first));
-      },
-      0, 1);
+      [&](double t) { return std::pair(length(t) - s, norm(derivatives(t).first)); }, 0, 1);
 }
 
 double Curve::nearest(Vec2 p) const {
@@ -152,8 +149,8 @@ double Curve::nearest(Vec2 p) const {
     return along <= 0 ? 0 : along >= size ? 1 : at_length(along);
   }
   // The squared distance has the derivative 4 f with the cubic f(t) = (C(t) - p) . (a + t b), where
-  // C(t) = 2 t a + t^2 b. Between the zeros of f' it is monotone: a minimum of the distance is where
-  // f rises through zero, or an end.
+  // C(t) = 2 t a + t^2 b. Between the zeros of f' it is monotone: a minimum of the distance is
+  // where f rises through zero, or an end.
   const Vec2 a = p1, b = p2 - 2 * p1;
   const double aa = dot(a, a), ab = dot(a, b), bb = dot(b, b);
   const double c0 = -dot(target, a), c1 = 2 * aa - dot(target, b), c2 = 3 * ab, c3 = bb;

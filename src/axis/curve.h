@@ -6,8 +6,8 @@
 
 namespace medial {
 
-/// An edge of the axis as a curve, with its control points relative to its first one: coordinates are
-/// subtracted before anything is multiplied, so far from the origin no digits are lost.
+/// An edge of the axis as a curve, with its control points relative to its first one: coordinates
+/// are subtracted before anything is multiplied, so far from the origin no digits are lost.
 struct Curve {
   Vec2 origin;  ///< centre of the first disk
   Vec2 end;     ///< of the last disk
@@ -26,8 +26,8 @@ struct Curve {
         r2(to.radius),
         weight(control_weight) {}
 
-  /// The disk at t in [0, 1]; the end disks exactly at 0 and 1. Error: a few units in the last place
-  /// of the control polygon's size, and the rounding of the centre's coordinates.
+  /// The disk at t in [0, 1]; the end disks exactly at 0 and 1. Error: a few units in the last
+  /// place of the control polygon's size, and the rounding of the centre's coordinates.
   Disk at(double t) const;
   /// at(t).center - origin, without the rounding of the addition.
   Vec2 offset(double t) const;

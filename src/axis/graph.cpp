@@ -66,9 +66,8 @@ std::vector<Branch> branches(const MedialAxis& axis) {
 
 std::uint32_t deepest_node(const MedialAxis& axis) {
   const auto deepest =
-      std::max_element(axis.nodes.begin(), axis.nodes.end(), [](const Node& a, const Node& b) {
-        return a.disk.radius < b.disk.radius;
-      });
+      std::max_element(axis.nodes.begin(), axis.nodes.end(),
+                       [](const Node& a, const Node& b) { return a.disk.radius < b.disk.radius; });
   return static_cast<std::uint32_t>(deepest - axis.nodes.begin());
 }
 

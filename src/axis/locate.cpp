@@ -63,7 +63,8 @@ void order_by_place(std::vector<std::uint32_t>& order, const std::vector<Vec2>& 
 int orientation(Vec2 a, Vec2 b, Vec2 p) {
   const double left = (b.x - a.x) * (p.y - a.y), right = (b.y - a.y) * (p.x - a.x);
   const double value = left - right;
-  const double error = 2 * std::numeric_limits<double>::epsilon() * (std::abs(left) + std::abs(right));
+  const double error =
+      2 * std::numeric_limits<double>::epsilon() * (std::abs(left) + std::abs(right));
   if (std::abs(value) > error && error > std::numeric_limits<double>::min())
     return value > 0 ? 1 : -1;
   using Exact = boost::multiprecision::cpp_rational;
