@@ -1,0 +1,244 @@
+#include "engines/disks/connect.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+#include <limits>
+
+#include "geometry/tangent_disk.h"
+
+namespace medial::disks {
+namespace {
+
+using geometry::Site;
+
+/// Cuts are kept where no query finds them.
+const Site far_away = geometry::make_vertex({1e30, 1e30});
+
+/// The radius of the disk at `foot` that touches the closed site, and the site that it touches: the
+/// segment's end where the line's point of contact lies beyond it.
+double closed_tangent_radius(Vec2 foot, Vec2 normal, const Site& site) {
+  const double on_carrier = geometry::tangent_radius(foot, normal, site);
+  if (site.is_vertex()) return on_carrier;
+  if (on_carrier < std::numeric_limits<double>::infinity()) {
+    const double s = dot(site.direction, foot + on_carrier * normal - site.point);
+    if (s >= 0 && s <= site.length) return on_carrier;
+  }
+  return std::min(geometry::tangent_radius(foot, normal, geometry::make_vertex(site.point)),
+                  geometry::tangent_radius(foot, normal, geometry::make_vertex(site.end())));
+}
+
+/// Of a segment touched in an end that is a vertex site, that vertex.
+std::uint32_t owner_of_foot(const Boundary& loops, const Boundary::Run& run, std::uint32_t site,
+                            Vec2 center) {
+  if (loops.elements[site] != Element::segment) return site;
+  const double s = geometry::foot_parameter(loops.sites[site], center);
+  const auto cyclic_next = site == run.last ? run.first : site + 1;
+  const auto cyclic_before = site == run.first ? run.last : site - 1;
+  if (s <= 0 && loops.elements[cyclic_before] == Element::vertex) return cyclic_before;
+  if (s >= loops.sites[site].length && loops.elements[cyclic_next] == Element::vertex)
+    return cyclic_next;
+  return site;
+}
+
+Cut connecting_disk(const Boundary& loops, const index::BoundaryTree& tree, std::uint32_t hole,
+                    double left_end, double tolerance, std::uint64_t& queries) {
+  const Boundary::Run own = loops.runs[hole];
+  const Vec2 foot = loops.sites[own.first].point;
+  const Vec2 leftward{-1, 0};
+  const auto count = static_cast<std::uint32_t>(loops.sites.size());
+
+  // A disk that reaches beyond the leftmost point of all crosses the boundary; shrink it until it
+  // is empty.
+  double radius = 0.5 * (foot.x - left_end) + 0.01;
+  Cut cut{{foot, 0}, hole, own.first};
+  for (;;) {
+    const Vec2 center = foot + radius * leftward;
+    index::BoundaryTree::Hit hit;
+    const double reach = cut.site == own.first ? radius : radius - tolerance;
+    if (own.first > 0) hit = tree.nearest(center, reach, 0, own.first - 1);
+    const double left_reach = hit ? std::sqrt(hit.squared_distance) : reach;
+    if (own.last + 1 < count) {
+      const auto later = tree.nearest(center, left_reach, own.last + 1, count - 1);
+      if (later) hit = later;
+    }
+    queries += 2;
+    if (!hit) break;
+    const double smaller = closed_tangent_radius(foot, leftward, loops.sites[hit.site]);
+    const bool progress = smaller < radius;
+    cut.site = hit.site;
+    if (progress) radius = smaller;
+    cut.disk = {foot + radius * leftward, radius};
+    if (!progress) break;
+  }
+  const auto run = std::upper_bound(loops.runs.begin(), loops.runs.end(), cut.site,
+                                    [](std::uint32_t s, const Boundary::Run& r) { return s < r.first; });
+  cut.site = owner_of_foot(loops, *std::prev(run), cut.site, cut.disk.center);
+  return cut;
+}
+
+/// Where along its site a cut touches: the parameter on a segment; on a vertex, the angle by which
+/// the boundary's normal has turned to the right since the site before.
+double place_on_site(const Boundary& loops, std::uint32_t site, std::uint32_t site_before,
+                     Vec2 center) {
+  const Site& s = loops.sites[site];
+  if (!s.is_vertex()) return geometry::foot_parameter(s, center);
+  const Vec2 from = loops.sites[site_before].normal(), to = center - s.point;
+  const double angle = std::atan2(-cross(from, to), dot(from, to));
+  return angle < -0.1 ? angle + 2 * std::acos(-1.0) : angle;
+}
+
+/// Splices loops into runs, without recursion: chains of holes can be long.
+class Splicer {
+ public:
+  Splicer(const Shape& shape, const Boundary& loops, const std::vector<Cut>& cuts)
+      : shape_(shape), loops_(loops), cuts_(cuts) {
+    places_.reserve(cuts.size());
+    for (std::uint32_t i = 0; i < cuts.size(); ++i) {
+      const Boundary::Run run = run_of(cuts[i].site);
+      const std::uint32_t before = cuts[i].site == run.first ? run.last : cuts[i].site - 1;
+      double place = place_on_site(loops, cuts[i].site, before, cuts[i].disk.center);
+      std::uint32_t site = cuts[i].site;
+      // A hole's run starts in the middle of its first vertex: what is touched earlier on that
+      // vertex comes at the very end.
+      if (site == run.first && loops.elements[site] == Element::vertex &&
+          place < place_on_site(loops, site, before, loops.sites[site].point + Vec2{-1, 0}))
+        site = run.last + 1;
+      places_.push_back({run.first, site, place, i});
+    }
+    std::sort(places_.begin(), places_.end(), [](const Place& a, const Place& b) {
+      return a.run != b.run ? a.run < b.run
+             : a.site != b.site ? a.site < b.site
+                                : (a.place != b.place ? a.place < b.place : a.cut < b.cut);
+    });
+  }
+
+  Boundary splice() {
+    const std::size_t copies = loops_.sites.size() + 4 * cuts_.size();
+    result_.sites.reserve(copies);
+    result_.elements.reserve(copies);
+    result_.originals.reserve(copies);
+    for (std::uint32_t loop = 0; loop < loops_.runs.size(); ++loop) {
+      if (shape_.hole[loop]) continue;
+      const auto first = static_cast<std::uint32_t>(result_.sites.size());
+      add_component(loop);
+      result_.runs.push_back({first, static_cast<std::uint32_t>(result_.sites.size() - 1)});
+    }
+    return std::move(result_);
+  }
+
+ private:
+  struct Place {
+    std::uint32_t run;  ///< first site of the touched loop
+    std::uint32_t site;
+    double place;
+    std::uint32_t cut;
+  };
+  /// A loop under way: the next site, the next place on the loop, and where the next copy of a
+  /// segment starts.
+  struct Cursor {
+    std::uint32_t loop, site, place;
+    double from = 0;
+  };
+
+  Boundary::Run run_of(std::uint32_t site) const {
+    const auto run =
+        std::upper_bound(loops_.runs.begin(), loops_.runs.end(), site,
+                         [](std::uint32_t s, const Boundary::Run& r) { return s < r.first; });
+    return *std::prev(run);
+  }
+
+  Cursor begin(std::uint32_t loop) const {
+    const std::uint32_t first = loops_.runs[loop].first;
+    const auto place =
+        std::lower_bound(places_.begin(), places_.end(), first,
+                         [](const Place& p, std::uint32_t run) { return p.run < run; });
+    return {loop, first, static_cast<std::uint32_t>(place - places_.begin())};
+  }
+
+  void add_cut(std::uint32_t cut) { result_.add(far_away, Element::cut, cut); }
+
+  /// A copy of the cursor's site up to `to` (a segment's parameter).
+  void add_piece(const Cursor& at, double to) {
+    const std::uint32_t site = at.site <= loops_.runs[at.loop].last ? at.site
+                                                                    : loops_.runs[at.loop].first;
+    Site piece = loops_.sites[site];
+    if (!piece.is_vertex()) {
+      piece.point = piece.point + at.from * piece.direction;
+      piece.length = std::max(to - at.from, std::numeric_limits<double>::min());
+    }
+    result_.add(piece, loops_.elements[site], loops_.originals[site]);
+  }
+
+  void add_component(std::uint32_t outer) {
+    std::vector<Cursor> stack{begin(outer)};
+    while (!stack.empty()) {
+      Cursor& at = stack.back();
+      const Boundary::Run run = loops_.runs[at.loop];
+      const bool here = at.place < places_.size() && places_[at.place].run == run.first &&
+                        places_[at.place].site == at.site;
+      if (here) {
+        const Place place = places_[at.place++];
+        add_piece(at, place.place);
+        at.from = place.place;
+        add_cut(place.cut);
+        stack.push_back(begin(cuts_[place.cut].hole));
+        continue;
+      }
+      // A hole ends with a second copy of the vertex at which it began.
+      if (at.site <= run.last || shape_.hole[at.loop])
+        add_piece(at, at.site <= run.last ? loops_.sites[at.site].length : 0);
+      at.from = 0;
+      const std::uint32_t end = shape_.hole[at.loop] ? run.last + 1 : run.last;
+      if (at.site < end) {
+        ++at.site;
+        continue;
+      }
+      const std::uint32_t done = at.loop;
+      stack.pop_back();
+      if (!stack.empty()) add_cut(cut_of_hole(done));
+    }
+  }
+
+  std::uint32_t cut_of_hole(std::uint32_t hole) const {
+    const auto cut = std::lower_bound(cuts_.begin(), cuts_.end(), hole,
+                                      [](const Cut& c, std::uint32_t h) { return c.hole < h; });
+    return static_cast<std::uint32_t>(cut - cuts_.begin());
+  }
+
+  const Shape& shape_;
+  const Boundary& loops_;
+  const std::vector<Cut>& cuts_;
+  std::vector<Place> places_;
+  Boundary result_;
+};
+
+}  // namespace
+
+std::vector<Cut> connecting_disks(const Shape& shape, const Boundary& loops,
+                                  const index::BoundaryTree& tree, double tolerance,
+                                  std::uint64_t& queries) {
+  std::vector<std::uint32_t> holes;
+  for (std::uint32_t loop = 0; loop < shape.loop_count(); ++loop)
+    if (shape.hole[loop]) holes.push_back(loop);
+  double left_end = std::numeric_limits<double>::infinity();
+  for (const Site& site : loops.sites) left_end = std::min(left_end, site.point.x);
+
+  std::vector<Cut> cuts(holes.size());
+  std::atomic<std::uint64_t> all_queries = 0;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, holes.size(), 16), [&](const auto& range) {
+    std::uint64_t own_queries = 0;
+    for (std::size_t i = range.begin(); i < range.end(); ++i)
+      cuts[i] = connecting_disk(loops, tree, holes[i], left_end, tolerance, own_queries);
+    all_queries += own_queries;
+  });
+  queries += all_queries;
+  return cuts;
+}
+
+Boundary connect(const Shape& shape, const Boundary& loops, const std::vector<Cut>& cuts) {
+  return Splicer(shape, loops, cuts).splice();
+}
+
+}  // namespace medial::disks

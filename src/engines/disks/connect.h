@@ -1,0 +1,30 @@
+#pragma once
+
+#include <vector>
+
+#include "engines/disks/boundary.h"
+#include "index/boundary_tree.h"
+#include "medial/axis.h"
+
+namespace medial::disks {
+
+/// A maximal disk that connects a hole to another loop: it touches the hole in its leftmost vertex,
+/// and the other loop further left.
+struct Cut {
+  Disk disk;
+  std::uint32_t hole = 0;  ///< loop
+  std::uint32_t site = 0;  ///< touched site, in the loops' boundary
+};
+
+/// One cut for each hole (design, section 3, step 3). The disk at the leftmost vertex lies left of
+/// it, where the hole has no other point; the loop that it touches has a point further left than the
+/// hole has, so no cycle of holes can arise and all loops of a component get connected.
+/// O(h log n) expected. `queries` counts nearest-site queries.
+std::vector<Cut> connecting_disks(const Shape& shape, const Boundary& loops,
+                                  const index::BoundaryTree& tree, double tolerance,
+                                  std::uint64_t& queries);
+
+/// The boundary with all holes spliced in: one run for each component.
+Boundary connect(const Shape& shape, const Boundary& loops, const std::vector<Cut>& cuts);
+
+}  // namespace medial::disks

@@ -1,0 +1,456 @@
+#include "engines/disks/walk.h"
+
+#include <tbb/task_group.h>
+
+#include <limits>
+#include <optional>
+
+#include "geometry/bisector.h"
+#include "geometry/tangent_disk.h"
+
+namespace medial::disks {
+namespace {
+
+using geometry::Bisector;
+using geometry::Site;
+using Hit = index::BoundaryTree::Hit;
+
+/// A part of the boundary still to be walked: the sites between `right`, whose foot moves forward, and
+/// `left`, whose foot moves backward, both touched by the disk of `node`.
+struct Span {
+  std::uint32_t right;
+  std::uint32_t left;
+  std::uint32_t node;
+};
+
+/// What happens next on a bisector.
+struct Event {
+  enum class Kind : std::uint8_t {
+    none,
+    pass_right,  ///< the foot passes from `right` on to the next site
+    pass_left,   ///< the foot passes from `left` on to the site before
+    contact,     ///< the disk touches `site`
+    at_node,     ///< the disk of the current node touches `site`
+    far,         ///< the disk has outgrown the shape
+  };
+  Kind kind = Kind::none;
+  std::uint32_t site = Hit::none;
+  Disk disk;
+  double position = std::numeric_limits<double>::infinity();
+};
+
+/// Spans of at least so many sites become tasks of their own, if another such span is at hand.
+constexpr std::uint32_t fork_size = 8192;
+
+/// Halving an interval of doubles more often than this cannot change it.
+constexpr int bracket_steps = 128;
+
+class Walker {
+ public:
+  Walker(const WalkContext& context, tbb::task_group& tasks, Chunk& chunk)
+      : context_(context), boundary_(context.boundary), tasks_(tasks), chunk_(chunk) {}
+
+  /// Starts at the convex corner between the last and the first site of a run.
+  void walk_run(const Boundary::Run& run) {
+    chunk_.nodes.push_back({boundary_.sites[run.first].point, 0});  // stands for no parent
+    const std::uint32_t corner = add_node({boundary_.sites[run.first].point, 0});
+    walk_span({run.first, run.last, corner});
+  }
+
+  /// Walks one span and all that branches off it.
+  void walk_span(const Span& span) {
+    stack_.push_back(span);
+    while (!stack_.empty()) {
+      const Span next = stack_.back();
+      stack_.pop_back();
+      if (context_.cancel != nullptr && context_.cancel->load(std::memory_order_relaxed)) break;
+      follow(next);
+    }
+    report_progress(true);
+  }
+
+ private:
+  const Site& site(std::uint32_t i) const { return boundary_.sites[i]; }
+  Element element(std::uint32_t i) const { return boundary_.elements[i]; }
+
+  /// Follows the bisectors from one node until the axis branches or ends.
+  void follow(Span span) {
+    if (!is_open(span)) return;
+    for (;;) {
+      const Bisector bisector(site(span.right), site(span.left));
+      const Disk from = chunk_.nodes[span.node];
+      const Event event = next_event(bisector, from, span);
+      switch (event.kind) {
+        case Event::Kind::pass_right:
+        case Event::Kind::pass_left: {
+          span.node = arrive(span, from, event.disk);
+          ++(event.kind == Event::Kind::pass_right ? span.right : span.left);
+          if (event.kind == Event::Kind::pass_left) span.left -= 2;
+          if (!is_open(span)) return;
+          break;
+        }
+        case Event::Kind::at_node:
+          split_at_node(span, from, event.site);
+          return;
+        default: {
+          const std::uint32_t node = arrive(span, from, event.disk);
+          push({event.site, span.left, node}, {span.right, event.site, node});
+          return;
+        }
+      }
+    }
+  }
+
+  /// Whether a walk is needed between the two sites; where they are neighbours, ends the axis there.
+  bool is_open(const Span& span) {
+    const std::uint32_t between = span.left - span.right;
+    if (between == 1) {
+      if (boundary_.is_corner(span.right)) {
+        const std::uint32_t leaf = add_node({site(span.left).point, 0});
+        add_edge(span, leaf);
+      }
+      finished(2);
+      return false;
+    }
+    if (between == 2 && element(span.right + 1) == Element::cut) {
+      end_at_cut(span, boundary_.originals[span.right + 1]);
+      finished(2);
+      return false;
+    }
+    return true;
+  }
+
+  void end_at_cut(const Span& span, std::uint32_t cut) {
+    const Disk& disk = context_.cuts[cut].disk;
+    if (coincide(chunk_.nodes[span.node], disk)) {
+      chunk_.cut_ends.push_back({cut, span.node, CutEnd::no_edge});
+      return;
+    }
+    const auto edge = static_cast<std::uint32_t>(chunk_.edges.size());
+    const std::uint32_t node = add_node(disk);
+    add_edge(span, node);
+    chunk_.cut_ends.push_back({cut, node, edge});
+  }
+
+  bool coincide(const Disk& a, const Disk& b) const {
+    return squared_norm(a.center - b.center) <= context_.tolerance * context_.tolerance &&
+           std::abs(a.radius - b.radius) <= context_.tolerance;
+  }
+
+  std::uint32_t add_node(const Disk& disk) {
+    chunk_.nodes.push_back(disk);
+    return static_cast<std::uint32_t>(chunk_.nodes.size() - 1);
+  }
+
+  void add_edge(const Span& span, std::uint32_t to) {
+    chunk_.edges.push_back({span.node, to, span.right, span.left});
+  }
+
+  /// The node of `disk`, with the edge that leads there; the old node where that edge has no length.
+  std::uint32_t arrive(const Span& span, const Disk& from, const Disk& disk) {
+    if (coincide(from, disk)) return span.node;
+    const std::uint32_t node = add_node(disk);
+    add_edge(span, node);
+    return node;
+  }
+
+  /// Queues two spans, the larger to be walked later, so that the stack stays as shallow as log n;
+  /// large ones apart, as tasks of their own.
+  void push(const Span& a, const Span& b) {
+    const bool a_larger = a.left - a.right > b.left - b.right;
+    const Span& larger = a_larger ? a : b;
+    const Span& smaller = a_larger ? b : a;
+    if (smaller.left - smaller.right >= fork_size)
+      fork(larger);
+    else
+      stack_.push_back(larger);
+    stack_.push_back(smaller);
+  }
+
+  void fork(const Span& span) {
+    chunk_.children.push_back(std::make_unique<Chunk>());
+    Chunk& child = *chunk_.children.back();
+    child.component = chunk_.component;
+    child.parent_node = span.node;
+    child.nodes.push_back(chunk_.nodes[span.node]);
+    tasks_.run([&context = context_, &tasks = tasks_, &child, span] {
+      Walker(context, tasks, child).walk_span({span.right, span.left, 0});
+    });
+  }
+
+  Hit nearest(const Disk& disk, const Span& span) {
+    ++chunk_.statistics.queries;
+    return context_.tree.nearest(disk.center, disk.radius - context_.tolerance, span.right + 1,
+                                 span.left - 1);
+  }
+
+  /// A segment's end that is a vertex site of its own belongs to the vertex.
+  std::uint32_t owner(std::uint32_t i, Vec2 center, const Span& span) const {
+    if (element(i) != Element::segment) return i;
+    const double s = geometry::foot_parameter(site(i), center);
+    if (s <= 0 && i - 1 > span.right && element(i - 1) == Element::vertex) return i - 1;
+    if (s >= site(i).length && i + 1 < span.left && element(i + 1) == Element::vertex) return i + 1;
+    return i;
+  }
+
+  /// Whether a disk that reaches site i from inside touches it there: not in the end of a segment,
+  /// where its neighbour would be nearer.
+  bool touches(std::uint32_t i, const Disk& disk, double slack) const {
+    if (std::abs(std::sqrt(geometry::squared_distance(site(i), disk.center)) - disk.radius) > slack)
+      return false;
+    if (site(i).is_vertex()) return true;
+    const double s = dot(site(i).direction, disk.center - site(i).point);
+    return s > 0 && s < site(i).length;
+  }
+
+  /// The event at which the foot leaves `right` or `left` for its neighbour, by the sites alone.
+  Event local_event(const Bisector& bisector, const Disk& from, const Span& span, bool on_right) {
+    const std::uint32_t own = on_right ? span.right : span.left;
+    const std::uint32_t next = on_right ? own + 1 : own - 1;
+    const std::uint32_t other = on_right ? span.left : span.right;
+    Event event;
+    const bool smooth = (element(own) == Element::vertex) != (element(next) == Element::vertex) &&
+                        element(next) != Element::cut;
+    if (smooth) {
+      const std::uint32_t vertex = element(own) == Element::vertex ? own : next;
+      const std::uint32_t segment = element(own) == Element::vertex ? next : own;
+      const Vec2 foot = site(vertex).point, normal = site(segment).normal();
+      const double radius = geometry::tangent_radius(foot, normal, site(other));
+      if (radius > context_.radius_limit) return event;
+      event.kind = on_right ? Event::Kind::pass_right : Event::Kind::pass_left;
+      event.disk = {foot + radius * normal, radius};
+      event.position = bisector.position(event.disk.center);
+      return event;
+    }
+    // At a convex corner, or across a cut, the neighbour is touched as a third site.
+    const std::uint32_t third = element(next) == Element::cut ? (on_right ? own + 2 : own - 2) : next;
+    if (auto contact = contact_with(bisector, from, third, std::numeric_limits<double>::infinity()))
+      if (reaches(*contact)) return *contact;
+    // Touched beyond the neighbour's far end: no event. The disk at the corner is not empty.
+    const Vec2 foot = element(own) == Element::vertex || !on_right ? site(own).point : site(own).end();
+    const Vec2 normal = site(own).is_vertex() ? Vec2{} : site(own).normal();
+    if (site(own).is_vertex()) return event;
+    const double radius = geometry::tangent_radius(foot, normal, site(other));
+    if (radius > context_.radius_limit) return event;
+    event.kind = Event::Kind::far;
+    event.disk = {foot + radius * normal, radius};
+    event.position = bisector.position(event.disk.center);
+    return event;
+  }
+
+  /// Whether a contact lies on the site itself, not only on its carrier.
+  bool reaches(const Event& event) const {
+    const double reach = event.disk.radius + 2 * context_.tolerance;
+    return geometry::squared_distance(site(event.site), event.disk.center) <= reach * reach;
+  }
+
+  /// The disk on the bisector that touches a third site, at or before position `high`; of several the
+  /// first one ahead of `from`.
+  std::optional<Event> contact_with(const Bisector& bisector, const Disk& from, std::uint32_t third,
+                                    double high) {
+    ++chunk_.statistics.apollonius;
+    const double low = bisector.position(from.center);
+    const geometry::TangentDisks disks =
+        geometry::tangent_disks(bisector.right, bisector.left, site(third));
+    Event best;
+    double best_violation = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < static_cast<std::size_t>(disks.count); ++i) {
+      const Disk& disk = disks.disk[i];
+      if (disk.radius > context_.radius_limit) continue;
+      const double position = bisector.position(disk.center);
+      const double violation = std::max({0.0, low - position, position - high});
+      if (violation < best_violation ||
+          (violation == best_violation && position < best.position)) {
+        best_violation = violation;
+        best = {Event::Kind::contact, third, disk, position};
+      }
+    }
+    if (best_violation > position_slack) return std::nullopt;
+    polish(best, bisector, third);
+    best.position = bisector.position(best.disk.center);
+    return best;
+  }
+
+  /// Brings a disk's residual below the tolerance: by Newton's method, and where that fails in
+  /// higher precision.
+  void polish(Event& event, const Bisector& bisector, std::uint32_t third) {
+    const double goal = 0.25 * context_.tolerance;
+    double error = geometry::residual(event.disk, bisector.right, bisector.left, site(third));
+    for (int step = 0; step < 2 && error > goal; ++step) {
+      const Disk better =
+          geometry::improve(event.disk, bisector.right, bisector.left, site(third));
+      const double better_error =
+          geometry::residual(better, bisector.right, bisector.left, site(third));
+      if (better_error >= error) break;
+      event.disk = better;
+      error = better_error;
+    }
+    if (error <= context_.tolerance) return;
+    ++chunk_.statistics.precision_retries;
+    const auto ends = [](const Site& s) { return geometry::Ends{s.point, s.end()}; };
+    Disk precise;
+    if (geometry::tangent_disk_in_high_precision(
+            {ends(bisector.right), ends(bisector.left), ends(site(third))}, event.disk, precise) &&
+        geometry::residual(precise, bisector.right, bisector.left, site(third)) < error)
+      event.disk = precise;
+  }
+
+  Event next_event(const Bisector& bisector, const Disk& from, const Span& span) {
+    Event event = local_event(bisector, from, span, true);
+    const Event on_left = local_event(bisector, from, span, false);
+    if (on_left.position < event.position) event = on_left;
+    if (event.kind == Event::Kind::none) {
+      event.kind = Event::Kind::far;
+      event.position = bisector.last_position(from, context_.radius_limit);
+      event.disk = bisector.disk_at(event.position, from);
+    }
+    // The only site in between is the one found.
+    if (span.left - span.right == 2 && event.kind == Event::Kind::contact) return event;
+    return first_contact(bisector, from, span, event);
+  }
+
+  /// Shortens the way to `event` until the disk there is empty: each intruder gives a disk
+  /// that comes earlier.
+  Event first_contact(const Bisector& bisector, const Disk& from, const Span& span, Event event) {
+    Event intruded = event;
+    for (;;) {
+      const Hit hit = nearest(event.disk, span);
+      if (!hit) {
+        const bool is_event = event.kind != Event::Kind::far &&
+                              (event.kind != Event::Kind::contact || reaches(event));
+        return is_event ? event : bracket(bisector, event, span, intruded);
+      }
+      const std::uint32_t intruder = owner(hit.site, event.disk.center, span);
+      if (touches(intruder, from, context_.tolerance))
+        return {Event::Kind::at_node, intruder, from, bisector.position(from.center)};
+      event.site = intruder;
+      intruded = event;
+      const std::optional<Event> earlier = contact_before(bisector, from, span, event);
+      if (!earlier || !(earlier->position < event.position))
+        return bracket(bisector, {Event::Kind::contact, intruder, from,
+                                  bisector.position(from.center)}, span, intruded);
+      event = *earlier;
+    }
+  }
+
+  /// The contact with the intruder of a disk, ahead of it: with its carrier, or with the end that is
+  /// a vertex if the carrier is touched beyond that.
+  std::optional<Event> contact_before(const Bisector& bisector, const Disk& from, const Span& span,
+                                      const Event& intruded) {
+    const std::uint32_t i = intruded.site;
+    std::optional<Event> contact = contact_with(bisector, from, i, intruded.position);
+    if (site(i).is_vertex() || (contact && reaches(*contact))) return contact;
+    const double s = contact ? dot(site(i).direction, contact->disk.center - site(i).point)
+                             : geometry::foot_parameter(site(i), intruded.disk.center);
+    const std::uint32_t end = s < 0.5 * site(i).length ? i - 1 : i + 1;
+    if (end <= span.right || end >= span.left || element(end) != Element::vertex) return contact;
+    const std::optional<Event> on_end = contact_with(bisector, from, end, intruded.position);
+    return on_end ? on_end : contact;
+  }
+
+  /// Where closed forms fail: the disk is empty at `free` and not at `intruded`; halves the way until
+  /// nothing is left in between. Always ends.
+  Event bracket(const Bisector& bisector, const Event& free, const Span& span,
+                const Event& intruded) {
+    ++chunk_.statistics.brackets;
+    Event found = free;
+    found.kind = Event::Kind::contact;
+    found.site = intruded.site != Hit::none ? intruded.site : span.right + 1;
+    double high = intruded.position;
+    for (int step = 0; step < bracket_steps; ++step) {
+      const double middle = 0.5 * (found.position + high);
+      if (!(found.position < middle && middle < high)) break;
+      const Disk disk = bisector.disk_at(middle, free.disk);
+      const Hit hit = nearest(disk, span);
+      if (hit) {
+        high = middle;
+        found.site = owner(hit.site, disk.center, span);
+      } else {
+        found.position = middle;
+        found.disk = disk;
+      }
+    }
+    return found;
+  }
+
+  /// Splits the span at its node's own disk, at all sites that the disk touches, `sure` if
+  /// no other: a node of high degree is found with one query.
+  void split_at_node(const Span& span, const Disk& disk, std::uint32_t sure) {
+    ++chunk_.statistics.queries;
+    context_.tree.within(disk.center, disk.radius + context_.tolerance, span.right + 1,
+                         span.left - 1, touched_);
+    std::uint32_t before = span.right;
+    Vec2 foot_before = geometry::foot(site(span.right), disk.center);
+    const Vec2 last_foot = geometry::foot(site(span.left), disk.center);
+    const double apart = distinct_feet * disk.radius;
+    std::vector<Span> parts;
+    for (const std::uint32_t hit : touched_) {
+      const std::uint32_t i = owner(hit, disk.center, span);
+      if (i <= before || i >= span.left || !touches(i, disk, context_.tolerance)) continue;
+      const Vec2 foot = geometry::foot(site(i), disk.center);
+      if (distance(foot, foot_before) < apart || distance(foot, last_foot) < apart) continue;
+      parts.push_back({before, i, span.node});
+      before = i;
+      foot_before = foot;
+    }
+    if (parts.empty()) {
+      parts.push_back({span.right, sure, span.node});
+      before = sure;
+    }
+    parts.push_back({before, span.left, span.node});
+    for (const Span& part : parts) stack_.push_back(part);
+  }
+
+  void finished(std::uint32_t sites) {
+    finished_ += sites;
+    if (finished_ >= 1 << 14) report_progress(false);
+  }
+
+  void report_progress(bool all) {
+    if ((all || finished_ > 0) && context_.finished_sites) context_.finished_sites(finished_);
+    finished_ = 0;
+  }
+
+  /// Rounding may put a disk a little behind the place where it should be; what is further behind is
+  /// another solution.
+  static constexpr double position_slack = 1e-9;
+  /// Contacts this near to each other, against the radius, are not told apart at a node.
+  static constexpr double distinct_feet = 1e-6;
+
+  const WalkContext& context_;
+  const Boundary& boundary_;
+  tbb::task_group& tasks_;
+  Chunk& chunk_;
+  std::vector<Span> stack_;
+  std::vector<std::uint32_t> touched_;
+  std::uint64_t finished_ = 0;
+};
+
+}  // namespace
+
+std::vector<std::unique_ptr<Chunk>> walk(const WalkContext& context) {
+  std::vector<std::unique_ptr<Chunk>> chunks;
+  tbb::task_group tasks;
+  // Small components share a task.
+  std::size_t next = 0;
+  const auto& runs = context.boundary.runs;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    chunks.push_back(std::make_unique<Chunk>());
+    chunks.back()->component = static_cast<std::uint32_t>(i);
+  }
+  while (next < runs.size()) {
+    const std::size_t begin = next;
+    std::uint64_t sites = 0;
+    while (next < runs.size() && sites < fork_size) {
+      sites += runs[next].last - runs[next].first + 1;
+      ++next;
+    }
+    tasks.run([&context, &tasks, &chunks, &runs, begin, end = next] {
+      for (std::size_t i = begin; i < end; ++i) Walker(context, tasks, *chunks[i]).walk_run(runs[i]);
+    });
+  }
+  tasks.wait();
+  return chunks;
+}
+
+}  // namespace medial::disks

@@ -1,0 +1,86 @@
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "engines/disks/boundary.h"
+#include "engines/disks/connect.h"
+#include "index/boundary_tree.h"
+#include "medial/axis.h"
+
+namespace medial::disks {
+
+/// A growing list that never moves its elements and frees block by block.
+template <class T>
+class BlockList {
+ public:
+  void push_back(const T& value) {
+    if (size_ % block_size == 0)
+      blocks_.push_back(std::make_unique_for_overwrite<T[]>(block_size));
+    blocks_.back()[size_++ % block_size] = value;
+  }
+  std::size_t size() const { return size_; }
+  const T& operator[](std::size_t i) const { return blocks_[i / block_size][i % block_size]; }
+  /// Calls take(i, element) for all elements in order and frees each block once it is done.
+  template <class Take>
+  void drain(Take&& take) {
+    for (std::size_t i = 0; i < size_; ++i) {
+      take(i, (*this)[i]);
+      if ((i + 1) % block_size == 0) blocks_[i / block_size].reset();
+    }
+    blocks_.clear();
+    size_ = 0;
+  }
+
+ private:
+  static constexpr std::size_t block_size = 1 << 13;
+  std::vector<std::unique_ptr<T[]>> blocks_;
+  std::size_t size_ = 0;
+};
+
+/// An edge before its curve is worked out: nodes of the chunk, sites of the boundary.
+struct RawEdge {
+  std::uint32_t from = 0;
+  std::uint32_t to = 0;
+  std::uint32_t right = 0;
+  std::uint32_t left = 0;
+};
+
+/// Where the axis meets a connecting disk, on one of its two sides.
+struct CutEnd {
+  static constexpr std::uint32_t no_edge = ~std::uint32_t{0};
+  std::uint32_t cut = 0;
+  std::uint32_t node = 0;         ///< of the chunk: at the cut's centre
+  std::uint32_t edge = no_edge;   ///< the edge that leads there; none: the node is a node of the axis
+};
+
+/// What one task of the walk found. Node 0 stands for the node of the parent at which the task began.
+struct Chunk {
+  std::uint32_t component = 0;
+  std::uint32_t parent_node = 0;
+  BlockList<Disk> nodes;
+  BlockList<RawEdge> edges;
+  std::vector<CutEnd> cut_ends;
+  std::vector<std::unique_ptr<Chunk>> children;  ///< in the order in which they were forked
+  Statistics statistics;
+};
+
+struct WalkContext {
+  const Boundary& boundary;
+  const std::vector<Cut>& cuts;
+  const index::BoundaryTree& tree;
+  double tolerance = 0;      ///< in the local frame
+  double radius_limit = 0;   ///< no disk inside the shape is larger
+  const std::atomic<bool>* cancel = nullptr;
+  std::function<void(std::uint64_t)> finished_sites;  ///< told how many more sites are done with
+};
+
+/// Walks the axis of every run of the boundary (design, section 3, step 4), from a convex corner:
+/// one chunk for each component, whose children were forked at branching nodes. The chunks, their
+/// order and their content depend on the boundary only, never on the number of threads.
+/// O(n log n) expected.
+std::vector<std::unique_ptr<Chunk>> walk(const WalkContext& context);
+
+}  // namespace medial::disks

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cmath>
+
+#include "geometry/site.h"
+#include "geometry/tangent_disk.h"
+#include "medial/axis.h"
+
+namespace medial::geometry {
+
+/// The bisector of two sites as a walk meets it: going along it, the foot on `right` moves forward
+/// along the boundary and the foot on `left` moves backward.
+///
+/// A disk's position along the bisector is the product of its centre with one fixed vector: the
+/// direction of the angle bisector (two segments), of the segment (segment and vertex, a parabola
+/// over the segment), or perpendicular to the chord (two vertices). It increases along
+/// the walk, so disks on one bisector are ordered by it.
+struct Bisector {
+  Site right;
+  Site left;
+  Vec2 direction;
+
+  Bisector(const Site& right_site, const Site& left_site) : right(right_site), left(left_site) {
+    direction = right.is_vertex() && left.is_vertex() ? -left_of(left.point - right.point)
+                                                      : right.direction - left.direction;
+    const double size = norm(direction);
+    if (size > 0) direction = (1 / size) * direction;
+  }
+
+  double position(Vec2 center) const { return dot(direction, center); }
+
+  /// The disk at a position. `near` is any disk on the bisector; two segments need it as an anchor.
+  Disk disk_at(double position, const Disk& near) const;
+
+  /// A position beyond which no disk of the bisector has a radius in [0, limit], seen from `near`
+  /// forward.
+  double last_position(const Disk& near, double limit) const;
+};
+
+/// The control point (x, y, r) and the weight of the edge between two disks on the bisector of a and
+/// b, as a rational quadratic Bezier with end weights 1: exact (design, section 2).
+struct Control {
+  Disk point;
+  double weight = 1;
+};
+Control control_of(const Site& a, const Site& b, const Disk& from, const Disk& to);
+
+}  // namespace medial::geometry

@@ -1,0 +1,205 @@
+#include "index/boundary_tree.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
+
+namespace medial::index {
+namespace {
+
+using geometry::Site;
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+/// Beyond this a site belongs to no box.
+constexpr double outside = 64;
+
+/// Single-precision distances to boxes carry an error of a few units in the last place of the
+/// largest local coordinate (4): the query's centre rounded (2^-23), the box rounded outward (no
+/// error on the unsafe side), the subtraction (2^-22), squares and sums (relative 2^-22). Reaching
+/// 2^-20 further makes up for it.
+constexpr double single_precision_slack = 0x1p-20;
+
+struct FloatBox {
+  float low_x = infinity, low_y = infinity, high_x = -infinity, high_y = -infinity;
+
+  void add(Vec2 p) {
+    const auto below = [](double v) {
+      const auto f = static_cast<float>(v);
+      return static_cast<double>(f) <= v ? f : std::nextafter(f, -infinity);
+    };
+    const auto above = [](double v) {
+      const auto f = static_cast<float>(v);
+      return static_cast<double>(f) >= v ? f : std::nextafter(f, infinity);
+    };
+    low_x = std::min(low_x, below(p.x));
+    low_y = std::min(low_y, below(p.y));
+    high_x = std::max(high_x, above(p.x));
+    high_y = std::max(high_y, above(p.y));
+  }
+};
+
+struct Waiting {
+  std::uint32_t index;
+  std::uint32_t level;  ///< 0: a block
+  float squared;
+};
+
+}  // namespace
+
+BoundaryTree::BoundaryTree(std::span<const Site> sites) : sites_(sites) {
+  const auto store = [](Boxes& boxes, std::uint32_t lane, const FloatBox& box) {
+    boxes.low_x[lane] = box.low_x;
+    boxes.low_y[lane] = box.low_y;
+    boxes.high_x[lane] = box.high_x;
+    boxes.high_y[lane] = box.high_y;
+  };
+  const auto levels_over = [](std::size_t count) { return (count + fan - 1) / fan; };
+
+  const std::size_t blocks = (sites.size() + block_size - 1) / block_size;
+  levels_.emplace_back(levels_over(blocks));
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, levels_[0].size(), 1024), [&](const auto& range) {
+        for (std::size_t node = range.begin(); node < range.end(); ++node) {
+          for (std::uint32_t lane = 0; lane < fan; ++lane) {
+            FloatBox box;
+            const std::size_t begin = (node * fan + lane) * block_size;
+            const std::size_t end = std::min(begin + block_size, sites.size());
+            for (std::size_t i = begin; i < end; ++i) {
+              if (std::abs(sites[i].point.x) > outside) continue;
+              box.add(sites[i].point);
+              if (!sites[i].is_vertex()) box.add(sites[i].end());
+            }
+            store(levels_[0][node], lane, box);
+          }
+        }
+      });
+  while (levels_.back().size() > 1) {
+    const std::vector<Boxes>& lower = levels_.back();
+    std::vector<Boxes> upper(levels_over(lower.size()));
+    for (std::size_t node = 0; node < upper.size(); ++node) {
+      for (std::uint32_t lane = 0; lane < fan; ++lane) {
+        FloatBox box;
+        const std::size_t child = node * fan + lane;
+        if (child < lower.size()) {
+          box.low_x = *std::min_element(lower[child].low_x.begin(), lower[child].low_x.end());
+          box.low_y = *std::min_element(lower[child].low_y.begin(), lower[child].low_y.end());
+          box.high_x = *std::max_element(lower[child].high_x.begin(), lower[child].high_x.end());
+          box.high_y = *std::max_element(lower[child].high_y.begin(), lower[child].high_y.end());
+        }
+        store(upper[node], lane, box);
+      }
+    }
+    levels_.push_back(std::move(upper));
+  }
+}
+
+template <class Visit>
+void BoundaryTree::visit_blocks(Vec2 c, double& reach, std::uint32_t first, std::uint32_t last,
+                                Visit&& visit) const {
+  const auto x = static_cast<float>(c.x), y = static_cast<float>(c.y);
+  const auto squared_reach = [&] {
+    const double r = reach + single_precision_slack;
+    return static_cast<float>(r * r);
+  };
+  float limit = squared_reach();
+
+  // Start at the lowest node over the whole range.
+  const std::uint32_t first_block = first / block_size, last_block = last / block_size;
+  std::uint32_t level = 0;
+  while ((first_block >> (2 * level)) != (last_block >> (2 * level))) ++level;
+
+  std::array<Waiting, 4 * 16 + 4> stack;
+  std::size_t size = 0;
+  stack[size++] = {first_block >> (2 * level), level, 0};
+  while (size > 0) {
+    const Waiting top = stack[--size];
+    if (top.squared >= limit) continue;
+    if (top.level == 0) {
+      visit(std::max(first, top.index * block_size),
+            std::min(last, top.index * block_size + block_size - 1));
+      limit = squared_reach();
+      continue;
+    }
+    const std::uint32_t below = top.level - 1;
+    const Boxes& boxes = levels_[below][top.index];
+    const std::uint32_t child = top.index * fan;
+    const std::uint32_t low = first_block >> (2 * below), high = last_block >> (2 * below);
+    std::uint32_t mask = 0xF;
+    if (low > child) mask &= 0xFu << (low - child);
+    if (high < child + 3) mask &= 0xFu >> (child + 3 - high);
+
+    alignas(16) std::array<float, fan> squared;
+#if defined(__SSE2__)
+    const __m128 zero = _mm_setzero_ps();
+    const __m128 cx = _mm_set1_ps(x), cy = _mm_set1_ps(y);
+    const __m128 dx = _mm_max_ps(_mm_max_ps(_mm_sub_ps(_mm_load_ps(boxes.low_x.data()), cx),
+                                            _mm_sub_ps(cx, _mm_load_ps(boxes.high_x.data()))),
+                                 zero);
+    const __m128 dy = _mm_max_ps(_mm_max_ps(_mm_sub_ps(_mm_load_ps(boxes.low_y.data()), cy),
+                                            _mm_sub_ps(cy, _mm_load_ps(boxes.high_y.data()))),
+                                 zero);
+    const __m128 d = _mm_add_ps(_mm_mul_ps(dx, dx), _mm_mul_ps(dy, dy));
+    _mm_store_ps(squared.data(), d);
+    mask &= static_cast<std::uint32_t>(_mm_movemask_ps(_mm_cmplt_ps(d, _mm_set1_ps(limit))));
+#else
+    for (std::uint32_t i = 0; i < fan; ++i) {
+      const float dx = std::max({boxes.low_x[i] - x, x - boxes.high_x[i], 0.0F});
+      const float dy = std::max({boxes.low_y[i] - y, y - boxes.high_y[i], 0.0F});
+      squared[i] = dx * dx + dy * dy;
+      if (!(squared[i] < limit)) mask &= ~(1u << i);
+    }
+#endif
+    // Push the farthest first, so that the nearest is visited next.
+    const std::size_t bottom = size;
+    while (mask != 0) {
+      const auto lane = static_cast<std::uint32_t>(std::countr_zero(mask));
+      mask &= mask - 1;
+      std::size_t at = size++;
+      while (at > bottom && stack[at - 1].squared < squared[lane]) {
+        stack[at] = stack[at - 1];
+        --at;
+      }
+      stack[at] = {child + lane, below, squared[lane]};
+    }
+  }
+}
+
+BoundaryTree::Hit BoundaryTree::nearest(Vec2 c, double reach, std::uint32_t first,
+                                        std::uint32_t last) const {
+  Hit hit;
+  if (first > last || !(reach > 0)) return hit;
+  double squared = reach * reach;
+  visit_blocks(c, reach, first, last, [&](std::uint32_t from, std::uint32_t to) {
+    for (std::uint32_t i = from; i <= to; ++i) {
+      const double d = geometry::squared_distance(sites_[i], c);
+      if (d < squared) {
+        squared = d;
+        hit = {i, d};
+      }
+    }
+    if (hit) reach = std::sqrt(squared);
+  });
+  return hit;
+}
+
+void BoundaryTree::within(Vec2 c, double reach, std::uint32_t first, std::uint32_t last,
+                          std::vector<std::uint32_t>& found) const {
+  found.clear();
+  if (first > last || !(reach > 0)) return;
+  const double squared = reach * reach;
+  visit_blocks(c, reach, first, last, [&](std::uint32_t from, std::uint32_t to) {
+    for (std::uint32_t i = from; i <= to; ++i)
+      if (geometry::squared_distance(sites_[i], c) < squared) found.push_back(i);
+  });
+  std::sort(found.begin(), found.end());
+}
+
+}  // namespace medial::index

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "geometry/site.h"
+
+namespace medial::index {
+
+/// An implicit tree over sites in boundary order. A block holds eight consecutive sites; a node holds
+/// the boxes of four consecutive blocks or nodes, in single precision rounded outward: one cache
+/// line. Because the order is the boundary's, an index range is a sub-shape, and the tree over the
+/// whole boundary is the tree of every sub-shape as well.
+///
+/// Sites must lie in the local frame (coordinates below 4 in size). Sites further away than that
+/// belong to no box and are never found: cuts are stored so.
+class BoundaryTree {
+ public:
+  explicit BoundaryTree(std::span<const geometry::Site> sites);
+
+  struct Hit {
+    static constexpr std::uint32_t none = ~std::uint32_t{0};
+    std::uint32_t site = none;
+    double squared_distance = 0;
+    explicit operator bool() const { return site != none; }
+  };
+
+  /// The site nearest to c among the sites first..last, both included, if one is nearer than `reach`.
+  /// O(log n) expected. Of sites at equal distance, any.
+  Hit nearest(Vec2 c, double reach, std::uint32_t first, std::uint32_t last) const;
+
+  /// All sites among first..last nearer than `reach`, by increasing index.
+  void within(Vec2 c, double reach, std::uint32_t first, std::uint32_t last,
+              std::vector<std::uint32_t>& found) const;
+
+ private:
+  static constexpr std::uint32_t block_size = 8;
+  static constexpr std::uint32_t fan = 4;
+
+  struct alignas(64) Boxes {
+    std::array<float, fan> low_x, low_y, high_x, high_y;
+  };
+
+  template <class Visit>
+  void visit_blocks(Vec2 c, double& reach, std::uint32_t first, std::uint32_t last,
+                    Visit&& visit) const;
+
+  std::span<const geometry::Site> sites_;
+  std::vector<std::vector<Boxes>> levels_;  ///< levels_[0] holds the boxes of blocks
+};
+
+}  // namespace medial::index
