@@ -23,6 +23,8 @@ struct Span {
   std::uint32_t node;
 };
 
+constexpr double nowhere = std::numeric_limits<double>::infinity();
+
 /// What happens next on a bisector.
 struct Event {
   enum class Kind : std::uint8_t {
@@ -36,7 +38,7 @@ struct Event {
   Kind kind = Kind::none;
   std::uint32_t site = Hit::none;
   Disk disk;
-  double position = std::numeric_limits<double>::infinity();
+  double position = nowhere;
 };
 
 /// Spans of at least so many sites become tasks of their own, if another such span is at hand.
@@ -222,17 +224,25 @@ class Walker {
       event.position = bisector.position(event.disk.center);
       return event;
     }
-    // At a convex corner, or across a cut, the neighbour is touched as a third site.
-    const std::uint32_t third = element(next) == Element::cut ? (on_right ? own + 2 : own - 2) : next;
-    if (auto contact = contact_with(bisector, from, third, std::numeric_limits<double>::infinity()))
-      if (reaches(*contact)) return *contact;
-    // Touched beyond the neighbour's far end: no event. The disk at the corner is not empty.
-    const Vec2 foot = element(own) == Element::vertex || !on_right ? site(own).point : site(own).end();
-    const Vec2 normal = site(own).is_vertex() ? Vec2{} : site(own).normal();
-    if (site(own).is_vertex()) return event;
+    // Across a cut, the neighbour is touched as a third site.
+    if (element(next) == Element::cut) {
+      const auto contact = contact_with(bisector, from, on_right ? own + 2 : own - 2, nowhere);
+      return contact && reaches(*contact) ? *contact : event;
+    }
+    // At a convex corner too, before the foot gets to the corner: the disk there is not empty,
+    // unless the corner is so flat that it touches both sides within the tolerance.
+    const Vec2 foot = on_right ? site(own).end() : site(own).point, normal = site(own).normal();
     const double radius = geometry::tangent_radius(foot, normal, site(other));
-    if (radius > context_.radius_limit) return event;
-    event.kind = Event::Kind::far;
+    const bool in_reach = radius <= context_.radius_limit;
+    const double intrusion = 0.5 * radius * squared_norm(normal - site(next).normal());
+    const bool flat = in_reach && intrusion <= 0.5 * context_.tolerance;
+    if (!flat) {
+      const auto contact = contact_with(bisector, from, next, nowhere);
+      if (contact && reaches(*contact)) return *contact;
+    }
+    if (!in_reach) return event;
+    event.kind = flat ? Event::Kind::contact : Event::Kind::far;
+    if (flat) event.site = next;
     event.disk = {foot + radius * normal, radius};
     event.position = bisector.position(event.disk.center);
     return event;
@@ -304,33 +314,75 @@ class Walker {
       event.position = bisector.last_position(from, context_.radius_limit);
       event.disk = bisector.disk_at(event.position, from);
     }
-    // The only site in between is the one found.
-    if (span.left - span.right == 2 && event.kind == Event::Kind::contact) return event;
+    if (event.kind == Event::Kind::contact) {
+      if (touches(event.site, from, context_.tolerance)) return at_node(bisector, from, event.site);
+      // The only site in between is the one found.
+      if (span.left - span.right == 2) return event;
+    }
     return first_contact(bisector, from, span, event);
+  }
+
+  Event at_node(const Bisector& bisector, const Disk& from, std::uint32_t touched) const {
+    return {Event::Kind::at_node, touched, from, bisector.position(from.center)};
   }
 
   /// Shortens the way to `event` until the disk there is empty: each intruder gives a disk
   /// that comes earlier.
   Event first_contact(const Bisector& bisector, const Disk& from, const Span& span, Event event) {
     Event intruded = event;
+    bool look_beyond = true;
     for (;;) {
-      const Hit hit = nearest(event.disk, span);
+      Event asked = event;
+      if (event.kind == Event::Kind::contact && look_beyond) asked = beyond(bisector, event);
+      const Hit hit = nearest(asked.disk, span);
       if (!hit) {
-        const bool is_event = event.kind != Event::Kind::far &&
-                              (event.kind != Event::Kind::contact || reaches(event));
-        return is_event ? event : bracket(bisector, event, span, intruded);
+        if (event.kind == Event::Kind::far) return bracket(bisector, from, span, event);
+        // Only the carrier was touched, short of the site.
+        if (event.kind == Event::Kind::contact && !reaches(event))
+          return bracket(bisector, event.disk, span, intruded);
+        return event;
       }
-      const std::uint32_t intruder = owner(hit.site, event.disk.center, span);
-      if (touches(intruder, from, context_.tolerance))
-        return {Event::Kind::at_node, intruder, from, bisector.position(from.center)};
-      event.site = intruder;
-      intruded = event;
-      const std::optional<Event> earlier = contact_before(bisector, from, span, event);
-      if (!earlier || !(earlier->position < event.position))
-        return bracket(bisector, {Event::Kind::contact, intruder, from,
-                                  bisector.position(from.center)}, span, intruded);
+      const std::uint32_t intruder = owner(hit.site, asked.disk.center, span);
+      if (touches(intruder, from, context_.tolerance)) return at_node(bisector, from, intruder);
+      asked.site = intruder;
+      intruded = asked;
+      const std::optional<Event> earlier = contact_before(bisector, from, span, asked);
+      if (!earlier || !(earlier->position < asked.position)) {
+        // A disk that is empty, and touched by what is beyond it, will do.
+        if (event.kind == Event::Kind::contact && look_beyond) {
+          look_beyond = false;
+          continue;
+        }
+        return bracket(bisector, from, span, asked);
+      }
+      look_beyond = earlier->position < event.position;
       event = *earlier;
     }
+  }
+
+  /// The disk a little further, where the touched site intrudes by half of the tolerance. A flat
+  /// contact leaves its position open: many neighbours on a circle are touched by one disk within the
+  /// tolerance, although each three of them ask for another one. Looking from beyond finds the
+  /// sites that settle the position.
+  Event beyond(const Bisector& bisector, const Event& contact) const {
+    const auto away = [&](const Site& s) {
+      if (!s.is_vertex()) return s.normal();
+      const Vec2 d = contact.disk.center - s.point;
+      return (1 / norm(d)) * d;
+    };
+    const Vec2 right = away(bisector.right), across = away(bisector.left) - right;
+    Vec2 along = left_of(across);  // the bisector's tangent: both distances grow alike
+    const double size = norm(along);
+    along = (dot(along, bisector.direction) < 0 ? -1 / size : 1 / size) * along;
+    const double closing = dot(right - away(site(contact.site)), along);
+    const double furthest = widest_window * contact.disk.radius;
+    const double step = closing > 0 ? std::min(furthest, 0.5 * context_.tolerance / closing) : 0;
+    Event event = contact;
+    if (!(step > 0)) return event;
+    event.disk.center = contact.disk.center + step * along;
+    event.disk.radius = contact.disk.radius + step * dot(right, along);
+    event.position = bisector.position(event.disk.center);
+    return event;
   }
 
   /// The contact with the intruder of a disk, ahead of it: with its carrier, or with the end that is
@@ -348,28 +400,40 @@ class Walker {
     return on_end ? on_end : contact;
   }
 
-  /// Where closed forms fail: the disk is empty at `free` and not at `intruded`; halves the way until
-  /// nothing is left in between. Always ends.
-  Event bracket(const Bisector& bisector, const Event& free, const Span& span,
-                const Event& intruded) {
+  /// The site that keeps a disk of the bisector from being a maximal one: an intruder, or the
+  /// neighbour to which a foot has passed on. None for a maximal disk.
+  std::uint32_t obstacle(const Disk& disk, const Span& span) {
+    const Hit hit = nearest(disk, span);
+    if (hit) return owner(hit.site, disk.center, span);
+    if (!reaches({Event::Kind::contact, span.right, disk, 0}))
+      return span.right + (element(span.right + 1) == Element::cut ? 2 : 1);
+    if (!reaches({Event::Kind::contact, span.left, disk, 0}))
+      return span.left - (element(span.left - 1) == Element::cut ? 2 : 1);
+    return Hit::none;
+  }
+
+  /// Where closed forms fail: halves the way from the node's disk, which is maximal, to that of
+  /// `event`, which is not, until nothing is left in between. Always ends.
+  Event bracket(const Bisector& bisector, const Disk& from, const Span& span, const Event& event) {
     ++chunk_.statistics.brackets;
-    Event found = free;
-    found.kind = Event::Kind::contact;
-    found.site = intruded.site != Hit::none ? intruded.site : span.right + 1;
-    double high = intruded.position;
+    Event found{Event::Kind::contact, event.site, from, bisector.position(from.center)};
+    if (found.site == Hit::none || found.site <= span.right || found.site >= span.left)
+      found.site = span.right + (element(span.right + 1) == Element::cut ? 2 : 1);
+    double high = event.position;
     for (int step = 0; step < bracket_steps; ++step) {
       const double middle = 0.5 * (found.position + high);
       if (!(found.position < middle && middle < high)) break;
-      const Disk disk = bisector.disk_at(middle, free.disk);
-      const Hit hit = nearest(disk, span);
-      if (hit) {
-        high = middle;
-        found.site = owner(hit.site, disk.center, span);
-      } else {
+      const Disk disk = bisector.disk_at(middle, from);
+      const std::uint32_t site = obstacle(disk, span);
+      if (site == Hit::none) {
         found.position = middle;
         found.disk = disk;
+      } else {
+        high = middle;
+        found.site = site;
       }
     }
+    polish(found, bisector, found.site);
     return found;
   }
 
@@ -414,6 +478,8 @@ class Walker {
   /// Rounding may put a disk a little behind the place where it should be; what is further behind is
   /// another solution.
   static constexpr double position_slack = 1e-9;
+  /// How far beyond() may look, against the radius: there the bisector is still straight.
+  static constexpr double widest_window = 1e-7;
   /// Contacts this near to each other, against the radius, are not told apart at a node.
   static constexpr double distinct_feet = 1e-6;
 
