@@ -1,0 +1,81 @@
+#include "medial/error.h"
+
+#include <array>
+#include <charconv>
+
+namespace medial {
+namespace {
+
+/// The shortest digits that read back as the same number.
+std::string shortest(double value) {
+  std::array<char, 32> digits;
+  const auto written = std::to_chars(digits.data(), digits.data() + digits.size(), value);
+  return std::string(digits.data(), written.ptr);
+}
+
+void append(std::string& list, const char* noun, const std::optional<std::uint64_t>& number) {
+  if (!number) return;
+  if (!list.empty()) list += ", ";
+  list += noun;
+  list += ' ';
+  list += std::to_string(*number);
+}
+
+}  // namespace
+
+const char* name_of(ErrorCode code) {
+  switch (code) {
+    case ErrorCode::not_finite:
+      return "not_finite";
+    case ErrorCode::too_few_points:
+      return "too_few_points";
+    case ErrorCode::no_area:
+      return "no_area";
+    case ErrorCode::crossing:
+      return "crossing";
+    case ErrorCode::overlap:
+      return "overlap";
+    case ErrorCode::hole_outside:
+      return "hole_outside";
+    case ErrorCode::nested_outer:
+      return "nested_outer";
+    case ErrorCode::too_large:
+      return "too_large";
+    case ErrorCode::empty:
+      return "empty";
+    case ErrorCode::unreadable:
+      return "unreadable";
+    case ErrorCode::malformed:
+      return "malformed";
+    case ErrorCode::unsupported:
+      return "unsupported";
+    case ErrorCode::unwritable:
+      return "unwritable";
+    case ErrorCode::invalid_option:
+      return "invalid_option";
+    case ErrorCode::cancelled:
+      return "cancelled";
+    case ErrorCode::internal:
+      return "internal";
+  }
+  return "internal";
+}
+
+std::string to_string(const Error& error) {
+  const Place& place = error.place;
+  std::string where;
+  append(where, "line", place.line);
+  append(where, "feature", place.feature);
+  append(where, "ring", place.ring);
+  append(where, "vertex", place.vertex);
+  if (place.point) {
+    if (!where.empty()) where += ' ';
+    where += "at (" + shortest(place.point->x) + ", " + shortest(place.point->y) + ")";
+  }
+  std::string sentence;
+  if (!place.file.empty()) sentence += place.file + ": ";
+  if (!where.empty()) sentence += where + ": ";
+  return sentence + error.text + " [" + name_of(error.code) + "]";
+}
+
+}  // namespace medial

@@ -1,0 +1,121 @@
+#include "base/predicates.h"
+
+#include <array>
+#include <boost/multiprecision/cpp_int.hpp>
+#include <cstdint>
+
+namespace medial {
+namespace {
+
+int sign(double value) { return (value > 0) - (value < 0); }
+
+/// Whether products of two such numbers, and their rounding errors, neither overflow nor underflow:
+/// an error term is a multiple of 2^(2 (-480 - 52)) = 2^-1064, a product at most 2^960.
+bool is_moderate(double value) {
+  const double magnitude = std::abs(value);
+  return magnitude == 0 || (magnitude >= 0x1p-480 && magnitude <= 0x1p480);
+}
+
+/// value + error, exactly.
+struct Expansion2 {
+  double value;
+  double error;
+};
+
+Expansion2 exact_sum(double a, double b) {
+  const double sum = a + b;
+  const double b_part = sum - a;
+  const double a_part = sum - b_part;
+  return {sum, (a - a_part) + (b - b_part)};
+}
+
+/// Requires moderate factors.
+Expansion2 exact_product(double a, double b) {
+  const double product = a * b;
+  return {product, std::fma(a, b, -product)};
+}
+
+/// The sign of a sum of up to 12 numbers without overflow: Shewchuk's grow-expansion. The
+/// components do not overlap and grow in magnitude, so the last one that is not zero has the sign
+/// of all.
+class Sum {
+ public:
+  void add(double term) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < size_; ++i) {
+      const Expansion2 partial = exact_sum(term, components_[i]);
+      term = partial.value;
+      if (partial.error != 0) components_[kept++] = partial.error;
+    }
+    if (term != 0) components_[kept++] = term;
+    size_ = kept;
+  }
+  void add_product(double a, double b) {
+    const Expansion2 product = exact_product(a, b);
+    add(product.error);
+    add(product.value);
+  }
+  int sign_of_all() const { return size_ == 0 ? 0 : sign(components_[size_ - 1]); }
+
+ private:
+  std::array<double, 12> components_;
+  std::size_t size_ = 0;
+};
+
+using Integer = boost::multiprecision::cpp_int;
+
+/// value * 2^1074, an integer for every finite double.
+Integer scaled_to_integer(double value) {
+  int exponent = 0;
+  const double fraction = std::frexp(value, &exponent);
+  auto mantissa = static_cast<std::int64_t>(std::ldexp(fraction, 53));
+  int shift = exponent - 53 + 1074;
+  // Subnormal numbers have fewer bits: their mantissa ends in zeros.
+  for (; shift < 0; ++shift) mantissa /= 2;
+  return Integer(mantissa) << static_cast<unsigned>(shift);
+}
+
+int orientation_in_integers(Vec2 a, Vec2 b, Vec2 c) {
+  const Integer cx = scaled_to_integer(c.x);
+  const Integer cy = scaled_to_integer(c.y);
+  const Integer left = (scaled_to_integer(a.x) - cx) * (scaled_to_integer(b.y) - cy);
+  const Integer right = (scaled_to_integer(a.y) - cy) * (scaled_to_integer(b.x) - cx);
+  return left.compare(right);
+}
+
+}  // namespace
+
+int exact_orientation(Vec2 a, Vec2 b, Vec2 c) {
+  // Both products are zero, the common case of points on a vertical or horizontal line.
+  if ((a.x == c.x || b.y == c.y) && (a.y == c.y || b.x == c.x)) return 0;
+
+  // The differences are often exact (always on integer grids): then compare the exact products. A
+  // product's value is its rounding, which is monotone, so different values decide.
+  const Expansion2 ax = exact_sum(a.x, -c.x);
+  const Expansion2 ay = exact_sum(a.y, -c.y);
+  const Expansion2 bx = exact_sum(b.x, -c.x);
+  const Expansion2 by = exact_sum(b.y, -c.y);
+  if (ax.error == 0 && ay.error == 0 && bx.error == 0 && by.error == 0 && is_moderate(ax.value) &&
+      is_moderate(ay.value) && is_moderate(bx.value) && is_moderate(by.value)) {
+    const Expansion2 left = exact_product(ax.value, by.value);
+    const Expansion2 right = exact_product(ay.value, bx.value);
+    if (left.value != right.value) return left.value > right.value ? 1 : -1;
+    return sign(left.error - right.error);
+  }
+
+  if (is_moderate(a.x) && is_moderate(a.y) && is_moderate(b.x) && is_moderate(b.y) &&
+      is_moderate(c.x) && is_moderate(c.y)) {
+    Sum area;
+    area.add_product(a.x, b.y);
+    area.add_product(-a.y, b.x);
+    area.add_product(b.x, c.y);
+    area.add_product(-b.y, c.x);
+    area.add_product(c.x, a.y);
+    area.add_product(-c.y, a.x);
+    return area.sign_of_all();
+  }
+  const int compared = orientation_in_integers(a, b, c);
+  return (compared > 0) - (compared < 0);
+}
+
+}  // namespace medial

@@ -1,0 +1,43 @@
+#pragma once
+
+// Decisions about points that are exact for all finite coordinates.
+
+#include <cmath>
+#include <limits>
+
+#include "medial/vec2.h"
+
+namespace medial {
+
+/// The order of the plane sweep: by x, and by y where x is equal.
+constexpr bool lexicographic_less(Vec2 a, Vec2 b) { return a.x < b.x || (a.x == b.x && a.y < b.y); }
+
+/// Requires a, b and p on one line. Whether p lies strictly between a and b.
+constexpr bool strictly_between(Vec2 a, Vec2 p, Vec2 b) {
+  return (lexicographic_less(a, p) && lexicographic_less(p, b)) ||
+         (lexicographic_less(b, p) && lexicographic_less(p, a));
+}
+
+/// The part of orientation() that rounding errors cannot be excluded from. Same result.
+int exact_orientation(Vec2 a, Vec2 b, Vec2 c);
+
+/// The sign of the area of the triangle a, b, c: +1 if c lies to the left of a -> b, -1 to the
+/// right, 0 on the line. Exact for all finite coordinates, those whose differences or products
+/// overflow or underflow included.
+inline int orientation(Vec2 a, Vec2 b, Vec2 c) {
+  const double left = (a.x - c.x) * (b.y - c.y);
+  const double right = (a.y - c.y) * (b.x - c.x);
+  const double area = left - right;
+  // With u = epsilon / 2, the three roundings of each product and the one of the difference amount
+  // to less than (3 + 16 u) u (|left| + |right|); underflow adds less than the smallest normal
+  // number. An overflow makes both sides infinite or not a number, and the comparison false.
+  constexpr double u = std::numeric_limits<double>::epsilon() / 2;
+  constexpr double relative = (3 + 16 * u) * u;
+  constexpr double underflow = std::numeric_limits<double>::min();
+  const double error = relative * (std::abs(left) + std::abs(right)) + underflow;
+  if (area > error) return 1;
+  if (area < -error) return -1;
+  return exact_orientation(a, b, c);
+}
+
+}  // namespace medial

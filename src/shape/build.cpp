@@ -1,0 +1,49 @@
+#include <utility>
+
+#include "medial/shape.h"
+#include "shape/clean.h"
+#include "shape/nest.h"
+#include "shape/splice.h"
+#include "shape/sweep.h"
+
+namespace medial {
+namespace {
+
+std::uint64_t count_reversed(const Arrangement& arrangement) {
+  std::uint64_t count = 0;
+  for (std::size_t ring = 0; ring + 1 < arrangement.begin.size(); ++ring) {
+    if (!arrangement.interior_left[arrangement.begin[ring]]) ++count;
+  }
+  return count;
+}
+
+Result<Shape> build(std::span<const Ring> rings, ShapeReport& report) {
+  Result<Outline> outline = clean(rings, report);
+  if (!outline) return std::move(outline).error();
+
+  Result<Sweep> swept = sweep(*outline);
+  if (!swept) return std::move(swept).error();
+  report.touching_vertices = swept->place_count;
+  report.split_edges = swept->splits.size();
+
+  const Arrangement arrangement =
+      insert_splits(std::move(outline).value(), std::move(swept).value());
+  report.reversed_rings = count_reversed(arrangement);
+
+  Result<Loops> loops = splice(rings, arrangement);
+  if (!loops) return std::move(loops).error();
+  if (auto error = check_roles(rings, arrangement)) return std::move(*error);
+  if (auto error = nest(arrangement, *loops)) return std::move(*error);
+  return assemble(arrangement, *loops);
+}
+
+}  // namespace
+
+Result<Shape> build_shape(std::span<const Ring> rings, ShapeReport* report) {
+  ShapeReport counted;
+  Result<Shape> shape = build(rings, counted);
+  if (report) *report = counted;
+  return shape;
+}
+
+}  // namespace medial

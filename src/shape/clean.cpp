@@ -1,0 +1,117 @@
+#include "shape/clean.h"
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+
+#include "base/predicates.h"
+#include "shape/errors.h"
+
+namespace medial {
+namespace {
+
+/// A vertex can become two sites, and each site can split an edge at most once.
+constexpr std::uint64_t kMostPoints = std::numeric_limits<std::uint32_t>::max() / 4;
+
+/// Appends the points of a ring, each distinct from its neighbours.
+std::optional<Error> append_distinct(const Ring& ring, std::uint32_t index, Outline& outline,
+                                     ShapeReport& report) {
+  std::span<const Vec2> points = ring.points;
+  const std::size_t first = outline.points.size();
+  if (points.size() > 1 && points.front() == points.back()) {
+    points = points.first(points.size() - 1);
+    ++report.closing_points;
+  } else {
+    ++report.unclosed_rings;
+  }
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const VertexSource source{index, static_cast<std::uint32_t>(i)};
+    if (!std::isfinite(points[i].x) || !std::isfinite(points[i].y)) {
+      return error_at(ErrorCode::not_finite, "a coordinate is not a finite number", source,
+                      points[i]);
+    }
+    const Vec2 point{points[i].x + 0.0, points[i].y + 0.0};  // makes -0 to 0
+    if (outline.points.size() > first && outline.points.back() == point) {
+      ++report.repeated_points;
+      continue;
+    }
+    outline.points.push_back(point);
+    outline.sources.push_back(source);
+  }
+  while (outline.points.size() > first + 1 && outline.points.back() == outline.points[first]) {
+    outline.points.pop_back();
+    outline.sources.pop_back();
+    ++report.repeated_points;
+  }
+  return std::nullopt;
+}
+
+/// Drops the vertices at which the ring goes straight on. Dropping one changes no direction, so
+/// that every vertex can be judged by its neighbours in the full ring.
+std::optional<Error> drop_collinear(std::uint32_t first, Outline& outline, ShapeReport& report) {
+  std::vector<Vec2>& points = outline.points;
+  const Vec2 start = points[first];
+  const VertexSource source = outline.sources[first];
+  const std::size_t end = points.size();
+  Vec2 before = points[end - 1];
+  std::size_t kept = first;
+  bool turns = false;
+  for (std::size_t i = first; i < end; ++i) {
+    const Vec2 point = points[i];
+    const Vec2 after = i + 1 < end ? points[i + 1] : start;
+    const bool straight = orientation(before, point, after) == 0;
+    turns = turns || !straight;
+    if (straight && strictly_between(before, point, after)) {
+      ++report.collinear_points;
+    } else {
+      points[kept] = point;
+      outline.sources[kept] = outline.sources[i];
+      ++kept;
+    }
+    before = point;
+  }
+  if (!turns) {
+    return error_at(ErrorCode::no_area, "all points of the ring lie on one line", source, start);
+  }
+  points.resize(kept);
+  outline.sources.resize(kept);
+  return std::nullopt;
+}
+
+bool has_three_distinct(std::span<const Vec2> points) {
+  return points.size() >= 3 && std::any_of(points.begin() + 2, points.end(), [&](Vec2 point) {
+           return point != points[0] && point != points[1];
+         });
+}
+
+}  // namespace
+
+Result<Outline> clean(std::span<const Ring> rings, ShapeReport& report) {
+  if (rings.empty()) return error_without_place(ErrorCode::empty, "there is no ring");
+  report.input_rings = rings.size();
+  for (const Ring& ring : rings) report.input_points += ring.points.size();
+  if (report.input_points > kMostPoints || rings.size() > kMostPoints) {
+    return error_without_place(ErrorCode::too_large, "there are too many points");
+  }
+
+  Outline outline;
+  outline.points.reserve(report.input_points);
+  outline.sources.reserve(report.input_points);
+  outline.begin.reserve(rings.size() + 1);
+  for (std::uint32_t i = 0; i < rings.size(); ++i) {
+    const auto first = static_cast<std::uint32_t>(outline.points.size());
+    outline.begin.push_back(first);
+    if (auto error = append_distinct(rings[i], i, outline, report)) return *error;
+    const std::span<const Vec2> points = std::span(outline.points).subspan(first);
+    if (!has_three_distinct(points)) {
+      const char* text = "the ring has fewer than three distinct points";
+      if (points.empty()) return error_of_ring(ErrorCode::too_few_points, text, i);
+      return error_at(ErrorCode::too_few_points, text, outline.sources[first], points[0]);
+    }
+    if (auto error = drop_collinear(first, outline, report)) return *error;
+  }
+  outline.begin.push_back(static_cast<std::uint32_t>(outline.points.size()));
+  return outline;
+}
+
+}  // namespace medial

@@ -1,0 +1,125 @@
+#include "shape/nest.h"
+
+#include <algorithm>
+#include <numeric>
+#include <tuple>
+#include <unordered_map>
+
+#include "base/predicates.h"
+#include "shape/errors.h"
+
+namespace medial {
+namespace {
+
+/// Whether the wedge of a ring that opens rightward at its leftmost vertex is interior.
+bool inside_is_interior(const Arrangement& arrangement, std::uint32_t ring) {
+  const std::vector<Vec2>& points = arrangement.points;
+  const std::uint32_t begin = arrangement.begin[ring];
+  const std::uint32_t end = arrangement.begin[ring + 1];
+  Vec2 leftmost = points[begin];
+  for (std::uint32_t v = begin + 1; v < end; ++v) {
+    if (lexicographic_less(points[v], leftmost)) leftmost = points[v];
+  }
+  // The lowest edge there has the wedge above it: on its left, walked away from the vertex.
+  std::optional<Vec2> lowest;
+  bool interior = false;
+  const auto consider = [&](Vec2 far, bool interior_above) {
+    if (lowest && orientation(leftmost, *lowest, far) > 0) return;
+    lowest = far;
+    interior = interior_above;
+  };
+  for (std::uint32_t v = begin; v < end; ++v) {
+    const std::uint32_t next = arrangement.next[v];
+    if (points[v] == leftmost) consider(points[next], arrangement.interior_left[v]);
+    if (points[next] == leftmost) consider(points[v], !arrangement.interior_left[v]);
+  }
+  return interior;
+}
+
+VertexSource lowest_source(const Arrangement& arrangement, const Loop& loop) {
+  return arrangement.sources[tail(arrangement, loop.first_edge)];
+}
+
+}  // namespace
+
+std::optional<Error> check_roles(std::span<const Ring> rings, const Arrangement& arrangement) {
+  for (std::uint32_t i = 0; i < rings.size(); ++i) {
+    const RingRole role = rings[i].role;
+    if (role == RingRole::any) continue;
+    if (inside_is_interior(arrangement, i) == (role == RingRole::outer)) continue;
+    const std::uint32_t first = arrangement.begin[i];
+    const bool hole = role == RingRole::hole;
+    return error_at(hole ? ErrorCode::hole_outside : ErrorCode::nested_outer,
+                    hole ? "the hole does not lie in the inside of an outer ring"
+                         : "the outer ring lies in the inside of another outer ring",
+                    arrangement.sources[first], arrangement.points[first]);
+  }
+  return std::nullopt;
+}
+
+std::optional<Error> nest(const Arrangement& arrangement, Loops& loops) {
+  // A hole's leftmost vertex has the interior on the left: no edge ends there. So the sweep has
+  // noted the edge below, whose loop began further left and borders the same component.
+  std::vector<std::uint32_t> outer;
+  std::unordered_map<std::uint32_t, std::uint32_t> hole_at;
+  for (std::uint32_t i = 0; i < loops.loops.size(); ++i) {
+    if (loops.loops[i].hole) {
+      hole_at.emplace(loops.loops[i].leftmost, i);
+    } else {
+      outer.push_back(i);
+    }
+  }
+  std::sort(outer.begin(), outer.end(), [&](std::uint32_t a, std::uint32_t b) {
+    const VertexSource sa = lowest_source(arrangement, loops.loops[a]);
+    const VertexSource sb = lowest_source(arrangement, loops.loops[b]);
+    return std::tie(sa.ring, sa.vertex, a) < std::tie(sb.ring, sb.vertex, b);
+  });
+  for (std::uint32_t i = 0; i < outer.size(); ++i) loops.loops[outer[i]].component = i;
+  if (!hole_at.empty()) {
+    for (const LeftEnd& end : arrangement.left_ends) {
+      const auto hole = hole_at.find(end.vertex);
+      if (hole == hole_at.end() || end.below == kNone) continue;
+      loops.loops[hole->second].component = loops.loops[loops.loop_of[end.below]].component;
+    }
+  }
+  for (const Loop& loop : loops.loops) {
+    if (loop.component == kNone) {
+      return error_without_place(ErrorCode::internal, "a hole has no component");
+    }
+  }
+  return std::nullopt;
+}
+
+Shape assemble(const Arrangement& arrangement, const Loops& loops) {
+  std::vector<std::uint32_t> order(loops.loops.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    const Loop& la = loops.loops[a];
+    const Loop& lb = loops.loops[b];
+    const VertexSource sa = lowest_source(arrangement, la);
+    const VertexSource sb = lowest_source(arrangement, lb);
+    return std::tie(la.component, la.hole, sa.ring, sa.vertex, a) <
+           std::tie(lb.component, lb.hole, sb.ring, sb.vertex, b);
+  });
+
+  Shape shape;
+  shape.points.reserve(arrangement.points.size());
+  shape.sources.reserve(arrangement.points.size());
+  for (const std::uint32_t i : order) {
+    const Loop& loop = loops.loops[i];
+    shape.loop_begin.push_back(static_cast<std::uint32_t>(shape.points.size()));
+    shape.component.push_back(loop.component);
+    shape.hole.push_back(loop.hole);
+    std::uint32_t edge = loop.first_edge;
+    do {
+      const std::uint32_t vertex = tail(arrangement, edge);
+      shape.points.push_back(arrangement.points[vertex]);
+      shape.sources.push_back(arrangement.sources[vertex]);
+      edge = loops.successor[edge];
+    } while (edge != loop.first_edge);
+  }
+  shape.loop_begin.push_back(static_cast<std::uint32_t>(shape.points.size()));
+  return shape;
+}
+
+}  // namespace medial

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "medial/shape.h"
+#include "shape/splice.h"
+
+namespace medial {
+
+/// Checks that the inside of every outer ring, and the outside of every hole, is interior where the
+/// ring begins on the left. (No ring crosses another, so it is all along the ring.) O(n).
+/// Errors: nested_outer, hole_outside, of the first ring that has one.
+std::optional<Error> check_roles(std::span<const Ring> rings, const Arrangement& arrangement);
+
+/// Numbers the components of the interior by the lowest source of their outer loops, and gives
+/// every hole to the component it lies in. O(n + loops log loops).
+std::optional<Error> nest(const Arrangement& arrangement, Loops& loops);
+
+/// The shape with its loops in order: by component, the outer loop first, then by lowest source.
+Shape assemble(const Arrangement& arrangement, const Loops& loops);
+
+}  // namespace medial

@@ -1,0 +1,41 @@
+#include "medial/shape.h"
+
+#include <algorithm>
+
+namespace medial {
+
+std::size_t Shape::component_count() const { return loop_count() - hole_count(); }
+
+std::size_t Shape::hole_count() const {
+  return static_cast<std::size_t>(std::count(hole.begin(), hole.end(), true));
+}
+
+Box bounding_box(const Shape& shape) {
+  if (shape.points.empty()) return {};
+  Box box{shape.points[0], shape.points[0]};
+  for (const Vec2 point : shape.points) {
+    box.low = {std::min(box.low.x, point.x), std::min(box.low.y, point.y)};
+    box.high = {std::max(box.high.x, point.x), std::max(box.high.y, point.y)};
+  }
+  return box;
+}
+
+double diagonal(const Box& box) {
+  return std::hypot(box.high.x - box.low.x, box.high.y - box.low.y);
+}
+
+double area(const Shape& shape) {
+  double sum = 0;
+  for (std::size_t i = 0; i < shape.loop_count(); ++i) {
+    // Relative to a vertex of the loop, or far from the origin the digits cancel.
+    const std::span<const Vec2> loop = shape.loop(i);
+    double twice = 0;
+    for (std::size_t k = 2; k < loop.size(); ++k) {
+      twice += cross(loop[k - 1] - loop[0], loop[k] - loop[0]);
+    }
+    sum += twice / 2;
+  }
+  return sum;
+}
+
+}  // namespace medial

@@ -1,0 +1,265 @@
+#include "shape/splice.h"
+
+#include <algorithm>
+#include <numeric>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "base/predicates.h"
+#include "shape/errors.h"
+
+namespace medial {
+
+std::uint32_t Arrangement::ring_of(std::uint32_t vertex) const {
+  const auto after = std::upper_bound(begin.begin(), begin.end(), vertex);
+  return static_cast<std::uint32_t>(after - begin.begin()) - 1;
+}
+
+std::uint32_t Arrangement::previous(std::uint32_t vertex) const {
+  const std::uint32_t ring = ring_of(vertex);
+  return (vertex == begin[ring] ? begin[ring + 1] : vertex) - 1;
+}
+
+Arrangement insert_splits(Outline outline, Sweep sweep) {
+  const auto edge_count = static_cast<std::uint32_t>(outline.points.size());
+  const auto split_count = static_cast<std::uint32_t>(sweep.splits.size());
+  const std::size_t total = outline.points.size() + sweep.splits.size();
+
+  // The splits of each edge one after another, from left to right.
+  std::vector<std::uint32_t> order(split_count);
+  std::iota(order.begin(), order.end(), 0U);
+  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return sweep.splits[a].edge < sweep.splits[b].edge;
+  });
+
+  Arrangement result;
+  result.points.reserve(total);
+  result.sources.reserve(total);
+  result.begin.reserve(outline.begin.size());
+  result.next.resize(total);
+  result.interior_left.reserve(total);
+  result.place_count = sweep.place_count;
+  result.touches = std::move(sweep.touches);
+  std::vector<std::uint32_t> new_vertex(edge_count);
+  std::vector<std::uint32_t> new_edge_of_split(split_count);
+
+  std::uint32_t done = 0;  // of the splits
+  const auto append = [&](std::uint32_t vertex, std::uint32_t piece, bool rightward) {
+    result.points.push_back(outline.points[vertex]);
+    result.sources.push_back(outline.sources[vertex]);
+    result.interior_left.push_back(sweep.interior_above[piece] == rightward);
+  };
+  for (std::uint32_t e = 0; e < edge_count; ++e) {
+    const auto index = static_cast<std::uint32_t>(result.points.size());
+    if (e == outline.begin[result.begin.size()]) result.begin.push_back(index);
+    new_vertex[e] = index;
+    const bool rightward = lexicographic_less(outline.points[e], outline.points[outline.next(e)]);
+    std::uint32_t end = done;
+    while (end < split_count && sweep.splits[order[end]].edge == e) ++end;
+    const std::uint32_t count = end - done;
+    // Walked leftward, an edge begins with its last piece, and each split with the piece before it.
+    append(e, rightward || count == 0 ? e : edge_count + order[end - 1], rightward);
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const std::uint32_t split = order[rightward ? done + i : end - 1 - i];
+      const std::uint32_t leftward_piece = i + 1 < count ? edge_count + order[end - 2 - i] : e;
+      const auto vertex = static_cast<std::uint32_t>(result.points.size());
+      append(sweep.splits[split].vertex, rightward ? edge_count + split : leftward_piece,
+             rightward);
+      result.touches.push_back({sweep.splits[split].place, vertex});
+      new_edge_of_split[split] = rightward ? vertex : vertex - 1;
+    }
+    done = end;
+  }
+  result.begin.push_back(static_cast<std::uint32_t>(total));
+  std::iota(result.next.begin(), result.next.end(), 1U);
+  for (std::size_t ring = 0; ring + 1 < result.begin.size(); ++ring) {
+    result.next[result.begin[ring + 1] - 1] = result.begin[ring];
+  }
+
+  // Indices of the outline become those of the arrangement.
+  const std::size_t whole = result.touches.size() - split_count;
+  for (std::size_t i = 0; i < whole; ++i) {
+    result.touches[i].vertex = new_vertex[result.touches[i].vertex];
+  }
+  std::stable_sort(result.touches.begin(), result.touches.end(),
+                   [](const Touch& a, const Touch& b) { return a.place < b.place; });
+  const auto new_edge = [&](std::uint32_t piece) {
+    if (piece == kNone) return kNone;
+    if (piece >= edge_count) return new_edge_of_split[piece - edge_count];
+    // The leftmost piece is the last one of an edge walked leftward.
+    if (lexicographic_less(outline.points[piece], outline.points[outline.next(piece)])) {
+      return new_vertex[piece];
+    }
+    const std::uint32_t after =
+        piece + 1 < edge_count ? new_vertex[piece + 1] : static_cast<std::uint32_t>(total);
+    return after - 1;
+  };
+  result.left_ends = std::move(sweep.left_ends);
+  for (LeftEnd& end : result.left_ends) {
+    end.vertex = new_vertex[end.vertex];
+    end.below = new_edge(end.below);
+  }
+  return result;
+}
+
+namespace {
+
+/// An edge as seen from one of its ends.
+struct Ray {
+  Vec2 far;
+  std::uint32_t edge;
+  std::uint32_t ring;
+  bool outgoing;  ///< when walked with the interior on the left
+};
+
+/// The edges at one touching place, counter-clockwise, beginning downward.
+class Star {
+ public:
+  /// Takes all vertices at the place.
+  void assign(const Arrangement& arrangement, std::span<const Touch> touches) {
+    center_ = arrangement.points[touches[0].vertex];
+    rays_.clear();
+    for (const Touch& touch : touches) {
+      const std::uint32_t vertex = touch.vertex;
+      const std::uint32_t previous = arrangement.previous(vertex);
+      const std::uint32_t ring = arrangement.ring_of(vertex);
+      rays_.push_back(
+          {arrangement.points[previous], previous, ring, !arrangement.interior_left[previous]});
+      rays_.push_back({arrangement.points[arrangement.next[vertex]], vertex, ring,
+                       arrangement.interior_left[vertex]});
+    }
+    std::sort(rays_.begin(), rays_.end(), [&](const Ray& a, const Ray& b) {
+      const bool a_right = lexicographic_less(center_, a.far);
+      const bool b_right = lexicographic_less(center_, b.far);
+      if (a_right != b_right) return a_right;
+      return orientation(center_, a.far, b.far) > 0;
+    });
+  }
+
+  /// Interior lies clockwise of an incoming ray, so the loop leaves by the ray before it.
+  bool join(std::vector<std::uint32_t>& successor) const {
+    for (std::size_t i = 0; i < rays_.size(); ++i) {
+      if (rays_[i].outgoing) continue;
+      const Ray& leave = rays_[(i == 0 ? rays_.size() : i) - 1];
+      if (!leave.outgoing) return false;
+      successor[rays_[i].edge] = leave.edge;
+    }
+    return true;
+  }
+
+  /// A vertex at which a ring with a role passes from one side of another ring to the other side.
+  std::optional<std::uint32_t> crossing_vertex(std::span<const Ring> rings,
+                                               const Arrangement& arrangement,
+                                               std::span<const Touch> touches) {
+    // Of the rays between the two of a vertex, those of other rings are all less those of its own;
+    // the ring crosses others where their number is odd.
+    std::vector<std::uint32_t> own(rays_.size());  // rank among the rays of the same ring
+    std::vector<std::size_t> order(rays_.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return rays_[a].ring < rays_[b].ring; });
+    for (std::size_t i = 1; i < order.size(); ++i) {
+      if (rays_[order[i]].ring == rays_[order[i - 1]].ring) own[order[i]] = own[order[i - 1]] + 1;
+    }
+    // The number of foreign rays before a ray, even or odd; by edge, as an edge has one end here.
+    std::vector<std::pair<std::uint32_t, bool>> foreign(rays_.size());
+    for (std::size_t i = 0; i < rays_.size(); ++i) {
+      foreign[i] = {rays_[i].edge, ((i - own[i]) & 1) != 0};
+    }
+    std::sort(foreign.begin(), foreign.end());
+    const auto parity_of = [&](std::uint32_t edge) {
+      return std::lower_bound(foreign.begin(), foreign.end(), std::pair(edge, false))->second;
+    };
+    for (const Touch& touch : touches) {
+      if (rings[arrangement.ring_of(touch.vertex)].role == RingRole::any) continue;
+      if (parity_of(arrangement.previous(touch.vertex)) != parity_of(touch.vertex)) {
+        return touch.vertex;
+      }
+    }
+    return std::nullopt;
+  }
+
+ private:
+  Vec2 center_;
+  std::vector<Ray> rays_;
+};
+
+/// The next edge of each in its loop, as long as no other ring touches.
+std::vector<std::uint32_t> successors_in_rings(const Arrangement& arrangement) {
+  std::vector<std::uint32_t> successor(arrangement.points.size());
+  for (std::uint32_t e = 0; e < successor.size(); ++e) {
+    const std::uint32_t next = arrangement.next[e];
+    if (arrangement.interior_left[e]) successor[e] = next;
+    if (!arrangement.interior_left[next]) successor[next] = e;
+  }
+  return successor;
+}
+
+bool lower_source(VertexSource a, VertexSource b) {
+  return a.ring < b.ring || (a.ring == b.ring && a.vertex < b.vertex);
+}
+
+/// Walks the loop of an edge and notes what it is.
+Loop walk(const Arrangement& arrangement, Loops& result, std::uint32_t start) {
+  const std::vector<Vec2>& points = arrangement.points;
+  const std::vector<VertexSource>& sources = arrangement.sources;
+  const auto index = static_cast<std::uint32_t>(result.loops.size());
+  Loop loop{.first_edge = start, .size = 0, .leftmost = tail(arrangement, start)};
+  VertexSource lowest = sources[loop.leftmost];
+  std::uint32_t edge = start;
+  Vec2 before = points[loop.leftmost];
+  std::uint32_t vertex = tail(arrangement, result.successor[edge]);
+  do {
+    result.loop_of[edge] = index;
+    ++loop.size;
+    edge = result.successor[edge];
+    const std::uint32_t after = tail(arrangement, result.successor[edge]);
+    const Vec2 here = points[vertex];
+    if (lower_source(sources[vertex], lowest)) {
+      lowest = sources[vertex];
+      loop.first_edge = edge;
+    }
+    if (!lexicographic_less(points[loop.leftmost], here)) {
+      // At its leftmost vertex a hole has the interior on the left, and turns to the right.
+      const bool turns_right = orientation(here, points[after], before) < 0;
+      if (here != points[loop.leftmost]) loop.hole = false;
+      if (turns_right || here != points[loop.leftmost]) loop.leftmost = vertex;
+      loop.hole = loop.hole || turns_right;
+    }
+    before = here;
+    vertex = after;
+  } while (edge != start);
+  return loop;
+}
+
+}  // namespace
+
+Result<Loops> splice(std::span<const Ring> rings, const Arrangement& arrangement) {
+  Loops result;
+  result.successor = successors_in_rings(arrangement);
+  Star star;
+  for (auto first = arrangement.touches.begin(); first != arrangement.touches.end();) {
+    auto last = first;
+    while (last != arrangement.touches.end() && last->place == first->place) ++last;
+    const std::span<const Touch> touches(first, last);
+    star.assign(arrangement, touches);
+    if (!star.join(result.successor)) {
+      return error_without_place(ErrorCode::internal, "the interior has no border");
+    }
+    if (const auto vertex = star.crossing_vertex(rings, arrangement, touches)) {
+      // Where an edge was split, this names the vertex that split it.
+      return error_at(ErrorCode::crossing, "two rings cross in this vertex",
+                      arrangement.sources[*vertex], arrangement.points[*vertex]);
+    }
+    first = last;
+  }
+
+  result.loop_of.assign(arrangement.points.size(), kNone);
+  for (std::uint32_t e = 0; e < result.loop_of.size(); ++e) {
+    if (result.loop_of[e] == kNone) result.loops.push_back(walk(arrangement, result, e));
+  }
+  return result;
+}
+
+}  // namespace medial

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "medial/shape.h"
+#include "shape/clean.h"
+#include "shape/sweep.h"
+
+namespace medial {
+
+/// The rings with a vertex of their own wherever they touch. Edge v runs from vertex v to next[v].
+struct Arrangement {
+  std::vector<Vec2> points;
+  std::vector<VertexSource> sources;
+  std::vector<std::uint32_t> begin;  ///< ring i is the vertices [begin[i], begin[i + 1])
+  std::vector<std::uint32_t> next;
+  std::vector<bool> interior_left;  ///< of each edge
+  std::vector<Touch> touches;       ///< by increasing place; all vertices there
+  std::vector<LeftEnd> left_ends;   ///< in the order of the sweep; `below` is an edge
+  std::uint32_t place_count = 0;    ///< of touching places
+
+  std::uint32_t ring_of(std::uint32_t vertex) const;  ///< O(log of the number of rings)
+  std::uint32_t previous(std::uint32_t vertex) const;
+};
+
+/// Inserts the splits into the rings. O(n + splits log splits).
+Arrangement insert_splits(Outline outline, Sweep sweep);
+
+/// A closed walk along edges with the interior on the left.
+struct Loop {
+  std::uint32_t first_edge = 0;  ///< begins at the vertex of the lowest source
+  std::uint32_t size = 0;
+  std::uint32_t leftmost = 0;  ///< the leftmost vertex
+  bool hole = false;
+  std::uint32_t component = kNone;
+};
+
+/// The edges joined into loops. An edge with the interior on its right is walked backwards.
+struct Loops {
+  std::vector<std::uint32_t> successor;  ///< of each edge, in its loop
+  std::vector<std::uint32_t> loop_of;    ///< of each edge
+  std::vector<Loop> loops;
+};
+
+/// The vertex that an edge begins with when walked with the interior on the left.
+inline std::uint32_t tail(const Arrangement& arrangement, std::uint32_t edge) {
+  return arrangement.interior_left[edge] ? edge : arrangement.next[edge];
+}
+
+/// Joins the edges into loops. At a place where loops touch, each loop turns so that it bounds one
+/// wedge of the interior: every loop is the border of one component of the open interior, and two
+/// loops of one component have no point in common. O(n + t log t) for t touching vertices.
+/// Error: crossing, where a ring with a role crosses another ring in a vertex.
+Result<Loops> splice(std::span<const Ring> rings, const Arrangement& arrangement);
+
+}  // namespace medial

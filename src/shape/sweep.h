@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "medial/error.h"
+#include "shape/clean.h"
+
+namespace medial {
+
+inline constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+
+/// A vertex in the inside of an edge.
+struct Split {
+  std::uint32_t edge = 0;
+  std::uint32_t vertex = 0;
+  std::uint32_t place = 0;  ///< the touching place
+};
+
+/// A vertex at a place where more than two edges meet.
+struct Touch {
+  std::uint32_t place = 0;
+  std::uint32_t vertex = 0;
+};
+
+/// A vertex with no edge to its left, and the piece directly below it (kNone: none).
+struct LeftEnd {
+  std::uint32_t vertex = 0;
+  std::uint32_t below = 0;
+};
+
+/// What the sweep found. The splits cut the edges into pieces. Piece e < number of edges is the
+/// leftmost piece of edge e; piece (number of edges) + s is the one that begins at split s.
+struct Sweep {
+  std::vector<bool> interior_above;  ///< of each piece
+  std::vector<Split> splits;         ///< in the order of the sweep
+  std::vector<Touch> touches;        ///< by increasing place; without the split edges
+  std::vector<LeftEnd> left_ends;    ///< in the order of the sweep
+  std::uint32_t place_count = 0;     ///< of touching places
+};
+
+/// Sweeps the plane from left to right (Shamos and Hoey) and finds out on which side of each piece
+/// of an edge the interior lies, by the even-odd rule. Exact. O(n log n) for n vertices, whatever
+/// their position: an edge that crosses none can only be split by a vertex, and a vertex splits one
+/// at most. Errors: crossing (the insides of two edges cross), overlap (two edges share a stretch).
+Result<Sweep> sweep(const Outline& outline);
+
+}  // namespace medial
