@@ -1,0 +1,58 @@
+# The verbs of the house. `make` alone lists them.
+
+JOBS ?= $(shell nproc)
+PREFIX ?= /usr/local
+RELEASE := build/release
+ASAN := build/asan
+BENCH := build/bench
+SOURCES = $(shell git ls-files '*.h' '*.cpp')
+
+.PHONY: help setup build demo test bench fuzz format lint clean install
+.DEFAULT_GOAL := help
+
+help:     ## this list
+	@sed -n 's/^\([a-z]*\): [^#]*## /make \1 /p' $(MAKEFILE_LIST) | \
+	  awk '{ printf "  %-13s", $$1 " " $$2; $$1 = $$2 = ""; print }'
+
+setup:    ## install what is missing from Debian's packages
+	@tools/setup.sh build test
+
+build: setup    ## build the library and the command line
+	@cmake --preset release
+	@cmake --build $(RELEASE) -j $(JOBS) --target medial medial_io medial_cli
+
+demo: build     ## medial axes of a country, a gear, a plan and a maze: out/demo
+	@tools/demo.sh $(RELEASE)/cli/medial out/demo
+
+test: setup     ## all tests, in release and under the address and undefined-behaviour sanitizers
+	@cmake --preset release
+	@cmake --build $(RELEASE) -j $(JOBS)
+	@cmake --preset asan
+	@cmake --build $(ASAN) -j $(JOBS)
+	@tools/test.sh $(JOBS) $(CURDIR)/$(ASAN) $(CURDIR)/$(RELEASE)
+
+bench: setup    ## compare with Boost.Polygon and CGAL
+	@tools/setup.sh bench
+	@cmake --preset bench
+	@cmake --build $(BENCH) -j $(JOBS)
+	@$(BENCH)/bench/medial_bench
+
+fuzz: setup     ## random polygons with new seeds, until one fails or you stop it
+	@cmake --preset release
+	@cmake --build $(RELEASE) -j $(JOBS)
+	@tools/fuzz.sh $(RELEASE)
+
+format: setup   ## rewrite the sources in the house's format
+	@clang-format -i $(SOURCES)
+
+lint: setup     ## check the layers, run clang-tidy
+	@tools/setup.sh lint
+	@tools/check_layers.py
+	@cmake --preset release > /dev/null
+	@tools/lint.sh $(RELEASE) $(JOBS)
+
+install: build  ## install below PREFIX (/usr/local)
+	@cmake --install $(RELEASE) --prefix $(PREFIX)
+
+clean:    ## remove everything that was built
+	@rm -rf build out

@@ -1,0 +1,60 @@
+#!/usr/bin/env python3
+"""Checks that every file includes only its own layer and lower ones.
+
+Public headers include no internal ones, the core never includes what only medial::io may use, and
+verify shares nothing with the engines above geometry.
+"""
+
+import pathlib
+import re
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+LAYERS = ["base", "geometry", "shape", "axis", "index", "engines", "ops", "verify", "io"]
+# The certificate must not repeat an engine's mistake.
+HIDDEN = {"verify": {"index", "engines", "ops"}}
+IO_ONLY = re.compile(r"(gdal|ogr|cpl_|geos|cairo|simdjson|nlohmann/|CLI/|zlib\.h)", re.IGNORECASE)
+INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.MULTILINE)
+
+
+def faults_of(path):
+    """Yields one sentence for each include of `path` that its layer does not allow."""
+    relative = path.relative_to(ROOT)
+    public = relative.parts[0] == "include"
+    layer = None if public else relative.parts[1]
+    io = "io" in relative.parts[1:3]
+    for quote, name in INCLUDE.findall(path.read_text()):
+        first = name.split("/")[0]
+        if public and quote == '"' and not name.startswith("medial/"):
+            yield f"public header includes internal {name}"
+        if not io and (IO_ONLY.match(name) or name.startswith("medial/io/")):
+            yield f"the core includes {name}"
+        if public or quote == "<" or first == "medial":
+            continue
+        if first not in LAYERS:
+            yield f'"{name}" names no layer'
+        elif LAYERS.index(first) > LAYERS.index(layer):
+            yield f"{layer} includes {name} from the higher layer {first}"
+        elif first in HIDDEN.get(layer, ()):
+            yield f"{layer} must not share {name} with the engines"
+
+
+def main():
+    files = [p for folder in ("include", "src") for p in sorted((ROOT / folder).rglob("*"))
+             if p.suffix in (".h", ".cpp")]
+    faults = 0
+    for path in files:
+        relative = path.relative_to(ROOT)
+        if relative.parts[0] == "src" and relative.parts[1] not in LAYERS:
+            print(f"{relative}: no layer of this name")
+            faults += 1
+            continue
+        for fault in faults_of(path):
+            print(f"{relative}: {fault}")
+            faults += 1
+    print(f"{len(files)} files, {faults} faults")
+    return 1 if faults or not files else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
