@@ -1,0 +1,203 @@
+#include "io/gdal_reader.h"
+
+#include <fmt/format.h>
+#include <gdal_priv.h>
+#include <ogrsf_frmts.h>
+
+#include <array>
+#include <charconv>
+
+#include "io/gdal_support.h"
+
+namespace medial::io {
+
+namespace {
+
+/// Whether one of GDAL's vector drivers claims the extension of a name.
+bool known_extension(const std::string& name) {
+  const std::string extension = CPLGetExtension(name.c_str());
+  if (extension.empty()) return false;
+  GDALDriverManager* manager = GetGDALDriverManager();
+  for (int i = 0; i < manager->GetDriverCount(); ++i) {
+    GDALDriver* driver = manager->GetDriver(i);
+    if (driver->GetMetadataItem(GDAL_DCAP_VECTOR) == nullptr) continue;
+    const char* known = driver->GetMetadataItem(GDAL_DMD_EXTENSIONS);
+    if (known == nullptr) continue;
+    const CPLStringList words(CSLTokenizeString(known));
+    if (words.FindString(extension.c_str()) >= 0) return true;
+  }
+  return false;
+}
+
+std::string utf8(const char* text) {
+  if (text == nullptr) return {};
+  if (CPLIsUTF8(text, -1)) return text;
+  char* ascii = CPLForceToASCII(text, -1, '?');
+  std::string result = ascii;
+  CPLFree(ascii);
+  return result;
+}
+
+std::string field_text(const OGRFeature& feature, int field) {
+  const OGRFieldDefn* definition = feature.GetFieldDefnRef(field);
+  if (definition->GetType() != OFTReal) return utf8(feature.GetFieldAsString(field));
+  std::array<char, 32> text{};
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), feature.GetFieldAsDouble(field));
+  return {text.data(), end.ptr};
+}
+
+std::string layer_names(GDALDataset& source) {
+  std::vector<std::string> names;
+  for (const OGRLayer* layer : source.GetLayers()) {
+    names.push_back(utf8(const_cast<OGRLayer*>(layer)->GetName()));
+  }
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+class GdalReader {
+ public:
+  GdalReader(std::string shown, const ReadOptions& options)
+      : shown_(std::move(shown)), options_(options) {}
+
+  Result<Dataset> read(const std::string& name) {
+    register_gdal();
+    const GdalMessages messages;
+    const unsigned flags = GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR;
+    const GDALDatasetUniquePtr source(GDALDataset::Open(name.c_str(), flags));
+    if (!source) return cannot_open(name, messages.failure());
+    Result<OGRLayer*> layer = choose_layer(*source);
+    if (!layer) return layer.error();
+    if (!options_.where.empty() && (*layer)->SetAttributeFilter(options_.where.c_str()) != OGRERR_NONE) {
+      return error(ErrorCode::invalid_option,
+                   fmt::format("the filter '{}' does not work: {}", options_.where, messages.failure()));
+    }
+    read_crs(**layer);
+    read_features(**layer);
+    if (!messages.failure().empty()) return error(ErrorCode::malformed, messages.failure());
+    for (const std::string& warning : messages.warnings()) dataset_.notes.push_back(warning);
+    return summarised();
+  }
+
+ private:
+  Error error(ErrorCode code, std::string text) const {
+    return Error{code, std::move(text), Place{.file = shown_}};
+  }
+
+  Error cannot_open(const std::string& name, const std::string& failure) const {
+    const bool known = known_extension(name) || GDALIdentifyDriverEx(name.c_str(), GDAL_OF_VECTOR,
+                                                                     nullptr, nullptr) != nullptr;
+    if (known) {
+      return error(ErrorCode::malformed,
+                   failure.empty() ? "the content is not what the format says" : failure);
+    }
+    return error(ErrorCode::unsupported, "this is none of the vector formats that GDAL knows");
+  }
+
+  Result<OGRLayer*> choose_layer(GDALDataset& source) {
+    if (source.GetLayerCount() == 0) return error(ErrorCode::empty, "the file has no layer");
+    if (!options_.layer.empty()) {
+      OGRLayer* layer = source.GetLayerByName(options_.layer.c_str());
+      if (layer != nullptr) return layer;
+      return error(ErrorCode::invalid_option, fmt::format("there is no layer '{}', but: {}",
+                                                          options_.layer, layer_names(source)));
+    }
+    OGRLayer* layer = source.GetLayer(0);
+    if (layer == nullptr) return error(ErrorCode::malformed, "the first layer cannot be read");
+    if (source.GetLayerCount() > 1) {
+      dataset_.notes.push_back(fmt::format("layer '{}' was read, out of: {}", utf8(layer->GetName()),
+                                           layer_names(source)));
+    }
+    return layer;
+  }
+
+  void read_crs(OGRLayer& layer) {
+    const OGRSpatialReference* reference = layer.GetSpatialRef();
+    if (reference == nullptr) return;
+    set_crs(*reference, dataset_);
+    const std::vector<int>& axes = reference->GetDataAxisToSRSAxisMapping();
+    latitude_first_ = axes.size() >= 2 && axes[0] == 1 && axes[1] == 2 &&
+                      (reference->EPSGTreatsAsLatLong() || reference->EPSGTreatsAsNorthingEasting());
+  }
+
+  void read_features(OGRLayer& layer) {
+    std::int64_t index = 0;
+    for (const OGRFeatureUniquePtr& source : layer) {
+      const OGRGeometry* geometry = source->GetGeometryRef();
+      Feature feature;
+      feature.id = source->GetFID() == OGRNullFID ? index : source->GetFID();
+      ++index;
+      if (geometry == nullptr) {
+        ++without_geometry_;
+        continue;
+      }
+      const std::uint64_t others = counts_.others;
+      add_rings(*geometry, feature.rings, counts_);
+      if (feature.rings.empty() && counts_.others > others) continue;
+      if (latitude_first_) {
+        for (Ring& ring : feature.rings) {
+          for (Vec2& point : ring.points) std::swap(point.x, point.y);
+        }
+      }
+      for (int i = 0; i < source->GetFieldCount(); ++i) {
+        if (!source->IsFieldSetAndNotNull(i)) continue;
+        feature.attributes.emplace_back(utf8(source->GetFieldDefnRef(i)->GetNameRef()),
+                                        field_text(*source, i));
+      }
+      dataset_.features.push_back(std::move(feature));
+    }
+  }
+
+  Result<Dataset> summarised() {
+    if (dataset_.features.empty()) {
+      if (counts_.others > 0) {
+        return error(ErrorCode::unsupported, fmt::format("no polygons, only other geometries ({} of them)",
+                                                         counts_.others));
+      }
+      return error(ErrorCode::empty, options_.where.empty() ? "no feature with a geometry"
+                                                            : "no feature passes the filter");
+    }
+    if (counts_.others > 0) {
+      dataset_.notes.push_back(
+          fmt::format("{} geometries are no polygons and were left out", counts_.others));
+    }
+    if (counts_.curves > 0) {
+      dataset_.notes.push_back(fmt::format(
+          "{} geometries have curves, which became chords of at most 4 degrees", counts_.curves));
+    }
+    if (without_geometry_ > 0) {
+      dataset_.notes.push_back(
+          fmt::format("{} features have no geometry and were left out", without_geometry_));
+    }
+    return std::move(dataset_);
+  }
+
+  std::string shown_;
+  const ReadOptions& options_;
+  Dataset dataset_;
+  GeometryCounts counts_;
+  std::uint64_t without_geometry_ = 0;
+  bool latitude_first_ = false;
+};
+
+}  // namespace
+
+Result<Dataset> read_gdal(const std::string& name, const std::string& shown,
+                          const ReadOptions& options) {
+  return GdalReader(shown, options).read(name);
+}
+
+Result<Dataset> read_gdal_bytes(const std::string& bytes, const std::string& shown,
+                                const ReadOptions& options) {
+  const std::string name = fmt::format("/vsimem/medial_{}", static_cast<const void*>(&bytes));
+  auto* data = const_cast<GByte*>(reinterpret_cast<const GByte*>(bytes.data()));
+  VSILFILE* file = VSIFileFromMemBuffer(name.c_str(), data, bytes.size(), FALSE);
+  if (file == nullptr) {
+    return Error{ErrorCode::unreadable, "cannot be kept in memory", Place{.file = shown}};
+  }
+  VSIFCloseL(file);
+  Result<Dataset> result = read_gdal(name, shown, options);
+  VSIUnlink(name.c_str());
+  return result;
+}
+
+}  // namespace medial::io

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cpl_error.h>
+
+#include <string>
+#include <vector>
+
+#include "medial/io/read.h"
+
+class OGRGeometry;
+class OGRSpatialReference;
+
+namespace medial::io {
+
+/// Registers GDAL's drivers, once.
+void register_gdal();
+
+/// Collects what GDAL reports on this thread while the object lives; nothing is printed.
+class GdalMessages {
+ public:
+  GdalMessages();
+  ~GdalMessages();
+  GdalMessages(const GdalMessages&) = delete;
+  GdalMessages& operator=(const GdalMessages&) = delete;
+
+  /// The first failure, in GDAL's words on one line; empty if there was none.
+  const std::string& failure() const { return failure_; }
+  /// Different warnings, in order.
+  const std::vector<std::string>& warnings() const { return warnings_; }
+
+ private:
+  static void CPL_STDCALL collect(CPLErr level, CPLErrorNum number, const char* text);
+  std::string failure_;
+  std::vector<std::string> warnings_;
+};
+
+/// What a geometry held besides polygons.
+struct GeometryCounts {
+  std::uint64_t others = 0;  ///< geometries that are no polygons
+  std::uint64_t curves = 0;  ///< geometries with curves, which were made straight
+};
+
+/// Appends the rings of all polygons in a geometry, outer rings before their holes.
+void add_rings(const OGRGeometry& geometry, std::vector<Ring>& rings, GeometryCounts& counts);
+
+/// The same for a geometry as well-known text. Errors: malformed, unsupported (nested too deeply).
+Status add_rings_of_wkt(const std::string& text, std::vector<Ring>& rings);
+
+/// Sets crs_wkt and geographic; a reference system that cannot be told becomes a note.
+void set_crs(const OGRSpatialReference& reference, Dataset& dataset);
+void read_crs_of_epsg(int code, Dataset& dataset);
+void read_crs_of_wkt(const std::string& wkt, Dataset& dataset);
+
+}  // namespace medial::io

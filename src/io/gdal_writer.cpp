@@ -1,0 +1,298 @@
+#include "io/gdal_writer.h"
+
+#include <fmt/format.h>
+#include <gdal_priv.h>
+#include <ogrsf_frmts.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <set>
+
+#include "io/gdal_support.h"
+#include "io/table_writer.h"
+#include "medial/io/projection.h"
+#include "medial/query.h"
+
+namespace medial::io {
+
+namespace {
+
+const char* driver_of(const std::string& format) {
+  if (format == "geojson") return "GeoJSON";
+  if (format == "gpkg") return "GPKG";
+  if (format == "shp") return "ESRI Shapefile";
+  return "FlatGeobuf";
+}
+
+template <class Number>
+bool spells(const std::string& text, Number& value) {
+  const char* end = text.data() + text.size();
+  const auto [stop, problem] = std::from_chars(text.data(), end, value);
+  if (problem != std::errc() || stop != end) return false;
+  std::array<char, 40> again{};
+  const auto printed = std::to_chars(again.data(), again.data() + again.size(), value);
+  return std::string_view(again.data(), static_cast<std::size_t>(printed.ptr - again.data())) == text;
+}
+
+/// An attribute of the input. Attributes travel as text; a column whose every value is the usual
+/// spelling of a number becomes numbers again (so "007" stays a text).
+struct Column {
+  std::string name;    ///< in the input
+  std::string column;  ///< in the output, different from medial's own
+  OGRFieldType type = OFTInteger64;
+};
+
+std::vector<Column> columns_of(const NativeFile& file) {
+  std::vector<Column> columns;
+  std::map<std::string, std::size_t> index;
+  for (const NativeItem& item : file.items) {
+    for (const auto& [name, value] : item.attributes) {
+      const auto [found, inserted] = index.try_emplace(name, columns.size());
+      if (inserted) columns.push_back({name, name, OFTInteger64});
+      OGRFieldType& type = columns[found->second].type;
+      std::int64_t whole = 0;
+      double real = 0;
+      if (type == OFTInteger64 && !spells(value, whole)) type = OFTReal;
+      if (type == OFTReal && !(spells(value, real) && std::isfinite(real)) && !spells(value, whole)) {
+        type = OFTString;
+      }
+    }
+  }
+  const std::array<const char*, 13> own{"feature", "branch",    "r_from",     "r_to",  "length",
+                                        "r_min",   "r_max",     "site_left",  "site_right",
+                                        "fid",     "ogc_fid",   "geom",       "node"};
+  std::set<std::string> taken;
+  const auto lower = [](std::string text) {
+    for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return text;
+  };
+  for (const char* name : own) taken.insert(name);
+  for (Column& column : columns) {
+    for (int i = 1; !taken.insert(lower(column.column)).second; ++i) {
+      column.column = fmt::format("{}_{}", column.name, i);
+    }
+  }
+  return columns;
+}
+
+std::string site_text(const MedialAxis& axis, std::uint32_t site) {
+  return fmt::format("{}:{}", axis.sites[site].ring, axis.sites[site].vertex);
+}
+
+/// The smallest radius along an edge. The derivative of a rational quadratic function with weights
+/// 1, w, 1 has the sign of the quadratic Bernstein polynomial with coefficients w (r1 - r0),
+/// (r2 - r0) / 2, w (r2 - r1).
+double smallest_radius(const MedialAxis& axis, const Edge& edge) {
+  const double r0 = axis.nodes[edge.node[0]].disk.radius;
+  const double r1 = edge.control.radius;
+  const double r2 = axis.nodes[edge.node[1]].disk.radius;
+  double smallest = std::min(r0, r2);
+  const double a = edge.weight * (r1 - r0);
+  const double b = 0.5 * (r2 - r0);
+  const double c = edge.weight * (r2 - r1);
+  if (a < 0 && c > 0) {  // falls, then rises: exactly one root in between
+    const double root = std::sqrt(b * b - a * c);
+    const double t = b > 0 ? -a / (b - a + root) : (root - b) / (c - b + root);
+    if (t > 0 && t < 1) smallest = std::min(smallest, disk_at(axis, edge, t).radius);
+  }
+  return smallest;
+}
+
+class GdalWriter {
+ public:
+  GdalWriter(const NativeFile& file, const WriteOptions& options, std::string shown)
+      : file_(file), options_(options), shown_(std::move(shown)), columns_(columns_of(file)) {}
+
+  Status write(const std::string& path, const std::string& format) {
+    register_gdal();
+    GDALDriver* driver = GetGDALDriverManager()->GetDriverByName(driver_of(format));
+    if (driver == nullptr) {
+      return Error{ErrorCode::unsupported, fmt::format("this GDAL cannot write {}", format), {}};
+    }
+    if (Status status = prepare_crs(); !status) return status;
+    const GdalMessages messages;
+    GDALDatasetUniquePtr target(driver->Create(path.c_str(), 0, 0, 0, GDT_Unknown, nullptr));
+    if (!target) return failed(messages);
+    Status status = write_layers(*target, format, messages);
+    if (!status) return status;
+    target.reset();  // closing writes, too
+    return messages.failure().empty() ? success() : failed(messages);
+  }
+
+ private:
+  Status failed(const GdalMessages& messages) const {
+    return Error{ErrorCode::unwritable, "cannot write: " + messages.failure(), Place{.file = shown_}};
+  }
+
+  Status prepare_crs() {
+    std::string wkt = file_.crs_wkt;
+    if (is_local_projection(wkt)) {
+      Result<BackToGeographic> back = BackToGeographic::make(wkt);
+      if (!back) return back.error();
+      back_ = std::move(*back);
+      wkt = back_->crs_wkt();
+    }
+    const GdalMessages messages;
+    if (!wkt.empty() && crs_.importFromWkt(wkt.c_str()) == OGRERR_NONE) {
+      crs_.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+      has_crs_ = true;
+    }
+    return success();
+  }
+
+  OGRLayer* create_layer(GDALDataset& target, const char* name, OGRwkbGeometryType type,
+                         std::initializer_list<std::pair<const char*, OGRFieldType>> fields) {
+    OGRLayer* layer = target.CreateLayer(name, has_crs_ ? &crs_ : nullptr, type, nullptr);
+    if (layer == nullptr) return nullptr;
+    for (const auto& [field, field_type] : fields) {
+      OGRFieldDefn definition(field, field_type);
+      if (layer->CreateField(&definition) != OGRERR_NONE) return nullptr;
+    }
+    for (const Column& column : columns_) {
+      OGRFieldDefn definition(column.column.c_str(), column.type);
+      if (layer->CreateField(&definition) != OGRERR_NONE) return nullptr;
+    }
+    return layer;
+  }
+
+  Status write_layers(GDALDataset& target, const std::string& format, const GdalMessages& messages) {
+    const bool transactions = target.TestCapability(ODsCTransactions) != 0;
+    if (transactions) target.StartTransaction();
+    // The only layer of a file that holds one is named after the file.
+    const std::string name = format == "gpkg" ? "axis" : CPLGetBasename(target.GetDescription());
+    OGRLayer* lines = create_layer(target, name.c_str(), wkbLineString,
+                                   {{"feature", OFTInteger64},
+                                    {"branch", OFTInteger64},
+                                    {"r_from", OFTReal},
+                                    {"r_to", OFTReal},
+                                    {"length", OFTReal},
+                                    {"r_min", OFTReal},
+                                    {"r_max", OFTReal},
+                                    {"site_left", OFTString},
+                                    {"site_right", OFTString}});
+    if (lines == nullptr) return failed(messages);
+    for (std::size_t i = 0; i < file_.items.size(); ++i) {
+      if (Status status = write_branches(*lines, i, messages); !status) return status;
+    }
+    if (format == "gpkg") {
+      OGRLayer* nodes = create_layer(
+          target, "nodes", wkbPoint,
+          {{"feature", OFTInteger64}, {"node", OFTInteger64}, {"r", OFTReal}, {"kind", OFTString}});
+      if (nodes == nullptr) return failed(messages);
+      for (std::size_t i = 0; i < file_.items.size(); ++i) {
+        if (Status status = write_nodes(*nodes, i, messages); !status) return status;
+      }
+    }
+    if (transactions && target.CommitTransaction() != OGRERR_NONE) return failed(messages);
+    return success();
+  }
+
+  void set_attributes(OGRFeature& feature, int first, const NativeItem& item) const {
+    for (const auto& [name, value] : item.attributes) {
+      const auto column = std::ranges::find(columns_, name, &Column::name);
+      const int field = first + static_cast<int>(column - columns_.begin());
+      std::int64_t whole = 0;
+      double real = 0;
+      if (column->type == OFTInteger64 && spells(value, whole)) {
+        feature.SetField(field, static_cast<GIntBig>(whole));
+      } else if (column->type == OFTReal) {
+        std::from_chars(value.data(), value.data() + value.size(), real);
+        feature.SetField(field, real);
+      } else {
+        feature.SetField(field, value.c_str());
+      }
+    }
+  }
+
+  Status write_branches(OGRLayer& layer, std::size_t index, const GdalMessages& messages) {
+    const NativeItem& item = file_.items[index];
+    const MedialAxis& axis = item.axis;
+    const double chord = chord_of(item, options_);
+    const std::vector<Branch> all = branches(axis);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const Branch& branch = all[i];
+      std::vector<Vec2> points;
+      for (const Disk& disk : sample(axis, branch, chord)) points.push_back(disk.center);
+      if (back_) {
+        if (Status status = back_->transform(points); !status) return status;
+      }
+      auto line = std::make_unique<OGRLineString>();
+      line->setNumPoints(static_cast<int>(points.size()), FALSE);
+      for (std::size_t k = 0; k < points.size(); ++k) {
+        line->setPoint(static_cast<int>(k), points[k].x, points[k].y);
+      }
+
+      double total = 0;
+      double smallest = std::numeric_limits<double>::infinity();
+      double largest = 0;
+      for (const Step& step : branch.steps) {
+        const Edge& edge = axis.edges[step.edge];
+        total += length(axis, edge);
+        smallest = std::min(smallest, smallest_radius(axis, edge));
+        for (const std::uint32_t node : edge.node) {
+          largest = std::max(largest, axis.nodes[node].disk.radius);
+        }
+      }
+      const Step& first = branch.steps.front();
+      const auto& site = axis.edges[first.edge].site;
+      OGRFeature feature(layer.GetLayerDefn());
+      feature.SetField(0, static_cast<GIntBig>(index));
+      feature.SetField(1, static_cast<GIntBig>(i));
+      feature.SetField(2, axis.nodes[branch.from].disk.radius);
+      feature.SetField(3, axis.nodes[branch.to].disk.radius);
+      feature.SetField(4, total);
+      feature.SetField(5, smallest);
+      feature.SetField(6, largest);
+      feature.SetField(7, site_text(axis, site[first.forward ? 0 : 1]).c_str());
+      feature.SetField(8, site_text(axis, site[first.forward ? 1 : 0]).c_str());
+      set_attributes(feature, 9, item);
+      feature.SetGeometryDirectly(line.release());
+      if (layer.CreateFeature(&feature) != OGRERR_NONE) return failed(messages);
+    }
+    return success();
+  }
+
+  Status write_nodes(OGRLayer& layer, std::size_t index, const GdalMessages& messages) {
+    const NativeItem& item = file_.items[index];
+    std::vector<Vec2> points;
+    for (const Node& node : item.axis.nodes) points.push_back(node.disk.center);
+    if (back_) {
+      if (Status status = back_->transform(points); !status) return status;
+    }
+    constexpr std::array<const char*, 3> kinds{"leaf", "site_change", "branching"};
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const Node& node = item.axis.nodes[i];
+      OGRFeature feature(layer.GetLayerDefn());
+      feature.SetField(0, static_cast<GIntBig>(index));
+      feature.SetField(1, static_cast<GIntBig>(i));
+      feature.SetField(2, node.disk.radius);
+      feature.SetField(3, kinds[static_cast<std::size_t>(node.kind)]);
+      set_attributes(feature, 4, item);
+      feature.SetGeometryDirectly(new OGRPoint(points[i].x, points[i].y));
+      if (layer.CreateFeature(&feature) != OGRERR_NONE) return failed(messages);
+    }
+    return success();
+  }
+
+  const NativeFile& file_;
+  const WriteOptions& options_;
+  std::string shown_;
+  std::vector<Column> columns_;
+  OGRSpatialReference crs_;
+  bool has_crs_ = false;
+  std::optional<BackToGeographic> back_;
+};
+
+}  // namespace
+
+Status write_gdal(const std::string& path, const std::string& format, const NativeFile& file,
+                  const WriteOptions& options) {
+  return GdalWriter(file, options, path).write(path, format);
+}
+
+}  // namespace medial::io

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string_view>
+
+#include "io/output.h"
+#include "io/text_source.h"
+#include "medial/io/read.h"
+
+namespace medial::io {
+
+/// The version of the native format that is written, and the highest that is read (docs/format.md).
+inline constexpr int kNativeVersion = 1;
+
+/// Whether a text begins like medial's own JSON: an object whose first member is "medial".
+bool begins_like_native(std::string_view text);
+
+/// Reads and checks: every index is in its range, every number finite.
+/// Errors: unreadable, malformed, unsupported (a newer version), too_large (4 GiB or more).
+Result<NativeFile> read_native(TextSource& source);
+
+/// Writes without loss. Errors: internal (a number is not finite; the stream may hold a part then).
+Status write_native(OutputStream& out, const NativeFile& file);
+
+/// The control point of a straight edge whose radius runs evenly: files leave it out.
+Disk middle_of(const Disk& a, const Disk& b);
+
+/// The shapes of a native file as a dataset: their loops are the rings.
+Dataset dataset_of(NativeFile file);
+
+}  // namespace medial::io

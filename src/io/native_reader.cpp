@@ -1,0 +1,404 @@
+#include <fmt/format.h>
+#include <simdjson.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "io/native.h"
+
+namespace medial::io {
+
+namespace {
+
+namespace json = simdjson::ondemand;
+
+/// Thrown inside this file only, and caught in read_native().
+struct Malformed {
+  std::string text;
+};
+
+void demand(bool condition, const char* text) {
+  if (!condition) throw Malformed{text};
+}
+
+template <class Integer>
+Integer integer(json::value value) {
+  const std::uint64_t number = value.get_uint64();
+  demand(number <= static_cast<std::uint64_t>(std::numeric_limits<Integer>::max()),
+         "a whole number is too large");
+  return static_cast<Integer>(number);
+}
+
+double number(json::value value) {
+  const double result = value.get_double();
+  demand(std::isfinite(result), "a number is not finite");
+  return result;
+}
+
+std::string text(json::value value) { return std::string(std::string_view(value.get_string())); }
+
+/// Walks along a row of numbers.
+class Row {
+ public:
+  explicit Row(json::value value)
+      : array_(value.get_array()), next_(array_.begin()), end_(array_.end()) {}
+
+  bool more() { return next_ != end_; }
+  template <class Integer>
+  Integer index() {
+    const auto result = integer<Integer>(value());
+    ++next_;
+    return result;
+  }
+  double real() {
+    const double result = number(value());
+    ++next_;
+    return result;
+  }
+  Vec2 point() {
+    const double x = real();
+    return {x, real()};
+  }
+  void end() { demand(!more(), "a row is too long"); }
+
+ private:
+  json::value value() {
+    demand(more(), "a row is too short");
+    return *next_;
+  }
+  json::array array_;
+  simdjson::simdjson_result<json::array_iterator> next_;
+  simdjson::simdjson_result<json::array_iterator> end_;
+};
+
+template <class Read>
+void for_each(json::value array, Read read) {
+  for (json::value element : array.get_array()) read(element);
+}
+
+SiteKind site_kind(std::uint32_t code) {
+  demand(code <= static_cast<std::uint32_t>(SiteKind::vertex), "an unknown kind of site");
+  return static_cast<SiteKind>(code);
+}
+
+NodeKind node_kind(std::uint32_t code) {
+  demand(code <= static_cast<std::uint32_t>(NodeKind::branching), "an unknown kind of node");
+  return static_cast<NodeKind>(code);
+}
+
+void read_shape(json::value value, Shape& shape) {
+  for (json::field field : value.get_object()) {
+    const std::string_view key = field.unescaped_key();
+    json::value content = field.value();
+    if (key == "points") {
+      for_each(content, [&](json::value element) {
+        Row row(element);
+        shape.points.push_back(row.point());
+        row.end();
+      });
+    } else if (key == "sources") {
+      for_each(content, [&](json::value element) {
+        Row row(element);
+        const auto ring = row.index<std::uint32_t>();
+        shape.sources.push_back({ring, row.index<std::uint32_t>()});
+        row.end();
+      });
+    } else if (key == "loop_begin") {
+      for_each(content, [&](json::value element) {
+        shape.loop_begin.push_back(integer<std::uint32_t>(element));
+      });
+    } else if (key == "component") {
+      for_each(content, [&](json::value element) {
+        shape.component.push_back(integer<std::uint32_t>(element));
+      });
+    } else if (key == "hole") {
+      for_each(content, [&](json::value element) { shape.hole.push_back(element.get_bool()); });
+    }
+  }
+}
+
+/// Sites that are told by a vertex of the shape are completed when the shape is known, because the
+/// members of an object may stand in any order.
+struct Unresolved {
+  std::vector<std::uint32_t> site;
+  std::vector<std::uint32_t> vertex;
+  std::vector<std::uint32_t> plain_edges;
+};
+
+void read_axis(json::value value, MedialAxis& axis, Unresolved& unresolved);
+void read_statistics(json::value value, Statistics& statistics);
+
+void read_site(json::value element, MedialAxis& axis, Unresolved& unresolved) {
+  Row row(element);
+  Site site;
+  site.kind = site_kind(row.index<std::uint32_t>());
+  const double first = row.real();
+  if (row.more()) {
+    site.start = {first, row.real()};
+    site.end = row.point();
+    site.ring = row.index<std::uint32_t>();
+    site.vertex = row.index<std::uint32_t>();
+    row.end();
+  } else {
+    demand(first >= 0 && first < std::numeric_limits<std::uint32_t>::max() &&
+               first == std::floor(first),
+           "a vertex has no whole number");
+    unresolved.site.push_back(static_cast<std::uint32_t>(axis.sites.size()));
+    unresolved.vertex.push_back(static_cast<std::uint32_t>(first));
+  }
+  axis.sites.push_back(site);
+}
+
+void read_edge(json::value element, MedialAxis& axis, Unresolved& unresolved) {
+  Row row(element);
+  Edge edge;
+  for (std::uint32_t& node : edge.node) node = row.index<std::uint32_t>();
+  for (std::uint32_t& site : edge.site) site = row.index<std::uint32_t>();
+  if (row.more()) {
+    edge.control.center = row.point();
+    edge.control.radius = row.real();
+    if (row.more()) edge.weight = row.real();
+    row.end();
+  } else {
+    unresolved.plain_edges.push_back(static_cast<std::uint32_t>(axis.edges.size()));
+  }
+  axis.edges.push_back(edge);
+}
+
+void read_axis(json::value value, MedialAxis& axis, Unresolved& unresolved) {
+  for (json::field field : value.get_object()) {
+    const std::string_view key = field.unescaped_key();
+    json::value content = field.value();
+    if (key == "method") {
+      axis.method = text(content);
+    } else if (key == "tolerance") {
+      axis.tolerance = number(content);
+    } else if (key == "resolution") {
+      axis.resolution = number(content);
+    } else if (key == "sites") {
+      for_each(content, [&](json::value element) { read_site(element, axis, unresolved); });
+    } else if (key == "nodes") {
+      for_each(content, [&](json::value element) {
+        Row row(element);
+        Node node;
+        node.disk.center = row.point();
+        node.disk.radius = row.real();
+        node.component = row.index<std::uint32_t>();
+        node.kind = node_kind(row.index<std::uint32_t>());
+        row.end();
+        axis.nodes.push_back(node);
+      });
+    } else if (key == "edges") {
+      for_each(content, [&](json::value element) { read_edge(element, axis, unresolved); });
+    } else if (key == "statistics") {
+      read_statistics(content, axis.statistics);
+    }
+  }
+}
+
+void read_statistics(json::value value, Statistics& statistics) {
+  for (json::field field : value.get_object()) {
+    const std::string_view key = field.unescaped_key();
+    json::value content = field.value();
+    if (key == "queries") statistics.queries = integer<std::uint64_t>(content);
+    if (key == "apollonius") statistics.apollonius = integer<std::uint64_t>(content);
+    if (key == "brackets") statistics.brackets = integer<std::uint64_t>(content);
+    if (key == "precision_retries") statistics.precision_retries = integer<std::uint64_t>(content);
+    if (key == "cuts") statistics.cuts = integer<std::uint64_t>(content);
+    if (key == "largest_residual") statistics.largest_residual = number(content);
+    if (key == "seconds_sites") statistics.seconds_sites = number(content);
+    if (key == "seconds_tree") statistics.seconds_tree = number(content);
+    if (key == "seconds_connect") statistics.seconds_connect = number(content);
+    if (key == "seconds_walk") statistics.seconds_walk = number(content);
+    if (key == "seconds_collect") statistics.seconds_collect = number(content);
+    if (key == "seconds") statistics.seconds = number(content);
+    if (key == "threads") statistics.threads = integer<int>(content);
+  }
+}
+
+void check_shape(const Shape& shape) {
+  const std::size_t loops = shape.component.size();
+  demand(shape.sources.size() == shape.points.size(), "not one source for each point");
+  demand(shape.hole.size() == loops, "not one 'hole' for each loop");
+  if (loops == 0) {
+    demand(shape.points.empty() && shape.loop_begin.size() <= 1, "points without a loop");
+    return;
+  }
+  demand(shape.loop_begin.size() == loops + 1, "not one 'loop_begin' for each loop and one more");
+  demand(shape.loop_begin.front() == 0 && shape.loop_begin.back() == shape.points.size(),
+         "the loops do not cover the points");
+  for (std::size_t i = 0; i < loops; ++i) {
+    demand(shape.loop_begin[i] < shape.loop_begin[i + 1] &&
+               shape.loop_begin[i + 1] - shape.loop_begin[i] >= 3,
+           "a loop has fewer than three points");
+    demand(shape.component[i] < loops, "a component out of range");
+  }
+}
+
+void resolve(const Shape& shape, MedialAxis& axis, const Unresolved& unresolved) {
+  std::vector<std::uint32_t> next(shape.points.size());
+  for (std::size_t i = 0; i + 1 < shape.loop_begin.size(); ++i) {
+    for (std::uint32_t k = shape.loop_begin[i]; k < shape.loop_begin[i + 1]; ++k) {
+      next[k] = k + 1 == shape.loop_begin[i + 1] ? shape.loop_begin[i] : k + 1;
+    }
+  }
+  for (std::size_t i = 0; i < unresolved.site.size(); ++i) {
+    const std::uint32_t vertex = unresolved.vertex[i];
+    demand(vertex < next.size(), "a site's vertex out of range");
+    Site& site = axis.sites[unresolved.site[i]];
+    site.start = shape.points[vertex];
+    site.end = shape.points[site.kind == SiteKind::segment ? next[vertex] : vertex];
+    site.ring = shape.sources[vertex].ring;
+    site.vertex = shape.sources[vertex].vertex;
+  }
+  for (const Edge& edge : axis.edges) {
+    demand(std::max(edge.node[0], edge.node[1]) < axis.nodes.size(), "an edge's node out of range");
+    demand(std::max(edge.site[0], edge.site[1]) < axis.sites.size(), "an edge's site out of range");
+    demand(edge.weight > 0, "an edge's weight is not positive");
+  }
+  for (const std::uint32_t i : unresolved.plain_edges) {
+    Edge& edge = axis.edges[i];
+    edge.control = middle_of(axis.nodes[edge.node[0]].disk, axis.nodes[edge.node[1]].disk);
+  }
+  for (const Node& node : axis.nodes) {
+    demand(node.disk.radius >= 0, "a node's radius is negative");
+    demand(node.component < std::max<std::size_t>(shape.component.size(), 1),
+           "a node's component out of range");
+  }
+}
+
+NativeItem read_item(json::value value) {
+  NativeItem item;
+  Unresolved unresolved;
+  for (json::field field : value.get_object()) {
+    const std::string_view key = field.unescaped_key();
+    json::value content = field.value();
+    if (key == "attributes") {
+      for_each(content, [&item](json::value element) {
+        json::array pair = element.get_array();
+        std::vector<std::string> words;
+        for (json::value word : pair) words.push_back(text(word));
+        demand(words.size() == 2, "an attribute is no pair of texts");
+        item.attributes.emplace_back(std::move(words[0]), std::move(words[1]));
+      });
+    } else if (key == "shape") {
+      read_shape(content, item.shape);
+    } else if (key == "axis") {
+      read_axis(content, item.axis, unresolved);
+    }
+  }
+  check_shape(item.shape);
+  resolve(item.shape, item.axis, unresolved);
+  return item;
+}
+
+struct TooNew {
+  std::uint64_t version;
+};
+
+NativeFile read_document(json::document& document) {
+  NativeFile file;
+  bool versioned = false;
+  bool itemized = false;
+  for (json::field field : document.get_object()) {
+    const std::string_view key = field.unescaped_key();
+    json::value content = field.value();
+    if (key == "medial") {
+      const auto version = integer<std::uint64_t>(content);
+      if (version > kNativeVersion) throw TooNew{version};
+      demand(version > 0, "there is no version 0");
+      versioned = true;
+    } else if (key == "crs") {
+      file.crs_wkt = text(content);
+    } else if (key == "items") {
+      for_each(content, [&file](json::value item) { file.items.push_back(read_item(item)); });
+      itemized = true;
+    }
+  }
+  demand(document.at_end(), "something follows the last bracket");
+  demand(versioned, "the version is missing");
+  demand(itemized, "the items are missing");
+  return file;
+}
+
+}  // namespace
+
+bool begins_like_native(std::string_view text) {
+  const auto accept = [&text](std::string_view word) {
+    text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
+    if (!text.starts_with(word)) return false;
+    text.remove_prefix(word.size());
+    return true;
+  };
+  return accept("{") && accept("\"medial\"") && accept(":");
+}
+
+Result<NativeFile> read_native(TextSource& source) {
+  std::string bytes;
+  source.read_all(bytes);
+  if (source.failure()) return *source.failure();
+  if (bytes.size() + simdjson::SIMDJSON_PADDING >= simdjson::SIMDJSON_MAXSIZE_BYTES) {
+    return source.error(ErrorCode::too_large, "the file has 4 GiB or more");
+  }
+  bytes.reserve(bytes.size() + simdjson::SIMDJSON_PADDING);
+
+  const json::document* open = nullptr;
+  const auto malformed = [&](const std::string& what) {
+    Error error = source.error(ErrorCode::malformed, what);
+    const char* at = nullptr;
+    if (open != nullptr) {
+      auto location = const_cast<json::document*>(open)->current_location();
+      if (location.error() == simdjson::SUCCESS) at = location.value_unsafe();
+    }
+    error.place.line.reset();
+    if (at >= bytes.data() && at <= bytes.data() + bytes.size()) {
+      error.place.line = 1 + std::count(static_cast<const char*>(bytes.data()), at, '\n');
+    }
+    return error;
+  };
+  json::parser parser;
+  json::document document;
+  try {
+    const simdjson::padded_string_view view(bytes.data(), bytes.size(), bytes.capacity());
+    if (const auto code = parser.iterate(view).get(document); code != simdjson::SUCCESS) {
+      return malformed(simdjson::error_message(code));
+    }
+    open = &document;
+    return read_document(document);
+  } catch (const Malformed& problem) {
+    return malformed(problem.text);
+  } catch (const TooNew& found) {
+    return source.error(ErrorCode::unsupported,
+                        fmt::format("version {} of the format; this program reads up to {}",
+                                    found.version, kNativeVersion));
+  } catch (const simdjson::simdjson_error& problem) {
+    return malformed(problem.what());
+  }
+}
+
+Dataset dataset_of(NativeFile file) {
+  Dataset dataset;
+  dataset.crs_wkt = std::move(file.crs_wkt);
+  std::int64_t id = 0;
+  for (NativeItem& item : file.items) {
+    Feature& feature = dataset.features.emplace_back();
+    feature.id = id++;
+    feature.attributes = std::move(item.attributes);
+    const Shape& shape = item.shape;
+    // A component's outer loop comes before its holes, whatever the order in the shape.
+    std::vector<std::size_t> loops(shape.loop_count());
+    for (std::size_t i = 0; i < loops.size(); ++i) loops[i] = i;
+    std::ranges::stable_sort(loops, {}, [&shape](std::size_t i) {
+      return std::pair(shape.component[i], static_cast<bool>(shape.hole[i]));
+    });
+    for (const std::size_t i : loops) {
+      const auto points = shape.loop(i);
+      feature.rings.push_back({{points.begin(), points.end()},
+                               shape.hole[i] ? RingRole::hole : RingRole::outer});
+    }
+  }
+  return dataset;
+}
+
+}  // namespace medial::io

@@ -1,0 +1,236 @@
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numeric>
+#include <optional>
+
+#include "io/native.h"
+
+namespace medial::io {
+
+namespace {
+
+using Json = nlohmann::json;
+
+std::string quoted(const std::string& text) {
+  return Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+/// Finds which vertex of the shape a site comes from, so that a file need not repeat coordinates.
+/// Sites mostly follow the shape's own order: the next vertex is tried before searching.
+class SiteNames {
+ public:
+  explicit SiteNames(const Shape& shape) : shape_(shape), next_(shape.points.size()) {
+    for (std::size_t i = 0; i + 1 < shape.loop_begin.size(); ++i) {
+      for (std::uint32_t k = shape.loop_begin[i]; k < shape.loop_begin[i + 1]; ++k) {
+        next_[k] = k + 1 == shape.loop_begin[i + 1] ? shape.loop_begin[i] : k + 1;
+      }
+    }
+  }
+
+  /// The vertex from which the site follows bit by bit; none if there is no such vertex.
+  std::optional<std::uint32_t> vertex_of(const Site& site) {
+    if (next_.empty()) return std::nullopt;
+    if (fits(last_, site)) return last_;
+    for (const std::uint32_t guess : {next_[last_], last_ + 1}) {
+      if (guess < next_.size() && fits(guess, site)) return last_ = guess;
+    }
+    if (by_source_.empty()) sort_by_source();
+    const auto [begin, end] = std::ranges::equal_range(
+        by_source_, std::pair(site.ring, site.vertex), {}, [this](std::uint32_t k) {
+          return std::pair(shape_.sources[k].ring, shape_.sources[k].vertex);
+        });
+    const auto found =
+        std::find_if(begin, end, [&](std::uint32_t guess) { return fits(guess, site); });
+    if (found == end) return std::nullopt;
+    return last_ = *found;
+  }
+
+ private:
+  static bool same(Vec2 a, Vec2 b) {
+    return a == b && std::signbit(a.x) == std::signbit(b.x) && std::signbit(a.y) == std::signbit(b.y);
+  }
+  bool fits(std::uint32_t vertex, const Site& site) const {
+    const Vec2 end = shape_.points[site.kind == SiteKind::segment ? next_[vertex] : vertex];
+    return shape_.sources[vertex].ring == site.ring && shape_.sources[vertex].vertex == site.vertex &&
+           same(shape_.points[vertex], site.start) && same(end, site.end);
+  }
+  void sort_by_source() {
+    by_source_.resize(next_.size());
+    std::iota(by_source_.begin(), by_source_.end(), 0U);
+    std::ranges::sort(by_source_, {}, [this](std::uint32_t k) {
+      return std::pair(shape_.sources[k].ring, shape_.sources[k].vertex);
+    });
+  }
+
+  const Shape& shape_;
+  std::vector<std::uint32_t> next_;       ///< vertex of the same loop
+  std::vector<std::uint32_t> by_source_;  ///< vertices; made when first needed
+  std::uint32_t last_ = 0;
+};
+
+/// Whether an edge's control point is the middle of its ends bit by bit, and the weight 1.
+bool is_plain(const MedialAxis& axis, const Edge& edge) {
+  const Disk middle = middle_of(axis.nodes[edge.node[0]].disk, axis.nodes[edge.node[1]].disk);
+  return edge.weight == 1 && middle.center == edge.control.center &&
+         middle.radius == edge.control.radius &&
+         std::signbit(middle.center.x) == std::signbit(edge.control.center.x) &&
+         std::signbit(middle.center.y) == std::signbit(edge.control.center.y) &&
+         std::signbit(middle.radius) == std::signbit(edge.control.radius);
+}
+
+class NativeWriter {
+ public:
+  explicit NativeWriter(OutputStream& out) : out_(out) {}
+
+  Status write(const NativeFile& file) {
+    out_.put("{\"medial\":");
+    out_.put(kNativeVersion);
+    if (!file.crs_wkt.empty()) {
+      out_.put(",\n\"crs\":");
+      out_.put(quoted(file.crs_wkt));
+    }
+    out_.put(",\n\"items\":[");
+    for (std::size_t i = 0; i < file.items.size(); ++i) {
+      out_.put(i == 0 ? "\n{" : ",\n{");
+      write_attributes(file.items[i].attributes);
+      write_shape(file.items[i].shape);
+      write_axis(file.items[i].shape, file.items[i].axis);
+      out_.put("}}");
+    }
+    out_.put("\n]}\n");
+    if (!finite_) return Error{ErrorCode::internal, "a number of the result is not finite", {}};
+    return success();
+  }
+
+ private:
+  void number(double value) {
+    if (std::isfinite(value)) {
+      out_.put(value);
+    } else {
+      finite_ = false;
+    }
+  }
+  void member(std::string_view name, double value) {
+    out_.put(name);
+    number(value);
+  }
+
+  template <class Range, class Put>
+  void array(std::string_view name, const Range& values, Put put) {
+    out_.put(name);
+    out_.put('[');
+    bool first = true;
+    for (const auto& value : values) {
+      if (!first) out_.put(',');
+      first = false;
+      put(value);
+    }
+    out_.put(']');
+  }
+  /// A row of a table.
+  template <class... Values>
+  void row(Values... values) {
+    out_.put('\n');
+    char separator = '[';
+    const auto one = [&](auto value) {
+      out_.put(separator);
+      separator = ',';
+      if constexpr (std::is_same_v<decltype(value), double>) {
+        number(value);
+      } else {
+        out_.put(static_cast<std::uint32_t>(value));
+      }
+    };
+    (one(values), ...);
+    out_.put(']');
+  }
+
+  void write_attributes(const std::vector<std::pair<std::string, std::string>>& attributes) {
+    array("\"attributes\":", attributes, [this](const auto& attribute) {
+      out_.put('[');
+      out_.put(quoted(attribute.first));
+      out_.put(',');
+      out_.put(quoted(attribute.second));
+      out_.put(']');
+    });
+  }
+
+  void write_shape(const Shape& shape) {
+    array(",\n\"shape\":{\"points\":", shape.points, [this](Vec2 p) { row(p.x, p.y); });
+    array(",\n\"sources\":", shape.sources, [this](VertexSource s) { row(s.ring, s.vertex); });
+    array(",\n\"loop_begin\":", shape.loop_begin, [this](std::uint32_t begin) { out_.put(begin); });
+    array(",\n\"component\":", shape.component, [this](std::uint32_t c) { out_.put(c); });
+    array(",\n\"hole\":", shape.hole, [this](bool hole) { out_.put(hole ? "true" : "false"); });
+    out_.put("}");
+  }
+
+  void write_axis(const Shape& shape, const MedialAxis& axis) {
+    out_.put(",\n\"axis\":{\"method\":");
+    out_.put(quoted(axis.method));
+    member(",\"tolerance\":", axis.tolerance);
+    member(",\"resolution\":", axis.resolution);
+    SiteNames names(shape);
+    array(",\n\"sites\":", axis.sites, [&](const Site& site) {
+      if (const auto vertex = names.vertex_of(site)) {
+        row(site.kind, *vertex);
+      } else {
+        row(site.kind, site.start.x, site.start.y, site.end.x, site.end.y, site.ring, site.vertex);
+      }
+    });
+    array(",\n\"nodes\":", axis.nodes, [this](const Node& node) {
+      row(node.disk.center.x, node.disk.center.y, node.disk.radius, node.component, node.kind);
+    });
+    array(",\n\"edges\":", axis.edges, [&](const Edge& edge) {
+      const auto [from, to] = edge.node;
+      const auto [left, right] = edge.site;
+      const Disk& control = edge.control;
+      if (is_plain(axis, edge)) {
+        row(from, to, left, right);
+      } else if (edge.weight == 1) {
+        row(from, to, left, right, control.center.x, control.center.y, control.radius);
+      } else {
+        row(from, to, left, right, control.center.x, control.center.y, control.radius, edge.weight);
+      }
+    });
+    write_statistics(axis.statistics);
+  }
+
+  void write_statistics(const Statistics& statistics) {
+    out_.put(",\n\"statistics\":{\"queries\":");
+    out_.put(statistics.queries);
+    out_.put(",\"apollonius\":");
+    out_.put(statistics.apollonius);
+    out_.put(",\"brackets\":");
+    out_.put(statistics.brackets);
+    out_.put(",\"precision_retries\":");
+    out_.put(statistics.precision_retries);
+    out_.put(",\"cuts\":");
+    out_.put(statistics.cuts);
+    member(",\"largest_residual\":", statistics.largest_residual);
+    member(",\"seconds_sites\":", statistics.seconds_sites);
+    member(",\"seconds_tree\":", statistics.seconds_tree);
+    member(",\"seconds_connect\":", statistics.seconds_connect);
+    member(",\"seconds_walk\":", statistics.seconds_walk);
+    member(",\"seconds_collect\":", statistics.seconds_collect);
+    member(",\"seconds\":", statistics.seconds);
+    out_.put(",\"threads\":");
+    out_.put(statistics.threads);
+    out_.put('}');
+  }
+
+  OutputStream& out_;
+  bool finite_ = true;
+};
+
+}  // namespace
+
+Disk middle_of(const Disk& a, const Disk& b) {
+  return {midpoint(a.center, b.center), a.radius + 0.5 * (b.radius - a.radius)};
+}
+
+Status write_native(OutputStream& out, const NativeFile& file) {
+  return NativeWriter(out).write(file);
+}
+
+}  // namespace medial::io

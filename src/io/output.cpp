@@ -1,0 +1,192 @@
+#include "io/output.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+
+#include "medial/io/write.h"
+
+namespace medial::io {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kBuffer = std::size_t{1} << 20;
+
+Error unwritable(const std::string& path, int problem) {
+  return Error{ErrorCode::unwritable, fmt::format("cannot write: {}", std::strerror(problem)),
+               Place{.file = path}};
+}
+
+// What remove_partial_files() has to remove. A signal handler must not allocate, lock or list
+// directories, so every name that can occur in a hidden directory is spelled out beforehand, each
+// ended by a NUL, the directory last.
+constexpr int kSlots = 16;
+std::array<std::atomic<const char*>, kSlots> g_partial{};
+
+// The companions of a shapefile and of a database, by what replaces or follows the extension.
+constexpr std::array<std::string_view, 5> kSiblings{".shx", ".dbf", ".prj", ".cpg", ".shp"};
+constexpr std::array<std::string_view, 3> kTails{"-journal", "-wal", "-shm"};
+
+/// The names for one hidden directory: each ended by a NUL, an empty one at the end.
+std::string partial_names(const std::string& path, const std::string& directory) {
+  std::string names = path + '\0';
+  for (const std::string_view tail : kTails) (names += path).append(tail) += '\0';
+  const std::string stem = (fs::path(directory) / fs::path(path).stem()).string();
+  for (const std::string_view sibling : kSiblings) (names += stem).append(sibling) += '\0';
+  return names + directory + '\0';
+}
+
+int remember(const std::string& names) {
+  char* copy = new char[names.size() + 1];
+  std::memcpy(copy, names.c_str(), names.size() + 1);
+  for (int slot = 0; slot < kSlots; ++slot) {
+    const char* free = nullptr;
+    if (g_partial[static_cast<std::size_t>(slot)].compare_exchange_strong(free, copy)) return slot;
+  }
+  delete[] copy;  // more writes at once than slots: the signal handler will not know this one
+  return -1;
+}
+
+void forget(int slot) {
+  if (slot >= 0) delete[] g_partial[static_cast<std::size_t>(slot)].exchange(nullptr);
+}
+
+}  // namespace
+
+void remove_partial_files() noexcept {
+  const int saved = errno;
+  for (auto& slot : g_partial) {
+    const char* name = slot.exchange(nullptr);
+    if (name == nullptr) continue;
+    for (; *name != '\0'; name += std::strlen(name) + 1) {
+      if (unlink(name) != 0) rmdir(name);
+    }
+  }
+  errno = saved;
+}
+
+Result<PendingFile> PendingFile::create(const std::string& target) {
+  std::error_code code;
+  PendingFile file;
+  const fs::path resolved = fs::is_symlink(target, code) ? fs::canonical(target, code) : fs::path(target);
+  if (code || resolved.empty()) return unwritable(target, code ? code.value() : ENOENT);
+  if (!resolved.has_filename() || fs::is_directory(resolved, code)) return unwritable(target, EISDIR);
+  file.target_ = resolved.string();
+  const fs::path parent = resolved.has_parent_path() ? resolved.parent_path() : fs::path(".");
+  std::string directory = (parent / ".medial-XXXXXX").string();
+  if (mkdtemp(directory.data()) == nullptr) return unwritable(target, errno);
+  file.directory_ = directory;
+  file.path_ = (fs::path(directory) / resolved.filename()).string();
+  file.slot_ = remember(partial_names(file.path_, directory));
+  return file;
+}
+
+PendingFile::PendingFile(PendingFile&& other) noexcept
+    : target_(std::move(other.target_)),
+      directory_(std::exchange(other.directory_, {})),
+      path_(std::move(other.path_)),
+      slot_(std::exchange(other.slot_, -1)) {}
+
+PendingFile::~PendingFile() {
+  if (directory_.empty()) return;
+  forget(slot_);
+  std::error_code ignored;
+  fs::remove_all(directory_, ignored);
+}
+
+Status PendingFile::commit() {
+  std::error_code code;
+  std::vector<fs::path> files;
+  for (fs::directory_iterator entry(directory_, code), end; !code && entry != end;
+       entry.increment(code)) {
+    files.push_back(entry->path());
+  }
+  if (code) return unwritable(target_, code.value());
+  // The named file last: once it is there, its companions are, too.
+  std::ranges::partition(files, [this](const fs::path& file) { return file != path_; });
+  for (const fs::path& file : files) {
+    fs::rename(file, fs::path(target_).replace_filename(file.filename()), code);
+    if (code) return unwritable(target_, code.value());
+  }
+  return success();
+}
+
+bool is_stream(const std::string& path) {
+  struct stat status {};
+  return path == "-" || (stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode) &&
+                         !S_ISDIR(status.st_mode));
+}
+
+Result<OutputStream> OutputStream::open(const std::string& path) {
+  if (path == "-") return OutputStream(path, STDOUT_FILENO, false);
+  const int flags = is_stream(path) ? O_WRONLY : O_WRONLY | O_CREAT | O_TRUNC;
+  const int descriptor = ::open(path.c_str(), flags | O_CLOEXEC, 0666);
+  if (descriptor < 0) return unwritable(path, errno);
+  return OutputStream(path, descriptor, true);
+}
+
+OutputStream::OutputStream(std::string path, int descriptor, bool owned)
+    : path_(std::move(path)), descriptor_(descriptor), owned_(owned), buffer_(kBuffer) {}
+
+OutputStream::OutputStream(OutputStream&& other) noexcept
+    : path_(std::move(other.path_)),
+      descriptor_(std::exchange(other.descriptor_, -1)),
+      owned_(std::exchange(other.owned_, false)),
+      problem_(other.problem_),
+      buffer_(std::move(other.buffer_)),
+      used_(std::exchange(other.used_, 0)) {}
+
+OutputStream::~OutputStream() {
+  if (owned_) ::close(descriptor_);
+}
+
+void OutputStream::put(std::string_view text) {
+  if (buffer_.size() - used_ < text.size()) {
+    flush();
+    if (text.size() > buffer_.size()) {
+      write(text.data(), text.size());
+      return;
+    }
+  }
+  std::memcpy(buffer_.data() + used_, text.data(), text.size());
+  used_ += text.size();
+}
+
+void OutputStream::flush() {
+  write(buffer_.data(), used_);
+  used_ = 0;
+}
+
+void OutputStream::write(const char* data, std::size_t count) {
+  while (count > 0 && problem_ == 0) {
+    const ssize_t written = ::write(descriptor_, data, count);
+    if (written < 0) {
+      if (errno != EINTR) problem_ = errno;
+      continue;
+    }
+    data += written;
+    count -= static_cast<std::size_t>(written);
+  }
+}
+
+Status OutputStream::finish() {
+  flush();
+  if (owned_) {
+    owned_ = false;
+    if (::close(descriptor_) != 0 && problem_ == 0) problem_ = errno;
+  }
+  if (problem_ != 0) return unwritable(path_, problem_);
+  return success();
+}
+
+}  // namespace medial::io

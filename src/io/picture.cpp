@@ -1,0 +1,396 @@
+#include "io/picture.h"
+
+#include <cairo-pdf.h>
+#include <cairo-ps.h>
+#include <cairo-svg.h>
+#include <cairo.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <numbers>
+
+#include "medial/query.h"
+
+namespace medial::io {
+
+namespace {
+
+struct Color {
+  double red = 0, green = 0, blue = 0;
+};
+
+// The colour map viridis (perceptually even, safe for colour-blind eyes), at 9 places; the last,
+// light yellow, is left out because the axis lies on a light ground.
+constexpr std::array<Color, 9> kViridis{{{0.267, 0.005, 0.329},
+                                         {0.283, 0.141, 0.458},
+                                         {0.254, 0.265, 0.530},
+                                         {0.207, 0.372, 0.553},
+                                         {0.164, 0.471, 0.558},
+                                         {0.128, 0.567, 0.551},
+                                         {0.135, 0.659, 0.518},
+                                         {0.267, 0.749, 0.441},
+                                         {0.478, 0.821, 0.318}}};
+
+constexpr Color kPaper{1, 1, 1};
+constexpr Color kInside{0.945, 0.945, 0.925};
+constexpr Color kOutline{0.25, 0.25, 0.27};
+constexpr Color kDisk{0.85, 0.45, 0.15};
+constexpr Color kContact{0.80, 0.20, 0.20};
+constexpr std::array<Color, 3> kNode{{{0.20, 0.55, 0.25}, {0.45, 0.45, 0.50}, {0.80, 0.15, 0.20}}};
+
+constexpr int kShades = 64;      // colours that are told apart
+constexpr int kBatch = 2000;     // pieces of a path between strokes: long paths are slow to stroke
+constexpr int kMostPieces = 32;  // of one edge
+
+Color shade(int i) {
+  const double at = (kViridis.size() - 1) * (static_cast<double>(i) / (kShades - 1));
+  const auto low = std::min(static_cast<std::size_t>(at), kViridis.size() - 2);
+  const double t = at - static_cast<double>(low);
+  const Color& a = kViridis[low];
+  const Color& b = kViridis[low + 1];
+  return {a.red + t * (b.red - a.red), a.green + t * (b.green - a.green),
+          a.blue + t * (b.blue - a.blue)};
+}
+
+/// A piece of an edge, in units of the picture: a rational quadratic curve with weights 1, w, 1.
+struct Piece {
+  Vec2 from, control, to;
+  double weight = 1;
+  bool straight = true;
+};
+
+struct Homogeneous {
+  double x, y, r, w;
+};
+
+Homogeneous mix(const Homogeneous& a, const Homogeneous& b, double t) {
+  const double s = 1 - t;
+  return {s * a.x + t * b.x, s * a.y + t * b.y, s * a.r + t * b.r, s * a.w + t * b.w};
+}
+
+/// An edge's curve in homogeneous coordinates, which can be cut exactly.
+class Curve {
+ public:
+  Curve(const MedialAxis& axis, const Edge& edge)
+      : points_{lift(axis.nodes[edge.node[0]].disk, 1), lift(edge.control, edge.weight),
+                lift(axis.nodes[edge.node[1]].disk, 1)} {}
+
+  Homogeneous blossom(double s, double t) const {
+    return mix(mix(points_[0], points_[1], s), mix(points_[1], points_[2], s), t);
+  }
+  double radius(double t) const {
+    const Homogeneous p = blossom(t, t);
+    return p.r / p.w;
+  }
+
+ private:
+  static Homogeneous lift(const Disk& disk, double w) {
+    return {disk.center.x * w, disk.center.y * w, disk.radius * w, w};
+  }
+  std::array<Homogeneous, 3> points_;
+};
+
+using Surface = std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>;
+
+cairo_status_t write_bytes(void* out, const unsigned char* bytes, unsigned count) {
+  auto* stream = static_cast<OutputStream*>(out);
+  stream->put(std::string_view(reinterpret_cast<const char*>(bytes), count));
+  return stream->failed() ? CAIRO_STATUS_WRITE_ERROR : CAIRO_STATUS_SUCCESS;
+}
+
+/// How the plane lies in the picture.
+struct Frame {
+  double width = 0;
+  double height = 0;
+  double scale = 1;
+  Vec2 center;  ///< of the shapes' bounding box
+
+  Vec2 operator()(Vec2 p) const {
+    return {0.5 * width + (p.x - center.x) * scale, 0.5 * height - (p.y - center.y) * scale};
+  }
+};
+
+Frame frame_of(const NativeFile& file, double width) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Box box{{kInfinity, kInfinity}, {-kInfinity, -kInfinity}};
+  const auto include = [&box](Vec2 p) {
+    box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y)};
+    box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y)};
+  };
+  for (const NativeItem& item : file.items) {
+    for (const Vec2 p : item.shape.points) include(p);
+    for (const Node& node : item.axis.nodes) include(node.disk.center);
+  }
+  if (!(box.low.x <= box.high.x)) box = {{0, 0}, {1, 1}};
+  const Vec2 size = box.high - box.low;
+  const double margin = 0.03 * width;
+  Frame frame;
+  frame.width = width;
+  frame.center = midpoint(box.low, box.high);
+  frame.scale = size.x > 0 ? (width - 2 * margin) / size.x : 1;
+  // A needle gets a picture of moderate height: its width gives way.
+  const double height = size.x > 0 ? size.y * frame.scale : 4 * width;
+  frame.height = std::clamp(height + 2 * margin, width / 8, 4 * width);
+  if (size.y > 0 && size.y * frame.scale + 2 * margin > frame.height) {
+    frame.scale = (frame.height - 2 * margin) / size.y;
+  }
+  frame.height = std::ceil(frame.height);
+  return frame;
+}
+
+class Picture {
+ public:
+  Picture(cairo_t* context, const Frame& frame, const NativeFile& file, const WriteOptions& options)
+      : context_(context), frame_(frame), file_(file), options_(options) {
+    for (const NativeItem& item : file.items) {
+      for (const Node& node : item.axis.nodes) largest_ = std::max(largest_, node.disk.radius);
+    }
+  }
+
+  void draw() {
+    cairo_set_line_cap(context_, CAIRO_LINE_CAP_ROUND);
+    cairo_set_line_join(context_, CAIRO_LINE_JOIN_ROUND);
+    color(kPaper);
+    cairo_paint(context_);
+    if (options_.shape) draw_shapes();
+    if (options_.disks > 0) draw_disks();
+    if (options_.contacts) draw_contacts();
+    draw_axes();
+    if (options_.nodes) draw_nodes();
+  }
+
+ private:
+  double thickness(double share) const { return share * 1e-3 * frame_.width; }
+  void color(const Color& c, double alpha = 1) {
+    cairo_set_source_rgba(context_, c.red, c.green, c.blue, alpha);
+  }
+  void move_to(Vec2 p) { cairo_move_to(context_, p.x, p.y); }
+  void line_to(Vec2 p) { cairo_line_to(context_, p.x, p.y); }
+
+  /// Adds a full circle, in units of the picture.
+  void circle(Vec2 center, double radius) {
+    cairo_new_sub_path(context_);
+    cairo_arc(context_, center.x, center.y, radius, 0, 2 * std::numbers::pi);
+  }
+
+  void trace_shape(const Shape& shape) {
+    for (std::size_t i = 0; i < shape.loop_count(); ++i) {
+      const auto loop = shape.loop(i);
+      for (std::size_t k = 0; k < loop.size(); ++k) {
+        const Vec2 p = frame_(loop[k]);
+        k == 0 ? move_to(p) : line_to(p);
+      }
+      cairo_close_path(context_);
+    }
+  }
+
+  void draw_shapes() {
+    cairo_set_fill_rule(context_, CAIRO_FILL_RULE_EVEN_ODD);
+    for (const NativeItem& item : file_.items) {
+      color(kInside);
+      trace_shape(item.shape);
+      cairo_fill(context_);
+    }
+    color(kOutline);
+    cairo_set_line_width(context_, thickness(0.8));
+    int batch = 0;
+    for (const NativeItem& item : file_.items) {
+      for (std::size_t i = 0; i < item.shape.loop_count(); ++i) {
+        const auto loop = item.shape.loop(i);
+        move_to(frame_(loop.back()));
+        for (const Vec2 p : loop) {
+          line_to(frame_(p));
+          if (++batch % kBatch != 0) continue;
+          cairo_stroke(context_);
+          move_to(frame_(p));
+        }
+      }
+    }
+    cairo_stroke(context_);
+  }
+
+  /// About as many disks as asked for, at even distances along all axes.
+  void draw_disks() {
+    double total = 0;
+    for (const NativeItem& item : file_.items) total += total_length(item.axis);
+    if (!(total > 0)) return;
+    const double step = total / options_.disks;
+    double next = 0.5 * step;
+    double walked = 0;
+    color(kDisk, 0.6);
+    cairo_set_line_width(context_, thickness(0.6));
+    for (const NativeItem& item : file_.items) {
+      for (const Edge& edge : item.axis.edges) {
+        const double along = length(item.axis, edge);
+        for (; next <= walked + along && along > 0; next += step) {
+          const Disk disk = disk_at(item.axis, edge, std::clamp((next - walked) / along, 0.0, 1.0));
+          circle(frame_(disk.center), disk.radius * frame_.scale);
+          cairo_stroke(context_);
+        }
+        walked += along;
+      }
+    }
+  }
+
+  /// The feet of every node's disk on the sites of its edges, and the radii to them.
+  void draw_contacts() {
+    cairo_set_line_width(context_, thickness(0.35));
+    int batch = 0;
+    const auto radii_or_feet = [&](bool feet) {
+      color(kContact, feet ? 1.0 : 0.35);
+      for (const NativeItem& item : file_.items) {
+        for (const Edge& edge : item.axis.edges) {
+          for (const std::uint32_t node : edge.node) {
+            const Disk& disk = item.axis.nodes[node].disk;
+            if (!(disk.radius > 0)) continue;
+            for (const std::uint32_t site : edge.site) {
+              const Vec2 touch = frame_(foot(item.axis.sites[site], disk.center));
+              if (feet) {
+                circle(touch, thickness(1.8));
+              } else {
+                move_to(frame_(disk.center));
+                line_to(touch);
+              }
+              if (++batch % kBatch == 0) feet ? cairo_fill(context_) : cairo_stroke(context_);
+            }
+          }
+        }
+      }
+      feet ? cairo_fill(context_) : cairo_stroke(context_);
+    };
+    cairo_set_fill_rule(context_, CAIRO_FILL_RULE_WINDING);
+    radii_or_feet(false);
+    radii_or_feet(true);
+  }
+
+  /// Cuts an edge where its radius passes from shade to shade, about.
+  template <class Take>
+  void cut(const MedialAxis& axis, const Edge& edge, Take take) const {
+    const Curve curve(axis, edge);
+    const bool straight =
+        axis.sites[edge.site[0]].kind == axis.sites[edge.site[1]].kind || edge.weight != 1;
+    const double ends = std::fabs(curve.radius(0) - curve.radius(1));
+    const double dip = std::fabs(curve.radius(0.5) - 0.5 * (curve.radius(0) + curve.radius(1)));
+    const double shades = largest_ > 0 ? (ends + 2 * dip) / largest_ * kShades : 0;
+    const int pieces = std::clamp(static_cast<int>(std::ceil(shades)), 1, kMostPieces);
+    for (int i = 0; i < pieces; ++i) {
+      const double t0 = static_cast<double>(i) / pieces;
+      const double t1 = static_cast<double>(i + 1) / pieces;
+      const Homogeneous a = curve.blossom(t0, t0);
+      const Homogeneous b = curve.blossom(t0, t1);
+      const Homogeneous c = curve.blossom(t1, t1);
+      const auto place = [this](const Homogeneous& p) { return frame_({p.x / p.w, p.y / p.w}); };
+      const double radius = std::max(curve.radius(0.5 * (t0 + t1)), 0.0);
+      const int index = largest_ > 0 ? static_cast<int>(radius / largest_ * (kShades - 1) + 0.5) : 0;
+      take(std::clamp(index, 0, kShades - 1),
+           Piece{place(a), place(b), place(c), b.w / std::sqrt(a.w * c.w), straight});
+    }
+  }
+
+  /// A quadratic Bezier curve (weight 1) is one cubic exactly; other conics come very near to one.
+  void trace(const Piece& piece) {
+    move_to(piece.from);
+    if (piece.straight) {
+      line_to(piece.to);
+      return;
+    }
+    const double share = 4 * piece.weight / (3 * (1 + piece.weight));
+    const Vec2 a = piece.from + share * (piece.control - piece.from);
+    const Vec2 b = piece.to + share * (piece.control - piece.to);
+    cairo_curve_to(context_, a.x, a.y, b.x, b.y, piece.to.x, piece.to.y);
+  }
+
+  void draw_axes() {
+    // Few changes of colour: pieces are counted, then sorted by shade, then stroked in batches.
+    std::array<std::vector<Piece>, kShades> pieces;
+    for (const NativeItem& item : file_.items) {
+      for (const Edge& edge : item.axis.edges) {
+        cut(item.axis, edge, [&pieces](int shade, const Piece& piece) {
+          pieces[static_cast<std::size_t>(shade)].push_back(piece);
+        });
+      }
+    }
+    cairo_set_line_width(context_, thickness(1.6));
+    for (int i = 0; i < kShades; ++i) {
+      color(shade(i));
+      int batch = 0;
+      for (const Piece& piece : pieces[static_cast<std::size_t>(i)]) {
+        trace(piece);
+        if (++batch % kBatch == 0) cairo_stroke(context_);
+      }
+      cairo_stroke(context_);
+    }
+  }
+
+  void draw_nodes() {
+    cairo_set_fill_rule(context_, CAIRO_FILL_RULE_WINDING);
+    for (const NodeKind kind : {NodeKind::site_change, NodeKind::leaf, NodeKind::branching}) {
+      color(kNode[static_cast<std::size_t>(kind)]);
+      const double radius = thickness(kind == NodeKind::site_change ? 1.5 : 2.6);
+      int batch = 0;
+      for (const NativeItem& item : file_.items) {
+        for (const Node& node : item.axis.nodes) {
+          if (node.kind != kind) continue;
+          circle(frame_(node.disk.center), radius);
+          if (++batch % kBatch == 0) cairo_fill(context_);
+        }
+      }
+      cairo_fill(context_);
+    }
+  }
+
+  cairo_t* context_;
+  const Frame& frame_;
+  const NativeFile& file_;
+  const WriteOptions& options_;
+  double largest_ = 0;
+};
+
+cairo_surface_t* create_surface(OutputStream& out, const std::string& format, const Frame& frame) {
+  if (format == "svg") {
+    return cairo_svg_surface_create_for_stream(write_bytes, &out, frame.width, frame.height);
+  }
+  if (format == "pdf") {
+    return cairo_pdf_surface_create_for_stream(write_bytes, &out, frame.width, frame.height);
+  }
+  if (format == "ps") {
+    return cairo_ps_surface_create_for_stream(write_bytes, &out, frame.width, frame.height);
+  }
+  return cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(frame.width),
+                                    static_cast<int>(frame.height));
+}
+
+}  // namespace
+
+Status write_picture(OutputStream& out, const std::string& format, const NativeFile& file,
+                     const WriteOptions& options) {
+  constexpr double kSmallest = 16;
+  constexpr double kLargest = 8000;  // four times as high stays below Cairo's 32767
+  if (!(options.width >= kSmallest && options.width <= kLargest)) {
+    return Error{ErrorCode::invalid_option,
+                 fmt::format("the width of a picture lies between {} and {}", kSmallest, kLargest),
+                 {}};
+  }
+  const Frame frame = frame_of(file, std::floor(options.width));
+  const Surface surface(create_surface(out, format, frame), &cairo_surface_destroy);
+  const std::unique_ptr<cairo_t, decltype(&cairo_destroy)> context(cairo_create(surface.get()),
+                                                                   &cairo_destroy);
+  Picture(context.get(), frame, file, options).draw();
+  cairo_status_t status = cairo_status(context.get());
+  if (status == CAIRO_STATUS_SUCCESS && format == "png") {
+    status = cairo_surface_write_to_png_stream(surface.get(), write_bytes, &out);
+  }
+  cairo_surface_finish(surface.get());
+  if (status == CAIRO_STATUS_SUCCESS) status = cairo_surface_status(surface.get());
+  if (status != CAIRO_STATUS_SUCCESS && !out.failed()) {
+    return Error{ErrorCode::unwritable,
+                 fmt::format("cannot draw: {}", cairo_status_to_string(status)), {}};
+  }
+  return success();
+}
+
+}  // namespace medial::io

@@ -1,0 +1,201 @@
+#include "medial/io/projection.h"
+
+#include <fmt/format.h>
+#include <ogr_spatialref.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "io/gdal_support.h"
+
+namespace medial::io {
+
+namespace {
+
+// The name by which a projection of our own is known again, in memory and in files.
+constexpr const char* kLocalName = "medial local projection";
+
+// Beyond this distance from the middle, in degrees of the great circle (about 300 km), the transverse
+// Mercator projection stretches by more than 0.11 percent.
+constexpr double kConformalReach = 2.7;
+
+using Transformer = std::unique_ptr<OGRCoordinateTransformation>;
+
+Transformer transformer(OGRSpatialReference& from, OGRSpatialReference& to) {
+  from.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  to.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  return Transformer(OGRCreateCoordinateTransformation(&from, &to));
+}
+
+bool transform_points(OGRCoordinateTransformation& transformation, std::vector<Vec2>& points) {
+  if (points.empty()) return true;
+  std::vector<double> x(points.size());
+  std::vector<double> y(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    x[i] = points[i].x;
+    y[i] = points[i].y;
+  }
+  // GDAL counts points by int.
+  constexpr std::size_t kBatch = std::size_t{1} << 20;
+  for (std::size_t begin = 0; begin < points.size(); begin += kBatch) {
+    const int count = static_cast<int>(std::min(kBatch, points.size() - begin));
+    if (!transformation.Transform(count, x.data() + begin, y.data() + begin)) return false;
+  }
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!std::isfinite(x[i]) || !std::isfinite(y[i])) return false;
+    points[i] = {x[i], y[i]};
+  }
+  return true;
+}
+
+struct Direction {
+  double x = 0, y = 0, z = 0;
+};
+
+double radians(double degrees) { return degrees * (std::numbers::pi / 180); }
+double degrees(double radians) { return radians * (180 / std::numbers::pi); }
+
+Direction direction_of(Vec2 position) {
+  const double longitude = radians(position.x);
+  const double latitude = radians(position.y);
+  return {std::cos(latitude) * std::cos(longitude), std::cos(latitude) * std::sin(longitude),
+          std::sin(latitude)};
+}
+
+template <class Action>
+void for_each_point(const Dataset& dataset, Action action) {
+  for (const Feature& feature : dataset.features) {
+    for (const Ring& ring : feature.rings) {
+      for (const Vec2 point : ring.points) action(point);
+    }
+  }
+}
+
+/// The middle of all vertices on the globe (so the date line does no harm), and the angle to the
+/// farthest vertex.
+struct Extent {
+  double longitude = 0;
+  double latitude = 0;
+  double reach = 0;
+};
+
+Extent extent_of(const Dataset& dataset) {
+  Direction sum;
+  for_each_point(dataset, [&sum](Vec2 point) {
+    const Direction d = direction_of(point);
+    sum = {sum.x + d.x, sum.y + d.y, sum.z + d.z};
+  });
+  const double length = std::hypot(sum.x, sum.y, sum.z);
+  if (length == 0) return {0, 0, 180};
+  double cosine = 1;
+  for_each_point(dataset, [&](Vec2 point) {
+    const Direction d = direction_of(point);
+    cosine = std::min(cosine, (sum.x * d.x + sum.y * d.y + sum.z * d.z) / length);
+  });
+  return {degrees(std::atan2(sum.y, sum.x)), degrees(std::asin(std::clamp(sum.z / length, -1.0, 1.0))),
+          degrees(std::acos(std::clamp(cosine, -1.0, 1.0)))};
+}
+
+bool can_be_degrees(const Dataset& dataset) {
+  bool possible = true;
+  for_each_point(dataset, [&possible](Vec2 point) {
+    if (!(std::fabs(point.x) <= 360 && std::fabs(point.y) <= 90)) possible = false;
+  });
+  return possible;
+}
+
+}  // namespace
+
+Status project_to_local(Dataset& dataset) {
+  const GdalMessages messages;
+  OGRSpatialReference geographic;
+  if (dataset.crs_wkt.empty()) {
+    geographic.importFromEPSG(4326);
+    dataset.notes.push_back("no reference system is given: taken as longitude and latitude, WGS 84");
+  } else if (!dataset.geographic) {
+    dataset.notes.push_back("the coordinates are projected already: nothing was projected");
+    return success();
+  } else if (geographic.importFromWkt(dataset.crs_wkt.c_str()) != OGRERR_NONE) {
+    return Error{ErrorCode::unsupported, "the reference system is not understood", {}};
+  }
+  if (!can_be_degrees(dataset)) {
+    return Error{ErrorCode::invalid_option,
+                 "the coordinates are no degrees, so there is nothing to project", {}};
+  }
+
+  const Extent extent = extent_of(dataset);
+  const bool conformal = extent.reach <= kConformalReach;
+  OGRSpatialReference local;
+  local.SetProjCS(kLocalName);
+  local.CopyGeogCSFrom(&geographic);
+  if (conformal) {
+    local.SetTM(extent.latitude, extent.longitude, 1, 0, 0);
+  } else {
+    local.SetLAEA(extent.latitude, extent.longitude, 0, 0);
+  }
+  local.SetLinearUnits(SRS_UL_METER, 1);
+
+  const Transformer transformation = transformer(geographic, local);
+  const auto failed = [&messages](std::size_t feature) {
+    return Error{ErrorCode::unsupported,
+                 fmt::format("a point cannot be projected: {}", messages.failure()),
+                 Place{.feature = feature}};
+  };
+  if (!transformation) return failed(0);
+  for (std::size_t i = 0; i < dataset.features.size(); ++i) {
+    for (Ring& ring : dataset.features[i].rings) {
+      if (!transform_points(*transformation, ring.points)) return failed(i);
+    }
+  }
+  set_crs(local, dataset);
+  dataset.notes.push_back(fmt::format("projected to metres by the {} projection at {:.4f}, {:.4f}",
+                                      conformal ? "transverse Mercator" : "azimuthal equal-area",
+                                      extent.longitude, extent.latitude));
+  return success();
+}
+
+bool is_local_projection(const std::string& crs_wkt) {
+  return crs_wkt.starts_with(fmt::format("PROJCRS[\"{}\"", kLocalName)) ||
+         crs_wkt.starts_with(fmt::format("PROJCS[\"{}\"", kLocalName));
+}
+
+struct BackToGeographic::Transformation {
+  Transformer transformer;
+  std::string crs_wkt;
+};
+
+BackToGeographic::BackToGeographic(std::unique_ptr<Transformation> transformation)
+    : transformation_(std::move(transformation)) {}
+BackToGeographic::~BackToGeographic() = default;
+BackToGeographic::BackToGeographic(BackToGeographic&&) noexcept = default;
+BackToGeographic& BackToGeographic::operator=(BackToGeographic&&) noexcept = default;
+
+Result<BackToGeographic> BackToGeographic::make(const std::string& crs_wkt) {
+  const GdalMessages messages;
+  OGRSpatialReference local;
+  if (!is_local_projection(crs_wkt) || local.importFromWkt(crs_wkt.c_str()) != OGRERR_NONE) {
+    return Error{ErrorCode::unsupported, "the reference system is no local projection of medial's", {}};
+  }
+  OGRSpatialReference geographic;
+  geographic.CopyGeogCSFrom(&local);
+  auto result = std::make_unique<Transformation>();
+  result->transformer = transformer(local, geographic);
+  if (!result->transformer) {
+    return Error{ErrorCode::unsupported, "the local projection cannot be undone", {}};
+  }
+  Dataset named;
+  set_crs(geographic, named);
+  result->crs_wkt = std::move(named.crs_wkt);
+  return BackToGeographic(std::move(result));
+}
+
+Status BackToGeographic::transform(std::vector<Vec2>& points) const {
+  const GdalMessages messages;
+  if (transform_points(*transformation_->transformer, points)) return success();
+  return Error{ErrorCode::unsupported, "a point of the axis has no longitude and latitude", {}};
+}
+
+const std::string& BackToGeographic::crs_wkt() const { return transformation_->crs_wkt; }
+
+}  // namespace medial::io

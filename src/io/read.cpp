@@ -1,0 +1,201 @@
+#include "medial/io/read.h"
+
+#include <fmt/format.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cctype>
+#include <cmath>
+#include <cstring>
+#include <new>
+
+#include "io/gdal_reader.h"
+#include "io/gdal_support.h"
+#include "io/native.h"
+#include "io/repair.h"
+#include "io/text_reader.h"
+#include "medial/io/projection.h"
+
+namespace medial::io {
+
+namespace {
+
+constexpr std::size_t kSniffed = 4096;
+
+std::string lower(std::string text) {
+  std::ranges::transform(text, text.begin(), [](unsigned char c) {
+    return static_cast<char>(std::tolower(c));
+  });
+  return text;
+}
+
+enum class Format : std::uint8_t { wkt, xy, native, json, gdal };
+
+Format format_of_name(std::string name) {
+  name = lower(std::move(name));
+  if (name.ends_with(".gz")) name.resize(name.size() - 3);
+  if (name.ends_with(".wkt")) return Format::wkt;
+  if (name.ends_with(".txt") || name.ends_with(".xy")) return Format::xy;
+  if (name.ends_with(".json") || name.ends_with(".geojson")) return Format::json;
+  return Format::gdal;
+}
+
+Format format_of_text(std::string_view text) {
+  if (begins_like_native(text)) return Format::native;
+  if (begins_like_wkt(text)) return Format::wkt;
+  if (begins_like_xy(text)) return Format::xy;
+  return Format::gdal;
+}
+
+Result<Dataset> read_native_dataset(TextSource& source) {
+  Result<NativeFile> file = read_native(source);
+  if (!file) return file.error();
+  Dataset dataset = dataset_of(std::move(*file));
+  read_crs_of_wkt(std::string(dataset.crs_wkt), dataset);
+  return dataset;
+}
+
+Result<Dataset> read_own(TextSource& source, Format format, const std::string& path,
+                         const ReadOptions& options) {
+  if (!options.layer.empty() || !options.where.empty()) {
+    return Error{ErrorCode::invalid_option, "this format has no layers and no attributes to choose by",
+                 Place{.file = path}};
+  }
+  if (format == Format::wkt) return read_wkt(source);
+  if (format == Format::xy) return read_xy(source);
+  return read_native_dataset(source);
+}
+
+/// GDAL's name of a file: compressed files are read through.
+std::string gdal_name(const std::string& path) {
+  const std::string name = lower(path);
+  if (name.starts_with("/vsi")) return path;
+  if (name.ends_with(".gz")) return "/vsigzip/" + path;
+  if (name.ends_with(".zip") && !name.ends_with(".shz") && !name.ends_with(".kmz")) {
+    return "/vsizip/" + path;
+  }
+  return path;
+}
+
+Result<Dataset> read_any(const std::string& path, const ReadOptions& options) {
+  if (path == "-") {
+    Result<std::shared_ptr<TextSource>> source = TextSource::open(path);
+    if (!source) return source.error();
+    const Format format = format_of_text((*source)->lookahead(kSniffed));
+    if (format != Format::gdal) return read_own(**source, format, path, options);
+    std::string bytes;
+    (*source)->read_all(bytes);
+    if ((*source)->failure()) return *(*source)->failure();
+    if (bytes.empty()) return Error{ErrorCode::empty, "there is nothing to read", Place{.file = path}};
+    return read_gdal_bytes(bytes, path, options);
+  }
+  const Format format = format_of_name(path);
+  if (format == Format::gdal) {
+    struct stat status {};
+    const bool special = path.starts_with("/vsi") || path.find(':') != std::string::npos;
+    if (!special && stat(path.c_str(), &status) != 0) {
+      return Error{ErrorCode::unreadable, fmt::format("cannot open: {}", std::strerror(errno)),
+                   Place{.file = path}};
+    }
+    return read_gdal(gdal_name(path), path, options);
+  }
+  Result<std::shared_ptr<TextSource>> source = TextSource::open(path);
+  if (!source) return source.error();
+  if (format != Format::json) return read_own(**source, format, path, options);
+  if (begins_like_native((*source)->lookahead(kSniffed))) {
+    return read_own(**source, Format::native, path, options);
+  }
+  if ((*source)->failure()) return *(*source)->failure();
+  return read_gdal(gdal_name(path), path, options);
+}
+
+std::optional<Error> find_not_finite(const Dataset& dataset) {
+  for (std::size_t i = 0; i < dataset.features.size(); ++i) {
+    const std::vector<Ring>& rings = dataset.features[i].rings;
+    for (std::size_t k = 0; k < rings.size(); ++k) {
+      const std::vector<Vec2>& points = rings[k].points;
+      const auto bad = std::ranges::find_if(
+          points, [](Vec2 p) { return !std::isfinite(p.x) || !std::isfinite(p.y); });
+      if (bad == points.end()) continue;
+      return Error{ErrorCode::not_finite, "a coordinate is not a finite number",
+                   Place{.feature = i,
+                         .ring = k,
+                         .vertex = static_cast<std::uint64_t>(bad - points.begin())}};
+    }
+  }
+  return std::nullopt;
+}
+
+void drop_empty_features(Dataset& dataset) {
+  const auto has_no_point = [](const Feature& feature) {
+    return std::ranges::all_of(feature.rings, [](const Ring& ring) { return ring.points.empty(); });
+  };
+  const std::size_t dropped = std::erase_if(dataset.features, has_no_point);
+  if (dropped > 0 && !dataset.features.empty()) {
+    dataset.notes.push_back(fmt::format("{} features are empty and were left out", dropped));
+  }
+}
+
+Result<Dataset> finish(Dataset dataset, const ReadOptions& options) {
+  if (auto error = find_not_finite(dataset)) return *error;
+  drop_empty_features(dataset);
+  if (dataset.features.empty()) return Error{ErrorCode::empty, "there is no polygon", {}};
+  if (options.project) {
+    if (Status status = project_to_local(dataset); !status) return status.error();
+  }
+  if (options.repair != RepairRule::none) {
+    for (std::size_t i = 0; i < dataset.features.size(); ++i) {
+      Status status = repair(dataset.features[i], i, options.repair, dataset.notes);
+      if (!status) return status.error();
+    }
+  }
+  return dataset;
+}
+
+Result<NativeFile> read_native_path(const std::string& path) {
+  Result<std::shared_ptr<TextSource>> source = TextSource::open(path);
+  if (!source) return source.error();
+  if (!begins_like_native((*source)->lookahead(kSniffed))) {
+    return (*source)->error(ErrorCode::malformed, "this is no JSON of medial's own");
+  }
+  return read_native(**source);
+}
+
+/// Runs a reader; what it may throw becomes an error. Every error names the file.
+template <class Value, class Read>
+Result<Value> guarded(const std::string& path, Read read) {
+  Error error;
+  try {
+    Result<Value> result = read();
+    if (result) return result;
+    error = std::move(result.error());
+  } catch (const std::bad_alloc&) {
+    error = {ErrorCode::too_large, "there is not enough memory", {}};
+  } catch (const std::exception& problem) {
+    error = {ErrorCode::internal, problem.what(), {}};
+  }
+  if (error.place.file.empty()) error.place.file = path;
+  return error;
+}
+
+}  // namespace
+
+Result<Dataset> read_dataset(const std::string& path, const ReadOptions& options) {
+  return guarded<Dataset>(path, [&]() -> Result<Dataset> {
+    Result<Dataset> dataset = read_any(path, options);
+    if (!dataset) return dataset;
+    return finish(std::move(*dataset), options);
+  });
+}
+
+bool is_native(const std::string& path) {
+  const Result<std::shared_ptr<TextSource>> source = TextSource::open(path);
+  return source && begins_like_native((*source)->lookahead(kSniffed));
+}
+
+Result<NativeFile> read_native(const std::string& path) {
+  return guarded<NativeFile>(path, [&] { return read_native_path(path); });
+}
+
+}  // namespace medial::io

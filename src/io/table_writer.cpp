@@ -1,0 +1,90 @@
+#include "io/table_writer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace medial::io {
+
+namespace {
+
+/// Whether the straight chord between the nodes stays within `chord` of an edge for certain: a
+/// rational quadratic curve with weight w lies within w / (1 + w) of the control point's distance
+/// from the chord's middle, in each of its coordinates taken together.
+bool is_nearly_straight(const MedialAxis& axis, const Edge& edge, double chord) {
+  const Disk& a = axis.nodes[edge.node[0]].disk;
+  const Disk& b = axis.nodes[edge.node[1]].disk;
+  const Vec2 aside = edge.control.center - midpoint(a.center, b.center);
+  const double radius = edge.control.radius - (a.radius + 0.5 * (b.radius - a.radius));
+  const double factor = edge.weight / (1 + edge.weight);
+  return factor * (norm(aside) + std::fabs(radius)) <= chord;
+}
+
+}  // namespace
+
+double chord_of(const NativeItem& item, const WriteOptions& options) {
+  return options.chord * diagonal(bounding_box(item.shape));
+}
+
+void sample(const MedialAxis& axis, const Edge& edge, double chord, std::vector<Disk>& samples) {
+  if (is_nearly_straight(axis, edge, chord)) {
+    samples.assign({axis.nodes[edge.node[0]].disk, axis.nodes[edge.node[1]].disk});
+  } else {
+    samples = sample_by_chord(axis, edge, chord);
+  }
+}
+
+std::vector<Disk> sample(const MedialAxis& axis, const Branch& branch, double chord) {
+  std::vector<Disk> result;
+  std::vector<Disk> samples;
+  for (const Step& step : branch.steps) {
+    sample(axis, axis.edges[step.edge], chord, samples);
+    if (!step.forward) std::ranges::reverse(samples);
+    result.insert(result.end(), samples.begin() + (result.empty() ? 0 : 1), samples.end());
+  }
+  return result;
+}
+
+void write_csv(OutputStream& out, const NativeFile& file, const WriteOptions& options) {
+  out.put("edge,x,y,r\n");
+  std::uint64_t id = 0;
+  std::vector<Disk> samples;
+  for (const NativeItem& item : file.items) {
+    const double chord = chord_of(item, options);
+    for (const Edge& edge : item.axis.edges) {
+      sample(item.axis, edge, chord, samples);
+      for (const Disk& disk : samples) {
+        out.put(id);
+        for (const double value : {disk.center.x, disk.center.y, disk.radius}) {
+          out.put(',');
+          out.put(value);
+        }
+        out.put('\n');
+      }
+      ++id;
+    }
+  }
+}
+
+void write_wkt(OutputStream& out, const NativeFile& file, const WriteOptions& options) {
+  for (const NativeItem& item : file.items) {
+    out.put("MULTILINESTRING ");
+    const char* separator = "(";
+    for (const Branch& branch : branches(item.axis)) {
+      out.put(separator);
+      const char* comma = "(";
+      for (const Disk& disk : sample(item.axis, branch, chord_of(item, options))) {
+        out.put(comma);
+        out.put(disk.center.x);
+        out.put(' ');
+        out.put(disk.center.y);
+        comma = ", ";
+      }
+      out.put(')');
+      separator = ", ";
+    }
+    out.put(*separator == '(' ? "EMPTY\n" : ")\n");
+  }
+}
+
+}  // namespace medial::io

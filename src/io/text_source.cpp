@@ -1,0 +1,131 @@
+#include "io/text_source.h"
+
+#include <fast_float/fast_float.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <zlib.h>
+
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+
+namespace medial::io {
+
+namespace {
+
+constexpr std::size_t kWindow = std::size_t{1} << 18;
+
+}  // namespace
+
+struct TextSource::Handle {
+  gzFile file = nullptr;
+  ~Handle() {
+    if (file != nullptr) gzclose(file);
+  }
+};
+
+TextSource::TextSource(std::string path, std::unique_ptr<Handle> handle)
+    : path_(std::move(path)), handle_(std::move(handle)), window_(kWindow) {
+  next_ = end_ = window_.data();
+}
+
+TextSource::~TextSource() = default;
+
+Result<std::shared_ptr<TextSource>> TextSource::open(const std::string& path) {
+  static std::shared_ptr<TextSource> standard_input;
+  const bool standard = path == "-";
+  if (standard && standard_input) return standard_input;
+
+  const auto failed = [&path] {
+    return Error{ErrorCode::unreadable, std::string("cannot open: ") + std::strerror(errno),
+                 Place{.file = path}};
+  };
+  struct stat status {};
+  if (!standard && stat(path.c_str(), &status) != 0) return failed();
+  if (S_ISDIR(status.st_mode)) {
+    errno = EISDIR;
+    return failed();
+  }
+  auto handle = std::make_unique<Handle>();
+  errno = 0;
+  handle->file = standard ? gzdopen(dup(STDIN_FILENO), "rb") : gzopen(path.c_str(), "rb");
+  if (handle->file == nullptr) return failed();
+  gzbuffer(handle->file, unsigned{1} << 17);
+
+  std::shared_ptr<TextSource> source(new TextSource(path, std::move(handle)));
+  if (source->lookahead(3) == "\xEF\xBB\xBF") source->next_ += 3;  // the byte order mark of UTF-8
+  if (standard) standard_input = source;
+  return source;
+}
+
+bool TextSource::refill(std::size_t wanted) {
+  std::size_t kept = available();
+  std::memmove(window_.data(), next_, kept);
+  next_ = window_.data();
+  while (kept < wanted && !at_end_) {
+    const auto room = static_cast<unsigned>(window_.size() - kept);
+    const int got = gzread(handle_->file, window_.data() + kept, room);
+    if (got > 0) kept += static_cast<std::size_t>(got);
+    if (got < static_cast<int>(room)) {
+      int code = Z_OK;
+      const char* message = gzerror(handle_->file, &code);
+      if (code == Z_ERRNO) {
+        failure_ = Error{ErrorCode::unreadable, std::string("cannot read: ") + std::strerror(errno),
+                         Place{.file = path_}};
+      } else if (code == Z_BUF_ERROR) {
+        failure_ = Error{ErrorCode::malformed, "the gzip data end too early", Place{.file = path_}};
+      } else if (code != Z_OK && code != Z_STREAM_END) {
+        failure_ = Error{ErrorCode::malformed, fmt::format("the gzip data are damaged: {}", message),
+                         Place{.file = path_}};
+      }
+      if (got <= 0 || failure_) at_end_ = true;
+    }
+  }
+  end_ = window_.data() + kept;
+  return kept >= wanted;
+}
+
+void TextSource::skip_space() {
+  while (true) {
+    while (next_ != end_ && (*next_ == ' ' || (*next_ >= '\t' && *next_ <= '\r'))) skip();
+    if (next_ != end_ || !refill(1)) return;
+  }
+}
+
+void TextSource::read_all(std::string& text) {
+  while (available() > 0 || refill(1)) {
+    text.append(next_, available());
+    next_ = end_;
+  }
+}
+
+TextSource::Number TextSource::read_number(double& value) {
+  if (available() < kLongestNumber) refill(kLongestNumber);
+  const char* start = next_;
+  if (start != end_ && *start == '+') {
+    ++start;  // which from_chars does not take
+    if (start != end_ && *start == '-') return Number::none;
+  }
+  const auto [stop, problem] = fast_float::from_chars(start, end_, value);
+  if (problem == std::errc::invalid_argument) return Number::none;
+  if (static_cast<std::size_t>(stop - next_) >= kLongestNumber) return Number::too_long;
+  if (!std::isfinite(value)) return Number::not_finite;
+  next_ = stop;
+  return Number::read;
+}
+
+Error TextSource::error(ErrorCode code, std::string text) const {
+  if (failure_) return *failure_;
+  return Error{code, std::move(text), Place{.file = path_, .line = line_}};
+}
+
+std::string TextSource::next_as_text() {
+  const int next = peek();
+  if (next < 0) return "the end";
+  if (next == '\n' || next == '\r') return "the end of the line";
+  if (next > ' ' && next < 127) return fmt::format("'{}'", static_cast<char>(next));
+  return fmt::format("the byte {:#04x}", next);
+}
+
+}  // namespace medial::io

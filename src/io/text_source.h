@@ -1,0 +1,82 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "medial/error.h"
+
+namespace medial::io {
+
+/// A text read from its beginning to its end through a window of constant size, so that files of any
+/// length take no memory. Decompresses gzip by itself. Knows its line.
+///
+/// A failure to read (or to decompress) looks like the end of the text; failure() tells it.
+class TextSource {
+ public:
+  /// The longest number, in characters.
+  static constexpr std::size_t kLongestNumber = 4096;
+
+  /// Opens a file; `-` is standard input, which is one and the same source for the whole process: what
+  /// one reader peeks at, the next one finds.
+  static Result<std::shared_ptr<TextSource>> open(const std::string& path);
+
+  ~TextSource();
+  TextSource(const TextSource&) = delete;
+  TextSource& operator=(const TextSource&) = delete;
+
+  /// The next character, or -1 at the end.
+  int peek() {
+    if (next_ == end_ && !refill(1)) return -1;
+    return static_cast<unsigned char>(*next_);
+  }
+  /// Goes past the next character. Requires peek() != -1.
+  void skip() {
+    if (*next_ == '\n') ++line_;
+    ++next_;
+  }
+  /// The next `count` characters, or fewer at the end. Requires count <= the window.
+  std::string_view lookahead(std::size_t count) {
+    if (available() < count) refill(count);
+    return {next_, available() < count ? available() : count};
+  }
+  /// Goes past blanks, tabs and ends of lines.
+  void skip_space();
+  /// Appends all that is left to `text`.
+  void read_all(std::string& text);
+
+  enum class Number : std::uint8_t { read, none, not_finite, too_long };
+  /// Reads a decimal number, correctly rounded. An overflowing exponent or the words nan and inf are
+  /// `not_finite`; without `read` the cursor stays.
+  Number read_number(double& value);
+
+  /// Line of the cursor, from 1.
+  std::uint64_t line() const { return line_; }
+  /// What went wrong while reading, if anything did.
+  const std::optional<Error>& failure() const { return failure_; }
+  /// An error at the cursor's line; or the failure to read that lies behind it.
+  Error error(ErrorCode code, std::string text) const;
+  /// How the next character is called in an error's text: 'x', "end of line", "the end".
+  std::string next_as_text();
+
+ private:
+  struct Handle;
+  TextSource(std::string path, std::unique_ptr<Handle> handle);
+  std::size_t available() const { return static_cast<std::size_t>(end_ - next_); }
+  bool refill(std::size_t wanted);
+
+  std::string path_;
+  std::unique_ptr<Handle> handle_;
+  std::vector<char> window_;
+  const char* next_ = nullptr;
+  const char* end_ = nullptr;
+  std::uint64_t line_ = 1;
+  bool at_end_ = false;
+  std::optional<Error> failure_;
+};
+
+}  // namespace medial::io

@@ -1,0 +1,126 @@
+#include "medial/io/write.h"
+
+#include <fmt/format.h>
+#include <gdal_priv.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <filesystem>
+#include <new>
+#include <string_view>
+
+#include "io/gdal_writer.h"
+#include "io/native.h"
+#include "io/output.h"
+#include "io/picture.h"
+#include "io/table_writer.h"
+
+namespace medial::io {
+
+namespace {
+
+constexpr std::array<std::string_view, 11> kFormats{"json", "geojson", "gpkg", "shp", "fgb", "wkt",
+                                                    "csv",  "svg",     "pdf",  "png", "ps"};
+
+bool through_gdal(const std::string& format) {
+  return format == "geojson" || format == "gpkg" || format == "shp" || format == "fgb";
+}
+
+/// The format by the option or, without one, by the extension.
+Result<std::string> format_of(const std::string& path, const std::string& option) {
+  std::string format = option;
+  if (format.empty()) {
+    format = path == "-" ? "json" : std::filesystem::path(path).extension().string();
+  }
+  if (format.starts_with('.')) format.erase(0, 1);
+  std::ranges::transform(format, format.begin(), [](unsigned char c) {
+    return static_cast<char>(std::tolower(c));
+  });
+  if (std::ranges::find(kFormats, format) != kFormats.end()) return format;
+  return Error{ErrorCode::unsupported,
+               fmt::format("'{}' is no format to write; known are {}", format, known_output_formats()),
+               Place{.file = path}};
+}
+
+Status write_stream(OutputStream& out, const std::string& format, const NativeFile& file,
+                    const WriteOptions& options) {
+  Status status = success();
+  if (format == "json") {
+    status = write_native(out, file);
+  } else if (format == "csv") {
+    write_csv(out, file, options);
+  } else if (format == "wkt") {
+    write_wkt(out, file, options);
+  } else {
+    status = write_picture(out, format, file, options);
+  }
+  if (!status) return status;
+  return out.finish();
+}
+
+/// GDAL writes to memory, and the bytes go on to a stream.
+Status write_gdal_stream(OutputStream& out, const std::string& format, const NativeFile& file,
+                         const WriteOptions& options) {
+  if (format == "shp") {
+    return Error{ErrorCode::unsupported, "a shapefile is several files and cannot go to a stream", {}};
+  }
+  const std::string name = fmt::format("/vsimem/medial_{}.{}", static_cast<const void*>(&out), format);
+  Status status = write_gdal(name, format, file, options);
+  if (status) {
+    vsi_l_offset size = 0;
+    const GByte* bytes = VSIGetMemFileBuffer(name.c_str(), &size, FALSE);
+    out.put(std::string_view(reinterpret_cast<const char*>(bytes), static_cast<std::size_t>(size)));
+    status = out.finish();
+  }
+  VSIUnlink(name.c_str());
+  return status;
+}
+
+Status write_any(const std::string& path, const std::string& option, const NativeFile& file,
+                 const WriteOptions& options) {
+  Result<std::string> format = format_of(path, option);
+  if (!format) return format.error();
+  if (!(options.chord > 0) || !std::isfinite(options.chord)) {
+    return Error{ErrorCode::invalid_option, "chord is not a positive number", {}};
+  }
+  if (is_stream(path)) {
+    Result<OutputStream> out = OutputStream::open(path);
+    if (!out) return out.error();
+    return through_gdal(*format) ? write_gdal_stream(*out, *format, file, options)
+                                 : write_stream(*out, *format, file, options);
+  }
+  Result<PendingFile> pending = PendingFile::create(path);
+  if (!pending) return pending.error();
+  if (through_gdal(*format)) {
+    if (Status status = write_gdal(pending->path(), *format, file, options); !status) return status;
+  } else {
+    Result<OutputStream> out = OutputStream::open(pending->path());
+    if (!out) return out.error();
+    if (Status status = write_stream(*out, *format, file, options); !status) return status;
+  }
+  return pending->commit();
+}
+
+}  // namespace
+
+std::string known_output_formats() { return fmt::format(".{}", fmt::join(kFormats, " .")); }
+
+Status write_axes(const std::string& path, const std::string& format, const NativeFile& file,
+                  const WriteOptions& options) {
+  Error error;
+  try {
+    Status status = write_any(path, format, file, options);
+    if (status) return status;
+    error = std::move(status.error());
+  } catch (const std::bad_alloc&) {
+    error = {ErrorCode::too_large, "there is not enough memory", {}};
+  } catch (const std::exception& problem) {
+    error = {ErrorCode::internal, problem.what(), {}};
+  }
+  error.place.file = path;
+  return error;
+}
+
+}  // namespace medial::io
