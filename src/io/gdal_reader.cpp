@@ -8,6 +8,7 @@
 #include <charconv>
 
 #include "io/gdal_support.h"
+#include "io/place.h"
 
 namespace medial::io {
 
@@ -42,7 +43,8 @@ std::string field_text(const OGRFeature& feature, int field) {
   const OGRFieldDefn* definition = feature.GetFieldDefnRef(field);
   if (definition->GetType() != OFTReal) return utf8(feature.GetFieldAsString(field));
   std::array<char, 32> text{};
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), feature.GetFieldAsDouble(field));
+  const auto end =
+      std::to_chars(text.data(), text.data() + text.size(), feature.GetFieldAsDouble(field));
   return {text.data(), end.ptr};
 }
 
@@ -67,9 +69,10 @@ class GdalReader {
     if (!source) return cannot_open(name, messages.failure());
     Result<OGRLayer*> layer = choose_layer(*source);
     if (!layer) return layer.error();
-    if (!options_.where.empty() && (*layer)->SetAttributeFilter(options_.where.c_str()) != OGRERR_NONE) {
-      return error(ErrorCode::invalid_option,
-                   fmt::format("the filter '{}' does not work: {}", options_.where, messages.failure()));
+    if (!options_.where.empty() &&
+        (*layer)->SetAttributeFilter(options_.where.c_str()) != OGRERR_NONE) {
+      return error(ErrorCode::invalid_option, fmt::format("the filter '{}' does not work: {}",
+                                                          options_.where, messages.failure()));
     }
     read_crs(**layer);
     read_features(**layer);
@@ -80,7 +83,7 @@ class GdalReader {
 
  private:
   Error error(ErrorCode code, std::string text) const {
-    return Error{code, std::move(text), Place{.file = shown_}};
+    return Error{code, std::move(text), in_file(shown_)};
   }
 
   Error cannot_open(const std::string& name, const std::string& failure) const {
@@ -104,8 +107,8 @@ class GdalReader {
     OGRLayer* layer = source.GetLayer(0);
     if (layer == nullptr) return error(ErrorCode::malformed, "the first layer cannot be read");
     if (source.GetLayerCount() > 1) {
-      dataset_.notes.push_back(fmt::format("layer '{}' was read, out of: {}", utf8(layer->GetName()),
-                                           layer_names(source)));
+      dataset_.notes.push_back(fmt::format("layer '{}' was read, out of: {}",
+                                           utf8(layer->GetName()), layer_names(source)));
     }
     return layer;
   }
@@ -115,8 +118,9 @@ class GdalReader {
     if (reference == nullptr) return;
     set_crs(*reference, dataset_);
     const std::vector<int>& axes = reference->GetDataAxisToSRSAxisMapping();
-    latitude_first_ = axes.size() >= 2 && axes[0] == 1 && axes[1] == 2 &&
-                      (reference->EPSGTreatsAsLatLong() || reference->EPSGTreatsAsNorthingEasting());
+    latitude_first_ =
+        axes.size() >= 2 && axes[0] == 1 && axes[1] == 2 &&
+        (reference->EPSGTreatsAsLatLong() || reference->EPSGTreatsAsNorthingEasting());
   }
 
   void read_features(OGRLayer& layer) {
@@ -150,8 +154,9 @@ class GdalReader {
   Result<Dataset> summarised() {
     if (dataset_.features.empty()) {
       if (counts_.others > 0) {
-        return error(ErrorCode::unsupported, fmt::format("no polygons, only other geometries ({} of them)",
-                                                         counts_.others));
+        return error(
+            ErrorCode::unsupported,
+            fmt::format("no polygons, only other geometries ({} of them)", counts_.others));
       }
       return error(ErrorCode::empty, options_.where.empty() ? "no feature with a geometry"
                                                             : "no feature passes the filter");
@@ -192,7 +197,7 @@ Result<Dataset> read_gdal_bytes(const std::string& bytes, const std::string& sho
   auto* data = const_cast<GByte*>(reinterpret_cast<const GByte*>(bytes.data()));
   VSILFILE* file = VSIFileFromMemBuffer(name.c_str(), data, bytes.size(), FALSE);
   if (file == nullptr) {
-    return Error{ErrorCode::unreadable, "cannot be kept in memory", Place{.file = shown}};
+    return Error{ErrorCode::unreadable, "cannot be kept in memory", in_file(shown)};
   }
   VSIFCloseL(file);
   Result<Dataset> result = read_gdal(name, shown, options);

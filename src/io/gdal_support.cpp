@@ -45,11 +45,13 @@ void CPL_STDCALL GdalMessages::collect(CPLErr level, CPLErrorNum, const char* te
   auto* self = static_cast<GdalMessages*>(CPLGetErrorHandlerUserData());
   if (level == CE_Debug || level == CE_None) return;
   std::string line = text;
-  std::ranges::replace_if(line, [](unsigned char c) { return c < ' '; }, ' ');
+  std::ranges::replace_if(
+      line, [](unsigned char c) { return c < ' '; }, ' ');
   while (!line.empty() && (line.back() == '.' || line.back() == ' ')) line.pop_back();
   constexpr std::size_t kEnough = 20;  // a broken file can warn at each of its features
   if (level == CE_Warning) {
-    if (self->warnings_.size() < kEnough && std::ranges::find(self->warnings_, line) == self->warnings_.end()) {
+    if (self->warnings_.size() < kEnough &&
+        std::ranges::find(self->warnings_, line) == self->warnings_.end()) {
       self->warnings_.push_back(std::move(line));
     }
   } else if (self->failure_.empty()) {

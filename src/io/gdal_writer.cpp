@@ -14,6 +14,7 @@
 #include <set>
 
 #include "io/gdal_support.h"
+#include "io/place.h"
 #include "io/table_writer.h"
 #include "medial/io/projection.h"
 #include "medial/query.h"
@@ -36,7 +37,8 @@ bool spells(const std::string& text, Number& value) {
   if (problem != std::errc() || stop != end) return false;
   std::array<char, 40> again{};
   const auto printed = std::to_chars(again.data(), again.data() + again.size(), value);
-  return std::string_view(again.data(), static_cast<std::size_t>(printed.ptr - again.data())) == text;
+  return std::string_view(again.data(), static_cast<std::size_t>(printed.ptr - again.data())) ==
+         text;
 }
 
 /// An attribute of the input. Attributes travel as text; a column whose every value is the usual
@@ -58,14 +60,15 @@ std::vector<Column> columns_of(const NativeFile& file) {
       std::int64_t whole = 0;
       double real = 0;
       if (type == OFTInteger64 && !spells(value, whole)) type = OFTReal;
-      if (type == OFTReal && !(spells(value, real) && std::isfinite(real)) && !spells(value, whole)) {
+      if (type == OFTReal && !(spells(value, real) && std::isfinite(real)) &&
+          !spells(value, whole)) {
         type = OFTString;
       }
     }
   }
-  const std::array<const char*, 13> own{"feature", "branch",    "r_from",     "r_to",  "length",
-                                        "r_min",   "r_max",     "site_left",  "site_right",
-                                        "fid",     "ogc_fid",   "geom",       "node"};
+  const std::array<const char*, 13> own{"feature", "branch", "r_from",    "r_to",       "length",
+                                        "r_min",   "r_max",  "site_left", "site_right", "fid",
+                                        "ogc_fid", "geom",   "node"};
   std::set<std::string> taken;
   const auto lower = [](std::string text) {
     for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -126,7 +129,7 @@ class GdalWriter {
 
  private:
   Status failed(const GdalMessages& messages) const {
-    return Error{ErrorCode::unwritable, "cannot write: " + messages.failure(), Place{.file = shown_}};
+    return Error{ErrorCode::unwritable, "cannot write: " + messages.failure(), in_file(shown_)};
   }
 
   Status prepare_crs() {
@@ -160,7 +163,8 @@ class GdalWriter {
     return layer;
   }
 
-  Status write_layers(GDALDataset& target, const std::string& format, const GdalMessages& messages) {
+  Status write_layers(GDALDataset& target, const std::string& format,
+                      const GdalMessages& messages) {
     const bool transactions = target.TestCapability(ODsCTransactions) != 0;
     if (transactions) target.StartTransaction();
     // The only layer of a file that holds one is named after the file.

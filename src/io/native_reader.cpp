@@ -316,7 +316,8 @@ NativeFile read_document(json::document& document) {
       itemized = true;
     }
   }
-  demand(document.at_end(), "something follows the last bracket");
+  demand(document.current_location().error() != simdjson::SUCCESS,
+         "something follows the last bracket");
   demand(versioned, "the version is missing");
   demand(itemized, "the items are missing");
   return file;
@@ -394,8 +395,8 @@ Dataset dataset_of(NativeFile file) {
     });
     for (const std::size_t i : loops) {
       const auto points = shape.loop(i);
-      feature.rings.push_back({{points.begin(), points.end()},
-                               shape.hole[i] ? RingRole::hole : RingRole::outer});
+      feature.rings.push_back(
+          {{points.begin(), points.end()}, shape.hole[i] ? RingRole::hole : RingRole::outer});
     }
   }
   return dataset;

@@ -48,11 +48,13 @@ class SiteNames {
 
  private:
   static bool same(Vec2 a, Vec2 b) {
-    return a == b && std::signbit(a.x) == std::signbit(b.x) && std::signbit(a.y) == std::signbit(b.y);
+    return a == b && std::signbit(a.x) == std::signbit(b.x) &&
+           std::signbit(a.y) == std::signbit(b.y);
   }
   bool fits(std::uint32_t vertex, const Site& site) const {
     const Vec2 end = shape_.points[site.kind == SiteKind::segment ? next_[vertex] : vertex];
-    return shape_.sources[vertex].ring == site.ring && shape_.sources[vertex].vertex == site.vertex &&
+    return shape_.sources[vertex].ring == site.ring &&
+           shape_.sources[vertex].vertex == site.vertex &&
            same(shape_.points[vertex], site.start) && same(end, site.end);
   }
   void sort_by_source() {

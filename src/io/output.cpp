@@ -12,6 +12,7 @@
 #include <cstring>
 #include <filesystem>
 
+#include "io/place.h"
 #include "medial/io/write.h"
 
 namespace medial::io {
@@ -24,7 +25,7 @@ constexpr std::size_t kBuffer = std::size_t{1} << 20;
 
 Error unwritable(const std::string& path, int problem) {
   return Error{ErrorCode::unwritable, fmt::format("cannot write: {}", std::strerror(problem)),
-               Place{.file = path}};
+               in_file(path)};
 }
 
 // What remove_partial_files() has to remove. A signal handler must not allocate, lock or list
@@ -78,9 +79,13 @@ void remove_partial_files() noexcept {
 Result<PendingFile> PendingFile::create(const std::string& target) {
   std::error_code code;
   PendingFile file;
-  const fs::path resolved = fs::is_symlink(target, code) ? fs::canonical(target, code) : fs::path(target);
-  if (code || resolved.empty()) return unwritable(target, code ? code.value() : ENOENT);
-  if (!resolved.has_filename() || fs::is_directory(resolved, code)) return unwritable(target, EISDIR);
+  fs::path resolved = target;
+  if (fs::is_symlink(resolved, code)) {
+    resolved = fs::canonical(resolved, code);
+    if (code) return unwritable(target, code.value());
+  }
+  if (!resolved.has_filename() || fs::is_directory(resolved, code))
+    return unwritable(target, EISDIR);
   file.target_ = resolved.string();
   const fs::path parent = resolved.has_parent_path() ? resolved.parent_path() : fs::path(".");
   std::string directory = (parent / ".medial-XXXXXX").string();
@@ -123,8 +128,8 @@ Status PendingFile::commit() {
 
 bool is_stream(const std::string& path) {
   struct stat status {};
-  return path == "-" || (stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode) &&
-                         !S_ISDIR(status.st_mode));
+  return path == "-" ||
+         (stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode));
 }
 
 Result<OutputStream> OutputStream::open(const std::string& path) {

@@ -38,7 +38,8 @@ class PendingFile {
 /// Whether a path names something that cannot be replaced, only written to: a device or a pipe.
 bool is_stream(const std::string& path);
 
-/// A buffered stream of bytes to a file. After a failure everything is swallowed and finish() tells.
+/// A buffered stream of bytes to a file. After a failure everything is swallowed and finish()
+/// tells.
 class OutputStream {
  public:
   /// Creates a file; `-` is standard output; a device or a pipe is opened as it is.
@@ -60,9 +61,8 @@ class OutputStream {
         buffer_.data());
   }
   template <class Integer>
-    requires std::is_integral_v<Integer> && (!std::is_same_v<Integer, char>) &&
-             (!std::is_same_v<Integer, bool>)
-  void put(Integer value) {
+  requires std::is_integral_v<Integer> &&
+      (!std::is_same_v<Integer, char>)&&(!std::is_same_v<Integer, bool>)void put(Integer value) {
     reserve(kLongestNumber);
     used_ = static_cast<std::size_t>(
         std::to_chars(buffer_.data() + used_, buffer_.data() + buffer_.size(), value).ptr -

@@ -285,7 +285,8 @@ class Picture {
       const Homogeneous c = curve.blossom(t1, t1);
       const auto place = [this](const Homogeneous& p) { return frame_({p.x / p.w, p.y / p.w}); };
       const double radius = std::max(curve.radius(0.5 * (t0 + t1)), 0.0);
-      const int index = largest_ > 0 ? static_cast<int>(radius / largest_ * (kShades - 1) + 0.5) : 0;
+      const int index =
+          largest_ > 0 ? static_cast<int>(radius / largest_ * (kShades - 1) + 0.5) : 0;
       take(std::clamp(index, 0, kShades - 1),
            Piece{place(a), place(b), place(c), b.w / std::sqrt(a.w * c.w), straight});
     }
@@ -387,8 +388,8 @@ Status write_picture(OutputStream& out, const std::string& format, const NativeF
   cairo_surface_finish(surface.get());
   if (status == CAIRO_STATUS_SUCCESS) status = cairo_surface_status(surface.get());
   if (status != CAIRO_STATUS_SUCCESS && !out.failed()) {
-    return Error{ErrorCode::unwritable,
-                 fmt::format("cannot draw: {}", cairo_status_to_string(status)), {}};
+    return Error{
+        ErrorCode::unwritable, fmt::format("cannot draw: {}", cairo_status_to_string(status)), {}};
   }
   return success();
 }

@@ -7,10 +7,10 @@
 
 namespace medial::io {
 
-/// Draws shapes and axes through Cairo as svg, pdf, ps or png: y upwards, aspect kept, line widths by
-/// the picture's size, edges coloured by radius (dark: thin, bright: thick). Edges are drawn as what
-/// they are: straight lines, and cubic Bezier curves that equal the parabolas.
-/// Errors: invalid_option (width), unwritable.
+/// Draws shapes and axes through Cairo as svg, pdf, ps or png: y upwards, aspect kept, line widths
+/// by the picture's size, edges coloured by radius (dark: thin, bright: thick). Edges are drawn as
+/// what they are: straight lines, and cubic Bezier curves that equal the parabolas. Errors:
+/// invalid_option (width), unwritable.
 Status write_picture(OutputStream& out, const std::string& format, const NativeFile& file,
                      const WriteOptions& options);
 

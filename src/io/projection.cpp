@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "io/gdal_support.h"
+#include "io/place.h"
 
 namespace medial::io {
 
@@ -16,8 +17,8 @@ namespace {
 // The name by which a projection of our own is known again, in memory and in files.
 constexpr const char* kLocalName = "medial local projection";
 
-// Beyond this distance from the middle, in degrees of the great circle (about 300 km), the transverse
-// Mercator projection stretches by more than 0.11 percent.
+// Beyond this distance from the middle, in degrees of the great circle (about 300 km), the
+// transverse Mercator projection stretches by more than 0.11 percent.
 constexpr double kConformalReach = 2.7;
 
 using Transformer = std::unique_ptr<OGRCoordinateTransformation>;
@@ -93,7 +94,8 @@ Extent extent_of(const Dataset& dataset) {
     const Direction d = direction_of(point);
     cosine = std::min(cosine, (sum.x * d.x + sum.y * d.y + sum.z * d.z) / length);
   });
-  return {degrees(std::atan2(sum.y, sum.x)), degrees(std::asin(std::clamp(sum.z / length, -1.0, 1.0))),
+  return {degrees(std::atan2(sum.y, sum.x)),
+          degrees(std::asin(std::clamp(sum.z / length, -1.0, 1.0))),
           degrees(std::acos(std::clamp(cosine, -1.0, 1.0)))};
 }
 
@@ -112,7 +114,8 @@ Status project_to_local(Dataset& dataset) {
   OGRSpatialReference geographic;
   if (dataset.crs_wkt.empty()) {
     geographic.importFromEPSG(4326);
-    dataset.notes.push_back("no reference system is given: taken as longitude and latitude, WGS 84");
+    dataset.notes.push_back(
+        "no reference system is given: taken as longitude and latitude, WGS 84");
   } else if (!dataset.geographic) {
     dataset.notes.push_back("the coordinates are projected already: nothing was projected");
     return success();
@@ -121,7 +124,8 @@ Status project_to_local(Dataset& dataset) {
   }
   if (!can_be_degrees(dataset)) {
     return Error{ErrorCode::invalid_option,
-                 "the coordinates are no degrees, so there is nothing to project", {}};
+                 "the coordinates are no degrees, so there is nothing to project",
+                 {}};
   }
 
   const Extent extent = extent_of(dataset);
@@ -140,7 +144,7 @@ Status project_to_local(Dataset& dataset) {
   const auto failed = [&messages](std::size_t feature) {
     return Error{ErrorCode::unsupported,
                  fmt::format("a point cannot be projected: {}", messages.failure()),
-                 Place{.feature = feature}};
+                 in_feature(feature)};
   };
   if (!transformation) return failed(0);
   for (std::size_t i = 0; i < dataset.features.size(); ++i) {
@@ -175,7 +179,8 @@ Result<BackToGeographic> BackToGeographic::make(const std::string& crs_wkt) {
   const GdalMessages messages;
   OGRSpatialReference local;
   if (!is_local_projection(crs_wkt) || local.importFromWkt(crs_wkt.c_str()) != OGRERR_NONE) {
-    return Error{ErrorCode::unsupported, "the reference system is no local projection of medial's", {}};
+    return Error{
+        ErrorCode::unsupported, "the reference system is no local projection of medial's", {}};
   }
   OGRSpatialReference geographic;
   geographic.CopyGeogCSFrom(&local);

@@ -4,8 +4,8 @@
 #include <sys/stat.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cctype>
+#include <cerrno>
 #include <cmath>
 #include <cstring>
 #include <new>
@@ -13,6 +13,7 @@
 #include "io/gdal_reader.h"
 #include "io/gdal_support.h"
 #include "io/native.h"
+#include "io/place.h"
 #include "io/repair.h"
 #include "io/text_reader.h"
 #include "medial/io/projection.h"
@@ -24,9 +25,8 @@ namespace {
 constexpr std::size_t kSniffed = 4096;
 
 std::string lower(std::string text) {
-  std::ranges::transform(text, text.begin(), [](unsigned char c) {
-    return static_cast<char>(std::tolower(c));
-  });
+  std::ranges::transform(text, text.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return text;
 }
 
@@ -59,8 +59,8 @@ Result<Dataset> read_native_dataset(TextSource& source) {
 Result<Dataset> read_own(TextSource& source, Format format, const std::string& path,
                          const ReadOptions& options) {
   if (!options.layer.empty() || !options.where.empty()) {
-    return Error{ErrorCode::invalid_option, "this format has no layers and no attributes to choose by",
-                 Place{.file = path}};
+    return Error{ErrorCode::invalid_option,
+                 "this format has no layers and no attributes to choose by", in_file(path)};
   }
   if (format == Format::wkt) return read_wkt(source);
   if (format == Format::xy) return read_xy(source);
@@ -87,7 +87,7 @@ Result<Dataset> read_any(const std::string& path, const ReadOptions& options) {
     std::string bytes;
     (*source)->read_all(bytes);
     if ((*source)->failure()) return *(*source)->failure();
-    if (bytes.empty()) return Error{ErrorCode::empty, "there is nothing to read", Place{.file = path}};
+    if (bytes.empty()) return Error{ErrorCode::empty, "there is nothing to read", in_file(path)};
     return read_gdal_bytes(bytes, path, options);
   }
   const Format format = format_of_name(path);
@@ -96,7 +96,7 @@ Result<Dataset> read_any(const std::string& path, const ReadOptions& options) {
     const bool special = path.starts_with("/vsi") || path.find(':') != std::string::npos;
     if (!special && stat(path.c_str(), &status) != 0) {
       return Error{ErrorCode::unreadable, fmt::format("cannot open: {}", std::strerror(errno)),
-                   Place{.file = path}};
+                   in_file(path)};
     }
     return read_gdal(gdal_name(path), path, options);
   }
@@ -118,10 +118,10 @@ std::optional<Error> find_not_finite(const Dataset& dataset) {
       const auto bad = std::ranges::find_if(
           points, [](Vec2 p) { return !std::isfinite(p.x) || !std::isfinite(p.y); });
       if (bad == points.end()) continue;
-      return Error{ErrorCode::not_finite, "a coordinate is not a finite number",
-                   Place{.feature = i,
-                         .ring = k,
-                         .vertex = static_cast<std::uint64_t>(bad - points.begin())}};
+      Error error{ErrorCode::not_finite, "a coordinate is not a finite number", in_feature(i)};
+      error.place.ring = k;
+      error.place.vertex = static_cast<std::uint64_t>(bad - points.begin());
+      return error;
     }
   }
   return std::nullopt;

@@ -9,6 +9,8 @@
 #include <numeric>
 #include <span>
 
+#include "io/place.h"
+
 namespace medial::io {
 
 namespace {
@@ -143,8 +145,8 @@ class Repairer {
     const bool loose = std::ranges::find(roles_, RingRole::any) != roles_.end();
     if (loose && roles_.size() > 1) return false;  // only the rule tells how loose rings nest
     if (rule_ == RepairRule::non_zero) {
-      // Outer rings must run one way and holes the other: then the winding number is 0 or not as the
-      // roles say.
+      // Outer rings must run one way and holes the other: then the winding number is 0 or not as
+      // the roles say.
       const bool positive = signed_area(closed_.front()) > 0;
       for (std::size_t i = 0; i < closed_.size(); ++i) {
         const bool left = (signed_area(closed_[i]) > 0) == positive;
@@ -161,7 +163,8 @@ class Repairer {
       result = made_valid(std::move(result));
     }
     if (!result) {
-      return Error{ErrorCode::internal, fmt::format("GEOS cannot repair this: {}", geos_.message()), {}};
+      return Error{
+          ErrorCode::internal, fmt::format("GEOS cannot repair this: {}", geos_.message()), {}};
     }
     std::vector<Ring> rings;
     collect(result.get(), rings);
@@ -251,7 +254,8 @@ class Repairer {
         return own(nullptr);
       }
       const Winding::Number number = winding.around(p);
-      const bool keep = rule_ == RepairRule::non_zero ? number.winding != 0 : number.crossings % 2 != 0;
+      const bool keep =
+          rule_ == RepairRule::non_zero ? number.winding != 0 : number.crossings % 2 != 0;
       if (keep) kept.push_back(own(GEOSGeom_clone_r(geos_.handle(), face)));
     }
     // Faces side by side are no valid multipolygon until they are united.
@@ -279,7 +283,8 @@ class Repairer {
   void add_ring(const GEOSGeometry* source, RingRole role, std::vector<Ring>& rings) const {
     const GEOSCoordSequence* sequence = GEOSGeom_getCoordSeq_r(geos_.handle(), source);
     unsigned count = 0;
-    if (sequence == nullptr || GEOSCoordSeq_getSize_r(geos_.handle(), sequence, &count) != 1) return;
+    if (sequence == nullptr || GEOSCoordSeq_getSize_r(geos_.handle(), sequence, &count) != 1)
+      return;
     Ring& ring = rings.emplace_back();
     ring.role = role;
     ring.points.resize(count);
@@ -307,8 +312,9 @@ const char* rule_text(RepairRule rule) {
 
 }  // namespace
 
-Status repair(Feature& feature, std::size_t index, RepairRule rule, std::vector<std::string>& notes) {
-  const Place place{.feature = index};
+Status repair(Feature& feature, std::size_t index, RepairRule rule,
+              std::vector<std::string>& notes) {
+  const Place place = in_feature(index);
   for (const Ring& ring : feature.rings) {
     for (const Vec2 point : ring.points) {
       if (!std::isfinite(point.x) || !std::isfinite(point.y)) {
@@ -325,15 +331,17 @@ Status repair(Feature& feature, std::size_t index, RepairRule rule, std::vector<
     return rings.error();
   }
   if (rings->empty()) {
-    return Error{ErrorCode::no_area, "nothing is left after the repair: no area is enclosed", place};
+    return Error{ErrorCode::no_area, "nothing is left after the repair: no area is enclosed",
+                 place};
   }
   const Counts before = counts_of(feature.rings);
   const Counts after = counts_of(*rings);
-  notes.push_back(fmt::format(
-      "feature {} was repaired {}: {} rings, {} vertices, area {:.10g} before; {} rings, {} vertices, "
-      "area {:.10g} after",
-      index, rule_text(repairer.rule()), before.rings, before.vertices, before.area, after.rings,
-      after.vertices, after.area));
+  notes.push_back(
+      fmt::format("feature {} was repaired {}: {} rings, {} vertices, area {:.10g} before; {} "
+                  "rings, {} vertices, "
+                  "area {:.10g} after",
+                  index, rule_text(repairer.rule()), before.rings, before.vertices, before.area,
+                  after.rings, after.vertices, after.area));
   feature.rings = std::move(*rings);
   return success();
 }

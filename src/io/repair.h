@@ -15,6 +15,7 @@ namespace medial::io {
 ///   non_zero    what the rings wind around a number of times that is not zero; orientations count
 /// Rings that are valid by the rule are left as they are. What changed becomes a note.
 /// Errors: not_finite, no_area (nothing is left), internal (GEOS gives up).
-Status repair(Feature& feature, std::size_t index, RepairRule rule, std::vector<std::string>& notes);
+Status repair(Feature& feature, std::size_t index, RepairRule rule,
+              std::vector<std::string>& notes);
 
 }  // namespace medial::io

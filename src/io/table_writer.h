@@ -6,8 +6,8 @@
 
 namespace medial::io {
 
-/// Writes `edge,x,y,r`, a row a sample; edges count through all items. Samples of an edge follow each
-/// other, the nodes first and last; chords stay within options.chord of each item's diagonal.
+/// Writes `edge,x,y,r`, a row a sample; edges count through all items. Samples of an edge follow
+/// each other, the nodes first and last; chords stay within options.chord of each item's diagonal.
 void write_csv(OutputStream& out, const NativeFile& file, const WriteOptions& options);
 
 /// Writes a line of text for each item: a MULTILINESTRING of its branches.

@@ -65,9 +65,11 @@ class WktReader {
           dataset_.features, [](const Feature& feature) { return !feature.rings.empty(); });
       if (!polygons) {
         return Error{ErrorCode::unsupported,
-                     fmt::format("no polygons, only other geometries ({} of them)", others_), {}};
+                     fmt::format("no polygons, only other geometries ({} of them)", others_),
+                     {}};
       }
-      dataset_.notes.push_back(fmt::format("{} geometries are no polygons and were left out", others_));
+      dataset_.notes.push_back(
+          fmt::format("{} geometries are no polygons and were left out", others_));
     }
     return std::move(dataset_);
   }
@@ -80,7 +82,8 @@ class WktReader {
 
   Error expected(std::string_view what) {
     const std::string found = source_.next_as_text();
-    return source_.error(ErrorCode::malformed, fmt::format("expected {} but found {}", what, found));
+    return source_.error(ErrorCode::malformed,
+                         fmt::format("expected {} but found {}", what, found));
   }
 
   void skip_separators() {

@@ -6,13 +6,13 @@
 namespace medial::io {
 
 /// Reads well-known text: one feature for every POLYGON, MULTIPOLYGON or GEOMETRYCOLLECTION that
-/// stands at the top, in any case of letters, with or without `SRID=n;` before it. Ordinates beyond x
-/// and y are dropped; other geometries are counted in a note. Takes constant memory besides the
+/// stands at the top, in any case of letters, with or without `SRID=n;` before it. Ordinates beyond
+/// x and y are dropped; other geometries are counted in a note. Takes constant memory besides the
 /// result, whatever the nesting. Errors: malformed, not_finite, unsupported, unreadable.
 Result<Dataset> read_wkt(TextSource& source);
 
-/// Reads plain text: two numbers a line, apart by blanks, a comma or a semicolon. A blank line, or a
-/// line that begins with `#`, ends a ring. All rings are one feature, by the even-odd rule.
+/// Reads plain text: two numbers a line, apart by blanks, a comma or a semicolon. A blank line, or
+/// a line that begins with `#`, ends a ring. All rings are one feature, by the even-odd rule.
 /// Errors: malformed, not_finite, unreadable.
 Result<Dataset> read_xy(TextSource& source);
 

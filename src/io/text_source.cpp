@@ -10,6 +10,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "io/place.h"
+
 namespace medial::io {
 
 namespace {
@@ -39,7 +41,7 @@ Result<std::shared_ptr<TextSource>> TextSource::open(const std::string& path) {
 
   const auto failed = [&path] {
     return Error{ErrorCode::unreadable, std::string("cannot open: ") + std::strerror(errno),
-                 Place{.file = path}};
+                 in_file(path)};
   };
   struct stat status {};
   if (!standard && stat(path.c_str(), &status) != 0) return failed();
@@ -72,12 +74,12 @@ bool TextSource::refill(std::size_t wanted) {
       const char* message = gzerror(handle_->file, &code);
       if (code == Z_ERRNO) {
         failure_ = Error{ErrorCode::unreadable, std::string("cannot read: ") + std::strerror(errno),
-                         Place{.file = path_}};
+                         in_file(path_)};
       } else if (code == Z_BUF_ERROR) {
-        failure_ = Error{ErrorCode::malformed, "the gzip data end too early", Place{.file = path_}};
+        failure_ = Error{ErrorCode::malformed, "the gzip data end too early", in_file(path_)};
       } else if (code != Z_OK && code != Z_STREAM_END) {
-        failure_ = Error{ErrorCode::malformed, fmt::format("the gzip data are damaged: {}", message),
-                         Place{.file = path_}};
+        failure_ = Error{ErrorCode::malformed,
+                         fmt::format("the gzip data are damaged: {}", message), in_file(path_)};
       }
       if (got <= 0 || failure_) at_end_ = true;
     }
@@ -117,7 +119,9 @@ TextSource::Number TextSource::read_number(double& value) {
 
 Error TextSource::error(ErrorCode code, std::string text) const {
   if (failure_) return *failure_;
-  return Error{code, std::move(text), Place{.file = path_, .line = line_}};
+  Error result{code, std::move(text), in_file(path_)};
+  result.place.line = line_;
+  return result;
 }
 
 std::string TextSource::next_as_text() {

@@ -12,8 +12,8 @@
 
 namespace medial::io {
 
-/// A text read from its beginning to its end through a window of constant size, so that files of any
-/// length take no memory. Decompresses gzip by itself. Knows its line.
+/// A text read from its beginning to its end through a window of constant size, so that files of
+/// any length take no memory. Decompresses gzip by itself. Knows its line.
 ///
 /// A failure to read (or to decompress) looks like the end of the text; failure() tells it.
 class TextSource {
@@ -21,8 +21,8 @@ class TextSource {
   /// The longest number, in characters.
   static constexpr std::size_t kLongestNumber = 4096;
 
-  /// Opens a file; `-` is standard input, which is one and the same source for the whole process: what
-  /// one reader peeks at, the next one finds.
+  /// Opens a file; `-` is standard input, which is one and the same source for the whole process:
+  /// what one reader peeks at, the next one finds.
   static Result<std::shared_ptr<TextSource>> open(const std::string& path);
 
   ~TextSource();
@@ -50,8 +50,8 @@ class TextSource {
   void read_all(std::string& text);
 
   enum class Number : std::uint8_t { read, none, not_finite, too_long };
-  /// Reads a decimal number, correctly rounded. An overflowing exponent or the words nan and inf are
-  /// `not_finite`; without `read` the cursor stays.
+  /// Reads a decimal number, correctly rounded. An overflowing exponent or the words nan and inf
+  /// are `not_finite`; without `read` the cursor stays.
   Number read_number(double& value);
 
   /// Line of the cursor, from 1.

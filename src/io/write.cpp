@@ -15,6 +15,7 @@
 #include "io/native.h"
 #include "io/output.h"
 #include "io/picture.h"
+#include "io/place.h"
 #include "io/table_writer.h"
 
 namespace medial::io {
@@ -35,13 +36,13 @@ Result<std::string> format_of(const std::string& path, const std::string& option
     format = path == "-" ? "json" : std::filesystem::path(path).extension().string();
   }
   if (format.starts_with('.')) format.erase(0, 1);
-  std::ranges::transform(format, format.begin(), [](unsigned char c) {
-    return static_cast<char>(std::tolower(c));
-  });
+  std::ranges::transform(format, format.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (std::ranges::find(kFormats, format) != kFormats.end()) return format;
-  return Error{ErrorCode::unsupported,
-               fmt::format("'{}' is no format to write; known are {}", format, known_output_formats()),
-               Place{.file = path}};
+  return Error{
+      ErrorCode::unsupported,
+      fmt::format("'{}' is no format to write; known are {}", format, known_output_formats()),
+      in_file(path)};
 }
 
 Status write_stream(OutputStream& out, const std::string& format, const NativeFile& file,
@@ -60,13 +61,16 @@ Status write_stream(OutputStream& out, const std::string& format, const NativeFi
   return out.finish();
 }
 
-/// GDAL writes to memory, and the bytes go on to a stream.
+/// GDAL writes to memory, and the bytes go on to a stream: because the stream cannot seek, or
+/// because some drivers of GDAL (GeoJSON) do not notice a full disk.
 Status write_gdal_stream(OutputStream& out, const std::string& format, const NativeFile& file,
                          const WriteOptions& options) {
   if (format == "shp") {
-    return Error{ErrorCode::unsupported, "a shapefile is several files and cannot go to a stream", {}};
+    return Error{
+        ErrorCode::unsupported, "a shapefile is several files and cannot go to a stream", {}};
   }
-  const std::string name = fmt::format("/vsimem/medial_{}.{}", static_cast<const void*>(&out), format);
+  const std::string name =
+      fmt::format("/vsimem/medial_{}.{}", static_cast<const void*>(&out), format);
   Status status = write_gdal(name, format, file, options);
   if (status) {
     vsi_l_offset size = 0;
@@ -93,12 +97,14 @@ Status write_any(const std::string& path, const std::string& option, const Nativ
   }
   Result<PendingFile> pending = PendingFile::create(path);
   if (!pending) return pending.error();
-  if (through_gdal(*format)) {
+  if (*format == "gpkg" || *format == "shp") {
     if (Status status = write_gdal(pending->path(), *format, file, options); !status) return status;
   } else {
     Result<OutputStream> out = OutputStream::open(pending->path());
     if (!out) return out.error();
-    if (Status status = write_stream(*out, *format, file, options); !status) return status;
+    Status status = through_gdal(*format) ? write_gdal_stream(*out, *format, file, options)
+                                          : write_stream(*out, *format, file, options);
+    if (!status) return status;
   }
   return pending->commit();
 }
