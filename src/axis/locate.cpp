@@ -125,9 +125,10 @@ struct AxisLocator::Index {
     const std::vector<Box>& boxes = levels[level - 1];
     const std::size_t begin = index * kFanOut, end = std::min(begin + kFanOut, boxes.size());
     std::array<std::pair<double, std::size_t>, kFanOut> child;
+    child.fill({std::numeric_limits<double>::infinity(), boxes.size()});
     for (std::size_t i = begin; i < end; ++i)
       child[i - begin] = {std::sqrt(squared_distance(boxes[i], p)), i};
-    std::sort(child.begin(), child.begin() + static_cast<std::ptrdiff_t>(end - begin));
+    std::sort(child.begin(), child.end());
     for (std::size_t i = 0; i < end - begin; ++i)
       if (child[i].first <= best.distance) visit(level - 1, child[i].second, p, best);
   }

@@ -4,6 +4,11 @@
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cstdint>
 
+// g++ 12 warns, wrongly, of limbs inside cpp_int where its moves are inlined here.
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+#endif
+
 namespace medial {
 namespace {
 
