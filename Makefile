@@ -22,7 +22,7 @@ build: setup    ## build the library and the command line
 	@cmake --build $(RELEASE) -j $(JOBS) --target medial medial_io medial_cli
 
 demo: build     ## medial axes of a country, a gear, a plan and a maze: out/demo
-	@tools/demo.sh $(RELEASE)/cli/medial out/demo
+	@tools/demo.py $(RELEASE)/cli/medial out/demo
 
 test: setup     ## all tests, in release and under the address and undefined-behaviour sanitizers
 	@cmake --preset release
