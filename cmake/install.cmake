@@ -11,10 +11,15 @@ else()
   set(MEDIAL_PKGCONFIG_PRIVATE Requires)
 endif()
 
+# Relative, so that the installed tree may be moved.
+file(RELATIVE_PATH MEDIAL_PREFIX_FROM_PKGCONFIG
+     ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
+
+# Installs one library with the headers below include/medial${headers}, and how to find it.
 function(medial_install target headers)
   set_target_properties(${target} PROPERTIES VERSION ${PROJECT_VERSION}
                         SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
-  string(REPLACE _ - name ${target})
+  string(REPLACE _ - name ${target})  # medial-io: of the files that describe it
   install(TARGETS ${target} EXPORT ${name}-targets)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/medial${headers}/
           DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/medial${headers}

@@ -1,0 +1,71 @@
+#!/usr/bin/env bash
+# Installs a build tree into a scratch prefix and uses it as a stranger would: by find_package, by
+# pkg-config, by the command line and its manual page.
+#
+#   tests/install_test.sh TREE
+set -euo pipefail
+tree=$1
+root=$(realpath "$(dirname "$0")/..")
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+prefix=$scratch/prefix
+
+fail() {
+  echo "install_test: $*" >&2
+  exit 1
+}
+
+cmake --install "$tree" --prefix "$prefix" > "$scratch/log" || { cat "$scratch/log"; exit 1; }
+
+# Every public header, and no other.
+diff <(cd "$root/include" && find . -name '*.h' | sort) \
+     <(cd "$prefix/include" && find . -type f | sort) || fail "other headers than include/"
+
+# The ten lines of the README, by find_package.
+expected="9 edges, length 23.3478, deepest disk of radius 1.7574"
+cmake -S "$root/examples/consumer" -B "$scratch/build" -G Ninja -DCMAKE_BUILD_TYPE=Release \
+  -DCMAKE_PREFIX_PATH="$prefix" > "$scratch/log" || { cat "$scratch/log"; exit 1; }
+cmake --build "$scratch/build" > "$scratch/log" || { cat "$scratch/log"; exit 1; }
+told=$("$scratch/build/consumer")
+[ "$told" = "$expected" ] || fail "the consumer told '$told'"
+
+# The core needs no library of formats or pictures.
+readelf -d "$scratch/build/consumer" | grep NEEDED > "$scratch/needed"
+[ -s "$scratch/needed" ] || fail "readelf told nothing"
+! grep -iE 'gdal|geos|cairo|proj|json|png|libz' "$scratch/needed" || fail "the core links io's libraries"
+
+# medial::io.
+"$scratch/build/file_to_picture" "$root/data/plan.wkt" "$scratch/plan.svg"
+grep -q '<svg' "$scratch/plan.svg" || fail "file_to_picture drew nothing"
+
+# The same by pkg-config.
+export PKG_CONFIG_PATH
+PKG_CONFIG_PATH=$(dirname "$(find "$prefix" -name medial.pc)")
+libdir=$(dirname "$PKG_CONFIG_PATH")
+for package in medial:main medial-io:file_to_picture; do
+  name=${package%%:*}
+  source=${package##*:}
+  # shellcheck disable=SC2046
+  "${CXX:-c++}" -std=c++20 "$root/examples/consumer/$source.cpp" -o "$scratch/$source" \
+    $(pkg-config --cflags --libs "$name") -Wl,-rpath,"$libdir"
+done
+told=$("$scratch/main")
+[ "$told" = "$expected" ] || fail "the consumer of pkg-config told '$told'"
+"$scratch/file_to_picture" "$root/data/gear.wkt" "$scratch/gear.svg"
+grep -q '<svg' "$scratch/gear.svg" || fail "file_to_picture of pkg-config drew nothing"
+
+# The command line, from where it is installed, and its manual page.
+told=$(cd / && "$prefix/bin/medial" --version)
+[ "$told" = "medial $(pkg-config --modversion medial)" ] || fail "the program is '$told'"
+page=$(find "$prefix" -name medial.1)
+[ -n "$page" ] || fail "no manual page"
+
+# The manual page names every verb and switch that --help tells.
+for verb in "" axis verify info draw; do
+  # shellcheck disable=SC2086
+  "$prefix/bin/medial" $verb --help
+done | grep -oE '(^|[ ,])--[a-z-]+' | tr -d ' ,' | sort -u | while read -r switch; do
+  sed 's/\\-/-/g' "$page" | grep -q -e "$switch" || fail "the manual page does not tell $switch"
+done
+
+echo "installed, found, built and run: $expected"
