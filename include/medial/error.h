@@ -12,22 +12,22 @@ namespace medial {
 
 /// What went wrong. The names are stable: they are what `--json` prints (see name_of).
 enum class ErrorCode : std::uint8_t {
-  not_finite,        ///< a coordinate is NaN or infinite
-  too_few_points,    ///< a ring has fewer than three distinct points
-  no_area,           ///< a ring (or the whole input) encloses no area
-  crossing,          ///< two edges cross
-  overlap,           ///< two edges share more than a point
-  hole_outside,      ///< a hole lies outside every outer ring
-  nested_outer,      ///< an outer ring lies in the inside of another outer ring
-  too_large,         ///< more sites than 32-bit indices can name
-  empty,             ///< no ring, no feature, nothing to do
-  unreadable,        ///< a file cannot be opened or read
-  malformed,         ///< a file's content is not what its format says
-  unsupported,       ///< a format, geometry or option that this build or verb does not know
-  unwritable,        ///< an output cannot be written
-  invalid_option,    ///< an option's value is out of its range
-  cancelled,         ///< the caller asked to stop
-  internal,          ///< a broken promise of the library itself: please report
+  not_finite,      ///< a coordinate is NaN or infinite
+  too_few_points,  ///< a ring has fewer than three distinct points
+  no_area,         ///< a ring (or the whole input) encloses no area
+  crossing,        ///< two edges cross
+  overlap,         ///< two edges share more than a point
+  hole_outside,    ///< a hole lies outside every outer ring
+  nested_outer,    ///< an outer ring lies in the inside of another outer ring
+  too_large,       ///< more sites than 32-bit indices can name
+  empty,           ///< no ring, no feature, nothing to do
+  unreadable,      ///< a file cannot be opened or read
+  malformed,       ///< a file's content is not what its format says
+  unsupported,     ///< a format, geometry or option that this build or verb does not know
+  unwritable,      ///< an output cannot be written
+  invalid_option,  ///< an option's value is out of its range
+  cancelled,       ///< the caller asked to stop
+  internal,        ///< a broken promise of the library itself: please report
 };
 
 /// The name of a code as it is spelled above, for example "crossing".

@@ -20,14 +20,14 @@ Vec2 foot(const Site& site, Vec2 p);
 double length(const MedialAxis& axis, const Edge& edge);
 double total_length(const MedialAxis& axis);
 
-/// Samples an edge from node to node, both included, so that every chord stays within `chord` (units
-/// of the input) of the curve in (x, y) and in r.
+/// Samples an edge from node to node, both included, so that every chord stays within `chord`
+/// (units of the input) of the curve in (x, y) and in r.
 std::vector<Disk> sample_by_chord(const MedialAxis& axis, const Edge& edge, double chord);
 /// Samples an edge from node to node, both included, with steps of at most `step` along the curve.
 std::vector<Disk> sample_by_step(const MedialAxis& axis, const Edge& edge, double step);
 
-/// The edges around each node, by increasing index of the edge; an edge from a node to itself stands
-/// there twice. Built in O(edges).
+/// The edges around each node, by increasing index of the edge; an edge from a node to itself
+/// stands there twice. Built in O(edges).
 class Incidence {
  public:
   explicit Incidence(const MedialAxis& axis);
@@ -57,8 +57,8 @@ struct Branch {
 /// All branches, each edge in exactly one; ordered by their lowest edge. O(edges).
 std::vector<Branch> branches(const MedialAxis& axis);
 
-/// The node of the largest radius (the lowest index among equals): its disk is the maximum inscribed
-/// circle, because no radius along an edge exceeds both ends'. Requires a node.
+/// The node of the largest radius (the lowest index among equals): its disk is the maximum
+/// inscribed circle, because no radius along an edge exceeds both ends'. Requires a node.
 std::uint32_t deepest_node(const MedialAxis& axis);
 
 /// A nearest point of the axis.

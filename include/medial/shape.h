@@ -45,16 +45,16 @@ struct ShapeReport {
 /// (outer loops counter-clockwise, holes clockwise).
 ///
 /// What always holds for a Shape made by build_shape(): all coordinates are finite; every loop has
-/// at least three vertices; neighbouring vertices differ and no three in a row are collinear, except
-/// at a vertex where loops touch; edges meet in vertices only; different loops have no
-/// point in common (loops that touched are joined: one loop passes through the common vertex once
-/// for every wedge of interior there). Each component is one outer loop and its holes.
+/// at least three vertices; neighbouring vertices differ and no three in a row are collinear,
+/// except at a vertex where loops touch; edges meet in vertices only; different loops have no point
+/// in common (loops that touched are joined: one loop passes through the common vertex once for
+/// every wedge of interior there). Each component is one outer loop and its holes.
 struct Shape {
-  std::vector<Vec2> points;                ///< the vertices of all loops, loop after loop
-  std::vector<VertexSource> sources;       ///< of each point
-  std::vector<std::uint32_t> loop_begin;   ///< loop i is points [loop_begin[i], loop_begin[i + 1])
-  std::vector<std::uint32_t> component;    ///< of each loop; components count from 0
-  std::vector<bool> hole;                  ///< of each loop
+  std::vector<Vec2> points;               ///< the vertices of all loops, loop after loop
+  std::vector<VertexSource> sources;      ///< of each point
+  std::vector<std::uint32_t> loop_begin;  ///< loop i is points [loop_begin[i], loop_begin[i + 1])
+  std::vector<std::uint32_t> component;   ///< of each loop; components count from 0
+  std::vector<bool> hole;                 ///< of each loop
 
   std::size_t loop_count() const { return component.size(); }
   std::span<const Vec2> loop(std::size_t i) const {
@@ -79,10 +79,10 @@ double area(const Shape& shape);
 /// Cleans, checks, orients and nests rings into a Shape. O(n log n).
 ///
 /// Repeated points, zero-length edges, exactly collinear runs and missing closing points are mended
-/// and counted in `report` (may be null). Rings may touch in vertices, or with a vertex in the inside
-/// of an edge. Every decision is exact for the coordinates given.
-/// Errors: not_finite, too_few_points, no_area, crossing, overlap (the place names ring, vertex and
-/// the point), hole_outside, nested_outer, empty, too_large.
+/// and counted in `report` (may be null). Rings may touch in vertices, or with a vertex in the
+/// inside of an edge. Every decision is exact for the coordinates given. Errors: not_finite,
+/// too_few_points, no_area, crossing, overlap (the place names ring, vertex and the point),
+/// hole_outside, nested_outer, empty, too_large.
 Result<Shape> build_shape(std::span<const Ring> rings, ShapeReport* report = nullptr);
 
 }  // namespace medial

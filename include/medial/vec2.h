@@ -24,6 +24,8 @@ constexpr Vec2 left_of(Vec2 a) { return {-a.y, a.x}; }
 constexpr double squared_norm(Vec2 a) { return dot(a, a); }
 inline double norm(Vec2 a) { return std::sqrt(dot(a, a)); }
 inline double distance(Vec2 a, Vec2 b) { return norm(a - b); }
-constexpr Vec2 midpoint(Vec2 a, Vec2 b) { return {a.x + 0.5 * (b.x - a.x), a.y + 0.5 * (b.y - a.y)}; }
+constexpr Vec2 midpoint(Vec2 a, Vec2 b) {
+  return {a.x + 0.5 * (b.x - a.x), a.y + 0.5 * (b.y - a.y)};
+}
 
 }  // namespace medial

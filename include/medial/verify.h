@@ -11,30 +11,30 @@ namespace medial {
 
 /// What verify() measured. Lengths and areas in units of the input.
 struct Certificate {
-  double tolerance = 0;             ///< what the residuals are judged against
-  double largest_residual = 0;      ///< max |distance to the boundary - r|, nodes and edge samples
-  double largest_intrusion = 0;     ///< max (r - distance to the nearest boundary point), >= 0
-  double largest_contact_gap = 0;   ///< max |distance to an edge's own two sites - r|
-  double largest_uncovered = 0;     ///< max distance from a boundary sample to the union of disks
+  double tolerance = 0;            ///< what the residuals are judged against
+  double largest_residual = 0;     ///< max |distance to the boundary - r|, nodes and edge samples
+  double largest_intrusion = 0;    ///< max (r - distance to the nearest boundary point), >= 0
+  double largest_contact_gap = 0;  ///< max |distance to an edge's own two sites - r|
+  double largest_uncovered = 0;    ///< max distance from a boundary sample to the union of disks
   double shape_area = 0;
-  double disks_area = 0;            ///< area of the union of the disks
+  double disks_area = 0;  ///< area of the union of the disks
   std::uint64_t disks_checked = 0;
-  std::uint64_t components = 0;     ///< of the shape
-  std::uint64_t graph_parts = 0;    ///< connected parts of the graph
+  std::uint64_t components = 0;   ///< of the shape
+  std::uint64_t graph_parts = 0;  ///< connected parts of the graph
   std::uint64_t holes = 0;
-  std::uint64_t cycles = 0;         ///< independent cycles of the graph
+  std::uint64_t cycles = 0;  ///< independent cycles of the graph
   std::uint64_t convex_corners = 0;
   std::uint64_t corners_without_leaf = 0;
   std::uint64_t reflex_vertices = 0;
   std::uint64_t reflex_without_contact = 0;
-  double worst_x = 0;               ///< where the largest residual is
+  double worst_x = 0;  ///< where the largest residual is
   double worst_y = 0;
-  bool passed = false;              ///< all of the design's demands hold
+  bool passed = false;                ///< all of the design's demands hold
   std::vector<std::string> failures;  ///< one sentence for each demand that does not hold
 };
 
 struct VerifyOptions {
-  double tolerance = 0;      ///< relative to the diagonal; 0: 1e-14, or the coordinates' own spacing
+  double tolerance = 0;  ///< relative to the diagonal; 0: 1e-14, or the coordinates' own spacing
   int samples_per_edge = 8;  ///< points inside every edge
   int threads = 0;
 };

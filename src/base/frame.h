@@ -34,9 +34,9 @@ inline Frame frame_of(const Box& box) {
   Frame frame;
   frame.origin = {detail::exact_origin(box.low.x, box.high.x),
                   detail::exact_origin(box.low.y, box.high.y)};
-  const double extent =
-      std::max(std::max(std::abs(box.low.x - frame.origin.x), std::abs(box.high.x - frame.origin.x)),
-               std::max(std::abs(box.low.y - frame.origin.y), std::abs(box.high.y - frame.origin.y)));
+  const double extent = std::max(
+      std::max(std::abs(box.low.x - frame.origin.x), std::abs(box.high.x - frame.origin.x)),
+      std::max(std::abs(box.low.y - frame.origin.y), std::abs(box.high.y - frame.origin.y)));
   int exponent = 0;
   std::frexp(extent, &exponent);
   // Both the scale and its inverse must be normal numbers.

@@ -15,8 +15,8 @@ namespace medial {
 /// spacing of doubles at the largest coordinate: the input itself is not known better.
 inline double tolerance_for(const Box& box, double relative) {
   constexpr double default_relative = 4e-15;
-  const double largest = std::max({std::abs(box.low.x), std::abs(box.low.y), std::abs(box.high.x),
-                                   std::abs(box.high.y)});
+  const double largest = std::max(
+      {std::abs(box.low.x), std::abs(box.low.y), std::abs(box.high.x), std::abs(box.high.y)});
   const double spacing = largest * std::numeric_limits<double>::epsilon();
   return std::max((relative > 0 ? relative : default_relative) * diagonal(box), 2 * spacing);
 }

@@ -14,15 +14,16 @@ namespace medial::io {
 /// One polygon or multipolygon of an input file.
 struct Feature {
   std::vector<Ring> rings;
-  std::int64_t id = 0;                           ///< of the source, or its index
-  std::vector<std::pair<std::string, std::string>> attributes;  ///< name and value as text, in order
+  std::int64_t id = 0;  ///< of the source, or its index
+  std::vector<std::pair<std::string, std::string>>
+      attributes;  ///< name and value as text, in order
 };
 
 /// What a file holds.
 struct Dataset {
   std::vector<Feature> features;
-  std::string crs_wkt;       ///< coordinate reference system as WKT, empty if none
-  bool geographic = false;   ///< coordinates are longitude and latitude
+  std::string crs_wkt;             ///< coordinate reference system as WKT, empty if none
+  bool geographic = false;         ///< coordinates are longitude and latitude
   std::vector<std::string> notes;  ///< what repair or reprojection changed, one sentence each
 };
 

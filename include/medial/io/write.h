@@ -11,11 +11,11 @@ namespace medial::io {
 struct WriteOptions {
   double chord = 1e-3;  ///< chords stay within this fraction of the bounding box diagonal
   // pictures (.svg .pdf .png .ps)
-  double width = 1024;        ///< of the picture, in pixels or points
-  int disks = 0;              ///< draw about this many maximal disks; 0: none
-  bool contacts = false;      ///< draw the feet of the nodes' disks
-  bool shape = true;          ///< draw the shape
-  bool nodes = false;         ///< draw the nodes by kind
+  double width = 1024;    ///< of the picture, in pixels or points
+  int disks = 0;          ///< draw about this many maximal disks; 0: none
+  bool contacts = false;  ///< draw the feet of the nodes' disks
+  bool shape = true;      ///< draw the shape
+  bool nodes = false;     ///< draw the nodes by kind
 };
 
 /// Writes axes by the extension of `path`: .json (native) .geojson .gpkg .shp .fgb .wkt .csv
