@@ -1,0 +1,283 @@
+#include "cli/common.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <system_error>
+
+namespace medial::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The limits of what can be asked for, so that no value asks for more memory than a machine has.
+constexpr double smallest_chord = 1e-9;
+constexpr double largest_tolerance = 1e-3;
+constexpr int most_threads = 1024;
+constexpr int most_disks = 1'000'000;
+constexpr double narrowest_picture = 16;
+constexpr double widest_picture = 30'000;  // Cairo's images end at 32,767 pixels
+
+/// A number in [low, high]; NaN is in no range.
+CLI::Validator in_range(double low, double high) {
+  const std::string range = fmt::format("[{:g} - {:g}]", low, high);
+  return CLI::Validator(
+      [=](const std::string& text) {
+        double value = 0;
+        const bool inside = CLI::detail::lexical_cast(text, value) && value >= low && value <= high;
+        return inside ? std::string() : fmt::format("{} is not in {}", text, range);
+      },
+      range);
+}
+
+/// What Options::tolerance takes.
+CLI::Validator a_tolerance() {
+  return CLI::Validator(
+      [](const std::string& text) {
+        double value = 0;
+        const bool inside =
+            CLI::detail::lexical_cast(text, value) && value > 0 && value <= largest_tolerance;
+        return inside ? std::string()
+                      : fmt::format("{} is not in (0, {:g}]", text, largest_tolerance);
+      },
+      fmt::format("(0 - {:g}]", largest_tolerance));
+}
+
+std::string lower(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+bool lists(const std::string& formats, const std::string& wanted) {
+  if (wanted.empty()) return false;
+  std::string word;
+  for (const char c : formats + ' ') {
+    if (std::isalnum(static_cast<unsigned char>(c))) {
+      word += c;
+    } else {
+      if (word == wanted) return true;
+      word.clear();
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+void add_input_switches(CLI::App& verb, InputSwitches& input) {
+  verb.add_option("INPUT", input.path,
+                  "Polygons: any vector file that GDAL reads, .wkt, .wkt.gz, plain `x y`\n"
+                  "text, medial's own .json, or - for standard input.")
+      ->required()
+      ->option_text(" ");
+  verb.add_option("--layer", input.read.layer, "Read this layer (default: the first).")
+      ->option_text("NAME");
+  verb.add_option("--where", input.read.where,
+                  "Read only the features for which this SQL condition holds,\n"
+                  "for example \"population > 1000\".")
+      ->option_text("SQL");
+  // A flag that carries a value: as an option, `--repair FILE` would take the file for the rule.
+  static const std::map<std::string, io::RepairRule> rules = {
+      {"make-valid", io::RepairRule::make_valid},
+      {"even-odd", io::RepairRule::even_odd},
+      {"non-zero", io::RepairRule::non_zero}};
+  verb.add_flag("--repair{make-valid}", input.repair,
+                "Mend crossing or overlapping rings by make-valid (the default rule),\n"
+                "even-odd or non-zero, instead of refusing them; tells what changed.")
+      ->check(CLI::IsMember({"make-valid", "even-odd", "non-zero"}))
+      ->each([&input](const std::string& rule) { input.read.repair = rules.at(rule); });
+  verb.add_flag("--project", input.read.project,
+                "Longitudes and latitudes: compute in a fitting local projection, in\n"
+                "metres.");
+}
+
+void add_engine_switches(CLI::App& verb, EngineSwitches& engine) {
+  verb.add_option("--threads", engine.threads,
+                  "Threads to use (default: 0, all of the machine). The result is the\n"
+                  "same, byte for byte.")
+      ->check(in_range(0, most_threads))
+      ->option_text("N");
+  verb.add_option("--tolerance", engine.tolerance,
+                  "How far a disk may miss what it touches, as a fraction of the diagonal\n"
+                  "of the bounding box, at most 1e-3 (default: 4e-15, or what the\n"
+                  "coordinates' spacing allows).")
+      ->check(a_tolerance())
+      ->option_text("T");
+}
+
+void add_report_switches(CLI::App& verb, ReportSwitches& report) {
+  verb.add_flag("--json", report.json, "Print one JSON object on standard output; errors too.");
+  verb.add_flag("--quiet", report.quiet, "No warnings, no notes, no progress; only errors.");
+}
+
+void add_chord_switch(CLI::App& verb, io::WriteOptions& write) {
+  verb.add_option("--chord", write.chord,
+                  "Where curves are written as points, chords stay within this fraction of\n"
+                  "the diagonal of the bounding box (default: 1e-3).")
+      ->check(in_range(smallest_chord, 1))
+      ->option_text("C");
+}
+
+void add_picture_switches(CLI::App& verb, io::WriteOptions& write) {
+  verb.add_option("--width", write.width,
+                  "Width of a picture, in pixels (.png) or points of 1/72 inch\n"
+                  "(.svg .pdf .ps) (default: 1024).")
+      ->check(in_range(narrowest_picture, widest_picture))
+      ->option_text("W")
+      ->group("Pictures");
+  verb.add_option("--disks", write.disks,
+                  "Draw about N maximal disks, spread over the axis (default: 0).")
+      ->check(in_range(0, most_disks))
+      ->option_text("N")
+      ->group("Pictures");
+  verb.add_flag("--contacts", write.contacts, "Draw where the nodes' disks touch the boundary.")
+      ->group("Pictures");
+  verb.add_flag("--nodes", write.nodes, "Draw the nodes, by kind.")->group("Pictures");
+  verb.add_flag("!--no-shape", write.shape, "Leave the shape out.")->group("Pictures");
+}
+
+Status check_output(const std::string& path, const std::string& format,
+                    const std::string& known_formats, const std::string& input) {
+  if (path == "-") {
+    if (format.empty()) return invalid_option("-o - needs --format, for example --format csv");
+    if (lists(known_formats, lower(format))) return success();
+    return error_at(ErrorCode::unsupported, {},
+                    fmt::format("no such format: {}; known are {}", format, known_formats));
+  }
+  if (!format.empty()) {
+    return invalid_option("--format goes with -o -; a file's extension tells its format");
+  }
+  const fs::path target(path);
+  std::string extension = lower(target.extension().string());
+  if (!extension.empty()) extension.erase(0, 1);
+  std::error_code ignored;
+  if (fs::is_directory(target, ignored)) {
+    return error_at(ErrorCode::unwritable, path, "is a directory");
+  }
+  if (!lists(known_formats, extension)) {
+    return error_at(ErrorCode::unsupported, path,
+                    fmt::format("{}; known are {}",
+                                extension.empty() ? "an output needs an extension"
+                                                  : "no such output format: ." + extension,
+                                known_formats));
+  }
+  const fs::path parent = target.has_parent_path() ? target.parent_path() : fs::path(".");
+  if (!fs::is_directory(parent, ignored)) {
+    return error_at(ErrorCode::unwritable, path, "its directory does not exist");
+  }
+  if (access(parent.c_str(), W_OK | X_OK) != 0) {
+    return error_at(ErrorCode::unwritable, path,
+                    fmt::format("its directory takes no files ({})", std::strerror(errno)));
+  }
+  if (!fs::exists(target, ignored)) return success();
+  if (!fs::is_regular_file(target, ignored)) {
+    return error_at(ErrorCode::unwritable, path, "exists and is no regular file");
+  }
+  if (access(target.c_str(), W_OK) != 0) {
+    return error_at(ErrorCode::unwritable, path, std::strerror(errno));
+  }
+  if (input != "-" && fs::equivalent(target, input, ignored)) {
+    return error_at(ErrorCode::unwritable, path, "is the input itself");
+  }
+  return success();
+}
+
+Error error_at(ErrorCode code, const std::string& file, std::string text) {
+  Error error{code, std::move(text), {}};
+  error.place.file = file;
+  return error;
+}
+
+Error invalid_option(std::string text) {
+  return Error{ErrorCode::invalid_option, std::move(text), {}};
+}
+
+Json to_json(const Error& error) {
+  Json place = Json::object();
+  if (!error.place.file.empty()) place["file"] = error.place.file;
+  if (error.place.feature) place["feature"] = *error.place.feature;
+  if (error.place.ring) place["ring"] = *error.place.ring;
+  if (error.place.vertex) place["vertex"] = *error.place.vertex;
+  if (error.place.line) place["line"] = *error.place.line;
+  if (error.place.point) {
+    place["x"] = error.place.point->x;
+    place["y"] = error.place.point->y;
+  }
+  return {{"error", {{"code", name_of(error.code)}, {"text", error.text}, {"place", place}}}};
+}
+
+Json to_json(const ShapeReport& report) {
+  return {
+      {"closing_points", report.closing_points},   {"unclosed_rings", report.unclosed_rings},
+      {"repeated_points", report.repeated_points}, {"collinear_points", report.collinear_points},
+      {"reversed_rings", report.reversed_rings},   {"touching_vertices", report.touching_vertices},
+      {"split_edges", report.split_edges}};
+}
+
+Json to_json(const Box& box) { return {box.low.x, box.low.y, box.high.x, box.high.y}; }
+
+int report_error(const Error& error, bool json, const std::string& hint) {
+  std::string line = to_string(error);
+  std::replace_if(
+      line.begin(), line.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+  fmt::print(stderr, "medial: {}{}\n", line, hint);
+  if (json) (void)print(to_json(error));
+  return exit_error;
+}
+
+Status print(const std::string& text) {
+  const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
+  if (written && std::fflush(stdout) == 0) return success();
+  return error_at(ErrorCode::unwritable, "standard output", std::strerror(errno));
+}
+
+Status print(const Json& object) {
+  // File names need not be UTF-8; the object has to be.
+  return print(object.dump(2, ' ', false, Json::error_handler_t::replace) + '\n');
+}
+
+std::string describe(const ShapeReport& report) {
+  std::string text;
+  const auto mention = [&text](std::uint64_t count, const char* noun, const char* plural = "") {
+    if (count > 0) text += (text.empty() ? "" : ", ") + counted(count, noun, plural);
+  };
+  mention(report.unclosed_rings, "unclosed ring");
+  mention(report.repeated_points, "repeated point");
+  mention(report.collinear_points, "collinear point");
+  mention(report.reversed_rings, "reversed ring");
+  mention(report.touching_vertices, "touching vertex", "touching vertices");
+  mention(report.split_edges, "split edge");
+  return text;
+}
+
+void add(ShapeReport& sum, const ShapeReport& part) {
+  sum.input_rings += part.input_rings;
+  sum.input_points += part.input_points;
+  sum.closing_points += part.closing_points;
+  sum.unclosed_rings += part.unclosed_rings;
+  sum.repeated_points += part.repeated_points;
+  sum.collinear_points += part.collinear_points;
+  sum.reversed_rings += part.reversed_rings;
+  sum.touching_vertices += part.touching_vertices;
+  sum.split_edges += part.split_edges;
+}
+
+std::string counted(std::uint64_t count, const std::string& noun, const std::string& plural) {
+  if (count == 1) return "1 " + noun;
+  return fmt::format("{} {}", count, plural.empty() ? noun + "s" : plural);
+}
+
+std::string crs_name(const std::string& wkt) {
+  const auto begin = wkt.find('"');
+  const auto end = begin == std::string::npos ? begin : wkt.find('"', begin + 1);
+  return end == std::string::npos ? std::string() : wkt.substr(begin + 1, end - begin - 1);
+}
+
+}  // namespace medial::cli

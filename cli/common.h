@@ -1,0 +1,98 @@
+#pragma once
+
+// What the verbs share: their switches, and how errors and objects are printed.
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "medial/error.h"
+#include "medial/io/read.h"
+#include "medial/io/write.h"
+#include "medial/shape.h"
+
+namespace medial::cli {
+
+using Json = nlohmann::ordered_json;
+
+/// Exit statuses. An interrupted run exits with 128 + the signal's number.
+constexpr int exit_success = 0;
+constexpr int exit_failed_verdict = 1;
+constexpr int exit_error = 2;
+
+/// A verb: its place on the command line, and what to do once the line is parsed. `run` gives the
+/// exit status, or the error that main() reports.
+struct Verb {
+  CLI::App* app = nullptr;
+  std::function<Result<int>()> run;
+};
+
+Verb make_axis_verb(CLI::App& program);
+Verb make_verify_verb(CLI::App& program);
+Verb make_info_verb(CLI::App& program);
+Verb make_draw_verb(CLI::App& program);
+
+/// Where polygons come from.
+struct InputSwitches {
+  std::string path;
+  std::string repair;  ///< the name of read.repair
+  io::ReadOptions read;
+};
+
+/// How hard to work.
+struct EngineSwitches {
+  double tolerance = 0;  ///< relative to the diagonal; 0: the library's default
+  int threads = 0;       ///< 0: all of the machine
+};
+
+/// What to tell, and how.
+struct ReportSwitches {
+  bool json = false;
+  bool quiet = false;
+};
+
+/// Each adds its switches to a verb; what they refer to must live as long as the verb.
+void add_input_switches(CLI::App& verb, InputSwitches& input);
+void add_engine_switches(CLI::App& verb, EngineSwitches& engine);
+void add_report_switches(CLI::App& verb, ReportSwitches& report);
+void add_chord_switch(CLI::App& verb, io::WriteOptions& write);
+void add_picture_switches(CLI::App& verb, io::WriteOptions& write);
+
+/// Checks that `path` can be written later, before any long work: a known format, a directory that
+/// takes files, nothing there but a regular file that may be replaced, and not the input itself.
+/// `known_formats` lists extensions, separated by anything that is neither letter nor digit.
+Status check_output(const std::string& path, const std::string& format,
+                    const std::string& known_formats, const std::string& input);
+
+/// An error of a file as a whole.
+Error error_at(ErrorCode code, const std::string& file, std::string text);
+
+/// The error of a command line that asks for something impossible.
+Error invalid_option(std::string text);
+
+/// {"error": {"code": ..., "text": ..., "place": {...}}}
+Json to_json(const Error& error);
+Json to_json(const ShapeReport& report);
+Json to_json(const Box& box);
+
+/// Prints an error as one line on standard error and, on request, as an object on standard output.
+/// Returns exit_error.
+int report_error(const Error& error, bool json, const std::string& hint = {});
+
+/// Prints to standard output. An output that takes no more is an error (unwritable).
+Status print(const std::string& text);
+Status print(const Json& object);
+
+/// What build_shape() mended, as "2 repeated points, 1 reversed ring"; empty if nothing.
+std::string describe(const ShapeReport& report);
+/// Adds up the reports of several features.
+void add(ShapeReport& sum, const ShapeReport& part);
+
+/// "1 edge", "2 edges"; `plural` where an s does not do.
+std::string counted(std::uint64_t count, const std::string& noun, const std::string& plural = {});
+
+/// The name of a coordinate reference system given as WKT: "WGS 84"; empty for none.
+std::string crs_name(const std::string& wkt);
+
+}  // namespace medial::cli

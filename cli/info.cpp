@@ -1,0 +1,231 @@
+// medial info: what a file of polygons or of axes holds.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "cli/common.h"
+#include "cli/pipeline.h"
+#include "cli/terminal.h"
+
+namespace medial::cli {
+namespace {
+
+struct InfoSwitches {
+  InputSwitches input;
+  ReportSwitches report;
+  int threads = 0;
+};
+
+/// Adds lines of a name and a value.
+class Table {
+ public:
+  void row(const char* name, const std::string& value) {
+    text_ += fmt::format("{:<20}{}\n", name, value);
+  }
+  void row(const char* name, std::uint64_t count) { row(name, fmt::format("{}", count)); }
+  const std::string& text() const { return text_; }
+
+ private:
+  std::string text_;
+};
+
+struct ShapeSummary {
+  std::uint64_t components = 0;
+  std::uint64_t loops = 0;
+  std::uint64_t holes = 0;
+  std::uint64_t vertices = 0;
+  double area = 0;
+  Box extent;
+};
+
+void grow(Box& box, const Box& other) {
+  box.low = {std::min(box.low.x, other.low.x), std::min(box.low.y, other.low.y)};
+  box.high = {std::max(box.high.x, other.high.x), std::max(box.high.y, other.high.y)};
+}
+
+template <class Shapes>
+ShapeSummary summarize_shapes(const Shapes& shapes) {
+  ShapeSummary summary;
+  bool first = true;
+  for (const Shape& shape : shapes) {
+    summary.components += shape.component_count();
+    summary.loops += shape.loop_count();
+    summary.holes += shape.hole_count();
+    summary.vertices += shape.points.size();
+    summary.area += area(shape);
+    if (shape.points.empty()) continue;
+    if (first) {
+      summary.extent = bounding_box(shape);
+    } else {
+      grow(summary.extent, bounding_box(shape));
+    }
+    first = false;
+  }
+  return summary;
+}
+
+void add_rows(Table& table, const ShapeSummary& summary) {
+  table.row("outer rings", summary.loops - summary.holes);
+  table.row("holes", summary.holes);
+  table.row("vertices", summary.vertices);
+  table.row("extent",
+            fmt::format("x {:.10g} to {:.10g}, y {:.10g} to {:.10g}", summary.extent.low.x,
+                        summary.extent.high.x, summary.extent.low.y, summary.extent.high.y));
+  table.row("area", fmt::format("{:.10g}", summary.area));
+}
+
+void add_members(Json& object, const ShapeSummary& summary) {
+  object["components"] = summary.components;
+  object["rings"] = summary.loops;
+  object["holes"] = summary.holes;
+  object["vertices"] = summary.vertices;
+  object["extent"] = to_json(summary.extent);
+  object["area"] = summary.area;
+}
+
+std::string crs_text(const std::string& wkt, bool geographic) {
+  const std::string name = crs_name(wkt);
+  return (name.empty() ? "unknown" : name) + (geographic ? " (longitude and latitude)" : "");
+}
+
+/// Of polygons that are no shape, the error tells; main() reports it.
+Result<int> tell_polygons(const InfoSwitches& switches) {
+  auto file = load_shapes(switches.input, switches.threads);
+  if (!file) return std::move(file).error();
+  print_notes(*file, switches.input, switches.report);
+  const ShapeSummary summary = summarize_shapes(file->shapes);
+  Status printed = success();
+  if (switches.report.json) {
+    Json object = {{"input", switches.input.path},
+                   {"kind", "polygons"},
+                   {"valid", true},
+                   {"features", file->shapes.size()}};
+    add_members(object, summary);
+    object["input_rings"] = file->report.input_rings;
+    object["input_points"] = file->report.input_points;
+    object["cleaned"] = to_json(file->report);
+    object["notes"] = file->notes;
+    object["crs"] = crs_name(file->crs_wkt);
+    object["geographic"] = file->geographic;
+    printed = print(object);
+  } else {
+    Table table;
+    table.row("polygons", "valid");
+    table.row("features", file->shapes.size());
+    add_rows(table, summary);
+    table.row("as read", fmt::format("{}, {}", counted(file->report.input_rings, "ring"),
+                                     counted(file->report.input_points, "point")));
+    const std::string mended = describe(file->report);
+    table.row("cleaned", mended.empty() ? "nothing" : mended);
+    table.row("coordinates", crs_text(file->crs_wkt, file->geographic));
+    printed = print(table.text());
+  }
+  if (!printed) return std::move(printed).error();
+  return exit_success;
+}
+
+/// One value if all axes agree, or else how many there are.
+template <class Get>
+std::string common_value(const io::NativeFile& file, Get get) {
+  const std::string first = get(file.items.front().axis);
+  const bool same = std::all_of(file.items.begin(), file.items.end(),
+                                [&](const auto& item) { return get(item.axis) == first; });
+  return same ? first : "differs by feature";
+}
+
+Result<int> tell_axes(const InfoSwitches& switches) {
+  const auto file = io::read_native(switches.input.path);
+  if (!file) return file.error();
+  if (file->items.empty()) {
+    return error_at(ErrorCode::empty, switches.input.path, "holds no axis");
+  }
+  const AxisSummary axes = summarize(*file);
+  std::vector<std::reference_wrapper<const Shape>> shape_list;
+  for (const io::NativeItem& item : file->items) shape_list.emplace_back(item.shape);
+  const ShapeSummary shapes = summarize_shapes(shape_list);
+  const std::string method = common_value(*file, [](const MedialAxis& a) { return a.method; });
+  double tolerance = 0;
+  double resolution = 0;
+  for (const io::NativeItem& item : file->items) {
+    tolerance = std::max(tolerance, item.axis.tolerance);
+    resolution = std::max(resolution, item.axis.resolution);
+  }
+
+  Status printed = success();
+  if (switches.report.json) {
+    Json object = {{"input", switches.input.path}, {"kind", "axis"}, {"features", axes.features}};
+    object["method"] = method;
+    object["tolerance"] = tolerance;
+    object["resolution"] = resolution;
+    object["sites"] = axes.sites;
+    object["nodes"] = {
+        {"leaf", axes.leaves}, {"site_change", axes.site_changes}, {"branching", axes.branchings}};
+    object["edges"] = axes.edges;
+    object["branches"] = axes.branches;
+    object["length"] = axes.length;
+    object["deepest"] = to_json(axes)["deepest"];
+    Json shape;
+    add_members(shape, shapes);
+    object["shape"] = shape;
+    object["crs"] = crs_name(file->crs_wkt);
+    printed = print(object);
+  } else {
+    Table table;
+    table.row("medial axes", axes.features);
+    table.row("method", method);
+    table.row("tolerance", fmt::format("{:.3g}", tolerance));
+    if (resolution > 0) table.row("resolution", fmt::format("{:.3g}", resolution));
+    table.row("sites", axes.sites);
+    table.row("nodes",
+              fmt::format("{} ({}, {}, {})", axes.nodes(), counted(axes.leaves, "leaf", "leaves"),
+                          counted(axes.site_changes, "change of sites", "changes of sites"),
+                          counted(axes.branchings, "branching")));
+    table.row("edges", axes.edges);
+    table.row("branches", axes.branches);
+    table.row("length", fmt::format("{:.10g}", axes.length));
+    if (axes.deepest.radius >= 0) {
+      table.row(
+          "deepest disk",
+          fmt::format("radius {:.10g} at ({:.10g}, {:.10g}){}", axes.deepest.radius,
+                      axes.deepest.center.x, axes.deepest.center.y,
+                      axes.features > 1 ? fmt::format(", feature {}", axes.deepest_feature) : ""));
+    }
+    add_rows(table, shapes);
+    table.row("coordinates", crs_text(file->crs_wkt, false));
+    printed = print(table.text());
+  }
+  if (!printed) return std::move(printed).error();
+  return exit_success;
+}
+
+Result<int> run_info(const InfoSwitches& switches) {
+  return io::is_native(switches.input.path) ? tell_axes(switches) : tell_polygons(switches);
+}
+
+}  // namespace
+
+Verb make_info_verb(CLI::App& program) {
+  auto switches = std::make_shared<InfoSwitches>();
+  CLI::App* verb = program.add_subcommand("info", "Tell what a file of polygons or axes holds.");
+  add_input_switches(*verb, switches->input);
+  verb->add_option("--threads", switches->threads,
+                   "Threads to use (default: 0, all of the machine).")
+      ->check(CLI::Range(0, 1024))
+      ->option_text("N");
+  add_report_switches(*verb, switches->report);
+  verb->footer(
+      "Of polygons: features, outer rings, holes, vertices, extent, area, what was\n"
+      "cleaned, and the coordinate reference system; polygons that are not valid are an\n"
+      "error (exit status 2) that names the place. Of axes: nodes by kind, edges,\n"
+      "branches, length and the deepest disk, which is the maximum inscribed circle.\n"
+      "Lengths are in the units of the file.\n"
+      "\n"
+      "Examples:\n"
+      "  medial info country.shp\n"
+      "  medial info --json plan.json");
+  return {verb, [switches] { return run_info(*switches); }};
+}
+
+}  // namespace medial::cli

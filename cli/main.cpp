@@ -1,0 +1,85 @@
+// The command line: parses, calls the library, prints. One file for each verb.
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <exception>
+#include <new>
+
+#include "cli/common.h"
+#include "cli/terminal.h"
+
+namespace medial::cli {
+namespace {
+
+/// CLI11's help, with `--repair[=RULE]` for a flag that may carry a value.
+class HelpFormatter : public CLI::Formatter {
+ public:
+  HelpFormatter() { column_width(27); }
+
+  std::string make_option_name(const CLI::Option* option, bool is_positional) const override {
+    std::string name = CLI::Formatter::make_option_name(option, is_positional);
+    const auto brace = name.find('{');
+    if (brace == std::string::npos) return name;
+    return name.substr(0, brace) + (name.find("{false}") == brace ? "" : "[=RULE]");
+  }
+};
+
+int run(int argc, char** argv, bool json) {
+  CLI::App program(
+      "Exact medial axis transform of polygons with holes: all centres of the largest\n"
+      "disks inside a shape, with their radii.");
+  program.name("medial");
+  program.formatter(std::make_shared<HelpFormatter>());
+  program.set_version_flag("--version", "medial " MEDIAL_VERSION, "Print the version.");
+  program.set_help_flag("--help,-h", "Print this help.");
+  program.require_subcommand(1);
+  program.get_formatter()->label("SUBCOMMAND", "VERB");
+  program.footer(
+      "`medial VERB --help` tells each verb's switches, with examples.\n"
+      "\n"
+      "Exit status: 0 done; 1 `verify` refused the axis; 2 an error, told in one line\n"
+      "on standard error as `medial: FILE: feature F, ring R, vertex V at (X, Y): what\n"
+      "is wrong [code]`. Features, rings and vertices count from 0. Nothing is written\n"
+      "then, and an interrupted run leaves no partial file.");
+  const std::array verbs = {make_axis_verb(program), make_verify_verb(program),
+                            make_info_verb(program), make_draw_verb(program)};
+  for (const Verb& verb : verbs) verb.app->group("Verbs");
+
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& parse_error) {
+    if (parse_error.get_exit_code() == 0) return program.exit(parse_error);  // help and version
+    std::string hint = "; see medial --help";
+    for (const CLI::App* verb : program.get_subcommands()) {
+      hint = "; see medial " + verb->get_name() + " --help";
+    }
+    return report_error(invalid_option(parse_error.what()), json, hint);
+  }
+  const auto verb = std::find_if(verbs.begin(), verbs.end(),
+                                 [](const Verb& candidate) { return candidate.app->parsed(); });
+  const Result<int> status = verb->run();
+  return status ? *status : report_error(status.error(), json);
+}
+
+}  // namespace
+}  // namespace medial::cli
+
+int main(int argc, char** argv) {
+  using namespace medial;
+  // Whether errors are wanted as JSON has to be known even where the line cannot be parsed.
+  const bool json =
+      std::any_of(argv, argv + argc, [](const char* word) { return !std::strcmp(word, "--json"); });
+  cli::install_signal_handlers();
+  std::string text = "something unexpected happened";
+  try {
+    return cli::run(argc, argv, json);
+  } catch (const std::bad_alloc&) {
+    text = "out of memory";
+  } catch (const std::exception& exception) {
+    text += std::string(": ") + exception.what();
+  } catch (...) {
+  }
+  io::remove_partial_files();
+  return cli::report_error({ErrorCode::internal, text, {}}, json);
+}

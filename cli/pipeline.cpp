@@ -1,0 +1,290 @@
+#include "cli/pipeline.h"
+
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+#include <tbb/info.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <atomic>
+#include <numeric>
+#include <optional>
+
+#include "cli/terminal.h"
+#include "medial/query.h"
+
+namespace medial::cli {
+namespace {
+
+Error at_feature(Error error, const std::string& path, std::size_t feature) {
+  if (error.place.file.empty()) error.place.file = path;
+  error.place.feature = feature;
+  return error;
+}
+
+/// The loops of a shape as rings, to be checked anew: a file may hold anything.
+std::vector<Ring> rings_of(const Shape& shape) {
+  std::vector<Ring> rings;
+  rings.reserve(shape.loop_count());
+  for (std::size_t i = 0; i < shape.loop_count(); ++i) {
+    const auto loop = shape.loop(i);
+    rings.push_back({{loop.begin(), loop.end()}, shape.hole[i] ? RingRole::hole : RingRole::outer});
+  }
+  return rings;
+}
+
+/// Lets the sources of a shape built from the loops of `original` name what those came from.
+void keep_sources(Shape& shape, const Shape& original) {
+  for (VertexSource& source : shape.sources) {
+    source = original.sources[original.loop_begin[source.ring] + source.vertex];
+  }
+}
+
+/// The polygons of a file, and where they come from medial's own format, the shapes they were.
+struct Polygons {
+  io::Dataset dataset;
+  std::vector<Shape> originals;
+};
+
+Result<Polygons> read_polygons(const InputSwitches& input) {
+  Polygons polygons;
+  if (!io::is_native(input.path)) {
+    auto dataset = io::read_dataset(input.path, input.read);
+    if (!dataset) return std::move(dataset).error();
+    polygons.dataset = std::move(dataset).value();
+    return polygons;
+  }
+  if (!input.read.layer.empty() || !input.read.where.empty() || input.read.project ||
+      input.read.repair != io::RepairRule::none) {
+    return invalid_option(
+        "--layer, --where, --repair and --project are not for medial's own format");
+  }
+  auto native = io::read_native(input.path);
+  if (!native) return std::move(native).error();
+  polygons.dataset.crs_wkt = native->crs_wkt;
+  for (io::NativeItem& item : native->items) {
+    io::Feature feature;
+    feature.rings = rings_of(item.shape);
+    feature.id = static_cast<std::int64_t>(polygons.dataset.features.size());
+    feature.attributes = std::move(item.attributes);
+    polygons.dataset.features.push_back(std::move(feature));
+    polygons.originals.push_back(std::move(item.shape));
+  }
+  return polygons;
+}
+
+}  // namespace
+
+int effective_threads(int threads) {
+  return threads > 0 ? threads : std::max(1, tbb::info::default_concurrency());
+}
+
+Status for_each_feature(std::span<const double> weights, int threads,
+                        const std::function<Status(std::size_t, int)>& work) {
+  const int available = effective_threads(threads);
+  // More threads than the machine has are a user's right: oneTBB has to be told.
+  const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<std::size_t>(available));
+  const std::size_t count = weights.size();
+  std::vector<std::optional<Error>> errors(count);
+  std::atomic<std::size_t> lowest_error = count;
+  const auto run = [&](std::size_t i, int own_threads) {
+    if (i > lowest_error.load()) return;
+    Status status = work(i, own_threads);
+    if (status) return;
+    errors[i] = std::move(status).error();
+    std::size_t seen = lowest_error.load();
+    while (i < seen && !lowest_error.compare_exchange_weak(seen, i)) {
+    }
+  };
+
+  // A feature is large if, on one thread, it could outlast all others together.
+  const double share = std::accumulate(weights.begin(), weights.end(), 0.0) / available;
+  const auto is_large = [&](std::size_t i) { return available > 1 && weights[i] >= share; };
+  std::vector<std::size_t> small;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (is_large(i)) {
+      run(i, available);
+    } else {
+      small.push_back(i);
+    }
+  }
+  tbb::task_arena(available).execute([&] {
+    tbb::parallel_for(std::size_t{0}, small.size(), [&](std::size_t k) { run(small[k], 1); });
+  });
+
+  if (lowest_error.load() == count) return success();
+  return std::move(*errors[lowest_error.load()]);
+}
+
+Result<ShapeFile> load_shapes(const InputSwitches& input, int threads) {
+  ShapeFile file;
+  const Stopwatch reading;
+  auto polygons = read_polygons(input);
+  if (!polygons) {
+    Error error = std::move(polygons).error();
+    if (error.place.file.empty()) error.place.file = input.path;
+    return error;
+  }
+  io::Dataset& dataset = polygons->dataset;
+  if (dataset.features.empty()) {
+    return error_at(ErrorCode::empty, input.path, "holds no polygon");
+  }
+  file.crs_wkt = std::move(dataset.crs_wkt);
+  file.geographic = dataset.geographic;
+  file.notes = std::move(dataset.notes);
+  file.seconds_read = reading.seconds();
+
+  const Stopwatch shaping;
+  const std::size_t count = dataset.features.size();
+  std::vector<double> weights;
+  for (io::Feature& feature : dataset.features) {
+    std::size_t points = 1;
+    for (const Ring& ring : feature.rings) points += ring.points.size();
+    weights.push_back(static_cast<double>(points));
+    file.attributes.push_back(std::move(feature.attributes));
+  }
+  file.shapes.resize(count);
+  std::vector<ShapeReport> reports(count);
+  Status built = for_each_feature(weights, threads, [&](std::size_t i, int) -> Status {
+    io::Feature& feature = dataset.features[i];
+    auto shape = build_shape(feature.rings, &reports[i]);
+    if (!shape) return at_feature(std::move(shape).error(), input.path, i);
+    feature.rings = {};
+    file.shapes[i] = std::move(shape).value();
+    if (!polygons->originals.empty()) keep_sources(file.shapes[i], polygons->originals[i]);
+    return success();
+  });
+  if (!built) return std::move(built).error();
+  for (const ShapeReport& report : reports) add(file.report, report);
+  file.seconds_shape = shaping.seconds();
+  return file;
+}
+
+void print_notes(const ShapeFile& file, const InputSwitches& input, const ReportSwitches& report) {
+  if (report.quiet) return;
+  for (const std::string& note : file.notes) {
+    fmt::print(stderr, "medial: {}: note: {}\n", input.path, note);
+  }
+  if (file.geographic && !input.read.project) {
+    fmt::print(
+        stderr,
+        "medial: {}: warning: longitudes and latitudes are taken as plane coordinates, which "
+        "distorts distances; --project computes in metres\n",
+        input.path);
+  }
+}
+
+Result<AxisFile> compute_axes(ShapeFile shapes, const std::string& path,
+                              const EngineSwitches& engine, const ReportSwitches& report) {
+  const Stopwatch watch;
+  AxisFile file;
+  const std::size_t count = shapes.shapes.size();
+  file.native.items.resize(count);
+  file.native.crs_wkt = std::move(shapes.crs_wkt);
+  std::vector<double> weights;
+  for (const Shape& shape : shapes.shapes) {
+    weights.push_back(static_cast<double>(shape.points.size()));
+  }
+  const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
+  Progress progress("medial axis", total, error_is_terminal() && !report.quiet);
+  Status computed =
+      for_each_feature(weights, engine.threads, [&](std::size_t i, int threads) -> Status {
+        Options options;
+        options.tolerance = engine.tolerance;
+        options.threads = threads;
+        options.progress = progress.part(weights[i]);
+        auto axis = compute(shapes.shapes[i], options);
+        if (!axis) return at_feature(std::move(axis).error(), path, i);
+        io::NativeItem& item = file.native.items[i];
+        item.axis = std::move(axis).value();
+        item.shape = std::move(shapes.shapes[i]);
+        item.attributes = std::move(shapes.attributes[i]);
+        if (options.progress) options.progress(1.0);
+        return success();
+      });
+  if (!computed) return std::move(computed).error();
+
+  for (const io::NativeItem& item : file.native.items) {
+    const Statistics& part = item.axis.statistics;
+    Statistics& sum = file.statistics;
+    sum.queries += part.queries;
+    sum.apollonius += part.apollonius;
+    sum.brackets += part.brackets;
+    sum.precision_retries += part.precision_retries;
+    sum.cuts += part.cuts;
+    sum.largest_residual = std::max(sum.largest_residual, part.largest_residual);
+    sum.seconds_sites += part.seconds_sites;
+    sum.seconds_tree += part.seconds_tree;
+    sum.seconds_connect += part.seconds_connect;
+    sum.seconds_walk += part.seconds_walk;
+    sum.seconds_collect += part.seconds_collect;
+    sum.seconds += part.seconds;
+  }
+  file.statistics.threads = effective_threads(engine.threads);
+  file.seconds = watch.seconds();
+  return file;
+}
+
+AxisSummary summarize(const io::NativeFile& file) {
+  AxisSummary summary;
+  summary.features = file.items.size();
+  summary.deepest.radius = -1;
+  for (std::size_t i = 0; i < file.items.size(); ++i) {
+    const MedialAxis& axis = file.items[i].axis;
+    summary.sites += axis.sites.size();
+    summary.edges += axis.edges.size();
+    summary.branches += branches(axis).size();
+    summary.length += total_length(axis);
+    for (const Node& node : axis.nodes) {
+      switch (node.kind) {
+        case NodeKind::leaf:
+          ++summary.leaves;
+          break;
+        case NodeKind::site_change:
+          ++summary.site_changes;
+          break;
+        case NodeKind::branching:
+          ++summary.branchings;
+          break;
+      }
+    }
+    if (axis.nodes.empty()) continue;
+    const Disk disk = axis.nodes[deepest_node(axis)].disk;
+    if (disk.radius > summary.deepest.radius) {
+      summary.deepest = disk;
+      summary.deepest_feature = i;
+    }
+  }
+  return summary;
+}
+
+std::string describe(const AxisSummary& summary) {
+  std::string text =
+      fmt::format("{}, {}, {}, {}, {}", counted(summary.features, "feature"),
+                  counted(summary.sites, "site"), counted(summary.nodes(), "node"),
+                  counted(summary.edges, "edge"), counted(summary.branches, "branch", "branches"));
+  if (summary.deepest.radius >= 0) {
+    text += fmt::format("; deepest disk: radius {:.6g} at ({:.10g}, {:.10g})",
+                        summary.deepest.radius, summary.deepest.center.x, summary.deepest.center.y);
+    if (summary.features > 1) text += fmt::format(" in feature {}", summary.deepest_feature);
+  }
+  return text;
+}
+
+Json to_json(const AxisSummary& summary) {
+  return {{"features", summary.features},
+          {"sites", summary.sites},
+          {"nodes", summary.nodes()},
+          {"edges", summary.edges},
+          {"branches", summary.branches},
+          {"length", summary.length},
+          {"deepest",
+           {{"x", summary.deepest.center.x},
+            {"y", summary.deepest.center.y},
+            {"radius", summary.deepest.radius},
+            {"feature", summary.deepest_feature}}}};
+}
+
+}  // namespace medial::cli

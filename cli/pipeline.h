@@ -1,0 +1,82 @@
+#pragma once
+
+// The way from a file of polygons to shapes and on to their axes, feature by feature.
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "cli/common.h"
+#include "medial/compute.h"
+#include "medial/io/read.h"
+
+namespace medial::cli {
+
+using Attributes = std::vector<std::pair<std::string, std::string>>;
+
+/// The shapes of a file, one for each feature, in the file's order.
+struct ShapeFile {
+  std::vector<Shape> shapes;
+  std::vector<Attributes> attributes;
+  ShapeReport report;  ///< summed over the features
+  std::string crs_wkt;
+  bool geographic = false;         ///< coordinates are longitudes and latitudes
+  std::vector<std::string> notes;  ///< what repair or reprojection changed
+  double seconds_read = 0;
+  double seconds_shape = 0;
+};
+
+/// The axes of a file, with what counting them told.
+struct AxisFile {
+  io::NativeFile native;
+  Statistics statistics;  ///< summed over the features
+  double seconds = 0;
+};
+
+/// What axes look like, summed over the features of a file.
+struct AxisSummary {
+  std::uint64_t features = 0;
+  std::uint64_t sites = 0;
+  std::uint64_t leaves = 0;
+  std::uint64_t site_changes = 0;
+  std::uint64_t branchings = 0;
+  std::uint64_t edges = 0;
+  std::uint64_t branches = 0;
+  double length = 0;
+  Disk deepest;  ///< the largest disk of all
+  std::uint64_t deepest_feature = 0;
+
+  std::uint64_t nodes() const { return leaves + site_changes + branchings; }
+};
+
+/// Threads that a run with this switch uses: the machine's for 0.
+int effective_threads(int threads);
+
+/// Runs work(i, threads_of_its_own) for every feature i and returns the error of the lowest feature
+/// that has one. `weights` tell how much work each feature is: a large one gets all threads, one
+/// large feature after another; then the small ones run side by side with one thread each. What
+/// work(i) does must depend on i alone; then so does the outcome.
+Status for_each_feature(std::span<const double> weights, int threads,
+                        const std::function<Status(std::size_t, int)>& work);
+
+/// Reads polygons and makes shapes of them. The shapes of medial's own JSON keep their sources.
+/// Errors name the file and the feature. The largest number of points is freed as it is used.
+Result<ShapeFile> load_shapes(const InputSwitches& input, int threads);
+
+/// Prints what a user should know of the input (geographic coordinates, repairs) on standard error,
+/// unless told to be quiet.
+void print_notes(const ShapeFile& file, const InputSwitches& input, const ReportSwitches& report);
+
+/// Computes the axis of every shape, with a progress bar where that is wanted. `path` names the
+/// input in errors.
+Result<AxisFile> compute_axes(ShapeFile shapes, const std::string& path,
+                              const EngineSwitches& engine, const ReportSwitches& report);
+
+AxisSummary summarize(const io::NativeFile& file);
+/// "1 feature, 12 sites, 20 nodes, 19 edges, 7 branches; deepest disk: radius 3 at (1, 2)"
+std::string describe(const AxisSummary& summary);
+Json to_json(const AxisSummary& summary);
+
+}  // namespace medial::cli

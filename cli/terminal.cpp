@@ -1,0 +1,94 @@
+#include "cli/terminal.h"
+
+#include <fmt/format.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "medial/io/write.h"
+
+namespace medial::cli {
+namespace {
+
+constexpr char wipe_line[] = "\r\x1b[K";
+constexpr double seconds_between_draws = 0.1;
+constexpr int bar_width = 30;
+
+// Whether a bar stands on the terminal that a signal has to wipe.
+std::atomic<bool> bar_visible = false;
+static_assert(std::atomic<bool>::is_always_lock_free, "read in a signal handler");
+
+extern "C" void end_quietly(int signal_number) {
+  if (bar_visible.load()) {
+    [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, wipe_line, sizeof wipe_line - 1);
+  }
+  io::remove_partial_files();
+  _exit(128 + signal_number);
+}
+
+}  // namespace
+
+void install_signal_handlers() {
+  for (const int signal_number : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) {
+    struct sigaction action {};
+    // What the parent ignores (nohup, jobs in the background) stays ignored; only a closed pipe has
+    // to end us in any case, or else a long output would be computed for nobody.
+    if (sigaction(signal_number, nullptr, &action) == 0 && action.sa_handler == SIG_IGN &&
+        signal_number != SIGPIPE) {
+      continue;
+    }
+    action = {};
+    action.sa_handler = end_quietly;
+    sigfillset(&action.sa_mask);
+    sigaction(signal_number, &action, nullptr);
+  }
+}
+
+bool error_is_terminal() { return isatty(STDERR_FILENO) == 1; }
+
+std::uint64_t peak_bytes() {
+  struct rusage usage {};
+  if (getrusage(RUSAGE_SELF, &usage) != 0) return 0;
+#ifdef __APPLE__
+  return static_cast<std::uint64_t>(usage.ru_maxrss);
+#else
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+#endif
+}
+
+Progress::Progress(std::string label, double total, bool shown)
+    : label_(std::move(label)), total_(total), shown_(shown && total > 0) {}
+
+Progress::~Progress() {
+  if (!shown_ || !bar_visible.exchange(false)) return;
+  std::fputs(wipe_line, stderr);
+  std::fflush(stderr);
+}
+
+std::function<void(double)> Progress::part(double weight) {
+  if (!shown_) return {};
+  auto last = std::make_shared<std::atomic<double>>(0.0);
+  return [this, weight, last](double share) {
+    share = std::clamp(share, 0.0, 1.0);
+    done_.fetch_add(weight * (share - last->exchange(share)));
+    redraw();
+  };
+}
+
+void Progress::redraw() {
+  const std::unique_lock lock(drawing_, std::try_to_lock);
+  if (!lock || watch_.seconds() < next_draw_) return;
+  next_draw_ = watch_.seconds() + seconds_between_draws;
+  const double share = std::clamp(done_.load() / total_, 0.0, 1.0);
+  const int filled = static_cast<int>(std::lround(share * bar_width));
+  bar_visible.store(true);
+  fmt::print(stderr, "\r{} [{:#<{}}{:.<{}}] {:3.0f} %", label_, "", filled, "", bar_width - filled,
+             100 * share);
+  std::fflush(stderr);
+}
+
+}  // namespace medial::cli

@@ -1,0 +1,61 @@
+#pragma once
+
+// The process's surroundings: signals, the terminal, clocks and memory.
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+
+namespace medial::cli {
+
+/// From here on, SIGINT, SIGTERM, SIGHUP and SIGPIPE remove what is half written and end the
+/// process with 128 + the signal's number, without a word.
+void install_signal_handlers();
+
+bool error_is_terminal();
+
+/// The largest memory this process has held, in bytes.
+std::uint64_t peak_bytes();
+
+/// Seconds since it was made.
+class Stopwatch {
+ public:
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// A progress bar on standard error. It shows itself once work has lasted a second, and is wiped
+/// when destroyed. Its parts may be advanced from any thread.
+class Progress {
+ public:
+  /// `total` is the sum of the weights of all parts. A bar that is not `shown` costs nothing.
+  Progress(std::string label, double total, bool shown);
+  ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  /// A function to be told the share in [0, 1] that is done of a part; empty if nothing is shown.
+  /// The Progress must outlive it.
+  std::function<void(double)> part(double weight);
+
+ private:
+  void redraw();
+
+  std::string label_;
+  double total_;
+  bool shown_;
+  Stopwatch watch_;
+  std::atomic<double> done_ = 0;
+  std::mutex drawing_;
+  double next_draw_ = 1.0;  ///< in seconds; guarded by drawing_
+};
+
+}  // namespace medial::cli

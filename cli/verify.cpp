@@ -1,0 +1,207 @@
+// medial verify: does a stored axis belong to these polygons?
+
+#include "medial/verify.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "cli/common.h"
+#include "cli/pipeline.h"
+#include "cli/terminal.h"
+
+namespace medial::cli {
+namespace {
+
+struct VerifySwitches {
+  InputSwitches input;
+  std::string axis_path;
+  EngineSwitches engine;
+  ReportSwitches report;
+  int samples = VerifyOptions{}.samples_per_edge;
+};
+
+constexpr int most_samples = 1000;
+constexpr std::size_t most_failures_told = 20;
+
+/// The worst of all certificates where it is a distance, the sum where it is a count or an area.
+Certificate merge(const std::vector<Certificate>& certificates) {
+  Certificate all;
+  all.passed = true;
+  for (std::size_t i = 0; i < certificates.size(); ++i) {
+    const Certificate& one = certificates[i];
+    if (one.largest_residual >= all.largest_residual) {
+      all.largest_residual = one.largest_residual;
+      all.worst_x = one.worst_x;
+      all.worst_y = one.worst_y;
+    }
+    all.tolerance = std::max(all.tolerance, one.tolerance);
+    all.largest_intrusion = std::max(all.largest_intrusion, one.largest_intrusion);
+    all.largest_contact_gap = std::max(all.largest_contact_gap, one.largest_contact_gap);
+    all.largest_uncovered = std::max(all.largest_uncovered, one.largest_uncovered);
+    all.shape_area += one.shape_area;
+    all.disks_area += one.disks_area;
+    all.disks_checked += one.disks_checked;
+    all.components += one.components;
+    all.graph_parts += one.graph_parts;
+    all.holes += one.holes;
+    all.cycles += one.cycles;
+    all.convex_corners += one.convex_corners;
+    all.corners_without_leaf += one.corners_without_leaf;
+    all.reflex_vertices += one.reflex_vertices;
+    all.reflex_without_contact += one.reflex_without_contact;
+    all.passed = all.passed && one.passed;
+    for (const std::string& failure : one.failures) {
+      all.failures.push_back(certificates.size() == 1 ? failure
+                                                      : fmt::format("feature {}: {}", i, failure));
+    }
+  }
+  return all;
+}
+
+Json to_json(const Certificate& c) {
+  return {{"passed", c.passed},
+          {"failures", c.failures},
+          {"tolerance", c.tolerance},
+          {"largest_residual", c.largest_residual},
+          {"largest_intrusion", c.largest_intrusion},
+          {"largest_contact_gap", c.largest_contact_gap},
+          {"largest_uncovered", c.largest_uncovered},
+          {"worst", {{"x", c.worst_x}, {"y", c.worst_y}}},
+          {"shape_area", c.shape_area},
+          {"disks_area", c.disks_area},
+          {"disks_checked", c.disks_checked},
+          {"components", c.components},
+          {"graph_parts", c.graph_parts},
+          {"holes", c.holes},
+          {"cycles", c.cycles},
+          {"convex_corners", c.convex_corners},
+          {"corners_without_leaf", c.corners_without_leaf},
+          {"reflex_vertices", c.reflex_vertices},
+          {"reflex_without_contact", c.reflex_without_contact}};
+}
+
+std::string table(const Certificate& c, std::size_t features) {
+  std::string text;
+  const auto row = [&text](const char* name, const std::string& value) {
+    text += fmt::format("{:<24}{}\n", name, value);
+  };
+  const auto length = [](double value) { return fmt::format("{:.3g}", value); };
+  row("features", fmt::format("{}", features));
+  row("disks checked", fmt::format("{}", c.disks_checked));
+  row("tolerance", length(c.tolerance));
+  row("largest |distance - r|",
+      fmt::format("{:.3g} at ({:.10g}, {:.10g})", c.largest_residual, c.worst_x, c.worst_y));
+  row("largest intrusion", length(c.largest_intrusion));
+  row("largest contact gap", length(c.largest_contact_gap));
+  row("largest uncovered", length(c.largest_uncovered));
+  row("area",
+      fmt::format("{:.10g} of the disks, {:.10g} of the shape", c.disks_area, c.shape_area));
+  row("connected parts",
+      fmt::format("{} for {}", c.graph_parts, counted(c.components, "component")));
+  row("cycles", fmt::format("{} for {}", c.cycles, counted(c.holes, "hole")));
+  row("convex corners",
+      fmt::format("{}, {} without a leaf", c.convex_corners, c.corners_without_leaf));
+  row("reflex vertices",
+      fmt::format("{}, {} without a contact", c.reflex_vertices, c.reflex_without_contact));
+  const std::size_t told = std::min(c.failures.size(), most_failures_told);
+  for (std::size_t i = 0; i < told; ++i) row("failed", c.failures[i]);
+  if (told < c.failures.size()) {
+    row("failed", fmt::format("and {} more", c.failures.size() - told));
+  }
+  row("verdict", c.passed ? "passed" : "FAILED");
+  return text;
+}
+
+Result<int> run_verify(const VerifySwitches& switches) {
+  const std::string& axis_path = switches.axis_path;
+  if (switches.input.path == "-" && axis_path == "-") {
+    return invalid_option("INPUT and AXIS cannot both be standard input");
+  }
+  auto stored = io::read_native(axis_path);
+  if (!stored) return std::move(stored).error();
+  auto shapes = load_shapes(switches.input, switches.engine.threads);
+  if (!shapes) return std::move(shapes).error();
+  print_notes(*shapes, switches.input, switches.report);
+  const std::size_t count = shapes->shapes.size();
+  if (stored->items.size() != count) {
+    return Error{
+        ErrorCode::malformed,
+        fmt::format("holds {} where {} holds {}", counted(stored->items.size(), "axis", "axes"),
+                    switches.input.path, counted(count, "feature")),
+        {.file = axis_path}};
+  }
+  if (!switches.report.quiet && crs_name(stored->crs_wkt) != crs_name(shapes->crs_wkt)) {
+    fmt::print(stderr,
+               "medial: {}: warning: its coordinate reference system ({}) is not the input's ({}); "
+               "was it made with --project?\n",
+               axis_path, crs_name(stored->crs_wkt), crs_name(shapes->crs_wkt));
+  }
+
+  std::vector<double> weights;
+  for (const Shape& shape : shapes->shapes) {
+    weights.push_back(static_cast<double>(shape.points.size()));
+  }
+  std::vector<Certificate> certificates(count);
+  Status done =
+      for_each_feature(weights, switches.engine.threads, [&](std::size_t i, int threads) -> Status {
+        VerifyOptions options;
+        options.tolerance = switches.engine.tolerance;
+        options.samples_per_edge = switches.samples;
+        options.threads = threads;
+        certificates[i] = verify(shapes->shapes[i], stored->items[i].axis, options);
+        return success();
+      });
+  if (!done) return std::move(done).error();
+
+  const Certificate all = merge(certificates);
+  Status printed = success();
+  if (switches.report.json) {
+    Json object = {{"input", switches.input.path}, {"axis", axis_path}, {"features", count}};
+    object.update(to_json(all));
+    object["certificates"] = Json::array();
+    for (const Certificate& one : certificates) object["certificates"].push_back(to_json(one));
+    printed = print(object);
+  } else if (!switches.report.quiet) {
+    printed = print(table(all, count));
+  }
+  if (!printed) return std::move(printed).error();
+  return all.passed ? exit_success : exit_failed_verdict;
+}
+
+}  // namespace
+
+Verb make_verify_verb(CLI::App& program) {
+  auto switches = std::make_shared<VerifySwitches>();
+  CLI::App* verb = program.add_subcommand("verify", "Check a stored axis against its polygons.");
+  add_input_switches(*verb, switches->input);
+  verb->add_option("AXIS", switches->axis_path, "Axes in medial's own .json format.")
+      ->required()
+      ->option_text(" ");
+  verb->add_option(
+          "--samples", switches->samples,
+          fmt::format("Points to check inside every edge (default: {}).", switches->samples))
+      ->check(CLI::Range(0, most_samples))
+      ->option_text("N");
+  add_engine_switches(*verb, switches->engine);
+  add_report_switches(*verb, switches->report);
+  verb->footer(
+      "Nothing is computed anew: the stored disks are measured against the polygons by\n"
+      "code that shares nothing with the engine. Features and axes are matched by their\n"
+      "order. Told are the largest |distance to the boundary - radius|, the largest\n"
+      "intrusion of the boundary into a disk, whether the graph is connected with one\n"
+      "cycle a hole, whether every convex corner has its leaf and every boundary point\n"
+      "its disk, and both areas. Lengths are in the units of the input; --tolerance\n"
+      "defaults to 1e-14 here. Give the --layer, --where, --repair and --project that the\n"
+      "axis was made with.\n"
+      "\n"
+      "Exit status: 0 passed, 1 failed, 2 an error.\n"
+      "\n"
+      "Examples:\n"
+      "  medial axis plan.geojson -o plan.json && medial verify plan.geojson plan.json\n"
+      "  medial verify --json --quiet maze.wkt.gz maze.json");
+  return {verb, [switches] { return run_verify(*switches); }};
+}
+
+}  // namespace medial::cli
