@@ -13,131 +13,60 @@ namespace {
 
 struct AxisSwitches {
   InputSwitches input;
-  EngineSwitches engine;
-  ReportSwitches report;
+  CommonSwitches common;
   std::string output;
   std::string format;
   io::WriteOptions write;
-  bool stats = false;
 };
-
-/// The time of each step, in seconds.
-struct Timing {
-  double read = 0;
-  double shape = 0;
-  double axis = 0;
-  double write = 0;
-};
-
-Json stats_object(const AxisSwitches& switches, const AxisSummary& summary, const Timing& timing,
-                  const ShapeReport& cleaned, const Statistics& statistics) {
-  const double sites = static_cast<double>(std::max<std::uint64_t>(summary.sites, 1));
-  Json object = {{"input", switches.input.path}};
-  if (!switches.output.empty()) object["output"] = switches.output;
-  if (switches.stats) {
-    object["seconds"] = {{"read", timing.read},
-                         {"shape", timing.shape},
-                         {"axis", timing.axis},
-                         {"write", timing.write}};
-  }
-  object.update(to_json(summary));
-  if (!switches.stats) return object;
-  object["queries_per_site"] = static_cast<double>(statistics.queries) / sites;
-  object["precision_retries"] = statistics.precision_retries;
-  object["threads"] = statistics.threads;
-  object["peak_bytes"] = peak_bytes();
-  object["input_rings"] = cleaned.input_rings;
-  object["input_points"] = cleaned.input_points;
-  object["cleaned"] = to_json(cleaned);
-  object["phases"] = {{"sites", statistics.seconds_sites},
-                      {"tree", statistics.seconds_tree},
-                      {"connect", statistics.seconds_connect},
-                      {"walk", statistics.seconds_walk},
-                      {"collect", statistics.seconds_collect}};
-  object["queries"] = statistics.queries;
-  object["apollonius"] = statistics.apollonius;
-  object["brackets"] = statistics.brackets;
-  object["cuts"] = statistics.cuts;
-  object["largest_residual"] = statistics.largest_residual;
-  return object;
-}
-
-std::string stats_table(const Json& object, const ShapeReport& cleaned) {
-  const Json& seconds = object["seconds"];
-  const Json& phases = object["phases"];
-  const auto count = [&object](const char* key) { return object[key].get<std::uint64_t>(); };
-  std::string table;
-  for (const char* step : {"read", "shape", "axis", "write"}) {
-    table += fmt::format("{:<20}{:>14.6f} s\n", step, seconds[step].get<double>());
-    if (std::string_view(step) != "axis") continue;
-    for (const auto& [phase, time] : phases.items()) {
-      table += fmt::format("  {:<18}{:>14.6f} s\n", phase, time.get<double>());
-    }
-  }
-  for (const char* key : {"features", "sites", "nodes", "edges", "branches"}) {
-    table += fmt::format("{:<20}{:>14}\n", key, count(key));
-  }
-  table += fmt::format("{:<20}{:>14.3f}\n", "queries per site",
-                       object["queries_per_site"].get<double>());
-  table += fmt::format("{:<20}{:>14}\n", "precision retries", count("precision_retries"));
-  table += fmt::format("{:<20}{:>14}\n", "threads", count("threads"));
-  table += fmt::format("{:<20}{:>14.1f} MB\n", "peak memory",
-                       static_cast<double>(count("peak_bytes")) / 1e6);
-  const std::string mended = describe(cleaned);
-  table += fmt::format("{:<20}{}\n", "cleaned", mended.empty() ? "nothing" : mended);
-  return table;
-}
 
 Result<int> run_axis(const AxisSwitches& switches) {
-  const std::string& output = switches.output;
+  const auto& [input, common, output, format, pictures] = switches;
   const bool to_standard_output = output == "-";
-  if (to_standard_output && switches.report.json) {
+  if (to_standard_output && common.json) {
     return invalid_option("--json and -o - both claim standard output");
   }
   if (!output.empty()) {
-    Status writable =
-        check_output(output, switches.format, io::known_output_formats(), switches.input.path);
+    Status writable = check_output(output, format, io::known_output_formats(), input.path);
     if (!writable) return std::move(writable).error();
-  } else if (!switches.format.empty()) {
+  } else if (!format.empty()) {
     return invalid_option("--format goes with -o -");
   }
 
-  auto shapes = load_shapes(switches.input, switches.engine.threads);
+  auto shapes = load_shapes(input, common.threads);
   if (!shapes) return std::move(shapes).error();
-  print_notes(*shapes, switches.input, switches.report);
-  Timing timing;
-  timing.read = shapes->seconds_read;
-  timing.shape = shapes->seconds_shape;
-  const ShapeReport cleaned = shapes->report;
-
-  auto axes = compute_axes(std::move(shapes).value(), switches.input.path, switches.engine,
-                           switches.report);
+  print_notes(*shapes, input, common);
+  auto axes = compute_axes(std::move(shapes).value(), input.path, common);
   if (!axes) return std::move(axes).error();
-  timing.axis = axes->seconds;
 
+  const Stopwatch writing;
   if (!output.empty()) {
-    const Stopwatch writing;
-    Status written = io::write_axes(output, switches.format, axes->native, switches.write);
+    io::WriteOptions write = pictures;
+    write.chord = common.chord;
+    Status written = io::write_axes(output, format, axes->native, write);
     if (!written) return std::move(written).error();
-    timing.write = writing.seconds();
   }
+  const double seconds_write = output.empty() ? 0 : writing.seconds();
 
   const AxisSummary summary = summarize(axes->native);
-  const Json object = stats_object(switches, summary, timing, cleaned, axes->statistics);
-  if (switches.report.json) {
+  if (common.json) {
+    Json object = {{"input", input.path}};
+    if (!output.empty()) object["output"] = output;
+    if (common.stats) object.update(stats(*axes, summary, seconds_write));
+    object.update(to_json(summary));
     Status printed = print(object);
     if (!printed) return std::move(printed).error();
     return exit_success;
   }
-  const std::string line = fmt::format("{}: {}; {:.3g} s", switches.input.path, describe(summary),
-                                       timing.read + timing.shape + timing.axis + timing.write);
+  const double seconds =
+      axes->seconds_read + axes->seconds_shape + axes->seconds_axis + seconds_write;
+  const std::string line = fmt::format("{}: {}; {:.3g} s", input.path, describe(summary), seconds);
   if (output.empty()) {
     Status printed = print(line + "\n");
     if (!printed) return std::move(printed).error();
-  } else if (error_is_terminal() && !switches.report.quiet) {
+  } else if (error_is_terminal() && !common.quiet) {
     fmt::print(stderr, "{} -> {}\n", line, to_standard_output ? "standard output" : output);
   }
-  if (switches.stats) fmt::print(stderr, "{}", stats_table(object, cleaned));
+  if (common.stats) fmt::print(stderr, "{}", table(stats(*axes, summary, seconds_write)));
   return exit_success;
 }
 
@@ -155,14 +84,8 @@ Verb make_axis_verb(CLI::App& program) {
       ->option_text("OUTPUT");
   verb->add_option("--format", switches->format, "The format of -o -, for example csv.")
       ->option_text("NAME");
-  add_chord_switch(*verb, switches->write);
-  add_engine_switches(*verb, switches->engine);
-  verb->add_flag("--stats", switches->stats,
-                 "Tell each phase's time, the counts, queries per site, precision retries\n"
-                 "and peak memory: a table on standard error, or with --json one object\n"
-                 "on standard output.");
-  add_report_switches(*verb, switches->report);
   add_picture_switches(*verb, switches->write);
+  add_common_switches(*verb, switches->common);
   verb->footer(
       "Each feature gets its own axis, with its attributes. Coordinates, radii and\n"
       "lengths are in the units of the input, or in metres with --project.\n"

@@ -91,38 +91,42 @@ void add_input_switches(CLI::App& verb, InputSwitches& input) {
   verb.add_flag("--repair{make-valid}", input.repair,
                 "Mend crossing or overlapping rings by make-valid (the default rule),\n"
                 "even-odd or non-zero, instead of refusing them; tells what changed.")
-      ->check(CLI::IsMember({"make-valid", "even-odd", "non-zero"}))
+      ->check(CLI::IsMember({"make-valid", "even-odd", "non-zero"}).description(""))
       ->each([&input](const std::string& rule) { input.read.repair = rules.at(rule); });
   verb.add_flag("--project", input.read.project,
                 "Longitudes and latitudes: compute in a fitting local projection, in\n"
                 "metres.");
 }
 
-void add_engine_switches(CLI::App& verb, EngineSwitches& engine) {
-  verb.add_option("--threads", engine.threads,
+void add_common_switches(CLI::App& verb, CommonSwitches& common) {
+  constexpr char group[] = "Common switches, taken by every verb";
+  verb.add_option("--threads", common.threads,
                   "Threads to use (default: 0, all of the machine). The result is the\n"
                   "same, byte for byte.")
       ->check(in_range(0, most_threads))
-      ->option_text("N");
-  verb.add_option("--tolerance", engine.tolerance,
+      ->option_text("N")
+      ->group(group);
+  verb.add_option("--tolerance", common.tolerance,
                   "How far a disk may miss what it touches, as a fraction of the diagonal\n"
-                  "of the bounding box, at most 1e-3 (default: 4e-15, or what the\n"
-                  "coordinates' spacing allows).")
+                  "of the bounding box, at most 1e-3 (default: 4e-15, in verify 1e-14, or\n"
+                  "what the coordinates' spacing allows).")
       ->check(a_tolerance())
-      ->option_text("T");
-}
-
-void add_report_switches(CLI::App& verb, ReportSwitches& report) {
-  verb.add_flag("--json", report.json, "Print one JSON object on standard output; errors too.");
-  verb.add_flag("--quiet", report.quiet, "No warnings, no notes, no progress; only errors.");
-}
-
-void add_chord_switch(CLI::App& verb, io::WriteOptions& write) {
-  verb.add_option("--chord", write.chord,
-                  "Where curves are written as points, chords stay within this fraction of\n"
-                  "the diagonal of the bounding box (default: 1e-3).")
+      ->option_text("T")
+      ->group(group);
+  verb.add_option("--chord", common.chord,
+                  "Where curves are written as points, chords stay within this fraction\n"
+                  "of the diagonal of the bounding box (default: 1e-3).")
       ->check(in_range(smallest_chord, 1))
-      ->option_text("C");
+      ->option_text("C")
+      ->group(group);
+  verb.add_flag("--stats", common.stats,
+                "Tell times, counts and memory: a table on standard error, or with --json\n"
+                "within the object on standard output. Times are in seconds.")
+      ->group(group);
+  verb.add_flag("--json", common.json, "Print one JSON object on standard output; errors too.")
+      ->group(group);
+  verb.add_flag("--quiet", common.quiet, "No warnings, notes or progress; only errors.")
+      ->group(group);
 }
 
 void add_picture_switches(CLI::App& verb, io::WriteOptions& write) {
@@ -241,6 +245,27 @@ Status print(const std::string& text) {
 Status print(const Json& object) {
   // File names need not be UTF-8; the object has to be.
   return print(object.dump(2, ' ', false, Json::error_handler_t::replace) + '\n');
+}
+
+std::string table(const Json& object) {
+  std::string text;
+  const auto rows = [&text](const Json& members, const std::string& indent,
+                            const auto& self) -> void {
+    for (const auto& [key, value] : members.items()) {
+      std::string name = indent + key;
+      std::replace(name.begin(), name.end(), '_', ' ');
+      if (value.is_object()) {
+        text += name + '\n';
+        self(value, indent + "  ", self);
+      } else if (value.is_number_float()) {
+        text += fmt::format("{:<22}{:>14.6g}\n", name, value.template get<double>());
+      } else {
+        text += fmt::format("{:<22}{:>14}\n", name, value.dump());
+      }
+    }
+  };
+  rows(object, "", rows);
+  return text;
 }
 
 std::string describe(const ShapeReport& report) {

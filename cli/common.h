@@ -40,23 +40,19 @@ struct InputSwitches {
   io::ReadOptions read;
 };
 
-/// How hard to work.
-struct EngineSwitches {
-  double tolerance = 0;  ///< relative to the diagonal; 0: the library's default
+/// What every verb takes.
+struct CommonSwitches {
   int threads = 0;       ///< 0: all of the machine
-};
-
-/// What to tell, and how.
-struct ReportSwitches {
+  double tolerance = 0;  ///< relative to the diagonal; 0: the library's default
+  double chord = io::WriteOptions{}.chord;
+  bool stats = false;
   bool json = false;
   bool quiet = false;
 };
 
 /// Each adds its switches to a verb; what they refer to must live as long as the verb.
 void add_input_switches(CLI::App& verb, InputSwitches& input);
-void add_engine_switches(CLI::App& verb, EngineSwitches& engine);
-void add_report_switches(CLI::App& verb, ReportSwitches& report);
-void add_chord_switch(CLI::App& verb, io::WriteOptions& write);
+void add_common_switches(CLI::App& verb, CommonSwitches& common);
 void add_picture_switches(CLI::App& verb, io::WriteOptions& write);
 
 /// Checks that `path` can be written later, before any long work: a known format, a directory that
@@ -83,6 +79,10 @@ int report_error(const Error& error, bool json, const std::string& hint = {});
 /// Prints to standard output. An output that takes no more is an error (unwritable).
 Status print(const std::string& text);
 Status print(const Json& object);
+
+/// The members of an object as a table, one a line; objects inside are indented. Names and values
+/// tell all: "seconds", "precision_retries", "peak_bytes".
+std::string table(const Json& object);
 
 /// What build_shape() mended, as "2 repeated points, 1 reversed ring"; empty if nothing.
 std::string describe(const ShapeReport& report);

@@ -15,48 +15,61 @@ constexpr char picture_formats[] = ".svg .pdf .png .ps";
 
 struct DrawSwitches {
   InputSwitches input;
-  EngineSwitches engine;
-  ReportSwitches report;
+  CommonSwitches common;
   std::string output;
   std::string format;
   io::WriteOptions write;
 };
 
 /// Stored axes as they are; of polygons, axes computed now.
-Result<io::NativeFile> axes_to_draw(const DrawSwitches& switches) {
-  if (io::is_native(switches.input.path)) return io::read_native(switches.input.path);
-  auto shapes = load_shapes(switches.input, switches.engine.threads);
+Result<AxisFile> axes_to_draw(const InputSwitches& input, const CommonSwitches& common) {
+  if (io::is_native(input.path)) {
+    const Stopwatch reading;
+    auto native = io::read_native(input.path);
+    if (!native) return std::move(native).error();
+    AxisFile file;
+    file.native = std::move(native).value();
+    file.statistics.threads = effective_threads(common.threads);
+    file.seconds_read = reading.seconds();
+    return file;
+  }
+  auto shapes = load_shapes(input, common.threads);
   if (!shapes) return std::move(shapes).error();
-  print_notes(*shapes, switches.input, switches.report);
-  auto axes = compute_axes(std::move(shapes).value(), switches.input.path, switches.engine,
-                           switches.report);
-  if (!axes) return std::move(axes).error();
-  return std::move(axes->native);
+  print_notes(*shapes, input, common);
+  return compute_axes(std::move(shapes).value(), input.path, common);
 }
 
 Result<int> run_draw(const DrawSwitches& switches) {
+  const auto& [input, common, output, format, pictures] = switches;
   const Stopwatch watch;
-  if (switches.output == "-" && switches.report.json) {
+  if (output == "-" && common.json) {
     return invalid_option("--json and -o - both claim standard output");
   }
-  Status writable =
-      check_output(switches.output, switches.format, picture_formats, switches.input.path);
+  Status writable = check_output(output, format, picture_formats, input.path);
   if (!writable) return std::move(writable).error();
-  auto axes = axes_to_draw(switches);
+  auto axes = axes_to_draw(input, common);
   if (!axes) return std::move(axes).error();
-  Status written = io::write_axes(switches.output, switches.format, *axes, switches.write);
+  const Stopwatch writing;
+  io::WriteOptions write = pictures;
+  write.chord = common.chord;
+  Status written = io::write_axes(output, format, axes->native, write);
   if (!written) return std::move(written).error();
+  const double seconds_write = writing.seconds();
 
-  const AxisSummary summary = summarize(*axes);
-  if (switches.report.json) {
-    Json object = {{"input", switches.input.path}, {"output", switches.output}};
+  const AxisSummary summary = summarize(axes->native);
+  if (common.json) {
+    Json object = {{"input", input.path}, {"output", output}};
+    if (common.stats) object.update(stats(*axes, summary, seconds_write));
     object.update(to_json(summary));
     Status printed = print(object);
     if (!printed) return std::move(printed).error();
-  } else if (error_is_terminal() && !switches.report.quiet) {
-    fmt::print(stderr, "{}: {}; {:.3g} s -> {}\n", switches.input.path, describe(summary),
-               watch.seconds(), switches.output);
+    return exit_success;
   }
+  if (error_is_terminal() && !common.quiet) {
+    fmt::print(stderr, "{}: {}; {:.3g} s -> {}\n", input.path, describe(summary), watch.seconds(),
+               output == "-" ? "standard output" : output);
+  }
+  if (common.stats) fmt::print(stderr, "{}", table(stats(*axes, summary, seconds_write)));
   return exit_success;
 }
 
@@ -74,9 +87,8 @@ Verb make_draw_verb(CLI::App& program) {
       ->option_text("PICTURE REQUIRED");
   verb->add_option("--format", switches->format, "The format of -o -, for example svg.")
       ->option_text("NAME");
-  add_engine_switches(*verb, switches->engine);
-  add_report_switches(*verb, switches->report);
   add_picture_switches(*verb, switches->write);
+  add_common_switches(*verb, switches->common);
   verb->footer(
       "INPUT may be polygons, whose axes are then computed, or medial's own .json, which\n"
       "is drawn as it stands. The axis is coloured by radius. Vector pictures hold exact\n"

@@ -14,8 +14,7 @@ namespace {
 
 struct InfoSwitches {
   InputSwitches input;
-  ReportSwitches report;
-  int threads = 0;
+  CommonSwitches common;
 };
 
 /// Adds lines of a name and a value.
@@ -90,40 +89,48 @@ std::string crs_text(const std::string& wkt, bool geographic) {
   return (name.empty() ? "unknown" : name) + (geographic ? " (longitude and latitude)" : "");
 }
 
+/// Prints what was found as an object or as a table, with the costs of finding it on request.
+Result<int> tell(const CommonSwitches& common, Json object, const Table& table,
+                 const Json& seconds) {
+  const Json costs = {{"seconds", seconds},
+                      {"threads", effective_threads(common.threads)},
+                      {"peak_bytes", peak_bytes()}};
+  if (common.json && common.stats) object.update(costs);
+  Status printed = common.json ? print(object) : print(table.text());
+  if (!printed) return std::move(printed).error();
+  if (common.stats && !common.json) fmt::print(stderr, "{}", cli::table(costs));
+  return exit_success;
+}
+
 /// Of polygons that are no shape, the error tells; main() reports it.
 Result<int> tell_polygons(const InfoSwitches& switches) {
-  auto file = load_shapes(switches.input, switches.threads);
+  auto file = load_shapes(switches.input, switches.common.threads);
   if (!file) return std::move(file).error();
-  print_notes(*file, switches.input, switches.report);
+  print_notes(*file, switches.input, switches.common);
   const ShapeSummary summary = summarize_shapes(file->shapes);
-  Status printed = success();
-  if (switches.report.json) {
-    Json object = {{"input", switches.input.path},
-                   {"kind", "polygons"},
-                   {"valid", true},
-                   {"features", file->shapes.size()}};
-    add_members(object, summary);
-    object["input_rings"] = file->report.input_rings;
-    object["input_points"] = file->report.input_points;
-    object["cleaned"] = to_json(file->report);
-    object["notes"] = file->notes;
-    object["crs"] = crs_name(file->crs_wkt);
-    object["geographic"] = file->geographic;
-    printed = print(object);
-  } else {
-    Table table;
-    table.row("polygons", "valid");
-    table.row("features", file->shapes.size());
-    add_rows(table, summary);
-    table.row("as read", fmt::format("{}, {}", counted(file->report.input_rings, "ring"),
-                                     counted(file->report.input_points, "point")));
-    const std::string mended = describe(file->report);
-    table.row("cleaned", mended.empty() ? "nothing" : mended);
-    table.row("coordinates", crs_text(file->crs_wkt, file->geographic));
-    printed = print(table.text());
-  }
-  if (!printed) return std::move(printed).error();
-  return exit_success;
+  Json object = {{"input", switches.input.path},
+                 {"kind", "polygons"},
+                 {"valid", true},
+                 {"features", file->shapes.size()}};
+  add_members(object, summary);
+  object["input_rings"] = file->report.input_rings;
+  object["input_points"] = file->report.input_points;
+  object["cleaned"] = to_json(file->report);
+  object["notes"] = file->notes;
+  object["crs"] = crs_name(file->crs_wkt);
+  object["geographic"] = file->geographic;
+
+  Table table;
+  table.row("polygons", "valid");
+  table.row("features", file->shapes.size());
+  add_rows(table, summary);
+  table.row("as read", fmt::format("{}, {}", counted(file->report.input_rings, "ring"),
+                                   counted(file->report.input_points, "point")));
+  const std::string mended = describe(file->report);
+  table.row("cleaned", mended.empty() ? "nothing" : mended);
+  table.row("coordinates", crs_text(file->crs_wkt, file->geographic));
+  return tell(switches.common, std::move(object), table,
+              {{"read", file->seconds_read}, {"shape", file->seconds_shape}});
 }
 
 /// One value if all axes agree, or else how many there are.
@@ -136,8 +143,10 @@ std::string common_value(const io::NativeFile& file, Get get) {
 }
 
 Result<int> tell_axes(const InfoSwitches& switches) {
+  const Stopwatch reading;
   const auto file = io::read_native(switches.input.path);
   if (!file) return file.error();
+  const double seconds_read = reading.seconds();
   if (file->items.empty()) {
     return error_at(ErrorCode::empty, switches.input.path, "holds no axis");
   }
@@ -153,51 +162,43 @@ Result<int> tell_axes(const InfoSwitches& switches) {
     resolution = std::max(resolution, item.axis.resolution);
   }
 
-  Status printed = success();
-  if (switches.report.json) {
-    Json object = {{"input", switches.input.path}, {"kind", "axis"}, {"features", axes.features}};
-    object["method"] = method;
-    object["tolerance"] = tolerance;
-    object["resolution"] = resolution;
-    object["sites"] = axes.sites;
-    object["nodes"] = {
-        {"leaf", axes.leaves}, {"site_change", axes.site_changes}, {"branching", axes.branchings}};
-    object["edges"] = axes.edges;
-    object["branches"] = axes.branches;
-    object["length"] = axes.length;
-    object["deepest"] = to_json(axes)["deepest"];
-    Json shape;
-    add_members(shape, shapes);
-    object["shape"] = shape;
-    object["crs"] = crs_name(file->crs_wkt);
-    printed = print(object);
-  } else {
-    Table table;
-    table.row("medial axes", axes.features);
-    table.row("method", method);
-    table.row("tolerance", fmt::format("{:.3g}", tolerance));
-    if (resolution > 0) table.row("resolution", fmt::format("{:.3g}", resolution));
-    table.row("sites", axes.sites);
-    table.row("nodes",
-              fmt::format("{} ({}, {}, {})", axes.nodes(), counted(axes.leaves, "leaf", "leaves"),
-                          counted(axes.site_changes, "change of sites", "changes of sites"),
-                          counted(axes.branchings, "branching")));
-    table.row("edges", axes.edges);
-    table.row("branches", axes.branches);
-    table.row("length", fmt::format("{:.10g}", axes.length));
-    if (axes.deepest.radius >= 0) {
-      table.row(
-          "deepest disk",
-          fmt::format("radius {:.10g} at ({:.10g}, {:.10g}){}", axes.deepest.radius,
-                      axes.deepest.center.x, axes.deepest.center.y,
-                      axes.features > 1 ? fmt::format(", feature {}", axes.deepest_feature) : ""));
-    }
-    add_rows(table, shapes);
-    table.row("coordinates", crs_text(file->crs_wkt, false));
-    printed = print(table.text());
+  Json object = {{"input", switches.input.path}, {"kind", "axis"}, {"features", axes.features}};
+  object["method"] = method;
+  object["tolerance"] = tolerance;
+  object["resolution"] = resolution;
+  object["sites"] = axes.sites;
+  object["nodes"] = {
+      {"leaf", axes.leaves}, {"site_change", axes.site_changes}, {"branching", axes.branchings}};
+  object["edges"] = axes.edges;
+  object["branches"] = axes.branches;
+  object["length"] = axes.length;
+  object["deepest"] = to_json(axes)["deepest"];
+  add_members(object["shape"], shapes);
+  object["crs"] = crs_name(file->crs_wkt);
+
+  Table table;
+  table.row("medial axes", axes.features);
+  table.row("method", method);
+  table.row("tolerance", fmt::format("{:.3g}", tolerance));
+  if (resolution > 0) table.row("resolution", fmt::format("{:.3g}", resolution));
+  table.row("sites", axes.sites);
+  table.row("nodes",
+            fmt::format("{} ({}, {}, {})", axes.nodes(), counted(axes.leaves, "leaf", "leaves"),
+                        counted(axes.site_changes, "change of sites", "changes of sites"),
+                        counted(axes.branchings, "branching")));
+  table.row("edges", axes.edges);
+  table.row("branches", axes.branches);
+  table.row("length", fmt::format("{:.10g}", axes.length));
+  if (axes.deepest.radius >= 0) {
+    const std::string where =
+        axes.features > 1 ? fmt::format(", feature {}", axes.deepest_feature) : std::string();
+    table.row("deepest disk",
+              fmt::format("radius {:.10g} at ({:.10g}, {:.10g}){}", axes.deepest.radius,
+                          axes.deepest.center.x, axes.deepest.center.y, where));
   }
-  if (!printed) return std::move(printed).error();
-  return exit_success;
+  add_rows(table, shapes);
+  table.row("coordinates", crs_text(file->crs_wkt, false));
+  return tell(switches.common, std::move(object), table, {{"read", seconds_read}});
 }
 
 Result<int> run_info(const InfoSwitches& switches) {
@@ -210,11 +211,7 @@ Verb make_info_verb(CLI::App& program) {
   auto switches = std::make_shared<InfoSwitches>();
   CLI::App* verb = program.add_subcommand("info", "Tell what a file of polygons or axes holds.");
   add_input_switches(*verb, switches->input);
-  verb->add_option("--threads", switches->threads,
-                   "Threads to use (default: 0, all of the machine).")
-      ->check(CLI::Range(0, 1024))
-      ->option_text("N");
-  add_report_switches(*verb, switches->report);
+  add_common_switches(*verb, switches->common);
   verb->footer(
       "Of polygons: features, outer rings, holes, vertices, extent, area, what was\n"
       "cleaned, and the coordinate reference system; polygons that are not valid are an\n"

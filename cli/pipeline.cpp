@@ -162,8 +162,8 @@ Result<ShapeFile> load_shapes(const InputSwitches& input, int threads) {
   return file;
 }
 
-void print_notes(const ShapeFile& file, const InputSwitches& input, const ReportSwitches& report) {
-  if (report.quiet) return;
+void print_notes(const ShapeFile& file, const InputSwitches& input, const CommonSwitches& common) {
+  if (common.quiet) return;
   for (const std::string& note : file.notes) {
     fmt::print(stderr, "medial: {}: note: {}\n", input.path, note);
   }
@@ -177,7 +177,7 @@ void print_notes(const ShapeFile& file, const InputSwitches& input, const Report
 }
 
 Result<AxisFile> compute_axes(ShapeFile shapes, const std::string& path,
-                              const EngineSwitches& engine, const ReportSwitches& report) {
+                              const CommonSwitches& common) {
   const Stopwatch watch;
   AxisFile file;
   const std::size_t count = shapes.shapes.size();
@@ -188,11 +188,11 @@ Result<AxisFile> compute_axes(ShapeFile shapes, const std::string& path,
     weights.push_back(static_cast<double>(shape.points.size()));
   }
   const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
-  Progress progress("medial axis", total, error_is_terminal() && !report.quiet);
+  Progress progress("medial axis", total, error_is_terminal() && !common.quiet);
   Status computed =
-      for_each_feature(weights, engine.threads, [&](std::size_t i, int threads) -> Status {
+      for_each_feature(weights, common.threads, [&](std::size_t i, int threads) -> Status {
         Options options;
-        options.tolerance = engine.tolerance;
+        options.tolerance = common.tolerance;
         options.threads = threads;
         options.progress = progress.part(weights[i]);
         auto axis = compute(shapes.shapes[i], options);
@@ -222,8 +222,11 @@ Result<AxisFile> compute_axes(ShapeFile shapes, const std::string& path,
     sum.seconds_collect += part.seconds_collect;
     sum.seconds += part.seconds;
   }
-  file.statistics.threads = effective_threads(engine.threads);
-  file.seconds = watch.seconds();
+  file.statistics.threads = effective_threads(common.threads);
+  file.cleaned = shapes.report;
+  file.seconds_read = shapes.seconds_read;
+  file.seconds_shape = shapes.seconds_shape;
+  file.seconds_axis = watch.seconds();
   return file;
 }
 
@@ -285,6 +288,38 @@ Json to_json(const AxisSummary& summary) {
             {"y", summary.deepest.center.y},
             {"radius", summary.deepest.radius},
             {"feature", summary.deepest_feature}}}};
+}
+
+Json stats(const AxisFile& file, const AxisSummary& summary, double seconds_write) {
+  const Statistics& counted_by_engine = file.statistics;
+  const double sites = static_cast<double>(std::max<std::uint64_t>(summary.sites, 1));
+  return {{"seconds",
+           {{"read", file.seconds_read},
+            {"shape", file.seconds_shape},
+            {"axis", file.seconds_axis},
+            {"write", seconds_write}}},
+          {"phases",
+           {{"sites", counted_by_engine.seconds_sites},
+            {"tree", counted_by_engine.seconds_tree},
+            {"connect", counted_by_engine.seconds_connect},
+            {"walk", counted_by_engine.seconds_walk},
+            {"collect", counted_by_engine.seconds_collect}}},
+          {"features", summary.features},
+          {"sites", summary.sites},
+          {"nodes", summary.nodes()},
+          {"edges", summary.edges},
+          {"branches", summary.branches},
+          {"queries_per_site", static_cast<double>(counted_by_engine.queries) / sites},
+          {"precision_retries", counted_by_engine.precision_retries},
+          {"apollonius", counted_by_engine.apollonius},
+          {"brackets", counted_by_engine.brackets},
+          {"cuts", counted_by_engine.cuts},
+          {"largest_residual", counted_by_engine.largest_residual},
+          {"threads", counted_by_engine.threads},
+          {"peak_bytes", peak_bytes()},
+          {"input_rings", file.cleaned.input_rings},
+          {"input_points", file.cleaned.input_points},
+          {"cleaned", to_json(file.cleaned)}};
 }
 
 }  // namespace medial::cli

@@ -28,11 +28,14 @@ struct ShapeFile {
   double seconds_shape = 0;
 };
 
-/// The axes of a file, with what counting them told.
+/// The axes of a file.
 struct AxisFile {
   io::NativeFile native;
   Statistics statistics;  ///< summed over the features
-  double seconds = 0;
+  ShapeReport cleaned;    ///< of the input
+  double seconds_read = 0;
+  double seconds_shape = 0;
+  double seconds_axis = 0;
 };
 
 /// What axes look like, summed over the features of a file.
@@ -62,21 +65,24 @@ Status for_each_feature(std::span<const double> weights, int threads,
                         const std::function<Status(std::size_t, int)>& work);
 
 /// Reads polygons and makes shapes of them. The shapes of medial's own JSON keep their sources.
-/// Errors name the file and the feature. The largest number of points is freed as it is used.
+/// Errors name the file and the feature; of several, the first one's is given.
 Result<ShapeFile> load_shapes(const InputSwitches& input, int threads);
 
 /// Prints what a user should know of the input (geographic coordinates, repairs) on standard error,
 /// unless told to be quiet.
-void print_notes(const ShapeFile& file, const InputSwitches& input, const ReportSwitches& report);
+void print_notes(const ShapeFile& file, const InputSwitches& input, const CommonSwitches& common);
 
 /// Computes the axis of every shape, with a progress bar where that is wanted. `path` names the
 /// input in errors.
 Result<AxisFile> compute_axes(ShapeFile shapes, const std::string& path,
-                              const EngineSwitches& engine, const ReportSwitches& report);
+                              const CommonSwitches& common);
 
 AxisSummary summarize(const io::NativeFile& file);
 /// "1 feature, 12 sites, 20 nodes, 19 edges, 7 branches; deepest disk: radius 3 at (1, 2)"
 std::string describe(const AxisSummary& summary);
 Json to_json(const AxisSummary& summary);
+
+/// What --stats tells of a run that computed axes and wrote them.
+Json stats(const AxisFile& file, const AxisSummary& summary, double seconds_write);
 
 }  // namespace medial::cli

@@ -16,9 +16,8 @@ namespace {
 
 struct VerifySwitches {
   InputSwitches input;
+  CommonSwitches common;
   std::string axis_path;
-  EngineSwitches engine;
-  ReportSwitches report;
   int samples = VerifyOptions{}.samples_per_edge;
 };
 
@@ -82,7 +81,7 @@ Json to_json(const Certificate& c) {
           {"reflex_without_contact", c.reflex_without_contact}};
 }
 
-std::string table(const Certificate& c, std::size_t features) {
+std::string verdict_table(const Certificate& c, std::size_t features) {
   std::string text;
   const auto row = [&text](const char* name, const std::string& value) {
     text += fmt::format("{:<24}{}\n", name, value);
@@ -115,39 +114,43 @@ std::string table(const Certificate& c, std::size_t features) {
 }
 
 Result<int> run_verify(const VerifySwitches& switches) {
+  const InputSwitches& input = switches.input;
+  const CommonSwitches& common = switches.common;
   const std::string& axis_path = switches.axis_path;
-  if (switches.input.path == "-" && axis_path == "-") {
+  if (input.path == "-" && axis_path == "-") {
     return invalid_option("INPUT and AXIS cannot both be standard input");
   }
+  const Stopwatch reading;
   auto stored = io::read_native(axis_path);
   if (!stored) return std::move(stored).error();
-  auto shapes = load_shapes(switches.input, switches.engine.threads);
+  auto shapes = load_shapes(input, common.threads);
   if (!shapes) return std::move(shapes).error();
-  print_notes(*shapes, switches.input, switches.report);
+  print_notes(*shapes, input, common);
+  const double seconds_read = reading.seconds() - shapes->seconds_shape;
   const std::size_t count = shapes->shapes.size();
   if (stored->items.size() != count) {
-    return Error{
-        ErrorCode::malformed,
+    return error_at(
+        ErrorCode::malformed, axis_path,
         fmt::format("holds {} where {} holds {}", counted(stored->items.size(), "axis", "axes"),
-                    switches.input.path, counted(count, "feature")),
-        {.file = axis_path}};
+                    input.path, counted(count, "feature")));
   }
-  if (!switches.report.quiet && crs_name(stored->crs_wkt) != crs_name(shapes->crs_wkt)) {
+  if (!common.quiet && crs_name(stored->crs_wkt) != crs_name(shapes->crs_wkt)) {
     fmt::print(stderr,
                "medial: {}: warning: its coordinate reference system ({}) is not the input's ({}); "
                "was it made with --project?\n",
                axis_path, crs_name(stored->crs_wkt), crs_name(shapes->crs_wkt));
   }
 
+  const Stopwatch checking;
   std::vector<double> weights;
   for (const Shape& shape : shapes->shapes) {
     weights.push_back(static_cast<double>(shape.points.size()));
   }
   std::vector<Certificate> certificates(count);
   Status done =
-      for_each_feature(weights, switches.engine.threads, [&](std::size_t i, int threads) -> Status {
+      for_each_feature(weights, common.threads, [&](std::size_t i, int threads) -> Status {
         VerifyOptions options;
-        options.tolerance = switches.engine.tolerance;
+        options.tolerance = common.tolerance;
         options.samples_per_edge = switches.samples;
         options.threads = threads;
         certificates[i] = verify(shapes->shapes[i], stored->items[i].axis, options);
@@ -156,17 +159,24 @@ Result<int> run_verify(const VerifySwitches& switches) {
   if (!done) return std::move(done).error();
 
   const Certificate all = merge(certificates);
+  const Json costs = {
+      {"seconds",
+       {{"read", seconds_read}, {"shape", shapes->seconds_shape}, {"verify", checking.seconds()}}},
+      {"threads", effective_threads(common.threads)},
+      {"peak_bytes", peak_bytes()}};
   Status printed = success();
-  if (switches.report.json) {
-    Json object = {{"input", switches.input.path}, {"axis", axis_path}, {"features", count}};
+  if (common.json) {
+    Json object = {{"input", input.path}, {"axis", axis_path}, {"features", count}};
+    if (common.stats) object.update(costs);
     object.update(to_json(all));
     object["certificates"] = Json::array();
     for (const Certificate& one : certificates) object["certificates"].push_back(to_json(one));
     printed = print(object);
-  } else if (!switches.report.quiet) {
-    printed = print(table(all, count));
+  } else if (!common.quiet) {
+    printed = print(verdict_table(all, count));
   }
   if (!printed) return std::move(printed).error();
+  if (common.stats && !common.json) fmt::print(stderr, "{}", table(costs));
   return all.passed ? exit_success : exit_failed_verdict;
 }
 
@@ -184,17 +194,15 @@ Verb make_verify_verb(CLI::App& program) {
           fmt::format("Points to check inside every edge (default: {}).", switches->samples))
       ->check(CLI::Range(0, most_samples))
       ->option_text("N");
-  add_engine_switches(*verb, switches->engine);
-  add_report_switches(*verb, switches->report);
+  add_common_switches(*verb, switches->common);
   verb->footer(
       "Nothing is computed anew: the stored disks are measured against the polygons by\n"
       "code that shares nothing with the engine. Features and axes are matched by their\n"
       "order. Told are the largest |distance to the boundary - radius|, the largest\n"
       "intrusion of the boundary into a disk, whether the graph is connected with one\n"
       "cycle a hole, whether every convex corner has its leaf and every boundary point\n"
-      "its disk, and both areas. Lengths are in the units of the input; --tolerance\n"
-      "defaults to 1e-14 here. Give the --layer, --where, --repair and --project that the\n"
-      "axis was made with.\n"
+      "its disk, and both areas. Lengths are in the units of the input.\n"
+      "Give the --layer, --where, --repair and --project that the axis was made with.\n"
       "\n"
       "Exit status: 0 passed, 1 failed, 2 an error.\n"
       "\n"
