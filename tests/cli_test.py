@@ -1,0 +1,640 @@
+#!/usr/bin/env python3
+"""Runs the command line as its users do. Takes the path of the program:
+
+    cli_test.py PROGRAM [unittest's own arguments]
+"""
+
+import csv
+import gzip
+import json
+import math
+import os
+import re
+import signal
+import sqlite3
+import struct
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+import xml.etree.ElementTree as ElementTree
+
+PROGRAM = os.path.abspath(sys.argv.pop(1)) if len(sys.argv) > 1 else "medial"
+
+RECTANGLE = "POLYGON ((0 0, 4 0, 4 2, 0 2, 0 0))"
+# A rectangle with a hole: one cycle, four reflex vertices.
+FRAME = "POLYGON ((0 0, 9 0, 9 6, 0 6, 0 0), (3 2, 3 4, 6 4, 6 2, 3 2))"
+# The same square three times, further and further to the right.
+SQUARES = "\n".join(f"POLYGON (({x} 0, {x + 1} 0, {x + 1} 1, {x} 1, {x} 0))" for x in (0, 3, 6))
+BOW_TIE = "POLYGON ((0 0, 2 2, 2 0, 0 2, 0 0))"
+
+FORMATS = ["json", "geojson", "gpkg", "shp", "fgb", "wkt", "csv", "svg", "pdf", "png", "ps"]
+
+GEOGRAPHIC = json.dumps({
+    "type": "FeatureCollection",
+    "features": [
+        {"type": "Feature", "properties": {"name": name, "rank": rank},
+         "geometry": {"type": "Polygon", "coordinates": [
+             [[x, 47], [x + 0.1, 47], [x + 0.1, 47.05], [x, 47.05], [x, 47]]]}}
+        for name, rank, x in (("west", 1, 9.0), ("east", 2, 9.3))]})
+
+
+def comb(teeth):
+    """A comb with square teeth: 4 vertices a tooth."""
+    points = [(0, 0), (2 * teeth - 1, 0)]
+    for i in reversed(range(teeth)):
+        points += [(2 * i + 1, 4), (2 * i, 4)]
+        if i > 0:
+            points += [(2 * i, 1), (2 * i - 1, 1)]
+    points.append(points[0])
+    return "POLYGON ((" + ", ".join(f"{x} {y}" for x, y in points) + "))"
+
+
+def star(vertices):
+    """A jagged star-shaped polygon without any symmetry."""
+    points = []
+    for i in range(vertices):
+        angle = 2 * math.pi * i / vertices
+        radius = 100 + 7 * math.sin(5 * angle) + (i * 7919 % 101) / 101
+        points.append((radius * math.cos(angle), radius * math.sin(angle)))
+    points.append(points[0])
+    return "POLYGON ((" + ", ".join(f"{x:.17g} {y:.17g}" for x, y in points) + "))"
+
+
+class CommandLine(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+
+    def path(self, name):
+        return os.path.join(self.folder.name, name)
+
+    def write(self, name, content):
+        mode = "wb" if isinstance(content, bytes) else "w"
+        with open(self.path(name), mode) as file:
+            file.write(content)
+        return name
+
+    def read(self, name):
+        with open(self.path(name), "rb") as file:
+            return file.read()
+
+    def files(self):
+        return sorted(os.listdir(self.folder.name))
+
+    def run_medial(self, *arguments, given=b""):
+        """Runs in the temporary folder; a crash or a hang fails the test."""
+        done = subprocess.run([PROGRAM, *map(str, arguments)], input=given, cwd=self.folder.name,
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=300)
+        self.assertIn(done.returncode, (0, 1, 2), (arguments, done.stderr))
+        return done
+
+    def succeed(self, *arguments, given=b""):
+        done = self.run_medial(*arguments, given=given)
+        self.assertEqual(done.returncode, 0, (arguments, done.stderr.decode()))
+        return done
+
+    def fail(self, code, *arguments, given=b"", nothing_new=True):
+        """Expects exit status 2, one line that ends with the code, and no new file."""
+        before = self.files()
+        done = self.run_medial(*arguments, given=given)
+        text = done.stderr.decode()
+        self.assertEqual(done.returncode, 2, (arguments, text))
+        self.assertEqual(text.count("\n"), 1, text)
+        self.assertTrue(text.startswith("medial: "), text)
+        self.assertRegex(text, rf"\[{code}\]")
+        if nothing_new:
+            self.assertEqual(self.files(), before)
+        return text
+
+
+class Axis(CommandLine):
+    def test_every_format_is_written_and_is_what_it_claims(self):
+        self.write("frame.wkt", FRAME)
+        for extension in FORMATS:
+            with self.subTest(extension=extension):
+                output = "out." + extension
+                self.succeed("axis", "frame.wkt", "-o", output)
+                content = self.read(output)
+                self.assertGreater(len(content), 50)
+                self.check_content(extension, content)
+        leftovers = [name for name in self.files() if not name.startswith(("out.", "frame"))]
+        self.assertEqual(leftovers, [])
+
+    def check_content(self, extension, content):
+        if extension in ("json", "geojson"):
+            parsed = json.loads(content)
+            if extension == "geojson":
+                self.assertEqual(parsed["type"], "FeatureCollection")
+                kinds = {f["geometry"]["type"] for f in parsed["features"]}
+                self.assertIn("LineString", kinds)
+        elif extension == "gpkg":
+            self.assertTrue(content.startswith(b"SQLite format 3\0"))
+            with sqlite3.connect(self.path("out.gpkg")) as database:
+                layers = [row[0] for row in database.execute(
+                    "select table_name from gpkg_contents where data_type = 'features'")]
+                self.assertEqual(len(layers), 2)
+                for layer in layers:
+                    (rows,) = database.execute(f'select count(*) from "{layer}"').fetchone()
+                    self.assertGreater(rows, 3)
+            database.close()
+        elif extension == "shp":
+            self.assertEqual(struct.unpack(">i", content[:4])[0], 9994)
+            self.assertEqual(2 * struct.unpack(">i", content[24:28])[0], len(content))
+            self.assertIn("out.dbf", self.files())
+        elif extension == "fgb":
+            self.assertTrue(content.startswith(b"fgb"))
+        elif extension == "wkt":
+            self.assertRegex(content, rb"^(MULTI)?LINESTRING")
+        elif extension == "csv":
+            self.check_csv(content.decode())
+        elif extension == "svg":
+            self.assertTrue(ElementTree.fromstring(content).tag.endswith("svg"))
+        elif extension == "pdf":
+            self.assertTrue(content.startswith(b"%PDF-"))
+            self.assertIn(b"%%EOF", content[-32:])
+        elif extension == "png":
+            self.assertTrue(content.startswith(b"\x89PNG\r\n\x1a\n"))
+            self.assertEqual(struct.unpack(">I", content[16:20])[0], 1024)
+        elif extension == "ps":
+            self.assertTrue(content.startswith(b"%!PS"))
+
+    def check_csv(self, text):
+        rows = list(csv.reader(text.splitlines()))
+        self.assertEqual(rows[0], ["edge", "x", "y", "r"])
+        edges = {}
+        for edge, x, y, r in rows[1:]:
+            edges.setdefault(edge, []).append((x, y, r))
+            self.assertGreaterEqual(float(r), 0)
+        self.assertTrue(all(len(points) >= 2 for points in edges.values()))
+        return edges
+
+    def test_a_rectangle_has_its_five_edges(self):
+        self.write("rectangle.wkt", RECTANGLE)
+        csv_text = self.succeed("axis", "rectangle.wkt", "-o", "-", "--format", "csv").stdout
+        edges = self.check_csv(csv_text.decode())
+        ends = sorted(tuple(map(float, p)) for points in edges.values()
+                      for p in (points[0], points[-1]))
+        expected = sorted([(0, 0, 0), (1, 1, 1), (0, 2, 0), (1, 1, 1), (4, 0, 0), (3, 1, 1),
+                           (4, 2, 0), (3, 1, 1), (1, 1, 1), (3, 1, 1)])
+        self.assertEqual(len(ends), 10)
+        for got, wanted in zip(ends, expected):
+            for a, b in zip(got, wanted):
+                self.assertAlmostEqual(a, b, delta=1e-14)
+
+    def test_nodes_are_printed_alike_and_chord_adds_rows(self):
+        self.write("frame.wkt", FRAME)
+        counts = []
+        for chord in ("1e-2", "1e-5"):
+            text = self.succeed("axis", "frame.wkt", "-o", "-", "--format", "csv", "--chord",
+                                chord).stdout.decode()
+            edges = self.check_csv(text)
+            counts.append(sum(map(len, edges.values())))
+            ends = [p for points in edges.values() for p in (points[0], points[-1])]
+            exact = {p for p in ends}
+            rounded = {tuple(round(float(v), 9) for v in p) for p in ends}
+            self.assertEqual(len(exact), len(rounded))
+        self.assertLess(counts[0], counts[1])
+
+    def test_pipes(self):
+        self.write("frame.wkt", FRAME)
+        with open(self.path("frame.wkt"), "rb") as given:
+            text = self.succeed("axis", "-", "-o", "-", "--format", "csv", given=given.read())
+        self.check_csv(text.stdout.decode())
+        text = self.succeed("axis", "-", "-o", "-", "--format", "csv",
+                            given=b"0 0\n4 0\n4 2\n0 2\n").stdout.decode()
+        self.assertEqual(len(self.check_csv(text)), 5)
+        text = self.succeed("axis", "-", "-o", "-", "--format", "csv", "--quiet",
+                            given=GEOGRAPHIC.encode()).stdout.decode()
+        self.assertEqual(len(self.check_csv(text)), 10)
+
+    def test_standard_output_takes_every_format(self):
+        self.write("frame.wkt", FRAME)
+        for extension in ("json", "geojson", "wkt", "csv", "svg", "pdf", "png", "ps"):
+            with self.subTest(extension=extension):
+                done = self.succeed("axis", "frame.wkt", "-o", "-", "--format", extension)
+                self.write("out." + extension, done.stdout)
+                self.check_content(extension, done.stdout)
+
+    def test_a_closed_pipe_ends_quietly(self):
+        self.write("comb.wkt", comb(3000))
+        process = subprocess.Popen(
+            [PROGRAM, "axis", "comb.wkt", "-o", "-", "--format", "csv", "--chord", "1e-6"],
+            cwd=self.folder.name, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        process.stdout.read(10)
+        process.stdout.close()
+        errors = process.stderr.read()
+        process.stderr.close()
+        self.assertIn(process.wait(60), (0, 128 + signal.SIGPIPE))
+        self.assertEqual(errors, b"")
+
+    def test_a_full_device_is_an_error(self):
+        if not os.path.exists("/dev/full"):
+            self.skipTest("no /dev/full here")
+        self.write("frame.wkt", FRAME)
+        for arguments in (["info", "frame.wkt"], ["axis", "frame.wkt", "-o", "-", "--format", "csv"],
+                          ["axis", "frame.wkt", "--json"]):
+            with open("/dev/full", "wb") as full:
+                done = subprocess.run([PROGRAM, *arguments], cwd=self.folder.name, stdout=full,
+                                      stderr=subprocess.PIPE, timeout=60)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(b"[unwritable]", done.stderr)
+
+    def test_many_features_keep_order_and_attributes(self):
+        self.write("places.geojson", GEOGRAPHIC)
+        self.succeed("axis", "places.geojson", "-o", "axes.geojson")
+        features = json.loads(self.read("axes.geojson"))["features"]
+        lines = [f for f in features if f["geometry"]["type"] == "LineString"]
+        self.assertEqual(len(lines), 10)
+        names = [f["properties"]["name"] for f in lines]
+        self.assertEqual(names, ["west"] * 5 + ["east"] * 5)
+
+    def test_where_and_layer_select(self):
+        self.write("places.geojson", GEOGRAPHIC)
+        line = self.succeed("axis", "places.geojson", "--where", "rank > 1", "--json").stdout
+        self.assertEqual(json.loads(line)["features"], 1)
+        self.fail("[a-z_]+", "axis", "places.geojson", "--layer", "nowhere")
+        self.fail("[a-z_]+", "axis", "places.geojson", "--where", "rank >")
+
+    def test_geographic_coordinates_are_warned_about_once(self):
+        self.write("places.geojson", GEOGRAPHIC)
+        warned = self.succeed("axis", "places.geojson", "-o", "a.csv").stderr.decode()
+        self.assertEqual(warned.count("warning"), 1)
+        self.assertIn("--project", warned)
+        self.assertEqual(
+            self.succeed("axis", "places.geojson", "-o", "a.csv", "--quiet").stderr, b"")
+        projected = self.succeed("axis", "places.geojson", "-o", "p.geojson", "--project", "--json")
+        self.assertNotIn("warning", projected.stderr.decode())
+        # 0.05 degrees of latitude are 5.56 km: half of it is the largest radius.
+        self.assertAlmostEqual(json.loads(projected.stdout)["deepest"]["radius"], 2780, delta=10)
+        # Back in longitudes and latitudes.
+        for feature in json.loads(self.read("p.geojson"))["features"]:
+            if feature["geometry"]["type"] == "LineString":
+                for x, y, *_ in feature["geometry"]["coordinates"]:
+                    self.assertTrue(8.99 < x < 9.41 and 46.99 < y < 47.06, (x, y))
+
+    def test_without_output_a_summary_is_printed(self):
+        self.write("rectangle.wkt", RECTANGLE)
+        text = self.succeed("axis", "rectangle.wkt").stdout.decode()
+        self.assertRegex(text, r"^rectangle.wkt: 1 feature, 4 sites, 6 nodes, 5 edges, 5 branches; "
+                               r"deepest disk: radius 1 at \([13], 1\); [^\n]+ s\n$")
+
+    def test_quiet_unless_a_terminal(self):
+        self.write("rectangle.wkt", RECTANGLE)
+        done = self.succeed("axis", "rectangle.wkt", "-o", "a.json")
+        self.assertEqual((done.stdout, done.stderr), (b"", b""))
+
+    def test_stats_as_one_object(self):
+        self.write("frame.wkt", FRAME)
+        done = self.succeed("axis", "frame.wkt", "-o", "a.csv", "--stats", "--json", "--threads", 2)
+        stats = json.loads(done.stdout)
+        self.assertEqual(done.stderr, b"")
+        for step in ("read", "shape", "axis", "write"):
+            self.assertGreaterEqual(stats["seconds"][step], 0)
+        self.assertEqual(stats["sites"], 12)
+        self.assertEqual(stats["threads"], 2)
+        self.assertEqual(stats["nodes"], stats["edges"])  # one cycle
+        self.assertGreater(stats["branches"], 4)
+        self.assertGreater(stats["queries_per_site"], 0)
+        self.assertGreaterEqual(stats["precision_retries"], 0)
+        self.assertGreater(stats["peak_bytes"], 1_000_000)
+        self.assertEqual(stats["cleaned"]["closing_points"], 2)
+        self.assertEqual(set(stats["phases"]), {"sites", "tree", "connect", "walk", "collect"})
+
+    def test_stats_as_a_table(self):
+        self.write("frame.wkt", FRAME)
+        done = self.succeed("axis", "frame.wkt", "-o", "-", "--format", "csv", "--stats")
+        self.check_csv(done.stdout.decode())
+        for word in ("read", "walk", "queries per site", "precision retries", "peak bytes"):
+            self.assertIn(word, done.stderr.decode())
+
+    def test_the_same_bytes_for_any_number_of_threads(self):
+        self.write("star.wkt", star(2000) + "\n" + FRAME + "\n" + SQUARES + "\n" + comb(200))
+        for extension in ("json", "csv", "svg", "geojson"):
+            outputs = set()
+            for threads in (1, 2, 8):
+                name = f"t{threads}.{extension}"
+                self.succeed("axis", "star.wkt", "-o", name, "--threads", threads)
+                outputs.add(self.read(name))
+            self.assertEqual(len(outputs), 1, extension)
+
+    def test_repair(self):
+        self.write("bow.wkt", BOW_TIE)
+        for switch in ("--repair", "--repair=make-valid", "--repair=even-odd", "--repair=non-zero"):
+            done = self.succeed("axis", switch, "bow.wkt", "--json")
+            self.assertGreater(json.loads(done.stdout)["nodes"], 5)
+            self.assertIn(b"note", done.stderr)
+            self.assertEqual(self.succeed("axis", switch, "bow.wkt", "--quiet").stderr, b"")
+
+    def test_the_native_format_is_an_input_too(self):
+        self.write("shapes.wkt", FRAME + "\n" + SQUARES)
+        self.succeed("axis", "shapes.wkt", "-o", "a.json")
+        self.succeed("axis", "a.json", "-o", "b.json")
+        self.assertEqual(self.read("a.json"), self.read("b.json"))
+
+    def test_touching_rings(self):
+        self.write("touch.wkt",
+                   "POLYGON ((0 0, 8 0, 8 8, 0 8, 0 0), (0 4, 2 3, 2 5, 0 4))\n"
+                   "POLYGON ((0 0, 8 0, 8 8, 0 8, 0 0), (2 2, 4 4, 4 2, 2 2), (4 4, 6 6, 4 6, 4 4))")
+        self.succeed("axis", "touch.wkt", "-o", "touch.json")
+        self.succeed("verify", "touch.wkt", "touch.json")
+        self.succeed("axis", "touch.json", "-o", "again.json")
+        self.succeed("verify", "touch.wkt", "again.json")
+
+    def test_compressed_and_large_text(self):
+        self.write("comb.wkt.gz", gzip.compress(comb(20000).encode()))
+        done = self.succeed("axis", "comb.wkt.gz", "-o", "comb.csv", "--json")
+        self.assertEqual(json.loads(done.stdout)["features"], 1)
+        # One edge and more for every tooth, each with two rows or more.
+        self.assertGreater(self.read("comb.csv").count(b"\n"), 80000)
+
+
+class Verify(CommandLine):
+    def setUp(self):
+        super().setUp()
+        self.write("shapes.wkt", FRAME + "\n" + SQUARES)
+        self.succeed("axis", "shapes.wkt", "-o", "axes.json")
+
+    def test_a_computed_axis_passes(self):
+        done = self.succeed("verify", "shapes.wkt", "axes.json")
+        self.assertIn("passed", done.stdout.decode())
+        verdict = json.loads(self.succeed("verify", "shapes.wkt", "axes.json", "--json").stdout)
+        self.assertTrue(verdict["passed"])
+        self.assertEqual(verdict["features"], 4)
+        self.assertEqual((verdict["holes"], verdict["cycles"]), (1, 1))
+        self.assertLess(verdict["largest_residual"], 1e-12)
+        self.assertAlmostEqual(verdict["shape_area"], 9 * 6 - 3 * 2 + 3, delta=1e-9)
+        self.assertEqual(len(verdict["certificates"]), 4)
+
+    def test_the_axis_of_another_shape_is_refused(self):
+        self.write("moved.wkt", FRAME.replace("3 4, 6 4", "3 5, 6 4") + "\n" + SQUARES)
+        done = self.run_medial("verify", "moved.wkt", "axes.json")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("FAILED", done.stdout.decode())
+        done = self.run_medial("verify", "moved.wkt", "axes.json", "--json")
+        self.assertEqual(done.returncode, 1)
+        verdict = json.loads(done.stdout)
+        self.assertFalse(verdict["passed"])
+        self.assertGreater(len(verdict["failures"]), 0)
+        self.assertFalse(verdict["certificates"][0]["passed"])
+        self.assertTrue(verdict["certificates"][1]["passed"])
+
+    def test_errors(self):
+        self.write("one.wkt", FRAME)
+        self.fail("malformed", "verify", "one.wkt", "axes.json")
+        self.fail("[a-z_]+", "verify", "shapes.wkt", "shapes.wkt")
+        self.fail("unreadable", "verify", "shapes.wkt", "none.json")
+        self.fail("unreadable", "verify", "none.wkt", "axes.json")
+        self.fail("invalid_option", "verify", "-", "-")
+
+    def test_a_damaged_file_is_refused(self):
+        content = self.read("axes.json")
+        for share in (0.1, 0.5, 0.9, 0.999):
+            self.write("cut.json", content[:int(share * len(content))])
+            self.fail("(malformed|unsupported|unreadable)", "verify", "shapes.wkt", "cut.json")
+        # Any number replaced by one far out of range must be told, never followed.
+        numbers = list(re.finditer(rb"(?<=[\[,:])\d+(?=[\],}])", content))
+        for match in numbers[::max(1, len(numbers) // 40)]:
+            damaged = content[:match.start()] + b"4000000000" + content[match.end():]
+            self.write("damaged.json", damaged)
+            for verb in (["verify", "shapes.wkt", "damaged.json"], ["info", "damaged.json"],
+                         ["draw", "damaged.json", "-o", "-", "--format", "svg"],
+                         ["axis", "damaged.json"]):
+                self.run_medial(*verb)
+
+
+class Info(CommandLine):
+    def test_polygons(self):
+        self.write("frame.wkt", FRAME.replace("9 0,", "9 0, 9 0, 9 3,"))
+        told = json.loads(self.succeed("info", "frame.wkt", "--json").stdout)
+        self.assertEqual(told["kind"], "polygons")
+        self.assertEqual((told["features"], told["rings"], told["holes"]), (1, 2, 1))
+        self.assertEqual(told["vertices"], 8)
+        self.assertEqual(told["extent"], [0, 0, 9, 6])
+        self.assertEqual(told["area"], 48)
+        self.assertEqual(told["cleaned"]["repeated_points"], 1)
+        self.assertEqual(told["cleaned"]["collinear_points"], 1)
+        text = self.succeed("info", "frame.wkt").stdout.decode()
+        for word in ("features", "holes", "vertices", "extent", "1 repeated point", "valid"):
+            self.assertIn(word, text)
+
+    def test_coordinate_system(self):
+        self.write("places.geojson", GEOGRAPHIC)
+        told = json.loads(self.succeed("info", "places.geojson", "--json").stdout)
+        self.assertTrue(told["geographic"])
+        self.assertIn("84", told["crs"])
+
+    def test_an_axis(self):
+        self.write("rectangle.wkt", RECTANGLE)
+        self.succeed("axis", "rectangle.wkt", "-o", "a.json")
+        told = json.loads(self.succeed("info", "a.json", "--json").stdout)
+        self.assertEqual(told["kind"], "axis")
+        self.assertEqual(told["nodes"], {"leaf": 4, "site_change": 0, "branching": 2})
+        self.assertEqual((told["edges"], told["branches"]), (5, 5))
+        self.assertAlmostEqual(told["length"], 4 * math.sqrt(2) + 2, delta=1e-12)
+        self.assertAlmostEqual(told["deepest"]["radius"], 1, delta=1e-14)
+        self.assertEqual(told["method"], "disks")
+        self.assertGreater(told["tolerance"], 0)
+        text = self.succeed("info", "a.json").stdout.decode()
+        for word in ("4 leaves", "2 branchings", "deepest disk", "disks", "tolerance", "length"):
+            self.assertIn(word, text)
+
+    def test_an_axis_from_a_pipe(self):
+        self.write("rectangle.wkt", RECTANGLE)
+        stored = self.succeed("axis", "rectangle.wkt", "-o", "-", "--format", "json").stdout
+        told = json.loads(self.succeed("info", "-", "--json", given=stored).stdout)
+        self.assertEqual(told["kind"], "axis")
+
+    def test_invalid_polygons(self):
+        self.write("bow.wkt", BOW_TIE)
+        self.fail("crossing", "info", "bow.wkt")
+
+
+class Draw(CommandLine):
+    def test_polygons_and_stored_axes(self):
+        self.write("frame.wkt", FRAME)
+        self.succeed("axis", "frame.wkt", "-o", "a.json")
+        for extension in ("svg", "pdf", "png", "ps"):
+            self.succeed("draw", "frame.wkt", "-o", "p." + extension)
+            self.succeed("draw", "a.json", "-o", "s." + extension)
+            self.assertGreater(len(self.read("p." + extension)), 500)
+            self.assertGreater(len(self.read("s." + extension)), 500)
+        self.assertEqual(self.read("p.svg"), self.read("s.svg"))
+        self.assertEqual(self.read("p.png"), self.read("s.png"))
+
+    def test_options_change_the_picture(self):
+        self.write("frame.wkt", FRAME)
+        pictures = set()
+        for options in ([], ["--disks", 20], ["--contacts"], ["--nodes"], ["--no-shape"],
+                        ["--width", 300]):
+            self.succeed("draw", "frame.wkt", "-o", "p.svg", *options)
+            pictures.add(self.read("p.svg"))
+        self.assertEqual(len(pictures), 6)
+        self.succeed("draw", "frame.wkt", "-o", "p.png", "--width", 300)
+        self.assertEqual(struct.unpack(">I", self.read("p.png")[16:20])[0], 300)
+
+    def test_only_pictures(self):
+        self.write("frame.wkt", FRAME)
+        self.fail("unsupported", "draw", "frame.wkt", "-o", "p.csv")
+        self.fail("invalid_option", "draw", "frame.wkt")
+
+
+class Errors(CommandLine):
+    def test_inputs(self):
+        whole = gzip.compress(FRAME.encode() * 50)
+        cases = [
+            ("not_finite", "nan.wkt", "POLYGON ((0 0, 1 nan, 1 1, 0 0))"),
+            ("not_finite", "infinite.txt", "0 0\n1 1e999\n1 1\n"),
+            ("crossing", "bow.wkt", BOW_TIE),
+            ("hole_outside", "hole.wkt",
+             "POLYGON ((0 0, 1 0, 1 1, 0 1, 0 0), (5 5, 6 5, 6 6, 5 5))"),
+            ("too_few_points", "two.wkt", "POLYGON ((0 0, 1 1, 0 0))"),
+            ("too_few_points", "two.txt", "0 0\n1 1\n"),
+            ("no_area", "flat.wkt", "POLYGON ((0 0, 1 0, 2 0, 0 0))"),
+            ("overlap", "overlap.wkt",
+             "MULTIPOLYGON (((0 0, 2 0, 2 2, 0 2, 0 0)), ((2 0, 4 0, 4 2, 2 2, 2 0)))"),
+            ("(malformed|unreadable)", "cut.wkt.gz", whole[:len(whole) // 2]),
+            ("(malformed|unreadable)", "noise.wkt.gz", b"\x1f\x8b" + bytes(range(256))),
+            ("malformed", "cut.wkt", FRAME[:-20]),
+            ("[a-z_]+", "empty.wkt", ""),
+            ("[a-z_]+", "empty.geojson", ""),
+            ("[a-z_]+", "empty.json", ""),
+            ("[a-z_]+", "point.wkt", "POINT (1 1)"),
+            ("[a-z_]+", "noise.bin", bytes(range(256)) * 9),
+            ("[a-z_]+", "noise.shp", bytes(range(256)) * 9),
+            ("[a-z_]+", "noise.json", b'{"medial": '),
+        ]
+        for code, name, content in cases:
+            with self.subTest(name=name):
+                self.write(name, content)
+                text = self.fail(code, "axis", name, "-o", "out.json")
+                self.assertIn(name, text)
+                self.fail(code, "info", name)
+                self.fail(code, "draw", name, "-o", "out.svg")
+
+    def test_missing_file_and_directory(self):
+        os.mkdir(self.path("folder"))
+        self.assertIn("none.wkt", self.fail("unreadable", "axis", "none.wkt", "-o", "out.json"))
+        self.assertIn("none.geojson",
+                      self.fail("unreadable", "axis", "none.geojson", "-o", "out.json"))
+        self.fail("(unreadable|unsupported)", "axis", "folder", "-o", "out.json")
+        self.fail("[a-z_]+", "axis", "/dev/null", "-o", "out.json")
+
+    def test_the_place_is_named(self):
+        self.write("bad.wkt", SQUARES + "\n" + BOW_TIE)
+        text = self.fail("crossing", "axis", "bad.wkt", "-o", "out.json")
+        self.assertRegex(text, r"^medial: bad.wkt: feature 3, ring 0, .*\(1, 1\)")
+        done = self.run_medial("axis", "bad.wkt", "-o", "out.json", "--json")
+        error = json.loads(done.stdout)["error"]
+        self.assertEqual(error["code"], "crossing")
+        self.assertEqual(error["place"]["file"], "bad.wkt")
+        self.assertEqual(error["place"]["feature"], 3)
+        self.assertEqual((error["place"]["x"], error["place"]["y"]), (1, 1))
+        self.assertTrue(error["text"])
+
+    def test_the_first_of_many_errors_is_told(self):
+        self.write("bad.wkt", "\n".join([SQUARES] * 20 + [BOW_TIE] * 50))
+        for threads in (1, 2, 8):
+            self.assertIn("feature 60", self.fail("crossing", "info", "bad.wkt", "--threads", threads))
+
+    def test_outputs(self):
+        self.write("frame.wkt", FRAME)
+        os.mkdir(self.path("folder.csv"))
+        self.fail("unsupported", "axis", "frame.wkt", "-o", "out.xyz")
+        self.fail("unsupported", "axis", "frame.wkt", "-o", "out")
+        self.fail("unsupported", "axis", "frame.wkt", "-o", "-", "--format", "xyz")
+        self.fail("invalid_option", "axis", "frame.wkt", "-o", "-")
+        self.fail("invalid_option", "axis", "frame.wkt", "-o", "out.csv", "--format", "csv")
+        self.fail("invalid_option", "axis", "frame.wkt", "-o", "-", "--format", "csv", "--json")
+        self.fail("unwritable", "axis", "frame.wkt", "-o", "none/out.csv")
+        self.fail("unwritable", "axis", "frame.wkt", "-o", "folder.csv")
+        self.fail("unwritable", "axis", "frame.wkt", "-o", "frame.wkt")
+        self.assertEqual(self.read("frame.wkt").decode(), FRAME)
+        self.fail("unwritable", "axis", "frame.wkt", "-o", "/proc/out.csv")
+
+    def test_an_output_is_refused_before_the_input_is_read(self):
+        self.fail("unwritable", "axis", "none.wkt", "-o", "none/out.csv")
+
+    def test_an_error_leaves_an_older_output_alone(self):
+        self.write("bow.wkt", BOW_TIE)
+        self.write("out.csv", "precious")
+        self.fail("crossing", "axis", "bow.wkt", "-o", "out.csv")
+        self.assertEqual(self.read("out.csv"), b"precious")
+
+    def test_command_lines(self):
+        self.write("frame.wkt", FRAME)
+        for arguments in ([], ["axis"], ["dance"], ["axis", "frame.wkt", "--bogus"],
+                          ["axis", "frame.wkt", "more"], ["axis", "frame.wkt", "--threads", "x"],
+                          ["axis", "frame.wkt", "--threads", "-1"],
+                          ["axis", "frame.wkt", "--threads", "99999999999999999999"],
+                          ["axis", "frame.wkt", "--tolerance", "0.1"],
+                          ["axis", "frame.wkt", "--tolerance", "nan"],
+                          ["axis", "frame.wkt", "--tolerance", "-1e-9"],
+                          ["axis", "frame.wkt", "--chord", "0"],
+                          ["axis", "frame.wkt", "--chord", "nan"],
+                          ["axis", "frame.wkt", "--repair=magic"],
+                          ["axis", "frame.wkt", "-o"],
+                          ["draw", "frame.wkt", "-o", "p.svg", "--width", "inf"],
+                          ["draw", "frame.wkt", "-o", "p.svg", "--disks", "-1"]):
+            with self.subTest(arguments=arguments):
+                text = self.fail("invalid_option", *arguments)
+                self.assertIn("--help", text)
+        done = self.run_medial("axis", "frame.wkt", "--bogus", "--json")
+        self.assertEqual(json.loads(done.stdout)["error"]["code"], "invalid_option")
+
+    def test_names_that_are_no_utf8(self):
+        name = b"\xff\xfe.wkt"
+        with open(os.path.join(self.folder.name.encode(), name), "w") as file:
+            file.write(BOW_TIE)
+        done = subprocess.run([PROGRAM.encode(), b"info", name, b"--json"], timeout=60,
+                              cwd=self.folder.name, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        self.assertEqual(done.returncode, 2)
+        self.assertEqual(json.loads(done.stdout)["error"]["code"], "crossing")
+
+
+class Help(CommandLine):
+    def test_help_and_version(self):
+        text = self.succeed("--help").stdout.decode()
+        for verb in ("axis", "verify", "info", "draw"):
+            self.assertIn(verb, text)
+            own = self.succeed(verb, "--help").stdout.decode()
+            for word in ("Usage", "Example", "--threads", "--tolerance", "--chord", "--stats",
+                         "--json", "--quiet", "default"):
+                self.assertIn(word, own)
+        self.assertRegex(self.succeed("--version").stdout.decode(), r"^medial \d+\.\d+\.\d+\n$")
+
+
+class Interruption(CommandLine):
+    def interrupt(self, signal_number, output, after):
+        process = subprocess.Popen(
+            [PROGRAM, "axis", "comb.wkt", "-o", output, "--chord", "1e-7"], cwd=self.folder.name,
+            stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, stdin=subprocess.DEVNULL,
+            preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
+        time.sleep(after)
+        process.send_signal(signal_number)
+        errors = process.stderr.read()
+        process.stderr.close()
+        return process.wait(60), errors
+
+    def test_nothing_is_left(self):
+        self.write("comb.wkt", comb(100_000))
+        interrupted = 0
+        for signal_number in (signal.SIGINT, signal.SIGTERM):
+            for output in ("out.csv", "out.json", "out.gpkg", "out.shp"):
+                for after in (0.1, 0.6):
+                    status, errors = self.interrupt(signal_number, output, after)
+                    with self.subTest(signal=signal_number, output=output, after=after):
+                        self.assertIn(status, (0, 128 + signal_number))
+                        self.assertEqual(errors, b"")
+                        if status:
+                            interrupted += 1
+                            self.assertEqual(self.files(), ["comb.wkt"])
+                    for name in self.files():
+                        if name != "comb.wkt":
+                            os.remove(self.path(name))
+        self.assertGreater(interrupted, 8)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
