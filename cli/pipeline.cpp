@@ -206,8 +206,8 @@ Result<AxisFile> compute_axes(ShapeFile shapes, const std::string& path,
       });
   if (!computed) return std::move(computed).error();
 
-  for (const io::NativeItem& item : file.native.items) {
-    const Statistics& part = item.axis.statistics;
+  for (io::NativeItem& item : file.native.items) {
+    Statistics& part = item.axis.statistics;
     Statistics& sum = file.statistics;
     sum.queries += part.queries;
     sum.apollonius += part.apollonius;
@@ -221,6 +221,10 @@ Result<AxisFile> compute_axes(ShapeFile shapes, const std::string& path,
     sum.seconds_walk += part.seconds_walk;
     sum.seconds_collect += part.seconds_collect;
     sum.seconds += part.seconds;
+    // What differs from run to run is told by --stats and is no part of the file.
+    part.threads = 1;
+    part.seconds_sites = part.seconds_tree = part.seconds_connect = 0;
+    part.seconds_walk = part.seconds_collect = part.seconds = 0;
   }
   file.statistics.threads = effective_threads(common.threads);
   file.cleaned = shapes.report;

@@ -95,7 +95,7 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(done.returncode, 0, (arguments, done.stderr.decode()))
         return done
 
-    def fail(self, code, *arguments, given=b"", nothing_new=True):
+    def refuse(self, code, *arguments, given=b"", nothing_new=True):
         """Expects exit status 2, one line that ends with the code, and no new file."""
         before = self.files()
         done = self.run_medial(*arguments, given=given)
@@ -254,8 +254,8 @@ class Axis(CommandLine):
         self.write("places.geojson", GEOGRAPHIC)
         line = self.succeed("axis", "places.geojson", "--where", "rank > 1", "--json").stdout
         self.assertEqual(json.loads(line)["features"], 1)
-        self.fail("[a-z_]+", "axis", "places.geojson", "--layer", "nowhere")
-        self.fail("[a-z_]+", "axis", "places.geojson", "--where", "rank >")
+        self.refuse("[a-z_]+", "axis", "places.geojson", "--layer", "nowhere")
+        self.refuse("[a-z_]+", "axis", "places.geojson", "--where", "rank >")
 
     def test_geographic_coordinates_are_warned_about_once(self):
         self.write("places.geojson", GEOGRAPHIC)
@@ -382,17 +382,17 @@ class Verify(CommandLine):
 
     def test_errors(self):
         self.write("one.wkt", FRAME)
-        self.fail("malformed", "verify", "one.wkt", "axes.json")
-        self.fail("[a-z_]+", "verify", "shapes.wkt", "shapes.wkt")
-        self.fail("unreadable", "verify", "shapes.wkt", "none.json")
-        self.fail("unreadable", "verify", "none.wkt", "axes.json")
-        self.fail("invalid_option", "verify", "-", "-")
+        self.refuse("malformed", "verify", "one.wkt", "axes.json")
+        self.refuse("[a-z_]+", "verify", "shapes.wkt", "shapes.wkt")
+        self.refuse("unreadable", "verify", "shapes.wkt", "none.json")
+        self.refuse("unreadable", "verify", "none.wkt", "axes.json")
+        self.refuse("invalid_option", "verify", "-", "-")
 
     def test_a_damaged_file_is_refused(self):
         content = self.read("axes.json")
         for share in (0.1, 0.5, 0.9, 0.999):
             self.write("cut.json", content[:int(share * len(content))])
-            self.fail("(malformed|unsupported|unreadable)", "verify", "shapes.wkt", "cut.json")
+            self.refuse("(malformed|unsupported|unreadable)", "verify", "shapes.wkt", "cut.json")
         # Any number replaced by one far out of range must be told, never followed.
         numbers = list(re.finditer(rb"(?<=[\[,:])\d+(?=[\],}])", content))
         for match in numbers[::max(1, len(numbers) // 40)]:
@@ -448,7 +448,7 @@ class Info(CommandLine):
 
     def test_invalid_polygons(self):
         self.write("bow.wkt", BOW_TIE)
-        self.fail("crossing", "info", "bow.wkt")
+        self.refuse("crossing", "info", "bow.wkt")
 
 
 class Draw(CommandLine):
@@ -476,8 +476,8 @@ class Draw(CommandLine):
 
     def test_only_pictures(self):
         self.write("frame.wkt", FRAME)
-        self.fail("unsupported", "draw", "frame.wkt", "-o", "p.csv")
-        self.fail("invalid_option", "draw", "frame.wkt")
+        self.refuse("unsupported", "draw", "frame.wkt", "-o", "p.csv")
+        self.refuse("invalid_option", "draw", "frame.wkt")
 
 
 class Errors(CommandLine):
@@ -508,22 +508,22 @@ class Errors(CommandLine):
         for code, name, content in cases:
             with self.subTest(name=name):
                 self.write(name, content)
-                text = self.fail(code, "axis", name, "-o", "out.json")
+                text = self.refuse(code, "axis", name, "-o", "out.json")
                 self.assertIn(name, text)
-                self.fail(code, "info", name)
-                self.fail(code, "draw", name, "-o", "out.svg")
+                self.refuse(code, "info", name)
+                self.refuse(code, "draw", name, "-o", "out.svg")
 
     def test_missing_file_and_directory(self):
         os.mkdir(self.path("folder"))
-        self.assertIn("none.wkt", self.fail("unreadable", "axis", "none.wkt", "-o", "out.json"))
+        self.assertIn("none.wkt", self.refuse("unreadable", "axis", "none.wkt", "-o", "out.json"))
         self.assertIn("none.geojson",
-                      self.fail("unreadable", "axis", "none.geojson", "-o", "out.json"))
-        self.fail("(unreadable|unsupported)", "axis", "folder", "-o", "out.json")
-        self.fail("[a-z_]+", "axis", "/dev/null", "-o", "out.json")
+                      self.refuse("unreadable", "axis", "none.geojson", "-o", "out.json"))
+        self.refuse("(unreadable|unsupported)", "axis", "folder", "-o", "out.json")
+        self.refuse("[a-z_]+", "axis", "/dev/null", "-o", "out.json")
 
     def test_the_place_is_named(self):
         self.write("bad.wkt", SQUARES + "\n" + BOW_TIE)
-        text = self.fail("crossing", "axis", "bad.wkt", "-o", "out.json")
+        text = self.refuse("crossing", "axis", "bad.wkt", "-o", "out.json")
         self.assertRegex(text, r"^medial: bad.wkt: feature 3, ring 0, .*\(1, 1\)")
         done = self.run_medial("axis", "bad.wkt", "-o", "out.json", "--json")
         error = json.loads(done.stdout)["error"]
@@ -536,30 +536,30 @@ class Errors(CommandLine):
     def test_the_first_of_many_errors_is_told(self):
         self.write("bad.wkt", "\n".join([SQUARES] * 20 + [BOW_TIE] * 50))
         for threads in (1, 2, 8):
-            self.assertIn("feature 60", self.fail("crossing", "info", "bad.wkt", "--threads", threads))
+            self.assertIn("feature 60", self.refuse("crossing", "info", "bad.wkt", "--threads", threads))
 
     def test_outputs(self):
         self.write("frame.wkt", FRAME)
         os.mkdir(self.path("folder.csv"))
-        self.fail("unsupported", "axis", "frame.wkt", "-o", "out.xyz")
-        self.fail("unsupported", "axis", "frame.wkt", "-o", "out")
-        self.fail("unsupported", "axis", "frame.wkt", "-o", "-", "--format", "xyz")
-        self.fail("invalid_option", "axis", "frame.wkt", "-o", "-")
-        self.fail("invalid_option", "axis", "frame.wkt", "-o", "out.csv", "--format", "csv")
-        self.fail("invalid_option", "axis", "frame.wkt", "-o", "-", "--format", "csv", "--json")
-        self.fail("unwritable", "axis", "frame.wkt", "-o", "none/out.csv")
-        self.fail("unwritable", "axis", "frame.wkt", "-o", "folder.csv")
-        self.fail("unwritable", "axis", "frame.wkt", "-o", "frame.wkt")
+        self.refuse("unsupported", "axis", "frame.wkt", "-o", "out.xyz")
+        self.refuse("unsupported", "axis", "frame.wkt", "-o", "out")
+        self.refuse("unsupported", "axis", "frame.wkt", "-o", "-", "--format", "xyz")
+        self.refuse("invalid_option", "axis", "frame.wkt", "-o", "-")
+        self.refuse("invalid_option", "axis", "frame.wkt", "-o", "out.csv", "--format", "csv")
+        self.refuse("invalid_option", "axis", "frame.wkt", "-o", "-", "--format", "csv", "--json")
+        self.refuse("unwritable", "axis", "frame.wkt", "-o", "none/out.csv")
+        self.refuse("unwritable", "axis", "frame.wkt", "-o", "folder.csv")
+        self.refuse("unwritable", "axis", "frame.wkt", "-o", "frame.wkt")
         self.assertEqual(self.read("frame.wkt").decode(), FRAME)
-        self.fail("unwritable", "axis", "frame.wkt", "-o", "/proc/out.csv")
+        self.refuse("unwritable", "axis", "frame.wkt", "-o", "/proc/out.csv")
 
     def test_an_output_is_refused_before_the_input_is_read(self):
-        self.fail("unwritable", "axis", "none.wkt", "-o", "none/out.csv")
+        self.refuse("unwritable", "axis", "none.wkt", "-o", "none/out.csv")
 
     def test_an_error_leaves_an_older_output_alone(self):
         self.write("bow.wkt", BOW_TIE)
         self.write("out.csv", "precious")
-        self.fail("crossing", "axis", "bow.wkt", "-o", "out.csv")
+        self.refuse("crossing", "axis", "bow.wkt", "-o", "out.csv")
         self.assertEqual(self.read("out.csv"), b"precious")
 
     def test_command_lines(self):
@@ -578,7 +578,7 @@ class Errors(CommandLine):
                           ["draw", "frame.wkt", "-o", "p.svg", "--width", "inf"],
                           ["draw", "frame.wkt", "-o", "p.svg", "--disks", "-1"]):
             with self.subTest(arguments=arguments):
-                text = self.fail("invalid_option", *arguments)
+                text = self.refuse("invalid_option", *arguments)
                 self.assertIn("--help", text)
         done = self.run_medial("axis", "frame.wkt", "--bogus", "--json")
         self.assertEqual(json.loads(done.stdout)["error"]["code"], "invalid_option")
@@ -625,7 +625,8 @@ class Interruption(CommandLine):
                 for after in (0.1, 0.6):
                     status, errors = self.interrupt(signal_number, output, after)
                     with self.subTest(signal=signal_number, output=output, after=after):
-                        self.assertIn(status, (0, 128 + signal_number))
+                        # A signal may come before the handler stands, or after the work.
+                        self.assertIn(status, (0, 128 + signal_number, -signal_number))
                         self.assertEqual(errors, b"")
                         if status:
                             interrupted += 1
