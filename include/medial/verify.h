@@ -17,7 +17,8 @@ struct Certificate {
   double largest_contact_gap = 0;  ///< max |distance to an edge's own two sites - r|
   double largest_uncovered = 0;    ///< max distance from a boundary sample to the union of disks
   double shape_area = 0;
-  double disks_area = 0;  ///< area of the union of the disks
+  double disks_area = 0;      ///< area of the union of the disks
+  double worst_legality = 0;  ///< max excess over Shaked and Bruckstein's (9), (10); no unit
   std::uint64_t disks_checked = 0;
   std::uint64_t components = 0;   ///< of the shape
   std::uint64_t graph_parts = 0;  ///< connected parts of the graph

@@ -1,10 +1,11 @@
 #include <algorithm>
+#include <array>
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "axis/curve.h"
+#include "base/spatial_order.h"
 #include "medial/query.h"
 
 namespace medial {
@@ -32,31 +33,6 @@ Box box_of(const MedialAxis& axis, const Edge& edge) {
           {std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y})}};
 }
 
-/// Puts the items [begin, end) into an order in which every aligned run of kFanOut^k is compact:
-/// halves at multiples of kFanOut, along the longer side of the centres' box.
-void order_by_place(std::vector<std::uint32_t>& order, const std::vector<Vec2>& center,
-                    std::size_t begin, std::size_t end) {
-  const std::size_t count = end - begin;
-  if (count <= kFanOut) return;
-  Box box{center[order[begin]], center[order[begin]]};
-  for (std::size_t i = begin; i < end; ++i) box = hull(box, {center[order[i]], center[order[i]]});
-  const bool by_x = box.high.x - box.low.x >= box.high.y - box.low.y;
-  // The left part takes the largest power of the fan-out below the count, several times: whole
-  // nodes of the tree.
-  std::size_t whole = kFanOut;
-  while (whole * kFanOut < count) whole *= kFanOut;
-  const std::size_t nodes = (count + whole - 1) / whole;
-  const std::size_t middle = begin + (nodes / 2) * whole;
-  std::nth_element(order.begin() + static_cast<std::ptrdiff_t>(begin),
-                   order.begin() + static_cast<std::ptrdiff_t>(middle),
-                   order.begin() + static_cast<std::ptrdiff_t>(end),
-                   [&](std::uint32_t a, std::uint32_t b) {
-                     return by_x ? center[a].x < center[b].x : center[a].y < center[b].y;
-                   });
-  order_by_place(order, center, begin, middle);
-  order_by_place(order, center, middle, end);
-}
-
 /// The sign of cross(b - a, p - a), exactly. A floating-point filter decides almost always: its
 /// error is below 4 units in the last place of the sum of the products' magnitudes (Shewchuk's
 /// bound is 3.3); the rest is left to rational arithmetic.
@@ -82,15 +58,14 @@ struct AxisLocator::Index {
   std::vector<std::uint32_t> order;
   std::vector<std::vector<Box>> levels;
 
-  explicit Index(const MedialAxis& medial_axis) : axis(&medial_axis), order(axis->edges.size()) {
-    std::iota(order.begin(), order.end(), 0U);
+  explicit Index(const MedialAxis& medial_axis) : axis(&medial_axis) {
     std::vector<Vec2> center;
-    center.reserve(order.size());
+    center.reserve(axis->edges.size());
     for (const Edge& edge : axis->edges) {
       const Box box = box_of(*axis, edge);
       center.push_back(midpoint(box.low, box.high));
     }
-    order_by_place(order, center, 0, order.size());
+    order = spatial_order(center, kFanOut);
     std::vector<Box> boxes;
     boxes.reserve(order.size());
     for (const std::uint32_t edge : order) boxes.push_back(box_of(*axis, axis->edges[edge]));

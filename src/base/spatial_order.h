@@ -1,0 +1,48 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <span>
+#include <vector>
+
+#include "medial/vec2.h"
+
+namespace medial {
+
+namespace detail {
+inline void order_by_place(std::span<std::uint32_t> order, std::span<const Vec2> points,
+                           std::size_t fan_out) {
+  while (order.size() > fan_out) {
+    Vec2 low = points[order[0]], high = low;
+    for (const std::uint32_t i : order) {
+      low = {std::min(low.x, points[i].x), std::min(low.y, points[i].y)};
+      high = {std::max(high.x, points[i].x), std::max(high.y, points[i].y)};
+    }
+    const bool by_x = high.x - low.x >= high.y - low.y;
+    // Both parts hold whole nodes of the tree: the left one a multiple of the largest power of the
+    // fan-out below the count.
+    std::size_t whole = fan_out;
+    while (whole * fan_out < order.size()) whole *= fan_out;
+    const std::size_t middle = ((order.size() + whole - 1) / whole / 2) * whole;
+    std::nth_element(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(middle),
+                     order.end(), [&](std::uint32_t a, std::uint32_t b) {
+                       return by_x ? points[a].x < points[b].x : points[a].y < points[b].y;
+                     });
+    order_by_place(order.first(middle), points, fan_out);
+    order = order.subspan(middle);
+  }
+}
+}  // namespace detail
+
+/// The indices of points in an order in which each aligned run of fan_out^k of them lies close
+/// together, k = 1, 2, ...: the leaves of a tree without pointers. O(n log n).
+inline std::vector<std::uint32_t> spatial_order(std::span<const Vec2> points, std::size_t fan_out) {
+  std::vector<std::uint32_t> order(points.size());
+  std::iota(order.begin(), order.end(), 0U);
+  detail::order_by_place(order, points, fan_out);
+  return order;
+}
+
+}  // namespace medial

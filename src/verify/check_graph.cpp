@@ -1,0 +1,350 @@
+#include <cmath>
+#include <numeric>
+
+#include "base/predicates.h"
+#include "verify/checks.h"
+
+namespace medial::verify_detail {
+namespace {
+
+bool finite(Vec2 p) { return std::isfinite(p.x) && std::isfinite(p.y); }
+
+/// Counts offences and keeps the first: one sentence tells of all.
+struct Offences {
+  std::size_t count = 0;
+  std::size_t first = 0;
+  void add(std::size_t i) {
+    if (count++ == 0) first = i;
+  }
+};
+
+class DisjointSets {
+ public:
+  explicit DisjointSets(std::size_t count) : parent_(count) {
+    std::iota(parent_.begin(), parent_.end(), 0U);
+  }
+  std::uint32_t find(std::uint32_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void join(std::uint32_t i, std::uint32_t j) {
+    i = find(i);
+    j = find(j);
+    parent_[std::max(i, j)] = std::min(i, j);
+  }
+
+ private:
+  std::vector<std::uint32_t> parent_;
+};
+
+bool before(Vec2 a, Vec2 b) { return lexicographic_less(a, b); }
+
+/// A corner or a leaf: what has to agree.
+struct Corner {
+  Vec2 point;
+  std::uint32_t component;
+  friend bool operator<(const Corner& a, const Corner& b) {
+    if (!(a.point == b.point)) return before(a.point, b.point);
+    return a.component < b.component;
+  }
+};
+
+}  // namespace
+
+bool check_shape(const Shape& shape, Certificate& certificate) {
+  const std::size_t loops = shape.component.size();
+  bool valid = shape.hole.size() == loops && shape.points.size() < kNone &&
+               (loops == 0 ? shape.points.empty()
+                           : shape.loop_begin.size() == loops + 1 && shape.loop_begin[0] == 0 &&
+                                 shape.loop_begin[loops] == shape.points.size());
+  for (std::size_t i = 0; valid && i < loops; ++i)
+    valid = shape.loop_begin[i] <= shape.loop_begin[i + 1] && shape.loop(i).size() >= 3 &&
+            shape.component[i] < loops;
+  for (std::size_t i = 0; valid && i < shape.points.size(); ++i) valid = finite(shape.points[i]);
+  if (!valid)
+    certificate.failures.push_back(
+        "The shape itself is malformed: loops that do not fit its points, or coordinates that are "
+        "not finite.");
+  return valid;
+}
+
+bool check_values(const Shape& shape, const MedialAxis& axis, Certificate& certificate) {
+  const std::size_t before_count = certificate.failures.size();
+  const auto report = [&](const Offences& offences, const char* what, const char* which) {
+    if (offences.count > 0)
+      certificate.failures.push_back(
+          sentence("%zu %s; the first is %s %zu.", offences.count, what, which, offences.first));
+  };
+  if (axis.nodes.size() >= kNone || axis.edges.size() >= kNone || axis.sites.size() >= kNone) {
+    certificate.failures.push_back("The axis has more parts than 32-bit indices can name.");
+    return false;
+  }
+  Offences nodes, radii, components;
+  const std::size_t component_count = shape.component_count();
+  for (std::size_t i = 0; i < axis.nodes.size(); ++i) {
+    const Node& node = axis.nodes[i];
+    if (!finite(node.disk.center) || !std::isfinite(node.disk.radius))
+      nodes.add(i);
+    else if (node.disk.radius < 0)
+      radii.add(i);
+    if (node.component >= component_count) components.add(i);
+  }
+  report(nodes, "nodes have a coordinate or radius that is not finite", "node");
+  report(radii, "nodes have a negative radius", "node");
+  report(components, "nodes name a component that the shape does not have", "node");
+
+  Offences sites;
+  for (std::size_t i = 0; i < axis.sites.size(); ++i)
+    if (!finite(axis.sites[i].start) || !finite(axis.sites[i].end)) sites.add(i);
+  report(sites, "sites have a coordinate that is not finite", "site");
+
+  Offences node_indices, site_indices, curves, weights, twice;
+  for (std::size_t i = 0; i < axis.edges.size(); ++i) {
+    const Edge& edge = axis.edges[i];
+    if (std::max(edge.node[0], edge.node[1]) >= axis.nodes.size()) node_indices.add(i);
+    if (std::max(edge.site[0], edge.site[1]) >= axis.sites.size()) site_indices.add(i);
+    if (edge.site[0] == edge.site[1]) twice.add(i);
+    if (!finite(edge.control.center) || !std::isfinite(edge.control.radius)) curves.add(i);
+    if (!(edge.weight >= 1) || !std::isfinite(edge.weight)) weights.add(i);
+  }
+  report(node_indices, "edges name a node that the axis does not have", "edge");
+  report(site_indices, "edges name a site that the axis does not have", "edge");
+  report(twice, "edges lie between a site and itself", "edge");
+  report(curves, "edges have a control point that is not finite", "edge");
+  report(weights, "edges have a weight that is not finite or below 1", "edge");
+
+  // A tolerance is at most what a user may ask compute() for, or what the coordinates' spacing
+  // asks.
+  constexpr double largest_relative = 1e-3;
+  const Box box = bounding_box(shape);
+  if (!(axis.tolerance >= 0 &&
+        axis.tolerance <= std::max(largest_relative * diagonal(box), 4 * spacing_in(box))))
+    certificate.failures.push_back(sentence(
+        "The axis claims a tolerance of %.3g, which no engine computes with.", axis.tolerance));
+  return certificate.failures.size() == before_count;
+}
+
+void prepare(Problem& problem, Certificate& certificate) {
+  const Shape& shape = problem.shape;
+  const MedialAxis& axis = problem.axis;
+  const auto count = static_cast<std::uint32_t>(shape.points.size());
+  problem.next.resize(count);
+  problem.component.resize(count);
+  problem.turn.resize(count);
+  for (std::size_t i = 0; i < shape.loop_count(); ++i) {
+    const std::uint32_t begin = shape.loop_begin[i], end = shape.loop_begin[i + 1];
+    for (std::uint32_t j = begin; j < end; ++j) {
+      const std::uint32_t previous = j > begin ? j - 1 : end - 1;
+      problem.next[j] = j + 1 < end ? j + 1 : begin;
+      problem.component[j] = shape.component[i];
+      problem.turn[j] = static_cast<Turn>(
+          orientation(shape.points[previous], shape.points[j], shape.points[problem.next[j]]));
+    }
+  }
+
+  problem.degree.assign(axis.nodes.size(), 0);
+  for (const Edge& edge : axis.edges)
+    for (const std::uint32_t node : edge.node) ++problem.degree[node];
+
+  // Sites mostly come in the order of the boundary, so the point after the last one is tried first;
+  // otherwise the points are looked up by their coordinates.
+  const auto fits = [&](const Site& site, std::uint32_t i) {
+    if (!(shape.points[i] == site.start)) return false;
+    return site.kind == SiteKind::vertex ? site.end == site.start && problem.turn[i] == Turn::reflex
+                                         : shape.points[problem.next[i]] == site.end;
+  };
+  std::vector<std::uint32_t> sorted;
+  problem.place.assign(axis.sites.size(), kNone);
+  std::uint32_t cursor = 0;
+  Offences foreign;
+  for (std::size_t s = 0; s < axis.sites.size(); ++s) {
+    const Site& site = axis.sites[s];
+    std::uint32_t& place = problem.place[s];
+    for (std::uint32_t i = cursor; i < std::min(cursor + 2, count) && place == kNone; ++i)
+      if (fits(site, i)) place = i;
+    if (place == kNone) {
+      if (sorted.empty()) {
+        sorted.resize(count);
+        std::iota(sorted.begin(), sorted.end(), 0U);
+        std::sort(sorted.begin(), sorted.end(), [&](std::uint32_t a, std::uint32_t b) {
+          return before(shape.points[a], shape.points[b]);
+        });
+      }
+      auto found = std::lower_bound(
+          sorted.begin(), sorted.end(), site.start,
+          [&](std::uint32_t a, Vec2 point) { return before(shape.points[a], point); });
+      for (; found != sorted.end() && shape.points[*found] == site.start; ++found)
+        if (fits(site, *found)) place = *found;
+    }
+    if (place == kNone)
+      foreign.add(s);
+    else
+      cursor = place;
+  }
+  if (foreign.count > 0) {
+    const Site& site = axis.sites[foreign.first];
+    certificate.failures.push_back(sentence(
+        "%zu sites are no edge and no reflex vertex of the shape; the first is site %zu from "
+        "(%.17g, %.17g) to (%.17g, %.17g).",
+        foreign.count, foreign.first, site.start.x, site.start.y, site.end.x, site.end.y));
+  }
+}
+
+void check_graph(const Problem& problem, Certificate& certificate) {
+  const Shape& shape = problem.shape;
+  const MedialAxis& axis = problem.axis;
+  const auto node_count = static_cast<std::uint32_t>(axis.nodes.size());
+  DisjointSets sets(node_count);
+  for (const Edge& edge : axis.edges) sets.join(edge.node[0], edge.node[1]);
+
+  struct Count {
+    std::uint64_t parts = 0, nodes = 0, edges = 0, holes = 0;
+  };
+  std::vector<Count> counts(shape.component_count());
+  for (std::size_t i = 0; i < shape.loop_count(); ++i)
+    if (shape.hole[i]) ++counts[shape.component[i]].holes;
+  Offences kinds, strangers, foreign_sites;
+  for (std::uint32_t i = 0; i < node_count; ++i) {
+    const Node& node = axis.nodes[i];
+    Count& count = counts[node.component];
+    ++count.nodes;
+    if (sets.find(i) == i) ++count.parts;
+    if (axis.nodes[sets.find(i)].component != node.component) strangers.add(i);
+    const std::uint32_t degree = problem.degree[i];
+    const bool fits = node.kind == NodeKind::leaf          ? degree == 1
+                      : node.kind == NodeKind::site_change ? degree == 2
+                      : node.kind == NodeKind::branching   ? degree >= 3
+                                                           : false;
+    if (!fits) kinds.add(i);
+  }
+  for (std::size_t i = 0; i < axis.edges.size(); ++i) {
+    const Edge& edge = axis.edges[i];
+    const std::uint32_t component = axis.nodes[edge.node[0]].component;
+    ++counts[component].edges;
+    for (const std::uint32_t site : edge.site) {
+      const std::uint32_t place = problem.place[site];
+      if (place != kNone && problem.component[place] != component) foreign_sites.add(i);
+    }
+  }
+
+  certificate.components = counts.size();
+  Offences torn, cycles;
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    const Count& count = counts[i];
+    const std::uint64_t independent = count.edges + count.parts - count.nodes;
+    certificate.graph_parts += count.parts;
+    certificate.holes += count.holes;
+    certificate.cycles += independent;
+    if (count.parts != 1) torn.add(i);
+    if (independent != count.holes) cycles.add(i);
+  }
+  auto& failures = certificate.failures;
+  if (torn.count > 0)
+    failures.push_back(sentence(
+        "The graph has %llu connected parts for %llu components; component %zu has %llu of them.",
+        static_cast<unsigned long long>(certificate.graph_parts),
+        static_cast<unsigned long long>(certificate.components), torn.first,
+        static_cast<unsigned long long>(counts[torn.first].parts)));
+  if (cycles.count > 0) {
+    const Count& count = counts[cycles.first];
+    failures.push_back(sentence(
+        "%zu components do not have one independent cycle for each hole; component %zu has %llu "
+        "cycles and %llu holes.",
+        cycles.count, cycles.first,
+        static_cast<unsigned long long>(count.edges + count.parts - count.nodes),
+        static_cast<unsigned long long>(count.holes)));
+  }
+  if (strangers.count > 0)
+    failures.push_back(
+        sentence("%zu nodes are connected with nodes of another component; the first is node %zu.",
+                 strangers.count, strangers.first));
+  if (foreign_sites.count > 0)
+    failures.push_back(
+        sentence("%zu edges have a site of another component; the first is edge %zu.",
+                 foreign_sites.count, foreign_sites.first));
+  if (kinds.count > 0)
+    failures.push_back(sentence(
+        "%zu nodes have a kind that does not fit the number of their edges; the first is node %zu "
+        "with %u edges.",
+        kinds.count, kinds.first, problem.degree[kinds.first]));
+}
+
+void check_vertices(const Problem& problem, Certificate& certificate) {
+  const MedialAxis& axis = problem.axis;
+  const auto count = static_cast<std::uint32_t>(problem.shape.points.size());
+  auto& failures = certificate.failures;
+
+  // Corners and leaves as sorted lists: what stands in one only is an offence.
+  std::vector<Corner> corners, leaves;
+  for (std::uint32_t i = 0; i < count; ++i)
+    if (problem.turn[i] == Turn::convex)
+      corners.push_back({problem.point(i), problem.component[i]});
+  Offences blunt;
+  for (std::size_t i = 0; i < axis.nodes.size(); ++i) {
+    if (problem.degree[i] != 1) continue;
+    if (axis.nodes[i].disk.radius > 0)
+      blunt.add(i);
+    else
+      leaves.push_back({axis.nodes[i].disk.center, axis.nodes[i].component});
+  }
+  std::sort(corners.begin(), corners.end());
+  std::sort(leaves.begin(), leaves.end());
+  std::vector<Corner> bare, extra;
+  std::set_difference(corners.begin(), corners.end(), leaves.begin(), leaves.end(),
+                      std::back_inserter(bare));
+  std::set_difference(leaves.begin(), leaves.end(), corners.begin(), corners.end(),
+                      std::back_inserter(extra));
+  certificate.convex_corners = corners.size();
+  certificate.corners_without_leaf = bare.size();
+  if (!bare.empty())
+    failures.push_back(
+        sentence("%zu of %zu convex corners are no leaf of radius 0; the first is (%.17g, %.17g).",
+                 bare.size(), corners.size(), bare[0].point.x, bare[0].point.y));
+  if (!extra.empty())
+    failures.push_back(sentence("%zu leaves are no convex corner; the first is (%.17g, %.17g).",
+                                extra.size(), extra[0].point.x, extra[0].point.y));
+  if (blunt.count > 0) {
+    const Disk& disk = problem.disk(static_cast<std::uint32_t>(blunt.first));
+    failures.push_back(sentence(
+        "%zu leaves have a radius above 0; the first is node %zu at (%.17g, %.17g), r = %.17g.",
+        blunt.count, blunt.first, disk.center.x, disk.center.y, disk.radius));
+  }
+
+  // A reflex vertex is touched by the disks of its own edges; or, where all of them have shrunk to
+  // a node, by the last disk on one of the segments that it ends.
+  std::vector<bool> touched(count, false);
+  for (const Edge& edge : axis.edges) {
+    for (const std::uint32_t site : edge.site) {
+      const std::uint32_t place = problem.place[site];
+      if (place == kNone) continue;
+      if (axis.sites[site].kind == SiteKind::vertex) {
+        touched[place] = true;
+        continue;
+      }
+      for (const std::uint32_t end : {place, problem.next[place]}) {
+        if (touched[end]) continue;
+        for (const std::uint32_t node : edge.node) {
+          const Disk& disk = problem.disk(node);
+          if (std::abs(distance(disk.center, problem.point(end)) - disk.radius) <=
+              problem.tolerance)
+            touched[end] = true;
+        }
+      }
+    }
+  }
+  std::uint32_t first = kNone;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    if (problem.turn[i] != Turn::reflex) continue;
+    ++certificate.reflex_vertices;
+    if (touched[i]) continue;
+    if (certificate.reflex_without_contact++ == 0) first = i;
+  }
+  if (first != kNone)
+    failures.push_back(sentence(
+        "%llu of %llu reflex vertices are touched by no disk; the first is (%.17g, %.17g).",
+        static_cast<unsigned long long>(certificate.reflex_without_contact),
+        static_cast<unsigned long long>(certificate.reflex_vertices), problem.point(first).x,
+        problem.point(first).y));
+}
+
+}  // namespace medial::verify_detail

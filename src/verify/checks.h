@@ -1,0 +1,86 @@
+#pragma once
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "medial/axis.h"
+#include "medial/shape.h"
+#include "medial/verify.h"
+
+namespace medial::verify_detail {
+
+/// The sign of the turn at a vertex of the shape, seen with the interior on the left.
+enum class Turn : std::int8_t { reflex = -1, straight = 0, convex = 1 };
+
+constexpr std::uint32_t kNone = 0xFFFFFFFF;
+
+/// A shape and its axis, and what all checks need to know of them.
+struct Problem {
+  const Shape& shape;
+  const MedialAxis& axis;
+  double diagonal = 0;
+  double tolerance = 0;
+
+  std::vector<std::uint32_t> next;       ///< of each point: the following one of its loop
+  std::vector<std::uint32_t> component;  ///< of each point
+  std::vector<Turn> turn;                ///< of each point
+  /// Of each site: the point of the shape that it is, or that its segment begins in; or kNone.
+  std::vector<std::uint32_t> place;
+  std::vector<std::uint32_t> degree;  ///< of each node
+
+  Problem(const Shape& the_shape, const MedialAxis& the_axis) : shape(the_shape), axis(the_axis) {}
+
+  Vec2 point(std::uint32_t i) const { return shape.points[i]; }
+  const Disk& disk(std::uint32_t node) const { return axis.nodes[node].disk; }
+};
+
+/// A sentence in printf's manner.
+std::string sentence(const char* format, ...) __attribute__((format(printf, 1, 2)));
+
+/// Works on [0, count) in runs of fixed size, in parallel, and hands the runs' findings back in
+/// order: what is made of them does not depend on the number of threads.
+template <class Findings, class Work>
+std::vector<Findings> in_runs(std::size_t count, const Work& work) {
+  constexpr std::size_t run = 1024;
+  std::vector<Findings> findings((count + run - 1) / run);
+  tbb::parallel_for(std::size_t{0}, findings.size(), [&](std::size_t i) {
+    const std::size_t end = std::min(count, (i + 1) * run);
+    for (std::size_t j = i * run; j < end; ++j) work(j, findings[i]);
+  });
+  return findings;
+}
+
+/// The spacing of doubles at the largest coordinate of a box.
+inline double spacing_in(const Box& box) {
+  return std::numeric_limits<double>::epsilon() *
+         std::max({std::abs(box.low.x), std::abs(box.low.y), std::abs(box.high.x),
+                   std::abs(box.high.y)});
+}
+
+/// Whether the shape can be worked with at all: its indices are in order, its coordinates finite.
+bool check_shape(const Shape& shape, Certificate& certificate);
+/// Whether the axis can be worked with at all: indices in range, numbers finite, radii not
+/// negative.
+bool check_values(const Shape& shape, const MedialAxis& axis, Certificate& certificate);
+
+/// Fills what Problem derives from shape and axis; reports sites that are no part of the boundary.
+void prepare(Problem& problem, Certificate& certificate);
+
+/// Parts and cycles against components and holes; kinds of nodes against their degrees.
+void check_graph(const Problem& problem, Certificate& certificate);
+/// Leaves at all convex corners and nowhere else; a foot on every reflex vertex.
+void check_vertices(const Problem& problem, Certificate& certificate);
+/// Radii against distances, on nodes and inside edges; contacts; sides; legality.
+void check_disks(const Problem& problem, int samples_per_edge, Certificate& certificate);
+/// Every boundary point is the foot of some disk.
+void check_coverage(const Problem& problem, Certificate& certificate);
+/// The area of the union of the disks.
+void check_area(const Problem& problem, Certificate& certificate);
+
+}  // namespace medial::verify_detail

@@ -1,0 +1,66 @@
+#include "medial/verify.h"
+
+#include <tbb/task_arena.h>
+
+#include <cstdarg>
+#include <cstdio>
+#include <exception>
+
+#include "verify/checks.h"
+
+namespace medial {
+namespace verify_detail {
+
+std::string sentence(const char* format, ...) {
+  char text[512];
+  std::va_list arguments;
+  va_start(arguments, format);
+  std::vsnprintf(text, sizeof text, format, arguments);
+  va_end(arguments);
+  return text;
+}
+
+namespace {
+
+/// What residuals are judged against: `relative` to the diagonal (1e-14 where it is 0), but never
+/// less than four spacings of doubles at the largest coordinate, to which centres are rounded; and
+/// the axis's own tolerance where its user asked for a larger one.
+double tolerance_of(const Box& box, double relative, const MedialAxis& axis) {
+  constexpr double default_relative = 1e-14;
+  const double judged = relative > 0 ? relative : default_relative;
+  return std::max({judged * diagonal(box), 4 * spacing_in(box), axis.tolerance});
+}
+
+void run_checks(const Shape& shape, const MedialAxis& axis, const VerifyOptions& options,
+                Certificate& certificate) {
+  if (!check_shape(shape, certificate) || !check_values(shape, axis, certificate)) return;
+  const Box box = bounding_box(shape);
+  Problem problem(shape, axis);
+  problem.diagonal = diagonal(box);
+  problem.tolerance = tolerance_of(box, options.tolerance, axis);
+  certificate.tolerance = problem.tolerance;
+  prepare(problem, certificate);
+  check_graph(problem, certificate);
+  check_vertices(problem, certificate);
+  check_disks(problem, options.samples_per_edge, certificate);
+  check_coverage(problem, certificate);
+  check_area(problem, certificate);
+}
+
+}  // namespace
+}  // namespace verify_detail
+
+Certificate verify(const Shape& shape, const MedialAxis& axis, const VerifyOptions& options) {
+  Certificate certificate;
+  try {
+    tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
+    arena.execute([&] { verify_detail::run_checks(shape, axis, options, certificate); });
+  } catch (const std::exception& failure) {
+    certificate.failures.push_back(
+        verify_detail::sentence("The check could not be finished: %s.", failure.what()));
+  }
+  certificate.passed = certificate.failures.empty();
+  return certificate;
+}
+
+}  // namespace medial

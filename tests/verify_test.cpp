@@ -1,0 +1,460 @@
+#include "medial/verify.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "support/hand_made.h"
+#include "verify/boundary_tree.h"
+
+namespace medial {
+namespace {
+
+using test::ell;
+using test::HandMade;
+using test::hourglass;
+using test::notch;
+using test::rectangle;
+using test::square_with_hole;
+
+std::vector<HandMade> all_hand_made() {
+  return {rectangle(), ell(), notch(), square_with_hole(), hourglass()};
+}
+
+std::string joined(const Certificate& certificate) {
+  std::string text;
+  for (const std::string& failure : certificate.failures) text += failure + "\n";
+  return text;
+}
+
+/// Expects that the axis is refused, with a sentence that holds `words`.
+void expect_failure(const HandMade& m, const std::string& words) {
+  const Certificate certificate = verify(m.shape, m.axis);
+  EXPECT_FALSE(certificate.passed) << words;
+  EXPECT_NE(joined(certificate).find(words), std::string::npos)
+      << "expected: " << words << "\ngot: " << joined(certificate);
+}
+
+/// The same under p -> scale * p + shift.
+HandMade moved(HandMade m, double scale, Vec2 shift) {
+  const auto move = [&](Vec2 p) { return scale * p + shift; };
+  for (Vec2& p : m.shape.points) p = move(p);
+  for (Site& site : m.axis.sites) {
+    site.start = move(site.start);
+    site.end = move(site.end);
+  }
+  for (Node& node : m.axis.nodes) node.disk = {move(node.disk.center), scale * node.disk.radius};
+  for (Edge& edge : m.axis.edges)
+    edge.control = {move(edge.control.center), scale * edge.control.radius};
+  return m;
+}
+
+TEST(Verify, PassesAxesInClosedForm) {
+  for (const HandMade& m : all_hand_made()) {
+    const Certificate certificate = verify(m.shape, m.axis);
+    EXPECT_TRUE(certificate.passed) << joined(certificate);
+    EXPECT_LE(certificate.largest_residual, 4e-15);
+    EXPECT_LE(certificate.largest_intrusion, 4e-15);
+    EXPECT_LE(certificate.largest_contact_gap, 4e-15);
+    EXPECT_LE(certificate.largest_uncovered, 4e-15);
+    EXPECT_NEAR(certificate.disks_area, certificate.shape_area, 1e-13);
+    EXPECT_EQ(certificate.worst_legality, 0);
+    EXPECT_EQ(certificate.disks_checked, m.axis.nodes.size() + 8 * m.axis.edges.size());
+    EXPECT_EQ(certificate.graph_parts, 1U);
+    EXPECT_EQ(certificate.cycles, certificate.holes);
+  }
+}
+
+TEST(Verify, CountsAndAreas) {
+  const HandMade m = square_with_hole();
+  const Certificate certificate = verify(m.shape, m.axis);
+  EXPECT_EQ(certificate.components, 1U);
+  EXPECT_EQ(certificate.holes, 1U);
+  EXPECT_EQ(certificate.cycles, 1U);
+  EXPECT_EQ(certificate.convex_corners, 4U);
+  EXPECT_EQ(certificate.reflex_vertices, 4U);
+  EXPECT_DOUBLE_EQ(certificate.shape_area, 96);
+  EXPECT_NEAR(certificate.tolerance, 1e-14 * std::hypot(10, 10), 1e-18);
+}
+
+TEST(Verify, PassesAtAnyScaleAndFarFromTheOrigin) {
+  for (const HandMade& m : all_hand_made()) {
+    for (const double scale : {1e-9, 1e-6, 1.0, 1e9}) {
+      for (const Vec2 shift : {Vec2{0, 0}, Vec2{1e7, -1e7}}) {
+        if (shift.x != 0 && scale < 1) continue;  // the points would coincide
+        const HandMade there = moved(m, scale, shift);
+        const Certificate certificate = verify(there.shape, there.axis);
+        EXPECT_TRUE(certificate.passed) << scale << " " << shift.x << "\n" << joined(certificate);
+      }
+    }
+  }
+}
+
+TEST(Verify, IsTheSameOnAnyNumberOfThreads) {
+  HandMade m = square_with_hole();
+  m.axis.nodes[3].disk.radius += 1e-5;
+  m.axis.nodes[7].disk.radius += 1e-5;
+  VerifyOptions options;
+  options.threads = 1;
+  const Certificate one = verify(m.shape, m.axis, options);
+  for (const int threads : {2, 8}) {
+    options.threads = threads;
+    const Certificate many = verify(m.shape, m.axis, options);
+    EXPECT_EQ(one.failures, many.failures);
+    EXPECT_EQ(one.largest_residual, many.largest_residual);
+    EXPECT_EQ(one.worst_x, many.worst_x);
+    EXPECT_EQ(one.disks_area, many.disks_area);
+  }
+}
+
+TEST(Verify, PassesTheEmptyAxisOfTheEmptyShapeOnly) {
+  EXPECT_TRUE(verify(Shape{}, MedialAxis{}).passed);
+  EXPECT_FALSE(verify(rectangle().shape, MedialAxis{}).passed);
+  EXPECT_FALSE(verify(Shape{}, rectangle().axis).passed);
+}
+
+TEST(VerifyFinds, MovedNode) {
+  for (HandMade m : all_hand_made()) {
+    for (std::size_t i = 0; i < m.axis.nodes.size(); ++i) {
+      HandMade damaged = m;
+      damaged.axis.nodes[i].disk.center.x += 1e-9;
+      const Certificate certificate = verify(damaged.shape, damaged.axis);
+      EXPECT_FALSE(certificate.passed) << i;
+    }
+  }
+  HandMade m = rectangle();
+  m.axis.nodes[0].disk.center.y += 1e-9;
+  expect_failure(m,
+                 "1 nodes have disks that reach over the boundary; the worst by 1e-09 at node 0");
+}
+
+TEST(VerifyFinds, WrongRadius) {
+  for (const double change : {1e-12, 1e-3}) {
+    HandMade m = ell();
+    m.axis.nodes[1].disk.radius += change;
+    expect_failure(m, "1 nodes have disks that reach over the boundary");
+    expect_failure(m, "do not touch a site of their edge");
+    m.axis.nodes[1].disk.radius -= 2 * change;
+    expect_failure(m, "1 nodes have a radius that is not the distance to the boundary");
+  }
+  HandMade m = rectangle();
+  m.axis.nodes[2].disk.radius = 1e-3;
+  expect_failure(m, "1 of 4 convex corners are no leaf of radius 0; the first is (0, 0)");
+  expect_failure(m, "1 leaves have a radius above 0; the first is node 2");
+}
+
+TEST(VerifyFinds, MovedControlPoint) {
+  for (const HandMade& m : all_hand_made()) {
+    for (std::size_t i = 0; i < m.axis.edges.size(); ++i) {
+      HandMade damaged = m;
+      damaged.axis.edges[i].control.radius += 1e-11;
+      expect_failure(damaged, "points inside edges have disks that reach over the boundary");
+      // Across the edge; along a straight one nothing would change but the speed.
+      damaged = m;
+      const Vec2 d = m.axis.nodes[m.axis.edges[i].node[1]].disk.center -
+                     m.axis.nodes[m.axis.edges[i].node[0]].disk.center;
+      damaged.axis.edges[i].control.center =
+          m.axis.edges[i].control.center + (1e-7 / norm(d)) * left_of(d);
+      EXPECT_FALSE(verify(damaged.shape, damaged.axis).passed) << i;
+    }
+  }
+}
+
+TEST(VerifyFinds, WrongWeight) {
+  HandMade m = hourglass();
+  m.axis.edges[0].weight = 1;
+  expect_failure(m, "points inside edges have");
+}
+
+TEST(VerifyFinds, AnyDroppedEdge) {
+  for (const HandMade& m : all_hand_made()) {
+    for (std::size_t i = 0; i < m.axis.edges.size(); ++i) {
+      HandMade damaged = m;
+      damaged.axis.edges.erase(damaged.axis.edges.begin() + static_cast<std::ptrdiff_t>(i));
+      damaged.finish();
+      // Between two vertices the disks of both ends cover what the edge's would.
+      if (m.axis.edges[i].weight == 1)
+        expect_failure(damaged, "which differs from the shape's area");
+      const Certificate certificate = verify(damaged.shape, damaged.axis);
+      EXPECT_NE(certificate.graph_parts + certificate.holes,
+                certificate.components + certificate.cycles);
+    }
+  }
+  HandMade m = rectangle();
+  m.axis.edges.erase(m.axis.edges.begin());
+  m.finish();
+  expect_failure(m, "The graph has 2 connected parts for 1 components; component 0 has 2 of them");
+  expect_failure(m, "A stretch of the boundary is touched by no disk");
+}
+
+TEST(VerifyFinds, DroppedLeaf) {
+  HandMade m = rectangle();
+  m.axis.edges.pop_back();
+  m.axis.nodes.pop_back();
+  m.finish();
+  expect_failure(m, "1 of 4 convex corners are no leaf of radius 0; the first is (0, 2)");
+  expect_failure(m, "A stretch of the boundary is touched by no disk");
+  expect_failure(m, "The disks cover an area of");
+}
+
+TEST(VerifyFinds, BrokenCycle) {
+  HandMade m = square_with_hole();
+  m.axis.edges.erase(m.axis.edges.begin() + 1);  // along the hole's lower side
+  m.finish();
+  expect_failure(m, "component 0 has 0 cycles and 1 holes");
+}
+
+TEST(VerifyFinds, ExtraCycle) {
+  HandMade m = rectangle();
+  m.axis.edges.push_back(m.axis.edges[0]);
+  expect_failure(m, "component 0 has 1 cycles and 0 holes");
+  expect_failure(m, "The disks cover an area of");
+}
+
+TEST(VerifyFinds, StrayNode) {
+  HandMade m = rectangle();
+  m.node(2, 1, 1);
+  m.finish();
+  expect_failure(m, "The graph has 2 connected parts");
+  expect_failure(m, "the first is node 6 with 0 edges");
+}
+
+TEST(VerifyFinds, SwappedSites) {
+  for (const HandMade& m : all_hand_made()) {
+    for (std::size_t i = 0; i < m.axis.edges.size(); ++i) {
+      HandMade damaged = m;
+      std::swap(damaged.axis.edges[i].site[0], damaged.axis.edges[i].site[1]);
+      expect_failure(damaged, "1 edges have their sites on the wrong sides");
+    }
+  }
+}
+
+TEST(VerifyFinds, WrongSite) {
+  HandMade m = rectangle();
+  m.axis.edges[0].site[0] = m.segment_site[1];
+  expect_failure(m, "disks of edges do not touch a site of their edge");
+  m = rectangle();
+  m.axis.edges[0].site[0] = m.axis.edges[0].site[1];
+  expect_failure(m, "1 edges lie between a site and itself; the first is edge 0");
+}
+
+TEST(VerifyFinds, ForeignSite) {
+  HandMade m = ell();
+  m.axis.sites[2].start.x += 1e-6;
+  expect_failure(m, "1 sites are no edge and no reflex vertex of the shape; the first is site 2");
+}
+
+TEST(VerifyFinds, MissingReflexVertex) {
+  // The axis of the rectangle that remains when the notch's sites are ignored.
+  HandMade m = notch();
+  for (Edge& edge : m.axis.edges)
+    for (std::uint32_t& site : edge.site)
+      if (m.axis.sites[site].kind == SiteKind::vertex) site = m.segment_site[5];
+  // Both neighbours' disks still touch the vertex, so it counts as touched; the edge does not fit.
+  expect_failure(m, "do not touch a site");
+}
+
+TEST(VerifyFinds, AxisOfAnotherShape) {
+  HandMade m = notch();
+  m.axis = rectangle().axis;
+  expect_failure(m, "convex corners are no leaf");
+  expect_failure(m, "1 of 1 reflex vertices are touched by no disk; the first is (3, 2)");
+  expect_failure(m, "sites are no edge and no reflex vertex");
+}
+
+TEST(VerifyFinds, KindsThatDoNotFit) {
+  HandMade m = rectangle();
+  m.axis.nodes[0].kind = NodeKind::site_change;
+  expect_failure(m, "the first is node 0 with 3 edges");
+  m = rectangle();
+  m.axis.nodes[5].kind = static_cast<NodeKind>(77);
+  expect_failure(m, "the first is node 5 with 1 edges");
+}
+
+TEST(VerifyFinds, IllegalBranch) {
+  // A curve whose radius grows faster than its length: no disk of it is maximal.
+  HandMade m = rectangle();
+  m.axis.edges[0].control.radius = 9;
+  expect_failure(m, "Shaked and Bruckstein");
+  // A parabola bent twice as much as its radii allow.
+  m = notch();
+  Disk& control = m.axis.edges[0].control;
+  control.center.y += control.center.y - m.axis.nodes[0].disk.center.y;
+  expect_failure(m, "Shaked and Bruckstein");
+}
+
+TEST(VerifyFinds, BrokenIndicesAndNumbers) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double infinity = std::numeric_limits<double>::infinity();
+  HandMade m = rectangle();
+  m.axis.edges[1].node[1] = 6;
+  expect_failure(m, "1 edges name a node that the axis does not have; the first is edge 1");
+  m = rectangle();
+  m.axis.edges[2].site[0] = 0xFFFFFFFF;
+  expect_failure(m, "1 edges name a site that the axis does not have; the first is edge 2");
+  m = rectangle();
+  m.axis.nodes[1].disk.center.y = nan;
+  expect_failure(m, "1 nodes have a coordinate or radius that is not finite; the first is node 1");
+  m = rectangle();
+  m.axis.nodes[1].disk.radius = -1;
+  expect_failure(m, "1 nodes have a negative radius");
+  m = rectangle();
+  m.axis.nodes[1].component = 1;
+  expect_failure(m, "1 nodes name a component that the shape does not have");
+  m = rectangle();
+  m.axis.edges[0].control.radius = infinity;
+  expect_failure(m, "1 edges have a control point that is not finite");
+  for (const double weight : {nan, infinity, -1.0, 0.0}) {
+    m = rectangle();
+    m.axis.edges[3].weight = weight;
+    expect_failure(m, "1 edges have a weight that is not finite or below 1; the first is edge 3");
+  }
+  m = rectangle();
+  m.axis.sites[1].end.x = nan;
+  expect_failure(m, "1 sites have a coordinate that is not finite");
+  for (const double tolerance : {nan, -1.0, 1.0}) {
+    m = rectangle();
+    m.axis.tolerance = tolerance;
+    expect_failure(m, "claims a tolerance");
+  }
+  m = rectangle();
+  m.shape.loop_begin[1] = 9;
+  expect_failure(m, "The shape itself is malformed");
+}
+
+TEST(VerifyFinds, NodesOfAnotherComponent) {
+  // Two rectangles; the second one's axis says that it belongs to the first.
+  const HandMade far = moved(rectangle(), 1, {10, 0});
+  HandMade m = rectangle();
+  const auto points = static_cast<std::uint32_t>(m.shape.points.size());
+  const auto nodes = static_cast<std::uint32_t>(m.axis.nodes.size());
+  const auto sites = static_cast<std::uint32_t>(m.axis.sites.size());
+  m.shape.points.insert(m.shape.points.end(), far.shape.points.begin(), far.shape.points.end());
+  m.shape.sources.insert(m.shape.sources.end(), far.shape.sources.begin(), far.shape.sources.end());
+  m.shape.loop_begin.push_back(2 * points);
+  m.shape.component.push_back(1);
+  m.shape.hole.push_back(false);
+  m.axis.sites.insert(m.axis.sites.end(), far.axis.sites.begin(), far.axis.sites.end());
+  for (Node node : far.axis.nodes) {
+    node.component = 1;
+    m.axis.nodes.push_back(node);
+  }
+  for (Edge edge : far.axis.edges) {
+    for (std::size_t end = 0; end < 2; ++end) {
+      edge.node[end] += nodes;
+      edge.site[end] += sites;
+    }
+    m.axis.edges.push_back(edge);
+  }
+  const Certificate certificate = verify(m.shape, m.axis);
+  EXPECT_TRUE(certificate.passed) << joined(certificate);
+  EXPECT_EQ(certificate.components, 2U);
+  EXPECT_EQ(certificate.graph_parts, 2U);
+
+  HandMade damaged = m;
+  damaged.axis.nodes[nodes].component = 0;
+  expect_failure(damaged, "nodes are connected with nodes of another component");
+  damaged = m;
+  for (Node& node : damaged.axis.nodes) node.component = 0;
+  expect_failure(damaged, "The graph has 2 connected parts for 2 components");
+}
+
+TEST(Verify, JudgesAgainstTheAskedTolerance) {
+  HandMade m = rectangle();
+  for (const std::uint32_t node : {0U, 1U}) m.axis.nodes[node].disk.radius -= 1e-8;
+  m.axis.edges[0].control.radius -= 1e-8;
+  EXPECT_FALSE(verify(m.shape, m.axis).passed);
+  m.axis.tolerance = 1e-7;
+  EXPECT_TRUE(verify(m.shape, m.axis).passed) << joined(verify(m.shape, m.axis));
+  m.axis.tolerance = 0;
+  VerifyOptions options;
+  options.tolerance = 1e-8;
+  EXPECT_TRUE(verify(m.shape, m.axis, options).passed);
+  options.tolerance = 1e-9;
+  EXPECT_FALSE(verify(m.shape, m.axis, options).passed);
+}
+
+TEST(Verify, NeverCrashesOnRandomDamage) {
+  // Anything may stand in a file: indices, kinds and numbers are overwritten at random.
+  std::mt19937 random(7);
+  const auto below = [&](std::size_t n) { return random() % n; };
+  const double numbers[] = {0,      1,   -1, 1e300, -1e300,
+                            1e-300, 0.5, 3,  1e16,  std::numeric_limits<double>::denorm_min()};
+  for (int round = 0; round < 3000; ++round) {
+    auto all = all_hand_made();
+    HandMade& m = all[below(all.size())];
+    for (std::size_t k = 0; k <= below(3); ++k) {
+      Node& node = m.axis.nodes[below(m.axis.nodes.size())];
+      Edge& edge = m.axis.edges[below(m.axis.edges.size())];
+      Site& site = m.axis.sites[below(m.axis.sites.size())];
+      const double number = numbers[below(std::size(numbers))];
+      switch (below(10)) {
+        case 0:
+          node.disk.center.x = number;
+          break;
+        case 1:
+          node.disk.radius = number;
+          break;
+        case 2:
+          edge.control.center.y = number;
+          break;
+        case 3:
+          edge.control.radius = number;
+          break;
+        case 4:
+          edge.weight = number;
+          break;
+        case 5:
+          edge.node[below(2)] = static_cast<std::uint32_t>(below(m.axis.nodes.size() + 1));
+          break;
+        case 6:
+          edge.site[below(2)] = static_cast<std::uint32_t>(below(m.axis.sites.size() + 1));
+          break;
+        case 7:
+          site.start.x = number;
+          break;
+        case 8:
+          site.kind = static_cast<SiteKind>(below(3));
+          break;
+        default:
+          site.end = site.start;
+          break;
+      }
+    }
+    const Certificate certificate = verify(m.shape, m.axis);
+    EXPECT_EQ(certificate.passed, certificate.failures.empty());
+  }
+}
+
+TEST(BoundaryTree, AgreesWithBruteForce) {
+  // A spiral saw of many edges, long ones among short ones.
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> unit(0, 1);
+  for (const std::size_t count : {3U, 16U, 17U, 64U, 65U, 1000U, 5000U}) {
+    Shape shape;
+    for (std::size_t i = 0; i < count; ++i) {
+      const double angle = 6.28 * static_cast<double>(i) / static_cast<double>(count);
+      const double r = 1 + (i % 7 == 0 ? 3 * unit(random) : 0.01 * unit(random));
+      shape.points.push_back({1e5 + r * std::cos(angle), r * std::sin(angle)});
+    }
+    shape.loop_begin = {0, static_cast<std::uint32_t>(count)};
+    shape.component = {0};
+    shape.hole = {false};
+    const verify_detail::BoundaryTree tree(shape);
+    for (int i = 0; i < 300; ++i) {
+      const Vec2 p{1e5 + 10 * unit(random) - 5, 10 * unit(random) - 5};
+      double expected = std::numeric_limits<double>::infinity();
+      for (std::size_t j = 0; j < count; ++j)
+        expected = std::min(expected, verify_detail::distance_to_segment(
+                                          p, shape.points[j], shape.points[(j + 1) % count]));
+      for (const double guess : {0.0, 0.5 * expected, expected, 2 * expected, 1e300})
+        EXPECT_EQ(tree.distance(p, guess), expected);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace medial
