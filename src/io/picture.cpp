@@ -12,6 +12,7 @@
 #include <limits>
 #include <memory>
 #include <numbers>
+#include <unordered_set>
 
 #include "medial/query.h"
 
@@ -102,6 +103,25 @@ cairo_status_t write_bytes(void* out, const unsigned char* bytes, unsigned count
   return stream->failed() ? CAIRO_STATUS_WRITE_ERROR : CAIRO_STATUS_SUCCESS;
 }
 
+/// Tells which pieces smaller than a fraction of a pixel add nothing to a picture of pixels: those
+/// in a cell where one of the same shade is drawn already.
+class Cells {
+ public:
+  bool add(const Piece& piece) {
+    const double extent =
+        std::max(std::fabs(piece.to.x - piece.from.x), std::fabs(piece.to.y - piece.from.y));
+    if (extent > kCell) return true;
+    const auto column = static_cast<std::uint64_t>(std::max(piece.from.x, 0.0) / kCell);
+    const auto row = static_cast<std::uint64_t>(std::max(piece.from.y, 0.0) / kCell);
+    return drawn_.insert(row << 32U | column).second;
+  }
+  /// The distance below which points of an outline are not told apart, either.
+  static constexpr double kCell = 0.25;  // pixels
+
+ private:
+  std::unordered_set<std::uint64_t> drawn_;
+};
+
 /// How the plane lies in the picture.
 struct Frame {
   double width = 0;
@@ -145,7 +165,11 @@ Frame frame_of(const NativeFile& file, double width) {
 class Picture {
  public:
   Picture(cairo_t* context, const Frame& frame, const NativeFile& file, const WriteOptions& options)
-      : context_(context), frame_(frame), file_(file), options_(options) {
+      : context_(context),
+        frame_(frame),
+        file_(file),
+        options_(options),
+        pixels_(cairo_surface_get_type(cairo_get_target(context)) == CAIRO_SURFACE_TYPE_IMAGE) {
     for (const NativeItem& item : file.items) {
       for (const Node& node : item.axis.nodes) largest_ = std::max(largest_, node.disk.radius);
     }
@@ -180,9 +204,13 @@ class Picture {
   void trace_shape(const Shape& shape) {
     for (std::size_t i = 0; i < shape.loop_count(); ++i) {
       const auto loop = shape.loop(i);
-      for (std::size_t k = 0; k < loop.size(); ++k) {
-        const Vec2 p = frame_(loop[k]);
-        k == 0 ? move_to(p) : line_to(p);
+      Vec2 last = frame_(loop.front());
+      move_to(last);
+      for (const Vec2 point : loop) {
+        const Vec2 p = frame_(point);
+        if (pixels_ && distance(p, last) < Cells::kCell) continue;
+        line_to(p);
+        last = p;
       }
       cairo_close_path(context_);
     }
@@ -201,12 +229,16 @@ class Picture {
     for (const NativeItem& item : file_.items) {
       for (std::size_t i = 0; i < item.shape.loop_count(); ++i) {
         const auto loop = item.shape.loop(i);
-        move_to(frame_(loop.back()));
-        for (const Vec2 p : loop) {
-          line_to(frame_(p));
+        Vec2 last = frame_(loop.back());
+        move_to(last);
+        for (const Vec2 point : loop) {
+          const Vec2 p = frame_(point);
+          if (pixels_ && distance(p, last) < Cells::kCell) continue;
+          line_to(p);
+          last = p;
           if (++batch % kBatch != 0) continue;
           cairo_stroke(context_);
-          move_to(frame_(p));
+          move_to(p);
         }
       }
     }
@@ -308,10 +340,12 @@ class Picture {
   void draw_axes() {
     // Few changes of colour: pieces are counted, then sorted by shade, then stroked in batches.
     std::array<std::vector<Piece>, kShades> pieces;
+    std::array<Cells, kShades> cells;
     for (const NativeItem& item : file_.items) {
       for (const Edge& edge : item.axis.edges) {
-        cut(item.axis, edge, [&pieces](int shade, const Piece& piece) {
-          pieces[static_cast<std::size_t>(shade)].push_back(piece);
+        cut(item.axis, edge, [&](int index, const Piece& piece) {
+          const auto i = static_cast<std::size_t>(index);
+          if (!pixels_ || cells[i].add(piece)) pieces[i].push_back(piece);
         });
       }
     }
@@ -348,6 +382,7 @@ class Picture {
   const Frame& frame_;
   const NativeFile& file_;
   const WriteOptions& options_;
+  bool pixels_ = false;  ///< a picture of pixels, in which nobody can look closer
   double largest_ = 0;
 };
 

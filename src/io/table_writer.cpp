@@ -68,12 +68,13 @@ void write_csv(OutputStream& out, const NativeFile& file, const WriteOptions& op
 
 void write_wkt(OutputStream& out, const NativeFile& file, const WriteOptions& options) {
   for (const NativeItem& item : file.items) {
+    const double chord = chord_of(item, options);
     out.put("MULTILINESTRING ");
     const char* separator = "(";
     for (const Branch& branch : branches(item.axis)) {
       out.put(separator);
       const char* comma = "(";
-      for (const Disk& disk : sample(item.axis, branch, chord_of(item, options))) {
+      for (const Disk& disk : sample(item.axis, branch, chord)) {
         out.put(comma);
         out.put(disk.center.x);
         out.put(' ');
