@@ -43,8 +43,8 @@ double Bisector::last_position(const Disk& near, double limit) const {
   }
   // Two segments: the radius is linear along the bisector.
   const double slope = dot(right.normal(), direction);
-  const double reach = slope > 0 ? (limit - near.radius) / slope
-                                 : (slope < 0 ? near.radius / -slope : limit);
+  const double reach =
+      slope > 0 ? (limit - near.radius) / slope : (slope < 0 ? near.radius / -slope : limit);
   return position(near.center) + std::max(0.0, std::min(reach, 4 * limit));
 }
 

@@ -37,8 +37,8 @@ struct Bisector {
   double last_position(const Disk& near, double limit) const;
 };
 
-/// The control point (x, y, r) and the weight of the edge between two disks on the bisector of a and
-/// b, as a rational quadratic Bezier with end weights 1: exact (design, section 2).
+/// The control point (x, y, r) and the weight of the edge between two disks on the bisector of a
+/// and b, as a rational quadratic Bezier with end weights 1: exact (design, section 2).
 struct Control {
   Disk point;
   double weight = 1;

@@ -6,8 +6,9 @@
 
 namespace medial::geometry {
 
-/// A site as the kernels see it: a segment point + s * direction, 0 <= s <= length, with the interior
-/// on its left; or a vertex, which has direction (0, 0) and length 0. One formula serves both.
+/// A site as the kernels see it: a segment point + s * direction, 0 <= s <= length, with the
+/// interior on its left; or a vertex, which has direction (0, 0) and length 0. One formula serves
+/// both.
 struct Site {
   Vec2 point;
   Vec2 direction;  ///< unit length, or (0, 0) for a vertex

@@ -79,7 +79,8 @@ Solutions<Real> through_zero(const LineOfCenters<Real>& line) {
 }
 
 template <class Real>
-Solutions<Real> three_lines(const Carrier<Real>& a, const Carrier<Real>& b, const Carrier<Real>& c) {
+Solutions<Real> three_lines(const Carrier<Real>& a, const Carrier<Real>& b,
+                            const Carrier<Real>& c) {
   // Contact with a line: normal . (x - point) = r. Origin at a.point.
   const Vector<Real> ab = b.normal - a.normal, ac = c.normal - a.normal;
   const Real hb = dot(b.normal, b.point - a.point), hc = dot(c.normal, c.point - a.point);
@@ -137,7 +138,8 @@ Solutions<Real> line_and_two_vertices(const Carrier<Real>& a, const Carrier<Real
 }
 
 template <class Real>
-Solutions<Real> three_vertices(const Carrier<Real>& u, const Carrier<Real>& v, const Carrier<Real>& w) {
+Solutions<Real> three_vertices(const Carrier<Real>& u, const Carrier<Real>& v,
+                               const Carrier<Real>& w) {
   using std::sqrt;
   const Vector<Real> p = v.point - u.point, q = w.point - u.point;
   const Real determinant = Real(2) * cross(p, q);
@@ -156,17 +158,19 @@ Solutions<Real> solve(std::array<const Carrier<Real>*, 3> c) {
                    [](const auto* a, const auto* b) { return a->vertex < b->vertex; });
   const int vertices = c[0]->vertex + c[1]->vertex + c[2]->vertex;
   switch (vertices) {
-    case 0: return three_lines(*c[0], *c[1], *c[2]);
-    case 1: return two_lines_and_vertex(*c[0], *c[1], *c[2]);
-    case 2: return line_and_two_vertices(*c[0], *c[1], *c[2]);
-    default: return three_vertices(*c[0], *c[1], *c[2]);
+    case 0:
+      return three_lines(*c[0], *c[1], *c[2]);
+    case 1:
+      return two_lines_and_vertex(*c[0], *c[1], *c[2]);
+    case 2:
+      return line_and_two_vertices(*c[0], *c[1], *c[2]);
+    default:
+      return three_vertices(*c[0], *c[1], *c[2]);
   }
 }
 
 Carrier<double> carrier(const Site& site) {
-  return {{site.point.x, site.point.y},
-          {-site.direction.y, site.direction.x},
-          site.is_vertex()};
+  return {{site.point.x, site.point.y}, {-site.direction.y, site.direction.x}, site.is_vertex()};
 }
 
 }  // namespace
@@ -189,7 +193,8 @@ TangentDisks tangent_disks(const Site& a, const Site& b, const Site& c) {
   TangentDisks result;
   for (int i = 0; i < solved.count; ++i) {
     const auto& s = solved.disk[static_cast<std::size_t>(i)];
-    if (!(std::isfinite(s.center.x) && std::isfinite(s.center.y) && std::isfinite(s.radius))) continue;
+    if (!(std::isfinite(s.center.x) && std::isfinite(s.center.y) && std::isfinite(s.radius)))
+      continue;
     result.disk[static_cast<std::size_t>(result.count++)] = {{s.center.x, s.center.y}, s.radius};
   }
   return result;

@@ -7,9 +7,9 @@
 
 namespace medial::geometry {
 
-/// The radius of the disk that touches the boundary in `foot`, with inward unit normal `normal`, and
-/// touches the carrier of `site`; infinity where there is none. This is the construction of Fig. 4 of
-/// Aichholzer et al. for a fixed contact, with the two points of tangency in closed form.
+/// The radius of the disk that touches the boundary in `foot`, with inward unit normal `normal`,
+/// and touches the carrier of `site`; infinity where there is none. This is the construction of
+/// Fig. 4 of Aichholzer et al. for a fixed contact, with the two points of tangency in closed form.
 ///
 /// The denominators are formed from differences (|n - m|^2 / 2 for 1 - n.m), so that the disk's
 /// residual at `site` stays at rounding level however flat the angle is.
@@ -21,8 +21,8 @@ struct TangentDisks {
   int count = 0;
 };
 
-/// The disks that touch the carriers of three sites with their centres on the left of every line: the
-/// Apollonius problem for segments and vertices. With the oriented circles of the design, the
+/// The disks that touch the carriers of three sites with their centres on the left of every line:
+/// the Apollonius problem for segments and vertices. With the oriented circles of the design, the
 /// difference of two contact equations is linear in (x, y, r): two linear equations give a line in
 /// (x, y, r), which meets the cone of the first vertex in at most two points, or the plane of
 /// the third segment in one.
@@ -34,9 +34,9 @@ double residual(const Disk& disk, const Site& a, const Site& b, const Site& c);
 /// One Newton step towards contact with three carriers; the same disk where the step is singular.
 Disk improve(const Disk& disk, const Site& a, const Site& b, const Site& c);
 
-/// tangent_disks() in 113-bit arithmetic, rounded to double; among its disks the one nearest to `near`.
-/// `ends` are the segments' true ends (a vertex has both ends equal), because the sites' unit
-/// directions are rounded. Returns false where there is no such disk.
+/// tangent_disks() in 113-bit arithmetic, rounded to double; among its disks the one nearest to
+/// `near`. `ends` are the segments' true ends (a vertex has both ends equal), because the sites'
+/// unit directions are rounded. Returns false where there is no such disk.
 struct Ends {
   Vec2 start;
   Vec2 end;

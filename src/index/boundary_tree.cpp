@@ -65,22 +65,22 @@ BoundaryTree::BoundaryTree(std::span<const Site> sites) : sites_(sites) {
 
   const std::size_t blocks = (sites.size() + block_size - 1) / block_size;
   levels_.emplace_back(levels_over(blocks));
-  tbb::parallel_for(
-      tbb::blocked_range<std::size_t>(0, levels_[0].size(), 1024), [&](const auto& range) {
-        for (std::size_t node = range.begin(); node < range.end(); ++node) {
-          for (std::uint32_t lane = 0; lane < fan; ++lane) {
-            FloatBox box;
-            const std::size_t begin = (node * fan + lane) * block_size;
-            const std::size_t end = std::min(begin + block_size, sites.size());
-            for (std::size_t i = begin; i < end; ++i) {
-              if (std::abs(sites[i].point.x) > outside) continue;
-              box.add(sites[i].point);
-              if (!sites[i].is_vertex()) box.add(sites[i].end());
-            }
-            store(levels_[0][node], lane, box);
-          }
-        }
-      });
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, levels_[0].size(), 1024),
+                    [&](const auto& range) {
+                      for (std::size_t node = range.begin(); node < range.end(); ++node) {
+                        for (std::uint32_t lane = 0; lane < fan; ++lane) {
+                          FloatBox box;
+                          const std::size_t begin = (node * fan + lane) * block_size;
+                          const std::size_t end = std::min(begin + block_size, sites.size());
+                          for (std::size_t i = begin; i < end; ++i) {
+                            if (std::abs(sites[i].point.x) > outside) continue;
+                            box.add(sites[i].point);
+                            if (!sites[i].is_vertex()) box.add(sites[i].end());
+                          }
+                          store(levels_[0][node], lane, box);
+                        }
+                      }
+                    });
   while (levels_.back().size() > 1) {
     const std::vector<Boxes>& lower = levels_.back();
     std::vector<Boxes> upper(levels_over(lower.size()));

@@ -9,10 +9,10 @@
 
 namespace medial::index {
 
-/// An implicit tree over sites in boundary order. A block holds eight consecutive sites; a node holds
-/// the boxes of four consecutive blocks or nodes, in single precision rounded outward: one cache
-/// line. Because the order is the boundary's, an index range is a sub-shape, and the tree over the
-/// whole boundary is the tree of every sub-shape as well.
+/// An implicit tree over sites in boundary order. A block holds eight consecutive sites; a node
+/// holds the boxes of four consecutive blocks or nodes, in single precision rounded outward: one
+/// cache line. Because the order is the boundary's, an index range is a sub-shape, and the tree
+/// over the whole boundary is the tree of every sub-shape as well.
 ///
 /// Sites must lie in the local frame (coordinates below 4 in size). Sites further away than that
 /// belong to no box and are never found: cuts are stored so.
@@ -27,8 +27,8 @@ class BoundaryTree {
     explicit operator bool() const { return site != none; }
   };
 
-  /// The site nearest to c among the sites first..last, both included, if one is nearer than `reach`.
-  /// O(log n) expected. Of sites at equal distance, any.
+  /// The site nearest to c among the sites first..last, both included, if one is nearer than
+  /// `reach`. O(log n) expected. Of sites at equal distance, any.
   Hit nearest(Vec2 c, double reach, std::uint32_t first, std::uint32_t last) const;
 
   /// All sites among first..last nearer than `reach`, by increasing index.

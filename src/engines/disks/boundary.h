@@ -41,8 +41,8 @@ struct Boundary {
   }
 };
 
-/// Which vertices are sites, and how the result numbers its sites: in the order of the shape's points,
-/// the vertex before the segment that starts there.
+/// Which vertices are sites, and how the result numbers its sites: in the order of the shape's
+/// points, the vertex before the segment that starts there.
 struct SiteNumbers {
   std::vector<std::uint32_t> segment;  ///< of each point; the vertex's number is one less
   std::vector<bool> is_site;           ///< whether the point is a vertex site

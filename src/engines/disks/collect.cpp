@@ -11,8 +11,8 @@ namespace {
 
 constexpr std::uint32_t none = ~std::uint32_t{0};
 
-/// A chunk in its final place: its node i > 0 is node `first_node + i - 1` of the axis, and its node 0
-/// is node `parent`.
+/// A chunk in its final place: its node i > 0 is node `first_node + i - 1` of the axis, and its
+/// node 0 is node `parent`.
 struct Placed {
   Chunk* chunk;
   std::uint32_t parent;
@@ -62,8 +62,7 @@ void glue_cuts(const std::vector<Placed>& placed, std::size_t cut_count, MedialA
     for (const CutEnd& end : p.chunk->cut_ends) {
       auto& pair = ends[end.cut];
       End& slot = pair[0].node == none ? pair[0] : pair[1];
-      slot = {p.node(end.node),
-              end.edge == CutEnd::no_edge ? none : p.first_edge + end.edge};
+      slot = {p.node(end.node), end.edge == CutEnd::no_edge ? none : p.first_edge + end.edge};
     }
   }
   std::vector<std::uint32_t> moved(axis.nodes.size());
@@ -118,7 +117,8 @@ void collect(std::vector<std::unique_ptr<Chunk>>& chunks, const Boundary& bounda
   tbb::parallel_for(std::size_t{0}, placed.size(), [&](std::size_t p) {
     placed[p].chunk->nodes.drain([&](std::size_t i, const Disk& disk) {
       if (i > 0)
-        axis.nodes[placed[p].first_node + i - 1] = {disk, placed[p].chunk->component, NodeKind::leaf};
+        axis.nodes[placed[p].first_node + i - 1] = {disk, placed[p].chunk->component,
+                                                    NodeKind::leaf};
     });
   });
   axis.edges.resize(edge_count);
@@ -132,13 +132,13 @@ void collect(std::vector<std::unique_ptr<Chunk>>& chunks, const Boundary& bounda
   if (cut_count > 0) glue_cuts(placed, cut_count, axis);
   chunks.clear();
 
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, axis.edges.size(), 4096),
-                    [&](const auto& range) {
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, axis.edges.size(), 4096), [&](const auto&
+                                                                                         range) {
     for (std::size_t i = range.begin(); i < range.end(); ++i) {
       Edge& edge = axis.edges[i];
-      const geometry::Control control = geometry::control_of(
-          boundary.sites[edge.site[0]], boundary.sites[edge.site[1]],
-          axis.nodes[edge.node[0]].disk, axis.nodes[edge.node[1]].disk);
+      const geometry::Control control =
+          geometry::control_of(boundary.sites[edge.site[0]], boundary.sites[edge.site[1]],
+                               axis.nodes[edge.node[0]].disk, axis.nodes[edge.node[1]].disk);
       edge.control = {frame.to_input(control.point.center), frame.inverse * control.point.radius};
       edge.weight = control.weight;
       for (std::uint32_t& site : edge.site) site = boundary.originals[site];
@@ -149,16 +149,16 @@ void collect(std::vector<std::unique_ptr<Chunk>>& chunks, const Boundary& bounda
   for (const Edge& edge : axis.edges)
     for (const std::uint32_t node : edge.node)
       if (degree[node] < 3) ++degree[node];
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, axis.nodes.size(), 4096),
-                    [&](const auto& range) {
-    for (std::size_t i = range.begin(); i < range.end(); ++i) {
-      Node& node = axis.nodes[i];
-      node.disk = {frame.to_input(node.disk.center), frame.inverse * node.disk.radius};
-      node.kind = degree[i] <= 1   ? NodeKind::leaf
-                  : degree[i] == 2 ? NodeKind::site_change
-                                   : NodeKind::branching;
-    }
-  });
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, axis.nodes.size(), 4096), [&](const auto& range) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i) {
+          Node& node = axis.nodes[i];
+          node.disk = {frame.to_input(node.disk.center), frame.inverse * node.disk.radius};
+          node.kind = degree[i] <= 1   ? NodeKind::leaf
+                      : degree[i] == 2 ? NodeKind::site_change
+                                       : NodeKind::branching;
+        }
+      });
 }
 
 }  // namespace medial::disks

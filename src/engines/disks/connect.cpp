@@ -16,13 +16,15 @@ using geometry::Site;
 /// Cuts are kept where no query finds them.
 const Site far_away = geometry::make_vertex({1e30, 1e30});
 
-/// The radius of the disk at `foot` that touches the closed site, and the site that it touches: the
-/// segment's end where the line's point of contact lies beyond it.
+/// The radius at which a disk that grows at `foot` first touches the closed site, from either side:
+/// on the way it meets the boundary of other parts from behind.
 double closed_tangent_radius(Vec2 foot, Vec2 normal, const Site& site) {
-  const double on_carrier = geometry::tangent_radius(foot, normal, site);
-  if (site.is_vertex()) return on_carrier;
+  if (site.is_vertex()) return geometry::tangent_radius(foot, normal, site);
+  const bool from_behind = cross(site.direction, foot - site.point) < 0;
+  const Site facing = from_behind ? Site{site.end(), -site.direction, site.length} : site;
+  const double on_carrier = geometry::tangent_radius(foot, normal, facing);
   if (on_carrier < std::numeric_limits<double>::infinity()) {
-    const double s = dot(site.direction, foot + on_carrier * normal - site.point);
+    const double s = dot(facing.direction, foot + on_carrier * normal - facing.point);
     if (s >= 0 && s <= site.length) return on_carrier;
   }
   return std::min(geometry::tangent_radius(foot, normal, geometry::make_vertex(site.point)),
@@ -49,31 +51,40 @@ Cut connecting_disk(const Boundary& loops, const index::BoundaryTree& tree, std:
   const Vec2 leftward{-1, 0};
   const auto count = static_cast<std::uint32_t>(loops.sites.size());
 
-  // A disk that reaches beyond the leftmost point of all crosses the boundary; shrink it until it
-  // is empty.
-  double radius = 0.5 * (foot.x - left_end) + 0.01;
-  Cut cut{{foot, 0}, hole, own.first};
-  for (;;) {
-    const Vec2 center = foot + radius * leftward;
+  const auto nearest = [&](const Disk& disk, double reach) {
     index::BoundaryTree::Hit hit;
-    const double reach = cut.site == own.first ? radius : radius - tolerance;
-    if (own.first > 0) hit = tree.nearest(center, reach, 0, own.first - 1);
-    const double left_reach = hit ? std::sqrt(hit.squared_distance) : reach;
+    if (own.first > 0) hit = tree.nearest(disk.center, reach, 0, own.first - 1);
     if (own.last + 1 < count) {
-      const auto later = tree.nearest(center, left_reach, own.last + 1, count - 1);
+      if (hit) reach = std::sqrt(hit.squared_distance);
+      const auto later = tree.nearest(disk.center, reach, own.last + 1, count - 1);
       if (later) hit = later;
     }
-    queries += 2;
+    ++queries;
+    return hit;
+  };
+  const auto disk_of = [&](double radius) { return Disk{foot + radius * leftward, radius}; };
+
+  // Grow the disk from about the hole's detail until it reaches something. One that reaches beyond
+  // the leftmost point of all crosses the boundary.
+  const double largest = 0.5 * (foot.x - left_end) + 0.01;
+  double radius = std::min(largest, loops.sites[own.first + 1].length);
+  while (radius < largest && !nearest(disk_of(radius), radius))
+    radius = std::min(largest, 4 * radius);
+
+  // Shrink it until it is empty.
+  Cut cut{disk_of(radius), hole, own.first};
+  for (;;) {
+    const auto hit = nearest(cut.disk, cut.site == own.first ? radius : radius - tolerance);
     if (!hit) break;
     const double smaller = closed_tangent_radius(foot, leftward, loops.sites[hit.site]);
-    const bool progress = smaller < radius;
     cut.site = hit.site;
-    if (progress) radius = smaller;
-    cut.disk = {foot + radius * leftward, radius};
-    if (!progress) break;
+    if (!(smaller < radius)) break;
+    radius = smaller;
+    cut.disk = disk_of(radius);
   }
-  const auto run = std::upper_bound(loops.runs.begin(), loops.runs.end(), cut.site,
-                                    [](std::uint32_t s, const Boundary::Run& r) { return s < r.first; });
+  const auto run =
+      std::upper_bound(loops.runs.begin(), loops.runs.end(), cut.site,
+                       [](std::uint32_t s, const Boundary::Run& r) { return s < r.first; });
   cut.site = owner_of_foot(loops, *std::prev(run), cut.site, cut.disk.center);
   return cut;
 }
@@ -108,7 +119,7 @@ class Splicer {
       places_.push_back({run.first, site, place, i});
     }
     std::sort(places_.begin(), places_.end(), [](const Place& a, const Place& b) {
-      return a.run != b.run ? a.run < b.run
+      return a.run != b.run     ? a.run < b.run
              : a.site != b.site ? a.site < b.site
                                 : (a.place != b.place ? a.place < b.place : a.cut < b.cut);
     });
@@ -161,8 +172,8 @@ class Splicer {
 
   /// A copy of the cursor's site up to `to` (a segment's parameter).
   void add_piece(const Cursor& at, double to) {
-    const std::uint32_t site = at.site <= loops_.runs[at.loop].last ? at.site
-                                                                    : loops_.runs[at.loop].first;
+    const std::uint32_t site =
+        at.site <= loops_.runs[at.loop].last ? at.site : loops_.runs[at.loop].first;
     Site piece = loops_.sites[site];
     if (!piece.is_vertex()) {
       piece.point = piece.point + at.from * piece.direction;

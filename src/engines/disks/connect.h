@@ -17,9 +17,9 @@ struct Cut {
 };
 
 /// One cut for each hole (design, section 3, step 3). The disk at the leftmost vertex lies left of
-/// it, where the hole has no other point; the loop that it touches has a point further left than the
-/// hole has, so no cycle of holes can arise and all loops of a component get connected.
-/// O(h log n) expected. `queries` counts nearest-site queries.
+/// it, where the hole has no other point; the loop that it touches has a point further left than
+/// the hole has, so no cycle of holes can arise and all loops of a component get connected. O(h log
+/// n) expected. `queries` counts nearest-site queries.
 std::vector<Cut> connecting_disks(const Shape& shape, const Boundary& loops,
                                   const index::BoundaryTree& tree, double tolerance,
                                   std::uint64_t& queries);

@@ -31,7 +31,8 @@ class Stopwatch {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-/// No disk inside the shape has a larger radius: half of the box's smaller side, with room for rounding.
+/// No disk inside the shape has a larger radius: half of the box's smaller side, with room for
+/// rounding.
 double radius_limit(const Box& box, const Frame& frame) {
   const double width = box.high.x - box.low.x, height = box.high.y - box.low.y;
   return frame.scale * 0.5 * std::min(width, height) * (1 + 0x1p-20);
@@ -98,7 +99,8 @@ Result<MedialAxis> compute(const Shape& shape, const Options& options) {
   if (shape.points.size() > std::numeric_limits<std::uint32_t>::max() / 8)
     return Error{ErrorCode::too_large, "the shape has more than 2^29 vertices", {}};
 
-  const int threads = options.threads == 0 ? tbb::this_task_arena::max_concurrency() : options.threads;
+  const int threads =
+      options.threads == 0 ? tbb::this_task_arena::max_concurrency() : options.threads;
   // An arena larger than the machine needs leave to have its threads.
   const tbb::global_control control(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(threads));

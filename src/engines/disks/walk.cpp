@@ -15,8 +15,8 @@ using geometry::Bisector;
 using geometry::Site;
 using Hit = index::BoundaryTree::Hit;
 
-/// A part of the boundary still to be walked: the sites between `right`, whose foot moves forward, and
-/// `left`, whose foot moves backward, both touched by the disk of `node`.
+/// A part of the boundary still to be walked: the sites between `right`, whose foot moves forward,
+/// and `left`, whose foot moves backward, both touched by the disk of `node`.
 struct Span {
   std::uint32_t right;
   std::uint32_t left;
@@ -103,7 +103,8 @@ class Walker {
     }
   }
 
-  /// Whether a walk is needed between the two sites; where they are neighbours, ends the axis there.
+  /// Whether a walk is needed between the two sites; where they are neighbours, ends the axis
+  /// there.
   bool is_open(const Span& span) {
     const std::uint32_t between = span.left - span.right;
     if (between == 1) {
@@ -148,7 +149,8 @@ class Walker {
     chunk_.edges.push_back({span.node, to, span.right, span.left});
   }
 
-  /// The node of `disk`, with the edge that leads there; the old node where that edge has no length.
+  /// The node of `disk`, with the edge that leads there; the old node where that edge has no
+  /// length.
   std::uint32_t arrive(const Span& span, const Disk& from, const Disk& disk) {
     if (coincide(from, disk)) return span.node;
     const std::uint32_t node = add_node(disk);
@@ -218,11 +220,14 @@ class Walker {
       const std::uint32_t segment = element(own) == Element::vertex ? next : own;
       const Vec2 foot = site(vertex).point, normal = site(segment).normal();
       const double radius = geometry::tangent_radius(foot, normal, site(other));
-      if (radius > context_.radius_limit) return event;
-      event.kind = on_right ? Event::Kind::pass_right : Event::Kind::pass_left;
-      event.disk = {foot + radius * normal, radius};
-      event.position = bisector.position(event.disk.center);
-      return event;
+      const Disk disk{foot + radius * normal, radius};
+      const double position = bisector.position(disk.center);
+      // On a parabola the foot's normal may turn that far only on the way back.
+      if (radius > context_.radius_limit ||
+          position < bisector.position(from.center) - position_slack)
+        return event;
+      return {on_right ? Event::Kind::pass_right : Event::Kind::pass_left, Hit::none, disk,
+              position};
     }
     // Across a cut, the neighbour is touched as a third site.
     if (element(next) == Element::cut) {
@@ -254,43 +259,48 @@ class Walker {
     return geometry::squared_distance(site(event.site), event.disk.center) <= reach * reach;
   }
 
-  /// The disk on the bisector that touches a third site, at or before position `high`; of several the
-  /// first one ahead of `from`.
+  /// The disk on the bisector that touches a third site, at or before position `high`; of several
+  /// the first one ahead of `from`.
   std::optional<Event> contact_with(const Bisector& bisector, const Disk& from, std::uint32_t third,
                                     double high) {
+    return contact_with(bisector, from, site(third), third, high);
+  }
+  std::optional<Event> contact_with(const Bisector& bisector, const Disk& from, const Site& touched,
+                                    std::uint32_t third, double high) {
     ++chunk_.statistics.apollonius;
     const double low = bisector.position(from.center);
     const geometry::TangentDisks disks =
-        geometry::tangent_disks(bisector.right, bisector.left, site(third));
+        geometry::tangent_disks(bisector.right, bisector.left, touched);
     Event best;
-    double best_violation = std::numeric_limits<double>::infinity();
+    double best_violation = nowhere;
     for (std::size_t i = 0; i < static_cast<std::size_t>(disks.count); ++i) {
       const Disk& disk = disks.disk[i];
       if (disk.radius > context_.radius_limit) continue;
       const double position = bisector.position(disk.center);
       const double violation = std::max({0.0, low - position, position - high});
-      if (violation < best_violation ||
-          (violation == best_violation && position < best.position)) {
+      // Of two, the one where the disk begins to reach over the site, not where it ceases to.
+      const bool better = violation != best_violation ? violation < best_violation
+                                                      : closing(bisector, disk, touched) >
+                                                            closing(bisector, best.disk, touched);
+      if (better) {
         best_violation = violation;
         best = {Event::Kind::contact, third, disk, position};
       }
     }
     if (best_violation > position_slack) return std::nullopt;
-    polish(best, bisector, third);
+    polish(best, bisector, touched);
     best.position = bisector.position(best.disk.center);
     return best;
   }
 
   /// Brings a disk's residual below the tolerance: by Newton's method, and where that fails in
   /// higher precision.
-  void polish(Event& event, const Bisector& bisector, std::uint32_t third) {
+  void polish(Event& event, const Bisector& bisector, const Site& third) {
     const double goal = 0.25 * context_.tolerance;
-    double error = geometry::residual(event.disk, bisector.right, bisector.left, site(third));
+    double error = geometry::residual(event.disk, bisector.right, bisector.left, third);
     for (int step = 0; step < 2 && error > goal; ++step) {
-      const Disk better =
-          geometry::improve(event.disk, bisector.right, bisector.left, site(third));
-      const double better_error =
-          geometry::residual(better, bisector.right, bisector.left, site(third));
+      const Disk better = geometry::improve(event.disk, bisector.right, bisector.left, third);
+      const double better_error = geometry::residual(better, bisector.right, bisector.left, third);
       if (better_error >= error) break;
       event.disk = better;
       error = better_error;
@@ -300,8 +310,8 @@ class Walker {
     const auto ends = [](const Site& s) { return geometry::Ends{s.point, s.end()}; };
     Disk precise;
     if (geometry::tangent_disk_in_high_precision(
-            {ends(bisector.right), ends(bisector.left), ends(site(third))}, event.disk, precise) &&
-        geometry::residual(precise, bisector.right, bisector.left, site(third)) < error)
+            {ends(bisector.right), ends(bisector.left), ends(third)}, event.disk, precise) &&
+        geometry::residual(precise, bisector.right, bisector.left, third) < error)
       event.disk = precise;
   }
 
@@ -361,42 +371,58 @@ class Walker {
   }
 
   /// The disk a little further, where the touched site intrudes by half of the tolerance. A flat
-  /// contact leaves its position open: many neighbours on a circle are touched by one disk within the
-  /// tolerance, although each three of them ask for another one. Looking from beyond finds the
+  /// contact leaves its position open: many neighbours on a circle are touched by one disk within
+  /// the tolerance, although each three of them ask for another one. Looking from beyond finds the
   /// sites that settle the position.
   Event beyond(const Bisector& bisector, const Event& contact) const {
-    const auto away = [&](const Site& s) {
-      if (!s.is_vertex()) return s.normal();
-      const Vec2 d = contact.disk.center - s.point;
-      return (1 / norm(d)) * d;
-    };
-    const Vec2 right = away(bisector.right), across = away(bisector.left) - right;
-    Vec2 along = left_of(across);  // the bisector's tangent: both distances grow alike
-    const double size = norm(along);
-    along = (dot(along, bisector.direction) < 0 ? -1 / size : 1 / size) * along;
-    const double closing = dot(right - away(site(contact.site)), along);
+    const double speed = closing(bisector, contact.disk, site(contact.site));
     const double furthest = widest_window * contact.disk.radius;
-    const double step = closing > 0 ? std::min(furthest, 0.5 * context_.tolerance / closing) : 0;
+    const double step = speed > 0 ? std::min(furthest, 0.5 * context_.tolerance / speed) : 0;
     Event event = contact;
     if (!(step > 0)) return event;
+    const Vec2 along = tangent(bisector, contact.disk);
     event.disk.center = contact.disk.center + step * along;
-    event.disk.radius = contact.disk.radius + step * dot(right, along);
+    event.disk.radius =
+        contact.disk.radius + step * dot(outward(bisector.right, contact.disk), along);
     event.position = bisector.position(event.disk.center);
     return event;
   }
 
-  /// The contact with the intruder of a disk, ahead of it: with its carrier, or with the end that is
-  /// a vertex if the carrier is touched beyond that.
+  /// The unit vector from a site's foot to the disk's centre.
+  static Vec2 outward(const Site& s, const Disk& disk) {
+    if (!s.is_vertex()) return s.normal();
+    const Vec2 d = disk.center - s.point;
+    return (1 / norm(d)) * d;
+  }
+
+  /// The bisector's unit tangent in the direction of the walk: both distances grow alike.
+  static Vec2 tangent(const Bisector& bisector, const Disk& disk) {
+    const Vec2 along = left_of(outward(bisector.left, disk) - outward(bisector.right, disk));
+    const double size = norm(along);
+    return (dot(along, bisector.direction) < 0 ? -1 / size : 1 / size) * along;
+  }
+
+  /// How fast, along the walk, the disk grows over a third site.
+  static double closing(const Bisector& bisector, const Disk& disk, const Site& third) {
+    return dot(outward(bisector.right, disk) - outward(third, disk), tangent(bisector, disk));
+  }
+
+  /// The contact with the intruder of a disk, ahead of it: with its carrier, or with the nearer end
+  /// if the carrier is touched beyond a vertex site or not at all.
   std::optional<Event> contact_before(const Bisector& bisector, const Disk& from, const Span& span,
                                       const Event& intruded) {
     const std::uint32_t i = intruded.site;
+    const Site& segment = site(i);
     std::optional<Event> contact = contact_with(bisector, from, i, intruded.position);
-    if (site(i).is_vertex() || (contact && reaches(*contact))) return contact;
-    const double s = contact ? dot(site(i).direction, contact->disk.center - site(i).point)
-                             : geometry::foot_parameter(site(i), intruded.disk.center);
-    const std::uint32_t end = s < 0.5 * site(i).length ? i - 1 : i + 1;
-    if (end <= span.right || end >= span.left || element(end) != Element::vertex) return contact;
-    const std::optional<Event> on_end = contact_with(bisector, from, end, intruded.position);
+    if (segment.is_vertex() || (contact && reaches(*contact))) return contact;
+    const Vec2 center = contact ? contact->disk.center : intruded.disk.center;
+    const bool at_end = geometry::foot_parameter(segment, center) > 0.5 * segment.length;
+    const std::uint32_t next = at_end ? i + 1 : i - 1;
+    const bool is_site = next > span.right && next < span.left && element(next) == Element::vertex;
+    // At a convex end the neighbour is nearer, and the carrier's disk comes late enough to find it.
+    if (contact && !is_site) return contact;
+    const Site end = geometry::make_vertex(at_end ? segment.end() : segment.point);
+    const auto on_end = contact_with(bisector, from, end, is_site ? next : i, intruded.position);
     return on_end ? on_end : contact;
   }
 
@@ -433,7 +459,7 @@ class Walker {
         found.site = site;
       }
     }
-    polish(found, bisector, found.site);
+    polish(found, bisector, site(found.site));
     return found;
   }
 
@@ -475,8 +501,8 @@ class Walker {
     finished_ = 0;
   }
 
-  /// Rounding may put a disk a little behind the place where it should be; what is further behind is
-  /// another solution.
+  /// Rounding may put a disk a little behind the place where it should be; what is further behind
+  /// is another solution.
   static constexpr double position_slack = 1e-9;
   /// How far beyond() may look, against the radius: there the bisector is still straight.
   static constexpr double widest_window = 1e-7;
@@ -512,7 +538,8 @@ std::vector<std::unique_ptr<Chunk>> walk(const WalkContext& context) {
       ++next;
     }
     tasks.run([&context, &tasks, &chunks, &runs, begin, end = next] {
-      for (std::size_t i = begin; i < end; ++i) Walker(context, tasks, *chunks[i]).walk_run(runs[i]);
+      for (std::size_t i = begin; i < end; ++i)
+        Walker(context, tasks, *chunks[i]).walk_run(runs[i]);
     });
   }
   tasks.wait();

@@ -17,8 +17,7 @@ template <class T>
 class BlockList {
  public:
   void push_back(const T& value) {
-    if (size_ % block_size == 0)
-      blocks_.push_back(std::make_unique_for_overwrite<T[]>(block_size));
+    if (size_ % block_size == 0) blocks_.push_back(std::make_unique_for_overwrite<T[]>(block_size));
     blocks_.back()[size_++ % block_size] = value;
   }
   std::size_t size() const { return size_; }
@@ -52,11 +51,13 @@ struct RawEdge {
 struct CutEnd {
   static constexpr std::uint32_t no_edge = ~std::uint32_t{0};
   std::uint32_t cut = 0;
-  std::uint32_t node = 0;         ///< of the chunk: at the cut's centre
-  std::uint32_t edge = no_edge;   ///< the edge that leads there; none: the node is a node of the axis
+  std::uint32_t node = 0;  ///< of the chunk: at the cut's centre
+  std::uint32_t edge =
+      no_edge;  ///< the edge that leads there; none: the node is a node of the axis
 };
 
-/// What one task of the walk found. Node 0 stands for the node of the parent at which the task began.
+/// What one task of the walk found. Node 0 stands for the node of the parent at which the task
+/// began.
 struct Chunk {
   std::uint32_t component = 0;
   std::uint32_t parent_node = 0;
@@ -71,8 +72,8 @@ struct WalkContext {
   const Boundary& boundary;
   const std::vector<Cut>& cuts;
   const index::BoundaryTree& tree;
-  double tolerance = 0;      ///< in the local frame
-  double radius_limit = 0;   ///< no disk inside the shape is larger
+  double tolerance = 0;     ///< in the local frame
+  double radius_limit = 0;  ///< no disk inside the shape is larger
   const std::atomic<bool>* cancel = nullptr;
   std::function<void(std::uint64_t)> finished_sites;  ///< told how many more sites are done with
 };
