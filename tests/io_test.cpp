@@ -1,5 +1,7 @@
 // Readers and writers: what goes in comes out, whatever the bytes are.
+#include <gdal_priv.h>
 #include <gtest/gtest.h>
+#include <ogrsf_frmts.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -17,6 +19,7 @@
 #include <map>
 #include <random>
 #include <sstream>
+#include <tuple>
 
 #include "medial/io/projection.h"
 #include "medial/io/read.h"
@@ -306,8 +309,10 @@ TEST_F(Io, ErrorsOfTextsNameTheLine) {
 TEST_F(Io, BracketsNestWithoutRecursion) {
   const std::string deep(std::size_t{100} << 20, '(');
   EXPECT_EQ(code_of(read_dataset(write("a.wkt", deep))), ErrorCode::malformed);
-  EXPECT_EQ(code_of(read_dataset(write("b.wkt", "POLYGON" + deep))), ErrorCode::malformed);
-  EXPECT_EQ(code_of(read_dataset(write("c.wkt", "POINT" + deep))), ErrorCode::malformed);
+  EXPECT_EQ(code_of(read_dataset(write("b.wkt", "POLYGON" + deep.substr(0, 1 << 20)))),
+            ErrorCode::malformed);
+  EXPECT_EQ(code_of(read_dataset(write("c.wkt", "POINT" + deep.substr(0, 1 << 20)))),
+            ErrorCode::malformed);
   std::string collections;
   for (int i = 0; i < 200000; ++i) collections += "GEOMETRYCOLLECTION(";
   collections += "POLYGON((0 0,1 0,1 1))";
@@ -749,6 +754,418 @@ TEST_F(Io, StandardOutputTakesEveryFormatOfOneFile) {
   EXPECT_EQ(
       in_child(nothing, [] { std::puts(write_axes("-", "shp", two_items()).ok() ? "1" : "0"); }),
       "0\n");
+}
+
+// --------------------------------------------------------------------------------- read by GDAL
+
+/// What a program that knows nothing of medial finds in a file.
+struct Layer {
+  std::string name;
+  std::vector<std::map<std::string, std::string>> rows;
+  std::vector<std::vector<Vec2>> lines;
+  bool has_crs = false;
+};
+
+std::vector<Layer> layers_of(const std::string& file) {
+  GDALAllRegister();
+  std::vector<Layer> result;
+  const GDALDatasetUniquePtr source(GDALDataset::Open(file.c_str(), GDAL_OF_VECTOR));
+  if (!source) return result;
+  for (OGRLayer* layer : source->GetLayers()) {
+    Layer& found = result.emplace_back();
+    found.name = layer->GetName();
+    found.has_crs = layer->GetSpatialRef() != nullptr;
+    for (const OGRFeatureUniquePtr& feature : layer) {
+      auto& row = found.rows.emplace_back();
+      for (int i = 0; i < feature->GetFieldCount(); ++i) {
+        if (!feature->IsFieldSetAndNotNull(i)) continue;
+        row[feature->GetFieldDefnRef(i)->GetNameRef()] = feature->GetFieldAsString(i);
+      }
+      auto& line = found.lines.emplace_back();
+      const OGRGeometry* geometry = feature->GetGeometryRef();
+      if (geometry != nullptr && wkbFlatten(geometry->getGeometryType()) == wkbLineString) {
+        for (const OGRPoint& point : geometry->toLineString())
+          line.push_back({point.getX(), point.getY()});
+      }
+    }
+  }
+  return result;
+}
+
+TEST_F(Io, EveryGisFormatIsReadBackByGdal) {
+  for (const char* format : {"geojson", "gpkg", "shp", "fgb"}) {
+    SCOPED_TRACE(format);
+    const std::string file = path(std::string("out.") + format);
+    const Status status = write_axes(file, "", two_items());
+    ASSERT_TRUE(status.ok()) << to_string(status.error());
+    const std::vector<Layer> layers = layers_of(file);
+    ASSERT_EQ(layers.size(), format == std::string("gpkg") ? 2U : 1U);
+    ASSERT_EQ(layers[0].rows.size(), 6U);
+    // FlatGeobuf stores features in an order of its own.
+    std::size_t bend = 6;
+    std::size_t middle = 6;
+    for (std::size_t i = 0; i < 6; ++i) {
+      if (layers[0].rows[i].at("feature") == "1") bend = i;
+      if (layers[0].rows[i].at("feature") == "0" && layers[0].rows[i].at("branch") == "4")
+        middle = i;
+    }
+    ASSERT_LT(middle, 6U);
+    EXPECT_EQ(std::stod(layers[0].rows[middle].at("length")), 2);
+    EXPECT_EQ(std::stod(layers[0].rows[middle].at("r_from")), 1);
+    EXPECT_EQ(layers[0].rows[middle].at("site_left"), "0/2");
+    EXPECT_EQ(layers[0].rows[middle].at("site_right"), "0/0");
+    EXPECT_EQ(layers[0].lines[middle], (std::vector<Vec2>{{1, 1}, {3, 1}}));
+
+    ASSERT_LT(bend, 6U);
+    const auto& row = layers[0].rows[bend];
+    EXPECT_EQ(std::stod(row.at("r_min")), 0.5);
+    EXPECT_EQ(std::stod(row.at("r_max")), 1);
+    EXPECT_NEAR(std::stod(row.at("length")), std::sqrt(2) + std::asinh(1.0), 1e-12);
+    EXPECT_EQ(row.at("name"), "notch \"1\"");
+    EXPECT_EQ(row.at("code"), "007");
+    EXPECT_EQ(std::stod(row.at("height")), 2.5);
+    EXPECT_EQ(row.at("count"), "3");
+    EXPECT_GT(layers[0].lines[bend].size(), 5U);
+    if (layers.size() == 2) {
+      EXPECT_EQ(layers[1].name, "nodes");
+      ASSERT_EQ(layers[1].rows.size(), 8U);
+      EXPECT_EQ(layers[1].rows[4].at("kind"), "branching");
+      EXPECT_EQ(std::stod(layers[1].rows[4].at("r")), 1);
+    }
+  }
+}
+
+TEST_F(Io, AttributesNeverHideTheFieldsOfTheAxis) {
+  NativeFile file;
+  file.items = {parabola()};
+  file.items[0].attributes = {{"length", "far"}, {"FID", "9"}, {"length_1", "x"}};
+  for (const char* name : {"a.gpkg", "a.geojson"}) {
+    ASSERT_TRUE(write_axes(path(name), "", file).ok());
+    const std::vector<Layer> layers = layers_of(path(name));
+    ASSERT_FALSE(layers.empty());
+    EXPECT_NEAR(std::stod(layers[0].rows.at(0).at("length")), std::sqrt(2) + std::asinh(1.0),
+                1e-12);
+    EXPECT_EQ(layers[0].rows[0].at("length_1"), "far");
+    EXPECT_EQ(layers[0].rows[0].at("length_1_1"), "x");
+    EXPECT_EQ(layers[0].rows[0].at("FID_1"), "9");
+  }
+}
+
+TEST_F(Io, LayersOfAFileAreChosenByName) {
+  GDALAllRegister();
+  GDALDriver* driver = GetGDALDriverManager()->GetDriverByName("GPKG");
+  {
+    const GDALDatasetUniquePtr target(
+        driver->Create(path("a.gpkg").c_str(), 0, 0, 0, GDT_Unknown, nullptr));
+    OGRSpatialReference reference;
+    reference.importFromEPSG(32633);
+    for (const double size : {1.0, 2.0}) {
+      OGRLayer* layer =
+          target->CreateLayer(size == 1 ? "one" : "two", &reference, wkbCurvePolygon, nullptr);
+      OGRFeature feature(layer->GetLayerDefn());
+      OGRGeometry* geometry = nullptr;
+      const std::string r = std::to_string(size);
+      OGRGeometryFactory::createFromWkt(("CURVEPOLYGON(CIRCULARSTRING(-" + r + " 0,0 " + r + "," +
+                                         r + " 0,0 -" + r + ",-" + r + " 0))")
+                                            .c_str(),
+                                        nullptr, &geometry);
+      feature.SetGeometryDirectly(geometry);
+      ASSERT_EQ(layer->CreateFeature(&feature), OGRERR_NONE);
+    }
+  }
+  ReadOptions options;
+  for (const char* layer : {"", "one", "two"}) {
+    options.layer = layer;
+    const Result<Dataset> data = read_dataset(path("a.gpkg"), options);
+    ASSERT_TRUE(data.ok()) << to_string(data.error());
+    ASSERT_EQ(data->features.size(), 1U);
+    EXPECT_FALSE(data->geographic);
+    EXPECT_NE(data->crs_wkt.find("32633"), std::string::npos);
+    for (const Vec2 p : data->features[0].rings.at(0).points) {
+      EXPECT_NEAR(norm(p), options.layer == "two" ? 2 : 1, 1e-12);
+    }
+    EXPECT_EQ(data->notes.size(), options.layer.empty() ? 2U : 1U);
+  }
+}
+
+// ------------------------------------------------------------------------------------ projection
+
+/// One triangle of longitudes and latitudes.
+std::string degrees(double x, double y, double size) {
+  std::ostringstream text;
+  text << "SRID=4326;POLYGON((" << x << ' ' << y << ',' << x + size << ' ' << y << ',' << x << ' '
+       << y + size << "))";
+  return text.str();
+}
+
+TEST_F(Io, LocalProjectionsMeasureMetresAndGoBack) {
+  ReadOptions options;
+  options.project = true;
+  for (const auto& [x, y, size] : {std::tuple{10.0, 50.0, 0.1},
+                                   {-179.9, -40.0, 0.01},
+                                   {20.0, 10.0, 30.0},
+                                   {100.0, 89.0, 0.5}}) {
+    const std::string file = write("a.wkt", degrees(x, y, size));
+    const Result<Dataset> plain = read_dataset(file);
+    const Result<Dataset> data = read_dataset(file, options);
+    ASSERT_TRUE(data.ok()) << to_string(data.error());
+    EXPECT_FALSE(data->geographic);
+    EXPECT_TRUE(is_local_projection(data->crs_wkt));
+    ASSERT_EQ(data->notes.size(), 1U);
+    std::vector<Vec2> points = data->features[0].rings[0].points;
+    if (size < 1) {
+      const double meridian = distance(points[0], points[2]);
+      EXPECT_NEAR(meridian / size, 111200, 600);  // metres a degree of latitude, on the ellipsoid
+    }
+    Result<BackToGeographic> back = BackToGeographic::make(data->crs_wkt);
+    ASSERT_TRUE(back.ok());
+    EXPECT_NE(back->crs_wkt().find("WGS 84"), std::string::npos);
+    ASSERT_TRUE(back->transform(points).ok());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      // 2 mm, in degrees: as good as the series of the equal-area projection.
+      EXPECT_NEAR(points[i].x, plain->features[0].rings[0].points[i].x, 2e-8);
+      EXPECT_NEAR(points[i].y, plain->features[0].rings[0].points[i].y, 2e-8);
+    }
+  }
+  EXPECT_FALSE(BackToGeographic::make("").ok());
+}
+
+TEST_F(Io, GisFormatsOfProjectedAxesAreInDegreesWithRadiiInMetres) {
+  ReadOptions options;
+  options.project = true;
+  const Result<Dataset> data = read_dataset(write("a.wkt", degrees(10, 50, 0.1)), options);
+  ASSERT_TRUE(data.ok());
+  NativeFile file = two_items();  // its units are metres around the middle of the triangle
+  file.crs_wkt = data->crs_wkt;
+  ASSERT_TRUE(write_axes(path("a.json"), "", file).ok());
+  const Result<NativeFile> again = read_native(path("a.json"));
+  ASSERT_TRUE(again.ok());
+  for (const char* name : {"a.geojson", "a.gpkg"}) {
+    ASSERT_TRUE(write_axes(path(name), "", *again).ok());
+    const std::vector<Layer> layers = layers_of(path(name));
+    ASSERT_FALSE(layers.empty());
+    EXPECT_TRUE(layers[0].has_crs);
+    EXPECT_NEAR(layers[0].lines.at(0).at(0).x, 10.05, 0.1);
+    EXPECT_NEAR(layers[0].lines.at(0).at(0).y, 50.05, 0.1);
+    EXPECT_EQ(std::stod(layers[0].rows[4].at("length")), 2);
+  }
+}
+
+TEST_F(Io, WhatIsNotGeographicIsNotProjected) {
+  ReadOptions options;
+  options.project = true;
+  EXPECT_EQ(code_of(read_dataset(write("a.wkt", "POLYGON((0 0,1000 0,1000 1000))"), options)),
+            ErrorCode::invalid_option);
+  const Result<Dataset> utm =
+      read_dataset(write("b.wkt", "SRID=32633;POLYGON((0 0,1000 0,1000 1000))"), options);
+  ASSERT_TRUE(utm.ok());
+  EXPECT_TRUE(same(utm->features[0].rings[0].points[2], {1000, 1000}));
+  EXPECT_EQ(utm->notes.size(), 1U);
+  const Result<Dataset> bare = read_dataset(write("c.wkt", "POLYGON((0 0,1 0,1 1))"), options);
+  ASSERT_TRUE(bare.ok());
+  EXPECT_EQ(bare->notes.size(), 2U);  // taken as degrees; projected
+}
+
+// ---------------------------------------------------------------------------------------- repair
+
+double area_of(const Feature& feature) {
+  const Result<Shape> shape = build_shape(feature.rings);
+  EXPECT_TRUE(shape.ok()) << to_string(shape.error());
+  return shape.ok() ? area(*shape) : -1;
+}
+
+TEST_F(Io, RepairFollowsTheRule) {
+  struct Case {
+    const char* text;
+    double valid, odd, nonzero;
+  };
+  const Case cases[] = {
+      // a bow tie
+      {"POLYGON((0 0,2 2,2 0,0 2,0 0))", 2, 2, 2},
+      // two squares that overlap by one
+      {"MULTIPOLYGON(((0 0,2 0,2 2,0 2,0 0)),((1 1,3 1,3 3,1 3,1 1)))", 7, 6, 7},
+      // a ring that runs around a square twice, the second time narrower
+      {"POLYGON((0 0,4 0,4 4,0 4,0 0,1 1,3 1,3 3,1 3,1 1,0 0))", 16, 12, 16},
+      // a hole that sticks out
+      {"POLYGON((0 0,4 0,4 4,0 4,0 0),(3 1,5 1,5 2,3 2,3 1))", 15, 16, 17},
+      // a hole that runs as its outer ring does
+      {"POLYGON((0 0,4 0,4 4,0 4,0 0),(1 1,2 1,2 2,1 2,1 1))", 15, 15, 16},
+      // a ring with a slit to its hole: one ring, as circuit boards store it
+      {"POLYGON((0 0,4 0,4 4,0 4,0 1,1 1,1 2,2 2,2 1,1 1,0 1,0 0))", 15, 15, 15},
+      // a needle without area, and a ring of two points
+      {"MULTIPOLYGON(((0 0,1 0,1 1,0 0)),((5 5,6 6,7 7,5 5)),((8 8,9 9,8 8)))", 0.5, 0.5, 0.5}};
+  for (const Case& c : cases) {
+    SCOPED_TRACE(c.text);
+    const std::string file = write("a.wkt", c.text);
+    for (const auto& [rule, expected] : {std::pair{RepairRule::make_valid, c.valid},
+                                         {RepairRule::even_odd, c.odd},
+                                         {RepairRule::non_zero, c.nonzero}}) {
+      ReadOptions options;
+      options.repair = rule;
+      const Result<Dataset> data = read_dataset(file, options);
+      ASSERT_TRUE(data.ok()) << to_string(data.error());
+      EXPECT_NEAR(area_of(data->features[0]), expected, 1e-12) << static_cast<int>(rule);
+    }
+  }
+}
+
+TEST_F(Io, RepairTellsWhatItChangedAndLeavesTheRest) {
+  ReadOptions options;
+  options.repair = RepairRule::make_valid;
+  const Result<Dataset> data = read_dataset(
+      write("a.wkt", "POLYGON((0.1 0,1 0,1 1.7,0.1 0))\nPOLYGON((0 0,2 2,2 0,0 2,0 0))"), options);
+  ASSERT_TRUE(data.ok());
+  EXPECT_EQ(data->features[0].rings[0].points,
+            (std::vector<Vec2>{{0.1, 0}, {1, 0}, {1, 1.7}, {0.1, 0}}));
+  ASSERT_EQ(data->notes.size(), 1U);
+  EXPECT_EQ(data->notes[0],
+            "feature 1 was repaired by MakeValid: 1 rings, 4 vertices, area 0 before; 2 rings, 6 "
+            "vertices, "
+            "area 2 after");
+  EXPECT_EQ(code_of(read_dataset(write("b.wkt", "POLYGON((0 0,1 1,2 2,0 0))"), options)),
+            ErrorCode::no_area);
+
+  options.repair = RepairRule::even_odd;
+  const Result<Dataset> loose =
+      read_dataset(write("c.txt", "0 0\n4 0\n4 4\n0 4\n\n1 1\n2 1\n2 2\n1 2\n"), options);
+  ASSERT_TRUE(loose.ok());
+  EXPECT_NEAR(area_of(loose->features[0]), 15, 1e-12);
+}
+
+// -------------------------------------------------------------------------------------- pictures
+
+TEST_F(Io, PicturesAreOfTheirKindAndSize) {
+  WriteOptions options;
+  options.disks = 12;
+  options.contacts = true;
+  options.nodes = true;
+  const std::map<std::string, std::string> begins{
+      {"svg", "<?xml"}, {"pdf", "%PDF"}, {"ps", "%!PS"}, {"png", "\x89PNG"}};
+  for (const auto& [format, begin] : begins) {
+    const Status status = write_axes(path("a." + format), "", two_items(), options);
+    ASSERT_TRUE(status.ok()) << to_string(status.error());
+    EXPECT_TRUE(content("a." + format).starts_with(begin)) << format;
+  }
+  const std::string png = content("a.png");  // width and height stand at byte 16, high byte first
+  const auto number = [&png](std::size_t at) {
+    return static_cast<unsigned char>(png[at + 2]) * 256 + static_cast<unsigned char>(png[at + 3]);
+  };
+  EXPECT_EQ(number(16), 1024);
+  EXPECT_NEAR(number(20), 1024 * 0.94 * 2 / 6 + 1024 * 0.06, 1);  // the box is 6 by 2
+}
+
+TEST_F(Io, VectorPicturesHoldTheParabolaAsCubics) {
+  NativeFile file;
+  file.items = {parabola()};
+  WriteOptions options;
+  options.shape = false;
+  ASSERT_TRUE(write_axes(path("a.svg"), "", file, options).ok());
+  const std::string text = content("a.svg");
+  // The parabola y = (x^2 + 1) / 2, x from -1 to 1, in a picture of the box [-2, 2] x [0, 2].
+  const double scale = 1024 * 0.94 / 4;
+  std::size_t cubics = 0;
+  for (std::size_t at = 0; (at = text.find(" d=\"M ", at)) != std::string::npos; ++at) {
+    std::istringstream path_data(text.substr(at + 6));
+    double number[8];
+    std::string letter;
+    while (path_data >> number[0] >> number[1] >> letter && letter == "C") {
+      for (int i = 2; i < 8; ++i) ASSERT_TRUE(path_data >> number[i]);
+      ++cubics;
+      for (int k = 0; k <= 10; ++k) {
+        const double t = 0.1 * k;
+        const double s = 1 - t;
+        const double b[4] = {s * s * s, 3 * s * s * t, 3 * s * t * t, t * t * t};
+        double px = 0;
+        double py = 0;
+        for (int i = 0; i < 4; ++i) {
+          px += b[i] * number[2 * i];
+          py += b[i] * number[2 * i + 1];
+        }
+        const double x = (px - 512) / scale;
+        const double height = std::ceil(2 * scale + 0.06 * 1024);
+        const double y = 1 - (py - 0.5 * height) / scale;
+        EXPECT_NEAR(y, 0.5 * (1 + x * x), 2.0 / 256 / scale);  // Cairo counts in 1/256 of a unit
+      }
+      if (!(path_data >> letter) || letter != "M") break;
+    }
+  }
+  EXPECT_GE(cubics, 8U);
+}
+
+TEST_F(Io, PicturesOfAnythingAreDrawn) {
+  NativeFile empty;
+  NativeFile point;
+  point.items.emplace_back();
+  point.items[0].shape = shape_of({{{1, 1}, {1, 1}, {1, 1}}});
+  NativeFile needle;
+  needle.items = {rectangle()};
+  for (Vec2& p : needle.items[0].shape.points) p.y *= 1e9;
+  NativeFile large;
+  large.items = {rectangle()};
+  for (Vec2& p : large.items[0].shape.points) p = 1e300 * p;
+  WriteOptions options;
+  options.disks = 5;
+  for (const NativeFile& file : {empty, point, needle, large}) {
+    for (const char* name : {"a.png", "a.svg", "a.pdf", "a.ps"}) {
+      const Status status = write_axes(path(name), "", file, options);
+      EXPECT_TRUE(status.ok()) << name << to_string(status.error());
+    }
+  }
+  for (const double width : {0.0, -1.0, 1e9, std::nan("")}) {
+    options.width = width;
+    const Status status = write_axes(path("b.png"), "", two_items(), options);
+    ASSERT_FALSE(status.ok());
+    EXPECT_EQ(status.error().code, ErrorCode::invalid_option);
+  }
+}
+
+// -------------------------------------------------------------------------------------- real data
+
+/// The folder of real inputs: the environment's MEDIAL_DATA, or beside the sources.
+fs::path data_folder() {
+  const char* named = std::getenv("MEDIAL_DATA");
+  return named != nullptr ? fs::path(named)
+                          : fs::path(MEDIAL_SOURCE_DIR) / ".." / "shared" / "data";
+}
+
+TEST_F(Io, CompressedTextIsReadAndItsTruncationNoticed) {
+  const fs::path file = data_folder() / "packaged" / "A_gis" / "gshhg" / "sao_tome.wkt.gz";
+  if (!fs::exists(file)) GTEST_SKIP() << "no data folder: set MEDIAL_DATA";
+  const Result<Dataset> data = read_dataset(file.string());
+  ASSERT_TRUE(data.ok()) << to_string(data.error());
+  ASSERT_EQ(data->features.size(), 1U);
+  EXPECT_EQ(data->features[0].rings.at(0).points.size(), 999U);
+
+  std::ifstream stream(file, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+  for (std::size_t size = 0; size < bytes.size(); size += size < 64 ? 1 : 97) {
+    const Result<Dataset> part = read_dataset(write("a.wkt.gz", bytes.substr(0, size)));
+    ASSERT_FALSE(part.ok()) << size;
+    EXPECT_TRUE(part.error().code == ErrorCode::malformed || part.error().code == ErrorCode::empty)
+        << size;
+  }
+  std::string damaged = bytes;
+  damaged[damaged.size() / 2] = static_cast<char>(damaged[damaged.size() / 2] ^ 0x55);
+  EXPECT_EQ(code_of(read_dataset(write("b.wkt.gz", damaged))), ErrorCode::malformed);
+}
+
+TEST_F(Io, EveryFileOfTheDataFolderIsReadOrRefused) {
+  if (!fs::exists(data_folder())) GTEST_SKIP() << "no data folder: set MEDIAL_DATA";
+  std::size_t read = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(data_folder())) {
+    if (!entry.is_regular_file() || entry.file_size() > (std::uintmax_t{2} << 20)) continue;
+    const Result<Dataset> data = read_dataset(entry.path().string());
+    if (data.ok()) {
+      ++read;
+    } else {
+      EXPECT_NE(data.error().code, ErrorCode::internal) << to_string(data.error());
+    }
+    if (entry.path().filename().string().find(".wkt") != std::string::npos) {
+      EXPECT_TRUE(data.ok() || data.error().code == ErrorCode::unsupported)  // lines, no polygons
+          << to_string(data.error());
+    }
+  }
+  EXPECT_GT(read, 30U);
 }
 
 }  // namespace

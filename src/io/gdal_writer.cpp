@@ -83,8 +83,9 @@ std::vector<Column> columns_of(const NativeFile& file) {
   return columns;
 }
 
+/// "ring/vertex" (a colon would make readers take it for a time of day).
 std::string site_text(const MedialAxis& axis, std::uint32_t site) {
-  return fmt::format("{}:{}", axis.sites[site].ring, axis.sites[site].vertex);
+  return fmt::format("{}/{}", axis.sites[site].ring, axis.sites[site].vertex);
 }
 
 /// The smallest radius along an edge. The derivative of a rational quadratic function with weights

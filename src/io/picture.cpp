@@ -170,9 +170,14 @@ class Picture {
         file_(file),
         options_(options),
         pixels_(cairo_surface_get_type(cairo_get_target(context)) == CAIRO_SURFACE_TYPE_IMAGE) {
+    double edges = 0;
     for (const NativeItem& item : file.items) {
       for (const Node& node : item.axis.nodes) largest_ = std::max(largest_, node.disk.radius);
+      edges += static_cast<double>(item.axis.edges.size());
     }
+    // The more there is to see, the finer the lines: down to a third.
+    constexpr double kManyEdges = 5000;
+    fineness_ = std::clamp(std::pow(kManyEdges / std::max(edges, 1.0), 0.2), 1.0 / 3, 1.0);
   }
 
   void draw() {
@@ -188,7 +193,9 @@ class Picture {
   }
 
  private:
-  double thickness(double share) const { return share * 1e-3 * frame_.width; }
+  double thickness(double share) const {
+    return share * 1e-3 * fineness_ * std::max(frame_.width, frame_.height);
+  }
   void color(const Color& c, double alpha = 1) {
     cairo_set_source_rgba(context_, c.red, c.green, c.blue, alpha);
   }
@@ -383,7 +390,8 @@ class Picture {
   const NativeFile& file_;
   const WriteOptions& options_;
   bool pixels_ = false;  ///< a picture of pixels, in which nobody can look closer
-  double largest_ = 0;
+  double largest_ = 0;   ///< radius
+  double fineness_ = 1;  ///< factor of all line widths
 };
 
 cairo_surface_t* create_surface(OutputStream& out, const std::string& format, const Frame& frame) {

@@ -29,7 +29,8 @@ class BackToGeographic {
   BackToGeographic(BackToGeographic&&) noexcept;
   BackToGeographic& operator=(BackToGeographic&&) noexcept;
 
-  /// Transforms points in place. Lengths and radii have no counterpart: they stay in metres.
+  /// Transforms points in place, within 2 mm. Lengths and radii have no counterpart: they stay in
+  /// metres.
   Status transform(std::vector<Vec2>& points) const;
   /// The geographic reference system, as WKT.
   const std::string& crs_wkt() const;
