@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <array>
-#include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
 #include <limits>
 
 #include "axis/curve.h"
+#include "base/predicates.h"
 #include "base/spatial_order.h"
 #include "medial/query.h"
 
@@ -31,22 +31,6 @@ Box box_of(const MedialAxis& axis, const Edge& edge) {
   const Vec2 c = axis.nodes[edge.node[1]].disk.center;
   return {{std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y})},
           {std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y})}};
-}
-
-/// The sign of cross(b - a, p - a), exactly. A floating-point filter decides almost always: its
-/// error is below 4 units in the last place of the sum of the products' magnitudes (Shewchuk's
-/// bound is 3.3); the rest is left to rational arithmetic.
-int orientation(Vec2 a, Vec2 b, Vec2 p) {
-  const double left = (b.x - a.x) * (p.y - a.y), right = (b.y - a.y) * (p.x - a.x);
-  const double value = left - right;
-  const double error =
-      2 * std::numeric_limits<double>::epsilon() * (std::abs(left) + std::abs(right));
-  if (std::abs(value) > error && error > std::numeric_limits<double>::min())
-    return value > 0 ? 1 : -1;
-  using Exact = boost::multiprecision::cpp_rational;
-  const Exact ax(a.x), ay(a.y);
-  const Exact exact = (Exact(b.x) - ax) * (Exact(p.y) - ay) - (Exact(b.y) - ay) * (Exact(p.x) - ax);
-  return exact.sign();
 }
 
 }  // namespace
