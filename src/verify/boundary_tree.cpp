@@ -1,5 +1,7 @@
 #include "verify/boundary_tree.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,6 +15,9 @@ namespace {
 constexpr std::size_t kFanOut = 4;
 /// Below this many edges no tree is built.
 constexpr std::size_t kBruteForce = 16;
+/// Above this many edges a set gets no slab: it would be about as wide as the box.
+constexpr std::size_t kLargestSlab = 4096;
+constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
@@ -45,40 +50,71 @@ BoundaryTree::BoundaryTree(const Shape& shape) {
   segments_.reserve(unordered.size());
   for (const std::uint32_t i : spatial_order(middle, kFanOut)) segments_.push_back(unordered[i]);
 
-  // Empty places of the last box in a level are boxes that nothing is near to.
-  const Boxes empty{{kInfinity, kInfinity, kInfinity, kInfinity},
-                    {kInfinity, kInfinity, kInfinity, kInfinity},
-                    {-kInfinity, -kInfinity, -kInfinity, -kInfinity},
-                    {-kInfinity, -kInfinity, -kInfinity, -kInfinity}};
-  std::vector<Boxes> level((segments_.size() + kFanOut - 1) / kFanOut, empty);
-  for (std::size_t i = 0; i < segments_.size(); ++i) {
-    const auto [a, b] = segments_[i];
-    Boxes& boxes = level[i / kFanOut];
-    boxes.low_x[i % kFanOut] = std::min(a.x, b.x);
-    boxes.low_y[i % kFanOut] = std::min(a.y, b.y);
-    boxes.high_x[i % kFanOut] = std::max(a.x, b.x);
-    boxes.high_y[i % kFanOut] = std::max(a.y, b.y);
-  }
-  levels_.push_back(std::move(level));
-  while (levels_.back().size() > 1) {
-    const std::vector<Boxes>& below = levels_.back();
-    std::vector<Boxes> above((below.size() + kFanOut - 1) / kFanOut, empty);
-    for (std::size_t i = 0; i < below.size(); ++i) {
-      Boxes& boxes = above[i / kFanOut];
-      const std::size_t j = i % kFanOut;
-      boxes.low_x[j] = *std::min_element(below[i].low_x, below[i].low_x + kFanOut);
-      boxes.low_y[j] = *std::min_element(below[i].low_y, below[i].low_y + kFanOut);
-      boxes.high_x[j] = *std::max_element(below[i].high_x, below[i].high_x + kFanOut);
-      boxes.high_y[j] = *std::max_element(below[i].high_y, below[i].high_y + kFanOut);
-    }
-    levels_.push_back(std::move(above));
+  const Box box = bounding_box(shape);
+  origin_ = box.low;
+  slack_ = 16 * kEpsilon * diagonal(box);
+  std::size_t run = kFanOut;  // segments below one bound
+  while (true) {
+    const std::size_t bounds = (segments_.size() + run - 1) / run;
+    std::vector<Bounds> level((bounds + kFanOut - 1) / kFanOut);
+    tbb::parallel_for(std::size_t{0}, level.size() * kFanOut, [&](std::size_t i) {
+      bound(std::min(i * run, segments_.size()), std::min((i + 1) * run, segments_.size()),
+            level[i / kFanOut], i % kFanOut);
+    });
+    levels_.push_back(std::move(level));
+    if (bounds <= kFanOut) return;
+    run *= kFanOut;
   }
 }
 
+/// Bounds the segments [begin, end); nothing is near to an empty set.
+void BoundaryTree::bound(std::size_t begin, std::size_t end, Bounds& bounds,
+                         std::size_t place) const {
+  Vec2 left{kInfinity, 0}, right{-kInfinity, 0}, bottom{0, kInfinity}, top{0, -kInfinity};
+  const auto each_end = [&](auto work) {
+    for (std::size_t i = begin; i < end; ++i) {
+      work(segments_[i].a);
+      work(segments_[i].b);
+    }
+  };
+  each_end([&](Vec2 p) {
+    if (p.x < left.x) left = p;
+    if (p.x > right.x) right = p;
+    if (p.y < bottom.y) bottom = p;
+    if (p.y > top.y) top = p;
+  });
+  bounds.low_x[place] = left.x;
+  bounds.high_x[place] = right.x;
+  bounds.low_y[place] = bottom.y;
+  bounds.high_y[place] = top.y;
+
+  // Without a normal the slab is everything.
+  Vec2 normal;
+  double low = 0, high = 0;
+  const Vec2 extent = right.x - left.x >= top.y - bottom.y ? right - left : top - bottom;
+  if (begin < end && end - begin <= kLargestSlab && norm(extent) > 0) {
+    normal = (1 / norm(extent)) * left_of(extent);
+    low = kInfinity;
+    high = -kInfinity;
+    each_end([&](Vec2 p) {
+      low = std::min(low, dot(normal, p - origin_));
+      high = std::max(high, dot(normal, p - origin_));
+    });
+  }
+  bounds.normal_x[place] = normal.x;
+  bounds.normal_y[place] = normal.y;
+  bounds.slab_low[place] = low;
+  bounds.slab_high[place] = high;
+}
+
 bool BoundaryTree::search(Vec2 p, double& best) const {
-  // The boxes' squared distances round; a bound one part in 10^15 larger loses no edge.
-  constexpr double slack = 1 + 8 * std::numeric_limits<double>::epsilon();
-  double bound = best * best * slack;
+  // Bounds round as well: a limit this much larger loses no edge.
+  const auto limit_for = [this](double distance) {
+    const double limit = (1 + 8 * kEpsilon) * (distance + slack_);
+    // Nothing reaches the infinite bounds of empty sets.
+    return std::min(limit * limit, std::numeric_limits<double>::max());
+  };
+  double limit = limit_for(best);
   bool found = false;
   struct Visit {
     std::uint32_t level, index;
@@ -88,36 +124,38 @@ bool BoundaryTree::search(Vec2 p, double& best) const {
   std::array<Visit, 64> stack;
   std::size_t size = 0;
   stack[size++] = {static_cast<std::uint32_t>(levels_.size() - 1), 0, 0};
+  const Vec2 q = p - origin_;
   while (size > 0) {
     const Visit visit = stack[--size];
-    if (visit.squared > bound) continue;
-    const Boxes& boxes = levels_[visit.level][visit.index];
+    if (visit.squared > limit) continue;
+    const Bounds& bounds = levels_[visit.level][visit.index];
     double squared[kFanOut];
     for (std::size_t j = 0; j < kFanOut; ++j) {
-      const double below_x = boxes.low_x[j] - p.x, above_x = p.x - boxes.high_x[j];
-      const double below_y = boxes.low_y[j] - p.y, above_y = p.y - boxes.high_y[j];
-      const double outer_x = below_x > above_x ? below_x : above_x;
-      const double outer_y = below_y > above_y ? below_y : above_y;
-      const double x = outer_x > 0 ? outer_x : 0, y = outer_y > 0 ? outer_y : 0;
-      squared[j] = x * x + y * y;
-    }
-    const auto child = static_cast<std::uint32_t>(visit.index * kFanOut);
-    if (visit.level == 0) {
-      for (std::uint32_t j = 0; j < kFanOut; ++j) {
-        if (!(squared[j] <= bound) || child + j >= segments_.size()) continue;
-        const double d = segment_distance(child + j, p);
-        if (d <= best) {
-          best = d;
-          bound = d * d * slack;
-          found = true;
-        }
-      }
-      continue;
+      const auto larger = [](double a, double b) { return a > b ? a : b; };
+      const double x = larger(larger(bounds.low_x[j] - p.x, p.x - bounds.high_x[j]), 0);
+      const double y = larger(larger(bounds.low_y[j] - p.y, p.y - bounds.high_y[j]), 0);
+      const double along = bounds.normal_x[j] * q.x + bounds.normal_y[j] * q.y;
+      const double beside = larger(bounds.slab_low[j] - along, along - bounds.slab_high[j]);
+      const double across = larger(beside, 0);
+      squared[j] = larger(x * x + y * y, across * across);
     }
     // The nearest child goes on top.
+    const auto child = static_cast<std::uint32_t>(visit.index * kFanOut);
     const std::size_t base = size;
     for (std::uint32_t j = 0; j < kFanOut; ++j) {
-      if (!(squared[j] <= bound)) continue;
+      if (!(squared[j] <= limit)) continue;
+      if (visit.level == 0) {
+        const std::size_t begin = std::size_t{child + j} * kFanOut;
+        for (std::size_t i = begin; i < std::min(begin + kFanOut, segments_.size()); ++i) {
+          const double d = distance_to_segment(p, segments_[i].a, segments_[i].b);
+          if (d <= best) {
+            best = d;
+            found = true;
+          }
+        }
+        limit = limit_for(best);
+        continue;
+      }
       std::size_t at = size++;
       for (; at > base && stack[at - 1].squared < squared[j]; --at) stack[at] = stack[at - 1];
       stack[at] = {visit.level - 1, child + j, squared[j]};
@@ -130,7 +168,7 @@ double BoundaryTree::some_distance(Vec2 p) const {
   // Down to the nearest box of each level.
   std::uint32_t index = 0;
   for (std::size_t level = levels_.size(); level-- > 0;) {
-    const Boxes& boxes = levels_[level][index];
+    const Bounds& boxes = levels_[level][index];
     std::uint32_t best = 0;
     double nearest = kInfinity;
     for (std::uint32_t j = 0; j < kFanOut; ++j) {
@@ -143,7 +181,8 @@ double BoundaryTree::some_distance(Vec2 p) const {
     }
     index = index * static_cast<std::uint32_t>(kFanOut) + best;
   }
-  return index < segments_.size() ? segment_distance(index, p) : kInfinity;
+  const Segment& segment = segments_[std::min(index * kFanOut, segments_.size() - 1)];
+  return distance_to_segment(p, segment.a, segment.b);
 }
 
 double BoundaryTree::distance(Vec2 p, double expected) const {
@@ -155,8 +194,8 @@ double BoundaryTree::distance(Vec2 p, double expected) const {
     return best;
   }
   best = kInfinity;
-  for (std::uint32_t i = 0; i < segments_.size(); ++i)
-    best = std::min(best, segment_distance(i, p));
+  for (const Segment& segment : segments_)
+    best = std::min(best, distance_to_segment(p, segment.a, segment.b));
   return best;
 }
 

@@ -12,8 +12,8 @@ namespace medial::verify_detail {
 /// half the segment's length plus the distance.
 double distance_to_segment(Vec2 p, Vec2 a, Vec2 b);
 
-/// The nearest boundary edge of a shape: a tree of boxes over the edges in spatial order (the
-/// engines search along the boundary instead). Few edges are simply all looked at.
+/// The nearest boundary edge of a shape: a tree over the edges in spatial order (the engines search
+/// along the boundary instead). Few edges are simply all looked at.
 class BoundaryTree {
  public:
   explicit BoundaryTree(const Shape& shape);
@@ -23,22 +23,25 @@ class BoundaryTree {
   double distance(Vec2 p, double expected) const;
 
  private:
-  /// Four boxes side by side, so that a compiler can compare them at once.
-  struct Boxes {
-    double low_x[4], low_y[4], high_x[4], high_y[4];
-  };
   struct Segment {
     Vec2 a, b;
   };
+  /// Bounds of four sets of edges side by side, so that a compiler can compare them at once. Each
+  /// set lies in a box, and in a slab low <= normal . (p - origin_) <= high along its longest
+  /// extent: on a smooth boundary, boxes alone would let far too many edges near a contact pass.
+  struct Bounds {
+    double low_x[4], low_y[4], high_x[4], high_y[4];
+    double normal_x[4], normal_y[4], slab_low[4], slab_high[4];
+  };
 
+  void bound(std::size_t begin, std::size_t end, Bounds& bounds, std::size_t place) const;
   bool search(Vec2 p, double& best) const;
   double some_distance(Vec2 p) const;
-  double segment_distance(std::uint32_t i, Vec2 p) const {
-    return distance_to_segment(p, segments_[i].a, segments_[i].b);
-  }
 
   std::vector<Segment> segments_;
-  std::vector<std::vector<Boxes>> levels_;  ///< levels_[0]: the boxes of the segments
+  std::vector<std::vector<Bounds>> levels_;  ///< levels_[0] bounds runs of four segments
+  Vec2 origin_;
+  double slack_ = 0;  ///< what rounding may add to the distance from a slab
 };
 
 }  // namespace medial::verify_detail
