@@ -46,9 +46,10 @@ struct ShapeReport {
 ///
 /// What always holds for a Shape made by build_shape(): all coordinates are finite; every loop has
 /// at least three vertices; neighbouring vertices differ and no three in a row are collinear,
-/// except at a vertex where loops touch; edges meet in vertices only; different loops have no point
-/// in common (loops that touched are joined: one loop passes through the common vertex once for
-/// every wedge of interior there). Each component is one outer loop and its holes.
+/// except at a vertex where loops touch; edges meet in vertices only; different loops of a
+/// component have no point in common (loops that touched are joined: one loop passes through the
+/// common vertex once for every wedge of interior there). Each component is one outer loop and its
+/// holes, and its interior is connected; two components can have vertices in common.
 struct Shape {
   std::vector<Vec2> points;               ///< the vertices of all loops, loop after loop
   std::vector<VertexSource> sources;      ///< of each point
