@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -64,6 +65,7 @@ struct Table {
   std::size_t rows;
   std::size_t legal_touching;  ///< rejected by GEOS, valid here
 };
+void PrintTo(const Table& table, std::ostream* out) { *out << table.name; }
 
 /// The verdicts of GEOS that rings deserve by touching themselves or each other only.
 bool rejects_touching(const std::string& geos) {

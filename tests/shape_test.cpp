@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <ostream>
 #include <random>
 #include <set>
 #include <utility>
@@ -265,6 +266,7 @@ struct TouchCase {
   std::uint64_t touches;
   std::uint64_t splits;
 };
+void PrintTo(const TouchCase& touch_case, std::ostream* out) { *out << touch_case.text; }
 
 class Touching : public testing::TestWithParam<TouchCase> {};
 

@@ -1,8 +1,9 @@
 #include "shape/sweep.h"
 
 #include <algorithm>
+#include <bit>
 #include <boost/intrusive/rbtree.hpp>
-#include <boost/sort/spreadsort/float_sort.hpp>
+#include <boost/sort/spreadsort/integer_sort.hpp>
 #include <deque>
 #include <optional>
 #include <span>
@@ -58,17 +59,21 @@ Vec2 crossing_point(const ActiveEdge& a, const ActiveEdge& b) {
   return {static_cast<double>(a.left.x + t * ax), static_cast<double>(a.left.y + t * ay)};
 }
 
+/// An integer that grows with the number. Requires a finite number that is not -0.
+std::uint64_t sort_key(double x) {
+  constexpr std::uint64_t sign = std::uint64_t{1} << 63;
+  const auto bits = std::bit_cast<std::uint64_t>(x);
+  return bits & sign ? ~bits : bits | sign;
+}
+
 std::vector<Event> events_in_order(const std::vector<Vec2>& points) {
   std::vector<Event> events(points.size());
   for (std::size_t v = 0; v < points.size(); ++v) {
     events[v] = {points[v].x, static_cast<std::uint32_t>(v)};
   }
-  const auto bits = [](const Event& event, unsigned offset) {
-    using boost::sort::spreadsort::float_mem_cast;
-    return float_mem_cast<double, std::int64_t>(event.x) >> offset;
-  };
+  const auto bits = [](const Event& event, unsigned offset) { return sort_key(event.x) >> offset; };
   const auto less = [](const Event& a, const Event& b) { return a.x < b.x; };
-  boost::sort::spreadsort::float_sort(events.begin(), events.end(), bits, less);
+  boost::sort::spreadsort::integer_sort(events.begin(), events.end(), bits, less);
   for (auto first = events.begin(); first != events.end();) {
     auto last = first + 1;
     while (last != events.end() && last->x == first->x) ++last;
