@@ -336,10 +336,13 @@ bool begins_like_native(std::string_view text) {
 }
 
 Result<NativeFile> read_native(TextSource& source) {
+  constexpr std::size_t kLongest =
+      simdjson::SIMDJSON_MAXSIZE_BYTES - simdjson::SIMDJSON_PADDING - 1;
   std::string bytes;
-  source.read_all(bytes);
+  bytes.reserve(std::min(source.length_hint(), kLongest) + simdjson::SIMDJSON_PADDING);
+  source.read_all(bytes, kLongest);
   if (source.failure()) return *source.failure();
-  if (bytes.size() + simdjson::SIMDJSON_PADDING >= simdjson::SIMDJSON_MAXSIZE_BYTES) {
+  if (bytes.size() > kLongest) {
     return source.error(ErrorCode::too_large, "the file has 4 GiB or more");
   }
   bytes.reserve(bytes.size() + simdjson::SIMDJSON_PADDING);

@@ -23,6 +23,7 @@ namespace medial::io {
 namespace {
 
 constexpr std::size_t kSniffed = 4096;
+constexpr std::size_t kLongestStream = std::size_t{1} << 32U;  // what GDAL gets through memory
 
 std::string lower(std::string text) {
   std::ranges::transform(text, text.begin(),
@@ -85,7 +86,10 @@ Result<Dataset> read_any(const std::string& path, const ReadOptions& options) {
     const Format format = format_of_text((*source)->lookahead(kSniffed));
     if (format != Format::gdal) return read_own(**source, format, path, options);
     std::string bytes;
-    (*source)->read_all(bytes);
+    (*source)->read_all(bytes, kLongestStream);
+    if (bytes.size() > kLongestStream) {
+      return Error{ErrorCode::too_large, "more than 4 GiB on standard input", in_file(path)};
+    }
     if ((*source)->failure()) return *(*source)->failure();
     if (bytes.empty()) return Error{ErrorCode::empty, "there is nothing to read", in_file(path)};
     return read_gdal_bytes(bytes, path, options);

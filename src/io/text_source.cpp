@@ -95,8 +95,15 @@ void TextSource::skip_space() {
   }
 }
 
-void TextSource::read_all(std::string& text) {
-  while (available() > 0 || refill(1)) {
+std::size_t TextSource::length_hint() const {
+  struct stat status {};
+  const bool plain = gzdirect(handle_->file) != 0;
+  if (!plain || stat(path_.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return 0;
+  return static_cast<std::size_t>(status.st_size);
+}
+
+void TextSource::read_all(std::string& text, std::size_t limit) {
+  while (text.size() <= limit && (available() > 0 || refill(1))) {
     text.append(next_, available());
     next_ = end_;
   }

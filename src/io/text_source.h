@@ -46,8 +46,10 @@ class TextSource {
   }
   /// Goes past blanks, tabs and ends of lines.
   void skip_space();
-  /// Appends all that is left to `text`.
-  void read_all(std::string& text);
+  /// Appends all that is left to `text`, but stops soon after `limit` characters.
+  void read_all(std::string& text, std::size_t limit);
+  /// The length of the file if that is known and the file is not compressed; otherwise 0.
+  std::size_t length_hint() const;
 
   enum class Number : std::uint8_t { read, none, not_finite, too_long };
   /// Reads a decimal number, correctly rounded. An overflowing exponent or the words nan and inf
