@@ -1,12 +1,9 @@
 // medial axis: polygons in, medial axes out.
 
-#include <fmt/format.h>
-
 #include <memory>
 
 #include "cli/common.h"
 #include "cli/pipeline.h"
-#include "cli/terminal.h"
 
 namespace medial::cli {
 namespace {
@@ -21,15 +18,10 @@ struct AxisSwitches {
 
 Result<int> run_axis(const AxisSwitches& switches) {
   const auto& [input, common, output, format, pictures] = switches;
-  const bool to_standard_output = output == "-";
-  if (to_standard_output && common.json) {
+  Status writable = check_output(output, format, io::known_output_formats(), input.path);
+  if (!writable) return std::move(writable).error();
+  if (output == "-" && common.json) {
     return invalid_option("--json and -o - both claim standard output");
-  }
-  if (!output.empty()) {
-    Status writable = check_output(output, format, io::known_output_formats(), input.path);
-    if (!writable) return std::move(writable).error();
-  } else if (!format.empty()) {
-    return invalid_option("--format goes with -o -");
   }
 
   auto shapes = load_shapes(input, common.threads);
@@ -38,36 +30,7 @@ Result<int> run_axis(const AxisSwitches& switches) {
   auto axes = compute_axes(std::move(shapes).value(), input.path, common);
   if (!axes) return std::move(axes).error();
 
-  const Stopwatch writing;
-  if (!output.empty()) {
-    io::WriteOptions write = pictures;
-    write.chord = common.chord;
-    Status written = io::write_axes(output, format, axes->native, write);
-    if (!written) return std::move(written).error();
-  }
-  const double seconds_write = output.empty() ? 0 : writing.seconds();
-
-  const AxisSummary summary = summarize(axes->native);
-  if (common.json) {
-    Json object = {{"input", input.path}};
-    if (!output.empty()) object["output"] = output;
-    if (common.stats) object.update(stats(*axes, summary, seconds_write));
-    object.update(to_json(summary));
-    Status printed = print(object);
-    if (!printed) return std::move(printed).error();
-    return exit_success;
-  }
-  const double seconds =
-      axes->seconds_read + axes->seconds_shape + axes->seconds_axis + seconds_write;
-  const std::string line = fmt::format("{}: {}; {:.3g} s", input.path, describe(summary), seconds);
-  if (output.empty()) {
-    Status printed = print(line + "\n");
-    if (!printed) return std::move(printed).error();
-  } else if (error_is_terminal() && !common.quiet) {
-    fmt::print(stderr, "{} -> {}\n", line, to_standard_output ? "standard output" : output);
-  }
-  if (common.stats) fmt::print(stderr, "{}", table(stats(*axes, summary, seconds_write)));
-  return exit_success;
+  return write_and_tell(*axes, input, common, output, format, pictures);
 }
 
 }  // namespace

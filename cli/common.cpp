@@ -149,6 +149,7 @@ void add_picture_switches(CLI::App& verb, io::WriteOptions& write) {
 
 Status check_output(const std::string& path, const std::string& format,
                     const std::string& known_formats, const std::string& input) {
+  if (path.empty() && format.empty()) return success();
   if (path == "-") {
     if (format.empty()) return invalid_option("-o - needs --format, for example --format csv");
     if (lists(known_formats, lower(format))) return success();

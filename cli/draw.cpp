@@ -41,36 +41,15 @@ Result<AxisFile> axes_to_draw(const InputSwitches& input, const CommonSwitches& 
 
 Result<int> run_draw(const DrawSwitches& switches) {
   const auto& [input, common, output, format, pictures] = switches;
-  const Stopwatch watch;
+  if (output.empty()) return invalid_option("-o needs the name of a picture");
+  Status writable = check_output(output, format, picture_formats, input.path);
+  if (!writable) return std::move(writable).error();
   if (output == "-" && common.json) {
     return invalid_option("--json and -o - both claim standard output");
   }
-  Status writable = check_output(output, format, picture_formats, input.path);
-  if (!writable) return std::move(writable).error();
   auto axes = axes_to_draw(input, common);
   if (!axes) return std::move(axes).error();
-  const Stopwatch writing;
-  io::WriteOptions write = pictures;
-  write.chord = common.chord;
-  Status written = io::write_axes(output, format, axes->native, write);
-  if (!written) return std::move(written).error();
-  const double seconds_write = writing.seconds();
-
-  const AxisSummary summary = summarize(axes->native);
-  if (common.json) {
-    Json object = {{"input", input.path}, {"output", output}};
-    if (common.stats) object.update(stats(*axes, summary, seconds_write));
-    object.update(to_json(summary));
-    Status printed = print(object);
-    if (!printed) return std::move(printed).error();
-    return exit_success;
-  }
-  if (error_is_terminal() && !common.quiet) {
-    fmt::print(stderr, "{}: {}; {:.3g} s -> {}\n", input.path, describe(summary), watch.seconds(),
-               output == "-" ? "standard output" : output);
-  }
-  if (common.stats) fmt::print(stderr, "{}", table(stats(*axes, summary, seconds_write)));
-  return exit_success;
+  return write_and_tell(*axes, input, common, output, format, pictures);
 }
 
 }  // namespace

@@ -41,6 +41,39 @@ void keep_sources(Shape& shape, const Shape& original) {
   }
 }
 
+/// What --stats tells.
+Json stats(const AxisFile& file, const AxisSummary& summary, double seconds_write) {
+  const Statistics& counted_by_engine = file.statistics;
+  const double sites = static_cast<double>(std::max<std::uint64_t>(summary.sites, 1));
+  return {{"seconds",
+           {{"read", file.seconds_read},
+            {"shape", file.seconds_shape},
+            {"axis", file.seconds_axis},
+            {"write", seconds_write}}},
+          {"phases",
+           {{"sites", counted_by_engine.seconds_sites},
+            {"tree", counted_by_engine.seconds_tree},
+            {"connect", counted_by_engine.seconds_connect},
+            {"walk", counted_by_engine.seconds_walk},
+            {"collect", counted_by_engine.seconds_collect}}},
+          {"features", summary.features},
+          {"sites", summary.sites},
+          {"nodes", summary.nodes()},
+          {"edges", summary.edges},
+          {"branches", summary.branches},
+          {"queries_per_site", static_cast<double>(counted_by_engine.queries) / sites},
+          {"precision_retries", counted_by_engine.precision_retries},
+          {"apollonius", counted_by_engine.apollonius},
+          {"brackets", counted_by_engine.brackets},
+          {"cuts", counted_by_engine.cuts},
+          {"largest_residual", counted_by_engine.largest_residual},
+          {"threads", counted_by_engine.threads},
+          {"peak_bytes", peak_bytes()},
+          {"input_rings", file.cleaned.input_rings},
+          {"input_points", file.cleaned.input_points},
+          {"cleaned", to_json(file.cleaned)}};
+}
+
 /// The polygons of a file, and where they come from medial's own format, the shapes they were.
 struct Polygons {
   io::Dataset dataset;
@@ -294,36 +327,44 @@ Json to_json(const AxisSummary& summary) {
             {"feature", summary.deepest_feature}}}};
 }
 
-Json stats(const AxisFile& file, const AxisSummary& summary, double seconds_write) {
-  const Statistics& counted_by_engine = file.statistics;
-  const double sites = static_cast<double>(std::max<std::uint64_t>(summary.sites, 1));
-  return {{"seconds",
-           {{"read", file.seconds_read},
-            {"shape", file.seconds_shape},
-            {"axis", file.seconds_axis},
-            {"write", seconds_write}}},
-          {"phases",
-           {{"sites", counted_by_engine.seconds_sites},
-            {"tree", counted_by_engine.seconds_tree},
-            {"connect", counted_by_engine.seconds_connect},
-            {"walk", counted_by_engine.seconds_walk},
-            {"collect", counted_by_engine.seconds_collect}}},
-          {"features", summary.features},
-          {"sites", summary.sites},
-          {"nodes", summary.nodes()},
-          {"edges", summary.edges},
-          {"branches", summary.branches},
-          {"queries_per_site", static_cast<double>(counted_by_engine.queries) / sites},
-          {"precision_retries", counted_by_engine.precision_retries},
-          {"apollonius", counted_by_engine.apollonius},
-          {"brackets", counted_by_engine.brackets},
-          {"cuts", counted_by_engine.cuts},
-          {"largest_residual", counted_by_engine.largest_residual},
-          {"threads", counted_by_engine.threads},
-          {"peak_bytes", peak_bytes()},
-          {"input_rings", file.cleaned.input_rings},
-          {"input_points", file.cleaned.input_points},
-          {"cleaned", to_json(file.cleaned)}};
+Result<int> write_and_tell(const AxisFile& file, const InputSwitches& input,
+                           const CommonSwitches& common, const std::string& output,
+                           const std::string& format, const io::WriteOptions& pictures) {
+  const Stopwatch writing;
+  if (!output.empty()) {
+    io::WriteOptions write = pictures;
+    write.chord = common.chord;
+    Status written = io::write_axes(output, format, file.native, write);
+    if (!written) return std::move(written).error();
+  }
+  const double seconds_write = output.empty() ? 0 : writing.seconds();
+  const bool summary_on_terminal = !output.empty() && error_is_terminal() && !common.quiet;
+  const bool summary_is_output = output.empty() && !common.json;
+  // Counting branches costs memory: nobody pays for it who does not ask.
+  if (!common.json && !common.stats && !summary_on_terminal && !summary_is_output) {
+    return exit_success;
+  }
+
+  const AxisSummary summary = summarize(file.native);
+  if (common.json) {
+    Json object = {{"input", input.path}};
+    if (!output.empty()) object["output"] = output;
+    if (common.stats) object.update(stats(file, summary, seconds_write));
+    object.update(to_json(summary));
+    Status printed = print(object);
+    if (!printed) return std::move(printed).error();
+    return exit_success;
+  }
+  const double seconds = file.seconds_read + file.seconds_shape + file.seconds_axis + seconds_write;
+  const std::string line = fmt::format("{}: {}; {:.3g} s", input.path, describe(summary), seconds);
+  if (summary_is_output) {
+    Status printed = print(line + "\n");
+    if (!printed) return std::move(printed).error();
+  } else if (summary_on_terminal) {
+    fmt::print(stderr, "{} -> {}\n", line, output == "-" ? "standard output" : output);
+  }
+  if (common.stats) fmt::print(stderr, "{}", table(stats(file, summary, seconds_write)));
+  return exit_success;
 }
 
 }  // namespace medial::cli

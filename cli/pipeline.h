@@ -82,7 +82,10 @@ AxisSummary summarize(const io::NativeFile& file);
 std::string describe(const AxisSummary& summary);
 Json to_json(const AxisSummary& summary);
 
-/// What --stats tells of a run that computed axes and wrote them.
-Json stats(const AxisFile& file, const AxisSummary& summary, double seconds_write);
+/// The end of a run that made axes: writes them, unless `output` is empty, and tells of them as the
+/// switches ask: a summary, statistics, or both as one object. Gives the exit status.
+Result<int> write_and_tell(const AxisFile& file, const InputSwitches& input,
+                           const CommonSwitches& common, const std::string& output,
+                           const std::string& format, const io::WriteOptions& pictures);
 
 }  // namespace medial::cli

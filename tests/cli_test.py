@@ -478,6 +478,7 @@ class Draw(CommandLine):
         self.write("frame.wkt", FRAME)
         self.refuse("unsupported", "draw", "frame.wkt", "-o", "p.csv")
         self.refuse("invalid_option", "draw", "frame.wkt")
+        self.refuse("invalid_option", "draw", "frame.wkt", "-o", "")
 
 
 class Errors(CommandLine):
