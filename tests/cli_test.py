@@ -314,9 +314,9 @@ class Axis(CommandLine):
         for extension in ("json", "csv", "svg", "geojson"):
             outputs = set()
             for threads in (1, 2, 8):
-                name = f"t{threads}.{extension}"
-                self.succeed("axis", "star.wkt", "-o", name, "--threads", threads)
-                outputs.add(self.read(name))
+                # One name for all: some formats name their layer by it.
+                self.succeed("axis", "star.wkt", "-o", "o." + extension, "--threads", threads)
+                outputs.add(self.read("o." + extension))
             self.assertEqual(len(outputs), 1, extension)
 
     def test_repair(self):
