@@ -120,7 +120,21 @@ class Walker {
       finished(2);
       return false;
     }
-    return true;
+    return !(between <= longest_flat_chain && is_reflex_chain(span));
+  }
+
+  /// Whether the span is a chain of segments and reflex vertices that turns by less than half a turn:
+  /// no disk touches such a chain in two places. Rounding may ask for one where the chain is flat.
+  bool is_reflex_chain(const Span& span) const {
+    for (std::uint32_t i = span.right; i < span.left; ++i)
+      if (element(i) == Element::cut || (element(i) == element(i + 1))) return false;
+    const std::uint32_t first = element(span.right) == Element::vertex ? span.right + 1 : span.right;
+    const std::uint32_t last = element(span.left) == Element::vertex ? span.left - 1 : span.left;
+    double turned = 0;
+    for (std::uint32_t i = first; i + 2 <= last; i += 2)
+      turned += std::atan2(-cross(site(i).direction, site(i + 2).direction),
+                           dot(site(i).direction, site(i + 2).direction));
+    return turned < 3;
   }
 
   void end_at_cut(const Span& span, std::uint32_t cut) {
@@ -504,6 +518,8 @@ class Walker {
   /// Rounding may put a disk a little behind the place where it should be; what is further behind
   /// is another solution.
   static constexpr double position_slack = 1e-9;
+  /// Longer chains are not looked at: their ends are told apart well enough.
+  static constexpr std::uint32_t longest_flat_chain = 8;
   /// How far beyond() may look, against the radius: there the bisector is still straight.
   static constexpr double widest_window = 1e-7;
   /// Contacts this near to each other, against the radius, are not told apart at a node.
