@@ -594,12 +594,12 @@ std::size_t random_size(Random& random, double low, double high) {
 
 RandomShape random_shape(std::uint64_t seed) {
   Random random(seed * 2 + 1);
-  const auto anywhere = [&](std::string kind, Rings rings) {
-    return RandomShape{std::move(kind),
-                       random.chance(0.5) ? placed_anywhere(random, rings) : std::move(rings)};
+  const auto anywhere = [&](std::string kind, Rings rings, bool rigid = true) {
+    if (random.chance(0.5)) rings = placed_anywhere(random, rings);
+    return RandomShape{std::move(kind), std::move(rings), rigid};
   };
   const auto exactly = [&](std::string kind, const Rings& rings) {
-    return RandomShape{std::move(kind), placed_exactly(random, rings)};
+    return RandomShape{std::move(kind), placed_exactly(random, rings), false};
   };
   switch (random.integer(0, 17)) {
     case 0:
@@ -614,19 +614,20 @@ RandomShape random_shape(std::uint64_t seed) {
       options.inner = random.between(0.05, 0.9);
       options.spikes = 0.3;
       options.spike_angle = random.power_of_ten(-7, -2);
-      return {"star with needles", {star(random, random_size(random, 4, 60), options)}};
+      return {"star with needles", {star(random, random_size(random, 4, 60), options)}, false};
     }
     case 4: {
       StarOptions options;
       options.runs = static_cast<int>(random.integer(1, 6));
       options.run_noise = random.power_of_ten(-15, -3);
-      return anywhere("near-collinear runs", {star(random, random_size(random, 4, 40), options)});
+      return anywhere("near-collinear runs", {star(random, random_size(random, 4, 40), options)},
+                      false);
     }
     case 5: {
       StarOptions options;
       options.bumps = 0.4;
       options.bump_size = random.power_of_ten(-10, -2);
-      return {"tiny features", {star(random, random_size(random, 4, 60), options)}};
+      return {"tiny features", {star(random, random_size(random, 4, 60), options)}, false};
     }
     case 6:
       return exactly("lattice cells that touch",
@@ -651,7 +652,7 @@ RandomShape random_shape(std::uint64_t seed) {
       return anywhere("nested rings", nested(random, random_size(random, 8, 40), depth));
     }
     case 12:
-      return {"near-touching holes", near_touching(random, random.power_of_ten(-12, -3))};
+      return {"near-touching holes", near_touching(random, random.power_of_ten(-12, -3)), false};
     case 13:
       return exactly("touching holes",
                      touching_holes(random, static_cast<std::size_t>(random.integer(1, 6))));
@@ -671,9 +672,9 @@ RandomShape random_shape(std::uint64_t seed) {
       if (which == 3) {
         return anywhere("jagged star", jagged_star(random_size(random, 3, 200), random.next()));
       }
-      if (which == 4) return {"needle", needle(random.power_of_ten(-8, -1))};
+      if (which == 4) return {"needle", needle(random.power_of_ten(-8, -1)), false};
       if (which == 5) {
-        return anywhere("rectangle", rectangle(1, random.power_of_ten(-6, 0)));
+        return anywhere("rectangle", rectangle(1, random.power_of_ten(-6, 0)), false);
       }
       return anywhere("cross", cross_shape(random.between(0.5, 2)));
     }
@@ -690,29 +691,30 @@ RandomShape random_integer_shape(std::uint64_t seed) {
   };
   switch (random.integer(0, 8)) {
     case 0:
-      return {"untangled", untangled(random, random_size(random, 3, 60), 1 << 20)};
+      return {"untangled", untangled(random, random_size(random, 3, 60), 1 << 20), false};
     case 1:
       return {"untangled on a small grid",
-              untangled(random, random_size(random, 3, 14), random.integer(8, 16))};
+              untangled(random, random_size(random, 3, 14), random.integer(8, 16)), false};
     case 2:
-      return {"star", on_grid({star(random, random_size(random, 4, 200))})};
+      return {"star", on_grid({star(random, random_size(random, 4, 200))}), false};
     case 3:
-      return {"lattice cells that touch", lattice_cells(random, random_size(random, 2, 100))};
+      return {"lattice cells that touch", lattice_cells(random, random_size(random, 2, 100)),
+              false};
     case 4:
       return {"lattice cells of many widths",
-              lattice_cells(random, random_size(random, 2, 100), {.equal_steps = false})};
+              lattice_cells(random, random_size(random, 2, 100), {.equal_steps = false}), false};
     case 5: {
       const auto side = static_cast<std::size_t>(random.integer(1, 4));
       return {"star with holes",
-              on_grid(star_with_holes(random, random_size(random, 12, 60), side))};
+              on_grid(star_with_holes(random, random_size(random, 12, 60), side)), false};
     }
     case 6:
       return {"touching holes",
-              touching_holes(random, static_cast<std::size_t>(random.integer(1, 6)))};
+              touching_holes(random, static_cast<std::size_t>(random.integer(1, 6))), false};
     case 7:
-      return {"maze", maze(random_size(random, 20, 400), random.next())};
+      return {"maze", maze(random_size(random, 20, 400), random.next()), false};
     default:
-      return {"hole grid", hole_grid(static_cast<std::size_t>(random.integer(1, 6)))};
+      return {"hole grid", hole_grid(static_cast<std::size_t>(random.integer(1, 6))), false};
   }
 }
 

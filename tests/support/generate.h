@@ -110,6 +110,9 @@ Rings touching_holes(Random& random, std::size_t k);
 struct RandomShape {
   std::string kind;
   Rings rings;
+  /// Nothing about its axis hangs on the last digits of a coordinate: no flat corners, needles or
+  /// exact contacts inside of edges.
+  bool rigid = false;
 };
 RandomShape random_shape(std::uint64_t seed);
 /// The same on integer coordinates below 2^22 (for peers that know no others).
