@@ -17,7 +17,7 @@ struct Options {
   /// Threads to use; 0: all of the machine. The result is the same, byte for byte.
   int threads = 0;
   /// Called now and then, from any thread, with the share of the work done in [0, 1].
-  std::function<void(double)> progress;
+  std::function<void(double)> progress = {};
   /// When set to true, compute() returns ErrorCode::cancelled as soon as it can.
   const std::atomic<bool>* cancel = nullptr;
 };
