@@ -18,12 +18,6 @@ namespace {
 
 namespace intrusive = boost::intrusive;
 
-/// A vertex at its place in the order of the sweep.
-struct Event {
-  double x;
-  std::uint32_t vertex;
-};
-
 /// A piece of an edge that meets the sweep line. left < right lexicographically. Of a split edge,
 /// only the part from the last split on is here: it lies on the same line, so that decisions stay
 /// exact.
@@ -33,8 +27,8 @@ struct ActiveEdge : intrusive::set_base_hook<intrusive::link_mode<intrusive::nor
   Vec2 right;
   std::uint32_t edge = 0;
   std::uint32_t piece = 0;
-  bool interior_above = false;
 };
+static_assert(sizeof(void*) != 8 || sizeof(ActiveEdge) == 64, "one cache line");
 
 /// +1 if p lies above the edge, -1 below, 0 on it. Requires that p is in its range.
 int side(const ActiveEdge& edge, Vec2 p) { return orientation(edge.left, edge.right, p); }
@@ -66,7 +60,13 @@ std::uint64_t sort_key(double x) {
   return bits & sign ? ~bits : bits | sign;
 }
 
-std::vector<Event> events_in_order(const std::vector<Vec2>& points) {
+/// The vertices in the order of the sweep; those at one point by index.
+std::vector<std::uint32_t> order_of_events(const std::vector<Vec2>& points) {
+  struct Event {
+    double x;
+    std::uint32_t vertex;
+  };
+
   std::vector<Event> events(points.size());
   for (std::size_t v = 0; v < points.size(); ++v) {
     events[v] = {points[v].x, static_cast<std::uint32_t>(v)};
@@ -86,7 +86,10 @@ std::vector<Event> events_in_order(const std::vector<Vec2>& points) {
     }
     first = last;
   }
-  return events;
+  std::vector<std::uint32_t> order(events.size());
+  std::transform(events.begin(), events.end(), order.begin(),
+                 [](const Event& event) { return event.vertex; });
+  return order;
 }
 
 /// The edges on the sweep line from bottom to top, and what happens to them at each event.
@@ -102,14 +105,13 @@ class Sweeper {
     const std::vector<Vec2>& points = outline_.points;
     active_.resize(points.size());
     found_.interior_above.resize(points.size());
-    const std::vector<Event> events = events_in_order(points);
-    for (std::size_t i = 0; i < events.size();) {
-      const Vec2 point = points[events[i].vertex];
+    const std::vector<std::uint32_t> order = order_of_events(points);
+    for (std::size_t i = 0; i < order.size();) {
+      const Vec2 point = points[order[i]];
       std::size_t j = i + 1;
-      while (j < events.size() && events[j].x == point.x && points[events[j].vertex] == point) ++j;
-      if (j - i > 1 || !pass_through(events[i].vertex, point)) {
-        const std::span<const Event> group(events.data() + i, j - i);
-        if (auto error = meet(group, point)) return *error;
+      while (j < order.size() && points[order[j]] == point) ++j;
+      if (j - i > 1 || !pass_through(order[i], point)) {
+        if (auto error = meet(std::span(order).subspan(i, j - i), point)) return *error;
       }
       i = j;
     }
@@ -141,12 +143,13 @@ class Sweeper {
     if (const auto above = std::next(here); above != status_.end() && side(*above, point) >= 0) {
       return false;
     }
-    begin_edge(active, forward ? Start{vertex, vertex, b} : Start{previous, previous, a}, point);
+    begin_edge(active, forward ? Start{vertex, vertex, b} : Start{previous, previous, a}, point,
+               found_.interior_above[active.piece]);
     return true;
   }
 
   /// The general case: any number of edges end in, pass through and begin at the point.
-  std::optional<Error> meet(std::span<const Event> group, Vec2 point) {
+  std::optional<Error> meet(std::span<const std::uint32_t> group, Vec2 point) {
     starts_.clear();
     std::size_t ends = 0;
     ActiveEdge* any_end = nullptr;
@@ -158,10 +161,10 @@ class Sweeper {
         starts_.push_back({edge, edge, other});
       }
     };
-    for (const Event& event : group) {
-      const std::uint32_t previous = outline_.previous(event.vertex);
+    for (const std::uint32_t vertex : group) {
+      const std::uint32_t previous = outline_.previous(vertex);
       visit(previous, outline_.points[previous]);
-      visit(event.vertex, outline_.points[outline_.next(event.vertex)]);
+      visit(vertex, outline_.points[outline_.next(vertex)]);
     }
 
     // The edges that end in or pass through the point are neighbours, if none has crossed another.
@@ -188,21 +191,21 @@ class Sweeper {
     if (passing_.size() > 1) return crossing(*passing_[0], *passing_[1], point);
 
     if (block_.empty()) {
-      for (const Event& event : group) {
-        found_.left_ends.push_back({event.vertex, below ? below->piece : kNone});
+      for (const std::uint32_t vertex : group) {
+        found_.left_ends.push_back({vertex, below ? below->piece : kNone});
       }
     }
     if (group.size() > 1 || !passing_.empty()) note_touch(group);
-    return replace_block(above, below && below->interior_above, point);
+    return replace_block(above, below && found_.interior_above[below->piece], point);
   }
 
   /// Notes a place where vertices meet each other or an edge, which is split there.
-  void note_touch(std::span<const Event> group) {
-    for (const Event& event : group) found_.touches.push_back({found_.place_count, event.vertex});
+  void note_touch(std::span<const std::uint32_t> group) {
+    for (const std::uint32_t vertex : group) found_.touches.push_back({found_.place_count, vertex});
     for (const ActiveEdge* edge : passing_) {
       const auto piece = static_cast<std::uint32_t>(found_.interior_above.size());
       found_.interior_above.push_back(false);
-      found_.splits.push_back({edge->edge, group[0].vertex, found_.place_count});
+      found_.splits.push_back({edge->edge, group[0], found_.place_count});
       starts_.push_back({edge->edge, piece, edge->right});
     }
     ++found_.place_count;
@@ -222,8 +225,7 @@ class Sweeper {
     for (std::size_t i = 0; i < starts_.size(); ++i) {
       interior = !interior;
       ActiveEdge* active = i < block_.size() ? block_[i] : &*status_.insert_before(above, fresh());
-      active->interior_above = interior;
-      begin_edge(*active, starts_[i], point);
+      begin_edge(*active, starts_[i], point, interior);
     }
     for (std::size_t i = starts_.size(); i < block_.size(); ++i) {
       status_.erase(status_.iterator_to(*block_[i]));
@@ -232,13 +234,13 @@ class Sweeper {
     return std::nullopt;
   }
 
-  void begin_edge(ActiveEdge& active, const Start& start, Vec2 left) {
+  void begin_edge(ActiveEdge& active, const Start& start, Vec2 left, bool interior_above) {
     active.left = left;
     active.right = start.right;
     active.edge = start.edge;
     active.piece = start.piece;
     active_[start.edge] = &active;
-    if (active.interior_above) found_.interior_above[start.piece] = true;
+    found_.interior_above[start.piece] = interior_above;
   }
 
   ActiveEdge& fresh() {
