@@ -36,13 +36,14 @@ class SiteNames {
       if (guess < next_.size() && fits(guess, site)) return last_ = guess;
     }
     if (by_source_.empty()) sort_by_source();
-    const auto [begin, end] = std::ranges::equal_range(
-        by_source_, std::pair(site.ring, site.vertex), {}, [this](std::uint32_t k) {
-          return std::pair(shape_.sources[k].ring, shape_.sources[k].vertex);
-        });
-    const auto found =
-        std::find_if(begin, end, [&](std::uint32_t guess) { return fits(guess, site); });
-    if (found == end) return std::nullopt;
+    const auto source = [this](std::uint32_t k) {
+      return std::pair(shape_.sources[k].ring, shape_.sources[k].vertex);
+    };
+    const std::pair wanted(site.ring, site.vertex);
+    auto found = std::ranges::lower_bound(by_source_, wanted, {}, source);
+    const auto end = by_source_.end();
+    while (found != end && source(*found) == wanted && !fits(*found, site)) ++found;
+    if (found == end || source(*found) != wanted) return std::nullopt;
     return last_ = *found;
   }
 

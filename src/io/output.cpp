@@ -118,7 +118,8 @@ Status PendingFile::commit() {
   }
   if (code) return unwritable(target_, code.value());
   // The named file last: once it is there, its companions are, too.
-  std::ranges::partition(files, [this](const fs::path& file) { return file != path_; });
+  std::partition(files.begin(), files.end(),
+                 [this](const fs::path& file) { return file != path_; });
   for (const fs::path& file : files) {
     fs::rename(file, fs::path(target_).replace_filename(file.filename()), code);
     if (code) return unwritable(target_, code.value());

@@ -43,8 +43,7 @@ using Geometry = std::unique_ptr<GEOSGeometry, Destroy>;
 /// A ring that is closed and has no equal neighbours; empty if it has fewer than three points.
 std::vector<Vec2> closed_ring(const Ring& ring) {
   std::vector<Vec2> points = ring.points;
-  const auto repeated = std::ranges::unique(points);
-  points.erase(repeated.begin(), repeated.end());
+  points.erase(std::unique(points.begin(), points.end()), points.end());
   while (points.size() > 1 && points.back() == points.front()) points.pop_back();
   if (points.size() < 3) return {};
   points.push_back(points.front());
