@@ -69,8 +69,9 @@ Status write_gdal_stream(OutputStream& out, const std::string& format, const Nat
     return Error{
         ErrorCode::unsupported, "a shapefile is several files and cannot go to a stream", {}};
   }
-  const std::string name =
-      fmt::format("/vsimem/medial_{}.{}", static_cast<const void*>(&out), format);
+  // The folder tells streams of this process apart; the name stands in the bytes.
+  const std::string folder = fmt::format("/vsimem/{}", static_cast<const void*>(&out));
+  const std::string name = fmt::format("{}/medial.{}", folder, format);
   Status status = write_gdal(name, format, file, options);
   if (status) {
     vsi_l_offset size = 0;
@@ -78,7 +79,7 @@ Status write_gdal_stream(OutputStream& out, const std::string& format, const Nat
     out.put(std::string_view(reinterpret_cast<const char*>(bytes), static_cast<std::size_t>(size)));
     status = out.finish();
   }
-  VSIUnlink(name.c_str());
+  VSIRmdirRecursive(folder.c_str());
   return status;
 }
 
