@@ -1,0 +1,268 @@
+// A third party's opinion (Lee, Corollary 3): inside a polygon the medial axis is the segment
+// Voronoi diagram less the edges incident with reflex vertices. Boost.Polygon builds that diagram
+// for integer coordinates; here its vertices and ours must be the same.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <string>
+#include <vector>
+
+// Boost.Polygon compares numbers of different kinds, of which the compilers warn.
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wconversion"
+#pragma GCC diagnostic ignored "-Wshadow"
+#pragma GCC diagnostic ignored "-Wextra"
+#pragma GCC diagnostic ignored "-Wdeprecated-enum-float-conversion"
+#pragma GCC diagnostic ignored "-Wdeprecated-copy"
+#pragma GCC diagnostic ignored "-Wsign-conversion"
+#include <boost/polygon/polygon.hpp>
+#include <boost/polygon/voronoi.hpp>
+#pragma GCC diagnostic pop
+
+#include "medial/medial.h"
+#include "support/generate.h"
+
+namespace medial::test {
+namespace {
+
+/// Positions agree to this fraction of the diagonal, and vertices nearer than it are one: Boost
+/// splits a vertex of degree four into two that coincide.
+constexpr double agreement = 1e-9;
+
+/// A graph of disks, whichever program made it.
+struct Graph {
+  std::vector<Disk> nodes;
+  std::vector<std::array<std::size_t, 2>> edges;
+};
+
+Graph graph_of(const MedialAxis& axis) {
+  Graph graph;
+  for (const Node& node : axis.nodes) graph.nodes.push_back(node.disk);
+  for (const Edge& edge : axis.edges) graph.edges.push_back({edge.node[0], edge.node[1]});
+  return graph;
+}
+
+bool inside(const Shape& shape, Vec2 p) {
+  bool odd = false;
+  for (std::size_t i = 0; i < shape.loop_count(); ++i) {
+    const auto loop = shape.loop(i);
+    for (std::size_t k = 0; k < loop.size(); ++k) {
+      const Vec2 a = loop[k];
+      const Vec2 b = loop[(k + 1) % loop.size()];
+      if ((a.y > p.y) == (b.y > p.y)) continue;
+      if ((cross(b - a, p - a) > 0) == (b.y > a.y)) odd = !odd;
+    }
+  }
+  return odd;
+}
+
+double distance_to_boundary(const Shape& shape, Vec2 p) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < shape.loop_count(); ++i) {
+    const auto loop = shape.loop(i);
+    for (std::size_t k = 0; k < loop.size(); ++k) {
+      const Vec2 a = loop[k];
+      const Vec2 d = loop[(k + 1) % loop.size()] - a;
+      const double t = std::clamp(dot(p - a, d) / squared_norm(d), 0.0, 1.0);
+      nearest = std::min(nearest, distance(p, a + t * d));
+    }
+  }
+  return nearest;
+}
+
+/// The primary edges of Boost's diagram that run inside the shape. (A secondary edge separates a
+/// segment from its own end: at a reflex vertex that is what Lee removes.)
+Graph graph_of_boost(const Shape& shape) {
+  using Point = boost::polygon::point_data<std::int32_t>;
+  using Segment = boost::polygon::segment_data<std::int32_t>;
+  std::vector<Segment> segments;
+  const auto integer = [](Vec2 p) {
+    return Point(static_cast<std::int32_t>(p.x), static_cast<std::int32_t>(p.y));
+  };
+  for (std::size_t i = 0; i < shape.loop_count(); ++i) {
+    const auto loop = shape.loop(i);
+    for (std::size_t k = 0; k < loop.size(); ++k) {
+      segments.emplace_back(integer(loop[k]), integer(loop[(k + 1) % loop.size()]));
+    }
+  }
+  boost::polygon::voronoi_diagram<double> diagram;
+  boost::polygon::construct_voronoi(segments.begin(), segments.end(), &diagram);
+  Graph graph;
+  std::map<const void*, std::size_t> index;
+  const auto node = [&](const auto* vertex) {
+    const auto [at, fresh] = index.insert({vertex, graph.nodes.size()});
+    if (fresh) {
+      const Vec2 center{vertex->x(), vertex->y()};
+      graph.nodes.push_back({center, distance_to_boundary(shape, center)});
+    }
+    return at->second;
+  };
+  for (const auto& edge : diagram.edges()) {
+    if (!edge.is_primary() || !edge.is_finite() || &edge > edge.twin()) continue;
+    const std::array<std::size_t, 2> ends{node(edge.vertex0()), node(edge.vertex1())};
+    // An edge inside has at least one end off the boundary.
+    const Disk& deeper = graph.nodes[ends[0]].radius > graph.nodes[ends[1]].radius
+                             ? graph.nodes[ends[0]]
+                             : graph.nodes[ends[1]];
+    if (inside(shape, deeper.center)) graph.edges.push_back(ends);
+  }
+  return graph;
+}
+
+/// A place of a graph: all nodes that lie together, and how many edges leave them.
+struct Place {
+  Disk disk;
+  std::size_t degree = 0;
+};
+
+std::vector<Place> places_of(const Graph& graph, double together) {
+  std::vector<std::size_t> parent(graph.nodes.size());
+  std::iota(parent.begin(), parent.end(), std::size_t{0});
+  const auto find = [&](std::size_t i) {
+    while (parent[i] != i) i = parent[i] = parent[parent[i]];
+    return i;
+  };
+  const auto is_short = [&](const auto& edge) {
+    return distance(graph.nodes[edge[0]].center, graph.nodes[edge[1]].center) <= together;
+  };
+  for (const auto& edge : graph.edges) {
+    if (is_short(edge)) parent[find(edge[0])] = find(edge[1]);
+  }
+  std::map<std::size_t, std::size_t> degree;
+  for (const auto& edge : graph.edges) {
+    if (find(edge[0]) == find(edge[1]) && is_short(edge)) continue;
+    ++degree[find(edge[0])];
+    ++degree[find(edge[1])];
+  }
+  std::vector<Place> places;
+  for (const auto& [node, count] : degree) {
+    // Where convex corners touch, each is a leaf of ours; Boost has one vertex for them all.
+    const bool corner = graph.nodes[node].radius <= together;
+    for (std::size_t i = 0; i < (corner ? count : 1); ++i) {
+      places.push_back({graph.nodes[node], corner ? 1 : count});
+    }
+  }
+  return places;
+}
+
+/// For every place of one graph, one of the other; returns what is missing, in words.
+std::string missing(const std::vector<Place>& from, const std::vector<Place>& in, double near) {
+  std::vector<bool> used(in.size(), false);
+  for (const Place& place : from) {
+    bool found = false;
+    for (std::size_t i = 0; i < in.size() && !found; ++i) {
+      if (used[i] || in[i].degree != place.degree ||
+          distance(in[i].disk.center, place.disk.center) > near ||
+          std::abs(in[i].disk.radius - place.disk.radius) > near) {
+        continue;
+      }
+      used[i] = found = true;
+    }
+    if (!found) {
+      return "no counterpart of degree " + std::to_string(place.degree) + " at (" +
+             std::to_string(place.disk.center.x) + ", " + std::to_string(place.disk.center.y) +
+             "), radius " + std::to_string(place.disk.radius);
+    }
+  }
+  return "";
+}
+
+/// Empty where both agree.
+std::string compare(const Rings& rings) {
+  const auto shape = build_shape(rings);
+  if (!shape) return "refused: " + to_string(shape.error());
+  const auto axis = compute(*shape, {.threads = 1});
+  if (!axis) return "not computed: " + to_string(axis.error());
+  const double near = agreement * diagonal(bounding_box(*shape));
+  const auto ours = places_of(graph_of(*axis), near);
+  const auto theirs = places_of(graph_of_boost(*shape), near);
+  if (const std::string lost = missing(theirs, ours, 2 * near); !lost.empty()) {
+    return "ours lacks Boost's node: " + lost;
+  }
+  if (const std::string lost = missing(ours, theirs, 2 * near); !lost.empty()) {
+    return "Boost's lacks our node: " + lost;
+  }
+  return "";
+}
+
+TEST(Boost, HasTheSameGraphOnFixedShapes) {
+  EXPECT_EQ(compare(rectangle(5, 3)), "");
+  EXPECT_EQ(compare(rectangle(4, 4)), "");
+  EXPECT_EQ(compare(l_shape(2)), "");
+  EXPECT_EQ(compare(t_shape(2)), "");
+  EXPECT_EQ(compare(u_shape(2)), "");
+  EXPECT_EQ(compare(cross_shape(2)), "");
+  EXPECT_EQ(compare(comb(20)), "");
+  EXPECT_EQ(compare(hole_grid(4)), "");
+  EXPECT_EQ(compare(maze(300)), "");
+}
+
+class Integers : public testing::TestWithParam<std::uint64_t> {};
+
+TEST_P(Integers, HaveTheSameGraph) {
+  const char* text = std::getenv("MEDIAL_PROPERTY_COUNT");
+  const std::uint64_t count = text && *text ? std::strtoull(text, nullptr, 10) / 10 : 2000;
+  const char* seed = std::getenv("MEDIAL_PROPERTY_SEED");
+  const std::uint64_t base = seed && *seed ? std::strtoull(seed, nullptr, 10) << 32 : 0;
+  int failed = 0;
+  for (std::uint64_t i = GetParam(); i < count && failed < 3; i += 4) {
+    const RandomShape shape = random_integer_shape(base + i);
+    const std::string difference = compare(shape.rings);
+    if (difference.empty()) continue;
+    ++failed;
+    ADD_FAILURE() << "random_integer_shape(" << base + i << "), " << shape.kind << ": "
+                  << difference << "\n"
+                  << to_wkt(shape.rings);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Random, Integers, testing::Range<std::uint64_t>(0, 4));
+
+/// Boost's own examples: the count of points (none), the count of segments, the segments.
+TEST(Boost, HasTheSameGraphOnItsOwnExamples) {
+  const char* data = std::getenv("MEDIAL_DATA");
+  const std::filesystem::path folder =
+      std::filesystem::path(data ? data : MEDIAL_SOURCE_DIR "/../shared/data") /
+      "in_place/E_degenerate/boost_polygon";
+  if (!std::filesystem::is_directory(folder)) GTEST_SKIP() << "no folder " << folder;
+  int compared = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    std::ifstream file(entry.path());
+    int points = 0;
+    int segments = 0;
+    file >> points >> segments;
+    Rings rings;
+    Vec2 last;
+    bool polygons = points == 0;
+    for (int i = 0; i < segments; ++i) {
+      Vec2 from;
+      Vec2 to;
+      file >> from.x >> from.y >> to.x >> to.y;
+      if (rings.empty() || from != last) rings.emplace_back();
+      rings.back().points.push_back(from);
+      last = to;
+      if (to == rings.back().points.front()) last = {std::nan(""), 0};  // closed
+    }
+    ASSERT_TRUE(file) << entry.path();
+    for (const Ring& ring : rings) polygons = polygons && ring.points.size() >= 3;
+    // Some hold loose segments, or segments that leave the polygon: no input of ours.
+    const auto shape = build_shape(rings);
+    if (!polygons || !shape) continue;
+    EXPECT_EQ(compare(rings), "") << entry.path();
+    ++compared;
+  }
+  EXPECT_GE(compared, 6);
+}
+
+}  // namespace
+}  // namespace medial::test
