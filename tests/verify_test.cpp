@@ -7,6 +7,8 @@
 #include <limits>
 #include <random>
 
+#include "medial/compute.h"
+#include "support/generate.h"
 #include "support/hand_made.h"
 #include "verify/boundary_tree.h"
 
@@ -320,6 +322,18 @@ TEST(VerifyFinds, BrokenIndicesAndNumbers) {
     m.axis.tolerance = tolerance;
     expect_failure(m, "claims a tolerance");
   }
+  // Too far away for any distance to be a number.
+  for (const double far : {1e155, 1e300, -1e300}) {
+    m = rectangle();
+    m.axis.nodes[0].disk.center.x = far;
+    expect_failure(m, "1 nodes have a radius that is not the distance to the boundary");
+    expect_failure(m, "do not touch a site of their edge");
+    m = rectangle();
+    m.axis.edges[0].control.center = {far, -far};
+    expect_failure(m, "points inside edges have a radius");
+  }
+  expect_failure(moved(rectangle(), 1e101, {0, 0}), "smaller or larger than what can be checked");
+  expect_failure(moved(rectangle(), 1e-101, {0, 0}), "smaller or larger than what can be checked");
   m = rectangle();
   m.shape.loop_begin[1] = 9;
   expect_failure(m, "The shape itself is malformed");
@@ -429,6 +443,39 @@ TEST(Verify, NeverCrashesOnRandomDamage) {
   }
 }
 
+TEST(VerifyFinds, DamageInComputedAxes) {
+  // The engine may be wrong here, so only what passes is damaged; but most must pass.
+  constexpr unsigned count = 150;
+  unsigned passed = 0;
+  for (unsigned seed = 0; seed < count; ++seed) {
+    const auto shape = build_shape(test::random_shape(seed).rings);
+    ASSERT_TRUE(shape.ok()) << seed;
+    const auto computed = compute(*shape);
+    ASSERT_TRUE(computed.ok()) << seed;
+    const MedialAxis& axis = *computed;
+    const Certificate certificate = verify(*shape, axis);
+    if (!certificate.passed) continue;
+    ++passed;
+    std::mt19937 random(seed);
+    const auto any_edge = static_cast<std::ptrdiff_t>(random() % axis.edges.size());
+    const std::size_t any_node = random() % axis.nodes.size();
+
+    MedialAxis damaged = axis;
+    damaged.nodes[any_node].disk.radius += 3 * certificate.tolerance;
+    EXPECT_FALSE(verify(*shape, damaged).passed) << seed << " node " << any_node;
+    damaged = axis;
+    damaged.edges[static_cast<std::size_t>(any_edge)].control.radius += 12 * certificate.tolerance;
+    EXPECT_FALSE(verify(*shape, damaged).passed) << seed << " edge " << any_edge;
+    damaged = axis;
+    damaged.edges.erase(damaged.edges.begin() + any_edge);
+    EXPECT_FALSE(verify(*shape, damaged).passed) << seed << " edge " << any_edge;
+    damaged = axis;
+    damaged.edges.push_back(axis.edges[static_cast<std::size_t>(any_edge)]);
+    EXPECT_FALSE(verify(*shape, damaged).passed) << seed << " edge " << any_edge;
+  }
+  EXPECT_GE(passed, count * 3 / 4);
+}
+
 TEST(BoundaryTree, AgreesWithBruteForce) {
   // A spiral saw of many edges, long ones among short ones.
   std::mt19937 random(3);
@@ -452,6 +499,10 @@ TEST(BoundaryTree, AgreesWithBruteForce) {
                                           p, shape.points[j], shape.points[(j + 1) % count]));
       for (const double guess : {0.0, 0.5 * expected, expected, 2 * expected, 1e300})
         EXPECT_EQ(tree.distance(p, guess), expected);
+    }
+    for (const double guess : {0.0, 1.0, 1e300}) {
+      EXPECT_DOUBLE_EQ(tree.distance({1e100, 0}, guess), 1e100);
+      EXPECT_FALSE(tree.distance({1e300, -1e300}, guess) <= 1e200);
     }
   }
 }

@@ -108,7 +108,7 @@ void cross_gap(const Problem& problem, const Foot& from, const Foot& to, bool wr
   Vec2 p = point_of(problem, from);
   const auto advance = [&](Vec2 q) {
     const double amount = uncovered(a, b, p, q);
-    if (amount > worst.value) worst = {amount, midpoint(p, q)};
+    if (!(amount <= worst.value)) worst = {amount, midpoint(p, q)};
     p = q;
   };
   std::uint32_t edge = from.edge;
@@ -237,7 +237,7 @@ void check_coverage(const Problem& problem, Certificate& certificate) {
   // A foot may lie the tolerance outside its disk; between the feet of different nodes a gap of
   // width g, which rises by g^2 / (8 r) over their disks, may add as much again.
   const double limit = 2 * problem.tolerance;
-  if (worst.value > limit)
+  if (!(worst.value <= limit))
     certificate.failures.push_back(sentence(
         "A stretch of the boundary is touched by no disk: near (%.17g, %.17g) it lies %.3g "
         "outside the union of the disks, over %.3g.",

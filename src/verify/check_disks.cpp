@@ -1,4 +1,5 @@
 #include <cmath>
+#include <limits>
 
 #include "axis/curve.h"
 #include "medial/query.h"
@@ -16,6 +17,8 @@ struct Worst {
   std::uint64_t over = 0;  ///< how many are over the tolerance
 
   void add(double amount, double tolerance, Vec2 point, std::size_t i) {
+    // What cannot even be computed is as wrong as can be.
+    if (std::isnan(amount)) amount = std::numeric_limits<double>::infinity();
     if (amount > tolerance) ++over;
     if (amount > value) {
       value = amount;
