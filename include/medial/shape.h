@@ -81,9 +81,9 @@ double area(const Shape& shape);
 ///
 /// Repeated points, zero-length edges, exactly collinear runs and missing closing points are mended
 /// and counted in `report` (may be null). Rings may touch in vertices, or with a vertex in the
-/// inside of an edge. Every decision is exact for the coordinates given. Errors: not_finite,
-/// too_few_points, no_area, crossing, overlap (the place names ring, vertex and the point),
-/// hole_outside, nested_outer, empty, too_large.
+/// inside of an edge. Every decision is exact for the coordinates given.
+/// Errors: not_finite, too_few_points, no_area, crossing, overlap (the place names ring, vertex and
+/// the point), hole_outside, nested_outer, empty, too_large.
 Result<Shape> build_shape(std::span<const Ring> rings, ShapeReport* report = nullptr);
 
 }  // namespace medial

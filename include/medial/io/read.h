@@ -15,8 +15,8 @@ namespace medial::io {
 struct Feature {
   std::vector<Ring> rings;
   std::int64_t id = 0;  ///< of the source, or its index
-  std::vector<std::pair<std::string, std::string>>
-      attributes;  ///< name and value as text, in order
+  /// Name and value as text, in order.
+  std::vector<std::pair<std::string, std::string>> attributes;
 };
 
 /// What a file holds.
