@@ -21,9 +21,8 @@ function(medial_install target headers)
                         SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
   string(REPLACE _ - name ${target})  # medial-io: of the files that describe it
   install(TARGETS ${target} EXPORT ${name}-targets)
-  install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/medial${headers}/
-          DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/medial${headers}
-          FILES_MATCHING PATTERN *.h PATTERN io EXCLUDE)
+  file(GLOB header_files CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/include/medial${headers}/*.h)
+  install(FILES ${header_files} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/medial${headers})
   install(EXPORT ${name}-targets NAMESPACE medial:: DESTINATION ${MEDIAL_CMAKE_DIR})
   configure_file(${PROJECT_SOURCE_DIR}/cmake/${name}.pc.in ${PROJECT_BINARY_DIR}/${name}.pc @ONLY)
   install(FILES ${PROJECT_BINARY_DIR}/${name}.pc

@@ -21,8 +21,10 @@ cmake --install "$tree" --prefix "$prefix" > "$scratch/log" || { cat "$scratch/l
 diff <(cd "$root/include" && find . -name '*.h' | sort) \
      <(cd "$prefix/include" && find . -type f | sort) || fail "other headers than include/"
 
-# The ten lines of the README, by find_package.
-expected="9 edges, length 23.3478, deepest disk of radius 1.7574"
+# The ten lines of the README, by find_package. Their L has, by hand, with c = 3 sqrt(2) / (1 + sqrt(2)):
+# a diagonal of length c sqrt(2) up to the deepest disk, and in each leg an arc of the parabola
+# y = (x^2 + 9) / 6 over [0, 3 - c], a line of 3.5 and two diagonals of 1.5 sqrt(2).
+expected="9 edges, length 20.5252, deepest disk of radius 1.7574"
 cmake -S "$root/examples/consumer" -B "$scratch/build" -G Ninja -DCMAKE_BUILD_TYPE=Release \
   -DCMAKE_PREFIX_PATH="$prefix" > "$scratch/log" || { cat "$scratch/log"; exit 1; }
 cmake --build "$scratch/build" > "$scratch/log" || { cat "$scratch/log"; exit 1; }
@@ -59,13 +61,14 @@ told=$(cd / && "$prefix/bin/medial" --version)
 [ "$told" = "medial $(pkg-config --modversion medial)" ] || fail "the program is '$told'"
 page=$(find "$prefix" -name medial.1)
 [ -n "$page" ] || fail "no manual page"
+sed 's/\\-/-/g' "$page" > "$scratch/page"
 
 # The manual page names every verb and switch that --help tells.
 for verb in "" axis verify info draw; do
   # shellcheck disable=SC2086
   "$prefix/bin/medial" $verb --help
 done | grep -oE '(^|[ ,])--[a-z-]+' | tr -d ' ,' | sort -u | while read -r switch; do
-  sed 's/\\-/-/g' "$page" | grep -q -e "$switch" || fail "the manual page does not tell $switch"
+  grep -q -e "$switch" "$scratch/page" || fail "the manual page does not tell $switch"
 done
 
 echo "installed, found, built and run: $expected"
