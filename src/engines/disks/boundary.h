@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -30,6 +31,8 @@ struct Boundary {
   std::vector<Element> elements;         ///< of each site
   std::vector<std::uint32_t> originals;  ///< index among the result's sites; of a cut: its number
   std::vector<Run> runs;                 ///< of each component
+  /// Of each cut, its two places in the order: before and after the hole.
+  std::vector<std::array<std::uint32_t, 2>> cut_places;
 
   void add(const geometry::Site& site, Element element, std::uint32_t original) {
     sites.push_back(site);

@@ -130,6 +130,7 @@ class Splicer {
     result_.sites.reserve(copies);
     result_.elements.reserve(copies);
     result_.originals.reserve(copies);
+    result_.cut_places.resize(cuts_.size());
     for (std::uint32_t loop = 0; loop < loops_.runs.size(); ++loop) {
       if (shape_.hole[loop]) continue;
       const auto first = static_cast<std::uint32_t>(result_.sites.size());
@@ -168,7 +169,10 @@ class Splicer {
     return {loop, first, static_cast<std::uint32_t>(place - places_.begin())};
   }
 
-  void add_cut(std::uint32_t cut) { result_.add(far_away, Element::cut, cut); }
+  void add_cut(std::uint32_t cut, std::size_t side) {
+    result_.cut_places[cut][side] = static_cast<std::uint32_t>(result_.sites.size());
+    result_.add(far_away, Element::cut, cut);
+  }
 
   /// A copy of the cursor's site up to `to` (a segment's parameter).
   void add_piece(const Cursor& at, double to) {
@@ -193,7 +197,7 @@ class Splicer {
         const Place place = places_[at.place++];
         add_piece(at, place.place);
         at.from = place.place;
-        add_cut(place.cut);
+        add_cut(place.cut, 0);
         stack.push_back(begin(cuts_[place.cut].hole));
         continue;
       }
@@ -208,7 +212,7 @@ class Splicer {
       }
       const std::uint32_t done = at.loop;
       stack.pop_back();
-      if (!stack.empty()) add_cut(cut_of_hole(done));
+      if (!stack.empty()) add_cut(cut_of_hole(done), 1);
     }
   }
 

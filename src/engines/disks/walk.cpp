@@ -123,12 +123,14 @@ class Walker {
     return !(between <= longest_flat_chain && is_reflex_chain(span));
   }
 
-  /// Whether the span is a chain of segments and reflex vertices that turns by less than half a turn:
-  /// no disk touches such a chain in two places. Rounding may ask for one where the chain is flat.
+  /// Whether the span is a chain of segments and reflex vertices that turns by less than half a
+  /// turn: no disk touches such a chain in two places. Rounding may ask for one where the chain is
+  /// flat.
   bool is_reflex_chain(const Span& span) const {
     for (std::uint32_t i = span.right; i < span.left; ++i)
       if (element(i) == Element::cut || (element(i) == element(i + 1))) return false;
-    const std::uint32_t first = element(span.right) == Element::vertex ? span.right + 1 : span.right;
+    const std::uint32_t first =
+        element(span.right) == Element::vertex ? span.right + 1 : span.right;
     const std::uint32_t last = element(span.left) == Element::vertex ? span.left - 1 : span.left;
     double turned = 0;
     for (std::uint32_t i = first; i + 2 <= last; i += 2)
@@ -202,13 +204,44 @@ class Walker {
                                  span.left - 1);
   }
 
-  /// A segment's end that is a vertex site of its own belongs to the vertex.
+  /// The site that a disk around `center` really touches where the search found site i: a segment's
+  /// end that is a vertex site of its own belongs to the vertex, and a vertex that cuts divide into
+  /// several copies is touched by the copy in whose range of directions the centre lies.
   std::uint32_t owner(std::uint32_t i, Vec2 center, const Span& span) const {
-    if (element(i) != Element::segment) return i;
-    const double s = geometry::foot_parameter(site(i), center);
-    if (s <= 0 && i - 1 > span.right && element(i - 1) == Element::vertex) return i - 1;
-    if (s >= site(i).length && i + 1 < span.left && element(i + 1) == Element::vertex) return i + 1;
-    return i;
+    if (element(i) == Element::segment) {
+      const double s = geometry::foot_parameter(site(i), center);
+      if (s <= 0 && i - 1 > span.right && element(i - 1) == Element::vertex)
+        --i;
+      else if (s >= site(i).length && i + 1 < span.left && element(i + 1) == Element::vertex)
+        ++i;
+    }
+    if (element(i) != Element::vertex || context_.cuts.empty()) return i;
+    // Normals turn to the right along a vertex. A vertex with several cuts takes several steps.
+    std::uint32_t copy = i;
+    for (std::size_t step = 0; step <= context_.cuts.size(); ++step) {
+      const Vec2 to = center - site(copy).point;
+      std::uint32_t next = copy;
+      if (element(copy - 1) == Element::cut && cross(cut_direction(copy, copy - 1), to) > 0)
+        next = other_copy(copy - 1, copy);
+      else if (element(copy + 1) == Element::cut && cross(to, cut_direction(copy, copy + 1)) > 0)
+        next = other_copy(copy + 1, copy);
+      if (next == copy) break;
+      copy = next;
+    }
+    return copy > span.right && copy < span.left ? copy : i;
+  }
+
+  /// From a vertex towards the centre of the cut beside it.
+  Vec2 cut_direction(std::uint32_t vertex, std::uint32_t cut) const {
+    return context_.cuts[boundary_.originals[cut]].disk.center - site(vertex).point;
+  }
+
+  /// The copy of a vertex on the other side of the cut at place `cut`, next to which it stands.
+  std::uint32_t other_copy(std::uint32_t cut, std::uint32_t vertex) const {
+    const auto [first, second] = boundary_.cut_places[boundary_.originals[cut]];
+    const bool on_hole = vertex > first && vertex < second;
+    if (cut == first) return on_hole ? second - 1 : second + 1;
+    return on_hole ? first + 1 : first - 1;
   }
 
   /// Whether a disk that reaches site i from inside touches it there: not in the end of a segment,
@@ -237,8 +270,7 @@ class Walker {
       const Disk disk{foot + radius * normal, radius};
       const double position = bisector.position(disk.center);
       // On a parabola the foot's normal may turn that far only on the way back.
-      if (radius > context_.radius_limit ||
-          position < bisector.position(from.center) - position_slack)
+      if (radius > context_.radius_limit || position < bisector.position(from.center) - slack(from))
         return event;
       return {on_right ? Event::Kind::pass_right : Event::Kind::pass_left, Hit::none, disk,
               position};
@@ -268,9 +300,10 @@ class Walker {
   }
 
   /// Whether a contact lies on the site itself, not only on its carrier.
-  bool reaches(const Event& event) const {
-    const double reach = event.disk.radius + 2 * context_.tolerance;
-    return geometry::squared_distance(site(event.site), event.disk.center) <= reach * reach;
+  bool reaches(const Event& event) const { return reaches(event.site, event.disk); }
+  bool reaches(std::uint32_t i, const Disk& disk) const {
+    const double reach = disk.radius + 2 * context_.tolerance;
+    return geometry::squared_distance(site(i), disk.center) <= reach * reach;
   }
 
   /// The disk on the bisector that touches a third site, at or before position `high`; of several
@@ -301,7 +334,7 @@ class Walker {
         best = {Event::Kind::contact, third, disk, position};
       }
     }
-    if (best_violation > position_slack) return std::nullopt;
+    if (best_violation > slack(from)) return std::nullopt;
     polish(best, bisector, touched);
     best.position = bisector.position(best.disk.center);
     return best;
@@ -310,23 +343,29 @@ class Walker {
   /// Brings a disk's residual below the tolerance: by Newton's method, and where that fails in
   /// higher precision.
   void polish(Event& event, const Bisector& bisector, const Site& third) {
-    const double goal = 0.25 * context_.tolerance;
-    double error = geometry::residual(event.disk, bisector.right, bisector.left, third);
-    for (int step = 0; step < 2 && error > goal; ++step) {
-      const Disk better = geometry::improve(event.disk, bisector.right, bisector.left, third);
-      const double better_error = geometry::residual(better, bisector.right, bisector.left, third);
-      if (better_error >= error) break;
+    const auto error_of = [&](const Disk& disk) {
+      return geometry::residual(disk, bisector.right, bisector.left, third);
+    };
+    const double furthest = polish_reach * event.disk.radius;
+    double error = error_of(event.disk);
+    const auto take_if_better = [&](const Disk& better) {
+      const double better_error = error_of(better);
+      if (!(better_error < error && distance(better.center, event.disk.center) <= furthest))
+        return false;
       event.disk = better;
       error = better_error;
-    }
+      return true;
+    };
+    for (int step = 0; step < 2 && error > 0.25 * context_.tolerance; ++step)
+      if (!take_if_better(geometry::improve(event.disk, bisector.right, bisector.left, third)))
+        break;
     if (error <= context_.tolerance) return;
     ++chunk_.statistics.precision_retries;
     const auto ends = [](const Site& s) { return geometry::Ends{s.point, s.end()}; };
     Disk precise;
     if (geometry::tangent_disk_in_high_precision(
-            {ends(bisector.right), ends(bisector.left), ends(third)}, event.disk, precise) &&
-        geometry::residual(precise, bisector.right, bisector.left, third) < error)
-      event.disk = precise;
+            {ends(bisector.right), ends(bisector.left), ends(third)}, event.disk, precise))
+      take_if_better(precise);
   }
 
   Event next_event(const Bisector& bisector, const Disk& from, const Span& span) {
@@ -360,10 +399,15 @@ class Walker {
       if (event.kind == Event::Kind::contact && look_beyond) asked = beyond(bisector, event);
       const Hit hit = nearest(asked.disk, span);
       if (!hit) {
-        if (event.kind == Event::Kind::far) return bracket(bisector, from, span, event);
         // Only the carrier was touched, short of the site.
         if (event.kind == Event::Kind::contact && !reaches(event))
           return bracket(bisector, event.disk, span, intruded);
+        // A foot has left its site: events on flat corners come in doubtful order.
+        if (event.kind == Event::Kind::far || !reaches(span.right, event.disk) ||
+            !reaches(span.left, event.disk))
+          return bracket(bisector, from, span, event);
+        if (event.kind == Event::Kind::contact)
+          event.site = owner(event.site, event.disk.center, span);
         return event;
       }
       const std::uint32_t intruder = owner(hit.site, asked.disk.center, span);
@@ -396,8 +440,8 @@ class Walker {
     if (!(step > 0)) return event;
     const Vec2 along = tangent(bisector, contact.disk);
     event.disk.center = contact.disk.center + step * along;
-    event.disk.radius =
-        contact.disk.radius + step * dot(outward(bisector.right, contact.disk), along);
+    event.disk.radius = std::min(geometry::carrier_distance(bisector.right, event.disk.center),
+                                 geometry::carrier_distance(bisector.left, event.disk.center));
     event.position = bisector.position(event.disk.center);
     return event;
   }
@@ -445,9 +489,9 @@ class Walker {
   std::uint32_t obstacle(const Disk& disk, const Span& span) {
     const Hit hit = nearest(disk, span);
     if (hit) return owner(hit.site, disk.center, span);
-    if (!reaches({Event::Kind::contact, span.right, disk, 0}))
+    if (!reaches(span.right, disk))
       return span.right + (element(span.right + 1) == Element::cut ? 2 : 1);
-    if (!reaches({Event::Kind::contact, span.left, disk, 0}))
+    if (!reaches(span.left, disk))
       return span.left - (element(span.left - 1) == Element::cut ? 2 : 1);
     return Hit::none;
   }
@@ -517,7 +561,11 @@ class Walker {
 
   /// Rounding may put a disk a little behind the place where it should be; what is further behind
   /// is another solution.
-  static constexpr double position_slack = 1e-9;
+  double slack(const Disk& from) const { return 4 * context_.tolerance + 1e-9 * from.radius; }
+
+  /// Correcting a disk moves it by no more, against the radius; what is further is another
+  /// solution.
+  static constexpr double polish_reach = 1e-3;
   /// Longer chains are not looked at: their ends are told apart well enough.
   static constexpr std::uint32_t longest_flat_chain = 8;
   /// How far beyond() may look, against the radius: there the bisector is still straight.
