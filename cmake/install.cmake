@@ -18,7 +18,8 @@ file(RELATIVE_PATH MEDIAL_PREFIX_FROM_PKGCONFIG
 # Installs one library with the headers below include/medial${headers}, and how to find it.
 function(medial_install target headers)
   set_target_properties(${target} PROPERTIES VERSION ${PROJECT_VERSION}
-                        SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+                        SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}
+                        DEFINE_SYMBOL "")  # shared or static, the same objects: ccache has them
   string(REPLACE _ - name ${target})  # medial-io: of the files that describe it
   install(TARGETS ${target} EXPORT ${name}-targets)
   file(GLOB header_files CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/include/medial${headers}/*.h)

@@ -30,7 +30,7 @@ struct Certificate {
   std::uint64_t reflex_without_contact = 0;
   double worst_x = 0;  ///< where the largest residual is
   double worst_y = 0;
-  bool passed = false;                ///< all of the design's demands hold
+  bool passed = false;                ///< all demands hold
   std::vector<std::string> failures;  ///< one sentence for each demand that does not hold
 };
 

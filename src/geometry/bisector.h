@@ -38,7 +38,7 @@ struct Bisector {
 };
 
 /// The control point (x, y, r) and the weight of the edge between two disks on the bisector of a
-/// and b, as a rational quadratic Bezier with end weights 1: exact (design, section 2).
+/// and b, as a rational quadratic Bezier with end weights 1: exact (docs/disks.md).
 struct Control {
   Disk point;
   double weight = 1;

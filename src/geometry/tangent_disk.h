@@ -22,7 +22,7 @@ struct TangentDisks {
 };
 
 /// The disks that touch the carriers of three sites with their centres on the left of every line:
-/// the Apollonius problem for segments and vertices. With the oriented circles of the design, the
+/// the Apollonius problem for segments and vertices. With the sites as oriented circles, the
 /// difference of two contact equations is linear in (x, y, r): two linear equations give a line in
 /// (x, y, r), which meets the cone of the first vertex in at most two points, or the plane of
 /// the third segment in one.

@@ -16,10 +16,10 @@ struct Cut {
   std::uint32_t site = 0;  ///< touched site, in the loops' boundary
 };
 
-/// One cut for each hole (design, section 3, step 3). The disk at the leftmost vertex lies left of
-/// it, where the hole has no other point; the loop that it touches has a point further left than
-/// the hole has, so no cycle of holes can arise and all loops of a component get connected. O(h log
-/// n) expected. `queries` counts nearest-site queries.
+/// One cut for each hole (docs/disks.md, step 3). The disk at the leftmost vertex lies left of it,
+/// where the hole has no other point; the loop that it touches has a point further left than the
+/// hole has, so no cycle of holes can arise and all loops of a component get connected. `queries`
+/// counts nearest-site queries. O(h log n) expected.
 std::vector<Cut> connecting_disks(const Shape& shape, const Boundary& loops,
                                   const index::BoundaryTree& tree, double tolerance,
                                   std::uint64_t& queries);

@@ -78,7 +78,7 @@ struct WalkContext {
   std::function<void(std::uint64_t)> finished_sites;  ///< told how many more sites are done with
 };
 
-/// Walks the axis of every run of the boundary (design, section 3, step 4), from a convex corner:
+/// Walks the axis of every run of the boundary (docs/disks.md, step 4), from a convex corner:
 /// one chunk for each component, whose children were forked at branching nodes. The chunks, their
 /// order and their content depend on the boundary only, never on the number of threads.
 /// O(n log n) expected.
