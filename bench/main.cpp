@@ -20,7 +20,7 @@ int main(int argc, char** argv) {
   bool alone = false;
   int rounds = 5;
   std::size_t cgal_limit = 100000;
-  double time_limit = 120;
+  double time_limit = 900;
   std::vector<std::string> only;
   CLI::App app{
       "Compares medial with Boost.Polygon and CGAL: the same inputs, one thread, medians."};
