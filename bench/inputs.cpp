@@ -44,7 +44,7 @@ std::vector<Input> inputs(bool quick) {
   all.push_back(coast("halmahera", 9930));
   all.push_back(coast("new_guinea", 76369));
   all.push_back(coast("eurasia", 1181098));
-  for (const std::size_t n : {1000, 10000, 100000, 1000000}) {
+  for (const std::size_t n : std::vector<std::size_t>{1000, 10000, 100000, 1000000}) {
     all.push_back(
         made("blob " + std::to_string(n), Family::smooth, n, [n] { return test::blob(n); }));
   }
@@ -52,11 +52,11 @@ std::vector<Input> inputs(bool quick) {
                      [] { return test::regular_polygon(100000); }));
   all.push_back(
       made("comb of 25000 teeth", Family::comb, 100000, [] { return test::comb(25000); }));
-  for (const std::size_t n : {10000, 100000, 1000000}) {
+  for (const std::size_t n : std::vector<std::size_t>{10000, 100000, 1000000}) {
     all.push_back(
         made("maze " + std::to_string(n), Family::maze, n, [n] { return test::maze(n); }));
   }
-  for (const std::size_t k : {100, 300}) {
+  for (const std::size_t k : std::vector<std::size_t>{100, 300}) {
     all.push_back(made(std::to_string(k) + " x " + std::to_string(k) + " holes", Family::holes,
                        4 * (k * k + 1), [k] { return test::hole_grid(k); }));
   }

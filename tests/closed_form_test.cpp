@@ -188,7 +188,7 @@ TEST(ClosedForm, Cross) {
 }
 
 TEST(ClosedForm, Comb) {
-  for (const std::size_t teeth : {2, 3, 10, 200}) {
+  for (const std::size_t teeth : std::vector<std::size_t>{2, 3, 10, 200}) {
     const auto count = static_cast<double>(teeth);
     const double middle = count - 0.5;
     const double t = elbow(1);
