@@ -440,6 +440,15 @@ class Info(CommandLine):
         for word in ("4 leaves", "2 branchings", "deepest disk", "disks", "tolerance", "length"):
             self.assertIn(word, text)
 
+    def test_branches_are_counted_as_they_are_written(self):
+        self.write("shapes.wkt", FRAME + "\n" + comb(30) + "\n" + star(100))
+        self.succeed("axis", "shapes.wkt", "-o", "a.json")
+        self.succeed("axis", "shapes.wkt", "-o", "a.geojson")
+        told = json.loads(self.succeed("info", "a.json", "--json").stdout)
+        features = json.loads(self.read("a.geojson"))["features"]
+        lines = [f for f in features if f["geometry"]["type"] == "LineString"]
+        self.assertEqual(told["branches"], len(lines))
+
     def test_an_axis_from_a_pipe(self):
         self.write("rectangle.wkt", RECTANGLE)
         stored = self.succeed("axis", "rectangle.wkt", "-o", "-", "--format", "json").stdout
