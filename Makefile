@@ -5,6 +5,8 @@ PREFIX ?= /usr/local
 RELEASE := build/release
 ASAN := build/asan
 BENCH := build/bench
+# Debian 12 has two versions of Boost, one of which can be installed; CGAL and GDAL ask for the older.
+BENCH_BOOST := build/boost-1.81
 SOURCES = $(shell git ls-files '*.h' '*.cpp')
 
 .PHONY: help setup build demo test bench fuzz format lint clean install
@@ -33,7 +35,8 @@ test: setup     ## all tests, in release and under the address and undefined-beh
 
 bench: setup    ## compare with Boost.Polygon and CGAL
 	@tools/setup.sh bench
-	@cmake --preset bench
+	@tools/unpack.sh libboost1.81-dev $(BENCH_BOOST)
+	@cmake --preset bench -DMEDIAL_BENCH_BOOST=$(CURDIR)/$(BENCH_BOOST)/usr/include
 	@cmake --build $(BENCH) -j $(JOBS)
 	@$(BENCH)/bench/medial_bench
 
