@@ -21,8 +21,17 @@ struct Bisector {
   Vec2 direction;
 
   Bisector(const Site& right_site, const Site& left_site) : right(right_site), left(left_site) {
-    direction = right.is_vertex() && left.is_vertex() ? -left_of(left.point - right.point)
-                                                      : right.direction - left.direction;
+    if (right.is_vertex() && left.is_vertex()) {
+      direction = -left_of(left.point - right.point);
+    } else {
+      direction = right.direction - left.direction;
+      // Two segments that run almost the same way: the sum of the normals is parallel to the
+      // difference of the directions, and keeps its digits.
+      if (dot(right.direction, left.direction) > 0) {
+        const Vec2 sum = right.normal() + left.normal();
+        direction = cross(right.direction, left.direction) < 0 ? sum : -sum;
+      }
+    }
     const double size = norm(direction);
     if (size > 0) direction = (1 / size) * direction;
   }

@@ -151,6 +151,35 @@ Solutions<Real> three_vertices(const Carrier<Real>& u, const Carrier<Real>& v,
   return result;
 }
 
+/// Two segments that meet in a corner: their disks' centres lie on the line through the corner
+/// along the sum of the normals, which keeps its digits however flat the corner is, or along their
+/// difference turned, which does however sharp it is.
+template <class Real>
+Solutions<Real> corner_and_site(const Vector<Real>& corner, const Vector<Real>& before,
+                                const Vector<Real>& after, const Carrier<Real>& c) {
+  using std::sqrt;
+  const Vector<Real> sum = before + after, difference = before - after;
+  const Real size = sqrt(dot(sum, sum));
+  Solutions<Real> result;
+  if (size == Real(0)) return result;
+  LineOfCenters<Real> line;
+  const Real across = sqrt(dot(difference, difference));
+  if (size > across)
+    line.along = (Real(1) / size) * sum;
+  else
+    line.along = (Real(1) / across) * Vector<Real>{-difference.y, difference.x};
+  line.radius = Real(0);
+  line.slope = size / Real(2);  // the normals are unit vectors
+  line.one_minus_slope_squared = dot(difference, difference) / Real(4);
+  line.origin = corner - c.point;
+  if (c.vertex) return moved(through_zero(line), c.point);
+  const Real closing = line.slope - dot(c.normal, line.along);
+  if (closing == Real(0)) return result;
+  const Real l = dot(c.normal, line.origin) / closing;
+  if (l >= Real(0)) result.disk[result.count++] = {corner + l * line.along, l * line.slope};
+  return result;
+}
+
 template <class Real>
 Solutions<Real> solve(std::array<const Carrier<Real>*, 3> c) {
   // Lines first.
@@ -167,6 +196,27 @@ Solutions<Real> solve(std::array<const Carrier<Real>*, 3> c) {
     default:
       return three_vertices(*c[0], *c[1], *c[2]);
   }
+}
+
+/// A segment that ends where another one begins, among three sites; -1 if there is none.
+struct Corner {
+  int before = -1;
+  int after = -1;
+};
+Corner find_corner(const std::array<const Site*, 3>& sites) {
+  // A segment's end is a product and a sum: off by less than four roundings of a local coordinate.
+  constexpr double same_point = 0x1p-50;
+  for (int i = 0; i < 3; ++i) {
+    const Site& before = *sites[static_cast<std::size_t>(i)];
+    if (before.is_vertex()) continue;
+    for (int j = 0; j < 3; ++j) {
+      const Site& after = *sites[static_cast<std::size_t>(j)];
+      if (i == j || after.is_vertex() || cross(before.direction, after.direction) < 0) continue;
+      const Vec2 gap = before.end() - after.point;
+      if (std::abs(gap.x) <= same_point && std::abs(gap.y) <= same_point) return {i, j};
+    }
+  }
+  return {};
 }
 
 Carrier<double> carrier(const Site& site) {
@@ -188,8 +238,17 @@ double tangent_radius(Vec2 foot, Vec2 normal, const Site& site) {
 }
 
 TangentDisks tangent_disks(const Site& a, const Site& b, const Site& c) {
-  const Carrier<double> ca = carrier(a), cb = carrier(b), cc = carrier(c);
-  const Solutions<double> solved = solve<double>({&ca, &cb, &cc});
+  const std::array<const Site*, 3> sites{&a, &b, &c};
+  const std::array<Carrier<double>, 3> carriers{carrier(a), carrier(b), carrier(c)};
+  Solutions<double> solved;
+  const Corner corner = find_corner(sites);
+  if (corner.before >= 0) {
+    const auto at = [&](int i) { return carriers[static_cast<std::size_t>(i)]; };
+    solved = corner_and_site<double>(at(corner.after).point, at(corner.before).normal,
+                                     at(corner.after).normal, at(3 - corner.before - corner.after));
+  } else {
+    solved = solve<double>({&carriers[0], &carriers[1], &carriers[2]});
+  }
   TangentDisks result;
   for (int i = 0; i < solved.count; ++i) {
     const auto& s = solved.disk[static_cast<std::size_t>(i)];

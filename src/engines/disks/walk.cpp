@@ -455,6 +455,7 @@ class Walker {
 
   /// The bisector's unit tangent in the direction of the walk: both distances grow alike.
   static Vec2 tangent(const Bisector& bisector, const Disk& disk) {
+    if (!bisector.right.is_vertex() && !bisector.left.is_vertex()) return bisector.direction;
     const Vec2 along = left_of(outward(bisector.left, disk) - outward(bisector.right, disk));
     const double size = norm(along);
     return (dot(along, bisector.direction) < 0 ? -1 / size : 1 / size) * along;
