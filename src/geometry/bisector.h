@@ -26,10 +26,13 @@ struct Bisector {
     } else {
       direction = right.direction - left.direction;
       // Two segments that run almost the same way: the sum of the normals is parallel to the
-      // difference of the directions, and keeps its digits.
+      // difference of the directions, and keeps its digits. Where they share a corner the walk
+      // leaves it or ends in it; otherwise it goes where the two lines open.
       if (dot(right.direction, left.direction) > 0) {
         const Vec2 sum = right.normal() + left.normal();
-        direction = cross(right.direction, left.direction) < 0 ? sum : -sum;
+        const bool leaves = meets(left, right) ||
+                            (!meets(right, left) && cross(right.direction, left.direction) < 0);
+        direction = leaves ? sum : -sum;
       }
     }
     const double size = norm(direction);

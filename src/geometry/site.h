@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 
 #include "medial/vec2.h"
 
@@ -26,6 +27,14 @@ inline Site make_segment(Vec2 start, Vec2 end) {
 }
 
 inline Site make_vertex(Vec2 point) { return {point, {0, 0}, 0}; }
+
+/// Whether segment `before` ends where segment `after` begins. An end is a product and a sum: it is
+/// off by less than four roundings of a local coordinate.
+inline bool meets(const Site& before, const Site& after) {
+  constexpr double same_point = 0x1p-50;
+  const Vec2 gap = before.end() - after.point;
+  return std::abs(gap.x) <= same_point && std::abs(gap.y) <= same_point;
+}
 
 /// Parameter of the site's point nearest to c.
 inline double foot_parameter(const Site& site, Vec2 c) {

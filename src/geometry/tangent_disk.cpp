@@ -198,25 +198,27 @@ Solutions<Real> solve(std::array<const Carrier<Real>*, 3> c) {
   }
 }
 
-/// A segment that ends where another one begins, among three sites; -1 if there is none.
+/// The flattest pair among three sites of a segment that ends where another one begins; -1 if there
+/// is none.
 struct Corner {
   int before = -1;
   int after = -1;
 };
 Corner find_corner(const std::array<const Site*, 3>& sites) {
-  // A segment's end is a product and a sum: off by less than four roundings of a local coordinate.
-  constexpr double same_point = 0x1p-50;
+  Corner flattest;
+  double along = -2;
   for (int i = 0; i < 3; ++i) {
-    const Site& before = *sites[static_cast<std::size_t>(i)];
-    if (before.is_vertex()) continue;
     for (int j = 0; j < 3; ++j) {
-      const Site& after = *sites[static_cast<std::size_t>(j)];
-      if (i == j || after.is_vertex() || cross(before.direction, after.direction) < 0) continue;
-      const Vec2 gap = before.end() - after.point;
-      if (std::abs(gap.x) <= same_point && std::abs(gap.y) <= same_point) return {i, j};
+      const Site &before = *sites[static_cast<std::size_t>(i)],
+                 &after = *sites[static_cast<std::size_t>(j)];
+      if (i == j || before.is_vertex() || after.is_vertex() || !meets(before, after)) continue;
+      const double turn = dot(before.direction, after.direction);
+      if (turn <= along) continue;
+      along = turn;
+      flattest = {i, j};
     }
   }
-  return {};
+  return flattest;
 }
 
 Carrier<double> carrier(const Site& site) {
