@@ -528,19 +528,27 @@ class Walker {
     ++chunk_.statistics.queries;
     context_.tree.within(disk.center, disk.radius + context_.tolerance, span.right + 1,
                          span.left - 1, touched_);
+    // Along the boundary the contacts go around the disk counter-clockwise. What comes out of order
+    // is another copy of a vertex that was touched before.
+    const Vec2 start = geometry::foot(site(span.right), disk.center) - disk.center;
+    const auto angle_of = [&](std::uint32_t i) {
+      const Vec2 to = geometry::foot(site(i), disk.center) - disk.center;
+      const double angle = std::atan2(cross(start, to), dot(start, to));
+      return angle > 0 ? angle : angle + 2 * std::acos(-1.0);
+    };
+    const double end_angle = angle_of(span.left);
+    double angle_before = 0;
     std::uint32_t before = span.right;
-    Vec2 foot_before = geometry::foot(site(span.right), disk.center);
-    const Vec2 last_foot = geometry::foot(site(span.left), disk.center);
-    const double apart = distinct_feet * disk.radius;
     std::vector<Span> parts;
     for (const std::uint32_t hit : touched_) {
       const std::uint32_t i = owner(hit, disk.center, span);
       if (i <= before || i >= span.left || !touches(i, disk, context_.tolerance)) continue;
-      const Vec2 foot = geometry::foot(site(i), disk.center);
-      if (distance(foot, foot_before) < apart || distance(foot, last_foot) < apart) continue;
+      const double angle = angle_of(i);
+      if (angle - angle_before < distinct_contacts || end_angle - angle < distinct_contacts)
+        continue;
       parts.push_back({before, i, span.node});
       before = i;
-      foot_before = foot;
+      angle_before = angle;
     }
     if (parts.empty()) {
       parts.push_back({span.right, sure, span.node});
@@ -571,8 +579,8 @@ class Walker {
   static constexpr std::uint32_t longest_flat_chain = 8;
   /// How far beyond() may look, against the radius: there the bisector is still straight.
   static constexpr double widest_window = 1e-7;
-  /// Contacts this near to each other, against the radius, are not told apart at a node.
-  static constexpr double distinct_feet = 1e-6;
+  /// Contacts of one disk at a smaller angle are not told apart at a node.
+  static constexpr double distinct_contacts = 1e-6;
 
   const WalkContext& context_;
   const Boundary& boundary_;
