@@ -269,11 +269,12 @@ class Walker {
       const double radius = geometry::tangent_radius(foot, normal, site(other));
       const Disk disk{foot + radius * normal, radius};
       const double position = bisector.position(disk.center);
+      const double low = bisector.position(from.center);
       // On a parabola the foot's normal may turn that far only on the way back.
-      if (radius > context_.radius_limit || position < bisector.position(from.center) - slack(from))
-        return event;
-      return {on_right ? Event::Kind::pass_right : Event::Kind::pass_left, Hit::none, disk,
-              position};
+      if (radius > context_.radius_limit || position < low - slack(from)) return event;
+      return not_behind(
+          {on_right ? Event::Kind::pass_right : Event::Kind::pass_left, Hit::none, disk, position},
+          from, low);
     }
     // Across a cut, the neighbour is touched as a third site.
     if (element(next) == Element::cut) {
@@ -337,7 +338,16 @@ class Walker {
     if (best_violation > slack(from)) return std::nullopt;
     polish(best, bisector, touched);
     best.position = bisector.position(best.disk.center);
-    return best;
+    return not_behind(best, from, low);
+  }
+
+  /// An event that rounding put behind the node happens at the node.
+  static Event not_behind(Event event, const Disk& from, double low) {
+    if (event.position < low) {
+      event.disk = from;
+      event.position = low;
+    }
+    return event;
   }
 
   /// Brings a disk's residual below the tolerance: by Newton's method, and where that fails in
@@ -518,8 +528,11 @@ class Walker {
         found.site = site;
       }
     }
-    polish(found, bisector, site(found.site));
-    return found;
+    Event polished = found;
+    polish(polished, bisector, site(found.site));
+    const bool holds = reaches(polished) && reaches(span.right, polished.disk) &&
+                       reaches(span.left, polished.disk);
+    return holds ? polished : found;
   }
 
   /// Splits the span at its node's own disk, at all sites that the disk touches, `sure` if
