@@ -50,6 +50,12 @@ int main(int argc, char** argv) {
     if (!row.medial && input.family != Family::coast) all_well = false;
     if (row.medial && !alone) {
       row.boost = measure_peer(input, run_boost, rounds, time_limit, row.boost_note);
+      std::string unstretched_note;  // the same as the other's, if any
+      row.boost_unstretched =
+          measure_peer(input, run_boost_unstretched, rounds, time_limit, unstretched_note);
+      if (row.boost_unstretched && row.boost_unstretched->seconds < 0) {
+        row.boost_unstretched.reset();
+      }
       const bool smooth = input.family == Family::smooth || input.family == Family::regular;
       if (input.vertices > (smooth ? cgal_limit / 10 : cgal_limit)) {
         row.cgal_note = "left out, too slow (see --cgal-limit)";

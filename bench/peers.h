@@ -22,6 +22,12 @@ struct PeerRun {
 /// so that their bounding box spans 2^31, which moves points by up to 2^-32 of it; what this makes
 /// degenerate is left out and counted.
 PeerRun run_boost(std::span<const Ring> rings);
+
+/// The same without any stretching, where the coordinates are integers, or decimals of six places
+/// that 1e6 makes integers of. Nothing moves, ties stay ties, and the smaller numbers need exact
+/// arithmetic less often: Boost is 10 to 40 percent faster so, and this is its fairer figure.
+/// Negative seconds where the coordinates are neither.
+PeerRun run_boost_unstretched(std::span<const Ring> rings);
 std::string boost_version();
 
 /// CGAL's segment Delaunay graph: filtered traits without intersections, spatially sorted

@@ -14,13 +14,14 @@ struct Row {
   Input input;
   std::optional<MedialFigures> medial;
   std::optional<PeerFigures> boost;
+  std::optional<PeerFigures> boost_unstretched;  ///< only where the coordinates allow it
   std::optional<PeerFigures> cgal;
   std::string medial_note;
   std::string boost_note;
   std::string cgal_note;
 };
 
-/// A Markdown table, one line an input; `header_line` holds its two first lines.
+/// A Markdown table, one line an input; header_lines() are its first two.
 std::string header_lines();
 std::string line_of(const Row& row);
 /// How the cost of a vertex grows from 1e4 vertices to 1e6, and the notes.
