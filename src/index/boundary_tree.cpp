@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -26,6 +27,14 @@ constexpr double outside = 64;
 /// error on the unsafe side), the subtraction (2^-22), squares and sums (relative 2^-22). Reaching
 /// 2^-20 further makes up for it.
 constexpr double single_precision_slack = 0x1p-20;
+
+/// Heights and positions against a chord are sums of two products of local coordinates (4), whose
+/// roundings, of the points and of the query's centre, stay below this.
+constexpr double chord_rounding = 0x1p-48;
+/// Chord boxes pay where the boundary strays from the chord by no more than this share of it,
+constexpr double flat_enough = 1.0 / 16;
+/// and on the levels of nodes of 8 to 512 sites: larger ones are few.
+constexpr std::size_t chord_levels = 4;
 
 struct FloatBox {
   float low_x = infinity, low_y = infinity, high_x = -infinity, high_y = -infinity;
@@ -99,6 +108,78 @@ BoundaryTree::BoundaryTree(std::span<const Site> sites) : sites_(sites) {
     }
     levels_.push_back(std::move(upper));
   }
+  build_chord_boxes();
+}
+
+void BoundaryTree::build_chord_boxes() {
+  for (std::uint32_t level = 0; level < std::min<std::size_t>(chord_levels, levels_.size());
+       ++level) {
+    const std::size_t span = std::size_t{block_size} << (2 * level);
+    const std::size_t nodes = levels_[level].size();
+    ChordLevel result{std::vector<ChordBox>(nodes * fan), std::vector<std::uint8_t>(nodes)};
+    const ChordLevel* lower = level == 0 ? nullptr : &chords_.back();
+    std::atomic<bool> any = false;
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, nodes, 256), [&](const auto& range) {
+      for (std::size_t node = range.begin(); node < range.end(); ++node) {
+        for (std::size_t lane = 0; lane < fan; ++lane) {
+          const std::size_t child = node * fan + lane, begin = child * span;
+          const std::size_t end = std::min(begin + span, sites_.size());
+          if (begin >= end) break;
+          // Only what is smooth in small can be smooth at large.
+          if (lower != nullptr && lower->lanes[child] != 0xF) continue;
+          const std::optional<ChordBox> box = chord_box(sites_.subspan(begin, end - begin));
+          if (!box) continue;
+          result.boxes[child] = *box;
+          result.lanes[node] = static_cast<std::uint8_t>(result.lanes[node] | (1u << lane));
+          any = true;
+        }
+      }
+    });
+    if (!any) return;
+    chords_.push_back(std::move(result));
+  }
+}
+
+std::optional<BoundaryTree::ChordBox> BoundaryTree::chord_box(std::span<const Site> sites) {
+  constexpr double infinity_d = std::numeric_limits<double>::infinity();
+  const Vec2 chord = sites.back().end() - sites.front().point;
+  const double length = norm(chord);
+  if (!(length > 0 && length < outside)) return std::nullopt;
+  const Vec2 along = (1 / length) * chord;
+  ChordBox box{left_of(along), infinity_d, -infinity_d, infinity_d, -infinity_d};
+  const auto add = [&](Vec2 p) {
+    const double height = dot(box.normal, p), position = dot(along, p);
+    box.low = std::min(box.low, height);
+    box.high = std::max(box.high, height);
+    box.begin = std::min(box.begin, position);
+    box.end = std::max(box.end, position);
+  };
+  for (const Site& site : sites) {
+    if (std::abs(site.point.x) > outside) return std::nullopt;
+    add(site.point);
+  }
+  add(sites.back().end());
+  if (box.high - box.low > flat_enough * length) return std::nullopt;
+  box.low -= chord_rounding;
+  box.high += chord_rounding;
+  box.begin -= chord_rounding;
+  box.end += chord_rounding;
+  return box;
+}
+
+/// Of the given lanes of a node, those whose chord boxes lie beyond the reach from c.
+std::uint32_t BoundaryTree::beyond_chord_boxes(std::uint32_t level, std::uint32_t node,
+                                               std::uint32_t lanes, Vec2 c, double reach) const {
+  std::uint32_t result = 0;
+  for (lanes &= chords_[level].lanes[node]; lanes != 0; lanes &= lanes - 1) {
+    const auto lane = static_cast<std::uint32_t>(std::countr_zero(lanes));
+    const ChordBox& box = chords_[level].boxes[node * fan + lane];
+    const double height = dot(box.normal, c), position = -dot(left_of(box.normal), c);
+    const double across = std::max({height - box.high, box.low - height, 0.0});
+    const double along = std::max({position - box.end, box.begin - position, 0.0});
+    if (across * across + along * along >= reach * reach) result |= 1u << lane;
+  }
+  return result;
 }
 
 template <class Visit>
@@ -157,6 +238,8 @@ void BoundaryTree::visit_blocks(Vec2 c, double& reach, std::uint32_t first, std:
       if (!(squared[i] < limit)) mask &= ~(1u << i);
     }
 #endif
+    if (below < chords_.size() && mask != 0)
+      mask &= ~beyond_chord_boxes(below, top.index, mask, c, reach);
     // Push the farthest first, so that the nearest is visited next.
     const std::size_t bottom = size;
     while (mask != 0) {
