@@ -48,7 +48,7 @@ inline Vec2 foot(const Site& site, Vec2 c) {
 /// Distance from c to the closed site. Error: about two units in the last place of |c - point|.
 inline double squared_distance(const Site& site, Vec2 c) {
   const Vec2 d = c - site.point;
-  const double s = std::clamp(dot(site.direction, d), 0.0, site.length);
+  const double s = std::min(std::max(dot(site.direction, d), 0.0), site.length);
   return squared_norm(d - s * site.direction);
 }
 

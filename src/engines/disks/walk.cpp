@@ -498,13 +498,18 @@ class Walker {
   /// The site that keeps a disk of the bisector from being a maximal one: an intruder, or the
   /// neighbour to which a foot has passed on. None for a maximal disk.
   std::uint32_t obstacle(const Disk& disk, const Span& span) {
+    if (!(disk.radius <= context_.radius_limit)) return neighbor(span, true);
     const Hit hit = nearest(disk, span);
     if (hit) return owner(hit.site, disk.center, span);
-    if (!reaches(span.right, disk))
-      return span.right + (element(span.right + 1) == Element::cut ? 2 : 1);
-    if (!reaches(span.left, disk))
-      return span.left - (element(span.left - 1) == Element::cut ? 2 : 1);
+    if (!reaches(span.right, disk)) return neighbor(span, true);
+    if (!reaches(span.left, disk)) return neighbor(span, false);
     return Hit::none;
+  }
+
+  /// The next site in the span after the right one or before the left one, across a cut if need be.
+  std::uint32_t neighbor(const Span& span, bool of_right) const {
+    if (of_right) return span.right + (element(span.right + 1) == Element::cut ? 2 : 1);
+    return span.left - (element(span.left - 1) == Element::cut ? 2 : 1);
   }
 
   /// Where closed forms fail: halves the way from the node's disk, which is maximal, to that of
@@ -513,7 +518,7 @@ class Walker {
     ++chunk_.statistics.brackets;
     Event found{Event::Kind::contact, event.site, from, bisector.position(from.center)};
     if (found.site == Hit::none || found.site <= span.right || found.site >= span.left)
-      found.site = span.right + (element(span.right + 1) == Element::cut ? 2 : 1);
+      found.site = neighbor(span, true);
     double high = event.position;
     for (int step = 0; step < bracket_steps; ++step) {
       const double middle = 0.5 * (found.position + high);
