@@ -5,6 +5,34 @@
 #include "base/predicates.h"
 
 namespace medial::disks {
+namespace {
+
+/// A convex corner to start from: a flat one would leave the first disks undetermined, so the first
+/// that turns by a sixth of a circle, or the one that turns most. The search starts in the middle
+/// of the order: that shares the work well on shapes that were drawn from end to end.
+template <class IsCorner>
+std::uint32_t clear_corner(std::span<const Vec2> points, IsCorner&& is_corner) {
+  constexpr double clear = 0.5;  // cosine of the turn
+  const auto n = static_cast<std::uint32_t>(points.size());
+  std::uint32_t best = 0;
+  double best_cosine = 2;
+  for (std::uint32_t step = 0; step < n; ++step) {
+    const std::uint32_t i = (n / 2 + step) % n;
+    if (!is_corner(i)) continue;
+    const Vec2 before = points[i] - points[i == 0 ? n - 1 : i - 1];
+    const Vec2 after = points[i + 1 == n ? 0 : i + 1] - points[i];
+    const double cosine = dot(before, after) / (norm(before) * norm(after));
+    if (cosine < best_cosine) {
+      best_cosine = cosine;
+      best = i;
+    }
+    if (cosine <= clear) break;
+  }
+  return best;
+}
+
+}  // namespace
+
 SiteNumbers number_sites(const Shape& shape) {
   SiteNumbers numbers;
   numbers.segment.resize(shape.points.size());
@@ -55,10 +83,7 @@ Boundary loops_boundary(const Shape& shape, const SiteNumbers& numbers, const Fr
             (points[i].x == points[start].x && points[i].y < points[start].y))
           start = i;
     } else {
-      // Any convex corner will do; one in the middle of the order shares the work best on shapes
-      // that were drawn end to end.
-      start = n / 2;
-      while (numbers.is_site[begin + start]) start = start + 1 == n ? 0 : start + 1;
+      start = clear_corner(points, [&](std::uint32_t i) { return !numbers.is_site[begin + i]; });
     }
     const auto first = static_cast<std::uint32_t>(boundary.sites.size());
     Vec2 p = frame.to_local(points[start]);
