@@ -96,6 +96,10 @@ class Walker {
           return;
         default: {
           const std::uint32_t node = arrive(span, from, event.disk);
+          if (is_at_cut(event.site, event.disk)) {
+            split_at_node({span.right, span.left, node}, event.disk, event.site);
+            return;
+          }
           push({event.site, span.left, node}, {span.right, event.site, node});
           return;
         }
@@ -278,7 +282,11 @@ class Walker {
     }
     // Across a cut, the neighbour is touched as a third site.
     if (element(next) == Element::cut) {
-      const auto contact = contact_with(bisector, from, on_right ? own + 2 : own - 2, nowhere);
+      const std::uint32_t across = on_right ? own + 2 : own - 2;
+      const bool continues_other =
+          (on_right ? across + 1 : across - 1) == other && element(across) != element(other);
+      if (continues_other) return event;  // the other foot's own event
+      const auto contact = contact_with(bisector, from, across, nowhere);
       return contact && reaches(*contact) ? *contact : event;
     }
     // At a convex corner too, before the foot gets to the corner: the disk there is not empty,
@@ -305,6 +313,26 @@ class Walker {
   bool reaches(std::uint32_t i, const Disk& disk) const {
     const double reach = disk.radius + 2 * context_.tolerance;
     return geometry::squared_distance(site(i), disk.center) <= reach * reach;
+  }
+
+  /// The contact with a site that continues one of the two smoothly: where the two meet. The three
+  /// carriers would leave the place to the square root of a rounding error.
+  std::optional<Event> contact_at_joint(const Bisector& bisector, const Disk& from,
+                                        const Span& span, std::uint32_t third) const {
+    for (const bool on_right : {true, false}) {
+      const std::uint32_t own = on_right ? span.right : span.left;
+      const std::uint32_t other = on_right ? span.left : span.right;
+      if (third != (on_right ? own + 1 : own - 1) || element(own) == element(third)) continue;
+      const bool own_vertex = element(own) == Element::vertex;
+      const Vec2 foot = site(own_vertex ? own : third).point;
+      const Vec2 normal = site(own_vertex ? third : own).normal();
+      const double radius = geometry::tangent_radius(foot, normal, site(other));
+      if (!(radius <= context_.radius_limit)) continue;
+      const Disk disk{foot + radius * normal, radius};
+      return not_behind({Event::Kind::contact, third, disk, bisector.position(disk.center)}, from,
+                        bisector.position(from.center));
+    }
+    return std::nullopt;
   }
 
   /// The disk on the bisector that touches a third site, at or before position `high`; of several
@@ -482,6 +510,7 @@ class Walker {
                                       const Event& intruded) {
     const std::uint32_t i = intruded.site;
     const Site& segment = site(i);
+    if (const auto at_joint = contact_at_joint(bisector, from, span, i)) return at_joint;
     std::optional<Event> contact = contact_with(bisector, from, i, intruded.position);
     if (segment.is_vertex() || (contact && reaches(*contact))) return contact;
     const Vec2 center = contact ? contact->disk.center : intruded.disk.center;
@@ -540,6 +569,34 @@ class Walker {
     return holds ? polished : found;
   }
 
+  /// Whether a disk is that of a cut beside site i.
+  bool is_at_cut(std::uint32_t i, const Disk& disk) const {
+    return is_cut_disk(i - 1, disk) || is_cut_disk(i + 1, disk);
+  }
+  bool is_cut_disk(std::uint32_t place, const Disk& disk) const {
+    return element(place) == Element::cut &&
+           distance(context_.cuts[boundary_.originals[place]].disk.center, disk.center) <=
+               same_cut * disk.radius;
+  }
+
+  /// At the very disk of a cut both copies of what it touches are touched. The axis meets the cut
+  /// in one of its two places, by the order in which the disk's contacts come: at the first if the
+  /// loop's contact precedes the hole's, at the second if it follows. Of site i, the copy there.
+  template <class AngleOf>
+  std::uint32_t side_of_cut(std::uint32_t i, const Span& span, const Disk& disk,
+                            AngleOf&& angle_of) const {
+    if (i <= span.right || i >= span.left) return i;
+    const std::uint32_t place = is_cut_disk(i - 1, disk) ? i - 1 : i + 1;
+    if (!is_cut_disk(place, disk)) return i;
+    const auto [first, second] = boundary_.cut_places[boundary_.originals[place]];
+    const auto angle = [&](std::uint32_t one, std::uint32_t other) {
+      if (one == span.right || other == span.right) return 0.0;
+      return angle_of(one == span.left || other == span.left ? span.left : one);
+    };
+    const bool loop_first = angle(first - 1, second + 1) < angle(first + 1, second - 1);
+    return loop_first == (place == first) ? i : other_copy(place, i);
+  }
+
   /// Splits the span at its node's own disk, at all sites that the disk touches, `sure` if
   /// no other: a node of high degree is found with one query.
   void split_at_node(const Span& span, const Disk& disk, std::uint32_t sure) {
@@ -559,7 +616,7 @@ class Walker {
     std::uint32_t before = span.right;
     std::vector<Span> parts;
     for (const std::uint32_t hit : touched_) {
-      const std::uint32_t i = owner(hit, disk.center, span);
+      const std::uint32_t i = side_of_cut(owner(hit, disk.center, span), span, disk, angle_of);
       if (i <= before || i >= span.left || !touches(i, disk, context_.tolerance)) continue;
       const double angle = angle_of(i);
       if (angle - angle_before < distinct_contacts || end_angle - angle < distinct_contacts)
@@ -569,8 +626,9 @@ class Walker {
       angle_before = angle;
     }
     if (parts.empty()) {
-      parts.push_back({span.right, sure, span.node});
-      before = sure;
+      const std::uint32_t i = side_of_cut(sure, span, disk, angle_of);
+      before = i > span.right && i < span.left ? i : sure;
+      parts.push_back({span.right, before, span.node});
     }
     parts.push_back({before, span.left, span.node});
     for (const Span& part : parts) stack_.push_back(part);
@@ -597,6 +655,8 @@ class Walker {
   static constexpr std::uint32_t longest_flat_chain = 8;
   /// How far beyond() may look, against the radius: there the bisector is still straight.
   static constexpr double widest_window = 1e-7;
+  /// A disk whose centre is that near to a cut's, against the radius, is the cut's.
+  static constexpr double same_cut = 1e-7;
   /// Contacts of one disk at a smaller angle are not told apart at a node.
   static constexpr double distinct_contacts = 1e-6;
 
