@@ -40,7 +40,7 @@ struct Solution {
 template <class Real>
 struct Solutions {
   std::array<Solution<Real>, 2> disk;
-  int count = 0;
+  std::size_t count = 0;
 };
 
 /// Centres origin + l * along with radii r0 + l * slope: where two contact equations hold.
@@ -96,7 +96,7 @@ Solutions<Real> three_lines(const Carrier<Real>& a, const Carrier<Real>& b,
 
 template <class Real>
 Solutions<Real> moved(Solutions<Real> disks, const Vector<Real>& by) {
-  for (int i = 0; i < disks.count; ++i) disks.disk[i].center = disks.disk[i].center + by;
+  for (std::size_t i = 0; i < disks.count; ++i) disks.disk[i].center = disks.disk[i].center + by;
   return disks;
 }
 
@@ -252,11 +252,11 @@ TangentDisks tangent_disks(const Site& a, const Site& b, const Site& c) {
     solved = solve<double>({&carriers[0], &carriers[1], &carriers[2]});
   }
   TangentDisks result;
-  for (int i = 0; i < solved.count; ++i) {
-    const auto& s = solved.disk[static_cast<std::size_t>(i)];
+  for (std::size_t i = 0; i < solved.count; ++i) {
+    const auto& s = solved.disk[i];
     if (!(std::isfinite(s.center.x) && std::isfinite(s.center.y) && std::isfinite(s.radius)))
       continue;
-    result.disk[static_cast<std::size_t>(result.count++)] = {{s.center.x, s.center.y}, s.radius};
+    result.disk[result.count++] = {{s.center.x, s.center.y}, s.radius};
   }
   return result;
 }
@@ -298,8 +298,8 @@ bool tangent_disk_in_high_precision(const std::array<Ends, 3>& ends, const Disk&
   }
   const Solutions<Real> solved = solve<Real>({&carriers[0], &carriers[1], &carriers[2]});
   double best = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < solved.count; ++i) {
-    const auto& s = solved.disk[static_cast<std::size_t>(i)];
+  for (std::size_t i = 0; i < solved.count; ++i) {
+    const auto& s = solved.disk[i];
     const Disk candidate{{static_cast<double>(s.center.x), static_cast<double>(s.center.y)},
                          static_cast<double>(s.radius)};
     const double off = distance(candidate.center, near.center);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 
 #include "geometry/site.h"
 #include "medial/axis.h"
@@ -18,7 +19,7 @@ double tangent_radius(Vec2 foot, Vec2 normal, const Site& site);
 /// Up to two disks, in no particular order.
 struct TangentDisks {
   std::array<Disk, 2> disk;
-  int count = 0;
+  std::size_t count = 0;
 };
 
 /// The disks that touch the carriers of three sites with their centres on the left of every line:

@@ -325,7 +325,7 @@ class Picture {
       const auto place = [this](const Homogeneous& p) { return frame_({p.x / p.w, p.y / p.w}); };
       const double radius = std::max(curve.radius(0.5 * (t0 + t1)), 0.0);
       const int index =
-          largest_ > 0 ? static_cast<int>(radius / largest_ * (kShades - 1) + 0.5) : 0;
+          largest_ > 0 ? static_cast<int>(std::lround(radius / largest_ * (kShades - 1))) : 0;
       take(std::clamp(index, 0, kShades - 1),
            Piece{place(a), place(b), place(c), b.w / std::sqrt(a.w * c.w), straight});
     }

@@ -159,7 +159,7 @@ class Repairer {
   Result<std::vector<Ring>> repaired() {
     Geometry result = rule_ == RepairRule::make_valid ? made_valid(polygons()) : by_faces();
     if (result && GEOSisValid_r(geos_.handle(), result.get()) != 1) {
-      result = made_valid(std::move(result));
+      result = made_valid(result);
     }
     if (!result) {
       return Error{
@@ -176,6 +176,7 @@ class Repairer {
   /// Gives up the ownership of all, for GEOS's functions that take it.
   static std::vector<GEOSGeometry*> released(std::vector<Geometry>& parts) {
     std::vector<GEOSGeometry*> raw;
+    raw.reserve(parts.size());
     for (Geometry& part : parts) raw.push_back(part.release());
     return raw;
   }

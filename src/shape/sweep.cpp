@@ -212,7 +212,7 @@ class Sweeper {
   }
 
   /// Puts starts_ into the place of block_, which lies below `above`.
-  std::optional<Error> replace_block(Status::iterator above, bool interior, Vec2 point) {
+  std::optional<Error> replace_block(const Status::iterator& above, bool interior, Vec2 point) {
     std::sort(starts_.begin(), starts_.end(), [&](const Start& a, const Start& b) {
       return orientation(point, a.right, b.right) > 0;
     });

@@ -193,16 +193,15 @@ struct Spoke {
 /// the centre and both feet belongs to the disk.
 double slices(Vec2 center, const std::vector<Spoke>& spokes) {
   std::vector<Spoke> left;
-  for (std::size_t i = 0; i < spokes.size(); ++i) {
+  for (const Spoke& spoke : spokes) {
     bool paired = false;
     for (std::size_t j = 0; j < left.size() && !paired; ++j) {
-      if (left[j].site == spokes[i].site &&
-          left[j].counter_clockwise != spokes[i].counter_clockwise) {
+      if (left[j].site == spoke.site && left[j].counter_clockwise != spoke.counter_clockwise) {
         left.erase(left.begin() + static_cast<std::ptrdiff_t>(j));
         paired = true;
       }
     }
-    if (!paired) left.push_back(spokes[i]);
+    if (!paired) left.push_back(spoke);
   }
   if (left.empty()) return 0;
   // Where one area ends, the next begins at the nearest foot.
