@@ -39,7 +39,7 @@ struct Solution {
 
 template <class Real>
 struct Solutions {
-  std::array<Solution<Real>, 2> disk;
+  std::array<Solution<Real>, 2> disk{};
   std::size_t count = 0;
 };
 
