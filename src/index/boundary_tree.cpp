@@ -157,8 +157,8 @@ std::optional<BoundaryTree::ChordBox> BoundaryTree::chord_box(std::span<const Si
   for (const Site& site : sites) {
     if (std::abs(site.point.x) > outside) return std::nullopt;
     add(site.point);
+    if (!site.is_vertex()) add(site.end());  // a loop may end here
   }
-  add(sites.back().end());
   if (box.high - box.low > flat_enough * length) return std::nullopt;
   box.low -= chord_rounding;
   box.high += chord_rounding;
