@@ -14,9 +14,10 @@ struct Options {
   /// bounding box, in (0, 1e-3]; 0: the default, 4e-15, or what the coordinates' own spacing allows
   /// where the shape lies far from the origin.
   double tolerance = 0;
-  /// Threads to use; 0: all of the machine. The result is the same, byte for byte.
+  /// Threads to use, at most 1024; 0: all of the machine. The result is the same, byte for byte.
   int threads = 0;
-  /// Called now and then, from any thread, with the share of the work done in [0, 1].
+  /// Called now and then, from any thread and out of order, with the share of the work done in
+  /// [0, 1]; in the end with 1. Must not throw.
   std::function<void(double)> progress = {};
   /// When set to true, compute() returns ErrorCode::cancelled as soon as it can.
   const std::atomic<bool>* cancel = nullptr;
@@ -25,7 +26,9 @@ struct Options {
 /// The exact medial axis transform of a shape, by the `disks` engine: O(n log n) expected.
 ///
 /// The graph has one connected part for each component of the shape and exactly one independent
-/// cycle for each hole. Errors: invalid_option, cancelled, too_large, internal.
+/// cycle for each hole. Errors: invalid_option, cancelled,
+/// empty, too_large, unsupported (coordinates beyond 1e150, edges below 1e-140 of the size),
+/// malformed (a shape that build_shape() did not make), out_of_memory, internal.
 Result<MedialAxis> compute(const Shape& shape, const Options& options = {});
 
 }  // namespace medial

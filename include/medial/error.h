@@ -27,6 +27,7 @@ enum class ErrorCode : std::uint8_t {
   unwritable,      ///< an output cannot be written
   invalid_option,  ///< an option's value is out of its range
   cancelled,       ///< the caller asked to stop
+  out_of_memory,   ///< memory ran out
   internal,        ///< a broken promise of the library itself: please report
 };
 

@@ -55,6 +55,8 @@ const char* name_of(ErrorCode code) {
       return "invalid_option";
     case ErrorCode::cancelled:
       return "cancelled";
+    case ErrorCode::out_of_memory:
+      return "out_of_memory";
     case ErrorCode::internal:
       return "internal";
   }

@@ -1,3 +1,5 @@
+#include <exception>
+#include <new>
 #include <utility>
 
 #include "medial/shape.h"
@@ -40,10 +42,16 @@ Result<Shape> build(std::span<const Ring> rings, ShapeReport& report) {
 }  // namespace
 
 Result<Shape> build_shape(std::span<const Ring> rings, ShapeReport* report) {
-  ShapeReport counted;
-  Result<Shape> shape = build(rings, counted);
-  if (report) *report = counted;
-  return shape;
+  try {
+    ShapeReport counted;
+    Result<Shape> shape = build(rings, counted);
+    if (report) *report = counted;
+    return shape;
+  } catch (const std::bad_alloc&) {
+    return Error{ErrorCode::out_of_memory, "memory ran out", {}};
+  } catch (const std::exception& exception) {
+    return Error{ErrorCode::internal, exception.what(), {}};
+  }
 }
 
 }  // namespace medial

@@ -78,10 +78,13 @@ Boundary loops_boundary(const Shape& shape, const SiteNumbers& numbers, const Fr
     const std::uint32_t begin = shape.loop_begin[loop];
     std::uint32_t start = 0;
     if (shape.hole[loop]) {
-      for (std::uint32_t i = 1; i < n; ++i)
-        if (points[i].x < points[start].x ||
-            (points[i].x == points[start].x && points[i].y < points[start].y))
-          start = i;
+      // Where the loop passes its leftmost point several times, once the interior lies on the left
+      // of it: there the point is a site.
+      for (std::uint32_t i = 1; i < n; ++i) {
+        const bool further_left = points[i].x < points[start].x ||
+                                  (points[i].x == points[start].x && points[i].y < points[start].y);
+        if (further_left || (points[i] == points[start] && numbers.is_site[begin + i])) start = i;
+      }
     } else {
       start = clear_corner(points, [&](std::uint32_t i) { return !numbers.is_site[begin + i]; });
     }

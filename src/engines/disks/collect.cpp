@@ -2,6 +2,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <array>
 
 #include "geometry/bisector.h"
@@ -49,6 +50,7 @@ void add_statistics(const Statistics& part, Statistics& all) {
   all.apollonius += part.apollonius;
   all.brackets += part.brackets;
   all.precision_retries += part.precision_retries;
+  all.largest_residual = std::max(all.largest_residual, part.largest_residual);
 }
 
 /// Joins the two ends of the axis that meet at each cut: two edges become one, or a node takes the
@@ -129,6 +131,7 @@ void collect(std::vector<std::unique_ptr<Chunk>>& chunks, const Boundary& bounda
     });
   });
   for (const Placed& p : placed) add_statistics(p.chunk->statistics, axis.statistics);
+  axis.statistics.largest_residual *= frame.inverse;
   if (cut_count > 0) glue_cuts(placed, cut_count, axis);
   chunks.clear();
 

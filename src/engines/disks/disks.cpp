@@ -3,7 +3,10 @@
 
 #include <atomic>
 #include <chrono>
+#include <exception>
 #include <limits>
+#include <new>
+#include <optional>
 
 #include "base/frame.h"
 #include "base/tolerance.h"
@@ -16,6 +19,8 @@
 
 namespace medial {
 namespace {
+
+constexpr int most_threads = 1024;
 
 /// Seconds since the last call.
 class Stopwatch {
@@ -87,29 +92,99 @@ MedialAxis run_disks(const Shape& shape, const Options& options) {
   return axis;
 }
 
-}  // namespace
+/// Whether the arrays of a hand-made shape fit together well enough to walk along them.
+bool is_consistent(const Shape& shape) {
+  const std::size_t loops = shape.component.size();
+  if (shape.sources.size() != shape.points.size() || shape.hole.size() != loops ||
+      shape.loop_begin.size() != loops + 1 || loops == 0 || shape.loop_begin.front() != 0 ||
+      shape.loop_begin.back() != shape.points.size())
+    return false;
+  for (std::size_t i = 0; i < loops; ++i) {
+    if (shape.loop_begin[i] > shape.loop_begin[i + 1] ||
+        shape.loop_begin[i + 1] > shape.points.size())
+      return false;
+    const std::span<const Vec2> points = shape.loop(i);
+    if (points.size() < 3) return false;
+    double doubled = 0;
+    for (std::size_t j = 0; j < points.size(); ++j)
+      doubled +=
+          cross(points[j] - points[0], points[j + 1 == points.size() ? 0 : j + 1] - points[0]);
+    if (!(shape.hole[i] ? doubled <= 0 : doubled >= 0)) return false;
+  }
+  return true;
+}
 
-Result<MedialAxis> compute(const Shape& shape, const Options& options) {
+/// What the engine cannot take, if anything.
+std::optional<Error> refuse(const Shape& shape, const Options& options) {
   if (!(options.tolerance >= 0 && options.tolerance <= 1e-3))
     return Error{ErrorCode::invalid_option, "the tolerance must be in [0, 1e-3]", {}};
-  if (options.threads < 0)
-    return Error{ErrorCode::invalid_option, "the number of threads must not be negative", {}};
+  if (options.threads < 0 || options.threads > most_threads)
+    return Error{ErrorCode::invalid_option, "the number of threads must be in [0, 1024]", {}};
   if (shape.points.empty()) return Error{ErrorCode::empty, "the shape is empty", {}};
   // Every point is at most two sites, and every site bounds at most three nodes.
   if (shape.points.size() > std::numeric_limits<std::uint32_t>::max() / 8)
     return Error{ErrorCode::too_large, "the shape has more than 2^29 vertices", {}};
+  // Squares of lengths must neither overflow nor vanish.
+  const Box box = bounding_box(shape);
+  const double largest = std::max(
+      {std::abs(box.low.x), std::abs(box.low.y), std::abs(box.high.x), std::abs(box.high.y)});
+  if (!(largest <= 1e150 && diagonal(box) >= 1e-150))
+    return Error{ErrorCode::unsupported,
+                 "coordinates must be below 1e150, and the shape larger than 1e-150",
+                 {}};
+  if (!is_consistent(shape))
+    return Error{ErrorCode::malformed, "the shape was not made by build_shape()", {}};
+  const double shortest = 1e-140 * diagonal(box);
+  for (std::size_t loop = 0; loop < shape.loop_count(); ++loop) {
+    const std::span<const Vec2> points = shape.loop(loop);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const Vec2 edge = points[i + 1 == points.size() ? 0 : i + 1] - points[i];
+      if (!(std::max(std::abs(edge.x), std::abs(edge.y)) >= shortest)) {
+        Place place;
+        place.point = points[i];
+        return Error{ErrorCode::unsupported,
+                     "two neighbouring vertices are nearer than 1e-140 of the shape's size", place};
+      }
+    }
+  }
+  return std::nullopt;
+}
 
-  const int threads =
-      options.threads == 0 ? tbb::this_task_arena::max_concurrency() : options.threads;
-  // An arena larger than the machine needs leave to have its threads.
-  const tbb::global_control control(tbb::global_control::max_allowed_parallelism,
-                                    static_cast<std::size_t>(threads));
-  tbb::task_arena arena(threads);
-  MedialAxis axis = arena.execute([&] { return run_disks(shape, options); });
-  axis.statistics.threads = threads;
-  if (options.cancel != nullptr && options.cancel->load())
-    return Error{ErrorCode::cancelled, "cancelled", {}};
-  return axis;
+/// The Euler characteristic: one connected part for each component, one cycle for each hole.
+bool has_right_topology(const Shape& shape, const MedialAxis& axis) {
+  const auto signed_size = [](std::size_t n) { return static_cast<std::int64_t>(n); };
+  return signed_size(axis.nodes.size()) - signed_size(axis.edges.size()) ==
+         signed_size(shape.component_count()) - signed_size(shape.hole_count());
+}
+
+}  // namespace
+
+Result<MedialAxis> compute(const Shape& shape, const Options& options) {
+  try {
+    if (auto error = refuse(shape, options)) return std::move(*error);
+    const int available = tbb::this_task_arena::max_concurrency();
+    const int threads = options.threads == 0 ? available : options.threads;
+    // More threads than the machine has need leave to exist.
+    std::optional<tbb::global_control> control;
+    if (threads > available)
+      control.emplace(tbb::global_control::max_allowed_parallelism,
+                      static_cast<std::size_t>(threads));
+    tbb::task_arena arena(threads);
+    MedialAxis axis = arena.execute([&] { return run_disks(shape, options); });
+    axis.statistics.threads = threads;
+    if (options.cancel != nullptr && options.cancel->load())
+      return Error{ErrorCode::cancelled, "cancelled", {}};
+    if (!has_right_topology(shape, axis))
+      return Error{ErrorCode::internal,
+                   "the axis does not have one cycle for each hole: please report this shape",
+                   {}};
+    if (options.progress) options.progress(1);
+    return axis;
+  } catch (const std::bad_alloc&) {
+    return Error{ErrorCode::out_of_memory, "memory ran out", {}};
+  } catch (const std::exception& exception) {
+    return Error{ErrorCode::internal, exception.what(), {}};
+  }
 }
 
 }  // namespace medial

@@ -86,8 +86,7 @@ class Walker {
         case Event::Kind::pass_right:
         case Event::Kind::pass_left: {
           span.node = arrive(span, from, event.disk);
-          ++(event.kind == Event::Kind::pass_right ? span.right : span.left);
-          if (event.kind == Event::Kind::pass_left) span.left -= 2;
+          event.kind == Event::Kind::pass_right ? ++span.right : --span.left;
           if (!is_open(span)) return;
           break;
         }
@@ -173,6 +172,10 @@ class Walker {
   /// length.
   std::uint32_t arrive(const Span& span, const Disk& from, const Disk& disk) {
     if (coincide(from, disk)) return span.node;
+    double& largest = chunk_.statistics.largest_residual;
+    for (const std::uint32_t i : {span.right, span.left})
+      largest = std::max(largest,
+                         std::abs(geometry::carrier_distance(site(i), disk.center) - disk.radius));
     const std::uint32_t node = add_node(disk);
     add_edge(span, node);
     return node;
@@ -432,7 +435,8 @@ class Walker {
   Event first_contact(const Bisector& bisector, const Disk& from, const Span& span, Event event) {
     Event intruded = event;
     bool look_beyond = true;
-    for (;;) {
+    // Every round but one that looked beyond comes earlier; rounding could make rounds repeat.
+    for (int round = 0; round < most_rounds; ++round) {
       Event asked = event;
       if (event.kind == Event::Kind::contact && look_beyond) asked = beyond(bisector, event);
       const Hit hit = nearest(asked.disk, span);
@@ -464,6 +468,7 @@ class Walker {
       look_beyond = earlier->position < event.position;
       event = *earlier;
     }
+    return bracket(bisector, from, span, intruded);
   }
 
   /// The disk a little further, where the touched site intrudes by half of the tolerance. A flat
@@ -653,6 +658,8 @@ class Walker {
   static constexpr double polish_reach = 1e-3;
   /// Longer chains are not looked at: their ends are told apart well enough.
   static constexpr std::uint32_t longest_flat_chain = 8;
+  /// Of shrinking a disk by closed forms before the bracket takes over; some three are usual.
+  static constexpr int most_rounds = 200;
   /// How far beyond() may look, against the radius: there the bisector is still straight.
   static constexpr double widest_window = 1e-7;
   /// A disk whose centre is that near to a cut's, against the radius, is the cut's.
