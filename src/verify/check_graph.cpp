@@ -162,7 +162,7 @@ void prepare(Problem& problem, Certificate& certificate) {
   // otherwise the points are looked up by their coordinates.
   const auto fits = [&](const Site& site, std::uint32_t i) {
     if (!(shape.points[i] == site.start)) return false;
-    return site.kind == SiteKind::vertex ? site.end == site.start && problem.turn[i] == Turn::reflex
+    return site.kind == SiteKind::vertex ? site.end == site.start && problem.turn[i] != Turn::convex
                                          : shape.points[problem.next[i]] == site.end;
   };
   std::vector<std::uint32_t> sorted;

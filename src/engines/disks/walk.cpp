@@ -171,7 +171,8 @@ class Walker {
   /// The node of `disk`, with the edge that leads there; the old node where that edge has no
   /// length.
   std::uint32_t arrive(const Span& span, const Disk& from, const Disk& disk) {
-    if (coincide(from, disk)) return span.node;
+    // A corner stays a leaf, however thin the shape is there.
+    if (from.radius > 0 && coincide(from, disk)) return span.node;
     double& largest = chunk_.statistics.largest_residual;
     for (const std::uint32_t i : {span.right, span.left})
       largest = std::max(largest,
@@ -305,7 +306,7 @@ class Walker {
     }
     if (!in_reach) return event;
     event.kind = flat ? Event::Kind::contact : Event::Kind::far;
-    if (flat) event.site = next;
+    event.site = next;
     event.disk = {foot + radius * normal, radius};
     event.position = bisector.position(event.disk.center);
     return event;
@@ -419,7 +420,8 @@ class Walker {
       event.disk = bisector.disk_at(event.position, from);
     }
     if (event.kind == Event::Kind::contact) {
-      if (touches(event.site, from, context_.tolerance)) return at_node(bisector, from, event.site);
+      if (from.radius > 0 && touches(event.site, from, context_.tolerance))
+        return at_node(bisector, from, event.site);
       // The only site in between is the one found.
       if (span.left - span.right == 2) return event;
     }
@@ -444,6 +446,9 @@ class Walker {
         // Only the carrier was touched, short of the site.
         if (event.kind == Event::Kind::contact && !reaches(event))
           return bracket(bisector, event.disk, span, intruded);
+        // The disk at a corner, where the neighbour is too short to reach into it.
+        const bool at_corner = event.kind == Event::Kind::far && event.site != Hit::none;
+        if (at_corner && reaches(event)) event.kind = Event::Kind::contact;
         // A foot has left its site: events on flat corners come in doubtful order.
         if (event.kind == Event::Kind::far || !reaches(span.right, event.disk) ||
             !reaches(span.left, event.disk))
@@ -453,7 +458,8 @@ class Walker {
         return event;
       }
       const std::uint32_t intruder = owner(hit.site, asked.disk.center, span);
-      if (touches(intruder, from, context_.tolerance)) return at_node(bisector, from, intruder);
+      if (from.radius > 0 && touches(intruder, from, context_.tolerance))
+        return at_node(bisector, from, intruder);
       asked.site = intruder;
       intruded = asked;
       const std::optional<Event> earlier = contact_before(bisector, from, span, asked);

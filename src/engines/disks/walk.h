@@ -12,29 +12,46 @@
 
 namespace medial::disks {
 
-/// A growing list that never moves its elements and frees block by block.
+/// A growing list that never moves its elements and frees block by block. The first block is small:
+/// a shape may have many components.
 template <class T>
 class BlockList {
  public:
   void push_back(const T& value) {
-    if (size_ % block_size == 0) blocks_.push_back(std::make_unique_for_overwrite<T[]>(block_size));
-    blocks_.back()[size_++ % block_size] = value;
+    const auto [block, place] = find(size_++);
+    if (place == 0)
+      blocks_.push_back(std::make_unique_for_overwrite<T[]>(block == 0 ? first_block : block_size));
+    blocks_.back()[place] = value;
   }
   std::size_t size() const { return size_; }
-  const T& operator[](std::size_t i) const { return blocks_[i / block_size][i % block_size]; }
+  const T& operator[](std::size_t i) const {
+    const auto [block, place] = find(i);
+    return blocks_[block][place];
+  }
   /// Calls take(i, element) for all elements in order and frees each block once it is done.
   template <class Take>
   void drain(Take&& take) {
+    std::size_t before = 0;
     for (std::size_t i = 0; i < size_; ++i) {
-      take(i, (*this)[i]);
-      if ((i + 1) % block_size == 0) blocks_[i / block_size].reset();
+      const auto [block, place] = find(i);
+      if (block != before) blocks_[before].reset();
+      before = block;
+      take(i, blocks_[block][place]);
     }
     blocks_.clear();
     size_ = 0;
   }
 
  private:
+  static constexpr std::size_t first_block = 64;
   static constexpr std::size_t block_size = 1 << 13;
+  struct Position {
+    std::size_t block, place;
+  };
+  static Position find(std::size_t i) {
+    if (i < first_block) return {0, i};
+    return {1 + (i - first_block) / block_size, (i - first_block) % block_size};
+  }
   std::vector<std::unique_ptr<T[]>> blocks_;
   std::size_t size_ = 0;
 };
