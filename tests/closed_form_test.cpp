@@ -41,6 +41,8 @@ struct Case {
   double length = 0;
   /// A vertex lies in the inside of an edge: a rounded rotation about another point would end that.
   bool contact_in_edge = false;
+  /// By how many spacings of its coordinates an inexact symmetry may displace the centre of a tie.
+  double rounded_spacings = 0;
 };
 
 double spacing_at(double x) { return std::nextafter(std::abs(x), INFINITY) - std::abs(x); }
@@ -50,13 +52,18 @@ void check(const Case& expected, const Symmetry& symmetry) {
   const Rings rings = transformed(expected.rings, symmetry);
   const auto shape = build_shape(rings);
   ASSERT_TRUE(shape) << to_string(shape.error());
-  const auto axis = compute(*shape, {.threads = 1});
-  ASSERT_TRUE(axis) << to_string(axis.error());
-
   // Far from the origin neither the input nor the result can be finer than the doubles there.
   const Box box = bounding_box(*shape);
   const double far = std::max(
       {std::abs(box.low.x), std::abs(box.low.y), std::abs(box.high.x), std::abs(box.high.y)});
+  Options options;
+  options.threads = 1;
+  // A polygon that is regular but for rounding has one node within what the rounding did to it.
+  if (expected.rounded_spacings > 0 && !symmetry.exact)
+    options.tolerance = expected.rounded_spacings * spacing_at(far) / diagonal(box);
+  const auto axis = compute(*shape, options);
+  ASSERT_TRUE(axis) << to_string(axis.error());
+
   const double tolerance = 1e-12 * diagonal(box) + 4 * spacing_at(far);
   const double scale = symmetry.scale();
 
@@ -239,6 +246,8 @@ TEST(ClosedForm, RegularPolygonsHaveOneNode) {
     Case expected{std::to_string(n) + "-gon", regular_polygon(n), {}, count};
     for (const Vec2 corner : expected.rings[0].points) expected.nodes.push_back({corner, 0, 1});
     expected.nodes.push_back({{0, 0}, std::cos(std::numbers::pi / count), n});
+    // Two sides turned by half a spacing over a length of pi / n displace the centre by n / pi.
+    expected.rounded_spacings = 8 + count;
     check_everywhere(expected);
   }
 }

@@ -290,6 +290,12 @@ class Walker {
       const bool continues_other =
           (on_right ? across + 1 : across - 1) == other && element(across) != element(other);
       if (continues_other) return event;  // the other foot's own event
+      // Another copy of what is touched already is no third site.
+      const Vec2 foot = geometry::foot(site(across), from.center);
+      for (const std::uint32_t touched : {span.right, span.left})
+        if (distance(foot, geometry::foot(site(touched), from.center)) <
+            distinct_contacts * from.radius)
+          return event;
       const auto contact = contact_with(bisector, from, across, nowhere);
       return contact && reaches(*contact) ? *contact : event;
     }
