@@ -581,8 +581,10 @@ class Walker {
     }
     Event polished = found;
     polish(polished, bisector, site(found.site));
-    const bool holds = reaches(polished) && reaches(span.right, polished.disk) &&
-                       reaches(span.left, polished.disk);
+    polished.position = bisector.position(polished.disk.center);
+    const bool holds = polished.position >= bisector.position(from.center) && reaches(polished) &&
+                       reaches(span.right, polished.disk) && reaches(span.left, polished.disk) &&
+                       !nearest(polished.disk, span);
     return holds ? polished : found;
   }
 
