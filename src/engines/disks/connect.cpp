@@ -31,6 +31,14 @@ double closed_tangent_radius(Vec2 foot, Vec2 normal, const Site& site) {
                   geometry::tangent_radius(foot, normal, geometry::make_vertex(site.end())));
 }
 
+/// The run of the loop that a site belongs to.
+Boundary::Run run_of(const Boundary& loops, std::uint32_t site) {
+  const auto run =
+      std::upper_bound(loops.runs.begin(), loops.runs.end(), site,
+                       [](std::uint32_t s, const Boundary::Run& r) { return s < r.first; });
+  return *std::prev(run);
+}
+
 /// Of a segment touched in an end that is a vertex site, that vertex.
 std::uint32_t owner_of_foot(const Boundary& loops, const Boundary::Run& run, std::uint32_t site,
                             Vec2 center) {
@@ -82,10 +90,7 @@ Cut connecting_disk(const Boundary& loops, const index::BoundaryTree& tree, std:
     radius = smaller;
     cut.disk = disk_of(radius);
   }
-  const auto run =
-      std::upper_bound(loops.runs.begin(), loops.runs.end(), cut.site,
-                       [](std::uint32_t s, const Boundary::Run& r) { return s < r.first; });
-  cut.site = owner_of_foot(loops, *std::prev(run), cut.site, cut.disk.center);
+  cut.site = owner_of_foot(loops, run_of(loops, cut.site), cut.site, cut.disk.center);
   return cut;
 }
 
@@ -107,7 +112,7 @@ class Splicer {
       : shape_(shape), loops_(loops), cuts_(cuts) {
     places_.reserve(cuts.size());
     for (std::uint32_t i = 0; i < cuts.size(); ++i) {
-      const Boundary::Run run = run_of(cuts[i].site);
+      const Boundary::Run run = run_of(loops, cuts[i].site);
       const std::uint32_t before = cuts[i].site == run.first ? run.last : cuts[i].site - 1;
       double place = place_on_site(loops, cuts[i].site, before, cuts[i].disk.center);
       std::uint32_t site = cuts[i].site;
@@ -153,13 +158,6 @@ class Splicer {
     std::uint32_t loop, site, place;
     double from = 0;
   };
-
-  Boundary::Run run_of(std::uint32_t site) const {
-    const auto run =
-        std::upper_bound(loops_.runs.begin(), loops_.runs.end(), site,
-                         [](std::uint32_t s, const Boundary::Run& r) { return s < r.first; });
-    return *std::prev(run);
-  }
 
   Cursor begin(std::uint32_t loop) const {
     const std::uint32_t first = loops_.runs[loop].first;
