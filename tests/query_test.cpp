@@ -12,16 +12,13 @@
 namespace medial {
 namespace {
 
+using test::all_hand_made;
 using test::ell;
 using test::HandMade;
 using test::hourglass;
 using test::notch;
 using test::rectangle;
 using test::square_with_hole;
-
-std::vector<HandMade> all_hand_made() {
-  return {rectangle(), ell(), notch(), square_with_hole(), hourglass()};
-}
 
 double distance_to(const Site& site, Vec2 p) { return distance(foot(site, p), p); }
 

@@ -15,16 +15,13 @@
 namespace medial {
 namespace {
 
+using test::all_hand_made;
 using test::ell;
 using test::HandMade;
 using test::hourglass;
 using test::notch;
 using test::rectangle;
 using test::square_with_hole;
-
-std::vector<HandMade> all_hand_made() {
-  return {rectangle(), ell(), notch(), square_with_hole(), hourglass()};
-}
 
 std::string joined(const Certificate& certificate) {
   std::string text;

@@ -201,4 +201,9 @@ inline HandMade hourglass() {
   return m;
 }
 
+/// All of them.
+inline std::vector<HandMade> all_hand_made() {
+  return {rectangle(), ell(), notch(), square_with_hole(), hourglass()};
+}
+
 }  // namespace medial::test
