@@ -16,17 +16,19 @@ struct Disk {
 };
 
 enum class SiteKind : std::uint8_t {
-  segment,  ///< an edge of the shape, both ends included
+  segment,  ///< a straight edge of the shape, both ends included
   vertex,   ///< a reflex vertex
+  arc,      ///< a circular edge, both ends included
 };
 
-/// What a maximal disk can touch. Convex vertices are no sites.
+/// What a maximal disk can touch. Convex vertices and smooth joints are no sites.
 struct Site {
   Vec2 start;                ///< a vertex site has start == end
   Vec2 end;                  ///< the interior lies on the left of start -> end
   std::uint32_t ring = 0;    ///< ring of the input (for a segment: of its start)
   std::uint32_t vertex = 0;  ///< vertex in that ring
   SiteKind kind = SiteKind::segment;
+  double bulge = 0;  ///< of an arc: tangent of a quarter of its angle, positive where it turns left
 };
 
 enum class NodeKind : std::uint8_t {

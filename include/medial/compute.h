@@ -14,6 +14,9 @@ struct Options {
   /// bounding box, in (0, 1e-3]; 0: the default, 4e-15, or what the coordinates' own spacing allows
   /// where the shape lies far from the origin.
   double tolerance = 0;
+  /// Where two edges meet at a convex angle and one of them is an arc, the joint is smooth, no
+  /// corner, if the directions differ by less than this; in degrees, in [0, 10].
+  double corner_angle = 0.01;
   /// Threads to use, at most 1024; 0: all of the machine. The result is the same, byte for byte.
   int threads = 0;
   /// Called now and then, from any thread and out of order, with the share of the work done in

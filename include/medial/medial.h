@@ -3,6 +3,7 @@
 // The whole core library in one include.
 #include "medial/axis.h"
 #include "medial/compute.h"
+#include "medial/contour.h"
 #include "medial/error.h"
 #include "medial/query.h"
 #include "medial/shape.h"

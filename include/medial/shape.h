@@ -11,15 +11,21 @@ namespace medial {
 
 /// What a source says of a ring.
 enum class RingRole : std::uint8_t {
-  any,    ///< nothing: the even-odd rule decides (plain text, loose loops)
-  outer,  ///< the outer ring of a polygon
-  hole,   ///< a hole of a polygon
+  any,      ///< nothing: the even-odd rule decides (plain text, loose loops)
+  outer,    ///< the outer ring of a polygon
+  hole,     ///< a hole of a polygon
+  winding,  ///< nothing, but the non-zero rule decides, by the rings' orientations
 };
 
 /// A ring as it was read: any orientation, closed or not, cleaned or not.
+///
+/// Edge i goes from points[i] to the next point. Its bulge is the tangent of a quarter of the angle
+/// it spans: 0 for a straight edge, 1 for a half circle, positive where it turns to the left. A
+/// bulge stays well-conditioned however large or small the arc's radius is.
 struct Ring {
   std::vector<Vec2> points;
   RingRole role = RingRole::any;
+  std::vector<double> bulges = {};  ///< of each edge; empty: all edges are straight
 };
 
 /// Where a vertex of a Shape comes from: ring and vertex of the input, both from 0.
@@ -41,23 +47,26 @@ struct ShapeReport {
   std::uint64_t split_edges = 0;        ///< edges split where a vertex touches their inside
 };
 
-/// A bounded planar region: closed loops of straight edges with the interior on the left
-/// (outer loops counter-clockwise, holes clockwise).
+/// A bounded planar region: closed loops of straight and circular edges with the interior on the
+/// left (outer loops counter-clockwise, holes clockwise).
 ///
-/// What always holds for a Shape made by build_shape(): all coordinates are finite; every loop has
-/// at least three vertices; neighbouring vertices differ and no three in a row are collinear,
+/// What always holds for a Shape made by build_shape(): all coordinates are finite; a loop of
+/// straight edges has at least three vertices, one with arcs at least two; no bulge is larger than
+/// 1 (longer arcs are split); neighbouring vertices differ and no three in a row are collinear,
 /// except at a vertex where loops touch; edges meet in vertices only; different loops of a
 /// component have no point in common (loops that touched are joined: one loop passes through the
 /// common vertex once for every wedge of interior there). Each component is one outer loop and its
 /// holes, and its interior is connected; two components can have vertices in common.
 struct Shape {
   std::vector<Vec2> points;               ///< the vertices of all loops, loop after loop
+  std::vector<double> bulges;             ///< of the edge after each point; empty: all straight
   std::vector<VertexSource> sources;      ///< of each point
   std::vector<std::uint32_t> loop_begin;  ///< loop i is points [loop_begin[i], loop_begin[i + 1])
   std::vector<std::uint32_t> component;   ///< of each loop; components count from 0
   std::vector<bool> hole;                 ///< of each loop
 
   std::size_t loop_count() const { return component.size(); }
+  double bulge(std::size_t point) const { return bulges.empty() ? 0 : bulges[point]; }
   std::span<const Vec2> loop(std::size_t i) const {
     return std::span(points).subspan(loop_begin[i], loop_begin[i + 1] - loop_begin[i]);
   }

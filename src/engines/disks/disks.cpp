@@ -132,6 +132,7 @@ std::optional<Error> refuse(const Shape& shape, const Options& options) {
     return Error{ErrorCode::unsupported,
                  "coordinates must be below 1e150, and the shape larger than 1e-150",
                  {}};
+  if (!shape.bulges.empty()) return Error{ErrorCode::unsupported, "arcs are not supported yet", {}};
   if (!is_consistent(shape))
     return Error{ErrorCode::malformed, "the shape was not made by build_shape()", {}};
   const double shortest = 1e-140 * diagonal(box);
