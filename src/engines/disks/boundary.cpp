@@ -1,6 +1,7 @@
 #include "engines/disks/boundary.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "base/predicates.h"
 
@@ -78,12 +79,12 @@ Boundary loops_boundary(const Shape& shape, const SiteNumbers& numbers, const Fr
     const std::uint32_t begin = shape.loop_begin[loop];
     std::uint32_t start = 0;
     if (shape.hole[loop]) {
-      // Where the loop passes its leftmost point several times, once the interior lies on the left
-      // of it: there the point is a site.
-      for (std::uint32_t i = 1; i < n; ++i) {
-        const bool further_left = points[i].x < points[start].x ||
-                                  (points[i].x == points[start].x && points[i].y < points[start].y);
-        if (further_left || (points[i] == points[start] && numbers.is_site[begin + i])) start = i;
+      double furthest = -std::numeric_limits<double>::infinity();
+      for (std::uint32_t i = 0; i < n; ++i) {
+        if (!numbers.is_site[begin + i]) continue;
+        const double here = dot(outreach, frame.to_local(points[i]));
+        if (here > furthest) start = i;
+        furthest = std::max(furthest, here);
       }
     } else {
       start = clear_corner(points, [&](std::uint32_t i) { return !numbers.is_site[begin + i]; });

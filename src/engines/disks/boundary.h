@@ -11,6 +11,11 @@
 
 namespace medial::disks {
 
+/// The direction in which the disks that connect holes reach out: that of the angle 0.6 + pi. An
+/// angle of no meaning to anybody who draws, so that no such disk comes to lie where others are,
+/// for instance on a node of the axis.
+constexpr Vec2 outreach{-0.825335614909678297, -0.564642473395035357};
+
 enum class Element : std::uint8_t {
   segment,
   vertex,  ///< reflex, or a straight passage through a touching vertex
@@ -58,7 +63,7 @@ std::vector<Site> result_sites(const Shape& shape, const SiteNumbers& numbers);
 
 /// The boundary before holes are connected: every loop a run of its own in the order of the shape's
 /// loops (so `runs` are per loop here). An outer loop begins at a convex corner, a hole at its
-/// leftmost vertex, which is a site.
+/// furthest reflex vertex in the direction `outreach`.
 Boundary loops_boundary(const Shape& shape, const SiteNumbers& numbers, const Frame& frame);
 
 }  // namespace medial::disks

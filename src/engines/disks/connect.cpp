@@ -53,10 +53,9 @@ std::uint32_t owner_of_foot(const Boundary& loops, const Boundary::Run& run, std
 }
 
 Cut connecting_disk(const Boundary& loops, const index::BoundaryTree& tree, std::uint32_t hole,
-                    double left_end, double tolerance, std::uint64_t& queries) {
+                    double furthest, double tolerance, std::uint64_t& queries) {
   const Boundary::Run own = loops.runs[hole];
   const Vec2 foot = loops.sites[own.first].point;
-  const Vec2 leftward{-1, 0};
   const auto count = static_cast<std::uint32_t>(loops.sites.size());
 
   const auto nearest = [&](const Disk& disk, double reach) {
@@ -70,11 +69,11 @@ Cut connecting_disk(const Boundary& loops, const index::BoundaryTree& tree, std:
     ++queries;
     return hit;
   };
-  const auto disk_of = [&](double radius) { return Disk{foot + radius * leftward, radius}; };
+  const auto disk_of = [&](double radius) { return Disk{foot + radius * outreach, radius}; };
 
   // Grow the disk from about the hole's detail until it reaches something. One that reaches beyond
-  // the leftmost point of all crosses the boundary.
-  const double largest = 0.5 * (foot.x - left_end) + 0.01;
+  // the furthest point of all crosses the boundary.
+  const double largest = 0.5 * (furthest - dot(outreach, foot)) + 0.01;
   double radius = std::min(largest, loops.sites[own.first + 1].length);
   while (radius < largest && !nearest(disk_of(radius), radius))
     radius = std::min(largest, 4 * radius);
@@ -84,7 +83,7 @@ Cut connecting_disk(const Boundary& loops, const index::BoundaryTree& tree, std:
   for (;;) {
     const auto hit = nearest(cut.disk, cut.site == own.first ? radius : radius - tolerance);
     if (!hit) break;
-    const double smaller = closed_tangent_radius(foot, leftward, loops.sites[hit.site]);
+    const double smaller = closed_tangent_radius(foot, outreach, loops.sites[hit.site]);
     cut.site = hit.site;
     if (!(smaller < radius)) break;
     radius = smaller;
@@ -119,7 +118,7 @@ class Splicer {
       // A hole's run starts in the middle of its first vertex: what is touched earlier on that
       // vertex comes at the very end.
       if (site == run.first && loops.elements[site] == Element::vertex &&
-          place < place_on_site(loops, site, before, loops.sites[site].point + Vec2{-1, 0}))
+          place < place_on_site(loops, site, before, loops.sites[site].point + outreach))
         site = run.last + 1;
       places_.push_back({run.first, site, place, i});
     }
@@ -235,15 +234,15 @@ std::vector<Cut> connecting_disks(const Shape& shape, const Boundary& loops,
   std::vector<std::uint32_t> holes;
   for (std::uint32_t loop = 0; loop < shape.loop_count(); ++loop)
     if (shape.hole[loop]) holes.push_back(loop);
-  double left_end = std::numeric_limits<double>::infinity();
-  for (const Site& site : loops.sites) left_end = std::min(left_end, site.point.x);
+  double furthest = -std::numeric_limits<double>::infinity();
+  for (const Site& site : loops.sites) furthest = std::max(furthest, dot(outreach, site.point));
 
   std::vector<Cut> cuts(holes.size());
   std::atomic<std::uint64_t> all_queries = 0;
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, holes.size(), 16), [&](const auto& range) {
     std::uint64_t own_queries = 0;
     for (std::size_t i = range.begin(); i < range.end(); ++i)
-      cuts[i] = connecting_disk(loops, tree, holes[i], left_end, tolerance, own_queries);
+      cuts[i] = connecting_disk(loops, tree, holes[i], furthest, tolerance, own_queries);
     all_queries += own_queries;
   });
   queries += all_queries;

@@ -8,16 +8,16 @@
 
 namespace medial::disks {
 
-/// A maximal disk that connects a hole to another loop: it touches the hole in its leftmost vertex,
-/// and the other loop further left.
+/// A maximal disk that connects a hole to another loop: it touches the hole in its furthest vertex
+/// in the direction `outreach`, and the other loop further out.
 struct Cut {
   Disk disk;
   std::uint32_t hole = 0;  ///< loop
   std::uint32_t site = 0;  ///< touched site, in the loops' boundary
 };
 
-/// One cut for each hole (docs/disks.md, step 3). The disk at the leftmost vertex lies left of it,
-/// where the hole has no other point; the loop that it touches has a point further left than the
+/// One cut for each hole (docs/disks.md, step 3). The disk at the furthest vertex lies beyond it,
+/// where the hole has no other point; the loop that it touches has a point further out than the
 /// hole has, so no cycle of holes can arise and all loops of a component get connected. `queries`
 /// counts nearest-site queries. O(h log n) expected.
 std::vector<Cut> connecting_disks(const Shape& shape, const Boundary& loops,

@@ -95,10 +95,6 @@ class Walker {
           return;
         default: {
           const std::uint32_t node = arrive(span, from, event.disk);
-          if (is_at_cut(event.site, event.disk)) {
-            split_at_node({span.right, span.left, node}, event.disk, event.site);
-            return;
-          }
           push({event.site, span.left, node}, {span.right, event.site, node});
           return;
         }
@@ -588,34 +584,6 @@ class Walker {
     return holds ? polished : found;
   }
 
-  /// Whether a disk is that of a cut beside site i.
-  bool is_at_cut(std::uint32_t i, const Disk& disk) const {
-    return is_cut_disk(i - 1, disk) || is_cut_disk(i + 1, disk);
-  }
-  bool is_cut_disk(std::uint32_t place, const Disk& disk) const {
-    return element(place) == Element::cut &&
-           distance(context_.cuts[boundary_.originals[place]].disk.center, disk.center) <=
-               same_cut * disk.radius;
-  }
-
-  /// At the very disk of a cut both copies of what it touches are touched. The axis meets the cut
-  /// in one of its two places, by the order in which the disk's contacts come: at the first if the
-  /// loop's contact precedes the hole's, at the second if it follows. Of site i, the copy there.
-  template <class AngleOf>
-  std::uint32_t side_of_cut(std::uint32_t i, const Span& span, const Disk& disk,
-                            AngleOf&& angle_of) const {
-    if (i <= span.right || i >= span.left) return i;
-    const std::uint32_t place = is_cut_disk(i - 1, disk) ? i - 1 : i + 1;
-    if (!is_cut_disk(place, disk)) return i;
-    const auto [first, second] = boundary_.cut_places[boundary_.originals[place]];
-    const auto angle = [&](std::uint32_t one, std::uint32_t other) {
-      if (one == span.right || other == span.right) return 0.0;
-      return angle_of(one == span.left || other == span.left ? span.left : one);
-    };
-    const bool loop_first = angle(first - 1, second + 1) < angle(first + 1, second - 1);
-    return loop_first == (place == first) ? i : other_copy(place, i);
-  }
-
   /// Splits the span at its node's own disk, at all sites that the disk touches, `sure` if
   /// no other: a node of high degree is found with one query.
   void split_at_node(const Span& span, const Disk& disk, std::uint32_t sure) {
@@ -635,7 +603,7 @@ class Walker {
     std::uint32_t before = span.right;
     std::vector<Span> parts;
     for (const std::uint32_t hit : touched_) {
-      const std::uint32_t i = side_of_cut(owner(hit, disk.center, span), span, disk, angle_of);
+      const std::uint32_t i = owner(hit, disk.center, span);
       if (i <= before || i >= span.left || !touches(i, disk, context_.tolerance)) continue;
       const double angle = angle_of(i);
       if (angle - angle_before < distinct_contacts || end_angle - angle < distinct_contacts)
@@ -645,9 +613,8 @@ class Walker {
       angle_before = angle;
     }
     if (parts.empty()) {
-      const std::uint32_t i = side_of_cut(sure, span, disk, angle_of);
-      before = i > span.right && i < span.left ? i : sure;
-      parts.push_back({span.right, before, span.node});
+      parts.push_back({span.right, sure, span.node});
+      before = sure;
     }
     parts.push_back({before, span.left, span.node});
     for (const Span& part : parts) stack_.push_back(part);
@@ -676,8 +643,6 @@ class Walker {
   static constexpr int most_rounds = 200;
   /// How far beyond() may look, against the radius: there the bisector is still straight.
   static constexpr double widest_window = 1e-7;
-  /// A disk whose centre is that near to a cut's, against the radius, is the cut's.
-  static constexpr double same_cut = 1e-7;
   /// Contacts of one disk at a smaller angle are not told apart at a node.
   static constexpr double distinct_contacts = 1e-6;
 
