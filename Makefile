@@ -2,6 +2,9 @@
 
 JOBS ?= $(shell nproc)
 PREFIX ?= /usr/local
+DATA ?= $(wildcard ../shared/data) data
+SECONDS ?= 60
+FROM ?= $(shell date +%s)000000
 RELEASE := build/release
 ASAN := build/asan
 BENCH := build/bench
@@ -9,7 +12,7 @@ BENCH := build/bench
 BENCH_BOOST := build/boost-1.81
 SOURCES = $(shell git ls-files '*.h' '*.cpp')
 
-.PHONY: help setup build demo test bench fuzz format lint clean install
+.PHONY: help setup build demo test bench fuzz corpus format lint clean install
 .DEFAULT_GOAL := help
 
 help:     ## this list
@@ -40,10 +43,15 @@ bench: setup    ## compare with Boost.Polygon and CGAL
 	@cmake --build $(BENCH) -j $(JOBS)
 	@$(BENCH)/bench/medial_bench
 
-fuzz: setup     ## random polygons with new seeds, until one fails or you stop it
+fuzz: setup     ## random polygons and mutated files with new seeds: make fuzz SECONDS=60 [FROM=seed]
 	@cmake --preset release
-	@cmake --build $(RELEASE) -j $(JOBS)
-	@tools/fuzz.sh $(RELEASE)
+	@cmake --build $(RELEASE) -j $(JOBS) --target medial_fuzz
+	@$(RELEASE)/tests/medial_fuzz --from $(FROM) --seconds $(SECONDS)
+
+corpus: setup   ## every polygon file below DATA, verified or refused: a table
+	@cmake --preset release
+	@cmake --build $(RELEASE) -j $(JOBS) --target medial_corpus
+	@$(RELEASE)/tests/medial_corpus $(DATA)
 
 format: setup   ## rewrite the sources in the house's format
 	@clang-format -i $(SOURCES)

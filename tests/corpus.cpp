@@ -1,0 +1,292 @@
+// Runs every polygon file of a data folder through read_dataset, build_shape, compute and verify,
+// and prints a table. A folder can have a README.md with a table `| file | what | size | ...` whose
+// third column tells how many features are invalid: what is valid must be verified.
+//
+//   medial_corpus [--save DIR] FOLDER...
+//
+// --save: writes the features that fail, and a smaller part of each that still fails, as WKT.
+// Exit status: 0; 1 where a feature failed or a valid one was refused; 2 for a wrong call; 77 (what
+// ctest takes for a skipped test) where a folder does not exist.
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <optional>
+#include <regex>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "medial/io/read.h"
+#include "medial/medial.h"
+#include "support/examine.h"
+#include "support/generate.h"
+#include "support/wkt.h"
+
+namespace medial::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// One input shape, or the error that reading it gave.
+struct Case {
+  std::string name;
+  std::vector<Ring> rings;
+  std::optional<Error> error;
+  std::optional<bool> valid;  ///< what its file says, where it says so
+};
+
+/// What a whole file holds, and how many of its features its README calls invalid.
+struct File {
+  fs::path path;
+  std::vector<Case> cases;
+  std::optional<std::size_t> invalid;
+};
+
+/// Features whose axes are known to be wrong at present: open faults, listed in CHANGELOG.md.
+constexpr std::array<std::pair<const char*, const char*>, 1> known_faults{
+    {{"mapshaper_ex23_three_ca_precincts.geojson", "1"}}};
+
+bool is_known_fault(const fs::path& path, const std::string& name) {
+  return std::any_of(known_faults.begin(), known_faults.end(), [&](const auto& fault) {
+    return path.filename() == fault.first && name == fault.second;
+  });
+}
+
+struct Row {
+  std::size_t verified = 0, refused = 0, failed = 0;
+  std::map<std::string, std::size_t> codes;
+  std::vector<std::string> remarks;  ///< what must not be
+  std::vector<std::string> known;    ///< what must not be either, but is known
+};
+
+std::vector<std::string> split(const std::string& line, char separator) {
+  std::vector<std::string> cells;
+  std::istringstream stream(line);
+  for (std::string cell; std::getline(stream, cell, separator);) cells.push_back(cell);
+  return cells;
+}
+
+/// The invalid features of each file that a README speaks of, by path below its folder.
+std::map<std::string, std::size_t> invalid_by_readme(const fs::path& folder) {
+  std::map<std::string, std::size_t> result;
+  std::ifstream readme(folder / "README.md");
+  const std::regex count("([0-9]+) (?:invalid|not\\b)"), valid("\\bvalid\\b|Valid Geometry");
+  for (std::string line; std::getline(readme, line);) {
+    const std::vector<std::string> cells = split(line, '|');
+    if (cells.size() < 4) continue;
+    const auto first = cells[1].find_first_not_of(' '), last = cells[1].find_last_not_of(' ');
+    if (first == std::string::npos) continue;
+    const std::string file = cells[1].substr(first, last - first + 1);
+    std::smatch match;
+    if (std::regex_search(cells[3], match, count))
+      result[file] = static_cast<std::size_t>(std::stoul(match[1]));
+    else if (std::regex_search(cells[3], valid))
+      result[file] = 0;
+  }
+  return result;
+}
+
+/// Rows of a table with a header; polygons are in column `wkt`, GEOS's opinion in column `geos`.
+std::vector<Case> read_table(const fs::path& path) {
+  std::ifstream file(path);
+  std::string line;
+  std::getline(file, line);
+  const std::vector<std::string> header = split(line, '\t');
+  const auto column = [&](const char* name) {
+    return static_cast<std::size_t>(std::find(header.begin(), header.end(), name) - header.begin());
+  };
+  const std::size_t wkt = column("wkt"), geos = column("geos");
+  std::vector<Case> cases;
+  while (std::getline(file, line)) {
+    const std::vector<std::string> cells = split(line, '\t');
+    if (wkt >= cells.size()) continue;
+    auto rings = rings_of_wkt(cells[wkt]);
+    if (!rings) continue;  // lines and points
+    Case one{cells[0], std::move(*rings), {}, {}};
+    if (geos < cells.size()) one.valid = cells[geos] == "Valid Geometry";
+    cases.push_back(std::move(one));
+  }
+  return cases;
+}
+
+/// Boost.Polygon's Voronoi inputs: the number of points, points, the number of segments, segments.
+/// Segments that form closed outlines make one case; anything else makes none.
+std::vector<Case> read_segments(const fs::path& path) {
+  std::ifstream file(path);
+  std::size_t points = 0, segments = 0;
+  if (!(file >> points)) return {};
+  for (std::size_t i = 0; i < 2 * points; ++i) {
+    double skipped = 0;
+    file >> skipped;
+  }
+  if (points > 0 || !(file >> segments)) return {};
+  using Point = std::array<double, 2>;
+  std::map<Point, std::vector<Point>> neighbours;
+  for (std::size_t i = 0; i < segments; ++i) {
+    Point a{}, b{};
+    file >> a[0] >> a[1] >> b[0] >> b[1];
+    neighbours[a].push_back(b);
+    neighbours[b].push_back(a);
+  }
+  if (!file || neighbours.empty()) return {};
+  for (const auto& [point, others] : neighbours)
+    if (others.size() != 2) return {};
+  Case one{"outlines", {}, {}, {}};
+  while (!neighbours.empty()) {
+    Ring ring;
+    Point at = neighbours.begin()->first, before = at;
+    for (auto found = neighbours.find(at); found != neighbours.end(); found = neighbours.find(at)) {
+      ring.points.push_back({at[0], at[1]});
+      const Point next = found->second[0] != before ? found->second[0] : found->second[1];
+      neighbours.erase(found);
+      before = at;
+      at = next;
+    }
+    one.rings.push_back(std::move(ring));
+  }
+  return {one};
+}
+
+std::vector<Case> read_cases(const fs::path& path) {
+  const std::string name = path.filename().string();
+  if (name.ends_with(".tsv")) return read_table(path);
+  if (name.ends_with(".txt")) return read_segments(path);
+  auto dataset = io::read_dataset(path.string());
+  // Lines and points are no input; a file of them makes no case.
+  if (!dataset && dataset.error().code == ErrorCode::unsupported) return {};
+  if (!dataset) return {{"file", {}, dataset.error(), {}}};
+  std::vector<Case> cases;
+  for (std::size_t i = 0; i < dataset->features.size(); ++i)
+    cases.push_back({std::to_string(i), std::move(dataset->features[i].rings), {}, {}});
+  return cases;
+}
+
+std::vector<File> files_below(const fs::path& folder) {
+  std::vector<File> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    for (const char* ending : {".wkt", ".wkt.gz", ".geojson", ".geojson.gz", ".tsv", ".txt"})
+      if (entry.is_regular_file() && name.ends_with(ending) && name != "LIST.tsv")
+        files.push_back({entry.path(), {}, {}});
+  }
+  std::sort(files.begin(), files.end(),
+            [](const File& a, const File& b) { return a.path < b.path; });
+  // A README speaks for the folder it lies in.
+  std::map<fs::path, std::map<std::string, std::size_t>> readmes;
+  for (File& file : files) {
+    for (fs::path above = file.path.parent_path();; above = above.parent_path()) {
+      if (!readmes.contains(above)) readmes[above] = invalid_by_readme(above);
+      const auto found = readmes[above].find(fs::relative(file.path, above).generic_string());
+      if (found != readmes[above].end()) file.invalid = found->second;
+      if (above == folder || above == above.parent_path()) break;
+    }
+  }
+  return files;
+}
+
+void save(const fs::path& folder, const std::string& name, const std::vector<Ring>& rings) {
+  fs::create_directories(folder);
+  std::ofstream(folder / (name + ".wkt")) << to_wkt(rings) << '\n';
+  const std::string kind = kind_of_failure(examine(rings, 0));
+  const auto fails = [&](const std::vector<Ring>& candidate) {
+    return kind_of_failure(examine(candidate, 0)) == kind;
+  };
+  const std::size_t budget = 40'000'000 / (vertex_count(rings) + 1000);
+  std::ofstream(folder / (name + ".min.wkt")) << to_wkt(reduced(rings, fails, budget)) << '\n';
+}
+
+Row examine_file(const File& file, const std::optional<fs::path>& saved) {
+  Row row;
+  for (const Case& one : file.cases) {
+    Outcome outcome;
+    if (one.error) {
+      outcome = {is_refusal(one.error->code) ? Verdict::refused : Verdict::failed,
+                 one.error->code,
+                 {to_string(*one.error)}};
+    } else {
+      outcome = examine(one.rings, 0);
+    }
+    const std::string reason = outcome.reasons.empty() ? "" : outcome.reasons[0];
+    if (outcome.verdict == Verdict::verified) {
+      ++row.verified;
+      if (is_known_fault(file.path, one.name))
+        row.remarks.push_back(one.name + " is verified: strike it off the known faults");
+    }
+    if (outcome.verdict == Verdict::refused) {
+      ++row.refused;
+      ++row.codes[name_of(outcome.code)];
+      if (one.valid == true) row.remarks.push_back("VALID, REFUSED " + one.name + ": " + reason);
+    }
+    if (outcome.verdict == Verdict::failed) {
+      ++row.failed;
+      auto& list = is_known_fault(file.path, one.name) ? row.known : row.remarks;
+      list.push_back("FAILED " + one.name + ": " + reason);
+      if (saved) save(*saved, file.path.stem().string() + "_" + one.name, one.rings);
+    }
+  }
+  if (file.invalid && row.refused > *file.invalid) {
+    row.remarks.push_back(std::to_string(*file.invalid) + " features are invalid, " +
+                          std::to_string(row.refused) + " were refused");
+  }
+  return row;
+}
+
+int run(const std::vector<fs::path>& folders, const std::optional<fs::path>& saved) {
+  std::printf("%-62s %8s %8s %8s %7s  %s\n", "file", "features", "verified", "refused", "FAILED",
+              "refused with");
+  Row all;
+  std::size_t features = 0;
+  for (const fs::path& folder : folders) {
+    for (File& file : files_below(folder)) {
+      file.cases = read_cases(file.path);
+      if (file.cases.empty()) continue;
+      const Row row = examine_file(file, saved);
+      std::string codes;
+      for (const auto& [code, count] : row.codes) codes += code + " " + std::to_string(count) + " ";
+      std::printf("%-62s %8zu %8zu %8zu %7zu  %s\n",
+                  fs::relative(file.path, folder).generic_string().c_str(), file.cases.size(),
+                  row.verified, row.refused, row.failed, codes.c_str());
+      for (const std::string& remark : row.remarks) std::printf("    %s\n", remark.c_str());
+      for (const std::string& fault : row.known) std::printf("    known: %s\n", fault.c_str());
+      std::fflush(stdout);
+      features += file.cases.size();
+      all.verified += row.verified;
+      all.refused += row.refused;
+      all.failed += row.failed;
+      all.remarks.insert(all.remarks.end(), row.remarks.begin(), row.remarks.end());
+    }
+  }
+  std::printf("%-62s %8zu %8zu %8zu %7zu\n", "all", features, all.verified, all.refused,
+              all.failed);
+  return all.remarks.empty() ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace medial::test
+
+int main(int count, char** arguments) {
+  std::vector<std::filesystem::path> folders;
+  std::optional<std::filesystem::path> saved;
+  for (int i = 1; i < count; ++i) {
+    const std::string argument = arguments[i];
+    if (argument == "--save" && i + 1 < count)
+      saved = arguments[++i];
+    else
+      folders.emplace_back(argument);
+  }
+  if (folders.empty()) {
+    std::fprintf(stderr, "usage: medial_corpus [--save DIR] FOLDER...\n");
+    return 2;
+  }
+  for (const auto& folder : folders) {
+    if (std::filesystem::is_directory(folder)) continue;
+    std::printf("%s: no such folder: skipped\n", folder.c_str());
+    return 77;
+  }
+  return medial::test::run(folders, saved);
+}
