@@ -47,21 +47,10 @@ struct File {
   std::optional<std::size_t> invalid;
 };
 
-/// Features whose axes are known to be wrong at present: open faults, listed in CHANGELOG.md.
-constexpr std::array<std::pair<const char*, const char*>, 1> known_faults{
-    {{"mapshaper_ex23_three_ca_precincts.geojson", "1"}}};
-
-bool is_known_fault(const fs::path& path, const std::string& name) {
-  return std::any_of(known_faults.begin(), known_faults.end(), [&](const auto& fault) {
-    return path.filename() == fault.first && name == fault.second;
-  });
-}
-
 struct Row {
   std::size_t verified = 0, refused = 0, failed = 0;
   std::map<std::string, std::size_t> codes;
   std::vector<std::string> remarks;  ///< what must not be
-  std::vector<std::string> known;    ///< what must not be either, but is known
 };
 
 std::vector<std::string> split(const std::string& line, char separator) {
@@ -212,11 +201,7 @@ Row examine_file(const File& file, const std::optional<fs::path>& saved) {
       outcome = examine(one.rings, 0);
     }
     const std::string reason = outcome.reasons.empty() ? "" : outcome.reasons[0];
-    if (outcome.verdict == Verdict::verified) {
-      ++row.verified;
-      if (is_known_fault(file.path, one.name))
-        row.remarks.push_back(one.name + " is verified: strike it off the known faults");
-    }
+    if (outcome.verdict == Verdict::verified) ++row.verified;
     if (outcome.verdict == Verdict::refused) {
       ++row.refused;
       ++row.codes[name_of(outcome.code)];
@@ -224,8 +209,7 @@ Row examine_file(const File& file, const std::optional<fs::path>& saved) {
     }
     if (outcome.verdict == Verdict::failed) {
       ++row.failed;
-      auto& list = is_known_fault(file.path, one.name) ? row.known : row.remarks;
-      list.push_back("FAILED " + one.name + ": " + reason);
+      row.remarks.push_back("FAILED " + one.name + ": " + reason);
       if (saved) save(*saved, file.path.stem().string() + "_" + one.name, one.rings);
     }
   }
@@ -252,7 +236,6 @@ int run(const std::vector<fs::path>& folders, const std::optional<fs::path>& sav
                   fs::relative(file.path, folder).generic_string().c_str(), file.cases.size(),
                   row.verified, row.refused, row.failed, codes.c_str());
       for (const std::string& remark : row.remarks) std::printf("    %s\n", remark.c_str());
-      for (const std::string& fault : row.known) std::printf("    known: %s\n", fault.c_str());
       std::fflush(stdout);
       features += file.cases.size();
       all.verified += row.verified;

@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <cstdlib>
 #include <functional>
@@ -23,10 +22,6 @@ std::uint64_t number_from(const char* variable, std::uint64_t otherwise) {
   return text && *text ? std::strtoull(text, nullptr, 10) : otherwise;
 }
 
-/// Shapes whose axes are known to be wrong at present: open faults, listed in CHANGELOG.md. The
-/// tests pass over them so that new faults stand out.
-constexpr std::array<std::uint64_t, 1> known_faults{11682};
-
 /// The polygons are dealt out to several tests, which can run side by side.
 constexpr std::uint64_t shares = 8;
 
@@ -39,8 +34,6 @@ class Polygons : public testing::TestWithParam<std::uint64_t> {
     const std::uint64_t base = number_from("MEDIAL_PROPERTY_SEED", 0) << 32;
     int failed = 0;
     for (std::uint64_t i = GetParam(); i < count && failed < 3; i += shares) {
-      if (std::find(known_faults.begin(), known_faults.end(), base + i) != known_faults.end())
-        continue;
       const RandomShape shape = random_shape(base + i);
       const std::vector<std::string> failures = check(shape);
       if (failures.empty()) continue;

@@ -329,8 +329,8 @@ TEST(VerifyFinds, BrokenIndicesAndNumbers) {
     m.axis.edges[0].control.center = {far, -far};
     expect_failure(m, "points inside edges have a radius");
   }
-  expect_failure(moved(rectangle(), 1e101, {0, 0}), "smaller or larger than what can be checked");
-  expect_failure(moved(rectangle(), 1e-101, {0, 0}), "smaller or larger than what can be checked");
+  expect_failure(moved(rectangle(), 1e101, {0, 0}), "The shape cannot be checked");
+  expect_failure(moved(rectangle(), 1e-101, {0, 0}), "The shape cannot be checked");
   m = rectangle();
   m.shape.loop_begin[1] = 9;
   expect_failure(m, "The shape itself is malformed");

@@ -30,8 +30,9 @@ struct Options {
 ///
 /// The graph has one connected part for each component of the shape and exactly one independent
 /// cycle for each hole. Errors: invalid_option, cancelled,
-/// empty, too_large, unsupported (coordinates beyond 1e150, edges below 1e-140 of the size),
-/// malformed (a shape that build_shape() did not make), out_of_memory, internal.
+/// empty, too_large, unsupported (a coordinate above 1e100 in size, or one that is not zero but
+/// below 1e-100, or below that share of the largest), malformed (a shape that build_shape() did not
+/// make), out_of_memory, internal.
 Result<MedialAxis> compute(const Shape& shape, const Options& options = {});
 
 }  // namespace medial

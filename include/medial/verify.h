@@ -37,11 +37,12 @@ struct Certificate {
 struct VerifyOptions {
   double tolerance = 0;  ///< relative to the diagonal; 0: 1e-14, or the coordinates' own spacing
   int samples_per_edge = 8;  ///< points inside every edge
-  int threads = 0;
+  int threads = 0;           ///< at most 1024 are used; 0: all of the machine
 };
 
 /// Checks an axis against its shape, independently of the engine that made it: its own distance
-/// search, its own area, its own count of cycles. O(n log n) expected.
+/// search, its own area, its own count of cycles. O(n log n) expected. A shape that compute()
+/// refuses as unsupported cannot be checked and does not pass.
 Certificate verify(const Shape& shape, const MedialAxis& axis, const VerifyOptions& options = {});
 
 }  // namespace medial

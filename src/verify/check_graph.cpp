@@ -1,6 +1,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/limits.h"
 #include "base/predicates.h"
 #include "verify/checks.h"
 
@@ -66,17 +67,10 @@ bool check_shape(const Shape& shape, Certificate& certificate) {
         "The shape itself is malformed: loops that do not fit its points, or coordinates that are "
         "not finite.");
   if (!valid || shape.points.empty()) return valid;
-  // Squares and products of lengths must be far from overflow and underflow.
-  constexpr double largest = 1e100, smallest = 1e-100;
-  const Box box = bounding_box(shape);
-  valid =
-      diagonal(box) > smallest && std::max({std::abs(box.low.x), std::abs(box.low.y),
-                                            std::abs(box.high.x), std::abs(box.high.y)}) < largest;
-  if (!valid)
-    certificate.failures.push_back(
-        "The shape is smaller or larger than what can be checked: it must be more than 1e-100 "
-        "wide, "
-        "and its coordinates below 1e100.");
+  if (const auto error = beyond_limits(shape)) {
+    certificate.failures.push_back("The shape cannot be checked: " + to_string(*error) + ".");
+    return false;
+  }
   return valid;
 }
 

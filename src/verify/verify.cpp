@@ -1,11 +1,10 @@
 #include "medial/verify.h"
 
-#include <tbb/task_arena.h>
-
 #include <cstdarg>
 #include <cstdio>
 #include <exception>
 
+#include "base/threads.h"
 #include "verify/checks.h"
 
 namespace medial {
@@ -53,8 +52,8 @@ void run_checks(const Shape& shape, const MedialAxis& axis, const VerifyOptions&
 Certificate verify(const Shape& shape, const MedialAxis& axis, const VerifyOptions& options) {
   Certificate certificate;
   try {
-    tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
-    arena.execute([&] { verify_detail::run_checks(shape, axis, options, certificate); });
+    on_threads(options.threads,
+               [&] { verify_detail::run_checks(shape, axis, options, certificate); });
   } catch (const std::exception& failure) {
     certificate.failures.push_back(
         verify_detail::sentence("The check could not be finished: %s.", failure.what()));

@@ -1,6 +1,3 @@
-#include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/task_arena.h>
-
 #include <atomic>
 #include <chrono>
 #include <exception>
@@ -9,6 +6,8 @@
 #include <optional>
 
 #include "base/frame.h"
+#include "base/limits.h"
+#include "base/threads.h"
 #include "base/tolerance.h"
 #include "engines/disks/boundary.h"
 #include "engines/disks/collect.h"
@@ -19,8 +18,6 @@
 
 namespace medial {
 namespace {
-
-constexpr int most_threads = 1024;
 
 /// Seconds since the last call.
 class Stopwatch {
@@ -54,7 +51,10 @@ MedialAxis run_disks(const Shape& shape, const Options& options) {
   const Box box = bounding_box(shape);
   const Frame frame = frame_of(box);
   axis.tolerance = tolerance_for(box, options.tolerance);
-  const double tolerance = frame.scale * axis.tolerance;
+  // Where the shape lies far from the origin, only going back there rounds: the local frame knows
+  // its coordinates better.
+  const Box local{frame.to_local(box.low), frame.to_local(box.high)};
+  const double tolerance = tolerance_for(local, options.tolerance);
 
   SiteNumbers numbers = number_sites(shape);
   Boundary boundary = loops_boundary(shape, numbers, frame);
@@ -124,30 +124,10 @@ std::optional<Error> refuse(const Shape& shape, const Options& options) {
   // Every point is at most two sites, and every site bounds at most three nodes.
   if (shape.points.size() > std::numeric_limits<std::uint32_t>::max() / 8)
     return Error{ErrorCode::too_large, "the shape has more than 2^29 vertices", {}};
-  // Squares of lengths must neither overflow nor vanish.
-  const Box box = bounding_box(shape);
-  const double largest = std::max(
-      {std::abs(box.low.x), std::abs(box.low.y), std::abs(box.high.x), std::abs(box.high.y)});
-  if (!(largest <= 1e150 && diagonal(box) >= 1e-150))
-    return Error{ErrorCode::unsupported,
-                 "coordinates must be below 1e150, and the shape larger than 1e-150",
-                 {}};
+  if (auto error = beyond_limits(shape)) return error;
   if (!shape.bulges.empty()) return Error{ErrorCode::unsupported, "arcs are not supported yet", {}};
   if (!is_consistent(shape))
     return Error{ErrorCode::malformed, "the shape was not made by build_shape()", {}};
-  const double shortest = 1e-140 * diagonal(box);
-  for (std::size_t loop = 0; loop < shape.loop_count(); ++loop) {
-    const std::span<const Vec2> points = shape.loop(loop);
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      const Vec2 edge = points[i + 1 == points.size() ? 0 : i + 1] - points[i];
-      if (!(std::max(std::abs(edge.x), std::abs(edge.y)) >= shortest)) {
-        Place place;
-        place.point = points[i];
-        return Error{ErrorCode::unsupported,
-                     "two neighbouring vertices are nearer than 1e-140 of the shape's size", place};
-      }
-    }
-  }
   return std::nullopt;
 }
 
@@ -163,16 +143,8 @@ bool has_right_topology(const Shape& shape, const MedialAxis& axis) {
 Result<MedialAxis> compute(const Shape& shape, const Options& options) {
   try {
     if (auto error = refuse(shape, options)) return std::move(*error);
-    const int available = tbb::this_task_arena::max_concurrency();
-    const int threads = options.threads == 0 ? available : options.threads;
-    // More threads than the machine has need leave to exist.
-    std::optional<tbb::global_control> control;
-    if (threads > available)
-      control.emplace(tbb::global_control::max_allowed_parallelism,
-                      static_cast<std::size_t>(threads));
-    tbb::task_arena arena(threads);
-    MedialAxis axis = arena.execute([&] { return run_disks(shape, options); });
-    axis.statistics.threads = threads;
+    MedialAxis axis = on_threads(options.threads, [&] { return run_disks(shape, options); });
+    axis.statistics.threads = effective_threads(options.threads);
     if (options.cancel != nullptr && options.cancel->load())
       return Error{ErrorCode::cancelled, "cancelled", {}};
     if (!has_right_topology(shape, axis))

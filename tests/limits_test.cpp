@@ -1,0 +1,91 @@
+// What is too large, too small or too thin is refused alike by compute() and verify(); all else is
+// right.
+
+#include "base/limits.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "medial/medial.h"
+#include "support/examine.h"
+#include "support/generate.h"
+
+namespace medial::test {
+namespace {
+
+Rings square(double size) { return rectangle(size, size); }
+
+TEST(Limits, EverythingUpToThemIsVerified) {
+  for (const double size : {smallest_coordinate, 1e-50, 1e50, largest_coordinate}) {
+    const Outcome outcome = examine(square(size));
+    EXPECT_EQ(outcome.verdict, Verdict::verified) << size << ": " << outcome.reasons[0];
+  }
+}
+
+TEST(Limits, ComputeAndVerifyRefuseTheSameBeyondThem) {
+  const MedialAxis unit = *compute(*build_shape(square(1)));
+  for (const double size : {5e-324, 1e-300, 1e-149, 9e-101, 1.1e100, 1e149, 1e300, 1.7e308}) {
+    const Shape shape = *build_shape(square(size));
+    const auto axis = compute(shape);
+    ASSERT_FALSE(axis.ok()) << size;
+    EXPECT_EQ(axis.error().code, ErrorCode::unsupported) << size;
+    EXPECT_EQ(axis.error().place.ring, 0U);
+    EXPECT_EQ(axis.error().place.vertex, 1U);
+    const Certificate certificate = verify(shape, unit);
+    EXPECT_FALSE(certificate.passed) << size;
+    ASSERT_EQ(certificate.failures.size(), 1U) << size;
+    EXPECT_NE(certificate.failures[0].find("unsupported"), std::string::npos);
+  }
+}
+
+TEST(Limits, ThinAndNearlyTouchingShapesAreVerifiedOrRefused) {
+  for (int exponent = 1; exponent < 320; exponent += exponent < 20 ? 1 : 13) {
+    const double h = std::pow(10, -exponent);
+    const std::vector<Rings> shapes{
+        {ring_of({{0, 0}, {1, 0}, {1, h}, {0, h}})},         // sliver
+        {ring_of({{0, 0}, {1, 0}, {0.001, h}})},             // needle
+        {ring_of({{0, 0}, {0.3, -h}, {1, 0}, {0.001, h}})},  // both ways
+        {ring_of({{0, 0}, {0.3, -h}, {1, 0}, {1, 1}})},      // flat corner
+        {ring_of({{0, 0}, {0.3, h}, {1, 0}, {1, 1}})},       // flat dent
+        {ring_of({{0, 0}, {1, 0}, {1, 1}, {0, 1}}), ring_of({{h, 0.3}, {0.5, 0.2}, {0.5, 0.8}})}};
+    for (const Rings& rings : shapes) {
+      const Outcome outcome = examine(rings);
+      const auto expected = h < smallest_coordinate ? Verdict::refused : Verdict::verified;
+      EXPECT_EQ(outcome.verdict, expected)
+          << to_wkt(rings) << (outcome.reasons.empty() ? "" : outcome.reasons[0]);
+      if (outcome.verdict == Verdict::refused) {
+        EXPECT_EQ(outcome.code, ErrorCode::unsupported);
+      }
+    }
+  }
+}
+
+TEST(Limits, OneUlpWideShapesAreVerified) {
+  const double next = std::nextafter(1.0, 2.0);
+  for (const Rings& rings : {Rings{ring_of({{0, 1}, {1, 1}, {1, next}, {0, next}})},
+                             Rings{ring_of({{1, 0}, {2, 0}, {2, 1}, {1, 1}}),
+                                   ring_of({{next, 0.3}, {1.5, 0.2}, {1.5, 0.8}})}}) {
+    const Outcome outcome = examine(rings);
+    EXPECT_EQ(outcome.verdict, Verdict::verified) << outcome.reasons[0];
+  }
+}
+
+/// Their coordinates are rounded to more than an edge's length: a ragged, but a valid boundary.
+TEST(Limits, PolygonsFarFromTheOriginAreVerified) {
+  for (const double shift : {1e6, 1e9, 1e12}) {
+    std::vector<Vec2> points;
+    const int n = 20000;
+    for (int i = 0; i < n; ++i) {
+      const double angle = 2 * std::numbers::pi * i / n;
+      points.push_back({shift + std::cos(angle), shift + std::sin(angle)});
+    }
+    const Outcome outcome = examine(std::vector{ring_of(points)});
+    EXPECT_EQ(outcome.verdict, Verdict::verified) << shift << ": " << outcome.reasons[0];
+  }
+}
+
+}  // namespace
+}  // namespace medial::test
