@@ -11,9 +11,65 @@ Disk disk_over(const Site& s, double at, Vec2 vertex) {
   return {foot + r * s.normal(), r};
 }
 
+/// The control point of an edge with an arc. With P(u, v) = u.v - u_r v_r, a contact equation is
+/// round P(d, d) = 2 flat (n.d - r) for the disk seen from the site's point, and its polar form at
+/// both ends holds for the control point, the pole of the edge's chord: it lies in the plane of the
+/// edge, P-perpendicular to the chord over its middle. Of the two sites the rounder one gives the
+/// height over the chord and the weight.
+Control control_with_arc(const Site& a, const Site& b, const Disk& from, const Disk& to) {
+  struct Vector {
+    Vec2 c;
+    double r;
+  };
+  const auto product = [](const Vector& u, const Vector& v) { return dot(u.c, v.c) - u.r * v.r; };
+  const Disk middle{midpoint(from.center, to.center), 0.5 * (from.radius + to.radius)};
+  // Scaled so that round and flat add up to one in size.
+  const auto flat_of = [](const Site& s) {
+    return s.is_vertex() ? 0 : 1 / (1 + std::abs(s.curvature));
+  };
+  const auto round_of = [&](const Site& s) {
+    return s.is_vertex() ? 1 : s.curvature / (1 + std::abs(s.curvature));
+  };
+  const bool by_a = std::abs(round_of(a)) >= std::abs(round_of(b));
+  const Site &site = by_a ? a : b, &other = by_a ? b : a;
+  const double round = round_of(site), flat = flat_of(site), ratio = round_of(other) / round;
+  // The plane of the edge: g.c + s r = constant. Points seen from the middle keep their digits.
+  const Vec2 p = site.point - middle.center, q = other.point - middle.center;
+  const Vec2 g =
+      round_of(other) * (q - p) + flat_of(other) * other.normal() - (ratio * flat) * site.normal();
+  const double s = ratio * flat - flat_of(other);
+  const Vector chord{to.center - from.center, to.radius - from.radius};
+  // In the plane, and P-perpendicular to the chord.
+  const Vector across{{-g.y * chord.r - s * chord.c.y, s * chord.c.x + g.x * chord.r},
+                      cross(g, chord.c)};
+  // The gradient of the site's contact equation, the mean of both ends.
+  const Vector gradient{round * (middle.center - site.point) - flat * site.normal(),
+                        round * middle.radius - flat};
+  const double squared = product(chord, chord);
+  const double height = round * squared / (4 * product(across, gradient));
+  const double weight_squared = squared / (squared + 4 * height * height * product(across, across));
+  if (!(std::isfinite(height) && weight_squared > 0 && std::isfinite(weight_squared)))
+    return {middle, 1};
+  return {{middle.center + height * across.c, middle.radius + height * across.r},
+          std::sqrt(weight_squared)};
+}
+
 }  // namespace
 
+Vec2 Bisector::tangent(Vec2 center) const {
+  if (!right.is_vertex() && !left.is_vertex() && reference == nullptr) return direction;
+  const Vec2 along = left_of(outward(left, center) - outward(right, center));
+  const double size = norm(along);
+  return (reference == nullptr && dot(along, direction) < 0 ? -1 / size : 1 / size) * along;
+}
+
 Disk Bisector::disk_at(double position, const Disk& near) const {
+  if (reference != nullptr) {
+    const double s = position / scale;
+    const Vec2 foot = reference->at(s), normal = reference->normal_at(s);
+    const double radius = tangent_radius(foot, normal, reference == &right ? left : right);
+    return {foot + radius * normal, radius};
+  }
   if (right.is_vertex() && left.is_vertex()) {
     const Vec2 middle = midpoint(right.point, left.point);
     const Vec2 center = middle + (position - dot(direction, middle)) * direction;
@@ -28,6 +84,17 @@ Disk Bisector::disk_at(double position, const Disk& near) const {
 }
 
 double Bisector::last_position(const Disk& near, double limit) const {
+  if (reference != nullptr) {
+    const double end = reference == &right ? scale * right.length : 0;
+    double low = position(near.center), high = end;
+    if (!(low < high) || disk_at(end, near).radius <= limit) return end;
+    constexpr int halvings = 40;  // what is left of the interval is no matter
+    for (int i = 0; i < halvings; ++i) {
+      const double middle = 0.5 * (low + high);
+      (disk_at(middle, near).radius <= limit ? low : high) = middle;
+    }
+    return low;
+  }
   if (right.is_vertex() && left.is_vertex()) {
     const double half = 0.5 * distance(right.point, left.point);
     const double height = std::sqrt(std::max(0.0, limit * limit - half * half));
@@ -49,6 +116,7 @@ double Bisector::last_position(const Disk& near, double limit) const {
 }
 
 Control control_of(const Site& a, const Site& b, const Disk& from, const Disk& to) {
+  if (a.is_arc() || b.is_arc()) return control_with_arc(a, b, from, to);
   const Disk middle{midpoint(from.center, to.center), 0.5 * (from.radius + to.radius)};
   if (a.is_vertex() && b.is_vertex()) {
     // Along the line of centres the radius is a hyperbola: with h measured from the middle of the

@@ -11,16 +11,30 @@ namespace medial::geometry {
 /// The bisector of two sites as a walk meets it: going along it, the foot on `right` moves forward
 /// along the boundary and the foot on `left` moves backward.
 ///
-/// A disk's position along the bisector is the product of its centre with one fixed vector: the
-/// direction of the angle bisector (two segments), of the segment (segment and vertex, a parabola
-/// over the segment), or perpendicular to the chord (two vertices). It increases along
-/// the walk, so disks on one bisector are ordered by it.
+/// A disk's position along the bisector increases along the walk, so disks on one bisector are
+/// ordered by it. Without arcs it is the product of the centre with one fixed vector: the direction
+/// of the angle bisector (two segments), of the segment (segment and vertex, a parabola over the
+/// segment), or perpendicular to the chord (two vertices). With an arc (ellipses, hyperbolas,
+/// parabolas, circles) it is where the foot lies on one of the two sites, the `reference`: the
+/// parameter of a segment or of a large arc, twice the tangent of half the angle on a small one.
 struct Bisector {
   Site right;
   Site left;
   Vec2 direction;
+  const Site* reference = nullptr;  ///< of a bisector with an arc
+  double scale = 0;                 ///< from the reference's parameter to the position
 
   Bisector(const Site& right_site, const Site& left_site) : right(right_site), left(left_site) {
+    if (right.is_arc() || left.is_arc()) {
+      // The flatter of the two, but no vertex: its foot stays.
+      const bool by_right =
+          left.is_vertex() ||
+          (!right.is_vertex() && std::abs(right.curvature) <= std::abs(left.curvature));
+      reference = by_right ? &right : &left;
+      scale = std::max(1.0, std::abs(reference->curvature));
+      if (!by_right) scale = -scale;
+      return;
+    }
     if (right.is_vertex() && left.is_vertex()) {
       direction = -left_of(left.point - right.point);
     } else {
@@ -39,9 +53,19 @@ struct Bisector {
     if (size > 0) direction = (1 / size) * direction;
   }
 
-  double position(Vec2 center) const { return dot(direction, center); }
+  Bisector(const Bisector&) = delete;  // refers to itself
+  Bisector& operator=(const Bisector&) = delete;
 
-  /// The disk at a position. `near` is any disk on the bisector; two segments need it as an anchor.
+  double position(Vec2 center) const {
+    if (reference != nullptr) return scale * carrier_parameter(*reference, center);
+    return dot(direction, center);
+  }
+
+  /// The unit tangent in the direction of the walk: both distances grow alike.
+  Vec2 tangent(Vec2 center) const;
+
+  /// The disk at a position; of infinite radius where there is none. `near` is any disk on the
+  /// bisector; two segments need it as an anchor.
   Disk disk_at(double position, const Disk& near) const;
 
   /// A position beyond which no disk of the bisector has a radius in [0, limit], seen from `near`

@@ -2,22 +2,51 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "medial/vec2.h"
 
 namespace medial::geometry {
 
-/// A site as the kernels see it: a segment point + s * direction, 0 <= s <= length, with the
-/// interior on its left; or a vertex, which has direction (0, 0) and length 0. One formula serves
-/// both.
+/// A site as the kernels see it: a curve of constant curvature with the interior on its left, or a
+/// vertex. It starts at `point` in the unit direction `direction` and is measured by the parameter
+///
+///     s = (2 / curvature) tan(phi / 2),
+///
+/// where phi is the angle by which it has turned to the left: the arc length on a segment, a
+/// rational parametrisation on an arc, well-conditioned in between. Positive curvature is convex as
+/// seen from the interior. An arc turns by at most a quarter of a circle.
+///
+/// A disk of centre c and radius r touches the carrier (the whole line or circle) from inside if,
+/// with d = c - point and the left normal n,
+///
+///     n.d - r = curvature (d.d - r r) / 2.
+///
+/// Multiplied by its radius, an arc becomes a vertex in the limit of radius 0: one formula for all
+/// sites, linear in (c, r) and the common quadric d.d - r r.
 struct Site {
   Vec2 point;
-  Vec2 direction;  ///< unit length, or (0, 0) for a vertex
-  double length = 0;
+  Vec2 direction;     ///< unit length, or (0, 0) for a vertex
+  double length = 0;  ///< the parameter of the end; 0 for a vertex
+  double curvature = 0;
 
   bool is_vertex() const { return length == 0; }
+  bool is_arc() const { return curvature != 0; }
   Vec2 normal() const { return left_of(direction); }
-  Vec2 end() const { return point + length * direction; }
+  /// The point at parameter s.
+  Vec2 at(double s) const {
+    if (!is_arc()) return point + s * direction;
+    const double tau = 0.5 * curvature * s;
+    return point + (s / (1 + tau * tau)) * (direction + tau * normal());
+  }
+  /// The left unit normal at parameter s.
+  Vec2 normal_at(double s) const {
+    if (!is_arc()) return normal();
+    const double tau = 0.5 * curvature * s, scale = 1 / (1 + tau * tau);
+    return scale * ((1 - tau * tau) * normal() - (2 * tau) * direction);
+  }
+  Vec2 end() const { return at(length); }
+  Vec2 end_normal() const { return normal_at(length); }
 };
 
 inline Site make_segment(Vec2 start, Vec2 end) {
@@ -28,33 +57,104 @@ inline Site make_segment(Vec2 start, Vec2 end) {
 
 inline Site make_vertex(Vec2 point) { return {point, {0, 0}, 0}; }
 
-/// Whether segment `before` ends where segment `after` begins. An end is a product and a sum: it is
-/// off by less than four roundings of a local coordinate.
+/// The arc from `start` to `end` with the given bulge, of at most a quarter of a circle
+/// (|bulge| <= tan(pi / 8)).
+inline Site make_arc(Vec2 start, Vec2 end, double bulge) {
+  const Vec2 d = end - start;
+  const double chord = norm(d), squared = bulge * bulge;
+  // The tangent at the start is the chord turned to the right by half of the arc's angle.
+  const double scale = 1 / ((1 + squared) * chord);
+  const Vec2 tangent = scale * ((1 - squared) * d - (2 * bulge) * left_of(d));
+  return {start, tangent, chord * (1 + squared) / (1 - squared),
+          4 * bulge / (chord * (1 + squared))};
+}
+
+/// The part of a segment or arc from parameter `from` to `to`; never of length 0.
+inline Site part_of(const Site& site, double from, double to) {
+  const double half = 0.5 * site.curvature;
+  const double length = (to - from) / (1 + (half * from) * (half * to));
+  return {site.at(from), -left_of(site.normal_at(from)),
+          std::max(length, std::numeric_limits<double>::min()), site.curvature};
+}
+
+/// The same segment or arc seen from its other side.
+inline Site reversed(const Site& site) {
+  return {site.end(), left_of(site.end_normal()), site.length, -site.curvature};
+}
+
+/// Whether edge `before` ends where edge `after` begins. An end is off by less than four roundings
+/// of a local coordinate.
 inline bool meets(const Site& before, const Site& after) {
   constexpr double same_point = 0x1p-50;
   const Vec2 gap = before.end() - after.point;
   return std::abs(gap.x) <= same_point && std::abs(gap.y) <= same_point;
 }
 
-/// Parameter of the site's point nearest to c.
-inline double foot_parameter(const Site& site, Vec2 c) {
-  return std::clamp(dot(site.direction, c - site.point), 0.0, site.length);
+/// How a point c lies to the carrier of an arc.
+struct ArcView {
+  Vec2 toward;      ///< (1 - curvature * distance) times the unit normal at the foot
+  double size;      ///< |toward|
+  double distance;  ///< positive on the left
+};
+inline ArcView view_of_arc(const Site& arc, Vec2 c) {
+  const Vec2 d = c - arc.point, normal = arc.normal();
+  const Vec2 toward = normal - arc.curvature * d;
+  const double size = norm(toward);
+  const double height = dot(normal, d) - 0.5 * arc.curvature * squared_norm(d);
+  return {toward, size, 2 * height / (1 + size)};
 }
 
-inline Vec2 foot(const Site& site, Vec2 c) {
-  return site.point + foot_parameter(site, c) * site.direction;
+/// Parameter of the carrier's point nearest to c, unbounded; infinite opposite to the start of an
+/// arc's circle. Not for a vertex.
+inline double carrier_parameter(const Site& site, Vec2 c) {
+  const Vec2 d = c - site.point;
+  const double along = dot(site.direction, d);
+  if (!site.is_arc()) return along;
+  const Vec2 toward = site.normal() - site.curvature * d;
+  const double denominator = norm(toward) + dot(site.normal(), toward);
+  if (denominator > 0) return 2 * along / denominator;
+  return std::copysign(std::numeric_limits<double>::infinity(), along);
 }
+
+/// Parameter of the site's point nearest to c.
+inline double foot_parameter(const Site& site, Vec2 c) {
+  if (!site.is_arc()) return std::clamp(dot(site.direction, c - site.point), 0.0, site.length);
+  const double s = carrier_parameter(site, c);
+  if (s >= 0 && s <= site.length) return s;
+  return squared_norm(c - site.point) <= squared_norm(c - site.end()) ? 0 : site.length;
+}
+
+inline Vec2 foot(const Site& site, Vec2 c) { return site.at(foot_parameter(site, c)); }
 
 /// Distance from c to the closed site. Error: about two units in the last place of |c - point|.
 inline double squared_distance(const Site& site, Vec2 c) {
   const Vec2 d = c - site.point;
-  const double s = std::min(std::max(dot(site.direction, d), 0.0), site.length);
-  return squared_norm(d - s * site.direction);
+  if (!site.is_arc()) {
+    const double s = std::min(std::max(dot(site.direction, d), 0.0), site.length);
+    return squared_norm(d - s * site.direction);
+  }
+  const ArcView view = view_of_arc(site, c);
+  const double s = 2 * dot(site.direction, d) / (view.size + dot(site.normal(), view.toward));
+  if (s >= 0 && s <= site.length) return view.distance * view.distance;
+  return std::min(squared_norm(d), squared_norm(c - site.end()));
 }
 
-/// Distance to the site's carrier: the whole line, positive on its left, or the vertex.
+/// Distance to the site's carrier: the whole line or circle, positive on its left, or the vertex.
 inline double carrier_distance(const Site& site, Vec2 c) {
-  return site.is_vertex() ? norm(c - site.point) : cross(site.direction, c - site.point);
+  if (site.is_vertex()) return norm(c - site.point);
+  return site.is_arc() ? view_of_arc(site, c).distance : cross(site.direction, c - site.point);
+}
+
+/// The gradient of carrier_distance(): the unit vector from the foot to c. For a vertex c must not
+/// be the vertex itself.
+inline Vec2 outward(const Site& site, Vec2 c) {
+  if (site.is_vertex()) {
+    const Vec2 d = c - site.point;
+    return (1 / norm(d)) * d;
+  }
+  if (!site.is_arc()) return site.normal();
+  const ArcView view = view_of_arc(site, c);
+  return (1 / view.size) * view.toward;
 }
 
 }  // namespace medial::geometry

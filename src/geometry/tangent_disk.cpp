@@ -23,11 +23,13 @@ Real cross(const Vector<Real>& a, const Vector<Real>& b) {
   return a.x * b.y - a.y * b.x;
 }
 
-/// A carrier: the line through `point` with left normal `normal`, or a point.
+/// A carrier: a disk at d from `point` with radius r touches it if
+/// round (d.d - r r) = 2 flat (normal.d - r). A line has round = 0, a point flat = 0.
 template <class Real>
 struct Carrier {
   Vector<Real> point;
   Vector<Real> normal;
+  Real round, flat;
   bool vertex;
 };
 
@@ -51,18 +53,24 @@ struct LineOfCenters {
   Real one_minus_slope_squared;
 };
 
-/// The line's disks through (0, 0): |origin + l along|^2 = (radius + l slope)^2, where origin and
-/// along are perpendicular or not.
+/// The line's disks that touch a carrier; the line's origin is relative to the carrier's point.
 template <class Real>
-Solutions<Real> through_zero(const LineOfCenters<Real>& line) {
+Solutions<Real> disks_on(const LineOfCenters<Real>& line, const Carrier<Real>& carrier) {
   using std::sqrt;
-  const Real a = line.one_minus_slope_squared;
-  const Real half_b = dot(line.origin, line.along) - line.radius * line.slope;
-  const Real c = dot(line.origin, line.origin) - line.radius * line.radius;
+  Real a = line.one_minus_slope_squared;
+  Real half_b = dot(line.origin, line.along) - line.radius * line.slope;
+  Real c = dot(line.origin, line.origin) - line.radius * line.radius;
+  if (!carrier.vertex) {
+    a *= carrier.round;
+    half_b = carrier.round * half_b - carrier.flat * (dot(carrier.normal, line.along) - line.slope);
+    c = carrier.round * c -
+        Real(2) * carrier.flat * (dot(carrier.normal, line.origin) - line.radius);
+  }
   Solutions<Real> result;
   const auto add = [&](const Real& l) {
     const Real r = line.radius + l * line.slope;
-    if (r >= Real(0)) result.disk[result.count++] = {line.origin + l * line.along, r};
+    if (r >= Real(0))
+      result.disk[result.count++] = {line.origin + l * line.along + carrier.point, r};
   };
   Real discriminant = half_b * half_b - a * c;
   // A double root that rounding moved off the real axis.
@@ -95,12 +103,6 @@ Solutions<Real> three_lines(const Carrier<Real>& a, const Carrier<Real>& b,
 }
 
 template <class Real>
-Solutions<Real> moved(Solutions<Real> disks, const Vector<Real>& by) {
-  for (std::size_t i = 0; i < disks.count; ++i) disks.disk[i].center = disks.disk[i].center + by;
-  return disks;
-}
-
-template <class Real>
 Solutions<Real> two_lines_and_vertex(const Carrier<Real>& a, const Carrier<Real>& b,
                                      const Carrier<Real>& v) {
   using std::sqrt;
@@ -116,7 +118,7 @@ Solutions<Real> two_lines_and_vertex(const Carrier<Real>& a, const Carrier<Real>
   line.radius = dot(a.normal, line.origin) - ha;
   line.slope = dot(a.normal, line.along);
   line.one_minus_slope_squared = squared / Real(4);  // a.normal . across = |difference| / 2
-  return moved(through_zero(line), v.point);
+  return disks_on(line, v);
 }
 
 template <class Real>
@@ -134,7 +136,7 @@ Solutions<Real> line_and_two_vertices(const Carrier<Real>& a, const Carrier<Real
   line.radius = dot(a.normal, line.origin - (a.point - v.point));
   line.slope = dot(a.normal, line.along);
   line.one_minus_slope_squared = across * across;
-  return moved(through_zero(line), v.point);
+  return disks_on(line, v);
 }
 
 template <class Real>
@@ -172,16 +174,50 @@ Solutions<Real> corner_and_site(const Vector<Real>& corner, const Vector<Real>& 
   line.slope = size / Real(2);  // the normals are unit vectors
   line.one_minus_slope_squared = dot(difference, difference) / Real(4);
   line.origin = corner - c.point;
-  if (c.vertex) return moved(through_zero(line), c.point);
-  const Real closing = line.slope - dot(c.normal, line.along);
-  if (closing == Real(0)) return result;
-  const Real l = dot(c.normal, line.origin) / closing;
-  if (l >= Real(0)) result.disk[result.count++] = {corner + l * line.along, l * line.slope};
-  return result;
+  return disks_on(line, c);
+}
+
+/// Three carriers of which one is an arc: the equation of the roundest eliminates the quadric from
+/// the other two, which leaves two planes in (x, y, r); their line meets the roundest.
+template <class Real>
+Solutions<Real> three_carriers(std::array<const Carrier<Real>*, 3> carriers) {
+  using std::abs, std::sqrt;
+  std::stable_sort(carriers.begin(), carriers.end(),
+                   [](const auto* a, const auto* b) { return abs(a->round) > abs(b->round); });
+  const Carrier<Real>& roundest = *carriers[0];
+  struct Plane {
+    Vector<Real> g;
+    Real s, h;  // g.(x, y) + s r = h
+  };
+  const auto plane_of = [&](const Carrier<Real>& c) {
+    const Vector<Real> p = c.point - roundest.point;
+    const Real ratio = c.round / roundest.round;
+    return Plane{c.round * p + c.flat * c.normal - (ratio * roundest.flat) * roundest.normal,
+                 ratio * roundest.flat - c.flat,
+                 c.round * dot(p, p) / Real(2) + c.flat * dot(c.normal, p)};
+  };
+  const Plane a = plane_of(*carriers[1]), b = plane_of(*carriers[2]);
+  Vector<Real> along{a.g.y * b.s - a.s * b.g.y, a.s * b.g.x - a.g.x * b.s};
+  Real rise = cross(a.g, b.g);
+  const Real squared = dot(along, along) + rise * rise;
+  if (squared == Real(0)) return {};
+  // The point of both planes nearest to the origin: (h_a (b x d) + h_b (d x a)) / d.d.
+  const Vector<Real> b_d{b.g.y * rise - b.s * along.y, b.s * along.x - b.g.x * rise};
+  const Vector<Real> d_a{along.y * a.s - rise * a.g.y, rise * a.g.x - along.x * a.s};
+  const Real inverse = Real(1) / squared, scale = sqrt(inverse);
+  LineOfCenters<Real> line;
+  line.origin = inverse * (a.h * b_d + b.h * d_a);
+  line.radius = inverse * (a.h * cross(b.g, along) + b.h * cross(along, a.g));
+  line.along = scale * along;
+  line.slope = scale * rise;
+  line.one_minus_slope_squared = dot(line.along, line.along) - line.slope * line.slope;
+  return disks_on(line, roundest);
 }
 
 template <class Real>
 Solutions<Real> solve(std::array<const Carrier<Real>*, 3> c) {
+  const auto is_arc = [](const auto* one) { return !one->vertex && one->round != Real(0); };
+  if (is_arc(c[0]) || is_arc(c[1]) || is_arc(c[2])) return three_carriers<Real>(c);
   // Lines first.
   std::stable_sort(c.begin(), c.end(),
                    [](const auto* a, const auto* b) { return a->vertex < b->vertex; });
@@ -211,7 +247,9 @@ Corner find_corner(const std::array<const Site*, 3>& sites) {
     for (int j = 0; j < 3; ++j) {
       const Site &before = *sites[static_cast<std::size_t>(i)],
                  &after = *sites[static_cast<std::size_t>(j)];
-      if (i == j || before.is_vertex() || after.is_vertex() || !meets(before, after)) continue;
+      const bool segments =
+          !before.is_vertex() && !after.is_vertex() && !before.is_arc() && !after.is_arc();
+      if (i == j || !segments || !meets(before, after)) continue;
       const double turn = dot(before.direction, after.direction);
       if (turn <= along) continue;
       along = turn;
@@ -221,8 +259,31 @@ Corner find_corner(const std::array<const Site*, 3>& sites) {
   return flattest;
 }
 
-Carrier<double> carrier(const Site& site) {
-  return {{site.point.x, site.point.y}, {-site.direction.y, site.direction.x}, site.is_vertex()};
+/// Round and flat are scaled so that their sizes add up to one.
+template <class Real>
+Carrier<Real> carrier(const Site& site) {
+  using std::abs, std::sqrt;
+  Carrier<Real> result{{Real(site.point.x), Real(site.point.y)},
+                       {Real(-site.direction.y), Real(site.direction.x)},
+                       Real(0),
+                       Real(1),
+                       site.is_vertex()};
+  if (site.is_vertex()) {
+    result.round = Real(1);
+    result.flat = Real(0);
+  } else if (site.is_arc()) {
+    const Real curvature(site.curvature);
+    result.flat = Real(1) / (Real(1) + abs(curvature));
+    result.round = curvature * result.flat;
+  }
+  return result;
+}
+
+/// Whether a disk that touches the carriers of arcs from inside could also touch the arcs: a larger
+/// one than the arc's circle contains it.
+bool fits_into(double radius, const Site& site) {
+  constexpr double slack = 0x1p-20;
+  return radius * site.curvature <= 1 + slack;
 }
 
 }  // namespace
@@ -234,14 +295,22 @@ double tangent_radius(Vec2 foot, Vec2 normal, const Site& site) {
     const double ahead = 2 * medial::dot(normal, d);
     return ahead > 0 ? squared_norm(d) / ahead : none;
   }
-  const double height = medial::cross(site.direction, foot - site.point);
-  const double closing = 0.5 * squared_norm(normal - site.normal());
-  return height >= 0 && closing > 0 ? height / closing : none;
+  const Vec2 d = foot - site.point;
+  double height = medial::cross(site.direction, d);
+  double closing = 0.5 * squared_norm(normal - site.normal());
+  if (site.is_arc()) {
+    height -= 0.5 * site.curvature * squared_norm(d);
+    closing += site.curvature * medial::dot(normal, d);
+  }
+  if (!(height >= 0 && closing > 0)) return none;
+  const double radius = height / closing;
+  return fits_into(radius, site) ? radius : none;
 }
 
 TangentDisks tangent_disks(const Site& a, const Site& b, const Site& c) {
   const std::array<const Site*, 3> sites{&a, &b, &c};
-  const std::array<Carrier<double>, 3> carriers{carrier(a), carrier(b), carrier(c)};
+  const std::array<Carrier<double>, 3> carriers{carrier<double>(a), carrier<double>(b),
+                                                carrier<double>(c)};
   Solutions<double> solved;
   const Corner corner = find_corner(sites);
   if (corner.before >= 0) {
@@ -254,9 +323,12 @@ TangentDisks tangent_disks(const Site& a, const Site& b, const Site& c) {
   TangentDisks result;
   for (std::size_t i = 0; i < solved.count; ++i) {
     const auto& s = solved.disk[i];
-    if (!(std::isfinite(s.center.x) && std::isfinite(s.center.y) && std::isfinite(s.radius)))
-      continue;
-    result.disk[result.count++] = {{s.center.x, s.center.y}, s.radius};
+    const Disk disk{{s.center.x, s.center.y}, s.radius};
+    const bool finite =
+        std::isfinite(disk.center.x) && std::isfinite(disk.center.y) && std::isfinite(disk.radius);
+    if (finite && fits_into(disk.radius, a) && fits_into(disk.radius, b) &&
+        fits_into(disk.radius, c))
+      result.disk[result.count++] = disk;
   }
   return result;
 }
@@ -268,13 +340,9 @@ double residual(const Disk& disk, const Site& a, const Site& b, const Site& c) {
 }
 
 Disk improve(const Disk& disk, const Site& a, const Site& b, const Site& c) {
-  const auto gradient = [&](const Site& s) {
-    if (!s.is_vertex()) return s.normal();
-    const Vec2 d = disk.center - s.point;
-    return (1 / norm(d)) * d;
-  };
   const auto error = [&](const Site& s) { return carrier_distance(s, disk.center) - disk.radius; };
-  const Vec2 ga = gradient(a), ab = gradient(b) - ga, ac = gradient(c) - ga;
+  const Vec2 ga = outward(a, disk.center);
+  const Vec2 ab = outward(b, disk.center) - ga, ac = outward(c, disk.center) - ga;
   const double ea = error(a), eb = ea - error(b), ec = ea - error(c);
   const double determinant = medial::cross(ab, ac);
   const Vec2 step{(eb * ac.y - ec * ab.y) / determinant, (ab.x * ec - ac.x * eb) / determinant};
@@ -284,18 +352,12 @@ Disk improve(const Disk& disk, const Site& a, const Site& b, const Site& c) {
   return usable ? better : disk;
 }
 
-bool tangent_disk_in_high_precision(const std::array<Ends, 3>& ends, const Disk& near, Disk& disk) {
+bool tangent_disk_in_high_precision(const Site& a, const Site& b, const Site& c, const Disk& near,
+                                    Disk& disk) {
   using Real = boost::multiprecision::cpp_bin_float_quad;
-  std::array<Carrier<Real>, 3> carriers;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Vector<Real> p{Real(ends[i].start.x), Real(ends[i].start.y)};
-    const Vector<Real> d = Vector<Real>{Real(ends[i].end.x), Real(ends[i].end.y)} - p;
-    const Real squared = dot(d, d);
-    carriers[i] = {p, {Real(0), Real(0)}, squared == Real(0)};
-    if (carriers[i].vertex) continue;
-    const Real inverse = Real(1) / sqrt(squared);
-    carriers[i].normal = {-d.y * inverse, d.x * inverse};
-  }
+  std::array<Carrier<Real>, 3> carriers{carrier<Real>(a), carrier<Real>(b), carrier<Real>(c)};
+  for (Carrier<Real>& one : carriers)
+    if (!one.vertex) one.normal = (Real(1) / sqrt(dot(one.normal, one.normal))) * one.normal;
   const Solutions<Real> solved = solve<Real>({&carriers[0], &carriers[1], &carriers[2]});
   double best = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < solved.count; ++i) {

@@ -22,11 +22,11 @@ struct TangentDisks {
   std::size_t count = 0;
 };
 
-/// The disks that touch the carriers of three sites with their centres on the left of every line:
-/// the Apollonius problem for segments and vertices. With the sites as oriented circles, the
-/// difference of two contact equations is linear in (x, y, r): two linear equations give a line in
-/// (x, y, r), which meets the cone of the first vertex in at most two points, or the plane of
-/// the third segment in one.
+/// The disks that touch the carriers of three sites from their left: the ten Apollonius problems
+/// for segments, arcs and vertices. With the sites as oriented circles, the difference of two
+/// contact equations is linear in (x, y, r): two linear equations give a line in (x, y, r), which
+/// meets the cone of a vertex or an arc in at most two points, or the plane of a segment in one. Of
+/// an arc's whole circle, disks larger than the circle do not count.
 TangentDisks tangent_disks(const Site& a, const Site& b, const Site& c);
 
 /// Largest |distance - radius| of a disk to the carriers of three sites.
@@ -36,12 +36,8 @@ double residual(const Disk& disk, const Site& a, const Site& b, const Site& c);
 Disk improve(const Disk& disk, const Site& a, const Site& b, const Site& c);
 
 /// tangent_disks() in 113-bit arithmetic, rounded to double; among its disks the one nearest to
-/// `near`. `ends` are the segments' true ends (a vertex has both ends equal), because the sites'
-/// unit directions are rounded. Returns false where there is no such disk.
-struct Ends {
-  Vec2 start;
-  Vec2 end;
-};
-bool tangent_disk_in_high_precision(const std::array<Ends, 3>& ends, const Disk& near, Disk& disk);
+/// `near`. Returns false where there is no such disk.
+bool tangent_disk_in_high_precision(const Site& a, const Site& b, const Site& c, const Disk& near,
+                                    Disk& disk);
 
 }  // namespace medial::geometry
