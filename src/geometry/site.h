@@ -46,6 +46,8 @@ struct Site {
     return scale * ((1 - tau * tau) * normal() - (2 * tau) * direction);
   }
   Vec2 end() const { return at(length); }
+  /// Where the tangents at both ends meet: an edge lies in the triangle of its ends and its apex.
+  Vec2 apex() const { return point + (0.5 * length) * direction; }
   Vec2 end_normal() const { return normal_at(length); }
 };
 
@@ -55,10 +57,12 @@ inline Site make_segment(Vec2 start, Vec2 end) {
   return {start, (1 / length) * d, length};
 }
 
+/// The largest bulge of an arc that is one site: a quarter of a circle, tan(pi / 8).
+constexpr double largest_bulge = 0.41421356237309515;
+
 inline Site make_vertex(Vec2 point) { return {point, {0, 0}, 0}; }
 
-/// The arc from `start` to `end` with the given bulge, of at most a quarter of a circle
-/// (|bulge| <= tan(pi / 8)).
+/// The arc from `start` to `end` with the given bulge, at most largest_bulge in size.
 inline Site make_arc(Vec2 start, Vec2 end, double bulge) {
   const Vec2 d = end - start;
   const double chord = norm(d), squared = bulge * bulge;

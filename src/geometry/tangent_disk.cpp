@@ -307,6 +307,19 @@ double tangent_radius(Vec2 foot, Vec2 normal, const Site& site) {
   return fits_into(radius, site) ? radius : none;
 }
 
+double touching_radius(Vec2 foot, Vec2 normal, const Site& site) {
+  if (site.is_vertex()) return tangent_radius(foot, normal, site);
+  double radius = std::min(tangent_radius(foot, normal, make_vertex(site.point)),
+                           tangent_radius(foot, normal, make_vertex(site.end())));
+  for (const Site& facing : {site, reversed(site)}) {
+    const double on_carrier = tangent_radius(foot, normal, facing);
+    if (!(on_carrier < radius)) continue;
+    const double s = carrier_parameter(facing, foot + on_carrier * normal);
+    if (s >= 0 && s <= facing.length) radius = on_carrier;
+  }
+  return radius;
+}
+
 TangentDisks tangent_disks(const Site& a, const Site& b, const Site& c) {
   const std::array<const Site*, 3> sites{&a, &b, &c};
   const std::array<Carrier<double>, 3> carriers{carrier<double>(a), carrier<double>(b),

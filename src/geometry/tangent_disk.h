@@ -16,6 +16,10 @@ namespace medial::geometry {
 /// residual at `site` stays at rounding level however flat the angle is.
 double tangent_radius(Vec2 foot, Vec2 normal, const Site& site);
 
+/// The radius at which a disk that grows at `foot` in the direction `normal` first touches the
+/// closed site, from whichever side; infinity where it never does.
+double touching_radius(Vec2 foot, Vec2 normal, const Site& site);
+
 /// Up to two disks, in no particular order.
 struct TangentDisks {
   std::array<Disk, 2> disk;

@@ -85,6 +85,7 @@ BoundaryTree::BoundaryTree(std::span<const Site> sites) : sites_(sites) {
                             if (std::abs(sites[i].point.x) > outside) continue;
                             box.add(sites[i].point);
                             if (!sites[i].is_vertex()) box.add(sites[i].end());
+                            if (sites[i].is_arc()) box.add(sites[i].apex());
                           }
                           store(levels_[0][node], lane, box);
                         }
@@ -158,6 +159,7 @@ std::optional<BoundaryTree::ChordBox> BoundaryTree::chord_box(std::span<const Si
     if (std::abs(site.point.x) > outside) return std::nullopt;
     add(site.point);
     if (!site.is_vertex()) add(site.end());  // a loop may end here
+    if (site.is_arc()) add(site.apex());
   }
   if (box.high - box.low > flat_enough * length) return std::nullopt;
   box.low -= chord_rounding;

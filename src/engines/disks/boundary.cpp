@@ -2,26 +2,92 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 #include "base/predicates.h"
 
 namespace medial::disks {
 namespace {
 
+using geometry::Joint;
+
+/// An edge of the shape as one site, or two where an arc is longer than a quarter of a circle.
+struct Pieces {
+  std::array<geometry::Site, 2> site;
+  std::size_t count = 1;
+  const geometry::Site& first() const { return site[0]; }
+  const geometry::Site& last() const { return site[count - 1]; }
+};
+Pieces pieces_of(Vec2 start, Vec2 end, double bulge) {
+  if (bulge == 0) return {{geometry::make_segment(start, end)}, 1};
+  if (std::abs(bulge) <= geometry::largest_bulge)
+    return {{geometry::make_arc(start, end, bulge)}, 1};
+  const Vec2 middle = midpoint(start, end) - (0.5 * bulge) * left_of(end - start);
+  const double half = bulge / (1 + std::sqrt(1 + bulge * bulge));
+  return {{geometry::make_arc(start, middle, half), geometry::make_arc(middle, end, half)}, 2};
+}
+
+/// The edges of one loop, in the frame.
+class Loop {
+ public:
+  Loop(const Shape& shape, std::size_t loop, const Frame& frame)
+      : shape_(shape),
+        frame_(frame),
+        begin_(shape.loop_begin[loop]),
+        size_(shape.loop_begin[loop + 1] - begin_) {}
+
+  std::uint32_t begin() const { return begin_; }
+  std::uint32_t size() const { return size_; }
+  std::uint32_t next(std::uint32_t i) const { return i + 1 == size_ ? 0 : i + 1; }
+  std::uint32_t before(std::uint32_t i) const { return i == 0 ? size_ - 1 : i - 1; }
+  Vec2 point(std::uint32_t i) const { return shape_.points[begin_ + i]; }
+  Vec2 local(std::uint32_t i) const { return frame_.to_local(point(i)); }
+  double bulge(std::uint32_t i) const { return shape_.bulge(begin_ + i); }
+  Pieces edge(std::uint32_t i) const { return pieces_of(local(i), local(next(i)), bulge(i)); }
+
+ private:
+  const Shape& shape_;
+  const Frame& frame_;
+  std::uint32_t begin_, size_;
+};
+
+Joint joint_at(const Loop& loop, std::uint32_t i, double corner_angle) {
+  const std::uint32_t before = loop.before(i);
+  if (loop.bulge(before) == 0 && loop.bulge(i) == 0) {
+    const bool convex =
+        orientation(loop.point(before), loop.point(i), loop.point(loop.next(i))) > 0;
+    return convex ? Joint::corner : Joint::reflex;
+  }
+  return geometry::joint_of(loop.edge(before).last(), loop.edge(i).first(), corner_angle);
+}
+
+/// Where a loop's run begins.
+struct Start {
+  std::uint32_t point = 0;
+  std::optional<double> inside;  ///< parameter inside an arc of the edge that begins at the point,
+  std::size_t piece = 0;         ///< and which of its pieces
+};
+
 /// A convex corner to start from: a flat one would leave the first disks undetermined, so the first
 /// that turns by a sixth of a circle, or the one that turns most. The search starts in the middle
-/// of the order: that shares the work well on shapes that were drawn from end to end.
-template <class IsCorner>
-std::uint32_t clear_corner(std::span<const Vec2> points, IsCorner&& is_corner) {
+/// of the order: that shares the work well on shapes that were drawn from end to end. Where there
+/// is no corner, the smooth or reflex place where the boundary is least convex, because its disk
+/// cannot be the one of an arc that touches all of it; in the end any place.
+Start start_of_outer(const Loop& loop, const SiteNumbers& numbers, bool has_arcs) {
   constexpr double clear = 0.5;  // cosine of the turn
-  const auto n = static_cast<std::uint32_t>(points.size());
-  std::uint32_t best = 0;
+  std::optional<std::uint32_t> best;
   double best_cosine = 2;
-  for (std::uint32_t step = 0; step < n; ++step) {
-    const std::uint32_t i = (n / 2 + step) % n;
-    if (!is_corner(i)) continue;
-    const Vec2 before = points[i] - points[i == 0 ? n - 1 : i - 1];
-    const Vec2 after = points[i + 1 == n ? 0 : i + 1] - points[i];
+  for (std::uint32_t step = 0; step < loop.size(); ++step) {
+    const std::uint32_t i = (loop.size() / 2 + step) % loop.size();
+    if (numbers.joints[loop.begin() + i] != Joint::corner) continue;
+    Vec2 before, after;
+    if (has_arcs) {
+      before = -left_of(loop.edge(loop.before(i)).last().end_normal());
+      after = loop.edge(i).first().direction;
+    } else {
+      before = loop.point(i) - loop.point(loop.before(i));
+      after = loop.point(loop.next(i)) - loop.point(i);
+    }
     const double cosine = dot(before, after) / (norm(before) * norm(after));
     if (cosine < best_cosine) {
       best_cosine = cosine;
@@ -29,24 +95,100 @@ std::uint32_t clear_corner(std::span<const Vec2> points, IsCorner&& is_corner) {
     }
     if (cosine <= clear) break;
   }
-  return best;
+  if (best) return {*best, {}, 0};
+
+  double least = std::numeric_limits<double>::infinity();
+  Start start;
+  for (std::uint32_t i = 0; i < loop.size(); ++i) {
+    if (numbers.joints[loop.begin() + i] == Joint::blunt) continue;
+    const double curvature =
+        std::max(loop.edge(loop.before(i)).last().curvature, loop.edge(i).first().curvature);
+    if (curvature < least) start.point = i;
+    least = std::min(least, curvature);
+  }
+  return start;
+}
+
+/// The furthest place in the direction `outreach`, of those where a disk can touch the loop.
+Start start_of_hole(const Loop& loop, const SiteNumbers& numbers, bool has_arcs) {
+  Start start;
+  double furthest = -std::numeric_limits<double>::infinity();
+  const auto consider = [&](Vec2 place, const Start& candidate) {
+    const double here = dot(outreach, place);
+    if (here > furthest) start = candidate;
+    furthest = std::max(furthest, here);
+  };
+  for (std::uint32_t i = 0; i < loop.size(); ++i) {
+    const Joint joint = numbers.joints[loop.begin() + i];
+    if (joint == Joint::reflex || joint == Joint::smooth) consider(loop.local(i), {i, {}, 0});
+    if (!has_arcs || loop.bulge(i) == 0) continue;
+    const Pieces pieces = loop.edge(i);
+    for (std::size_t piece = 0; piece < pieces.count; ++piece) {
+      const geometry::Site& arc = pieces.site[piece];
+      const double s =
+          -2 * dot(arc.direction, outreach) / (arc.curvature * (1 + dot(arc.normal(), outreach)));
+      if (s > 0 && s < arc.length) consider(arc.at(s), {i, s, piece});
+    }
+  }
+  return start;
+}
+
+void add_loop(const Loop& loop, const SiteNumbers& numbers, const Start& start,
+              Boundary& boundary) {
+  const auto add_vertex = [&](std::uint32_t i) {
+    if (numbers.is_site(loop.begin() + i))
+      boundary.add(geometry::make_vertex(loop.local(i)), Element::vertex,
+                   numbers.edge[loop.begin() + i] - 1);
+  };
+  // The joint after the last piece of an edge is that at the edge's end.
+  const auto add_edge = [&](std::uint32_t i, std::size_t from_piece, double from,
+                            std::size_t to_piece, double to) {
+    const Pieces pieces = loop.edge(i);
+    const std::uint32_t number = numbers.edge[loop.begin() + i];
+    for (std::size_t piece = from_piece; piece <= std::min(to_piece, pieces.count - 1); ++piece) {
+      const geometry::Site& site = pieces.site[piece];
+      const bool begins_here = piece == from_piece && from > 0;
+      const bool ends_here = piece == to_piece && to < site.length;
+      const bool last = piece + 1 == pieces.count;
+      const Joint joint =
+          last && !ends_here ? numbers.joints[loop.begin() + loop.next(i)] : Joint::smooth;
+      boundary.add(begins_here || ends_here ? geometry::part_of(site, begins_here ? from : 0,
+                                                                ends_here ? to : site.length)
+                                            : site,
+                   Element::edge, number, joint);
+    }
+  };
+  constexpr std::size_t last_piece = 1;
+  constexpr double to_end = std::numeric_limits<double>::infinity();
+  if (start.inside)
+    add_edge(start.point, start.piece, *start.inside, last_piece, to_end);
+  else {
+    add_vertex(start.point);
+    add_edge(start.point, 0, 0, last_piece, to_end);
+  }
+  for (std::uint32_t i = loop.next(start.point); i != start.point; i = loop.next(i)) {
+    add_vertex(i);
+    add_edge(i, 0, 0, last_piece, to_end);
+  }
+  if (start.inside) {
+    add_vertex(start.point);
+    add_edge(start.point, 0, 0, start.piece, *start.inside);
+  }
 }
 
 }  // namespace
 
-SiteNumbers number_sites(const Shape& shape) {
+SiteNumbers number_sites(const Shape& shape, const Frame& frame, double corner_angle) {
   SiteNumbers numbers;
-  numbers.segment.resize(shape.points.size());
-  numbers.is_site.resize(shape.points.size());
-  for (std::size_t loop = 0; loop < shape.loop_count(); ++loop) {
-    const std::span<const Vec2> points = shape.loop(loop);
-    const std::size_t n = points.size(), begin = shape.loop_begin[loop];
-    for (std::size_t i = 0; i < n; ++i) {
-      const Vec2 before = points[i == 0 ? n - 1 : i - 1], after = points[i + 1 == n ? 0 : i + 1];
-      const bool site = orientation(before, points[i], after) <= 0;
-      numbers.is_site[begin + i] = site;
-      if (site) ++numbers.count;
-      numbers.segment[begin + i] = numbers.count++;
+  numbers.edge.resize(shape.points.size());
+  numbers.joints.resize(shape.points.size());
+  for (std::size_t l = 0; l < shape.loop_count(); ++l) {
+    const Loop loop(shape, l, frame);
+    for (std::uint32_t i = 0; i < loop.size(); ++i) {
+      const Joint joint = joint_at(loop, i, corner_angle);
+      numbers.joints[loop.begin() + i] = joint;
+      if (joint == Joint::reflex) ++numbers.count;
+      numbers.edge[loop.begin() + i] = numbers.count++;
     }
   }
   return numbers;
@@ -59,9 +201,11 @@ std::vector<Site> result_sites(const Shape& shape, const SiteNumbers& numbers) {
     for (std::uint32_t i = begin; i < end; ++i) {
       const Vec2 p = shape.points[i], q = shape.points[i + 1 == end ? begin : i + 1];
       const VertexSource source = shape.sources[i];
-      const std::uint32_t number = numbers.segment[i];
-      sites[number] = {p, q, source.ring, source.vertex, SiteKind::segment};
-      if (numbers.is_site[i])
+      const double bulge = shape.bulge(i);
+      const std::uint32_t number = numbers.edge[i];
+      sites[number] = {
+          p, q, source.ring, source.vertex, bulge == 0 ? SiteKind::segment : SiteKind::arc, bulge};
+      if (numbers.is_site(i))
         sites[number - 1] = {p, p, source.ring, source.vertex, SiteKind::vertex};
     }
   }
@@ -70,37 +214,20 @@ std::vector<Site> result_sites(const Shape& shape, const SiteNumbers& numbers) {
 
 Boundary loops_boundary(const Shape& shape, const SiteNumbers& numbers, const Frame& frame) {
   Boundary boundary;
+  boundary.has_arcs = !shape.bulges.empty();
   boundary.sites.reserve(numbers.count);
   boundary.elements.reserve(numbers.count);
   boundary.originals.reserve(numbers.count);
-  for (std::size_t loop = 0; loop < shape.loop_count(); ++loop) {
-    const std::span<const Vec2> points = shape.loop(loop);
-    const std::uint32_t n = static_cast<std::uint32_t>(points.size());
-    const std::uint32_t begin = shape.loop_begin[loop];
-    std::uint32_t start = 0;
-    if (shape.hole[loop]) {
-      double furthest = -std::numeric_limits<double>::infinity();
-      for (std::uint32_t i = 0; i < n; ++i) {
-        if (!numbers.is_site[begin + i]) continue;
-        const double here = dot(outreach, frame.to_local(points[i]));
-        if (here > furthest) start = i;
-        furthest = std::max(furthest, here);
-      }
-    } else {
-      start = clear_corner(points, [&](std::uint32_t i) { return !numbers.is_site[begin + i]; });
-    }
+  for (std::size_t l = 0; l < shape.loop_count(); ++l) {
+    const Loop loop(shape, l, frame);
+    const Start start = shape.hole[l] ? start_of_hole(loop, numbers, boundary.has_arcs)
+                                      : start_of_outer(loop, numbers, boundary.has_arcs);
     const auto first = static_cast<std::uint32_t>(boundary.sites.size());
-    Vec2 p = frame.to_local(points[start]);
-    for (std::uint32_t step = 0; step < n; ++step) {
-      const std::uint32_t i = start + step < n ? start + step : start + step - n;
-      const Vec2 q = frame.to_local(points[i + 1 == n ? 0 : i + 1]);
-      const std::uint32_t number = numbers.segment[begin + i];
-      if (numbers.is_site[begin + i])
-        boundary.add(geometry::make_vertex(p), Element::vertex, number - 1);
-      boundary.add(geometry::make_segment(p, q), Element::segment, number);
-      p = q;
-    }
-    boundary.runs.push_back({first, static_cast<std::uint32_t>(boundary.sites.size() - 1)});
+    add_loop(loop, numbers, start, boundary);
+    const Joint joint = numbers.joints[loop.begin() + start.point];
+    const bool at_corner = !shape.hole[l] && (joint == Joint::corner || joint == Joint::blunt);
+    boundary.runs.push_back(
+        {first, static_cast<std::uint32_t>(boundary.sites.size() - 1), at_corner});
   }
   return boundary;
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/frame.h"
+#include "geometry/joint.h"
 #include "geometry/site.h"
 #include "medial/axis.h"
 #include "medial/shape.h"
@@ -17,53 +18,80 @@ namespace medial::disks {
 constexpr Vec2 outreach{-0.825335614909678297, -0.564642473395035357};
 
 enum class Element : std::uint8_t {
-  segment,
+  edge,    ///< a segment, or an arc of at most a quarter of a circle
   vertex,  ///< reflex, or a straight passage through a touching vertex
   cut,     ///< the dividing disk between a hole and what it was connected to; touches nothing
 };
 
 /// The boundary as sites in boundary order, in the local frame: what the walk goes along. Every
-/// component is one run of sites that begins and ends at a convex corner of its outer loop; its
-/// holes are spliced in where their connecting disks touch, so the run is the boundary of a simply
-/// connected shape.
+/// component is one run of sites that begins and ends at a convex corner of its outer loop, or at a
+/// smooth place where it has none; its holes are spliced in where their connecting disks touch, so
+/// the run is the boundary of a simply connected shape.
 struct Boundary {
   struct Run {
     std::uint32_t first = 0;
     std::uint32_t last = 0;
+    bool at_corner = true;  ///< whether it begins and ends at a convex corner
   };
 
   std::vector<geometry::Site> sites;
   std::vector<Element> elements;         ///< of each site
+  std::vector<geometry::Joint> joints;   ///< of an edge with the next one; empty: all are corners
   std::vector<std::uint32_t> originals;  ///< index among the result's sites; of a cut: its number
   std::vector<Run> runs;                 ///< of each component
   /// Of each cut, its two places in the order: before and after the hole.
   std::vector<std::array<std::uint32_t, 2>> cut_places;
+  bool has_arcs = false;
 
-  void add(const geometry::Site& site, Element element, std::uint32_t original) {
+  void add(const geometry::Site& site, Element element, std::uint32_t original,
+           geometry::Joint joint = geometry::Joint::corner) {
     sites.push_back(site);
     elements.push_back(element);
     originals.push_back(original);
+    if (has_arcs) joints.push_back(joint);
   }
-  bool is_corner(std::uint32_t i) const {  ///< whether i and i + 1 are segments at a convex corner
-    return elements[i] == Element::segment && elements[i + 1] == Element::segment;
+  geometry::Joint joint(std::uint32_t i) const {  ///< between the edges i and i + 1
+    return joints.empty() ? geometry::Joint::corner : joints[i];
+  }
+  bool is_corner(std::uint32_t i) const {  ///< whether i and i + 1 are edges at a convex corner
+    return elements[i] == Element::edge && elements[i + 1] == Element::edge &&
+           joint(i) == geometry::Joint::corner;
+  }
+  /// Whether a disk can touch i and i + 1 in one point: an edge and a vertex, or a smooth joint.
+  bool is_smooth(std::uint32_t i) const {
+    if (elements[i] == Element::cut || elements[i + 1] == Element::cut) return false;
+    if (elements[i] != elements[i + 1]) return true;
+    return elements[i] == Element::edge && joint(i) == geometry::Joint::smooth;
+  }
+  /// Where the sites i and i + 1 join smoothly: the point and the inward unit normal.
+  struct Place {
+    Vec2 point;
+    Vec2 normal;
+  };
+  Place smooth_place(std::uint32_t i) const {
+    if (elements[i] == Element::vertex) return {sites[i].point, sites[i + 1].normal()};
+    return {sites[i + 1].point, sites[i].end_normal()};
   }
 };
 
 /// Which vertices are sites, and how the result numbers its sites: in the order of the shape's
 /// points, the vertex before the segment that starts there.
 struct SiteNumbers {
-  std::vector<std::uint32_t> segment;  ///< of each point; the vertex's number is one less
-  std::vector<bool> is_site;           ///< whether the point is a vertex site
+  std::vector<std::uint32_t> edge;      ///< of each point; the vertex's number is one less
+  std::vector<geometry::Joint> joints;  ///< at each point
   std::uint32_t count = 0;
+  bool is_site(std::size_t point) const { return joints[point] == geometry::Joint::reflex; }
 };
-SiteNumbers number_sites(const Shape& shape);
+/// `corner_angle` in radians; see Options.
+SiteNumbers number_sites(const Shape& shape, const Frame& frame, double corner_angle);
 
 /// The result's sites, in units of the input.
 std::vector<Site> result_sites(const Shape& shape, const SiteNumbers& numbers);
 
 /// The boundary before holes are connected: every loop a run of its own in the order of the shape's
-/// loops (so `runs` are per loop here). An outer loop begins at a convex corner, a hole at its
-/// furthest reflex vertex in the direction `outreach`.
+/// loops (so `runs` are per loop here). An outer loop begins at a convex corner if
+/// it has one, a hole at its furthest point in the direction `outreach`: a reflex vertex, or a
+/// place inside an arc, which is divided there.
 Boundary loops_boundary(const Shape& shape, const SiteNumbers& numbers, const Frame& frame);
 
 }  // namespace medial::disks

@@ -16,21 +16,6 @@ using geometry::Site;
 /// Cuts are kept where no query finds them.
 const Site far_away = geometry::make_vertex({1e30, 1e30});
 
-/// The radius at which a disk that grows at `foot` first touches the closed site, from either side:
-/// on the way it meets the boundary of other parts from behind.
-double closed_tangent_radius(Vec2 foot, Vec2 normal, const Site& site) {
-  if (site.is_vertex()) return geometry::tangent_radius(foot, normal, site);
-  const bool from_behind = cross(site.direction, foot - site.point) < 0;
-  const Site facing = from_behind ? Site{site.end(), -site.direction, site.length} : site;
-  const double on_carrier = geometry::tangent_radius(foot, normal, facing);
-  if (on_carrier < std::numeric_limits<double>::infinity()) {
-    const double s = dot(facing.direction, foot + on_carrier * normal - facing.point);
-    if (s >= 0 && s <= site.length) return on_carrier;
-  }
-  return std::min(geometry::tangent_radius(foot, normal, geometry::make_vertex(site.point)),
-                  geometry::tangent_radius(foot, normal, geometry::make_vertex(site.end())));
-}
-
 /// The run of the loop that a site belongs to.
 Boundary::Run run_of(const Boundary& loops, std::uint32_t site) {
   const auto run =
@@ -42,7 +27,7 @@ Boundary::Run run_of(const Boundary& loops, std::uint32_t site) {
 /// Of a segment touched in an end that is a vertex site, that vertex.
 std::uint32_t owner_of_foot(const Boundary& loops, const Boundary::Run& run, std::uint32_t site,
                             Vec2 center) {
-  if (loops.elements[site] != Element::segment) return site;
+  if (loops.elements[site] != Element::edge) return site;
   const double s = geometry::foot_parameter(loops.sites[site], center);
   const auto cyclic_next = site == run.last ? run.first : site + 1;
   const auto cyclic_before = site == run.first ? run.last : site - 1;
@@ -74,7 +59,8 @@ Cut connecting_disk(const Boundary& loops, const index::BoundaryTree& tree, std:
   // Grow the disk from about the hole's detail until it reaches something. One that reaches beyond
   // the furthest point of all crosses the boundary.
   const double largest = 0.5 * (furthest - dot(outreach, foot)) + 0.01;
-  double radius = std::min(largest, loops.sites[own.first + 1].length);
+  const std::uint32_t edge = own.first + (loops.elements[own.first] == Element::vertex ? 1 : 0);
+  double radius = std::min(largest, loops.sites[edge].length);
   while (radius < largest && !nearest(disk_of(radius), radius))
     radius = std::min(largest, 4 * radius);
 
@@ -83,7 +69,7 @@ Cut connecting_disk(const Boundary& loops, const index::BoundaryTree& tree, std:
   for (;;) {
     const auto hit = nearest(cut.disk, cut.site == own.first ? radius : radius - tolerance);
     if (!hit) break;
-    const double smaller = closed_tangent_radius(foot, outreach, loops.sites[hit.site]);
+    const double smaller = geometry::touching_radius(foot, outreach, loops.sites[hit.site]);
     cut.site = hit.site;
     if (!(smaller < radius)) break;
     radius = smaller;
@@ -99,7 +85,7 @@ double place_on_site(const Boundary& loops, std::uint32_t site, std::uint32_t si
                      Vec2 center) {
   const Site& s = loops.sites[site];
   if (!s.is_vertex()) return geometry::foot_parameter(s, center);
-  const Vec2 from = loops.sites[site_before].normal(), to = center - s.point;
+  const Vec2 from = loops.sites[site_before].end_normal(), to = center - s.point;
   const double angle = std::atan2(-cross(from, to), dot(from, to));
   return angle < -0.1 ? angle + 2 * std::acos(-1.0) : angle;
 }
@@ -135,11 +121,13 @@ class Splicer {
     result_.elements.reserve(copies);
     result_.originals.reserve(copies);
     result_.cut_places.resize(cuts_.size());
+    result_.has_arcs = loops_.has_arcs;
     for (std::uint32_t loop = 0; loop < loops_.runs.size(); ++loop) {
       if (shape_.hole[loop]) continue;
       const auto first = static_cast<std::uint32_t>(result_.sites.size());
       add_component(loop);
-      result_.runs.push_back({first, static_cast<std::uint32_t>(result_.sites.size() - 1)});
+      result_.runs.push_back({first, static_cast<std::uint32_t>(result_.sites.size() - 1),
+                              loops_.runs[loop].at_corner});
     }
     return std::move(result_);
   }
@@ -175,12 +163,10 @@ class Splicer {
   void add_piece(const Cursor& at, double to) {
     const std::uint32_t site =
         at.site <= loops_.runs[at.loop].last ? at.site : loops_.runs[at.loop].first;
-    Site piece = loops_.sites[site];
-    if (!piece.is_vertex()) {
-      piece.point = piece.point + at.from * piece.direction;
-      piece.length = std::max(to - at.from, std::numeric_limits<double>::min());
-    }
-    result_.add(piece, loops_.elements[site], loops_.originals[site]);
+    const Site& whole = loops_.sites[site];
+    const bool all = whole.is_vertex() || (at.from == 0 && to == whole.length);
+    result_.add(all ? whole : geometry::part_of(whole, at.from, to), loops_.elements[site],
+                loops_.originals[site], loops_.joint(site));
   }
 
   void add_component(std::uint32_t outer) {
@@ -198,11 +184,12 @@ class Splicer {
         stack.push_back(begin(cuts_[place.cut].hole));
         continue;
       }
-      // A hole ends with a second copy of the vertex at which it began.
-      if (at.site <= run.last || shape_.hole[at.loop])
+      // A hole that began at a vertex ends with a second copy of it.
+      const bool closes = shape_.hole[at.loop] && loops_.elements[run.first] == Element::vertex;
+      if (at.site <= run.last || closes)
         add_piece(at, at.site <= run.last ? loops_.sites[at.site].length : 0);
       at.from = 0;
-      const std::uint32_t end = shape_.hole[at.loop] ? run.last + 1 : run.last;
+      const std::uint32_t end = closes ? run.last + 1 : run.last;
       if (at.site < end) {
         ++at.site;
         continue;

@@ -56,7 +56,8 @@ MedialAxis run_disks(const Shape& shape, const Options& options) {
   const Box local{frame.to_local(box.low), frame.to_local(box.high)};
   const double tolerance = tolerance_for(local, options.tolerance);
 
-  SiteNumbers numbers = number_sites(shape);
+  const double corner_angle = options.corner_angle * std::acos(-1.0) / 180;
+  SiteNumbers numbers = number_sites(shape, frame, corner_angle);
   Boundary boundary = loops_boundary(shape, numbers, frame);
   statistics.seconds_sites = watch.lap();
   auto tree = std::make_unique<index::BoundaryTree>(boundary.sites);
@@ -97,18 +98,27 @@ bool is_consistent(const Shape& shape) {
   const std::size_t loops = shape.component.size();
   if (shape.sources.size() != shape.points.size() || shape.hole.size() != loops ||
       shape.loop_begin.size() != loops + 1 || loops == 0 || shape.loop_begin.front() != 0 ||
-      shape.loop_begin.back() != shape.points.size())
+      shape.loop_begin.back() != shape.points.size() ||
+      !(shape.bulges.empty() || shape.bulges.size() == shape.points.size()))
     return false;
+  for (const double bulge : shape.bulges)
+    if (!(std::abs(bulge) <= 1)) return false;
   for (std::size_t i = 0; i < loops; ++i) {
     if (shape.loop_begin[i] > shape.loop_begin[i + 1] ||
         shape.loop_begin[i + 1] > shape.points.size())
       return false;
     const std::span<const Vec2> points = shape.loop(i);
-    if (points.size() < 3) return false;
+    if (points.size() < (shape.bulges.empty() ? 3 : 2)) return false;
     double doubled = 0;
-    for (std::size_t j = 0; j < points.size(); ++j)
-      doubled +=
-          cross(points[j] - points[0], points[j + 1 == points.size() ? 0 : j + 1] - points[0]);
+    for (std::size_t j = 0; j < points.size(); ++j) {
+      const Vec2 start = points[j], end = points[j + 1 == points.size() ? 0 : j + 1];
+      doubled += cross(start - points[0], end - points[0]);
+      const double bulge = shape.bulge(shape.loop_begin[i] + j);
+      if (bulge == 0) continue;
+      const double radius = distance(start, end) * (1 + bulge * bulge) / (4 * bulge);
+      const double angle = 4 * std::atan(bulge);
+      doubled += radius * radius * (angle - std::sin(angle));
+    }
     if (!(shape.hole[i] ? doubled <= 0 : doubled >= 0)) return false;
   }
   return true;
@@ -118,6 +128,8 @@ bool is_consistent(const Shape& shape) {
 std::optional<Error> refuse(const Shape& shape, const Options& options) {
   if (!(options.tolerance >= 0 && options.tolerance <= 1e-3))
     return Error{ErrorCode::invalid_option, "the tolerance must be in [0, 1e-3]", {}};
+  if (!(options.corner_angle >= 0 && options.corner_angle <= 10))
+    return Error{ErrorCode::invalid_option, "the corner angle must be in [0, 10] degrees", {}};
   if (options.threads < 0 || options.threads > most_threads)
     return Error{ErrorCode::invalid_option, "the number of threads must be in [0, 1024]", {}};
   if (shape.points.empty()) return Error{ErrorCode::empty, "the shape is empty", {}};

@@ -52,16 +52,27 @@ class Walker {
   Walker(const WalkContext& context, tbb::task_group& tasks, Chunk& chunk)
       : context_(context), boundary_(context.boundary), tasks_(tasks), chunk_(chunk) {}
 
-  /// Starts at the convex corner between the last and the first site of a run.
+  /// Walks all of a run: from the convex corner between its last and first site, or from a disk
+  /// that touches the boundary where the two join smoothly.
   void walk_run(const Boundary::Run& run) {
-    chunk_.nodes.push_back({boundary_.sites[run.first].point, 0});  // stands for no parent
-    const std::uint32_t corner = add_node({boundary_.sites[run.first].point, 0});
-    walk_span({run.first, run.last, corner});
+    chunk_.nodes.push_back({site(run.first).point, 0});  // stands for no parent
+    if (run.at_corner) {
+      const std::uint32_t corner = add_node({site(run.first).point, 0});
+      stack_.push_back({run.first, run.last, corner});
+    } else {
+      start_at_smooth_place(run);
+    }
+    walk_stack();
   }
 
   /// Walks one span and all that branches off it.
   void walk_span(const Span& span) {
     stack_.push_back(span);
+    walk_stack();
+  }
+
+ private:
+  void walk_stack() {
     while (!stack_.empty()) {
       const Span next = stack_.back();
       stack_.pop_back();
@@ -71,7 +82,6 @@ class Walker {
     report_progress(true);
   }
 
- private:
   const Site& site(std::uint32_t i) const { return boundary_.sites[i]; }
   Element element(std::uint32_t i) const { return boundary_.elements[i]; }
 
@@ -102,6 +112,30 @@ class Walker {
     }
   }
 
+  /// The disk that grows at the smooth place where a run begins and ends, until it touches
+  /// something: a node of the axis, from which all of the run is walked. A circle has no more.
+  void start_at_smooth_place(const Boundary::Run& run) {
+    const Vec2 foot = site(run.first).point;
+    const Vec2 normal = element(run.first) == Element::vertex ? site(run.last).end_normal()
+                                                              : site(run.first).normal();
+    double radius = context_.radius_limit;
+    for (const std::uint32_t i : {run.first, run.last})
+      if (site(i).curvature > 0) radius = std::min(radius, 1 / site(i).curvature);
+    const auto disk_of = [&](double r) { return Disk{foot + r * normal, r}; };
+    const Span whole{run.first, run.last, 0};
+    std::uint32_t touched = Hit::none;
+    while (const Hit hit = nearest(disk_of(radius), whole)) {
+      const double smaller = geometry::touching_radius(foot, normal, site(hit.site));
+      touched = hit.site;
+      if (!(smaller < radius)) break;
+      radius = smaller;
+    }
+    const Disk disk = disk_of(radius);
+    const std::uint32_t node = add_node(disk);
+    if (touched != Hit::none) touched = owner(touched, disk.center, whole);
+    split_at_node({run.first, run.last, node}, disk, touched, true);
+  }
+
   /// Whether a walk is needed between the two sites; where they are neighbours, ends the axis
   /// there.
   bool is_open(const Span& span) {
@@ -126,17 +160,21 @@ class Walker {
   /// turn: no disk touches such a chain in two places. Rounding may ask for one where the chain is
   /// flat.
   bool is_reflex_chain(const Span& span) const {
-    for (std::uint32_t i = span.right; i < span.left; ++i)
-      if (element(i) == Element::cut || (element(i) == element(i + 1))) return false;
-    const std::uint32_t first =
-        element(span.right) == Element::vertex ? span.right + 1 : span.right;
-    const std::uint32_t last = element(span.left) == Element::vertex ? span.left - 1 : span.left;
     double turned = 0;
-    for (std::uint32_t i = first; i + 2 <= last; i += 2)
-      turned += std::atan2(-cross(site(i).direction, site(i + 2).direction),
-                           dot(site(i).direction, site(i + 2).direction));
+    Vec2 before = site(span.right).end_normal();
+    for (std::uint32_t i = span.right; i < span.left; ++i) {
+      if (!boundary_.is_smooth(i)) return false;
+      const Site& next = site(i + 1);
+      if (next.curvature > 0) return false;
+      if (next.is_vertex()) continue;
+      if (!site(span.right).is_vertex() || i > span.right) turned += turn(before, next.normal());
+      before = next.end_normal();
+      if (i + 1 < span.left) turned += turn(next.normal(), before);
+    }
     return turned < 3;
   }
+  /// The angle from one direction to another, clockwise.
+  static double turn(Vec2 from, Vec2 to) { return std::atan2(-cross(from, to), dot(from, to)); }
 
   void end_at_cut(const Span& span, std::uint32_t cut) {
     const Disk& disk = context_.cuts[cut].disk;
@@ -212,7 +250,7 @@ class Walker {
   /// end that is a vertex site of its own belongs to the vertex, and a vertex that cuts divide into
   /// several copies is touched by the copy in whose range of directions the centre lies.
   std::uint32_t owner(std::uint32_t i, Vec2 center, const Span& span) const {
-    if (element(i) == Element::segment) {
+    if (element(i) == Element::edge) {
       const double s = geometry::foot_parameter(site(i), center);
       if (s <= 0 && i - 1 > span.right && element(i - 1) == Element::vertex)
         --i;
@@ -254,8 +292,11 @@ class Walker {
     if (std::abs(std::sqrt(geometry::squared_distance(site(i), disk.center)) - disk.radius) > slack)
       return false;
     if (site(i).is_vertex()) return true;
-    const double s = dot(site(i).direction, disk.center - site(i).point);
-    return s > 0 && s < site(i).length;
+    const double s = geometry::carrier_parameter(site(i), disk.center);
+    if (s > 0 && s < site(i).length) return true;
+    // At a smooth joint both touch.
+    const std::uint32_t end = s > 0 ? i : i - 1;
+    return boundary_.has_arcs && element(end) == element(end + 1) && boundary_.is_smooth(end);
   }
 
   /// The event at which the foot leaves `right` or `left` for its neighbour, by the sites alone.
@@ -264,27 +305,22 @@ class Walker {
     const std::uint32_t next = on_right ? own + 1 : own - 1;
     const std::uint32_t other = on_right ? span.left : span.right;
     Event event;
-    const bool smooth = (element(own) == Element::vertex) != (element(next) == Element::vertex) &&
-                        element(next) != Element::cut;
-    if (smooth) {
-      const std::uint32_t vertex = element(own) == Element::vertex ? own : next;
-      const std::uint32_t segment = element(own) == Element::vertex ? next : own;
-      const Vec2 foot = site(vertex).point, normal = site(segment).normal();
-      const double radius = geometry::tangent_radius(foot, normal, site(other));
-      const Disk disk{foot + radius * normal, radius};
-      const double position = bisector.position(disk.center);
+    if (boundary_.is_smooth(on_right ? own : next)) {
       const double low = bisector.position(from.center);
+      const auto disk = disk_at_joint(span, on_right);
+      if (!disk) return event;
+      const double position = bisector.position(disk->center);
       // On a parabola the foot's normal may turn that far only on the way back.
-      if (radius > context_.radius_limit || position < low - slack(from)) return event;
+      if (position < low - slack(from)) return event;
       return not_behind(
-          {on_right ? Event::Kind::pass_right : Event::Kind::pass_left, Hit::none, disk, position},
+          {on_right ? Event::Kind::pass_right : Event::Kind::pass_left, Hit::none, *disk, position},
           from, low);
     }
     // Across a cut, the neighbour is touched as a third site.
     if (element(next) == Element::cut) {
       const std::uint32_t across = on_right ? own + 2 : own - 2;
-      const bool continues_other =
-          (on_right ? across + 1 : across - 1) == other && element(across) != element(other);
+      const bool continues_other = (on_right ? across + 1 : across - 1) == other &&
+                                   boundary_.is_smooth(std::min(across, other));
       if (continues_other) return event;  // the other foot's own event
       // Another copy of what is touched already is no third site.
       const Vec2 foot = geometry::foot(site(across), from.center);
@@ -297,10 +333,12 @@ class Walker {
     }
     // At a convex corner too, before the foot gets to the corner: the disk there is not empty,
     // unless the corner is so flat that it touches both sides within the tolerance.
-    const Vec2 foot = on_right ? site(own).end() : site(own).point, normal = site(own).normal();
+    const Vec2 foot = on_right ? site(next).point : site(own).point;
+    const Vec2 normal = on_right ? site(own).end_normal() : site(own).normal();
+    const Vec2 turned = on_right ? site(next).normal() : site(next).end_normal();
     const double radius = geometry::tangent_radius(foot, normal, site(other));
     const bool in_reach = radius <= context_.radius_limit;
-    const double intrusion = 0.5 * radius * squared_norm(normal - site(next).normal());
+    const double intrusion = 0.5 * radius * squared_norm(normal - turned);
     const bool flat = in_reach && intrusion <= 0.5 * context_.tolerance;
     if (!flat) {
       const auto contact = contact_with(bisector, from, next, nowhere);
@@ -321,21 +359,49 @@ class Walker {
     return geometry::squared_distance(site(i), disk.center) <= reach * reach;
   }
 
+  /// The disk at the smooth joint where the foot on the right or left passes on to its neighbour,
+  /// if it is there: none is larger than the circle of an arc that it touches.
+  std::optional<Disk> disk_at_joint(const Span& span, bool on_right) const {
+    const std::uint32_t own = on_right ? span.right : span.left;
+    const std::uint32_t next = on_right ? own + 1 : own - 1;
+    const std::uint32_t other = on_right ? span.left : span.right;
+    if (const auto circle = circle_of_apex(next, other)) return circle;
+    const auto [foot, normal] = boundary_.smooth_place(std::min(own, next));
+    const double radius = geometry::tangent_radius(foot, normal, site(other));
+    const double flattest = 1 + widest_window;
+    if (!(radius <= context_.radius_limit) || radius * site(own).curvature > flattest ||
+        radius * site(next).curvature > flattest)
+      return std::nullopt;
+    return Disk{foot + radius * normal, radius};
+  }
+
+  /// Where the sites from `next` on to `other` are arcs of one circle that continue each other and
+  /// `other` smoothly, that circle: the axis ends in its centre. Joints so near to each other would
+  /// leave the disk that touches both open.
+  std::optional<Disk> circle_of_apex(std::uint32_t next, std::uint32_t other) const {
+    const Site& arc = site(next);
+    if (!(arc.curvature > 0) || !(1 / arc.curvature <= context_.radius_limit)) return std::nullopt;
+    for (std::uint32_t i = std::min(next, other); i < std::max(next, other); ++i) {
+      const Site& inner = next < other ? site(i) : site(i + 1);
+      if (element(i) != Element::edge || !boundary_.is_smooth(i) ||
+          std::abs(inner.curvature - arc.curvature) > same_curvature * arc.curvature)
+        return std::nullopt;
+    }
+    const double radius = 1 / arc.curvature;
+    return Disk{arc.point + radius * arc.normal(), radius};
+  }
+
   /// The contact with a site that continues one of the two smoothly: where the two meet. The three
   /// carriers would leave the place to the square root of a rounding error.
   std::optional<Event> contact_at_joint(const Bisector& bisector, const Disk& from,
                                         const Span& span, std::uint32_t third) const {
     for (const bool on_right : {true, false}) {
       const std::uint32_t own = on_right ? span.right : span.left;
-      const std::uint32_t other = on_right ? span.left : span.right;
-      if (third != (on_right ? own + 1 : own - 1) || element(own) == element(third)) continue;
-      const bool own_vertex = element(own) == Element::vertex;
-      const Vec2 foot = site(own_vertex ? own : third).point;
-      const Vec2 normal = site(own_vertex ? third : own).normal();
-      const double radius = geometry::tangent_radius(foot, normal, site(other));
-      if (!(radius <= context_.radius_limit)) continue;
-      const Disk disk{foot + radius * normal, radius};
-      return not_behind({Event::Kind::contact, third, disk, bisector.position(disk.center)}, from,
+      if (third != (on_right ? own + 1 : own - 1) || !boundary_.is_smooth(std::min(own, third)))
+        continue;
+      const auto disk = disk_at_joint(span, on_right);
+      if (!disk) continue;
+      return not_behind({Event::Kind::contact, third, *disk, bisector.position(disk->center)}, from,
                         bisector.position(from.center));
     }
     return std::nullopt;
@@ -405,10 +471,9 @@ class Walker {
         break;
     if (error <= context_.tolerance) return;
     ++chunk_.statistics.precision_retries;
-    const auto ends = [](const Site& s) { return geometry::Ends{s.point, s.end()}; };
     Disk precise;
-    if (geometry::tangent_disk_in_high_precision(
-            {ends(bisector.right), ends(bisector.left), ends(third)}, event.disk, precise))
+    if (geometry::tangent_disk_in_high_precision(bisector.right, bisector.left, third, event.disk,
+                                                 precise))
       take_if_better(precise);
   }
 
@@ -489,7 +554,7 @@ class Walker {
     const double step = speed > 0 ? std::min(furthest, 0.5 * context_.tolerance / speed) : 0;
     Event event = contact;
     if (!(step > 0)) return event;
-    const Vec2 along = tangent(bisector, contact.disk);
+    const Vec2 along = bisector.tangent(contact.disk.center);
     event.disk.center = contact.disk.center + step * along;
     event.disk.radius = std::min(geometry::carrier_distance(bisector.right, event.disk.center),
                                  geometry::carrier_distance(bisector.left, event.disk.center));
@@ -497,24 +562,11 @@ class Walker {
     return event;
   }
 
-  /// The unit vector from a site's foot to the disk's centre.
-  static Vec2 outward(const Site& s, const Disk& disk) {
-    if (!s.is_vertex()) return s.normal();
-    const Vec2 d = disk.center - s.point;
-    return (1 / norm(d)) * d;
-  }
-
-  /// The bisector's unit tangent in the direction of the walk: both distances grow alike.
-  static Vec2 tangent(const Bisector& bisector, const Disk& disk) {
-    if (!bisector.right.is_vertex() && !bisector.left.is_vertex()) return bisector.direction;
-    const Vec2 along = left_of(outward(bisector.left, disk) - outward(bisector.right, disk));
-    const double size = norm(along);
-    return (dot(along, bisector.direction) < 0 ? -1 / size : 1 / size) * along;
-  }
-
   /// How fast, along the walk, the disk grows over a third site.
   static double closing(const Bisector& bisector, const Disk& disk, const Site& third) {
-    return dot(outward(bisector.right, disk) - outward(third, disk), tangent(bisector, disk));
+    return dot(
+        geometry::outward(bisector.right, disk.center) - geometry::outward(third, disk.center),
+        bisector.tangent(disk.center));
   }
 
   /// The contact with the intruder of a disk, ahead of it: with its carrier, or with the nearer end
@@ -530,6 +582,12 @@ class Walker {
     const bool at_end = geometry::foot_parameter(segment, center) > 0.5 * segment.length;
     const std::uint32_t next = at_end ? i + 1 : i - 1;
     const bool is_site = next > span.right && next < span.left && element(next) == Element::vertex;
+    // Beyond a smooth end the neighbour goes on.
+    if (next > span.right && next < span.left && element(next) == Element::edge &&
+        boundary_.is_smooth(std::min(i, next))) {
+      const auto on_next = contact_with(bisector, from, next, intruded.position);
+      if (on_next && reaches(*on_next)) return on_next;
+    }
     // At a convex end the neighbour is nearer, and the carrier's disk comes late enough to find it.
     if (contact && !is_site) return contact;
     const Site end = geometry::make_vertex(at_end ? segment.end() : segment.point);
@@ -585,8 +643,10 @@ class Walker {
   }
 
   /// Splits the span at its node's own disk, at all sites that the disk touches, `sure` if
-  /// no other: a node of high degree is found with one query.
-  void split_at_node(const Span& span, const Disk& disk, std::uint32_t sure) {
+  /// no other: a node of high degree is found with one query. `all_around`: both ends of the span
+  /// are touched in one point.
+  void split_at_node(const Span& span, const Disk& disk, std::uint32_t sure,
+                     bool all_around = false) {
     ++chunk_.statistics.queries;
     context_.tree.within(disk.center, disk.radius + context_.tolerance, span.right + 1,
                          span.left - 1, touched_);
@@ -598,7 +658,7 @@ class Walker {
       const double angle = std::atan2(cross(start, to), dot(start, to));
       return angle > 0 ? angle : angle + 2 * std::acos(-1.0);
     };
-    const double end_angle = angle_of(span.left);
+    const double end_angle = all_around ? 2 * std::acos(-1.0) : angle_of(span.left);
     double angle_before = 0;
     std::uint32_t before = span.right;
     std::vector<Span> parts;
@@ -613,6 +673,7 @@ class Walker {
       angle_before = angle;
     }
     if (parts.empty()) {
+      if (sure == Hit::none) return;
       parts.push_back({span.right, sure, span.node});
       before = sure;
     }
@@ -643,6 +704,8 @@ class Walker {
   static constexpr int most_rounds = 200;
   /// How far beyond() may look, against the radius: there the bisector is still straight.
   static constexpr double widest_window = 1e-7;
+  /// Arcs of one circle: their curvatures differ by rounding at most.
+  static constexpr double same_curvature = 1e-9;
   /// Contacts of one disk at a smaller angle are not told apart at a node.
   static constexpr double distinct_contacts = 1e-6;
 

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "geometry/site.h"
+
+namespace medial::geometry {
+
+/// How two edges of a boundary join.
+enum class Joint : std::uint8_t {
+  corner,  ///< at a convex angle: a leaf of the axis
+  blunt,   ///< at a convex angle below the corner angle: no leaf
+  smooth,  ///< with one tangent: a disk may touch both edges there
+  reflex,  ///< at a reflex angle: the vertex is a site
+};
+
+/// Directions that differ by less count as one: a disk that touches an edge there stays within
+/// radius * angle^2 / 2 of the other one, far below every tolerance.
+constexpr double smooth_angle = 1e-8;
+
+/// The joint where `before` ends and `after` begins, at least one of them an arc; `corner_angle` in
+/// radians. At a cusp the curvatures tell whether the interior is inside or around it.
+inline Joint joint_of(const Site& before, const Site& after, double corner_angle) {
+  const Vec2 arriving = -left_of(before.end_normal()), leaving = after.direction;
+  const double sine = cross(arriving, leaving), cosine = dot(arriving, leaving);
+  if (cosine > 0 && std::abs(sine) <= smooth_angle) return Joint::smooth;
+  if (cosine < 0 && std::abs(sine) <= smooth_angle)
+    return -before.curvature > after.curvature ? Joint::corner : Joint::reflex;
+  if (sine < 0) return Joint::reflex;
+  return std::atan2(sine, cosine) <= corner_angle ? Joint::blunt : Joint::corner;
+}
+
+}  // namespace medial::geometry
