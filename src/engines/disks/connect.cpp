@@ -222,7 +222,10 @@ std::vector<Cut> connecting_disks(const Shape& shape, const Boundary& loops,
   for (std::uint32_t loop = 0; loop < shape.loop_count(); ++loop)
     if (shape.hole[loop]) holes.push_back(loop);
   double furthest = -std::numeric_limits<double>::infinity();
-  for (const Site& site : loops.sites) furthest = std::max(furthest, dot(outreach, site.point));
+  for (const Site& site : loops.sites) {
+    furthest = std::max(furthest, dot(outreach, site.point));
+    if (site.is_arc()) furthest = std::max(furthest, dot(outreach, site.apex()));
+  }
 
   std::vector<Cut> cuts(holes.size());
   std::atomic<std::uint64_t> all_queries = 0;

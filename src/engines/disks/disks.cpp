@@ -137,7 +137,6 @@ std::optional<Error> refuse(const Shape& shape, const Options& options) {
   if (shape.points.size() > std::numeric_limits<std::uint32_t>::max() / 8)
     return Error{ErrorCode::too_large, "the shape has more than 2^29 vertices", {}};
   if (auto error = beyond_limits(shape)) return error;
-  if (!shape.bulges.empty()) return Error{ErrorCode::unsupported, "arcs are not supported yet", {}};
   if (!is_consistent(shape))
     return Error{ErrorCode::malformed, "the shape was not made by build_shape()", {}};
   return std::nullopt;

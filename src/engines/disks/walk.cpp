@@ -160,6 +160,7 @@ class Walker {
   /// turn: no disk touches such a chain in two places. Rounding may ask for one where the chain is
   /// flat.
   bool is_reflex_chain(const Span& span) const {
+    if (site(span.right).curvature > 0) return false;
     double turned = 0;
     Vec2 before = site(span.right).end_normal();
     for (std::uint32_t i = span.right; i < span.left; ++i) {
@@ -307,14 +308,15 @@ class Walker {
     Event event;
     if (boundary_.is_smooth(on_right ? own : next)) {
       const double low = bisector.position(from.center);
-      const auto disk = disk_at_joint(span, on_right);
-      if (!disk) return event;
-      const double position = bisector.position(disk->center);
+      const auto joint = disk_at_joint(span, on_right);
+      if (!joint) return event;
+      const double position = bisector.position(joint->disk.center);
       // On a parabola the foot's normal may turn that far only on the way back.
       if (position < low - slack(from)) return event;
-      return not_behind(
-          {on_right ? Event::Kind::pass_right : Event::Kind::pass_left, Hit::none, *disk, position},
-          from, low);
+      event = {on_right ? Event::Kind::pass_right : Event::Kind::pass_left, Hit::none, joint->disk,
+               position};
+      if (!joint->fits) event.kind = Event::Kind::far;
+      return not_behind(event, from, low);
     }
     // Across a cut, the neighbour is touched as a third site.
     if (element(next) == Element::cut) {
@@ -359,20 +361,22 @@ class Walker {
     return geometry::squared_distance(site(i), disk.center) <= reach * reach;
   }
 
-  /// The disk at the smooth joint where the foot on the right or left passes on to its neighbour,
-  /// if it is there: none is larger than the circle of an arc that it touches.
-  std::optional<Disk> disk_at_joint(const Span& span, bool on_right) const {
+  /// The disk at the smooth joint where the foot on the right or left passes on to its neighbour, if
+  /// there is one. It does not fit if it is larger than the circle of an arc that it touches.
+  struct JointDisk {
+    Disk disk;
+    bool fits = true;
+  };
+  std::optional<JointDisk> disk_at_joint(const Span& span, bool on_right) const {
     const std::uint32_t own = on_right ? span.right : span.left;
     const std::uint32_t next = on_right ? own + 1 : own - 1;
     const std::uint32_t other = on_right ? span.left : span.right;
-    if (const auto circle = circle_of_apex(next, other)) return circle;
+    if (const auto circle = circle_of_apex(next, other)) return JointDisk{*circle};
     const auto [foot, normal] = boundary_.smooth_place(std::min(own, next));
     const double radius = geometry::tangent_radius(foot, normal, site(other));
-    const double flattest = 1 + widest_window;
-    if (!(radius <= context_.radius_limit) || radius * site(own).curvature > flattest ||
-        radius * site(next).curvature > flattest)
-      return std::nullopt;
-    return Disk{foot + radius * normal, radius};
+    if (!(radius <= context_.radius_limit)) return std::nullopt;
+    const double largest = std::max(site(own).curvature, site(next).curvature);
+    return JointDisk{{foot + radius * normal, radius}, radius * largest <= 1 + widest_window};
   }
 
   /// Where the sites from `next` on to `other` are arcs of one circle that continue each other and
@@ -399,9 +403,10 @@ class Walker {
       const std::uint32_t own = on_right ? span.right : span.left;
       if (third != (on_right ? own + 1 : own - 1) || !boundary_.is_smooth(std::min(own, third)))
         continue;
-      const auto disk = disk_at_joint(span, on_right);
-      if (!disk) continue;
-      return not_behind({Event::Kind::contact, third, *disk, bisector.position(disk->center)}, from,
+      const auto joint = disk_at_joint(span, on_right);
+      if (!joint || !joint->fits) continue;
+      const Disk& disk = joint->disk;
+      return not_behind({Event::Kind::contact, third, disk, bisector.position(disk.center)}, from,
                         bisector.position(from.center));
     }
     return std::nullopt;
