@@ -115,9 +115,11 @@ inline double carrier_parameter(const Site& site, Vec2 c) {
   const double along = dot(site.direction, d);
   if (!site.is_arc()) return along;
   const Vec2 toward = site.normal() - site.curvature * d;
-  const double denominator = norm(toward) + dot(site.normal(), toward);
-  if (denominator > 0) return 2 * along / denominator;
-  return std::copysign(std::numeric_limits<double>::infinity(), along);
+  const double size = norm(toward), forward = dot(site.normal(), toward);
+  if (forward >= 0) return 2 * along / (size + forward);
+  // Beyond a quarter turn the other form of the half angle's tangent keeps its digits.
+  const double squared = site.curvature * site.curvature;
+  return 2 * (size - forward) / (squared * along);
 }
 
 /// Parameter of the site's point nearest to c.
@@ -138,8 +140,9 @@ inline double squared_distance(const Site& site, Vec2 c) {
     return squared_norm(d - s * site.direction);
   }
   const ArcView view = view_of_arc(site, c);
-  const double s = 2 * dot(site.direction, d) / (view.size + dot(site.normal(), view.toward));
-  if (s >= 0 && s <= site.length) return view.distance * view.distance;
+  const double along = dot(site.direction, d), forward = dot(site.normal(), view.toward);
+  if (along >= 0 && forward >= 0 && 2 * along <= site.length * (view.size + forward))
+    return view.distance * view.distance;
   return std::min(squared_norm(d), squared_norm(c - site.end()));
 }
 
