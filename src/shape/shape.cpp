@@ -1,7 +1,6 @@
 #include "medial/shape.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace medial {
 
@@ -18,7 +17,6 @@ Box bounding_box(const Shape& shape) {
     box.low = {std::min(box.low.x, point.x), std::min(box.low.y, point.y)};
     box.high = {std::max(box.high.x, point.x), std::max(box.high.y, point.y)};
   }
-  if(!shape.bulges.empty()) for(std::size_t l=0;l<shape.loop_count();++l){ auto lp=shape.loop(l); for(std::size_t i=0;i<lp.size();++i){ double b=shape.bulge(shape.loop_begin[l]+i); if(b==0)continue; Vec2 p=lp[i],q=lp[(i+1)%lp.size()]; int n=64; double h=2*std::atan(b); Vec2 e=q-p; double R=norm(e)/(2*std::sin(h)); Vec2 m=0.5*(p+q)+ (R*std::cos(h)/norm(e))*left_of(e); for(int k=1;k<n;++k){ double a=2*h*k/n; Vec2 d=p-m; Vec2 x=m+Vec2{std::cos(a)*d.x-std::sin(a)*d.y,std::sin(a)*d.x+std::cos(a)*d.y}; box.low={std::min(box.low.x,x.x),std::min(box.low.y,x.y)}; box.high={std::max(box.high.x,x.x),std::max(box.high.y,x.y)}; } } }
   return box;
 }
 
