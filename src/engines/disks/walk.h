@@ -1,13 +1,9 @@
 #pragma once
 
-#include <atomic>
-#include <functional>
 #include <memory>
 #include <vector>
 
-#include "engines/disks/boundary.h"
-#include "engines/disks/connect.h"
-#include "index/boundary_tree.h"
+#include "engines/disks/contacts.h"
 #include "medial/axis.h"
 
 namespace medial::disks {
@@ -83,16 +79,6 @@ struct Chunk {
   std::vector<CutEnd> cut_ends;
   std::vector<std::unique_ptr<Chunk>> children;  ///< in the order in which they were forked
   Statistics statistics;
-};
-
-struct WalkContext {
-  const Boundary& boundary;
-  const std::vector<Cut>& cuts;
-  const index::BoundaryTree& tree;
-  double tolerance = 0;     ///< in the local frame
-  double radius_limit = 0;  ///< no disk inside the shape is larger
-  const std::atomic<bool>* cancel = nullptr;
-  std::function<void(std::uint64_t)> finished_sites;  ///< told how many more sites are done with
 };
 
 /// Walks the axis of every run of the boundary (docs/disks.md, step 4), from a convex corner:

@@ -1,0 +1,111 @@
+#include "engines/disks/contacts.h"
+
+#include <cmath>
+
+namespace medial::disks {
+namespace {
+
+/// The angle from one direction to another, clockwise.
+double turn(Vec2 from, Vec2 to) { return std::atan2(-cross(from, to), dot(from, to)); }
+
+}  // namespace
+
+std::uint32_t Contacts::owner(std::uint32_t i, Vec2 center, const Span& span) const {
+  if (element(i) == Element::edge) {
+    const double s = geometry::foot_parameter(site(i), center);
+    if (s <= 0 && i - 1 > span.right && element(i - 1) == Element::vertex)
+      --i;
+    else if (s >= site(i).length && i + 1 < span.left && element(i + 1) == Element::vertex)
+      ++i;
+  }
+  if (element(i) != Element::vertex || context_.cuts.empty()) return i;
+  // Normals turn to the right along a vertex. A vertex with several cuts takes several steps.
+  std::uint32_t copy = i;
+  for (std::size_t step = 0; step <= context_.cuts.size(); ++step) {
+    const Vec2 to = center - site(copy).point;
+    std::uint32_t next = copy;
+    if (element(copy - 1) == Element::cut && cross(cut_direction(copy, copy - 1), to) > 0)
+      next = other_copy(copy - 1, copy);
+    else if (element(copy + 1) == Element::cut && cross(to, cut_direction(copy, copy + 1)) > 0)
+      next = other_copy(copy + 1, copy);
+    if (next == copy) break;
+    copy = next;
+  }
+  return copy > span.right && copy < span.left ? copy : i;
+}
+
+/// From a vertex towards the centre of the cut beside it.
+Vec2 Contacts::cut_direction(std::uint32_t vertex, std::uint32_t cut) const {
+  return context_.cuts[boundary_.originals[cut]].disk.center - site(vertex).point;
+}
+
+/// The copy of a vertex on the other side of the cut at place `cut`, next to which it stands.
+std::uint32_t Contacts::other_copy(std::uint32_t cut, std::uint32_t vertex) const {
+  const auto [first, second] = boundary_.cut_places[boundary_.originals[cut]];
+  const bool on_hole = vertex > first && vertex < second;
+  if (cut == first) return on_hole ? second - 1 : second + 1;
+  return on_hole ? first + 1 : first - 1;
+}
+
+bool Contacts::touches(std::uint32_t i, const Disk& disk, double slack) const {
+  if (std::abs(std::sqrt(geometry::squared_distance(site(i), disk.center)) - disk.radius) > slack)
+    return false;
+  if (site(i).is_vertex()) return true;
+  const double s = geometry::carrier_parameter(site(i), disk.center);
+  if (s > 0 && s < site(i).length) return true;
+  // At a smooth joint both touch.
+  const std::uint32_t end = s > 0 ? i : i - 1;
+  return boundary_.has_arcs && element(end) == element(end + 1) && boundary_.is_smooth(end);
+}
+
+bool Contacts::is_reflex_chain(const Span& span) const {
+  if (span.left - span.right > longest_flat_chain || site(span.right).curvature > 0) return false;
+  double turned = 0;
+  Vec2 before = site(span.right).end_normal();
+  for (std::uint32_t i = span.right; i < span.left; ++i) {
+    if (!boundary_.is_smooth(i)) return false;
+    const geometry::Site& next = site(i + 1);
+    if (next.curvature > 0) return false;
+    if (next.is_vertex()) continue;
+    if (!site(span.right).is_vertex() || i > span.right) turned += turn(before, next.normal());
+    before = next.end_normal();
+    if (i + 1 < span.left) turned += turn(next.normal(), before);
+  }
+  return turned < 3;
+}
+
+void Contacts::split(const Span& span, const Disk& disk, std::uint32_t sure, bool all_around,
+                     std::vector<Span>& parts) {
+  ++statistics_.queries;
+  context_.tree.within(disk.center, disk.radius + context_.tolerance, span.right + 1, span.left - 1,
+                       touched_);
+  // Along the boundary the contacts go around the disk counter-clockwise. What comes out of order
+  // is another copy of a vertex that was touched before.
+  const Vec2 start = geometry::foot(site(span.right), disk.center) - disk.center;
+  const auto angle_of = [&](std::uint32_t i) {
+    const Vec2 to = geometry::foot(site(i), disk.center) - disk.center;
+    const double angle = std::atan2(cross(start, to), dot(start, to));
+    return angle > 0 ? angle : angle + 2 * std::acos(-1.0);
+  };
+  const double end_angle = all_around ? 2 * std::acos(-1.0) : angle_of(span.left);
+  double angle_before = 0;
+  std::uint32_t before = span.right;
+  parts.clear();
+  for (const std::uint32_t hit : touched_) {
+    const std::uint32_t i = owner(hit, disk.center, span);
+    if (i <= before || i >= span.left || !touches(i, disk, context_.tolerance)) continue;
+    const double angle = angle_of(i);
+    if (angle - angle_before < distinct_contacts || end_angle - angle < distinct_contacts) continue;
+    parts.push_back({before, i, span.node});
+    before = i;
+    angle_before = angle;
+  }
+  if (parts.empty()) {
+    if (sure == Hit::none) return;
+    parts.push_back({span.right, sure, span.node});
+    before = sure;
+  }
+  parts.push_back({before, span.left, span.node});
+}
+
+}  // namespace medial::disks

@@ -1,0 +1,326 @@
+#include "engines/disks/events.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/tangent_disk.h"
+
+namespace medial::disks {
+namespace {
+
+using geometry::Site;
+using Hit = Contacts::Hit;
+
+constexpr double nowhere = std::numeric_limits<double>::infinity();
+
+/// Halving an interval of doubles more often than this cannot change it.
+constexpr int bracket_steps = 128;
+/// Correcting a disk moves it by no more, against the radius; what is further is another
+/// solution.
+constexpr double polish_reach = 1e-3;
+/// Of shrinking a disk by closed forms before the bracket takes over; some three are usual.
+constexpr int most_rounds = 200;
+/// How far beyond() may look, against the radius: there the bisector is still straight.
+constexpr double widest_window = 1e-7;
+/// Arcs of one circle: their curvatures differ by rounding at most.
+constexpr double same_curvature = 1e-9;
+
+}  // namespace
+
+Event EventSearch::local_event(bool on_right) {
+  const std::uint32_t own = on_right ? span_.right : span_.left;
+  const std::uint32_t next = on_right ? own + 1 : own - 1;
+  const std::uint32_t other = on_right ? span_.left : span_.right;
+  Event event;
+  if (boundary_.is_smooth(on_right ? own : next)) {
+    const auto joint = disk_at_joint(on_right);
+    if (!joint) return event;
+    const double position = bisector_.position(joint->disk.center);
+    // On a parabola the foot's normal may turn that far only on the way back.
+    if (position < low_ - slack()) return event;
+    event = {on_right ? Event::Kind::pass_right : Event::Kind::pass_left, Hit::none, joint->disk,
+             position};
+    if (!joint->fits) event.kind = Event::Kind::far;
+    return not_behind(event);
+  }
+  // Across a cut, the neighbour is touched as a third site.
+  if (element(next) == Element::cut) {
+    const std::uint32_t across = on_right ? own + 2 : own - 2;
+    const bool continues_other = (on_right ? across + 1 : across - 1) == other &&
+                                 boundary_.is_smooth(std::min(across, other));
+    if (continues_other) return event;  // the other foot's own event
+    // Another copy of what is touched already is no third site.
+    const Vec2 foot = geometry::foot(site(across), from_.center);
+    for (const std::uint32_t touched : {span_.right, span_.left})
+      if (distance(foot, geometry::foot(site(touched), from_.center)) <
+          Contacts::distinct_contacts * from_.radius)
+        return event;
+    const auto contact = contact_with(across, nowhere);
+    return contact && reaches(*contact) ? *contact : event;
+  }
+  // At a convex corner too, before the foot gets to the corner: the disk there is not empty,
+  // unless the corner is so flat that it touches both sides within the tolerance.
+  const Vec2 foot = on_right ? site(next).point : site(own).point;
+  const Vec2 normal = on_right ? site(own).end_normal() : site(own).normal();
+  const Vec2 turned = on_right ? site(next).normal() : site(next).end_normal();
+  const double radius = geometry::tangent_radius(foot, normal, site(other));
+  const bool in_reach = radius <= context_.radius_limit;
+  const double intrusion = 0.5 * radius * squared_norm(normal - turned);
+  const bool flat = in_reach && intrusion <= 0.5 * context_.tolerance;
+  if (!flat) {
+    const auto contact = contact_with(next, nowhere);
+    if (contact && reaches(*contact)) return *contact;
+  }
+  if (!in_reach) return event;
+  event.kind = flat ? Event::Kind::contact : Event::Kind::far;
+  event.site = next;
+  event.disk = {foot + radius * normal, radius};
+  event.position = bisector_.position(event.disk.center);
+  return event;
+}
+
+std::optional<EventSearch::JointDisk> EventSearch::disk_at_joint(bool on_right) const {
+  const std::uint32_t own = on_right ? span_.right : span_.left;
+  const std::uint32_t next = on_right ? own + 1 : own - 1;
+  const std::uint32_t other = on_right ? span_.left : span_.right;
+  if (const auto circle = circle_of_apex(next, other)) return JointDisk{*circle};
+  const auto [foot, normal] = boundary_.smooth_place(std::min(own, next));
+  const double radius = geometry::tangent_radius(foot, normal, site(other));
+  if (!(radius <= context_.radius_limit)) return std::nullopt;
+  const double largest = std::max(site(own).curvature, site(next).curvature);
+  return JointDisk{{foot + radius * normal, radius}, radius * largest <= 1 + widest_window};
+}
+
+std::optional<Disk> EventSearch::circle_of_apex(std::uint32_t next, std::uint32_t other) const {
+  const Site& arc = site(next);
+  if (!(arc.curvature > 0) || !(1 / arc.curvature <= context_.radius_limit)) return std::nullopt;
+  for (std::uint32_t i = std::min(next, other); i < std::max(next, other); ++i) {
+    const Site& inner = next < other ? site(i) : site(i + 1);
+    if (element(i) != Element::edge || !boundary_.is_smooth(i) ||
+        std::abs(inner.curvature - arc.curvature) > same_curvature * arc.curvature)
+      return std::nullopt;
+  }
+  const double radius = 1 / arc.curvature;
+  return Disk{arc.point + radius * arc.normal(), radius};
+}
+
+std::optional<Event> EventSearch::contact_at_joint(std::uint32_t third) const {
+  for (const bool on_right : {true, false}) {
+    const std::uint32_t own = on_right ? span_.right : span_.left;
+    if (third != (on_right ? own + 1 : own - 1) || !boundary_.is_smooth(std::min(own, third)))
+      continue;
+    const auto joint = disk_at_joint(on_right);
+    if (!joint || !joint->fits) continue;
+    const Disk& disk = joint->disk;
+    return not_behind({Event::Kind::contact, third, disk, bisector_.position(disk.center)});
+  }
+  return std::nullopt;
+}
+
+std::optional<Event> EventSearch::contact_with(const Site& touched, std::uint32_t third,
+                                               double high) {
+  ++statistics_.apollonius;
+  const geometry::TangentDisks disks =
+      geometry::tangent_disks(bisector_.right, bisector_.left, touched);
+  Event best;
+  double best_violation = nowhere;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(disks.count); ++i) {
+    const Disk& disk = disks.disk[i];
+    if (disk.radius > context_.radius_limit) continue;
+    const double position = bisector_.position(disk.center);
+    const double violation = std::max({0.0, low_ - position, position - high});
+    // Of two, the one where the disk begins to reach over the site, not where it ceases to.
+    const bool better = violation != best_violation
+                            ? violation < best_violation
+                            : closing(disk, touched) > closing(best.disk, touched);
+    if (better) {
+      best_violation = violation;
+      best = {Event::Kind::contact, third, disk, position};
+    }
+  }
+  if (best_violation > slack()) return std::nullopt;
+  polish(best, touched);
+  best.position = bisector_.position(best.disk.center);
+  return not_behind(best);
+}
+
+Event EventSearch::not_behind(Event event) const {
+  if (event.position < low_) {
+    event.disk = from_;
+    event.position = low_;
+  }
+  return event;
+}
+
+void EventSearch::polish(Event& event, const Site& third) {
+  const auto error_of = [&](const Disk& disk) {
+    return geometry::residual(disk, bisector_.right, bisector_.left, third);
+  };
+  const double furthest = polish_reach * event.disk.radius;
+  double error = error_of(event.disk);
+  const auto take_if_better = [&](const Disk& better) {
+    const double better_error = error_of(better);
+    if (!(better_error < error && distance(better.center, event.disk.center) <= furthest))
+      return false;
+    event.disk = better;
+    error = better_error;
+    return true;
+  };
+  for (int step = 0; step < 2 && error > 0.25 * context_.tolerance; ++step)
+    if (!take_if_better(geometry::improve(event.disk, bisector_.right, bisector_.left, third)))
+      break;
+  if (error <= context_.tolerance) return;
+  ++statistics_.precision_retries;
+  Disk precise;
+  if (geometry::tangent_disk_in_high_precision(bisector_.right, bisector_.left, third, event.disk,
+                                               precise))
+    take_if_better(precise);
+}
+
+Event EventSearch::next() {
+  Event event = local_event(true);
+  const Event on_left = local_event(false);
+  if (on_left.position < event.position) event = on_left;
+  if (event.kind == Event::Kind::none) {
+    event.kind = Event::Kind::far;
+    event.position = bisector_.last_position(from_, context_.radius_limit);
+    event.disk = bisector_.disk_at(event.position, from_);
+  }
+  if (event.kind == Event::Kind::contact) {
+    if (from_.radius > 0 && contacts_.touches(event.site, from_, context_.tolerance))
+      return at_node(event.site);
+    // The only site in between is the one found.
+    if (span_.left - span_.right == 2) return event;
+  }
+  return first_contact(event);
+}
+
+Event EventSearch::at_node(std::uint32_t touched) const {
+  return {Event::Kind::at_node, touched, from_, low_};
+}
+
+Event EventSearch::first_contact(Event event) {
+  Event intruded = event;
+  bool look_beyond = true;
+  // Every round but one that looked beyond comes earlier; rounding could make rounds repeat.
+  for (int round = 0; round < most_rounds; ++round) {
+    Event asked = event;
+    if (event.kind == Event::Kind::contact && look_beyond) asked = beyond(event);
+    const Hit hit = contacts_.nearest(asked.disk, span_);
+    if (!hit) {
+      // Only the carrier was touched, short of the site.
+      if (event.kind == Event::Kind::contact && !reaches(event))
+        return bracket(event.disk, intruded);
+      // The disk at a corner, where the neighbour is too short to reach into it.
+      const bool at_corner = event.kind == Event::Kind::far && event.site != Hit::none;
+      if (at_corner && reaches(event)) event.kind = Event::Kind::contact;
+      // A foot has left its site: events on flat corners come in doubtful order.
+      if (event.kind == Event::Kind::far || !contacts_.reaches(span_.right, event.disk) ||
+          !contacts_.reaches(span_.left, event.disk))
+        return bracket(from_, event);
+      if (event.kind == Event::Kind::contact)
+        event.site = contacts_.owner(event.site, event.disk.center, span_);
+      return event;
+    }
+    const std::uint32_t intruder = contacts_.owner(hit.site, asked.disk.center, span_);
+    if (from_.radius > 0 && contacts_.touches(intruder, from_, context_.tolerance))
+      return at_node(intruder);
+    asked.site = intruder;
+    intruded = asked;
+    const std::optional<Event> earlier = contact_before(asked);
+    if (!earlier || !(earlier->position < asked.position)) {
+      // A disk that is empty, and touched by what is beyond it, will do.
+      if (event.kind == Event::Kind::contact && look_beyond) {
+        look_beyond = false;
+        continue;
+      }
+      return bracket(from_, asked);
+    }
+    look_beyond = earlier->position < event.position;
+    event = *earlier;
+  }
+  return bracket(from_, intruded);
+}
+
+Event EventSearch::beyond(const Event& contact) const {
+  const double speed = closing(contact.disk, site(contact.site));
+  const double furthest = widest_window * contact.disk.radius;
+  const double step = speed > 0 ? std::min(furthest, 0.5 * context_.tolerance / speed) : 0;
+  Event event = contact;
+  if (!(step > 0)) return event;
+  const Vec2 along = bisector_.tangent(contact.disk.center);
+  event.disk.center = contact.disk.center + step * along;
+  event.disk.radius = std::min(geometry::carrier_distance(bisector_.right, event.disk.center),
+                               geometry::carrier_distance(bisector_.left, event.disk.center));
+  event.position = bisector_.position(event.disk.center);
+  return event;
+}
+
+double EventSearch::closing(const Disk& disk, const Site& third) const {
+  return dot(
+      geometry::outward(bisector_.right, disk.center) - geometry::outward(third, disk.center),
+      bisector_.tangent(disk.center));
+}
+
+std::optional<Event> EventSearch::contact_before(const Event& intruded) {
+  const std::uint32_t i = intruded.site;
+  const Site& segment = site(i);
+  if (const auto at_joint = contact_at_joint(i)) return at_joint;
+  std::optional<Event> contact = contact_with(i, intruded.position);
+  if (segment.is_vertex() || (contact && reaches(*contact))) return contact;
+  const Vec2 center = contact ? contact->disk.center : intruded.disk.center;
+  const bool at_end = geometry::foot_parameter(segment, center) > 0.5 * segment.length;
+  const std::uint32_t next = at_end ? i + 1 : i - 1;
+  const bool is_site = next > span_.right && next < span_.left && element(next) == Element::vertex;
+  // Beyond a smooth end the neighbour goes on.
+  if (next > span_.right && next < span_.left && element(next) == Element::edge &&
+      boundary_.is_smooth(std::min(i, next))) {
+    const auto on_next = contact_with(next, intruded.position);
+    if (on_next && reaches(*on_next)) return on_next;
+  }
+  // At a convex end the neighbour is nearer, and the carrier's disk comes late enough to find it.
+  if (contact && !is_site) return contact;
+  const Site end = geometry::make_vertex(at_end ? segment.end() : segment.point);
+  const auto on_end = contact_with(end, is_site ? next : i, intruded.position);
+  return on_end ? on_end : contact;
+}
+
+std::uint32_t EventSearch::obstacle(const Disk& disk) {
+  if (!(disk.radius <= context_.radius_limit)) return contacts_.neighbor(span_, true);
+  const Hit hit = contacts_.nearest(disk, span_);
+  if (hit) return contacts_.owner(hit.site, disk.center, span_);
+  if (!contacts_.reaches(span_.right, disk)) return contacts_.neighbor(span_, true);
+  if (!contacts_.reaches(span_.left, disk)) return contacts_.neighbor(span_, false);
+  return Hit::none;
+}
+
+Event EventSearch::bracket(const Disk& start, const Event& event) {
+  ++statistics_.brackets;
+  Event found{Event::Kind::contact, event.site, start, bisector_.position(start.center)};
+  if (found.site == Hit::none || found.site <= span_.right || found.site >= span_.left)
+    found.site = contacts_.neighbor(span_, true);
+  double high = event.position;
+  for (int step = 0; step < bracket_steps; ++step) {
+    const double middle = 0.5 * (found.position + high);
+    if (!(found.position < middle && middle < high)) break;
+    const Disk disk = bisector_.disk_at(middle, start);
+    const std::uint32_t site = obstacle(disk);
+    if (site == Hit::none) {
+      found.position = middle;
+      found.disk = disk;
+    } else {
+      high = middle;
+      found.site = site;
+    }
+  }
+  Event polished = found;
+  polish(polished, site(found.site));
+  polished.position = bisector_.position(polished.disk.center);
+  const bool holds = polished.position >= bisector_.position(start.center) && reaches(polished) &&
+                     contacts_.reaches(span_.right, polished.disk) &&
+                     contacts_.reaches(span_.left, polished.disk) &&
+                     !contacts_.nearest(polished.disk, span_);
+  return holds ? polished : found;
+}
+
+}  // namespace medial::disks

@@ -1,0 +1,115 @@
+#pragma once
+
+#include <limits>
+#include <optional>
+
+#include "engines/disks/contacts.h"
+#include "geometry/bisector.h"
+
+namespace medial::disks {
+
+/// What happens next on a bisector.
+struct Event {
+  enum class Kind : std::uint8_t {
+    none,
+    pass_right,  ///< the foot passes from `right` on to the next site
+    pass_left,   ///< the foot passes from `left` on to the site before
+    contact,     ///< the disk touches `site`
+    at_node,     ///< the disk of the current node touches `site`
+    far,         ///< the disk has outgrown the shape
+  };
+  Kind kind = Kind::none;
+  std::uint32_t site = Contacts::Hit::none;
+  Disk disk;
+  double position = std::numeric_limits<double>::infinity();
+};
+
+/// Finds what ends an edge of the axis: the first event on the bisector of a span's two sites after
+/// the disk `from`.
+class EventSearch {
+ public:
+  EventSearch(const WalkContext& context, Contacts& contacts, Statistics& statistics,
+              const Span& span, const Disk& from)
+      : context_(context),
+        boundary_(context.boundary),
+        contacts_(contacts),
+        statistics_(statistics),
+        span_(span),
+        from_(from),
+        bisector_(site(span.right), site(span.left)),
+        low_(bisector_.position(from.center)) {}
+
+  /// The event; never `none` or `far`.
+  Event next();
+
+ private:
+  /// A disk that touches a smooth joint. It does not fit if it is larger than the circle of an arc
+  /// there.
+  struct JointDisk {
+    Disk disk;
+    bool fits = true;
+  };
+
+  const geometry::Site& site(std::uint32_t i) const { return boundary_.sites[i]; }
+  Element element(std::uint32_t i) const { return boundary_.elements[i]; }
+  /// Whether a contact lies on the site itself, not only on its carrier.
+  bool reaches(const Event& event) const { return contacts_.reaches(event.site, event.disk); }
+  /// Rounding may put a disk a little behind the place where it should be; what is further behind
+  /// is another solution.
+  double slack() const { return 4 * context_.tolerance + 1e-9 * from_.radius; }
+
+  /// The event at which the foot leaves `right` or `left` for its neighbour, by the sites alone.
+  Event local_event(bool on_right);
+  /// The disk where the foot on the right or left passes on to its neighbour, if there is one.
+  std::optional<JointDisk> disk_at_joint(bool on_right) const;
+  /// Where the sites from `next` on to `other` are arcs of one circle that continue each other and
+  /// `other` smoothly, that circle: the axis ends in its centre. Joints so near to each other would
+  /// leave the disk that touches both open.
+  std::optional<Disk> circle_of_apex(std::uint32_t next, std::uint32_t other) const;
+  /// The contact with a site that continues one of the two smoothly: where the two meet. The three
+  /// carriers would leave the place to the square root of a rounding error.
+  std::optional<Event> contact_at_joint(std::uint32_t third) const;
+  /// The disk on the bisector that touches a third site, at or before position `high`; of several
+  /// the first one ahead of `from`.
+  std::optional<Event> contact_with(const geometry::Site& touched, std::uint32_t third,
+                                    double high);
+  /// An event that rounding put behind the node happens at the node.
+  Event not_behind(Event event) const;
+  /// Brings a disk's residual below the tolerance: by Newton's method, and where that fails in
+  /// higher precision.
+  void polish(Event& event, const geometry::Site& third);
+  Event at_node(std::uint32_t touched) const;
+  /// Shortens the way to `event` until the disk there is empty: each intruder gives a disk
+  /// that comes earlier.
+  Event first_contact(Event event);
+  /// The disk a little further, where the touched site intrudes by half of the tolerance. A flat
+  /// contact leaves its position open: many neighbours on a circle are touched by one disk within
+  /// the tolerance, although each three of them ask for another one. Looking from beyond finds the
+  /// sites that settle the position.
+  Event beyond(const Event& contact) const;
+  /// How fast, along the walk, the disk grows over a third site.
+  double closing(const Disk& disk, const geometry::Site& third) const;
+  /// The contact with the intruder of a disk, ahead of it: with its carrier, or with the nearer end
+  /// if the carrier is touched beyond a vertex site or not at all.
+  std::optional<Event> contact_before(const Event& intruded);
+  /// The site that keeps a disk of the bisector from being a maximal one: an intruder, or the
+  /// neighbour to which a foot has passed on. None for a maximal disk.
+  std::uint32_t obstacle(const Disk& disk);
+  /// Where closed forms fail: halves the way from the node's disk, which is maximal, to that of
+  /// `event`, which is not, until nothing is left in between. Always ends.
+  Event bracket(const Disk& start, const Event& event);
+  std::optional<Event> contact_with(std::uint32_t third, double high) {
+    return contact_with(site(third), third, high);
+  }
+
+  const WalkContext& context_;
+  const Boundary& boundary_;
+  Contacts& contacts_;
+  Statistics& statistics_;
+  const Span span_;
+  const Disk from_;
+  const geometry::Bisector bisector_;
+  const double low_;  ///< position of `from`
+};
+
+}  // namespace medial::disks
