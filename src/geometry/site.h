@@ -132,18 +132,15 @@ inline double foot_parameter(const Site& site, Vec2 c) {
 
 inline Vec2 foot(const Site& site, Vec2 c) { return site.at(foot_parameter(site, c)); }
 
+/// squared_distance() for an arc; apart, so that searches among segments stay small.
+double squared_distance_to_arc(const Site& arc, Vec2 c);
+
 /// Distance from c to the closed site. Error: about two units in the last place of |c - point|.
 inline double squared_distance(const Site& site, Vec2 c) {
+  if (site.is_arc()) return squared_distance_to_arc(site, c);
   const Vec2 d = c - site.point;
-  if (!site.is_arc()) {
-    const double s = std::min(std::max(dot(site.direction, d), 0.0), site.length);
-    return squared_norm(d - s * site.direction);
-  }
-  const ArcView view = view_of_arc(site, c);
-  const double along = dot(site.direction, d), forward = dot(site.normal(), view.toward);
-  if (along >= 0 && forward >= 0 && 2 * along <= site.length * (view.size + forward))
-    return view.distance * view.distance;
-  return std::min(squared_norm(d), squared_norm(c - site.end()));
+  const double s = std::min(std::max(dot(site.direction, d), 0.0), site.length);
+  return squared_norm(d - s * site.direction);
 }
 
 /// Distance to the site's carrier: the whole line or circle, positive on its left, or the vertex.

@@ -143,8 +143,13 @@ void add_loop(const Loop& loop, const SiteNumbers& numbers, const Start& start,
   // The joint after the last piece of an edge is that at the edge's end.
   const auto add_edge = [&](std::uint32_t i, std::size_t from_piece, double from,
                             std::size_t to_piece, double to) {
-    const Pieces pieces = loop.edge(i);
     const std::uint32_t number = numbers.edge[loop.begin() + i];
+    if (loop.bulge(i) == 0) {
+      boundary.add(geometry::make_segment(loop.local(i), loop.local(loop.next(i))), Element::edge,
+                   number, numbers.joints[loop.begin() + loop.next(i)]);
+      return;
+    }
+    const Pieces pieces = loop.edge(i);
     for (std::size_t piece = from_piece; piece <= std::min(to_piece, pieces.count - 1); ++piece) {
       const geometry::Site& site = pieces.site[piece];
       const bool begins_here = piece == from_piece && from > 0;
