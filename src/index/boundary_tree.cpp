@@ -196,64 +196,70 @@ void BoundaryTree::visit_blocks(Vec2 c, double& reach, std::uint32_t first, std:
 
   // Start at the lowest node over the whole range.
   const std::uint32_t first_block = first / block_size, last_block = last / block_size;
-  std::uint32_t level = 0;
-  while ((first_block >> (2 * level)) != (last_block >> (2 * level))) ++level;
+  const auto common = static_cast<std::uint32_t>(std::bit_width(first_block ^ last_block) + 1) / 2;
+  const auto chord_count = static_cast<std::uint32_t>(chords_.size());
 
   std::array<Waiting, 4 * 16 + 4> stack;
   std::size_t size = 0;
-  stack[size++] = {first_block >> (2 * level), level, 0};
-  while (size > 0) {
-    const Waiting top = stack[--size];
-    if (top.squared >= limit) continue;
+  Waiting top{first_block >> (2 * common), common, 0};
+  for (;;) {
     if (top.level == 0) {
       visit(std::max(first, top.index * block_size),
             std::min(last, top.index * block_size + block_size - 1));
       limit = squared_reach();
-      continue;
-    }
-    const std::uint32_t below = top.level - 1;
-    const Boxes& boxes = levels_[below][top.index];
-    const std::uint32_t child = top.index * fan;
-    const std::uint32_t low = first_block >> (2 * below), high = last_block >> (2 * below);
-    std::uint32_t mask = 0xF;
-    if (low > child) mask &= 0xFu << (low - child);
-    if (high < child + 3) mask &= 0xFu >> (child + 3 - high);
+    } else {
+      const std::uint32_t below = top.level - 1;
+      const Boxes& boxes = levels_[below][top.index];
+      const std::uint32_t child = top.index * fan;
+      const std::uint32_t low = first_block >> (2 * below), high = last_block >> (2 * below);
+      std::uint32_t mask = 0xF;
+      if (low > child) mask &= 0xFu << (low - child);
+      if (high < child + 3) mask &= 0xFu >> (child + 3 - high);
 
-    alignas(16) std::array<float, fan> squared;
+      alignas(16) std::array<float, fan> squared;
 #if defined(__SSE2__)
-    const __m128 zero = _mm_setzero_ps();
-    const __m128 cx = _mm_set1_ps(x), cy = _mm_set1_ps(y);
-    const __m128 dx = _mm_max_ps(_mm_max_ps(_mm_sub_ps(_mm_load_ps(boxes.low_x.data()), cx),
-                                            _mm_sub_ps(cx, _mm_load_ps(boxes.high_x.data()))),
-                                 zero);
-    const __m128 dy = _mm_max_ps(_mm_max_ps(_mm_sub_ps(_mm_load_ps(boxes.low_y.data()), cy),
-                                            _mm_sub_ps(cy, _mm_load_ps(boxes.high_y.data()))),
-                                 zero);
-    const __m128 d = _mm_add_ps(_mm_mul_ps(dx, dx), _mm_mul_ps(dy, dy));
-    _mm_store_ps(squared.data(), d);
-    mask &= static_cast<std::uint32_t>(_mm_movemask_ps(_mm_cmplt_ps(d, _mm_set1_ps(limit))));
+      const __m128 zero = _mm_setzero_ps();
+      const __m128 cx = _mm_set1_ps(x), cy = _mm_set1_ps(y);
+      const __m128 dx = _mm_max_ps(_mm_max_ps(_mm_sub_ps(_mm_load_ps(boxes.low_x.data()), cx),
+                                              _mm_sub_ps(cx, _mm_load_ps(boxes.high_x.data()))),
+                                   zero);
+      const __m128 dy = _mm_max_ps(_mm_max_ps(_mm_sub_ps(_mm_load_ps(boxes.low_y.data()), cy),
+                                              _mm_sub_ps(cy, _mm_load_ps(boxes.high_y.data()))),
+                                   zero);
+      const __m128 d = _mm_add_ps(_mm_mul_ps(dx, dx), _mm_mul_ps(dy, dy));
+      _mm_store_ps(squared.data(), d);
+      mask &= static_cast<std::uint32_t>(_mm_movemask_ps(_mm_cmplt_ps(d, _mm_set1_ps(limit))));
 #else
-    for (std::uint32_t i = 0; i < fan; ++i) {
-      const float dx = std::max({boxes.low_x[i] - x, x - boxes.high_x[i], 0.0F});
-      const float dy = std::max({boxes.low_y[i] - y, y - boxes.high_y[i], 0.0F});
-      squared[i] = dx * dx + dy * dy;
-      if (!(squared[i] < limit)) mask &= ~(1u << i);
-    }
-#endif
-    if (below < chords_.size() && mask != 0)
-      mask &= ~beyond_chord_boxes(below, top.index, mask, c, reach);
-    // Push the farthest first, so that the nearest is visited next.
-    const std::size_t bottom = size;
-    while (mask != 0) {
-      const auto lane = static_cast<std::uint32_t>(std::countr_zero(mask));
-      mask &= mask - 1;
-      std::size_t at = size++;
-      while (at > bottom && stack[at - 1].squared < squared[lane]) {
-        stack[at] = stack[at - 1];
-        --at;
+      for (std::uint32_t i = 0; i < fan; ++i) {
+        const float dx = std::max({boxes.low_x[i] - x, x - boxes.high_x[i], 0.0F});
+        const float dy = std::max({boxes.low_y[i] - y, y - boxes.high_y[i], 0.0F});
+        squared[i] = dx * dx + dy * dy;
+        if (!(squared[i] < limit)) mask &= ~(1u << i);
       }
-      stack[at] = {child + lane, below, squared[lane]};
+#endif
+      if (below < chord_count && mask != 0)
+        mask &= ~beyond_chord_boxes(below, top.index, mask, c, reach);
+      if (mask != 0) {
+        // Go on with the nearest; the others wait, the farthest at the bottom.
+        auto lane = static_cast<std::uint32_t>(std::countr_zero(mask));
+        top = {child + lane, below, squared[lane]};
+        const std::size_t bottom = size;
+        for (mask &= mask - 1; mask != 0; mask &= mask - 1) {
+          lane = static_cast<std::uint32_t>(std::countr_zero(mask));
+          Waiting later{child + lane, below, squared[lane]};
+          if (later.squared < top.squared) std::swap(later, top);
+          std::size_t at = size++;
+          for (; at > bottom && stack[at - 1].squared < later.squared; --at)
+            stack[at] = stack[at - 1];
+          stack[at] = later;
+        }
+        continue;
+      }
     }
+    do {
+      if (size == 0) return;
+      top = stack[--size];
+    } while (!(top.squared < limit));
   }
 }
 
