@@ -272,16 +272,15 @@ std::optional<Event> EventSearch::contact_before(const Event& intruded) {
   const bool at_end = geometry::foot_parameter(segment, center) > 0.5 * segment.length;
   const std::uint32_t next = at_end ? i + 1 : i - 1;
   const bool is_site = next > span_.right && next < span_.left && element(next) == Element::vertex;
-  // Beyond a smooth end the neighbour goes on.
-  if (next > span_.right && next < span_.left && element(next) == Element::edge &&
-      boundary_.is_smooth(std::min(i, next))) {
+  // Short of a convex or beyond a smooth end, the neighbour there is touched first.
+  if (next > span_.right && next < span_.left && element(next) == Element::edge) {
     const auto on_next = contact_with(next, intruded.position);
     if (on_next && reaches(*on_next)) return on_next;
   }
-  // At a convex end the neighbour is nearer, and the carrier's disk comes late enough to find it.
-  if (contact && !is_site) return contact;
-  const Site end = geometry::make_vertex(at_end ? segment.end() : segment.point);
-  const auto on_end = contact_with(end, is_site ? next : i, intruded.position);
+  // Any disk that passes through the intruder comes earlier than one that it intrudes.
+  const Vec2 place = is_site ? site(next).point : geometry::foot(segment, intruded.disk.center);
+  const auto on_end =
+      contact_with(geometry::make_vertex(place), is_site ? next : i, intruded.position);
   return on_end ? on_end : contact;
 }
 

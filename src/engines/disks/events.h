@@ -89,8 +89,8 @@ class EventSearch {
   Event beyond(const Event& contact) const;
   /// How fast, along the walk, the disk grows over a third site.
   double closing(const Disk& disk, const geometry::Site& third) const;
-  /// The contact with the intruder of a disk, ahead of it: with its carrier, or with the nearer end
-  /// if the carrier is touched beyond a vertex site or not at all.
+  /// A contact with the intruder of a disk that comes earlier: with its carrier, with its neighbour
+  /// where the carrier is touched short of it, or with a point of it.
   std::optional<Event> contact_before(const Event& intruded);
   /// The site that keeps a disk of the bisector from being a maximal one: an intruder, or the
   /// neighbour to which a foot has passed on. None for a maximal disk.
