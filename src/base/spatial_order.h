@@ -45,4 +45,9 @@ inline std::vector<std::uint32_t> spatial_order(std::span<const Vec2> points, st
   return order;
 }
 
+/// The indices of points along a Z-curve through their bounding box (Morton 1966), 2^32 cells wide
+/// on each side: neighbours in the order lie close together, mostly. Points of one cell keep their
+/// order. Several times faster than spatial_order(), and less tight. O(n).
+std::vector<std::uint32_t> z_order(std::span<const Vec2> points);
+
 }  // namespace medial

@@ -3,10 +3,10 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <atomic>
 #include <limits>
+#include <numbers>
 
-#include "geometry/tangent_disk.h"
+#include "index/first_touch.h"
 
 namespace medial::disks {
 namespace {
@@ -37,44 +37,28 @@ std::uint32_t owner_of_foot(const Boundary& loops, const Boundary::Run& run, std
   return site;
 }
 
-Cut connecting_disk(const Boundary& loops, const index::BoundaryTree& tree, std::uint32_t hole,
-                    double furthest, double tolerance, std::uint64_t& queries) {
+/// The disk meets its own component first. Other components can only have vertices in common with
+/// it, and are left out: a cut must not end there.
+Cut connecting_disk(const Shape& shape, const Boundary& loops, const index::FirstTouch& first_touch,
+                    std::uint32_t hole, double furthest, double tolerance) {
   const Boundary::Run own = loops.runs[hole];
   const Vec2 foot = loops.sites[own.first].point;
-  const auto count = static_cast<std::uint32_t>(loops.sites.size());
-
-  const auto nearest = [&](const Disk& disk, double reach) {
-    index::BoundaryTree::Hit hit;
-    if (own.first > 0) hit = tree.nearest(disk.center, reach, 0, own.first - 1);
-    if (own.last + 1 < count) {
-      if (hit) reach = std::sqrt(hit.squared_distance);
-      const auto later = tree.nearest(disk.center, reach, own.last + 1, count - 1);
-      if (later) hit = later;
-    }
-    ++queries;
-    return hit;
-  };
-  const auto disk_of = [&](double radius) { return Disk{foot + radius * outreach, radius}; };
-
-  // Grow the disk from about the hole's detail until it reaches something. One that reaches beyond
-  // the furthest point of all crosses the boundary.
-  const double largest = 0.5 * (furthest - dot(outreach, foot)) + 0.01;
+  // A disk that reaches beyond the furthest point of all crosses the boundary, however its centre
+  // is rounded.
+  const double largest = 0.5 * (furthest - dot(outreach, foot)) + tolerance;
+  // Most holes have others at about the distance of their own detail.
   const std::uint32_t edge = own.first + (loops.elements[own.first] == Element::vertex ? 1 : 0);
   double radius = std::min(largest, loops.sites[edge].length);
-  while (radius < largest && !nearest(disk_of(radius), radius))
-    radius = std::min(largest, 4 * radius);
-
-  // Shrink it until it is empty.
-  Cut cut{disk_of(radius), hole, own.first};
-  for (;;) {
-    const auto hit = nearest(cut.disk, cut.site == own.first ? radius : radius - tolerance);
-    if (!hit) break;
-    const double smaller = geometry::touching_radius(foot, outreach, loops.sites[hit.site]);
-    cut.site = hit.site;
-    if (!(smaller < radius)) break;
-    radius = smaller;
-    cut.disk = disk_of(radius);
+  const auto find = [&] {
+    return first_touch.find(foot, outreach, radius, shape.component[hole], own.first, own.last);
+  };
+  auto touch = find();
+  while (!touch && radius < largest) {
+    radius = std::min(largest, 8 * radius);
+    touch = find();
   }
+  if (touch) radius = touch->radius;
+  Cut cut{{foot + radius * outreach, radius}, hole, touch ? touch->site : own.first};
   cut.site = owner_of_foot(loops, run_of(loops, cut.site), cut.site, cut.disk.center);
   return cut;
 }
@@ -86,8 +70,9 @@ double place_on_site(const Boundary& loops, std::uint32_t site, std::uint32_t si
   const Site& s = loops.sites[site];
   if (!s.is_vertex()) return geometry::foot_parameter(s, center);
   const Vec2 from = loops.sites[site_before].end_normal(), to = center - s.point;
+  // It lies between 0 and half a turn; rounding may add a little on both sides.
   const double angle = std::atan2(-cross(from, to), dot(from, to));
-  return angle < -0.1 ? angle + 2 * std::acos(-1.0) : angle;
+  return angle < -0.5 * std::numbers::pi ? angle + 2 * std::numbers::pi : angle;
 }
 
 /// Splices loops into runs, without recursion: chains of holes can be long.
@@ -215,27 +200,29 @@ class Splicer {
 
 }  // namespace
 
-std::vector<Cut> connecting_disks(const Shape& shape, const Boundary& loops,
-                                  const index::BoundaryTree& tree, double tolerance,
+std::vector<Cut> connecting_disks(const Shape& shape, const Boundary& loops, double tolerance,
                                   std::uint64_t& queries) {
   std::vector<std::uint32_t> holes;
   for (std::uint32_t loop = 0; loop < shape.loop_count(); ++loop)
     if (shape.hole[loop]) holes.push_back(loop);
+  if (holes.empty()) return {};
   double furthest = -std::numeric_limits<double>::infinity();
   for (const Site& site : loops.sites) {
     furthest = std::max(furthest, dot(outreach, site.point));
     if (site.is_arc()) furthest = std::max(furthest, dot(outreach, site.apex()));
   }
+  std::vector<std::uint32_t> components(loops.sites.size());
+  for (std::uint32_t loop = 0; loop < loops.runs.size(); ++loop)
+    std::fill(components.begin() + loops.runs[loop].first,
+              components.begin() + loops.runs[loop].last + 1, shape.component[loop]);
+  const index::FirstTouch first_touch(loops.sites, components);
 
   std::vector<Cut> cuts(holes.size());
-  std::atomic<std::uint64_t> all_queries = 0;
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, holes.size(), 16), [&](const auto& range) {
-    std::uint64_t own_queries = 0;
     for (std::size_t i = range.begin(); i < range.end(); ++i)
-      cuts[i] = connecting_disk(loops, tree, holes[i], furthest, tolerance, own_queries);
-    all_queries += own_queries;
+      cuts[i] = connecting_disk(shape, loops, first_touch, holes[i], furthest, tolerance);
   });
-  queries += all_queries;
+  queries += cuts.size();
   return cuts;
 }
 

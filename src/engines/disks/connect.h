@@ -3,7 +3,6 @@
 #include <vector>
 
 #include "engines/disks/boundary.h"
-#include "index/boundary_tree.h"
 #include "medial/axis.h"
 
 namespace medial::disks {
@@ -20,8 +19,7 @@ struct Cut {
 /// where the hole has no other point; the loop that it touches has a point further out than the
 /// hole has, so no cycle of holes can arise and all loops of a component get connected. `queries`
 /// counts nearest-site queries. O(h log n) expected.
-std::vector<Cut> connecting_disks(const Shape& shape, const Boundary& loops,
-                                  const index::BoundaryTree& tree, double tolerance,
+std::vector<Cut> connecting_disks(const Shape& shape, const Boundary& loops, double tolerance,
                                   std::uint64_t& queries);
 
 /// The boundary with all holes spliced in: one run for each component.

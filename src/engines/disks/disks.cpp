@@ -40,7 +40,7 @@ double radius_limit(const Box& box, const Frame& frame) {
   return frame.scale * 0.5 * std::min(width, height) * (1 + 0x1p-20);
 }
 
-/// The engine: sites, tree, holes connected, walk, graph.
+/// The engine: sites, holes connected, tree, walk, graph.
 MedialAxis run_disks(const Shape& shape, const Options& options) {
   using namespace disks;
   MedialAxis axis;
@@ -60,17 +60,14 @@ MedialAxis run_disks(const Shape& shape, const Options& options) {
   SiteNumbers numbers = number_sites(shape, frame, corner_angle);
   Boundary boundary = loops_boundary(shape, numbers, frame);
   statistics.seconds_sites = watch.lap();
-  auto tree = std::make_unique<index::BoundaryTree>(boundary.sites);
-  statistics.seconds_tree = watch.lap();
 
-  std::vector<Cut> cuts = connecting_disks(shape, boundary, *tree, tolerance, statistics.queries);
-  if (!cuts.empty()) {
-    tree.reset();
-    boundary = connect(shape, boundary, cuts);
-    tree = std::make_unique<index::BoundaryTree>(boundary.sites);
-  }
+  const std::vector<Cut> cuts = connecting_disks(shape, boundary, tolerance, statistics.queries);
+  if (!cuts.empty()) boundary = connect(shape, boundary, cuts);
   statistics.cuts = cuts.size();
   statistics.seconds_connect = watch.lap();
+
+  auto tree = std::make_unique<index::BoundaryTree>(boundary.sites);
+  statistics.seconds_tree = watch.lap();
 
   std::atomic<std::uint64_t> finished = 0;
   std::function<void(std::uint64_t)> report;

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "geometry/site.h"
+
+namespace medial::index {
+
+/// Answers: which site does a disk reach first that touches a given point and grows away from it?
+///
+/// A box tree over the sites in spatial order: the boxes of loops that are nested in each other all
+/// overlap in boundary order, and every search would have to look into each of them. Smaller disks
+/// of the family lie inside larger ones, so one descent finds the answer: what is beyond a disk
+/// stays beyond while it shrinks. O(n) to build, O(log n) expected for each answer.
+class FirstTouch {
+ public:
+  /// Site i belongs to group groups[i]. Sites must lie in the local frame.
+  FirstTouch(std::span<const geometry::Site> sites, std::span<const std::uint32_t> groups);
+
+  struct Touch {
+    std::uint32_t site = 0;
+    double radius = 0;
+  };
+  /// The first site that the disk of radius r around foot + r direction reaches, from either side,
+  /// while r grows from 0 to `largest`, of all sites of the group but those from first to last,
+  /// both included; none where it reaches none. Of sites that it reaches at the same radius, any.
+  std::optional<Touch> find(Vec2 foot, Vec2 direction, double largest, std::uint32_t group,
+                            std::uint32_t first, std::uint32_t last) const;
+
+ private:
+  static constexpr std::size_t fan = 4;
+  static constexpr std::size_t block_size = 8;
+
+  struct Entry {
+    geometry::Site site;
+    std::uint32_t index, group;
+  };
+  /// Of four sets of sites side by side: boxes, and slabs low <= normal . p <= high along each
+  /// set's longest segment, which hold slanted segments tighter. Without a normal, a slab is
+  /// everything.
+  struct alignas(64) Bounds {
+    std::array<double, fan> low_x, low_y, high_x, high_y, normal_x{}, normal_y{}, low{}, high{};
+    Bounds();
+  };
+
+  void build_level(std::size_t run);
+
+  std::vector<Entry> entries_;               ///< in spatial order
+  std::vector<std::vector<Bounds>> levels_;  ///< levels_[0] bounds blocks of entries
+};
+
+}  // namespace medial::index
