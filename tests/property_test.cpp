@@ -85,6 +85,7 @@ INSTANTIATE_TEST_SUITE_P(Fixed, LargeShapes,
                                          Large{"Maze", [] { return maze(20000); }},
                                          Large{"Comb", [] { return comb(5000); }},
                                          Large{"Holes", [] { return hole_grid(60); }},
+                                         Large{"Nested", [] { return nested_squares(10000); }},
                                          Large{"JaggedStar", [] { return jagged_star(10000); }},
                                          Large{"Spiral", [] { return spiral(10000, 20); }}),
                          [](const auto& tested) { return std::string(tested.param.name); });

@@ -26,11 +26,15 @@ constexpr std::size_t largest_slab = 512;
 }  // namespace
 
 FirstTouch::FirstTouch(std::span<const Site> sites, std::span<const std::uint32_t> groups) {
-  std::vector<Vec2> middle(sites.size());
-  std::transform(sites.begin(), sites.end(), middle.begin(),
-                 [](const Site& site) { return midpoint(site.point, site.end()); });
+  std::vector<std::uint32_t> order;
+  {
+    std::vector<Vec2> middle(sites.size());
+    std::transform(sites.begin(), sites.end(), middle.begin(),
+                   [](const Site& site) { return midpoint(site.point, site.end()); });
+    order = z_order(middle);
+  }
   entries_.reserve(sites.size());
-  for (const std::uint32_t i : z_order(middle)) entries_.push_back({sites[i], i, groups[i]});
+  for (const std::uint32_t i : order) entries_.push_back({sites[i], i, groups[i]});
 
   std::size_t run = block_size;
   do {

@@ -234,6 +234,15 @@ Rings hole_grid(std::size_t k) {
   return rings;
 }
 
+Rings nested_squares(std::size_t rings) {
+  Rings result;
+  for (std::size_t i = 0; i < rings; ++i) {
+    const auto low = static_cast<double>(i), high = static_cast<double>(2 * rings - i);
+    result.push_back(ring_of({{low, low}, {high, low}, {high, high}, {low, high}}));
+  }
+  return result;
+}
+
 Rings spiral(std::size_t n, double turns) {
   std::vector<Vec2> points;
   points.reserve(2 * n);

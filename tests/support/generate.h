@@ -65,6 +65,8 @@ Rings jagged_star(std::size_t n, std::uint64_t seed = 1);
 Rings maze(std::size_t n, std::uint64_t seed = 1);
 /// A square with k x k unit square holes at distance 1 from each other and from the border.
 Rings hole_grid(std::size_t k);
+/// Squares around each other at distance 1: every second one is a hole.
+Rings nested_squares(std::size_t rings);
 /// A band along an Archimedean spiral of the given number of turns; 2n vertices.
 Rings spiral(std::size_t n, double turns = 4);
 /// A triangle of length 1 with the given angle (radians) at its tip.
