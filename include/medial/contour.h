@@ -49,6 +49,8 @@ struct ArcOptions {
   /// or in units of the input.
   double tolerance = 1e-6;
   bool relative = true;
+  /// Threads to use; 0: all of the machine. The result is the same, byte for byte.
+  int threads = 0;
 };
 
 /// What approximate_by_arcs() did.

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+namespace medial::curves {
+
+/// The largest degree of a Bezier piece.
+inline constexpr int kMaxDegree = 32;
+/// The largest degree of a polynomial made of one: see apex_polynomial().
+inline constexpr int kMaxPolynomialDegree = 9 * kMaxDegree;
+
+/// A polynomial on [0, 1] as the sum of c[i] t^i (1 - t)^(degree - i): Bernstein form without the
+/// binomials, in which a product is a plain convolution. Always of its formal degree; the leading
+/// terms may cancel.
+struct Polynomial {
+  int degree = 0;
+  /// A bound on the Bernstein coefficients of what was added up: the rounding errors of the
+  /// coefficients are some units in the last place of this, whatever has cancelled.
+  double magnitude = 0;
+  std::array<double, kMaxPolynomialDegree + 1> c;  // only [0, degree] is ever used
+
+  // Not initialised: most are of a small degree.
+  Polynomial() {}  // NOLINT(modernize-use-equals-default)
+};
+
+/// The polynomial with these Bernstein coefficients.
+Polynomial from_bernstein(const double* coefficients, int degree);
+Polynomial product(const Polynomial& a, const Polynomial& b);
+/// a + factor * b, both of one degree.
+Polynomial sum(const Polynomial& a, double factor, const Polynomial& b);
+Polynomial derivative(const Polynomial& a);
+
+/// Parameters in [0, 1], increasing.
+struct Roots {
+  int count = 0;
+  std::array<double, 2 * kMaxPolynomialDegree> t;
+
+  Roots() {}  // NOLINT(modernize-use-equals-default)
+
+  void add(double root) {
+    if (count < static_cast<int>(t.size())) t[static_cast<std::size_t>(count++)] = root;
+  }
+};
+
+/// All parameters in [0, 1] where the polynomial changes its sign, and those of its zeros at 0 and
+/// 1: none is missed, for the number of sign changes of the coefficients bounds the number of roots
+/// (Descartes' rule in Bernstein form) and an interval is halved until it is 0 or 1. Coefficients
+/// below their rounding errors count as zero: a polynomial that is nothing but rounding has no
+/// inner roots, and a zero where it does not change its sign may be left out.
+Roots roots(const Polynomial& polynomial);
+
+}  // namespace medial::curves

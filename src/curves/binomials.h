@@ -1,0 +1,35 @@
+#pragma once
+
+#include <array>
+
+#include "curves/bernstein.h"
+
+namespace medial::curves {
+
+/// Binomials of a degree n, and the inverses of those of 2n.
+struct Binomials {
+  std::array<double, kMaxDegree + 1> row;
+  std::array<double, 2 * kMaxDegree + 1> inverse_double_row;
+};
+
+inline const Binomials& binomials_of(int degree) {
+  static const auto table = [] {
+    std::array<Binomials, kMaxDegree + 1> all{};
+    for (int n = 0; n <= kMaxDegree; ++n) {
+      double binomial = 1;
+      for (int i = 0; i <= n; ++i) {
+        all[n].row[i] = binomial;
+        binomial = binomial * (n - i) / (i + 1);
+      }
+      binomial = 1;
+      for (int i = 0; i <= 2 * n; ++i) {
+        all[n].inverse_double_row[i] = 1 / binomial;
+        binomial = binomial * (2 * n - i) / (i + 1);
+      }
+    }
+    return all;
+  }();
+  return table[degree];
+}
+
+}  // namespace medial::curves

@@ -1,0 +1,316 @@
+#include "curves/spirals.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "curves/biarc.h"
+
+namespace medial::curves {
+namespace {
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+
+/// Arcs turn by at most a quarter turn, so that two of them make at most a half circle: tan(pi /
+/// 8).
+constexpr double kLargestBulge = 0.41421356237309503 + 1e-12;
+
+/// Bisections after which a part is no larger than rounding, whatever the curve.
+constexpr int kDeepest = 60;
+
+/// Around a cusp the other roots are rounding: a root of multiplicity three is known to about the
+/// third root of a double's precision.
+constexpr double kCuspNeighbourhood = 1e-4;
+
+/// Curvatures that differ by less are the same: roots that are there by rounding only.
+constexpr double kSameCurvature = 1e-8;
+
+/// Between curvatures that differ by d over a chord c a spiral is d c^2 / 32 away from an arc, or
+/// less: where that is below half of the rounding, it is the arc.
+constexpr double kConstant = 16;
+
+bool is_singular(const Station& station) { return std::isinf(station.curvature); }
+
+double extent(const Bezier& curve) {
+  const Vec2 first = curve.point(0);
+  double largest = 0;
+  for (int i = 1; i <= curve.degree; ++i) {
+    const Vec2 d = curve.point(i) - first;
+    largest = std::max({largest, std::abs(d.x), std::abs(d.y)});
+  }
+  return largest;
+}
+
+/// The curve turned so that its chord is horizontal: the coefficients of a flat curve's curvature
+/// are then small because its ordinates are, and not because large products cancel.
+Bezier along_chord(const Bezier& curve) {
+  const Vec2 chord = curve.point(curve.degree) - curve.point(0);
+  const double length = norm(chord);
+  if (!(length > 0)) return curve;
+  const Vec2 d = (1 / length) * chord;
+  Bezier turned;
+  turned.degree = curve.degree;
+  turned.rational = curve.rational;
+  for (int i = 0; i <= curve.degree; ++i) {
+    turned.x[i] = d.x * curve.x[i] + d.y * curve.y[i];
+    turned.y[i] = d.x * curve.y[i] - d.y * curve.x[i];
+    if (curve.rational) turned.w[i] = curve.w[i];
+  }
+  return turned;
+}
+
+/// Converts one curve: the state that the recursion shares.
+class Converter {
+ public:
+  Converter(const Bezier& curve, const PieceFrame& frame, const SpiralOptions& options,
+            ArcChain& chain)
+      : curve_(curve), frame_(frame), options_(options), chain_(chain) {}
+
+  double run();
+
+ private:
+  void convert(const Bezier& part, const Station& a, const Station& b, CurvatureLimits limits,
+               int depth);
+  bool try_single_arc(const Bezier& part, const Station& a, const Station& b);
+  bool try_singular_end(const Bezier& part, const Station& a, const Station& b,
+                        CurvatureLimits limits);
+  bool try_biarc(const Bezier& part, const Station& a, const Station& b, CurvatureLimits limits);
+  bool is_spiral(const Biarc& biarc, const Station& a, const Station& b,
+                 CurvatureLimits limits) const;
+  Station snapped(Station station) const {
+    station.point = frame_.snap(station.point);
+    return station;
+  }
+  void emit(Vec2 begin, double bulge, double error) {
+    chain_.points.push_back(frame_.to_input(begin));
+    chain_.bulges.push_back(bulge);
+    error_ = std::max(error_, error);
+  }
+
+  const Bezier& curve_;
+  const PieceFrame& frame_;
+  const SpiralOptions& options_;
+  ArcChain& chain_;
+  double error_ = 0;
+  bool ends_osculating_ = false;  ///< the last arc is the osculating circle where it ends
+  bool merge_ = false;            ///< and the next one may go on along it
+};
+
+double Converter::run() {
+  const Splits splits = find_splits(curve_);
+  const auto station = [&](double t, Side side, bool inflection) {
+    Station at = station_at(curve_, t, side);
+    if (inflection) at.curvature = 0;
+    return t > 0 && t < 1 ? snapped(at) : at;
+  };
+  Station a = station(0, Side::after, false);
+  Bezier rest = curve_;
+  Station before_a;
+  for (int i = 0; i <= splits.count; ++i) {
+    const bool last = i == splits.count;
+    const Split next = last ? Split{1, Split::Kind::apex} : splits.at[i];
+    const bool inflection = next.kind == Split::Kind::inflection;
+    const Station b = station(next.t, Side::before, inflection);
+    Bezier part;
+    if (last) {
+      part = rest;
+    } else {
+      split(rest, (next.t - a.t) / (1 - a.t), part, rest);
+    }
+    const CurvatureLimits limits{i == 0 ? options_.limits.begin : kInfinite,
+                                 last ? options_.limits.end : kInfinite};
+    merge_ = i > 0 && !is_singular(a) && std::abs(before_a.curvature) < std::abs(a.curvature) &&
+             std::abs(b.curvature) < std::abs(a.curvature);
+    ++chain_.spirals;
+    convert(part, a, b, limits, 0);
+    before_a = a;
+    a = next.kind == Split::Kind::cusp ? station(next.t, Side::after, false) : b;
+  }
+  return error_;
+}
+
+void Converter::convert(const Bezier& part, const Station& a, const Station& b,
+                        CurvatureLimits limits, int depth) {
+  const bool singular = is_singular(a) || is_singular(b);
+  const Vec2 chord = b.point - a.point;
+  if (!(a.point == b.point)) {
+    if (singular) {
+      if (try_singular_end(part, a, b, limits)) return;
+    } else if (std::abs(a.curvature - b.curvature) * squared_norm(chord) <=
+               kConstant * options_.rounding) {
+      if (try_single_arc(part, a, b)) return;
+    } else if (try_biarc(part, a, b, limits)) {
+      return;
+    }
+  }
+  const double size = extent(part);
+  if (depth >= kDeepest || size <= options_.rounding) {
+    // Too small to have a direction.
+    if (!(a.point == b.point)) emit(a.point, 0, size);
+    merge_ = ends_osculating_ = false;
+    error_ = std::max(error_, size);
+    return;
+  }
+  const double t = 0.5 * (a.t + b.t);
+  const Station middle = snapped(station_at(curve_, t, Side::before));
+  Bezier left, right;
+  split(part, 0.5, left, right);
+  convert(left, a, middle, {limits.begin, kInfinite}, depth + 1);
+  const Station from = is_singular(middle) ? snapped(station_at(curve_, t, Side::after)) : middle;
+  convert(right, from, b, {kInfinite, limits.end}, depth + 1);
+}
+
+/// Where curvature is constant but for rounding: one arc, between the directions at both ends.
+bool Converter::try_single_arc(const Bezier& part, const Station& a, const Station& b) {
+  const Vec2 chord = b.point - a.point;
+  const double leaving = bulge_leaving(a.tangent, chord);
+  const double arriving = bulge_arriving(chord, b.tangent);
+  const double bulge = 0.5 * (leaving + arriving);
+  if (!(std::abs(bulge) <= kLargestBulge)) return false;
+  if (std::abs(leaving - arriving) * norm(chord) > kConstant * options_.rounding) return false;
+  const double error = certified_error(part, Arc{a.point, b.point, bulge}, options_.rounding);
+  if (error > options_.tolerance) return false;
+  emit(a.point, bulge, error);
+  merge_ = ends_osculating_ = false;
+  return true;
+}
+
+/// Where curvature grows beyond all bounds towards one end: one arc that keeps the direction at the
+/// other.
+bool Converter::try_singular_end(const Bezier& part, const Station& a, const Station& b,
+                                 CurvatureLimits limits) {
+  if (is_singular(a) && is_singular(b)) return false;
+  const Station& low = is_singular(a) ? b : a;
+  const double limit = is_singular(a) ? limits.end : limits.begin;
+  const Vec2 chord = b.point - a.point;
+  const double bulge =
+      is_singular(a) ? bulge_arriving(chord, b.tangent) : bulge_leaving(a.tangent, chord);
+  if (!(std::abs(bulge) <= kLargestBulge)) return false;
+  const Arc arc{a.point, b.point, bulge};
+  const double amount = std::copysign(1.0, low.curvature) * curvature(arc);
+  const double slack = options_.rounding / squared_norm(chord);
+  if (amount < std::abs(low.curvature) - slack || amount > limit) return false;
+  const double error = certified_error(part, arc, options_.rounding);
+  if (error > options_.tolerance) return false;
+  emit(a.point, bulge, error);
+  merge_ = ends_osculating_ = false;
+  return true;
+}
+
+bool Converter::try_biarc(const Bezier& part, const Station& a, const Station& b,
+                          CurvatureLimits limits) {
+  const Biarc biarc = make_biarc(a, frame_.snap(spiral_joint(a, b)), b);
+  if (!is_spiral(biarc, a, b, limits)) return false;
+  const double error = certified_error(part, biarc, options_.rounding);
+  if (!(error <= options_.tolerance)) return false;
+
+  const bool forward = std::abs(a.curvature) >= std::abs(b.curvature);
+  if (merge_ && ends_osculating_ && forward) {
+    // Two arcs of one circle are one: tan(u + v).
+    double& bulge = chain_.bulges.back();
+    bulge = (bulge + biarc.first.bulge) / (1 - bulge * biarc.first.bulge);
+    error_ = std::max(error_, error);
+  } else {
+    emit(a.point, biarc.first.bulge, error);
+  }
+  emit(biarc.second.begin, biarc.second.bulge, error);
+  merge_ = false;
+  ends_osculating_ = !forward;
+  return true;
+}
+
+/// Whether the curvatures of the arcs lie between those of the curve's ends, as they do for a
+/// spiral that is short enough, and are below the limit.
+bool Converter::is_spiral(const Biarc& biarc, const Station& a, const Station& b,
+                          CurvatureLimits limits) const {
+  if (!(std::abs(biarc.first.bulge) <= kLargestBulge) ||
+      !(std::abs(biarc.second.bulge) <= kLargestBulge)) {
+    return false;
+  }
+  const bool forward = std::abs(a.curvature) >= std::abs(b.curvature);
+  const double sign = std::copysign(1.0, forward ? a.curvature : b.curvature);
+  const double highest = sign * (forward ? a.curvature : b.curvature);
+  const double lowest = std::max(0.0, sign * (forward ? b.curvature : a.curvature));
+  const double other = sign * curvature(forward ? biarc.second : biarc.first);
+  const double shorter = std::min(squared_norm(biarc.first.end - biarc.first.begin),
+                                  squared_norm(biarc.second.end - biarc.second.begin));
+  // The rounding of the arcs' end points, as seen by their curvature.
+  const double slack = options_.rounding / shorter;
+  return other >= lowest - slack && other <= highest + slack &&
+         other <= (forward ? limits.end : limits.begin);
+}
+
+}  // namespace
+
+Splits find_splits(const Bezier& curve) {
+  const CurvaturePolynomials polynomials = curvature_polynomials(along_chord(curve));
+  Splits found;
+  const auto add_roots = [&](const Polynomial& polynomial, Split::Kind kind) {
+    const Roots all = roots(polynomial);
+    for (int i = 0; i < all.count; ++i) {
+      if (all.t[i] > 0 && all.t[i] < 1) found.add({all.t[i], kind});
+    }
+  };
+  add_roots(polynomials.inflection, Split::Kind::inflection);
+  add_roots(polynomials.apex, Split::Kind::apex);
+
+  // Cusps: where the speed is stationary and zero. Seldom, so looked for only where a split is slow
+  // or an end is singular.
+  const double size = extent(curve);
+  double cusps[kMaxDegree + 2];
+  int cusp_count = 0;
+  for (double t : {0.0, 1.0}) {
+    if (is_singular(station_at(curve, t, t == 0 ? Side::after : Side::before))) {
+      cusps[cusp_count++] = t;
+    }
+  }
+  const auto near_cusp = [&](double t) {
+    return std::any_of(cusps, cusps + cusp_count,
+                       [&](double cusp) { return std::abs(t - cusp) <= kCuspNeighbourhood; });
+  };
+  constexpr double slow = 1e-2;
+  const bool any_slow = std::any_of(
+      found.at.begin(), found.at.begin() + found.count,
+      [&](const Split& split) { return norm(evaluate(curve, split.t).first) < slow * size; });
+  if (any_slow) {
+    const Roots stationary = roots(derivative(polynomials.speed));
+    for (int i = 0; i < stationary.count; ++i) {
+      const double t = stationary.t[i];
+      const bool known = near_cusp(t) || t <= kCuspNeighbourhood || t >= 1 - kCuspNeighbourhood;
+      if (!known && cusp_count <= kMaxDegree && is_singular(station_at(curve, t, Side::after))) {
+        cusps[cusp_count++] = t;
+        found.add({t, Split::Kind::cusp});
+      }
+    }
+  }
+  Split* const begin = found.at.data();
+  Split* end = std::remove_if(begin, begin + found.count, [&](const Split& split) {
+    return split.kind != Split::Kind::cusp && near_cusp(split.t);
+  });
+  std::sort(begin, end, [](const Split& a, const Split& b) { return a.t < b.t; });
+
+  // Roots that rounding has doubled: nothing happens to the curvature between them.
+  int kept = 0;
+  double last_curvature = kInfinite, last_t = 0;
+  for (const Split* split = begin; split != end; ++split) {
+    const double k =
+        split->kind == Split::Kind::inflection ? 0 : curvature(evaluate(curve, split->t));
+    if (split->kind != Split::Kind::cusp && kept > 0 && split->t - last_t <= kCuspNeighbourhood &&
+        std::abs(k - last_curvature) <=
+            kSameCurvature * std::max(std::abs(k), std::abs(last_curvature))) {
+      continue;
+    }
+    last_curvature = k;
+    last_t = split->t;
+    begin[kept++] = *split;
+  }
+  found.count = kept;
+  return found;
+}
+
+double append_spirals(const Bezier& curve, const PieceFrame& frame, const SpiralOptions& options,
+                      ArcChain& chain) {
+  return Converter(curve, frame, options, chain).run();
+}
+
+}  // namespace medial::curves
