@@ -59,7 +59,7 @@ struct ArcReport {
   std::uint64_t spirals = 0;   ///< pieces of monotone curvature without inflection
   std::uint64_t arcs = 0;      ///< of the result
   std::uint64_t segments = 0;  ///< straight edges of the result
-  double tolerance = 0;        ///< in units of the input
+  double tolerance = 0;        ///< in units of the input; not below the coordinates' rounding
   double largest_error = 0;    ///< certified Hausdorff distance, in units of the input
 };
 

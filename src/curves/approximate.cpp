@@ -23,9 +23,18 @@ constexpr double kInfinite = std::numeric_limits<double>::infinity();
 /// Pieces that one task converts.
 constexpr std::size_t kChunk = 64;
 
-/// Coordinates are known to about eight units of their last place: points are rounded, and so are
-/// the control points of a curve's parts.
-constexpr double kRounding = 8 * std::numeric_limits<double>::epsilon();
+/// The distance that means nothing on a curve with coordinates up to `largest`: what rounding does
+/// to points, and to control points that have been halved again and again (each time with one
+/// rounding a degree; over the smallest weight, where there are weights).
+double rounding_of(const Bezier& curve, double largest) {
+  double ratio = 1;
+  if (curve.rational) {
+    const auto [least, most] =
+        std::minmax_element(curve.w.begin(), curve.w.begin() + curve.degree + 1);
+    ratio = *most / *least;
+  }
+  return (8 + 4 * curve.degree * ratio) * std::numeric_limits<double>::epsilon() * largest;
+}
 
 /// A joint where directions differ by less is smooth.
 constexpr double kSmooth = 1e-3;
@@ -119,13 +128,13 @@ void PieceSource::load(std::size_t index, Piece& piece) const {
   std::frexp(size, &exponent);
   exponent = std::clamp(exponent, -1000, 1023);
   piece.frame = {half_origin, std::ldexp(1.0, -exponent), std::ldexp(1.0, exponent)};
-  piece.rounding = kRounding * largest;
   std::array<Vec2, kMaxDegree + 1> local;
   for (std::size_t i = 0; i < points.size(); ++i) local[i] = piece.frame.to_local(points[i]);
   const std::span<const double> weights =
       contour_.weights.empty() ? std::span<const double>()
                                : std::span(contour_.weights).subspan(source.first, points.size());
   piece.curve = make_bezier(std::span(local).first(points.size()), weights);
+  piece.rounding = rounding_of(piece.curve, largest);
   const double local_rounding = piece.frame.local_length(piece.rounding);
   if (is_straight(piece.curve, local_rounding)) {
     piece.kind = Piece::Kind::straight_curve;
@@ -158,6 +167,7 @@ struct Chunk {
   std::size_t count = 0;
   ArcChain chain;
   double error = 0;
+  double floor = 0;  ///< no tolerance below this was met
 };
 
 /// A curve on a line, as the segments between the points where it turns back.
@@ -170,7 +180,7 @@ void append_straight(const Piece& piece, ArcChain& chain) {
     const Vec2 d = curve.point(i) - curve.point(0);
     if (squared_norm(d) > squared_norm(axis)) axis = d;
   }
-  std::array<double, kMaxDegree + 1> along, weight;
+  Fixed<double, kMaxDegree + 1> along, weight;
   bool rising = true, falling = true;
   for (int i = 0; i <= curve.degree; ++i) {
     along[i] = axis.x * curve.x[i] + axis.y * curve.y[i];
@@ -213,6 +223,7 @@ void convert(const PieceSource& source, double tolerance, Chunk& chunk) {
           piece->end_curvature, after->begin_curvature, piece->end_tangent, after->begin_tangent));
       const std::size_t begin = chain.points.size();
       const double error = append_spirals(piece->curve, frame, options, chain);
+      chunk.floor = std::max(chunk.floor, 1.5 * piece->rounding);
       // The rounding of end points comes on top of what was measured.
       chunk.error = std::max(chunk.error, frame.input_length(error) + 0.5 * piece->rounding);
       if (chain.points.size() > begin) chain.points[begin] = piece->begin_point;
@@ -288,7 +299,8 @@ std::optional<Error> fault_of(const Contour& contour, std::size_t index) {
   return std::nullopt;
 }
 
-double diagonal_of(std::span<const Contour> contours) {
+/// Half of the bounding box' diagonal: the whole may be too large for a double.
+double half_diagonal_of(std::span<const Contour> contours) {
   double low_x = kInfinite, low_y = kInfinite, high_x = -kInfinite, high_y = -kInfinite;
   for (const Contour& contour : contours) {
     for (Vec2 p : contour.points) {
@@ -298,7 +310,7 @@ double diagonal_of(std::span<const Contour> contours) {
       high_y = std::max(high_y, p.y);
     }
   }
-  return std::hypot(high_x - low_x, high_y - low_y);
+  return std::hypot(0.5 * high_x - 0.5 * low_x, 0.5 * high_y - 0.5 * low_y);
 }
 
 }  // namespace
@@ -312,9 +324,10 @@ Result<std::vector<Ring>> approximate_by_arcs(std::span<const Contour> contours,
   for (std::size_t i = 0; i < contours.size(); ++i) {
     if (auto error = fault_of(contours[i], i)) return *error;
   }
-  const double tolerance =
-      std::min(options.tolerance * (options.relative ? diagonal_of(contours) : 1),
-               0.25 * std::numeric_limits<double>::max());
+  const double tolerance = options.relative
+                               ? std::min(2 * (options.tolerance * half_diagonal_of(contours)),
+                                          std::numeric_limits<double>::max())
+                               : options.tolerance;
 
   std::vector<PieceSource> sources;
   sources.reserve(contours.size());
@@ -323,7 +336,7 @@ Result<std::vector<Ring>> approximate_by_arcs(std::span<const Contour> contours,
     sources.emplace_back(contours[i]);
     const std::size_t pieces = sources.back().size();
     for (std::size_t first = 0; first < pieces; first += kChunk) {
-      chunks.push_back({i, first, std::min(kChunk, pieces - first), {}, 0});
+      chunks.push_back({i, first, std::min(kChunk, pieces - first), {}, 0, 0});
     }
   }
   const auto convert_chunk = [&](std::size_t i) {
@@ -356,6 +369,7 @@ Result<std::vector<Ring>> approximate_by_arcs(std::span<const Contour> contours,
     for (double bulge : chain.bulges) ++(bulge == 0 ? done.segments : done.arcs);
     done.spirals += chain.spirals;
     done.largest_error = std::max(done.largest_error, chunk.error);
+    done.tolerance = std::max(done.tolerance, chunk.floor);
   }
   for (std::size_t i = 0; i < rings.size(); ++i) {
     if (rings[i].points.size() < 2) {

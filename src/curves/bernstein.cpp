@@ -16,7 +16,7 @@ struct Part {
   double low = 0;
   double high = 1;
   double noise = 0;  ///< bound on the rounding errors of the coefficients
-  std::array<double, kMaxPolynomialDegree + 1> b;
+  Fixed<double, kMaxPolynomialDegree + 1> b;
 
   Part() {}  // NOLINT(modernize-use-equals-default)
 
@@ -55,7 +55,7 @@ double only_root(const Part& part) {
   const bool rising = part.b[n] > 0;
   double low = 0, high = 1;
   double s = part.b[0] / (part.b[0] - part.b[n]);
-  std::array<double, kMaxPolynomialDegree + 1> b;
+  Fixed<double, kMaxPolynomialDegree + 1> b;
   for (int step = 0; step < 100; ++step) {
     std::copy_n(part.b.begin(), n + 1, b.begin());
     for (int level = n; level > 1; --level) {

@@ -1,14 +1,25 @@
 #pragma once
 
-#include <array>
-#include <cstddef>
-
 namespace medial::curves {
 
 /// The largest degree of a Bezier piece.
 inline constexpr int kMaxDegree = 32;
 /// The largest degree of a polynomial made of one: see apex_polynomial().
 inline constexpr int kMaxPolynomialDegree = 9 * kMaxDegree;
+
+/// An array for a known number of values at most: indexed by int, and not initialised.
+template <class T, int N>
+struct Fixed {
+  T items[N];
+
+  T& operator[](int i) { return items[i]; }
+  const T& operator[](int i) const { return items[i]; }
+  T* begin() { return items; }
+  const T* begin() const { return items; }
+  T* data() { return items; }
+  const T* data() const { return items; }
+  static constexpr int size() { return N; }
+};
 
 /// A polynomial on [0, 1] as the sum of c[i] t^i (1 - t)^(degree - i): Bernstein form without the
 /// binomials, in which a product is a plain convolution. Always of its formal degree; the leading
@@ -18,7 +29,7 @@ struct Polynomial {
   /// A bound on the Bernstein coefficients of what was added up: the rounding errors of the
   /// coefficients are some units in the last place of this, whatever has cancelled.
   double magnitude = 0;
-  std::array<double, kMaxPolynomialDegree + 1> c;  // only [0, degree] is ever used
+  Fixed<double, kMaxPolynomialDegree + 1> c;  // only [0, degree] is ever used
 
   // Not initialised: most are of a small degree.
   Polynomial() {}  // NOLINT(modernize-use-equals-default)
@@ -34,12 +45,12 @@ Polynomial derivative(const Polynomial& a);
 /// Parameters in [0, 1], increasing.
 struct Roots {
   int count = 0;
-  std::array<double, 2 * kMaxPolynomialDegree> t;
+  Fixed<double, 2 * kMaxPolynomialDegree> t;
 
   Roots() {}  // NOLINT(modernize-use-equals-default)
 
   void add(double root) {
-    if (count < static_cast<int>(t.size())) t[static_cast<std::size_t>(count++)] = root;
+    if (count < t.size()) t[count++] = root;
   }
 };
 

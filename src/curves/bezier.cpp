@@ -17,7 +17,7 @@ struct Values {
   double first = 0;
   double second = 0;
 };
-Values casteljau(std::array<double, kMaxDegree + 1>& b, int degree, double t) {
+Values casteljau(Fixed<double, kMaxDegree + 1>& b, int degree, double t) {
   const double n = degree;
   for (int level = degree; level > 2; --level) {
     for (int i = 0; i < level; ++i) b[i] += t * (b[i + 1] - b[i]);
@@ -33,9 +33,9 @@ Values casteljau(std::array<double, kMaxDegree + 1>& b, int degree, double t) {
   return values;
 }
 
-void split(const std::array<double, kMaxDegree + 1>& c, int degree, double t,
-           std::array<double, kMaxDegree + 1>& before, std::array<double, kMaxDegree + 1>& after) {
-  std::array<double, kMaxDegree + 1> b;
+void split(const Fixed<double, kMaxDegree + 1>& c, int degree, double t,
+           Fixed<double, kMaxDegree + 1>& before, Fixed<double, kMaxDegree + 1>& after) {
+  Fixed<double, kMaxDegree + 1> b;
   std::copy_n(c.begin(), degree + 1, b.begin());
   for (int level = 0; level <= degree; ++level) {
     before[level] = b[0];
@@ -76,16 +76,16 @@ Bezier make_bezier(std::span<const Vec2> points, std::span<const double> weights
   for (int i = 0; i <= curve.degree; ++i) {
     const auto at = static_cast<std::size_t>(i);
     const double w = curve.rational ? weights[at] / weights[0] : 1;
-    curve.x[at] = w * points[at].x;
-    curve.y[at] = w * points[at].y;
-    if (curve.rational) curve.w[at] = w;
+    curve.x[i] = w * points[at].x;
+    curve.y[i] = w * points[at].y;
+    if (curve.rational) curve.w[i] = w;
   }
   return curve;
 }
 
 Jet evaluate(const Bezier& curve, double t) {
-  std::array<double, kMaxDegree + 1> b{};
-  const auto values = [&](const std::array<double, kMaxDegree + 1>& c) {
+  Fixed<double, kMaxDegree + 1> b{};
+  const auto values = [&](const Fixed<double, kMaxDegree + 1>& c) {
     std::copy_n(c.begin(), curve.degree + 1, b.begin());
     return casteljau(b, curve.degree, t);
   };

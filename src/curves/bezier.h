@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <span>
 
 #include "curves/bernstein.h"
@@ -13,9 +12,9 @@ namespace medial::curves {
 struct Bezier {
   int degree = 0;
   bool rational = false;
-  std::array<double, kMaxDegree + 1> x;
-  std::array<double, kMaxDegree + 1> y;
-  std::array<double, kMaxDegree + 1> w;
+  Fixed<double, kMaxDegree + 1> x;
+  Fixed<double, kMaxDegree + 1> y;
+  Fixed<double, kMaxDegree + 1> w;
 
   // Not initialised: only [0, degree] is ever used.
   Bezier() {}  // NOLINT(modernize-use-equals-default)

@@ -41,7 +41,7 @@ double largest_circle_function(const Bezier& curve, Vec2 base, Vec2 tangent, dou
   const int n = curve.degree;
   const Binomials& binomials = binomials_of(n);
   // Coefficients times the binomials: c, its turned component, and the weight.
-  std::array<double, kMaxDegree + 1> cx, cy, side, w;
+  Fixed<double, kMaxDegree + 1> cx, cy, side, w;
   for (int i = 0; i <= n; ++i) {
     const double scale = binomials.row[i];
     w[i] = scale * curve.weight(i);
@@ -124,7 +124,7 @@ std::optional<double> projected_joint(const Bezier& curve, const Biarc& biarc) {
   const Vec2 joint = biarc.first.end;
   const Vec2 tangent = tangent_at_end(biarc.first);
   const int n = curve.degree;
-  std::array<double, kMaxDegree + 1> h, b;
+  Fixed<double, kMaxDegree + 1> h, b;
   for (int i = 0; i <= n; ++i) {
     h[i] = tangent.x * curve.x[i] + tangent.y * curve.y[i] - curve.weight(i) * dot(tangent, joint);
   }
@@ -201,7 +201,7 @@ double extremal_error(const Bezier& curve, const Biarc& biarc) {
     const Vec2 tangent = tangent_at_begin(arc);
     const double k = curvature(arc);
     // F = N / W^2 has the derivative (N'W - 2NW') / W^3.
-    std::array<double, kMaxDegree + 1> cx, cy, side, w;
+    Fixed<double, kMaxDegree + 1> cx, cy, side, w;
     for (int i = 0; i <= piece.degree; ++i) {
       w[i] = piece.weight(i);
       cx[i] = piece.x[i] - w[i] * arc.begin.x;

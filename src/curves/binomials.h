@@ -1,20 +1,18 @@
 #pragma once
 
-#include <array>
-
 #include "curves/bernstein.h"
 
 namespace medial::curves {
 
 /// Binomials of a degree n, and the inverses of those of 2n.
 struct Binomials {
-  std::array<double, kMaxDegree + 1> row;
-  std::array<double, 2 * kMaxDegree + 1> inverse_double_row;
+  Fixed<double, kMaxDegree + 1> row;
+  Fixed<double, 2 * kMaxDegree + 1> inverse_double_row;
 };
 
 inline const Binomials& binomials_of(int degree) {
   static const auto table = [] {
-    std::array<Binomials, kMaxDegree + 1> all{};
+    Fixed<Binomials, kMaxDegree + 1> all{};
     for (int n = 0; n <= kMaxDegree; ++n) {
       double binomial = 1;
       for (int i = 0; i <= n; ++i) {

@@ -120,8 +120,8 @@ Status Contour::spline_to(std::uint32_t degree, std::span<const double> knots,
       return invalid_spline("the knots of a spline must not decrease");
     }
     // A knot inside of multiplicity degree + 1 tears the curve.
-    if (i > degree + 1 && i < control.size() && knots[i] == knots[i - degree] &&
-        knots[i] < knots[control.size()] && knots[i - degree - 1] == knots[i]) {
+    if (i >= degree && knots[i] == knots[i - degree] && knots[i] > knots[degree] &&
+        knots[i] < knots[control.size()]) {
       return invalid_spline("an inner knot of a spline is repeated too often");
     }
   }

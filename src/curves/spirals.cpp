@@ -15,6 +15,11 @@ constexpr double kInfinite = std::numeric_limits<double>::infinity();
 /// 8).
 constexpr double kLargestBulge = 0.41421356237309503 + 1e-12;
 
+/// Parts of one curve that are looked at before the rest becomes chords. A curve within a tolerance
+/// of rounding has some 1e5; this is what bounds time and memory if a bound here is ever wrong. The
+/// report's error then shows it.
+constexpr int kMostParts = 1 << 21;
+
 /// Bisections after which a part is no larger than rounding, whatever the curve.
 constexpr int kDeepest = 60;
 
@@ -25,8 +30,9 @@ constexpr double kCuspNeighbourhood = 1e-4;
 /// Curvatures that differ by less are the same: roots that are there by rounding only.
 constexpr double kSameCurvature = 1e-8;
 
-/// Between curvatures that differ by d over a chord c a spiral is d c^2 / 32 away from an arc, or
-/// less: where that is below half of the rounding, it is the arc.
+/// A curve whose curvature goes monotonically from one value to another that differs by d, over a
+/// chord c, is less than d c^2 / 50 away from the arc between the directions at its ends (largest
+/// where curvature jumps at two thirds). Below a third of the rounding it is that arc.
 constexpr double kConstant = 16;
 
 bool is_singular(const Station& station) { return std::isinf(station.curvature); }
@@ -92,6 +98,7 @@ class Converter {
   const SpiralOptions& options_;
   ArcChain& chain_;
   double error_ = 0;
+  int parts_ = 0;
   bool ends_osculating_ = false;  ///< the last arc is the osculating circle where it ends
   bool merge_ = false;            ///< and the next one may go on along it
 };
@@ -144,7 +151,7 @@ void Converter::convert(const Bezier& part, const Station& a, const Station& b,
     }
   }
   const double size = extent(part);
-  if (depth >= kDeepest || size <= options_.rounding) {
+  if (depth >= kDeepest || ++parts_ > kMostParts || size <= options_.rounding) {
     // Too small to have a direction.
     if (!(a.point == b.point)) emit(a.point, 0, size);
     merge_ = ends_osculating_ = false;

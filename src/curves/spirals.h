@@ -68,11 +68,11 @@ struct Split {
 };
 struct Splits {
   int count = 0;
-  std::array<Split, 3 * kMaxPolynomialDegree> at;
+  Fixed<Split, 3 * kMaxPolynomialDegree> at;
 
   Splits() {}  // NOLINT(modernize-use-equals-default)
   void add(Split split) {
-    if (count < static_cast<int>(at.size())) at[static_cast<std::size_t>(count++)] = split;
+    if (count < at.size()) at[count++] = split;
   }
 };
 Splits find_splits(const Bezier& curve);
