@@ -19,17 +19,29 @@ std::uint64_t count_reversed(const Arrangement& arrangement) {
   return count;
 }
 
+/// Polygons take the exact path, shapes with arcs the one with a tolerance.
+Result<Arrangement> arrange(Outline outline, ShapeReport& report) {
+  if (!outline.bulges.empty()) {
+    Result<SweptArcs> swept = sweep_arcs(outline);
+    if (!swept) return std::move(swept).error();
+    report.touching_vertices = swept->sweep.place_count;
+    report.split_edges = swept->split_edges;
+    return arrange_arcs(std::move(swept).value());
+  }
+  Result<Sweep> swept = sweep(outline);
+  if (!swept) return std::move(swept).error();
+  report.touching_vertices = swept->place_count;
+  report.split_edges = swept->splits.size();
+  return insert_splits(std::move(outline), std::move(swept).value());
+}
+
 Result<Shape> build(std::span<const Ring> rings, ShapeReport& report) {
   Result<Outline> outline = clean(rings, report);
   if (!outline) return std::move(outline).error();
 
-  Result<Sweep> swept = sweep(*outline);
-  if (!swept) return std::move(swept).error();
-  report.touching_vertices = swept->place_count;
-  report.split_edges = swept->splits.size();
-
-  const Arrangement arrangement =
-      insert_splits(std::move(outline).value(), std::move(swept).value());
+  Result<Arrangement> arranged = arrange(std::move(outline).value(), report);
+  if (!arranged) return std::move(arranged).error();
+  const Arrangement& arrangement = *arranged;
   report.reversed_rings = count_reversed(arrangement);
 
   Result<Loops> loops = splice(rings, arrangement);

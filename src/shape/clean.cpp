@@ -78,6 +78,74 @@ std::optional<Error> drop_collinear(std::uint32_t first, Outline& outline, Shape
   return std::nullopt;
 }
 
+/// Appends a ring that has a bulge.
+std::optional<Error> append_with_arcs(const Ring& ring, std::uint32_t index, Outline& outline,
+                                      ShapeReport& report) {
+  std::vector<RingEdge> edges;
+  edges.reserve(ring.points.size());
+  std::size_t count = ring.points.size();
+  if (count > 1 && ring.points.front() == ring.points.back()) {
+    --count;
+    ++report.closing_points;
+  } else {
+    ++report.unclosed_rings;
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    const VertexSource source{index, static_cast<std::uint32_t>(i)};
+    const Vec2 point = ring.points[i];
+    const double bulge = i < ring.bulges.size() ? ring.bulges[i] : 0;
+    if (!std::isfinite(point.x) || !std::isfinite(point.y)) {
+      return error_at(ErrorCode::not_finite, "a coordinate is not a finite number", source, point);
+    }
+    if (!std::isfinite(bulge)) {
+      return error_at(ErrorCode::not_finite, "a bulge is not a finite number", source, point);
+    }
+    if (point == ring.points[i + 1 < count ? i + 1 : 0]) {
+      ++report.repeated_points;
+      continue;
+    }
+    edges.push_back({{point.x + 0.0, point.y + 0.0}, bulge, source});
+  }
+  const auto place = [&](ErrorCode code, const char* text) {
+    if (ring.points.empty()) return error_of_ring(code, text, index);
+    return error_at(code, text, {index, 0}, ring.points[0]);
+  };
+  if (edges.size() < 2) {
+    return place(ErrorCode::too_few_points, "the ring has fewer than two distinct points");
+  }
+  clean_arcs(edges, report);
+  for (const RingEdge& edge : edges) {
+    if (!std::isfinite(edge.point.x) || !std::isfinite(edge.point.y)) {
+      return error_at(ErrorCode::not_finite, "an arc is too large", edge.source, edge.point);
+    }
+  }
+  const bool straight =
+      std::all_of(edges.begin(), edges.end(), [](const RingEdge& edge) { return edge.bulge == 0; });
+  if (edges.size() < 2 || (edges.size() == 2 && edges[0].bulge == -edges[1].bulge)) {
+    return place(ErrorCode::no_area, "the ring encloses no area");
+  }
+  outline.bulges.resize(outline.points.size(), 0);
+  for (const RingEdge& edge : edges) {
+    outline.points.push_back(edge.point);
+    outline.sources.push_back(edge.source);
+    outline.bulges.push_back(edge.bulge);
+  }
+  if (straight) {
+    // All bulges were too small: judge it as every other polygon.
+    const std::size_t first = outline.points.size() - edges.size();
+    if (auto error = drop_collinear(static_cast<std::uint32_t>(first), outline, report)) {
+      return error;
+    }
+    outline.bulges.resize(outline.points.size());
+  }
+  return std::nullopt;
+}
+
+bool has_arcs(const Ring& ring) {
+  return std::any_of(ring.bulges.begin(), ring.bulges.end(),
+                     [](double bulge) { return bulge != 0; });
+}
+
 bool has_three_distinct(std::span<const Vec2> points) {
   return points.size() >= 3 && std::any_of(points.begin() + 2, points.end(), [&](Vec2 point) {
            return point != points[0] && point != points[1];
@@ -101,6 +169,10 @@ Result<Outline> clean(std::span<const Ring> rings, ShapeReport& report) {
   for (std::uint32_t i = 0; i < rings.size(); ++i) {
     const auto first = static_cast<std::uint32_t>(outline.points.size());
     outline.begin.push_back(first);
+    if (has_arcs(rings[i])) {
+      if (auto error = append_with_arcs(rings[i], i, outline, report)) return *error;
+      continue;
+    }
     if (auto error = append_distinct(rings[i], i, outline, report)) return *error;
     const std::span<const Vec2> points = std::span(outline.points).subspan(first);
     if (!has_three_distinct(points)) {
@@ -111,6 +183,12 @@ Result<Outline> clean(std::span<const Ring> rings, ShapeReport& report) {
     if (auto error = drop_collinear(first, outline, report)) return *error;
   }
   outline.begin.push_back(static_cast<std::uint32_t>(outline.points.size()));
+  if (std::all_of(outline.bulges.begin(), outline.bulges.end(),
+                  [](double bulge) { return bulge == 0; })) {
+    outline.bulges.clear();
+  } else {
+    outline.bulges.resize(outline.points.size(), 0);
+  }
   return outline;
 }
 

@@ -9,10 +9,12 @@
 namespace medial {
 
 /// The rings of the input without what does not matter: ring i is points[begin[i], begin[i + 1]).
-/// Edge v runs from vertex v to next(v). In each ring there are at least three vertices, neighbours
-/// differ, and no vertex lies in the inside of a straight run. No coordinate is -0.
+/// Edge v runs from vertex v to next(v). In each ring there are at least three vertices (two where
+/// it has arcs), neighbours differ, and no vertex lies in the inside of a straight run or, to
+/// rounding, of an arc of at most a half circle. No coordinate is -0.
 struct Outline {
   std::vector<Vec2> points;
+  std::vector<double> bulges;         ///< of each edge, at most 1 in magnitude; empty: all straight
   std::vector<VertexSource> sources;  ///< sources[v].ring is also the index in `begin`
   std::vector<std::uint32_t> begin;
 
@@ -26,9 +28,21 @@ struct Outline {
   }
 };
 
-/// Drops closing points, repeated points and the vertices in the inside of straight runs, and
-/// counts them in the report. O(n). Errors: empty, too_large, not_finite, too_few_points, no_area,
-/// of the first ring that has one.
+/// Drops closing points, repeated points and the vertices in the inside of straight runs and arcs,
+/// splits arcs of more than a half circle, and counts what was dropped in the report. O(n). Errors:
+/// empty, too_large, not_finite, too_few_points, no_area, of the first ring that has one.
 Result<Outline> clean(std::span<const Ring> rings, ShapeReport& report);
+
+/// An edge of a ring, by its first vertex.
+struct RingEdge {
+  Vec2 point;
+  double bulge = 0;
+  VertexSource source;
+};
+
+/// The same for the edges of one ring with arcs, each longer than zero. A bulge whose arc is
+/// straight to rounding becomes 0. A full circle begins at its lowest vertex (by x, then y) and
+/// becomes two half circles.
+void clean_arcs(std::vector<RingEdge>& edges, ShapeReport& report);
 
 }  // namespace medial

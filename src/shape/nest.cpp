@@ -21,19 +21,15 @@ bool inside_is_interior(const Arrangement& arrangement, std::uint32_t ring) {
     if (lexicographic_less(points[v], leftmost)) leftmost = points[v];
   }
   // The lowest edge there has the wedge above it: on its left, walked away from the vertex.
-  std::optional<Vec2> lowest;
-  bool interior = false;
-  const auto consider = [&](Vec2 far, bool interior_above) {
-    if (lowest && orientation(leftmost, *lowest, far) > 0) return;
-    lowest = far;
-    interior = interior_above;
+  std::optional<Ray> lowest;
+  const auto consider = [&](const Ray& ray) {
+    if (!lowest || !turns_left(leftmost, *lowest, ray)) lowest = ray;
   };
   for (std::uint32_t v = begin; v < end; ++v) {
-    const std::uint32_t next = arrangement.next[v];
-    if (points[v] == leftmost) consider(points[next], arrangement.interior_left[v]);
-    if (points[next] == leftmost) consider(points[v], !arrangement.interior_left[v]);
+    if (points[v] == leftmost) consider(ray_from_start(arrangement, v));
+    if (points[arrangement.next[v]] == leftmost) consider(ray_from_end(arrangement, v));
   }
-  return interior;
+  return lowest->outgoing;
 }
 
 VertexSource lowest_source(const Arrangement& arrangement, const Loop& loop) {
@@ -52,7 +48,7 @@ std::optional<Error> check_roles(std::span<const Ring> rings, const Arrangement&
     return error_at(hole ? ErrorCode::hole_outside : ErrorCode::nested_outer,
                     hole ? "the hole does not lie in the inside of an outer ring"
                          : "the outer ring lies in the inside of another outer ring",
-                    arrangement.sources[first], arrangement.points[first]);
+                    arrangement.sources[first], arrangement.original(first));
   }
   return std::nullopt;
 }
@@ -105,6 +101,7 @@ Shape assemble(const Arrangement& arrangement, const Loops& loops) {
   Shape shape;
   shape.points.reserve(arrangement.points.size());
   shape.sources.reserve(arrangement.points.size());
+  const bool with_arcs = !arrangement.bulges.empty();
   for (const std::uint32_t i : order) {
     const Loop& loop = loops.loops[i];
     shape.loop_begin.push_back(static_cast<std::uint32_t>(shape.points.size()));
@@ -113,8 +110,15 @@ Shape assemble(const Arrangement& arrangement, const Loops& loops) {
     std::uint32_t edge = loop.first_edge;
     do {
       const std::uint32_t vertex = tail(arrangement, edge);
-      shape.points.push_back(arrangement.points[vertex]);
-      shape.sources.push_back(arrangement.sources[vertex]);
+      if (!with_arcs) {
+        shape.points.push_back(arrangement.points[vertex]);
+        shape.sources.push_back(arrangement.sources[vertex]);
+      } else if (!arrangement.passing[vertex]) {
+        const double bulge = arrangement.edge_bulges[edge];
+        shape.points.push_back(arrangement.originals[vertex]);
+        shape.sources.push_back(arrangement.sources[vertex]);
+        shape.bulges.push_back(arrangement.interior_left[edge] ? bulge : 0 - bulge);
+      }
       edge = loops.successor[edge];
     } while (edge != loop.first_edge);
   }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/arc.h"
+
 namespace medial {
 
 std::size_t Shape::component_count() const { return loop_count() - hole_count(); }
@@ -10,6 +12,24 @@ std::size_t Shape::hole_count() const {
   return static_cast<std::size_t>(std::count(hole.begin(), hole.end(), true));
 }
 
+namespace {
+
+/// Calls `visit` with every edge that is not straight.
+template <class Visitor>
+void for_each_arc(const Shape& shape, const Visitor& visit) {
+  if (shape.bulges.empty()) return;
+  for (std::size_t i = 0; i < shape.loop_count(); ++i) {
+    const std::uint32_t begin = shape.loop_begin[i];
+    const std::uint32_t end = shape.loop_begin[i + 1];
+    for (std::uint32_t v = begin; v < end; ++v) {
+      if (shape.bulges[v] == 0) continue;
+      visit(BulgeArc{shape.points[v], shape.points[v + 1 < end ? v + 1 : begin], shape.bulges[v]});
+    }
+  }
+}
+
+}  // namespace
+
 Box bounding_box(const Shape& shape) {
   if (shape.points.empty()) return {};
   Box box{shape.points[0], shape.points[0]};
@@ -17,6 +37,17 @@ Box bounding_box(const Shape& shape) {
     box.low = {std::min(box.low.x, point.x), std::min(box.low.y, point.y)};
     box.high = {std::max(box.high.x, point.x), std::max(box.high.y, point.y)};
   }
+  if (shape.bulges.empty()) return box;
+  for_each_arc(shape, [&](const BulgeArc& arc) {
+    if (const auto point = parallel_point(arc, {1, 0})) {
+      box.low.y = std::min(box.low.y, point->y);
+      box.high.y = std::max(box.high.y, point->y);
+    }
+    if (const auto point = parallel_point(arc, {0, 1})) {
+      box.low.x = std::min(box.low.x, point->x);
+      box.high.x = std::max(box.high.x, point->x);
+    }
+  });
   return box;
 }
 
@@ -35,6 +66,7 @@ double area(const Shape& shape) {
     }
     sum += twice / 2;
   }
+  for_each_arc(shape, [&](const BulgeArc& arc) { sum += area_beside_chord(arc); });
   return sum;
 }
 

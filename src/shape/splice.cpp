@@ -8,6 +8,7 @@
 
 #include "base/predicates.h"
 #include "shape/errors.h"
+#include "shape/monotone_arc.h"
 
 namespace medial {
 
@@ -103,15 +104,39 @@ Arrangement insert_splits(Outline outline, Sweep sweep) {
   return result;
 }
 
-namespace {
+Arrangement arrange_arcs(SweptArcs swept) {
+  NodedOutline& noded = swept.noded;
+  std::vector<double> bulges = noded.outline.bulges;
+  Arrangement result = insert_splits(std::move(noded.outline), std::move(swept.sweep));
+  result.sources = std::move(noded.sources);
+  result.bulges = std::move(bulges);
+  result.edge_bulges = std::move(noded.edge_bulges);
+  result.originals = std::move(noded.originals);
+  result.passing = std::move(noded.passing);
+  return result;
+}
 
-/// An edge as seen from one of its ends.
-struct Ray {
-  Vec2 far;
-  std::uint32_t edge;
-  std::uint32_t ring;
-  bool outgoing;  ///< when walked with the interior on the left
-};
+Ray ray_from_start(const Arrangement& arrangement, std::uint32_t edge) {
+  const double bulge = arrangement.bulges.empty() ? 0 : arrangement.bulges[edge];
+  return {arrangement.points[arrangement.next[edge]], edge, kNone, bulge,
+          arrangement.interior_left[edge]};
+}
+
+Ray ray_from_end(const Arrangement& arrangement, std::uint32_t edge) {
+  const double bulge = arrangement.bulges.empty() ? 0 : arrangement.bulges[edge];
+  return {arrangement.points[edge], edge, kNone, -bulge, !arrangement.interior_left[edge]};
+}
+
+bool turns_left(Vec2 center, const Ray& a, const Ray& b) {
+  if (a.bulge == 0 && b.bulge == 0) return orientation(center, a.far, b.far) > 0;
+  if (lexicographic_less(center, a.far)) {
+    return is_below(monotone_arc(center, a.far, a.bulge), monotone_arc(center, b.far, b.bulge));
+  }
+  // Turned by a half turn, which changes no order.
+  return is_below(monotone_arc(-center, -a.far, a.bulge), monotone_arc(-center, -b.far, b.bulge));
+}
+
+namespace {
 
 /// The edges at one touching place, counter-clockwise, beginning downward.
 class Star {
@@ -124,16 +149,15 @@ class Star {
       const std::uint32_t vertex = touch.vertex;
       const std::uint32_t previous = arrangement.previous(vertex);
       const std::uint32_t ring = arrangement.ring_of(vertex);
-      rays_.push_back(
-          {arrangement.points[previous], previous, ring, !arrangement.interior_left[previous]});
-      rays_.push_back({arrangement.points[arrangement.next[vertex]], vertex, ring,
-                       arrangement.interior_left[vertex]});
+      rays_.push_back(ray_from_end(arrangement, previous));
+      rays_.push_back(ray_from_start(arrangement, vertex));
+      for (std::size_t i = rays_.size() - 2; i < rays_.size(); ++i) rays_[i].ring = ring;
     }
-    std::sort(rays_.begin(), rays_.end(), [&](const Ray& a, const Ray& b) {
+    std::stable_sort(rays_.begin(), rays_.end(), [&](const Ray& a, const Ray& b) {
       const bool a_right = lexicographic_less(center_, a.far);
       const bool b_right = lexicographic_less(center_, b.far);
       if (a_right != b_right) return a_right;
-      return orientation(center_, a.far, b.far) > 0;
+      return turns_left(center_, a, b);
     });
   }
 
@@ -200,6 +224,17 @@ bool lower_source(VertexSource a, VertexSource b) {
   return a.ring < b.ring || (a.ring == b.ring && a.vertex < b.vertex);
 }
 
+/// The ray of an edge from its end, and from its beginning, when walked with the interior on the
+/// left.
+Ray ray_into(const Arrangement& arrangement, std::uint32_t edge) {
+  return arrangement.interior_left[edge] ? ray_from_end(arrangement, edge)
+                                         : ray_from_start(arrangement, edge);
+}
+Ray ray_out_of(const Arrangement& arrangement, std::uint32_t edge) {
+  return arrangement.interior_left[edge] ? ray_from_start(arrangement, edge)
+                                         : ray_from_end(arrangement, edge);
+}
+
 /// Walks the loop of an edge and notes what it is.
 Loop walk(const Arrangement& arrangement, Loops& result, std::uint32_t start) {
   const std::vector<Vec2>& points = arrangement.points;
@@ -208,11 +243,11 @@ Loop walk(const Arrangement& arrangement, Loops& result, std::uint32_t start) {
   Loop loop{.first_edge = start, .size = 0, .leftmost = tail(arrangement, start)};
   VertexSource lowest = sources[loop.leftmost];
   std::uint32_t edge = start;
-  Vec2 before = points[loop.leftmost];
   std::uint32_t vertex = tail(arrangement, result.successor[edge]);
   do {
     result.loop_of[edge] = index;
     ++loop.size;
+    const std::uint32_t edge_before = edge;
     edge = result.successor[edge];
     const std::uint32_t after = tail(arrangement, result.successor[edge]);
     const Vec2 here = points[vertex];
@@ -222,12 +257,12 @@ Loop walk(const Arrangement& arrangement, Loops& result, std::uint32_t start) {
     }
     if (!lexicographic_less(points[loop.leftmost], here)) {
       // At its leftmost vertex a hole has the interior on the left, and turns to the right.
-      const bool turns_right = orientation(here, points[after], before) < 0;
+      const bool turns_right =
+          turns_left(here, ray_into(arrangement, edge_before), ray_out_of(arrangement, edge));
       if (here != points[loop.leftmost]) loop.hole = false;
       if (turns_right || here != points[loop.leftmost]) loop.leftmost = vertex;
       loop.hole = loop.hole || turns_right;
     }
-    before = here;
     vertex = after;
   } while (edge != start);
   return loop;
@@ -250,7 +285,7 @@ Result<Loops> splice(std::span<const Ring> rings, const Arrangement& arrangement
     if (const auto vertex = star.crossing_vertex(rings, arrangement, touches)) {
       // Where an edge was split, this names the vertex that split it.
       return error_at(ErrorCode::crossing, "two rings cross in this vertex",
-                      arrangement.sources[*vertex], arrangement.points[*vertex]);
+                      arrangement.sources[*vertex], arrangement.original(*vertex));
     }
     first = last;
   }

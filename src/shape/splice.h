@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "medial/shape.h"
+#include "shape/arc_sweep.h"
 #include "shape/clean.h"
 #include "shape/sweep.h"
 
@@ -20,13 +21,42 @@ struct Arrangement {
   std::vector<Touch> touches;       ///< by increasing place; all vertices there
   std::vector<LeftEnd> left_ends;   ///< in the order of the sweep; `below` is an edge
   std::uint32_t place_count = 0;    ///< of touching places
+  // Of outlines with arcs only (see NodedOutline, which `points` are those of then); else empty.
+  std::vector<double> bulges;
+  std::vector<double> edge_bulges;
+  std::vector<Vec2> originals;
+  std::vector<bool> passing;
 
+  /// In units of the input.
+  Vec2 original(std::uint32_t vertex) const {
+    return originals.empty() ? points[vertex] : originals[vertex];
+  }
   std::uint32_t ring_of(std::uint32_t vertex) const;  ///< O(log of the number of rings)
   std::uint32_t previous(std::uint32_t vertex) const;
 };
 
 /// Inserts the splits into the rings. O(n + splits log splits).
 Arrangement insert_splits(Outline outline, Sweep sweep);
+
+/// The same for an outline with arcs, which has no splits any more. O(n).
+Arrangement arrange_arcs(SweptArcs swept);
+
+/// An edge as seen from one of its ends.
+struct Ray {
+  Vec2 far;
+  std::uint32_t edge = 0;
+  std::uint32_t ring = 0;
+  double bulge = 0;       ///< when walked away from that end
+  bool outgoing = false;  ///< when walked with the interior on the left
+};
+
+/// The ray of an edge from its first vertex, or from its other one. `ring` is not set.
+Ray ray_from_start(const Arrangement& arrangement, std::uint32_t edge);
+Ray ray_from_end(const Arrangement& arrangement, std::uint32_t edge);
+
+/// Whether b comes after a when turning counter-clockwise about their common end, both being on the
+/// same side of it (left or right, or straight below or above).
+bool turns_left(Vec2 center, const Ray& a, const Ray& b);
 
 /// A closed walk along edges with the interior on the left.
 struct Loop {

@@ -60,7 +60,8 @@ std::uint64_t sort_key(double x) {
   return bits & sign ? ~bits : bits | sign;
 }
 
-/// The vertices in the order of the sweep; those at one point by index.
+}  // namespace
+
 std::vector<std::uint32_t> order_of_events(const std::vector<Vec2>& points) {
   struct Event {
     double x;
@@ -91,6 +92,8 @@ std::vector<std::uint32_t> order_of_events(const std::vector<Vec2>& points) {
                  [](const Event& event) { return event.vertex; });
   return order;
 }
+
+namespace {
 
 /// The edges on the sweep line from bottom to top, and what happens to them at each event.
 ///

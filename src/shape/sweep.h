@@ -40,6 +40,9 @@ struct Sweep {
   std::uint32_t place_count = 0;     ///< of touching places
 };
 
+/// The vertices in the order of the sweep; those at one point by index. No coordinate may be -0.
+std::vector<std::uint32_t> order_of_events(const std::vector<Vec2>& points);
+
 /// Sweeps the plane from left to right (Shamos and Hoey) and finds out on which side of each piece
 /// of an edge the interior lies, by the even-odd rule. Exact. O(n log n) for n vertices, whatever
 /// their position: an edge that crosses none can only be split by a vertex, and a vertex splits one

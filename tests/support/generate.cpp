@@ -768,6 +768,16 @@ Rings transformed(const Rings& rings, const Symmetry& symmetry) {
     if (symmetry.reverse) std::reverse(points.begin(), points.end());
     const auto shift = static_cast<std::ptrdiff_t>(symmetry.restart % points.size());
     std::rotate(points.begin(), points.begin() + shift, points.end());
+    auto& bulges = ring.bulges;
+    if (bulges.empty()) continue;
+    bulges.resize(points.size());
+    const bool mirrored = symmetry.xx * symmetry.yy - symmetry.xy * symmetry.yx < 0;
+    if (mirrored != symmetry.reverse) {
+      for (double& bulge : bulges) bulge = 0 - bulge;
+    }
+    // Backwards, the last edge stays the last one.
+    if (symmetry.reverse) std::reverse(bulges.begin(), bulges.end() - 1);
+    std::rotate(bulges.begin(), bulges.begin() + shift, bulges.end());
   }
   const auto shift = static_cast<std::ptrdiff_t>(symmetry.restart % result.size());
   std::rotate(result.begin(), result.begin() + shift, result.end());

@@ -1,0 +1,115 @@
+#pragma once
+
+// Circular arcs by their end points and bulge (see Ring). No centre and no radius is needed, so
+// that nearly straight arcs are as well-conditioned as others.
+
+#include <cmath>
+#include <optional>
+
+#include "medial/vec2.h"
+
+namespace medial {
+
+/// A circular arc, or a segment where the bulge is 0. Requires start != end.
+struct BulgeArc {
+  Vec2 start;
+  Vec2 end;
+  double bulge = 0;
+
+  Vec2 chord() const { return end - start; }
+  BulgeArc reversed() const { return {end, start, -bulge}; }
+};
+
+/// v turned to the left by the angle whose cosine and sine are given.
+constexpr Vec2 turned(Vec2 v, double cosine, double sine) {
+  return {v.x * cosine - v.y * sine, v.x * sine + v.y * cosine};
+}
+
+/// Cosine and sine of half the arc's angle: that between its chord and the tangents at its ends.
+constexpr Vec2 half_angle(double bulge) {
+  const double square = bulge * bulge;
+  return {(1 - square) / (1 + square), 2 * bulge / (1 + square)};
+}
+
+/// The unit tangents at both ends, in the arc's direction.
+inline Vec2 start_tangent(const BulgeArc& arc) {
+  const Vec2 half = half_angle(arc.bulge);
+  return turned((1 / norm(arc.chord())) * arc.chord(), half.x, -half.y);
+}
+inline Vec2 end_tangent(const BulgeArc& arc) {
+  const Vec2 half = half_angle(arc.bulge);
+  return turned((1 / norm(arc.chord())) * arc.chord(), half.x, half.y);
+}
+
+/// Positive where the arc turns to the left.
+inline double curvature(const BulgeArc& arc) {
+  return 4 * arc.bulge / (norm(arc.chord()) * (1 + arc.bulge * arc.bulge));
+}
+
+/// The point of the arc halfway between its ends.
+constexpr Vec2 apex(const BulgeArc& arc) {
+  return midpoint(arc.start, arc.end) - (arc.bulge / 2) * left_of(arc.end - arc.start);
+}
+
+/// The bulge of half the arc.
+inline double half_bulge(double bulge) { return bulge / (1 + std::hypot(1.0, bulge)); }
+
+/// The bulge of the arc that leaves with a unit tangent and has the given chord.
+inline double bulge_of(Vec2 tangent, Vec2 chord) {
+  return cross(tangent, chord) / (norm(chord) + dot(tangent, chord));
+}
+
+/// The bulge of the part of the arc between two of its points, which follow each other on it.
+inline double partial_bulge(const BulgeArc& arc, Vec2 from, Vec2 to) {
+  if (arc.bulge == 0) return 0;
+  Vec2 tangent = start_tangent(arc);
+  if (from != arc.start) {
+    // The chord halves the angle between the tangents at its ends.
+    const Vec2 chord = (1 / distance(from, arc.start)) * (from - arc.start);
+    tangent = 2 * dot(tangent, chord) * chord - tangent;
+  }
+  return bulge_of(tangent, to - from);
+}
+
+/// The point in the arc's inside where its tangent is parallel to `direction` (a unit vector).
+/// Requires an arc of at most a half circle, which has one such point at most.
+inline std::optional<Vec2> parallel_point(const BulgeArc& arc, Vec2 direction) {
+  if (arc.bulge == 0) return std::nullopt;
+  const Vec2 tangent = start_tangent(arc);
+  const double begin = cross(direction, tangent);
+  const double end = cross(direction, end_tangent(arc));
+  if (!(begin * end < 0)) return std::nullopt;
+  // Turning by `angle` leads to the direction, or to the opposite one.
+  const double sine = std::abs(begin);
+  const double along = dot(direction, tangent);
+  const double sign = arc.bulge > 0 ? 1 : -1;
+  const double cosine = begin * sign < 0 ? along : -along;
+  const double half = std::atan2(sine, cosine) / 2;
+  const Vec2 chord = turned(tangent, std::cos(half), sign * std::sin(half));
+  return arc.start + (2 * std::sin(half) / std::abs(curvature(arc))) * chord;
+}
+
+/// The area between the arc and its chord, positive where the arc turns to the left: with L the
+/// chord's length, L^2 ((1 + b^2)^2 atan b - b (1 - b^2)) / (8 b^2).
+inline double area_beside_chord(const BulgeArc& arc) {
+  const double b = arc.bulge;
+  const double square = b * b;
+  double factor = 0;
+  if (square < 1.0 / 64) {
+    // The series, as the closed form cancels: 1/3, then 1 / ((2 j + 1) (2 j - 1) (2 j - 3)). Its
+    // tenth term is below 2^-54 / 3000.
+    double power = b;
+    factor = b / 3;
+    double sign = 1;
+    for (int j = 2; j <= 9; ++j) {
+      power *= square;
+      factor += sign * power / ((2 * j + 1) * (2 * j - 1) * (2 * j - 3));
+      sign = -sign;
+    }
+  } else {
+    factor = ((1 + square) * (1 + square) * std::atan(b) - b * (1 - square)) / (8 * square);
+  }
+  return squared_norm(arc.chord()) * factor;
+}
+
+}  // namespace medial

@@ -1,0 +1,409 @@
+#include "shape/arc_sweep.h"
+
+#include <algorithm>
+#include <array>
+#include <boost/intrusive/rbtree.hpp>
+#include <deque>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "shape/errors.h"
+#include "shape/monotone_arc.h"
+
+namespace medial {
+namespace {
+
+namespace intrusive = boost::intrusive;
+
+/// A piece that meets the sweep line.
+struct ActivePiece : intrusive::set_base_hook<intrusive::link_mode<intrusive::normal_link>,
+                                              intrusive::optimize_size<true>> {
+  MonotoneArc arc;
+  double low = 0;
+  double high = 0;
+  std::uint32_t left_vertex = 0;
+  std::uint32_t right_vertex = 0;
+  std::uint32_t piece = 0;
+};
+
+/// Where the circles or lines of two pieces meet, or come nearest if it is nearly so. At most two.
+struct Meetings {
+  std::array<Vec2, 2> points;
+  std::size_t size = 0;
+};
+
+Meetings meetings(const MonotoneArc& a, const MonotoneArc& b) {
+  Meetings result;
+  if (a.half_curvature == 0 && b.half_curvature == 0) {
+    const double begin = b.above_circle(a.left);
+    const double end = b.above_circle(a.right);
+    const double t = begin / (begin - end);
+    if (t > 0 && t < 1) result.points[result.size++] = a.left + t * (a.right - a.left);
+    return result;
+  }
+  // Relative to an end of the smaller circle, whose equation is up.q - K / 2 q^2 = 0. The other
+  // one's less the multiple of it that has the same square is the radical line, normal.q + rest.
+  const bool a_smaller = std::abs(a.half_curvature) >= std::abs(b.half_curvature);
+  const MonotoneArc& small = a_smaller ? a : b;
+  const MonotoneArc& large = a_smaller ? b : a;
+  const Vec2 offset = small.left - large.left;
+  const double ratio = large.half_curvature / small.half_curvature;
+  const Vec2 normal = large.up - 2 * large.half_curvature * offset - ratio * small.up;
+  const double rest = large.above_circle(small.left);
+  const double length = norm(normal);
+  if (!(length > 0)) return result;  // concentric, or the same
+  const Vec2 unit = (1 / length) * normal;
+  const Vec2 along = left_of(unit);
+  const double distance_to_line = -rest / length;
+  const double radius = 1 / (2 * small.half_curvature);  // with the sign of the turn
+  // (t - radius up.along)^2 = radius^2 - (distance_to_line - radius up.unit)^2
+  const double middle = radius * dot(small.up, along);
+  const double product = distance_to_line * (distance_to_line - 2 * radius * dot(small.up, unit));
+  const Vec2 foot = small.left + distance_to_line * unit;
+  const double square = middle * middle - product;
+  if (square <= 0) {
+    result.points[result.size++] = foot + middle * along;
+    return result;
+  }
+  const double far = middle + std::copysign(std::sqrt(square), middle);
+  result.points[result.size++] = foot + far * along;
+  result.points[result.size++] = foot + (far == 0 ? 0 : product / far) * along;
+  return result;
+}
+
+/// One pass over the plane: Shamos and Hoey's, which compares pieces that become neighbours. Goes
+/// on at contacts, as if the pieces kept their order there, as long as there is one.
+class ArcSweeper {
+ public:
+  ArcSweeper(const Noding& noding, const NodedOutline& noded)
+      : noding_(noding), noded_(noded), outline_(noded.outline), tolerance_(noding.tolerance()) {}
+
+  std::optional<Error> run() {
+    const std::vector<Vec2>& points = outline_.points;
+    active_.resize(points.size());
+    found_.interior_above.resize(points.size());
+    const std::vector<std::uint32_t> order = order_of_events(points);
+    merge_near_vertices(order);
+    for (std::size_t i = 0; i < order.size();) {
+      const Vec2 point = points[order[i]];
+      std::size_t j = i + 1;
+      while (j < order.size() && points[order[j]] == point) ++j;
+      if (auto error = meet(std::span(order).subspan(i, j - i), point)) return error;
+      i = j;
+    }
+    return std::nullopt;
+  }
+
+  Sweep& found() { return found_; }
+  std::vector<Contact>& contacts() { return contacts_; }
+  std::vector<Merge>& merges() { return merges_; }
+
+ private:
+  using Status = intrusive::rbtree<ActivePiece, intrusive::constant_time_size<false>>;
+
+  /// A piece that begins at the current event.
+  struct Start {
+    std::uint32_t piece;
+    std::uint32_t left_vertex;
+    std::uint32_t right_vertex;
+    MonotoneArc arc;
+  };
+
+  /// Finds vertices that are equal to the tolerance, also of pieces that are never neighbours.
+  void merge_near_vertices(const std::vector<std::uint32_t>& order) {
+    // Looking further could take long where many vertices lie above each other, and the sweep finds
+    // most of the rest.
+    constexpr std::size_t farthest = 8;
+    const std::vector<Vec2>& points = outline_.points;
+    for (std::size_t i = 0; i + 1 < order.size(); ++i) {
+      const Vec2 p = points[order[i]];
+      const std::size_t end = std::min(order.size(), i + 1 + farthest);
+      for (std::size_t j = i + 1; j < end && points[order[j]].x - p.x <= tolerance_; ++j) {
+        const Vec2 q = points[order[j]];
+        if (p != q && distance(p, q) <= tolerance_) join(order[i], order[j]);
+      }
+    }
+  }
+
+  /// Two vertices, different in their coordinates, are one.
+  void join(std::uint32_t v, std::uint32_t w) {
+    if (noded_.passing[v]) contacts_.push_back({noded_.edges[v], w, {}});
+    if (noded_.passing[w]) contacts_.push_back({noded_.edges[w], v, {}});
+    if (noded_.passing[v] && noded_.passing[w]) {
+      // Both edges get the one of the two.
+      contacts_.back() = {noded_.edges[v], v, {}};
+      contacts_[contacts_.size() - 2] = {noded_.edges[w], v, {}};
+    } else if (!noded_.passing[v] && !noded_.passing[w]) {
+      merges_.push_back({v, w});
+    }
+  }
+
+  std::optional<Error> meet(std::span<const std::uint32_t> group, Vec2 point) {
+    starts_.clear();
+    std::size_t ends = 0;
+    ActivePiece* any_end = nullptr;
+    const auto visit = [&](std::uint32_t piece, std::uint32_t here, std::uint32_t other) {
+      if (lexicographic_less(outline_.points[other], point)) {
+        ++ends;
+        any_end = active_[piece];
+        return;
+      }
+      const double bulge = outline_.bulges[piece];
+      starts_.push_back(
+          {piece, here, other,
+           monotone_arc(point, outline_.points[other], here == piece ? bulge : -bulge)});
+    };
+    for (const std::uint32_t vertex : group) {
+      const std::uint32_t previous = outline_.previous(vertex);
+      visit(previous, vertex, previous);
+      visit(vertex, vertex, outline_.next(vertex));
+    }
+
+    // The pieces that end here are neighbours, if none has crossed another.
+    auto first = any_end ? status_.iterator_to(*any_end)
+                         : status_.lower_bound(point, [](const ActivePiece& piece, Vec2 p) {
+                             return piece.arc.above(p) > 0;
+                           });
+    while (first != status_.begin() && std::prev(first)->arc.right == point) --first;
+    block_.clear();
+    auto above = first;
+    for (; above != status_.end() && above->arc.right == point; ++above) block_.push_back(&*above);
+    ActivePiece* below = first == status_.begin() ? nullptr : &*std::prev(first);
+    if (block_.size() != ends) return out_of_order(first, ends, point);
+
+    if (block_.empty()) {
+      for (const std::uint32_t vertex : group) {
+        found_.left_ends.push_back({vertex, below ? below->piece : kNone});
+      }
+    }
+    if (group.size() > 1) {
+      for (const std::uint32_t vertex : group) {
+        found_.touches.push_back({found_.place_count, vertex});
+      }
+      ++found_.place_count;
+    }
+
+    if (starts_.size() > 1) {
+      std::stable_sort(starts_.begin(), starts_.end(),
+                       [](const Start& a, const Start& b) { return is_below(a.arc, b.arc); });
+    }
+    bool interior = below && found_.interior_above[below->piece];
+    ActivePiece* lower = below;
+    for (std::size_t i = 0; i < starts_.size(); ++i) {
+      interior = !interior;
+      ActivePiece* active = i < block_.size() ? block_[i] : &*status_.insert_before(above, fresh());
+      begin_piece(*active, starts_[i], interior);
+      if (lower) {
+        if (auto error = compare(*lower, *active)) return error;
+      }
+      lower = active;
+    }
+    for (std::size_t i = starts_.size(); i < block_.size(); ++i) {
+      status_.erase(status_.iterator_to(*block_[i]));
+      unused_.push_back(block_[i]);
+    }
+    if (lower && above != status_.end()) return compare(*lower, *above);
+    return std::nullopt;
+  }
+
+  void begin_piece(ActivePiece& active, const Start& start, bool interior_above) {
+    active.arc = start.arc;
+    active.low = start.arc.low();
+    active.high = start.arc.high();
+    active.left_vertex = start.left_vertex;
+    active.right_vertex = start.right_vertex;
+    active.piece = start.piece;
+    active_[start.piece] = &active;
+    found_.interior_above[start.piece] = interior_above;
+  }
+
+  ActivePiece& fresh() {
+    if (unused_.empty()) return pool_.emplace_back();
+    ActivePiece* piece = unused_.back();
+    unused_.pop_back();
+    return *piece;
+  }
+
+  /// Other pieces lie between those that end here. With contacts that are still to be noded this is
+  /// no wonder.
+  std::optional<Error> out_of_order(Status::iterator first, std::size_t ends, Vec2 point) {
+    if (!contacts_.empty() || !merges_.empty()) return pending();
+    const ActivePiece& end = *first;
+    for (auto other = first; ends > 0 && other != status_.end(); ++other) {
+      if (other->arc.right != point) return crossing(end, *other, point);
+    }
+    return error_without_place(ErrorCode::internal, "the sweep lost its order");
+  }
+
+  /// Notes where two neighbours touch behind their common left end. Error if they cross or overlap.
+  std::optional<Error> compare(const ActivePiece& lower, const ActivePiece& upper) {
+    if (lower.high + tolerance_ < upper.low) return std::nullopt;
+    const bool touches = touch(lower, upper.left_vertex) | touch(lower, upper.right_vertex) |
+                         touch(upper, lower.left_vertex) | touch(upper, lower.right_vertex);
+    if (touches) return std::nullopt;  // noded first, then compared
+
+    const MonotoneArc& a = lower.arc;
+    const MonotoneArc& b = upper.arc;
+    const Vec2 begin = lexicographic_less(a.left, b.left) ? b.left : a.left;
+    const Vec2 end = lexicographic_less(a.right, b.right) ? a.right : b.right;
+    if (!lexicographic_less(begin, end)) return std::nullopt;
+
+    // The circles' meetings cut the common range into intervals. In each of them the sign of the
+    // gap is that at its middle.
+    struct Stop {
+      Vec2 point;  ///< on the lower piece
+      double along;
+    };
+    std::array<Stop, 4> stops;
+    std::size_t count = 0;
+    const Vec2 chord = a.right - a.left;
+    const auto add = [&](Vec2 p) { stops[count++] = {p, dot(chord, p - a.left)}; };
+    add(begin == a.left ? begin : Vec2{begin.x, a.y_at(begin.x)});
+    const Vec2 last = end == a.right ? end : Vec2{end.x, a.y_at(end.x)};
+    const double last_along = dot(chord, last - a.left);
+    const Meetings found = meetings(a, b);
+    for (std::size_t i = 0; i < found.size; ++i) {
+      // Of circles that are the same to rounding the meetings are of no meaning.
+      const std::optional<Vec2> p = a.projected(found.points[i]);
+      if (!p) continue;
+      const double along = dot(chord, *p - a.left);
+      if (along > stops[0].along && along < last_along) add(*p);
+    }
+    if (count == 3 && stops[2].along < stops[1].along) std::swap(stops[1], stops[2]);
+    add(last);
+
+    const auto gap = [&](Vec2 on_lower) { return -b.above(on_lower); };
+    std::array<int, 3> signs{};
+    bool any_positive = false;
+    for (std::size_t i = 0; i + 1 < count; ++i) {
+      const double value = gap(a.halfway(stops[i].point, stops[i + 1].point));
+      signs[i] = value > tolerance_ ? 1 : value < -tolerance_ ? -1 : 0;
+      if (signs[i] < 0) {
+        if (any_positive || i == 0) return pending_or(crossing(lower, upper, stops[i].point));
+        // Below since the beginning: the crossing is where that ends, if it does.
+        return pending_or(crossing(lower, upper, stops[i].point));
+      }
+      any_positive = any_positive || signs[i] > 0;
+    }
+    if (!any_positive) {
+      const double at_begin = a.left == b.left ? 0 : gap(stops[0].point);
+      const double at_end = a.right == b.right ? 0 : gap(last);
+      const bool together = std::abs(at_begin) <= tolerance_ && std::abs(at_end) <= tolerance_;
+      if (together && distance(stops[0].point, last) > 4 * tolerance_) {
+        return pending_or(error_of_pieces(ErrorCode::overlap, "overlaps", lower, upper, begin));
+      }
+      return std::nullopt;
+    }
+    note_tangency(lower, upper, std::span(stops.data(), count), signs, gap);
+    return std::nullopt;
+  }
+
+  /// Notes a contact in the inside of both pieces.
+  template <class Stops, class Gap>
+  void note_tangency(const ActivePiece& lower, const ActivePiece& upper, const Stops& stops,
+                     const std::array<int, 3>& signs, const Gap& gap) {
+    for (std::size_t i = 1; i + 1 < stops.size(); ++i) {
+      if (!(std::abs(gap(stops[i].point)) <= tolerance_)) continue;
+      std::size_t j = i;
+      while (j + 2 < stops.size() && signs[j] == 0) ++j;
+      const bool reaches_begin = i == 1 && signs[0] == 0 && lower.arc.left == upper.arc.left;
+      const bool reaches_end =
+          j + 2 == stops.size() && signs[j] == 0 && lower.arc.right == upper.arc.right;
+      if (!reaches_begin && !reaches_end) {
+        const Vec2 point = lower.arc.halfway(stops[i].point, stops[j].point);
+        const Vec2 contact = i == j ? stops[i].point : point;
+        for (const ActivePiece* piece : {&lower, &upper}) {
+          contacts_.push_back({noded_.edges[piece->piece], kNone, contact});
+        }
+      }
+      i = j;
+    }
+  }
+
+  /// Notes that a vertex lies on a piece, if it does and is none of its ends.
+  bool touch(const ActivePiece& piece, std::uint32_t vertex) {
+    const MonotoneArc& arc = piece.arc;
+    const Vec2 p = outline_.points[vertex];
+    if (!(std::abs(arc.above_circle(p)) <= 2 * tolerance_)) return false;
+    if (p == arc.left || p == arc.right) return false;
+    for (const std::uint32_t end : {piece.left_vertex, piece.right_vertex}) {
+      if (distance(p, outline_.points[end]) <= tolerance_) {
+        join(vertex, end);
+        return true;
+      }
+    }
+    if (!arc.is_near(p, tolerance_)) return false;
+    const std::uint32_t edge = noded_.edges[piece.piece];
+    if (noded_.passing[vertex]) {
+      if (noded_.edges[vertex] == edge) return false;
+      contacts_.push_back({noded_.edges[vertex], vertex, {}});
+    }
+    contacts_.push_back({edge, vertex, {}});
+    return true;
+  }
+
+  /// What is found behind a contact counts only after noding.
+  std::optional<Error> pending_or(Error error) const {
+    if (contacts_.empty() && merges_.empty()) return error;
+    return pending();
+  }
+  std::optional<Error> pending() const { return error_without_place(ErrorCode::internal, ""); }
+
+  Error crossing(const ActivePiece& a, const ActivePiece& b, Vec2 point) const {
+    return error_of_pieces(ErrorCode::crossing, "crosses", a, b, point);
+  }
+
+  /// Names the edge that comes first in the input in the place, the other in the text.
+  Error error_of_pieces(ErrorCode code, const char* verb, const ActivePiece& a,
+                        const ActivePiece& b, Vec2 point) const {
+    VertexSource first = noding_.edge_source(noded_.edges[a.piece]);
+    VertexSource second = noding_.edge_source(noded_.edges[b.piece]);
+    if (std::pair(second.ring, second.vertex) < std::pair(first.ring, first.vertex)) {
+      std::swap(first, second);
+    }
+    return error_at(code,
+                    std::string("the edge from this vertex on ") + verb + " the edge from vertex " +
+                        std::to_string(second.vertex) + " of ring " + std::to_string(second.ring) +
+                        " on",
+                    first, noding_.to_input(point));
+  }
+
+  const Noding& noding_;
+  const NodedOutline& noded_;
+  const Outline& outline_;
+  double tolerance_;
+  Sweep found_;
+  std::vector<Contact> contacts_;
+  std::vector<Merge> merges_;
+  std::deque<ActivePiece> pool_;
+  std::vector<ActivePiece*> unused_;
+  std::vector<ActivePiece*> active_;  ///< of each piece, valid while it meets the sweep line
+  Status status_;
+  // Of the current event; members so that their memory is kept.
+  std::vector<Start> starts_;
+  std::vector<ActivePiece*> block_;
+};
+
+}  // namespace
+
+Result<SweptArcs> sweep_arcs(const Outline& outline) {
+  // Nearly always one round more than there are layers of contacts that hide each other.
+  constexpr int most_rounds = 64;
+  Noding noding(outline);
+  for (int round = 0; round < most_rounds; ++round) {
+    NodedOutline noded = noding.monotone();
+    ArcSweeper sweeper(noding, noded);
+    auto error = sweeper.run();
+    if (sweeper.contacts().empty() && sweeper.merges().empty()) {
+      if (error) return std::move(*error);
+      Sweep found = std::move(sweeper.found());
+      return SweptArcs{std::move(noded), std::move(found), noding.split_edges()};
+    }
+    error = noding.apply(noded, sweeper.contacts(), sweeper.merges());
+    if (error) return std::move(*error);
+  }
+  return error_without_place(ErrorCode::overlap, "too many edges lie within the tolerance");
+}
+
+}  // namespace medial

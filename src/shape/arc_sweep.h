@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "medial/error.h"
+#include "shape/clean.h"
+#include "shape/noding.h"
+#include "shape/sweep.h"
+
+namespace medial {
+
+struct SweptArcs {
+  NodedOutline noded;
+  Sweep sweep;  ///< without splits: where a vertex touched an edge there are two now
+  std::uint64_t split_edges = 0;
+};
+
+/// What sweep() does, for outlines with arcs. Unlike there, contacts are decided to a tolerance
+/// (see tolerance_for), as no vertex lies exactly on an arc: vertices within it are one, an edge
+/// passes through a vertex within it, and two edges that come within it without crossing by more
+/// touch in one point. O((n + c) log n) for each of a few rounds, c the number of contacts; one
+/// round if nothing touches. Errors: crossing, overlap, no_area (a ring within the tolerance).
+Result<SweptArcs> sweep_arcs(const Outline& outline);
+
+}  // namespace medial

@@ -1,0 +1,221 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <vector>
+
+#include "base/arc.h"
+#include "base/predicates.h"
+#include "shape/clean.h"
+
+namespace medial {
+namespace {
+
+/// Of a sum of angles, relative.
+constexpr double kSlack = 64 * std::numeric_limits<double>::epsilon();
+
+/// Of an arc of at most a half circle.
+double bulge_of_angle(double angle) {
+  return angle >= std::numbers::pi * (1 - kSlack) ? 1 : std::tan(angle / 4);
+}
+
+/// The edges of one ring with arcs.
+class Cleaner {
+ public:
+  Cleaner(std::vector<RingEdge>& edges, ShapeReport& report) : edges_(edges), report_(report) {
+    double largest = 0;
+    for (const RingEdge& edge : edges) {
+      largest = std::max({largest, std::abs(edge.point.x), std::abs(edge.point.y)});
+    }
+    rounding_ = largest * std::numeric_limits<double>::epsilon();
+  }
+
+  void run() {
+    straighten();
+    split_long_arcs();
+    // Nothing is merged in a ring of two edges: it would vanish.
+    if (edges_.size() > 2) drop_collinear();
+    merge_cocircular();
+  }
+
+ private:
+  BulgeArc arc(std::size_t i) const {
+    return {edges_[i].point, edges_[next(i)].point, edges_[i].bulge};
+  }
+  std::size_t next(std::size_t i) const { return i + 1 < edges_.size() ? i + 1 : 0; }
+  std::size_t previous(std::size_t i) const { return (i == 0 ? edges_.size() : i) - 1; }
+
+  /// An arc is straight if its sagitta is half a spacing of the coordinates, or less.
+  void straighten() {
+    for (std::size_t i = 0; i < edges_.size(); ++i) {
+      const double sagitta = std::abs(edges_[i].bulge) / 2 * norm(arc(i).chord());
+      if (sagitta <= rounding_ / 2) edges_[i].bulge = 0;
+    }
+  }
+
+  void split_long_arcs() {
+    const auto is_long = [](const RingEdge& edge) { return std::abs(edge.bulge) > 1; };
+    if (std::none_of(edges_.begin(), edges_.end(), is_long)) return;
+    std::vector<RingEdge> result;
+    for (std::size_t i = 0; i < edges_.size(); ++i) {
+      RingEdge edge = edges_[i];
+      if (is_long(edge)) {
+        const Vec2 middle = apex(arc(i));
+        edge.bulge = std::clamp(half_bulge(edge.bulge), -1.0, 1.0);
+        result.push_back(edge);
+        edge.point = middle;
+      }
+      result.push_back(edge);
+    }
+    edges_ = std::move(result);
+  }
+
+  /// As for rings without arcs: dropping a vertex changes no direction.
+  void drop_collinear() {
+    std::vector<RingEdge> result;
+    for (std::size_t i = 0; i < edges_.size(); ++i) {
+      const std::size_t before = previous(i);
+      const Vec2 a = edges_[before].point;
+      const Vec2 b = edges_[next(i)].point;
+      if (edges_[before].bulge == 0 && edges_[i].bulge == 0 &&
+          orientation(a, edges_[i].point, b) == 0 && strictly_between(a, edges_[i].point, b)) {
+        ++report_.collinear_points;
+      } else {
+        result.push_back(edges_[i]);
+      }
+    }
+    if (result.size() >= 2) edges_ = std::move(result);
+  }
+
+  /// Whether an arc continues the one before it on the same circle, to rounding.
+  bool continues(std::size_t i) const {
+    const BulgeArc first = arc(previous(i));
+    const BulgeArc second = arc(i);
+    if (!(first.bulge * second.bulge > 0)) return false;
+    const double length = norm(second.chord());
+    const double expected = bulge_of(end_tangent(first), second.chord());
+    if (!(std::abs(expected - second.bulge) * length <= 2 * rounding_)) return false;
+    const double longer = std::max(length, norm(first.chord()));
+    return std::abs(curvature(first) - curvature(second)) * longer * longer <= 8 * rounding_;
+  }
+
+  /// Replaces each run of arcs on one circle by one arc, or by two if it is more than a half
+  /// circle.
+  void merge_cocircular() {
+    const std::size_t count = edges_.size();
+    std::vector<bool> smooth(count);
+    std::size_t corner = count;
+    for (std::size_t i = 0; i < count; ++i) {
+      smooth[i] = continues(i);
+      if (!smooth[i] && corner == count) corner = i;
+    }
+    if (std::none_of(smooth.begin(), smooth.end(), [](bool value) { return value; })) return;
+    if (corner == count) {
+      // A full circle. It begins at its lowest vertex.
+      corner = 0;
+      for (std::size_t i = 1; i < count; ++i) {
+        if (lexicographic_less(edges_[i].point, edges_[corner].point)) corner = i;
+      }
+    }
+    std::rotate(edges_.begin(), edges_.begin() + static_cast<std::ptrdiff_t>(corner), edges_.end());
+    std::rotate(smooth.begin(), smooth.begin() + static_cast<std::ptrdiff_t>(corner), smooth.end());
+    std::vector<RingEdge> result;
+    for (std::size_t i = 0; i < count;) {
+      std::size_t end = i + 1;
+      while (end < count && smooth[end]) ++end;
+      append_run(i, end, result);
+      i = end;
+    }
+    // Back to the old start, where it is still a vertex, so that all else stays in its order.
+    edges_ = std::move(result);
+    const auto lowest = std::min_element(
+        edges_.begin(), edges_.end(),
+        [](const RingEdge& a, const RingEdge& b) { return a.source.vertex < b.source.vertex; });
+    if (!smooth[0]) std::rotate(edges_.begin(), lowest, edges_.end());
+  }
+
+  /// Appends the run of edges [begin, end) to the result, merged if its vertices allow it.
+  void append_run(std::size_t begin, std::size_t end, std::vector<RingEdge>& result) {
+    const auto keep = [&] {
+      for (std::size_t i = begin; i < end; ++i) result.push_back(edges_[i]);
+    };
+    const std::size_t last = end < edges_.size() ? end : 0;
+    const Vec2 start = edges_[begin].point;
+    const Vec2 stop = edges_[last].point;
+    double angle = 0;
+    for (std::size_t i = begin; i < end; ++i) angle += 4 * std::atan(edges_[i].bulge);
+    constexpr double pi = std::numbers::pi;
+    const double sign = angle > 0 ? 1 : -1;
+    angle = std::abs(angle);
+    if (end - begin == 1 || angle > 2 * pi * (1 + kSlack)) return keep();
+    if (angle <= pi * (1 + kSlack) && start != stop) {
+      const double bulge = sign * bulge_of_angle(angle);
+      if (!follows({start, stop, bulge}, begin, end)) return keep();
+      report_.collinear_points += end - begin - 1;
+      result.push_back({start, bulge, edges_[begin].source});
+      return;
+    }
+    // The vertex next to the middle, by the angle up to it.
+    std::size_t middle = begin + 1;
+    double angle_to_middle = 0;
+    double sum = 0;
+    for (std::size_t i = begin; i + 1 < end; ++i) {
+      sum += 4 * std::atan(std::abs(edges_[i].bulge));
+      if (i == begin || std::abs(sum - angle / 2) < std::abs(angle_to_middle - angle / 2)) {
+        middle = i + 1;
+        angle_to_middle = sum;
+      }
+    }
+    const bool divides = std::max(angle_to_middle, angle - angle_to_middle) <= pi * (1 + kSlack);
+    if (divides && end - begin == 2) return keep();
+    RingEdge second = edges_[middle];
+    std::size_t end_of_first = middle;
+    if (!divides) {
+      // No vertex divides it into two parts of at most a half circle: a new one does.
+      if (start == stop) {
+        const BulgeArc part{start, second.point, sign * std::tan(angle_to_middle / 4)};
+        const double height = (1 - part.bulge * part.bulge) / (4 * part.bulge);
+        second.point = start + part.chord() + 2 * height * left_of(part.chord());
+      } else {
+        second.point = apex({start, stop, sign * std::tan(angle / 4)});
+      }
+      if (angle_to_middle > angle / 2) --middle;
+      second.source = edges_[middle].source;
+      end_of_first = middle + 1;
+      angle_to_middle = angle / 2;
+    }
+    const double first_bulge = sign * bulge_of_angle(angle_to_middle);
+    second.bulge = sign * bulge_of_angle(angle - angle_to_middle);
+    if (second.point == start || second.point == stop ||
+        !follows({start, second.point, first_bulge}, begin, end_of_first) ||
+        !follows({second.point, stop, second.bulge}, middle, end)) {
+      return keep();
+    }
+    report_.collinear_points += end - begin > 2 ? end - begin - 2 : 0;
+    result.push_back({start, first_bulge, edges_[begin].source});
+    result.push_back(second);
+  }
+
+  /// Whether all vertices between two edges lie on the arc, to rounding.
+  bool follows(const BulgeArc& whole, std::size_t begin, std::size_t end) const {
+    const Vec2 normal = left_of(start_tangent(whole));
+    const double half_curvature = curvature(whole) / 2;
+    for (std::size_t i = begin + 1; i < end; ++i) {
+      const Vec2 q = edges_[i].point - whole.start;
+      const double offset = dot(normal, q) - half_curvature * squared_norm(q);
+      if (!(std::abs(offset) <= 4 * rounding_)) return false;
+    }
+    return true;
+  }
+
+  std::vector<RingEdge>& edges_;
+  ShapeReport& report_;
+  double rounding_ = 0;  ///< the spacing of doubles at the largest coordinate, about
+};
+
+}  // namespace
+
+void clean_arcs(std::vector<RingEdge>& edges, ShapeReport& report) { Cleaner(edges, report).run(); }
+
+}  // namespace medial

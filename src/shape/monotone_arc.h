@@ -1,0 +1,114 @@
+#pragma once
+
+// Pieces of circles that a sweep line meets once.
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "base/arc.h"
+#include "base/predicates.h"
+
+namespace medial {
+
+/// An arc of at most a half circle, or a segment, whose x grows from left to right. What is said
+/// of above and below is right for points whose x is in its range.
+struct MonotoneArc {
+  Vec2 left;
+  Vec2 right;
+  double bulge = 0;           ///< from left to right
+  Vec2 up;                    ///< unit normal at `left`, to the left of the arc
+  double half_curvature = 0;  ///< positive where it turns to the left
+
+  BulgeArc arc() const { return {left, right, bulge}; }
+  /// Bounds on y.
+  double low() const {
+    return std::min(left.y, right.y) - std::max(bulge, 0.0) / 2 * distance(left, right);
+  }
+  double high() const {
+    return std::max(left.y, right.y) + std::max(-bulge, 0.0) / 2 * distance(left, right);
+  }
+
+  /// How far p is above its circle or line: the distance to first order, with the right sign.
+  double above_circle(Vec2 p) const {
+    const Vec2 q = p - left;
+    return dot(up, q) - half_curvature * squared_norm(q);
+  }
+
+  /// How far p is above the arc: the distance to first order, with the right sign. The error is a
+  /// few roundings of |p - left| + |right - left|.
+  double above(Vec2 p) const {
+    const double value = above_circle(p);
+    const double above_chord = cross(right - left, p - left);
+    if (bulge * above_chord <= 0) return value;
+    // Beyond the chord, where the circle has another half: the arc is farther away than the chord.
+    const double from_chord = std::abs(above_chord) / distance(left, right);
+    return bulge < 0 ? std::min(value, -from_chord) : std::max(value, from_chord);
+  }
+
+  /// Whether p lies within the tolerance of the arc's inside or of its ends.
+  bool is_near(Vec2 p, double tolerance) const {
+    if (!(std::abs(above_circle(p)) <= tolerance)) return false;
+    const Vec2 chord = right - left;
+    const double length = norm(chord);
+    const double along = dot(chord, p - left);
+    if (along < -tolerance * length || along > length * (length + tolerance)) return false;
+    const double above_chord = cross(chord, p - left);
+    return bulge == 0 || above_chord * bulge <= 0 || std::abs(above_chord) <= tolerance * length;
+  }
+
+  /// The point of the arc next to p, if p is on its circle or line but for a small error and on the
+  /// same side of the chord. (It may lie beyond the ends of a segment.)
+  std::optional<Vec2> projected(Vec2 p) const {
+    constexpr double small = 1e-6;
+    const double offset = above_circle(p);
+    if (!(std::abs(offset) <= small * distance(left, right))) return std::nullopt;
+    const Vec2 gradient = up - 2 * half_curvature * (p - left);
+    const Vec2 result = p - (offset / squared_norm(gradient)) * gradient;
+    if (bulge * cross(right - left, result - left) > 0) return std::nullopt;
+    return result;
+  }
+
+  /// Its y at x, clamped to its range.
+  double y_at(double x) const {
+    if (x <= left.x) return left.y;
+    if (x >= right.x) return right.y;
+    // (K / 2) (X^2 + Y^2) - up.x X - up.y Y = 0 for the root that is 0 at X = 0.
+    const double dx = x - left.x;
+    const double c = (half_curvature * dx - up.x) * dx;
+    const double root = std::sqrt(std::max(0.0, up.y * up.y - 4 * half_curvature * c));
+    const double y = left.y + 2 * c / (up.y + root);
+    return std::isfinite(y) ? y : (left.y + right.y) / 2;
+  }
+
+  /// The point halfway between two of its points.
+  Vec2 halfway(Vec2 from, Vec2 to) const {
+    const double sine = std::clamp(half_curvature * distance(from, to), -1.0, 1.0);
+    return apex({from, to, sine / (1 + std::sqrt(1 - sine * sine))});
+  }
+};
+
+inline MonotoneArc monotone_arc(Vec2 left, Vec2 right, double bulge) {
+  const BulgeArc arc{left, right, bulge};
+  return {left, right, bulge, left_of(start_tangent(arc)), curvature(arc) / 2};
+}
+
+/// Whether a lies below b next to their common left end. Where their tangents do not decide, what
+/// lies further right does, as the arcs do not cross.
+inline bool is_below(const MonotoneArc& a, const MonotoneArc& b) {
+  // Arcs that are tangent to rounding separate by a rounding after the square root of one, about.
+  constexpr double clear_angle = 1e-7;
+  if (dot(a.up, b.up) < 0) return a.up.x > b.up.x;  // by how much they go down
+  const double sine = cross(a.up, b.up);
+  if (std::abs(sine) > clear_angle) return sine > 0;
+  const bool a_ends = lexicographic_less(a.right, b.right);
+  const MonotoneArc& shorter = a_ends ? a : b;
+  const MonotoneArc& longer = a_ends ? b : a;
+  const double at_end = longer.above(shorter.right);
+  const double before = longer.above(shorter.halfway(shorter.left, shorter.right));
+  double above = std::abs(at_end) > std::abs(before) ? at_end : before;
+  if (above == 0) above = shorter.half_curvature - longer.half_curvature;
+  return a_ends ? above < 0 : above > 0;
+}
+
+}  // namespace medial

@@ -1,0 +1,190 @@
+#include "shape/noding.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include "base/arc.h"
+#include "base/predicates.h"
+#include "base/tolerance.h"
+#include "shape/errors.h"
+
+namespace medial {
+namespace {
+
+/// An angle of no meaning: edges and tangents of drawings are hardly ever upright after a turn by
+/// it.
+constexpr double kTurn = 0.5931;
+
+Box box_of(const Outline& outline) {
+  Box box{outline.points[0], outline.points[0]};
+  const auto include = [&](Vec2 p) {
+    box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y)};
+    box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y)};
+  };
+  for (std::uint32_t v = 0; v < outline.points.size(); ++v) {
+    const BulgeArc arc{outline.points[v], outline.points[outline.next(v)], outline.bulges[v]};
+    include(arc.start);
+    if (arc.bulge != 0) include(apex(arc));  // at most a quarter circle from what is outermost
+  }
+  return box;
+}
+
+}  // namespace
+
+Noding::Noding(const Outline& outline) : begin_(outline.begin) {
+  const Box box = box_of(outline);
+  frame_ = frame_of(box);
+  tolerance_ = frame_.scale * tolerance_for(box, 0);
+  nodes_.resize(outline.points.size());
+  for (std::size_t v = 0; v < nodes_.size(); ++v) {
+    const Vec2 point = outline.points[v];
+    nodes_[v] = {point, to_local(point), outline.bulges[v], outline.sources[v], outline.sources[v]};
+  }
+}
+
+Vec2 Noding::to_local(Vec2 input) const {
+  static const double cosine = std::cos(kTurn);
+  static const double sine = std::sin(kTurn);
+  const Vec2 local = turned(frame_.to_local(input), cosine, sine);
+  return {local.x + 0.0, local.y + 0.0};  // makes -0 to 0
+}
+
+Vec2 Noding::to_input(Vec2 local) const {
+  const Vec2 point = frame_.to_input(turned(local, std::cos(kTurn), -std::sin(kTurn)));
+  return {point.x + 0.0, point.y + 0.0};
+}
+
+NodedOutline Noding::monotone() const {
+  NodedOutline result;
+  Outline& outline = result.outline;
+  const std::size_t expected = nodes_.size() + nodes_.size() / 4;
+  for (auto* list : {&outline.points, &result.originals}) list->reserve(expected);
+  for (auto* list : {&outline.sources, &result.sources}) list->reserve(expected);
+  for (auto* list : {&outline.bulges, &result.edge_bulges}) list->reserve(expected);
+  result.edges.reserve(expected);
+  result.passing.reserve(expected);
+
+  const auto append = [&](const Node& node, std::uint32_t edge, double bulge, std::uint32_t ring) {
+    outline.points.push_back(node.local);
+    outline.sources.push_back({ring, node.source.vertex});
+    outline.bulges.push_back(bulge);
+    result.sources.push_back(node.source);
+    result.originals.push_back(node.original);
+    result.edge_bulges.push_back(nodes_[edge].bulge);
+    result.edges.push_back(edge);
+  };
+  for (std::uint32_t ring = 0; ring + 1 < begin_.size(); ++ring) {
+    outline.begin.push_back(static_cast<std::uint32_t>(outline.points.size()));
+    for (std::uint32_t v = begin_[ring]; v < begin_[ring + 1]; ++v) {
+      const Node& node = nodes_[v];
+      const BulgeArc arc{node.local, nodes_[next(ring, v)].local, node.bulge};
+      auto upright = parallel_point(arc, {0, 1});
+      // An arc that hangs over by less than the tolerance stays whole.
+      if (upright && std::min(std::abs(upright->x - arc.start.x),
+                              std::abs(upright->x - arc.end.x)) <= 2 * tolerance_) {
+        upright.reset();
+      }
+      result.passing.push_back(false);
+      if (!upright) {
+        append(node, v, node.bulge, ring);
+        continue;
+      }
+      append(node, v, partial_bulge(arc, arc.start, *upright), ring);
+      Node passing = node;
+      passing.local = {upright->x + 0.0, upright->y + 0.0};
+      passing.original = to_input(*upright);
+      // No vertex of the input is higher: a loop never begins here.
+      passing.source.vertex = std::numeric_limits<std::uint32_t>::max();
+      result.passing.push_back(true);
+      append(passing, v, 0 - partial_bulge(arc.reversed(), arc.end, *upright), ring);
+    }
+  }
+  outline.begin.push_back(static_cast<std::uint32_t>(outline.points.size()));
+  return result;
+}
+
+std::optional<Error> Noding::apply(const NodedOutline& noded, std::span<const Contact> contacts,
+                                   std::span<const Merge> merges) {
+  // Where points of the input move to. Chains are followed; the lowest of a group stays.
+  const auto less = [](Vec2 a, Vec2 b) { return lexicographic_less(a, b); };
+  std::map<Vec2, Vec2, decltype(less)> moved(less);
+  const auto target = [&](Vec2 point) {
+    for (auto it = moved.find(point); it != moved.end(); it = moved.find(point)) point = it->second;
+    return point;
+  };
+  for (const Merge& merge : merges) {
+    const Vec2 from = target(noded.originals[merge.from]);
+    const Vec2 to = target(noded.originals[merge.to]);
+    if (from != to) moved.emplace(std::max(from, to, less), std::min(from, to, less));
+  }
+
+  struct Cut {
+    std::uint32_t edge;
+    double along;  ///< the chord
+    Node node;
+  };
+  std::vector<Cut> cuts;
+  cuts.reserve(contacts.size());
+  for (const Contact& contact : contacts) {
+    const Node& node = nodes_[contact.edge];
+    const auto after = std::upper_bound(begin_.begin(), begin_.end(), contact.edge);
+    const auto ring = static_cast<std::uint32_t>(after - begin_.begin()) - 1;
+    const Vec2 end = nodes_[next(ring, contact.edge)].local;
+    Node cut = node;
+    if (contact.vertex == kNone) {
+      cut.original = to_input(contact.point);
+    } else {
+      cut.original = target(noded.originals[contact.vertex]);
+      if (!noded.passing[contact.vertex]) cut.source = noded.sources[contact.vertex];
+    }
+    cut.local = to_local(cut.original);
+    cuts.push_back({contact.edge, dot(end - node.local, cut.local - node.local), cut});
+  }
+  std::sort(cuts.begin(), cuts.end(), [](const Cut& a, const Cut& b) {
+    return std::pair(a.edge, a.along) < std::pair(b.edge, b.along);
+  });
+
+  std::vector<Node> result;
+  std::vector<std::uint32_t> begin;
+  result.reserve(nodes_.size() + cuts.size());
+  auto cut = cuts.begin();
+  for (std::uint32_t ring = 0; ring + 1 < begin_.size(); ++ring) {
+    const auto first = static_cast<std::uint32_t>(result.size());
+    begin.push_back(first);
+    for (std::uint32_t v = begin_[ring]; v < begin_[ring + 1]; ++v) {
+      const BulgeArc arc{nodes_[v].local, nodes_[next(ring, v)].local, nodes_[v].bulge};
+      const Vec2 end = target(nodes_[next(ring, v)].original);
+      Node node = nodes_[v];
+      node.original = target(node.original);
+      node.local = to_local(node.original);
+      Vec2 from = arc.start;
+      bool whole = true;
+      for (; cut != cuts.end() && cut->edge == v; ++cut) {
+        if (cut->node.original == node.original || cut->node.original == end) continue;
+        node.bulge = partial_bulge(arc, from, cut->node.local);
+        result.push_back(node);
+        node = cut->node;
+        from = node.local;
+        whole = false;
+        ++split_edges_;
+      }
+      if (node.original == end) continue;
+      if (!whole) node.bulge = 0 - partial_bulge(arc.reversed(), arc.end, from);
+      result.push_back(node);
+    }
+    const std::size_t size = result.size() - first;
+    if (size < 2 || (size == 2 && result[first].bulge == -result[first + 1].bulge)) {
+      return error_at(ErrorCode::no_area, "the ring encloses no area",
+                      nodes_[begin_[ring]].edge_source, nodes_[begin_[ring]].original);
+    }
+  }
+  begin.push_back(static_cast<std::uint32_t>(result.size()));
+  nodes_ = std::move(result);
+  begin_ = std::move(begin);
+  return std::nullopt;
+}
+
+}  // namespace medial

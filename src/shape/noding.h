@@ -1,0 +1,81 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "base/frame.h"
+#include "medial/error.h"
+#include "shape/clean.h"
+#include "shape/sweep.h"
+
+namespace medial {
+
+/// An outline with arcs, ready for splice(): its edges are cut where they touch and where the sweep
+/// line is tangent to them. Coordinates are local and turned by a fixed angle, so that what is
+/// common in drawings (vertical tangents, vertices above each other) is not special here.
+struct NodedOutline {
+  Outline outline;                    ///< edges are monotone; sources name rings only
+  std::vector<VertexSource> sources;  ///< of each vertex
+  std::vector<Vec2> originals;        ///< of each vertex, in units of the input
+  std::vector<double> edge_bulges;    ///< of the edge that a piece is of
+  std::vector<std::uint32_t> edges;   ///< the edge that a piece is of
+  std::vector<bool> passing;          ///< vertices that are there for the sweep only
+};
+
+/// An edge touches a point: a vertex of the NodedOutline, or (kNone) a point in local coordinates.
+struct Contact {
+  std::uint32_t edge = 0;
+  std::uint32_t vertex = kNone;
+  Vec2 point;
+};
+
+/// A vertex of the NodedOutline is to become equal to another.
+struct Merge {
+  std::uint32_t from = 0;
+  std::uint32_t to = 0;
+};
+
+/// The edges of an outline while vertices are put into them where they touch.
+class Noding {
+ public:
+  explicit Noding(const Outline& outline);
+
+  /// In local units.
+  double tolerance() const { return tolerance_; }
+  std::uint64_t split_edges() const { return split_edges_; }
+  /// The vertex of the input that the edge begins at, or that the edge it is a part of begins at.
+  VertexSource edge_source(std::uint32_t edge) const { return nodes_[edge].edge_source; }
+  Vec2 to_input(Vec2 local) const;
+
+  /// O(n).
+  NodedOutline monotone() const;
+
+  /// Splits edges at contacts and makes vertices equal. Edges that become shorter than the
+  /// tolerance vanish. O(n + c log c). Error: no_area, if a ring vanishes.
+  std::optional<Error> apply(const NodedOutline& noded, std::span<const Contact> contacts,
+                             std::span<const Merge> merges);
+
+ private:
+  struct Node {
+    Vec2 original;
+    Vec2 local;
+    double bulge = 0;
+    VertexSource source;
+    VertexSource edge_source;
+  };
+
+  Vec2 to_local(Vec2 input) const;
+  std::uint32_t next(std::uint32_t ring, std::uint32_t node) const {
+    return node + 1 == begin_[ring + 1] ? begin_[ring] : node + 1;
+  }
+
+  Frame frame_;
+  double tolerance_ = 0;
+  std::uint64_t split_edges_ = 0;
+  std::vector<Node> nodes_;
+  std::vector<std::uint32_t> begin_;
+};
+
+}  // namespace medial
