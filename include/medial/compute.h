@@ -1,7 +1,10 @@
 #pragma once
 
 #include <atomic>
+#include <cstdint>
 #include <functional>
+#include <optional>
+#include <string_view>
 
 #include "medial/axis.h"
 #include "medial/error.h"
@@ -9,7 +12,18 @@
 
 namespace medial {
 
+/// How an axis is computed. All methods return the same graph.
+enum class Method : std::uint8_t {
+  disks,  ///< walks along the axis; asks a tree over the boundary. The fastest; holes, threads
+};
+
+/// The name of a method on the command line and in MedialAxis::method: "disks".
+const char* name_of(Method method);
+/// The method of that name, if there is one.
+std::optional<Method> method_from(std::string_view name);
+
 struct Options {
+  Method method = Method::disks;
   /// Disks whose residuals stay below this count as touching. Relative to the diagonal of the
   /// bounding box, in (0, 1e-3]; 0: the default, 4e-15, or what the coordinates' own spacing allows
   /// where the shape lies far from the origin.
@@ -26,13 +40,13 @@ struct Options {
   const std::atomic<bool>* cancel = nullptr;
 };
 
-/// The exact medial axis transform of a shape, by the `disks` engine: O(n log n) expected.
+/// The exact medial axis transform of a shape; by the method `disks` O(n log n) expected.
 ///
 /// The graph has one connected part for each component of the shape and exactly one independent
 /// cycle for each hole. Errors: invalid_option, cancelled,
 /// empty, too_large, unsupported (a coordinate above 1e100 in size, or one that is not zero but
-/// below 1e-100, or below that share of the largest), malformed (a shape that build_shape() did not
-/// make), out_of_memory, internal.
+/// below 1e-100, or below that share of the largest), malformed (a shape that
+/// build_shape() did not make), out_of_memory, internal.
 Result<MedialAxis> compute(const Shape& shape, const Options& options = {});
 
 }  // namespace medial

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "medial/shape.h"
@@ -44,6 +45,13 @@ inline Frame frame_of(const Box& box) {
   frame.scale = std::ldexp(1.0, -exponent);
   frame.inverse = std::ldexp(1.0, exponent);
   return frame;
+}
+
+/// No disk inside the shape has a larger radius: half of the box's smaller side, with room for
+/// rounding.
+inline double radius_limit(const Box& box, const Frame& frame) {
+  const double width = box.high.x - box.low.x, height = box.high.y - box.low.y;
+  return frame.scale * 0.5 * std::min(width, height) * (1 + 0x1p-20);
 }
 
 }  // namespace medial

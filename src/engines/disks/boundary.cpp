@@ -4,62 +4,12 @@
 #include <limits>
 #include <optional>
 
-#include "base/predicates.h"
-
 namespace medial::disks {
 namespace {
 
 using geometry::Joint;
-
-/// An edge of the shape as one site, or two where an arc is longer than a quarter of a circle.
-struct Pieces {
-  std::array<geometry::Site, 2> site;
-  std::size_t count = 1;
-  const geometry::Site& first() const { return site[0]; }
-  const geometry::Site& last() const { return site[count - 1]; }
-};
-Pieces pieces_of(Vec2 start, Vec2 end, double bulge) {
-  if (bulge == 0) return {{geometry::make_segment(start, end)}, 1};
-  if (std::abs(bulge) <= geometry::largest_bulge)
-    return {{geometry::make_arc(start, end, bulge)}, 1};
-  const Vec2 middle = midpoint(start, end) - (0.5 * bulge) * left_of(end - start);
-  const double half = bulge / (1 + std::sqrt(1 + bulge * bulge));
-  return {{geometry::make_arc(start, middle, half), geometry::make_arc(middle, end, half)}, 2};
-}
-
-/// The edges of one loop, in the frame.
-class Loop {
- public:
-  Loop(const Shape& shape, std::size_t loop, const Frame& frame)
-      : shape_(shape),
-        frame_(frame),
-        begin_(shape.loop_begin[loop]),
-        size_(shape.loop_begin[loop + 1] - begin_) {}
-
-  std::uint32_t begin() const { return begin_; }
-  std::uint32_t size() const { return size_; }
-  std::uint32_t next(std::uint32_t i) const { return i + 1 == size_ ? 0 : i + 1; }
-  std::uint32_t before(std::uint32_t i) const { return i == 0 ? size_ - 1 : i - 1; }
-  Vec2 point(std::uint32_t i) const { return shape_.points[begin_ + i]; }
-  Vec2 local(std::uint32_t i) const { return frame_.to_local(point(i)); }
-  double bulge(std::uint32_t i) const { return shape_.bulge(begin_ + i); }
-  Pieces edge(std::uint32_t i) const { return pieces_of(local(i), local(next(i)), bulge(i)); }
-
- private:
-  const Shape& shape_;
-  const Frame& frame_;
-  std::uint32_t begin_, size_;
-};
-
-Joint joint_at(const Loop& loop, std::uint32_t i, double corner_angle) {
-  const std::uint32_t before = loop.before(i);
-  if (loop.bulge(before) == 0 && loop.bulge(i) == 0) {
-    const bool convex =
-        orientation(loop.point(before), loop.point(i), loop.point(loop.next(i))) > 0;
-    return convex ? Joint::corner : Joint::reflex;
-  }
-  return geometry::joint_of(loop.edge(before).last(), loop.edge(i).first(), corner_angle);
-}
+using sites::Loop;
+using sites::Pieces;
 
 /// Where a loop's run begins.
 struct Start {
@@ -182,40 +132,6 @@ void add_loop(const Loop& loop, const SiteNumbers& numbers, const Start& start,
 }
 
 }  // namespace
-
-SiteNumbers number_sites(const Shape& shape, const Frame& frame, double corner_angle) {
-  SiteNumbers numbers;
-  numbers.edge.resize(shape.points.size());
-  numbers.joints.resize(shape.points.size());
-  for (std::size_t l = 0; l < shape.loop_count(); ++l) {
-    const Loop loop(shape, l, frame);
-    for (std::uint32_t i = 0; i < loop.size(); ++i) {
-      const Joint joint = joint_at(loop, i, corner_angle);
-      numbers.joints[loop.begin() + i] = joint;
-      if (joint == Joint::reflex) ++numbers.count;
-      numbers.edge[loop.begin() + i] = numbers.count++;
-    }
-  }
-  return numbers;
-}
-
-std::vector<Site> result_sites(const Shape& shape, const SiteNumbers& numbers) {
-  std::vector<Site> sites(numbers.count);
-  for (std::size_t loop = 0; loop < shape.loop_count(); ++loop) {
-    const std::uint32_t begin = shape.loop_begin[loop], end = shape.loop_begin[loop + 1];
-    for (std::uint32_t i = begin; i < end; ++i) {
-      const Vec2 p = shape.points[i], q = shape.points[i + 1 == end ? begin : i + 1];
-      const VertexSource source = shape.sources[i];
-      const double bulge = shape.bulge(i);
-      const std::uint32_t number = numbers.edge[i];
-      sites[number] = {
-          p, q, source.ring, source.vertex, bulge == 0 ? SiteKind::segment : SiteKind::arc, bulge};
-      if (numbers.is_site(i))
-        sites[number - 1] = {p, p, source.ring, source.vertex, SiteKind::vertex};
-    }
-  }
-  return sites;
-}
 
 Boundary loops_boundary(const Shape& shape, const SiteNumbers& numbers, const Frame& frame) {
   Boundary boundary;

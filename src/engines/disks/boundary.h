@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "axis/sites.h"
 #include "base/frame.h"
 #include "geometry/joint.h"
 #include "geometry/site.h"
@@ -11,6 +12,8 @@
 #include "medial/shape.h"
 
 namespace medial::disks {
+
+using sites::SiteNumbers;
 
 /// The direction in which the disks that connect holes reach out: that of the angle 0.6 + pi. An
 /// angle of no meaning to anybody who draws, so that no such disk comes to lie where others are,
@@ -73,20 +76,6 @@ struct Boundary {
     return {sites[i + 1].point, sites[i].end_normal()};
   }
 };
-
-/// Which vertices are sites, and how the result numbers its sites: in the order of the shape's
-/// points, the vertex before the segment that starts there.
-struct SiteNumbers {
-  std::vector<std::uint32_t> edge;      ///< of each point; the vertex's number is one less
-  std::vector<geometry::Joint> joints;  ///< at each point
-  std::uint32_t count = 0;
-  bool is_site(std::size_t point) const { return joints[point] == geometry::Joint::reflex; }
-};
-/// `corner_angle` in radians; see Options.
-SiteNumbers number_sites(const Shape& shape, const Frame& frame, double corner_angle);
-
-/// The result's sites, in units of the input.
-std::vector<Site> result_sites(const Shape& shape, const SiteNumbers& numbers);
 
 /// The boundary before holes are connected: every loop a run of its own in the order of the shape's
 /// loops (so `runs` are per loop here). An outer loop begins at a convex corner if

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "base/frame.h"
+#include "geometry/joint.h"
+#include "geometry/site.h"
+#include "medial/axis.h"
+#include "medial/shape.h"
+
+// From a shape's loops to sites: what all engines that return exact axes begin with, so that they
+// number their sites alike.
+
+namespace medial::sites {
+
+/// An edge of the shape as one site, or two where an arc is longer than a quarter of a circle.
+struct Pieces {
+  std::array<geometry::Site, 2> site;
+  std::size_t count = 1;
+  const geometry::Site& first() const { return site[0]; }
+  const geometry::Site& last() const { return site[count - 1]; }
+};
+Pieces pieces_of(Vec2 start, Vec2 end, double bulge);
+
+/// The edges of one loop, in the frame.
+class Loop {
+ public:
+  Loop(const Shape& shape, std::size_t loop, const Frame& frame)
+      : shape_(shape),
+        frame_(frame),
+        begin_(shape.loop_begin[loop]),
+        size_(shape.loop_begin[loop + 1] - begin_) {}
+
+  std::uint32_t begin() const { return begin_; }
+  std::uint32_t size() const { return size_; }
+  std::uint32_t next(std::uint32_t i) const { return i + 1 == size_ ? 0 : i + 1; }
+  std::uint32_t before(std::uint32_t i) const { return i == 0 ? size_ - 1 : i - 1; }
+  Vec2 point(std::uint32_t i) const { return shape_.points[begin_ + i]; }
+  Vec2 local(std::uint32_t i) const { return frame_.to_local(point(i)); }
+  double bulge(std::uint32_t i) const { return shape_.bulge(begin_ + i); }
+  Pieces edge(std::uint32_t i) const { return pieces_of(local(i), local(next(i)), bulge(i)); }
+
+ private:
+  const Shape& shape_;
+  const Frame& frame_;
+  std::uint32_t begin_, size_;
+};
+
+/// Which vertices are sites, and how the result numbers its sites: in the order of the shape's
+/// points, the vertex before the segment that starts there.
+struct SiteNumbers {
+  std::vector<std::uint32_t> edge;      ///< of each point; the vertex's number is one less
+  std::vector<geometry::Joint> joints;  ///< at each point
+  std::uint32_t count = 0;
+  bool is_site(std::size_t point) const { return joints[point] == geometry::Joint::reflex; }
+};
+/// `corner_angle` in radians; see Options.
+SiteNumbers number_sites(const Shape& shape, const Frame& frame, double corner_angle);
+
+/// The result's sites, in units of the input.
+std::vector<Site> result_sites(const Shape& shape, const SiteNumbers& numbers);
+
+}  // namespace medial::sites
