@@ -101,7 +101,7 @@ void Contacts::split(const Span& span, const Disk& disk, std::uint32_t sure, boo
     angle_before = angle;
   }
   if (parts.empty()) {
-    if (sure == Hit::none) return;
+    if (sure <= span.right || sure >= span.left) return;
     parts.push_back({span.right, sure, span.node});
     before = sure;
   }

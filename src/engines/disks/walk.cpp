@@ -74,6 +74,8 @@ class Walker {
           split(span, from, event.site, false);
           return;
         default: {
+          // On a shape that crosses itself nothing may be left to touch.
+          if (event.site <= span.right || event.site >= span.left) return;
           const std::uint32_t node = arrive(span, from, event.disk);
           push({event.site, span.left, node}, {span.right, event.site, node});
           return;
