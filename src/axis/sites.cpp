@@ -7,14 +7,14 @@ namespace {
 
 using geometry::Joint;
 
-Joint joint_at(const Loop& loop, std::uint32_t i, double corner_angle) {
-  const std::uint32_t before = loop.before(i);
-  if (loop.bulge(before) == 0 && loop.bulge(i) == 0) {
-    const bool convex =
-        orientation(loop.point(before), loop.point(i), loop.point(loop.next(i))) > 0;
-    return convex ? Joint::corner : Joint::reflex;
-  }
-  return geometry::joint_of(loop.edge(before).last(), loop.edge(i).first(), corner_angle);
+/// The joint at point i, between the edge that ends there and the one that begins there.
+Joint joint_at(const Loop& loop, std::uint32_t i, const Pieces& before, const Pieces& after,
+               double corner_angle) {
+  if (before.last().is_arc() || after.first().is_arc())
+    return geometry::joint_of(before.last(), after.first(), corner_angle);
+  const bool convex =
+      orientation(loop.point(loop.before(i)), loop.point(i), loop.point(loop.next(i))) > 0;
+  return convex ? Joint::corner : Joint::reflex;
 }
 
 }  // namespace
@@ -34,8 +34,12 @@ SiteNumbers number_sites(const Shape& shape, const Frame& frame, double corner_a
   numbers.joints.resize(shape.points.size());
   for (std::size_t l = 0; l < shape.loop_count(); ++l) {
     const Loop loop(shape, l, frame);
+    const bool has_arcs = !shape.bulges.empty();
+    Pieces before = has_arcs ? loop.edge(loop.size() - 1) : Pieces{};
     for (std::uint32_t i = 0; i < loop.size(); ++i) {
-      const Joint joint = joint_at(loop, i, corner_angle);
+      const Pieces after = has_arcs ? loop.edge(i) : Pieces{};
+      const Joint joint = joint_at(loop, i, before, after, corner_angle);
+      before = after;
       numbers.joints[loop.begin() + i] = joint;
       if (joint == Joint::reflex) ++numbers.count;
       numbers.edge[loop.begin() + i] = numbers.count++;
