@@ -6,6 +6,7 @@
 #include <atomic>
 #include <bit>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #if defined(__SSE2__)
@@ -113,31 +114,45 @@ BoundaryTree::BoundaryTree(std::span<const Site> sites) : sites_(sites) {
 }
 
 void BoundaryTree::build_chord_boxes() {
+  // Of each child of the level under way, whether it has a box.
+  std::vector<std::uint8_t> fits_below;
   for (std::uint32_t level = 0; level < std::min<std::size_t>(chord_levels, levels_.size());
        ++level) {
     const std::size_t span = std::size_t{block_size} << (2 * level);
     const std::size_t nodes = levels_[level].size();
-    ChordLevel result{std::vector<ChordBox>(nodes * fan), std::vector<std::uint8_t>(nodes)};
-    const ChordLevel* lower = level == 0 ? nullptr : &chords_.back();
+    std::vector<ChordBoxes> boxes(nodes);
+    std::vector<std::uint8_t> fits(nodes * fan);
     std::atomic<bool> any = false;
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, nodes, 256), [&](const auto& range) {
       for (std::size_t node = range.begin(); node < range.end(); ++node) {
         for (std::size_t lane = 0; lane < fan; ++lane) {
           const std::size_t child = node * fan + lane, begin = child * span;
           const std::size_t end = std::min(begin + span, sites_.size());
-          if (begin >= end) break;
+          std::optional<ChordBox> box;
           // Only what is smooth in small can be smooth at large.
-          if (lower != nullptr && lower->lanes[child] != 0xF) continue;
-          const std::optional<ChordBox> box = chord_box(sites_.subspan(begin, end - begin));
-          if (!box) continue;
-          result.boxes[child] = *box;
-          result.lanes[node] = static_cast<std::uint8_t>(result.lanes[node] | (1u << lane));
-          any = true;
+          const auto below = fits_below.begin() + static_cast<std::ptrdiff_t>(child * fan);
+          if (begin < end && (level == 0 || std::all_of(below, below + fan, std::identity())))
+            box = chord_box(sites_.subspan(begin, end - begin));
+          if (box) {
+            fits[child] = 1;
+            any = true;
+          } else {
+            constexpr double all = std::numeric_limits<double>::infinity();
+            box = ChordBox{{1, 0}, -all, all, -all, all};
+          }
+          boxes[node].normal_x[lane] = box->normal.x;
+          boxes[node].normal_y[lane] = box->normal.y;
+          boxes[node].low[lane] = box->low;
+          boxes[node].high[lane] = box->high;
+          boxes[node].begin[lane] = box->begin;
+          boxes[node].end[lane] = box->end;
         }
       }
     });
     if (!any) return;
-    chords_.push_back(std::move(result));
+    chords_.push_back(std::move(boxes));
+    fits_below = std::move(fits);
+    fits_below.resize(fits_below.size() + fan * fan);  // children beyond the last do not fit
   }
 }
 
@@ -169,19 +184,35 @@ std::optional<BoundaryTree::ChordBox> BoundaryTree::chord_box(std::span<const Si
   return box;
 }
 
-/// Of the given lanes of a node, those whose chord boxes lie beyond the reach from c.
-std::uint32_t BoundaryTree::beyond_chord_boxes(std::uint32_t level, std::uint32_t node,
-                                               std::uint32_t lanes, Vec2 c, double reach) const {
-  std::uint32_t result = 0;
-  for (lanes &= chords_[level].lanes[node]; lanes != 0; lanes &= lanes - 1) {
-    const auto lane = static_cast<std::uint32_t>(std::countr_zero(lanes));
-    const ChordBox& box = chords_[level].boxes[node * fan + lane];
-    const double height = dot(box.normal, c), position = -dot(left_of(box.normal), c);
-    const double across = std::max({height - box.high, box.low - height, 0.0});
-    const double along = std::max({position - box.end, box.begin - position, 0.0});
-    if (across * across + along * along >= reach * reach) result |= 1u << lane;
+/// The lanes whose chord boxes lie beyond the reach from c.
+std::uint32_t BoundaryTree::beyond(const ChordBoxes& boxes, Vec2 c, double reach) {
+  std::uint32_t lanes = 0;
+#if defined(__SSE2__)
+  const __m128d cx = _mm_set1_pd(c.x), cy = _mm_set1_pd(c.y), zero = _mm_setzero_pd();
+  const __m128d squared_reach = _mm_set1_pd(reach * reach);
+  for (std::uint32_t i = 0; i < fan; i += 2) {
+    const __m128d nx = _mm_load_pd(&boxes.normal_x[i]), ny = _mm_load_pd(&boxes.normal_y[i]);
+    const __m128d height = _mm_add_pd(_mm_mul_pd(nx, cx), _mm_mul_pd(ny, cy));
+    const __m128d position = _mm_sub_pd(_mm_mul_pd(ny, cx), _mm_mul_pd(nx, cy));
+    const __m128d across = _mm_max_pd(_mm_max_pd(_mm_sub_pd(height, _mm_load_pd(&boxes.high[i])),
+                                                 _mm_sub_pd(_mm_load_pd(&boxes.low[i]), height)),
+                                      zero);
+    const __m128d along = _mm_max_pd(_mm_max_pd(_mm_sub_pd(position, _mm_load_pd(&boxes.end[i])),
+                                                _mm_sub_pd(_mm_load_pd(&boxes.begin[i]), position)),
+                                     zero);
+    const __m128d squared = _mm_add_pd(_mm_mul_pd(across, across), _mm_mul_pd(along, along));
+    lanes |= static_cast<std::uint32_t>(_mm_movemask_pd(_mm_cmpge_pd(squared, squared_reach))) << i;
   }
-  return result;
+#else
+  for (std::uint32_t i = 0; i < fan; ++i) {
+    const double height = boxes.normal_x[i] * c.x + boxes.normal_y[i] * c.y;
+    const double position = boxes.normal_y[i] * c.x - boxes.normal_x[i] * c.y;
+    const double across = std::max({height - boxes.high[i], boxes.low[i] - height, 0.0});
+    const double along = std::max({position - boxes.end[i], boxes.begin[i] - position, 0.0});
+    if (across * across + along * along >= reach * reach) lanes |= 1u << i;
+  }
+#endif
+  return lanes;
 }
 
 template <class Visit>
@@ -237,8 +268,7 @@ void BoundaryTree::visit_blocks(Vec2 c, double& reach, std::uint32_t first, std:
         if (!(squared[i] < limit)) mask &= ~(1u << i);
       }
 #endif
-      if (below < chord_count && mask != 0)
-        mask &= ~beyond_chord_boxes(below, top.index, mask, c, reach);
+      if (below < chord_count && mask != 0) mask &= ~beyond(chords_[below][top.index], c, reach);
       if (mask != 0) {
         // Go on with the nearest; the others wait, the farthest at the bottom.
         auto lane = static_cast<std::uint32_t>(std::countr_zero(mask));

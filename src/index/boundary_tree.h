@@ -44,33 +44,28 @@ class BoundaryTree {
     std::array<float, fan> low_x, low_y, high_x, high_y;
   };
 
-  /// A box along a node's chord: all points p of its sites have normal . p in [low, high] and, with
-  /// `along` the normal turned to the right, along . p in [begin, end].
+  /// Boxes along the chords of a node's four lanes: all points p of a lane's sites have normal . p
+  /// in [low, high] and, with `along` the normal turned to the right, along . p in [begin, end]. A
+  /// lane without such a box has infinite bounds.
+  struct alignas(64) ChordBoxes {
+    std::array<double, fan> normal_x, normal_y, low, high, begin, end;
+  };
   struct ChordBox {
     Vec2 normal;
-    double low = 0;
-    double high = 0;
-    double begin = 0;
-    double end = 0;
-  };
-  /// Chord boxes for the lanes of one level's nodes; `lanes` has a bit for each lane that has one.
-  struct ChordLevel {
-    std::vector<ChordBox> boxes;
-    std::vector<std::uint8_t> lanes;
+    double low, high, begin, end;
   };
 
   void build_chord_boxes();
   static std::optional<ChordBox> chord_box(std::span<const geometry::Site> sites);
-  std::uint32_t beyond_chord_boxes(std::uint32_t level, std::uint32_t node, std::uint32_t lanes,
-                                   Vec2 c, double reach) const;
+  static std::uint32_t beyond(const ChordBoxes& boxes, Vec2 c, double reach);
 
   template <class Visit>
   void visit_blocks(Vec2 c, double& reach, std::uint32_t first, std::uint32_t last,
                     Visit&& visit) const;
 
   std::span<const geometry::Site> sites_;
-  std::vector<std::vector<Boxes>> levels_;  ///< levels_[0] holds the boxes of blocks
-  std::vector<ChordLevel> chords_;          ///< of the lowest levels, where there are any
+  std::vector<std::vector<Boxes>> levels_;       ///< levels_[0] holds the boxes of blocks
+  std::vector<std::vector<ChordBoxes>> chords_;  ///< of the lowest levels, where there are any
 };
 
 }  // namespace medial::index
