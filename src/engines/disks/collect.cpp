@@ -110,8 +110,7 @@ void glue_cuts(const std::vector<Placed>& placed, std::size_t cut_count, MedialA
 
 }  // namespace
 
-void collect(std::vector<std::unique_ptr<Chunk>>& chunks, const Boundary& boundary,
-             std::size_t cut_count, const Frame& frame, MedialAxis& axis) {
+void collect(std::vector<std::unique_ptr<Chunk>>& chunks, std::size_t cut_count, MedialAxis& axis) {
   std::uint32_t node_count = 0, edge_count = 0;
   const std::vector<Placed> placed = place(chunks, node_count, edge_count);
 
@@ -131,10 +130,12 @@ void collect(std::vector<std::unique_ptr<Chunk>>& chunks, const Boundary& bounda
     });
   });
   for (const Placed& p : placed) add_statistics(p.chunk->statistics, axis.statistics);
-  axis.statistics.largest_residual *= frame.inverse;
   if (cut_count > 0) glue_cuts(placed, cut_count, axis);
   chunks.clear();
+}
 
+void complete(const Boundary& boundary, const Frame& frame, MedialAxis& axis) {
+  axis.statistics.largest_residual *= frame.inverse;
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, axis.edges.size(), 4096), [&](const auto&
                                                                                          range) {
     for (std::size_t i = range.begin(); i < range.end(); ++i) {

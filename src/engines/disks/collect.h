@@ -9,10 +9,13 @@
 
 namespace medial::disks {
 
-/// Joins the walk's chunks into one graph: numbers the nodes, glues the axis at the cuts (whose
-/// disks are no nodes of it), works out the edges' curves and the nodes' kinds, and goes back to
-/// the input's units. Empties the chunks as it goes, so that nothing is in memory twice.
-void collect(std::vector<std::unique_ptr<Chunk>>& chunks, const Boundary& boundary,
-             std::size_t cut_count, const Frame& frame, MedialAxis& axis);
+/// Joins the walk's chunks into one graph in the local frame, whose edges name sites of the
+/// boundary and have no curves yet: numbers the nodes and glues the axis at the cuts (whose disks
+/// are no nodes of it). Empties the chunks as it goes, so that nothing is in memory twice.
+void collect(std::vector<std::unique_ptr<Chunk>>& chunks, std::size_t cut_count, MedialAxis& axis);
+
+/// Works out the edges' curves and the nodes' kinds, and goes back to the result's numbers of sites
+/// and to the input's units.
+void complete(const Boundary& boundary, const Frame& frame, MedialAxis& axis);
 
 }  // namespace medial::disks

@@ -8,6 +8,7 @@
 #include "engines/disks/boundary.h"
 #include "engines/disks/collect.h"
 #include "engines/disks/connect.h"
+#include "engines/disks/merge_ties.h"
 #include "engines/disks/walk.h"
 #include "index/boundary_tree.h"
 
@@ -51,10 +52,13 @@ MedialAxis run(const Shape& shape, const Options& options) {
   }
   auto chunks = walk({boundary, cuts, *tree, tolerance, radius_limit(box, frame), options.cancel,
                       std::move(report)});
-  tree.reset();
   statistics.seconds_walk = watch.lap();
 
-  collect(chunks, boundary, cuts.size(), frame, axis);
+  collect(chunks, cuts.size(), axis);
+  // The input itself is known to its spacing only.
+  merge_ties(boundary, *tree, frame.scale * axis.tolerance, axis);
+  tree.reset();
+  complete(boundary, frame, axis);
   boundary = {};
   axis.sites = sites::result_sites(shape, numbers);
   statistics.seconds_collect = watch.lap();

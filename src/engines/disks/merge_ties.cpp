@@ -1,0 +1,480 @@
+#include "engines/disks/merge_ties.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "geometry/bisector.h"
+
+namespace medial::disks {
+namespace {
+
+using geometry::Site;
+
+constexpr std::uint32_t none = ~std::uint32_t{0};
+
+/// Only edges shorter than this, against the radius, are looked at, and no disk moves further: a
+/// tie's nodes are off by rounding over an angle, and distances are nearly linear so far.
+constexpr double short_edge = 0x1p-7;
+
+/// The largest residual at the one end of an edge, against the bound, that a contact of its other
+/// end may have: with the smallest angle between contacts at some 2^-12, the factors of their
+/// dependency differ by no more than its square.
+constexpr double steepest = 0x1p24;
+
+/// A contact's equation at a disk: moving the centre by d and the radius by e changes
+/// distance - radius from `residual` to residual + outward.d - e, exactly for a segment.
+struct Contact {
+  Vec2 outward;
+  double residual = 0;
+};
+Contact contact_of(const Site& site, const Disk& disk) {
+  if (site.is_vertex()) {
+    const Vec2 to = disk.center - site.point;
+    const double distance = norm(to);
+    return {(1 / distance) * to, distance - disk.radius};
+  }
+  return {geometry::outward(site, disk.center),
+          geometry::carrier_distance(site, disk.center) - disk.radius};
+}
+
+/// The one linear dependency of four contacts: the factors add up to 0, and so do they times the
+/// outward normals. No disk has four residuals all below `level` in size, and one has exactly that,
+/// with the signs of the factors (de la Vallee-Poussin's theorem).
+struct Dependency {
+  std::array<double, 4> factor{};
+  double level = 0;
+
+  explicit Dependency(const std::array<Contact, 4>& contact) {
+    std::array<Vec2, 4> to;
+    for (std::size_t i = 0; i < 4; ++i) to[i] = contact[i].outward - contact[0].outward;
+    factor[1] = cross(to[2], to[3]);
+    factor[2] = cross(to[3], to[1]);
+    factor[3] = cross(to[1], to[2]);
+    factor[0] = -(factor[1] + factor[2] + factor[3]);
+    double size = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+      size += std::abs(factor[i]);
+      level += factor[i] * contact[i].residual;
+    }
+    if (size > 0) level /= size;
+  }
+};
+
+/// The disk whose largest residual at given contacts is smallest, or good enough: Stiefel's
+/// exchange method for the linear problem, with the equations taken anew at every disk.
+class Fit {
+ public:
+  Fit(std::span<const Site> sites, double bound) : sites_(sites), bound_(bound) {}
+
+  Disk disk;
+  double worst = 0;  ///< the largest residual at the last contacts asked for
+
+  /// Begins with three of the contacts, as far apart as they can be found at once.
+  void begin(std::span<const std::uint32_t> contacts) {
+    std::array<Vec2, 2> spread{normal(contacts[0]), {}};
+    reference_[0] = contacts[0];
+    double largest = -1;
+    for (const std::uint32_t i : contacts) {
+      const double size = squared_norm(normal(i) - spread[0]);
+      if (!(size > largest)) continue;
+      largest = size;
+      reference_[1] = i;
+    }
+    spread[1] = normal(reference_[1]) - spread[0];
+    largest = -1;
+    for (const std::uint32_t i : contacts) {
+      const double size = std::abs(cross(spread[1], normal(i) - spread[0]));
+      if (!(size > largest)) continue;
+      largest = size;
+      reference_[2] = i;
+    }
+    count_ = 3;
+  }
+  bool has_begun() const { return count_ > 0; }
+
+  /// Whether the disk touches all the contacts, within the bound: their closed sites.
+  bool touches(std::initializer_list<std::span<const std::uint32_t>> lists) {
+    worst = 0;
+    furthest_ = none;
+    for (const auto contacts : lists) {
+      for (const std::uint32_t i : contacts) {
+        const double distance = std::sqrt(geometry::squared_distance(sites_[i], disk.center));
+        const double residual = std::abs(distance - disk.radius);
+        if (residual <= worst) continue;
+        worst = residual;
+        furthest_ = i;
+      }
+    }
+    return worst <= bound_;
+  }
+
+  /// After touches() was false: takes the contact with the largest residual into account. False
+  /// where no disk touches all of those seen so far.
+  bool improve() {
+    const auto end = reference_.begin() + static_cast<std::ptrdiff_t>(count_);
+    if (std::find(reference_.begin(), end, furthest_) == end) exchange();
+    if (count_ < 4) return move({contact(0), contact(1), contact(2)}, {});
+    const std::array<Contact, 4> contact = contacts(reference_);
+    const Dependency dependency(contact);
+    if (!(std::abs(dependency.level) <= bound_)) return false;
+    // The contact with the largest factor follows from the others, which are far from singular.
+    std::size_t last = 0;
+    for (std::size_t i = 1; i < 4; ++i)
+      if (std::abs(dependency.factor[i]) > std::abs(dependency.factor[last])) last = i;
+    std::array<Contact, 3> others;
+    std::array<double, 3> goal{};
+    for (std::size_t i = 0, k = 0; i < 4; ++i) {
+      if (i == last) continue;
+      others[k] = contact[i];
+      goal[k++] = std::copysign(1.0, dependency.factor[i]) * dependency.level;
+    }
+    return move(others, goal);
+  }
+
+ private:
+  Vec2 normal(std::uint32_t i) const { return geometry::outward(sites_[i], disk.center); }
+  Contact contact(std::size_t i) const { return contact_of(sites_[reference_[i]], disk); }
+  std::array<Contact, 4> contacts(const std::array<std::uint32_t, 4>& reference) const {
+    std::array<Contact, 4> result;
+    for (std::size_t i = 0; i < 4; ++i) result[i] = contact_of(sites_[reference[i]], disk);
+    return result;
+  }
+
+  /// The best disk for five contacts is the one for those four of them that ask for the largest
+  /// residual.
+  void exchange() {
+    if (count_ < 4) {
+      reference_[count_++] = furthest_;
+      return;
+    }
+    std::array<std::uint32_t, 4> best = reference_;
+    double highest = -1;
+    for (std::size_t i = 0; i < 4; ++i) {
+      std::array<std::uint32_t, 4> next = reference_;
+      next[i] = furthest_;
+      const double level = std::abs(Dependency(contacts(next)).level);
+      if (!(level > highest)) continue;
+      highest = level;
+      best = next;
+    }
+    reference_ = best;
+  }
+
+  /// Moves to where three residuals have the given values.
+  bool move(const std::array<Contact, 3>& contact, const std::array<double, 3>& goal) {
+    const Vec2 b = contact[1].outward - contact[0].outward;
+    const Vec2 c = contact[2].outward - contact[0].outward;
+    const double a_change = goal[0] - contact[0].residual;
+    const double db = goal[1] - contact[1].residual - a_change;
+    const double dc = goal[2] - contact[2].residual - a_change;
+    const double inverse = 1 / cross(b, c);
+    const Vec2 step = inverse * Vec2{db * c.y - dc * b.y, b.x * dc - c.x * db};
+    disk.center = disk.center + step;
+    disk.radius += dot(contact[0].outward, step) - a_change;
+    return std::isfinite(disk.center.x) && std::isfinite(disk.center.y) && disk.radius > 0;
+  }
+
+  std::span<const Site> sites_;
+  double bound_;
+  std::array<std::uint32_t, 4> reference_{};
+  std::size_t count_ = 0;  ///< of the reference
+  std::uint32_t furthest_ = none;
+};
+
+/// Nodes that have become one.
+struct Cluster {
+  Fit fit;
+  std::uint32_t node = none;            ///< the node that stands for it
+  std::vector<std::uint32_t> contacts;  ///< boundary sites
+  std::vector<std::uint32_t> ends;      ///< of edges, at all its nodes
+  std::uint64_t spent = 0;              ///< contacts looked at to fit it together with others
+};
+
+class Merger {
+ public:
+  Merger(const Boundary& boundary, const index::BoundaryTree& tree, double tolerance,
+         MedialAxis& axis)
+      : boundary_(boundary), tree_(tree), tolerance_(tolerance), axis_(axis) {}
+
+  void merge() {
+    std::vector<std::uint32_t> edges = candidates();
+    // Nearest nodes first: what belongs together comes together before anything else is tried.
+    const auto length = [&](std::uint32_t e) {
+      const auto [from, to] = axis_.edges[e].node;
+      return squared_norm(axis_.nodes[to].disk.center - axis_.nodes[from].disk.center);
+    };
+    std::sort(edges.begin(), edges.end(), [&](std::uint32_t a, std::uint32_t b) {
+      const double la = length(a), lb = length(b);
+      return la != lb ? la < lb : a < b;
+    });
+    make_clusters(edges);
+    std::vector<std::uint32_t> contracted;
+    for (const std::uint32_t edge : edges)
+      if (contract(edge)) contracted.push_back(edge);
+    if (!contracted.empty()) remove(contracted);
+  }
+
+ private:
+  double bound() const { return 0.5 * tolerance_; }
+
+  /// Links the ends of edges, and finds the edges that are short against both of their disks: none
+  /// that leads to a leaf.
+  std::vector<std::uint32_t> link_ends() {
+    first_end_.assign(axis_.nodes.size(), none);
+    next_end_.resize(2 * axis_.edges.size());
+    std::vector<std::uint32_t> found(axis_.edges.size());
+    std::size_t count = 0;
+    for (std::uint32_t e = 0; e < axis_.edges.size(); ++e) {
+      const auto [from, to] = axis_.edges[e].node;
+      next_end_[2 * e] = first_end_[from];
+      first_end_[from] = 2 * e;
+      next_end_[2 * e + 1] = first_end_[to];
+      first_end_[to] = 2 * e + 1;
+      const Disk &a = axis_.nodes[from].disk, &b = axis_.nodes[to].disk;
+      const double furthest = short_edge * std::min(a.radius, b.radius);
+      // Without a branch that could be guessed wrong.
+      found[count] = e;
+      count += squared_norm(b.center - a.center) < furthest * furthest ? 1 : 0;
+    }
+    found.resize(count);
+    return found;
+  }
+  bool is_branching(std::uint32_t node) const {
+    const std::uint32_t second = next_end_[first_end_[node]];
+    return second != none && next_end_[second] != none;
+  }
+
+  /// Short edges between branching nodes whose two sites and one more contact of each end could be
+  /// touched by one disk. A necessary condition for contraction, and nearly always false.
+  std::vector<std::uint32_t> candidates() {
+    const std::vector<std::uint32_t> edges = link_ends();
+    constexpr std::size_t block = 1 << 12;
+    std::vector<std::vector<std::uint32_t>> found((edges.size() + block - 1) / block);
+    tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t i) {
+      for (std::size_t k = i * block; k < std::min(edges.size(), (i + 1) * block); ++k)
+        if (could_be_contracted(axis_.edges[edges[k]])) found[i].push_back(edges[k]);
+    });
+    std::vector<std::uint32_t> all;
+    for (const auto& some : found) all.insert(all.end(), some.begin(), some.end());
+    return all;
+  }
+
+  bool could_be_contracted(const Edge& edge) const {
+    const Disk &from = axis_.nodes[edge.node[0]].disk, &to = axis_.nodes[edge.node[1]].disk;
+    if (!is_branching(edge.node[0]) || !is_branching(edge.node[1])) return false;
+    const std::uint32_t after = other_contact(edge, edge.node[1]);
+    if (after == none || !(std::abs(near_contact(after, from).residual) <= steepest * bound()))
+      return false;
+    const std::uint32_t before = other_contact(edge, edge.node[0]);
+    if (before == none) return false;
+    const Disk middle{midpoint(from.center, to.center), 0.5 * (from.radius + to.radius)};
+    std::array<Contact, 4> contacts;
+    bool curved = false;
+    for (std::size_t i = 0; const std::uint32_t k : {edge.site[0], edge.site[1], before, after}) {
+      contacts[i++] = near_contact(k, middle);
+      curved = curved || boundary_.sites[k].is_vertex() || boundary_.sites[k].is_arc();
+    }
+    // From the middle on, distances to vertices deviate from their tangents by so much.
+    const double bend = curved ? 0.125 * squared_norm(to.center - from.center) / middle.radius : 0;
+    return std::abs(Dependency(contacts).level) <= bound() + bend;
+  }
+
+  /// contact_of() where the residual is small against the radius, without roots.
+  Contact near_contact(std::uint32_t i, const Disk& disk) const {
+    const Site& site = boundary_.sites[i];
+    if (!site.is_vertex()) return contact_of(site, disk);
+    const Vec2 to = (1 / disk.radius) * (disk.center - site.point);
+    return {to, 0.5 * disk.radius * (squared_norm(to) - 1)};
+  }
+
+  /// A site that is touched in a node of the edge, but is not the edge's own.
+  std::uint32_t other_contact(const Edge& edge, std::uint32_t node) const {
+    for (std::uint32_t end = first_end_[node]; end != none; end = next_end_[end])
+      for (const std::uint32_t site : axis_.edges[end / 2].site)
+        if (site != edge.site[0] && site != edge.site[1]) return site;
+    return none;
+  }
+
+  /// A cluster for every node of the edges, in the nodes' order.
+  void make_clusters(const std::vector<std::uint32_t>& edges) {
+    for (const std::uint32_t e : edges)
+      for (const std::uint32_t node : axis_.edges[e].node) nodes_.push_back(node);
+    std::sort(nodes_.begin(), nodes_.end());
+    nodes_.erase(std::unique(nodes_.begin(), nodes_.end()), nodes_.end());
+    for (const std::uint32_t node : nodes_) {
+      parent_.push_back(static_cast<std::uint32_t>(clusters_.size()));
+      Cluster& cluster =
+          clusters_.emplace_back(Cluster{Fit(boundary_.sites, bound()), node, {}, {}});
+      cluster.fit.disk = axis_.nodes[node].disk;
+      for (std::uint32_t end = first_end_[node]; end != none; end = next_end_[end]) {
+        cluster.ends.push_back(end);
+        for (const std::uint32_t site : axis_.edges[end / 2].site) cluster.contacts.push_back(site);
+      }
+      auto& contacts = cluster.contacts;
+      std::sort(contacts.begin(), contacts.end());
+      contacts.erase(std::unique(contacts.begin(), contacts.end()), contacts.end());
+    }
+  }
+
+  /// The cluster of a node; none where it is not in any.
+  std::uint32_t cluster_of(std::uint32_t node) {
+    const auto place = std::lower_bound(nodes_.begin(), nodes_.end(), node);
+    if (place == nodes_.end() || *place != node) return none;
+    auto cluster = static_cast<std::uint32_t>(place - nodes_.begin());
+    while (parent_[cluster] != cluster) cluster = parent_[cluster] = parent_[parent_[cluster]];
+    return cluster;
+  }
+
+  /// Makes one cluster of an edge's two, if they can be. Every edge is tried once: sites that no
+  /// disk touches are not touched by one after others have joined them.
+  bool contract(std::uint32_t edge) {
+    std::uint32_t a = cluster_of(axis_.edges[edge].node[0]);
+    std::uint32_t b = cluster_of(axis_.edges[edge].node[1]);
+    if (a == b) return false;
+    if (clusters_[a].contacts.size() < clusters_[b].contacts.size()) std::swap(a, b);
+    Cluster &large = clusters_[a], &small = clusters_[b];
+    Fit fit = large.fit;
+    // Mostly the larger cluster's disk will do: the smaller one's contacts are all to look at.
+    const bool moved = !fit.touches({small.contacts});
+    if (moved && !refit(fit, large, small)) return false;
+    if (!keeps_directions(edge, small, a, b, fit.disk)) return false;
+    if (moved && !keeps_directions(edge, large, a, b, fit.disk)) return false;
+    if (moved && !is_empty(fit.disk, axis_.nodes[small.node].component)) return false;
+
+    double& residual = axis_.statistics.largest_residual;
+    residual = std::max(residual, fit.worst);
+    large.fit = fit;
+    large.contacts.insert(large.contacts.end(), small.contacts.begin(), small.contacts.end());
+    large.ends.insert(large.ends.end(), small.ends.begin(), small.ends.end());
+    large.spent += small.spent;
+    small.contacts = {};
+    small.ends = {};
+    parent_[b] = a;
+    return true;
+  }
+
+  /// Finds a disk for both clusters. A large cluster may be looked at all through only so often for
+  /// every contact that it has, which keeps the work linear however large it grows; where its
+  /// contacts come in no particular order, each new one needs that with a probability of some
+  /// 4 / size only.
+  bool refit(Fit& fit, Cluster& large, const Cluster& small) const {
+    constexpr int most_rounds = 32;
+    constexpr std::uint64_t budget = 64;
+    const Disk start = fit.disk;
+    if (!fit.has_begun()) fit.begin(large.contacts);
+    const auto settles = [&](std::initializer_list<std::span<const std::uint32_t>> lists,
+                             std::uint64_t& spent) {
+      for (int round = 0; round < most_rounds; ++round) {
+        for (const auto& list : lists) spent += list.size();
+        if (fit.touches(lists)) return true;
+        if (!fit.improve()) return false;
+        if (!(distance(fit.disk.center, start.center) <= short_edge * start.radius)) return false;
+      }
+      return false;
+    };
+    // First the smaller cluster against those contacts that hold the larger one's disk.
+    std::uint64_t spent = 0;
+    if (!settles({small.contacts}, spent)) return false;
+    return large.spent <= budget * large.contacts.size() &&
+           settles({large.contacts, small.contacts}, large.spent);
+  }
+
+  /// Whether the edges of one of the clusters a and b that lead elsewhere still lead there when the
+  /// disk of both is `disk`, and no edge but `contracted` joins the two.
+  bool keeps_directions(std::uint32_t contracted, const Cluster& cluster, std::uint32_t a,
+                        std::uint32_t b, const Disk& disk) {
+    for (const std::uint32_t end : cluster.ends) {
+      if (end / 2 == contracted) continue;
+      const Edge& edge = axis_.edges[end / 2];
+      const std::array<std::uint32_t, 2> there{cluster_of(edge.node[0]), cluster_of(edge.node[1])};
+      if (there[0] == there[1]) continue;  // contracted before
+      std::array<Vec2, 2> center;
+      for (std::size_t k = 0; k < 2; ++k) {
+        const bool here = there[k] == a || there[k] == b;
+        center[k] = here               ? disk.center
+                    : there[k] == none ? axis_.nodes[edge.node[k]].disk.center
+                                       : clusters_[there[k]].fit.disk.center;
+      }
+      const geometry::Bisector bisector(boundary_.sites[edge.site[1]],
+                                        boundary_.sites[edge.site[0]]);
+      if (!(bisector.position(center[0]) < bisector.position(center[1]))) return false;
+    }
+    return true;
+  }
+
+  bool is_empty(const Disk& disk, std::uint32_t component) const {
+    const Boundary::Run& run = boundary_.runs[component];
+    return !tree_.nearest(disk.center, disk.radius - tolerance_, run.first, run.last);
+  }
+
+  /// Takes the contracted edges and the nodes that became others out of the graph; the last ones
+  /// take their places.
+  void remove(std::vector<std::uint32_t>& contracted) {
+    std::vector<std::uint32_t> gone;
+    for (std::uint32_t i = 0; i < clusters_.size(); ++i) {
+      const Cluster& cluster = clusters_[i];
+      if (parent_[i] != i) {
+        gone.push_back(cluster.node);
+        continue;
+      }
+      axis_.nodes[cluster.node].disk = cluster.fit.disk;
+      for (const std::uint32_t end : cluster.ends)
+        axis_.edges[end / 2].node[end % 2] = cluster.node;
+    }
+    fill_gaps(axis_.nodes, gone, [&](std::uint32_t from, std::uint32_t to) {
+      const std::uint32_t cluster = cluster_of(from);
+      if (cluster != none) {
+        for (const std::uint32_t end : clusters_[cluster].ends)
+          axis_.edges[end / 2].node[end % 2] = to;
+      } else {
+        for (std::uint32_t end = first_end_[from]; end != none; end = next_end_[end])
+          axis_.edges[end / 2].node[end % 2] = to;
+      }
+    });
+    std::sort(contracted.begin(), contracted.end());
+    fill_gaps(axis_.edges, contracted, [](std::uint32_t, std::uint32_t) {});
+  }
+
+  /// Removes the elements in `gone`, increasing, and tells which of the others go where.
+  template <class T, class Moved>
+  static void fill_gaps(std::vector<T>& elements, const std::vector<std::uint32_t>& gone,
+                        Moved&& moved) {
+    const std::size_t kept = elements.size() - gone.size();
+    auto gap = gone.begin();
+    auto skipped = std::lower_bound(gone.begin(), gone.end(), kept);
+    for (std::size_t from = kept; from < elements.size(); ++from) {
+      if (skipped != gone.end() && *skipped == from) {
+        ++skipped;
+        continue;
+      }
+      elements[*gap] = elements[from];
+      moved(static_cast<std::uint32_t>(from), *gap++);
+    }
+    elements.resize(kept);
+  }
+
+  const Boundary& boundary_;
+  const index::BoundaryTree& tree_;
+  double tolerance_;
+  MedialAxis& axis_;
+  /// The edges at every node, as linked lists of their ends: end 2 e + k is node[k] of edge e.
+  std::vector<std::uint32_t> first_end_, next_end_;
+  std::vector<std::uint32_t> nodes_;   ///< that are in a cluster, increasing
+  std::vector<std::uint32_t> parent_;  ///< of each cluster: the one that it has become part of
+  std::vector<Cluster> clusters_;      ///< of each of nodes_
+};
+
+}  // namespace
+
+void merge_ties(const Boundary& boundary, const index::BoundaryTree& tree, double tolerance,
+                MedialAxis& axis) {
+  Merger(boundary, tree, tolerance, axis).merge();
+}
+
+}  // namespace medial::disks

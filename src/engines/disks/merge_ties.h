@@ -1,0 +1,27 @@
+#pragma once
+
+#include "engines/disks/boundary.h"
+#include "index/boundary_tree.h"
+#include "medial/axis.h"
+
+namespace medial::disks {
+
+/// Merges branching nodes that are one within the tolerance. `axis` is in the local frame, its
+/// edges name sites of the boundary and have no curves yet.
+///
+/// The walk follows exact bisectors. Where many sites touch one disk but for the rounding of their
+/// coordinates, the bisector of two that enclose a small angle passes beside that disk's centre by
+/// the rounding over the angle, so no disk on it touches all others: the node falls apart into a
+/// few, joined by short edges. Such an edge is contracted where one disk touches the sites of both
+/// ends within half of the tolerance, no site reaches into it, and all other edges of the two nodes
+/// keep their directions. Half, because coordinates rounded to doubles move a tie's contacts by at
+/// most the square root of 1/2 of a spacing, and the tolerance is at least two spacings.
+///
+/// Every contraction takes one edge and one node, and none closes a cycle: the graph keeps its
+/// Euler number and its cycles. Nodes keep their kinds. The result depends on the graph only. O(n),
+/// and O(m log m) for the m edges that four of their ends' contacts do not rule out, with the edges
+/// of their nodes.
+void merge_ties(const Boundary& boundary, const index::BoundaryTree& tree, double tolerance,
+                MedialAxis& axis);
+
+}  // namespace medial::disks
