@@ -245,6 +245,35 @@ TEST(ClosedForm, RegularPolygonsHaveOneNode) {
   }
 }
 
+TEST(ClosedForm, StarsHaveOneNodeAmongTheirReflexVertices) {
+  for (const std::size_t n : {5, 12, 40, 100, 400}) {
+    std::vector<Vec2> points;
+    for (std::size_t i = 0; i < 2 * n; ++i) {
+      const double angle = std::numbers::pi * static_cast<double>(i) / static_cast<double>(n);
+      const double radius = i % 2 == 0 ? 2 : 1;
+      points.push_back({radius * std::cos(angle), radius * std::sin(angle)});
+    }
+    for (const Symmetry& symmetry : symmetries()) {
+      SCOPED_TRACE(std::to_string(n) + " reflex vertices, " + symmetry.name);
+      const auto shape = build_shape(transformed({ring_of(points)}, symmetry));
+      ASSERT_TRUE(shape);
+      const auto axis = compute(*shape, {.threads = 1});
+      ASSERT_TRUE(axis);
+      const Incidence incidence(*axis);
+      std::size_t inside = 0;
+      for (std::uint32_t i = 0; i < axis->nodes.size(); ++i) {
+        if (incidence.degree(i) < 3) continue;
+        ++inside;
+        EXPECT_EQ(incidence.degree(i), n);
+        EXPECT_NEAR(axis->nodes[i].disk.radius, symmetry.scale(), 1e-7 * symmetry.scale());
+      }
+      EXPECT_EQ(inside, 1u);
+      const Certificate certificate = verify(*shape, *axis, {.threads = 1});
+      EXPECT_TRUE(certificate.passed);
+    }
+  }
+}
+
 Ring box_ring(double x0, double y0, double x1, double y1) {
   return ring_of({{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}});
 }
