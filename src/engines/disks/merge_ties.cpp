@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -227,8 +227,9 @@ class Merger {
   /// that leads to a leaf.
   std::vector<std::uint32_t> link_ends() {
     first_end_.assign(axis_.nodes.size(), none);
-    next_end_.resize(2 * axis_.edges.size());
-    std::vector<std::uint32_t> found(axis_.edges.size());
+    next_end_ = std::make_unique_for_overwrite<std::uint32_t[]>(2 * axis_.edges.size());
+    std::vector<std::uint32_t> found;
+    std::array<std::uint32_t, 1 << 10> some;
     std::size_t count = 0;
     for (std::uint32_t e = 0; e < axis_.edges.size(); ++e) {
       const auto [from, to] = axis_.edges[e].node;
@@ -239,10 +240,13 @@ class Merger {
       const Disk &a = axis_.nodes[from].disk, &b = axis_.nodes[to].disk;
       const double furthest = short_edge * std::min(a.radius, b.radius);
       // Without a branch that could be guessed wrong.
-      found[count] = e;
+      some[count] = e;
       count += squared_norm(b.center - a.center) < furthest * furthest ? 1 : 0;
+      if (count == some.size() || e + 1 == axis_.edges.size()) {
+        found.insert(found.end(), some.begin(), some.begin() + count);
+        count = 0;
+      }
     }
-    found.resize(count);
     return found;
   }
   bool is_branching(std::uint32_t node) const {
@@ -464,7 +468,8 @@ class Merger {
   double tolerance_;
   MedialAxis& axis_;
   /// The edges at every node, as linked lists of their ends: end 2 e + k is node[k] of edge e.
-  std::vector<std::uint32_t> first_end_, next_end_;
+  std::vector<std::uint32_t> first_end_;
+  std::unique_ptr<std::uint32_t[]> next_end_;
   std::vector<std::uint32_t> nodes_;   ///< that are in a cluster, increasing
   std::vector<std::uint32_t> parent_;  ///< of each cluster: the one that it has become part of
   std::vector<Cluster> clusters_;      ///< of each of nodes_
