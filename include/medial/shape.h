@@ -38,11 +38,12 @@ struct VertexSource {
 struct ShapeReport {
   std::uint64_t input_rings = 0;
   std::uint64_t input_points = 0;
-  std::uint64_t closing_points = 0;     ///< last points equal to the first, dropped
-  std::uint64_t unclosed_rings = 0;     ///< rings that came without a closing point
-  std::uint64_t repeated_points = 0;    ///< zero-length edges, dropped
-  std::uint64_t collinear_points = 0;   ///< vertices in the inside of a straight run, dropped
-  std::uint64_t reversed_rings = 0;     ///< rings that had the interior on the right
+  std::uint64_t closing_points = 0;    ///< last points equal to the first, dropped
+  std::uint64_t unclosed_rings = 0;    ///< rings that came without a closing point
+  std::uint64_t repeated_points = 0;   ///< zero-length edges, dropped
+  std::uint64_t collinear_points = 0;  ///< vertices in the inside of a straight run or arc, dropped
+  std::uint64_t reversed_rings = 0;    ///< rings that had the interior on the right
+  std::uint64_t dropped_rings = 0;     ///< rings that the non-zero rule has inside of others
   std::uint64_t touching_vertices = 0;  ///< places where rings touch in a vertex
   std::uint64_t split_edges = 0;        ///< edges split where a vertex touches their inside
 };
@@ -79,7 +80,7 @@ struct Box {
   Vec2 high;
 };
 
-/// The bounding box of the shape's points, and the length of its diagonal.
+/// The bounding box of the shape, its arcs included, and the length of its diagonal.
 Box bounding_box(const Shape& shape);
 double diagonal(const Box& box);
 
@@ -89,8 +90,15 @@ double area(const Shape& shape);
 /// Cleans, checks, orients and nests rings into a Shape. O(n log n).
 ///
 /// Repeated points, zero-length edges, exactly collinear runs and missing closing points are mended
-/// and counted in `report` (may be null). Rings may touch in vertices, or with a vertex in the
-/// inside of an edge. Every decision is exact for the coordinates given.
+/// and counted in `report` (may be null), and so are runs of arcs on one circle. Rings may touch in
+/// vertices, or with a vertex in the inside of an edge. The rings of a polygon, an outer ring and
+/// the holes behind it, may come in any order. Missing bulges are 0; an arc of more than a half
+/// circle is split; one whose sagitta is below half a spacing of the coordinates is straight.
+///
+/// Without arcs, every decision is exact for the coordinates given. With arcs, no vertex lies
+/// exactly on one: then what comes within the tolerance (4e-15 of the diagonal, or two spacings of
+/// the largest coordinate) touches, vertices there become one, and edges touch inside too (tangent
+/// circles): both are split there. Joints that are smooth to rounding are nothing special.
 /// Errors: not_finite, too_few_points, no_area, crossing, overlap (the place names ring, vertex and
 /// the point), hole_outside, nested_outer, empty, too_large.
 Result<Shape> build_shape(std::span<const Ring> rings, ShapeReport* report = nullptr);

@@ -7,6 +7,7 @@
 #include "shape/nest.h"
 #include "shape/splice.h"
 #include "shape/sweep.h"
+#include "shape/winding.h"
 
 namespace medial {
 namespace {
@@ -14,7 +15,8 @@ namespace {
 std::uint64_t count_reversed(const Arrangement& arrangement) {
   std::uint64_t count = 0;
   for (std::size_t ring = 0; ring + 1 < arrangement.begin.size(); ++ring) {
-    if (!arrangement.interior_left[arrangement.begin[ring]]) ++count;
+    const std::uint32_t first = arrangement.begin[ring];
+    if (!arrangement.interior_left[first] && !arrangement.is_dropped(first)) ++count;
   }
   return count;
 }
@@ -41,13 +43,14 @@ Result<Shape> build(std::span<const Ring> rings, ShapeReport& report) {
 
   Result<Arrangement> arranged = arrange(std::move(outline).value(), report);
   if (!arranged) return std::move(arranged).error();
-  const Arrangement& arrangement = *arranged;
+  Arrangement& arrangement = *arranged;
+  report.dropped_rings = apply_winding(rings, arrangement);
   report.reversed_rings = count_reversed(arrangement);
 
   Result<Loops> loops = splice(rings, arrangement);
   if (!loops) return std::move(loops).error();
-  if (auto error = check_roles(rings, arrangement)) return std::move(*error);
   if (auto error = nest(arrangement, *loops)) return std::move(*error);
+  if (auto error = check_roles(rings, arrangement, *loops)) return std::move(*error);
   return assemble(arrangement, *loops);
 }
 

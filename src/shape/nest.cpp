@@ -32,17 +32,41 @@ bool inside_is_interior(const Arrangement& arrangement, std::uint32_t ring) {
   return lowest->outgoing;
 }
 
+/// Whether the rings [begin, end) of one polygon have its outer ring among them, though not first:
+/// one ring with the interior inside, directly in which all others lie.
+bool is_polygon_in_other_order(const Arrangement& arrangement, const Loops& loops,
+                               std::uint32_t begin, std::uint32_t end) {
+  const auto component = [&](std::uint32_t ring) {
+    return loops.loops[loops.loop_of[arrangement.begin[ring]]].component;
+  };
+  std::uint32_t outer_rings = 0;
+  for (std::uint32_t ring = begin; ring < end; ++ring) {
+    if (component(ring) != component(begin)) return false;
+    if (inside_is_interior(arrangement, ring)) ++outer_rings;
+  }
+  return outer_rings == 1;
+}
+
 VertexSource lowest_source(const Arrangement& arrangement, const Loop& loop) {
   return arrangement.sources[tail(arrangement, loop.first_edge)];
 }
 
 }  // namespace
 
-std::optional<Error> check_roles(std::span<const Ring> rings, const Arrangement& arrangement) {
+std::optional<Error> check_roles(std::span<const Ring> rings, const Arrangement& arrangement,
+                                 const Loops& loops) {
   for (std::uint32_t i = 0; i < rings.size(); ++i) {
     const RingRole role = rings[i].role;
-    if (role == RingRole::any) continue;
+    if (role == RingRole::any || role == RingRole::winding) continue;
     if (inside_is_interior(arrangement, i) == (role == RingRole::outer)) continue;
+    std::uint32_t begin = i;
+    while (begin > 0 && rings[begin].role == RingRole::hole) --begin;
+    std::uint32_t end = i + 1;
+    while (end < rings.size() && rings[end].role == RingRole::hole) ++end;
+    if (is_polygon_in_other_order(arrangement, loops, begin, end)) {
+      i = end - 1;
+      continue;
+    }
     const std::uint32_t first = arrangement.begin[i];
     const bool hole = role == RingRole::hole;
     return error_at(hole ? ErrorCode::hole_outside : ErrorCode::nested_outer,
@@ -75,7 +99,10 @@ std::optional<Error> nest(const Arrangement& arrangement, Loops& loops) {
     for (const LeftEnd& end : arrangement.left_ends) {
       const auto hole = hole_at.find(end.vertex);
       if (hole == hole_at.end() || end.below == kNone) continue;
-      loops.loops[hole->second].component = loops.loops[loops.loop_of[end.below]].component;
+      const std::uint32_t below =
+          arrangement.is_dropped(end.below) ? arrangement.stands_for[end.below] : end.below;
+      if (below == kNone) continue;
+      loops.loops[hole->second].component = loops.loops[loops.loop_of[below]].component;
     }
   }
   for (const Loop& loop : loops.loops) {

@@ -118,13 +118,17 @@ Arrangement arrange_arcs(SweptArcs swept) {
 
 Ray ray_from_start(const Arrangement& arrangement, std::uint32_t edge) {
   const double bulge = arrangement.bulges.empty() ? 0 : arrangement.bulges[edge];
-  return {arrangement.points[arrangement.next[edge]], edge, kNone, bulge,
-          arrangement.interior_left[edge]};
+  return {arrangement.points[arrangement.next[edge]],
+          edge,
+          kNone,
+          bulge,
+          arrangement.interior_left[edge],
+          true};
 }
 
 Ray ray_from_end(const Arrangement& arrangement, std::uint32_t edge) {
   const double bulge = arrangement.bulges.empty() ? 0 : arrangement.bulges[edge];
-  return {arrangement.points[edge], edge, kNone, -bulge, !arrangement.interior_left[edge]};
+  return {arrangement.points[edge], edge, kNone, -bulge, !arrangement.interior_left[edge], false};
 }
 
 bool turns_left(Vec2 center, const Ray& a, const Ray& b) {
@@ -136,6 +140,25 @@ bool turns_left(Vec2 center, const Ray& a, const Ray& b) {
   return is_below(monotone_arc(-center, -a.far, a.bulge), monotone_arc(-center, -b.far, b.bulge));
 }
 
+void rays_around(const Arrangement& arrangement, std::span<const Touch> touches,
+                 std::vector<Ray>& rays) {
+  const Vec2 center = arrangement.points[touches[0].vertex];
+  rays.clear();
+  for (const Touch& touch : touches) {
+    const std::uint32_t vertex = touch.vertex;
+    const std::uint32_t ring = arrangement.ring_of(vertex);
+    rays.push_back(ray_from_end(arrangement, arrangement.previous(vertex)));
+    rays.push_back(ray_from_start(arrangement, vertex));
+    for (std::size_t i = rays.size() - 2; i < rays.size(); ++i) rays[i].ring = ring;
+  }
+  std::stable_sort(rays.begin(), rays.end(), [&](const Ray& a, const Ray& b) {
+    const bool a_right = lexicographic_less(center, a.far);
+    const bool b_right = lexicographic_less(center, b.far);
+    if (a_right != b_right) return a_right;
+    return turns_left(center, a, b);
+  });
+}
+
 namespace {
 
 /// The edges at one touching place, counter-clockwise, beginning downward.
@@ -143,22 +166,9 @@ class Star {
  public:
   /// Takes all vertices at the place.
   void assign(const Arrangement& arrangement, std::span<const Touch> touches) {
-    center_ = arrangement.points[touches[0].vertex];
-    rays_.clear();
-    for (const Touch& touch : touches) {
-      const std::uint32_t vertex = touch.vertex;
-      const std::uint32_t previous = arrangement.previous(vertex);
-      const std::uint32_t ring = arrangement.ring_of(vertex);
-      rays_.push_back(ray_from_end(arrangement, previous));
-      rays_.push_back(ray_from_start(arrangement, vertex));
-      for (std::size_t i = rays_.size() - 2; i < rays_.size(); ++i) rays_[i].ring = ring;
-    }
-    std::stable_sort(rays_.begin(), rays_.end(), [&](const Ray& a, const Ray& b) {
-      const bool a_right = lexicographic_less(center_, a.far);
-      const bool b_right = lexicographic_less(center_, b.far);
-      if (a_right != b_right) return a_right;
-      return turns_left(center_, a, b);
-    });
+    rays_around(arrangement, touches, rays_);
+    if (arrangement.dropped.empty()) return;
+    std::erase_if(rays_, [&](const Ray& ray) { return arrangement.dropped[ray.edge]; });
   }
 
   /// Interior lies clockwise of an incoming ray, so the loop leaves by the ray before it.
@@ -196,7 +206,8 @@ class Star {
       return std::lower_bound(foreign.begin(), foreign.end(), std::pair(edge, false))->second;
     };
     for (const Touch& touch : touches) {
-      if (rings[arrangement.ring_of(touch.vertex)].role == RingRole::any) continue;
+      const RingRole role = rings[arrangement.ring_of(touch.vertex)].role;
+      if (role == RingRole::any || role == RingRole::winding) continue;
       if (parity_of(arrangement.previous(touch.vertex)) != parity_of(touch.vertex)) {
         return touch.vertex;
       }
@@ -205,7 +216,6 @@ class Star {
   }
 
  private:
-  Vec2 center_;
   std::vector<Ray> rays_;
 };
 
@@ -292,7 +302,8 @@ Result<Loops> splice(std::span<const Ring> rings, const Arrangement& arrangement
 
   result.loop_of.assign(arrangement.points.size(), kNone);
   for (std::uint32_t e = 0; e < result.loop_of.size(); ++e) {
-    if (result.loop_of[e] == kNone) result.loops.push_back(walk(arrangement, result, e));
+    if (result.loop_of[e] == kNone && !arrangement.is_dropped(e))
+      result.loops.push_back(walk(arrangement, result, e));
   }
   return result;
 }

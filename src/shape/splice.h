@@ -26,7 +26,11 @@ struct Arrangement {
   std::vector<double> edge_bulges;
   std::vector<Vec2> originals;
   std::vector<bool> passing;
+  // Only where the winding rule dropped edges (see winding.h); else empty.
+  std::vector<bool> dropped;
+  std::vector<std::uint32_t> stands_for;  ///< of a dropped edge: one that borders the same face
 
+  bool is_dropped(std::uint32_t edge) const { return !dropped.empty() && dropped[edge]; }
   /// In units of the input.
   Vec2 original(std::uint32_t vertex) const {
     return originals.empty() ? points[vertex] : originals[vertex];
@@ -46,8 +50,9 @@ struct Ray {
   Vec2 far;
   std::uint32_t edge = 0;
   std::uint32_t ring = 0;
-  double bulge = 0;       ///< when walked away from that end
-  bool outgoing = false;  ///< when walked with the interior on the left
+  double bulge = 0;         ///< when walked away from that end
+  bool outgoing = false;    ///< when walked with the interior on the left
+  bool from_start = false;  ///< the end is the edge's first vertex
 };
 
 /// The ray of an edge from its first vertex, or from its other one. `ring` is not set.
@@ -78,6 +83,11 @@ struct Loops {
 inline std::uint32_t tail(const Arrangement& arrangement, std::uint32_t edge) {
   return arrangement.interior_left[edge] ? edge : arrangement.next[edge];
 }
+
+/// The rays of all edges at one place, counter-clockwise, beginning downward. Requires all vertices
+/// of the place. O(t log t).
+void rays_around(const Arrangement& arrangement, std::span<const Touch> touches,
+                 std::vector<Ray>& rays);
 
 /// Joins the edges into loops. At a place where loops touch, each loop turns so that it bounds one
 /// wedge of the interior: every loop is the border of one component of the open interior, and two

@@ -1,0 +1,447 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "base/arc.h"
+#include "medial/shape.h"
+#include "support/generate_arcs.h"
+#include "support/wkt.h"
+
+namespace medial {
+namespace {
+
+using test::bulged_polygon;
+using test::circle;
+using test::Rings;
+using test::stadium;
+
+constexpr double kPi = std::numbers::pi;
+
+Ring with_role(Ring ring, RingRole role) {
+  ring.role = role;
+  return ring;
+}
+
+Ring reversed(const Ring& ring) {
+  return test::transformed({ring}, {.name = "reversed", .reverse = true})[0];
+}
+
+Shape built(const Rings& rings, ShapeReport* report = nullptr) {
+  Result<Shape> shape = build_shape(rings, report);
+  EXPECT_TRUE(shape.ok()) << (shape ? "" : to_string(shape.error()));
+  return shape ? std::move(shape).value() : Shape{};
+}
+
+ErrorCode code_of(const Rings& rings) {
+  const Result<Shape> shape = build_shape(rings);
+  EXPECT_FALSE(shape.ok());
+  return shape ? ErrorCode::internal : shape.error().code;
+}
+
+BulgeArc edge(const Ring& ring, std::size_t i) {
+  const double bulge = i < ring.bulges.size() ? ring.bulges[i] : 0;
+  return {ring.points[i], ring.points[(i + 1) % ring.points.size()], bulge};
+}
+
+/// Whether p lies between an arc of at most a half circle and its chord.
+bool beside_chord(const BulgeArc& arc, Vec2 p) {
+  if (arc.bulge == 0) return false;
+  const double side = cross(arc.chord(), p - arc.start);
+  if (side * arc.bulge >= 0) return false;
+  const double b = arc.bulge;
+  const double power = 2 * b * dot(p - arc.start, p - arc.end) + (b * b - 1) * side;
+  return power * b < 0;  // in the disk
+}
+
+bool inside_even_odd(const Rings& rings, Vec2 p) {
+  bool inside = false;
+  for (const Ring& ring : rings) {
+    for (std::size_t i = 0; i < ring.points.size(); ++i) {
+      const BulgeArc arc = edge(ring, i);
+      const Vec2 a = arc.start;
+      const Vec2 b = arc.end;
+      if ((a.y > p.y) != (b.y > p.y)) {
+        const double x = a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x);
+        inside = inside != (x > p.x);
+      }
+      inside = inside != beside_chord(arc, p);
+    }
+  }
+  return inside;
+}
+
+/// What build_shape() promises, and the even-odd rule beside each edge.
+void expect_contract(const Rings& rings, const Shape& shape) {
+  const double size = diagonal(bounding_box(shape));
+  ASSERT_TRUE(shape.bulges.empty() || shape.bulges.size() == shape.points.size());
+  ASSERT_EQ(shape.sources.size(), shape.points.size());
+  for (std::size_t i = 0; i < shape.loop_count(); ++i) {
+    const std::span<const Vec2> loop = shape.loop(i);
+    const std::uint32_t begin = shape.loop_begin[i];
+    ASSERT_GE(loop.size(), 2U);
+    double doubled = 0;
+    for (std::size_t k = 0; k < loop.size(); ++k) {
+      const BulgeArc arc{loop[k], loop[(k + 1) % loop.size()], shape.bulge(begin + k)};
+      ASSERT_NE(arc.start, arc.end);
+      EXPECT_LE(std::abs(arc.bulge), 1);
+      doubled += cross(arc.start - loop[0], arc.end - loop[0]) + 2 * area_beside_chord(arc);
+      const Vec2 tangent = (1 / norm(arc.chord())) * arc.chord();
+      const double length = norm(arc.chord());
+      if (length < 1e-6 * size) continue;
+      for (const double side : {1.0, -1.0}) {
+        const Vec2 p = apex(arc) + (side * 1e-11 * size) * left_of(tangent);
+        EXPECT_EQ(inside_even_odd(rings, p), side > 0) << "loop " << i << ", edge " << k;
+      }
+    }
+    EXPECT_EQ(doubled < 0, shape.hole[i]);
+  }
+}
+
+// ---------------------------------------------------------------------------------- cleaning
+
+TEST(ArcCleaning, FullCircleOfManyArcsBecomesTwoHalfCircles) {
+  Ring ring;
+  for (int i = 0; i < 12; ++i) {
+    ring.points.push_back({3 * std::cos(i * kPi / 6), 3 * std::sin(i * kPi / 6)});
+    ring.bulges.push_back(std::tan(kPi / 24));
+  }
+  ShapeReport report;
+  const Shape shape = built({ring}, &report);
+  EXPECT_EQ(report.collinear_points, 10U);
+  ASSERT_EQ(shape.points.size(), 2U);
+  EXPECT_EQ(shape.bulges, (std::vector<double>{1, 1}));
+  // The same two, whatever the start and the orientation.
+  for (std::size_t start = 0; start < 12; ++start) {
+    for (const bool backwards : {false, true}) {
+      const Rings other =
+          test::transformed({ring}, {.name = "", .reverse = backwards, .restart = start});
+      const Shape same = built(other);
+      ASSERT_EQ(same.points.size(), 2U);
+      EXPECT_TRUE(
+          std::is_permutation(same.points.begin(), same.points.end(), shape.points.begin()));
+    }
+  }
+}
+
+TEST(ArcCleaning, LongArcsAreSplit) {
+  const double bulge = std::tan(3 * kPi / 8);  // three quarters of a circle
+  const Shape shape = built({{{{1, 0}, {0, -1}}, RingRole::any, {bulge, 0}}});
+  ASSERT_EQ(shape.points.size(), 3U);
+  EXPECT_NEAR(area(shape), 0.75 * kPi + 0.5, 1e-15);
+  EXPECT_EQ(shape.sources[1].vertex, 0U);
+  const Box box = bounding_box(shape);
+  EXPECT_NEAR(box.low.x, -1, 1e-15);
+  EXPECT_NEAR(box.high.y, 1, 1e-15);
+  EXPECT_NEAR(box.high.x, 1, 1e-15);
+}
+
+TEST(ArcCleaning, NearlyFullCircle) {
+  const Shape shape = built({{{{0, 0}, {1e-3, 0}}, RingRole::any, {1e4, 0}}});
+  const double radius = 1e-3 * (1 + 1e8) / 4e4;
+  EXPECT_NEAR(area(shape) / (kPi * radius * radius), 1, 1e-7);
+}
+
+TEST(ArcCleaning, BulgesBelowRoundingAreStraight) {
+  const Shape shape = built({{{{0, 0}, {2, 0}, {1, 1}}, RingRole::any, {1e-17, 0, -1e-30}}});
+  EXPECT_TRUE(shape.bulges.empty());
+  EXPECT_EQ(area(shape), 1);
+}
+
+TEST(ArcCleaning, ZeroLengthEdgesAndStraightRunsBesideArcs) {
+  ShapeReport report;
+  const Rings rings = {{{{0, 0}, {1, 0}, {2, 0}, {2, 0}, {2, 2}, {0, 2}, {0, 0}},
+                        RingRole::any,
+                        {0, 0, 0.7, 0.5, 0, 0, 9}}};
+  const Shape shape = built(rings, &report);
+  EXPECT_EQ(report.closing_points, 1U);
+  EXPECT_EQ(report.repeated_points, 1U);
+  EXPECT_EQ(report.collinear_points, 1U);
+  EXPECT_EQ(shape.points, (std::vector<Vec2>{{0, 0}, {2, 0}, {2, 2}, {0, 2}}));
+  EXPECT_EQ(shape.bulges, (std::vector<double>{0, 0.5, 0, 0}));
+}
+
+TEST(ArcCleaning, Errors) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(code_of({{{{0, 0}, {2, 0}, {1, 1}}, RingRole::any, {0, nan, 0}}}),
+            ErrorCode::not_finite);
+  EXPECT_EQ(code_of({{{{0, 0}, {20, 0}}, RingRole::any, {0, 1e308}}}), ErrorCode::not_finite);
+  EXPECT_EQ(code_of({{{{0, 0}, {0, 0}}, RingRole::any, {1, 1}}}), ErrorCode::too_few_points);
+  EXPECT_EQ(code_of({{{{0, 0}, {2, 0}}, RingRole::any, {0.5, -0.5}}}), ErrorCode::no_area);
+}
+
+// ---------------------------------------------------------------------------------- measures
+
+TEST(ArcMeasures, AreaAndBox) {
+  EXPECT_NEAR(area(built({circle({5, 7}, 2, 0.3)})), 4 * kPi, 1e-14);
+  EXPECT_NEAR(area(built({circle({0, 0}, 2), circle({0.5, 0.1}, 1, 1)})), 3 * kPi, 1e-14);
+  EXPECT_NEAR(area(built({stadium({0, 0}, {3, 4}, 1)})), 10 + kPi, 1e-14);
+  const Shape reuleaux = built({bulged_polygon(3, std::tan(kPi / 12))});
+  EXPECT_NEAR(area(reuleaux), 3 * (kPi - std::sqrt(3.0)) / 2, 1e-14);
+  const Box box = bounding_box(built({circle({5, 7}, 2, 0.3)}));
+  EXPECT_NEAR(box.low.x, 3, 1e-14);
+  EXPECT_NEAR(box.low.y, 5, 1e-14);
+  EXPECT_NEAR(box.high.x, 7, 1e-14);
+  EXPECT_NEAR(box.high.y, 9, 1e-14);
+}
+
+TEST(ArcMeasures, OrientationIsThatOfTheArcs) {
+  // The chords enclose nothing, or less than the arcs on the other side.
+  const Shape shape = built({{{{0, 0}, {2, 0}, {1, 0.1}}, RingRole::any, {-0.9, 0, 0}}});
+  EXPECT_GT(area(shape), 0.5);
+  EXPECT_FALSE(shape.hole[0]);
+}
+
+TEST(ArcMeasures, SeriesMeetsTheClosedForm) {
+  for (const double bulge : {0.1249999, 0.1250001}) {
+    const double angle = 4 * std::atan(bulge);
+    const double radius = (1 + bulge * bulge) / (4 * bulge);
+    EXPECT_NEAR(area_beside_chord({{0, 0}, {1, 0}, bulge}),
+                radius * radius * (angle - std::sin(angle)) / 2, 1e-14);
+  }
+}
+
+// ---------------------------------------------------------------------------------- contacts
+
+TEST(ArcContacts, TangentCirclesTouch) {
+  for (const double turn : {0.0, 0.4, 1.0, 2.5, 3.14}) {
+    for (const double start : {0.0, 0.7, 1.9}) {
+      SCOPED_TRACE(turn + start);
+      const Vec2 direction{std::cos(turn), std::sin(turn)};
+      ShapeReport report;
+      // A hole that touches the circle from inside: one loop.
+      const Rings inside = {circle({0, 0}, 1, start), circle(0.5 * direction, 0.5, turn + start)};
+      const Shape crescent = built(inside, &report);
+      EXPECT_EQ(report.touching_vertices, 1U);
+      EXPECT_EQ(crescent.loop_count(), 1U);
+      EXPECT_NEAR(area(crescent), 0.75 * kPi, 1e-14);
+      expect_contract(inside, crescent);
+      // Two disks: two components.
+      const Rings outside = {circle({0, 0}, 1, start), circle(1.5 * direction, 0.5, turn - start)};
+      const Shape disks = built(outside, &report);
+      EXPECT_EQ(report.touching_vertices, 1U);
+      EXPECT_EQ(disks.component_count(), 2U);
+      expect_contract(outside, disks);
+    }
+  }
+}
+
+TEST(ArcContacts, CircleTouchesStraightEdgesAndVertices) {
+  ShapeReport report;
+  const Rings square = {{{{0, 0}, {2, 0}, {2, 2}, {0, 2}}}, circle({1, 1}, 1, 0.2)};
+  const Shape corners = built(square, &report);
+  EXPECT_EQ(report.touching_vertices, 4U);
+  EXPECT_EQ(corners.component_count(), 4U);
+  EXPECT_NEAR(area(corners), 4 - kPi, 1e-14);
+
+  // A square in a circle: its corners lie on the arcs, to rounding.
+  const double s = std::sqrt(0.5);
+  const Rings inscribed = {circle({0, 0}, 1, 0.2), {{{s, s}, {-s, s}, {-s, -s}, {s, -s}}}};
+  const Shape segments = built(inscribed, &report);
+  EXPECT_EQ(report.touching_vertices, 4U);
+  EXPECT_EQ(segments.component_count(), 4U);
+  EXPECT_NEAR(area(segments), kPi - 2, 1e-14);
+}
+
+TEST(ArcContacts, CrossingIsNamed) {
+  const Rings rings = {circle({0, 0}, 1, 0.3), circle({1.4, 0}, 0.5, 0.7)};
+  const Result<Shape> shape = build_shape(rings);
+  ASSERT_FALSE(shape.ok());
+  EXPECT_EQ(shape.error().code, ErrorCode::crossing);
+  ASSERT_TRUE(shape.error().place.point);
+  const Vec2 p = *shape.error().place.point;
+  EXPECT_NEAR(norm(p), 1, 1e-14);
+  EXPECT_NEAR(distance(p, {1.4, 0}), 0.5, 1e-14);
+  EXPECT_EQ(shape.error().place.ring, 0U);
+}
+
+TEST(ArcContacts, CrossingTwiceBetweenVertices) {
+  // An arc that dips through a segment and comes back: its ends are on the right side.
+  const Rings rings = {{{{0, 0}, {10, 0}, {10, 5}, {0, 5}}},
+                       {{{4, 0.5}, {6, 0.5}, {5, 2}}, RingRole::any, {0.6, 0, 0}}};
+  EXPECT_EQ(code_of(rings), ErrorCode::crossing);
+}
+
+TEST(ArcContacts, Overlap) {
+  EXPECT_EQ(code_of({circle({0, 0}, 1), circle({0, 0}, 1, 0.5)}), ErrorCode::overlap);
+  EXPECT_EQ(code_of({stadium({0, 0}, {2, 0}, 1), circle({2, 0}, 1, 0.3)}), ErrorCode::overlap);
+}
+
+TEST(ArcContacts, SmoothJointsAreNothingSpecial) {
+  test::Random random(5);
+  for (int i = 0; i < 50; ++i) {
+    const Rings rings = {test::smooth_biarcs(random, 200, 6)};
+    ShapeReport report;
+    const Shape shape = built(rings, &report);
+    EXPECT_EQ(report.touching_vertices, 0U);
+    EXPECT_GE(shape.points.size() + report.collinear_points, 400U);
+  }
+}
+
+// ---------------------------------------------------------------------------------- roles
+
+TEST(Winding, RingsOfOneOrientationAreOne) {
+  const auto square = [](double low, double high, bool hole) {
+    Ring ring{{{low, low}, {high, low}, {high, high}, {low, high}}, RingRole::winding};
+    return hole ? reversed(ring) : ring;
+  };
+  ShapeReport report;
+  Shape shape = built({square(0, 9, false), square(1, 8, false)}, &report);
+  EXPECT_EQ(area(shape), 81);
+  EXPECT_EQ(report.dropped_rings, 1U);
+  shape = built({square(0, 9, false), square(1, 8, true)}, &report);
+  EXPECT_EQ(area(shape), 81 - 49);
+  EXPECT_EQ(report.dropped_rings, 0U);
+  // 1, 2, 1, 0: the second and the third ring do not matter, the fourth one is a hole.
+  shape = built({square(0, 9, false), square(1, 8, false), square(2, 7, true), square(3, 6, true)},
+                &report);
+  EXPECT_EQ(area(shape), 81 - 9);
+  EXPECT_EQ(report.dropped_rings, 2U);
+  ASSERT_EQ(shape.loop_count(), 2U);
+  EXPECT_EQ(shape.sources[shape.loop_begin[1]].ring, 3U);
+  // All the other way round, and in another order.
+  shape = built({square(3, 6, false), square(2, 7, false), square(0, 9, true), square(1, 8, true)},
+                &report);
+  EXPECT_EQ(area(shape), 81 - 9);
+  EXPECT_EQ(report.dropped_rings, 2U);
+}
+
+TEST(Winding, WithArcsAndTouching) {
+  ShapeReport report;
+  const Ring disk = with_role(circle({0, 0}, 1, 0.2), RingRole::winding);
+  const Ring small = with_role(circle({0.5, 0}, 0.5, 1), RingRole::winding);
+  EXPECT_NEAR(area(built({disk, small}, &report)), kPi, 1e-14);
+  EXPECT_EQ(report.dropped_rings, 1U);
+  EXPECT_NEAR(area(built({disk, reversed(small)}, &report)), 0.75 * kPi, 1e-14);
+  EXPECT_EQ(report.dropped_rings, 0U);
+  // A ring that winds twice about its inner part, which it touches in a vertex.
+  Ring twice{{{0, 0}, {4, 0}, {4, 4}, {0, 4}, {0, 0}, {2, 1}, {1, 2}}, RingRole::winding};
+  const Shape shape = built({twice, reversed(with_role(circle({1, 1.1}, 0.1), RingRole::winding))});
+  EXPECT_NEAR(area(shape), 16, 1e-14);  // about the circle the winding number is 1
+}
+
+TEST(Winding, HoleAboveADroppedRing) {
+  const auto box = [](Vec2 low, Vec2 high) {
+    return Ring{{{low.x, low.y}, {high.x, low.y}, {high.x, high.y}, {low.x, high.y}},
+                RingRole::winding};
+  };
+  const Shape shape =
+      built({box({0, 0}, {9, 9}), box({1, 1}, {8, 2}), reversed(box({3, 4}, {5, 6}))});
+  EXPECT_EQ(area(shape), 81 - 4);
+  EXPECT_EQ(shape.hole_count(), 1U);
+  EXPECT_EQ(shape.component_count(), 1U);
+}
+
+TEST(Roles, OuterRingsMayComeLate) {
+  const Rings rings =
+      test::rings_of_wkt("POLYGON ((1 1, 2 1, 2 2), (0 0, 9 0, 9 9, 0 9), (5 5, 6 5, 6 6))")
+          .value();
+  const Shape shape = built(rings);
+  EXPECT_EQ(area(shape), 80);
+  EXPECT_EQ(shape.hole_count(), 2U);
+  // But not in another polygon.
+  EXPECT_EQ(code_of(test::rings_of_wkt("MULTIPOLYGON (((0 0, 9 0, 9 9, 0 9)), ((1 1, 2 1, 2 2), "
+                                       "(20 0, 30 0, 30 9)))")
+                        .value()),
+            ErrorCode::nested_outer);
+}
+
+// ---------------------------------------------------------------------------------- at random
+
+TEST(RandomArcShapes, AreBuiltAlikeUnderSymmetries) {
+  for (std::uint64_t seed = 0; seed < 1500; ++seed) {
+    const test::RandomShape random = test::random_arc_shape(seed);
+    SCOPED_TRACE(random.kind + ", seed " + std::to_string(seed));
+    ShapeReport report;
+    const Shape shape = built(random.rings, &report);
+    if (!random.rigid) continue;
+    expect_contract(random.rings, shape);
+    const auto& symmetries = test::symmetries();
+    const test::Symmetry& symmetry = symmetries[seed % symmetries.size()];
+    // Far from the origin, small shapes lose their digits.
+    if (std::abs(symmetry.dx) > 1e3 * diagonal(bounding_box(shape))) continue;
+    const Shape other = built(test::transformed(random.rings, symmetry));
+    EXPECT_EQ(other.loop_count(), shape.loop_count());
+    EXPECT_EQ(other.points.size(), shape.points.size());
+    const double scale = symmetry.scale() * symmetry.scale();
+    EXPECT_NEAR(area(other), scale * area(shape), 1e-7 * scale * area(shape)) << symmetry.name;
+  }
+}
+
+/// The points that two arcs have in common, by their circles' centres.
+std::vector<Vec2> common_points(const BulgeArc& a, const BulgeArc& b) {
+  const auto center = [](const BulgeArc& arc) {
+    const double height = (1 - arc.bulge * arc.bulge) / (4 * arc.bulge);
+    return midpoint(arc.start, arc.end) + height * left_of(arc.chord());
+  };
+  const Vec2 c = center(a);
+  const Vec2 d = center(b);
+  const double r = distance(c, a.start);
+  const double s = distance(d, b.start);
+  const double between = distance(c, d);
+  const double x = (between * between + r * r - s * s) / (2 * between);
+  if (r * r < x * x) return {};
+  const double y = std::sqrt(r * r - x * x);
+  const Vec2 unit = (1 / between) * (d - c);
+  std::vector<Vec2> result;
+  for (const double sign : {1.0, -1.0}) {
+    const Vec2 p = c + x * unit + (sign * y) * left_of(unit);
+    const bool on_a = cross(a.chord(), p - a.start) * a.bulge < 0;
+    const bool on_b = cross(b.chord(), p - b.start) * b.bulge < 0;
+    if (on_a && on_b) result.push_back(p);
+  }
+  return result;
+}
+
+TEST(RandomArcShapes, CrossingsAreFoundAsByAllPairs) {
+  int crossings = 0;
+  int valid = 0;
+  for (std::uint64_t seed = 0; seed < 3000; ++seed) {
+    SCOPED_TRACE(seed);
+    test::Random random(seed);
+    const auto blob = [&](double size) {
+      const auto n = static_cast<std::size_t>(random.integer(2, 7));
+      Ring ring = bulged_polygon(n, random.between(0.05, 0.95), size);
+      const Vec2 offset{random.between(-1, 1), random.between(-1, 1)};
+      const double angle = random.between(0, 6);
+      for (Vec2& p : ring.points) p = offset + turned(p, std::cos(angle), std::sin(angle));
+      return ring;
+    };
+    const Rings rings = {blob(random.between(0.1, 0.6)), blob(random.between(0.1, 0.6)),
+                         blob(random.between(0.1, 0.6))};
+    std::vector<Vec2> common;
+    for (std::size_t i = 0; i < rings.size(); ++i) {
+      for (std::size_t j = i + 1; j < rings.size(); ++j) {
+        for (std::size_t k = 0; k < rings[i].points.size(); ++k) {
+          for (std::size_t l = 0; l < rings[j].points.size(); ++l) {
+            const auto found = common_points(edge(rings[i], k), edge(rings[j], l));
+            common.insert(common.end(), found.begin(), found.end());
+          }
+        }
+      }
+    }
+    const Result<Shape> shape = build_shape(rings);
+    EXPECT_EQ(shape.ok(), common.empty());
+    if (shape) {
+      ++valid;
+      expect_contract(rings, *shape);
+    } else {
+      ++crossings;
+      EXPECT_EQ(shape.error().code, ErrorCode::crossing);
+      ASSERT_TRUE(shape.error().place.point);
+      EXPECT_TRUE(std::any_of(common.begin(), common.end(), [&](Vec2 p) {
+        return distance(p, *shape.error().place.point) < 1e-9;
+      })) << to_string(shape.error());
+    }
+  }
+  EXPECT_GT(crossings, 500);
+  EXPECT_GT(valid, 500);
+}
+
+}  // namespace
+}  // namespace medial
