@@ -26,7 +26,7 @@ build: setup    ## build the library and the command line
 	@cmake --preset release
 	@cmake --build $(RELEASE) -j $(JOBS) --target medial medial_io medial_cli
 
-demo: build     ## medial axes of a country, a gear, a plan and a maze: out/demo
+demo: build     ## medial axes of an island, a country, a gear, a plan, a maze: out/demo
 	@tools/demo.py $(RELEASE)/cli/medial out/demo
 
 test: setup     ## all tests, in release and under the address and undefined-behaviour sanitizers

@@ -283,6 +283,10 @@ TEST_F(Io, ErrorsOfTextsNameTheLine) {
   EXPECT_EQ(refused("a.wkt", "POLYGON((0 0,nan 0,1 1))").code, ErrorCode::not_finite);
   EXPECT_EQ(refused("a.wkt", "POLYGON((0 0,1e999 0,1 1))").code, ErrorCode::not_finite);
   EXPECT_EQ(refused("a.wkt", "POLYGON((0 0,-inf 0,1 1))").code, ErrorCode::not_finite);
+  const Error nan = refused("a.wkt", "POLYGON((0 0,9 0,9 9),(1 1,2 nan,3 3))");
+  EXPECT_EQ(nan.place.feature, 0U);
+  EXPECT_EQ(nan.place.ring, 1U);
+  EXPECT_EQ(nan.place.vertex, 1U);
   EXPECT_EQ(refused("a.wkt", "POLYGON((0 0,1 0,1))").code, ErrorCode::malformed);
   EXPECT_EQ(refused("a.wkt", "POLYGON((0 0,1 0,1 1 2 3 4))").code, ErrorCode::malformed);
   EXPECT_EQ(refused("a.wkt", "POLYGON((0 0,1-1 0,1 1))").code, ErrorCode::malformed);
@@ -302,6 +306,10 @@ TEST_F(Io, ErrorsOfTextsNameTheLine) {
   EXPECT_EQ(refused("a.txt", "0 0\n1\n").code, ErrorCode::malformed);
   EXPECT_EQ(refused("a.txt", "0 0 0\n").code, ErrorCode::malformed);
   EXPECT_EQ(refused("a.txt", "0 NaN\n").code, ErrorCode::not_finite);
+  const Error inf_in_line = refused("a.txt", "0 0\n9 0\n9 9\n\n1 1\ninf 2\n");
+  EXPECT_EQ(inf_in_line.place.ring, 1U);
+  EXPECT_EQ(inf_in_line.place.vertex, 1U);
+  EXPECT_EQ(inf_in_line.place.line, 6U);
   EXPECT_EQ(refused("a.txt", "# nothing\n\n").code, ErrorCode::empty);
   EXPECT_EQ(refused("a.txt", std::string(100000, '1') + " 2").code, ErrorCode::malformed);
 }

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <functional>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -68,6 +69,7 @@ struct Large {
   const char* name;
   Rings (*rings)();
 };
+void PrintTo(const Large& large, std::ostream* out) { *out << large.name; }
 
 class LargeShapes : public testing::TestWithParam<Large> {};
 

@@ -15,7 +15,7 @@ import sys
 DATA = pathlib.Path(__file__).resolve().parent.parent / "data"
 # What the shape is, its file, and the switches of its axis and of its picture.
 SHAPES = [
-    ("a country with its lakes", "newfoundland.wkt.gz", [], ["--width=1600"]),
+    ("an island with its lakes", "newfoundland.wkt.gz", [], ["--width=1600"]),
     ("a country on a map", "switzerland.geojson", ["--project"], ["--disks=60"]),
     ("a gear", "gear.wkt", [], ["--disks=60"]),
     ("a building plan", "plan.wkt", [], ["--disks=60", "--nodes"]),

@@ -33,10 +33,13 @@ struct Options {
   double corner_angle = 0.01;
   /// Threads to use, at most 1024; 0: all of the machine. The result is the same, byte for byte.
   int threads = 0;
-  /// Called now and then, from any thread and out of order, with the share of the work done in
-  /// [0, 1]; in the end with 1. Must not throw.
+  /// Called now and then, from any thread and out of order, with the share of the boundary that the
+  /// walk is done with, in [0, 1]; in the end with 1. What comes before the walk (sites, holes,
+  /// tree) counts as 0, what comes after it as 1: together less than half of the time. Must not
+  /// throw.
   std::function<void(double)> progress = {};
-  /// When set to true, compute() returns ErrorCode::cancelled as soon as it can.
+  /// When set to true, compute() returns ErrorCode::cancelled as soon as it can: at once during the
+  /// walk, and otherwise at the end of the phase. Set too late it changes nothing but the result.
   const std::atomic<bool>* cancel = nullptr;
 };
 

@@ -21,9 +21,11 @@ double length(const MedialAxis& axis, const Edge& edge);
 double total_length(const MedialAxis& axis);
 
 /// Samples an edge from node to node, both included, so that every chord stays within `chord`
-/// (units of the input) of the curve in (x, y) and in r.
+/// (units of the input) of the curve in (x, y) and in r; but at most 100,000 pieces, however small
+/// the chord.
 std::vector<Disk> sample_by_chord(const MedialAxis& axis, const Edge& edge, double chord);
-/// Samples an edge from node to node, both included, with steps of at most `step` along the curve.
+/// Samples an edge from node to node, both included, with steps of at most `step` along the curve;
+/// but at most 100,000 of them.
 std::vector<Disk> sample_by_step(const MedialAxis& axis, const Edge& edge, double step);
 
 /// The edges around each node, by increasing index of the edge; an edge from a node to itself
@@ -76,6 +78,8 @@ class AxisLocator {
   explicit AxisLocator(const MedialAxis& axis);
   ~AxisLocator();
   AxisLocator(AxisLocator&&) noexcept;
+  /// Of edges at equal distance, the lowest index. An axis without edges has no nearest point: the
+  /// distance is infinite then, and the rest means nothing.
   AxisPoint nearest(Vec2 p) const;
 
  private:

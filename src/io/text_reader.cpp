@@ -80,6 +80,11 @@ class WktReader {
     return error;
   }
 
+  static Error at_vertex(Error error, std::size_t vertex) {
+    error.place.vertex = vertex;
+    return error;
+  }
+
   Error expected(std::string_view what) {
     const std::string found = source_.next_as_text();
     return source_.error(ErrorCode::malformed,
@@ -203,7 +208,10 @@ class WktReader {
       Ring& ring = rings.emplace_back();
       ring.role = role;
       role = RingRole::hole;
-      if (Status status = read_points(ring.points); !status) return status;
+      if (Status status = read_points(ring.points); !status) {
+        if (status.error().place.vertex) status.error().place.ring = rings.size() - 1;
+        return status;
+      }
     } while (accept(','));
     return accept(')') ? success() : Status(expected("',' or ')'"));
   }
@@ -223,10 +231,10 @@ class WktReader {
           case TextSource::Number::none:
             return expected("a number");
           case TextSource::Number::not_finite:
-            if (count < 2) {
-              return source_.error(ErrorCode::not_finite, "a coordinate is not a finite number");
-            }
-            return source_.error(ErrorCode::not_finite, "an ordinate is not a finite number");
+            return at_vertex(source_.error(ErrorCode::not_finite,
+                                           count < 2 ? "a coordinate is not a finite number"
+                                                     : "an ordinate is not a finite number"),
+                             points.size());
           case TextSource::Number::too_long:
             return source_.error(ErrorCode::malformed, "a number is too long");
         }
@@ -340,7 +348,14 @@ Result<Dataset> read_xy(TextSource& source) {
   while (source.peek() >= 0) {
     Vec2 vertex;
     Result<Line> line = read_line(source, vertex);
-    if (!line) return line.error();
+    if (!line) {
+      Error error = line.error();
+      if (error.code == ErrorCode::not_finite) {
+        error.place.ring = feature.rings.size() - (in_ring ? 1 : 0);
+        error.place.vertex = in_ring ? feature.rings.back().points.size() : 0;
+      }
+      return error;
+    }
     if (*line == Line::vertex) {
       if (!in_ring) feature.rings.emplace_back();
       feature.rings.back().points.push_back(vertex);

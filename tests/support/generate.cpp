@@ -787,12 +787,25 @@ Rings transformed(const Rings& rings, const Symmetry& symmetry) {
 Rings symmetric(const Rings& rings, std::size_t i) { return transformed(rings, symmetries()[i]); }
 
 std::string to_wkt(const Rings& rings) {
+  // A polygon's outer ring comes first: the one that goes furthest to the left.
+  const auto left_end = [](const Ring& ring) {
+    double left = std::numeric_limits<double>::infinity();
+    for (const Vec2 p : ring.points) left = std::min(left, p.x);
+    return left;
+  };
+  std::vector<const Ring*> order;
+  for (const Ring& ring : rings) order.push_back(&ring);
+  const auto outer =
+      std::min_element(order.begin(), order.end(),
+                       [&](const Ring* a, const Ring* b) { return left_end(*a) < left_end(*b); });
+  if (outer != order.end()) std::rotate(order.begin(), outer, outer + 1);
+
   std::string text = "POLYGON (";
   std::array<char, 64> buffer{};
-  for (std::size_t i = 0; i < rings.size(); ++i) {
-    text += i == 0 ? "(" : ", (";
-    for (std::size_t k = 0; k <= rings[i].points.size(); ++k) {
-      const Vec2 p = rings[i].points[k % rings[i].points.size()];
+  for (const Ring* ring : order) {
+    text += ring == order.front() ? "(" : ", (";
+    for (std::size_t k = 0; k <= ring->points.size(); ++k) {
+      const Vec2 p = ring->points[k % ring->points.size()];
       std::snprintf(buffer.data(), buffer.size(), "%s%.17g %.17g", k == 0 ? "" : ", ", p.x, p.y);
       text += buffer.data();
     }

@@ -142,7 +142,7 @@ Rings transformed(const Rings& rings, const Symmetry& symmetry);
 /// transformed(rings, symmetries()[i]).
 Rings symmetric(const Rings& rings, std::size_t i);
 
-/// The rings as one WKT POLYGON, each coordinate in 17 digits.
+/// The rings as one WKT POLYGON, the outer ring first, each coordinate in 17 digits.
 std::string to_wkt(const Rings& rings);
 
 std::size_t vertex_count(const Rings& rings);

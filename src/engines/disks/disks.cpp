@@ -14,7 +14,7 @@
 
 namespace medial::disks {
 
-/// The engine: sites, holes connected, tree, walk, graph.
+/// The engine: sites, holes connected, tree, walk, graph. Cancelled, it stops where it is.
 MedialAxis run(const Shape& shape, const Options& options) {
   MedialAxis axis;
   axis.method = "disks";
@@ -34,10 +34,12 @@ MedialAxis run(const Shape& shape, const Options& options) {
   Boundary boundary = loops_boundary(shape, numbers, frame);
   statistics.seconds_sites = watch.lap();
 
+  const auto cancelled = [&] { return options.cancel != nullptr && options.cancel->load(); };
   const std::vector<Cut> cuts = connecting_disks(shape, boundary, tolerance, statistics.queries);
   if (!cuts.empty()) boundary = connect(shape, boundary, cuts);
   statistics.cuts = cuts.size();
   statistics.seconds_connect = watch.lap();
+  if (cancelled()) return axis;
 
   auto tree = std::make_unique<index::BoundaryTree>(boundary.sites);
   statistics.seconds_tree = watch.lap();
@@ -53,6 +55,7 @@ MedialAxis run(const Shape& shape, const Options& options) {
   auto chunks = walk({boundary, cuts, *tree, tolerance, radius_limit(box, frame), options.cancel,
                       std::move(report)});
   statistics.seconds_walk = watch.lap();
+  if (cancelled()) return axis;
 
   collect(chunks, cuts.size(), axis);
   // The input itself is known to its spacing only.
