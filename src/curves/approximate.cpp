@@ -9,6 +9,7 @@
 #include <limits>
 #include <optional>
 
+#include "base/frame.h"
 #include "curves/biarc.h"
 #include "curves/spirals.h"
 #include "medial/contour.h"
@@ -99,6 +100,21 @@ bool is_straight(const Bezier& curve, double rounding) {
   return true;
 }
 
+PieceFrame frame_of_piece(std::span<const Vec2> points) {
+  Vec2 low = 0.5 * points[0], high = low;
+  for (Vec2 p : points) {
+    low = {std::min(low.x, 0.5 * p.x), std::min(low.y, 0.5 * p.y)};
+    high = {std::max(high.x, 0.5 * p.x), std::max(high.y, 0.5 * p.y)};
+  }
+  const Vec2 origin{detail::exact_origin(low.x, high.x), detail::exact_origin(low.y, high.y)};
+  const double size = std::max({std::abs(low.x - origin.x), std::abs(low.y - origin.y),
+                                std::abs(high.x - origin.x), std::abs(high.y - origin.y)});
+  int exponent = 0;
+  std::frexp(size, &exponent);
+  exponent = std::clamp(exponent, -1000, 1023);
+  return {origin, std::ldexp(1.0, -exponent), std::ldexp(1.0, exponent)};
+}
+
 void PieceSource::load(std::size_t index, Piece& piece) const {
   const CurvePiece source = pieces_[index];
   const bool closing = source.degree == 0;
@@ -117,17 +133,9 @@ void PieceSource::load(std::size_t index, Piece& piece) const {
     return;
   }
 
-  double size = 0, largest = 0;
-  const Vec2 half_origin = 0.5 * points[0];
-  for (Vec2 p : points) {
-    const Vec2 d = 0.5 * p - half_origin;
-    size = std::max({size, std::abs(d.x), std::abs(d.y)});
-    largest = std::max({largest, std::abs(p.x), std::abs(p.y)});
-  }
-  int exponent = 0;
-  std::frexp(size, &exponent);
-  exponent = std::clamp(exponent, -1000, 1023);
-  piece.frame = {half_origin, std::ldexp(1.0, -exponent), std::ldexp(1.0, exponent)};
+  piece.frame = frame_of_piece(points);
+  double largest = 0;
+  for (Vec2 p : points) largest = std::max({largest, std::abs(p.x), std::abs(p.y)});
   std::array<Vec2, kMaxDegree + 1> local;
   for (std::size_t i = 0; i < points.size(); ++i) local[i] = piece.frame.to_local(points[i]);
   const std::span<const double> weights =

@@ -96,23 +96,53 @@ Vec2 tangent_at_end(const Arc& arc) {
   return tangent_at_begin(turned);
 }
 
+JointCircle joint_circle(const Station& a, const Station& b) {
+  const Vec2 d = b.point - a.point;
+  const Vec2 m = a.tangent + mirror(b.tangent, d);
+  const Vec2 direction = (1 / norm(m)) * m;
+  return {a.point, direction, 2 * cross(direction, d) / squared_norm(d)};
+}
+
 Vec2 spiral_joint(const Station& a, const Station& b) {
+  const auto reversed = [](Station station) {
+    station.tangent = -station.tangent;
+    station.curvature = -station.curvature;
+    return station;
+  };
   const bool forward = std::abs(a.curvature) >= std::abs(b.curvature);
-  const Station& high = forward ? a : b;
-  const Station& low = forward ? b : a;
-  const double turn = forward ? 1 : -1;
-  const Vec2 v = turn * high.tangent;
-  const double k = turn * high.curvature;
-  const Vec2 d = low.point - high.point;
-  const Vec2 m_long = v + mirror(turn * low.tangent, d);
-  const Vec2 m = (1 / norm(m_long)) * m_long;
-  const double q = 2 * cross(m, d) / squared_norm(d);
-  const Vec2 along = q * v - k * m;
-  Vec2 c = (-2 * cross(v, m) / squared_norm(along)) * along;
+  const Station high = forward ? a : reversed(b);
+  const JointCircle circle = joint_circle(high, forward ? b : reversed(a));
+  const Vec2 v = high.tangent, m = circle.direction;
+  const Vec2 along = circle.curvature * v - high.curvature * m;
+  const Vec2 joint = high.point + (-2 * cross(v, m) / squared_norm(along)) * along;
   // One Newton step onto the joint circle: rounding may slide the joint along it, not off it.
-  const double off = q * squared_norm(c) - 2 * cross(m, c);
-  c = c - 0.5 * off * (q * c - left_of(m));
-  return high.point + c;
+  return joint - circle.off(joint) * circle.normal(joint);
+}
+
+Vec2 settle_joint(const JointCircle& circle, Vec2 joint, Vec2 grid, double reach) {
+  struct Step {
+    Vec2 way;
+    double effect;
+  };
+  const Vec2 normal = circle.normal(joint);
+  Step longer{{grid.x, 0}, normal.x * grid.x}, shorter{{0, grid.y}, normal.y * grid.y};
+  if (std::abs(longer.effect) < std::abs(shorter.effect)) std::swap(longer, shorter);
+  const double enough = 0.5 * std::numeric_limits<double>::epsilon() * norm(joint - circle.base);
+  double off = circle.off(joint);
+  Vec2 way{0, 0};
+  while (std::abs(off) > enough && shorter.effect != 0) {
+    const double count = std::round(off / shorter.effect);
+    const Vec2 next = way - count * shorter.way;
+    if (!(std::abs(next.x) + std::abs(next.y) <= reach)) break;
+    way = next;
+    off -= count * shorter.effect;
+    const double quotient = std::round(longer.effect / shorter.effect);
+    const Step remainder{longer.way - quotient * shorter.way,
+                         longer.effect - quotient * shorter.effect};
+    longer = shorter;
+    shorter = remainder;
+  }
+  return joint + way;
 }
 
 Biarc make_biarc(const Station& a, Vec2 joint, const Station& b) {

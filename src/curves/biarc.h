@@ -23,6 +23,22 @@ double curvature(const Arc& arc);
 Vec2 tangent_at_begin(const Arc& arc);
 Vec2 tangent_at_end(const Arc& arc);
 
+/// The circle of the joints of all biarcs between two stations, by the station that it begins at.
+struct JointCircle {
+  Vec2 base;
+  Vec2 direction;  ///< unit length
+  double curvature = 0;
+
+  /// How far p is off the circle, for points next to it; positive on its right.
+  double off(Vec2 p) const {
+    const Vec2 c = p - base;
+    return 0.5 * curvature * squared_norm(c) - cross(direction, c);
+  }
+  /// The derivative of off().
+  Vec2 normal(Vec2 p) const { return curvature * (p - base) - left_of(direction); }
+};
+JointCircle joint_circle(const Station& a, const Station& b);
+
 /// The joint of the spiral biarc from `a` to `b` (Algorithm 1): where the osculating circle at the
 /// end of the larger curvature meets the joint circle again. Where the curvatures are those of a
 /// spiral the joint is an ordinary point between them; nothing is promised for others.
@@ -34,14 +50,23 @@ Vec2 tangent_at_end(const Arc& arc);
 /// satisfy k |c|^2 = 2 (v x c) and q |c|^2 = 2 (m x c), so that c is a multiple of q v - k m.
 Vec2 spiral_joint(const Station& a, const Station& b);
 
+/// The joint moved by whole steps of a grid to a grid point next to the joint circle: by at most
+/// about `reach`, until it is off the circle by no more than a rounding of the chord.
+///
+/// Off the circle the arcs' tangents do not meet, along it they do: a joint that is merely rounded
+/// to the grid leaves an angle of the grid's size over the chord. What is sought are two whole
+/// numbers of steps whose effects on off() add up to it; Euclid's algorithm gives ever longer steps
+/// of ever smaller effect. Requires a joint on the grid.
+Vec2 settle_joint(const JointCircle& circle, Vec2 joint, Vec2 grid, double reach);
+
 /// Two arcs with a common tangent at their joint.
 struct Biarc {
   Arc first;
   Arc second;
 };
 /// The biarc between the stations with this joint. Its first arc leaves along a's tangent exactly
-/// and its second arrives along b's; at the joint, tangents differ by the rounding of the joint's
-/// coordinates over the length of the shorter chord.
+/// and its second arrives along b's; at the joint, tangents differ by what the joint is off the
+/// joint circle, over the length of the chords.
 Biarc make_biarc(const Station& a, Vec2 joint, const Station& b);
 
 /// Where the normal of the biarc at its joint meets the curve (the joint's projection from the

@@ -83,6 +83,7 @@ class Converter {
   bool try_biarc(const Bezier& part, const Station& a, const Station& b, CurvatureLimits limits);
   bool is_spiral(const Biarc& biarc, const Station& a, const Station& b,
                  CurvatureLimits limits) const;
+  Vec2 settled(Vec2 joint, const Station& a, const Station& b) const;
   Station snapped(Station station) const {
     station.point = frame_.snap(station.point);
     return station;
@@ -204,23 +205,38 @@ bool Converter::try_singular_end(const Bezier& part, const Station& a, const Sta
   return true;
 }
 
+/// A joint on the input's grid, as near to the joint circle as can be.
+Vec2 Converter::settled(Vec2 joint, const Station& a, const Station& b) const {
+  // Sliding along the joint circle by this part of the chord changes the arcs' curvatures by no
+  // more than about this part of their difference.
+  constexpr double slide = 0x1p-20;
+  const Vec2 chord = b.point - a.point;
+  const double reach = slide * std::max(std::abs(chord.x), std::abs(chord.y));
+  const Vec2 snapped = frame_.snap(joint);
+  return frame_.snap(settle_joint(joint_circle(a, b), snapped, frame_.spacing(snapped), reach));
+}
+
 bool Converter::try_biarc(const Bezier& part, const Station& a, const Station& b,
                           CurvatureLimits limits) {
-  const Biarc biarc = make_biarc(a, frame_.snap(spiral_joint(a, b)), b);
+  const Biarc biarc = make_biarc(a, settled(spiral_joint(a, b), a, b), b);
   if (!is_spiral(biarc, a, b, limits)) return false;
   const double error = certified_error(part, biarc, options_.rounding);
   if (!(error <= options_.tolerance)) return false;
 
   const bool forward = std::abs(a.curvature) >= std::abs(b.curvature);
   if (merge_ && ends_osculating_ && forward) {
-    // Two arcs of one circle are one: tan(u + v).
-    double& bulge = chain_.bulges.back();
-    bulge = (bulge + biarc.first.bulge) / (1 - bulge * biarc.first.bulge);
-    error_ = std::max(error_, error);
+    // Two arcs of one circle are one. It leaves the arc before along its tangent, and the joint
+    // ahead has to move by some roundings.
+    Station from = a;
+    from.point = frame_.to_local(chain_.points.back());
+    from.tangent = tangent_at_begin({from.point, a.point, chain_.bulges.back()});
+    const Biarc merged = make_biarc(from, settled(biarc.first.end, from, b), b);
+    chain_.bulges.back() = merged.first.bulge;
+    emit(merged.second.begin, merged.second.bulge, error);
   } else {
     emit(a.point, biarc.first.bulge, error);
+    emit(biarc.second.begin, biarc.second.bulge, error);
   }
-  emit(biarc.second.begin, biarc.second.bulge, error);
   merge_ = false;
   ends_osculating_ = !forward;
   return true;

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "curves/bezier.h"
@@ -8,9 +11,8 @@
 
 namespace medial::curves {
 
-/// The coordinates in which one piece is converted: its first control point is the origin and its
-/// extent about 1. Going there rounds nothing but one subtraction, and powers of two hide no
-/// digits.
+/// The coordinates in which one piece is converted: close to the origin, and about 1 large. Going
+/// there and back is exact for points of the input's grid (see base/frame.h).
 struct PieceFrame {
   Vec2 half_origin;    ///< halves: the difference of two coordinates may be too large for a double
   double scale = 1;    ///< local units per half an input unit: a power of two
@@ -24,6 +26,15 @@ struct PieceFrame {
   }
   /// The point of the input's grid next to p.
   Vec2 snap(Vec2 p) const { return to_local(to_input(p)); }
+  /// The steps around p of the points that both local and input coordinates can hold.
+  Vec2 spacing(Vec2 p) const {
+    const auto unit_in_last_place = [](double x) {
+      return std::ldexp(std::numeric_limits<double>::epsilon(), std::ilogb(x));
+    };
+    const Vec2 input = to_input(p);
+    return {std::max(local_length(unit_in_last_place(input.x)), unit_in_last_place(p.x)),
+            std::max(local_length(unit_in_last_place(input.y)), unit_in_last_place(p.y))};
+  }
   double local_length(double input) const { return 0.5 * scale * input; }
   double input_length(double local) const { return 2 * (inverse * local); }
 };
