@@ -148,6 +148,30 @@ Polynomial derivative(const Polynomial& a) {
   return p;
 }
 
+Polynomial by_t(const Polynomial& a) {
+  Polynomial p;
+  p.degree = a.degree - 1;
+  p.magnitude = a.degree * a.magnitude;
+  for (int i = 0; i <= p.degree; ++i) p.c[i] = (i + 1) * a.c[i + 1];
+  return p;
+}
+
+Polynomial by_s(const Polynomial& a) {
+  Polynomial p;
+  p.degree = a.degree - 1;
+  p.magnitude = a.degree * a.magnitude;
+  for (int i = 0; i <= p.degree; ++i) p.c[i] = (a.degree - i) * a.c[i];
+  return p;
+}
+
+Polynomial wronskian(const Polynomial& a, const Polynomial& b) {
+  Polynomial p = sum(product(by_t(a), by_s(b)), -1, product(by_s(a), by_t(b)));
+  const double scale = 1.0 / a.degree;
+  p.magnitude *= scale;
+  for (int i = 0; i <= p.degree; ++i) p.c[i] *= scale;
+  return p;
+}
+
 Roots roots(const Polynomial& polynomial) {
   Roots found;
   Part whole;

@@ -22,8 +22,8 @@ struct Fixed {
 };
 
 /// A polynomial on [0, 1] as the sum of c[i] t^i (1 - t)^(degree - i): Bernstein form without the
-/// binomials, in which a product is a plain convolution. Always of its formal degree; the leading
-/// terms may cancel.
+/// binomials, in which a product is a plain convolution. Of its formal degree: the leading terms
+/// may cancel.
 struct Polynomial {
   int degree = 0;
   /// A bound on the Bernstein coefficients of what was added up: the rounding errors of the
@@ -41,6 +41,13 @@ Polynomial product(const Polynomial& a, const Polynomial& b);
 /// a + factor * b, both of one degree.
 Polynomial sum(const Polynomial& a, double factor, const Polynomial& b);
 Polynomial derivative(const Polynomial& a);
+
+// A polynomial in this form is homogeneous in t and s = 1 - t.
+Polynomial by_t(const Polynomial& a);  ///< partial derivative
+Polynomial by_s(const Polynomial& a);
+/// a'b - ab' for two of one degree n, by a_t b_s - a_s b_t = n (a'b - ab'): of degree 2n - 2, two
+/// less than the products have.
+Polynomial wronskian(const Polynomial& a, const Polynomial& b);
 
 /// Parameters in [0, 1], increasing.
 struct Roots {

@@ -121,20 +121,27 @@ CurvaturePolynomials curvature_polynomials(const Bezier& curve) {
   Polynomial& e = result.inflection;
   Polynomial& s = result.speed;
   const auto finish = [&](const Polynomial& u, const Polynomial& v) {
-    e = sum(product(u, derivative(v)), -1, product(v, derivative(u)));
+    e = wronskian(v, u);
     s = sum(product(u, u), 1, product(v, v));
   };
   if (!curve.rational) {
     finish(derivative(x), derivative(y));
-    result.apex = sum(product(derivative(e), s), -1.5, product(e, derivative(s)));
+    // A parabola's E is a constant.
+    result.apex = e.degree == 0 ? product(e, derivative(s))
+                                : sum(product(derivative(e), s), -1.5, product(e, derivative(s)));
+    if (e.degree == 0) {
+      for (int i = 0; i <= result.apex.degree; ++i) result.apex.c[i] *= -1.5;
+      result.apex.magnitude *= 1.5;
+    }
     return result;
   }
   const Polynomial w = from_bernstein(curve.w.data(), curve.degree);
-  const Polynomial w1 = derivative(w);
-  finish(sum(product(derivative(x), w), -1, product(x, w1)),
-         sum(product(derivative(y), w), -1, product(y, w1)));
-  const Polynomial turning = sum(product(derivative(e), w), 2, product(e, w1));
-  result.apex = sum(product(turning, s), -1.5, product(product(e, w), derivative(s)));
+  finish(wronskian(x, w), wronskian(y, w));
+  // Curvature is homogeneous of degree zero in t and 1 - t, so that its derivative is the partial
+  // one by t, over 1 - t. The last coefficient is zero, and dropping it divides.
+  const Polynomial turning = sum(product(by_t(e), w), 2, product(e, by_t(w)));
+  result.apex = sum(product(turning, s), -1.5, product(product(e, w), by_t(s)));
+  --result.apex.degree;
   return result;
 }
 

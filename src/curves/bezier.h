@@ -46,7 +46,7 @@ double curvature_derivative(const Bezier& curve, double t);
 /// the tangent is along (U, V) = (X'W - XW', Y'W - YW'), and with S = U^2 + V^2 and E = UV' - VU'
 /// the curvature is E W^2 / S^(3/2), so that
 ///   an inflection is a zero of E,
-///   an apex is a zero of (E'W + 2EW') S - 3/2 E W S' (for a cubic: of degree 5, formally 6),
+///   an apex is a zero of (E'W + 2EW') S - 3/2 E W S' (for a cubic: of degree 5),
 ///   a cusp is a zero of S, hence of S'.
 struct CurvaturePolynomials {
   Polynomial inflection;
