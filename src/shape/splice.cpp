@@ -290,6 +290,12 @@ Result<Loops> splice(std::span<const Ring> rings, const Arrangement& arrangement
     const std::span<const Touch> touches(first, last);
     star.assign(arrangement, touches);
     if (!star.join(result.successor)) {
+      // Edges that cross by little more than the tolerance can end in the wrong order.
+      if (!arrangement.bulges.empty()) {
+        const std::uint32_t vertex = touches[0].vertex;
+        return error_at(ErrorCode::crossing, "edges cross next to this vertex",
+                        arrangement.sources[vertex], arrangement.original(vertex));
+      }
       return error_without_place(ErrorCode::internal, "the interior has no border");
     }
     if (const auto vertex = star.crossing_vertex(rings, arrangement, touches)) {
