@@ -239,8 +239,10 @@ class ArcSweeper {
   /// Notes where two neighbours touch behind their common left end. Error if they cross or overlap.
   std::optional<Error> compare(const ActivePiece& lower, const ActivePiece& upper) {
     if (lower.high + tolerance_ < upper.low) return std::nullopt;
-    const bool touches = touch(lower, upper.left_vertex) | touch(lower, upper.right_vertex) |
-                         touch(upper, lower.left_vertex) | touch(upper, lower.right_vertex);
+    bool touches = touch(lower, upper.left_vertex);
+    touches = touch(lower, upper.right_vertex) || touches;
+    touches = touch(upper, lower.left_vertex) || touches;
+    touches = touch(upper, lower.right_vertex) || touches;
     if (touches) return std::nullopt;  // noded first, then compared
 
     const MonotoneArc& a = lower.arc;
@@ -280,8 +282,6 @@ class ArcSweeper {
       const double value = gap(a.halfway(stops[i].point, stops[i + 1].point));
       signs[i] = value > tolerance_ ? 1 : value < -tolerance_ ? -1 : 0;
       if (signs[i] < 0) {
-        if (any_positive || i == 0) return pending_or(crossing(lower, upper, stops[i].point));
-        // Below since the beginning: the crossing is where that ends, if it does.
         return pending_or(crossing(lower, upper, stops[i].point));
       }
       any_positive = any_positive || signs[i] > 0;
