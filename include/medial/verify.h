@@ -26,6 +26,9 @@ struct Certificate {
   std::uint64_t cycles = 0;  ///< independent cycles of the graph
   std::uint64_t convex_corners = 0;
   std::uint64_t corners_without_leaf = 0;
+  std::uint64_t curvature_leaves = 0;  ///< at the centre of an arc of locally largest curvature
+  std::uint64_t blunt_joints = 0;      ///< convex, with an arc, below the corner angle: no leaf
+  double largest_blunt_angle = 0;      ///< among them, in degrees
   std::uint64_t reflex_vertices = 0;
   std::uint64_t reflex_without_contact = 0;
   double worst_x = 0;  ///< where the largest residual is
@@ -36,13 +39,17 @@ struct Certificate {
 
 struct VerifyOptions {
   double tolerance = 0;  ///< relative to the diagonal; 0: 1e-14, or the coordinates' own spacing
-  int samples_per_edge = 8;  ///< points inside every edge
-  int threads = 0;           ///< at most 1024 are used; 0: all of the machine
+  int samples_per_edge = 8;    ///< points inside every edge
+  double corner_angle = 0.01;  ///< what the axis was computed with; see Options
+  int threads = 0;             ///< at most 1024 are used; 0: all of the machine
 };
 
 /// Checks an axis against its shape, independently of the engine that made it: its own distance
 /// search, its own area, its own count of cycles. O(n log n) expected. A shape that compute()
 /// refuses as unsupported cannot be checked and does not pass.
+///
+/// A blunt joint has no leaf, so the disks leave a little of the boundary there untouched: at most
+/// the radius times the joint's angle, which is allowed for.
 Certificate verify(const Shape& shape, const MedialAxis& axis, const VerifyOptions& options = {});
 
 }  // namespace medial

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/arc.h"
 #include "medial/query.h"
 
 namespace medial {
@@ -25,6 +26,22 @@ struct Basis {
   }
 };
 
+/// The integral of |velocity(t)| over [0, 1] by Gauss and Legendre's rule of eight points.
+template <class Velocity>
+double gauss_sum(const Velocity& velocity) {
+  static constexpr std::array<double, 4> abscissa{0.1834346424956498, 0.5255324099163290,
+                                                  0.7966664774136267, 0.9602898564975363};
+  static constexpr std::array<double, 4> factor{0.3626837833783620, 0.3137066458778873,
+                                                0.2223810344533745, 0.1012285362903763};
+  double sum = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Vec2 before = velocity(0.5 - 0.5 * abscissa[i]);
+    const Vec2 after = velocity(0.5 + 0.5 * abscissa[i]);
+    sum += factor[i] * (std::hypot(before.x, before.y) + std::hypot(after.x, after.y));
+  }
+  return 0.5 * sum;
+}
+
 /// Length of the parabola's arc with derivative 2 (a + t b), t in [0, 1].
 ///
 /// Along b, with u the coordinate in its direction and h the distance of a from it, this is the
@@ -35,19 +52,7 @@ struct Basis {
 double arc_length(Vec2 a, Vec2 b) {
   const double size = std::hypot(b.x, b.y);
   const double start_speed = std::hypot(a.x, a.y);
-  if (size <= 0.25 * start_speed) {
-    static constexpr std::array<double, 4> abscissa{0.1834346424956498, 0.5255324099163290,
-                                                    0.7966664774136267, 0.9602898564975363};
-    static constexpr std::array<double, 4> factor{0.3626837833783620, 0.3137066458778873,
-                                                  0.2223810344533745, 0.1012285362903763};
-    double sum = 0;
-    for (std::size_t i = 0; i < 4; ++i) {
-      const Vec2 before = a + (0.5 - 0.5 * abscissa[i]) * b;
-      const Vec2 after = a + (0.5 + 0.5 * abscissa[i]) * b;
-      sum += factor[i] * (std::hypot(before.x, before.y) + std::hypot(after.x, after.y));
-    }
-    return sum;
-  }
+  if (size <= 0.25 * start_speed) return gauss_sum([&](double t) { return 2 * (a + t * b); });
   const Vec2 direction = (1 / size) * b;
   const double h = std::abs(cross(direction, a));
   const double u0 = dot(direction, a);
@@ -56,6 +61,77 @@ double arc_length(Vec2 a, Vec2 b) {
     return u * std::hypot(u, h) + (std::isfinite(quotient) ? h * h * std::asinh(quotient) : 0.0);
   };
   return (primitive(u0 + size) - primitive(u0)) / size;
+}
+
+/// A piece of a conic from the origin to p2 with control point p1 and weights 1, weight, 1.
+struct Conic {
+  Vec2 p1, p2;
+  double weight;
+
+  /// The two halves of the parameter's range.
+  std::array<Conic, 2> halves() const {
+    const double half_weight = std::sqrt(0.5 * (1 + weight));
+    const Vec2 left = (weight / (1 + weight)) * p1;
+    const Vec2 middle = (0.5 / (1 + weight)) * (2 * weight * p1 + p2);
+    const Vec2 right = (1 / (1 + weight)) * (weight * p1 + p2);
+    return {{{left, middle, half_weight}, {right - middle, p2 - middle, half_weight}}};
+  }
+  /// The derivative at t.
+  Vec2 velocity(double t) const {
+    const double s = 1 - t;
+    const double d = s * s + 2 * s * t * weight + t * t;
+    return (2 / (d * d)) * (s * s * weight * p1 + s * t * p2 + t * t * weight * (p2 - p1));
+  }
+};
+
+/// Length of a conic: halved until the velocity hardly changes along a piece, where eight points of
+/// Gauss's rule are exact to rounding. A half has the weight sqrt((1 + w) / 2) and half the angle,
+/// so some ten halvings do for any conic.
+double conic_length(const Conic& conic) {
+  constexpr double calm = 0.25;
+  constexpr int deepest = 40;
+  struct Piece {
+    Conic conic;
+    int depth;
+  };
+  std::array<Piece, deepest + 2> stack;
+  std::size_t size = 0;
+  stack[size++] = {conic, 0};
+  double sum = 0;
+  while (size > 0) {
+    const Piece piece = stack[--size];
+    const Conic& c = piece.conic;
+    const Vec2 first = c.weight * c.p1, last = c.weight * (c.p2 - c.p1);
+    const Vec2 middle = (1 / (1 + c.weight)) * c.p2;
+    const double change = std::max(norm(first - middle), norm(last - middle));
+    if (change <= calm * norm(middle) || piece.depth == deepest) {
+      sum += gauss_sum([&](double t) { return c.velocity(t); });
+      continue;
+    }
+    const auto halves = c.halves();
+    for (const Conic& half : {halves[1], halves[0]}) stack[size++] = {half, piece.depth + 1};
+  }
+  return sum;
+}
+
+/// The quartic of a curve's nearest points in Bernstein's form, on a part of [0, 1].
+using Quartic = std::array<double, 5>;
+
+std::array<Quartic, 2> halves_of(Quartic f) {
+  std::array<Quartic, 2> out;
+  for (std::size_t i = 0; i < 5; ++i) {
+    out[0][i] = f[0];
+    out[1][4 - i] = f[4 - i];
+    for (std::size_t j = 0; j + i + 1 < 5; ++j) f[j] = 0.5 * (f[j] + f[j + 1]);
+  }
+  return out;
+}
+
+/// Value and derivative.
+std::pair<double, double> value_of(Quartic f, double t) {
+  for (std::size_t n = 4; n > 1; --n)
+    for (std::size_t j = 0; j < n; ++j) f[j] = (1 - t) * f[j] + t * f[j + 1];
+  return {(1 - t) * f[0] + t * f[1], 4 * (f[1] - f[0])};
 }
 
 /// A root of `f` in [low, high], where it changes its sign; by Newton's steps kept in the bracket.
@@ -122,15 +198,27 @@ Curve::Derivatives Curve::derivatives(double t) const {
   return out;
 }
 
-bool Curve::straight() const { return weight != 1 || cross(p1, p2) == 0; }
+bool Curve::straight() const {
+  // Control points of straight edges are rounded like others; what is flatter than that is
+  // straight.
+  if (weight == 1) return cross(p1, p2) == 0;
+  constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
+  return std::abs(cross(p1, p2)) <= rounding * (squared_norm(p1) + squared_norm(p2));
+}
 
 double Curve::length(double t) const {
-  if (weight != 1) {
+  if (weight == 1) {
+    const Vec2 a = p1, b = p2 - 2 * p1;
+    return arc_length(t * a, (t * t) * b);
+  }
+  if (straight()) {
     const Vec2 d = offset(t);
     return std::hypot(d.x, d.y);
   }
-  const Vec2 a = p1, b = p2 - 2 * p1;
-  return arc_length(t * a, (t * t) * b);
+  if (t == 1) return conic_length({p1, p2, weight});
+  const double s = 1 - t, q = s + t * weight;
+  const double d = s * s + 2 * s * t * weight + t * t;
+  return conic_length({(t * weight / q) * p1, offset(t), q / std::sqrt(d)});
 }
 
 double Curve::at_length(double s) const {
@@ -148,26 +236,14 @@ double Curve::nearest(Vec2 p) const {
     const double along = dot(target, (1 / size) * p2);
     return along <= 0 ? 0 : along >= size ? 1 : at_length(along);
   }
-  // The squared distance has the derivative 4 f with the cubic f(t) = (C(t) - p) . (a + t b), where
-  // C(t) = 2 t a + t^2 b. Between the zeros of f' it is monotone: a minimum of the distance is
-  // where f rises through zero, or an end.
-  const Vec2 a = p1, b = p2 - 2 * p1;
-  const double aa = dot(a, a), ab = dot(a, b), bb = dot(b, b);
-  const double c0 = -dot(target, a), c1 = 2 * aa - dot(target, b), c2 = 3 * ab, c3 = bb;
-  const auto f = [&](double t) {
-    return std::pair(((c3 * t + c2) * t + c1) * t + c0, (3 * c3 * t + 2 * c2) * t + c1);
-  };
-  std::array<double, 4> bound{0, 0, 0, 1};
-  std::size_t bounds = 1;
-  const double discriminant = c2 * c2 - 3 * c3 * c1;
-  if (discriminant > 0 && c3 > 0) {
-    const double q = -(c2 + std::copysign(std::sqrt(discriminant), c2));
-    double first = q / (3 * c3), second = q != 0 ? c1 / q : 0;
-    if (first > second) std::swap(first, second);
-    if (first > 0 && first < 1) bound[bounds++] = first;
-    if (second > 0 && second < 1) bound[bounds++] = second;
-  }
-  bound[bounds++] = 1;
+  // With C = N / D, a nearest point has (N - p D) . (N' D - N D') = 0, a quartic: both factors are
+  // quadratic, and Bernstein's coefficients follow from the control points. The distance has a
+  // minimum where the quartic rises through zero, or at an end.
+  const std::array<Vec2, 3> m{-target, weight * (p1 - target), p2 - target};
+  const std::array<Vec2, 3> e{2 * weight * p1, p2, 2 * weight * (p2 - p1)};
+  const Quartic whole{dot(m[0], e[0]), 0.5 * (dot(m[0], e[1]) + dot(m[1], e[0])),
+                      (dot(m[0], e[2]) + 4 * dot(m[1], e[1]) + dot(m[2], e[0])) / 6,
+                      0.5 * (dot(m[1], e[2]) + dot(m[2], e[1])), dot(m[2], e[2])};
   double best_t = 0, best = squared_norm(target);
   const auto consider = [&](double t) {
     const double d = squared_norm(offset(t) - target);
@@ -177,20 +253,85 @@ double Curve::nearest(Vec2 p) const {
     }
   };
   consider(1);
-  for (std::size_t i = 0; i + 1 < bounds; ++i)
-    if (f(bound[i]).first < 0 && f(bound[i + 1]).first > 0)
-      consider(bracketed_root(f, bound[i], bound[i + 1]));
+  // Halved until the coefficients change their sign once at most: then there is one root at most.
+  struct Part {
+    Quartic f;
+    double begin, end;
+  };
+  constexpr std::size_t deepest = 56;
+  std::array<Part, deepest + 2> stack;
+  std::size_t size = 0;
+  stack[size++] = {whole, 0, 1};
+  while (size > 0) {
+    const Part part = stack[--size];
+    int changes = 0;
+    for (std::size_t i = 0; i < 4; ++i) changes += (part.f[i] < 0) != (part.f[i + 1] < 0) ? 1 : 0;
+    if (changes == 0) continue;
+    const double middle = 0.5 * (part.begin + part.end);
+    if (changes > 1 && size < deepest && part.begin < middle && middle < part.end) {
+      const auto [left, right] = halves_of(part.f);
+      stack[size++] = {right, middle, part.end};
+      stack[size++] = {left, part.begin, middle};
+      continue;
+    }
+    const double t =
+        changes > 1 ? 0.5 : bracketed_root([&](double u) { return value_of(part.f, u); }, 0, 1);
+    consider(part.begin + t * (part.end - part.begin));
+  }
   return best_t;
+}
+
+double Curve::area_beside_chord() const {
+  // The area is cross(p1, p2) w times the integral of t^2 / D^2, D = 1 + 2 (w - 1) t (1 - t), which
+  // comes down to atanh(sqrt z) / sqrt z, z = (w - 1) / (w + 1): the arc tangent for an ellipse.
+  // Near z = 0 its series: sum z^k / (2 k + 1), and for the other term 2 z^k / ((2 k + 1) (2 k +
+  // 3)).
+  constexpr double small = 0.0625;
+  const double z = (weight - 1) / (weight + 1);
+  double first = 1, second = 2.0 / 3;
+  if (std::abs(z) < small) {
+    double power = 1;
+    for (int k = 1; k <= 13; ++k) {
+      power *= z;
+      first += power / (2 * k + 1);
+      second += 2 * power / ((2 * k + 1) * (2 * k + 3));
+    }
+  } else {
+    const double root = std::sqrt(std::abs(z));
+    first = (z > 0 ? std::atanh(root) : std::atan(root)) / root;
+    second = (1 - (1 - z) * first) / z;
+  }
+  return cross(p1, p2) * (0.125 * (1 + z) * (1 + (1 - z) * first + second));
 }
 
 Disk disk_at(const MedialAxis& axis, const Edge& edge, double t) {
   return curve_of(axis, edge).at(t);
 }
 
+namespace {
+
+/// The point of an arc nearest to p, from the nearer end.
+Vec2 foot_on_arc(const BulgeArc& arc, Vec2 p) {
+  const Vec2 from_start = p - arc.start, from_end = p - arc.end;
+  const bool by_start = squared_norm(from_start) <= squared_norm(from_end);
+  const BulgeArc seen = by_start ? arc : arc.reversed();
+  const Vec2 to = by_start ? from_start : from_end, tangent = start_tangent(seen);
+  if (dot(tangent, to) <= 0 || dot(end_tangent(seen), p - seen.end) >= 0) return seen.start;
+  // The unit vector from the centre, times the sign of the curvature, turns with the foot.
+  const double round = curvature(seen);
+  const double half =
+      0.5 * std::atan2(round * dot(tangent, to), 1 - round * dot(left_of(tangent), to));
+  return seen.start +
+         (2 * std::sin(half) / round) * turned(tangent, std::cos(half), std::sin(half));
+}
+
+}  // namespace
+
 Vec2 foot(const Site& site, Vec2 p) {
   const Vec2 d = site.end - site.start;
   const double size = squared_norm(d);
   if (!(size > 0)) return site.start;
+  if (site.bulge != 0) return foot_on_arc({site.start, site.end, site.bulge}, p);
   const double t = dot(p - site.start, d) / size;
   // From the nearer end, so that the foot at an end is that end exactly.
   if (t <= 0) return site.start;
@@ -217,7 +358,12 @@ std::vector<Disk> sample_by_chord(const MedialAxis& axis, const Edge& edge, doub
   chord = std::max(chord, std::numeric_limits<double>::min());
   const double w = curve.weight;
   double pieces = 1, angle = 0;
-  if (w > 1 && std::isfinite(w)) {
+  const double bend = std::max(norm(curve.p2 - 2 * curve.p1),
+                               std::abs((curve.r2 - curve.r1) - (curve.r1 - curve.r0)));
+  if (w == 1) {
+    // A chord over a range dt of t departs from a polynomial by its second difference * dt^2 / 4.
+    pieces = std::sqrt(bend / (4 * chord));
+  } else if (w > 1 && curve.straight()) {
     // Along the straight line of centres, at h, the radius is a hyperbola: h = d sinh u and
     // r = d cosh u, and the weight is the cosh of `angle`, half the range of u. A chord over a
     // range of 2 v departs from it by d (cosh v - 1) = 2 d sinh^2(v / 2) at most.
@@ -227,10 +373,17 @@ std::vector<Disk> sample_by_chord(const MedialAxis& axis, const Edge& edge, doub
     angle = std::acosh(w);
     pieces = angle / (2 * std::asinh(std::sqrt(chord / (2 * d))));
   } else {
-    // A chord over a range dt of t departs from a polynomial by its second difference * dt^2 / 4.
-    const double bend = std::max(norm(curve.p2 - 2 * curve.p1),
-                                 std::abs((curve.r2 - curve.r1) - (curve.r1 - curve.r0)));
-    pieces = std::sqrt(bend / (4 * chord));
+    // A conic is an affine image of a circle or a hyperbola, and the weight the cos or cosh of
+    // `angle`, half the range of u. Over a range of 2 v a chord departs from it by 2 sin^2(v / 2),
+    // or 2 sinh^2(v / 2), times the radius conjugate to it; the radius of the whole chord is `bend`
+    // w / (2 |1 - w^2|), and no other one is larger than it and half of the chord together, on a
+    // hyperbola times w.
+    const double half_chord = 0.5 * std::max(norm(curve.p2), std::abs(curve.r2 - curve.r0));
+    const double radius = 0.5 * bend * w / (std::abs(1 - w) * (1 + w));
+    const double largest = w > 1 ? w * radius + half_chord : radius + half_chord;
+    const double half = std::sqrt(chord / (2 * largest));
+    angle = w > 1 ? std::acosh(w) : std::acos(w);
+    pieces = angle / (2 * (w > 1 ? std::asinh(half) : std::asin(std::min(1.0, half))));
   }
   const std::size_t n = piece_count(pieces);
   std::vector<Disk> out;
@@ -239,7 +392,8 @@ std::vector<Disk> sample_by_chord(const MedialAxis& axis, const Edge& edge, doub
     double t = static_cast<double>(i) / static_cast<double>(n);
     if (angle > 0 && i > 0 && i < n) {
       // Equal steps of u.
-      const double before = std::sinh(angle * t), after = std::sinh(angle * (1 - t));
+      const double before = w > 1 ? std::sinh(angle * t) : std::sin(angle * t);
+      const double after = w > 1 ? std::sinh(angle * (1 - t)) : std::sin(angle * (1 - t));
       t = before / (before + after);
     }
     out.push_back(curve.at(t));

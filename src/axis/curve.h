@@ -39,17 +39,21 @@ struct Curve {
   };
   Derivatives derivatives(double t) const;
 
-  /// Whether the centres run along a straight line: all edges but a segment's with a vertex.
+  /// Whether the centres run along a straight line, to rounding: two segments or two vertices, and
+  /// some cases with arcs. All others run on conics.
   bool straight() const;
 
-  /// Length in the plane from 0 to t. For weight 1 the closed form of a parabola's arc; all other
-  /// edges are straight. Relative error below 1e-13.
+  /// Length in the plane from 0 to t. Closed forms for a line and for a parabola's arc; Gauss's
+  /// rule for an ellipse or a hyperbola. Relative error below 1e-13.
   double length(double t = 1) const;
   /// The t at which length(t) == s, for s in [0, length()].
   double at_length(double s) const;
 
   /// The t in [0, 1] of the point nearest to p in the plane.
   double nearest(Vec2 p) const;
+
+  /// The area between the curve and its chord, positive where the control point lies on the right.
+  double area_beside_chord() const;
 };
 
 inline Curve curve_of(const MedialAxis& axis, const Edge& edge) {

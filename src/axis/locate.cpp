@@ -117,6 +117,17 @@ double clearance(const Shape& shape, Vec2 p) {
       double distance_to_edge = std::abs(cross(d, q)) / size;
       if (along <= 0) distance_to_edge = norm(q);
       if (along >= size * size) distance_to_edge = norm(p - b);
+      const double bulge = shape.bulge(shape.loop_begin[i] + j);
+      if (bulge != 0) {
+        const Site arc{a, b, 0, 0, SiteKind::arc, bulge};
+        const Vec2 nearest = foot(arc, p);
+        distance_to_edge = distance(nearest, p);
+        // What lies between the arc and its chord changes sides. On the chord itself, the rule
+        // below counts p to the right of it; to the left only where it runs in the ray's direction.
+        const int turn = orientation(a, b, p);
+        const bool left = turn > 0 || (turn == 0 && d.y == 0 && d.x > 0);
+        if (left == (bulge < 0) && cross(d, p - nearest) * bulge > 0) inside = !inside;
+      }
       best = std::min(best, distance_to_edge);
       // A ray to the right, by the half-open rule: it crosses upward edges that have p on the left.
       if ((a.y <= p.y) != (b.y <= p.y) && (orientation(a, b, p) > 0) == (a.y <= p.y))

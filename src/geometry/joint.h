@@ -19,16 +19,22 @@ enum class Joint : std::uint8_t {
 /// radius * angle^2 / 2 of the other one, far below every tolerance.
 constexpr double smooth_angle = 1e-8;
 
-/// The joint where `before` ends and `after` begins, at least one of them an arc; `corner_angle` in
-/// radians. At a cusp the curvatures tell whether the interior is inside or around it.
-inline Joint joint_of(const Site& before, const Site& after, double corner_angle) {
-  const Vec2 arriving = -left_of(before.end_normal()), leaving = after.direction;
+/// The joint of two edges, at least one of them an arc, by their unit tangents and curvatures where
+/// they meet; `corner_angle` in radians. At a cusp the curvatures tell whether the interior is
+/// inside or around it.
+inline Joint joint_of(Vec2 arriving, double curvature_before, Vec2 leaving, double curvature_after,
+                      double corner_angle) {
   const double sine = cross(arriving, leaving), cosine = dot(arriving, leaving);
   if (cosine > 0 && std::abs(sine) <= smooth_angle) return Joint::smooth;
   if (cosine < 0 && std::abs(sine) <= smooth_angle)
-    return -before.curvature > after.curvature ? Joint::corner : Joint::reflex;
+    return -curvature_before > curvature_after ? Joint::corner : Joint::reflex;
   if (sine < 0) return Joint::reflex;
   return std::atan2(sine, cosine) <= corner_angle ? Joint::blunt : Joint::corner;
+}
+/// The same where `before` ends and `after` begins.
+inline Joint joint_of(const Site& before, const Site& after, double corner_angle) {
+  return joint_of(-left_of(before.end_normal()), before.curvature, after.direction, after.curvature,
+                  corner_angle);
 }
 
 }  // namespace medial::geometry

@@ -20,45 +20,51 @@ constexpr std::size_t kLargestSlab = 4096;
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-}  // namespace
-
-double distance_to_segment(Vec2 p, Vec2 a, Vec2 b) {
-  const Vec2 d = b - a;
-  const Vec2 from_a = p - a, from_b = p - b;
-  const double along_a = dot(from_a, d), along_b = -dot(from_b, d);
-  if (along_a <= 0) return norm(from_a);
-  if (along_b <= 0) return norm(from_b);
-  return std::abs(cross(d, along_a <= along_b ? from_a : from_b)) / norm(d);
+/// Calls `visit` with points whose hull holds the edge: its ends, and for an arc the corners of the
+/// trapezoid whose other sides are tangent to it at the ends and in the middle.
+template <class Visitor>
+void for_each_hull_point(const BoundaryEdge& edge, const Visitor& visit) {
+  visit(edge.start);
+  visit(edge.end);
+  if (edge.bulge == 0) return;
+  const Vec2 chord = edge.chord();
+  const Vec2 side = (0.25 * (1 - edge.bulge) * (1 + edge.bulge)) * chord;
+  const Vec2 height = (-0.5 * edge.bulge) * left_of(chord);
+  visit(edge.start + side + height);
+  visit(edge.end - side + height);
 }
 
+}  // namespace
+
 BoundaryTree::BoundaryTree(const Shape& shape) {
-  std::vector<Segment> unordered;
+  std::vector<BoundaryEdge> unordered;
   std::vector<Vec2> middle;
   unordered.reserve(shape.points.size());
   middle.reserve(shape.points.size());
   for (std::size_t i = 0; i < shape.loop_count(); ++i) {
     const auto loop = shape.loop(i);
     for (std::size_t j = 0; j < loop.size(); ++j) {
-      unordered.push_back({loop[j], loop[j + 1 < loop.size() ? j + 1 : 0]});
-      middle.push_back(midpoint(unordered.back().a, unordered.back().b));
+      unordered.push_back(
+          {loop[j], loop[j + 1 < loop.size() ? j + 1 : 0], shape.bulge(shape.loop_begin[i] + j)});
+      middle.push_back(midpoint(unordered.back().start, unordered.back().end));
     }
   }
   if (unordered.size() <= kBruteForce) {
-    segments_ = std::move(unordered);
+    edges_ = std::move(unordered);
     return;
   }
-  segments_.reserve(unordered.size());
-  for (const std::uint32_t i : spatial_order(middle, kFanOut)) segments_.push_back(unordered[i]);
+  edges_.reserve(unordered.size());
+  for (const std::uint32_t i : spatial_order(middle, kFanOut)) edges_.push_back(unordered[i]);
 
   const Box box = bounding_box(shape);
   origin_ = box.low;
   slack_ = 16 * kEpsilon * diagonal(box);
-  std::size_t run = kFanOut;  // segments below one bound
+  std::size_t run = kFanOut;  // edges below one bound
   while (true) {
-    const std::size_t bounds = (segments_.size() + run - 1) / run;
+    const std::size_t bounds = (edges_.size() + run - 1) / run;
     std::vector<Bounds> level((bounds + kFanOut - 1) / kFanOut);
     tbb::parallel_for(std::size_t{0}, level.size() * kFanOut, [&](std::size_t i) {
-      bound(std::min(i * run, segments_.size()), std::min((i + 1) * run, segments_.size()),
+      bound(std::min(i * run, edges_.size()), std::min((i + 1) * run, edges_.size()),
             level[i / kFanOut], i % kFanOut);
     });
     levels_.push_back(std::move(level));
@@ -67,17 +73,14 @@ BoundaryTree::BoundaryTree(const Shape& shape) {
   }
 }
 
-/// Bounds the segments [begin, end); nothing is near to an empty set.
+/// Bounds the edges [begin, end); nothing is near to an empty set.
 void BoundaryTree::bound(std::size_t begin, std::size_t end, Bounds& bounds,
                          std::size_t place) const {
   Vec2 left{kInfinity, 0}, right{-kInfinity, 0}, bottom{0, kInfinity}, top{0, -kInfinity};
-  const auto each_end = [&](auto work) {
-    for (std::size_t i = begin; i < end; ++i) {
-      work(segments_[i].a);
-      work(segments_[i].b);
-    }
+  const auto each_point = [&](auto work) {
+    for (std::size_t i = begin; i < end; ++i) for_each_hull_point(edges_[i], work);
   };
-  each_end([&](Vec2 p) {
+  each_point([&](Vec2 p) {
     if (p.x < left.x) left = p;
     if (p.x > right.x) right = p;
     if (p.y < bottom.y) bottom = p;
@@ -96,7 +99,7 @@ void BoundaryTree::bound(std::size_t begin, std::size_t end, Bounds& bounds,
     normal = (1 / norm(extent)) * left_of(extent);
     low = kInfinity;
     high = -kInfinity;
-    each_end([&](Vec2 p) {
+    each_point([&](Vec2 p) {
       low = std::min(low, dot(normal, p - origin_));
       high = std::max(high, dot(normal, p - origin_));
     });
@@ -146,8 +149,8 @@ bool BoundaryTree::search(Vec2 p, double& best) const {
       if (!(squared[j] <= limit)) continue;
       if (visit.level == 0) {
         const std::size_t begin = std::size_t{child + j} * kFanOut;
-        for (std::size_t i = begin; i < std::min(begin + kFanOut, segments_.size()); ++i) {
-          const double d = distance_to_segment(p, segments_[i].a, segments_[i].b);
+        for (std::size_t i = begin; i < std::min(begin + kFanOut, edges_.size()); ++i) {
+          const double d = distance_to_edge(p, edges_[i]);
           if (d <= best) {
             best = d;
             found = true;
@@ -181,8 +184,7 @@ double BoundaryTree::some_distance(Vec2 p) const {
     }
     index = index * static_cast<std::uint32_t>(kFanOut) + best;
   }
-  const Segment& segment = segments_[std::min(index * kFanOut, segments_.size() - 1)];
-  return distance_to_segment(p, segment.a, segment.b);
+  return distance_to_edge(p, edges_[std::min(index * kFanOut, edges_.size() - 1)]);
 }
 
 double BoundaryTree::distance(Vec2 p, double expected) const {
@@ -194,8 +196,7 @@ double BoundaryTree::distance(Vec2 p, double expected) const {
     return best;
   }
   best = kInfinity;
-  for (const Segment& segment : segments_)
-    best = std::min(best, distance_to_segment(p, segment.a, segment.b));
+  for (const BoundaryEdge& edge : edges_) best = std::min(best, distance_to_edge(p, edge));
   return best;
 }
 

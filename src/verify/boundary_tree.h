@@ -4,13 +4,9 @@
 #include <vector>
 
 #include "medial/shape.h"
+#include "verify/boundary_edge.h"
 
 namespace medial::verify_detail {
-
-/// Distance from p to the closed segment a b. Coordinates are subtracted before anything is
-/// multiplied, and the nearer end is the origin: the error is below two units in the last place of
-/// half the segment's length plus the distance.
-double distance_to_segment(Vec2 p, Vec2 a, Vec2 b);
 
 /// The nearest boundary edge of a shape: a tree over the edges in spatial order (the engines search
 /// along the boundary instead). Few edges are simply all looked at.
@@ -23,9 +19,6 @@ class BoundaryTree {
   double distance(Vec2 p, double expected) const;
 
  private:
-  struct Segment {
-    Vec2 a, b;
-  };
   /// Bounds of four sets of edges side by side, so that a compiler can compare them at once. Each
   /// set lies in a box, and in a slab low <= normal . (p - origin_) <= high along its longest
   /// extent: on a smooth boundary, boxes alone would let far too many edges near a contact pass.
@@ -38,8 +31,8 @@ class BoundaryTree {
   bool search(Vec2 p, double& best) const;
   double some_distance(Vec2 p) const;
 
-  std::vector<Segment> segments_;
-  std::vector<std::vector<Bounds>> levels_;  ///< levels_[0] bounds runs of four segments
+  std::vector<BoundaryEdge> edges_;
+  std::vector<std::vector<Bounds>> levels_;  ///< levels_[0] bounds runs of four edges
   Vec2 origin_;
   double slack_ = 0;  ///< what rounding may add to the distance from a slab
 };

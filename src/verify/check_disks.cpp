@@ -51,11 +51,12 @@ struct Findings {
   }
 };
 
-/// Distance from p to a site; negative where p lies behind a segment, seen from the interior.
+/// Distance from p to a site; negative where p lies behind an edge, seen from the interior.
 double signed_distance(const Site& site, Vec2 p) {
   if (site.start == site.end) return distance(site.start, p);
-  const double d = distance_to_segment(p, site.start, site.end);
-  return cross(site.end - site.start, p - site.start) < 0 ? -d : d;
+  const BoundaryEdge edge = edge_of(site);
+  const double d = distance_to_edge(p, edge);
+  return distance_to_carrier(p, edge) < 0 ? -d : d;
 }
 
 /// Measures one disk against the whole boundary.
@@ -108,16 +109,22 @@ double illegality(const Curve& curve, double t, double radius, double delta) {
 
 /// Whether the feet lie on the sides that the edge says, seen from its middle: how far the left
 /// foot lies on the right. The feet's chord is perpendicular to the edge; where the edge or the
-/// chord is not longer than a few tolerances, its direction means nothing.
+/// chord is not longer than a few tolerances, or than rounding moves the feet, its direction means
+/// nothing.
 double turned_by(const Problem& problem, const Edge& edge, const Curve& curve) {
   constexpr double few = 64;
   const double t = 0.5;
   const Vec2 tangent = curve.derivatives(t).first;
   const Vec2 center = curve.at(t).center;
-  const Vec2 chord = foot(problem.axis.sites[edge.site[0]], center) -
-                     foot(problem.axis.sites[edge.site[1]], center);
+  const Site& left = problem.axis.sites[edge.site[0]];
+  const Site& right = problem.axis.sites[edge.site[1]];
+  const Vec2 chord = foot(left, center) - foot(right, center);
   const double speed = norm(tangent);
-  if (speed <= few * problem.tolerance || norm(chord) <= few * problem.tolerance) return 0;
+  double slack = problem.tolerance;
+  for (const Site& site : {left, right})
+    if (site.kind == SiteKind::arc)
+      slack = std::max(slack, foot_slack(edge_of(site), center, problem.tolerance));
+  if (speed <= few * problem.tolerance || norm(chord) <= few * slack) return 0;
   return -cross(tangent, chord) / speed;
 }
 

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "base/limits.h"
@@ -40,6 +41,21 @@ class DisjointSets {
 
 bool before(Vec2 a, Vec2 b) { return lexicographic_less(a, b); }
 
+/// By how much the boundary turns to the left between two edges.
+double turn_between(const BoundaryEdge& before, const BoundaryEdge& after) {
+  const Vec2 arriving = end_tangent(before), leaving = start_tangent(after);
+  return std::atan2(cross(arriving, leaving), dot(arriving, leaving));
+}
+
+Joint joint_between(const BoundaryEdge& before, const BoundaryEdge& after, double corner_angle) {
+  if (before.bulge == 0 && after.bulge == 0) {
+    const int turn = orientation(before.start, before.end, after.end);
+    return turn > 0 ? Joint::corner : turn < 0 ? Joint::reflex : Joint::smooth;
+  }
+  return geometry::joint_of(end_tangent(before), curvature(before), start_tangent(after),
+                            curvature(after), corner_angle);
+}
+
 /// A corner or a leaf: what has to agree.
 struct Corner {
   Vec2 point;
@@ -50,22 +66,57 @@ struct Corner {
   }
 };
 
+/// Whether an edge may end with a radius above 0: what lies between the two feet of its last disk
+/// is touched by that disk, and is an arc of convex curvature, the largest thereabouts because its
+/// circle lies inside; or a blunt joint, whose leaf is left out. Looks at `budget` boundary edges
+/// at most, and takes those away from it: no two leaves of a right axis look at the same one.
+bool ends_at_arc(const Problem& problem, const Edge& edge, std::size_t end, std::size_t& budget) {
+  const auto place = [&](std::size_t side) { return problem.place[edge.site[side]]; };
+  const auto is_vertex = [&](std::size_t side) {
+    return problem.axis.sites[edge.site[side]].kind == SiteKind::vertex;
+  };
+  // Ahead of the end, the boundary runs from the site on the right to the one on the left.
+  const std::size_t right = end, left = 1 - end;
+  if (place(right) == kNone || place(left) == kNone) return false;
+  const Disk& disk = problem.disk(edge.node[end]);
+  const auto touched = [&](Vec2 p) {
+    return std::abs(distance(disk.center, p) - disk.radius) <= 2 * problem.tolerance;
+  };
+  bool found = false;
+  std::uint32_t i = place(right);
+  if (!is_vertex(right)) {
+    i = problem.next[i];
+    found = problem.is_blunt(i);
+  }
+  for (; i != place(left); i = problem.next[i]) {
+    if (budget == 0) return false;
+    --budget;
+    const BoundaryEdge passed = problem.edge(i);
+    if (!touched(passed.start) || !touched(apex(passed)) || !touched(passed.end)) return false;
+    found = found || passed.bulge > 0 || problem.is_blunt(problem.next[i]);
+  }
+  return found;
+}
+
 }  // namespace
 
 bool check_shape(const Shape& shape, Certificate& certificate) {
   const std::size_t loops = shape.component.size();
+  const bool arcs = !shape.bulges.empty();
   bool valid = shape.hole.size() == loops && shape.points.size() < kNone &&
+               (!arcs || shape.bulges.size() == shape.points.size()) &&
                (loops == 0 ? shape.points.empty()
                            : shape.loop_begin.size() == loops + 1 && shape.loop_begin[0] == 0 &&
                                  shape.loop_begin[loops] == shape.points.size());
   for (std::size_t i = 0; valid && i < loops; ++i)
-    valid = shape.loop_begin[i] <= shape.loop_begin[i + 1] && shape.loop(i).size() >= 3 &&
-            shape.component[i] < loops;
-  for (std::size_t i = 0; valid && i < shape.points.size(); ++i) valid = finite(shape.points[i]);
+    valid = shape.loop_begin[i] <= shape.loop_begin[i + 1] &&
+            shape.loop(i).size() >= (arcs ? 2 : 3) && shape.component[i] < loops;
+  for (std::size_t i = 0; valid && i < shape.points.size(); ++i)
+    valid = finite(shape.points[i]) && std::abs(shape.bulge(i)) <= 1;
   if (!valid)
     certificate.failures.push_back(
-        "The shape itself is malformed: loops that do not fit its points, or coordinates that are "
-        "not finite.");
+        "The shape itself is malformed: loops that do not fit its points, coordinates that are not "
+        "finite, or bulges above 1.");
   if (!valid || shape.points.empty()) return valid;
   if (const auto error = beyond_limits(shape)) {
     certificate.failures.push_back("The shape cannot be checked: " + to_string(*error) + ".");
@@ -101,8 +152,10 @@ bool check_values(const Shape& shape, const MedialAxis& axis, Certificate& certi
 
   Offences sites;
   for (std::size_t i = 0; i < axis.sites.size(); ++i)
-    if (!finite(axis.sites[i].start) || !finite(axis.sites[i].end)) sites.add(i);
-  report(sites, "sites have a coordinate that is not finite", "site");
+    if (!finite(axis.sites[i].start) || !finite(axis.sites[i].end) ||
+        !(std::abs(axis.sites[i].bulge) <= 1))
+      sites.add(i);
+  report(sites, "sites have a coordinate that is not finite or a bulge above 1", "site");
 
   Offences node_indices, site_indices, curves, weights, twice;
   for (std::size_t i = 0; i < axis.edges.size(); ++i) {
@@ -111,13 +164,13 @@ bool check_values(const Shape& shape, const MedialAxis& axis, Certificate& certi
     if (std::max(edge.site[0], edge.site[1]) >= axis.sites.size()) site_indices.add(i);
     if (edge.site[0] == edge.site[1]) twice.add(i);
     if (!finite(edge.control.center) || !std::isfinite(edge.control.radius)) curves.add(i);
-    if (!(edge.weight >= 1) || !std::isfinite(edge.weight)) weights.add(i);
+    if (!(edge.weight > 0) || !std::isfinite(edge.weight)) weights.add(i);
   }
   report(node_indices, "edges name a node that the axis does not have", "edge");
   report(site_indices, "edges name a site that the axis does not have", "edge");
   report(twice, "edges lie between a site and itself", "edge");
   report(curves, "edges have a control point that is not finite", "edge");
-  report(weights, "edges have a weight that is not finite or below 1", "edge");
+  report(weights, "edges have a weight that is not finite or not positive", "edge");
 
   // A tolerance is at most what a user may ask compute() for, or what the coordinates' spacing
   // asks.
@@ -130,21 +183,28 @@ bool check_values(const Shape& shape, const MedialAxis& axis, Certificate& certi
   return certificate.failures.size() == before_count;
 }
 
-void prepare(Problem& problem, Certificate& certificate) {
+void prepare(Problem& problem, double corner_angle, Certificate& certificate) {
   const Shape& shape = problem.shape;
   const MedialAxis& axis = problem.axis;
   const auto count = static_cast<std::uint32_t>(shape.points.size());
   problem.next.resize(count);
   problem.component.resize(count);
-  problem.turn.resize(count);
+  problem.joint.resize(count);
+  if (!shape.bulges.empty()) problem.blunt_angle.assign(count, 0);
   for (std::size_t i = 0; i < shape.loop_count(); ++i) {
     const std::uint32_t begin = shape.loop_begin[i], end = shape.loop_begin[i + 1];
     for (std::uint32_t j = begin; j < end; ++j) {
-      const std::uint32_t previous = j > begin ? j - 1 : end - 1;
       problem.next[j] = j + 1 < end ? j + 1 : begin;
       problem.component[j] = shape.component[i];
-      problem.turn[j] = static_cast<Turn>(
-          orientation(shape.points[previous], shape.points[j], shape.points[problem.next[j]]));
+    }
+    for (std::uint32_t j = begin; j < end; ++j) {
+      const std::uint32_t previous = j > begin ? j - 1 : end - 1;
+      problem.joint[j] = joint_between(problem.edge(previous), problem.edge(j), corner_angle);
+      if (!problem.is_blunt(j)) continue;
+      problem.blunt_angle[j] = turn_between(problem.edge(previous), problem.edge(j));
+      ++certificate.blunt_joints;
+      certificate.largest_blunt_angle = std::max(certificate.largest_blunt_angle,
+                                                 problem.blunt_angle[j] * 180 / std::numbers::pi);
     }
   }
 
@@ -156,8 +216,11 @@ void prepare(Problem& problem, Certificate& certificate) {
   // otherwise the points are looked up by their coordinates.
   const auto fits = [&](const Site& site, std::uint32_t i) {
     if (!(shape.points[i] == site.start)) return false;
-    return site.kind == SiteKind::vertex ? site.end == site.start && problem.turn[i] != Turn::convex
-                                         : shape.points[problem.next[i]] == site.end;
+    if (site.kind == SiteKind::vertex)
+      return site.end == site.start &&
+             (problem.joint[i] == Joint::reflex || problem.joint[i] == Joint::smooth);
+    return shape.points[problem.next[i]] == site.end && shape.bulge(i) == site.bulge &&
+           (site.bulge != 0) == (site.kind == SiteKind::arc);
   };
   std::vector<std::uint32_t> sorted;
   problem.place.assign(axis.sites.size(), kNone);
@@ -209,6 +272,8 @@ void check_graph(const Problem& problem, Certificate& certificate) {
   std::vector<Count> counts(shape.component_count());
   for (std::size_t i = 0; i < shape.loop_count(); ++i)
     if (shape.hole[i]) ++counts[shape.component[i]].holes;
+  std::vector<std::uint64_t> nodes_of(counts.size());
+  for (const Node& node : axis.nodes) ++nodes_of[node.component];
   Offences kinds, strangers, foreign_sites;
   for (std::uint32_t i = 0; i < node_count; ++i) {
     const Node& node = axis.nodes[i];
@@ -217,7 +282,9 @@ void check_graph(const Problem& problem, Certificate& certificate) {
     if (sets.find(i) == i) ++count.parts;
     if (axis.nodes[sets.find(i)].component != node.component) strangers.add(i);
     const std::uint32_t degree = problem.degree[i];
-    const bool fits = node.kind == NodeKind::leaf          ? degree == 1
+    // A circle's axis is one node without an edge.
+    const bool alone = degree == 0 && nodes_of[node.component] == 1;
+    const bool fits = node.kind == NodeKind::leaf          ? degree == 1 || alone
                       : node.kind == NodeKind::site_change ? degree == 2
                       : node.kind == NodeKind::branching   ? degree >= 3
                                                            : false;
@@ -280,25 +347,37 @@ void check_vertices(const Problem& problem, Certificate& certificate) {
   const auto count = static_cast<std::uint32_t>(problem.shape.points.size());
   auto& failures = certificate.failures;
 
-  // Corners and leaves as sorted lists: what stands in one only is an offence.
-  std::vector<Corner> corners, leaves;
-  for (std::uint32_t i = 0; i < count; ++i)
-    if (problem.turn[i] == Turn::convex)
-      corners.push_back({problem.point(i), problem.component[i]});
-  Offences blunt;
-  for (std::size_t i = 0; i < axis.nodes.size(); ++i) {
-    if (problem.degree[i] != 1) continue;
-    if (axis.nodes[i].disk.radius > 0)
-      blunt.add(i);
-    else
-      leaves.push_back({axis.nodes[i].disk.center, axis.nodes[i].component});
+  // Corners and leaves as sorted lists: what stands in one only is an offence. Where all joints are
+  // blunt, an axis may begin at one of them.
+  std::vector<Corner> corners, blunt, leaves;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const Corner corner{problem.point(i), problem.component[i]};
+    if (problem.joint[i] == Joint::corner) corners.push_back(corner);
+    if (problem.is_blunt(i)) blunt.push_back(corner);
+  }
+  Offences raised;
+  std::size_t budget = count;
+  for (const Edge& edge : axis.edges) {
+    for (std::size_t end = 0; end < 2; ++end) {
+      const std::uint32_t i = edge.node[end];
+      if (problem.degree[i] != 1) continue;
+      if (!(axis.nodes[i].disk.radius > 0))
+        leaves.push_back({axis.nodes[i].disk.center, axis.nodes[i].component});
+      else if (ends_at_arc(problem, edge, end, budget))
+        ++certificate.curvature_leaves;
+      else
+        raised.add(i);
+    }
   }
   std::sort(corners.begin(), corners.end());
+  std::sort(blunt.begin(), blunt.end());
   std::sort(leaves.begin(), leaves.end());
-  std::vector<Corner> bare, extra;
+  std::vector<Corner> bare, strange, extra;
   std::set_difference(corners.begin(), corners.end(), leaves.begin(), leaves.end(),
                       std::back_inserter(bare));
   std::set_difference(leaves.begin(), leaves.end(), corners.begin(), corners.end(),
+                      std::back_inserter(strange));
+  std::set_difference(strange.begin(), strange.end(), blunt.begin(), blunt.end(),
                       std::back_inserter(extra));
   certificate.convex_corners = corners.size();
   certificate.corners_without_leaf = bare.size();
@@ -309,11 +388,13 @@ void check_vertices(const Problem& problem, Certificate& certificate) {
   if (!extra.empty())
     failures.push_back(sentence("%zu leaves are no convex corner; the first is (%.17g, %.17g).",
                                 extra.size(), extra[0].point.x, extra[0].point.y));
-  if (blunt.count > 0) {
-    const Disk& disk = problem.disk(static_cast<std::uint32_t>(blunt.first));
-    failures.push_back(sentence(
-        "%zu leaves have a radius above 0; the first is node %zu at (%.17g, %.17g), r = %.17g.",
-        blunt.count, blunt.first, disk.center.x, disk.center.y, disk.radius));
+  if (raised.count > 0) {
+    const Disk& disk = problem.disk(static_cast<std::uint32_t>(raised.first));
+    failures.push_back(
+        sentence("%zu leaves have a radius above 0 and are at no arc of largest curvature; the "
+                 "first is node "
+                 "%zu at (%.17g, %.17g), r = %.17g.",
+                 raised.count, raised.first, disk.center.x, disk.center.y, disk.radius));
   }
 
   // A reflex vertex is touched by the disks of its own edges; or, where all of them have shrunk to
@@ -340,7 +421,7 @@ void check_vertices(const Problem& problem, Certificate& certificate) {
   }
   std::uint32_t first = kNone;
   for (std::uint32_t i = 0; i < count; ++i) {
-    if (problem.turn[i] != Turn::reflex) continue;
+    if (problem.joint[i] != Joint::reflex) continue;
     ++certificate.reflex_vertices;
     if (touched[i]) continue;
     if (certificate.reflex_without_contact++ == 0) first = i;

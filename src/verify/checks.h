@@ -9,14 +9,15 @@
 #include <string>
 #include <vector>
 
+#include "geometry/joint.h"
 #include "medial/axis.h"
 #include "medial/shape.h"
 #include "medial/verify.h"
+#include "verify/boundary_edge.h"
 
 namespace medial::verify_detail {
 
-/// The sign of the turn at a vertex of the shape, seen with the interior on the left.
-enum class Turn : std::int8_t { reflex = -1, straight = 0, convex = 1 };
+using geometry::Joint;
 
 constexpr std::uint32_t kNone = 0xFFFFFFFF;
 
@@ -29,14 +30,20 @@ struct Problem {
 
   std::vector<std::uint32_t> next;       ///< of each point: the following one of its loop
   std::vector<std::uint32_t> component;  ///< of each point
-  std::vector<Turn> turn;                ///< of each point
-  /// Of each site: the point of the shape that it is, or that its segment begins in; or kNone.
+  std::vector<Joint> joint;              ///< at each point; smooth where straight edges go on
+  std::vector<double> blunt_angle;       ///< at each point where it is blunt, else 0; or empty
+  /// Of each site: the point of the shape that it is, or that its edge begins in; or kNone.
   std::vector<std::uint32_t> place;
   std::vector<std::uint32_t> degree;  ///< of each node
 
   Problem(const Shape& the_shape, const MedialAxis& the_axis) : shape(the_shape), axis(the_axis) {}
 
   Vec2 point(std::uint32_t i) const { return shape.points[i]; }
+  /// The boundary edge that begins in a point.
+  BoundaryEdge edge(std::uint32_t i) const {
+    return {shape.points[i], shape.points[next[i]], shape.bulge(i)};
+  }
+  bool is_blunt(std::uint32_t i) const { return joint[i] == Joint::blunt; }
   const Disk& disk(std::uint32_t node) const { return axis.nodes[node].disk; }
 };
 
@@ -70,17 +77,20 @@ bool check_shape(const Shape& shape, Certificate& certificate);
 bool check_values(const Shape& shape, const MedialAxis& axis, Certificate& certificate);
 
 /// Fills what Problem derives from shape and axis; reports sites that are no part of the boundary.
-void prepare(Problem& problem, Certificate& certificate);
+/// `corner_angle` in radians.
+void prepare(Problem& problem, double corner_angle, Certificate& certificate);
 
 /// Parts and cycles against components and holes; kinds of nodes against their degrees.
 void check_graph(const Problem& problem, Certificate& certificate);
-/// Leaves at all convex corners and nowhere else; a foot on every reflex vertex.
+/// Leaves at all convex corners, elsewhere at arcs of largest curvature only; a foot on every
+/// reflex vertex.
 void check_vertices(const Problem& problem, Certificate& certificate);
 /// Radii against distances, on nodes and inside edges; contacts; sides; legality.
 void check_disks(const Problem& problem, int samples_per_edge, Certificate& certificate);
-/// Every boundary point is the foot of some disk.
-void check_coverage(const Problem& problem, Certificate& certificate);
+/// Every boundary point is the foot of some disk. Returns the area that blunt joints may leave
+/// open.
+double check_coverage(const Problem& problem, Certificate& certificate);
 /// The area of the union of the disks.
-void check_area(const Problem& problem, Certificate& certificate);
+void check_area(const Problem& problem, double open, Certificate& certificate);
 
 }  // namespace medial::verify_detail

@@ -3,6 +3,7 @@
 #include <cstdarg>
 #include <cstdio>
 #include <exception>
+#include <numbers>
 
 #include "base/threads.h"
 #include "verify/checks.h"
@@ -38,12 +39,12 @@ void run_checks(const Shape& shape, const MedialAxis& axis, const VerifyOptions&
   problem.diagonal = diagonal(box);
   problem.tolerance = tolerance_of(box, options.tolerance, axis);
   certificate.tolerance = problem.tolerance;
-  prepare(problem, certificate);
+  prepare(problem, options.corner_angle * std::numbers::pi / 180, certificate);
   check_graph(problem, certificate);
   check_vertices(problem, certificate);
   check_disks(problem, options.samples_per_edge, certificate);
-  check_coverage(problem, certificate);
-  check_area(problem, certificate);
+  const double open = check_coverage(problem, certificate);
+  check_area(problem, open, certificate);
 }
 
 }  // namespace
