@@ -48,6 +48,9 @@ Certificate merge(const std::vector<Certificate>& certificates) {
     all.cycles += one.cycles;
     all.convex_corners += one.convex_corners;
     all.corners_without_leaf += one.corners_without_leaf;
+    all.curvature_leaves += one.curvature_leaves;
+    all.blunt_joints += one.blunt_joints;
+    all.largest_blunt_angle = std::max(all.largest_blunt_angle, one.largest_blunt_angle);
     all.reflex_vertices += one.reflex_vertices;
     all.reflex_without_contact += one.reflex_without_contact;
     all.passed = all.passed && one.passed;
@@ -77,6 +80,9 @@ Json to_json(const Certificate& c) {
           {"cycles", c.cycles},
           {"convex_corners", c.convex_corners},
           {"corners_without_leaf", c.corners_without_leaf},
+          {"curvature_leaves", c.curvature_leaves},
+          {"blunt_joints", c.blunt_joints},
+          {"largest_blunt_angle", c.largest_blunt_angle},
           {"reflex_vertices", c.reflex_vertices},
           {"reflex_without_contact", c.reflex_without_contact}};
 }
@@ -102,6 +108,10 @@ std::string verdict_table(const Certificate& c, std::size_t features) {
   row("cycles", fmt::format("{} for {}", c.cycles, counted(c.holes, "hole")));
   row("convex corners",
       fmt::format("{}, {} without a leaf", c.convex_corners, c.corners_without_leaf));
+  if (c.curvature_leaves > 0) row("leaves at arcs", fmt::format("{}", c.curvature_leaves));
+  if (c.blunt_joints > 0)
+    row("blunt joints",
+        fmt::format("{}, up to {:.3g} degrees", c.blunt_joints, c.largest_blunt_angle));
   row("reflex vertices",
       fmt::format("{}, {} without a contact", c.reflex_vertices, c.reflex_without_contact));
   const std::size_t told = std::min(c.failures.size(), most_failures_told);

@@ -142,7 +142,9 @@ TEST(VerifyFinds, WrongRadius) {
   HandMade m = rectangle();
   m.axis.nodes[2].disk.radius = 1e-3;
   expect_failure(m, "1 of 4 convex corners are no leaf of radius 0; the first is (0, 0)");
-  expect_failure(m, "1 leaves have a radius above 0 and are at no arc of largest curvature; the first is node 2");
+  expect_failure(
+      m,
+      "1 leaves have a radius above 0 and are at no arc of largest curvature; the first is node 2");
 }
 
 TEST(VerifyFinds, MovedControlPoint) {
@@ -309,7 +311,8 @@ TEST(VerifyFinds, BrokenIndicesAndNumbers) {
   for (const double weight : {nan, infinity, -1.0, 0.0}) {
     m = rectangle();
     m.axis.edges[3].weight = weight;
-    expect_failure(m, "1 edges have a weight that is not finite or not positive; the first is edge 3");
+    expect_failure(m,
+                   "1 edges have a weight that is not finite or not positive; the first is edge 3");
   }
   m = rectangle();
   m.axis.sites[1].end.x = nan;

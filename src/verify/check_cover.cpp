@@ -100,14 +100,16 @@ double uncovered(const Disk& a, const Disk& b, const BoundaryEdge& edge, double 
   std::size_t bounds = 0;
   bound[bounds++] = from;
   const auto turns_at = [&](double length) {
-    if (length > from && length < to) bound[bounds++] = length;
+    if (!(length > from && length < to)) return;
+    std::size_t place = bounds++;
+    for (; bound[place - 1] > length; --place) bound[place] = bound[place - 1];
+    bound[place] = length;
   };
   for (const Disk& disk : {a, b}) {
     const double nearest = foot_at(edge, disk.center);
     turns_at(nearest);
     if (edge.bulge != 0) turns_at(opposite_at(edge, disk.center));
   }
-  std::sort(bound.begin() + 1, bound.begin() + bounds);
   bound[bounds++] = to;
   double worst = 0;
   Outside before = outside_at(from);
