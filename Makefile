@@ -7,12 +7,13 @@ SECONDS ?= 60
 FROM ?= $(shell date +%s)000000
 RELEASE := build/release
 ASAN := build/asan
+TSAN := build/tsan
 BENCH := build/bench
 # Debian 12 has two versions of Boost, one of which can be installed; CGAL and GDAL ask for the older.
 BENCH_BOOST := build/boost-1.81
 SOURCES = $(shell git ls-files '*.h' '*.cpp')
 
-.PHONY: help setup build demo test bench fuzz corpus format lint clean install
+.PHONY: help setup build demo test bench fuzz corpus tsan format lint clean install
 .DEFAULT_GOAL := help
 
 help:     ## this list
@@ -52,6 +53,9 @@ corpus: setup   ## every polygon file below DATA, verified or refused: a table
 	@cmake --preset release
 	@cmake --build $(RELEASE) -j $(JOBS) --target medial_corpus
 	@$(RELEASE)/tests/medial_corpus $(DATA)
+
+tsan: setup     ## the engine's tests under the thread sanitizer
+	@tools/tsan.sh $(TSAN) $(JOBS)
 
 format: setup   ## rewrite the sources in the house's format
 	@clang-format -i $(SOURCES)

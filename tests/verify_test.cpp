@@ -10,7 +10,7 @@
 #include "medial/compute.h"
 #include "support/generate.h"
 #include "support/hand_made.h"
-#include "verify/boundary_tree.h"
+#include "verify/distance_tree.h"
 
 namespace medial {
 namespace {
@@ -476,7 +476,7 @@ TEST(VerifyFinds, DamageInComputedAxes) {
   EXPECT_GE(passed, count * 3 / 4);
 }
 
-TEST(BoundaryTree, AgreesWithBruteForce) {
+TEST(DistanceTree, AgreesWithBruteForce) {
   // A spiral saw of many edges, long ones among short ones.
   std::mt19937 random(3);
   std::uniform_real_distribution<double> unit(0, 1);
@@ -490,7 +490,7 @@ TEST(BoundaryTree, AgreesWithBruteForce) {
     shape.loop_begin = {0, static_cast<std::uint32_t>(count)};
     shape.component = {0};
     shape.hole = {false};
-    const verify_detail::BoundaryTree tree(shape);
+    const verify_detail::DistanceTree tree(shape);
     for (int i = 0; i < 300; ++i) {
       const Vec2 p{1e5 + 10 * unit(random) - 5, 10 * unit(random) - 5};
       double expected = std::numeric_limits<double>::infinity();

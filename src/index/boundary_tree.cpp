@@ -23,14 +23,17 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 /// Beyond this a site belongs to no box.
 constexpr double outside = 64;
 
-/// Single-precision distances to boxes carry an error of a few units in the last place of the
-/// largest local coordinate (4): the query's centre rounded (2^-23), the box rounded outward (no
-/// error on the unsafe side), the subtraction (2^-22), squares and sums (relative 2^-22). Reaching
-/// 2^-20 further makes up for it.
+/// What single precision (u = 2^-24) may add to the distance from a box, for local coordinates
+/// below 2 and distances below 4. Along each axis: the query's centre rounded, 2 u; the difference,
+/// below 4, rounded, 4 u; the box is rounded outward, which is the safe side. Both axes together: 6
+/// sqrt(2) u < 8.5 u. The squares and their sum round by 2 u of the squared distance, u of the
+/// distance: 4 u; the limit's square by half of that. In all less than 14.5 u; this is 16 u.
 constexpr double single_precision_slack = 0x1p-20;
 
-/// Heights and positions against a chord are sums of two products of local coordinates (4), whose
-/// roundings, of the points and of the query's centre, stay below this.
+/// What rounding (u = 2^-53) may do to a height above a chord, or to a position along it. A sum of
+/// two products with a local point below 2 in both coordinates: 4 sqrt(2) u < 6 u, once for the
+/// boundary's point and once for the query's centre; the end of a site, 4 roundings below 2: 8 u; a
+/// direction that is a unit vector up to 3 u, times a distance below 4: 12 u. That makes 32 u.
 constexpr double chord_rounding = 0x1p-48;
 /// Chord boxes pay where the boundary strays from the chord by no more than this share of it,
 constexpr double flat_enough = 1.0 / 16;

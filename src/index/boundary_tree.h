@@ -15,7 +15,7 @@ namespace medial::index {
 /// cache line. Because the order is the boundary's, an index range is a sub-shape, and the tree
 /// over the whole boundary is the tree of every sub-shape as well.
 ///
-/// Sites must lie in the local frame (coordinates below 4 in size). Sites further away than that
+/// Sites must lie in the local frame (coordinates below 2 in size). Sites far away from it
 /// belong to no box and are never found: cuts are stored so.
 class BoundaryTree {
  public:

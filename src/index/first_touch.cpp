@@ -16,8 +16,10 @@ using geometry::Site;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// What rounding may add to a distance from a box or a slab: a few units in the last place of local
-/// coordinates (4). Boxes this much further away are looked into as well.
+/// What rounding (u = 2^-53) may add to a distance from a box or a slab, for local coordinates
+/// below 2 and distances below 4: for a box 8 u along an axis (a difference below 4, and the end of
+/// a site) and 8 u for the squares, for a slab 32 u as in BoundaryTree. Boxes this much further
+/// away are looked into as well.
 constexpr double rounding = 0x1p-48;
 
 /// Sets of more sites get no slab: it would be about as wide as the box.

@@ -3,8 +3,8 @@
 
 #include "axis/curve.h"
 #include "medial/query.h"
-#include "verify/boundary_tree.h"
 #include "verify/checks.h"
+#include "verify/distance_tree.h"
 
 namespace medial::verify_detail {
 namespace {
@@ -60,7 +60,7 @@ double signed_distance(const Site& site, Vec2 p) {
 }
 
 /// Measures one disk against the whole boundary.
-void measure(const Problem& problem, const BoundaryTree& boundary, const Disk& disk,
+void measure(const Problem& problem, const DistanceTree& boundary, const Disk& disk,
              std::size_t index, Findings& findings) {
   const double distance =
       boundary.distance(disk.center, std::max(0.0, disk.radius) + problem.tolerance);
@@ -133,7 +133,7 @@ double turned_by(const Problem& problem, const Edge& edge, const Curve& curve) {
 void check_disks(const Problem& problem, int samples_per_edge, Certificate& certificate) {
   const MedialAxis& axis = problem.axis;
   const double tolerance = problem.tolerance;
-  const BoundaryTree boundary(problem.shape);
+  const DistanceTree boundary(problem.shape);
   const int samples = std::max(0, samples_per_edge);
 
   Findings nodes, edges;

@@ -10,9 +10,9 @@ namespace medial::verify_detail {
 
 /// The nearest boundary edge of a shape: a tree over the edges in spatial order (the engines search
 /// along the boundary instead). Few edges are simply all looked at.
-class BoundaryTree {
+class DistanceTree {
  public:
-  explicit BoundaryTree(const Shape& shape);
+  explicit DistanceTree(const Shape& shape);
 
   /// Distance from p to the nearest edge. `expected` is a guess at it: a query is fast where the
   /// guess is not much too large and not too small. O(log n) expected then.

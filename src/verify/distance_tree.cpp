@@ -1,4 +1,4 @@
-#include "verify/boundary_tree.h"
+#include "verify/distance_tree.h"
 
 #include <tbb/parallel_for.h>
 
@@ -36,7 +36,7 @@ void for_each_hull_point(const BoundaryEdge& edge, const Visitor& visit) {
 
 }  // namespace
 
-BoundaryTree::BoundaryTree(const Shape& shape) {
+DistanceTree::DistanceTree(const Shape& shape) {
   std::vector<BoundaryEdge> unordered;
   std::vector<Vec2> middle;
   unordered.reserve(shape.points.size());
@@ -74,7 +74,7 @@ BoundaryTree::BoundaryTree(const Shape& shape) {
 }
 
 /// Bounds the edges [begin, end); nothing is near to an empty set.
-void BoundaryTree::bound(std::size_t begin, std::size_t end, Bounds& bounds,
+void DistanceTree::bound(std::size_t begin, std::size_t end, Bounds& bounds,
                          std::size_t place) const {
   Vec2 left{kInfinity, 0}, right{-kInfinity, 0}, bottom{0, kInfinity}, top{0, -kInfinity};
   const auto each_point = [&](auto work) {
@@ -110,7 +110,7 @@ void BoundaryTree::bound(std::size_t begin, std::size_t end, Bounds& bounds,
   bounds.slab_high[place] = high;
 }
 
-bool BoundaryTree::search(Vec2 p, double& best) const {
+bool DistanceTree::search(Vec2 p, double& best) const {
   // Bounds round as well: a limit this much larger loses no edge.
   const auto limit_for = [this](double distance) {
     const double limit = (1 + 8 * kEpsilon) * (distance + slack_);
@@ -167,7 +167,7 @@ bool BoundaryTree::search(Vec2 p, double& best) const {
   return found;
 }
 
-double BoundaryTree::some_distance(Vec2 p) const {
+double DistanceTree::some_distance(Vec2 p) const {
   // Down to the nearest box of each level.
   std::uint32_t index = 0;
   for (std::size_t level = levels_.size(); level-- > 0;) {
@@ -187,7 +187,7 @@ double BoundaryTree::some_distance(Vec2 p) const {
   return distance_to_edge(p, edges_[std::min(index * kFanOut, edges_.size() - 1)]);
 }
 
-double BoundaryTree::distance(Vec2 p, double expected) const {
+double DistanceTree::distance(Vec2 p, double expected) const {
   double best = expected;
   if (!levels_.empty()) {
     if (search(p, best)) return best;

@@ -1,0 +1,33 @@
+#!/usr/bin/env bash
+# Runs the tests of the engine and of the certificate under the thread sanitizer.
+#
+#   tools/tsan.sh TREE JOBS
+#
+# The sanitizer has to see what orders the threads, so oneTBB is built with it as well, from the
+# source of Debian's package. With the installed oneTBB every task looks like a race.
+set -euo pipefail
+tree=$(mkdir -p "$1" && realpath "$1")
+jobs=$2
+tbb=$tree/onetbb
+
+if [ ! -e "$tbb/lib" ]; then
+  mkdir -p "$tbb/lists/partial" "$tbb/parts"
+  sed -E 's/^Types:.*/Types: deb-src/; s/^deb /deb-src /' /etc/apt/sources.list.d/debian.sources \
+    > "$tbb/parts/source.sources"
+  apt=(apt-get -q -o "Dir::Etc::sourceparts=$tbb/parts" -o Dir::Etc::sourcelist=/dev/null
+       -o "Dir::State::lists=$tbb/lists")
+  (cd "$tbb" && "${apt[@]}" update && "${apt[@]}" source --download-only onetbb &&
+   mkdir -p source && tar -xf onetbb_*.orig.tar.* --strip-components=1 -C source)
+  cmake -S "$tbb/source" -B "$tbb/build" -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo \
+    -DCMAKE_CXX_FLAGS=-O1 -DTBB_SANITIZE=thread -DTBB_TEST=OFF -DTBBMALLOC_BUILD=OFF -DTBB_STRICT=OFF
+  cmake --build "$tbb/build" -j "$jobs" --target tbb
+  ln -s "$(dirname "$(find "$tbb/build" -name libtbb.so | head -1)")" "$tbb/lib"
+fi
+
+tests=(property_test verify_test compute_test query_test first_touch_test)
+cmake --preset tsan -B "$tree"
+cmake --build "$tree" -j "$jobs" --target "${tests[@]}"
+for test in "${tests[@]}"; do
+  LD_LIBRARY_PATH=$tbb/lib MEDIAL_PROPERTY_COUNT=${MEDIAL_PROPERTY_COUNT:-200} \
+    TSAN_OPTIONS=halt_on_error=1 "$tree/tests/$test" --gtest_brief=1
+done
