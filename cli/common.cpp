@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <limits>
 #include <system_error>
 
 namespace medial::cli {
@@ -20,6 +21,8 @@ namespace fs = std::filesystem;
 // The limits of what can be asked for, so that no value asks for more memory than a machine has.
 constexpr double smallest_chord = 1e-9;
 constexpr double largest_tolerance = 1e-3;
+constexpr double smallest_arc_tolerance = 1e-13;
+constexpr double largest_arc_tolerance = 0.1;
 constexpr int most_threads = 1024;
 constexpr int most_disks = 1'000'000;
 constexpr double narrowest_picture = 16;
@@ -71,11 +74,79 @@ bool lists(const std::string& formats, const std::string& wanted) {
 
 }  // namespace
 
+namespace {
+
+/// With --text the font stands for INPUT; then a first word that was taken for INPUT is the second.
+void settle_input(InputSwitches& input, const std::string& second_name, std::string* second) {
+  if (input.text.empty()) {
+    if (!input.font.empty()) throw CLI::RequiresError("--font", "--text");
+    if (input.path.empty()) throw CLI::RequiredError("INPUT");
+  } else {
+    if (input.font.empty()) throw CLI::RequiresError("--text", "--font");
+    if (second != nullptr && second->empty()) std::swap(input.path, *second);
+    if (!input.path.empty()) throw CLI::ExcludesError("INPUT", "--text");
+    input.path = input.font;
+  }
+  if (second != nullptr && second->empty()) throw CLI::RequiredError(second_name);
+}
+
+void add_shape_switches(CLI::App& verb, InputSwitches& input) {
+  constexpr char group[] = "Curves";
+  verb.add_option("--text", input.text,
+                  "Instead of INPUT: the outlines of this text, in font units; each\n"
+                  "character is a feature.")
+      ->option_text("TEXT")
+      ->group(group);
+  verb.add_option("--font", input.font, "The font file of --text.")
+      ->option_text("FILE")
+      ->group(group);
+  verb.add_option("--arc-tolerance", input.arcs.tolerance,
+                  "Curves become arcs within this fraction of the diagonal of the\n"
+                  "bounding box (default: 1e-6). Arcs and straight edges stay exact.")
+      ->check(in_range(smallest_arc_tolerance, largest_arc_tolerance))
+      ->option_text("T")
+      ->group(group);
+  verb.add_option_function<double>(
+          "--arc-tolerance-absolute",
+          [&input](double tolerance) {
+            input.arcs.tolerance = tolerance;
+            input.arcs.relative = false;
+          },
+          "The same in units of the input.")
+      ->check(CLI::PositiveNumber.description(""))
+      ->excludes("--arc-tolerance")
+      ->option_text("T")
+      ->group(group);
+  verb.add_flag("--close{all}", input.close,
+                "Loose curves (DXF): join ends that are at most GAP apart, in units of\n"
+                "the input (default: 1e-6 of the diagonal; curves that stay open are left\n"
+                "out); without GAP, close every open curve.")
+      ->each([&input](const std::string& text) {
+        double gap = std::numeric_limits<double>::infinity();
+        if (text != "all" && (!CLI::detail::lexical_cast(text, gap) || !(gap >= 0))) {
+          throw CLI::ValidationError("--close", text + " is no distance");
+        }
+        input.read.close = gap;
+      })
+      ->group(group);
+}
+
+}  // namespace
+
+void add_input_switches(CLI::App& verb, InputSwitches& input, const std::string& second_name,
+                        const std::string& second_help, std::string& second) {
+  add_input_switches(verb, input);
+  verb.add_option(second_name, second, second_help)->option_text(" ");
+  verb.parse_complete_callback(
+      [&input, &second, second_name] { settle_input(input, second_name, &second); });
+}
+
 void add_input_switches(CLI::App& verb, InputSwitches& input) {
+  verb.parse_complete_callback([&input] { settle_input(input, {}, nullptr); });
   verb.add_option("INPUT", input.path,
-                  "Polygons: any vector file that GDAL reads, .wkt, .wkt.gz, plain `x y`\n"
-                  "text, medial's own .json, or - for standard input.")
-      ->required()
+                  "Shapes: any vector file that GDAL reads, .svg, .dxf, .wkt, plain `x y`\n"
+                  "text, medial's own .json, any of them with .gz, or - for standard\n"
+                  "input.")
       ->option_text(" ");
   verb.add_option("--layer", input.read.layer, "Read this layer (default: the first).")
       ->option_text("NAME");
@@ -96,6 +167,7 @@ void add_input_switches(CLI::App& verb, InputSwitches& input) {
   verb.add_flag("--project", input.read.project,
                 "Longitudes and latitudes: compute in a fitting local projection, in\n"
                 "metres.");
+  add_shape_switches(verb, input);
 }
 
 void add_common_switches(CLI::App& verb, CommonSwitches& common) {
@@ -226,6 +298,12 @@ Json to_json(const ShapeReport& report) {
       {"split_edges", report.split_edges}};
 }
 
+Json to_json(const ArcReport& report) {
+  return {{"pieces", report.pieces},       {"spirals", report.spirals},
+          {"arcs", report.arcs},           {"segments", report.segments},
+          {"tolerance", report.tolerance}, {"largest_error", report.largest_error}};
+}
+
 Json to_json(const Box& box) { return {box.low.x, box.low.y, box.high.x, box.high.y}; }
 
 int report_error(const Error& error, bool json, const std::string& hint) {
@@ -281,6 +359,15 @@ std::string describe(const ShapeReport& report) {
   mention(report.touching_vertices, "touching vertex", "touching vertices");
   mention(report.split_edges, "split edge");
   return text;
+}
+
+void add(ArcReport& sum, const ArcReport& part) {
+  sum.pieces += part.pieces;
+  sum.spirals += part.spirals;
+  sum.arcs += part.arcs;
+  sum.segments += part.segments;
+  sum.tolerance = std::max(sum.tolerance, part.tolerance);
+  sum.largest_error = std::max(sum.largest_error, part.largest_error);
 }
 
 void add(ShapeReport& sum, const ShapeReport& part) {

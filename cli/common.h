@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "medial/contour.h"
 #include "medial/error.h"
 #include "medial/io/read.h"
 #include "medial/io/write.h"
@@ -33,11 +34,15 @@ Verb make_verify_verb(CLI::App& program);
 Verb make_info_verb(CLI::App& program);
 Verb make_draw_verb(CLI::App& program);
 
-/// Where polygons come from.
+/// Where shapes come from.
 struct InputSwitches {
-  std::string path;
+  std::string path;    ///< of a file; with a text, of the font
+  std::string text;    ///< to be set in a font, instead of a file of shapes
+  std::string font;    ///< as given; path tells it as well
   std::string repair;  ///< the name of read.repair
+  std::string close;   ///< read.close as text
   io::ReadOptions read;
+  ArcOptions arcs;
 };
 
 /// What every verb takes.
@@ -50,8 +55,11 @@ struct CommonSwitches {
   bool quiet = false;
 };
 
-/// Each adds its switches to a verb; what they refer to must live as long as the verb.
+/// Each adds its switches to a verb; what they refer to must live as long as the verb. `second` is
+/// the name of a second file that the verb requires after INPUT, with the string that it fills.
 void add_input_switches(CLI::App& verb, InputSwitches& input);
+void add_input_switches(CLI::App& verb, InputSwitches& input, const std::string& second_name,
+                        const std::string& second_help, std::string& second);
 void add_common_switches(CLI::App& verb, CommonSwitches& common);
 void add_picture_switches(CLI::App& verb, io::WriteOptions& write);
 
@@ -71,6 +79,7 @@ Error invalid_option(std::string text);
 /// {"error": {"code": ..., "text": ..., "place": {...}}}
 Json to_json(const Error& error);
 Json to_json(const ShapeReport& report);
+Json to_json(const ArcReport& report);
 Json to_json(const Box& box);
 
 /// Prints an error as one line on standard error and, on request, as an object on standard output.
@@ -89,6 +98,7 @@ std::string table(const Json& object);
 std::string describe(const ShapeReport& report);
 /// Adds up the reports of several features.
 void add(ShapeReport& sum, const ShapeReport& part);
+void add(ArcReport& sum, const ArcReport& part);
 
 /// "1 edge", "2 edges"; `plural` where an s does not do.
 std::string counted(std::uint64_t count, const std::string& noun, const std::string& plural = {});

@@ -23,15 +23,17 @@ struct DrawSwitches {
 
 /// Stored axes as they are; of polygons, axes computed now.
 Result<AxisFile> axes_to_draw(const InputSwitches& input, const CommonSwitches& common) {
-  if (io::is_native(input.path)) {
+  if (input.text.empty() && io::is_native(input.path)) {
     const Stopwatch reading;
     auto native = io::read_native(input.path);
     if (!native) return std::move(native).error();
-    AxisFile file;
-    file.native = std::move(native).value();
-    file.statistics.threads = effective_threads(common.threads);
-    file.seconds_read = reading.seconds();
-    return file;
+    if (!holds_contours(*native)) {
+      AxisFile file;
+      file.native = std::move(native).value();
+      file.statistics.threads = effective_threads(common.threads);
+      file.seconds_read = reading.seconds();
+      return file;
+    }
   }
   auto shapes = load_shapes(input, common.threads);
   if (!shapes) return std::move(shapes).error();

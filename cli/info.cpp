@@ -116,6 +116,7 @@ Result<int> tell_polygons(const InfoSwitches& switches) {
   object["input_rings"] = file->report.input_rings;
   object["input_points"] = file->report.input_points;
   object["cleaned"] = to_json(file->report);
+  if (file->arcs.pieces > 0) object["arcs"] = to_json(file->arcs);
   object["notes"] = file->notes;
   object["crs"] = crs_name(file->crs_wkt);
   object["geographic"] = file->geographic;
@@ -128,6 +129,13 @@ Result<int> tell_polygons(const InfoSwitches& switches) {
                                    counted(file->report.input_points, "point")));
   const std::string mended = describe(file->report);
   table.row("cleaned", mended.empty() ? "nothing" : mended);
+  if (file->arcs.pieces > 0) {
+    table.row("curves", fmt::format("{} as {} and {}, within {:.3g}",
+                                    counted(file->arcs.pieces, "piece"),
+                                    counted(file->arcs.arcs, "arc"),
+                                    counted(file->arcs.segments, "segment"),
+                                    file->arcs.largest_error));
+  }
   table.row("coordinates", crs_text(file->crs_wkt, file->geographic));
   return tell(switches.common, std::move(object), table,
               {{"read", file->seconds_read}, {"shape", file->seconds_shape}});
@@ -150,6 +158,7 @@ Result<int> tell_axes(const InfoSwitches& switches) {
   if (file->items.empty()) {
     return error_at(ErrorCode::empty, switches.input.path, "holds no axis");
   }
+  if (holds_contours(*file)) return tell_polygons(switches);
   const AxisSummary axes = summarize(*file);
   std::vector<std::reference_wrapper<const Shape>> shape_list;
   for (const io::NativeItem& item : file->items) shape_list.emplace_back(item.shape);
@@ -202,7 +211,10 @@ Result<int> tell_axes(const InfoSwitches& switches) {
 }
 
 Result<int> run_info(const InfoSwitches& switches) {
-  return io::is_native(switches.input.path) ? tell_axes(switches) : tell_polygons(switches);
+  if (!switches.input.text.empty() || !io::is_native(switches.input.path)) {
+    return tell_polygons(switches);
+  }
+  return tell_axes(switches);
 }
 
 }  // namespace

@@ -28,8 +28,7 @@ std::vector<Ring> rings_of(const Shape& shape) {
   std::vector<Ring> rings;
   rings.reserve(shape.loop_count());
   for (std::size_t i = 0; i < shape.loop_count(); ++i) {
-    const auto loop = shape.loop(i);
-    rings.push_back({{loop.begin(), loop.end()}, shape.hole[i] ? RingRole::hole : RingRole::outer});
+    rings.push_back(io::ring_of(shape, i));
   }
   return rings;
 }
@@ -72,7 +71,7 @@ std::uint64_t branch_count(const MedialAxis& axis) {
 Json stats(const AxisFile& file, const AxisSummary& summary, double seconds_write) {
   const Statistics& counted_by_engine = file.statistics;
   const double sites = static_cast<double>(std::max<std::uint64_t>(summary.sites, 1));
-  return {{"seconds",
+  Json object = {{"seconds",
            {{"read", file.seconds_read},
             {"shape", file.seconds_shape},
             {"axis", file.seconds_axis},
@@ -99,16 +98,28 @@ Json stats(const AxisFile& file, const AxisSummary& summary, double seconds_writ
           {"input_rings", file.cleaned.input_rings},
           {"input_points", file.cleaned.input_points},
           {"cleaned", to_json(file.cleaned)}};
+  if (file.arcs.pieces > 0) object["arcs"] = to_json(file.arcs);
+  return object;
 }
 
 /// The polygons of a file, and where they come from medial's own format, the shapes they were.
 struct Polygons {
   io::Dataset dataset;
-  std::vector<Shape> originals;
+  std::vector<Shape> originals;  ///< one without points where the file holds contours
 };
 
 Result<Polygons> read_polygons(const InputSwitches& input) {
   Polygons polygons;
+  if (!input.text.empty()) {
+    if (!input.read.layer.empty() || !input.read.where.empty() || input.read.project ||
+        input.read.repair != io::RepairRule::none || input.read.close) {
+      return invalid_option("--layer, --where, --repair, --project and --close are not for --text");
+    }
+    auto dataset = io::read_text(input.text, input.path);
+    if (!dataset) return std::move(dataset).error();
+    polygons.dataset = std::move(dataset).value();
+    return polygons;
+  }
   if (!io::is_native(input.path)) {
     auto dataset = io::read_dataset(input.path, input.read);
     if (!dataset) return std::move(dataset).error();
@@ -116,16 +127,18 @@ Result<Polygons> read_polygons(const InputSwitches& input) {
     return polygons;
   }
   if (!input.read.layer.empty() || !input.read.where.empty() || input.read.project ||
-      input.read.repair != io::RepairRule::none) {
+      input.read.repair != io::RepairRule::none || input.read.close) {
     return invalid_option(
-        "--layer, --where, --repair and --project are not for medial's own format");
+        "--layer, --where, --repair, --project and --close are not for medial's own format");
   }
   auto native = io::read_native(input.path);
   if (!native) return std::move(native).error();
   polygons.dataset.crs_wkt = native->crs_wkt;
+  polygons.dataset.y_down = native->y_down;
   for (io::NativeItem& item : native->items) {
     io::Feature feature;
     feature.rings = rings_of(item.shape);
+    feature.contours = std::move(item.contours);
     feature.id = static_cast<std::int64_t>(polygons.dataset.features.size());
     feature.attributes = std::move(item.attributes);
     polygons.dataset.features.push_back(std::move(feature));
@@ -135,6 +148,11 @@ Result<Polygons> read_polygons(const InputSwitches& input) {
 }
 
 }  // namespace
+
+bool holds_contours(const io::NativeFile& file) {
+  return std::ranges::any_of(file.items,
+                             [](const io::NativeItem& item) { return !item.contours.empty(); });
+}
 
 int effective_threads(int threads) {
   return threads > 0 ? threads : std::max(1, tbb::info::default_concurrency());
@@ -192,6 +210,7 @@ Result<ShapeFile> load_shapes(const InputSwitches& input, int threads) {
     return error_at(ErrorCode::empty, input.path, "holds no polygon");
   }
   file.crs_wkt = std::move(dataset.crs_wkt);
+  file.y_down = dataset.y_down;
   file.geographic = dataset.geographic;
   file.notes = std::move(dataset.notes);
   file.seconds_read = reading.seconds();
@@ -202,22 +221,33 @@ Result<ShapeFile> load_shapes(const InputSwitches& input, int threads) {
   for (io::Feature& feature : dataset.features) {
     std::size_t points = 1;
     for (const Ring& ring : feature.rings) points += ring.points.size();
+    for (const Contour& contour : feature.contours) points += contour.points.size();
     weights.push_back(static_cast<double>(points));
     file.attributes.push_back(std::move(feature.attributes));
   }
   file.shapes.resize(count);
   std::vector<ShapeReport> reports(count);
+  std::vector<ArcReport> arc_reports(count);
   Status built = for_each_feature(weights, threads, [&](std::size_t i, int) -> Status {
     io::Feature& feature = dataset.features[i];
+    if (!feature.contours.empty()) {
+      auto rings = approximate_by_arcs(feature.contours, input.arcs, &arc_reports[i]);
+      if (!rings) return at_feature(std::move(rings).error(), input.path, i);
+      std::ranges::move(*rings, std::back_inserter(feature.rings));
+      feature.contours = {};
+    }
     auto shape = build_shape(feature.rings, &reports[i]);
     if (!shape) return at_feature(std::move(shape).error(), input.path, i);
     feature.rings = {};
     file.shapes[i] = std::move(shape).value();
-    if (!polygons->originals.empty()) keep_sources(file.shapes[i], polygons->originals[i]);
+    if (!polygons->originals.empty() && !polygons->originals[i].points.empty()) {
+      keep_sources(file.shapes[i], polygons->originals[i]);
+    }
     return success();
   });
   if (!built) return std::move(built).error();
   for (const ShapeReport& report : reports) add(file.report, report);
+  for (const ArcReport& report : arc_reports) add(file.arcs, report);
   file.seconds_shape = shaping.seconds();
   return file;
 }
@@ -243,6 +273,7 @@ Result<AxisFile> compute_axes(ShapeFile shapes, const std::string& path,
   const std::size_t count = shapes.shapes.size();
   file.native.items.resize(count);
   file.native.crs_wkt = std::move(shapes.crs_wkt);
+  file.native.y_down = shapes.y_down;
   std::vector<double> weights;
   for (const Shape& shape : shapes.shapes) {
     weights.push_back(static_cast<double>(shape.points.size()));
@@ -288,6 +319,7 @@ Result<AxisFile> compute_axes(ShapeFile shapes, const std::string& path,
   }
   file.statistics.threads = effective_threads(common.threads);
   file.cleaned = shapes.report;
+  file.arcs = shapes.arcs;
   file.seconds_read = shapes.seconds_read;
   file.seconds_shape = shapes.seconds_shape;
   file.seconds_axis = watch.seconds();

@@ -1,6 +1,6 @@
 #pragma once
 
-// The way from a file of polygons to shapes and on to their axes, feature by feature.
+// The way from a file of polygons or curves to shapes and on to their axes, feature by feature.
 
 #include <cstdint>
 #include <functional>
@@ -21,8 +21,10 @@ struct ShapeFile {
   std::vector<Shape> shapes;
   std::vector<Attributes> attributes;
   ShapeReport report;  ///< summed over the features
+  ArcReport arcs;      ///< of curves that became arcs, summed over the features
   std::string crs_wkt;
   bool geographic = false;         ///< coordinates are longitudes and latitudes
+  bool y_down = false;             ///< the y axis points down
   std::vector<std::string> notes;  ///< what repair or reprojection changed
   double seconds_read = 0;
   double seconds_shape = 0;
@@ -33,6 +35,7 @@ struct AxisFile {
   io::NativeFile native;
   Statistics statistics;  ///< summed over the features
   ShapeReport cleaned;    ///< of the input
+  ArcReport arcs;         ///< of the input's curves
   double seconds_read = 0;
   double seconds_shape = 0;
   double seconds_axis = 0;
@@ -53,6 +56,9 @@ struct AxisSummary {
 
   std::uint64_t nodes() const { return leaves + site_changes + branchings; }
 };
+
+/// Whether a native file holds contours, whose axes are still to be computed.
+bool holds_contours(const io::NativeFile& file);
 
 /// Threads that a run with this switch uses: the machine's for 0.
 int effective_threads(int threads);

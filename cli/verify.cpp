@@ -195,10 +195,8 @@ Result<int> run_verify(const VerifySwitches& switches) {
 Verb make_verify_verb(CLI::App& program) {
   auto switches = std::make_shared<VerifySwitches>();
   CLI::App* verb = program.add_subcommand("verify", "Check a stored axis against its polygons.");
-  add_input_switches(*verb, switches->input);
-  verb->add_option("AXIS", switches->axis_path, "Axes in medial's own .json format.")
-      ->required()
-      ->option_text(" ");
+  add_input_switches(*verb, switches->input, "AXIS", "Axes in medial's own .json format.",
+                     switches->axis_path);
   verb->add_option(
           "--samples", switches->samples,
           fmt::format("Points to check inside every edge (default: {}).", switches->samples))

@@ -140,6 +140,7 @@ class GdalReader {
       if (latitude_first_) {
         for (Ring& ring : feature.rings) {
           for (Vec2& point : ring.points) std::swap(point.x, point.y);
+          for (double& bulge : ring.bulges) bulge = -bulge;
         }
       }
       for (int i = 0; i < source->GetFieldCount(); ++i) {
@@ -164,10 +165,6 @@ class GdalReader {
     if (counts_.others > 0) {
       dataset_.notes.push_back(
           fmt::format("{} geometries are no polygons and were left out", counts_.others));
-    }
-    if (counts_.curves > 0) {
-      dataset_.notes.push_back(fmt::format(
-          "{} geometries have curves, which became chords of at most 4 degrees", counts_.curves));
     }
     if (without_geometry_ > 0) {
       dataset_.notes.push_back(

@@ -13,17 +13,59 @@ namespace medial::io {
 
 namespace {
 
-void add_polygon(const OGRPolygon& polygon, std::vector<Ring>& rings) {
+/// The bulge of the arc from a through m to b: tangent of half the angle by which its chords turn
+/// at m, which is half of the arc's angle.
+double bulge_of(Vec2 a, Vec2 m, Vec2 b) {
+  const Vec2 u = m - a;
+  const Vec2 v = b - m;
+  const double scale = norm(u) * norm(v) + dot(u, v);
+  return scale > 0 ? cross(u, v) / scale : 0;
+}
+
+/// Appends the points of a piece of a ring; its first one is the last of the piece before.
+void add_curve(const OGRSimpleCurve& curve, Ring& ring) {
+  const int count = curve.getNumPoints();
+  const auto point = [&curve](int i) { return Vec2{curve.getX(i), curve.getY(i)}; };
+  const bool circular = wkbFlatten(curve.getGeometryType()) == wkbCircularString;
+  if (ring.points.empty() && count > 0) ring.points.push_back(point(0));
+  if (circular || !ring.bulges.empty()) ring.bulges.resize(ring.points.size(), 0);
+  ring.points.reserve(ring.points.size() + static_cast<std::size_t>(count));
+  if (!circular) {
+    for (int i = 1; i < count; ++i) ring.points.push_back(point(i));
+    if (!ring.bulges.empty()) ring.bulges.resize(ring.points.size(), 0);
+    return;
+  }
+  for (int i = 2; i < count; i += 2) {
+    const Vec2 a = ring.points.back();
+    const Vec2 m = point(i - 1);
+    const Vec2 b = point(i);
+    if (a == b) {  // a whole circle, by its diameter
+      ring.bulges.back() = 1;
+      ring.points.push_back(m);
+      ring.bulges.push_back(1);
+    } else {
+      ring.bulges.back() = bulge_of(a, m, b);
+    }
+    ring.points.push_back(b);
+    ring.bulges.push_back(0);
+  }
+}
+
+void add_ring(const OGRCurve& source, Ring& ring) {
+  if (wkbFlatten(source.getGeometryType()) == wkbCompoundCurve) {
+    for (const OGRCurve* part : *source.toCompoundCurve()) add_curve(*part->toSimpleCurve(), ring);
+  } else {
+    add_curve(*source.toSimpleCurve(), ring);
+  }
+}
+
+void add_polygon(const OGRCurvePolygon& polygon, std::vector<Ring>& rings) {
   RingRole role = RingRole::outer;
-  for (const OGRLinearRing* source : polygon) {
+  for (const OGRCurve* source : polygon) {
     Ring& ring = rings.emplace_back();
     ring.role = role;
     role = RingRole::hole;
-    const int count = source->getNumPoints();
-    ring.points.resize(static_cast<std::size_t>(count));
-    for (int i = 0; i < count; ++i) {
-      ring.points[static_cast<std::size_t>(i)] = {source->getX(i), source->getY(i)};
-    }
+    add_ring(*source, ring);
   }
 }
 
@@ -60,27 +102,18 @@ void CPL_STDCALL GdalMessages::collect(CPLErr level, CPLErrorNum, const char* te
 }
 
 void add_rings(const OGRGeometry& geometry, std::vector<Ring>& rings, GeometryCounts& counts) {
-  std::unique_ptr<OGRGeometry> straight;
-  const OGRGeometry* whole = &geometry;
-  if (geometry.hasCurveGeometry(TRUE)) {
-    straight.reset(geometry.getLinearGeometry());
-    if (!straight) {
-      ++counts.others;
-      return;
-    }
-    ++counts.curves;
-    whole = straight.get();
-  }
-  std::vector<const OGRGeometry*> waiting{whole};
+  std::vector<const OGRGeometry*> waiting{&geometry};
   while (!waiting.empty()) {
     const OGRGeometry* part = waiting.back();
     waiting.pop_back();
     switch (wkbFlatten(part->getGeometryType())) {
       case wkbPolygon:
       case wkbTriangle:
-        add_polygon(*part->toPolygon(), rings);
+      case wkbCurvePolygon:
+        add_polygon(*part->toCurvePolygon(), rings);
         break;
       case wkbMultiPolygon:
+      case wkbMultiSurface:
       case wkbGeometryCollection: {
         const OGRGeometryCollection* collection = part->toGeometryCollection();
         for (int i = collection->getNumGeometries(); i > 0; --i) {

@@ -37,10 +37,10 @@ class GdalMessages {
 /// What a geometry held besides polygons.
 struct GeometryCounts {
   std::uint64_t others = 0;  ///< geometries that are no polygons
-  std::uint64_t curves = 0;  ///< geometries with curves, which were made straight
 };
 
-/// Appends the rings of all polygons in a geometry, outer rings before their holes.
+/// Appends the rings of all polygons in a geometry, outer rings before their holes. Circular arcs
+/// stay arcs.
 void add_rings(const OGRGeometry& geometry, std::vector<Ring>& rings, GeometryCounts& counts);
 
 /// The same for a geometry as well-known text. Errors: malformed, unsupported (nested too deeply).

@@ -78,7 +78,7 @@ void for_each(json::value array, Read read) {
 }
 
 SiteKind site_kind(std::uint32_t code) {
-  demand(code <= static_cast<std::uint32_t>(SiteKind::vertex), "an unknown kind of site");
+  demand(code <= static_cast<std::uint32_t>(SiteKind::arc), "an unknown kind of site");
   return static_cast<SiteKind>(code);
 }
 
@@ -97,6 +97,8 @@ void read_shape(json::value value, Shape& shape) {
         shape.points.push_back(row.point());
         row.end();
       });
+    } else if (key == "bulges") {
+      for_each(content, [&](json::value element) { shape.bulges.push_back(number(element)); });
     } else if (key == "sources") {
       for_each(content, [&](json::value element) {
         Row row(element);
@@ -139,6 +141,7 @@ void read_site(json::value element, MedialAxis& axis, Unresolved& unresolved) {
     site.end = row.point();
     site.ring = row.index<std::uint32_t>();
     site.vertex = row.index<std::uint32_t>();
+    if (site.kind == SiteKind::arc) site.bulge = row.real();
     row.end();
   } else {
     demand(first >= 0 && first < std::numeric_limits<std::uint32_t>::max() &&
@@ -220,6 +223,8 @@ void read_statistics(json::value value, Statistics& statistics) {
 void check_shape(const Shape& shape) {
   const std::size_t loops = shape.component.size();
   demand(shape.sources.size() == shape.points.size(), "not one source for each point");
+  demand(shape.bulges.empty() || shape.bulges.size() == shape.points.size(),
+         "not one bulge for each point");
   demand(shape.hole.size() == loops, "not one 'hole' for each loop");
   if (loops == 0) {
     demand(shape.points.empty() && shape.loop_begin.size() <= 1, "points without a loop");
@@ -229,9 +234,11 @@ void check_shape(const Shape& shape) {
   demand(shape.loop_begin.front() == 0 && shape.loop_begin.back() == shape.points.size(),
          "the loops do not cover the points");
   for (std::size_t i = 0; i < loops; ++i) {
+    // Two arcs can make a loop, two segments cannot.
+    const std::uint32_t fewest = shape.bulges.empty() ? 3 : 2;
     demand(shape.loop_begin[i] < shape.loop_begin[i + 1] &&
-               shape.loop_begin[i + 1] - shape.loop_begin[i] >= 3,
-           "a loop has fewer than three points");
+               shape.loop_begin[i + 1] - shape.loop_begin[i] >= fewest,
+           "a loop has too few points");
     demand(shape.component[i] < loops, "a component out of range");
   }
 }
@@ -248,7 +255,8 @@ void resolve(const Shape& shape, MedialAxis& axis, const Unresolved& unresolved)
     demand(vertex < next.size(), "a site's vertex out of range");
     Site& site = axis.sites[unresolved.site[i]];
     site.start = shape.points[vertex];
-    site.end = shape.points[site.kind == SiteKind::segment ? next[vertex] : vertex];
+    site.end = shape.points[site.kind == SiteKind::vertex ? vertex : next[vertex]];
+    if (site.kind == SiteKind::arc) site.bulge = shape.bulge(vertex);
     site.ring = shape.sources[vertex].ring;
     site.vertex = shape.sources[vertex].vertex;
   }
@@ -268,6 +276,77 @@ void resolve(const Shape& shape, MedialAxis& axis, const Unresolved& unresolved)
   }
 }
 
+RingRole ring_role(const std::string& name) {
+  if (name == "any") return RingRole::any;
+  if (name == "outer") return RingRole::outer;
+  if (name == "hole") return RingRole::hole;
+  demand(name == "winding", "an unknown role of a contour");
+  return RingRole::winding;
+}
+
+/// A piece is a row that begins with its kind: "line", "arc", "bezier" or "rational".
+void read_piece(json::value element, Contour& contour) {
+  std::string kind;
+  std::vector<double> numbers;
+  for (json::value value : element.get_array()) {
+    if (kind.empty()) {
+      kind = text(value);
+      demand(!kind.empty(), "a piece has no kind");
+    } else {
+      numbers.push_back(number(value));
+    }
+  }
+  const auto demand_length = [&](bool fits) { demand(fits, "a piece has a wrong length"); };
+  if (kind == "line") {
+    demand_length(numbers.size() == 2);
+    contour.line_to({numbers[0], numbers[1]});
+  } else if (kind == "arc") {
+    demand_length(numbers.size() == 3);
+    contour.arc_to({numbers[0], numbers[1]}, numbers[2]);
+  } else if (kind == "bezier") {
+    demand_length(!numbers.empty() && numbers.size() % 2 == 0);
+    std::vector<Vec2> control;
+    for (std::size_t i = 0; i < numbers.size(); i += 2) {
+      control.push_back({numbers[i], numbers[i + 1]});
+    }
+    contour.bezier_to(control);
+  } else if (kind == "rational") {
+    demand_length(!numbers.empty() && numbers.size() % 3 == 0);
+    std::vector<Vec2> control;
+    std::vector<double> weights;
+    for (std::size_t i = 0; i < numbers.size(); i += 3) {
+      control.push_back({numbers[i], numbers[i + 1]});
+      weights.push_back(numbers[i + 2]);
+      demand(weights.back() > 0, "a weight is not positive");
+    }
+    contour.bezier_to(control, weights);
+  } else {
+    throw Malformed{"an unknown kind of piece"};
+  }
+}
+
+Contour read_contour(json::value value) {
+  Contour contour;
+  bool started = false;
+  for (json::field field : value.get_object()) {
+    const std::string_view key = field.unescaped_key();
+    json::value content = field.value();
+    if (key == "role") {
+      contour.role = ring_role(text(content));
+    } else if (key == "start") {
+      Row row(content);
+      contour.start_at(row.point());
+      row.end();
+      started = true;
+    } else if (key == "pieces") {
+      demand(started, "the pieces of a contour come before its start");
+      for_each(content, [&contour](json::value element) { read_piece(element, contour); });
+    }
+  }
+  demand(started, "a contour has no start");
+  return contour;
+}
+
 NativeItem read_item(json::value value) {
   NativeItem item;
   Unresolved unresolved;
@@ -284,10 +363,16 @@ NativeItem read_item(json::value value) {
       });
     } else if (key == "shape") {
       read_shape(content, item.shape);
+    } else if (key == "contours") {
+      for_each(content, [&item](json::value element) {
+        item.contours.push_back(read_contour(element));
+      });
     } else if (key == "axis") {
       read_axis(content, item.axis, unresolved);
     }
   }
+  demand(item.contours.empty() || (item.shape.points.empty() && item.axis.nodes.empty()),
+         "an item has both contours and a shape");
   check_shape(item.shape);
   resolve(item.shape, item.axis, unresolved);
   return item;
@@ -311,6 +396,8 @@ NativeFile read_document(json::document& document) {
       versioned = true;
     } else if (key == "crs") {
       file.crs_wkt = text(content);
+    } else if (key == "y_down") {
+      file.y_down = content.get_bool();
     } else if (key == "items") {
       for_each(content, [&file](json::value item) { file.items.push_back(read_item(item)); });
       itemized = true;
@@ -381,14 +468,27 @@ Result<NativeFile> read_native(TextSource& source) {
   }
 }
 
+Ring ring_of(const Shape& shape, std::size_t loop) {
+  const auto points = shape.loop(loop);
+  Ring ring{{points.begin(), points.end()},
+            shape.hole[loop] ? RingRole::hole : RingRole::outer};
+  if (!shape.bulges.empty()) {
+    const auto bulges = std::span(shape.bulges).subspan(shape.loop_begin[loop], points.size());
+    ring.bulges.assign(bulges.begin(), bulges.end());
+  }
+  return ring;
+}
+
 Dataset dataset_of(NativeFile file) {
   Dataset dataset;
   dataset.crs_wkt = std::move(file.crs_wkt);
+  dataset.y_down = file.y_down;
   std::int64_t id = 0;
   for (NativeItem& item : file.items) {
     Feature& feature = dataset.features.emplace_back();
     feature.id = id++;
     feature.attributes = std::move(item.attributes);
+    feature.contours = std::move(item.contours);
     const Shape& shape = item.shape;
     // A component's outer loop comes before its holes, whatever the order in the shape.
     std::vector<std::size_t> loops(shape.loop_count());
@@ -397,9 +497,7 @@ Dataset dataset_of(NativeFile file) {
       return std::pair(shape.component[i], static_cast<bool>(shape.hole[i]));
     });
     for (const std::size_t i : loops) {
-      const auto points = shape.loop(i);
-      feature.rings.push_back(
-          {{points.begin(), points.end()}, shape.hole[i] ? RingRole::hole : RingRole::outer});
+      feature.rings.push_back(ring_of(shape, i));
     }
   }
   return dataset;

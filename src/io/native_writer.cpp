@@ -53,7 +53,8 @@ class SiteNames {
            std::signbit(a.y) == std::signbit(b.y);
   }
   bool fits(std::uint32_t vertex, const Site& site) const {
-    const Vec2 end = shape_.points[site.kind == SiteKind::segment ? next_[vertex] : vertex];
+    const Vec2 end = shape_.points[site.kind == SiteKind::vertex ? vertex : next_[vertex]];
+    if (site.kind == SiteKind::arc && site.bulge != shape_.bulge(vertex)) return false;
     return shape_.sources[vertex].ring == site.ring &&
            shape_.sources[vertex].vertex == site.vertex &&
            same(shape_.points[vertex], site.start) && same(end, site.end);
@@ -87,12 +88,15 @@ class NativeWriter {
   explicit NativeWriter(OutputStream& out) : out_(out) {}
 
   Status write(const NativeFile& file) {
+    const bool arcs = std::ranges::any_of(
+        file.items, [](const NativeItem& item) { return !item.shape.bulges.empty(); });
     out_.put("{\"medial\":");
-    out_.put(kNativeVersion);
+    out_.put(arcs ? kNativeVersion : 1);
     if (!file.crs_wkt.empty()) {
       out_.put(",\n\"crs\":");
       out_.put(quoted(file.crs_wkt));
     }
+    if (file.y_down) out_.put(",\n\"y_down\":true");
     out_.put(",\n\"items\":[");
     for (std::size_t i = 0; i < file.items.size(); ++i) {
       out_.put(i == 0 ? "\n{" : ",\n{");
@@ -161,6 +165,9 @@ class NativeWriter {
 
   void write_shape(const Shape& shape) {
     array(",\n\"shape\":{\"points\":", shape.points, [this](Vec2 p) { row(p.x, p.y); });
+    if (!shape.bulges.empty()) {
+      array(",\n\"bulges\":", shape.bulges, [this](double bulge) { number(bulge); });
+    }
     array(",\n\"sources\":", shape.sources, [this](VertexSource s) { row(s.ring, s.vertex); });
     array(",\n\"loop_begin\":", shape.loop_begin, [this](std::uint32_t begin) { out_.put(begin); });
     array(",\n\"component\":", shape.component, [this](std::uint32_t c) { out_.put(c); });
@@ -177,6 +184,9 @@ class NativeWriter {
     array(",\n\"sites\":", axis.sites, [&](const Site& site) {
       if (const auto vertex = names.vertex_of(site)) {
         row(site.kind, *vertex);
+      } else if (site.kind == SiteKind::arc) {
+        row(site.kind, site.start.x, site.start.y, site.end.x, site.end.y, site.ring, site.vertex,
+            site.bulge);
       } else {
         row(site.kind, site.start.x, site.start.y, site.end.x, site.end.y, site.ring, site.vertex);
       }

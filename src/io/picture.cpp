@@ -127,11 +127,14 @@ struct Frame {
   double width = 0;
   double height = 0;
   double scale = 1;
-  Vec2 center;  ///< of the shapes' bounding box
+  double up = 1;  ///< -1 where the shapes' y axis points down, as the picture's does
+  Vec2 center;    ///< of the shapes' bounding box
 
   Vec2 operator()(Vec2 p) const {
-    return {0.5 * width + (p.x - center.x) * scale, 0.5 * height - (p.y - center.y) * scale};
+    return {0.5 * width + (p.x - center.x) * scale, 0.5 * height - (p.y - center.y) * (up * scale)};
   }
+  /// The bulge of an edge in the picture.
+  double bulge(double of_shape) const { return -up * of_shape; }
 };
 
 Frame frame_of(const NativeFile& file, double width) {
@@ -142,13 +145,18 @@ Frame frame_of(const NativeFile& file, double width) {
     box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y)};
   };
   for (const NativeItem& item : file.items) {
-    for (const Vec2 p : item.shape.points) include(p);
+    if (!item.shape.points.empty()) {
+      const Box extent = bounding_box(item.shape);
+      include(extent.low);
+      include(extent.high);
+    }
     for (const Node& node : item.axis.nodes) include(node.disk.center);
   }
   if (!(box.low.x <= box.high.x)) box = {{0, 0}, {1, 1}};
   const Vec2 size = box.high - box.low;
   const double margin = 0.03 * width;
   Frame frame;
+  frame.up = file.y_down ? -1 : 1;
   frame.width = width;
   frame.center = midpoint(box.low, box.high);
   frame.scale = size.x > 0 ? (width - 2 * margin) / size.x : 1;
@@ -208,17 +216,50 @@ class Picture {
     cairo_arc(context_, center.x, center.y, radius, 0, 2 * std::numbers::pi);
   }
 
+  /// Goes on along an arc. Its halves' bulge is the tangent of half the angle that the whole's is
+  /// the tangent of. Pieces of a 16th turn or less become cubic curves: they stay within 7e-8 radii.
+  void arc_to(Vec2 from, Vec2 to, double bulge) {
+    const double kLongest = 0.0985;  // tangent of a quarter of a 16th turn
+    const Vec2 chord = to - from;
+    const Vec2 right{chord.y, -chord.x};
+    if (std::fabs(bulge) > kLongest) {
+      const Vec2 middle = midpoint(from, to) + 0.5 * bulge * right;
+      const double half = bulge / (1 + std::sqrt(1 + bulge * bulge));
+      arc_to(from, middle, half);
+      arc_to(middle, to, half);
+      return;
+    }
+    const Vec2 along = (1 - bulge * bulge) / 3 * chord;
+    const Vec2 aside = 2 * bulge / 3 * right;
+    const Vec2 a = from + along + aside;
+    const Vec2 b = to - along + aside;
+    cairo_curve_to(context_, a.x, a.y, b.x, b.y, to.x, to.y);
+  }
+
+  /// Goes along all edges of a loop, as one path; `each` is told the end of every edge drawn.
+  template <class Each>
+  void trace_loop(const Shape& shape, std::size_t loop, Each each) {
+    const std::size_t begin = shape.loop_begin[loop];
+    const std::size_t end = shape.loop_begin[loop + 1];
+    Vec2 last = frame_(shape.points[begin]);
+    move_to(last);
+    for (std::size_t k = begin; k < end; ++k) {
+      const Vec2 p = frame_(shape.points[k + 1 == end ? begin : k + 1]);
+      const double bulge = shape.bulge(k);
+      if (pixels_ && distance(p, last) < Cells::kCell) continue;
+      if (bulge == 0) {
+        line_to(p);
+      } else {
+        arc_to(frame_(shape.points[k]), p, frame_.bulge(bulge));
+      }
+      last = p;
+      each(p);
+    }
+  }
+
   void trace_shape(const Shape& shape) {
     for (std::size_t i = 0; i < shape.loop_count(); ++i) {
-      const auto loop = shape.loop(i);
-      Vec2 last = frame_(loop.front());
-      move_to(last);
-      for (const Vec2 point : loop) {
-        const Vec2 p = frame_(point);
-        if (pixels_ && distance(p, last) < Cells::kCell) continue;
-        line_to(p);
-        last = p;
-      }
+      trace_loop(shape, i, [](Vec2) {});
       cairo_close_path(context_);
     }
   }
@@ -235,18 +276,11 @@ class Picture {
     int batch = 0;
     for (const NativeItem& item : file_.items) {
       for (std::size_t i = 0; i < item.shape.loop_count(); ++i) {
-        const auto loop = item.shape.loop(i);
-        Vec2 last = frame_(loop.back());
-        move_to(last);
-        for (const Vec2 point : loop) {
-          const Vec2 p = frame_(point);
-          if (pixels_ && distance(p, last) < Cells::kCell) continue;
-          line_to(p);
-          last = p;
-          if (++batch % kBatch != 0) continue;
+        trace_loop(item.shape, i, [&](Vec2 p) {
+          if (++batch % kBatch != 0) return;
           cairo_stroke(context_);
           move_to(p);
-        }
+        });
       }
     }
     cairo_stroke(context_);
@@ -310,8 +344,8 @@ class Picture {
   template <class Take>
   void cut(const MedialAxis& axis, const Edge& edge, Take take) const {
     const Curve curve(axis, edge);
-    const bool straight =
-        axis.sites[edge.site[0]].kind == axis.sites[edge.site[1]].kind || edge.weight != 1;
+    const SiteKind kind = axis.sites[edge.site[0]].kind;
+    const bool straight = kind == axis.sites[edge.site[1]].kind && kind != SiteKind::arc;
     const double ends = std::fabs(curve.radius(0) - curve.radius(1));
     const double dip = std::fabs(curve.radius(0.5) - 0.5 * (curve.radius(0) + curve.radius(1)));
     const double shades = largest_ > 0 ? (ends + 2 * dip) / largest_ * kShades : 0;
@@ -331,14 +365,31 @@ class Picture {
     }
   }
 
-  /// A quadratic Bezier curve (weight 1) is one cubic exactly; other conics come very near to one.
   void trace(const Piece& piece) {
     move_to(piece.from);
     if (piece.straight) {
       line_to(piece.to);
+    } else {
+      conic_to(piece);
+    }
+  }
+
+  /// A quadratic Bezier curve (weight 1) is one cubic exactly; other conics come very near to one
+  /// once they are cut so often that their weights are nearly 1, which each cut in halves makes
+  /// them four times as nearly: a circle's 16th turn stays within 7e-8 radii.
+  void conic_to(const Piece& piece) {
+    const double kNearlyOne = 0.0192;  // 1 - cos(turn / 2) of a 16th turn
+    const double w = piece.weight;
+    if (std::fabs(1 - w) > kNearlyOne) {
+      const Vec2 left = 1 / (1 + w) * (piece.from + w * piece.control);
+      const Vec2 right = 1 / (1 + w) * (piece.to + w * piece.control);
+      const Vec2 middle = midpoint(left, right);
+      const double half = std::sqrt(0.5 * (1 + w));
+      conic_to({piece.from, left, middle, half, false});
+      conic_to({middle, right, piece.to, half, false});
       return;
     }
-    const double share = 4 * piece.weight / (3 * (1 + piece.weight));
+    const double share = 4 * w / (3 * (1 + w));
     const Vec2 a = piece.from + share * (piece.control - piece.from);
     const Vec2 b = piece.to + share * (piece.control - piece.to);
     cairo_curve_to(context_, a.x, a.y, b.x, b.y, piece.to.x, piece.to.y);

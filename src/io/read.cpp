@@ -114,26 +114,66 @@ Result<Dataset> read_any(const std::string& path, const ReadOptions& options) {
   return read_gdal(gdal_name(path), path, options);
 }
 
+std::optional<std::size_t> not_finite(const std::vector<Vec2>& points) {
+  const auto bad = std::ranges::find_if(
+      points, [](Vec2 p) { return !std::isfinite(p.x) || !std::isfinite(p.y); });
+  if (bad == points.end()) return std::nullopt;
+  return static_cast<std::size_t>(bad - points.begin());
+}
+
+std::optional<std::size_t> not_finite(const std::vector<double>& numbers) {
+  const auto bad = std::ranges::find_if_not(numbers, [](double x) { return std::isfinite(x); });
+  if (bad == numbers.end()) return std::nullopt;
+  return static_cast<std::size_t>(bad - numbers.begin());
+}
+
 std::optional<Error> find_not_finite(const Dataset& dataset) {
+  const auto error = [](std::size_t feature, std::size_t ring, std::size_t vertex,
+                        const char* text) {
+    Error result{ErrorCode::not_finite, text, in_feature(feature)};
+    result.place.ring = ring;
+    result.place.vertex = vertex;
+    return result;
+  };
   for (std::size_t i = 0; i < dataset.features.size(); ++i) {
-    const std::vector<Ring>& rings = dataset.features[i].rings;
-    for (std::size_t k = 0; k < rings.size(); ++k) {
-      const std::vector<Vec2>& points = rings[k].points;
-      const auto bad = std::ranges::find_if(
-          points, [](Vec2 p) { return !std::isfinite(p.x) || !std::isfinite(p.y); });
-      if (bad == points.end()) continue;
-      Error error{ErrorCode::not_finite, "a coordinate is not a finite number", in_feature(i)};
-      error.place.ring = k;
-      error.place.vertex = static_cast<std::uint64_t>(bad - points.begin());
-      return error;
+    const Feature& feature = dataset.features[i];
+    for (std::size_t k = 0; k < feature.rings.size(); ++k) {
+      const Ring& ring = feature.rings[k];
+      if (auto at = not_finite(ring.points)) {
+        return error(i, k, *at, "a coordinate is not a finite number");
+      }
+      if (auto at = not_finite(ring.bulges)) {
+        return error(i, k, *at, "a bulge is not a finite number");
+      }
+    }
+    for (std::size_t k = 0; k < feature.contours.size(); ++k) {
+      const Contour& contour = feature.contours[k];
+      if (auto at = not_finite(contour.points)) {
+        return error(i, k, *at, "a control point is not a finite number");
+      }
+      if (auto at = not_finite(contour.weights)) {
+        return error(i, k, *at, "a weight is not a finite number");
+      }
+      for (const CurvePiece& piece : contour.pieces) {
+        if (!std::isfinite(piece.bulge)) {
+          return error(i, k, piece.first, "a bulge is not a finite number");
+        }
+      }
     }
   }
   return std::nullopt;
 }
 
+bool has_curves(const Feature& feature) {
+  return !feature.contours.empty() ||
+         std::ranges::any_of(feature.rings, [](const Ring& ring) { return !ring.bulges.empty(); });
+}
+
 void drop_empty_features(Dataset& dataset) {
   const auto has_no_point = [](const Feature& feature) {
-    return std::ranges::all_of(feature.rings, [](const Ring& ring) { return ring.points.empty(); });
+    return std::ranges::all_of(feature.rings, [](const Ring& ring) { return ring.points.empty(); }) &&
+           std::ranges::all_of(feature.contours,
+                               [](const Contour& contour) { return contour.pieces.empty(); });
   };
   const std::size_t dropped = std::erase_if(dataset.features, has_no_point);
   if (dropped > 0 && !dataset.features.empty()) {
@@ -145,6 +185,15 @@ Result<Dataset> finish(Dataset dataset, const ReadOptions& options) {
   if (auto error = find_not_finite(dataset)) return *error;
   drop_empty_features(dataset);
   if (dataset.features.empty()) return Error{ErrorCode::empty, "there is no polygon", {}};
+  if (options.project || options.repair != RepairRule::none) {
+    const auto curved = std::ranges::find_if(dataset.features, has_curves);
+    if (curved != dataset.features.end()) {
+      return Error{ErrorCode::unsupported,
+                   options.project ? "arcs and curves cannot be projected"
+                                   : "arcs and curves cannot be repaired yet",
+                   in_feature(static_cast<std::uint64_t>(curved - dataset.features.begin()))};
+    }
+  }
   if (options.project) {
     if (Status status = project_to_local(dataset); !status) return status.error();
   }

@@ -1,19 +1,23 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "medial/axis.h"
+#include "medial/contour.h"
 #include "medial/error.h"
 #include "medial/shape.h"
 
 namespace medial::io {
 
-/// One polygon or multipolygon of an input file.
+/// One polygon or multipolygon of an input file, one painted path, one glyph. Straight edges and
+/// circular arcs come as rings, free-form curves as contours; approximate_by_arcs() makes rings of
+/// them.
 struct Feature {
   std::vector<Ring> rings;
+  std::vector<Contour> contours;
   std::int64_t id = 0;  ///< of the source, or its index
   /// Name and value as text, in order.
   std::vector<std::pair<std::string, std::string>> attributes;
@@ -24,6 +28,7 @@ struct Dataset {
   std::vector<Feature> features;
   std::string crs_wkt;             ///< coordinate reference system as WKT, empty if none
   bool geographic = false;         ///< coordinates are longitude and latitude
+  bool y_down = false;             ///< the y axis points down, as in SVG; for pictures
   std::vector<std::string> notes;  ///< what repair or reprojection changed, one sentence each
 };
 
@@ -34,17 +39,31 @@ struct ReadOptions {
   std::string where;  ///< attribute filter of OGR SQL; empty: all
   RepairRule repair = RepairRule::none;
   bool project = false;  ///< geographic coordinates to a fitting local projection, in metres
+  /// Of loose curves (DXF): ends at most this far apart, in units of the input, are joined; what
+  /// stays open is left out. Infinity closes whatever is open. Nothing: 1e-6 of the diagonal of the
+  /// bounding box.
+  std::optional<double> close;
 };
 
-/// Reads polygons. `-` is standard input (WKT, GeoJSON or `x y` text by its first characters).
-/// .wkt, .wkt.gz, .txt, .xy and .json of medial's own go through fast readers of their own;
-/// everything else through GDAL. Errors: unreadable, malformed, unsupported, empty, not_finite.
+/// Reads polygons and curved shapes. `-` is standard input (WKT, GeoJSON, SVG, DXF, `x y` text or
+/// medial's own by its first characters). .svg and .dxf are read as docs/format.md tells; .wkt,
+/// .txt, .xy and .json of medial's own go through fast readers of their own; everything else
+/// through GDAL. Any may be compressed by gzip.
+/// Errors: unreadable, malformed, unsupported, empty, not_finite, too_large.
 Result<Dataset> read_dataset(const std::string& path, const ReadOptions& options = {});
+
+/// The outlines of a text, set in one line with the font's advances and kerning: a feature for each
+/// character that has an outline, in font units, the baseline at y = 0. `text` is UTF-8, `font` a
+/// scalable font file (TrueType, OpenType, Type 1). A character that the font lacks is drawn as
+/// its replacement and told in a note.
+/// Errors: unreadable, malformed (text), unsupported (bitmap fonts), empty.
+Result<Dataset> read_text(const std::string& text, const std::string& font);
 
 /// One shape of a native file, and its axis.
 struct NativeItem {
   Shape shape;
   MedialAxis axis;
+  std::vector<Contour> contours;  ///< instead of a shape: what is still to be made into one
   std::vector<std::pair<std::string, std::string>> attributes;
 };
 
@@ -52,7 +71,11 @@ struct NativeItem {
 struct NativeFile {
   std::vector<NativeItem> items;
   std::string crs_wkt;
+  bool y_down = false;  ///< the y axis points down; for pictures
 };
+
+/// A loop of a shape as a ring.
+Ring ring_of(const Shape& shape, std::size_t loop);
 
 /// Whether the file begins like medial's own JSON.
 bool is_native(const std::string& path);
