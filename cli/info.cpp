@@ -130,11 +130,10 @@ Result<int> tell_polygons(const InfoSwitches& switches) {
   const std::string mended = describe(file->report);
   table.row("cleaned", mended.empty() ? "nothing" : mended);
   if (file->arcs.pieces > 0) {
-    table.row("curves", fmt::format("{} as {} and {}, within {:.3g}",
-                                    counted(file->arcs.pieces, "piece"),
-                                    counted(file->arcs.arcs, "arc"),
-                                    counted(file->arcs.segments, "segment"),
-                                    file->arcs.largest_error));
+    table.row("curves",
+              fmt::format("{} as {} and {}, within {:.3g}", counted(file->arcs.pieces, "piece"),
+                          counted(file->arcs.arcs, "arc"), counted(file->arcs.segments, "segment"),
+                          file->arcs.largest_error));
   }
   table.row("coordinates", crs_text(file->crs_wkt, file->geographic));
   return tell(switches.common, std::move(object), table,

@@ -364,9 +364,8 @@ NativeItem read_item(json::value value) {
     } else if (key == "shape") {
       read_shape(content, item.shape);
     } else if (key == "contours") {
-      for_each(content, [&item](json::value element) {
-        item.contours.push_back(read_contour(element));
-      });
+      for_each(content,
+               [&item](json::value element) { item.contours.push_back(read_contour(element)); });
     } else if (key == "axis") {
       read_axis(content, item.axis, unresolved);
     }
@@ -470,8 +469,7 @@ Result<NativeFile> read_native(TextSource& source) {
 
 Ring ring_of(const Shape& shape, std::size_t loop) {
   const auto points = shape.loop(loop);
-  Ring ring{{points.begin(), points.end()},
-            shape.hole[loop] ? RingRole::hole : RingRole::outer};
+  Ring ring{{points.begin(), points.end()}, shape.hole[loop] ? RingRole::hole : RingRole::outer};
   if (!shape.bulges.empty()) {
     const auto bulges = std::span(shape.bulges).subspan(shape.loop_begin[loop], points.size());
     ring.bulges.assign(bulges.begin(), bulges.end());

@@ -217,7 +217,8 @@ class Picture {
   }
 
   /// Goes on along an arc. Its halves' bulge is the tangent of half the angle that the whole's is
-  /// the tangent of. Pieces of a 16th turn or less become cubic curves: they stay within 7e-8 radii.
+  /// the tangent of. Pieces of a 16th turn or less become cubic curves: they stay within 7e-8
+  /// radii.
   void arc_to(Vec2 from, Vec2 to, double bulge) {
     const double kLongest = 0.0985;  // tangent of a quarter of a 16th turn
     const Vec2 chord = to - from;

@@ -10,11 +10,13 @@
 #include <cstring>
 #include <new>
 
+#include "io/dxf_reader.h"
 #include "io/gdal_reader.h"
 #include "io/gdal_support.h"
 #include "io/native.h"
 #include "io/place.h"
 #include "io/repair.h"
+#include "io/svg_reader.h"
 #include "io/text_reader.h"
 #include "medial/io/projection.h"
 
@@ -31,12 +33,14 @@ std::string lower(std::string text) {
   return text;
 }
 
-enum class Format : std::uint8_t { wkt, xy, native, json, gdal };
+enum class Format : std::uint8_t { wkt, xy, svg, dxf, native, json, gdal };
 
 Format format_of_name(std::string name) {
   name = lower(std::move(name));
   if (name.ends_with(".gz")) name.resize(name.size() - 3);
   if (name.ends_with(".wkt")) return Format::wkt;
+  if (name.ends_with(".svg") || name.ends_with(".svgz")) return Format::svg;
+  if (name.ends_with(".dxf")) return Format::dxf;
   if (name.ends_with(".txt") || name.ends_with(".xy")) return Format::xy;
   if (name.ends_with(".json") || name.ends_with(".geojson")) return Format::json;
   return Format::gdal;
@@ -45,6 +49,8 @@ Format format_of_name(std::string name) {
 Format format_of_text(std::string_view text) {
   if (begins_like_native(text)) return Format::native;
   if (begins_like_wkt(text)) return Format::wkt;
+  if (begins_like_svg(text)) return Format::svg;
+  if (begins_like_dxf(text)) return Format::dxf;
   if (begins_like_xy(text)) return Format::xy;
   return Format::gdal;
 }
@@ -57,14 +63,21 @@ Result<Dataset> read_native_dataset(TextSource& source) {
   return dataset;
 }
 
+Error nothing_to_close(const std::string& path) {
+  return {ErrorCode::invalid_option, "this format has no loose curves to close", in_file(path)};
+}
+
 Result<Dataset> read_own(TextSource& source, Format format, const std::string& path,
                          const ReadOptions& options) {
-  if (!options.layer.empty() || !options.where.empty()) {
+  if (options.close && format != Format::dxf) return nothing_to_close(path);
+  if ((!options.layer.empty() && format != Format::dxf) || !options.where.empty()) {
     return Error{ErrorCode::invalid_option,
                  "this format has no layers and no attributes to choose by", in_file(path)};
   }
   if (format == Format::wkt) return read_wkt(source);
   if (format == Format::xy) return read_xy(source);
+  if (format == Format::svg) return read_svg(source);
+  if (format == Format::dxf) return read_dxf(source, options.layer, options.close);
   return read_native_dataset(source);
 }
 
@@ -85,6 +98,7 @@ Result<Dataset> read_any(const std::string& path, const ReadOptions& options) {
     if (!source) return source.error();
     const Format format = format_of_text((*source)->lookahead(kSniffed));
     if (format != Format::gdal) return read_own(**source, format, path, options);
+    if (options.close) return nothing_to_close(path);
     std::string bytes;
     (*source)->read_all(bytes, kLongestStream);
     if (bytes.size() > kLongestStream) {
@@ -95,6 +109,9 @@ Result<Dataset> read_any(const std::string& path, const ReadOptions& options) {
     return read_gdal_bytes(bytes, path, options);
   }
   const Format format = format_of_name(path);
+  if (options.close && (format == Format::gdal || format == Format::json)) {
+    return nothing_to_close(path);
+  }
   if (format == Format::gdal) {
     struct stat status {};
     const bool special = path.starts_with("/vsi") || path.find(':') != std::string::npos;
@@ -171,7 +188,8 @@ bool has_curves(const Feature& feature) {
 
 void drop_empty_features(Dataset& dataset) {
   const auto has_no_point = [](const Feature& feature) {
-    return std::ranges::all_of(feature.rings, [](const Ring& ring) { return ring.points.empty(); }) &&
+    return std::ranges::all_of(feature.rings,
+                               [](const Ring& ring) { return ring.points.empty(); }) &&
            std::ranges::all_of(feature.contours,
                                [](const Contour& contour) { return contour.pieces.empty(); });
   };

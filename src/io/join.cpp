@@ -1,0 +1,247 @@
+#include "io/join.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <unordered_map>
+
+#include "io/path_builder.h"
+
+namespace medial::io {
+
+namespace {
+
+constexpr double kDefaultGap = 1e-6;  // of the diagonal
+constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+
+/// End 2 i is where curve i begins, end 2 i + 1 where it ends.
+using End = std::uint32_t;
+
+Vec2 place_of(const std::vector<Contour>& curves, End end) {
+  const std::vector<Vec2>& points = curves[end / 2].points;
+  return end % 2 == 0 ? points.front() : points.back();
+}
+
+/// The angle at which a curve leaves one of its ends.
+double direction_of(const Contour& curve, bool at_end) {
+  const std::size_t last = curve.points.size() - 1;
+  const Vec2 from = curve.points[at_end ? last : 0];
+  // Halfway along an arc is a good point as well, and tells apart two arcs with one tangent.
+  const CurvePiece& piece = at_end ? curve.pieces.back() : curve.pieces.front();
+  if (piece.bulge != 0) {
+    const Vec2 a = curve.points[piece.first];
+    const Vec2 b = curve.points[piece.first + 1];
+    const Vec2 to = midpoint(a, b) - 0.5 * piece.bulge * left_of(b - a) - from;
+    return std::atan2(to.y, to.x);
+  }
+  for (std::size_t i = 1; i <= last; ++i) {
+    const Vec2 to = curve.points[at_end ? last - i : i] - from;
+    if (!(to == Vec2{})) return std::atan2(to.y, to.x);
+  }
+  return 0;
+}
+
+/// Sets of ends that are one place.
+class Places {
+ public:
+  Places(const std::vector<Contour>& curves, double tolerance) : parent_(2 * curves.size()) {
+    std::iota(parent_.begin(), parent_.end(), 0U);
+    // In a square cell of this width all points are within the tolerance of each other.
+    const double cell = tolerance / std::sqrt(2.0);
+    double extent = 0;
+    for (End end = 0; end < parent_.size(); ++end) {
+      const Vec2 p = place_of(curves, end);
+      extent = std::max({extent, std::fabs(p.x), std::fabs(p.y)});
+    }
+    constexpr double kMostCells = 9e15;  // what a double counts
+    const bool exact = !(cell > 0) || extent / cell > kMostCells;
+    const auto key = [&](Vec2 p, int dx, int dy) {
+      if (exact) return Key{p.x + 0.0, p.y + 0.0};  // -0 becomes 0
+      return Key{std::floor(p.x / cell) + dx, std::floor(p.y / cell) + dy};
+    };
+    std::unordered_map<Key, End, KeyHash> first;
+    for (End end = 0; end < parent_.size(); ++end) {
+      const auto [found, added] = first.try_emplace(key(place_of(curves, end), 0, 0), end);
+      if (!added) unite(found->second, end);
+    }
+    if (exact) return;
+    // A cell stands for its first end: ends hardly ever share a cell with another place.
+    for (const auto& [own, end] : first) {
+      const Vec2 p = place_of(curves, end);
+      for (int dx = -2; dx <= 2; ++dx) {
+        for (int dy = -2; dy <= 2; ++dy) {
+          const auto other = first.find(key(p, dx, dy));
+          if (other == first.end()) continue;
+          if (distance(p, place_of(curves, other->second)) <= tolerance) unite(end, other->second);
+        }
+      }
+    }
+  }
+
+  End operator[](End end) {
+    while (parent_[end] != end) end = parent_[end] = parent_[parent_[end]];
+    return end;
+  }
+
+ private:
+  struct Key {
+    double x, y;
+    bool operator==(const Key&) const = default;
+  };
+  struct KeyHash {
+    std::size_t operator()(const Key& key) const {
+      constexpr std::size_t kMixer = 0x9E3779B97F4A7C15U;  // 2^64 / golden ratio
+      const std::hash<double> hash;
+      return (hash(key.x) * kMixer) ^ hash(key.y);
+    }
+  };
+  /// The lowest end stands for a place, whatever the order of joining.
+  void unite(End a, End b) {
+    a = (*this)[a];
+    b = (*this)[b];
+    parent_[std::max(a, b)] = std::min(a, b);
+  }
+  std::vector<End> parent_;
+};
+
+/// Takes away, again and again, curves with an end where no other curve is.
+std::vector<bool> in_loops(const std::vector<End>& place) {
+  std::vector<std::vector<End>> ends(place.size());
+  for (End end = 0; end < place.size(); ++end) ends[place[end]].push_back(end);
+  std::vector<std::uint32_t> degree(place.size(), 0);
+  std::vector<End> loose;
+  for (End p = 0; p < place.size(); ++p) {
+    degree[p] = static_cast<std::uint32_t>(ends[p].size());
+    if (degree[p] == 1) loose.push_back(p);
+  }
+  std::vector<bool> kept(place.size() / 2, true);
+  while (!loose.empty()) {
+    const End p = loose.back();
+    loose.pop_back();
+    if (degree[p] != 1) continue;
+    const auto last = std::ranges::find_if(ends[p], [&](End end) { return kept[end / 2]; });
+    kept[*last / 2] = false;
+    --degree[p];
+    const End other = place[*last ^ 1U];
+    if (--degree[other] == 1) loose.push_back(other);
+  }
+  return kept;
+}
+
+/// The end that each end goes on at; kNone where a curve goes nowhere.
+std::vector<End> partners(const std::vector<Contour>& curves, const std::vector<End>& place,
+                          const std::vector<bool>& kept) {
+  struct Leaving {
+    End place;
+    double direction;
+    End end;
+  };
+  std::vector<Leaving> leaving;
+  for (End end = 0; end < place.size(); ++end) {
+    if (!kept[end / 2]) continue;
+    leaving.push_back({place[end], direction_of(curves[end / 2], end % 2 == 1), end});
+  }
+  std::ranges::sort(leaving, {}, [](const Leaving& one) {
+    return std::tuple(one.place, one.direction, one.end);
+  });
+  std::vector<End> partner(place.size(), kNone);
+  for (std::size_t i = 0; i + 1 < leaving.size(); ++i) {
+    if (leaving[i].place != leaving[i + 1].place) continue;
+    partner[leaving[i].end] = leaving[i + 1].end;
+    partner[leaving[i + 1].end] = leaving[i].end;
+    ++i;
+  }
+  return partner;
+}
+
+/// Appends a curve from one of its ends to the other; its first point is the contour's last.
+void append(Contour& contour, const Contour& curve, bool backward) {
+  const Contour reverse = backward ? reversed(curve) : Contour{};
+  const Contour& next = backward ? reverse : curve;
+  for (const CurvePiece& piece : next.pieces) {
+    const auto points = std::span(next.points).subspan(piece.first + 1, piece.degree);
+    if (piece.degree == 1) {
+      contour.arc_to(points.front(), piece.bulge);
+    } else if (next.weights.empty()) {
+      contour.bezier_to(points);
+    } else {
+      std::vector<double> weights(next.weights.begin() + piece.first + 1,
+                                  next.weights.begin() + piece.first + 1 + piece.degree);
+      for (double& weight : weights) weight /= next.weights[piece.first];
+      contour.bezier_to(points, weights);
+    }
+  }
+}
+
+double diagonal_of(const std::vector<Contour>& curves) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Vec2 low{kInfinity, kInfinity};
+  Vec2 high{-kInfinity, -kInfinity};
+  for (const Contour& curve : curves) {
+    for (const Vec2 p : curve.points) {
+      low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+    }
+  }
+  return curves.empty() ? 0 : distance(low, high);
+}
+
+}  // namespace
+
+JoinedCurves join_curves(std::vector<Contour> curves, std::optional<double> gap) {
+  std::erase_if(curves, [](const Contour& curve) { return curve.pieces.empty(); });
+  JoinedCurves result;
+  const bool close_all = gap && std::isinf(*gap);
+  result.tolerance = gap && !close_all ? *gap : kDefaultGap * diagonal_of(curves);
+  Places places(curves, result.tolerance);
+  std::vector<End> place(2 * curves.size());
+  for (End end = 0; end < place.size(); ++end) place[end] = places[end];
+  // A curve that a tolerance swallows whole would close on itself and take the place of another.
+  const std::vector<bool> kept =
+      close_all ? std::vector<bool>(curves.size(), true) : in_loops(place);
+  const std::vector<End> partner = partners(curves, place, kept);
+
+  std::vector<bool> used(curves.size(), false);
+  // Goes from curve to curve, entering `begin` first; true if the way comes back.
+  const auto walk = [&](End begin, Contour& contour, std::uint64_t& count) {
+    contour.start_at(place_of(curves, begin));
+    for (End at = begin;;) {
+      used[at / 2] = true;
+      ++count;
+      append(contour, curves[at / 2], at % 2 == 1);
+      const End next = partner[at ^ 1U];
+      if (next == begin) {
+        contour.points.back() = contour.points.front();
+        return true;
+      }
+      if (next == kNone || used[next / 2]) return false;
+      at = next;
+    }
+  };
+  result.smallest_gap = std::numeric_limits<double>::infinity();
+  const auto gather = [&](End begin) {
+    Contour contour;
+    std::uint64_t count = 0;
+    if (walk(begin, contour, count) || (close_all && !is_degenerate(contour))) {
+      result.loops.push_back(std::move(contour));
+    } else {
+      result.open += count;
+      result.smallest_gap =
+          std::min(result.smallest_gap, distance(contour.points.front(), contour.points.back()));
+    }
+  };
+  // Ways that end somewhere are walked from their ends, then what is left is closed.
+  for (End end = 0; end < place.size(); ++end) {
+    if (kept[end / 2] && !used[end / 2] && partner[end] == kNone) gather(end);
+  }
+  for (End end = 0; end < place.size(); end += 2) {
+    if (kept[end / 2] && !used[end / 2]) gather(end);
+  }
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    if (!kept[i]) ++result.open;
+  }
+  return result;
+}
+
+}  // namespace medial::io

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <libxml/tree.h>
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <unordered_map>
+
+#include "io/text_source.h"
+#include "medial/error.h"
+
+namespace medial::io {
+
+/// A parsed document of SVG, made ready for svgpp: elements without a namespace are SVG's, `href`
+/// is `xlink:href`, shapes without extent (which paint nothing) are gone, and the outermost width
+/// and height are told where a viewBox tells them.
+///
+/// Entities are short texts without references, so that a document unfolds to a constant times its
+/// size at most; nothing outside of the document is ever read.
+class SvgDocument {
+ public:
+  /// Errors: unreadable, malformed, too_large (2 GiB or more).
+  static Result<SvgDocument> read(TextSource& source);
+
+  xmlNode* root() const { return xmlDocGetRootElement(document_.get()); }
+  /// The element with an `id`; null if there is none.
+  xmlNode* find(const std::string& id) const;
+
+ private:
+  struct Free {
+    void operator()(xmlDoc* document) const { xmlFreeDoc(document); }
+  };
+  void prepare();
+  void prepare_root();
+
+  std::unique_ptr<xmlDoc, Free> document_;
+  std::unordered_map<std::string, xmlNode*> by_id_;
+};
+
+/// The value of an attribute without a namespace; empty if it is missing.
+std::string attribute(const xmlNode* node, const char* name);
+
+/// The line of an element, from 1.
+std::uint64_t line_of(const xmlNode* node);
+
+}  // namespace medial::io

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string_view>
+
+#include "io/text_source.h"
+#include "medial/io/read.h"
+
+namespace medial::io {
+
+/// Whether a text begins like a document of SVG.
+bool begins_like_svg(std::string_view text);
+
+/// Reads what an SVG document fills: a feature for each filled path or basic shape that is shown,
+/// with its `id` as attribute, in the pixels of the outermost viewport and with the y axis pointing
+/// down, as in the document (docs/format.md).
+/// Errors: unreadable, malformed, unsupported (nested too deeply), too_large (a document that
+/// unfolds to more than it may), empty.
+Result<Dataset> read_svg(TextSource& source);
+
+}  // namespace medial::io
