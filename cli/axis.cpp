@@ -1,4 +1,4 @@
-// medial axis: polygons in, medial axes out.
+// medial axis: shapes in, medial axes out.
 
 #include <memory>
 
@@ -47,6 +47,8 @@ Verb make_axis_verb(CLI::App& program) {
       ->option_text("OUTPUT");
   verb->add_option("--format", switches->format, "The format of -o -, for example csv.")
       ->option_text("NAME");
+  verb->add_flag("--radius-as-z", switches->write.radius_as_z,
+                 "Drawings (.dxf): splines in space, with the radius as z.");
   add_picture_switches(*verb, switches->write);
   add_common_switches(*verb, switches->common);
   verb->footer(
@@ -55,12 +57,15 @@ Verb make_axis_verb(CLI::App& program) {
       "\n"
       "Formats: .json is medial's own, lossless, and read back by every verb; .geojson,\n"
       ".gpkg, .shp and .fgb hold one line a branch with the radius at both ends; .csv\n"
-      "has the header edge,x,y,r; pictures show the axis coloured by radius.\n"
+      "has the header edge,x,y,r; .dxf holds polylines and exact splines; pictures show\n"
+      "the axis coloured by radius.\n"
       "\n"
       "Examples:\n"
       "  medial axis plan.geojson -o plan.svg --disks 200\n"
       "  medial axis lakes.gpkg --layer lakes --where \"area > 1e6\" --project -o axes.gpkg\n"
       "  medial axis maze.wkt.gz -o maze.json --stats\n"
+      "  medial axis --text \"Rg&8\" --font DejaVuSans.ttf -o letters.svg\n"
+      "  medial axis part.dxf --layer OUTLINE -o axis.dxf --radius-as-z\n"
       "  medial axis broken.shp --repair=even-odd -o axes.shp\n"
       "  cat shape.wkt | medial axis - -o - --format csv --chord 1e-4 | head");
   return {verb, [switches] { return run_axis(*switches); }};

@@ -209,16 +209,6 @@ TEST_F(Io, ReadsEveryKindOfWellKnownText) {
   EXPECT_NE(data->notes[1].find("1 features are empty"), std::string::npos);
 }
 
-TEST_F(Io, CurvedTextBecomesStraight) {
-  const Result<Dataset> data =
-      read_dataset(write("a.wkt", "CURVEPOLYGON(CIRCULARSTRING(0 0,1 1,2 0,1 -1,0 0))"));
-  ASSERT_TRUE(data.ok()) << to_string(data.error());
-  ASSERT_EQ(data->features[0].rings.size(), 1U);
-  const auto& points = data->features[0].rings[0].points;
-  EXPECT_GT(points.size(), 80U);
-  for (const Vec2 p : points) EXPECT_NEAR(distance(p, {1, 0}), 1, 1e-12);
-}
-
 TEST_F(Io, ReadsPlainCoordinates) {
   const Result<Dataset> data = read_dataset(
       write("a.txt", "# outer\n0 0\n4,0\n 4 ; 3 # corner\r\n\t0\t3\n\n\n# hole\n1 1\n2 1\n2 2"));

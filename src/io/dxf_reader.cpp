@@ -196,7 +196,6 @@ class Collector : public DL_CreationAdapter {
 
   void endEntity() override { finish(); }
   void endSequence() override { finish(); }
-  void endSection() override { finish(); }
 
   /// Ends the polyline or spline under way.
   void finish() {

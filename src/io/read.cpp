@@ -11,6 +11,7 @@
 #include <new>
 
 #include "io/dxf_reader.h"
+#include "io/dxf_text.h"
 #include "io/gdal_reader.h"
 #include "io/gdal_support.h"
 #include "io/native.h"

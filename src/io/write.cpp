@@ -11,6 +11,7 @@
 #include <new>
 #include <string_view>
 
+#include "io/dxf_writer.h"
 #include "io/gdal_writer.h"
 #include "io/native.h"
 #include "io/output.h"
@@ -22,8 +23,8 @@ namespace medial::io {
 
 namespace {
 
-constexpr std::array<std::string_view, 11> kFormats{"json", "geojson", "gpkg", "shp", "fgb", "wkt",
-                                                    "csv",  "svg",     "pdf",  "png", "ps"};
+constexpr std::array<std::string_view, 12> kFormats{"json", "geojson", "gpkg", "shp", "fgb", "wkt",
+                                                    "csv",  "dxf",     "svg",  "pdf", "png", "ps"};
 
 bool through_gdal(const std::string& format) {
   return format == "geojson" || format == "gpkg" || format == "shp" || format == "fgb";
@@ -54,6 +55,8 @@ Status write_stream(OutputStream& out, const std::string& format, const NativeFi
     write_csv(out, file, options);
   } else if (format == "wkt") {
     write_wkt(out, file, options);
+  } else if (format == "dxf") {
+    status = write_dxf(out, file, options);
   } else {
     status = write_picture(out, format, file, options);
   }
