@@ -11,6 +11,10 @@ else()
   set(MEDIAL_PKGCONFIG_PRIVATE Requires)
 endif()
 
+if(MEDIAL_DXF)
+  set(MEDIAL_PKGCONFIG_DXF " dxflib")
+endif()
+
 # Relative, so that the installed tree may be moved.
 file(RELATIVE_PATH MEDIAL_PREFIX_FROM_PKGCONFIG
      ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})

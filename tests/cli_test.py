@@ -29,7 +29,8 @@ FRAME = "POLYGON ((0 0, 9 0, 9 6, 0 6, 0 0), (3 2, 3 4, 6 4, 6 2, 3 2))"
 SQUARES = "\n".join(f"POLYGON (({x} 0, {x + 1} 0, {x + 1} 1, {x} 1, {x} 0))" for x in (0, 3, 6))
 BOW_TIE = "POLYGON ((0 0, 2 2, 2 0, 0 2, 0 0))"
 
-FORMATS = ["json", "geojson", "gpkg", "shp", "fgb", "wkt", "csv", "svg", "pdf", "png", "ps"]
+FORMATS = ["json", "geojson", "gpkg", "shp", "fgb", "wkt", "csv", "dxf", "svg", "pdf",
+           "png", "ps"]
 
 GEOGRAPHIC = json.dumps({
     "type": "FeatureCollection",
@@ -149,6 +150,9 @@ class Axis(CommandLine):
             self.assertRegex(content, rb"^(MULTI)?LINESTRING")
         elif extension == "csv":
             self.check_csv(content.decode())
+        elif extension == "dxf":
+            self.assertTrue(content.endswith(b"0\nEOF\n"))
+            self.assertIn(b"\nSPLINE\n", content)
         elif extension == "svg":
             self.assertTrue(ElementTree.fromstring(content).tag.endswith("svg"))
         elif extension == "pdf":
@@ -332,6 +336,72 @@ class Axis(CommandLine):
         self.succeed("axis", "shapes.wkt", "-o", "a.json")
         self.succeed("axis", "a.json", "-o", "b.json")
         self.assertEqual(self.read("a.json"), self.read("b.json"))
+
+    def test_curves_of_every_kind_of_file(self):
+        stadium = (
+            '{"medial":2,"items":[{"contours":[{"start":[0,0],"pieces":'
+            '[["line",4,0],["arc",4,2,1],["line",0,2],["arc",0,0,1]]}]}]}'
+        )
+        self.write("a.json", stadium)
+        self.write("a.svg", '<svg><rect width="6" height="2" rx="1" id="r"/></svg>')
+        drawing = "0 SECTION 2 ENTITIES 0 LWPOLYLINE 8 A 90 4 70 1 10 0 20 0 10 4 20 0 42 1 "
+        drawing += "10 4 20 2 10 0 20 2 42 1 0 ENDSEC 0 EOF"
+        self.write("a.dxf", drawing.replace(" ", "\n") + "\n")
+        self.write(
+            "a.wkt",
+            "CURVEPOLYGON(COMPOUNDCURVE((0 0,4 0),CIRCULARSTRING(4 0,5 1,4 2),(4 2,0 2),"
+            "CIRCULARSTRING(0 2,-1 1,0 0)))",
+        )
+        for name in ("a.json", "a.svg", "a.dxf", "a.wkt"):
+            told = json.loads(self.succeed("axis", name, "--json").stdout)
+            self.assertEqual(told["features"], 1, name)
+            self.assertAlmostEqual(told["deepest"]["radius"], 1, 12, name)
+            self.assertAlmostEqual(told["length"], 4, 9, name)
+        told = json.loads(self.succeed("info", "--json", "a.svg").stdout)
+        self.assertEqual(told["arcs"]["pieces"], 8)
+        self.assertAlmostEqual(told["area"], 8 + math.pi, 12)
+
+    def test_switches_of_curves(self):
+        self.write("ellipse.svg", '<svg><ellipse rx="4" ry="2"/></svg>')
+        few = json.loads(self.succeed("info", "--json", "ellipse.svg", "--arc-tolerance", "1e-2").stdout)
+        many = json.loads(self.succeed("info", "--json", "ellipse.svg").stdout)
+        self.assertLess(few["arcs"]["arcs"], many["arcs"]["arcs"])
+        absolute = json.loads(
+            self.succeed("info", "--json", "ellipse.svg", "--arc-tolerance-absolute", "0.25").stdout
+        )
+        self.assertEqual(absolute["arcs"]["tolerance"], 0.25)
+        for wrong in ("0", "nan", "2", "x"):
+            self.refuse("invalid_option", "info", "ellipse.svg", "--arc-tolerance", wrong)
+        self.refuse("invalid_option", "info", "ellipse.svg", "--close")
+        self.refuse("unsupported", "info", "ellipse.svg", "--repair")
+        lines = "0 SECTION 2 ENTITIES 0 LINE 8 A 10 0 20 0 11 4 21 0 0 LINE 8 A 10 4 20 0 11 4 21 3 "
+        lines += "0 LINE 8 A 10 4 20 3 11 0.1 21 0 0 ENDSEC 0 EOF"
+        self.write("open.dxf", lines.replace(" ", "\n") + "\n")
+        self.refuse("empty", "info", "open.dxf")
+        self.succeed("info", "open.dxf", "--close")
+        self.succeed("info", "open.dxf", "--close=0.2")
+        self.refuse("empty", "info", "open.dxf", "--close=0.05")
+        self.refuse("invalid_option", "info", "open.dxf", "--close=-1")
+        self.refuse("invalid_option", "info", "open.dxf", "--layer", "B")
+
+    def test_texts(self):
+        font = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf"
+        if not os.path.exists(font):
+            self.skipTest(font + " is not here")
+        self.succeed("axis", "--text", "il", "--font", font, "-o", "a.json")
+        self.succeed("verify", "--text", "il", "--font", font, "a.json")
+        self.refuse("invalid_option", "axis", "--text", "i")
+        self.refuse("invalid_option", "axis", "--font", font)
+        self.refuse("invalid_option", "axis")
+        self.refuse("invalid_option", "axis", "a.wkt", "--text", "i", "--font", font)
+        self.refuse("unreadable", "axis", "--text", "i", "--font", "missing.ttf")
+
+    def test_drawings_have_the_radius_as_z_on_request(self):
+        self.write("a.wkt", RECTANGLE)
+        self.succeed("axis", "a.wkt", "-o", "a.dxf")
+        self.assertIn("LWPOLYLINE", self.read("a.dxf").decode())
+        self.succeed("axis", "a.wkt", "-o", "b.dxf", "--radius-as-z")
+        self.assertNotIn("LWPOLYLINE", self.read("b.dxf").decode())
 
     def test_touching_rings(self):
         self.write("touch.wkt",

@@ -397,11 +397,12 @@ TEST_F(CurvedIo, DxfBlocksAndMirrors) {
                    "0 INSERT\n8 D\n2 missing\n10 0\n20 0\n",
                    block));
   ASSERT_EQ(data.features.size(), 3U);
-  ASSERT_EQ(data.features[0].contours.size(), 2U);
-  expect_circle(data.features[0].contours[0], {10, 0}, 2, true);
-  expect_circle(data.features[0].contours[1], {10, 5}, 2, true);
-  EXPECT_FALSE(data.features[1].contours[0].weights.empty());  // stretched to an ellipse
-  expect_circle(data.features[2].contours[0], {-5, 0}, 1, false);
+  // What stands in the drawing itself comes before what is inserted.
+  expect_circle(data.features[0].contours[0], {-5, 0}, 1, false);
+  ASSERT_EQ(data.features[1].contours.size(), 2U);
+  expect_circle(data.features[1].contours[0], {10, 0}, 2, true);
+  expect_circle(data.features[1].contours[1], {10, 5}, 2, true);
+  EXPECT_FALSE(data.features[2].contours[0].weights.empty());  // stretched to an ellipse
 }
 
 TEST_F(CurvedIo, DxfGapsAndOpenCurves) {
@@ -712,8 +713,10 @@ TEST_F(CurvedIo, PicturesOfArcs) {
 TEST_F(CurvedIo, PicturesAreReadBackAsCircles) {
   // A disk's outline in a vector picture stays within 1e-6 of the circle.
   NativeFile file = lens();
-  file.items[0].shape.points = {{-1, 0}, {1, 0}};
-  file.items[0].shape.bulges = {1, 1};
+  file.items[0].shape.points = {{-1, 0}, {0, -1}, {1, 0}, {0, 1}};
+  file.items[0].shape.bulges.assign(4, std::tan(std::numbers::pi / 8));
+  file.items[0].shape.sources.resize(4);
+  file.items[0].shape.loop_begin = {0, 4};
   file.items[0].axis = {};
   file.items[0].axis.nodes = {{{{0, 0}, 1}, 0, NodeKind::leaf}};
   WriteOptions options;

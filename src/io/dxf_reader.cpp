@@ -280,7 +280,7 @@ class Collector : public DL_CreationAdapter {
   std::vector<double> knots_;
 };
 
-/// The curves of a drawing by layer, in order of their first appearance.
+/// The curves of a drawing by layer: the drawing's own, then those of what is inserted.
 class Unfolded {
  public:
   explicit Unfolded(const Collector& found) : found_(found) {}

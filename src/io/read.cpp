@@ -78,7 +78,13 @@ Result<Dataset> read_own(TextSource& source, Format format, const std::string& p
   if (format == Format::wkt) return read_wkt(source);
   if (format == Format::xy) return read_xy(source);
   if (format == Format::svg) return read_svg(source);
-  if (format == Format::dxf) return read_dxf(source, options.layer, options.close);
+  if (format == Format::dxf) {
+#ifdef MEDIAL_DXF
+    return read_dxf(source, options.layer, options.close);
+#else
+    return Error{ErrorCode::unsupported, "this program was built without DXF", in_file(path)};
+#endif
+  }
   return read_native_dataset(source);
 }
 

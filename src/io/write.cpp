@@ -56,7 +56,11 @@ Status write_stream(OutputStream& out, const std::string& format, const NativeFi
   } else if (format == "wkt") {
     write_wkt(out, file, options);
   } else if (format == "dxf") {
+#ifdef MEDIAL_DXF
     status = write_dxf(out, file, options);
+#else
+    status = Error{ErrorCode::unsupported, "this program was built without DXF", {}};
+#endif
   } else {
     status = write_picture(out, format, file, options);
   }
