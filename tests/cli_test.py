@@ -375,7 +375,7 @@ class Axis(CommandLine):
         self.refuse("invalid_option", "info", "ellipse.svg", "--close")
         self.refuse("unsupported", "info", "ellipse.svg", "--repair")
         lines = "0 SECTION 2 ENTITIES 0 LINE 8 A 10 0 20 0 11 4 21 0 0 LINE 8 A 10 4 20 0 11 4 21 3 "
-        lines += "0 LINE 8 A 10 4 20 3 11 0.1 21 0 0 ENDSEC 0 EOF"
+        lines += "0 LINE 8 A 10 4 20 3 11 0 21 0.1 0 ENDSEC 0 EOF"
         self.write("open.dxf", lines.replace(" ", "\n") + "\n")
         self.refuse("empty", "info", "open.dxf")
         self.succeed("info", "open.dxf", "--close")
