@@ -194,6 +194,7 @@ struct Cluster {
   std::vector<std::uint32_t> contacts;  ///< boundary sites
   std::vector<std::uint32_t> ends;      ///< of edges, at all its nodes
   std::uint64_t spent = 0;              ///< contacts looked at to fit it together with others
+  bool dissolved = false;               ///< its nodes are left as they were
 };
 
 class Merger {
@@ -217,6 +218,10 @@ class Merger {
     std::vector<std::uint32_t> contracted;
     for (const std::uint32_t edge : edges)
       if (contract(edge)) contracted.push_back(edge);
+    dissolve_backward();
+    std::erase_if(contracted, [&](std::uint32_t e) {
+      return clusters_[cluster_of(axis_.edges[e].node[0])].dissolved;
+    });
     if (!contracted.empty()) remove(contracted);
   }
 
@@ -417,12 +422,54 @@ class Merger {
     return !tree_.nearest(disk.center, disk.radius - tolerance_, run.first, run.last);
   }
 
+  /// While clusters grow, feet may have to run backward on an edge between two of them, as long as
+  /// it is to be contracted later. Where such an edge stayed, its clusters are given up.
+  void dissolve_backward() {
+    std::vector<std::uint32_t> backward;
+    const auto check = [&](std::uint32_t end) {
+      const Edge& edge = axis_.edges[end / 2];
+      const std::array<std::uint32_t, 2> there{cluster_of(edge.node[0]), cluster_of(edge.node[1])};
+      if (there[0] == there[1] || advances(edge)) return;
+      for (const std::uint32_t cluster : there)
+        if (cluster != none) backward.push_back(cluster);
+    };
+    for (const Cluster& cluster : clusters_)
+      for (const std::uint32_t end : cluster.ends) check(end);
+    while (!backward.empty()) {
+      Cluster& cluster = clusters_[backward.back()];
+      backward.pop_back();
+      if (cluster.dissolved) continue;
+      cluster.dissolved = true;
+      for (const std::uint32_t end : cluster.ends) check(end);
+    }
+  }
+
+  Vec2 center_of(std::uint32_t node) {
+    const std::uint32_t cluster = cluster_of(node);
+    return cluster == none || clusters_[cluster].dissolved ? axis_.nodes[node].disk.center
+                                                           : clusters_[cluster].fit.disk.center;
+  }
+
+  /// Whether the feet move forward on the right site and backward on the left one, but for what
+  /// the tolerance leaves open.
+  bool advances(const Edge& edge) {
+    const double slack = 4 * tolerance_;
+    const Site &left = boundary_.sites[edge.site[0]], &right = boundary_.sites[edge.site[1]];
+    const Vec2 from = center_of(edge.node[0]), to = center_of(edge.node[1]);
+    const auto step = [](const Site& site, Vec2 a, Vec2 b) {
+      return geometry::carrier_parameter(site, b) - geometry::carrier_parameter(site, a);
+    };
+    return (right.is_vertex() || step(right, from, to) >= -slack) &&
+           (left.is_vertex() || step(left, to, from) >= -slack);
+  }
+
   /// Takes the contracted edges and the nodes that became others out of the graph; the last ones
   /// take their places.
   void remove(std::vector<std::uint32_t>& contracted) {
     std::vector<std::uint32_t> gone;
     for (std::uint32_t i = 0; i < clusters_.size(); ++i) {
       const Cluster& cluster = clusters_[i];
+      if (clusters_[cluster_of(cluster.node)].dissolved) continue;
       if (parent_[i] != i) {
         gone.push_back(cluster.node);
         continue;
@@ -433,7 +480,7 @@ class Merger {
     }
     fill_gaps(axis_.nodes, gone, [&](std::uint32_t from, std::uint32_t to) {
       const std::uint32_t cluster = cluster_of(from);
-      if (cluster != none) {
+      if (cluster != none && !clusters_[cluster].dissolved) {
         for (const std::uint32_t end : clusters_[cluster].ends)
           axis_.edges[end / 2].node[end % 2] = to;
       } else {
