@@ -303,7 +303,15 @@ double tangent_radius(Vec2 foot, Vec2 normal, const Site& site) {
     closing += site.curvature * medial::dot(normal, d);
   }
   if (!(height >= 0 && closing > 0)) return none;
-  const double radius = height / closing;
+  double radius = height / closing;
+  // Where the disk is nearly the arc's own circle, the contact equation is its residual times
+  // 1 - radius * curvature: one Newton step on the distance itself wins the digits back.
+  constexpr double nearly = 0.25;
+  if (site.is_arc() && std::abs(1 - radius * site.curvature) < nearly) {
+    const ArcView view = view_of_arc(site, foot + radius * normal);
+    const double slope = medial::dot(view.toward, normal) / view.size - 1;
+    if (slope < 0) radius -= (view.distance - radius) / slope;
+  }
   return fits_into(radius, site) ? radius : none;
 }
 

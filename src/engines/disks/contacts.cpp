@@ -50,12 +50,22 @@ std::uint32_t Contacts::other_copy(std::uint32_t cut, std::uint32_t vertex) cons
 bool Contacts::touches(std::uint32_t i, const Disk& disk, double slack) const {
   if (std::abs(std::sqrt(geometry::squared_distance(site(i), disk.center)) - disk.radius) > slack)
     return false;
-  if (site(i).is_vertex()) return true;
+  if (site(i).is_vertex() || touches_all(i, disk)) return true;
   const double s = geometry::carrier_parameter(site(i), disk.center);
   if (s > 0 && s < site(i).length) return true;
   // At a smooth joint both touch.
   const std::uint32_t end = s > 0 ? i : i - 1;
   return boundary_.has_arcs && element(end) == element(end + 1) && boundary_.is_smooth(end);
+}
+
+bool Contacts::touches_all(std::uint32_t i, const Disk& disk) const {
+  const geometry::Site& arc = site(i);
+  // On a much flatter arc the disk would have to be tiny.
+  if (!(arc.curvature * disk.radius > 0.5)) return false;
+  const auto on_disk = [&](Vec2 p) {
+    return std::abs(distance(p, disk.center) - disk.radius) <= context_.tolerance;
+  };
+  return on_disk(arc.point) && on_disk(arc.end()) && on_disk(arc.at(0.5 * arc.length));
 }
 
 bool Contacts::is_reflex_chain(const Span& span) const {

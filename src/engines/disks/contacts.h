@@ -59,6 +59,9 @@ class Contacts {
   /// where its neighbour would be nearer.
   bool touches(std::uint32_t i, const Disk& disk, double slack) const;
 
+  /// Whether a disk touches all of an arc: it is the arc's circle, as far as the arc can tell.
+  bool touches_all(std::uint32_t i, const Disk& disk) const;
+
   /// Whether a disk that touches the site's carrier touches the site itself.
   bool reaches(std::uint32_t i, const Disk& disk) const {
     const double reach = disk.radius + 2 * context_.tolerance;

@@ -178,6 +178,7 @@ void EventSearch::polish(Event& event, const Site& third) {
 }
 
 Event EventSearch::next() {
+  if (const auto passed = pass_over_circle()) return *passed;
   Event event = local_event(true);
   const Event on_left = local_event(false);
   if (on_left.position < event.position) event = on_left;
@@ -193,6 +194,17 @@ Event EventSearch::next() {
     if (span_.left - span_.right == 2) return event;
   }
   return first_contact(event);
+}
+
+std::optional<Event> EventSearch::pass_over_circle() const {
+  for (const bool on_right : {true, false}) {
+    const std::uint32_t own = on_right ? span_.right : span_.left;
+    if (!(site(own).curvature > 0) || !boundary_.is_smooth(on_right ? own : own - 1)) continue;
+    if (contacts_.touches_all(own, from_))
+      return Event{on_right ? Event::Kind::pass_right : Event::Kind::pass_left, Hit::none, from_,
+                   low_};
+  }
+  return std::nullopt;
 }
 
 Event EventSearch::at_node(std::uint32_t touched) const {

@@ -78,6 +78,8 @@ class EventSearch {
   /// Brings a disk's residual below the tolerance: by Newton's method, and where that fails in
   /// higher precision.
   void polish(Event& event, const geometry::Site& third);
+  /// Where the disk of the node is the circle of an arc, it touches all of it: the foot passes on.
+  std::optional<Event> pass_over_circle() const;
   Event at_node(std::uint32_t touched) const;
   /// Shortens the way to `event` until the disk there is empty: each intruder gives a disk
   /// that comes earlier.
