@@ -76,6 +76,7 @@ Event EventSearch::local_event(bool on_right) {
   event.site = next;
   event.disk = {foot + radius * normal, radius};
   event.position = bisector_.position(event.disk.center);
+  if (event.position < low_ - slack()) return {};  // the foot turns that far on the way back only
   return event;
 }
 
@@ -128,7 +129,11 @@ std::optional<Event> EventSearch::contact_with(const Site& touched, std::uint32_
     const Disk& disk = disks.disk[i];
     if (disk.radius > context_.radius_limit) continue;
     const double position = bisector_.position(disk.center);
-    const double violation = std::max({0.0, low_ - position, position - high});
+    double violation = std::max({0.0, low_ - position, position - high});
+    // Circles go on behind arcs: what touches them there is the last choice.
+    if (bisector_.reference != nullptr && disks.count == 2 && violation == 0 &&
+        !(contacts_.reaches(span_.right, disk) && contacts_.reaches(span_.left, disk)))
+      violation = slack();
     // Of two, the one where the disk begins to reach over the site, not where it ceases to.
     const bool better = violation != best_violation
                             ? violation < best_violation
