@@ -73,7 +73,9 @@ struct Boundary {
   };
   Place smooth_place(std::uint32_t i) const {
     if (elements[i] == Element::vertex) return {sites[i].point, sites[i + 1].normal()};
-    return {sites[i + 1].point, sites[i].end_normal()};
+    // Of two edges the longer one knows its direction better.
+    const bool by_next = elements[i + 1] == Element::edge && sites[i + 1].length > sites[i].length;
+    return {sites[i + 1].point, by_next ? sites[i + 1].normal() : sites[i].end_normal()};
   }
 };
 

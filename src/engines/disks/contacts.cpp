@@ -12,10 +12,11 @@ double turn(Vec2 from, Vec2 to) { return std::atan2(-cross(from, to), dot(from, 
 
 std::uint32_t Contacts::owner(std::uint32_t i, Vec2 center, const Span& span) const {
   if (element(i) == Element::edge) {
+    // At an end that is a vertex site or a smooth joint, what goes on from there is touched.
     const double s = geometry::foot_parameter(site(i), center);
-    if (s <= 0 && i - 1 > span.right && element(i - 1) == Element::vertex)
+    if (s <= 0 && i - 1 > span.right && boundary_.is_smooth(i - 1))
       --i;
-    else if (s >= site(i).length && i + 1 < span.left && element(i + 1) == Element::vertex)
+    else if (s >= site(i).length && i + 1 < span.left && boundary_.is_smooth(i))
       ++i;
   }
   if (element(i) != Element::vertex || context_.cuts.empty()) return i;

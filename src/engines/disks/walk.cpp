@@ -88,8 +88,9 @@ class Walker {
   /// something: a node of the axis, from which all of the run is walked. A circle has no more.
   void start_at_smooth_place(const Boundary::Run& run) {
     const Vec2 foot = site(run.first).point;
-    const Vec2 normal = element(run.first) == Element::vertex ? site(run.last).end_normal()
-                                                              : site(run.first).normal();
+    const bool by_last =
+        element(run.first) == Element::vertex || site(run.last).length > site(run.first).length;
+    const Vec2 normal = by_last ? site(run.last).end_normal() : site(run.first).normal();
     double radius = context_.radius_limit;
     for (const std::uint32_t i : {run.first, run.last})
       if (site(i).curvature > 0) radius = std::min(radius, 1 / site(i).curvature);
