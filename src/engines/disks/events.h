@@ -52,8 +52,11 @@ class EventSearch {
 
   const geometry::Site& site(std::uint32_t i) const { return boundary_.sites[i]; }
   Element element(std::uint32_t i) const { return boundary_.elements[i]; }
-  /// Whether a contact lies on the site itself, not only on its carrier.
-  bool reaches(const Event& event) const { return contacts_.reaches(event.site, event.disk); }
+  /// Whether a contact lies on the site itself, not only on its carrier, and on its inner side.
+  bool reaches(const Event& event) const {
+    return contacts_.reaches(event.site, event.disk) &&
+           geometry::carrier_distance(site(event.site), event.disk.center) >= 0;
+  }
   /// Rounding may put a disk a little behind the place where it should be; what is further behind
   /// is another solution.
   double slack() const { return 4 * context_.tolerance + 1e-9 * from_.radius; }
