@@ -64,7 +64,7 @@ bool Contacts::touches_all(std::uint32_t i, const Disk& disk) const {
   // On a much flatter arc the disk would have to be tiny.
   if (!(arc.curvature * disk.radius > 0.5)) return false;
   const auto on_disk = [&](Vec2 p) {
-    return std::abs(distance(p, disk.center) - disk.radius) <= context_.tolerance;
+    return std::abs(distance(p, disk.center) - disk.radius) <= 2 * context_.tolerance;
   };
   return on_disk(arc.point) && on_disk(arc.end()) && on_disk(arc.at(0.5 * arc.length));
 }
