@@ -92,29 +92,37 @@ void Contacts::split(const Span& span, const Disk& disk, std::uint32_t sure, boo
                        touched_);
   // Along the boundary the contacts go around the disk counter-clockwise. What comes out of order
   // is another copy of a vertex that was touched before.
-  const Vec2 start = geometry::foot(site(span.right), disk.center) - disk.center;
-  const auto angle_of = [&](std::uint32_t i) {
-    const Vec2 to = geometry::foot(site(i), disk.center) - disk.center;
+  // An arc touched all along counts from the first of its points to the last.
+  const auto foot_on = [&](std::uint32_t i, double share) {
+    return touches_all(i, disk) ? site(i).at(share * site(i).length)
+                                : geometry::foot(site(i), disk.center);
+  };
+  const Vec2 start = foot_on(span.right, 0) - disk.center;
+  const auto angle_of = [&](std::uint32_t i, double share) {
+    const Vec2 to = foot_on(i, share) - disk.center;
     const double angle = std::atan2(cross(start, to), dot(start, to));
     return angle > 0 ? angle : angle + 2 * std::acos(-1.0);
   };
-  const double end_angle = all_around ? 2 * std::acos(-1.0) : angle_of(span.left);
+  const double end_angle = all_around ? 2 * std::acos(-1.0) : angle_of(span.left, 1);
   double angle_before = 0;
   std::uint32_t before = span.right;
   parts.clear();
   for (const std::uint32_t hit : touched_) {
     const std::uint32_t i = owner(hit, disk.center, span);
     if (i <= before || i >= span.left || !touches(i, disk, context_.tolerance)) continue;
-    const double angle = angle_of(i);
+    const double angle = angle_of(i, 0.5);
     if (angle - angle_before < distinct_contacts || end_angle - angle < distinct_contacts) continue;
     parts.push_back({before, i, span.node});
     before = i;
     angle_before = angle;
   }
   if (parts.empty()) {
-    if (sure <= span.right || sure >= span.left) return;
-    parts.push_back({span.right, sure, span.node});
-    before = sure;
+    if (sure > span.right && sure < span.left) {
+      parts.push_back({span.right, sure, span.node});
+      before = sure;
+    } else if (!touches_all(span.right, disk) && !touches_all(span.left, disk)) {
+      return;
+    }
   }
   parts.push_back({before, span.left, span.node});
 }
