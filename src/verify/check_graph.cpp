@@ -79,23 +79,34 @@ bool ends_at_arc(const Problem& problem, const Edge& edge, std::size_t end, std:
   const std::size_t right = end, left = 1 - end;
   if (place(right) == kNone || place(left) == kNone) return false;
   const Disk& disk = problem.disk(edge.node[end]);
-  const auto touched = [&](Vec2 p) {
-    return std::abs(distance(disk.center, p) - disk.radius) <= 2 * problem.tolerance;
+  const std::uint32_t first = is_vertex(right) ? place(right) : problem.next[place(right)];
+  bool arcs = false;
+  double farthest = 0, blunt = 0;
+  const auto deviation = [&](const BoundaryEdge& on) {
+    double worst = 0;
+    for (const Vec2 p : {on.start, apex(on), on.end})
+      worst = std::max(worst, std::abs(distance(disk.center, p) - disk.radius));
+    return worst;
   };
-  bool found = false;
-  std::uint32_t i = place(right);
-  if (!is_vertex(right)) {
-    i = problem.next[i];
-    found = problem.is_blunt(i);
-  }
-  for (; i != place(left); i = problem.next[i]) {
+  const auto add_joint = [&](std::uint32_t i) {
+    if (!problem.blunt_angle.empty()) blunt += problem.blunt_angle[i];
+  };
+  if (!is_vertex(right)) add_joint(first);
+  for (std::uint32_t i = first; i != place(left); i = problem.next[i]) {
     if (budget == 0) return false;
     --budget;
     const BoundaryEdge passed = problem.edge(i);
-    if (!touched(passed.start) || !touched(apex(passed)) || !touched(passed.end)) return false;
-    found = found || passed.bulge > 0 || problem.is_blunt(problem.next[i]);
+    farthest = std::max(farthest, deviation(passed));
+    arcs = arcs || passed.bulge > 0;
+    if (problem.next[i] != place(left) || !is_vertex(left)) add_joint(problem.next[i]);
   }
-  return found;
+  // Rounding may end the axis on the bisector with the arc itself.
+  const double limit = 2 * problem.tolerance + blunt * disk.radius;
+  for (const std::size_t side : {right, left}) {
+    const BoundaryEdge touched = problem.edge(place(side));
+    arcs = arcs || (!is_vertex(side) && touched.bulge > 0 && deviation(touched) <= limit);
+  }
+  return (arcs || blunt > 0) && farthest <= limit;
 }
 
 }  // namespace
