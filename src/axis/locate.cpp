@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "axis/curve.h"
+#include "base/arc.h"
 #include "base/predicates.h"
 #include "base/spatial_order.h"
 #include "medial/query.h"
@@ -120,13 +121,14 @@ double clearance(const Shape& shape, Vec2 p) {
       const double bulge = shape.bulge(shape.loop_begin[i] + j);
       if (bulge != 0) {
         const Site arc{a, b, 0, 0, SiteKind::arc, bulge};
-        const Vec2 nearest = foot(arc, p);
-        distance_to_edge = distance(nearest, p);
+        distance_to_edge = distance(foot(arc, p), p);
         // What lies between the arc and its chord changes sides. On the chord itself, the rule
         // below counts p to the right of it; to the left only where it runs in the ray's direction.
+        const Vec2 half = half_angle(bulge);
+        const double power = half.y * dot(q, p - b) - half.x * cross(d, q);  // of p to the circle
         const int turn = orientation(a, b, p);
         const bool left = turn > 0 || (turn == 0 && d.y == 0 && d.x > 0);
-        if (left == (bulge < 0) && cross(d, p - nearest) * bulge > 0) inside = !inside;
+        if (left == (bulge < 0) && power * bulge < 0) inside = !inside;
       }
       best = std::min(best, distance_to_edge);
       // A ray to the right, by the half-open rule: it crosses upward edges that have p on the left.

@@ -1,0 +1,403 @@
+// verify() on shapes with arcs: right axes written by hand pass, and every kind of damage is found.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <random>
+
+#include "medial/medial.h"
+#include "support/generate_arcs.h"
+#include "verify/boundary_edge.h"
+#include "verify/distance_tree.h"
+
+namespace medial {
+namespace {
+
+using verify_detail::BoundaryEdge;
+
+std::string joined(const Certificate& certificate) {
+  std::string text;
+  for (const std::string& failure : certificate.failures) text += failure + "\n";
+  return text;
+}
+
+/// One loop and its axis, by hand: a site for each edge, in their order.
+struct HandMadeArcs {
+  Shape shape;
+  MedialAxis axis;
+
+  HandMadeArcs(std::vector<Vec2> points, std::vector<double> bulges) {
+    const auto n = static_cast<std::uint32_t>(points.size());
+    for (std::uint32_t i = 0; i < n; ++i) {
+      shape.sources.push_back({0, i});
+      const SiteKind kind = bulges[i] == 0 ? SiteKind::segment : SiteKind::arc;
+      axis.sites.push_back({points[i], points[(i + 1) % n], 0, i, kind, bulges[i]});
+    }
+    shape.points = std::move(points);
+    shape.bulges = std::move(bulges);
+    shape.loop_begin = {0, n};
+    shape.component = {0};
+    shape.hole = {false};
+  }
+  void node(Vec2 center, double radius, NodeKind kind) {
+    axis.nodes.push_back({{center, radius}, 0, kind});
+  }
+  void edge(std::array<std::uint32_t, 2> nodes, std::array<std::uint32_t, 2> sites,
+            const Disk& control, double weight = 1) {
+    axis.edges.push_back({nodes, sites, control, weight});
+  }
+};
+
+HandMadeArcs round_disk() {
+  HandMadeArcs m({{1, 0}, {-1, 0}}, {1, 1});
+  m.node({0, 0}, 1, NodeKind::leaf);
+  return m;
+}
+
+HandMadeArcs hand_made_stadium() {
+  HandMadeArcs m({{0, 0}, {3, 0}, {3, 2}, {0, 2}}, {0, 1, 0, 1});
+  m.node({0, 1}, 1, NodeKind::leaf);
+  m.node({3, 1}, 1, NodeKind::leaf);
+  m.edge({0, 1}, {2, 0}, {{1.5, 1}, 1});
+  return m;
+}
+
+/// Above its diameter: the parabola y = (1 - x^2) / 2.
+HandMadeArcs half_circle() {
+  HandMadeArcs m({{-1, 0}, {1, 0}}, {0, 1});
+  m.node({-1, 0}, 0, NodeKind::leaf);
+  m.node({1, 0}, 0, NodeKind::leaf);
+  m.edge({0, 1}, {1, 0}, {{0, 1}, 1});
+  return m;
+}
+
+/// A symmetrical lens: along the chord r is one branch of a hyperbola.
+HandMadeArcs lens() {
+  // Circles of radius 5 around (0, 3) and (0, -3).
+  HandMadeArcs m({{-4, 0}, {4, 0}}, {0.5, 0.5});
+  m.node({-4, 0}, 0, NodeKind::leaf);
+  m.node({4, 0}, 0, NodeKind::leaf);
+  // (5 - r)^2 = x^2 + 9: at the ends dr / dx = 4 / 5, so the tangents meet at r = 16 / 5; and at
+  // the shoulder r = 2 = w (16 / 5) / (1 + w).
+  m.edge({0, 1}, {1, 0}, {{0, 0}, 3.2}, 5.0 / 3);
+  return m;
+}
+
+std::vector<HandMadeArcs> all_hand_made() {
+  return {round_disk(), hand_made_stadium(), half_circle(), lens()};
+}
+
+TEST(VerifyArcs, PassesAxesInClosedForm) {
+  for (const HandMadeArcs& m : all_hand_made()) {
+    const Certificate certificate = verify(m.shape, m.axis);
+    EXPECT_TRUE(certificate.passed) << joined(certificate);
+    EXPECT_LE(certificate.largest_residual, 2e-15);
+    EXPECT_LE(certificate.largest_uncovered, 2e-15);
+    EXPECT_NEAR(certificate.disks_area, certificate.shape_area, 1e-14);
+    EXPECT_EQ(certificate.worst_legality, 0);
+  }
+  EXPECT_NEAR(verify(round_disk().shape, round_disk().axis).disks_area, std::numbers::pi, 1e-15);
+  EXPECT_EQ(verify(lens().shape, lens().axis).convex_corners, 2U);
+  const HandMadeArcs m = hand_made_stadium();
+  EXPECT_EQ(verify(m.shape, m.axis).curvature_leaves, 2U);
+  EXPECT_EQ(verify(m.shape, m.axis).convex_corners, 0U);
+  EXPECT_NEAR(verify(m.shape, m.axis).shape_area, 6 + std::numbers::pi, 1e-14);
+}
+
+TEST(VerifyArcsFinds, MovedNodes) {
+  for (const HandMadeArcs& m : all_hand_made()) {
+    for (std::size_t i = 0; i < m.axis.nodes.size(); ++i) {
+      for (const double change : {1e-9, -1e-9, 1e-12, -1e-12}) {
+        HandMadeArcs damaged = m;
+        damaged.axis.nodes[i].disk.center.x += change;
+        EXPECT_FALSE(verify(damaged.shape, damaged.axis).passed) << i << " x " << change;
+        damaged = m;
+        damaged.axis.nodes[i].disk.radius += change;
+        EXPECT_FALSE(verify(damaged.shape, damaged.axis).passed) << i << " r " << change;
+      }
+    }
+  }
+}
+
+TEST(VerifyArcsFinds, WrongCurves) {
+  for (HandMadeArcs m : {half_circle(), lens()}) {
+    m.axis.edges[0].control.center.y += 1e-12;
+    EXPECT_FALSE(verify(m.shape, m.axis).passed);
+    m.axis.edges[0].control.center.y -= 1e-12;
+    m.axis.edges[0].control.radius += 1e-12;
+    EXPECT_FALSE(verify(m.shape, m.axis).passed);
+  }
+  for (HandMadeArcs m : {half_circle(), lens()}) {
+    m.axis.edges[0].weight *= 1 + 1e-12;
+    EXPECT_FALSE(verify(m.shape, m.axis).passed);
+  }
+}
+
+TEST(VerifyArcsFinds, AStadiumThatEndsEarly) {
+  HandMadeArcs m = hand_made_stadium();
+  m.axis.nodes[1].disk.center.x = 2;
+  const std::string failures = joined(verify(m.shape, m.axis));
+  EXPECT_NE(failures.find("1 leaves have a radius above 0 and are at no arc of largest curvature"),
+            std::string::npos)
+      << failures;
+  EXPECT_NE(failures.find("A stretch of the boundary is touched by no disk"), std::string::npos);
+  EXPECT_NE(failures.find("The disks cover an area"), std::string::npos);
+}
+
+TEST(VerifyArcsFinds, AStadiumThatGoesOn) {
+  // Beyond the arc's centre no disk touches both sides.
+  HandMadeArcs m = hand_made_stadium();
+  m.axis.nodes[1].disk.center.x = 3 + 1e-9;
+  EXPECT_FALSE(verify(m.shape, m.axis).passed);
+  m.axis.nodes[1].disk = {{3.5, 1}, 0.5};
+  EXPECT_FALSE(verify(m.shape, m.axis).passed);
+}
+
+TEST(VerifyArcsFinds, ACircleInsideOfTheCircle) {
+  HandMadeArcs m = round_disk();
+  m.axis.nodes[0].disk = {{0.5, 0}, 0.5};
+  const std::string failures = joined(verify(m.shape, m.axis));
+  EXPECT_NE(failures.find("touched by no disk"), std::string::npos) << failures;
+  EXPECT_NE(failures.find("which differs from the shape's area"), std::string::npos);
+  // The one node of another shape.
+  m = half_circle();
+  m.axis.edges.clear();
+  m.axis.nodes = {{{{0, 0.5}, 0.5}, 0, NodeKind::leaf}};
+  EXPECT_NE(joined(verify(m.shape, m.axis)).find("touched by no disk"), std::string::npos);
+}
+
+TEST(VerifyArcsFinds, TwoNodesOfACircle) {
+  HandMadeArcs m = round_disk();
+  m.node({0, 0}, 1, NodeKind::leaf);
+  EXPECT_NE(joined(verify(m.shape, m.axis)).find("2 connected parts"), std::string::npos);
+}
+
+TEST(VerifyArcsFinds, WrongSites) {
+  HandMadeArcs m = hand_made_stadium();
+  m.axis.edges[0].site = {1, 0};
+  EXPECT_FALSE(verify(m.shape, m.axis).passed);
+  m = half_circle();
+  std::swap(m.axis.edges[0].site[0], m.axis.edges[0].site[1]);
+  EXPECT_NE(joined(verify(m.shape, m.axis)).find("wrong sides"), std::string::npos);
+  // An arc that is not the shape's, or none.
+  m = lens();
+  m.axis.sites[0].bulge *= 1 + 1e-15;
+  EXPECT_NE(joined(verify(m.shape, m.axis)).find("1 sites are no edge"), std::string::npos);
+  m = lens();
+  m.axis.sites[0].kind = SiteKind::segment;
+  EXPECT_NE(joined(verify(m.shape, m.axis)).find("1 sites are no edge"), std::string::npos);
+}
+
+TEST(VerifyArcsFinds, MalformedBulges) {
+  for (const double bulge : {1.5, -2.0, std::numeric_limits<double>::quiet_NaN()}) {
+    HandMadeArcs m = lens();
+    m.shape.bulges[0] = bulge;
+    EXPECT_NE(joined(verify(m.shape, m.axis)).find("malformed"), std::string::npos);
+    m = lens();
+    m.axis.sites[1].bulge = bulge;
+    EXPECT_NE(joined(verify(m.shape, m.axis)).find("1 sites have"), std::string::npos);
+  }
+  HandMadeArcs m = lens();
+  m.shape.bulges.pop_back();
+  EXPECT_NE(joined(verify(m.shape, m.axis)).find("malformed"), std::string::npos);
+}
+
+TEST(VerifyArcs, BluntJointsHaveNoLeaf) {
+  // A stadium whose caps are a little more than half circles would be: convex joints of 0.005
+  // degrees, without leaves at a corner angle of 0.01.
+  const double bulge = std::tan(std::numbers::pi / 4 - 0.005 * std::numbers::pi / 180 / 2);
+  const auto shape = build_shape(test::Rings{{.points = {{0, 0}, {3, 0}, {3, 2}, {0, 2}},
+                                              .role = RingRole::any,
+                                              .bulges = {0, bulge, 0, bulge}}});
+  ASSERT_TRUE(shape);
+  const auto blunt = compute(*shape);
+  ASSERT_TRUE(blunt);
+  const Certificate certificate = verify(*shape, *blunt);
+  EXPECT_TRUE(certificate.passed) << joined(certificate);
+  EXPECT_EQ(certificate.blunt_joints, 4U);
+  EXPECT_NEAR(certificate.largest_blunt_angle, 0.005, 1e-9);
+  EXPECT_EQ(certificate.convex_corners, 0U);
+  // The same axis is wrong where these are corners, and the other way round.
+  EXPECT_FALSE(verify(*shape, *blunt, {.corner_angle = 0.001}).passed);
+  const auto sharp = compute(*shape, {.corner_angle = 0.001});
+  ASSERT_TRUE(sharp);
+  EXPECT_TRUE(verify(*shape, *sharp, {.corner_angle = 0.001}).passed)
+      << joined(verify(*shape, *sharp, {.corner_angle = 0.001}));
+  EXPECT_EQ(verify(*shape, *sharp, {.corner_angle = 0.001}).convex_corners, 4U);
+}
+
+TEST(VerifyArcsFinds, DamageInComputedAxes) {
+  // The engine may be wrong here, so only what passes is damaged; but most must pass.
+  unsigned passed = 0, tried = 0;
+  for (unsigned seed = 0; seed < 300; ++seed) {
+    const auto shape = build_shape(test::random_arc_shape(seed).rings);
+    if (!shape.ok()) continue;
+    const auto computed = compute(*shape);
+    if (!computed.ok()) continue;
+    ++tried;
+    const MedialAxis& axis = *computed;
+    const Certificate certificate = verify(*shape, axis);
+    if (!certificate.passed) continue;
+    ++passed;
+    std::mt19937 random(seed);
+    const std::size_t any_node = random() % axis.nodes.size();
+    MedialAxis damaged = axis;
+    damaged.nodes[any_node].disk.radius += 3 * certificate.tolerance;
+    EXPECT_FALSE(verify(*shape, damaged).passed) << seed << " node " << any_node;
+    damaged = axis;
+    damaged.nodes[any_node].disk.center.x +=
+        1e-6 * axis.nodes[any_node].disk.radius + 100 * certificate.tolerance;
+    EXPECT_FALSE(verify(*shape, damaged).passed) << seed << " node " << any_node;
+    if (axis.edges.empty()) continue;
+    const std::size_t any_edge = random() % axis.edges.size();
+    damaged = axis;
+    damaged.edges.erase(damaged.edges.begin() + static_cast<std::ptrdiff_t>(any_edge));
+    EXPECT_FALSE(verify(*shape, damaged).passed) << seed << " edge " << any_edge;
+    damaged = axis;
+    damaged.edges.push_back(axis.edges[any_edge]);
+    EXPECT_FALSE(verify(*shape, damaged).passed) << seed << " edge " << any_edge;
+    damaged = axis;
+    std::swap(damaged.edges[any_edge].node[0], damaged.edges[any_edge].node[1]);
+    if (distance(axis.nodes[axis.edges[any_edge].node[0]].disk.center,
+                 axis.nodes[axis.edges[any_edge].node[1]].disk.center) >
+        1000 * certificate.tolerance) {
+      EXPECT_FALSE(verify(*shape, damaged).passed) << seed << " edge " << any_edge;
+    }
+  }
+  EXPECT_GE(passed, tried * 3 / 4);
+}
+
+TEST(VerifyArcs, NeverCrashesOnRandomDamage) {
+  std::mt19937 random(11);
+  const auto below = [&](std::size_t n) { return random() % n; };
+  const double numbers[] = {0,      1,   -1, 1e300, -1e300,
+                            1e-300, 0.5, 3,  1e16,  std::numeric_limits<double>::denorm_min()};
+  for (int round = 0; round < 3000; ++round) {
+    auto all = all_hand_made();
+    HandMadeArcs& m = all[1 + below(all.size() - 1)];
+    for (std::size_t k = 0; k <= below(3); ++k) {
+      Node& node = m.axis.nodes[below(m.axis.nodes.size())];
+      Edge& edge = m.axis.edges[0];
+      Site& site = m.axis.sites[below(m.axis.sites.size())];
+      const double number = numbers[below(std::size(numbers))];
+      switch (below(9)) {
+        case 0:
+          node.disk.center.x = number;
+          break;
+        case 1:
+          node.disk.radius = number;
+          break;
+        case 2:
+          edge.control.center.y = number;
+          break;
+        case 3:
+          edge.weight = number;
+          break;
+        case 4:
+          edge.site[below(2)] = static_cast<std::uint32_t>(below(m.axis.sites.size() + 1));
+          break;
+        case 5:
+          site.bulge = number;
+          break;
+        case 6:
+          site.kind = static_cast<SiteKind>(below(3));
+          break;
+        case 7:
+          m.shape.bulges[below(m.shape.bulges.size())] = number;
+          break;
+        default:
+          site.end = site.start;
+          break;
+      }
+    }
+    const Certificate certificate = verify(m.shape, m.axis);
+    EXPECT_EQ(certificate.passed, certificate.failures.empty());
+  }
+}
+
+/// The distance to an arc by its centre and radius, in long double.
+double distance_by_center(Vec2 p, const BoundaryEdge& edge) {
+  using Real = long double;
+  const Real half = 2 * std::atan(static_cast<Real>(edge.bulge));
+  const Real dx = static_cast<Real>(edge.end.x) - edge.start.x,
+             dy = static_cast<Real>(edge.end.y) - edge.start.y, chord = std::hypot(dx, dy);
+  const Real radius = chord / (2 * std::sin(half));
+  const Real x = edge.start.x + dx / 2 - dy / chord * radius * std::cos(half),
+             y = edge.start.y + dy / 2 + dx / chord * radius * std::cos(half);
+  const Real from = std::atan2(edge.start.y - y, edge.start.x - x),
+             to = std::atan2(p.y - y, p.x - x);
+  const Real turn = 2 * std::numbers::pi_v<Real>;
+  Real angle = std::fmod(half > 0 ? to - from : from - to, turn);
+  if (angle < 0) angle += turn;
+  if (angle <= 2 * std::abs(half))
+    return static_cast<double>(std::abs(std::hypot(p.x - x, p.y - y) - std::abs(radius)));
+  return std::min(distance(p, edge.start), distance(p, edge.end));
+}
+
+TEST(BoundaryEdge, DistanceAgreesWithTheCircle) {
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  for (int i = 0; i < 20000; ++i) {
+    const double bulge = std::copysign(std::pow(10, 4 * std::min(0.0, unit(random))), unit(random));
+    const BoundaryEdge edge{{unit(random), unit(random)}, {unit(random), unit(random)}, bulge};
+    const Vec2 p = (i % 2 == 0 ? 1 : 10) * Vec2{unit(random), unit(random)};
+    const double expected = distance_by_center(p, edge);
+    EXPECT_NEAR(verify_detail::distance_to_edge(p, edge), expected, 4e-15 * (1 + expected)) << i;
+    const Vec2 foot = verify_detail::point_at(edge, verify_detail::foot_at(edge, p));
+    EXPECT_NEAR(distance(foot, p), expected, 1e-14 * (1 + expected)) << i;
+  }
+}
+
+TEST(BoundaryEdge, IsFarthestOppositeToTheFoot) {
+  std::mt19937 random(6);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  for (int i = 0; i < 1000; ++i) {
+    const BoundaryEdge edge{{0, 0}, {1 + unit(random) / 2, unit(random)}, unit(random)};
+    const Vec2 p{2 * unit(random), 2 * unit(random)};
+    const double length = verify_detail::length_of(edge);
+    const double opposite = verify_detail::opposite_at(edge, p);
+    double farthest = 0;
+    for (int k = 0; k <= 1000; ++k)
+      farthest =
+          std::max(farthest, distance(p, verify_detail::point_at(edge, k / 1000.0 * length)));
+    double expected = std::max(distance(p, edge.start), distance(p, edge.end));
+    if (opposite > 0 && opposite < length)
+      expected = std::max(expected, distance(p, verify_detail::point_at(edge, opposite)));
+    EXPECT_NEAR(farthest, expected, 1e-5);
+    EXPECT_LE(farthest, expected + 1e-14);
+  }
+}
+
+TEST(DistanceTreeOfArcs, AgreesWithBruteForce) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> unit(0, 1);
+  for (const std::size_t count : {2U, 17U, 65U, 1000U}) {
+    Shape shape;
+    for (std::size_t i = 0; i < count; ++i) {
+      const double angle = 6.28 * static_cast<double>(i) / static_cast<double>(count);
+      const double r = 1 + (i % 7 == 0 ? 3 * unit(random) : 0.01 * unit(random));
+      shape.points.push_back({r * std::cos(angle), r * std::sin(angle)});
+      shape.bulges.push_back(i % 3 == 0 ? 0 : 2 * unit(random) - 1);
+    }
+    shape.loop_begin = {0, static_cast<std::uint32_t>(count)};
+    shape.component = {0};
+    shape.hole = {false};
+    const verify_detail::DistanceTree tree(shape);
+    for (int i = 0; i < 300; ++i) {
+      const Vec2 p{10 * unit(random) - 5, 10 * unit(random) - 5};
+      double expected = std::numeric_limits<double>::infinity();
+      for (std::size_t j = 0; j < count; ++j)
+        expected = std::min(
+            expected, verify_detail::distance_to_edge(
+                          p, {shape.points[j], shape.points[(j + 1) % count], shape.bulges[j]}));
+      for (const double guess : {0.0, 0.5 * expected, expected, 2 * expected, 1e300})
+        EXPECT_EQ(tree.distance(p, guess), expected);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace medial
