@@ -14,10 +14,12 @@ namespace medial {
 
 /// How an axis is computed. All methods return the same graph.
 enum class Method : std::uint8_t {
-  disks,  ///< walks along the axis; asks a tree over the boundary. The fastest; holes, threads
+  disks,     ///< walks along the axis; asks a tree over the boundary. The fastest; holes, threads
+  biarc_dc,  ///< the randomised divide and conquer of Aichholzer et al. as published: one thread
+             ///< and shapes without holes only, O(n log n) to O(n^2)
 };
 
-/// The name of a method on the command line and in MedialAxis::method: "disks".
+/// The name of a method on the command line and in MedialAxis::method: "disks", "biarc-dc".
 const char* name_of(Method method);
 /// The method of that name, if there is one.
 std::optional<Method> method_from(std::string_view name);
@@ -33,6 +35,8 @@ struct Options {
   double corner_angle = 0.01;
   /// Threads to use, at most 1024; 0: all of the machine. The result is the same, byte for byte.
   int threads = 0;
+  /// Of the random choices of biarc_dc: the same seed gives the same result, byte for byte.
+  std::uint64_t seed = 1;
   /// Called now and then, from any thread and out of order, with the share of the boundary that the
   /// walk is done with, in [0, 1]; in the end with 1. What comes before the walk (sites, holes,
   /// tree) counts as 0, what comes after it as 1: together less than half of the time. Must not
@@ -48,7 +52,7 @@ struct Options {
 /// The graph has one connected part for each component of the shape and exactly one independent
 /// cycle for each hole. Errors: invalid_option, cancelled,
 /// empty, too_large, unsupported (a coordinate above 1e100 in size, or one that is not zero but
-/// below 1e-100, or below that share of the largest), malformed (a shape that
+/// below 1e-100, or below that share of the largest; holes, for biarc_dc), malformed (a shape that
 /// build_shape() did not make), out_of_memory, internal.
 Result<MedialAxis> compute(const Shape& shape, const Options& options = {});
 

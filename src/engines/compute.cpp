@@ -9,6 +9,7 @@
 
 #include "base/limits.h"
 #include "base/threads.h"
+#include "engines/biarc_dc/biarc_dc.h"
 #include "engines/disks/disks.h"
 
 namespace medial {
@@ -60,6 +61,10 @@ std::optional<Error> refuse(const Shape& shape, const Options& options) {
   if (auto error = beyond_limits(shape)) return error;
   if (!is_consistent(shape))
     return Error{ErrorCode::malformed, "the shape was not made by build_shape()", {}};
+  if (options.method == Method::biarc_dc && shape.hole_count() > 0)
+    return Error{ErrorCode::unsupported,
+                 "the method biarc-dc takes shapes without holes only: use the method disks",
+                 {}};
   return std::nullopt;
 }
 
@@ -72,13 +77,16 @@ bool has_right_topology(const Shape& shape, const MedialAxis& axis) {
 
 MedialAxis run(const Shape& shape, const Options& options) {
   switch (options.method) {
+    case Method::biarc_dc:
+      return biarc_dc::run(shape, options);
     case Method::disks:
       break;
   }
   return disks::run(shape, options);
 }
 
-constexpr std::array<std::pair<Method, const char*>, 1> method_names = {{{Method::disks, "disks"}}};
+constexpr std::array<std::pair<Method, const char*>, 2> method_names = {
+    {{Method::disks, "disks"}, {Method::biarc_dc, "biarc-dc"}}};
 
 }  // namespace
 
