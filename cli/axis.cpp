@@ -14,10 +14,11 @@ struct AxisSwitches {
   std::string output;
   std::string format;
   io::WriteOptions write;
+  Options options;
 };
 
 Result<int> run_axis(const AxisSwitches& switches) {
-  const auto& [input, common, output, format, pictures] = switches;
+  const auto& [input, common, output, format, pictures, options] = switches;
   Status writable = check_output(output, format, io::known_output_formats(), input.path);
   if (!writable) return std::move(writable).error();
   if (output == "-" && common.json) {
@@ -27,7 +28,7 @@ Result<int> run_axis(const AxisSwitches& switches) {
   auto shapes = load_shapes(input, common.threads);
   if (!shapes) return std::move(shapes).error();
   print_notes(*shapes, input, common);
-  auto axes = compute_axes(std::move(shapes).value(), input.path, common);
+  auto axes = compute_axes(std::move(shapes).value(), input.path, common, options);
   if (!axes) return std::move(axes).error();
 
   return write_and_tell(*axes, input, common, output, format, pictures);
@@ -49,6 +50,18 @@ Verb make_axis_verb(CLI::App& program) {
       ->option_text("NAME");
   verb->add_flag("--radius-as-z", switches->write.radius_as_z,
                  "Drawings (.dxf): splines in space, with the radius as z.");
+  verb->add_option_function<std::string>(
+          "--method",
+          [switches](const std::string& name) { switches->options.method = *method_from(name); },
+          "How the axes are computed: disks (default) or biarc-dc, the published\n"
+          "randomised divide and conquer, for shapes without holes. Both give the\n"
+          "same axes; disks is the faster one.")
+      ->check(CLI::IsMember({"disks", "biarc-dc"}).description(""))
+      ->option_text("NAME");
+  verb->add_option("--seed", switches->options.seed,
+                   "Of the random choices of biarc-dc (default: 1). The same seed gives the\n"
+                   "same result, byte for byte.")
+      ->option_text("N");
   add_picture_switches(*verb, switches->write);
   add_common_switches(*verb, switches->common);
   verb->footer(

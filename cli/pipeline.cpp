@@ -267,9 +267,10 @@ void print_notes(const ShapeFile& file, const InputSwitches& input, const Common
 }
 
 Result<AxisFile> compute_axes(ShapeFile shapes, const std::string& path,
-                              const CommonSwitches& common) {
+                              const CommonSwitches& common, Options options) {
   const Stopwatch watch;
   AxisFile file;
+  options.tolerance = common.tolerance;
   const std::size_t count = shapes.shapes.size();
   file.native.items.resize(count);
   file.native.crs_wkt = std::move(shapes.crs_wkt);
@@ -282,17 +283,16 @@ Result<AxisFile> compute_axes(ShapeFile shapes, const std::string& path,
   Progress progress("medial axis", total, error_is_terminal() && !common.quiet);
   Status computed =
       for_each_feature(weights, common.threads, [&](std::size_t i, int threads) -> Status {
-        Options options;
-        options.tolerance = common.tolerance;
-        options.threads = threads;
-        options.progress = progress.part(weights[i]);
-        auto axis = compute(shapes.shapes[i], options);
+        Options own = options;
+        own.threads = threads;
+        own.progress = progress.part(weights[i]);
+        auto axis = compute(shapes.shapes[i], own);
         if (!axis) return at_feature(std::move(axis).error(), path, i);
         io::NativeItem& item = file.native.items[i];
         item.axis = std::move(axis).value();
         item.shape = std::move(shapes.shapes[i]);
         item.attributes = std::move(shapes.attributes[i]);
-        if (options.progress) options.progress(1.0);
+        if (own.progress) own.progress(1.0);
         return success();
       });
   if (!computed) return std::move(computed).error();

@@ -79,9 +79,9 @@ Result<ShapeFile> load_shapes(const InputSwitches& input, int threads);
 void print_notes(const ShapeFile& file, const InputSwitches& input, const CommonSwitches& common);
 
 /// Computes the axis of every shape, with a progress bar where that is wanted. `path` names the
-/// input in errors.
+/// input in errors. Of `options`, what the common switches tell and progress are set here.
 Result<AxisFile> compute_axes(ShapeFile shapes, const std::string& path,
-                              const CommonSwitches& common);
+                              const CommonSwitches& common, Options options = {});
 
 AxisSummary summarize(const io::NativeFile& file);
 /// "1 feature, 12 sites, 20 nodes, 19 edges, 7 branches; deepest disk: radius 3 at (1, 2)"

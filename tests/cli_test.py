@@ -201,6 +201,22 @@ class Axis(CommandLine):
             self.assertEqual(len(exact), len(rounded))
         self.assertLess(counts[0], counts[1])
 
+    def test_methods(self):
+        """Both methods find the same axis; biarc-dc refuses holes, and tells which method takes them."""
+        self.write("teeth.wkt", comb(20))
+        self.write("ring.wkt", FRAME)
+        by_disks = json.loads(self.succeed("axis", "teeth.wkt", "--json").stdout)
+        published = ["axis", "teeth.wkt", "--json", "--method", "biarc-dc", "--seed", "7"]
+        by_division = json.loads(self.succeed(*published, "-o", "division.json").stdout)
+        for count in ("sites", "leaves", "branches"):
+            if count in by_disks:
+                self.assertEqual(by_division[count], by_disks[count], count)
+        self.assertAlmostEqual(by_division["length"] / by_disks["length"], 1, places=12)
+        written = self.succeed("info", "division.json", "--json").stdout
+        self.assertEqual(json.loads(written)["method"], "biarc-dc")
+        refused = self.refuse("unsupported", "axis", "ring.wkt", "--method", "biarc-dc")
+        self.refuse("[a-z_]+", "axis", "teeth.wkt", "--method", "magic")
+
     def test_pipes(self):
         self.write("frame.wkt", FRAME)
         with open(self.path("frame.wkt"), "rb") as given:

@@ -106,7 +106,8 @@ Result<MedialAxis> compute(const Shape& shape, const Options& options) {
   try {
     if (auto error = refuse(shape, options)) return std::move(*error);
     MedialAxis axis = on_threads(options.threads, [&] { return run(shape, options); });
-    axis.statistics.threads = effective_threads(options.threads);
+    axis.statistics.threads =
+        options.method == Method::disks ? effective_threads(options.threads) : 1;
     if (options.cancel != nullptr && options.cancel->load())
       return Error{ErrorCode::cancelled, "cancelled", {}};
     if (!has_right_topology(shape, axis))
