@@ -34,10 +34,6 @@ bool overlaps(const Disk& disk, const Site& site, double slack) {
   const double reach = disk.radius - slack;
   return reach > 0 && geometry::squared_distance(site, disk.center) < reach * reach;
 }
-bool touches(const Disk& disk, const Site& site, double slack) {
-  return std::abs(std::sqrt(geometry::squared_distance(site, disk.center)) - disk.radius) <= slack;
-}
-
 /// Brings a disk's residual at three sites below the tolerance: by Newton's method, and where that
 /// fails in higher precision.
 Disk polished(Context& context, Disk disk, const Site& a, const Site& b, const Site& c) {
@@ -148,7 +144,10 @@ std::optional<Disk> disk_at_end(const Context& context, const Subshape& subshape
   if (passes) largest = std::max(largest, next.curvature);
   const double radius = geometry::tangent_radius(foot, normal, other);
   constexpr double widest = 1e-7;  // a disk fits into an arc's circle up to this
-  if (!(radius <= context.radius_limit && radius * largest <= 1 + widest)) return std::nullopt;
+  // In a narrow wedge the disk at the end may be far larger than the shape's.
+  constexpr double far_end = 0x1p20;
+  if (!(radius <= far_end * context.radius_limit && radius * largest <= 1 + widest))
+    return std::nullopt;
   return Disk{foot + radius * normal, radius};
 }
 
@@ -169,6 +168,10 @@ Place place_on(const Context& context, const Subshape& subshape, std::size_t k, 
 }
 
 }  // namespace
+
+bool touches(const Disk& disk, const Site& site, double slack) {
+  return std::abs(std::sqrt(geometry::squared_distance(site, disk.center)) - disk.radius) <= slack;
+}
 
 MaximalDisk maximal_disk(Context& context, const Subshape& subshape, const Place& place) {
   ++context.statistics.queries;

@@ -56,6 +56,9 @@ MaximalDisk maximal_disk(Context& context, const Subshape& subshape, const Place
 std::optional<MaximalDisk> branching_disk(Context& context, const Subshape& subshape, std::size_t i,
                                           const std::vector<Disk>& disks);
 
+/// Whether a disk's boundary passes a closed site at a distance of at most `slack`.
+bool touches(const Disk& disk, const geometry::Site& site, double slack);
+
 /// The disk on a bisector, ahead of `from`, that first touches a third site.
 std::optional<Disk> first_contact(Context& context, const geometry::Bisector& bisector,
                                   const Disk& from, const geometry::Site& third,
