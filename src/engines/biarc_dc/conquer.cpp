@@ -86,21 +86,12 @@ class Evaluator {
     skeleton.edges.push_back({from, to, right, left});
   }
 
-  /// Adds the branching of a base case, or the passage to another site.
+  /// The branching of a base case, or the passage to another site: what comes first on the way from
+  /// the dividing disk after the third site.
   std::uint32_t add_meeting_node(const BaseShape& base) {
-    // A dividing disk that touches the third site within the tolerance is the branching. Where many
-    // sites are nearly touched by one disk, three that enclose small angles may ask for another.
-    const bool is_passage = base.base_case == BaseCase::a || base.base_case == BaseCase::g;
-    for (std::size_t i = 0; i < base.element.size() && !is_passage; ++i) {
-      const std::uint32_t disk = base.element[i].disk_after;
-      const std::uint32_t third = base.element[i == 1 ? 0 : i == 0 ? 2 : 1].site;
-      if (disk != none && touches(skeleton.nodes[disk], site(third), context_.tolerance))
-        return disk;
-    }
-    // Otherwise what comes first on the way from the dividing disk after the third site.
     const Subshape subshape{{base.element.begin(), base.element.end()}, base.component};
     const auto meeting = branching_disk(context_, subshape, 2, skeleton.nodes);
-    return add_node(meeting ? meeting->disk : skeleton.nodes[base.element[2].disk_after], base);
+    return meeting ? add_node(meeting->disk, base) : base.element[2].disk_after;
   }
 
   Context& context_;

@@ -34,6 +34,10 @@ bool overlaps(const Disk& disk, const Site& site, double slack) {
   const double reach = disk.radius - slack;
   return reach > 0 && geometry::squared_distance(site, disk.center) < reach * reach;
 }
+bool touches(const Disk& disk, const Site& site, double slack) {
+  return std::abs(std::sqrt(geometry::squared_distance(site, disk.center)) - disk.radius) <= slack;
+}
+
 /// Brings a disk's residual at three sites below the tolerance: by Newton's method, and where that
 /// fails in higher precision.
 Disk polished(Context& context, Disk disk, const Site& a, const Site& b, const Site& c) {
@@ -119,6 +123,26 @@ Disk bracket(Context& context, const Bisector& bisector, const Disk& from, const
   return touches(better, third, context.tolerance) ? better : disk;
 }
 
+/// The disk on a bisector, ahead of `from`, that first touches a third site, which the disk
+/// `overlapping`, further on, reaches over.
+Disk first_contact(Context& context, const Bisector& bisector, const Disk& from, const Site& third,
+                   const Disk& overlapping) {
+  if (touches(from, third, context.tolerance)) return from;
+  const double high = bisector.position(overlapping.center);
+  const auto reaches = [&](const std::optional<Disk>& disk) {
+    return disk && touches(*disk, third, 2 * context.tolerance);
+  };
+  const auto on_carrier = contact_with_carrier(context, bisector, from, high, third);
+  if (reaches(on_carrier)) return *on_carrier;
+  if (!third.is_vertex()) {
+    const Disk& near = on_carrier ? *on_carrier : overlapping;
+    const auto on_end =
+        contact_with_carrier(context, bisector, from, high, end_near(third, near.center));
+    if (reaches(on_end)) return *on_end;
+  }
+  return bracket(context, bisector, from, third, high);
+}
+
 /// The disk that touches the boundary at the last place that a foot moving on an element gets to,
 /// `forward` or backward, and touches the carrier of `other`.
 std::optional<Disk> disk_at_end(const Context& context, const Subshape& subshape, std::size_t i,
@@ -167,11 +191,23 @@ Place place_on(const Context& context, const Subshape& subshape, std::size_t k, 
   return {k, false, std::clamp(s, element.from, element.to)};
 }
 
-}  // namespace
-
-bool touches(const Disk& disk, const Site& site, double slack) {
-  return std::abs(std::sqrt(geometry::squared_distance(site, disk.center)) - disk.radius) <= slack;
+/// The dividing disk, if any, beyond which a disk would touch element `k`. Where many sites are
+/// nearly touched by one disk, three that enclose small angles may ask for a disk there; the
+/// dividing disk, which they touch within the tolerance, is their branching then.
+const Disk* disk_passed(const Context& context, const Subshape& subshape, std::size_t k,
+                        const Disk& disk, const std::vector<Disk>& disks) {
+  constexpr double rounding = 0x1p-50;
+  const Element& element = subshape.elements[k];
+  const Element& before = subshape.elements[subshape.before(k)];
+  const Site& site = context.site(element);
+  if (site.is_vertex()) return nullptr;
+  const double s = geometry::foot_parameter(site, disk.center);
+  if (s < element.from - rounding && !before.is_joined()) return &disks[before.disk_after];
+  if (s > element.to + rounding && !element.is_joined()) return &disks[element.disk_after];
+  return nullptr;
 }
+
+}  // namespace
 
 MaximalDisk maximal_disk(Context& context, const Subshape& subshape, const Place& place) {
   ++context.statistics.queries;
@@ -211,28 +247,6 @@ MaximalDisk maximal_disk(Context& context, const Subshape& subshape, const Place
   MaximalDisk result{disk, {place}};
   if (touched < n) result.contacts.push_back(place_on(context, subshape, touched, disk));
   return result;
-}
-
-std::optional<Disk> first_contact(Context& context, const Bisector& bisector, const Disk& from,
-                                  const Site& third, const Disk* overlapping) {
-  if (touches(from, third, context.tolerance)) return from;
-  const double high = overlapping != nullptr ? bisector.position(overlapping->center) : nowhere;
-  const auto reaches = [&](const std::optional<Disk>& disk) {
-    return disk && touches(*disk, third, 2 * context.tolerance);
-  };
-  const auto on_carrier = contact_with_carrier(context, bisector, from, high, third);
-  if (reaches(on_carrier)) return on_carrier;
-  if (!third.is_vertex()) {
-    const Disk& near = on_carrier ? *on_carrier : overlapping != nullptr ? *overlapping : from;
-    const auto on_end =
-        contact_with_carrier(context, bisector, from, high, end_near(third, near.center));
-    if (reaches(on_end)) return on_end;
-  }
-  if (overlapping != nullptr) return bracket(context, bisector, from, third, high);
-  const double last = bisector.last_position(from, context.radius_limit);
-  if (overlaps(bisector.disk_at(last, from), third, 0))
-    return bracket(context, bisector, from, third, last);
-  return std::nullopt;
 }
 
 std::optional<MaximalDisk> branching_disk(Context& context, const Subshape& subshape, std::size_t i,
@@ -291,13 +305,17 @@ std::optional<MaximalDisk> branching_disk(Context& context, const Subshape& subs
     if ((k == after && passes_right) || (k == before && passes_left)) continue;
     const Site& site = context.site(subshape.elements[k]);
     if (!overlaps(disk, site, context.tolerance)) continue;
-    const auto contact = first_contact(context, bisector, from, site, &disk);
-    if (!contact) continue;
-    disk = *contact;
+    disk = first_contact(context, bisector, from, site, disk);
     position = bisector.position(disk.center);
     third = Place{k, false, geometry::foot_parameter(site, disk.center)};
   }
   if (!third) return std::nullopt;
+  for (const std::size_t k : {right, third->element, left}) {
+    const Disk* const passed = disk_passed(context, subshape, k, disk, disks);
+    if (passed == nullptr) continue;
+    disk = *passed;
+    break;
+  }
   MaximalDisk result{disk, {}};
   const bool right_at_joint = third->at_joint && third->element == right;
   const bool left_at_joint = third->at_joint && third->element == before;

@@ -56,14 +56,6 @@ MaximalDisk maximal_disk(Context& context, const Subshape& subshape, const Place
 std::optional<MaximalDisk> branching_disk(Context& context, const Subshape& subshape, std::size_t i,
                                           const std::vector<Disk>& disks);
 
-/// Whether a disk's boundary passes a closed site at a distance of at most `slack`.
-bool touches(const Disk& disk, const geometry::Site& site, double slack);
-
-/// The disk on a bisector, ahead of `from`, that first touches a third site.
-std::optional<Disk> first_contact(Context& context, const geometry::Bisector& bisector,
-                                  const Disk& from, const geometry::Site& third,
-                                  const Disk* overlapping = nullptr);
-
 /// All places, in boundary order, where a disk touches the boundary within the tolerance, one for
 /// each connected piece of contact, `sure` ones among them; whole arcs on the disk's circle are cut
 /// out (see Cut). `all` is set if that is all of the boundary.
