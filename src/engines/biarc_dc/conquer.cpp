@@ -47,7 +47,7 @@ class Evaluator {
       case BaseCase::g: {
         const std::uint32_t passage = add_meeting_node(base);
         add_edge(after_z, passage, x, z);
-        add_edge(passage, after_y, z, y);
+        add_edge(after_y, passage, z, y);
         break;
       }
       case BaseCase::e:
