@@ -115,8 +115,10 @@ std::vector<Cut> contacts_of(const Context& context, const Subshape& subshape,
     }
     const std::size_t before = cuts.size();
     for (const Touch* touch : run)
-      for (const Place& place : maximal.contacts)
-        if (place.element == touch->element) cuts.push_back(cut_at(subshape, place));
+      for (const bool at_joint : {false, true})
+        for (const Place& place : maximal.contacts)
+          if (place.element == touch->element && place.at_joint == at_joint)
+            cuts.push_back(cut_at(subshape, place));
     if (cuts.size() == before) cuts.push_back(contact_in_run(context, subshape, run));
   }
   return cuts;

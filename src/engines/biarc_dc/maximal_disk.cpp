@@ -175,20 +175,25 @@ std::optional<Disk> disk_at_end(const Context& context, const Subshape& subshape
   return Disk{foot + radius * normal, radius};
 }
 
-/// Where a disk touches element `k`, or the reflex vertex that is its end.
+/// Where a disk touches element `k`, or what it passes on to at a joint where the disk touches its
+/// end.
 Place place_on(const Context& context, const Subshape& subshape, std::size_t k, const Disk& disk) {
-  const Element& element = subshape.elements[k];
-  const Site& site = context.site(element);
-  if (site.is_vertex()) return {k, false, 0};
-  const double s = geometry::foot_parameter(site, disk.center);
-  const std::size_t before = subshape.before(k), after = subshape.next(k);
-  const auto is_vertex = [&](std::size_t i) {
-    return context.site(subshape.elements[i]).is_vertex();
-  };
-  if (s <= 0 && subshape.elements[before].is_joined() && is_vertex(before))
-    return {before, false, 0};
-  if (s >= site.length && element.is_joined() && is_vertex(after)) return {after, false, 0};
-  return {k, false, std::clamp(s, element.from, element.to)};
+  int direction = 0;
+  for (std::size_t step = 0; step < subshape.size(); ++step) {
+    const Element& element = subshape.elements[k];
+    const Site& site = context.site(element);
+    if (site.is_vertex()) break;
+    const double s = geometry::foot_parameter(site, disk.center);
+    const std::size_t before = subshape.before(k);
+    const bool goes_back = s <= 0 && context.joins_smoothly(subshape.elements[before]);
+    const bool goes_on = s >= site.length && context.joins_smoothly(element);
+    if (!goes_back && !goes_on) return {k, false, std::clamp(s, element.from, element.to)};
+    if (goes_back && direction > 0) return {before, true, 0};
+    if (goes_on && direction < 0) return {k, true, 0};
+    direction = goes_on ? 1 : -1;
+    k = goes_on ? subshape.next(k) : before;
+  }
+  return {k, false, 0};
 }
 
 /// The dividing disk, if any, beyond which a disk would touch element `k`. Where many sites are
@@ -319,15 +324,14 @@ std::optional<MaximalDisk> branching_disk(Context& context, const Subshape& subs
   MaximalDisk result{disk, {}};
   const bool right_at_joint = third->at_joint && third->element == right;
   const bool left_at_joint = third->at_joint && third->element == before;
-  const auto touch = [&](std::size_t k) {
-    result.contacts.push_back(place_on(context, subshape, k, disk));
+  const auto add = [&](const Place& place) {
+    for (const Place& known : result.contacts)
+      if (known.element == place.element && known.at_joint == place.at_joint) return;
+    result.contacts.push_back(place);
   };
-  if (!right_at_joint) touch(right);
-  if (third->at_joint)
-    result.contacts.push_back(*third);
-  else
-    touch(third->element);
-  if (!left_at_joint) touch(left);
+  if (!right_at_joint) add(place_on(context, subshape, right, disk));
+  add(third->at_joint ? *third : place_on(context, subshape, third->element, disk));
+  if (!left_at_joint) add(place_on(context, subshape, left, disk));
   return result;
 }
 
