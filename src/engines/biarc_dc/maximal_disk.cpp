@@ -175,23 +175,36 @@ std::optional<Disk> disk_at_end(const Context& context, const Subshape& subshape
   return Disk{foot + radius * normal, radius};
 }
 
-/// Where a disk touches element `k`, or what it passes on to at a joint where the disk touches its
-/// end.
+/// Where a disk touches element `k`, or its neighbour if the nearest point of both is their joint
+/// within rounding but lies inside of the neighbour.
 Place place_on(const Context& context, const Subshape& subshape, std::size_t k, const Disk& disk) {
   int direction = 0;
   for (std::size_t step = 0; step < subshape.size(); ++step) {
     const Element& element = subshape.elements[k];
     const Site& site = context.site(element);
-    if (site.is_vertex()) break;
-    const double s = geometry::foot_parameter(site, disk.center);
-    const std::size_t before = subshape.before(k);
-    const bool goes_back = s <= 0 && context.joins_smoothly(subshape.elements[before]);
-    const bool goes_on = s >= site.length && context.joins_smoothly(element);
+    const std::size_t before = subshape.before(k), next = subshape.next(k);
+    const bool joins_before = context.joins_smoothly(subshape.elements[before]),
+               joins_next = context.joins_smoothly(element);
+    bool goes_back = false, goes_on = false;
+    double s = 0;
+    if (site.is_vertex()) {
+      const auto lies_inside = [&](std::size_t i) {
+        const Site& neighbor = context.site(subshape.elements[i]);
+        const double there = geometry::foot_parameter(neighbor, disk.center);
+        return there > 0 && there < neighbor.length;
+      };
+      goes_on = joins_next && lies_inside(next);
+      goes_back = !goes_on && joins_before && lies_inside(before);
+    } else {
+      s = geometry::foot_parameter(site, disk.center);
+      goes_back = s <= 0 && joins_before;
+      goes_on = s >= site.length && joins_next;
+    }
     if (!goes_back && !goes_on) return {k, false, std::clamp(s, element.from, element.to)};
     if (goes_back && direction > 0) return {before, true, 0};
     if (goes_on && direction < 0) return {k, true, 0};
     direction = goes_on ? 1 : -1;
-    k = goes_on ? subshape.next(k) : before;
+    k = goes_on ? next : before;
   }
   return {k, false, 0};
 }

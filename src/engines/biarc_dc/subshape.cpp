@@ -79,7 +79,8 @@ bool is_cap(const Subshape& subshape, const Outline& outline, const std::vector<
   };
   return std::all_of(subshape.elements.begin(), subshape.elements.end(), [&](const Element& one) {
     const geometry::Site& site = outline.sites[one.site];
-    return touches(site.at(one.from)) && touches(site.at(one.to));
+    return touches(site.at(one.from)) && touches(site.at(0.5 * (one.from + one.to))) &&
+           touches(site.at(one.to));
   });
 }
 
