@@ -1,20 +1,20 @@
 #include "axis/sites.h"
 
 #include "base/predicates.h"
+#include "base/tolerance.h"
 
 namespace medial::sites {
 namespace {
 
 using geometry::Joint;
 
-/// The joint at point i, between the edge that ends there and the one that begins there.
-Joint joint_at(const Loop& loop, std::uint32_t i, const Pieces& before, const Pieces& after,
-               double corner_angle) {
-  if (before.last().is_arc() || after.first().is_arc())
-    return geometry::joint_of(before.last(), after.first(), corner_angle);
-  const bool convex =
-      orientation(loop.point(loop.before(i)), loop.point(i), loop.point(loop.next(i))) > 0;
-  return convex ? Joint::corner : Joint::reflex;
+Joint joint_at(const Loop& loop, std::uint32_t i, double tolerance, double corner_angle) {
+  const std::uint32_t before = loop.before(i), after = loop.next(i);
+  const Vec2 p = loop.point(before), q = loop.point(i), r = loop.point(after);
+  if (loop.bulge(before) == 0 && loop.bulge(i) == 0)
+    return orientation(p, q, r) > 0 ? Joint::corner : Joint::reflex;
+  return geometry::joint_of({p, q, loop.bulge(before)}, {q, r, loop.bulge(i)}, tolerance,
+                            corner_angle);
 }
 
 }  // namespace
@@ -32,14 +32,11 @@ SiteNumbers number_sites(const Shape& shape, const Frame& frame, double corner_a
   SiteNumbers numbers;
   numbers.edge.resize(shape.points.size());
   numbers.joints.resize(shape.points.size());
+  const double tolerance = tolerance_for(bounding_box(shape), 0);
   for (std::size_t l = 0; l < shape.loop_count(); ++l) {
     const Loop loop(shape, l, frame);
-    const bool has_arcs = !shape.bulges.empty();
-    Pieces before = has_arcs ? loop.edge(loop.size() - 1) : Pieces{};
     for (std::uint32_t i = 0; i < loop.size(); ++i) {
-      const Pieces after = has_arcs ? loop.edge(i) : Pieces{};
-      const Joint joint = joint_at(loop, i, before, after, corner_angle);
-      before = after;
+      const Joint joint = joint_at(loop, i, tolerance, corner_angle);
       numbers.joints[loop.begin() + i] = joint;
       if (joint == Joint::reflex) ++numbers.count;
       numbers.edge[loop.begin() + i] = numbers.count++;

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "geometry/site.h"
+#include "base/arc.h"
 
 namespace medial::geometry {
 
@@ -15,31 +15,25 @@ enum class Joint : std::uint8_t {
   reflex,  ///< at a reflex angle: the vertex is a site
 };
 
-/// Directions that differ by less count as one: a disk that touches an edge there stays within
-/// radius * angle^2 / 2 of the other one, far below every tolerance.
-constexpr double smooth_angle = 1e-8;
-
-/// Directions that are opposite but for less make a cusp: where circles touch, the contact is known
-/// to the tolerance, some 1e-14 of the radius. A wider tip, as that of a thin lens, has a side that
-/// its angle tells.
-constexpr double cusp_angle = 1e-12;
-
-/// The joint of two edges, at least one of them an arc, by their unit tangents and curvatures where
-/// they meet; `corner_angle` in radians. At a cusp the curvatures tell whether the interior is
-/// inside or around it.
-inline Joint joint_of(Vec2 arriving, double curvature_before, Vec2 leaving, double curvature_after,
+/// The joint where `before` ends and `after` begins, of which at least one is an arc.
+///
+/// Directions count as one below the angle that rounding of the coordinates leaves open: 1e-12, and
+/// four times `tolerance` (that of the coordinates, in their units) against the chords. At a cusp
+/// the curvatures tell whether the interior is inside or around it. `corner_angle` in radians.
+inline Joint joint_of(const BulgeArc& before, const BulgeArc& after, double tolerance,
                       double corner_angle) {
+  constexpr double least = 1e-12;
+  const Vec2 arriving = end_tangent(before), leaving = start_tangent(after);
   const double sine = cross(arriving, leaving), cosine = dot(arriving, leaving);
-  if (cosine > 0 && std::abs(sine) <= smooth_angle) return Joint::smooth;
-  if (cosine < 0 && std::abs(sine) <= cusp_angle)
-    return -curvature_before > curvature_after ? Joint::corner : Joint::reflex;
+  const double rounding =
+      4 * tolerance *
+      (1 / distance(before.start, before.end) + 1 / distance(after.start, after.end));
+  if (std::abs(sine) <= least + rounding) {
+    if (cosine > 0) return Joint::smooth;
+    return -curvature(before) > curvature(after) ? Joint::corner : Joint::reflex;
+  }
   if (sine < 0) return Joint::reflex;
   return std::atan2(sine, cosine) <= corner_angle ? Joint::blunt : Joint::corner;
-}
-/// The same where `before` ends and `after` begins.
-inline Joint joint_of(const Site& before, const Site& after, double corner_angle) {
-  return joint_of(-left_of(before.end_normal()), before.curvature, after.direction, after.curvature,
-                  corner_angle);
 }
 
 }  // namespace medial::geometry

@@ -4,6 +4,7 @@
 
 #include "base/limits.h"
 #include "base/predicates.h"
+#include "base/tolerance.h"
 #include "verify/checks.h"
 
 namespace medial::verify_detail {
@@ -47,13 +48,14 @@ double turn_between(const BoundaryEdge& before, const BoundaryEdge& after) {
   return std::atan2(cross(arriving, leaving), dot(arriving, leaving));
 }
 
-Joint joint_between(const BoundaryEdge& before, const BoundaryEdge& after, double corner_angle) {
+Joint joint_between(const BoundaryEdge& before, const BoundaryEdge& after, double tolerance,
+                    double corner_angle) {
   if (before.bulge == 0 && after.bulge == 0) {
     const int turn = orientation(before.start, before.end, after.end);
     return turn > 0 ? Joint::corner : turn < 0 ? Joint::reflex : Joint::smooth;
   }
-  return geometry::joint_of(end_tangent(before), curvature(before), start_tangent(after),
-                            curvature(after), corner_angle);
+  return geometry::joint_of({before.start, before.end, before.bulge},
+                            {after.start, after.end, after.bulge}, tolerance, corner_angle);
 }
 
 /// A corner or a leaf: what has to agree.
@@ -202,6 +204,7 @@ void prepare(Problem& problem, double corner_angle, Certificate& certificate) {
   problem.component.resize(count);
   problem.joint.resize(count);
   if (!shape.bulges.empty()) problem.blunt_angle.assign(count, 0);
+  const double tolerance = tolerance_for(bounding_box(shape), 0);
   for (std::size_t i = 0; i < shape.loop_count(); ++i) {
     const std::uint32_t begin = shape.loop_begin[i], end = shape.loop_begin[i + 1];
     for (std::uint32_t j = begin; j < end; ++j) {
@@ -210,7 +213,8 @@ void prepare(Problem& problem, double corner_angle, Certificate& certificate) {
     }
     for (std::uint32_t j = begin; j < end; ++j) {
       const std::uint32_t previous = j > begin ? j - 1 : end - 1;
-      problem.joint[j] = joint_between(problem.edge(previous), problem.edge(j), corner_angle);
+      problem.joint[j] =
+          joint_between(problem.edge(previous), problem.edge(j), tolerance, corner_angle);
       if (!problem.is_blunt(j)) continue;
       problem.blunt_angle[j] = turn_between(problem.edge(previous), problem.edge(j));
       ++certificate.blunt_joints;
