@@ -63,8 +63,8 @@ Result<Dataset> read_text(const std::string& text, const std::string& font);
 struct NativeItem {
   Shape shape;
   MedialAxis axis;
-  std::vector<Contour> contours;  ///< instead of a shape: what is still to be made into one
   std::vector<std::pair<std::string, std::string>> attributes;
+  std::vector<Contour> contours = {};  ///< instead of a shape: what is still to be made into one
 };
 
 /// medial's own JSON (docs/format.md): lossless.
