@@ -444,18 +444,30 @@ class Merger {
     }
   }
 
-  Vec2 center_of(std::uint32_t node) {
+  const Disk& disk_of(std::uint32_t node) {
     const std::uint32_t cluster = cluster_of(node);
-    return cluster == none || clusters_[cluster].dissolved ? axis_.nodes[node].disk.center
-                                                           : clusters_[cluster].fit.disk.center;
+    return cluster == none || clusters_[cluster].dissolved ? axis_.nodes[node].disk
+                                                           : clusters_[cluster].fit.disk;
   }
 
   /// Whether the feet move forward on the right site and backward on the left one, but for what
-  /// the tolerance leaves open.
+  /// the tolerance leaves open, and the disk halfway along the edge still touches both and no more.
   bool advances(const Edge& edge) {
     const double slack = 4 * tolerance_;
     const Site &left = boundary_.sites[edge.site[0]], &right = boundary_.sites[edge.site[1]];
-    const Vec2 from = center_of(edge.node[0]), to = center_of(edge.node[1]);
+    const Disk &start = disk_of(edge.node[0]), &end = disk_of(edge.node[1]);
+    const Vec2 from = start.center, to = end.center;
+    const geometry::Control control = geometry::control_of(left, right, start, end);
+    // Where an end is off a curved bisector by much against its length, the curve would fold back.
+    const Vec2 chord = to - from, bend = control.point.center - from;
+    if (!(dot(bend, chord) >= 0 && dot(bend, chord) <= squared_norm(chord))) return false;
+    const double share = 0.5 / (1 + control.weight), middle = control.weight / (1 + control.weight);
+    const Vec2 halfway = share * (from + to) + middle * control.point.center;
+    const double radius = share * (start.radius + end.radius) + middle * control.point.radius;
+    for (const Site& site : {left, right})
+      if (!(std::abs(geometry::carrier_distance(site, halfway) - radius) <= tolerance_))
+        return false;
+    if (!is_empty({halfway, radius}, axis_.nodes[edge.node[0]].component)) return false;
     const auto step = [](const Site& site, Vec2 a, Vec2 b) {
       return geometry::carrier_parameter(site, b) - geometry::carrier_parameter(site, a);
     };
