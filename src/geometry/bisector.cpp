@@ -23,12 +23,16 @@ Control control_with_arc(const Site& a, const Site& b, const Disk& from, const D
   };
   const auto product = [](const Vector& u, const Vector& v) { return dot(u.c, v.c) - u.r * v.r; };
   const Disk middle{midpoint(from.center, to.center), 0.5 * (from.radius + to.radius)};
-  // An edge this short is straight to rounding; its plane would be lost.
+  // An edge this short against its radius, its arcs' and the distances to their centres (its foci)
+  // is straight to rounding; its plane would be lost.
   constexpr double straight = 1e-8;
-  const double size =
-      std::min({middle.radius, 1 / std::abs(a.curvature), 1 / std::abs(b.curvature)});
-  if (squared_norm(to.center - from.center) <= straight * straight * size * size)
-    return {middle, 1};
+  double size = middle.radius;
+  for (const Site* s : {&a, &b})
+    if (s->is_arc())
+      size =
+          std::min({size, 1 / std::abs(s->curvature), std::abs(1 / s->curvature - middle.radius)});
+  size *= straight;
+  if (squared_norm(to.center - from.center) <= size * size) return {middle, 1};
   // Scaled so that round and flat add up to one in size.
   const auto flat_of = [](const Site& s) {
     return s.is_vertex() ? 0 : 1 / (1 + std::abs(s.curvature));
