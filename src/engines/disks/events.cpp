@@ -195,8 +195,9 @@ Event EventSearch::next() {
   if (event.kind == Event::Kind::contact) {
     if (from_.radius > 0 && contacts_.touches(event.site, from_, context_.tolerance))
       return at_node(event.site);
-    // The only site in between is the one found.
-    if (span_.left - span_.right == 2) return event;
+    // The only site in between is the one found; but a circle may be touched in the wrong place.
+    const bool straight = bisector_.reference == nullptr && !site(event.site).is_arc();
+    if (span_.left - span_.right == 2 && straight) return event;
   }
   return first_contact(event);
 }
