@@ -1,6 +1,5 @@
 #include "engines/disks/contacts.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace medial::disks {
@@ -126,49 +125,6 @@ void Contacts::split(const Span& span, const Disk& disk, std::uint32_t sure, boo
     }
   }
   parts.push_back({before, span.left, span.node});
-}
-
-Disk Contacts::settled(const Disk& disk, const std::vector<Span>& parts) const {
-  const auto for_each_contact = [&](auto&& visit) {
-    visit(site(parts.front().right));
-    for (const Span& part : parts) visit(site(part.left));
-  };
-  const auto worst_of = [&](const Disk& candidate) {
-    double worst = 0;
-    for_each_contact([&](const geometry::Site& s) {
-      worst = std::max(
-          worst, std::abs(geometry::carrier_distance(s, candidate.center) - candidate.radius));
-    });
-    return worst;
-  };
-  const double worst = worst_of(disk);
-  if (!(worst > 0.5 * context_.tolerance)) return disk;
-  // Normal equations of outward . (x, y) - r = -error, seen from the means, which leaves two
-  // unknowns.
-  Vec2 mean_outward;
-  double mean_error = 0, count = 0;
-  for_each_contact([&](const geometry::Site& s) {
-    mean_outward = mean_outward + geometry::outward(s, disk.center);
-    mean_error += geometry::carrier_distance(s, disk.center) - disk.radius;
-    ++count;
-  });
-  mean_outward = (1 / count) * mean_outward;
-  mean_error /= count;
-  double xx = 0, xy = 0, yy = 0;
-  Vec2 right_side;
-  for_each_contact([&](const geometry::Site& s) {
-    const Vec2 g = geometry::outward(s, disk.center) - mean_outward;
-    const double e = geometry::carrier_distance(s, disk.center) - disk.radius - mean_error;
-    xx += g.x * g.x;
-    xy += g.x * g.y;
-    yy += g.y * g.y;
-    right_side = right_side - e * g;
-  });
-  const double determinant = xx * yy - xy * xy;
-  const Vec2 step{(yy * right_side.x - xy * right_side.y) / determinant,
-                  (xx * right_side.y - xy * right_side.x) / determinant};
-  const Disk better{disk.center + step, disk.radius + dot(mean_outward, step) + mean_error};
-  return worst_of(better) < worst ? better : disk;
 }
 
 }  // namespace medial::disks

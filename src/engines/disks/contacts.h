@@ -85,11 +85,6 @@ class Contacts {
   void split(const Span& span, const Disk& disk, std::uint32_t sure, bool all_around,
              std::vector<Span>& parts);
 
-  /// The disk that fits best, by least squares, to the sites at the ends of a node's spans, where
-  /// the given one leaves more than half of the tolerance: with many contacts, any three of them
-  /// may stand badly for the others.
-  Disk settled(const Disk& disk, const std::vector<Span>& parts) const;
-
   /// Contacts of one disk at a smaller angle are not told apart at a node.
   static constexpr double distinct_contacts = 1e-6;
 

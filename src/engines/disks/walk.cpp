@@ -195,9 +195,6 @@ class Walker {
 
   void split(const Span& span, const Disk& disk, std::uint32_t sure, bool all_around) {
     contacts_.split(span, disk, sure, all_around, parts_);
-    // Node 0 is another task's.
-    if (span.node > 0 && parts_.size() > 2)
-      chunk_.nodes.replace(span.node, contacts_.settled(disk, parts_));
     stack_.insert(stack_.end(), parts_.begin(), parts_.end());
   }
 

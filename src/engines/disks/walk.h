@@ -24,10 +24,6 @@ class BlockList {
     const auto [block, place] = find(i);
     return blocks_[block][place];
   }
-  void replace(std::size_t i, const T& value) {
-    const auto [block, place] = find(i);
-    blocks_[block][place] = value;
-  }
   /// Calls take(i, element) for all elements in order and frees each block once it is done.
   template <class Take>
   void drain(Take&& take) {
