@@ -256,7 +256,7 @@ MaximalDisk maximal_disk(Context& context, const Subshape& subshape, const Place
   Disk disk{foot + radius * normal, radius};
   for (std::size_t step = 1, k = after; step < n; ++step, k = subshape.next(k)) {
     const Site& site = context.site(subshape.elements[k]);
-    if (!overlaps(disk, site, context.tolerance) || is_beside(k)) continue;
+    if (!overlaps(disk, site, context.rounding()) || is_beside(k)) continue;
     const double smaller = geometry::touching_radius(foot, normal, site);
     if (!(smaller > 0 && smaller < disk.radius)) continue;
     disk = {foot + smaller * normal, smaller};
@@ -322,7 +322,7 @@ std::optional<MaximalDisk> branching_disk(Context& context, const Subshape& subs
   for (std::size_t k = after; k != left && !is_apex; k = subshape.next(k)) {
     if ((k == after && passes_right) || (k == before && passes_left)) continue;
     const Site& site = context.site(subshape.elements[k]);
-    if (!overlaps(disk, site, context.tolerance)) continue;
+    if (!overlaps(disk, site, context.rounding())) continue;
     disk = first_contact(context, bisector, from, site, disk);
     position = bisector.position(disk.center);
     third = Place{k, false, geometry::foot_parameter(site, disk.center)};
