@@ -1,0 +1,243 @@
+// The method biarc-dc: base cases, divisions, and agreement with the method disks.
+
+#include "engines/biarc_dc/biarc_dc.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "medial/medial.h"
+#include "support/generate.h"
+#include "support/generate_arcs.h"
+#include "support/property.h"
+
+namespace medial::test {
+namespace {
+
+using biarc_dc::BaseCase;
+using biarc_dc::Report;
+
+Options options_for(Method method, std::uint64_t seed = 1) {
+  Options options;
+  options.method = method;
+  options.threads = 1;
+  options.seed = seed;
+  return options;
+}
+
+std::uint64_t count_of(const Report& report, BaseCase base_case) {
+  return report.base_cases[static_cast<std::size_t>(base_case)];
+}
+
+/// How long the edges between each pair of sites are together. Rounding may move a tie's short
+/// edges from one pair to another.
+std::map<std::array<std::uint32_t, 2>, double> lengths_by_sites(const MedialAxis& axis) {
+  std::map<std::array<std::uint32_t, 2>, double> lengths;
+  for (const Edge& edge : axis.edges)
+    lengths[{std::min(edge.site[0], edge.site[1]), std::max(edge.site[0], edge.site[1])}] +=
+        length(axis, edge);
+  return lengths;
+}
+
+/// Leaves but for those in the centre of an arc of which the branching beside it touches all.
+std::size_t leaf_count(const MedialAxis& axis, double together) {
+  std::size_t count = 0;
+  for (const Edge& edge : axis.edges)
+    for (const std::uint32_t node : edge.node)
+      if (axis.nodes[node].kind == NodeKind::leaf &&
+          (axis.nodes[node].disk.radius == 0 || length(axis, edge) > together))
+        ++count;
+  return count;
+}
+
+/// Whether every node of `a` is near a node of `b`: a sentence for the first that is not.
+std::string missing_node(const MedialAxis& a, const MedialAxis& b, double together) {
+  std::vector<Disk> nodes;
+  for (const Node& node : b.nodes) nodes.push_back(node.disk);
+  std::sort(nodes.begin(), nodes.end(),
+            [](const Disk& p, const Disk& q) { return p.center.x < q.center.x; });
+  for (const Node& node : a.nodes) {
+    const double x = node.disk.center.x;
+    auto near = std::lower_bound(nodes.begin(), nodes.end(), x - together,
+                                 [](const Disk& p, double low) { return p.center.x < low; });
+    bool found = false;
+    for (; !found && near != nodes.end() && near->center.x <= x + together; ++near)
+      found = distance(near->center, node.disk.center) <= together &&
+              std::abs(near->radius - node.disk.radius) <= together;
+    if (!found)
+      return "no node at (" + std::to_string(x) + ", " + std::to_string(node.disk.center.y) + ")";
+  }
+  return {};
+}
+
+/// What does not hold: verify() is content, and the graph is that of the method disks. `together`:
+/// nodes nearer to each other, against the diagonal, count as one.
+std::vector<std::string> compare(const Shape& shape, std::uint64_t seed, double together) {
+  const auto axis = compute(shape, options_for(Method::biarc_dc, seed));
+  if (!axis) return {"not computed: " + to_string(axis.error())};
+  const Certificate certificate = verify(shape, *axis, {.threads = 1});
+  std::vector<std::string> failures = certificate.failures;
+  if (!certificate.passed && failures.empty()) failures.push_back("not passed, without a reason");
+  const auto other = compute(shape, options_for(Method::disks));
+  if (!other) return {"disks: not computed: " + to_string(other.error())};
+  // What the other method has wrong cannot be compared with.
+  if (!verify(shape, *other, {.threads = 1}).passed) return failures;
+  const double size = diagonal(bounding_box(shape));
+  const Invariants own = invariants_of(*axis, size), theirs = invariants_of(*other, size);
+  if (leaf_count(*axis, together * size) != leaf_count(*other, together * size))
+    failures.push_back("another number of leaves");
+  if (own.branching != theirs.branching) failures.push_back("another number of branchings");
+  if (std::abs(own.deepest - theirs.deepest) > 1e-12 * size)
+    failures.push_back("another deepest radius");
+  if (std::abs(own.length - theirs.length) > together * size)
+    failures.push_back("another length, by " + std::to_string((own.length - theirs.length) / size));
+  const auto mine = lengths_by_sites(*axis), others = lengths_by_sites(*other);
+  for (const auto& [first, second] : {std::pair{&mine, &others}, std::pair{&others, &mine}})
+    for (const auto& [sites, far] : *first) {
+      const auto found = second->find(sites);
+      const double there = found == second->end() ? 0 : found->second;
+      if (std::abs(far - there) > together * size)
+        failures.push_back("another edge between sites " + std::to_string(sites[0]) + " and " +
+                           std::to_string(sites[1]));
+    }
+  for (const std::string& missing :
+       {missing_node(*axis, *other, together * size), missing_node(*other, *axis, together * size)})
+    if (!missing.empty()) failures.push_back(missing);
+  return failures;
+}
+
+/// Compares the shapes without holes among `count` random ones.
+void compare_all(RandomShape (*make)(std::uint64_t), std::uint64_t count, double together,
+                 std::size_t fewest) {
+  std::size_t compared = 0;
+  int failed = 0;
+  for (std::uint64_t seed = 0; seed < count && failed < 5; ++seed) {
+    const RandomShape random = make(seed);
+    const auto shape = build_shape(random.rings);
+    if (!shape || shape->hole_count() > 0) continue;
+    ++compared;
+    const auto failures = compare(*shape, seed + 1, together);
+    if (failures.empty()) continue;
+    ++failed;
+    ADD_FAILURE() << random.kind << ", seed " << seed << ": " << failures.front();
+  }
+  EXPECT_GE(compared, fewest);
+}
+
+TEST(BiarcDc, AgreesWithDisksOnPolygons) { compare_all(random_shape, 1500, 1e-7, 1000); }
+TEST(BiarcDc, AgreesWithDisksOnArcShapes) { compare_all(random_arc_shape, 900, 1e-6, 500); }
+
+/// The sum of the reports over random shapes without holes.
+Report reports_of(RandomShape (*make)(std::uint64_t), std::uint64_t count) {
+  Report sum;
+  for (std::uint64_t seed = 0; seed < count; ++seed) {
+    const auto shape = build_shape(make(seed).rings);
+    if (!shape || shape->hole_count() > 0) continue;
+    Report report;
+    static_cast<void>(biarc_dc::run(*shape, options_for(Method::biarc_dc), &report));
+    for (std::size_t i = 0; i < sum.base_cases.size(); ++i)
+      sum.base_cases[i] += report.base_cases[i];
+    sum.random_disks += report.random_disks;
+    sum.branching_disks += report.branching_disks;
+    sum.multi_branchings += report.multi_branchings;
+    sum.only_vertices += report.only_vertices;
+  }
+  return sum;
+}
+
+TEST(BiarcDc, EveryBaseCaseOccurs) {
+  const Report polygons = reports_of(random_shape, 300), arcs = reports_of(random_arc_shape, 300);
+  for (std::size_t i = 0; i < biarc_dc::base_case_count; ++i) {
+    const auto base_case = static_cast<BaseCase>(i);
+    EXPECT_GT(count_of(arcs, base_case), 0U) << biarc_dc::name_of(base_case);
+    // Without smooth joints, the cases that have some do not occur.
+    const bool smooth =
+        base_case == BaseCase::a || base_case == BaseCase::d || base_case == BaseCase::g;
+    EXPECT_EQ(count_of(polygons, base_case) == 0, smooth) << biarc_dc::name_of(base_case);
+  }
+  for (const Report& report : {polygons, arcs}) {
+    EXPECT_GT(report.random_disks, 0U);
+    EXPECT_GT(report.branching_disks, 0U);
+    EXPECT_GT(report.multi_branchings, 0U);
+    EXPECT_GT(report.only_vertices, 0U);
+  }
+}
+
+TEST(BiarcDc, NodesOfHighDegreeAreOneDisk) {
+  for (const std::size_t n : {4U, 5U, 12U, 60U}) {
+    const auto shape = build_shape(regular_polygon(n));
+    ASSERT_TRUE(shape.ok());
+    const auto axis = compute(*shape, options_for(Method::biarc_dc));
+    ASSERT_TRUE(axis.ok());
+    EXPECT_EQ(axis->nodes.size(), n + 1);
+    EXPECT_EQ(axis->edges.size(), n);
+  }
+}
+
+TEST(BiarcDc, RoundShapes) {
+  const auto round = build_shape(std::vector{circle({1, 2}, 3, 0.5)});
+  ASSERT_TRUE(round.ok());
+  const auto point = compute(*round, options_for(Method::biarc_dc));
+  ASSERT_TRUE(point.ok());
+  EXPECT_TRUE(point->edges.empty());
+  ASSERT_EQ(point->nodes.size(), 1U);
+  EXPECT_NEAR(point->nodes[0].disk.radius, 3, 1e-14);
+
+  const auto long_one = build_shape(std::vector{stadium({0, 0}, {5, 0}, 1)});
+  ASSERT_TRUE(long_one.ok());
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const auto line = compute(*long_one, options_for(Method::biarc_dc, seed));
+    ASSERT_TRUE(line.ok());
+    EXPECT_EQ(line->edges.size(), 1U);
+    EXPECT_NEAR(total_length(*line), 5, 1e-13);
+  }
+}
+
+TEST(BiarcDc, TheSeedDecides) {
+  const auto shape = build_shape(comb(40));
+  ASSERT_TRUE(shape.ok());
+  const auto first = compute(*shape, options_for(Method::biarc_dc, 1)),
+             again = compute(*shape, options_for(Method::biarc_dc, 1)),
+             other = compute(*shape, options_for(Method::biarc_dc, 2));
+  ASSERT_TRUE(first.ok() && again.ok() && other.ok());
+  EXPECT_EQ(first->method, "biarc-dc");
+  EXPECT_EQ(first->statistics.threads, 1);
+  EXPECT_TRUE(identical(*first, *again));
+  EXPECT_FALSE(identical(*first, *other));
+  EXPECT_NEAR(total_length(*first), total_length(*other), 1e-10);
+}
+
+TEST(BiarcDc, RefusesHoles) {
+  const auto shape = build_shape(hole_grid(1));
+  ASSERT_TRUE(shape.ok());
+  const auto axis = compute(*shape, options_for(Method::biarc_dc));
+  ASSERT_FALSE(axis.ok());
+  EXPECT_EQ(axis.error().code, ErrorCode::unsupported);
+  EXPECT_NE(axis.error().text.find("disks"), std::string::npos);
+}
+
+TEST(BiarcDc, CanBeCancelled) {
+  const auto shape = build_shape(maze(2000));
+  ASSERT_TRUE(shape.ok());
+  Options options = options_for(Method::biarc_dc);
+  const std::atomic<bool> cancel = true;
+  options.cancel = &cancel;
+  const auto axis = compute(*shape, options);
+  ASSERT_FALSE(axis.ok());
+  EXPECT_EQ(axis.error().code, ErrorCode::cancelled);
+}
+
+TEST(BiarcDc, NamesOfMethods) {
+  for (const Method method : {Method::disks, Method::biarc_dc})
+    EXPECT_EQ(method_from(name_of(method)), method);
+  EXPECT_FALSE(method_from("biarc_dc").has_value());
+}
+
+}  // namespace
+}  // namespace medial::test
