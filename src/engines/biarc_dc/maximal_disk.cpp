@@ -143,10 +143,17 @@ Disk first_contact(Context& context, const Bisector& bisector, const Disk& from,
   return bracket(context, bisector, from, third, high);
 }
 
+/// A disk, and whether it fits into the circles of the arcs that it touches at one place.
+struct EndDisk {
+  Disk disk;
+  bool fits = true;
+};
+
 /// The disk that touches the boundary at the last place that a foot moving on an element gets to,
 /// `forward` or backward, and touches the carrier of `other`.
-std::optional<Disk> disk_at_end(const Context& context, const Subshape& subshape, std::size_t i,
-                                bool forward, const Site& other, const std::vector<Disk>& disks) {
+std::optional<EndDisk> disk_at_end(const Context& context, const Subshape& subshape, std::size_t i,
+                                   bool forward, const Site& other,
+                                   const std::vector<Disk>& disks) {
   const Element& element = subshape.elements[i];
   const Site& own = context.site(element);
   const std::size_t neighbor = forward ? subshape.next(i) : subshape.before(i);
@@ -170,9 +177,8 @@ std::optional<Disk> disk_at_end(const Context& context, const Subshape& subshape
   constexpr double widest = 1e-7;  // a disk fits into an arc's circle up to this
   // In a narrow wedge the disk at the end may be far larger than the shape's.
   constexpr double far_end = 0x1p20;
-  if (!(radius <= far_end * context.radius_limit && radius * largest <= 1 + widest))
-    return std::nullopt;
-  return Disk{foot + radius * normal, radius};
+  if (!(radius <= far_end * context.radius_limit)) return std::nullopt;
+  return EndDisk{{foot + radius * normal, radius}, radius * largest <= 1 + widest};
 }
 
 /// Where a disk touches element `k`, or its neighbour if the nearest point of both is their joint
@@ -290,11 +296,12 @@ std::optional<MaximalDisk> branching_disk(Context& context, const Subshape& subs
     const auto at_end =
         disk_at_end(context, subshape, own, forward, context.site(subshape.elements[other]), disks);
     if (!at_end) return;
-    const double there = bisector.position(at_end->center);
+    const double there = bisector.position(at_end->disk.center);
     if (there < low - slack(context, from) || !(there < position)) return;
-    disk = there < low ? from : *at_end;
+    disk = there < low ? from : at_end->disk;
     position = std::max(there, low);
-    third = place;
+    third.reset();
+    if (at_end->fits) third = place;
   };
   bound_by(right, left, true, Place{passes_right ? right : after, passes_right, 0});
   bound_by(left, right, false, Place{before, passes_left, 0});
@@ -314,7 +321,7 @@ std::optional<MaximalDisk> branching_disk(Context& context, const Subshape& subs
     position = std::max(low, bisector.position(disk.center));
     third = Place{after, false, 0.5 * next.length};
   }
-  if (!third) {
+  if (position == nowhere) {
     position = bisector.last_position(from, context.radius_limit);
     disk = bisector.disk_at(position, from);
   }

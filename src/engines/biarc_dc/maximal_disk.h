@@ -31,8 +31,9 @@ struct Context {
   double radius_limit = 0;  ///< no disk inside the shape is larger
   Statistics statistics{};
 
-  /// What disks may reach over an element: a rounding of a coordinate. Were it all of the tolerance,
-  /// the small errors of disks in each other's parts would add up on shapes with many near ties.
+  /// What disks may reach over an element: a rounding of a coordinate. Were it all of the
+  /// tolerance, the small errors of disks in each other's parts would add up on shapes with many
+  /// near ties.
   double rounding() const { return tolerance / 16; }
   const geometry::Site& site(const Element& element) const { return outline.sites[element.site]; }
   /// Whether a disk can touch an element and the next one in one point, where they are joined.
