@@ -159,6 +159,7 @@ TEST(BiarcDc, EveryBaseCaseOccurs) {
     // Without smooth joints, the cases that have some do not occur.
     const bool smooth =
         base_case == BaseCase::a || base_case == BaseCase::d || base_case == BaseCase::g;
+    if (base_case == BaseCase::cap) continue;
     EXPECT_EQ(count_of(polygons, base_case) == 0, smooth) << biarc_dc::name_of(base_case);
   }
   for (const Report& report : {polygons, arcs}) {
