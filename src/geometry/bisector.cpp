@@ -16,7 +16,7 @@ Disk disk_over(const Site& s, double at, Vec2 vertex) {
 /// both ends holds for the control point, the pole of the edge's chord: it lies in the plane of the
 /// edge, P-perpendicular to the chord over its middle. Of the two sites the rounder one gives the
 /// height over the chord and the weight.
-Control control_with_arc(const Site& a, const Site& b, const Disk& from, const Disk& to) {
+Control pole_of_chord(const Site& a, const Site& b, const Disk& from, const Disk& to) {
   struct Vector {
     Vec2 c;
     double r;
@@ -62,6 +62,42 @@ Control control_with_arc(const Site& a, const Site& b, const Disk& from, const D
     return {middle, 1};
   return {{middle.center + height * across.c, middle.radius + height * across.r},
           std::sqrt(weight_squared)};
+}
+
+/// How far the edge with this control point strays from touching both sites, at three places.
+double deviation(const Control& control, const Site& a, const Site& b, const Disk& from,
+                 const Disk& to) {
+  double worst = 0;
+  for (const double t : {0.25, 0.5, 0.75}) {
+    const double first = (1 - t) * (1 - t), last = t * t, middle = 2 * t * (1 - t) * control.weight;
+    const double scale = 1 / (first + middle + last);
+    const Vec2 center =
+        scale * (first * from.center + middle * control.point.center + last * to.center);
+    const double radius =
+        scale * (first * from.radius + middle * control.point.radius + last * to.radius);
+    for (const Site* s : {&a, &b})
+      worst = std::max(worst, std::abs(carrier_distance(*s, center) - radius));
+  }
+  return worst;
+}
+
+/// The control point of an edge with an arc. Where centre and radius change almost alike, the
+/// chord's product with itself and the pole with it lose their digits; the edge is then so nearly
+/// straight that a parabola through the disk halfway does better.
+Control control_with_arc(const Site& a, const Site& b, const Disk& from, const Disk& to) {
+  constexpr double few_roundings = 0x1p-50, long_enough = 0x1p-7;
+  const Control pole = pole_of_chord(a, b, from, to);
+  if (distance(from.center, to.center) < long_enough * from.radius) return pole;
+  const double strays = deviation(pole, a, b, from, to);
+  if (strays <= few_roundings) return pole;
+  const Bisector bisector(b, a);
+  const Disk halfway =
+      bisector.disk_at(0.5 * (bisector.position(from.center) + bisector.position(to.center)), from);
+  if (!std::isfinite(halfway.center.x) || !std::isfinite(halfway.center.y)) return pole;
+  const Vec2 mean = midpoint(from.center, to.center);
+  const Control through{
+      {2 * halfway.center - mean, 2 * halfway.radius - 0.5 * (from.radius + to.radius)}, 1};
+  return deviation(through, a, b, from, to) < strays ? through : pole;
 }
 
 }  // namespace
