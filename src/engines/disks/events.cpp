@@ -22,8 +22,6 @@ constexpr double polish_reach = 1e-3;
 constexpr int most_rounds = 200;
 /// How far beyond() may look, against the radius: there the bisector is still straight.
 constexpr double widest_window = 1e-7;
-/// Arcs of one circle: their curvatures differ by rounding at most.
-constexpr double same_curvature = 1e-9;
 
 }  // namespace
 
@@ -97,9 +95,8 @@ std::optional<Disk> EventSearch::circle_of_apex(std::uint32_t next, std::uint32_
   if (!(arc.curvature > 0) || !(1 / arc.curvature <= context_.radius_limit)) return std::nullopt;
   for (std::uint32_t i = std::min(next, other); i < std::max(next, other); ++i) {
     const Site& inner = next < other ? site(i) : site(i + 1);
-    if (element(i) != Element::edge || !boundary_.is_smooth(i) ||
-        std::abs(inner.curvature - arc.curvature) > same_curvature * arc.curvature)
-      return std::nullopt;
+    const bool same = std::abs(1 / inner.curvature - 1 / arc.curvature) <= context_.tolerance;
+    if (element(i) != Element::edge || !boundary_.is_smooth(i) || !same) return std::nullopt;
   }
   const double radius = 1 / arc.curvature;
   return Disk{arc.point + radius * arc.normal(), radius};
@@ -286,20 +283,19 @@ std::optional<Event> EventSearch::contact_before(const Event& intruded) {
   if (const auto at_joint = contact_at_joint(i)) return at_joint;
   std::optional<Event> contact = contact_with(i, intruded.position);
   if (segment.is_vertex() || (contact && reaches(*contact))) return contact;
-  const Vec2 center = contact ? contact->disk.center : intruded.disk.center;
-  const bool at_end = geometry::foot_parameter(segment, center) > 0.5 * segment.length;
-  const std::uint32_t next = at_end ? i + 1 : i - 1;
-  const bool is_site = next > span_.right && next < span_.left && element(next) == Element::vertex;
-  // Short of a convex or beyond a smooth end, the neighbour there is touched first.
-  if (next > span_.right && next < span_.left && element(next) == Element::edge) {
+  // The carrier is touched short of the edge: one of its neighbours comes first.
+  std::optional<Event> earliest;
+  for (const std::uint32_t next : {i - 1, i + 1}) {
+    if (next <= span_.right || next >= span_.left || element(next) == Element::cut) continue;
     const auto on_next = contact_with(next, intruded.position);
-    if (on_next && reaches(*on_next)) return on_next;
+    if (on_next && reaches(*on_next) && !(earliest && earliest->position <= on_next->position))
+      earliest = on_next;
   }
+  if (earliest) return earliest;
   // Any disk that passes through the intruder comes earlier than one that it intrudes.
-  const Vec2 place = is_site ? site(next).point : geometry::foot(segment, intruded.disk.center);
-  const auto on_end =
-      contact_with(geometry::make_vertex(place), is_site ? next : i, intruded.position);
-  return on_end ? on_end : contact;
+  const Vec2 place = geometry::foot(segment, intruded.disk.center);
+  const auto on_place = contact_with(geometry::make_vertex(place), i, intruded.position);
+  return on_place ? on_place : contact;
 }
 
 std::uint32_t EventSearch::obstacle(const Disk& disk) {
