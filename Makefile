@@ -27,7 +27,7 @@ build: setup    ## build the library and the command line
 	@cmake --preset release
 	@cmake --build $(RELEASE) -j $(JOBS) --target medial medial_io medial_cli
 
-demo: build     ## medial axes of an island, a country, a gear, a plan, a maze: out/demo
+demo: build     ## medial axes of maps, a plan, a maze, drawings: out/demo
 	@tools/demo.py $(RELEASE)/cli/medial out/demo
 
 test: setup     ## all tests, in release and under the address and undefined-behaviour sanitizers

@@ -20,6 +20,8 @@ SHAPES = [
     ("a gear", "gear.wkt", [], ["--disks=60"]),
     ("a building plan", "plan.wkt", [], ["--disks=60", "--nodes"]),
     ("a maze", "maze.wkt", [], []),
+    ("a drawing of a plate", "plate.dxf", [], ["--disks=60"]),
+    ("a spanner, with curves", "spanner.svg", [], ["--disks=60"]),
 ]
 HEAD = f"{'':26}{'vertices':>9}{'holes':>7}{'nodes':>9}{'branches':>10}{'deepest disk':>14}" \
        f"{'seconds':>9}  verdict"

@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""Writes the drawn examples of data/: a gear, the floor plan of a house and a maze.
+"""Writes the drawn examples of data/: a gear, the floor plan of a house, a maze and a plate.
 
     tools/make_examples.py [FOLDER]     (data/ of the project by default)
 
-Each is one polygon with holes as well-known text. The same folder comes out every time.
+The first three are one polygon with holes each, as well-known text; the plate is a DXF drawing of
+lines, arcs and circles. The same folder comes out every time.
 """
 
 import math
@@ -224,12 +225,41 @@ def maze(columns=32, rows=24, seed=1967):
     return grid.rings()
 
 
+# ---- plate --------------------------------------------------------------------------------------
+
+def line(start, end):
+    return [(0, "LINE"), (8, "OUTLINE"), (10, start[0]), (20, start[1]), (11, end[0]), (21, end[1])]
+
+
+def arc(center, radius, degrees):
+    return [(0, "ARC"), (8, "OUTLINE"), (10, center[0]), (20, center[1]), (40, radius),
+            (50, degrees[0]), (51, degrees[1])]
+
+
+def hole(center, radius):
+    return [(0, "CIRCLE"), (8, "OUTLINE"), (10, center[0]), (20, center[1]), (40, radius)]
+
+
+def plate(width=80, height=50, corner=10):
+    """A plate with rounded corners, drawn edge by edge; four bolt holes, one large bore. Millimetres."""
+    east, north = width - corner, height - corner
+    entities = [line((corner, 0), (east, 0)), arc((east, corner), corner, (270, 360)),
+                line((width, corner), (width, north)), arc((east, north), corner, (0, 90)),
+                line((east, height), (corner, height)), arc((corner, north), corner, (90, 180)),
+                line((0, north), (0, corner)), arc((corner, corner), corner, (180, 270))]
+    entities += [hole((x, y), 4) for x in (corner, east) for y in (corner, north)]
+    entities += [hole((0.4 * width, 0.5 * height), 14)]
+    groups = [(0, "SECTION"), (2, "ENTITIES"), *sum(entities, []), (0, "ENDSEC"), (0, "EOF")]
+    return "".join(f"{code:3}\n{value}\n" for code, value in groups)
+
+
 def main():
     folder = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else
                           pathlib.Path(__file__).resolve().parent.parent / "data")
     for name, rings in (("gear", gear()), ("plan", plan()), ("maze", maze())):
         (folder / f"{name}.wkt").write_text(text(rings))
         print(f"{name}.wkt: {sum(map(len, rings))} vertices, {len(rings) - 1} holes")
+    (folder / "plate.dxf").write_text(plate())
 
 
 if __name__ == "__main__":
