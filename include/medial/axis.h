@@ -32,7 +32,8 @@ struct Site {
 };
 
 enum class NodeKind : std::uint8_t {
-  leaf,         ///< one edge: a convex corner, radius 0
+  leaf,         ///< one edge: a convex corner, radius 0, or the centre of an arc of locally largest
+                ///< curvature
   site_change,  ///< two edges: the axis passes on to another site
   branching,    ///< three edges or more
 };
@@ -45,8 +46,9 @@ struct Node {
 
 /// A piece of the axis between two sites: the rational quadratic Bezier curve in (x, y, r) with
 /// control points node[0], `control`, node[1] and weights 1, `weight`, 1. It is the exact bisector:
-/// a line (two segments), a parabola (segment and vertex; weight 1) or a line whose radius is a
-/// hyperbola (two vertices; weight >= 1).
+/// a line (two segments), a parabola (a segment and a vertex or an arc; weight 1), a line whose
+/// radius is a hyperbola (two vertices; weight >= 1), or with an arc an ellipse, a hyperbola, a
+/// line, or a circle (concentric arcs). The weight is always positive.
 struct Edge {
   std::array<std::uint32_t, 2> node;  ///< from, to
   std::array<std::uint32_t, 2> site;  ///< on the left and on the right of from -> to

@@ -80,9 +80,9 @@ struct Boundary {
 };
 
 /// The boundary before holes are connected: every loop a run of its own in the order of the shape's
-/// loops (so `runs` are per loop here). An outer loop begins at a convex corner if
-/// it has one, a hole at its furthest point in the direction `outreach`: a reflex vertex, or a
-/// place inside an arc, which is divided there.
+/// loops (so `runs` are per loop here). An outer loop begins at a convex corner if it has one, or
+/// else at the joint where its curvature is smallest; a hole at its furthest point in the direction
+/// `outreach`: a reflex vertex, or a place inside an arc, which is divided there.
 Boundary loops_boundary(const Shape& shape, const SiteNumbers& numbers, const Frame& frame);
 
 }  // namespace medial::disks

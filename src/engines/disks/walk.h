@@ -81,10 +81,10 @@ struct Chunk {
   Statistics statistics;
 };
 
-/// Walks the axis of every run of the boundary (docs/disks.md, step 4), from a convex corner:
-/// one chunk for each component, whose children were forked at branching nodes. The chunks, their
-/// order and their content depend on the boundary only, never on the number of threads.
-/// O(n log n) expected.
+/// Walks the axis of every run of the boundary (docs/disks.md, step 4), from a convex corner, or
+/// from the disk at a smooth place of a component that has no corner: one chunk for each component,
+/// whose children were forked at branching nodes. The chunks, their order and their content depend
+/// on the boundary only, never on the number of threads. O(n log n) expected.
 std::vector<std::unique_ptr<Chunk>> walk(const WalkContext& context);
 
 }  // namespace medial::disks
