@@ -43,7 +43,8 @@ int run(int argc, char** argv, bool json) {
       "is wrong [code]`. Features, rings and vertices count from 0. Nothing is written\n"
       "then, and an interrupted run leaves no partial file.");
   const std::array verbs = {make_axis_verb(program), make_verify_verb(program),
-                            make_info_verb(program), make_draw_verb(program)};
+                            make_info_verb(program), make_draw_verb(program),
+                            make_bench_verb(program)};
   for (const Verb& verb : verbs) verb.app->group("Verbs");
 
   try {

@@ -21,6 +21,9 @@ bool error_is_terminal();
 /// The largest memory this process has held, in bytes.
 std::uint64_t peak_bytes();
 
+/// Seconds of processor time of this process, all threads together.
+double processor_seconds();
+
 /// Seconds since it was made.
 class Stopwatch {
  public:

@@ -1,0 +1,328 @@
+// medial bench: published experiments, measured anew on this machine.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+
+#include "cli/bench_biarc.h"
+#include "cli/bench_shapes.h"
+#include "cli/common.h"
+#include "cli/plot.h"
+#include "cli/terminal.h"
+
+namespace medial::cli {
+namespace {
+
+struct BenchSwitches {
+  BiarcOptions biarc;
+  std::string output;
+  std::string shapes;  ///< a directory for the shapes as SVG
+  bool quick = false;
+  bool json = false;
+  bool quiet = false;
+};
+
+constexpr char formats[] = ".svg .csv .json";
+constexpr char not_built[] = "not built";  // exact arithmetic in the engine
+
+/// The rows of each shape, in order.
+std::vector<std::vector<BiarcRow>> by_shape(const std::vector<BiarcRow>& rows) {
+  std::vector<std::vector<BiarcRow>> groups;
+  for (const BiarcRow& row : rows) {
+    if (groups.empty() || groups.back().front().shape != row.shape) groups.emplace_back();
+    groups.back().push_back(row);
+  }
+  return groups;
+}
+
+template <class Get>
+std::vector<std::pair<double, double>> against_edges(const std::vector<BiarcRow>& rows,
+                                                     const Get& get) {
+  std::vector<std::pair<double, double>> points;
+  for (const BiarcRow& row : rows) {
+    if (row.edges > 0 && get(row) > 0)
+      points.emplace_back(static_cast<double>(row.edges), get(row));
+  }
+  return points;
+}
+
+double axis_time(const BiarcRow& row) { return row.axis.processor; }
+double conversion_time(const BiarcRow& row) { return row.conversion.processor; }
+double certified_error(const BiarcRow& row) { return row.error; }
+
+/// Microseconds an edge.
+double per_edge(double seconds, const BiarcRow& row) {
+  return row.edges == 0 ? 0 : 1e6 * seconds / static_cast<double>(row.edges);
+}
+
+std::string published_cell(const BiarcRow& row) {
+  if (!row.published) return row.published_note;
+  return fmt::format("{:.3f}{}", row.published->processor,
+                     row.published_note.empty() ? "" : " (" + row.published_note + ")");
+}
+
+std::string rows_table(const std::vector<BiarcRow>& rows) {
+  std::string text =
+      "| shape | tolerance | arcs | error | conversion s | build s | axis s | axis, wall s | "
+      "conversion us/arc | build us/arc | axis us/arc | biarc-dc s | its base cases s | exact s | "
+      "leaves | branchings | verified |\n"
+      "| --- " +
+      [] {
+        std::string rule;
+        for (int i = 0; i < 15; ++i) rule += "| ---: ";
+        return rule;
+      }() +
+      "| --- |\n";
+  for (const BiarcRow& row : rows) {
+    text += fmt::format(
+        "| {} | {:.0e} | {} | {:.2e} | {:.4f} | {:.4f} | {:.4f} | {:.4f} | {:.2f} | {:.2f} | "
+        "{:.2f} | {} | {} | {} | {} | {} | {} |\n",
+        row.shape, row.tolerance, row.edges, row.error, row.conversion.processor,
+        row.building.processor, row.axis.processor, row.axis.wall,
+        per_edge(row.conversion.processor, row), per_edge(row.building.processor, row),
+        per_edge(row.axis.processor, row), published_cell(row),
+        row.published ? fmt::format("{:.3f}", row.published_base_cases) : "", not_built, row.leaves,
+        row.branchings, row.failure.empty() ? "yes" : "NO: " + row.failure);
+  }
+  return text;
+}
+
+/// What each series says as a whole.
+std::string series_table(const std::vector<BiarcRow>& rows, bool with_error) {
+  std::string text = fmt::format(
+      "| shape | {}conversion ~ n^p | axis ~ n^p | axis us/(arc log2 arcs), first to last |\n"
+      "| --- {}| ---: | ---: | ---: |\n",
+      with_error ? "error ~ n^p | " : "", with_error ? "| ---: " : "");
+  for (const auto& group : by_shape(rows)) {
+    const auto exponent = [&](const auto& get) {
+      const auto points = against_edges(group, get);
+      return points.size() < 2 ? std::string("-") : fmt::format("{:.2f}", fitted_exponent(points));
+    };
+    const auto share = [](const BiarcRow& row) {
+      return row.edges < 2 ? 0 : per_edge(axis_time(row), row) / std::log2(row.edges);
+    };
+    text +=
+        fmt::format("| {} | {}{} | {} | {:.4f} to {:.4f} |\n", group.front().shape,
+                    with_error ? exponent(certified_error) + " | " : "", exponent(conversion_time),
+                    exponent(axis_time), share(group.front()), share(group.back()));
+  }
+  return text;
+}
+
+std::string polygons_table(const std::vector<PolygonComparison>& rows) {
+  std::string text =
+      "| shape | edges | leaves of arcs | leaves of the polygon | error of arcs | error of the "
+      "polygon | verified |\n| --- | ---: | ---: | ---: | ---: | ---: | --- |\n";
+  for (const PolygonComparison& row : rows) {
+    text += fmt::format("| {} | {} | {} | {} | {:.2e} | {:.2e} | {} |\n", row.shape, row.edges,
+                        row.arc_leaves, row.polygon_leaves, row.arc_error, row.polygon_error,
+                        row.failure.empty() ? "yes" : "NO: " + row.failure);
+  }
+  return text;
+}
+
+std::string report_text(const BiarcReport& report, int rounds) {
+  return fmt::format(
+      "Processor time of one thread, the least of {}; tolerance and error relative to the\n"
+      "diagonal of the bounding box.\n\n"
+      "## By tolerance (Table 1, Figs. 12, 15, 16)\n\n{}\n{}\n"
+      "## By size\n\n{}\n{}\n"
+      "## Arcs and polygons (Fig. 13)\n\n{}",
+      counted(static_cast<std::uint64_t>(rounds), "round"), rows_table(report.by_tolerance),
+      series_table(report.by_tolerance, true), rows_table(report.by_size),
+      series_table(report.by_size, false), polygons_table(report.polygons));
+}
+
+Json to_json(const Timing& timing) {
+  return {{"processor", timing.processor}, {"wall", timing.wall}};
+}
+
+Json to_json(const BiarcRow& row) {
+  Json object = {{"shape", row.shape},
+                 {"tolerance", row.tolerance},
+                 {"edges", row.edges},
+                 {"straight", row.straight},
+                 {"error", row.error},
+                 {"seconds",
+                  {{"conversion", to_json(row.conversion)},
+                   {"build", to_json(row.building)},
+                   {"axis", to_json(row.axis)}}},
+                 {"leaves", row.leaves},
+                 {"branchings", row.branchings},
+                 {"passed", row.failure.empty()},
+                 {"failure", row.failure},
+                 {"biarc_dc_note", row.published_note},
+                 {"exact_note", not_built}};
+  if (row.published) {
+    object["seconds"]["biarc_dc"] = to_json(*row.published);
+    object["seconds"]["biarc_dc_base_cases"] = row.published_base_cases;
+  }
+  return object;
+}
+
+Json to_json(const BiarcReport& report) {
+  Json object = {{"passed", report.passed()},
+                 {"by_tolerance", Json::array()},
+                 {"by_size", Json::array()},
+                 {"polygons", Json::array()}};
+  for (const BiarcRow& row : report.by_tolerance) object["by_tolerance"].push_back(to_json(row));
+  for (const BiarcRow& row : report.by_size) object["by_size"].push_back(to_json(row));
+  for (const PolygonComparison& row : report.polygons) {
+    object["polygons"].push_back({{"shape", row.shape},
+                                  {"edges", row.edges},
+                                  {"arc_leaves", row.arc_leaves},
+                                  {"polygon_leaves", row.polygon_leaves},
+                                  {"arc_error", row.arc_error},
+                                  {"polygon_error", row.polygon_error},
+                                  {"passed", row.failure.empty()},
+                                  {"failure", row.failure}});
+  }
+  return object;
+}
+
+std::string report_csv(const BiarcReport& report) {
+  std::string text =
+      "series,shape,tolerance,edges,straight,error,conversion,conversion_wall,build,build_wall,"
+      "axis,axis_wall,biarc_dc,leaves,branchings,passed\n";
+  const auto add = [&text](const char* series, const std::vector<BiarcRow>& rows) {
+    for (const BiarcRow& row : rows) {
+      text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", series, row.shape,
+                          row.tolerance, row.edges, row.straight, row.error,
+                          row.conversion.processor, row.conversion.wall, row.building.processor,
+                          row.building.wall, row.axis.processor, row.axis.wall,
+                          row.published ? fmt::format("{}", row.published->processor) : "",
+                          row.leaves, row.branchings, row.failure.empty());
+    }
+  };
+  add("tolerance", report.by_tolerance);
+  add("size", report.by_size);
+  return text;
+}
+
+/// The time of so many microseconds an arc, over the arcs of all rows.
+Series reference_line(const std::vector<BiarcRow>& rows, double microseconds,
+                      const std::string& name) {
+  const auto [least, most] = std::minmax_element(
+      rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.edges < b.edges; });
+  Series series{name, {}, true};
+  for (const std::uint64_t edges : {least->edges, most->edges}) {
+    const auto n = static_cast<double>(std::max<std::uint64_t>(edges, 1));
+    series.points.emplace_back(n, 1e-6 * microseconds * n);
+  }
+  return series;
+}
+
+std::vector<Plot> report_plots(const BiarcReport& report) {
+  Plot error{"Error against arcs (Fig. 12)", "arcs", "certified error / diagonal", {}};
+  Plot time{"Time against arcs, by tolerance (Figs. 15, 16)", "arcs", "axis, seconds", {}};
+  Plot size{"Time against arcs, by size at tolerance 1e-6", "arcs", "axis, seconds", {}};
+  Plot conversion{"Boundary conversion against arcs", "arcs", "conversion, seconds", {}};
+  for (const auto& group : by_shape(report.by_tolerance)) {
+    const std::string& name = group.front().shape;
+    error.series.push_back({name, against_edges(group, certified_error)});
+    time.series.push_back({name, against_edges(group, axis_time)});
+    conversion.series.push_back({name, against_edges(group, conversion_time)});
+  }
+  for (const auto& group : by_shape(report.by_size)) {
+    size.series.push_back({group.front().shape, against_edges(group, axis_time)});
+  }
+  time.series.push_back(reference_line(report.by_tolerance, 1, "1 us an arc"));
+  size.series.push_back(reference_line(report.by_size, 1, "1 us an arc"));
+  conversion.series.push_back(reference_line(report.by_tolerance, 1.5, "1.5 us an arc"));
+  return {error, time, conversion, size};
+}
+
+Status write_shapes(const std::string& directory) {
+  std::error_code problem;
+  std::filesystem::create_directories(directory, problem);
+  if (problem) return error_at(ErrorCode::unwritable, directory, problem.message());
+  for (const auto& [name, contours] : biarc_shapes()) {
+    Status written = write_text((std::filesystem::path(directory) / (name + ".svg")).string(),
+                                svg_document(contours));
+    if (!written) return written;
+  }
+  return success();
+}
+
+Result<int> run_biarc(const BenchSwitches& switches) {
+  Status writable = check_output(switches.output, {}, formats, {});
+  if (!writable) return std::move(writable).error();
+  if (!switches.shapes.empty()) {
+    Status written = write_shapes(switches.shapes);
+    if (!written) return std::move(written).error();
+    return exit_success;
+  }
+  BiarcOptions options = switches.biarc;
+  if (switches.quick) {
+    options.rounds = 1;
+    options.finest = std::min(options.finest, 3);
+    options.largest = 4;
+  }
+  const bool shown = error_is_terminal() && !switches.quiet;
+  const BiarcReport report = run_biarc_experiments(
+      options, shown ? [](const std::string& name) { fmt::print(stderr, "{}\n", name); }
+                     : [](const std::string&) {});
+  if (!switches.output.empty()) {
+    const std::string extension = std::filesystem::path(switches.output).extension().string();
+    Status written = extension == ".svg" ? write_plots(switches.output, report_plots(report))
+                     : extension == ".csv"
+                         ? write_text(switches.output, report_csv(report))
+                         : write_text(switches.output, to_json(report).dump(2) + "\n");
+    if (!written) return std::move(written).error();
+  }
+  Status printed =
+      switches.json ? print(to_json(report)) : print(report_text(report, options.rounds));
+  if (!printed) return std::move(printed).error();
+  return report.passed() ? exit_success : exit_failed_verdict;
+}
+
+}  // namespace
+
+Verb make_bench_verb(CLI::App& program) {
+  auto switches = std::make_shared<BenchSwitches>();
+  CLI::App* verb = program.add_subcommand("bench", "Measure published experiments anew.");
+  verb->require_subcommand(1);
+  verb->get_formatter()->label("SUBCOMMAND", "EXPERIMENT");
+  CLI::App* biarc = verb->add_subcommand(
+      "biarc",
+      "Shapes bounded by curves: the experiments of Aichholzer et al., Medial Axis\n"
+      "Computation for Planar Free-Form Shapes (2009), Section 5.");
+  biarc
+      ->add_option("-o,--output", switches->output,
+                   fmt::format("Plots (.svg) or all numbers: {}", formats))
+      ->option_text("FILE");
+  biarc
+      ->add_option("--rounds", switches->biarc.rounds,
+                   "The least time of so many rounds counts (default: 5).")
+      ->check(CLI::Range(1, 1000).description(""))
+      ->option_text("N");
+  biarc
+      ->add_option("--tolerances", switches->biarc.finest,
+                   "How many tolerances, from 1e-3 down (default: 9).")
+      ->check(CLI::Range(1, 9).description(""))
+      ->option_text("N");
+  biarc
+      ->add_option("--published-limit", switches->biarc.published_limit,
+                   "Most arcs for the paper's own method, biarc-dc (default: 200000).")
+      ->option_text("ARCS");
+  biarc
+      ->add_option("--shapes", switches->shapes,
+                   "Only write the shapes into this directory, as SVG.")
+      ->option_text("DIRECTORY");
+  biarc->add_flag("--quick", switches->quick, "One round of small shapes: does it run at all?");
+  biarc->add_flag("--json", switches->json, "Print one JSON object instead of tables.");
+  biarc->add_flag("--quiet,-q", switches->quiet, "No progress on standard error.");
+  biarc->footer(
+      "Everything runs on one thread. Each axis is verified once. Exit status 1: one\n"
+      "was refused, or a shape had other leaves at another tolerance.\n"
+      "\n"
+      "Examples:\n"
+      "  medial bench biarc --quick\n"
+      "  medial bench biarc -o biarc.svg");
+  return {verb, [switches] { return run_biarc(*switches); }};
+}
+
+}  // namespace medial::cli
