@@ -67,7 +67,7 @@ std::string published_cell(const BiarcRow& row) {
 std::string rows_table(const std::vector<BiarcRow>& rows) {
   std::string text =
       "| shape | tolerance | arcs | error | conversion s | build s | axis s | axis, wall s | "
-      "conversion us/arc | build us/arc | axis us/arc | biarc-dc s | its base cases s | exact s | "
+      "conversion us/arc | build us/arc | axis us/arc | biarc-dc s | its conquer s | exact s | "
       "leaves | branchings | verified |\n"
       "| --- " +
       [] {
@@ -84,7 +84,7 @@ std::string rows_table(const std::vector<BiarcRow>& rows) {
         row.building.processor, row.axis.processor, row.axis.wall,
         per_edge(row.conversion.processor, row), per_edge(row.building.processor, row),
         per_edge(row.axis.processor, row), published_cell(row),
-        row.published ? fmt::format("{:.3f}", row.published_base_cases) : "", not_built, row.leaves,
+        row.published ? fmt::format("{:.3f}", row.published_conquer) : "", not_built, row.leaves,
         row.branchings, row.failure.empty() ? "yes" : "NO: " + row.failure);
   }
   return text;
@@ -112,6 +112,24 @@ std::string series_table(const std::vector<BiarcRow>& rows, bool with_error) {
   return text;
 }
 
+/// How often each base case of Figs. 5 and 6 was met.
+std::string base_cases_table(const std::vector<BiarcRow>& rows) {
+  std::string text = "| shape | tolerance | arcs |";
+  std::string rule = "\n| --- | ---: | ---: |";
+  for (char name = 'a'; name <= 'm'; ++name) {
+    text += fmt::format(" {} |", name);
+    rule += " ---: |";
+  }
+  text += rule + "\n";
+  for (const BiarcRow& row : rows) {
+    if (row.base_cases.empty()) continue;
+    text += fmt::format("| {} | {:.0e} | {} |", row.shape, row.tolerance, row.edges);
+    for (const std::uint64_t count : row.base_cases) text += fmt::format(" {} |", count);
+    text += "\n";
+  }
+  return text;
+}
+
 std::string polygons_table(const std::vector<PolygonComparison>& rows) {
   std::string text =
       "| shape | edges | leaves of arcs | leaves of the polygon | error of arcs | error of the "
@@ -129,11 +147,13 @@ std::string report_text(const BiarcReport& report, int rounds) {
       "Processor time of one thread, the least of {}; tolerance and error relative to the\n"
       "diagonal of the bounding box.\n\n"
       "## By tolerance (Table 1, Figs. 12, 15, 16)\n\n{}\n{}\n"
+      "## Base cases of biarc-dc (Figs. 5, 6)\n\n{}\n"
       "## By size\n\n{}\n{}\n"
       "## Arcs and polygons (Fig. 13)\n\n{}",
       counted(static_cast<std::uint64_t>(rounds), "round"), rows_table(report.by_tolerance),
-      series_table(report.by_tolerance, true), rows_table(report.by_size),
-      series_table(report.by_size, false), polygons_table(report.polygons));
+      series_table(report.by_tolerance, true), base_cases_table(report.by_tolerance),
+      rows_table(report.by_size), series_table(report.by_size, false),
+      polygons_table(report.polygons));
 }
 
 Json to_json(const Timing& timing) {
@@ -155,10 +175,11 @@ Json to_json(const BiarcRow& row) {
                  {"passed", row.failure.empty()},
                  {"failure", row.failure},
                  {"biarc_dc_note", row.published_note},
+                 {"base_cases", row.base_cases},
                  {"exact_note", not_built}};
   if (row.published) {
     object["seconds"]["biarc_dc"] = to_json(*row.published);
-    object["seconds"]["biarc_dc_base_cases"] = row.published_base_cases;
+    object["seconds"]["biarc_dc_conquer"] = row.published_conquer;
   }
   return object;
 }

@@ -10,6 +10,7 @@
 
 #include "cli/bench_shapes.h"
 #include "cli/terminal.h"
+#include "engines/biarc_dc/biarc_dc.h"
 #include "medial/compute.h"
 #include "medial/error.h"
 #include "medial/query.h"
@@ -51,34 +52,37 @@ std::string failure_of(const Shape& shape, const MedialAxis& axis) {
 /// The paper's own method beside `disks`: its time, and whether it finds the same graph.
 void measure_published(const Shape& shape, const MedialAxis& axis, const BiarcOptions& limits,
                        BiarcRow& row) {
-  const std::optional<Method> method = method_from("biarc-dc");
-  if (!method) {
-    row.published_note = "not built";
-  } else if (shape.hole_count() > 0 || shape.component_count() > 1) {
+  if (shape.hole_count() > 0 || shape.component_count() > 1) {
     row.published_note = "simple shapes only";
   } else if (row.edges > limits.published_limit) {
     row.published_note = "left out, see --published-limit";
   }
   if (!row.published_note.empty()) return;
   Options options;
-  options.method = *method;
+  options.method = Method::biarc_dc;
   options.threads = 1;
   Timing timing;
   const auto published = timed(1, timing, [&] { return compute(shape, options); });
   if (!published) {
     row.published_note = to_string(published.error());
-    row.failure = "biarc-dc: " + row.published_note;
+    if (row.failure.empty()) row.failure = "biarc-dc: " + row.published_note;
     return;
   }
   row.published = timing;
-  row.published_base_cases = published->statistics.seconds_collect;
+  row.published_conquer = published->statistics.seconds_collect;
+  biarc_dc::Report division;
+  biarc_dc::run(shape, options, &division);  // the same again: the same seed
+  row.base_cases.assign(division.base_cases.begin(), division.base_cases.end());
+
   const std::uint64_t leaves = count(*published, NodeKind::leaf);
-  if (leaves != row.leaves) {
-    row.published_note = fmt::format("{} leaves", leaves);
-    row.failure = fmt::format("biarc-dc finds {} leaves where disks finds {}", leaves, row.leaves);
-  } else if (const double a = total_length(axis), b = total_length(*published);
-             std::abs(a - b) > 1e-9 * a) {
+  const double a = total_length(axis), b = total_length(*published);
+  row.published_note = failure_of(shape, *published);
+  if (row.published_note.empty() && leaves != row.leaves) {
+    row.published_note = fmt::format("{} leaves, not {}", leaves, row.leaves);
+  } else if (row.published_note.empty() && std::abs(a - b) > 1e-9 * a) {
     row.published_note = fmt::format("length off by {:.1e}", std::abs(a - b) / a);
+  }
+  if (row.failure.empty() && !row.published_note.empty()) {
     row.failure = "biarc-dc: " + row.published_note;
   }
 }
@@ -199,9 +203,9 @@ PolygonComparison compare(const NamedContours& input, double tolerance) {
 /// The shapes of the series by size, of about 10^exponent arcs at the tolerance 1e-6.
 std::vector<NamedContours> shapes_of_size(int exponent) {
   const int step = exponent - 4;
-  constexpr std::array tree_depths = {5, 7, 9};
-  constexpr std::array snowflake_orders = {4, 6, 7};
-  constexpr std::array lettering_lines = {10, 40, 150};
+  constexpr std::array tree_depths = {4, 7, 10};
+  constexpr std::array snowflake_orders = {4, 6, 8};
+  constexpr std::array lettering_lines = {7, 27, 97};
   const auto i = static_cast<std::size_t>(std::clamp(step, 0, 2));
   return {{"tree", tree(tree_depths[i])},
           {"snowflake", snowflake(snowflake_orders[i])},

@@ -35,7 +35,8 @@ struct BiarcRow {
 
   /// The paper's own method (`biarc-dc`); without a value where `published_note` says why.
   std::optional<Timing> published;
-  double published_base_cases = 0;  ///< seconds of `published` in base cases and curves
+  double published_conquer = 0;           ///< seconds of `published` in base cases and curves
+  std::vector<std::uint64_t> base_cases;  ///< how many of (a), (b), ..., (m), Figs. 5 and 6
   std::string published_note;
 };
 
