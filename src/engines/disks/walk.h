@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <bit>
 #include <memory>
 #include <vector>
 
@@ -8,48 +10,53 @@
 
 namespace medial::disks {
 
-/// A growing list that never moves its elements and frees block by block. The first block is small:
-/// a shape may have many components.
+/// A growing list that never moves its elements and frees block by block. Blocks begin small and
+/// double: a shape may have many components, each with lists of its own. At most half is unused.
 template <class T>
 class BlockList {
  public:
   void push_back(const T& value) {
-    const auto [block, place] = find(size_++);
-    if (place == 0)
-      blocks_.push_back(std::make_unique_for_overwrite<T[]>(block == 0 ? first_block : block_size));
-    blocks_.back()[place] = value;
+    if (size_ == capacity_) {
+      const std::size_t count = size_of(blocks_.size());
+      blocks_.push_back(std::make_unique_for_overwrite<T[]>(count));
+      next_ = blocks_.back().get();
+      capacity_ += count;
+    }
+    *next_++ = value;
+    ++size_;
   }
   std::size_t size() const { return size_; }
   const T& operator[](std::size_t i) const {
-    const auto [block, place] = find(i);
-    return blocks_[block][place];
+    if (i >= doubling_end)
+      return blocks_[doublings + (i - doubling_end) / most][(i - doubling_end) % most];
+    const std::size_t block = static_cast<std::size_t>(std::bit_width(i / least + 1)) - 1;
+    return blocks_[block][i - ((least << block) - least)];
   }
   /// Calls take(i, element) for all elements in order and frees each block once it is done.
   template <class Take>
   void drain(Take&& take) {
-    std::size_t before = 0;
-    for (std::size_t i = 0; i < size_; ++i) {
-      const auto [block, place] = find(i);
-      if (block != before) blocks_[before].reset();
-      before = block;
-      take(i, blocks_[block][place]);
+    std::size_t i = 0;
+    for (std::size_t block = 0; i < size_; ++block) {
+      const T* element = blocks_[block].get();
+      const std::size_t end = std::min(size_, i + size_of(block));
+      for (; i < end; ++i) take(i, *element++);
+      blocks_[block].reset();
     }
-    blocks_.clear();
-    size_ = 0;
+    *this = {};
   }
 
  private:
-  static constexpr std::size_t first_block = 64;
-  static constexpr std::size_t block_size = 1 << 13;
-  struct Position {
-    std::size_t block, place;
-  };
-  static Position find(std::size_t i) {
-    if (i < first_block) return {0, i};
-    return {1 + (i - first_block) / block_size, (i - first_block) % block_size};
-  }
+  static constexpr std::size_t least = 64;  // elements of the first block
+  static constexpr std::size_t doublings = 7;
+  static constexpr std::size_t most = least << doublings;
+  /// Where the doubling ends: block k before that begins at least * (2^k - 1).
+  static constexpr std::size_t doubling_end = most - least;
+  static std::size_t size_of(std::size_t block) { return least << std::min(block, doublings); }
+
   std::vector<std::unique_ptr<T[]>> blocks_;
+  T* next_ = nullptr;  ///< where the next element goes, unless the last block is full
   std::size_t size_ = 0;
+  std::size_t capacity_ = 0;
 };
 
 /// An edge before its curve is worked out: nodes of the chunk, sites of the boundary.
