@@ -701,6 +701,42 @@ class Help(CommandLine):
         self.assertRegex(self.succeed("--version").stdout.decode(), r"^medial \d+\.\d+\.\d+\n$")
 
 
+class Bench(CommandLine):
+    def test_experiments(self):
+        done = self.run_medial("bench", "biarc", "--quick", "--tolerances", "2", "--json", "-q")
+        report = json.loads(done.stdout)
+        self.assertEqual(done.returncode, 0 if report["passed"] else 1)
+        self.assertEqual(done.stderr, b"")
+        self.assertEqual([row["shape"] for row in report["by_tolerance"]],
+                         [name for name in ("tree", "snowflake", "lettering", "border")
+                          for _ in range(2)])
+        for row in report["by_tolerance"] + report["by_size"]:
+            with self.subTest(shape=row["shape"], tolerance=row["tolerance"]):
+                self.assertGreater(row["edges"], 1000)
+                self.assertLessEqual(row["error"], row["tolerance"])
+                self.assertGreater(row["leaves"], 50)
+                for phase in ("conversion", "build", "axis"):
+                    self.assertGreater(row["seconds"][phase]["processor"], 0)
+                if row["shape"] in ("snowflake", "lettering"):
+                    self.assertEqual(row["failure"], "")
+        for row in report["polygons"]:  # a leaf at every convex corner of a polygon
+            self.assertGreater(row["polygon_leaves"], 2 * row["arc_leaves"])
+            self.assertLess(row["arc_error"], row["polygon_error"])
+
+    def test_outputs(self):
+        quick = ("bench", "biarc", "--quick", "--tolerances", "1", "-q", "-o")
+        for name, start in (("plots.svg", b"<?xml"), ("rows.csv", b"series,"), ("all.json", b"{")):
+            self.assertIn(self.run_medial(*quick, name).returncode, (0, 1))
+            with open(self.path(name), "rb") as file:
+                self.assertTrue(file.read().startswith(start))
+        self.refuse("unsupported", *quick, "plots.txt")
+        self.succeed("bench", "biarc", "--shapes", "shapes")
+        info = json.loads(self.succeed("info", "shapes/tree.svg", "--json").stdout)
+        self.assertEqual((info["features"], info["holes"]), (1, 0))
+        info = json.loads(self.succeed("info", "shapes/lettering.svg", "--json").stdout)
+        self.assertEqual((info["components"], info["holes"]), (192, 128))
+
+
 class Interruption(CommandLine):
     def interrupt(self, signal_number, output, after):
         process = subprocess.Popen(
