@@ -185,6 +185,12 @@ void add_common_switches(CLI::App& verb, CommonSwitches& common) {
       ->check(a_tolerance())
       ->option_text("T")
       ->group(group);
+  verb.add_option("--corner-angle", common.corner_angle,
+                  "Where an arc is involved, convex joints below this angle, in degrees, are\n"
+                  "smooth and no corners, at most 10 (default: 0.01).")
+      ->check(in_range(0, 10))
+      ->option_text("A")
+      ->group(group);
   verb.add_option("--chord", common.chord,
                   "Where curves are written as points, chords stay within this fraction\n"
                   "of the diagonal of the bounding box (default: 1e-3).")

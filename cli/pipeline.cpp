@@ -271,6 +271,7 @@ Result<AxisFile> compute_axes(ShapeFile shapes, const std::string& path,
   const Stopwatch watch;
   AxisFile file;
   options.tolerance = common.tolerance;
+  options.corner_angle = common.corner_angle;
   const std::size_t count = shapes.shapes.size();
   file.native.items.resize(count);
   file.native.crs_wkt = std::move(shapes.crs_wkt);

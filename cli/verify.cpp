@@ -161,6 +161,7 @@ Result<int> run_verify(const VerifySwitches& switches) {
       for_each_feature(weights, common.threads, [&](std::size_t i, int threads) -> Status {
         VerifyOptions options;
         options.tolerance = common.tolerance;
+        options.corner_angle = common.corner_angle;
         options.samples_per_edge = switches.samples;
         options.threads = threads;
         certificates[i] = verify(shapes->shapes[i], stored->items[i].axis, options);

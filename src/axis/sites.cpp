@@ -1,5 +1,7 @@
 #include "axis/sites.h"
 
+#include <numbers>
+
 #include "base/predicates.h"
 #include "base/tolerance.h"
 
@@ -33,10 +35,11 @@ SiteNumbers number_sites(const Shape& shape, const Frame& frame, double corner_a
   numbers.edge.resize(shape.points.size());
   numbers.joints.resize(shape.points.size());
   const double tolerance = tolerance_for(bounding_box(shape), 0);
+  const double radians = corner_angle * std::numbers::pi / 180;
   for (std::size_t l = 0; l < shape.loop_count(); ++l) {
     const Loop loop(shape, l, frame);
     for (std::uint32_t i = 0; i < loop.size(); ++i) {
-      const Joint joint = joint_at(loop, i, tolerance, corner_angle);
+      const Joint joint = joint_at(loop, i, tolerance, radians);
       numbers.joints[loop.begin() + i] = joint;
       if (joint == Joint::reflex) ++numbers.count;
       numbers.edge[loop.begin() + i] = numbers.count++;

@@ -57,7 +57,7 @@ struct SiteNumbers {
   std::uint32_t count = 0;
   bool is_site(std::size_t point) const { return joints[point] == geometry::Joint::reflex; }
 };
-/// `corner_angle` in radians; see Options.
+/// `corner_angle` in degrees; see Options.
 SiteNumbers number_sites(const Shape& shape, const Frame& frame, double corner_angle);
 
 /// The result's sites, in units of the input.

@@ -38,8 +38,7 @@ MedialAxis run(const Shape& shape, const Options& options, Report* report) {
   axis.tolerance = tolerance_for(box, options.tolerance);
   const Box local{frame.to_local(box.low), frame.to_local(box.high)};
 
-  const double corner_angle = options.corner_angle * std::acos(-1.0) / 180;
-  const sites::SiteNumbers numbers = sites::number_sites(shape, frame, corner_angle);
+  const sites::SiteNumbers numbers = sites::number_sites(shape, frame, options.corner_angle);
   const Outline outline = outline_of(shape, numbers, frame);
   Context context{outline, tolerance_for(local, options.tolerance), radius_limit(box, frame)};
   context.statistics.seconds_sites = watch.lap();

@@ -66,16 +66,17 @@ struct Boundary {
     if (elements[i] != elements[i + 1]) return true;
     return elements[i] == Element::edge && joint(i) == geometry::Joint::smooth;
   }
-  /// Where the sites i and i + 1 join smoothly: the point and the inward unit normal.
+  /// Where two sites, one after the other, join smoothly: the point and the inward unit normal.
   struct Place {
     Vec2 point;
     Vec2 normal;
   };
-  Place smooth_place(std::uint32_t i) const {
-    if (elements[i] == Element::vertex) return {sites[i].point, sites[i + 1].normal()};
-    // Of two edges the longer one knows its direction better.
-    const bool by_next = elements[i + 1] == Element::edge && sites[i + 1].length > sites[i].length;
-    return {sites[i + 1].point, by_next ? sites[i + 1].normal() : sites[i].end_normal()};
+  Place smooth_place(std::uint32_t before, std::uint32_t after) const {
+    // Of two edges the longer one knows its direction better; a vertex has length 0.
+    const bool by_after = sites[after].length > sites[before].length;
+    const Vec2 point =
+        elements[before] == Element::vertex ? sites[before].point : sites[after].point;
+    return {point, by_after ? sites[after].normal() : sites[before].end_normal()};
   }
 };
 

@@ -1,6 +1,7 @@
 #include "engines/disks/contacts.h"
 
 #include <cmath>
+#include <numbers>
 
 namespace medial::disks {
 namespace {
@@ -71,6 +72,7 @@ bool Contacts::touches_all(std::uint32_t i, const Disk& disk) const {
 
 bool Contacts::is_reflex_chain(const Span& span) const {
   if (span.left - span.right > longest_flat_chain || site(span.right).curvature > 0) return false;
+  constexpr double almost_half = 3;  // of a turn: pi, less room for rounding
   double turned = 0;
   Vec2 before = site(span.right).end_normal();
   for (std::uint32_t i = span.right; i < span.left; ++i) {
@@ -82,7 +84,7 @@ bool Contacts::is_reflex_chain(const Span& span) const {
     before = next.end_normal();
     if (i + 1 < span.left) turned += turn(next.normal(), before);
   }
-  return turned < 3;
+  return turned < almost_half;
 }
 
 void Contacts::split(const Span& span, const Disk& disk, std::uint32_t sure, bool all_around,
@@ -101,9 +103,9 @@ void Contacts::split(const Span& span, const Disk& disk, std::uint32_t sure, boo
   const auto angle_of = [&](std::uint32_t i, double share) {
     const Vec2 to = foot_on(i, share) - disk.center;
     const double angle = std::atan2(cross(start, to), dot(start, to));
-    return angle > 0 ? angle : angle + 2 * std::acos(-1.0);
+    return angle > 0 ? angle : angle + 2 * std::numbers::pi;
   };
-  const double end_angle = all_around ? 2 * std::acos(-1.0) : angle_of(span.left, 1);
+  const double end_angle = all_around ? 2 * std::numbers::pi : angle_of(span.left, 1);
   double angle_before = 0;
   std::uint32_t before = span.right;
   parts.clear();

@@ -24,18 +24,19 @@ MedialAxis run(const Shape& shape, const Options& options) {
   const Box box = bounding_box(shape);
   const Frame frame = frame_of(box);
   axis.tolerance = tolerance_for(box, options.tolerance);
-  // Where the shape lies far from the origin, only going back there rounds: the local frame knows
-  // its coordinates better.
+  // Where the shape lies far from the origin, only going back there rounds: the walk knows its
+  // coordinates better than the input's own spacing, to which ties are decided.
   const Box local{frame.to_local(box.low), frame.to_local(box.high)};
-  const double tolerance = tolerance_for(local, options.tolerance);
+  const double walk_tolerance = tolerance_for(local, options.tolerance);
+  const double input_tolerance = frame.scale * axis.tolerance;
 
-  const double corner_angle = options.corner_angle * std::acos(-1.0) / 180;
-  SiteNumbers numbers = sites::number_sites(shape, frame, corner_angle);
+  SiteNumbers numbers = sites::number_sites(shape, frame, options.corner_angle);
   Boundary boundary = loops_boundary(shape, numbers, frame);
   statistics.seconds_sites = watch.lap();
 
   const auto cancelled = [&] { return options.cancel != nullptr && options.cancel->load(); };
-  const std::vector<Cut> cuts = connecting_disks(shape, boundary, tolerance, statistics.queries);
+  const std::vector<Cut> cuts =
+      connecting_disks(shape, boundary, walk_tolerance, statistics.queries);
   if (!cuts.empty()) boundary = connect(shape, boundary, cuts);
   statistics.cuts = cuts.size();
   statistics.seconds_connect = watch.lap();
@@ -52,14 +53,13 @@ MedialAxis run(const Shape& shape, const Options& options) {
                                          static_cast<double>(boundary.sites.size())));
     };
   }
-  auto chunks = walk({boundary, cuts, *tree, tolerance, radius_limit(box, frame), options.cancel,
-                      std::move(report)});
+  auto chunks = walk({boundary, cuts, *tree, walk_tolerance, radius_limit(box, frame),
+                      options.cancel, std::move(report)});
   statistics.seconds_walk = watch.lap();
   if (cancelled()) return axis;
 
   collect(chunks, cuts.size(), axis);
-  // The input itself is known to its spacing only.
-  merge_ties(boundary, *tree, frame.scale * axis.tolerance, axis);
+  merge_ties(boundary, *tree, input_tolerance, axis);
   tree.reset();
   complete(boundary, frame, axis);
   boundary = {};

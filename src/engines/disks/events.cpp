@@ -60,10 +60,10 @@ Event EventSearch::local_event(bool on_right) {
   // unless the corner is so flat that it touches both sides within the tolerance.
   const Vec2 foot = on_right ? site(next).point : site(own).point;
   const Vec2 normal = on_right ? site(own).end_normal() : site(own).normal();
-  const Vec2 turned = on_right ? site(next).normal() : site(next).end_normal();
+  const Vec2 next_normal = on_right ? site(next).normal() : site(next).end_normal();
   const double radius = geometry::tangent_radius(foot, normal, site(other));
   const bool in_reach = radius <= context_.radius_limit;
-  const double intrusion = 0.5 * radius * squared_norm(normal - turned);
+  const double intrusion = 0.5 * radius * squared_norm(normal - next_normal);
   const bool flat = in_reach && intrusion <= 0.5 * context_.tolerance;
   if (!flat) {
     const auto contact = contact_with(next, nowhere);
@@ -83,7 +83,7 @@ std::optional<EventSearch::JointDisk> EventSearch::disk_at_joint(bool on_right) 
   const std::uint32_t next = on_right ? own + 1 : own - 1;
   const std::uint32_t other = on_right ? span_.left : span_.right;
   if (const auto circle = circle_of_apex(next, other)) return JointDisk{*circle};
-  const auto [foot, normal] = boundary_.smooth_place(std::min(own, next));
+  const auto [foot, normal] = boundary_.smooth_place(std::min(own, next), std::max(own, next));
   const double radius = geometry::tangent_radius(foot, normal, site(other));
   if (!(radius <= context_.radius_limit)) return std::nullopt;
   const double largest = std::max(site(own).curvature, site(next).curvature);
@@ -279,10 +279,10 @@ double EventSearch::closing(const Disk& disk, const Site& third) const {
 
 std::optional<Event> EventSearch::contact_before(const Event& intruded) {
   const std::uint32_t i = intruded.site;
-  const Site& segment = site(i);
+  const Site& intruder = site(i);
   if (const auto at_joint = contact_at_joint(i)) return at_joint;
   std::optional<Event> contact = contact_with(i, intruded.position);
-  if (segment.is_vertex() || (contact && reaches(*contact))) return contact;
+  if (intruder.is_vertex() || (contact && reaches(*contact))) return contact;
   // The carrier is touched short of the edge: one of its neighbours comes first.
   std::optional<Event> earliest;
   for (const std::uint32_t next : {i - 1, i + 1}) {
@@ -293,7 +293,7 @@ std::optional<Event> EventSearch::contact_before(const Event& intruded) {
   }
   if (earliest) return earliest;
   // Any disk that passes through the intruder comes earlier than one that it intrudes.
-  const Vec2 place = geometry::foot(segment, intruded.disk.center);
+  const Vec2 place = geometry::foot(intruder, intruded.disk.center);
   const auto on_place = contact_with(geometry::make_vertex(place), i, intruded.position);
   return on_place ? on_place : contact;
 }

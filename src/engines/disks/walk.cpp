@@ -87,10 +87,8 @@ class Walker {
   /// The disk that grows at the smooth place where a run begins and ends, until it touches
   /// something: a node of the axis, from which all of the run is walked. A circle has no more.
   void start_at_smooth_place(const Boundary::Run& run) {
-    const Vec2 foot = site(run.first).point;
-    const bool by_last =
-        element(run.first) == Element::vertex || site(run.last).length > site(run.first).length;
-    const Vec2 normal = by_last ? site(run.last).end_normal() : site(run.first).normal();
+    const auto place = boundary_.smooth_place(run.last, run.first);
+    const Vec2 foot = place.point, normal = place.normal;
     double radius = context_.radius_limit;
     for (const std::uint32_t i : {run.first, run.last})
       if (site(i).curvature > 0) radius = std::min(radius, 1 / site(i).curvature);
