@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "base/spatial_order.h"
 
@@ -19,6 +20,10 @@ constexpr std::size_t kBruteForce = 16;
 constexpr std::size_t kLargestSlab = 4096;
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Longer arcs are bounded piece by piece: the boxes of concentric half circles would lie in each
+/// other, and all of them in the way of every query.
+constexpr double kLongestPiece = std::numbers::pi / 8;
 
 /// Calls `visit` with points whose hull holds the edge: its ends, and for an arc the corners of the
 /// trapezoid whose other sides are tangent to it at the ends and in the middle.
@@ -34,51 +39,89 @@ void for_each_hull_point(const BoundaryEdge& edge, const Visitor& visit) {
   visit(edge.end - side + height);
 }
 
+/// Calls `visit` with the edge, cut into pieces of at most kLongestPiece.
+template <class Visitor>
+void for_each_piece(const BoundaryEdge& edge, const Visitor& visit) {
+  const double angle = 4 * std::atan(edge.bulge);
+  const double count = std::ceil(std::abs(angle) / kLongestPiece);
+  if (count <= 1) {
+    visit(edge);
+    return;
+  }
+  const double length = length_of(edge);
+  Vec2 start = edge.start;
+  for (double k = 1; k <= count; ++k) {
+    const Vec2 end = point_at(edge, length * (k / count));
+    visit({start, end, std::tan(0.25 * angle / count)});
+    start = end;
+  }
+}
+
 }  // namespace
 
 DistanceTree::DistanceTree(const Shape& shape) {
-  std::vector<BoundaryEdge> unordered;
+  // Where there are arcs: the edge of each piece.
+  std::vector<BoundaryEdge> pieces, wholes;
   std::vector<Vec2> middle;
-  unordered.reserve(shape.points.size());
+  pieces.reserve(shape.points.size());
   middle.reserve(shape.points.size());
+  const bool arcs = !shape.bulges.empty();
   for (std::size_t i = 0; i < shape.loop_count(); ++i) {
     const auto loop = shape.loop(i);
     for (std::size_t j = 0; j < loop.size(); ++j) {
-      unordered.push_back(
-          {loop[j], loop[j + 1 < loop.size() ? j + 1 : 0], shape.bulge(shape.loop_begin[i] + j)});
-      middle.push_back(midpoint(unordered.back().start, unordered.back().end));
+      const BoundaryEdge edge{loop[j], loop[j + 1 < loop.size() ? j + 1 : 0],
+                              shape.bulge(shape.loop_begin[i] + j)};
+      if (shape.points.size() <= kBruteForce) {
+        edges_.push_back(edge);
+        continue;
+      }
+      for_each_piece(edge, [&](const BoundaryEdge& piece) {
+        pieces.push_back(piece);
+        if (arcs) wholes.push_back(edge);
+        middle.push_back(midpoint(piece.start, piece.end));
+      });
     }
   }
-  if (unordered.size() <= kBruteForce) {
-    edges_ = std::move(unordered);
-    return;
-  }
-  edges_.reserve(unordered.size());
-  for (const std::uint32_t i : spatial_order(middle, kFanOut)) edges_.push_back(unordered[i]);
+  if (pieces.empty()) return;
+  const std::vector<std::uint32_t> order = spatial_order(middle, kFanOut);
+  const auto in_order = [&](const std::vector<BoundaryEdge>& edges) {
+    std::vector<BoundaryEdge> ordered;
+    ordered.reserve(edges.size());
+    for (const std::uint32_t i : order) ordered.push_back(edges[i]);
+    return ordered;
+  };
+  pieces = in_order(pieces);
+  if (arcs) edges_ = in_order(wholes);
 
   const Box box = bounding_box(shape);
   origin_ = box.low;
   slack_ = 16 * kEpsilon * diagonal(box);
+  // The ends of an arc's pieces are rounded.
+  if (arcs)
+    for (const double c : {box.low.x, box.low.y, box.high.x, box.high.y})
+      slack_ = std::max(slack_, 16 * kEpsilon * std::abs(c));
   std::size_t run = kFanOut;  // edges below one bound
   while (true) {
-    const std::size_t bounds = (edges_.size() + run - 1) / run;
+    const std::size_t bounds = (pieces.size() + run - 1) / run;
     std::vector<Bounds> level((bounds + kFanOut - 1) / kFanOut);
     tbb::parallel_for(std::size_t{0}, level.size() * kFanOut, [&](std::size_t i) {
-      bound(std::min(i * run, edges_.size()), std::min((i + 1) * run, edges_.size()),
-            level[i / kFanOut], i % kFanOut);
+      const std::size_t begin = std::min(i * run, pieces.size());
+      bound({pieces.data() + begin, std::min(run, pieces.size() - begin)}, level[i / kFanOut],
+            i % kFanOut);
     });
     levels_.push_back(std::move(level));
-    if (bounds <= kFanOut) return;
+    if (bounds <= kFanOut) break;
     run *= kFanOut;
   }
+  if (!arcs) edges_ = std::move(pieces);
 }
 
-/// Bounds the edges [begin, end); nothing is near to an empty set.
-void DistanceTree::bound(std::size_t begin, std::size_t end, Bounds& bounds,
+/// Bounds edges, or pieces of them; nothing is near to an empty set.
+void DistanceTree::bound(std::span<const BoundaryEdge> edges, Bounds& bounds,
                          std::size_t place) const {
   Vec2 left{kInfinity, 0}, right{-kInfinity, 0}, bottom{0, kInfinity}, top{0, -kInfinity};
   const auto each_point = [&](auto work) {
-    for (std::size_t i = begin; i < end; ++i) for_each_hull_point(edges_[i], work);
+    for (const BoundaryEdge& edge : edges) for_each_hull_point(edge, work);
   };
   each_point([&](Vec2 p) {
     if (p.x < left.x) left = p;
@@ -95,7 +138,7 @@ void DistanceTree::bound(std::size_t begin, std::size_t end, Bounds& bounds,
   Vec2 normal;
   double low = 0, high = 0;
   const Vec2 extent = right.x - left.x >= top.y - bottom.y ? right - left : top - bottom;
-  if (begin < end && end - begin <= kLargestSlab && norm(extent) > 0) {
+  if (!edges.empty() && edges.size() <= kLargestSlab && norm(extent) > 0) {
     normal = (1 / norm(extent)) * left_of(extent);
     low = kInfinity;
     high = -kInfinity;
@@ -156,6 +199,8 @@ bool DistanceTree::search(Vec2 p, double& best) const {
             found = true;
           }
         }
+        // Nothing is nearer: where very many edges meet at p, the others need no look.
+        if (best == 0) return found;
         limit = limit_for(best);
         continue;
       }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "medial/shape.h"
@@ -27,11 +28,11 @@ class DistanceTree {
     double normal_x[4], normal_y[4], slab_low[4], slab_high[4];
   };
 
-  void bound(std::size_t begin, std::size_t end, Bounds& bounds, std::size_t place) const;
+  void bound(std::span<const BoundaryEdge> edges, Bounds& bounds, std::size_t place) const;
   bool search(Vec2 p, double& best) const;
   double some_distance(Vec2 p) const;
 
-  std::vector<BoundaryEdge> edges_;
+  std::vector<BoundaryEdge> edges_;          ///< an arc as often as the tree has pieces of it
   std::vector<std::vector<Bounds>> levels_;  ///< levels_[0] bounds runs of four edges
   Vec2 origin_;
   double slack_ = 0;  ///< what rounding may add to the distance from a slab
