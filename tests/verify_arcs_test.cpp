@@ -399,5 +399,50 @@ TEST(DistanceTreeOfArcs, AgreesWithBruteForce) {
   }
 }
 
+/// Far from their nearest edge in the tree's order, all queries took time by the number of rings.
+TEST(DistanceTreeOfArcs, ConcentricCirclesAreExact) {
+  constexpr int rings = 2000;
+  Shape shape;
+  shape.loop_begin = {0};
+  for (int k = 1; k <= rings; ++k) {
+    const double r = k;
+    for (const double x : {-r, r}) {
+      shape.points.push_back({x, 0});
+      shape.bulges.push_back(1);
+    }
+    shape.loop_begin.push_back(static_cast<std::uint32_t>(shape.points.size()));
+    shape.component.push_back(0);
+    shape.hole.push_back(false);
+  }
+  const verify_detail::DistanceTree tree(shape);
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> unit(0, 1);
+  for (int i = 0; i < 20'000; ++i) {
+    const double r = 1 + (rings - 1) * unit(random), angle = 6.28 * unit(random);
+    const double nearest = std::abs(r - std::round(r));
+    EXPECT_NEAR(tree.distance({r * std::cos(angle), r * std::sin(angle)}, nearest + 1e-9), nearest,
+                1e-11);
+  }
+}
+
+/// Triangles that meet at one vertex: every query there would look at all of them.
+TEST(DistanceTreeOfArcs, StopsAtZero) {
+  constexpr int triangles = 20'000;
+  Shape shape;
+  shape.loop_begin = {0};
+  for (int k = 0; k < triangles; ++k) {
+    for (const double part : {0.0, 0.5}) {
+      const double angle = 6.283 * (k + part) / triangles;
+      if (part == 0) shape.points.push_back({0, 0});
+      shape.points.push_back({std::cos(angle), std::sin(angle)});
+    }
+    shape.loop_begin.push_back(static_cast<std::uint32_t>(shape.points.size()));
+    shape.component.push_back(0);
+    shape.hole.push_back(false);
+  }
+  const verify_detail::DistanceTree tree(shape);
+  for (int i = 0; i < triangles; ++i) EXPECT_EQ(tree.distance({0, 0}, 1e-12), 0);
+}
+
 }  // namespace
 }  // namespace medial
