@@ -19,11 +19,9 @@ struct AxisSwitches {
 
 Result<int> run_axis(const AxisSwitches& switches) {
   const auto& [input, common, output, format, pictures, options] = switches;
-  Status writable = check_output(output, format, io::known_output_formats(), input.path);
+  Status writable =
+      check_output(output, format, io::known_output_formats(), input.path, common.json);
   if (!writable) return std::move(writable).error();
-  if (output == "-" && common.json) {
-    return invalid_option("--json and -o - both claim standard output");
-  }
 
   auto shapes = load_shapes(input, common.threads);
   if (!shapes) return std::move(shapes).error();

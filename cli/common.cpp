@@ -226,11 +226,14 @@ void add_picture_switches(CLI::App& verb, io::WriteOptions& write) {
 }
 
 Status check_output(const std::string& path, const std::string& format,
-                    const std::string& known_formats, const std::string& input) {
+                    const std::string& known_formats, const std::string& input, bool json) {
   if (path.empty() && format.empty()) return success();
   if (path == "-") {
     if (format.empty()) return invalid_option("-o - needs --format, for example --format csv");
-    if (lists(known_formats, lower(format))) return success();
+    if (lists(known_formats, lower(format))) {
+      if (!json) return success();
+      return invalid_option("--json and -o - both claim standard output");
+    }
     return error_at(ErrorCode::unsupported, {},
                     fmt::format("no such format: {}; known are {}", format, known_formats));
   }

@@ -67,10 +67,10 @@ void add_picture_switches(CLI::App& verb, io::WriteOptions& write);
 
 /// Checks that `path` can be written later, before any long work: a known format, a directory that
 /// takes files, nothing there but a regular file that may be replaced, and not the input itself.
-/// An empty path is no output, which can always be had.
+/// An empty path is no output, which can always be had. With `json` standard output is taken.
 /// `known_formats` lists extensions, separated by anything that is neither letter nor digit.
 Status check_output(const std::string& path, const std::string& format,
-                    const std::string& known_formats, const std::string& input);
+                    const std::string& known_formats, const std::string& input, bool json);
 
 /// An error of a file as a whole.
 Error error_at(ErrorCode code, const std::string& file, std::string text);

@@ -1,4 +1,4 @@
-// medial draw: a picture of polygons or of stored axes.
+// medial draw: a picture of shapes or of stored axes.
 
 #include <fmt/format.h>
 
@@ -21,7 +21,7 @@ struct DrawSwitches {
   io::WriteOptions write;
 };
 
-/// Stored axes as they are; of polygons, axes computed now.
+/// Stored axes as they are; of shapes, axes computed now.
 Result<AxisFile> axes_to_draw(const InputSwitches& input, const CommonSwitches& common) {
   if (input.text.empty() && io::is_native(input.path)) {
     const Stopwatch reading;
@@ -44,11 +44,8 @@ Result<AxisFile> axes_to_draw(const InputSwitches& input, const CommonSwitches& 
 Result<int> run_draw(const DrawSwitches& switches) {
   const auto& [input, common, output, format, pictures] = switches;
   if (output.empty()) return invalid_option("-o needs the name of a picture");
-  Status writable = check_output(output, format, picture_formats, input.path);
+  Status writable = check_output(output, format, picture_formats, input.path, common.json);
   if (!writable) return std::move(writable).error();
-  if (output == "-" && common.json) {
-    return invalid_option("--json and -o - both claim standard output");
-  }
   auto axes = axes_to_draw(input, common);
   if (!axes) return std::move(axes).error();
   return write_and_tell(*axes, input, common, output, format, pictures);
@@ -71,7 +68,7 @@ Verb make_draw_verb(CLI::App& program) {
   add_picture_switches(*verb, switches->write);
   add_common_switches(*verb, switches->common);
   verb->footer(
-      "INPUT may be polygons, whose axes are then computed, or medial's own .json, which\n"
+      "INPUT may be shapes, whose axes are then computed, or medial's own .json, which\n"
       "is drawn as it stands. The axis is coloured by radius. Vector pictures hold exact\n"
       "curves.\n"
       "\n"

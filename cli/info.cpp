@@ -1,4 +1,4 @@
-// medial info: what a file of polygons or of axes holds.
+// medial info: what a file of shapes or of axes holds.
 
 #include <fmt/format.h>
 
@@ -102,8 +102,8 @@ Result<int> tell(const CommonSwitches& common, Json object, const Table& table,
   return exit_success;
 }
 
-/// Of polygons that are no shape, the error tells; main() reports it.
-Result<int> tell_polygons(const InfoSwitches& switches) {
+/// Of what is no shape, the error tells; main() reports it.
+Result<int> tell_shapes(const InfoSwitches& switches) {
   auto file = load_shapes(switches.input, switches.common.threads);
   if (!file) return std::move(file).error();
   print_notes(*file, switches.input, switches.common);
@@ -157,7 +157,7 @@ Result<int> tell_axes(const InfoSwitches& switches) {
   if (file->items.empty()) {
     return error_at(ErrorCode::empty, switches.input.path, "holds no axis");
   }
-  if (holds_contours(*file)) return tell_polygons(switches);
+  if (holds_contours(*file)) return tell_shapes(switches);
   const AxisSummary axes = summarize(*file);
   std::vector<std::reference_wrapper<const Shape>> shape_list;
   for (const io::NativeItem& item : file->items) shape_list.emplace_back(item.shape);
@@ -211,7 +211,7 @@ Result<int> tell_axes(const InfoSwitches& switches) {
 
 Result<int> run_info(const InfoSwitches& switches) {
   if (!switches.input.text.empty() || !io::is_native(switches.input.path)) {
-    return tell_polygons(switches);
+    return tell_shapes(switches);
   }
   return tell_axes(switches);
 }

@@ -27,7 +27,7 @@ class HelpFormatter : public CLI::Formatter {
 
 int run(int argc, char** argv, bool json) {
   CLI::App program(
-      "Exact medial axis transform of polygons with holes: all centres of the largest\n"
+      "Exact medial axis transform of shapes with holes: all centres of the largest\n"
       "disks inside a shape, with their radii.");
   program.name("medial");
   program.formatter(std::make_shared<HelpFormatter>());

@@ -102,14 +102,14 @@ Json stats(const AxisFile& file, const AxisSummary& summary, double seconds_writ
   return object;
 }
 
-/// The polygons of a file, and where they come from medial's own format, the shapes they were.
-struct Polygons {
+/// What a file holds, and where it is in medial's own format, the shapes they were.
+struct InputFile {
   io::Dataset dataset;
   std::vector<Shape> originals;  ///< one without points where the file holds contours
 };
 
-Result<Polygons> read_polygons(const InputSwitches& input) {
-  Polygons polygons;
+Result<InputFile> read_input(const InputSwitches& input) {
+  InputFile source;
   if (!input.text.empty()) {
     if (!input.read.layer.empty() || !input.read.where.empty() || input.read.project ||
         input.read.repair != io::RepairRule::none || input.read.close) {
@@ -117,14 +117,14 @@ Result<Polygons> read_polygons(const InputSwitches& input) {
     }
     auto dataset = io::read_text(input.text, input.path);
     if (!dataset) return std::move(dataset).error();
-    polygons.dataset = std::move(dataset).value();
-    return polygons;
+    source.dataset = std::move(dataset).value();
+    return source;
   }
   if (!io::is_native(input.path)) {
     auto dataset = io::read_dataset(input.path, input.read);
     if (!dataset) return std::move(dataset).error();
-    polygons.dataset = std::move(dataset).value();
-    return polygons;
+    source.dataset = std::move(dataset).value();
+    return source;
   }
   if (!input.read.layer.empty() || !input.read.where.empty() || input.read.project ||
       input.read.repair != io::RepairRule::none || input.read.close) {
@@ -133,18 +133,18 @@ Result<Polygons> read_polygons(const InputSwitches& input) {
   }
   auto native = io::read_native(input.path);
   if (!native) return std::move(native).error();
-  polygons.dataset.crs_wkt = native->crs_wkt;
-  polygons.dataset.y_down = native->y_down;
+  source.dataset.crs_wkt = native->crs_wkt;
+  source.dataset.y_down = native->y_down;
   for (io::NativeItem& item : native->items) {
     io::Feature feature;
     feature.rings = rings_of(item.shape);
     feature.contours = std::move(item.contours);
-    feature.id = static_cast<std::int64_t>(polygons.dataset.features.size());
+    feature.id = static_cast<std::int64_t>(source.dataset.features.size());
     feature.attributes = std::move(item.attributes);
-    polygons.dataset.features.push_back(std::move(feature));
-    polygons.originals.push_back(std::move(item.shape));
+    source.dataset.features.push_back(std::move(feature));
+    source.originals.push_back(std::move(item.shape));
   }
-  return polygons;
+  return source;
 }
 
 }  // namespace
@@ -156,6 +156,12 @@ bool holds_contours(const io::NativeFile& file) {
 
 int effective_threads(int threads) {
   return threads > 0 ? threads : std::max(1, tbb::info::default_concurrency());
+}
+
+std::vector<double> weights_of(std::span<const Shape> shapes) {
+  std::vector<double> weights;
+  for (const Shape& shape : shapes) weights.push_back(static_cast<double>(shape.points.size()));
+  return weights;
 }
 
 Status for_each_feature(std::span<const double> weights, int threads,
@@ -199,13 +205,13 @@ Status for_each_feature(std::span<const double> weights, int threads,
 Result<ShapeFile> load_shapes(const InputSwitches& input, int threads) {
   ShapeFile file;
   const Stopwatch reading;
-  auto polygons = read_polygons(input);
-  if (!polygons) {
-    Error error = std::move(polygons).error();
+  auto source = read_input(input);
+  if (!source) {
+    Error error = std::move(source).error();
     if (error.place.file.empty()) error.place.file = input.path;
     return error;
   }
-  io::Dataset& dataset = polygons->dataset;
+  io::Dataset& dataset = source->dataset;
   if (dataset.features.empty()) {
     return error_at(ErrorCode::empty, input.path, "holds no polygon");
   }
@@ -240,8 +246,8 @@ Result<ShapeFile> load_shapes(const InputSwitches& input, int threads) {
     if (!shape) return at_feature(std::move(shape).error(), input.path, i);
     feature.rings = {};
     file.shapes[i] = std::move(shape).value();
-    if (!polygons->originals.empty() && !polygons->originals[i].points.empty()) {
-      keep_sources(file.shapes[i], polygons->originals[i]);
+    if (!source->originals.empty() && !source->originals[i].points.empty()) {
+      keep_sources(file.shapes[i], source->originals[i]);
     }
     return success();
   });
@@ -276,10 +282,7 @@ Result<AxisFile> compute_axes(ShapeFile shapes, const std::string& path,
   file.native.items.resize(count);
   file.native.crs_wkt = std::move(shapes.crs_wkt);
   file.native.y_down = shapes.y_down;
-  std::vector<double> weights;
-  for (const Shape& shape : shapes.shapes) {
-    weights.push_back(static_cast<double>(shape.points.size()));
-  }
+  const std::vector<double> weights = weights_of(shapes.shapes);
   const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
   Progress progress("medial axis", total, error_is_terminal() && !common.quiet);
   Status computed =

@@ -63,6 +63,9 @@ bool holds_contours(const io::NativeFile& file);
 /// Threads that a run with this switch uses: the machine's for 0.
 int effective_threads(int threads);
 
+/// How much work each shape is, for for_each_feature().
+std::vector<double> weights_of(std::span<const Shape> shapes);
+
 /// Runs work(i, threads_of_its_own) for every feature i and returns the error of the lowest feature
 /// that has one. `weights` tell how much work each feature is: a large one gets all threads, one
 /// large feature after another; then the small ones run side by side with one thread each. What
@@ -70,8 +73,8 @@ int effective_threads(int threads);
 Status for_each_feature(std::span<const double> weights, int threads,
                         const std::function<Status(std::size_t, int)>& work);
 
-/// Reads polygons and makes shapes of them. The shapes of medial's own JSON keep their sources.
-/// Errors name the file and the feature; of several, the first one's is given.
+/// Reads polygons and curves and makes shapes of them. The shapes of medial's own JSON keep their
+/// sources. Errors name the file and the feature; of several, the first one's is given.
 Result<ShapeFile> load_shapes(const InputSwitches& input, int threads);
 
 /// Prints what a user should know of the input (geographic coordinates, repairs) on standard error,

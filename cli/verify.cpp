@@ -1,4 +1,4 @@
-// medial verify: does a stored axis belong to these polygons?
+// medial verify: does a stored axis belong to these shapes?
 
 #include "medial/verify.h"
 
@@ -39,6 +39,7 @@ Certificate merge(const std::vector<Certificate>& certificates) {
     all.largest_intrusion = std::max(all.largest_intrusion, one.largest_intrusion);
     all.largest_contact_gap = std::max(all.largest_contact_gap, one.largest_contact_gap);
     all.largest_uncovered = std::max(all.largest_uncovered, one.largest_uncovered);
+    all.worst_legality = std::max(all.worst_legality, one.worst_legality);
     all.shape_area += one.shape_area;
     all.disks_area += one.disks_area;
     all.disks_checked += one.disks_checked;
@@ -70,6 +71,7 @@ Json to_json(const Certificate& c) {
           {"largest_intrusion", c.largest_intrusion},
           {"largest_contact_gap", c.largest_contact_gap},
           {"largest_uncovered", c.largest_uncovered},
+          {"worst_legality", c.worst_legality},
           {"worst", {{"x", c.worst_x}, {"y", c.worst_y}}},
           {"shape_area", c.shape_area},
           {"disks_area", c.disks_area},
@@ -152,10 +154,7 @@ Result<int> run_verify(const VerifySwitches& switches) {
   }
 
   const Stopwatch checking;
-  std::vector<double> weights;
-  for (const Shape& shape : shapes->shapes) {
-    weights.push_back(static_cast<double>(shape.points.size()));
-  }
+  const std::vector<double> weights = weights_of(shapes->shapes);
   std::vector<Certificate> certificates(count);
   Status done =
       for_each_feature(weights, common.threads, [&](std::size_t i, int threads) -> Status {
@@ -195,7 +194,7 @@ Result<int> run_verify(const VerifySwitches& switches) {
 
 Verb make_verify_verb(CLI::App& program) {
   auto switches = std::make_shared<VerifySwitches>();
-  CLI::App* verb = program.add_subcommand("verify", "Check a stored axis against its polygons.");
+  CLI::App* verb = program.add_subcommand("verify", "Check a stored axis against its shapes.");
   add_input_switches(*verb, switches->input, "AXIS", "Axes in medial's own .json format.",
                      switches->axis_path);
   verb->add_option(
@@ -205,7 +204,7 @@ Verb make_verify_verb(CLI::App& program) {
       ->option_text("N");
   add_common_switches(*verb, switches->common);
   verb->footer(
-      "Nothing is computed anew: the stored disks are measured against the polygons by\n"
+      "Nothing is computed anew: the stored disks are measured against the shapes by\n"
       "code that shares nothing with the engine. Features and axes are matched by their\n"
       "order. Told are the largest |distance to the boundary - radius|, the largest\n"
       "intrusion of the boundary into a disk, whether the graph is connected with one\n"

@@ -25,8 +25,8 @@ Pieces pieces_of(Vec2 start, Vec2 end, double bulge) {
   if (bulge == 0) return {{geometry::make_segment(start, end)}, 1};
   if (std::abs(bulge) <= geometry::largest_bulge)
     return {{geometry::make_arc(start, end, bulge)}, 1};
-  const Vec2 middle = midpoint(start, end) - (0.5 * bulge) * left_of(end - start);
-  const double half = bulge / (1 + std::sqrt(1 + bulge * bulge));
+  const Vec2 middle = apex({start, end, bulge});
+  const double half = half_bulge(bulge);
   return {{geometry::make_arc(start, middle, half), geometry::make_arc(middle, end, half)}, 2};
 }
 

@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/arc.h"
 #include "base/limits.h"
 #include "base/threads.h"
 #include "engines/biarc_dc/biarc_dc.h"
@@ -35,11 +36,7 @@ bool is_consistent(const Shape& shape) {
     for (std::size_t j = 0; j < points.size(); ++j) {
       const Vec2 start = points[j], end = points[j + 1 == points.size() ? 0 : j + 1];
       doubled += cross(start - points[0], end - points[0]);
-      const double bulge = shape.bulge(shape.loop_begin[i] + j);
-      if (bulge == 0) continue;
-      const double radius = distance(start, end) * (1 + bulge * bulge) / (4 * bulge);
-      const double angle = 4 * std::atan(bulge);
-      doubled += radius * radius * (angle - std::sin(angle));
+      doubled += 2 * area_beside_chord({start, end, shape.bulge(shape.loop_begin[i] + j)});
     }
     if (!(shape.hole[i] ? doubled <= 0 : doubled >= 0)) return false;
   }

@@ -14,6 +14,7 @@
 #include <numbers>
 #include <unordered_set>
 
+#include "base/arc.h"
 #include "medial/query.h"
 
 namespace medial::io {
@@ -216,25 +217,22 @@ class Picture {
     cairo_arc(context_, center.x, center.y, radius, 0, 2 * std::numbers::pi);
   }
 
-  /// Goes on along an arc. Its halves' bulge is the tangent of half the angle that the whole's is
-  /// the tangent of. Pieces of a 16th turn or less become cubic curves: they stay within 7e-8
+  /// Goes on along an arc. Pieces of a 16th turn or less become cubic curves: they stay within 7e-8
   /// radii.
-  void arc_to(Vec2 from, Vec2 to, double bulge) {
+  void arc_to(const BulgeArc& arc) {
     const double kLongest = 0.0985;  // tangent of a quarter of a 16th turn
-    const Vec2 chord = to - from;
-    const Vec2 right{chord.y, -chord.x};
+    const double bulge = arc.bulge;
     if (std::fabs(bulge) > kLongest) {
-      const Vec2 middle = midpoint(from, to) + 0.5 * bulge * right;
-      const double half = bulge / (1 + std::sqrt(1 + bulge * bulge));
-      arc_to(from, middle, half);
-      arc_to(middle, to, half);
+      const Vec2 middle = apex(arc);
+      arc_to({arc.start, middle, half_bulge(bulge)});
+      arc_to({middle, arc.end, half_bulge(bulge)});
       return;
     }
-    const Vec2 along = (1 - bulge * bulge) / 3 * chord;
-    const Vec2 aside = 2 * bulge / 3 * right;
-    const Vec2 a = from + along + aside;
-    const Vec2 b = to - along + aside;
-    cairo_curve_to(context_, a.x, a.y, b.x, b.y, to.x, to.y);
+    const Vec2 along = (1 - bulge * bulge) / 3 * arc.chord();
+    const Vec2 aside = -2 * bulge / 3 * left_of(arc.chord());
+    const Vec2 a = arc.start + along + aside;
+    const Vec2 b = arc.end - along + aside;
+    cairo_curve_to(context_, a.x, a.y, b.x, b.y, arc.end.x, arc.end.y);
   }
 
   /// Goes along all edges of a loop, as one path; `each` is told the end of every edge drawn.
@@ -251,7 +249,7 @@ class Picture {
       if (bulge == 0) {
         line_to(p);
       } else {
-        arc_to(frame_(shape.points[k]), p, frame_.bulge(bulge));
+        arc_to({frame_(shape.points[k]), p, frame_.bulge(bulge)});
       }
       last = p;
       each(p);
