@@ -269,7 +269,7 @@ Status write_shapes(const std::string& directory) {
 }
 
 Result<int> run_biarc(const BenchSwitches& switches) {
-  Status writable = check_output(switches.output, {}, formats, {});
+  Status writable = check_output(switches.output, {}, formats, {}, false);
   if (!writable) return std::move(writable).error();
   if (!switches.shapes.empty()) {
     Status written = write_shapes(switches.shapes);
