@@ -48,8 +48,8 @@ struct InputSwitches {
 
 /// What every verb takes.
 struct CommonSwitches {
-  int threads = 0;       ///< 0: all of the machine
-  double tolerance = 0;  ///< relative to the diagonal; 0: the library's default
+  int threads = 0;             ///< 0: all of the machine
+  double tolerance = 0;        ///< relative to the diagonal; 0: the library's default
   double corner_angle = 0.01;  ///< degrees
   double chord = io::WriteOptions{}.chord;
   bool stats = false;
