@@ -278,7 +278,9 @@ TEST_F(CurvedIo, SvgBombsAreBounded) {
             ErrorCode::too_large);
   std::string deep = "<svg>";
   for (int i = 0; i < 100'000; ++i) deep += "<g>";
-  EXPECT_NE(refused("deep.svg", deep).code, ErrorCode::internal);
+  // Stopped long before the file's end: a small compressed file may open very many elements.
+  const std::string deep_text = refused("deep.svg", deep).text;
+  EXPECT_NE(deep_text.find("deep"), std::string::npos) << deep_text;
   for (int i = 0; i < 100'000; ++i) deep += "</g>";
   EXPECT_NE(refused("deep.svg", deep + "</svg>").code, ErrorCode::internal);
   // Entities of the usual kind work; files are not read.

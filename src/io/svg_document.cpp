@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::size_t kLongest = (std::size_t{1} << 31U) - 1;  // what libxml2 takes
 constexpr std::size_t kLongestEntity = 256;
+constexpr int kDeepest = 1000;  // open elements; the reader allows fewer, but tells that better
 constexpr char kSvg[] = "http://www.w3.org/2000/svg";
 constexpr char kXlink[] = "http://www.w3.org/1999/xlink";
 constexpr char kSpace[] = " \t\r\n";
@@ -35,6 +36,19 @@ void declare_entity(void* context, const xmlChar* name, int type, const xmlChar*
     return;
   }
   xmlSAX2EntityDecl(context, name, type, public_id, system_id, content);
+}
+
+/// Stops before a small compressed file of nothing but opened elements fills the memory.
+void start_element(void* context, const xmlChar* name, const xmlChar* prefix, const xmlChar* uri,
+                   int namespaces, const xmlChar** namespace_names, int attributes, int defaulted,
+                   const xmlChar** attribute_values) {
+  const auto parser = static_cast<xmlParserCtxtPtr>(context);
+  if (parser->nodeNr >= kDeepest) {
+    xmlStopParser(parser);
+    return;
+  }
+  xmlSAX2StartElementNs(context, name, prefix, uri, namespaces, namespace_names, attributes,
+                        defaulted, attribute_values);
 }
 
 /// Attributes without which an element paints nothing.
@@ -108,8 +122,9 @@ Result<SvgDocument> SvgDocument::read(TextSource& source) {
 
   const std::unique_ptr<xmlParserCtxt, decltype(&xmlFreeParserCtxt)> context(xmlNewParserCtxt(),
                                                                              &xmlFreeParserCtxt);
-  if (!context) return error(ErrorCode::too_large, "there is not enough memory", 0);
+  if (!context) return error(ErrorCode::out_of_memory, "there is not enough memory", 0);
   context->sax->entityDecl = &declare_entity;
+  context->sax->startElementNs = &start_element;
   constexpr int kOptions = XML_PARSE_NOENT | XML_PARSE_NONET | XML_PARSE_NOERROR |
                            XML_PARSE_NOWARNING | XML_PARSE_COMPACT | XML_PARSE_HUGE |
                            XML_PARSE_BIG_LINES;
@@ -118,6 +133,13 @@ Result<SvgDocument> SvgDocument::read(TextSource& source) {
       context.get(), bytes.data(), static_cast<int>(bytes.size()), nullptr, nullptr, kOptions));
   if (!result.document_ || result.root() == nullptr) {
     const xmlError* problem = xmlCtxtGetLastError(context.get());
+    if (problem != nullptr && problem->code == XML_ERR_USER_STOP) {
+      return error(ErrorCode::malformed, fmt::format("elements are more than {} deep", kDeepest),
+                   0);
+    }
+    if (problem != nullptr && problem->code == XML_ERR_NO_MEMORY) {
+      return error(ErrorCode::out_of_memory, "there is not enough memory", 0);
+    }
     std::string text =
         problem != nullptr && problem->message != nullptr ? problem->message : "this is no XML";
     while (!text.empty() && (text.back() == '\n' || text.back() == '.')) text.pop_back();
