@@ -5,6 +5,8 @@
 #include <cstring>
 #include <exception>
 #include <new>
+#include <string>
+#include <vector>
 
 #include "cli/common.h"
 #include "cli/terminal.h"
@@ -12,7 +14,7 @@
 namespace medial::cli {
 namespace {
 
-/// CLI11's help, with `--repair[=RULE]` for a flag that may carry a value.
+/// CLI11's help, with `--repair[=RULE]` and `--close[=GAP]` for flags that may carry a value.
 class HelpFormatter : public CLI::Formatter {
  public:
   HelpFormatter() { column_width(27); }
@@ -21,7 +23,9 @@ class HelpFormatter : public CLI::Formatter {
     std::string name = CLI::Formatter::make_option_name(option, is_positional);
     const auto brace = name.find('{');
     if (brace == std::string::npos) return name;
-    return name.substr(0, brace) + (name.find("{false}") == brace ? "" : "[=RULE]");
+    const bool negative = name.find("{false}") == brace;
+    name.resize(brace);
+    return negative ? name : name + (name == "--close" ? "[=GAP]" : "[=RULE]");
   }
 };
 
@@ -51,10 +55,14 @@ int run(int argc, char** argv, bool json) {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& parse_error) {
     if (parse_error.get_exit_code() == 0) return program.exit(parse_error);  // help and version
-    std::string hint = "; see medial --help";
-    for (const CLI::App* verb : program.get_subcommands()) {
-      hint = "; see medial " + verb->get_name() + " --help";
+    const std::vector<CLI::App*> chosen = program.get_subcommands();
+    if (chosen.empty()) {
+      const std::vector<std::string> unknown = program.remaining();
+      return report_error(
+          invalid_option(unknown.empty() ? "a verb is missing" : "no such verb: " + unknown[0]),
+          json, "; see medial --help");
     }
+    const std::string hint = "; see medial " + chosen.back()->get_name() + " --help";
     return report_error(invalid_option(parse_error.what()), json, hint);
   }
   const auto verb = std::find_if(verbs.begin(), verbs.end(),

@@ -692,13 +692,18 @@ class Errors(CommandLine):
 class Help(CommandLine):
     def test_help_and_version(self):
         text = self.succeed("--help").stdout.decode()
+        for verb in ("axis", "verify", "info", "draw", "bench"):
+            self.assertIn(f"  {verb} ", text)
         for verb in ("axis", "verify", "info", "draw"):
-            self.assertIn(verb, text)
             own = self.succeed(verb, "--help").stdout.decode()
             for word in ("Usage", "Example", "--threads", "--tolerance", "--chord", "--stats",
-                         "--json", "--quiet", "default"):
+                         "--json", "--quiet", "default", "--repair[=RULE]", "--close[=GAP]"):
                 self.assertIn(word, own)
         self.assertRegex(self.succeed("--version").stdout.decode(), r"^medial \d+\.\d+\.\d+\n$")
+
+    def test_no_such_verb(self):
+        self.assertIn("no such verb: axes", self.refuse("invalid_option", "axes"))
+        self.assertIn("a verb is missing", self.refuse("invalid_option"))
 
 
 class Bench(CommandLine):
