@@ -3,6 +3,8 @@
 JOBS ?= $(shell nproc)
 PREFIX ?= /usr/local
 DATA ?= $(wildcard ../shared/data) data
+# Fonts, or folders of them, whose glyphs `make corpus` runs.
+FONTS ?= $(wildcard /usr/share/fonts/truetype)
 SECONDS ?= 60
 FROM ?= $(shell date +%s)000000
 RELEASE := build/release
@@ -49,10 +51,11 @@ fuzz: setup     ## random polygons and mutated files with new seeds: make fuzz S
 	@cmake --build $(RELEASE) -j $(JOBS) --target medial_fuzz
 	@$(RELEASE)/tests/medial_fuzz --from $(FROM) --seconds $(SECONDS)
 
-corpus: setup   ## every polygon file below DATA, verified or refused: a table
+corpus: setup   ## every data file below DATA, every glyph below FONTS, verified or refused: tables
 	@cmake --preset release
-	@cmake --build $(RELEASE) -j $(JOBS) --target medial_corpus
-	@$(RELEASE)/tests/medial_corpus $(DATA)
+	@cmake --build $(RELEASE) -j $(JOBS) --target medial_corpus medial_glyphs
+	@$(RELEASE)/tests/medial_corpus $(DATA); corpus=$$?; \
+	  $(RELEASE)/tests/medial_glyphs $(DATA) $(FONTS) && exit $$corpus
 
 tsan: setup     ## the engine's tests under the thread sanitizer
 	@tools/tsan.sh $(TSAN) $(JOBS)

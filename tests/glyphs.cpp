@@ -1,0 +1,244 @@
+// Runs glyphs of fonts and features of drawings through the readers, approximate_by_arcs,
+// build_shape, compute and verify, and prints a table.
+//
+//   medial_glyphs [--every N] [--save DIR] PATH...
+//
+// PATH is a font (every character it has is a case), an .svg or .dxf drawing (every feature is), or
+// a folder of both. --every N takes each N-th glyph only. --save writes the rings of what fails and
+// of what is refused (lines `x y bulge` at full precision). Exit status: 0; 1 where a case failed;
+// 2 for a wrong call; 77 (what ctest takes for a skipped test) where there is no font and no
+// drawing.
+
+#include <ft2build.h>
+
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "medial/io/read.h"
+#include "medial/medial.h"
+#include "support/examine.h"
+#include FT_FREETYPE_H
+
+namespace medial::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What is slower than this is a failure of its own.
+constexpr double kLongestSeconds = 10;
+
+struct Settings {
+  std::vector<fs::path> paths;
+  std::size_t every = 1;
+  std::optional<fs::path> saved;
+};
+
+struct Row {
+  std::size_t cases = 0, verified = 0, refused = 0, failed = 0;
+  std::map<std::string, std::size_t> codes;  ///< of the refused
+};
+
+bool has_extension(const fs::path& path, std::initializer_list<const char*> extensions) {
+  return std::any_of(extensions.begin(), extensions.end(),
+                     [&](const char* extension) { return path.extension() == extension; });
+}
+bool is_font(const fs::path& path) { return has_extension(path, {".ttf", ".otf", ".ttc", ".pfb"}); }
+bool is_drawing(const fs::path& path) { return has_extension(path, {".svg", ".dxf"}); }
+
+std::string utf8(unsigned long code) {
+  const auto tail = [&](int shift) { return static_cast<char>(0x80 | ((code >> shift) & 0x3F)); };
+  if (code < 0x80) return {static_cast<char>(code)};
+  if (code < 0x800) return {static_cast<char>(0xC0 | (code >> 6)), tail(0)};
+  if (code < 0x10000) return {static_cast<char>(0xE0 | (code >> 12)), tail(6), tail(0)};
+  return {static_cast<char>(0xF0 | (code >> 18)), tail(12), tail(6), tail(0)};
+}
+
+/// One character for each glyph that the font's character map names.
+std::vector<unsigned long> characters_of(const fs::path& font) {
+  std::map<FT_UInt, unsigned long> by_glyph;
+  FT_Library library = nullptr;
+  FT_Face face = nullptr;
+  if (FT_Init_FreeType(&library) != 0) return {};
+  if (FT_New_Face(library, font.c_str(), 0, &face) == 0) {
+    FT_UInt glyph = 0;
+    for (unsigned long code = FT_Get_First_Char(face, &glyph); glyph != 0;
+         code = FT_Get_Next_Char(face, code, &glyph)) {
+      if (code > ' ' && code != 0x7F) by_glyph.try_emplace(glyph, code);
+    }
+    FT_Done_Face(face);
+  }
+  FT_Done_FreeType(library);
+  std::vector<unsigned long> codes;
+  for (const auto& [glyph, code] : by_glyph) codes.push_back(code);
+  return codes;
+}
+
+void save(const fs::path& folder, const std::string& name, const std::vector<Ring>& rings) {
+  fs::create_directories(folder);
+  std::FILE* file = std::fopen((folder / (name + ".txt")).c_str(), "w");
+  if (file == nullptr) return;
+  for (const Ring& ring : rings) {
+    std::fprintf(file, "ring role %d\n", static_cast<int>(ring.role));
+    for (std::size_t i = 0; i < ring.points.size(); ++i) {
+      std::fprintf(file, "%.17g %.17g %.17g\n", ring.points[i].x, ring.points[i].y,
+                   ring.bulges.empty() ? 0.0 : ring.bulges[i]);
+    }
+  }
+  std::fclose(file);
+}
+
+Outcome refused_or_failed(const Error& error) {
+  return {
+      is_refusal(error.code) ? Verdict::refused : Verdict::failed, error.code, {to_string(error)}};
+}
+
+void examine_feature(const io::Feature& feature, const std::string& name, const Settings& settings,
+                     Row& row) {
+  const auto begin = std::chrono::steady_clock::now();
+  std::vector<Ring> rings = feature.rings;
+  Outcome outcome;
+  auto arcs = approximate_by_arcs(feature.contours, {.threads = 1});
+  if (arcs) {
+    rings.insert(rings.end(), arcs->begin(), arcs->end());
+    outcome = examine(rings);
+  } else {
+    outcome = refused_or_failed(arcs.error());
+  }
+  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
+  if (spent.count() > kLongestSeconds) {
+    outcome = {
+        Verdict::failed, ErrorCode::internal, {"took " + std::to_string(spent.count()) + " s"}};
+  }
+  ++row.cases;
+  const std::string reason = outcome.reasons.empty() ? "" : outcome.reasons[0];
+  switch (outcome.verdict) {
+    case Verdict::verified:
+      ++row.verified;
+      break;
+    case Verdict::refused:
+      ++row.refused;
+      ++row.codes[name_of(outcome.code)];
+      if (settings.saved) {
+        std::printf("    refused %s: %s\n", name.c_str(), reason.c_str());
+        save(*settings.saved, "refused_" + name, rings);
+      }
+      break;
+    case Verdict::failed:
+      ++row.failed;
+      std::printf("    FAILED %s: %s\n", name.c_str(), reason.c_str());
+      if (settings.saved) save(*settings.saved, name, rings);
+      break;
+  }
+}
+
+void examine_dataset(const Result<io::Dataset>& dataset, const std::string& name,
+                     const Settings& settings, Row& row) {
+  if (dataset) {
+    for (const io::Feature& feature : dataset->features)
+      examine_feature(feature, name + "_" + std::to_string(feature.id), settings, row);
+    return;
+  }
+  ++row.cases;
+  const Outcome outcome = refused_or_failed(dataset.error());
+  ++(outcome.verdict == Verdict::refused ? row.refused : row.failed);
+  if (outcome.verdict == Verdict::refused) ++row.codes[name_of(outcome.code)];
+  if (outcome.verdict == Verdict::failed || settings.saved)
+    std::printf("    %s %s: %s\n", outcome.verdict == Verdict::failed ? "FAILED" : "refused",
+                name.c_str(), outcome.reasons[0].c_str());
+}
+
+Row examine_font(const fs::path& path, const Settings& settings) {
+  Row row;
+  const std::vector<unsigned long> characters = characters_of(path);
+  for (std::size_t i = 0; i < characters.size(); i += settings.every) {
+    char code[16];
+    std::snprintf(code, sizeof code, "U+%04lX", characters[i]);
+    const auto dataset = io::read_text(utf8(characters[i]), path.string());
+    if (!dataset && dataset.error().code == ErrorCode::empty) continue;  // a space
+    examine_dataset(dataset, path.stem().string() + "_" + code, settings, row);
+  }
+  return row;
+}
+
+/// The fonts and drawings at or below a path, in order.
+std::vector<fs::path> files_at(const fs::path& path) {
+  std::vector<fs::path> files;
+  if (fs::is_regular_file(path)) files.push_back(path);
+  if (fs::is_directory(path)) {
+    for (const auto& entry : fs::recursive_directory_iterator(path))
+      if (entry.is_regular_file() && (is_font(entry.path()) || is_drawing(entry.path())))
+        files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+void print(const std::string& name, const Row& row) {
+  std::string codes;
+  for (const auto& [code, count] : row.codes) codes += code + " " + std::to_string(count) + " ";
+  std::printf("%-46s %8zu %8zu %8zu %7zu  %s\n", name.c_str(), row.cases, row.verified, row.refused,
+              row.failed, codes.c_str());
+  std::fflush(stdout);
+}
+
+int run(const Settings& settings) {
+  std::printf("%-46s %8s %8s %8s %7s  %s\n", "file", "cases", "verified", "refused", "FAILED",
+              "refused with");
+  Row all;
+  for (const fs::path& path : settings.paths) {
+    for (const fs::path& file : files_at(path)) {
+      Row row;
+      if (is_font(file))
+        row = examine_font(file, settings);
+      else
+        examine_dataset(io::read_dataset(file.string()), file.stem().string(), settings, row);
+      print(file.filename().string(), row);
+      all.cases += row.cases;
+      all.verified += row.verified;
+      all.refused += row.refused;
+      all.failed += row.failed;
+      for (const auto& [code, count] : row.codes) all.codes[code] += count;
+    }
+  }
+  if (all.cases == 0) {
+    std::printf("no font and no drawing: skipped\n");
+    return 77;
+  }
+  print("all", all);
+  return all.failed == 0 ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace medial::test
+
+int main(int count, char** arguments) {
+  medial::test::Settings settings;
+  bool understood = true;
+  for (int i = 1; i < count; ++i) {
+    const std::string argument = arguments[i];
+    if (argument == "--save" && i + 1 < count) {
+      settings.saved = arguments[++i];
+    } else if (argument == "--every" && i + 1 < count) {
+      const std::string value = arguments[++i];
+      const auto [end, problem] =
+          std::from_chars(value.data(), value.data() + value.size(), settings.every);
+      understood &=
+          problem == std::errc{} && end == value.data() + value.size() && settings.every > 0;
+    } else {
+      settings.paths.emplace_back(argument);
+    }
+  }
+  if (!understood || settings.paths.empty()) {
+    std::fprintf(stderr, "usage: medial_glyphs [--every N] [--save DIR] PATH...\n");
+    return 2;
+  }
+  return medial::test::run(settings);
+}
