@@ -15,12 +15,12 @@ BENCH := build/bench
 BENCH_BOOST := build/boost-1.81
 SOURCES = $(shell git ls-files '*.h' '*.cpp')
 
-.PHONY: help setup build demo test bench fuzz corpus tsan format lint clean install
+.PHONY: help setup build demo test bench bench-flo-mat fuzz corpus tsan format lint clean install
 .DEFAULT_GOAL := help
 
 help:     ## this list
-	@sed -n 's/^\([a-z]*\): [^#]*## /make \1 /p' $(MAKEFILE_LIST) | \
-	  awk '{ printf "  %-13s", $$1 " " $$2; $$1 = $$2 = ""; print }'
+	@sed -n 's/^\([a-z-]*\): [^#]*## /make \1 /p' $(MAKEFILE_LIST) | \
+	  awk '{ printf "  %-19s", $$1 " " $$2; $$1 = $$2 = ""; print }'
 
 setup:    ## install what is missing from Debian's packages
 	@tools/setup.sh build test
@@ -45,6 +45,10 @@ bench: setup    ## compare with Boost.Polygon and CGAL
 	@cmake --preset bench -DMEDIAL_BENCH_BOOST=$(CURDIR)/$(BENCH_BOOST)/usr/include
 	@cmake --build $(BENCH) -j $(JOBS)
 	@$(BENCH)/bench/medial_bench
+
+bench-flo-mat: build    ## compare with flo-mat (npm): see bench/flo_mat/README.md
+	@cd bench/flo_mat && npm install --no-audit --no-fund || true
+	@node bench/flo_mat/compare.mjs $(RELEASE)/cli/medial
 
 fuzz: setup     ## random polygons and mutated files with new seeds: make fuzz SECONDS=60 [FROM=seed]
 	@cmake --preset release
