@@ -1,12 +1,12 @@
 // medial beside flo-mat: the same SVG files, one run, warm, one thread. Prints Markdown.
-// node compare.mjs MEDIAL [--rounds N] [FILE.svg | FILE.wkt ...]; see README.md.
+// node compare.mjs MEDIAL [--rounds N] [--tolerance T] [FILE.svg | FILE.wkt ...]; see README.md.
 
 import { execFileSync, spawnSync } from 'node:child_process';
 import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { basename, join } from 'node:path';
 
-const tolerance = 1e-6;  // of medial's arcs, relative to the diagonal
+let tolerance = 1e-6;      // of medial's arcs, relative to the diagonal
 const copies = 20;       // of a shape in one run of medial
 const near = 1e-3;       // ends of branches at the same place, relative to the diagonal
 
@@ -21,9 +21,13 @@ try {
 const words = process.argv.slice(2);
 const medial = words.shift();
 let rounds = 3;
-if (words[0] === '--rounds') rounds = Number(words.splice(0, 2)[1]);
-if (!medial || !existsSync(medial) || !(rounds >= 1)) {
-  console.error('usage: node compare.mjs MEDIAL [--rounds N] [FILE.svg | FILE.wkt ...]');
+while (words[0] === '--rounds' || words[0] === '--tolerance') {
+  const [name, value] = words.splice(0, 2);
+  if (name === '--rounds') rounds = Number(value);
+  else tolerance = Number(value);
+}
+if (!medial || !existsSync(medial) || !(rounds >= 1) || !(tolerance > 0)) {
+  console.error('usage: node compare.mjs MEDIAL [--rounds N] [--tolerance T] [FILE.svg | FILE.wkt ...]');
   process.exit(2);
 }
 
