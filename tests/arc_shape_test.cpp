@@ -177,6 +177,16 @@ TEST(ArcCleaning, Errors) {
 
 // ---------------------------------------------------------------------------------- measures
 
+TEST(ArcCleaning, VerticesThatDifferByLessThanTheSweepResolvesAreOne) {
+  // As paths of relative coordinates end: one rounding beside their start.
+  for (const double y : {0.481, 0.0625, 1e-3, 1e-9}) {
+    const double beside = std::nextafter(y, 1.0);
+    const Shape shape =
+        built({{{{4.931, y}, {16, 1}, {9, 16}, {4.931, beside}}, RingRole::any, {0.2, 0.1, 0, 0}}});
+    EXPECT_EQ(shape.points.size(), 3U) << y;
+  }
+}
+
 TEST(ArcMeasures, AreaAndBox) {
   EXPECT_NEAR(area(built({circle({5, 7}, 2, 0.3)})), 4 * kPi, 1e-14);
   EXPECT_NEAR(area(built({circle({0, 0}, 2), circle({0.5, 0.1}, 1, 1)})), 3 * kPi, 1e-14);

@@ -120,10 +120,19 @@ class ArcSweeper {
       const Vec2 p = points[order[i]];
       const std::size_t end = std::min(order.size(), i + 1 + farthest);
       for (std::size_t j = i + 1; j < end && points[order[j]].x - p.x <= tolerance_; ++j) {
-        const Vec2 q = points[order[j]];
-        if (p != q && distance(p, q) <= tolerance_) join(order[i], order[j]);
+        if (is_to_join(order[i], order[j])) join(order[i], order[j]);
       }
     }
+  }
+
+  /// Whether two vertices are equal to the tolerance, but not yet in their coordinates. Those of
+  /// the input can differ where the local ones do not: an edge between the two would have no
+  /// direction.
+  bool is_to_join(std::uint32_t v, std::uint32_t w) const {
+    const Vec2 p = outline_.points[v];
+    const Vec2 q = outline_.points[w];
+    if (p != q) return distance(p, q) <= tolerance_;
+    return !noded_.passing[v] && !noded_.passing[w] && noded_.originals[v] != noded_.originals[w];
   }
 
   /// Two vertices, different in their coordinates, are one.
