@@ -120,6 +120,8 @@ std::string base_cases_table(const std::vector<BiarcRow>& rows) {
     text += fmt::format(" {} |", name);
     rule += " ---: |";
   }
+  text += " cap |";
+  rule += " ---: |";
   text += rule + "\n";
   for (const BiarcRow& row : rows) {
     if (row.base_cases.empty()) continue;
