@@ -96,6 +96,7 @@ class Painter {
     const double shift = align == Align::left ? 0 : align == Align::center ? 0.5 : 1.0;
     cairo_move_to(cairo_, x - shift * extents.x_advance, y);
     cairo_show_text(cairo_, words.c_str());
+    cairo_new_path(cairo_);  // the text's end is no point of what is drawn next
   }
 
   void draw_axes() {
