@@ -1,0 +1,150 @@
+// The invariants of the medial axis over random shapes with arcs: see property_test.cpp, whose
+// variables hold here too (4,000 shapes without them).
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <functional>
+#include <limits>
+#include <numbers>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "medial/medial.h"
+#include "support/generate_arcs.h"
+#include "support/property.h"
+
+namespace medial::test {
+namespace {
+
+std::uint64_t number_from(const char* variable, std::uint64_t otherwise) {
+  const char* text = std::getenv(variable);
+  return text && *text ? std::strtoull(text, nullptr, 10) : otherwise;
+}
+
+/// Shapes whose certificates are refused at present, for a few roundings at a node that many arcs
+/// touch, and one (395) with a leaf too many there when reversed: open faults (CHANGELOG.md),
+/// passed over so that new ones stand out.
+constexpr std::array<std::uint64_t, 7> known_faults{395, 867, 1177, 1295, 1649, 1756, 2926};
+
+std::uint64_t shape_count() { return number_from("MEDIAL_PROPERTY_COUNT", 20000) / 5; }
+
+/// Dealt out to several tests, which can run side by side.
+constexpr std::uint64_t shares = 4;
+
+class ArcShapes : public testing::TestWithParam<std::uint64_t> {
+ protected:
+  static void for_all(std::uint64_t count,
+                      const std::function<std::vector<std::string>(const RandomShape&)>& check) {
+    const std::uint64_t base = number_from("MEDIAL_PROPERTY_SEED", 0) << 32;
+    int failed = 0;
+    for (std::uint64_t i = GetParam(); i < count && failed < 3; i += shares) {
+      if (std::find(known_faults.begin(), known_faults.end(), base + i) != known_faults.end())
+        continue;
+      const RandomShape shape = random_arc_shape(base + i);
+      const std::vector<std::string> failures = check(shape);
+      if (failures.empty()) continue;
+      ++failed;
+      std::string text;
+      for (const std::string& failure : failures) text.append("  ").append(failure).append("\n");
+      ADD_FAILURE() << "random_arc_shape(" << base + i << "), " << shape.kind << ":\n" << text;
+    }
+  }
+};
+
+TEST_P(ArcShapes, AreVerified) {
+  for_all(shape_count(), [](const RandomShape& shape) { return check_axis(shape.rings); });
+}
+
+TEST_P(ArcShapes, KeepTheirAxisUnderSymmetries) {
+  for_all(std::max(shape_count() / 10, shares), check_symmetries);
+}
+
+TEST_P(ArcShapes, HaveOneAxisForAnyNumberOfThreads) {
+  for_all(std::max(shape_count() / 20, shares),
+          [](const RandomShape& shape) { return check_threads(shape.rings); });
+}
+
+/// The shape's edges as chords, each within `height` of its arc.
+Rings flattened(const Shape& shape, double height) {
+  Rings rings;
+  for (std::size_t loop = 0; loop < shape.loop_count(); ++loop) {
+    Ring ring;
+    const auto points = shape.loop(loop);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const Vec2 a = points[i], b = points[(i + 1) % points.size()];
+      const double bulge = shape.bulge(shape.loop_begin[loop] + i);
+      ring.points.push_back(a);
+      if (bulge == 0) continue;
+      const double angle = 4 * std::atan(bulge);
+      const double radius = distance(a, b) / (2 * std::sin(0.5 * std::abs(angle)));
+      const double step = 2 * std::acos(std::max(0.0, 1 - height / radius));
+      const int pieces =
+          step > 0 ? static_cast<int>(std::clamp(std::ceil(std::abs(angle) / step), 1.0, 1e5)) : 1;
+      // From the chord's start, turned by half of the angle so far.
+      const Vec2 chord = (1 / distance(a, b)) * (b - a);
+      for (int k = 1; k < pieces; ++k) {
+        const double part = angle * k / pieces;
+        const double length = 2 * radius * std::sin(0.5 * std::abs(part));
+        const double turn = 0.5 * (part - angle);
+        const Vec2 d{chord.x * std::cos(turn) - chord.y * std::sin(turn),
+                     chord.x * std::sin(turn) + chord.y * std::cos(turn)};
+        ring.points.push_back(a + length * d);
+      }
+    }
+    rings.push_back(std::move(ring));
+  }
+  return rings;
+}
+
+/// The axis of the flattened shape has more branches, but passes by wherever the exact one has two
+/// feet in clearly different directions: within 4 height / (1 - cos(xi / 2)), where xi is the angle
+/// between them (Aichholzer et al., Section 2.2).
+std::vector<std::string> check_against_flattened(const RandomShape& random) {
+  const auto shape = build_shape(random.rings);
+  if (!shape) return {to_string(shape.error())};
+  const double height = 1e-5 * diagonal(bounding_box(*shape));
+  const auto polygon = build_shape(flattened(*shape, height));
+  // Chords may cross where arcs nearly touch.
+  if (!polygon || polygon->component_count() != shape->component_count() ||
+      polygon->hole_count() != shape->hole_count())
+    return {};
+  const auto axis = compute(*shape, {.threads = 1});
+  const auto flat = compute(*polygon, {.threads = 1});
+  if (!axis || !flat) return {"not computed"};
+  if (flat->edges.empty()) return {};
+  const AxisLocator locator(*flat);
+  std::vector<std::string> failures;
+  for (const Edge& edge : axis->edges) {
+    for (const double t : {0.0, 0.3, 0.6}) {
+      const Disk disk = disk_at(*axis, edge, t);
+      const Vec2 left = foot(axis->sites[edge.site[0]], disk.center) - disk.center;
+      const Vec2 right = foot(axis->sites[edge.site[1]], disk.center) - disk.center;
+      const double xi = std::abs(std::atan2(cross(left, right), dot(left, right)));
+      if (!(xi > 0.5) || disk.radius <= 10 * height) continue;
+      const double bound = 4 * height / (1 - std::cos(xi / 2));
+      const double away = locator.nearest(disk.center).distance;
+      if (away > bound && failures.size() < 3) {
+        std::ostringstream text;
+        text << "(" << disk.center.x << ", " << disk.center.y << ") is " << away
+             << " from the flattened axis";
+        failures.push_back(text.str());
+      }
+    }
+  }
+  return failures;
+}
+
+TEST_P(ArcShapes, AgreeWithTheirFlattening) {
+  for_all(std::max(shape_count() / 20, shares), check_against_flattened);
+}
+
+INSTANTIATE_TEST_SUITE_P(Random, ArcShapes, testing::Range<std::uint64_t>(0, shares));
+
+}  // namespace
+}  // namespace medial::test
