@@ -43,6 +43,7 @@ Verb make_axis_verb(CLI::App& program) {
                        io::known_output_formats() +
                        "\n- is standard output, see --format. Without -o, only a summary is\n"
                        "printed.")
+      ->check(a_name())
       ->option_text("OUTPUT");
   verb->add_option("--format", switches->format, "The format of -o -, for example csv.")
       ->option_text("NAME");
@@ -59,6 +60,7 @@ Verb make_axis_verb(CLI::App& program) {
   verb->add_option("--seed", switches->options.seed,
                    "Of the random choices of biarc-dc (default: 1). The same seed gives the\n"
                    "same result, byte for byte.")
+      ->check(a_whole_number())
       ->option_text("N");
   add_picture_switches(*verb, switches->write);
   add_common_switches(*verb, switches->common);

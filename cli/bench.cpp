@@ -316,6 +316,7 @@ Verb make_bench_verb(CLI::App& program) {
   biarc
       ->add_option("-o,--output", switches->output,
                    fmt::format("Plots (.svg) or all numbers: {}", formats))
+      ->check(a_name())
       ->option_text("FILE");
   biarc
       ->add_option("--rounds", switches->biarc.rounds,

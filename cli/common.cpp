@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
+#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -205,6 +206,25 @@ void add_common_switches(CLI::App& verb, CommonSwitches& common) {
       ->group(group);
   verb.add_flag("--quiet", common.quiet, "No warnings, notes or progress; only errors.")
       ->group(group);
+}
+
+CLI::Validator a_name() {
+  return CLI::Validator(
+      [](const std::string& text) { return text.empty() ? "a name is missing" : std::string(); },
+      "");
+}
+
+CLI::Validator a_whole_number() {
+  return CLI::Validator(
+      [](const std::string& text) {
+        std::uint64_t value = 0;
+        const char* end = text.data() + text.size();
+        const auto parsed = std::from_chars(text.data(), end, value);
+        return parsed.ec == std::errc() && parsed.ptr == end
+                   ? std::string()
+                   : fmt::format("{} is no whole number in [0, 2^64)", text);
+      },
+      "");
 }
 
 void add_picture_switches(CLI::App& verb, io::WriteOptions& write) {

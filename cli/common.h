@@ -65,6 +65,11 @@ void add_input_switches(CLI::App& verb, InputSwitches& input, const std::string&
 void add_common_switches(CLI::App& verb, CommonSwitches& common);
 void add_picture_switches(CLI::App& verb, io::WriteOptions& write);
 
+/// What the name of an output must be: not empty.
+CLI::Validator a_name();
+/// Digits that make a 64-bit number; CLI11 by itself takes -1 for the largest.
+CLI::Validator a_whole_number();
+
 /// Checks that `path` can be written later, before any long work: a known format, a directory that
 /// takes files, nothing there but a regular file that may be replaced, and not the input itself.
 /// An empty path is no output, which can always be had. With `json` standard output is taken.

@@ -62,6 +62,7 @@ Verb make_draw_verb(CLI::App& program) {
                                "- is standard output, see --format.",
                                picture_formats))
       ->required()
+      ->check(a_name())
       ->option_text("PICTURE REQUIRED");
   verb->add_option("--format", switches->format, "The format of -o -, for example svg.")
       ->option_text("NAME");
