@@ -14,32 +14,15 @@
 
 #include "medial/io/read.h"
 #include "medial/io/write.h"
+#include "support/scratch_folder.h"
 
 namespace medial::io {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// A fresh directory for each test, gone after it.
-class CurvedIo : public testing::Test {
+class CurvedIo : public test::ScratchFolder {
  protected:
-  void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "medial_curved_XXXXXX").string();
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    directory_ = name;
-  }
-  void TearDown() override { fs::remove_all(directory_); }
-
-  std::string path(const std::string& name) const { return (directory_ / name).string(); }
-  std::string write(const std::string& name, const std::string& content) const {
-    std::ofstream(path(name), std::ios::binary) << content;
-    return path(name);
-  }
-  std::string content(const std::string& name) const {
-    std::ifstream file(path(name), std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-  }
-
   Dataset read(const std::string& name, const std::string& text,
                const ReadOptions& options = {}) const {
     Result<Dataset> data = read_dataset(write(name, text), options);
@@ -58,8 +41,6 @@ class CurvedIo : public testing::Test {
     EXPECT_EQ(data.error().place.file, path(name));
     return data.error();
   }
-
-  fs::path directory_;
 };
 
 struct Counts {
