@@ -36,6 +36,7 @@ Certificate merge(const std::vector<Certificate>& certificates) {
       all.worst_y = one.worst_y;
     }
     all.tolerance = std::max(all.tolerance, one.tolerance);
+    all.resolution = std::max(all.resolution, one.resolution);
     all.largest_intrusion = std::max(all.largest_intrusion, one.largest_intrusion);
     all.largest_contact_gap = std::max(all.largest_contact_gap, one.largest_contact_gap);
     all.largest_uncovered = std::max(all.largest_uncovered, one.largest_uncovered);
@@ -67,6 +68,7 @@ Json to_json(const Certificate& c) {
   return {{"passed", c.passed},
           {"failures", c.failures},
           {"tolerance", c.tolerance},
+          {"resolution", c.resolution},
           {"largest_residual", c.largest_residual},
           {"largest_intrusion", c.largest_intrusion},
           {"largest_contact_gap", c.largest_contact_gap},
@@ -97,25 +99,35 @@ std::string verdict_table(const Certificate& c, std::size_t features) {
   const auto length = [](double value) { return fmt::format("{:.3g}", value); };
   row("features", fmt::format("{}", features));
   row("disks checked", fmt::format("{}", c.disks_checked));
+  if (c.resolution > 0) {
+    row("sampled", fmt::format("pixels of side {:.6g}; judged by half a diagonal", c.resolution));
+  }
   row("tolerance", length(c.tolerance));
   row("largest |distance - r|",
       fmt::format("{:.3g} at ({:.10g}, {:.10g})", c.largest_residual, c.worst_x, c.worst_y));
   row("largest intrusion", length(c.largest_intrusion));
-  row("largest contact gap", length(c.largest_contact_gap));
-  row("largest uncovered", length(c.largest_uncovered));
-  row("area",
-      fmt::format("{:.10g} of the disks, {:.10g} of the shape", c.disks_area, c.shape_area));
+  const bool exact = c.resolution == 0;
+  if (exact) {
+    row("largest contact gap", length(c.largest_contact_gap));
+    row("largest uncovered", length(c.largest_uncovered));
+    row("area",
+        fmt::format("{:.10g} of the disks, {:.10g} of the shape", c.disks_area, c.shape_area));
+  }
   row("connected parts",
       fmt::format("{} for {}", c.graph_parts, counted(c.components, "component")));
   row("cycles", fmt::format("{} for {}", c.cycles, counted(c.holes, "hole")));
-  row("convex corners",
-      fmt::format("{}, {} without a leaf", c.convex_corners, c.corners_without_leaf));
+  if (exact) {
+    row("convex corners",
+        fmt::format("{}, {} without a leaf", c.convex_corners, c.corners_without_leaf));
+  }
   if (c.curvature_leaves > 0) row("leaves at arcs", fmt::format("{}", c.curvature_leaves));
   if (c.blunt_joints > 0)
     row("blunt joints",
         fmt::format("{}, up to {:.3g} degrees", c.blunt_joints, c.largest_blunt_angle));
-  row("reflex vertices",
-      fmt::format("{}, {} without a contact", c.reflex_vertices, c.reflex_without_contact));
+  if (exact) {
+    row("reflex vertices",
+        fmt::format("{}, {} without a contact", c.reflex_vertices, c.reflex_without_contact));
+  }
   const std::size_t told = std::min(c.failures.size(), most_failures_told);
   for (std::size_t i = 0; i < told; ++i) row("failed", c.failures[i]);
   if (told < c.failures.size()) {

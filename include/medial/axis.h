@@ -38,6 +38,9 @@ enum class NodeKind : std::uint8_t {
   branching,    ///< three edges or more
 };
 
+/// In place of a site: an edge of a sampled axis that does not tell what its disks touch.
+constexpr std::uint32_t no_site = 0xFFFFFFFF;
+
 struct Node {
   Disk disk;
   std::uint32_t component = 0;  ///< of the shape
@@ -51,7 +54,7 @@ struct Node {
 /// line, or a circle (concentric arcs). The weight is always positive.
 struct Edge {
   std::array<std::uint32_t, 2> node;  ///< from, to
-  std::array<std::uint32_t, 2> site;  ///< on the left and on the right of from -> to
+  std::array<std::uint32_t, 2> site;  ///< on the left and on the right of from -> to; or no_site
   Disk control;                       ///< the radius of a control point may be negative
   double weight = 1;
 };
@@ -74,6 +77,14 @@ struct Statistics {
 };
 
 /// The medial axis transform: a graph of exact curves in (x, y, r).
+///
+/// Sampled methods work on a grid of square pixels and say so by a `resolution` above 0, the side
+/// of a pixel. Of a sampled axis this holds: every node is the centre of a medial pixel, in the
+/// order of increasing x within increasing y; its radius is within half a pixel's diagonal of its
+/// distance to the boundary. Every edge runs straight between two neighbouring pixels (of eight),
+/// its control point in the middle and its weight 1. Its sites are two that the disk of its first
+/// node touches, within a few pixels, or both no_site. Which pixels are linked: see
+/// axis/pixel_graph.h.
 struct MedialAxis {
   std::string method;     ///< the engine's name: "disks"
   double tolerance = 0;   ///< in units of the input: what |distance - radius| stays below

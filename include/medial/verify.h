@@ -12,6 +12,7 @@ namespace medial {
 /// What verify() measured. Lengths and areas in units of the input.
 struct Certificate {
   double tolerance = 0;            ///< what the residuals are judged against
+  double resolution = 0;           ///< of a sampled axis: the side of its pixels; see verify()
   double largest_residual = 0;     ///< max |distance to the boundary - r|, nodes and edge samples
   double largest_intrusion = 0;    ///< max (r - distance to the nearest boundary point), >= 0
   double largest_contact_gap = 0;  ///< max |distance to an edge's own two sites - r|
@@ -47,6 +48,12 @@ struct VerifyOptions {
 /// Checks an axis against its shape, independently of the engine that made it: its own distance
 /// search, its own area, its own count of cycles. O(n log n) expected. A shape that compute()
 /// refuses as unsupported cannot be checked and does not pass.
+///
+/// A sampled axis (resolution > 0) is judged by what its pixels can know: indices and kinds, the
+/// radius of every node within half a pixel's diagonal of the distance to the boundary, one
+/// connected part for each component and one cycle for each hole. What is narrower than a pixel can
+/// make it fail; the certificate has its resolution, and the failures say at which resolution they
+/// hold. Its contacts, corners, coverage and area are not judged and stay 0.
 ///
 /// A blunt joint has no leaf, so the disks leave a little of the boundary there untouched: at most
 /// the radius times the joint's angle, which is allowed for.

@@ -130,6 +130,7 @@ void write_spline(Groups& groups, const MedialAxis& axis, const Edge& edge, bool
 
 /// Whether an edge is straight in the plane, whatever its radius does.
 bool is_straight(const MedialAxis& axis, const Edge& edge) {
+  if (axis.resolution > 0) return true;
   const SiteKind kind = axis.sites[edge.site[0]].kind;
   return kind == axis.sites[edge.site[1]].kind && kind != SiteKind::arc;
 }

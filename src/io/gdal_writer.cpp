@@ -83,8 +83,9 @@ std::vector<Column> columns_of(const NativeFile& file) {
   return columns;
 }
 
-/// "ring/vertex" (a colon would make readers take it for a time of day).
+/// "ring/vertex" (a colon would make readers take it for a time of day); empty for no site.
 std::string site_text(const MedialAxis& axis, std::uint32_t site) {
+  if (site == no_site) return {};
   return fmt::format("{}/{}", axis.sites[site].ring, axis.sites[site].vertex);
 }
 

@@ -262,7 +262,10 @@ void resolve(const Shape& shape, MedialAxis& axis, const Unresolved& unresolved)
   }
   for (const Edge& edge : axis.edges) {
     demand(std::max(edge.node[0], edge.node[1]) < axis.nodes.size(), "an edge's node out of range");
-    demand(std::max(edge.site[0], edge.site[1]) < axis.sites.size(), "an edge's site out of range");
+    for (const std::uint32_t site : edge.site) {
+      demand(site < axis.sites.size() || (site == no_site && axis.resolution > 0),
+             "an edge's site out of range");
+    }
     demand(edge.weight > 0, "an edge's weight is not positive");
   }
   for (const std::uint32_t i : unresolved.plain_edges) {

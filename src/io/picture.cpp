@@ -320,6 +320,7 @@ class Picture {
             const Disk& disk = item.axis.nodes[node].disk;
             if (!(disk.radius > 0)) continue;
             for (const std::uint32_t site : edge.site) {
+              if (site == no_site) continue;
               const Vec2 touch = frame_(foot(item.axis.sites[site], disk.center));
               if (feet) {
                 circle(touch, thickness(1.8));
@@ -339,12 +340,17 @@ class Picture {
     radii_or_feet(true);
   }
 
+  static bool runs_straight(const MedialAxis& axis, const Edge& edge) {
+    if (axis.resolution > 0) return true;
+    const SiteKind kind = axis.sites[edge.site[0]].kind;
+    return kind == axis.sites[edge.site[1]].kind && kind != SiteKind::arc;
+  }
+
   /// Cuts an edge where its radius passes from shade to shade, about.
   template <class Take>
   void cut(const MedialAxis& axis, const Edge& edge, Take take) const {
     const Curve curve(axis, edge);
-    const SiteKind kind = axis.sites[edge.site[0]].kind;
-    const bool straight = kind == axis.sites[edge.site[1]].kind && kind != SiteKind::arc;
+    const bool straight = runs_straight(axis, edge);
     const double ends = std::fabs(curve.radius(0) - curve.radius(1));
     const double dip = std::fabs(curve.radius(0.5) - 0.5 * (curve.radius(0) + curve.radius(1)));
     const double shades = largest_ > 0 ? (ends + 2 * dip) / largest_ * kShades : 0;

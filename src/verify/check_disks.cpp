@@ -130,6 +130,28 @@ double turned_by(const Problem& problem, const Edge& edge, const Curve& curve) {
 
 }  // namespace
 
+void check_sampled_disks(const Problem& problem, Certificate& certificate) {
+  const DistanceTree boundary(problem.shape);
+  Findings nodes;
+  for (const Findings& run :
+       in_runs<Findings>(problem.axis.nodes.size(), [&](std::size_t i, Findings&findings) {
+         measure(problem, boundary, problem.axis.nodes[i].disk, i, findings);
+       }))
+    nodes.add(run);
+  certificate.disks_checked = nodes.disks;
+  certificate.largest_residual = nodes.residual.value;
+  certificate.worst_x = nodes.residual.where.x;
+  certificate.worst_y = nodes.residual.where.y;
+  certificate.largest_intrusion = nodes.intrusion.value;
+  const Worst& worst = nodes.residual;
+  if (worst.over > 0)
+    certificate.failures.push_back(sentence(
+        "%llu nodes have a radius that is not the distance to the boundary; the worst by %.3g at "
+        "node %zu near (%.17g, %.17g), over half a pixel's diagonal, %.3g.",
+        static_cast<unsigned long long>(worst.over), worst.value, worst.index, worst.where.x,
+        worst.where.y, problem.tolerance));
+}
+
 void check_disks(const Problem& problem, int samples_per_edge, Certificate& certificate) {
   const MedialAxis& axis = problem.axis;
   const double tolerance = problem.tolerance;

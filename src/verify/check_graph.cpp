@@ -174,8 +174,9 @@ bool check_values(const Shape& shape, const MedialAxis& axis, Certificate& certi
   for (std::size_t i = 0; i < axis.edges.size(); ++i) {
     const Edge& edge = axis.edges[i];
     if (std::max(edge.node[0], edge.node[1]) >= axis.nodes.size()) node_indices.add(i);
-    if (std::max(edge.site[0], edge.site[1]) >= axis.sites.size()) site_indices.add(i);
-    if (edge.site[0] == edge.site[1]) twice.add(i);
+    const bool untold = axis.resolution > 0 && edge.site[0] == no_site && edge.site[1] == no_site;
+    if (!untold && std::max(edge.site[0], edge.site[1]) >= axis.sites.size()) site_indices.add(i);
+    if (!untold && edge.site[0] == edge.site[1]) twice.add(i);
     if (!finite(edge.control.center) || !std::isfinite(edge.control.radius)) curves.add(i);
     if (!(edge.weight > 0) || !std::isfinite(edge.weight)) weights.add(i);
   }
@@ -185,10 +186,13 @@ bool check_values(const Shape& shape, const MedialAxis& axis, Certificate& certi
   report(curves, "edges have a control point that is not finite", "edge");
   report(weights, "edges have a weight that is not finite or not positive", "edge");
 
-  // A tolerance is at most what a user may ask compute() for, or what the coordinates' spacing
-  // asks.
   constexpr double largest_relative = 1e-3;
   const Box box = bounding_box(shape);
+  if (!(axis.resolution >= 0 && axis.resolution <= diagonal(box)))
+    certificate.failures.push_back(
+        sentence("The axis claims pixels of side %.3g, larger than the shape.", axis.resolution));
+  // A tolerance is at most what a user may ask compute() for, or what the coordinates' spacing
+  // asks.
   if (!(axis.tolerance >= 0 &&
         axis.tolerance <= std::max(largest_relative * diagonal(box), 4 * spacing_in(box))))
     certificate.failures.push_back(sentence(
@@ -310,6 +314,7 @@ void check_graph(const Problem& problem, Certificate& certificate) {
     const std::uint32_t component = axis.nodes[edge.node[0]].component;
     ++counts[component].edges;
     for (const std::uint32_t site : edge.site) {
+      if (site == no_site) continue;
       const std::uint32_t place = problem.place[site];
       if (place != kNone && problem.component[place] != component) foreign_sites.add(i);
     }
@@ -327,18 +332,21 @@ void check_graph(const Problem& problem, Certificate& certificate) {
     if (independent != count.holes) cycles.add(i);
   }
   auto& failures = certificate.failures;
+  const std::string sampled =
+      axis.resolution > 0 ? sentence("At the resolution %.6g, ", axis.resolution) : std::string();
+  const std::string beginning = axis.resolution > 0 ? sampled + "t" : "T";
   if (torn.count > 0)
     failures.push_back(sentence(
-        "The graph has %llu connected parts for %llu components; component %zu has %llu of them.",
-        static_cast<unsigned long long>(certificate.graph_parts),
+        "%she graph has %llu connected parts for %llu components; component %zu has %llu of them.",
+        beginning.c_str(), static_cast<unsigned long long>(certificate.graph_parts),
         static_cast<unsigned long long>(certificate.components), torn.first,
         static_cast<unsigned long long>(counts[torn.first].parts)));
   if (cycles.count > 0) {
     const Count& count = counts[cycles.first];
     failures.push_back(sentence(
-        "%zu components do not have one independent cycle for each hole; component %zu has %llu "
+        "%s%zu components do not have one independent cycle for each hole; component %zu has %llu "
         "cycles and %llu holes.",
-        cycles.count, cycles.first,
+        sampled.c_str(), cycles.count, cycles.first,
         static_cast<unsigned long long>(count.edges + count.parts - count.nodes),
         static_cast<unsigned long long>(count.holes)));
   }

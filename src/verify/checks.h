@@ -87,6 +87,8 @@ void check_graph(const Problem& problem, Certificate& certificate);
 void check_vertices(const Problem& problem, Certificate& certificate);
 /// Radii against distances, on nodes and inside edges; contacts; sides; legality.
 void check_disks(const Problem& problem, int samples_per_edge, Certificate& certificate);
+/// Of a sampled axis: the nodes' radii against the distance to the boundary, within the tolerance.
+void check_sampled_disks(const Problem& problem, Certificate& certificate);
 /// Every boundary point is the foot of some disk. Returns the area that blunt joints may leave
 /// open.
 double check_coverage(const Problem& problem, Certificate& certificate);

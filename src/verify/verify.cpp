@@ -39,8 +39,17 @@ void run_checks(const Shape& shape, const MedialAxis& axis, const VerifyOptions&
   problem.diagonal = diagonal(box);
   problem.tolerance = tolerance_of(box, options.tolerance, axis);
   certificate.tolerance = problem.tolerance;
+  certificate.resolution = axis.resolution;
+  if (axis.resolution > 0) {
+    problem.tolerance = std::max(problem.tolerance, axis.resolution * std::numbers::sqrt2 / 2);
+    certificate.tolerance = problem.tolerance;
+  }
   prepare(problem, options.corner_angle * std::numbers::pi / 180, certificate);
   check_graph(problem, certificate);
+  if (axis.resolution > 0) {
+    check_sampled_disks(problem, certificate);
+    return;
+  }
   check_vertices(problem, certificate);
   check_disks(problem, options.samples_per_edge, certificate);
   const double open = check_coverage(problem, certificate);

@@ -1,0 +1,103 @@
+#include "axis/pixel_graph.h"
+
+#include <algorithm>
+
+#include "medial/query.h"
+
+namespace medial {
+namespace {
+
+/// The sites of a pixel in the order in which they lie beside the way from it to another.
+std::array<std::uint32_t, 2> sites_beside(const MedialAxis& axis, const MedialPixel& pixel,
+                                          Vec2 from, Vec2 to) {
+  if (pixel.site[0] == no_site || pixel.site[1] == no_site) return {no_site, no_site};
+  const Vec2 way = to - from;
+  const double first = cross(way, foot(axis.sites[pixel.site[0]], from) - from);
+  const double second = cross(way, foot(axis.sites[pixel.site[1]], from) - from);
+  return first >= second ? pixel.site : std::array{pixel.site[1], pixel.site[0]};
+}
+
+/// The pixels of one row, with a place that only moves forward.
+class Row {
+ public:
+  Row(std::span<const MedialPixel> pixels, std::size_t begin, std::size_t end)
+      : pixels_(pixels), at_(begin), end_(end) {}
+  static constexpr std::size_t none = ~std::size_t{0};
+  /// The pixel in this column; columns asked for may fall back by two.
+  std::size_t find(std::int64_t column) {
+    while (at_ < end_ && pixels_[at_].pixel.column + std::int64_t{2} < column) ++at_;
+    for (std::size_t i = at_; i < end_ && pixels_[i].pixel.column <= column; ++i)
+      if (pixels_[i].pixel.column == column) return i;
+    return none;
+  }
+
+ private:
+  std::span<const MedialPixel> pixels_;
+  std::size_t at_, end_;
+};
+
+}  // namespace
+
+void link_pixels(const raster::Grid& grid, std::span<const MedialPixel> pixels,
+                 const raster::BitMap* barrier, MedialAxis& axis) {
+  axis.resolution = grid.step;
+  const auto first_node = static_cast<std::uint32_t>(axis.nodes.size());
+  axis.nodes.reserve(axis.nodes.size() + pixels.size());
+  for (const MedialPixel& pixel : pixels)
+    axis.nodes.push_back(
+        {{grid.center(pixel.pixel), pixel.radius}, pixel.component, NodeKind::leaf});
+  const auto link = [&](std::size_t i, std::size_t j) {
+    const Node& from = axis.nodes[first_node + i];
+    const Node& to = axis.nodes[first_node + j];
+    Edge edge;
+    edge.node = {first_node + static_cast<std::uint32_t>(i),
+                 first_node + static_cast<std::uint32_t>(j)};
+    edge.site = sites_beside(axis, pixels[i], from.disk.center, to.disk.center);
+    edge.control = {midpoint(from.disk.center, to.disk.center),
+                    from.disk.radius + 0.5 * (to.disk.radius - from.disk.radius)};
+    axis.edges.push_back(edge);
+  };
+  const auto blocked = [&](std::int64_t column, std::int64_t row) {
+    return barrier != nullptr && barrier->contains(column, row) &&
+           barrier->at({static_cast<std::uint32_t>(column), static_cast<std::uint32_t>(row)});
+  };
+
+  for (std::size_t begin = 0, end = 0; begin < pixels.size(); begin = end) {
+    const std::uint32_t row = pixels[begin].pixel.row;
+    const auto row_end = [&](std::size_t from, std::uint64_t r) {
+      while (from < pixels.size() && pixels[from].pixel.row == r) ++from;
+      return from;
+    };
+    end = row_end(begin, row);
+    Row above(pixels, end, row_end(end, std::uint64_t{row} + 1));
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::int64_t column = pixels[i].pixel.column;
+      const bool left = i > begin && pixels[i - 1].pixel.column + 1 == column;
+      const bool right = i + 1 < end && pixels[i + 1].pixel.column == column + 1;
+      const std::size_t up_left = above.find(column - 1), up = above.find(column),
+                        up_right = above.find(column + 1);
+      const auto diagonal = [&](std::size_t to, bool beside, std::int64_t side) {
+        if (to == Row::none || beside || up != Row::none) return;
+        if (blocked(column + side, row) && blocked(column, row + std::int64_t{1})) return;
+        link(i, to);
+      };
+      if (right && (up == Row::none || up_right == Row::none)) link(i, i + 1);
+      diagonal(up_left, left, -1);
+      if (up != Row::none) link(i, up);
+      diagonal(up_right, right, 1);
+    }
+  }
+  set_node_kinds(axis);
+}
+
+void set_node_kinds(MedialAxis& axis) {
+  std::vector<std::uint32_t> degree(axis.nodes.size(), 0);
+  for (const Edge& edge : axis.edges)
+    for (const std::uint32_t node : edge.node) ++degree[node];
+  for (std::size_t i = 0; i < degree.size(); ++i)
+    axis.nodes[i].kind = degree[i] < 2    ? NodeKind::leaf
+                         : degree[i] == 2 ? NodeKind::site_change
+                                          : NodeKind::branching;
+}
+
+}  // namespace medial
