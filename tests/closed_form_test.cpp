@@ -246,7 +246,7 @@ TEST(ClosedForm, RegularPolygonsHaveOneNode) {
 }
 
 TEST(ClosedForm, StarsHaveOneNodeAmongTheirReflexVertices) {
-  for (const std::size_t n : {5, 12, 40, 100, 400}) {
+  for (const std::size_t n : {5U, 12U, 40U, 100U, 400U}) {
     std::vector<Vec2> points;
     for (std::size_t i = 0; i < 2 * n; ++i) {
       const double angle = std::numbers::pi * static_cast<double>(i) / static_cast<double>(n);
