@@ -65,9 +65,30 @@ struct Waiting {
   float squared;
 };
 
+#if defined(__SSE2__)
+/// geometry::squared_distance() to two segments or vertices side by side.
+__m128d squared_distances(const Site& a, const Site& b, Vec2 c) {
+  const __m128d a_point = _mm_loadu_pd(&a.point.x), b_point = _mm_loadu_pd(&b.point.x);
+  const __m128d a_along = _mm_loadu_pd(&a.direction.x), b_along = _mm_loadu_pd(&b.direction.x);
+  const __m128d x = _mm_sub_pd(_mm_set1_pd(c.x), _mm_unpacklo_pd(a_point, b_point));
+  const __m128d y = _mm_sub_pd(_mm_set1_pd(c.y), _mm_unpackhi_pd(a_point, b_point));
+  const __m128d along_x = _mm_unpacklo_pd(a_along, b_along);
+  const __m128d along_y = _mm_unpackhi_pd(a_along, b_along);
+  const __m128d length = _mm_loadh_pd(_mm_load_sd(&a.length), &b.length);
+  const __m128d foot = _mm_add_pd(_mm_mul_pd(along_x, x), _mm_mul_pd(along_y, y));
+  const __m128d s = _mm_min_pd(_mm_max_pd(foot, _mm_setzero_pd()), length);
+  const __m128d dx = _mm_sub_pd(x, _mm_mul_pd(s, along_x));
+  const __m128d dy = _mm_sub_pd(y, _mm_mul_pd(s, along_y));
+  return _mm_add_pd(_mm_mul_pd(dx, dx), _mm_mul_pd(dy, dy));
+}
+#endif
+
 }  // namespace
 
-BoundaryTree::BoundaryTree(std::span<const Site> sites) : sites_(sites) {
+BoundaryTree::BoundaryTree(std::span<const Site> sites)
+    : sites_(sites),
+      has_arcs_(
+          std::any_of(sites.begin(), sites.end(), [](const Site& site) { return site.is_arc(); })) {
   const auto store = [](Boxes& boxes, std::uint32_t lane, const FloatBox& box) {
     boxes.low_x[lane] = box.low_x;
     boxes.low_y[lane] = box.low_y;
@@ -219,8 +240,10 @@ std::uint32_t BoundaryTree::beyond(const ChordBoxes& boxes, Vec2 c, double reach
 }
 
 template <class Visit>
-void BoundaryTree::visit_blocks(Vec2 c, double& reach, std::uint32_t first, std::uint32_t last,
-                                Visit&& visit) const {
+[[gnu::always_inline]] inline void BoundaryTree::visit_blocks(Vec2 c, double& reach,
+                                                              std::uint32_t first,
+                                                              std::uint32_t last,
+                                                              Visit&& visit) const {
   const auto x = static_cast<float>(c.x), y = static_cast<float>(c.y);
   const auto squared_reach = [&] {
     const double r = reach + single_precision_slack;
@@ -245,10 +268,12 @@ void BoundaryTree::visit_blocks(Vec2 c, double& reach, std::uint32_t first, std:
       const std::uint32_t below = top.level - 1;
       const Boxes& boxes = levels_[below][top.index];
       const std::uint32_t child = top.index * fan;
-      const std::uint32_t low = first_block >> (2 * below), high = last_block >> (2 * below);
-      std::uint32_t mask = 0xF;
-      if (low > child) mask &= 0xFu << (low - child);
-      if (high < child + 3) mask &= 0xFu >> (child + 3 - high);
+      // Of the four lanes those that the range reaches; without branches, which nobody could guess.
+      const auto skipped = [](std::uint32_t from, std::uint32_t to) {
+        return std::max(static_cast<std::int32_t>(to - from), 0);
+      };
+      std::uint32_t mask = (0xFu << skipped(child, first_block >> (2 * below))) &
+                           (0xFu >> skipped(last_block >> (2 * below), child + 3));
 
       alignas(16) std::array<float, fan> squared;
 #if defined(__SSE2__)
@@ -300,16 +325,29 @@ BoundaryTree::Hit BoundaryTree::nearest(Vec2 c, double reach, std::uint32_t firs
                                         std::uint32_t last) const {
   Hit hit;
   if (first > last || !(reach > 0)) return hit;
-  double squared = reach * reach;
+  hit.squared_distance = reach * reach;
+  const auto take_if_nearer = [&](std::uint32_t i, double squared) {
+    if (squared < hit.squared_distance) hit = {i, squared};
+  };
   visit_blocks(c, reach, first, last, [&](std::uint32_t from, std::uint32_t to) {
-    for (std::uint32_t i = from; i <= to; ++i) {
-      const double d = geometry::squared_distance(sites_[i], c);
-      if (d < squared) {
-        squared = d;
-        hit = {i, d};
+    const double before = hit.squared_distance;
+    const Site *site = &sites_[from], *const end = &sites_[0] + to + 1;
+#if defined(__SSE2__)
+    if (!has_arcs_) {
+      // Two at a time; rarely is one of them near enough.
+      for (std::uint32_t i = from; i < to; i += 2, site += 2) {
+        const __m128d squared = squared_distances(site[0], site[1], c);
+        if (_mm_movemask_pd(_mm_cmplt_pd(squared, _mm_set1_pd(hit.squared_distance))) == 0)
+          continue;
+        take_if_nearer(i, _mm_cvtsd_f64(squared));
+        take_if_nearer(i + 1, _mm_cvtsd_f64(_mm_unpackhi_pd(squared, squared)));
       }
     }
-    if (hit) reach = std::sqrt(squared);
+#endif
+    for (; site != end; ++site)
+      take_if_nearer(static_cast<std::uint32_t>(site - &sites_[0]),
+                     geometry::squared_distance(*site, c));
+    if (hit.squared_distance < before) reach = std::sqrt(hit.squared_distance);
   });
   return hit;
 }
