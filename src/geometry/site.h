@@ -86,12 +86,17 @@ inline Site reversed(const Site& site) {
   return {site.end(), left_of(site.end_normal()), site.length, -site.curvature};
 }
 
-/// Whether edge `before` ends where edge `after` begins. An end is off by less than four roundings
-/// of a local coordinate.
-inline bool meets(const Site& before, const Site& after) {
+/// Whether the end of an edge is this point. An end is off by less than four roundings of a local
+/// coordinate.
+inline bool is_same_place(Vec2 end, Vec2 point) {
   constexpr double same_point = 0x1p-50;
-  const Vec2 gap = before.end() - after.point;
+  const Vec2 gap = end - point;
   return std::abs(gap.x) <= same_point && std::abs(gap.y) <= same_point;
+}
+
+/// Whether edge `before` ends where edge `after` begins.
+inline bool meets(const Site& before, const Site& after) {
+  return is_same_place(before.end(), after.point);
 }
 
 /// How a point c lies to the carrier of an arc.

@@ -33,6 +33,14 @@ struct Carrier {
   bool vertex;
 };
 
+/// A stable sort of three, in place.
+template <class T, class Before>
+void sort_three(std::array<T, 3>& three, Before&& before) {
+  if (before(three[1], three[0])) std::swap(three[0], three[1]);
+  if (before(three[2], three[1])) std::swap(three[1], three[2]);
+  if (before(three[1], three[0])) std::swap(three[0], three[1]);
+}
+
 template <class Real>
 struct Solution {
   Vector<Real> center;
@@ -182,8 +190,7 @@ Solutions<Real> corner_and_site(const Vector<Real>& corner, const Vector<Real>& 
 template <class Real>
 Solutions<Real> three_carriers(std::array<const Carrier<Real>*, 3> carriers) {
   using std::abs, std::sqrt;
-  std::stable_sort(carriers.begin(), carriers.end(),
-                   [](const auto* a, const auto* b) { return abs(a->round) > abs(b->round); });
+  sort_three(carriers, [](const auto* a, const auto* b) { return abs(a->round) > abs(b->round); });
   const Carrier<Real>& roundest = *carriers[0];
   struct Plane {
     Vector<Real> g;
@@ -219,8 +226,7 @@ Solutions<Real> solve(std::array<const Carrier<Real>*, 3> c) {
   const auto is_arc = [](const auto* one) { return !one->vertex && one->round != Real(0); };
   if (is_arc(c[0]) || is_arc(c[1]) || is_arc(c[2])) return three_carriers<Real>(c);
   // Lines first.
-  std::stable_sort(c.begin(), c.end(),
-                   [](const auto* a, const auto* b) { return a->vertex < b->vertex; });
+  sort_three(c, [](const auto* a, const auto* b) { return a->vertex < b->vertex; });
   const int vertices = c[0]->vertex + c[1]->vertex + c[2]->vertex;
   switch (vertices) {
     case 0:
@@ -243,13 +249,14 @@ struct Corner {
 Corner find_corner(const std::array<const Site*, 3>& sites) {
   Corner flattest;
   double along = -2;
+  const auto is_segment = [](const Site& site) { return !site.is_vertex() && !site.is_arc(); };
   for (int i = 0; i < 3; ++i) {
+    const Site& before = *sites[static_cast<std::size_t>(i)];
+    if (!is_segment(before)) continue;
+    const Vec2 end = before.end();
     for (int j = 0; j < 3; ++j) {
-      const Site &before = *sites[static_cast<std::size_t>(i)],
-                 &after = *sites[static_cast<std::size_t>(j)];
-      const bool segments =
-          !before.is_vertex() && !after.is_vertex() && !before.is_arc() && !after.is_arc();
-      if (i == j || !segments || !meets(before, after)) continue;
+      const Site& after = *sites[static_cast<std::size_t>(j)];
+      if (i == j || !is_same_place(end, after.point) || !is_segment(after)) continue;
       const double turn = dot(before.direction, after.direction);
       if (turn <= along) continue;
       along = turn;
