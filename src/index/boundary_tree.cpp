@@ -244,6 +244,12 @@ template <class Visit>
                                                               std::uint32_t first,
                                                               std::uint32_t last,
                                                               Visit&& visit) const {
+  // Boxes cost about as much as a few sites.
+  constexpr std::uint32_t short_range = 2 * block_size;
+  if (last - first < short_range) {
+    visit(first, last);
+    return;
+  }
   const auto x = static_cast<float>(c.x), y = static_cast<float>(c.y);
   const auto squared_reach = [&] {
     const double r = reach + single_precision_slack;
