@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <vector>
 
 #include "base/spatial_order.h"
@@ -47,7 +48,9 @@ TEST(FirstTouch, FindsWhatLookingAtEverySiteFinds) {
     std::vector<std::uint32_t> groups;
     for (std::size_t i = 0; i < count; ++i)
       groups.push_back(static_cast<std::uint32_t>(random.integer(0, 2)));
-    const index::FirstTouch tree(sites, groups);
+    std::vector<std::uint32_t> all(count);
+    std::iota(all.begin(), all.end(), 0U);
+    const index::FirstTouch tree(sites, all, groups);
     for (int i = 0; i < 200; ++i) {
       const Vec2 foot{random.between(-1, 1), random.between(-1, 1)};
       const double angle = random.between(0, 7), largest = random.power_of_ten(-3, 0);

@@ -9,16 +9,10 @@
 #include <functional>
 #include <limits>
 
-#if defined(__SSE2__)
-#include <emmintrin.h>
-#endif
-
 namespace medial::index {
 namespace {
 
 using geometry::Site;
-
-constexpr float infinity = std::numeric_limits<float>::infinity();
 
 /// Beyond this a site belongs to no box.
 constexpr double outside = 64;
@@ -40,48 +34,11 @@ constexpr double flat_enough = 1.0 / 16;
 /// and on the levels of nodes of 8 to 512 sites: larger ones are few.
 constexpr std::size_t chord_levels = 4;
 
-struct FloatBox {
-  float low_x = infinity, low_y = infinity, high_x = -infinity, high_y = -infinity;
-
-  void add(Vec2 p) {
-    const auto below = [](double v) {
-      const auto f = static_cast<float>(v);
-      return static_cast<double>(f) <= v ? f : std::nextafter(f, -infinity);
-    };
-    const auto above = [](double v) {
-      const auto f = static_cast<float>(v);
-      return static_cast<double>(f) >= v ? f : std::nextafter(f, infinity);
-    };
-    low_x = std::min(low_x, below(p.x));
-    low_y = std::min(low_y, below(p.y));
-    high_x = std::max(high_x, above(p.x));
-    high_y = std::max(high_y, above(p.y));
-  }
-};
-
 struct Waiting {
   std::uint32_t index;
   std::uint32_t level;  ///< 0: a block
   float squared;
 };
-
-#if defined(__SSE2__)
-/// geometry::squared_distance() to two segments or vertices side by side.
-__m128d squared_distances(const Site& a, const Site& b, Vec2 c) {
-  const __m128d a_point = _mm_loadu_pd(&a.point.x), b_point = _mm_loadu_pd(&b.point.x);
-  const __m128d a_along = _mm_loadu_pd(&a.direction.x), b_along = _mm_loadu_pd(&b.direction.x);
-  const __m128d x = _mm_sub_pd(_mm_set1_pd(c.x), _mm_unpacklo_pd(a_point, b_point));
-  const __m128d y = _mm_sub_pd(_mm_set1_pd(c.y), _mm_unpackhi_pd(a_point, b_point));
-  const __m128d along_x = _mm_unpacklo_pd(a_along, b_along);
-  const __m128d along_y = _mm_unpackhi_pd(a_along, b_along);
-  const __m128d length = _mm_loadh_pd(_mm_load_sd(&a.length), &b.length);
-  const __m128d foot = _mm_add_pd(_mm_mul_pd(along_x, x), _mm_mul_pd(along_y, y));
-  const __m128d s = _mm_min_pd(_mm_max_pd(foot, _mm_setzero_pd()), length);
-  const __m128d dx = _mm_sub_pd(x, _mm_mul_pd(s, along_x));
-  const __m128d dy = _mm_sub_pd(y, _mm_mul_pd(s, along_y));
-  return _mm_add_pd(_mm_mul_pd(dx, dx), _mm_mul_pd(dy, dy));
-}
-#endif
 
 }  // namespace
 
@@ -89,49 +46,31 @@ BoundaryTree::BoundaryTree(std::span<const Site> sites)
     : sites_(sites),
       has_arcs_(
           std::any_of(sites.begin(), sites.end(), [](const Site& site) { return site.is_arc(); })) {
-  const auto store = [](Boxes& boxes, std::uint32_t lane, const FloatBox& box) {
-    boxes.low_x[lane] = box.low_x;
-    boxes.low_y[lane] = box.low_y;
-    boxes.high_x[lane] = box.high_x;
-    boxes.high_y[lane] = box.high_y;
-  };
-  const auto levels_over = [](std::size_t count) { return (count + fan - 1) / fan; };
+  const auto nodes_over = [](std::size_t count) { return (count + fan - 1) / fan; };
+  constexpr std::size_t grain = 1024;
 
-  const std::size_t blocks = (sites.size() + block_size - 1) / block_size;
-  levels_.emplace_back(levels_over(blocks));
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, levels_[0].size(), 1024),
+  levels_.emplace_back(nodes_over((sites.size() + block_size - 1) / block_size));
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, levels_[0].size(), grain),
                     [&](const auto& range) {
                       for (std::size_t node = range.begin(); node < range.end(); ++node) {
-                        for (std::uint32_t lane = 0; lane < fan; ++lane) {
-                          FloatBox box;
+                        for (std::size_t lane = 0; lane < fan; ++lane) {
                           const std::size_t begin = (node * fan + lane) * block_size;
                           const std::size_t end = std::min(begin + block_size, sites.size());
-                          for (std::size_t i = begin; i < end; ++i) {
-                            if (std::abs(sites[i].point.x) > outside) continue;
-                            box.add(sites[i].point);
-                            if (!sites[i].is_vertex()) box.add(sites[i].end());
-                            if (sites[i].is_arc()) box.add(sites[i].apex());
-                          }
-                          store(levels_[0][node], lane, box);
+                          Extent extent;
+                          for (std::size_t i = begin; i < end; ++i)
+                            if (std::abs(sites[i].point.x) <= outside) extent.add(sites[i]);
+                          levels_[0][node].set(lane, extent);
                         }
                       }
                     });
   while (levels_.back().size() > 1) {
     const std::vector<Boxes>& lower = levels_.back();
-    std::vector<Boxes> upper(levels_over(lower.size()));
-    for (std::size_t node = 0; node < upper.size(); ++node) {
-      for (std::uint32_t lane = 0; lane < fan; ++lane) {
-        FloatBox box;
-        const std::size_t child = node * fan + lane;
-        if (child < lower.size()) {
-          box.low_x = *std::min_element(lower[child].low_x.begin(), lower[child].low_x.end());
-          box.low_y = *std::min_element(lower[child].low_y.begin(), lower[child].low_y.end());
-          box.high_x = *std::max_element(lower[child].high_x.begin(), lower[child].high_x.end());
-          box.high_y = *std::max_element(lower[child].high_y.begin(), lower[child].high_y.end());
-        }
-        store(upper[node], lane, box);
-      }
-    }
+    std::vector<Boxes> upper(nodes_over(lower.size()));
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, lower.size(), grain),
+                      [&](const auto& range) {
+                        for (std::size_t child = range.begin(); child < range.end(); ++child)
+                          upper[child / fan].set(child % fan, lower[child]);
+                      });
     levels_.push_back(std::move(upper));
   }
   build_chord_boxes();
@@ -281,27 +220,8 @@ template <class Visit>
       std::uint32_t mask = (0xFu << skipped(child, first_block >> (2 * below))) &
                            (0xFu >> skipped(last_block >> (2 * below), child + 3));
 
-      alignas(16) std::array<float, fan> squared;
-#if defined(__SSE2__)
-      const __m128 zero = _mm_setzero_ps();
-      const __m128 cx = _mm_set1_ps(x), cy = _mm_set1_ps(y);
-      const __m128 dx = _mm_max_ps(_mm_max_ps(_mm_sub_ps(_mm_load_ps(boxes.low_x.data()), cx),
-                                              _mm_sub_ps(cx, _mm_load_ps(boxes.high_x.data()))),
-                                   zero);
-      const __m128 dy = _mm_max_ps(_mm_max_ps(_mm_sub_ps(_mm_load_ps(boxes.low_y.data()), cy),
-                                              _mm_sub_ps(cy, _mm_load_ps(boxes.high_y.data()))),
-                                   zero);
-      const __m128 d = _mm_add_ps(_mm_mul_ps(dx, dx), _mm_mul_ps(dy, dy));
-      _mm_store_ps(squared.data(), d);
-      mask &= static_cast<std::uint32_t>(_mm_movemask_ps(_mm_cmplt_ps(d, _mm_set1_ps(limit))));
-#else
-      for (std::uint32_t i = 0; i < fan; ++i) {
-        const float dx = std::max({boxes.low_x[i] - x, x - boxes.high_x[i], 0.0F});
-        const float dy = std::max({boxes.low_y[i] - y, y - boxes.high_y[i], 0.0F});
-        squared[i] = dx * dx + dy * dy;
-        if (!(squared[i] < limit)) mask &= ~(1u << i);
-      }
-#endif
+      Lanes squared;
+      mask &= nearer(boxes, x, y, limit, squared);
       if (below < chord_count && mask != 0) mask &= ~beyond(chords_[below][top.index], c, reach);
       if (mask != 0) {
         // Go on with the nearest; the others wait, the farthest at the bottom.
@@ -337,22 +257,16 @@ BoundaryTree::Hit BoundaryTree::nearest(Vec2 c, double reach, std::uint32_t firs
   };
   visit_blocks(c, reach, first, last, [&](std::uint32_t from, std::uint32_t to) {
     const double before = hit.squared_distance;
-    const Site *site = &sites_[from], *const end = &sites_[0] + to + 1;
-#if defined(__SSE2__)
+    const Site* site = &sites_[from];
     if (!has_arcs_) {
       // Two at a time; rarely is one of them near enough.
-      for (std::uint32_t i = from; i < to; i += 2, site += 2) {
-        const __m128d squared = squared_distances(site[0], site[1], c);
-        if (_mm_movemask_pd(_mm_cmplt_pd(squared, _mm_set1_pd(hit.squared_distance))) == 0)
-          continue;
-        take_if_nearer(i, _mm_cvtsd_f64(squared));
-        take_if_nearer(i + 1, _mm_cvtsd_f64(_mm_unpackhi_pd(squared, squared)));
+      for (; from < to; from += 2, site += 2) {
+        if (!one_is_nearer(site[0], site[1], c, hit.squared_distance)) continue;
+        take_if_nearer(from, geometry::squared_distance(site[0], c));
+        take_if_nearer(from + 1, geometry::squared_distance(site[1], c));
       }
     }
-#endif
-    for (; site != end; ++site)
-      take_if_nearer(static_cast<std::uint32_t>(site - &sites_[0]),
-                     geometry::squared_distance(*site, c));
+    for (; from <= to; ++from, ++site) take_if_nearer(from, geometry::squared_distance(*site, c));
     if (hit.squared_distance < before) reach = std::sqrt(hit.squared_distance);
   });
   return hit;

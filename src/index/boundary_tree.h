@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "geometry/site.h"
+#include "index/lanes.h"
 
 namespace medial::index {
 
@@ -39,10 +40,6 @@ class BoundaryTree {
  private:
   static constexpr std::uint32_t block_size = 8;
   static constexpr std::uint32_t fan = 4;
-
-  struct alignas(64) Boxes {
-    std::array<float, fan> low_x, low_y, high_x, high_y;
-  };
 
   /// Boxes along the chords of a node's four lanes: all points p of a lane's sites have normal . p
   /// in [low, high] and, with `along` the normal turned to the right, along . p in [begin, end]. A

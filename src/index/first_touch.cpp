@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -14,29 +15,38 @@ namespace {
 
 using geometry::Site;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-/// What rounding (u = 2^-53) may add to a distance from a box or a slab, for local coordinates
-/// below 2 and distances below 4: for a box 8 u along an axis (a difference below 4, and the end of
-/// a site) and 8 u for the squares, for a slab 32 u as in BoundaryTree. Boxes this much further
-/// away are looked into as well.
+/// What rounding may add to the distance of a disk's centre from a site, for local coordinates
+/// below 2 and distances below 4, and to the end of a site; sites this much further away are looked
+/// at as well.
 constexpr double rounding = 0x1p-48;
+
+/// What single precision (u = 2^-24) may add to the distance of a disk's centre from a box or a
+/// slab, for radii below 4. The centre lies below 8 and rounds by 4 u in each coordinate; the
+/// difference to a box by 8 u: for both axes together 17 u. The squares, their sum and the limit
+/// add 3 u of a distance below 4: 12 u. A slab's normal is what its bounds were computed with;
+/// centre, products, sum and difference add less than 6 u + 16 u + 8 u. This is 64 u.
+constexpr double single_precision_slack = 0x1p-18;
 
 /// Sets of more sites get no slab: it would be about as wide as the box.
 constexpr std::size_t largest_slab = 512;
 
 }  // namespace
 
-FirstTouch::FirstTouch(std::span<const Site> sites, std::span<const std::uint32_t> groups) {
+FirstTouch::FirstTouch(std::span<const Site> sites, std::span<const std::uint32_t> indices,
+                       std::span<const std::uint32_t> groups)
+    : groups_(groups) {
   std::vector<std::uint32_t> order;
   {
-    std::vector<Vec2> middle(sites.size());
-    std::transform(sites.begin(), sites.end(), middle.begin(),
-                   [](const Site& site) { return midpoint(site.point, site.end()); });
+    std::vector<Vec2> middle(indices.size());
+    std::transform(indices.begin(), indices.end(), middle.begin(),
+                   [&](std::uint32_t i) { return midpoint(sites[i].point, sites[i].end()); });
     order = z_order(middle);
   }
-  entries_.reserve(sites.size());
-  for (const std::uint32_t i : order) entries_.push_back({sites[i], i, groups[i]});
+  entries_.reserve(order.size());
+  for (const std::uint32_t i : order) {
+    entries_.push_back({sites[indices[i]], indices[i]});
+    has_arcs_ = has_arcs_ || entries_.back().site.is_arc();
+  }
 
   std::size_t run = block_size;
   do {
@@ -45,12 +55,9 @@ FirstTouch::FirstTouch(std::span<const Site> sites, std::span<const std::uint32_
   } while (levels_.back().size() > 1);
 }
 
-/// Nothing is near to an empty set.
-FirstTouch::Bounds::Bounds() {
-  low_x.fill(infinity);
-  low_y.fill(infinity);
-  high_x.fill(-infinity);
-  high_y.fill(-infinity);
+FirstTouch::Slabs::Slabs() {
+  low.fill(-std::numeric_limits<float>::infinity());
+  high.fill(std::numeric_limits<float>::infinity());
 }
 
 /// The level whose lanes bound `run` entries each, above the last one.
@@ -62,47 +69,57 @@ void FirstTouch::build_level(std::size_t run) {
     for (std::size_t set = range.begin(); set < range.end(); ++set) {
       Bounds& bounds = level[set / fan];
       const std::size_t lane = set % fan;
-      const auto add = [&](Vec2 low, Vec2 high) {
-        bounds.low_x[lane] = std::min(bounds.low_x[lane], low.x);
-        bounds.low_y[lane] = std::min(bounds.low_y[lane], low.y);
-        bounds.high_x[lane] = std::max(bounds.high_x[lane], high.x);
-        bounds.high_y[lane] = std::max(bounds.high_y[lane], high.y);
-      };
-      const std::size_t begin = set * run, end = std::min(begin + run, entries_.size());
+      const std::span<const Entry> entries =
+          std::span(entries_).subspan(set * run, std::min(run, entries_.size() - set * run));
       if (lower == nullptr) {
-        for (std::size_t i = begin; i < end; ++i) {
-          const Vec2 a = entries_[i].site.point, b = entries_[i].site.end();
-          add({std::min(a.x, b.x), std::min(a.y, b.y)}, {std::max(a.x, b.x), std::max(a.y, b.y)});
-          if (entries_[i].site.is_arc()) add(entries_[i].site.apex(), entries_[i].site.apex());
-        }
+        Extent extent;
+        for (const Entry& entry : entries) extent.add(entry.site);
+        bounds.boxes.set(lane, extent);
       } else {
-        const Bounds& b = (*lower)[set];
-        for (std::size_t i = 0; i < fan; ++i)
-          add({b.low_x[i], b.low_y[i]}, {b.high_x[i], b.high_y[i]});
+        bounds.boxes.set(lane, (*lower)[set].boxes);
       }
       if (run > largest_slab) continue;
 
-      const auto longest = std::max_element(
-          entries_.begin() + static_cast<std::ptrdiff_t>(begin),
-          entries_.begin() + static_cast<std::ptrdiff_t>(end),
-          [](const Entry& a, const Entry& b) { return a.site.length < b.site.length; });
-      const Vec2 normal = longest->site.normal();
-      if (longest->site.is_vertex()) continue;
-      double low = infinity, high = -infinity;
-      for (std::size_t i = begin; i < end; ++i) {
-        const Site& site = entries_[i].site;
+      const Site& longest =
+          std::max_element(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
+            return a.site.length < b.site.length;
+          })->site;
+      if (longest.is_vertex()) continue;
+      Slabs& slabs = bounds.slabs;
+      slabs.normal_x[lane] = static_cast<float>(longest.normal().x);
+      slabs.normal_y[lane] = static_cast<float>(longest.normal().y);
+      const Vec2 normal{slabs.normal_x[lane], slabs.normal_y[lane]};
+      double low = dot(normal, longest.point), high = low;
+      for (const Entry& entry : entries) {
+        const Site& site = entry.site;
         for (const Vec2 p : {site.point, site.end(), site.is_arc() ? site.apex() : site.point}) {
           low = std::min(low, dot(normal, p));
           high = std::max(high, dot(normal, p));
         }
       }
-      bounds.normal_x[lane] = normal.x;
-      bounds.normal_y[lane] = normal.y;
-      bounds.low[lane] = low;
-      bounds.high[lane] = high;
+      slabs.low[lane] = rounded_down(low);
+      slabs.high[lane] = rounded_up(high);
     }
   });
   levels_.push_back(std::move(level));
+}
+
+/// The lanes whose slabs are further from (x, y) than the reach, as bits.
+std::uint32_t FirstTouch::beside(const Slabs& slabs, float x, float y, float reach) {
+#if defined(__SSE2__)
+  const __m128 height = _mm_add_ps(_mm_mul_ps(_mm_load_ps(slabs.normal_x.data()), _mm_set1_ps(x)),
+                                   _mm_mul_ps(_mm_load_ps(slabs.normal_y.data()), _mm_set1_ps(y)));
+  const __m128 off = _mm_max_ps(_mm_sub_ps(_mm_load_ps(slabs.low.data()), height),
+                                _mm_sub_ps(height, _mm_load_ps(slabs.high.data())));
+  return static_cast<std::uint32_t>(_mm_movemask_ps(_mm_cmpge_ps(off, _mm_set1_ps(reach))));
+#else
+  std::uint32_t lanes = 0;
+  for (std::uint32_t i = 0; i < fan; ++i) {
+    const float height = slabs.normal_x[i] * x + slabs.normal_y[i] * y;
+    if (std::max(slabs.low[i] - height, height - slabs.high[i]) >= reach) lanes |= 1u << i;
+  }
+  return lanes;
+#endif
 }
 
 std::optional<FirstTouch::Touch> FirstTouch::find(Vec2 foot, Vec2 direction, double largest,
@@ -111,61 +128,59 @@ std::optional<FirstTouch::Touch> FirstTouch::find(Vec2 foot, Vec2 direction, dou
   std::optional<Touch> found;
   double radius = largest;
   Vec2 center = foot + radius * direction;
+  const auto foot_x = static_cast<float>(foot.x), foot_y = static_cast<float>(foot.y);
   struct Waiting {
     std::uint32_t level, index;
+    float from_foot;
   };
   // Three brothers wait on each of at most 16 levels.
   std::array<Waiting, 3 * 16 + fan> stack;
   std::size_t size = 0;
-  stack[size++] = {static_cast<std::uint32_t>(levels_.size() - 1), 0};
+  stack[size++] = {static_cast<std::uint32_t>(levels_.size()), 0, 0};
+
+  const auto look_at = [&](const Entry& entry) {
+    if (entry.index >= first && entry.index <= last) return;
+    if (groups_[entry.index] != group) return;
+    const double smaller = geometry::touching_radius(foot, direction, entry.site);
+    if (!(smaller < radius)) return;
+    radius = smaller;
+    center = foot + radius * direction;
+    found = {entry.index, radius};
+  };
   while (size > 0) {
     const Waiting top = stack[--size];
-    const Bounds& bounds = levels_[top.level][top.index];
-    const double reach = radius + rounding;
-    // Branchless, so that a compiler can treat the four side by side.
-    std::array<double, fan> from_foot, from_center, beside;
-    for (std::size_t i = 0; i < fan; ++i) {
-      const auto larger = [](double a, double b) { return a > b ? a : b; };
-      const auto squared_distance = [&](Vec2 p) {
-        const double x = larger(larger(bounds.low_x[i] - p.x, p.x - bounds.high_x[i]), 0);
-        const double y = larger(larger(bounds.low_y[i] - p.y, p.y - bounds.high_y[i]), 0);
-        return x * x + y * y;
-      };
-      const double along = bounds.normal_x[i] * center.x + bounds.normal_y[i] * center.y;
-      from_foot[i] = squared_distance(foot);
-      from_center[i] = squared_distance(center);
-      beside[i] = larger(bounds.low[i] - along, along - bounds.high[i]);
-    }
-    // The one nearest to the foot goes on top: there the disk shrinks most.
-    const std::size_t bottom = size;
-    std::array<double, fan> waiting;
-    for (std::uint32_t i = 0; i < fan; ++i) {
-      if (from_center[i] >= reach * reach || beside[i] >= reach) continue;
-      std::size_t at = size++;
-      for (; at > bottom && waiting[at - 1 - bottom] < from_foot[i]; --at) {
-        stack[at] = stack[at - 1];
-        waiting[at - bottom] = waiting[at - 1 - bottom];
+    if (top.level == 0) {
+      std::size_t i = top.index * block_size;
+      const std::size_t end = std::min(i + block_size, entries_.size());
+      const auto limit = [&] { return (radius + rounding) * (radius + rounding); };
+      if (!has_arcs_) {
+        for (; i + 1 < end; i += 2) {
+          if (!one_is_nearer(entries_[i].site, entries_[i + 1].site, center, limit())) continue;
+          look_at(entries_[i]);
+          look_at(entries_[i + 1]);
+        }
       }
-      stack[at] = {top.level, static_cast<std::uint32_t>(top.index * fan) + i};
-      waiting[at - bottom] = from_foot[i];
-    }
-    if (top.level > 0) {
-      for (std::size_t i = bottom; i < size; ++i) --stack[i].level;
+      for (; i < end; ++i)
+        if (geometry::squared_distance(entries_[i].site, center) < limit()) look_at(entries_[i]);
       continue;
     }
-    for (; size > bottom; --size) {
-      const std::size_t begin = stack[size - 1].index * block_size;
-      for (std::size_t i = begin; i < std::min(begin + block_size, entries_.size()); ++i) {
-        const Entry& entry = entries_[i];
-        if (entry.group != group || (entry.index >= first && entry.index <= last)) continue;
-        const double inside = radius + rounding;
-        if (geometry::squared_distance(entry.site, center) >= inside * inside) continue;
-        const double smaller = geometry::touching_radius(foot, direction, entry.site);
-        if (!(smaller < radius)) continue;
-        radius = smaller;
-        center = foot + radius * direction;
-        found = {entry.index, radius};
-      }
+    const Bounds& bounds = levels_[top.level - 1][top.index];
+    const auto x = static_cast<float>(center.x), y = static_cast<float>(center.y);
+    const auto reach = static_cast<float>(radius + single_precision_slack);
+    Lanes from_foot, from_center;
+    nearer(bounds.boxes, foot_x, foot_y, 0, from_foot);
+    std::uint32_t mask =
+        nearer(bounds.boxes, x, y, reach * reach, from_center) & ~beside(bounds.slabs, x, y, reach);
+    // The one nearest to the foot goes on top: there the disk shrinks most.
+    const std::size_t bottom = size;
+    for (; mask != 0; mask &= mask - 1) {
+      const auto lane = static_cast<std::uint32_t>(std::countr_zero(mask));
+      const Waiting waiting{top.level - 1, static_cast<std::uint32_t>(top.index * fan) + lane,
+                            from_foot[lane]};
+      std::size_t at = size++;
+      for (; at > bottom && stack[at - 1].from_foot < waiting.from_foot; --at)
+        stack[at] = stack[at - 1];
+      stack[at] = waiting;
     }
   }
   return found;

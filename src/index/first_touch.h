@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "geometry/site.h"
+#include "index/lanes.h"
 
 namespace medial::index {
 
@@ -18,8 +19,10 @@ namespace medial::index {
 /// stays beyond while it shrinks. O(n) to build, O(log n) expected for each answer.
 class FirstTouch {
  public:
-  /// Site i belongs to group groups[i]. Sites must lie in the local frame.
-  FirstTouch(std::span<const geometry::Site> sites, std::span<const std::uint32_t> groups);
+  /// A tree of the sites with the given indices; site i belongs to group groups[i]. Sites must lie
+  /// in the local frame. `groups` must outlive the tree.
+  FirstTouch(std::span<const geometry::Site> sites, std::span<const std::uint32_t> indices,
+             std::span<const std::uint32_t> groups);
 
   struct Touch {
     std::uint32_t site = 0;
@@ -28,6 +31,7 @@ class FirstTouch {
   /// The first site that the disk of radius r around foot + r direction reaches, from either side,
   /// while r grows from 0 to `largest`, of all sites of the group but those from first to last,
   /// both included; none where it reaches none. Of sites that it reaches at the same radius, any.
+  /// The foot must lie in the local frame, `largest` be below 4.
   std::optional<Touch> find(Vec2 foot, Vec2 direction, double largest, std::uint32_t group,
                             std::uint32_t first, std::uint32_t last) const;
 
@@ -37,18 +41,26 @@ class FirstTouch {
 
   struct Entry {
     geometry::Site site;
-    std::uint32_t index, group;
+    std::uint32_t index;
   };
-  /// Of four sets of sites side by side: boxes, and slabs low <= normal . p <= high along each
-  /// set's longest segment, which hold slanted segments tighter. Without a normal, a slab is
-  /// everything.
-  struct alignas(64) Bounds {
-    std::array<double, fan> low_x, low_y, high_x, high_y, normal_x{}, normal_y{}, low{}, high{};
-    Bounds();
+  /// Of four sets of sites side by side: slabs low <= normal . p <= high along each set's longest
+  /// segment, which hold slanted segments tighter than boxes do, in single precision. Without a
+  /// normal, a slab is everything.
+  struct alignas(64) Slabs {
+    Lanes normal_x{}, normal_y{}, low, high;
+    Slabs();
+  };
+  struct Bounds {
+    Boxes boxes;
+    Slabs slabs;
   };
 
   void build_level(std::size_t run);
 
+  static std::uint32_t beside(const Slabs& slabs, float x, float y, float reach);
+
+  std::span<const std::uint32_t> groups_;
+  bool has_arcs_ = false;
   std::vector<Entry> entries_;               ///< in spatial order
   std::vector<std::vector<Bounds>> levels_;  ///< levels_[0] bounds blocks of entries
 };

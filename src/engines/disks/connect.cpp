@@ -215,7 +215,12 @@ std::vector<Cut> connecting_disks(const Shape& shape, const Boundary& loops, dou
   for (std::uint32_t loop = 0; loop < loops.runs.size(); ++loop)
     std::fill(components.begin() + loops.runs[loop].first,
               components.begin() + loops.runs[loop].last + 1, shape.component[loop]);
-  const index::FirstTouch first_touch(loops.sites, components);
+  // A vertex ends an edge, so edges are enough.
+  std::vector<std::uint32_t> edges;
+  edges.reserve(loops.sites.size());
+  for (std::uint32_t i = 0; i < loops.sites.size(); ++i)
+    if (loops.elements[i] == Element::edge) edges.push_back(i);
+  const index::FirstTouch first_touch(loops.sites, edges, components);
 
   std::vector<Cut> cuts(holes.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, holes.size(), 16), [&](const auto& range) {
