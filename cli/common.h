@@ -33,6 +33,7 @@ Verb make_axis_verb(CLI::App& program);
 Verb make_verify_verb(CLI::App& program);
 Verb make_info_verb(CLI::App& program);
 Verb make_draw_verb(CLI::App& program);
+Verb make_distance_verb(CLI::App& program);
 Verb make_bench_verb(CLI::App& program);
 
 /// Where shapes come from.

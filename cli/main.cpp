@@ -48,7 +48,7 @@ int run(int argc, char** argv, bool json) {
       "then, and an interrupted run leaves no partial file.");
   const std::array verbs = {make_axis_verb(program), make_verify_verb(program),
                             make_info_verb(program), make_draw_verb(program),
-                            make_bench_verb(program)};
+                            make_distance_verb(program), make_bench_verb(program)};
   for (const Verb& verb : verbs) verb.app->group("Verbs");
 
   try {

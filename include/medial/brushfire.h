@@ -38,8 +38,8 @@ struct BrushfireOptions {
 };
 
 /// Thins the foreground to lines by a brushfire. The result has the image's topology() and is part
-/// of the image; no pixel of it can go by the family's own rule. O(pixels): 64 pixels at a time, and
-/// only where the fire burns. Errors: too_large, cancelled, out_of_memory.
+/// of the image; no pixel of it can go by the family's own rule. O(pixels): 64 pixels at a time,
+/// and only where the fire burns. Errors: too_large, cancelled, out_of_memory.
 Result<Image> thin(const Image& image, const BrushfireOptions& options = {});
 
 }  // namespace medial

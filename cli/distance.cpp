@@ -1,0 +1,145 @@
+// medial distance: the exact distance of every pixel of an image.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "cli/common.h"
+#include "cli/image_switches.h"
+#include "cli/pipeline.h"
+#include "cli/terminal.h"
+#include "medial/image.h"
+
+namespace medial::cli {
+namespace {
+
+constexpr char formats[] = ".tif .png .pgm";
+
+struct DistanceSwitches {
+  std::string input;
+  std::string output;
+  io::ImageOptions image;
+  io::DistanceFormat format;
+  bool cracks = false;
+  bool open = false;
+  int threads = 0;
+  bool stats = false;
+  bool json = false;
+};
+
+Result<int> run_distance(const DistanceSwitches& switches) {
+  Status writable = check_output(switches.output, {}, formats, switches.input, false);
+  if (!writable) return std::move(writable).error();
+  const Stopwatch reading;
+  auto file = io::read_image(switches.input, switches.image);
+  if (!file) return std::move(file).error();
+  const double seconds_read = reading.seconds();
+
+  const Stopwatch measuring;
+  DistanceOptions options;
+  options.to = switches.cracks ? DistanceTo::cracks : DistanceTo::pixels;
+  options.frame = !switches.open;
+  options.threads = switches.threads;
+  auto distances = distance_transform(file->image, options);
+  if (!distances) return std::move(distances).error();
+  const double seconds_distance = measuring.seconds();
+
+  const Stopwatch writing;
+  if (!switches.output.empty()) {
+    Status written = io::write_distances(switches.output, *distances, *file, switches.format);
+    if (!written) return std::move(written).error();
+  }
+  const double seconds_write = writing.seconds();
+
+  const auto largest = std::ranges::max_element(distances->squared);
+  const auto at = static_cast<std::size_t>(largest - distances->squared.begin());
+  const auto x = static_cast<std::uint32_t>(at % distances->width);
+  const auto y = static_cast<std::uint32_t>(at / distances->width);
+  const double deepest = distances->at(x, y);
+  const Topology parts = topology(file->image);
+  const double pixels = static_cast<double>(distances->squared.size());
+  const Json costs = {
+      {"seconds",
+       {{"read", seconds_read}, {"distance", seconds_distance}, {"write", seconds_write}}},
+      {"nanoseconds_per_pixel", 1e9 * seconds_distance / pixels},
+      {"threads", effective_threads(switches.threads)},
+      {"peak_bytes", peak_bytes()}};
+  Status printed = success();
+  if (switches.json) {
+    Json object = {{"input", switches.input},
+                   {"width", distances->width},
+                   {"height", distances->height},
+                   {"foreground", file->image.count()},
+                   {"components", parts.components},
+                   {"holes", parts.holes},
+                   {"largest", {{"x", x}, {"y", y}, {"distance", nullptr}}}};
+    if (std::isfinite(deepest)) object["largest"]["distance"] = deepest;
+    if (switches.stats) object.update(costs);
+    printed = print(object);
+  } else {
+    printed = print(fmt::format(
+        "{} x {} pixels, {} foreground: {}, {}; largest distance: {:.10g} "
+        "at pixel ({}, {})\n",
+        distances->width, distances->height, file->image.count(),
+        counted(parts.components, "component"), counted(parts.holes, "hole"), deepest, x, y));
+    if (switches.stats) fmt::print(stderr, "{}", table(costs));
+  }
+  if (!printed) return std::move(printed).error();
+  return exit_success;
+}
+
+}  // namespace
+
+void add_image_switches(CLI::App& verb, io::ImageOptions& options) {
+  verb.add_option("--threshold", options.threshold,
+                  "Of images: pixels from this value on are foreground (default: half of\n"
+                  "the format's range; 128 of 8 bits).")
+      ->option_text("VALUE");
+  verb.add_flag("--invert", options.invert,
+                "Of images: pixels below the threshold are foreground instead.");
+}
+
+Verb make_distance_verb(CLI::App& program) {
+  auto switches = std::make_shared<DistanceSwitches>();
+  CLI::App* verb =
+      program.add_subcommand("distance", "Measure each pixel's distance to the background.");
+  verb->add_option("IMAGE", switches->input,
+                   "A binary image: PNG, TIFF, GeoTIFF, PGM or PBM; - is standard input.")
+      ->required()
+      ->check(a_name())
+      ->option_text(" ");
+  verb->add_option("-o,--output", switches->output,
+                   fmt::format("Where to write; the extension tells the format:\n{}\n"
+                               ".tif has 32 bits a pixel, the others 16.",
+                               formats))
+      ->check(a_name())
+      ->option_text("IMAGE");
+  add_image_switches(*verb, switches->image);
+  verb->add_flag("--squared", switches->format.squared,
+                 "Write squared distances, which are whole numbers.");
+  verb->add_option("--scale", switches->format.scale,
+                   "Write so many times the distance, in formats of 16 bits rounded to the\n"
+                   "nearest whole number (default: 1).")
+      ->check(CLI::Range(1e-6, 1e6).description(""))
+      ->option_text("S");
+  verb->add_flag("--cracks", switches->cracks,
+                 "Measure to the boundary of the pixels' squares, not to the centre of\n"
+                 "the nearest background pixel.");
+  verb->add_flag("--open", switches->open, "What lies outside of the image is no background.");
+  verb->add_option("--threads", switches->threads, "Threads to use (default: 0, all).")
+      ->check(CLI::Range(0, 1024).description(""))
+      ->option_text("N");
+  verb->add_flag("--stats", switches->stats, "Tell times, counts and memory.");
+  verb->add_flag("--json", switches->json, "Print one JSON object on standard output.");
+  verb->footer(
+      "Distances are Euclidean, exact, and in pixels, from centre to centre.\n"
+      "\n"
+      "Examples:\n"
+      "  medial distance horse.png --invert -o distance.tif\n"
+      "  medial distance scan.pbm -o distance.png --scale 100");
+  return {verb, [switches] { return run_distance(*switches); }};
+}
+
+}  // namespace medial::cli
