@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <exception>
+#include <memory>
 #include <new>
 
 #include "base/threads.h"
@@ -34,14 +35,14 @@ constexpr std::size_t strip_words = 16;
 /// Both scans of the columns of words [first, last): down, counting from the background above, and
 /// up again, taking the smaller count. `distances` has rows of whole words.
 void scan_columns(const Image& image, std::size_t first, std::size_t last, bool frame,
-                  std::vector<ColumnDistance>& distances) {
+                  ColumnDistance* distances) {
   const std::size_t stride = image.row(0).size() * 64;
   const std::size_t width = (last - first) * 64;
   std::array<ColumnDistance, strip_words * 64> before;
   before.fill(frame ? 0 : no_background);
   const ColumnDistance* above = before.data();
   for (std::uint32_t y = 0; y < image.height(); ++y) {
-    ColumnDistance* const here = distances.data() + y * stride + first * 64;
+    ColumnDistance* const here = distances + y * stride + first * 64;
     const std::span<const std::uint64_t> row = image.row(y);
     for (std::size_t word = first; word < last; ++word) {
       for (std::size_t byte = 0; byte < 8; ++byte) {
@@ -58,7 +59,7 @@ void scan_columns(const Image& image, std::size_t first, std::size_t last, bool 
   }
   const ColumnDistance* below = before.data();
   for (std::uint32_t y = image.height(); y-- > 0;) {
-    ColumnDistance* const here = distances.data() + y * stride + first * 64;
+    ColumnDistance* const here = distances + y * stride + first * 64;
     for (std::size_t i = 0; i < width; ++i) {
       const ColumnDistance one = below[i] != no_background;
       here[i] = std::min(here[i], static_cast<ColumnDistance>(below[i] + one));
@@ -164,17 +165,17 @@ DistanceMap transform(const Image& image, const DistanceOptions& options) {
   const bool frame = options.frame || options.to == DistanceTo::cracks;
 
   const std::size_t words = image.row(0).size();
-  std::vector<ColumnDistance> columns(words * 64 * map.height);
+  const auto columns = std::make_unique_for_overwrite<ColumnDistance[]>(words * 64 * map.height);
   const std::size_t strips = (words + strip_words - 1) / strip_words;
   tbb::parallel_for(std::size_t{0}, strips, [&](std::size_t strip) {
     scan_columns(image, strip * strip_words, std::min(words, (strip + 1) * strip_words), frame,
-                 columns);
+                 columns.get());
   });
   const std::int64_t width = map.width;
   tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, map.height, 16), [&](const auto& rows) {
     Envelope envelope(map.width + std::size_t{2});
     for (std::uint32_t y = rows.begin(); y != rows.end(); ++y) {
-      const ColumnDistance* const column = columns.data() + y * words * 64;
+      const ColumnDistance* const column = columns.get() + y * words * 64;
       std::uint32_t* const out = map.squared.data() + std::size_t{y} * map.width;
       for_each_run(image.row(y), width, [&](std::int64_t begin, std::int64_t end) {
         if (options.to == DistanceTo::cracks) {
