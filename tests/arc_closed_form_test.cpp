@@ -333,6 +333,34 @@ TEST(ArcClosedForm, RoundedStarsAreTruncated) {
   }
 }
 
+/// One disk touches every tooth or side, and the rest of the axis consists of as many branches:
+/// where two contacts enclose a small angle, the rounding of their coordinates must not move it.
+TEST(ArcClosedForm, ManyArcsAroundOneNode) {
+  for (const std::size_t n : {3, 30, 300, 2000}) {
+    std::vector<ArcCase> cases;
+    cases.push_back({"gear of " + std::to_string(n), {gear(n, 0.8)}, {}});
+    cases.push_back({"lobes, " + std::to_string(n), {bulged_polygon(n, 0.5)}, {}});
+    for (const double bulge : {1e-12, 1e-3})
+      cases.push_back({"sides, " + std::to_string(n), {bulged_polygon(n, bulge)}, {}});
+    for (const ArcCase& one : cases) {
+      for (const double offset : {0.0, 17.3}) {
+        Symmetry symmetry;
+        symmetry.xx = symmetry.yy = 0.8;
+        symmetry.yx = 0.6;
+        symmetry.xy = -0.6;
+        symmetry.dx = offset;
+        SCOPED_TRACE(one.name + ", moved by " + std::to_string(offset));
+        const auto shape = build_shape(transformed(one.rings, symmetry));
+        ASSERT_TRUE(shape) << to_string(shape.error());
+        const auto axis = compute(*shape, {.threads = 1});
+        ASSERT_TRUE(axis) << to_string(axis.error());
+        const Certificate certificate = verify(*shape, *axis, {.threads = 1});
+        EXPECT_TRUE(certificate.passed) << certificate.failures[0];
+      }
+    }
+  }
+}
+
 // Arcs of huge radius are as good as straight.
 
 TEST(ArcClosedForm, NearlyStraightEdges) {

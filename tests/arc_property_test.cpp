@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -27,11 +26,6 @@ std::uint64_t number_from(const char* variable, std::uint64_t otherwise) {
   return text && *text ? std::strtoull(text, nullptr, 10) : otherwise;
 }
 
-/// Shapes whose certificates are refused at present, for a few roundings at a node that many arcs
-/// touch, and one (395) with a leaf too many there when reversed: open faults (CHANGELOG.md),
-/// passed over so that new ones stand out.
-constexpr std::array<std::uint64_t, 7> known_faults{395, 867, 1177, 1295, 1649, 1756, 2926};
-
 std::uint64_t shape_count() { return number_from("MEDIAL_PROPERTY_COUNT", 20000) / 5; }
 
 /// Dealt out to several tests, which can run side by side.
@@ -44,8 +38,6 @@ class ArcShapes : public testing::TestWithParam<std::uint64_t> {
     const std::uint64_t base = number_from("MEDIAL_PROPERTY_SEED", 0) << 32;
     int failed = 0;
     for (std::uint64_t i = GetParam(); i < count && failed < 3; i += shares) {
-      if (std::find(known_faults.begin(), known_faults.end(), base + i) != known_faults.end())
-        continue;
       const RandomShape shape = random_arc_shape(base + i);
       const std::vector<std::string> failures = check(shape);
       if (failures.empty()) continue;

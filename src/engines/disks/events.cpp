@@ -66,7 +66,8 @@ Event EventSearch::local_event(bool on_right) {
   const double intrusion = 0.5 * radius * squared_norm(normal - next_normal);
   const bool flat = in_reach && intrusion <= 0.5 * context_.tolerance;
   if (!flat) {
-    const auto contact = contact_with(next, nowhere);
+    std::optional<Event> contact = contact_at_joint(next);
+    if (!contact) contact = contact_with(next, nowhere);
     if (contact && reaches(*contact)) return *contact;
   }
   if (!in_reach) return event;

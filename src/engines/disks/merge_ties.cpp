@@ -27,6 +27,10 @@ constexpr double short_edge = 0x1p-7;
 /// dependency differ by no more than its square.
 constexpr double steepest = 0x1p24;
 
+/// Contacts that belong to a node of many arcs may be so many tolerances off before it is put
+/// right.
+constexpr double hub_reach = 4;
+
 /// A contact's equation at a disk: moving the centre by d and the radius by e changes
 /// distance - radius from `residual` to residual + outward.d - e, exactly for a segment.
 struct Contact {
@@ -42,6 +46,27 @@ Contact contact_of(const Site& site, const Disk& disk) {
   return {geometry::outward(site, disk.center),
           geometry::carrier_distance(site, disk.center) - disk.radius};
 }
+
+/// What a disk has to touch: a site, or one of three points of an arc that it touches all along.
+/// There the foot on the arc could be anywhere, and the arc's circle says too little about it.
+struct Touch {
+  enum class Part : std::uint8_t { site, start, middle, end };
+  std::uint32_t site = none;
+  Part part = Part::site;
+  auto operator<=>(const Touch&) const = default;
+
+  /// What is touched: a point where an arc's foot is one of its ends.
+  Site seen_from(std::span<const Site> sites, Vec2 center) const {
+    const Site& whole = sites[site];
+    if (!whole.is_arc()) return whole;
+    double s = part == Part::middle ? 0.5 * whole.length : part == Part::end ? whole.length : 0;
+    if (part == Part::site) {
+      s = geometry::foot_parameter(whole, center);
+      if (s > 0 && s < whole.length) return whole;
+    }
+    return geometry::make_vertex(whole.at(s));
+  }
+};
 
 /// The one linear dependency of four contacts: the factors add up to 0, and so do they times the
 /// outward normals. No disk has four residuals all below `level` in size, and one has exactly that,
@@ -76,11 +101,11 @@ class Fit {
   double worst = 0;  ///< the largest residual at the last contacts asked for
 
   /// Begins with three of the contacts, as far apart as they can be found at once.
-  void begin(std::span<const std::uint32_t> contacts) {
+  void begin(std::span<const Touch> contacts) {
     std::array<Vec2, 2> spread{normal(contacts[0]), {}};
     reference_[0] = contacts[0];
     double largest = -1;
-    for (const std::uint32_t i : contacts) {
+    for (const Touch& i : contacts) {
       const double size = squared_norm(normal(i) - spread[0]);
       if (!(size > largest)) continue;
       largest = size;
@@ -88,7 +113,7 @@ class Fit {
     }
     spread[1] = normal(reference_[1]) - spread[0];
     largest = -1;
-    for (const std::uint32_t i : contacts) {
+    for (const Touch& i : contacts) {
       const double size = std::abs(cross(spread[1], normal(i) - spread[0]));
       if (!(size > largest)) continue;
       largest = size;
@@ -99,12 +124,12 @@ class Fit {
   bool has_begun() const { return count_ > 0; }
 
   /// Whether the disk touches all the contacts, within the bound: their closed sites.
-  bool touches(std::initializer_list<std::span<const std::uint32_t>> lists) {
+  bool touches(std::initializer_list<std::span<const Touch>> lists) {
     worst = 0;
-    furthest_ = none;
+    furthest_ = {};
     for (const auto contacts : lists) {
-      for (const std::uint32_t i : contacts) {
-        const double distance = std::sqrt(geometry::squared_distance(sites_[i], disk.center));
+      for (const Touch& i : contacts) {
+        const double distance = distance_to(i);
         const double residual = std::abs(distance - disk.radius);
         if (residual <= worst) continue;
         worst = residual;
@@ -119,7 +144,8 @@ class Fit {
   bool improve() {
     const auto end = reference_.begin() + static_cast<std::ptrdiff_t>(count_);
     if (std::find(reference_.begin(), end, furthest_) == end) exchange();
-    if (count_ < 4) return move({contact(0), contact(1), contact(2)}, {});
+    if (count_ < 4)
+      return move({contact(reference_[0]), contact(reference_[1]), contact(reference_[2])}, {});
     const std::array<Contact, 4> contact = contacts(reference_);
     const Dependency dependency(contact);
     if (!(std::abs(dependency.level) <= bound_)) return false;
@@ -138,11 +164,20 @@ class Fit {
   }
 
  private:
-  Vec2 normal(std::uint32_t i) const { return geometry::outward(sites_[i], disk.center); }
-  Contact contact(std::size_t i) const { return contact_of(sites_[reference_[i]], disk); }
-  std::array<Contact, 4> contacts(const std::array<std::uint32_t, 4>& reference) const {
+  double distance_to(const Touch& i) const {
+    if (i.part == Touch::Part::site)
+      return std::sqrt(geometry::squared_distance(sites_[i.site], disk.center));
+    return distance(i.seen_from(sites_, disk.center).point, disk.center);
+  }
+  Vec2 normal(const Touch& i) const {
+    return geometry::outward(i.seen_from(sites_, disk.center), disk.center);
+  }
+  Contact contact(const Touch& i) const {
+    return contact_of(i.seen_from(sites_, disk.center), disk);
+  }
+  std::array<Contact, 4> contacts(const std::array<Touch, 4>& reference) const {
     std::array<Contact, 4> result;
-    for (std::size_t i = 0; i < 4; ++i) result[i] = contact_of(sites_[reference[i]], disk);
+    for (std::size_t i = 0; i < 4; ++i) result[i] = contact(reference[i]);
     return result;
   }
 
@@ -153,10 +188,10 @@ class Fit {
       reference_[count_++] = furthest_;
       return;
     }
-    std::array<std::uint32_t, 4> best = reference_;
+    std::array<Touch, 4> best = reference_;
     double highest = -1;
     for (std::size_t i = 0; i < 4; ++i) {
-      std::array<std::uint32_t, 4> next = reference_;
+      std::array<Touch, 4> next = reference_;
       next[i] = furthest_;
       const double level = std::abs(Dependency(contacts(next)).level);
       if (!(level > highest)) continue;
@@ -182,19 +217,20 @@ class Fit {
 
   std::span<const Site> sites_;
   double bound_;
-  std::array<std::uint32_t, 4> reference_{};
+  std::array<Touch, 4> reference_{};
   std::size_t count_ = 0;  ///< of the reference
-  std::uint32_t furthest_ = none;
+  Touch furthest_;
 };
 
 /// Nodes that have become one.
 struct Cluster {
   Fit fit;
-  std::uint32_t node = none;            ///< the node that stands for it
-  std::vector<std::uint32_t> contacts;  ///< boundary sites
-  std::vector<std::uint32_t> ends;      ///< of edges, at all its nodes
-  std::uint64_t spent = 0;              ///< contacts looked at to fit it together with others
-  bool dissolved = false;               ///< its nodes are left as they were
+  std::uint32_t node = none;  ///< the node that stands for it
+  std::vector<Touch> contacts;
+  std::vector<std::uint32_t> ends;  ///< of edges, at all its nodes
+  bool branching = false;           ///< one of its nodes is
+  std::uint64_t spent = 0;          ///< contacts looked at to fit it together with others
+  bool dissolved = false;           ///< its nodes are left as they were
 };
 
 class Merger {
@@ -216,8 +252,23 @@ class Merger {
     });
     make_clusters(edges);
     std::vector<std::uint32_t> contracted;
-    for (const std::uint32_t edge : edges)
-      if (contract(edge)) contracted.push_back(edge);
+    candidates_ = edges;
+    std::sort(candidates_.begin(), candidates_.end());
+    // Where one edge was refused, others may have been contracted since.
+    bool any = true;
+    for (int round = 0; round < most_passes && any; ++round) {
+      any = false;
+      std::vector<std::uint32_t> refused;
+      for (const std::uint32_t edge : edges) {
+        if (contract(edge)) {
+          contracted.push_back(edge);
+          any = true;
+        } else {
+          refused.push_back(edge);
+        }
+      }
+      edges = std::move(refused);
+    }
     dissolve_backward();
     std::erase_if(contracted, [&](std::uint32_t e) {
       return clusters_[cluster_of(axis_.edges[e].node[0])].dissolved;
@@ -226,6 +277,8 @@ class Merger {
   }
 
  private:
+  static constexpr int most_passes = 4;
+
   double bound() const { return 0.5 * tolerance_; }
 
   /// Links the ends of edges, and finds the edges that are short against both of their disks: none
@@ -276,7 +329,8 @@ class Merger {
 
   bool could_be_contracted(const Edge& edge) const {
     const Disk &from = axis_.nodes[edge.node[0]].disk, &to = axis_.nodes[edge.node[1]].disk;
-    if (!is_branching(edge.node[0]) || !is_branching(edge.node[1])) return false;
+    if (!is_branching(edge.node[0]) || !is_branching(edge.node[1]))
+      return boundary_.has_arcs && could_be_at_hub(edge);
     const std::uint32_t after = other_contact(edge, edge.node[1]);
     if (after == none || !(std::abs(near_contact(after, from).residual) <= steepest * bound()))
       return false;
@@ -292,6 +346,41 @@ class Merger {
     // From the middle on, distances to vertices deviate from their tangents by so much.
     const double bend = curved ? 0.125 * squared_norm(to.center - from.center) / middle.radius : 0;
     return std::abs(Dependency(contacts).level) <= bound() + bend;
+  }
+
+  /// Whether an edge of which not both ends are branching nodes may be due to rounding: it is not
+  /// longer than rounding leaves its end open, and the disk of one end nearly touches all that is
+  /// touched at the other.
+  bool could_be_at_hub(const Edge& edge) const {
+    const Disk &from = axis_.nodes[edge.node[0]].disk, &to = axis_.nodes[edge.node[1]].disk;
+    const double open = hub_reach * tolerance_ * play(edge, from);
+    if (!(squared_norm(to.center - from.center) <= open * open)) return false;
+    const bool first = is_branching(edge.node[0]), second = is_branching(edge.node[1]);
+    return (!second && nearly_touches(edge.node[0], edge.node[1])) ||
+           (!first && nearly_touches(edge.node[1], edge.node[0]));
+  }
+
+  /// How far a disk may move, at most, that stays as near to the edge's two sites: against that
+  /// distance. The bisector moves sideways by its inverse sine; where the disk touches an arc all
+  /// along, it may move ahead by the inverse of 1 - cos of half of the arc's angle.
+  double play(const Edge& edge, const Disk& disk) const {
+    const Site &a = boundary_.sites[edge.site[0]], &b = boundary_.sites[edge.site[1]];
+    double result = 2 / norm(geometry::outward(a, disk.center) - geometry::outward(b, disk.center));
+    for (const Site* site : {&a, &b}) {
+      if (!site->is_arc() || !touches_all(*site, disk)) continue;
+      result = std::max(result, 8 / squared_norm(site->normal() - site->end_normal()));
+    }
+    return result;
+  }
+  bool nearly_touches(std::uint32_t hub, std::uint32_t node) const {
+    const Disk& disk = axis_.nodes[hub].disk;
+    for (std::uint32_t end = first_end_[node]; end != none; end = next_end_[end]) {
+      for (const std::uint32_t site : axis_.edges[end / 2].site) {
+        const double away = geometry::squared_distance(boundary_.sites[site], disk.center);
+        if (!(std::abs(std::sqrt(away) - disk.radius) <= hub_reach * tolerance_)) return false;
+      }
+    }
+    return true;
   }
 
   /// contact_of() where the residual is small against the radius, without roots.
@@ -318,17 +407,37 @@ class Merger {
     nodes_.erase(std::unique(nodes_.begin(), nodes_.end()), nodes_.end());
     for (const std::uint32_t node : nodes_) {
       parent_.push_back(static_cast<std::uint32_t>(clusters_.size()));
-      Cluster& cluster =
-          clusters_.emplace_back(Cluster{Fit(boundary_.sites, bound()), node, {}, {}});
+      Cluster& cluster = clusters_.emplace_back(
+          Cluster{Fit(boundary_.sites, bound()), node, {}, {}, is_branching(node)});
       cluster.fit.disk = axis_.nodes[node].disk;
       for (std::uint32_t end = first_end_[node]; end != none; end = next_end_[end]) {
         cluster.ends.push_back(end);
-        for (const std::uint32_t site : axis_.edges[end / 2].site) cluster.contacts.push_back(site);
+        for (const std::uint32_t site : axis_.edges[end / 2].site)
+          add_contact(site, cluster.fit.disk, cluster.contacts);
       }
       auto& contacts = cluster.contacts;
       std::sort(contacts.begin(), contacts.end());
       contacts.erase(std::unique(contacts.begin(), contacts.end()), contacts.end());
     }
+  }
+
+  /// What a disk near to a given one has to do in order to touch a site.
+  void add_contact(std::uint32_t site, const Disk& disk, std::vector<Touch>& contacts) const {
+    using Part = Touch::Part;
+    if (boundary_.sites[site].is_arc() && touches_all(boundary_.sites[site], disk)) {
+      for (const Part part : {Part::start, Part::middle, Part::end})
+        contacts.push_back({site, part});
+      return;
+    }
+    contacts.push_back({site});
+  }
+
+  /// Whether a disk near to the given one may touch an arc all along.
+  bool touches_all(const Site& arc, const Disk& disk) const {
+    for (const double s : {0.0, 0.5 * arc.length, arc.length})
+      if (!(std::abs(distance(arc.at(s), disk.center) - disk.radius) <= hub_reach * tolerance_))
+        return false;
+    return true;
   }
 
   /// The cluster of a node; none where it is not in any.
@@ -345,7 +454,7 @@ class Merger {
   bool contract(std::uint32_t edge) {
     std::uint32_t a = cluster_of(axis_.edges[edge].node[0]);
     std::uint32_t b = cluster_of(axis_.edges[edge].node[1]);
-    if (a == b) return false;
+    if (a == b || !(clusters_[a].branching || clusters_[b].branching)) return false;
     if (clusters_[a].contacts.size() < clusters_[b].contacts.size()) std::swap(a, b);
     Cluster &large = clusters_[a], &small = clusters_[b];
     Fit fit = large.fit;
@@ -361,6 +470,7 @@ class Merger {
     large.fit = fit;
     large.contacts.insert(large.contacts.end(), small.contacts.begin(), small.contacts.end());
     large.ends.insert(large.ends.end(), small.ends.begin(), small.ends.end());
+    large.branching = true;
     large.spent += small.spent;
     small.contacts = {};
     small.ends = {};
@@ -377,7 +487,7 @@ class Merger {
     constexpr std::uint64_t budget = 64;
     const Disk start = fit.disk;
     if (!fit.has_begun()) fit.begin(large.contacts);
-    const auto settles = [&](std::initializer_list<std::span<const std::uint32_t>> lists,
+    const auto settles = [&](std::initializer_list<std::span<const Touch>> lists,
                              std::uint64_t& spent) {
       for (int round = 0; round < most_rounds; ++round) {
         for (const auto& list : lists) spent += list.size();
@@ -403,6 +513,8 @@ class Merger {
       const Edge& edge = axis_.edges[end / 2];
       const std::array<std::uint32_t, 2> there{cluster_of(edge.node[0]), cluster_of(edge.node[1])};
       if (there[0] == there[1]) continue;  // contracted before
+      // It may be contracted as well; where it is not, see dissolve_backward().
+      if (std::binary_search(candidates_.begin(), candidates_.end(), end / 2)) continue;
       std::array<Vec2, 2> center;
       for (std::size_t k = 0; k < 2; ++k) {
         const bool here = there[k] == a || there[k] == b;
@@ -529,9 +641,10 @@ class Merger {
   /// The edges at every node, as linked lists of their ends: end 2 e + k is node[k] of edge e.
   std::vector<std::uint32_t> first_end_;
   std::unique_ptr<std::uint32_t[]> next_end_;
-  std::vector<std::uint32_t> nodes_;   ///< that are in a cluster, increasing
-  std::vector<std::uint32_t> parent_;  ///< of each cluster: the one that it has become part of
-  std::vector<Cluster> clusters_;      ///< of each of nodes_
+  std::vector<std::uint32_t> nodes_;       ///< that are in a cluster, increasing
+  std::vector<std::uint32_t> parent_;      ///< of each cluster: the one that it has become part of
+  std::vector<Cluster> clusters_;          ///< of each of nodes_
+  std::vector<std::uint32_t> candidates_;  ///< edges, increasing
 };
 
 }  // namespace
