@@ -29,18 +29,6 @@ constexpr int most_disks = 1'000'000;
 constexpr double narrowest_picture = 16;
 constexpr double widest_picture = 30'000;  // Cairo's images end at 32,767 pixels
 
-/// A number in [low, high]; NaN is in no range.
-CLI::Validator in_range(double low, double high) {
-  const std::string range = fmt::format("[{:g} - {:g}]", low, high);
-  return CLI::Validator(
-      [=](const std::string& text) {
-        double value = 0;
-        const bool inside = CLI::detail::lexical_cast(text, value) && value >= low && value <= high;
-        return inside ? std::string() : fmt::format("{} is not in {}", text, range);
-      },
-      range);
-}
-
 /// What Options::tolerance takes.
 CLI::Validator a_tolerance() {
   return CLI::Validator(
@@ -206,6 +194,17 @@ void add_common_switches(CLI::App& verb, CommonSwitches& common) {
       ->group(group);
   verb.add_flag("--quiet", common.quiet, "No warnings, notes or progress; only errors.")
       ->group(group);
+}
+
+CLI::Validator in_range(double low, double high) {
+  const std::string range = fmt::format("[{:g} - {:g}]", low, high);
+  return CLI::Validator(
+      [=](const std::string& text) {
+        double value = 0;
+        const bool inside = CLI::detail::lexical_cast(text, value) && value >= low && value <= high;
+        return inside ? std::string() : fmt::format("{} is not in {}", text, range);
+      },
+      range);
 }
 
 CLI::Validator a_name() {

@@ -32,6 +32,7 @@ struct Verb {
 Verb make_axis_verb(CLI::App& program);
 Verb make_verify_verb(CLI::App& program);
 Verb make_info_verb(CLI::App& program);
+Verb make_legal_verb(CLI::App& program);
 Verb make_draw_verb(CLI::App& program);
 Verb make_distance_verb(CLI::App& program);
 Verb make_bench_verb(CLI::App& program);
@@ -66,6 +67,8 @@ void add_input_switches(CLI::App& verb, InputSwitches& input, const std::string&
 void add_common_switches(CLI::App& verb, CommonSwitches& common);
 void add_picture_switches(CLI::App& verb, io::WriteOptions& write);
 
+/// A number in [low, high]; NaN is in no range.
+CLI::Validator in_range(double low, double high);
 /// What the name of an output must be: not empty.
 CLI::Validator a_name();
 /// Digits that make a 64-bit number; CLI11 by itself takes -1 for the largest.

@@ -42,13 +42,19 @@ int run(int argc, char** argv, bool json) {
   program.footer(
       "`medial VERB --help` tells each verb's switches, with examples.\n"
       "\n"
-      "Exit status: 0 done; 1 `verify` refused the axis; 2 an error, told in one line\n"
+      "Exit status: 0 done; 1 `verify` or `legal` refused the axis; 2 an error, told in one line\n"
       "on standard error as `medial: FILE: feature F, ring R, vertex V at (X, Y): what\n"
       "is wrong [code]`. Features, rings and vertices count from 0. Nothing is written\n"
       "then, and an interrupted run leaves no partial file.");
-  const std::array verbs = {make_axis_verb(program),     make_verify_verb(program),
-                            make_info_verb(program),     make_draw_verb(program),
-                            make_distance_verb(program), make_bench_verb(program)};
+  const std::array verbs = {
+      make_axis_verb(program),      //
+      make_verify_verb(program),    //
+      make_info_verb(program),      //
+      make_legal_verb(program),     //
+      make_draw_verb(program),      //
+      make_distance_verb(program),  //
+      make_bench_verb(program),     //
+  };
   for (const Verb& verb : verbs) verb.app->group("Verbs");
 
   try {

@@ -217,6 +217,27 @@ class Axis(CommandLine):
         refused = self.refuse("unsupported", "axis", "ring.wkt", "--method", "biarc-dc")
         self.refuse("[a-z_]+", "axis", "teeth.wkt", "--method", "magic")
 
+    def test_legal(self):
+        """The axis of a shape is legal; a radius that grows faster than the way is not, and is named."""
+        self.write("frame.wkt", FRAME)
+        self.succeed("axis", "frame.wkt", "-o", "frame.json")
+        told = json.loads(self.succeed("legal", "frame.json", "--json").stdout)
+        self.assertTrue(told["legal"])
+        self.assertEqual(told["judged"], told["legal_branches"])
+        self.assertGreater(told["judged"], 0)
+        stored = json.loads(self.read("frame.json"))
+        for node in stored["items"][0]["axis"]["nodes"]:
+            node[2] *= 3
+        for edge in stored["items"][0]["axis"]["edges"]:
+            if len(edge) > 4:  # a straight edge has no control point
+                edge[6] *= 3
+        self.write("steep.json", json.dumps(stored))
+        done = self.run_medial("legal", "steep.json")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn(b"too steep a radius", done.stdout)
+        self.refuse("unreadable", "legal", "nothing.json")
+        self.refuse("invalid_option", "legal", "frame.json", "--slack", "nan")
+
     def test_pipes(self):
         self.write("frame.wkt", FRAME)
         with open(self.path("frame.wkt"), "rb") as given:

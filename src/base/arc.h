@@ -62,12 +62,8 @@ inline double bulge_of(Vec2 tangent, Vec2 chord) {
 /// The bulge of the part of the arc between two of its points, which follow each other on it.
 inline double partial_bulge(const BulgeArc& arc, Vec2 from, Vec2 to) {
   if (arc.bulge == 0) return 0;
-  Vec2 tangent = start_tangent(arc);
-  if (from != arc.start) {
-    // The chord halves the angle between the tangents at its ends.
-    const Vec2 chord = (1 / distance(from, arc.start)) * (from - arc.start);
-    tangent = 2 * dot(tangent, chord) * chord - tangent;
-  }
+  // The tangent turns in proportion to the way: T(p) = T(start) + curvature * left_of(p - start).
+  const Vec2 tangent = start_tangent(arc) + curvature(arc) * left_of(from - arc.start);
   return bulge_of(tangent, to - from);
 }
 

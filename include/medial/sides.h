@@ -1,0 +1,88 @@
+#pragma once
+
+// What an axis tells of the boundary on its two sides, and whether it can be an axis at all:
+// Shaked and Bruckstein, "The Curve Axis", 1996, Sections 2 and 3. The numbers in brackets are the
+// paper's equations. `a` is the length along the axis, subscripts are derivatives by it.
+// For the axis of any engine; analytic on exact edges, from three neighbours on sampled ones.
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "medial/axis.h"
+#include "medial/contour.h"
+#include "medial/query.h"
+
+namespace medial {
+
+/// The axis near one of its points.
+struct AxisFrame {
+  Disk disk;
+  Vec2 tangent;            ///< A_a, of length 1
+  double radius_rate = 0;  ///< R_a, no unit; beyond [-1, 1] no shape has such an axis
+  double radius_bend = 0;  ///< R_aa, 1 / length
+  double curvature = 0;    ///< K_A, 1 / length, positive where the axis turns left
+  /// What rounding leaves open: of R_a, and of R_aa and K_A; 0 on samples, which are taken as
+  /// given.
+  double rate_error = 0;
+  double bend_error = 0;
+};
+
+/// The frame at t in [0, 1] of an edge. Where the curve stands still (an edge of length 0) the
+/// tangent is 0 and nothing else means anything.
+AxisFrame frame_at(const MedialAxis& axis, const Edge& edge, double t);
+
+/// The boundary at a foot of a disk, followed in the direction of the axis.
+struct BoundaryFrame {
+  Vec2 point;            ///< (3)
+  Vec2 tangent;          ///< (5), of length 1
+  double rate = 0;       ///< (6): length of boundary by length of axis; 0 at a reflex vertex
+  double curvature = 0;  ///< (7), 1 / length, positive where the shape is convex; infinite at a
+                         ///< reflex vertex; NaN where nothing decides it (|R_a| = 1)
+  /// (8): the radius of curvature, with the sign of the curvature.
+  double radius_of_curvature() const { return 1 / curvature; }
+};
+
+enum class Side : std::uint8_t { left, right };
+
+/// One side of the axis. Requires |R_a| <= 1; values beyond are taken for 1.
+BoundaryFrame boundary_at(const AxisFrame& frame, Side side);
+
+/// The curvature of the boundary on one side and its first `order` derivatives by the boundary's
+/// own length, at t in (0, 1) of an edge; by power series, so exact but for rounding. Not finite
+/// where the boundary stands still (a reflex vertex). O(order^2).
+std::vector<double> boundary_curvatures(const MedialAxis& axis, const Edge& edge, double t,
+                                        Side side, int order);
+
+/// The frames along a branch in its direction: of an exact axis `samples_per_edge` inside every
+/// edge, of a sampled one (resolution > 0) one at every inner node, from its two neighbours. Edges
+/// of length 0 have none.
+std::vector<AxisFrame> frames_along(const MedialAxis& axis, const Branch& branch,
+                                    int samples_per_edge = 8);
+
+/// The boundary that an axis stands for, as closed contours with the interior on the left, by
+/// increasing lowest edge: a walk around the axis; where one side ends and the next begins
+/// elsewhere on the same disk (ends, branching nodes, breaks of the tangent), the arc of that disk
+/// closes the gap. An exact axis gives its segments and arcs, a sampled one straight pieces between
+/// the points of (3). A node without edges is a whole circle. O(edges log(degree)).
+std::vector<Contour> boundary_of(const MedialAxis& axis);
+
+/// How a branch fares against the two restrictions that every axis obeys, and that suffice
+/// locally where they hold strictly.
+struct Legality {
+  double steepness = 0;  ///< (9): largest |R_a| - 1; above 0 no axis
+  double bend = 0;  ///< (10): largest |K_A| R s - (1 - R_a^2 - R R_aa), s^2 = 1 - R_a^2; above 0
+                    ///< no axis, 0 along a reflex vertex
+  std::uint64_t frames = 0;  ///< how many were looked at: those that rounding does not decide
+  AxisFrame steepest;        ///< where
+  AxisFrame sharpest;        ///< where
+  /// Whether both hold up to `slack` (no unit: rounding, or the noise of samples).
+  bool legal(double slack) const { return steepness <= slack && bend <= slack; }
+  /// Whether both hold with room to spare: then every short piece is the axis of its own disks.
+  bool strictly_legal(double slack) const { return steepness < -slack && bend < -slack; }
+};
+
+/// One for each of branches(axis), in that order. O(edges).
+std::vector<Legality> legality(const MedialAxis& axis, int samples_per_edge = 8);
+
+}  // namespace medial

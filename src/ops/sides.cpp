@@ -1,0 +1,179 @@
+#include "medial/sides.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "axis/curve.h"
+#include "ops/power_series.h"
+
+namespace medial {
+namespace {
+
+using ops::PowerSeries;
+
+/// The frame of a curve with these derivatives by any parameter.
+/// Control points that are `tolerance` off change R_a by about tolerance / speed, R_aa and K_A by
+/// tolerance / speed^2; a curve has four of them, each of three numbers.
+AxisFrame frame_of(const Disk& disk, const Curve::Derivatives& d, double tolerance) {
+  AxisFrame frame{disk, {0, 0}, 0, 0, 0, 0, 0};
+  const double speed = norm(d.first);
+  if (!(speed > 0)) return frame;
+  frame.tangent = (1 / speed) * d.first;
+  frame.radius_rate = d.radius_first / speed;
+  frame.radius_bend =
+      (d.radius_second - frame.radius_rate * dot(frame.tangent, d.second)) / (speed * speed);
+  frame.curvature = cross(frame.tangent, d.second) / (speed * speed);
+  frame.rate_error = 8 * tolerance / speed;
+  frame.bend_error = frame.rate_error / speed;
+  return frame;
+}
+
+/// The derivatives of the parabola through three disks, by the length of its chords, in the middle.
+Curve::Derivatives through(const Disk& before, const Disk& here, const Disk& after) {
+  const double h0 = distance(before.center, here.center);
+  const double h1 = distance(here.center, after.center);
+  const double w0 = h1 / (h0 + h1), w1 = h0 / (h0 + h1);
+  const Vec2 slope0 = (1 / h0) * (here.center - before.center);
+  const Vec2 slope1 = (1 / h1) * (after.center - here.center);
+  const double rate0 = (here.radius - before.radius) / h0;
+  const double rate1 = (after.radius - here.radius) / h1;
+  return {w0 * slope0 + w1 * slope1, (2 / (h0 + h1)) * (slope1 - slope0), w0 * rate0 + w1 * rate1,
+          2 * (rate1 - rate0) / (h0 + h1)};
+}
+
+/// A series of a Bezier curve's coordinate at t + u, from its three weighted control values.
+PowerSeries quadratic(double c0, double c1, double c2, double t, std::size_t size) {
+  PowerSeries out(size);
+  const double s = 1 - t;
+  out.terms[0] = s * s * c0 + 2 * s * t * c1 + t * t * c2;
+  if (size > 1) out.terms[1] = 2 * (s * (c1 - c0) + t * (c2 - c1));
+  if (size > 2) out.terms[2] = c0 - 2 * c1 + c2;
+  return out;
+}
+
+}  // namespace
+
+AxisFrame frame_at(const MedialAxis& axis, const Edge& edge, double t) {
+  const Curve curve = curve_of(axis, edge);
+  return frame_of(curve.at(t), curve.derivatives(t), axis.resolution > 0 ? 0 : axis.tolerance);
+}
+
+BoundaryFrame boundary_at(const AxisFrame& frame, Side side) {
+  // One side is the other one's mirror image: the normal and the curvature change their signs.
+  const double sign = side == Side::left ? 1 : -1;
+  const double radius = frame.disk.radius;
+  const double rate = std::clamp(frame.radius_rate, -1.0, 1.0);
+  const double s = std::sqrt((1 - rate) * (1 + rate));
+  const Vec2 normal = sign * left_of(frame.tangent);
+  const Vec2 outwards = s * normal - rate * frame.tangent;
+  const double turn = sign * frame.curvature;
+
+  BoundaryFrame boundary;
+  boundary.point = frame.disk.center + radius * outwards;
+  boundary.tangent = s * frame.tangent + rate * normal;
+  // l_a s = 1 - R_a^2 - R (R_aa + K_A s): the numerator of (6) and the denominator of (7).
+  const double bend = frame.radius_bend + turn * s;
+  const double shrink = s * s - radius * bend;
+  boundary.rate = shrink / s;
+  boundary.curvature = -bend / shrink;
+  return boundary;
+}
+
+std::vector<double> boundary_curvatures(const MedialAxis& axis, const Edge& edge, double t,
+                                        Side side, int order) {
+  const std::size_t wanted = static_cast<std::size_t>(std::max(order, 0)) + 1;
+  const std::size_t size = wanted + 3;  // (3) takes one derivative, a curvature two more
+  const Curve c = curve_of(axis, edge);
+  const double w = c.weight;
+  const PowerSeries d = quadratic(1, w, 1, t, size);
+  const PowerSeries x = quadratic(0, w * c.p1.x, c.p2.x, t, size) / d;
+  const PowerSeries y = quadratic(0, w * c.p1.y, c.p2.y, t, size) / d;
+  const PowerSeries r = quadratic(c.r0, w * c.r1, c.r2, t, size) / d;
+  const PowerSeries speed_x = x.derivative(), speed_y = y.derivative();
+  const PowerSeries speed = sqrt(speed_x * speed_x + speed_y * speed_y);
+  const PowerSeries tx = speed_x / speed, ty = speed_y / speed, rate = r.derivative() / speed;
+  PowerSeries one(size);
+  one.terms[0] = 1;
+  PowerSeries s = sqrt(one - rate * rate);
+  if (side == Side::right)
+    for (double& term : s.terms) term = -term;
+  // (3), with s the component to the left.
+  const PowerSeries bx = x - r * (rate * tx + s * ty), by = y - r * (rate * ty - s * tx);
+  const PowerSeries b1x = bx.derivative(), b1y = by.derivative();
+  const PowerSeries length = sqrt(b1x * b1x + b1y * b1y);
+  // The boundary on the left has the shape on its right: convex where it turns to the right.
+  PowerSeries curvature =
+      (b1y * b1x.derivative() - b1x * b1y.derivative()) / (length * length * length);
+  if (side == Side::right)
+    for (double& term : curvature.terms) term = -term;
+  std::vector<double> out;
+  for (std::size_t k = 0; k < wanted; ++k) {
+    out.push_back(curvature.value());
+    curvature = curvature.derivative() / length;
+  }
+  return out;
+}
+
+std::vector<AxisFrame> frames_along(const MedialAxis& axis, const Branch& branch,
+                                    int samples_per_edge) {
+  std::vector<AxisFrame> frames;
+  if (axis.resolution > 0) {
+    const auto end_of = [&](const Step& step) -> const Disk& {
+      return axis.nodes[axis.edges[step.edge].node[step.forward ? 1 : 0]].disk;
+    };
+    const Disk* before = &axis.nodes[branch.from].disk;
+    for (std::size_t i = 0; i + 1 < branch.steps.size(); ++i) {
+      const Disk& here = end_of(branch.steps[i]);
+      const Disk& after = end_of(branch.steps[i + 1]);
+      if (!(before->center == here.center) && !(here.center == after.center))
+        frames.push_back(frame_of(here, through(*before, here, after), 0));
+      before = &here;
+    }
+    return frames;
+  }
+  for (const Step& step : branch.steps) {
+    const Edge& edge = axis.edges[step.edge];
+    for (int i = 1; i <= samples_per_edge; ++i) {
+      const double t = static_cast<double>(i) / (samples_per_edge + 1);
+      AxisFrame frame = frame_at(axis, edge, step.forward ? t : 1 - t);
+      if (frame.tangent == Vec2{0, 0}) continue;
+      if (!step.forward) {  // seen backwards
+        frame.tangent = -frame.tangent;
+        frame.radius_rate = -frame.radius_rate;
+        frame.curvature = -frame.curvature;
+      }
+      frames.push_back(frame);
+    }
+  }
+  return frames;
+}
+
+std::vector<Legality> legality(const MedialAxis& axis, int samples_per_edge) {
+  constexpr double lowest = -std::numeric_limits<double>::infinity();
+  constexpr double most_error = 0.1;  // where rounding weighs more against 1, nothing is known
+  std::vector<Legality> all;
+  for (const Branch& branch : branches(axis)) {
+    Legality one{lowest, lowest, 0, {}, {}};
+    for (const AxisFrame& frame : frames_along(axis, branch, samples_per_edge)) {
+      const double rate = frame.radius_rate, radius = frame.disk.radius;
+      const double square = (1 - rate) * (1 + rate);
+      const double s = std::sqrt(std::max(square, 0.0));
+      // A root is the less certain the closer it is to 0: sqrt(x + e) - sqrt(x) <= sqrt(e).
+      const double square_error = 4 * frame.rate_error;
+      const double root_error = std::min(std::sqrt(square_error), square_error / s);
+      const double turn = std::abs(frame.curvature) * radius;
+      const double error = square_error + 2 * radius * frame.bend_error + turn * root_error;
+      if (!(error < most_error)) continue;
+      ++one.frames;
+      const double steepness = std::abs(rate) - 1 - frame.rate_error;
+      const double bend = turn * s - (square - radius * frame.radius_bend) - error;
+      if (steepness > one.steepness) one.steepness = steepness, one.steepest = frame;
+      if (bend > one.bend) one.bend = bend, one.sharpest = frame;
+    }
+    all.push_back(one);
+  }
+  return all;
+}
+
+}  // namespace medial
