@@ -2,6 +2,7 @@
 
 #include <numbers>
 
+#include "base/memory.h"
 #include "base/predicates.h"
 #include "base/tolerance.h"
 
@@ -49,7 +50,9 @@ SiteNumbers number_sites(const Shape& shape, const Frame& frame, double corner_a
 }
 
 std::vector<Site> result_sites(const Shape& shape, const SiteNumbers& numbers) {
-  std::vector<Site> sites(numbers.count);
+  std::vector<Site> sites;
+  reserve_large(sites, numbers.count);
+  sites.resize(numbers.count);
   for (std::size_t loop = 0; loop < shape.loop_count(); ++loop) {
     const std::uint32_t begin = shape.loop_begin[loop], end = shape.loop_begin[loop + 1];
     for (std::uint32_t i = begin; i < end; ++i) {

@@ -136,9 +136,7 @@ void add_loop(const Loop& loop, const SiteNumbers& numbers, const Start& start,
 Boundary loops_boundary(const Shape& shape, const SiteNumbers& numbers, const Frame& frame) {
   Boundary boundary;
   boundary.has_arcs = !shape.bulges.empty();
-  boundary.sites.reserve(numbers.count);
-  boundary.elements.reserve(numbers.count);
-  boundary.originals.reserve(numbers.count);
+  boundary.reserve(numbers.count);
   for (std::size_t l = 0; l < shape.loop_count(); ++l) {
     const Loop loop(shape, l, frame);
     const Start start = shape.hole[l] ? start_of_hole(loop, numbers, boundary.has_arcs)

@@ -6,6 +6,7 @@
 
 #include "axis/sites.h"
 #include "base/frame.h"
+#include "base/memory.h"
 #include "geometry/joint.h"
 #include "geometry/site.h"
 #include "medial/axis.h"
@@ -46,6 +47,12 @@ struct Boundary {
   std::vector<std::array<std::uint32_t, 2>> cut_places;
   bool has_arcs = false;
 
+  void reserve(std::size_t count) {
+    reserve_large(sites, count);
+    elements.reserve(count);
+    reserve_large(originals, count);
+    if (has_arcs) joints.reserve(count);
+  }
   void add(const geometry::Site& site, Element element, std::uint32_t original,
            geometry::Joint joint = geometry::Joint::corner) {
     sites.push_back(site);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "base/memory.h"
 #include "geometry/bisector.h"
 
 namespace medial::disks {
@@ -114,6 +115,7 @@ void collect(std::vector<std::unique_ptr<Chunk>>& chunks, std::size_t cut_count,
   std::uint32_t node_count = 0, edge_count = 0;
   const std::vector<Placed> placed = place(chunks, node_count, edge_count);
 
+  reserve_large(axis.nodes, node_count);
   axis.nodes.resize(node_count);
   tbb::parallel_for(std::size_t{0}, placed.size(), [&](std::size_t p) {
     placed[p].chunk->nodes.drain([&](std::size_t i, const Disk& disk) {
@@ -122,6 +124,7 @@ void collect(std::vector<std::unique_ptr<Chunk>>& chunks, std::size_t cut_count,
                                                     NodeKind::leaf};
     });
   });
+  reserve_large(axis.edges, edge_count);
   axis.edges.resize(edge_count);
   tbb::parallel_for(std::size_t{0}, placed.size(), [&](std::size_t p) {
     placed[p].chunk->edges.drain([&](std::size_t i, const RawEdge& raw) {

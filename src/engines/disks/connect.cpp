@@ -101,12 +101,9 @@ class Splicer {
   }
 
   Boundary splice() {
-    const std::size_t copies = loops_.sites.size() + 4 * cuts_.size();
-    result_.sites.reserve(copies);
-    result_.elements.reserve(copies);
-    result_.originals.reserve(copies);
     result_.cut_places.resize(cuts_.size());
     result_.has_arcs = loops_.has_arcs;
+    result_.reserve(loops_.sites.size() + 4 * cuts_.size());
     for (std::uint32_t loop = 0; loop < loops_.runs.size(); ++loop) {
       if (shape_.hole[loop]) continue;
       const auto first = static_cast<std::uint32_t>(result_.sites.size());

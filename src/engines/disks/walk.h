@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "base/memory.h"
 #include "engines/disks/contacts.h"
 #include "medial/axis.h"
 
@@ -40,6 +41,7 @@ class BlockList {
       const T* element = blocks_[block].get();
       const std::size_t end = std::min(size_, i + size_of(block));
       for (; i < end; ++i) take(i, *element++);
+      give_back_pages(blocks_[block].get(), size_of(block) * sizeof(T));
       blocks_[block].reset();
     }
     *this = {};

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace medial {
+
+/// Asks the system to back an array that nobody has touched yet with large pages, if it is large:
+/// it then takes a fraction of the time to fill for the first time. Advice only.
+void prefer_large_pages(const void* begin, std::size_t bytes);
+
+/// Tells the system that the content of an array is not needed any more: its pages can be used
+/// for other arrays before it is freed, and where the allocator would keep it. Advice only; the
+/// content is lost.
+void give_back_pages(void* begin, std::size_t bytes);
+
+/// reserve(), with large pages.
+template <class T>
+void reserve_large(std::vector<T>& elements, std::size_t count) {
+  elements.reserve(count);
+  prefer_large_pages(elements.data(), count * sizeof(T));
+}
+
+}  // namespace medial
