@@ -17,9 +17,11 @@ enum class Method : std::uint8_t {
   disks,     ///< walks along the axis; asks a tree over the boundary. The fastest; holes, threads
   biarc_dc,  ///< the randomised divide and conquer of Aichholzer et al. as published: one thread
              ///< and shapes without holes only, O(n log n) to O(n^2)
+  lee,       ///< Lee's divide and conquer: merges Voronoi diagrams of lists of segments and reflex
+             ///< vertices; shapes of straight edges without holes only, threads
 };
 
-/// The name of a method on the command line and in MedialAxis::method: "disks", "biarc-dc".
+/// The name of a method on the command line and in MedialAxis::method: "disks", "biarc-dc", "lee".
 const char* name_of(Method method);
 /// The method of that name, if there is one.
 std::optional<Method> method_from(std::string_view name);
@@ -52,7 +54,8 @@ struct Options {
 /// The graph has one connected part for each component of the shape and exactly one independent
 /// cycle for each hole. Errors: invalid_option, cancelled,
 /// empty, too_large, unsupported (a coordinate above 1e100 in size, or one that is not zero but
-/// below 1e-100, or below that share of the largest; holes, for biarc_dc), malformed (a shape that
+/// below 1e-100, or below that share of the largest; holes, for biarc_dc
+/// and lee; arcs, for lee), malformed (a shape that
 /// build_shape() did not make), out_of_memory, internal.
 Result<MedialAxis> compute(const Shape& shape, const Options& options = {});
 

@@ -8,3 +8,4 @@
 #include "medial/query.h"
 #include "medial/shape.h"
 #include "medial/verify.h"
+#include "medial/voronoi.h"

@@ -1,5 +1,6 @@
 #include "medial/compute.h"
 
+#include <algorithm>
 #include <array>
 #include <exception>
 #include <limits>
@@ -12,6 +13,8 @@
 #include "base/threads.h"
 #include "engines/biarc_dc/biarc_dc.h"
 #include "engines/disks/disks.h"
+#include "engines/lee/lee.h"
+#include "medial/voronoi.h"
 
 namespace medial {
 namespace {
@@ -62,6 +65,15 @@ std::optional<Error> refuse(const Shape& shape, const Options& options) {
     return Error{ErrorCode::unsupported,
                  "the method biarc-dc takes shapes without holes only: use the method disks",
                  {}};
+  if (options.method == Method::lee && shape.hole_count() > 0)
+    return Error{ErrorCode::unsupported,
+                 "the method lee takes polygons without holes only: use the method disks",
+                 {}};
+  if (options.method == Method::lee &&
+      std::any_of(shape.bulges.begin(), shape.bulges.end(), [](double b) { return b != 0; }))
+    return Error{ErrorCode::unsupported,
+                 "the method lee takes straight edges only: use the method disks",
+                 {}};
   return std::nullopt;
 }
 
@@ -76,14 +88,16 @@ MedialAxis run(const Shape& shape, const Options& options) {
   switch (options.method) {
     case Method::biarc_dc:
       return biarc_dc::run(shape, options);
+    case Method::lee:
+      return lee::run(shape, options);
     case Method::disks:
       break;
   }
   return disks::run(shape, options);
 }
 
-constexpr std::array<std::pair<Method, const char*>, 2> method_names = {
-    {{Method::disks, "disks"}, {Method::biarc_dc, "biarc-dc"}}};
+constexpr std::array<std::pair<Method, const char*>, 3> method_names = {
+    {{Method::disks, "disks"}, {Method::biarc_dc, "biarc-dc"}, {Method::lee, "lee"}}};
 
 }  // namespace
 
@@ -104,7 +118,7 @@ Result<MedialAxis> compute(const Shape& shape, const Options& options) {
     if (auto error = refuse(shape, options)) return std::move(*error);
     MedialAxis axis = on_threads(options.threads, [&] { return run(shape, options); });
     axis.statistics.threads =
-        options.method == Method::disks ? effective_threads(options.threads) : 1;
+        options.method == Method::biarc_dc ? 1 : effective_threads(options.threads);
     if (options.cancel != nullptr && options.cancel->load())
       return Error{ErrorCode::cancelled, "cancelled", {}};
     if (!has_right_topology(shape, axis))
@@ -113,6 +127,25 @@ Result<MedialAxis> compute(const Shape& shape, const Options& options) {
                    {}};
     if (options.progress) options.progress(1);
     return axis;
+  } catch (const std::bad_alloc&) {
+    return Error{ErrorCode::out_of_memory, "memory ran out", {}};
+  } catch (const std::exception& exception) {
+    return Error{ErrorCode::internal, exception.what(), {}};
+  }
+}
+
+Result<VoronoiDiagram> voronoi_diagram(const Shape& shape, const Options& options) {
+  try {
+    Options own = options;
+    own.method = Method::lee;
+    if (auto error = refuse(shape, own)) return std::move(*error);
+    VoronoiDiagram diagram =
+        on_threads(own.threads, [&] { return lee::voronoi_diagram(shape, own); });
+    diagram.statistics.threads = effective_threads(own.threads);
+    if (own.cancel != nullptr && own.cancel->load())
+      return Error{ErrorCode::cancelled, "cancelled", {}};
+    if (own.progress) own.progress(1);
+    return diagram;
   } catch (const std::bad_alloc&) {
     return Error{ErrorCode::out_of_memory, "memory ran out", {}};
   } catch (const std::exception& exception) {

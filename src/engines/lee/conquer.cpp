@@ -1,0 +1,100 @@
+#include "engines/lee/conquer.h"
+
+#include <tbb/parallel_for.h>
+
+#include <bit>
+#include <mutex>
+
+#include "base/stopwatch.h"
+
+namespace medial::lee {
+namespace {
+
+/// Lists of about so many chains are merged by one task, all their levels: they stay in its cache.
+constexpr std::uint32_t block_size = 1024;
+
+/// The halving of one loop's chains.
+struct Halving {
+  std::uint32_t first = 0;
+  std::uint32_t count = 0;
+
+  /// Lists of this level hold one chain at most.
+  int deepest() const { return static_cast<int>(std::bit_width(count - 1)); }
+  std::uint32_t boundary(int level, std::uint64_t i) const {
+    return first + static_cast<std::uint32_t>((count * i) >> level);
+  }
+};
+
+class Conquest {
+ public:
+  Conquest(Diagram& diagram, const ConquerContext& context, Statistics& statistics)
+      : diagram_(diagram), context_(context), statistics_(statistics) {}
+
+  /// Merges list i of a level out of its halves, of which one may be empty.
+  void merge_halves(const Halving& halving, int level, std::uint64_t i, Statistics& statistics) {
+    const std::uint32_t first = halving.boundary(level, i),
+                        middle = halving.boundary(level + 1, 2 * i + 1),
+                        end = halving.boundary(level, i + 1);
+    if (first == middle || middle == end) return;
+    const std::uint32_t edge = merge(diagram_, first, middle, end, context_.limits, statistics);
+    if (level == 0) last_edge_ = edge;
+  }
+
+  /// All merges below one list, smallest lists first.
+  void merge_below(const Halving& halving, int level, std::uint64_t i) {
+    Statistics own;
+    for (int k = halving.deepest() - 1; k >= level; --k) {
+      if (cancelled()) break;
+      const std::uint64_t begin = i << (k - level), end = (i + 1) << (k - level);
+      for (std::uint64_t j = begin; j < end; ++j) merge_halves(halving, k, j, own);
+    }
+    add(own);
+  }
+
+  std::uint32_t merge_all(const Halving& halving) {
+    int block_level = 0;
+    while ((halving.count >> block_level) > block_size) ++block_level;
+    tbb::parallel_for(std::uint64_t{0}, std::uint64_t{1} << block_level,
+                      [&](std::uint64_t i) { merge_below(halving, block_level, i); });
+    for (int level = block_level - 1; level >= 0 && !cancelled(); --level) {
+      tbb::parallel_for(std::uint64_t{0}, std::uint64_t{1} << level, [&](std::uint64_t i) {
+        Statistics own;
+        merge_halves(halving, level, i, own);
+        add(own);
+      });
+    }
+    return last_edge_;
+  }
+
+ private:
+  bool cancelled() const {
+    return context_.cancel != nullptr && context_.cancel->load(std::memory_order_relaxed);
+  }
+  void add(const Statistics& own) {
+    const std::scoped_lock lock(mutex_);
+    statistics_.apollonius += own.apollonius;
+    statistics_.queries += own.queries;
+    statistics_.brackets += own.brackets;
+    statistics_.precision_retries += own.precision_retries;
+  }
+  Diagram& diagram_;
+  const ConquerContext& context_;
+  Statistics& statistics_;
+  std::mutex mutex_;
+  std::uint32_t last_edge_ = none;
+};
+
+}  // namespace
+
+std::vector<std::uint32_t> conquer(Diagram& diagram, const ConquerContext& context,
+                                   Statistics& statistics, std::vector<Level>*) {
+  std::vector<std::uint32_t> last_edges;
+  Conquest conquest(diagram, context, statistics);
+  for (const Elements::Loop& loop : diagram.elements.loops) {
+    const Halving halving{loop.first_chain, loop.end_chain - loop.first_chain};
+    last_edges.push_back(conquest.merge_all(halving));
+  }
+  return last_edges;
+}
+
+}  // namespace medial::lee

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <vector>
+
+#include "engines/lee/conquer.h"
+#include "medial/axis.h"
+#include "medial/compute.h"
+#include "medial/shape.h"
+#include "medial/voronoi.h"
+
+namespace medial::lee {
+
+/// The method `lee` (docs/lee.md). Both require what compute() has checked: straight edges, no
+/// holes. Empty where the caller cancels. May throw std::runtime_error; see merge(). O(n log n).
+/// `levels`: see conquer().
+MedialAxis run(const Shape& shape, const Options& options, std::vector<Level>* levels = nullptr);
+VoronoiDiagram voronoi_diagram(const Shape& shape, const Options& options);
+
+}  // namespace medial::lee

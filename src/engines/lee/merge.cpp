@@ -1,0 +1,211 @@
+#include "engines/lee/merge.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+
+#include "geometry/bisector.h"
+#include "geometry/tangent_disk.h"
+
+namespace medial::lee {
+namespace {
+
+using geometry::Bisector;
+using geometry::Site;
+
+/// Where the merge curve leaves a Voronoi polygon.
+struct Crossing {
+  Disk disk;
+  double position = 0;  ///< on the current bisector
+};
+
+/// The merge curve's way through two diagrams (Section II): the current bisector B(e_a, e_b), with
+/// a on side 0, the earlier list, and b on side 1. On side s, the edges still to be crossed are in
+/// the stack of the current element in which it is element[1 - s].
+class MergeCurve {
+ public:
+  MergeCurve(Diagram& diagram, Diagram::FreePlaces& free, const MergeLimits& limits,
+             Statistics& statistics)
+      : diagram_(diagram), free_(free), limits_(limits), statistics_(statistics) {}
+
+  std::uint32_t follow(std::uint32_t a, std::uint32_t b) {
+    current_ = {a, b};
+    disk_ = {site(b).point, 0};
+    std::uint32_t edge = add_edge();
+    for (;;) {
+      const Bisector bisector(site(current_[1]), site(current_[0]));
+      const double reached = bisector.position(disk_.center);
+      std::array<std::optional<Crossing>, 2> crossing;
+      for (const std::size_t side : {0u, 1u}) {
+        drop_covered(side);
+        if (top(side) != none) crossing[side] = crossing_with(side, bisector, reached);
+      }
+      if (!crossing[0] && !crossing[1]) return edge;
+      const std::size_t side =
+          !crossing[0] || (crossing[1] && crossing[1]->position < crossing[0]->position) ? 1 : 0;
+      disk_ = crossing[side]->disk;
+      const std::uint32_t crossed = top(side);
+      current_[side] = diagram_.edges[crossed].element[side];
+      if (diagram_.top[current_[side]][side] != crossed)
+        throw std::runtime_error("two Voronoi edges cross");
+      const std::uint32_t next = add_edge();
+      diagram_.edges[edge].outer = diagram_.edges[crossed].outer = next;
+      edge = next;
+    }
+  }
+
+ private:
+  const Site& site(std::uint32_t i) const { return diagram_.elements.sites[i]; }
+  std::uint32_t& top(std::size_t side) { return diagram_.top[current_[side]][1 - side]; }
+
+  /// Begins the edge between the current elements.
+  std::uint32_t add_edge() {
+    const std::uint32_t place = free_.first;
+    if (place == none) throw std::runtime_error("a Voronoi diagram has too many edges");
+    ListEdge& edge = diagram_.edges[place];
+    free_.first = edge.inward[0];
+    edge = {current_, {}, none, disk_};
+    for (const std::size_t k : {0u, 1u}) {
+      std::uint32_t& outermost = diagram_.top[current_[k]][k];
+      edge.inward[k] = outermost;
+      outermost = place;
+    }
+    return place;
+  }
+
+  /// Drops the outermost edges that lie beyond the merge curve: where the disk at an edge's inner
+  /// end reaches over the element on the other side, no disk of the edge is inside the shape.
+  void drop_covered(std::size_t side) {
+    const Site& other = site(current_[1 - side]);
+    for (std::uint32_t place = top(side); place != none; place = top(side)) {
+      ListEdge& edge = diagram_.edges[place];
+      const Disk& inner = edge.inner;
+      if (inner.radius == 0) return;
+      const double reach = inner.radius - tie();
+      if (!(reach > 0 && geometry::squared_distance(other, inner.center) < reach * reach)) return;
+      for (const std::size_t k : {0u, 1u}) {
+        std::uint32_t& outermost = diagram_.top[edge.element[k]][k];
+        if (outermost != place) throw std::runtime_error("two Voronoi edges cross");
+        outermost = edge.inward[k];
+      }
+      edge.inward[0] = free_.first;
+      free_.first = place;
+    }
+  }
+
+  double tie() const { return 0.25 * limits_.tolerance; }
+  double gap(std::uint32_t i, const Disk& disk) const {
+    return std::sqrt(geometry::squared_distance(site(i), disk.center)) - disk.radius;
+  }
+
+  /// Where the current bisector crosses the outermost edge on one side, if it does.
+  std::optional<Crossing> crossing_with(std::size_t side, const Bisector& bisector,
+                                        double reached) {
+    const ListEdge& edge = diagram_.edges[top(side)];
+    const std::uint32_t third = edge.element[side], other = current_[1 - side];
+    const auto ahead = [&](const Disk& disk) -> Crossing {
+      const double position = bisector.position(disk.center);
+      return position > reached ? Crossing{disk, position} : Crossing{disk_, reached};
+    };
+    if (diagram_.is_spoke(edge)) {
+      const bool own_vertex = site(current_[side]).is_vertex();
+      const Site& vertex = site(own_vertex ? current_[side] : third);
+      const Site& segment = site(own_vertex ? third : current_[side]);
+      const Vec2 normal = segment.normal();
+      const double radius = geometry::tangent_radius(vertex.point, normal, site(other));
+      if (!(radius <= limits_.radius_limit)) return std::nullopt;
+      const Disk disk{vertex.point + radius * normal, radius};
+      if (!touches(other, disk)) return std::nullopt;
+      return ahead(disk);
+    }
+    if (edge.inner.radius > 0 && std::abs(gap(other, edge.inner)) <= tie())
+      return ahead(edge.inner);
+
+    ++statistics_.apollonius;
+    const std::uint32_t own = current_[side];
+    const geometry::TangentDisks disks =
+        geometry::tangent_disks(bisector.right, bisector.left, site(third));
+    std::optional<Crossing> best;
+    bool behind = false;
+    for (std::size_t i = 0; i < disks.count; ++i) {
+      Disk disk = disks.disk[i];
+      if (!(disk.radius <= limits_.radius_limit)) continue;
+      polish(disk, own, other, third);
+      const double position = bisector.position(disk.center);
+      if (position < reached) {
+        behind = true;
+        continue;
+      }
+      if (best && best->position <= position) continue;
+      if (!touches(third, disk) || !touches(own, disk) || !touches(other, disk)) continue;
+      if (!is_outward(edge, disk)) continue;
+      best = Crossing{disk, position};
+    }
+    if ((behind || !best) && disk_.radius > 0 && gap(third, disk_) <= tie())
+      return Crossing{disk_, reached};
+    return best;
+  }
+
+  /// Whether a disk that touches an edge's elements lies outward of its inner end.
+  bool is_outward(const ListEdge& edge, const Disk& disk) const {
+    const Bisector bisector(site(edge.element[1]), site(edge.element[0]));
+    return bisector.position(disk.center) >= bisector.position(edge.inner.center);
+  }
+
+  /// Whether a disk that touches the carrier of an element touches the element: its foot lies on a
+  /// segment, in the wedge of a reflex vertex, or beyond it within the tolerance.
+  bool touches(std::uint32_t i, const Disk& disk) const {
+    const Site& s = site(i);
+    if (!s.is_vertex()) {
+      const double foot = dot(s.direction, disk.center - s.point);
+      if (foot >= 0 && foot <= s.length) return true;
+      return std::abs(gap(i, disk)) <= limits_.tolerance;
+    }
+    const Vec2 d = disk.center - s.point;
+    if (dot(site(i - 1).direction, d) >= 0 && dot(site(i + 1).direction, d) <= 0) return true;
+    return gap(i - 1, disk) >= -limits_.tolerance && gap(i + 1, disk) >= -limits_.tolerance;
+  }
+
+  void polish(Disk& disk, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    const Site &sa = site(a), &sb = site(b), &sc = site(c);
+    double error = geometry::residual(disk, sa, sb, sc);
+    const double furthest = 1e-3 * disk.radius;
+    const auto take_if_better = [&](const Disk& better) {
+      const double better_error = geometry::residual(better, sa, sb, sc);
+      if (!(better_error < error && distance(better.center, disk.center) <= furthest)) return false;
+      disk = better;
+      error = better_error;
+      return true;
+    };
+    for (int step = 0; step < 2 && error > tie(); ++step)
+      if (!take_if_better(geometry::improve(disk, sa, sb, sc))) break;
+    if (error <= limits_.tolerance) return;
+    ++statistics_.precision_retries;
+    Disk precise;
+    if (geometry::tangent_disk_in_high_precision(sa, sb, sc, disk, precise))
+      take_if_better(precise);
+  }
+
+  Diagram& diagram_;
+  Diagram::FreePlaces& free_;
+  const MergeLimits& limits_;
+  Statistics& statistics_;
+  std::array<std::uint32_t, 2> current_{};
+  Disk disk_;
+};
+
+}  // namespace
+
+std::uint32_t merge(Diagram& diagram, std::uint32_t first, std::uint32_t middle, std::uint32_t,
+                    const MergeLimits& limits, Statistics& statistics) {
+  Diagram::FreePlaces& free = diagram.free[first];
+  const Diagram::FreePlaces& more = diagram.free[middle];
+  // A chain of k elements has k - 1 edges and k + 1 free places: there are always some.
+  diagram.edges[free.last].inward[0] = more.first;
+  free.last = more.last;
+  const std::uint32_t corner = diagram.elements.chains[middle];
+  return MergeCurve(diagram, free, limits, statistics).follow(corner - 1, corner);
+}
+
+}  // namespace medial::lee
