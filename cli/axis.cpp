@@ -52,10 +52,11 @@ Verb make_axis_verb(CLI::App& program) {
   verb->add_option_function<std::string>(
           "--method",
           [switches](const std::string& name) { switches->options.method = *method_from(name); },
-          "How the axes are computed: disks (default) or biarc-dc, the published\n"
-          "randomised divide and conquer, for shapes without holes. Both give the\n"
-          "same axes; disks is the faster one.")
-      ->check(CLI::IsMember({"disks", "biarc-dc"}).description(""))
+          "How the axes are computed: disks (default); biarc-dc, the published\n"
+          "randomised divide and conquer, for shapes without holes; or lee, the\n"
+          "merging of Voronoi diagrams, for polygons without holes. All give the\n"
+          "same axes.")
+      ->check(CLI::IsMember({"disks", "biarc-dc", "lee"}).description(""))
       ->option_text("NAME");
   verb->add_option("--seed", switches->options.seed,
                    "Of the random choices of biarc-dc (default: 1). The same seed gives the\n"
