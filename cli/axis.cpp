@@ -32,6 +32,49 @@ Result<int> run_axis(const AxisSwitches& switches) {
   return write_and_tell(*axes, input, common, output, format, pictures);
 }
 
+/// The switches of --method ridge.
+void add_ridge_switches(CLI::App& verb, Options& options) {
+  constexpr char group[] = "Ridge following (--method ridge)";
+  CLI::Option* resolution = verb.add_option("--resolution", options.resolution,
+                                            "The side of a pixel, in units of the input.")
+                                ->check(CLI::PositiveNumber.description(""))
+                                ->option_text("H")
+                                ->group(group);
+  verb.add_option("--pixels", options.pixels,
+                  "Pixels along the longer side of the bounding box (default: 1024).")
+      ->check(CLI::PositiveNumber.description(""))
+      ->excludes(resolution)
+      ->option_text("N")
+      ->group(group);
+  verb.add_option("--ridge-collinear", options.ridge_collinear,
+                  "Vertices that turn by less than this, in degrees, are dropped where that\n"
+                  "moves the boundary by a quarter of a pixel at most (default: 5; 0 keeps\n"
+                  "every edge).")
+      ->option_text("A")
+      ->group(group);
+  verb.add_option_function<std::string>(
+          "--ridge-search",
+          [&options](const std::string& name) {
+            options.ridge_search = name == "tree" ? RidgeSearch::tree : RidgeSearch::sorted_list;
+          },
+          "How the nearest edges are found: tree (default) or sorted-list, the\n"
+          "report's own. The pixels are the same.")
+      ->check(CLI::IsMember({"tree", "sorted-list"}).description(""))
+      ->option_text("NAME")
+      ->group(group);
+  verb.add_option_function<std::string>(
+          "--ridge-rule",
+          [&options](const std::string& name) {
+            options.ridge_rule = name == "crossing" ? RidgeRule::crossing : RidgeRule::difference;
+          },
+          "Which pixels are medial: crossing (default), where the axis passes between\n"
+          "two pixels; or difference, the report's rule: where the distances to two\n"
+          "edges differ by less than a pixel.")
+      ->check(CLI::IsMember({"crossing", "difference"}).description(""))
+      ->option_text("NAME")
+      ->group(group);
+}
+
 }  // namespace
 
 Verb make_axis_verb(CLI::App& program) {
@@ -53,16 +96,17 @@ Verb make_axis_verb(CLI::App& program) {
           "--method",
           [switches](const std::string& name) { switches->options.method = *method_from(name); },
           "How the axes are computed: disks (default); biarc-dc, the published\n"
-          "randomised divide and conquer, for shapes without holes; or lee, the\n"
-          "merging of Voronoi diagrams, for polygons without holes. All give the\n"
-          "same axes.")
-      ->check(CLI::IsMember({"disks", "biarc-dc", "lee"}).description(""))
+          "randomised divide and conquer, for shapes without holes; lee, the merging\n"
+          "of Voronoi diagrams, for polygons without holes: all the same axes; or\n"
+          "ridge, ridge following on a grid of pixels: a sampled axis.")
+      ->check(CLI::IsMember({"disks", "biarc-dc", "lee", "ridge"}).description(""))
       ->option_text("NAME");
   verb->add_option("--seed", switches->options.seed,
                    "Of the random choices of biarc-dc (default: 1). The same seed gives the\n"
                    "same result, byte for byte.")
       ->check(a_whole_number())
       ->option_text("N");
+  add_ridge_switches(*verb, switches->options);
   add_picture_switches(*verb, switches->write);
   add_common_switches(*verb, switches->common);
   verb->footer(

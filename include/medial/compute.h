@@ -19,9 +19,31 @@ enum class Method : std::uint8_t {
              ///< and shapes without holes only, O(n log n) to O(n^2)
   lee,       ///< Lee's divide and conquer: merges Voronoi diagrams of lists of segments and reflex
              ///< vertices; shapes of straight edges without holes only, threads
+  ridge,     ///< ridge following on a grid of pixels, as Volkmann and St. Clair have it: a sampled
+             ///< axis (see MedialAxis); one thread
 };
 
-/// The name of a method on the command line and in MedialAxis::method: "disks", "biarc-dc", "lee".
+/// How `ridge` finds the edges nearest to a pixel. Both give the same pixels.
+enum class RidgeSearch : std::uint8_t {
+  tree,         ///< by the boundary tree: for real sizes
+  sorted_list,  ///< by the report's list of all edges, sorted by lower bounds of their distances
+};
+
+/// Which pixels `ridge` takes for medial.
+enum class RidgeRule : std::uint8_t {
+  /// Between the pixel and one of its four neighbours lies a point of the axis: their nearest edges
+  /// are two places of the boundary; the pixel is the one of the two that is nearer to
+  /// equidistance.
+  /// Every medial pixel is within one pixel of the axis. Beside the boundary, as `difference`.
+  crossing,
+  /// The report's: the distances to the nearest and the second nearest edge, which do not meet at a
+  /// concave vertex, differ by less than one pixel. Where the boundary has details finer than
+  /// pixels, or turns by small angles, that takes whole regions.
+  difference,
+};
+
+/// The name of a method on the command line and in MedialAxis::method: "disks", "biarc-dc", "lee",
+/// "ridge".
 const char* name_of(Method method);
 /// The method of that name, if there is one.
 std::optional<Method> method_from(std::string_view name);
@@ -37,6 +59,16 @@ struct Options {
   double corner_angle = 0.01;
   /// Threads to use, at most 1024; 0: all of the machine. The result is the same, byte for byte.
   int threads = 0;
+  /// Of ridge: the side of a pixel, in units of the input, at most the longer side of the bounding
+  /// box; or 0, and `pixels` tells how many lie along that side; both 0: 1024. At most 2^31 pixels
+  /// in all.
+  double resolution = 0;
+  std::uint32_t pixels = 0;
+  /// Of ridge: vertices between straight edges that turn by less than this, in degrees, in [0, 45],
+  /// are dropped where the combined edge stays within a quarter of a pixel of them; 0 keeps all.
+  double ridge_collinear = 5;
+  RidgeSearch ridge_search = RidgeSearch::tree;
+  RidgeRule ridge_rule = RidgeRule::crossing;
   /// Of the random choices of biarc_dc: the same seed gives the same result, byte for byte.
   std::uint64_t seed = 1;
   /// Called now and then, from any thread and out of order, with the share of the boundary that the
@@ -52,11 +84,13 @@ struct Options {
 /// The exact medial axis transform of a shape; by the method `disks` O(n log n) expected.
 ///
 /// The graph has one connected part for each component of the shape and exactly one independent
-/// cycle for each hole. Errors: invalid_option, cancelled,
-/// empty, too_large, unsupported (a coordinate above 1e100 in size, or one that is not zero but
-/// below 1e-100, or below that share of the largest; holes, for biarc_dc
-/// and lee; arcs, for lee), malformed (a shape that
-/// build_shape() did not make), out_of_memory, internal.
+/// cycle for each hole; by the method `ridge` that holds for each bounded set of interior pixels
+/// and its holes, which are the shape's where nothing is narrower than some pixels. Errors:
+/// invalid_option, cancelled, empty, too_large (ridge: also more than 2^31 pixels), unsupported (a
+/// coordinate above 1e100 in size, or one that is not zero but below 1e-100, or below that share of
+/// the largest; holes, for biarc_dc
+/// and lee; arcs, for lee; pixels as fine as the coordinates, for ridge), malformed (a
+/// shape that build_shape() did not make), out_of_memory, internal.
 Result<MedialAxis> compute(const Shape& shape, const Options& options = {});
 
 }  // namespace medial

@@ -14,6 +14,7 @@
 #include "engines/biarc_dc/biarc_dc.h"
 #include "engines/disks/disks.h"
 #include "engines/lee/lee.h"
+#include "engines/ridge/ridge.h"
 #include "medial/voronoi.h"
 
 namespace medial {
@@ -74,6 +75,7 @@ std::optional<Error> refuse(const Shape& shape, const Options& options) {
     return Error{ErrorCode::unsupported,
                  "the method lee takes straight edges only: use the method disks",
                  {}};
+  if (options.method == Method::ridge) return ridge::refuse(shape, options);
   return std::nullopt;
 }
 
@@ -90,14 +92,19 @@ MedialAxis run(const Shape& shape, const Options& options) {
       return biarc_dc::run(shape, options);
     case Method::lee:
       return lee::run(shape, options);
+    case Method::ridge:
+      return ridge::run(shape, options);
     case Method::disks:
       break;
   }
   return disks::run(shape, options);
 }
 
-constexpr std::array<std::pair<Method, const char*>, 3> method_names = {
-    {{Method::disks, "disks"}, {Method::biarc_dc, "biarc-dc"}, {Method::lee, "lee"}}};
+constexpr std::array<std::pair<Method, const char*>, 4> method_names = {
+    {{Method::disks, "disks"},
+     {Method::biarc_dc, "biarc-dc"},
+     {Method::lee, "lee"},
+     {Method::ridge, "ridge"}}};
 
 }  // namespace
 
@@ -117,11 +124,12 @@ Result<MedialAxis> compute(const Shape& shape, const Options& options) {
   try {
     if (auto error = refuse(shape, options)) return std::move(*error);
     MedialAxis axis = on_threads(options.threads, [&] { return run(shape, options); });
-    axis.statistics.threads =
-        options.method == Method::biarc_dc ? 1 : effective_threads(options.threads);
+    axis.statistics.threads = options.method == Method::biarc_dc || options.method == Method::ridge
+                                  ? 1
+                                  : effective_threads(options.threads);
     if (options.cancel != nullptr && options.cancel->load())
       return Error{ErrorCode::cancelled, "cancelled", {}};
-    if (!has_right_topology(shape, axis))
+    if (axis.resolution == 0 && !has_right_topology(shape, axis))
       return Error{ErrorCode::internal,
                    "the axis does not have one cycle for each hole: please report this shape",
                    {}};

@@ -272,6 +272,27 @@ BoundaryTree::Hit BoundaryTree::nearest(Vec2 c, double reach, std::uint32_t firs
   return hit;
 }
 
+BoundaryTree::Hit BoundaryTree::nearest_lowest(Vec2 c, double reach) const {
+  Hit hit;
+  if (sites_.empty() || !(reach > 0)) return hit;
+  // Boxes at the distance of the best so far must still be looked into.
+  constexpr double a_little_more = 1 + 0x1p-40;
+  double squared = reach * reach;
+  reach *= a_little_more;
+  visit_blocks(c, reach, 0, static_cast<std::uint32_t>(sites_.size() - 1),
+               [&](std::uint32_t from, std::uint32_t to) {
+                 for (std::uint32_t i = from; i <= to; ++i) {
+                   const double d = geometry::squared_distance(sites_[i], c);
+                   if (d < squared || (d == squared && i < hit.site)) {
+                     squared = d;
+                     hit = {i, d};
+                   }
+                 }
+                 if (hit) reach = a_little_more * std::sqrt(squared);
+               });
+  return hit;
+}
+
 void BoundaryTree::within(Vec2 c, double reach, std::uint32_t first, std::uint32_t last,
                           std::vector<std::uint32_t>& found) const {
   found.clear();

@@ -33,6 +33,9 @@ class BoundaryTree {
   /// `reach`. O(log n) expected. Of sites at equal distance, any.
   Hit nearest(Vec2 c, double reach, std::uint32_t first, std::uint32_t last) const;
 
+  /// The same over all sites, and of sites at equal distance the lowest index.
+  Hit nearest_lowest(Vec2 c, double reach) const;
+
   /// All sites among first..last nearer than `reach`, by increasing index.
   void within(Vec2 c, double reach, std::uint32_t first, std::uint32_t last,
               std::vector<std::uint32_t>& found) const;

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "engines/ridge/outline.h"
+#include "medial/compute.h"
+
+namespace medial::ridge {
+
+constexpr std::uint32_t no_edge = ~std::uint32_t{0};
+
+/// An edge and its distance from a pixel's centre.
+struct Near {
+  std::uint32_t edge = no_edge;
+  double distance = 0;
+};
+
+/// The edges nearest to a point: which ones they are does not depend on how they are found. Of
+/// edges at equal distance it is the lowest. All coordinates are local.
+class NearestEdges {
+ public:
+  explicit NearestEdges(const Outline& outline) : outline_(outline) {}
+  virtual ~NearestEdges() = default;
+
+  /// The nearest edge; `hint` is any edge, better one that is near, or no_edge.
+  virtual Near nearest(Vec2 c, std::uint32_t hint) = 0;
+  /// The nearest among the edges nearer than `reach` that, after `first`, are another place of the
+  /// boundary by the given rule; no_edge where there is none.
+  virtual Near second(Vec2 c, Near first, double reach, RidgeRule rule) = 0;
+
+  double distance_to(std::uint32_t edge, Vec2 c) const;
+  std::uint64_t queries = 0;
+  std::uint64_t distances = 0;  ///< computed by the sorted list
+
+ protected:
+  bool is_another(Near first, std::uint32_t edge, RidgeRule rule) const;
+  const Outline& outline_;
+};
+
+std::unique_ptr<NearestEdges> make_search(const Outline& outline, RidgeSearch kind);
+
+}  // namespace medial::ridge

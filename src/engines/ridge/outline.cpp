@@ -1,0 +1,235 @@
+#include "engines/ridge/outline.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "axis/sites.h"
+#include "base/arc.h"
+
+namespace medial::ridge {
+namespace {
+
+using geometry::Joint;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// A vertex of a loop, with the edge that begins there.
+struct Vertex {
+  Vec2 point;
+  double radius;  ///< of the edge; see Outline
+  std::uint32_t site;
+  Joint joint;
+  bool curved;  ///< the edge is a chord of an arc
+};
+
+/// Appends the vertices of an arc's chords, the arc's start first.
+void add_chords(const BulgeArc& arc, std::uint32_t site, Joint joint, double sagitta,
+                std::vector<Vertex>& out) {
+  if (arc.bulge == 0) {
+    out.push_back({arc.start, infinity, site, joint, false});
+    return;
+  }
+  const double round = curvature(arc), angle = 4 * std::atan(arc.bulge);
+  // A chord over the angle a of a circle of radius R departs from it by 2 R sin^2(a / 4).
+  const double sine = std::sqrt(std::min(0.5, 0.5 * sagitta * std::abs(round)));
+  const double count = std::max(1.0, std::ceil(std::abs(angle) / (4 * std::asin(sine))));
+  const Vec2 tangent = start_tangent(arc);
+  const double radius = round > 0 ? 1 / round : infinity;
+  for (double k = 0; k < count; ++k) {
+    const double half = 0.5 * angle * (k / count);
+    const Vec2 way = turned(tangent, std::cos(half), std::sin(half));
+    out.push_back({arc.start + (2 * std::sin(half) / round) * way, radius, site,
+                   k == 0 ? joint : Joint::smooth, true});
+  }
+}
+
+/// The directions, as seen from an anchor, in which a line passes within a distance of some points:
+/// an interval of angles around the first of them.
+class Directions {
+ public:
+  Directions(Vec2 anchor, double distance) : anchor_(anchor), distance_(distance) {}
+  bool allow(Vec2 p) const {
+    if (!narrowed_) return true;
+    const Vec2 d = p - anchor_;
+    return cross(low_, d) >= 0 && cross(d, high_) >= 0 && dot(d, low_) > 0;
+  }
+  void pass(Vec2 p) {
+    const Vec2 d = p - anchor_;
+    const double squared = squared_norm(d);
+    if (squared <= distance_ * distance_) return;  // every line through the anchor
+    const double sine = distance_ / std::sqrt(squared), cosine = std::sqrt(1 - sine * sine);
+    const Vec2 low = turned(d, cosine, -sine), high = turned(d, cosine, sine);
+    if (!narrowed_ || cross(low_, low) > 0) low_ = low;
+    if (!narrowed_ || cross(high, high_) > 0) high_ = high;
+    narrowed_ = true;
+  }
+
+ private:
+  Vec2 anchor_;
+  double distance_;
+  Vec2 low_, high_;
+  bool narrowed_ = false;
+};
+
+/// Drops vertices between straight edges that turn hardly (step 4 of A.3), where the one edge
+/// instead stays within `distance` of all that it replaces: without that, a fine polygon around a
+/// disk would vanish altogether.
+std::vector<Vertex> combined(const std::vector<Vertex>& loop, double straight, double distance) {
+  const std::size_t n = loop.size();
+  const auto at = [&](std::size_t i) -> const Vertex& { return loop[i % n]; };
+  const auto is_collinear = [&](std::size_t i) {
+    const Vertex &before = at(i + n - 1), &vertex = at(i), &after = at(i + 1);
+    return !before.curved && !vertex.curved &&
+           vertex_type(before.point, vertex.point, after.point, straight) == VertexType::collinear;
+  };
+  // Begin at a vertex that stays.
+  std::size_t start = 0;
+  while (start < n && is_collinear(start)) ++start;
+  if (start == n) start = 0;
+  std::vector<Vertex> kept{at(start)};
+  Directions directions(at(start).point, distance);
+  for (std::size_t i = start + 1; i < start + n; ++i) {
+    // Vertex i goes if the edge from the last one kept may run to the next.
+    Directions further = directions;
+    further.pass(at(i).point);
+    if (is_collinear(i) && further.allow(at(i + 1).point)) {
+      directions = further;
+      continue;
+    }
+    kept.push_back(at(i));
+    directions = Directions(at(i).point, distance);
+  }
+  return kept.size() < 3 ? loop : kept;
+}
+
+void fill_least_radius(Outline& outline) {
+  if (std::all_of(outline.radius.begin(), outline.radius.end(),
+                  [](double r) { return r == infinity; }))
+    return;
+  outline.least_radius.push_back(outline.radius);
+  for (std::size_t run = 1; 2 * run <= outline.radius.size(); run *= 2) {
+    const std::vector<double>& half = outline.least_radius.back();
+    std::vector<double> whole(half.size() - run);
+    for (std::size_t i = 0; i < whole.size(); ++i) whole[i] = std::min(half[i], half[i + run]);
+    outline.least_radius.push_back(std::move(whole));
+  }
+}
+
+/// Appends a loop. Joints between edges that were combined are told by the edges' own directions.
+void add_loop(std::vector<Vertex> loop, std::uint32_t component, Outline& outline) {
+  const std::size_t n = loop.size();
+  const auto point = [&](std::size_t i) { return loop[i % n].point; };
+  const auto way = [&](std::size_t i) { return point(i + 1) - point(i); };
+  const auto turn = [&](std::size_t i) {
+    const Vec2 arriving = way(i + n - 1), leaving = way(i);
+    return std::atan2(cross(arriving, leaving), dot(arriving, leaving));
+  };
+  const auto is_smooth = [&](std::size_t i) {
+    return loop[i].joint == Joint::smooth || loop[i].joint == Joint::blunt;
+  };
+  const auto is_corner = [&](std::size_t i) { return !is_smooth(i) && turn(i) > 0; };
+  std::size_t first = 0;
+  while (first < n && !is_corner(first)) ++first;
+  const bool closed = first == n;
+  if (!closed)
+    std::rotate(loop.begin(), loop.begin() + static_cast<std::ptrdiff_t>(first), loop.end());
+
+  const auto begin = static_cast<std::uint32_t>(outline.edges.size());
+  double left = 0, right = 0;
+  const auto finish_chain = [&](std::uint32_t edges) {
+    outline.closed.push_back(edges);
+    outline.all_left.push_back(left);
+    outline.all_right.push_back(right);
+    left = right = 0;
+  };
+  for (std::size_t i = 0; i < n; ++i) {
+    const double angle = turn(i);
+    const bool corner = is_corner(i);
+    if (corner && i > 0) finish_chain(0);
+    if (!corner && i > 0) (angle > 0 ? left : right) += std::abs(angle);
+    outline.edges.push_back(geometry::make_segment(point(i), point(i + 1)));
+    outline.site.push_back(loop[i].site);
+    outline.component.push_back(component);
+    outline.type.push_back(angle > 0   ? VertexType::convex
+                           : angle < 0 ? VertexType::concave
+                                       : VertexType::collinear);
+    outline.next.push_back(begin + static_cast<std::uint32_t>(i + 1 == n ? 0 : i + 1));
+    outline.radius.push_back(loop[i].radius);
+    outline.chain.push_back(static_cast<std::uint32_t>(outline.closed.size()));
+    outline.left.push_back(left);
+    outline.right.push_back(right);
+  }
+  if (closed) (turn(0) > 0 ? left : right) += std::abs(turn(0));
+  finish_chain(closed ? static_cast<std::uint32_t>(n) : 0);
+}
+
+}  // namespace
+
+VertexType vertex_type(Vec2 before, Vec2 vertex, Vec2 after, double straight) {
+  const Vec2 back = before - vertex, on = after - vertex;
+  const double size = norm(back) * norm(on);
+  // The report's boundaries run clockwise; here the interior lies on the left of the way.
+  const double sine = -cross(back, on) / size, cosine = dot(back, on) / size;
+  const double limit = cosine > 0 ? 0 : straight;
+  return sine > limit    ? VertexType::convex
+         : sine < -limit ? VertexType::concave
+                         : VertexType::collinear;
+}
+
+bool Outline::meet_concavely(std::uint32_t e, std::uint32_t f) const {
+  return (next[e] == f && type[f] != VertexType::convex) ||
+         (next[f] == e && type[e] != VertexType::convex);
+}
+
+bool Outline::are_one(std::uint32_t e, std::uint32_t f, double disk) const {
+  const std::uint32_t c = chain[e];
+  if (chain[f] != c) return false;
+  const std::uint32_t i = std::min(e, f), j = std::max(e, f);
+  if (closed[c] > 0 && all_left[c] == 0) return true;  // a convex hole
+  const auto curve = [&](std::uint32_t from, std::uint32_t to) {
+    const auto level = static_cast<std::size_t>(std::bit_width(to - from + 1) - 1);
+    const std::vector<double>& least = least_radius[level];
+    return std::min(least[from], least[to + 1 - (std::uint32_t{1} << level)]);
+  };
+  constexpr double half_turn = std::numbers::pi;
+  const double lefts = left[j] - left[i], rights = right[j] - right[i];
+  if (lefts <= half_turn && rights <= half_turn &&
+      (lefts == 0 || (!least_radius.empty() && disk + half_diagonal < curve(i, j))))
+    return true;
+  if (closed[c] == 0) return false;
+  // The other way round the loop; chains of a loop without a corner begin with its first edge.
+  const double other_lefts = all_left[c] - lefts, other_rights = all_right[c] - rights;
+  if (other_lefts > half_turn || other_rights > half_turn || least_radius.empty()) return false;
+  std::uint32_t first = i;
+  while (first > 0 && chain[first - 1] == c) --first;
+  const std::uint32_t last = first + closed[c] - 1;
+  return disk + half_diagonal < std::min(curve(first, i), curve(j, last));
+}
+
+Outline outline_of(const Shape& shape, const Frame& frame, double step, const Options& options) {
+  constexpr double chord_share = 1.0 / 16, combined_share = 1.0 / 4;
+  Outline outline;
+  outline.half_diagonal = step * std::numbers::sqrt2 / 2;
+  const double straight = std::sin(options.ridge_collinear * std::numbers::pi / 180);
+  const sites::SiteNumbers numbers = sites::number_sites(shape, frame, options.corner_angle);
+  for (std::size_t l = 0; l < shape.loop_count(); ++l) {
+    const sites::Loop loop(shape, l, frame);
+    std::vector<Vertex> vertices;
+    for (std::uint32_t i = 0; i < loop.size(); ++i)
+      add_chords({loop.local(i), loop.local(loop.next(i)), loop.bulge(i)},
+                 numbers.edge[loop.begin() + i], numbers.joints[loop.begin() + i],
+                 chord_share * step, vertices);
+    if (straight > 0) vertices = combined(vertices, straight, combined_share * step);
+    add_loop(std::move(vertices), shape.component[l], outline);
+  }
+  fill_least_radius(outline);
+  return outline;
+}
+
+std::vector<Site> result_sites(const Shape& shape, const Frame& frame, const Options& options) {
+  return sites::result_sites(shape, sites::number_sites(shape, frame, options.corner_angle));
+}
+
+}  // namespace medial::ridge

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "base/frame.h"
+#include "geometry/site.h"
+#include "medial/compute.h"
+#include "medial/shape.h"
+
+namespace medial::ridge {
+
+/// How two edges of a polygon meet, seen from the interior; Appendix A.4 of [volkmann1987].
+enum class VertexType : std::uint8_t { convex, collinear, concave };
+
+/// The type of a vertex between its neighbours, the interior on the left of the way. An angle
+/// counts as straight where its sine does not exceed `straight`; the report takes the sine of 5
+/// degrees.
+VertexType vertex_type(Vec2 before, Vec2 vertex, Vec2 after, double straight);
+
+/// The shape's boundary as edges of polygons in the local frame: arcs as chords within a 16th of a
+/// pixel, and runs of nearly straight edges as one (the report's segment list, A.1.h).
+///
+/// The edges of a loop follow each other. Those between two corners form a chain; in a chain the
+/// boundary turns right, or left along a curve. A loop without a corner is one closed chain.
+struct Outline {
+  std::vector<geometry::Site> edges;
+  std::vector<std::uint32_t> site;       ///< of each edge: the number in the result
+  std::vector<std::uint32_t> component;  ///< of each edge: of the shape
+  std::vector<VertexType> type;          ///< at the start of each edge
+  std::vector<std::uint32_t> next;       ///< the edge that follows
+  /// Of each edge: the radius of the circle whose inside it approximates; infinite for straight
+  /// edges and for those on the outside of a circle (Section V.B.1).
+  std::vector<double> radius;
+
+  /// Whether two edges meet at a concave vertex: then the foot on both is that vertex (Fig. 16,
+  /// A.8).
+  bool meet_concavely(std::uint32_t e, std::uint32_t f) const;
+  /// Whether no disk of this radius whose centre is near to both edges can touch them as two
+  /// different places of the boundary: between them the boundary turns right only, by at most half
+  /// a turn, as a convex obstacle does; or left along a curve whose radius of curvature is larger
+  /// than the disk's by half a pixel's diagonal (Section V.B.1).
+  ///
+  /// By Schur's comparison theorem, a curve that leaves a disk's circle at a tangent, curves less
+  /// than it and turns by less than half of it does not come back to it.
+  bool are_one(std::uint32_t e, std::uint32_t f, double disk) const;
+
+  std::vector<std::uint32_t> chain;         ///< of each edge
+  std::vector<double> left, right;          ///< how far the chain has turned before each edge
+  std::vector<std::uint32_t> closed;        ///< of each chain: its number of edges if closed, or 0
+  std::vector<double> all_left, all_right;  ///< of each chain: its turns, closed as it may be
+  /// least_radius[k][i]: the smallest radius of edges i..i + 2^k - 1; empty where all are straight.
+  std::vector<std::vector<double>> least_radius;
+  double half_diagonal = 0;  ///< of a pixel
+};
+
+/// The outline for pixels of side `step` (local). `collinear` in degrees: vertices that turn by
+/// less are dropped where the combined edge stays within a quarter of a pixel of all it replaces; 0
+/// keeps all. O(edges).
+Outline outline_of(const Shape& shape, const Frame& frame, double step, const Options& options);
+
+/// The result's sites, as all methods number them.
+std::vector<Site> result_sites(const Shape& shape, const Frame& frame, const Options& options);
+
+}  // namespace medial::ridge

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "medial/axis.h"
+#include "medial/compute.h"
+#include "medial/shape.h"
+
+namespace medial::ridge {
+
+/// What the report's experiments measure: the four phases of Section IV, and sizes.
+struct Report {
+  double seconds_start = 0;   ///< digitising, vertex types, combining edges, lines
+  double seconds_first = 0;   ///< inner points and first medial pixels
+  double seconds_follow = 0;  ///< the rest of them
+  double seconds_thin = 0;
+  std::uint64_t columns = 0, rows = 0;
+  std::uint64_t sets = 0;        ///< bounded sets of interior pixels
+  std::uint64_t empty_sets = 0;  ///< without a medial pixel
+  std::uint64_t found = 0;       ///< medial pixels before thinning
+  std::uint64_t kept = 0;        ///< and after
+  std::uint64_t queries = 0;     ///< pixels whose nearest edge was sought
+  std::uint64_t distances = 0;   ///< computed by the sorted list
+};
+
+/// What the method cannot take of the options, if anything.
+std::optional<Error> refuse(const Shape& shape, const Options& options);
+
+/// The method `ridge` (docs/ridge.md): ridge following after Volkmann and St. Clair [volkmann1987].
+/// Requires what compute() and refuse() have checked. Cut short where the caller cancels.
+///
+/// Memory: five bits for each pixel of the grid, and some hundred bytes for each medial pixel.
+MedialAxis run(const Shape& shape, const Options& options, Report* report = nullptr);
+
+}  // namespace medial::ridge

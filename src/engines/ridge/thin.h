@@ -1,0 +1,21 @@
+#pragma once
+
+#include "engines/ridge/follow.h"
+
+namespace medial::ridge {
+
+/// Whether a medial pixel can go without disconnecting its medial neighbours or joining what lies
+/// beside them: the report's simple pixels (Section III.D). Pixels with one neighbour, or with two
+/// side by side, stay: they end a branch.
+bool is_simple(const raster::BitMap& medial, const raster::BitMap& boundary, raster::Pixel p);
+
+/// The report's thinning (step 9 of A.3): row by row, as often as it changes anything, simple
+/// pixels go whose quality is worse than that of all their medial neighbours; of equal ones, the
+/// later pixel counts as the worse.
+void thin_by_report(const raster::BitMap& boundary, MedialMap& map);
+
+/// All simple pixels go, the worst first, as often as it changes anything: lines of one pixel
+/// remain.
+void thin_to_lines(const raster::BitMap& boundary, MedialMap& map);
+
+}  // namespace medial::ridge
