@@ -301,8 +301,8 @@ void check_graph(const Problem& problem, Certificate& certificate) {
     if (sets.find(i) == i) ++count.parts;
     if (axis.nodes[sets.find(i)].component != node.component) strangers.add(i);
     const std::uint32_t degree = problem.degree[i];
-    // A circle's axis is one node without an edge.
-    const bool alone = degree == 0 && nodes_of[node.component] == 1;
+    // A circle's axis is one node without an edge; a single pixel may be a part by itself.
+    const bool alone = degree == 0 && (nodes_of[node.component] == 1 || axis.resolution > 0);
     const bool fits = node.kind == NodeKind::leaf          ? degree == 1 || alone
                       : node.kind == NodeKind::site_change ? degree == 2
                       : node.kind == NodeKind::branching   ? degree >= 3

@@ -7,6 +7,8 @@
 #include <numeric>
 #include <string>
 
+#include "base/disjoint_sets.h"
+
 namespace medial::ridge {
 
 using raster::BitMap;
@@ -73,27 +75,6 @@ void draw_edge(Vec2 a, Vec2 b, BitMap& map) {
                static_cast<std::uint32_t>(y)});
   }
 }
-
-/// Disjoint sets of numbers with the lowest as the representative.
-class DisjointSets {
- public:
-  std::uint32_t add() {
-    parent_.push_back(static_cast<std::uint32_t>(parent_.size()));
-    return parent_.back();
-  }
-  std::uint32_t find(std::uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(std::uint32_t i, std::uint32_t j) {
-    i = find(i);
-    j = find(j);
-    parent_[std::max(i, j)] = std::min(i, j);
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
 
 /// Sets the bits first..last of a row.
 void set_bits(std::uint64_t* words, std::uint32_t first, std::uint32_t last) {

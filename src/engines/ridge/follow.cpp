@@ -89,7 +89,9 @@ bool Follower::by_crossing(Pixel p, Found& found) {
     }
   }
   if (found.second != no_edge) return true;
-  return beside && by_difference(p, beside_boundary * local_.grid.step, found);
+  if (!beside || !by_difference(p, beside_boundary * local_.grid.step, found)) return false;
+  found.quality += local_.grid.step;
+  return true;
 }
 
 bool Follower::check(Pixel p) {
@@ -135,30 +137,6 @@ void Follower::follow() {
     }
     if (++count % 4096 == 0 && cancel_ != nullptr && cancel_->load()) return;
   }
-}
-
-void fill_gaps(const InteriorSets& sets, const BitMap& boundary, Follower& follower) {
-  BitMap rest = sets.inside;
-  const BitMap& medial = follower.map().medial;
-  for (std::uint32_t r = 0; r < rest.rows(); ++r)
-    for (std::uint32_t w = 0; w < rest.words_per_row(); ++w) rest.row(r)[w] &= ~medial.row(r)[w];
-  std::uint32_t count = 0;
-  const std::vector<Run> runs = runs_of(rest, count);
-  std::vector<bool> touches(count, false);
-  const auto any = [&](std::uint32_t row, std::uint32_t first, std::uint32_t last) {
-    for (std::uint32_t c = first; c <= last; ++c)
-      if (boundary.at({c, row})) return true;
-    return false;
-  };
-  for (const Run& run : runs)
-    if (!touches[run.set])
-      touches[run.set] =
-          boundary.at({run.first - 1, run.row}) || boundary.at({run.last + 1, run.row}) ||
-          any(run.row - 1, run.first, run.last) || any(run.row + 1, run.first, run.last);
-  for (const Run& run : runs)
-    if (!touches[run.set])
-      for (std::uint32_t c = run.first; c <= run.last; ++c)
-        follower.map().add(follower.measured({c, run.row}));
 }
 
 }  // namespace medial::ridge

@@ -15,8 +15,10 @@ namespace medial::ridge {
 /// local.
 struct Found {
   raster::Pixel pixel;
-  double quality = 0;  ///< how far from equidistant to its two edges: the lower the better
-  double radius = 0;   ///< distance to the nearest edge
+  /// How far from equidistant to its two edges: the lower the better. A pixel more where no point
+  /// of the axis was found beside it, but the distances differ little.
+  double quality = 0;
+  double radius = 0;                                ///< distance to the nearest edge
   std::uint32_t first = no_edge, second = no_edge;  ///< the nearest edge, and the other
 };
 
@@ -80,9 +82,5 @@ class Follower {
   std::vector<std::uint32_t> waiting_;  ///< places of pixels whose neighbours are to be checked
   std::uint32_t hint_ = no_edge;
 };
-
-/// Fills the gaps between medial pixels that touch no boundary: from every point of a shape a
-/// straight way leads to the boundary without crossing the axis, so they are no holes.
-void fill_gaps(const InteriorSets& sets, const raster::BitMap& boundary, Follower& follower);
 
 }  // namespace medial::ridge

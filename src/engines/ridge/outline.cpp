@@ -126,10 +126,12 @@ void add_loop(std::vector<Vertex> loop, std::uint32_t component, Outline& outlin
     const Vec2 arriving = way(i + n - 1), leaving = way(i);
     return std::atan2(cross(arriving, leaving), dot(arriving, leaving));
   };
-  const auto is_smooth = [&](std::size_t i) {
-    return loop[i].joint == Joint::smooth || loop[i].joint == Joint::blunt;
+  // Where an arc is involved, chords may turn to the side that the arcs do not; elsewhere combined
+  // edges may turn to the side that those they replace do not.
+  const auto is_corner = [&](std::size_t i) {
+    const bool straight = !loop[i % n].curved && !loop[(i + n - 1) % n].curved;
+    return straight ? turn(i) > 0 : loop[i % n].joint == Joint::corner;
   };
-  const auto is_corner = [&](std::size_t i) { return !is_smooth(i) && turn(i) > 0; };
   std::size_t first = 0;
   while (first < n && !is_corner(first)) ++first;
   const bool closed = first == n;
@@ -152,9 +154,9 @@ void add_loop(std::vector<Vertex> loop, std::uint32_t component, Outline& outlin
     outline.edges.push_back(geometry::make_segment(point(i), point(i + 1)));
     outline.site.push_back(loop[i].site);
     outline.component.push_back(component);
-    outline.type.push_back(angle > 0   ? VertexType::convex
-                           : angle < 0 ? VertexType::concave
-                                       : VertexType::collinear);
+    outline.type.push_back(corner || (angle > 0 && loop[i].joint == Joint::smooth)
+                               ? VertexType::convex
+                               : VertexType::concave);
     outline.next.push_back(begin + static_cast<std::uint32_t>(i + 1 == n ? 0 : i + 1));
     outline.radius.push_back(loop[i].radius);
     outline.chain.push_back(static_cast<std::uint32_t>(outline.closed.size()));
@@ -196,7 +198,7 @@ bool Outline::are_one(std::uint32_t e, std::uint32_t f, double disk) const {
   constexpr double half_turn = std::numbers::pi;
   const double lefts = left[j] - left[i], rights = right[j] - right[i];
   if (lefts <= half_turn && rights <= half_turn &&
-      (lefts == 0 || (!least_radius.empty() && disk + half_diagonal < curve(i, j))))
+      (lefts == 0 || (!least_radius.empty() && disk + margin < curve(i, j))))
     return true;
   if (closed[c] == 0) return false;
   // The other way round the loop; chains of a loop without a corner begin with its first edge.
@@ -205,13 +207,13 @@ bool Outline::are_one(std::uint32_t e, std::uint32_t f, double disk) const {
   std::uint32_t first = i;
   while (first > 0 && chain[first - 1] == c) --first;
   const std::uint32_t last = first + closed[c] - 1;
-  return disk + half_diagonal < std::min(curve(first, i), curve(j, last));
+  return disk + margin < std::min(curve(first, i), curve(j, last));
 }
 
 Outline outline_of(const Shape& shape, const Frame& frame, double step, const Options& options) {
   constexpr double chord_share = 1.0 / 16, combined_share = 1.0 / 4;
   Outline outline;
-  outline.half_diagonal = step * std::numbers::sqrt2 / 2;
+  outline.margin = step * (std::numbers::sqrt2 / 2 + 1.01 * chord_share);
   const double straight = std::sin(options.ridge_collinear * std::numbers::pi / 180);
   const sites::SiteNumbers numbers = sites::number_sites(shape, frame, options.corner_angle);
   for (std::size_t l = 0; l < shape.loop_count(); ++l) {

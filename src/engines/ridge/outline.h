@@ -39,7 +39,7 @@ struct Outline {
   /// Whether no disk of this radius whose centre is near to both edges can touch them as two
   /// different places of the boundary: between them the boundary turns right only, by at most half
   /// a turn, as a convex obstacle does; or left along a curve whose radius of curvature is larger
-  /// than the disk's by half a pixel's diagonal (Section V.B.1).
+  /// than the disk's by half a pixel's diagonal and a little (Section V.B.1).
   ///
   /// By Schur's comparison theorem, a curve that leaves a disk's circle at a tangent, curves less
   /// than it and turns by less than half of it does not come back to it.
@@ -51,7 +51,9 @@ struct Outline {
   std::vector<double> all_left, all_right;  ///< of each chain: its turns, closed as it may be
   /// least_radius[k][i]: the smallest radius of edges i..i + 2^k - 1; empty where all are straight.
   std::vector<std::vector<double>> least_radius;
-  double half_diagonal = 0;  ///< of a pixel
+  /// Half a pixel's diagonal, so that some pixel is not nearer to a circle than its centre; and how
+  /// far chords depart from arcs.
+  double margin = 0;
 };
 
 /// The outline for pixels of side `step` (local). `collinear` in degrees: vertices that turn by

@@ -9,6 +9,7 @@
 #include "base/tolerance.h"
 #include "engines/ridge/digitize.h"
 #include "engines/ridge/follow.h"
+#include "engines/ridge/gaps.h"
 #include "engines/ridge/nearest.h"
 #include "engines/ridge/outline.h"
 #include "engines/ridge/thin.h"
@@ -125,6 +126,7 @@ MedialAxis run(const Shape& shape, const Options& options, Report* report) {
     thin_by_report(boundary, map);
   else
     thin_to_lines(boundary, map);
+  open_gaps(sets, boundary, map);
   const double seconds_thin = watch.lap();
 
   axis.sites = result_sites(shape, frame, options);

@@ -10,15 +10,6 @@ using raster::Pixel;
 
 namespace {
 
-/// Which of the eight neighbours are medial, those across a contour not.
-std::array<bool, 8> medial_neighbours(const BitMap& medial, const BitMap& boundary, Pixel p) {
-  std::array<bool, 8> set{};
-  for (int direction = 0; direction < 8; ++direction)
-    set[static_cast<std::size_t>(direction)] =
-        medial.at(neighbour(p, direction)) && !crosses_contour(boundary, p, direction);
-  return set;
-}
-
 /// Whether one pixel is worse than another; no two are equal.
 bool is_worse(const Found& a, const Found& b) {
   if (a.quality != b.quality) return a.quality > b.quality;
@@ -56,9 +47,17 @@ void thin(const BitMap& boundary, MedialMap& map, std::vector<std::uint32_t> ord
 
 }  // namespace
 
-bool is_simple(const BitMap& medial, const BitMap& boundary, Pixel p) {
-  std::array<bool, 8> set = medial_neighbours(medial, boundary, p);
+std::array<bool, 8> closed_neighbours(const BitMap& medial, const BitMap& boundary, Pixel p) {
+  std::array<bool, 8> set{};
+  for (int direction = 0; direction < 8; ++direction)
+    set[static_cast<std::size_t>(direction)] =
+        medial.at(neighbour(p, direction)) && !crosses_contour(boundary, p, direction);
   for (std::size_t d = 1; d < 8; d += 2) set[d] = set[d] || (set[d - 1] && set[(d + 1) % 8]);
+  return set;
+}
+
+bool is_simple(const BitMap& medial, const BitMap& boundary, Pixel p) {
+  const std::array<bool, 8> set = closed_neighbours(medial, boundary, p);
   int elements = 0, changes = 0;
   for (std::size_t d = 0; d < 8; ++d) {
     elements += set[d] ? 1 : 0;

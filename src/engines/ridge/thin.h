@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "engines/ridge/follow.h"
 
 namespace medial::ridge {
@@ -8,6 +10,11 @@ namespace medial::ridge {
 /// beside them: the report's simple pixels (Section III.D). Pixels with one neighbour, or with two
 /// side by side, stay: they end a branch.
 bool is_simple(const raster::BitMap& medial, const raster::BitMap& boundary, raster::Pixel p);
+
+/// The neighbours of a pixel that count for is_simple(), by direction: the medial ones, those
+/// across a contour not; and diagonal ones between two of them.
+std::array<bool, 8> closed_neighbours(const raster::BitMap& medial, const raster::BitMap& boundary,
+                                      raster::Pixel p);
 
 /// The report's thinning (step 9 of A.3): row by row, as often as it changes anything, simple
 /// pixels go whose quality is worse than that of all their medial neighbours; of equal ones, the

@@ -1,0 +1,260 @@
+// Ridge following: the report's parts, both searches, and the pixels against the exact axis.
+
+#include "engines/ridge/ridge.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "engines/ridge/nearest.h"
+#include "engines/ridge/outline.h"
+#include "medial/medial.h"
+#include "support/generate.h"
+#include "support/generate_arcs.h"
+#include "support/property.h"
+
+namespace medial::test {
+namespace {
+
+using ridge::VertexType;
+
+Options ridge_options(std::uint32_t pixels) {
+  Options options;
+  options.method = Method::ridge;
+  options.pixels = pixels;
+  options.ridge_collinear = 0;
+  return options;
+}
+
+MedialAxis ridge_axis(const Shape& shape, const Options& options) {
+  auto axis = compute(shape, options);
+  EXPECT_TRUE(axis.ok()) << (axis ? "" : to_string(axis.error()));
+  return axis ? std::move(axis).value() : MedialAxis{};
+}
+
+std::size_t count_of(const MedialAxis& axis, NodeKind kind) {
+  return static_cast<std::size_t>(
+      std::count_if(axis.nodes.begin(), axis.nodes.end(),
+                    [kind](const Node& node) { return node.kind == kind; }));
+}
+
+Rings star_with_holes_of(std::uint64_t seed) {
+  Random random(seed);
+  return star_with_holes(random, 12, 2);
+}
+
+/// Distances between a sampled and the exact axis, in pixels.
+struct Comparison {
+  double farthest_pixel = 0;  ///< of a medial pixel from the exact axis
+  double farthest_point = 0;  ///< of a point of the exact axis, of radius `least` or more
+  Vec2 pixel, point;
+};
+Comparison compare(const MedialAxis& sampled, const MedialAxis& exact, double least) {
+  Comparison result;
+  const double h = sampled.resolution;
+  const AxisLocator exact_points(exact), pixels(sampled);
+  for (const Node& node : sampled.nodes) {
+    const double d = exact_points.nearest(node.disk.center).distance / h;
+    if (d > result.farthest_pixel) {
+      result.farthest_pixel = d;
+      result.pixel = node.disk.center;
+    }
+  }
+  for (const Edge& edge : exact.edges)
+    for (const Disk& disk : sample_by_step(exact, edge, h)) {
+      if (disk.radius < least * h) continue;
+      const double d = pixels.nearest(disk.center).distance / h;
+      if (d > result.farthest_point) {
+        result.farthest_point = d;
+        result.point = disk.center;
+      }
+    }
+  return result;
+}
+
+/// DeSouza and Houghton's search: the two nearest among the edges at the six nearest vertices.
+std::vector<double> six_vertices_rule(const std::vector<Vec2>& polygon, Vec2 p) {
+  const std::size_t n = polygon.size();
+  std::vector<std::size_t> order(n);
+  for (std::size_t i = 0; i < n; ++i) order[i] = i;
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return distance(polygon[a], p) < distance(polygon[b], p);
+  });
+  std::vector<std::size_t> edges;
+  for (std::size_t k = 0; k < 6; ++k)
+    for (const std::size_t e : {order[k], (order[k] + n - 1) % n})
+      if (std::find(edges.begin(), edges.end(), e) == edges.end()) edges.push_back(e);
+  std::vector<double> distances;
+  for (const std::size_t e : edges)
+    distances.push_back(std::sqrt(
+        geometry::squared_distance(geometry::make_segment(polygon[e], polygon[(e + 1) % n]), p)));
+  std::sort(distances.begin(), distances.end());
+  return distances;
+}
+
+TEST(Ridge, Fig17DefeatsTheSixVerticesRule) {
+  // A..I of Fig. 17, whose coordinates the report does not give: the edge FG passes close to P,
+  // with both ends far away; HI and DE lie at equal distance on both sides.
+  const std::vector<Vec2> clockwise{{-4, 6},  {0, 30},   {4, 6},  {5, 4}, {5, 1},
+                                    {60, -1}, {-60, -1}, {-5, 1}, {-5, 4}};
+  const Vec2 p{0, 0};
+  const auto found = six_vertices_rule(clockwise, p);
+  EXPECT_LT(found[1] - found[0], 1e-12);  // medial, says the rule
+  EXPECT_GT(found[0], 5);                 // and misses the nearest edge
+
+  const Shape shape = build_shape(std::vector<Ring>{ring_of(clockwise)}).value();
+  EXPECT_NEAR(clearance(shape, p), 1, 1e-12);
+  for (const RidgeRule rule : {RidgeRule::difference, RidgeRule::crossing}) {
+    Options options = ridge_options(0);
+    options.resolution = 0.5;
+    options.ridge_rule = rule;
+    const MedialAxis axis = ridge_axis(shape, options);
+    ASSERT_FALSE(axis.nodes.empty());
+    for (const Node& node : axis.nodes) EXPECT_GT(distance(node.disk.center, p), 1);
+  }
+}
+
+TEST(Ridge, VertexTypesByFiveDegrees) {
+  const double five = std::sin(5 * std::numbers::pi / 180);
+  const auto type = [&](double degrees, double straight) {
+    const double turn = degrees * std::numbers::pi / 180;
+    return ridge::vertex_type({-2, 0}, {0, 0}, {3 * std::cos(turn), 3 * std::sin(turn)}, straight);
+  };
+  EXPECT_EQ(type(4.9, five), VertexType::collinear);
+  EXPECT_EQ(type(-4.9, five), VertexType::collinear);
+  EXPECT_EQ(type(5.1, five), VertexType::convex);
+  EXPECT_EQ(type(-5.1, five), VertexType::concave);
+  EXPECT_EQ(type(178, five), VertexType::convex);
+  EXPECT_EQ(type(-178, five), VertexType::concave);
+  EXPECT_EQ(type(0.1, 0), VertexType::convex);
+  EXPECT_EQ(type(-0.1, 0), VertexType::concave);
+}
+
+TEST(Ridge, BothSearchesFindTheSamePixels) {
+  for (std::uint64_t seed = 0; seed < 24; ++seed) {
+    const RandomShape random = seed % 3 == 2 ? random_arc_shape(seed) : random_shape(seed);
+    const auto shape = build_shape(random.rings);
+    ASSERT_TRUE(shape.ok());
+    for (const RidgeRule rule : {RidgeRule::difference, RidgeRule::crossing})
+      for (const double collinear : {0.0, 5.0}) {
+        Options options = ridge_options(48);
+        options.ridge_rule = rule;
+        options.ridge_collinear = collinear;
+        const MedialAxis by_tree = ridge_axis(*shape, options);
+        options.ridge_search = RidgeSearch::sorted_list;
+        const MedialAxis by_list = ridge_axis(*shape, options);
+        EXPECT_TRUE(identical(by_tree, by_list)) << random.kind << ", seed " << seed;
+      }
+  }
+}
+
+TEST(Ridge, PixelsComeInTheOrderOfRows) {
+  const Shape shape = build_shape(star_with_holes_of(7)).value();
+  for (const RidgeRule rule : {RidgeRule::difference, RidgeRule::crossing}) {
+    Options options = ridge_options(100);
+    options.ridge_rule = rule;
+    const MedialAxis axis = ridge_axis(shape, options);
+    EXPECT_EQ(axis.method, "ridge");
+    EXPECT_GT(axis.resolution, 0);
+    for (std::size_t i = 1; i < axis.nodes.size(); ++i) {
+      const Vec2 a = axis.nodes[i - 1].disk.center, b = axis.nodes[i].disk.center;
+      ASSERT_TRUE(a.y < b.y || (a.y == b.y && a.x < b.x));
+    }
+  }
+}
+
+/// What a pixel's distance from the axis can be, in pixels: one where the axis passes beside it;
+/// next to the boundary, where the nearest edge is within 3/2 pixels and another within 1.15 more,
+/// it crosses the way to that one.
+constexpr double farthest_allowed = 2.65;
+
+TEST(Ridge, PixelsLieAtTheExactAxisAndMissNoBranch) {
+  const std::vector<Rings> all{rectangle(7, 4),
+                               l_shape(3),
+                               u_shape(2),
+                               cross_shape(1),
+                               comb(5),
+                               triangle({0, 0}, {8, 1}, {3, 6}),
+                               regular_polygon(5),
+                               hole_grid(3),
+                               maze(60),
+                               spiral(60),
+                               jagged_star(9),
+                               star_with_holes_of(3),
+                               {stadium({0, 0}, {4, 1}, 1)},
+                               {gear(8, 0.7)},
+                               {bulged_polygon(3, 0.2679)}};
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const Shape shape = build_shape(all[i]).value();
+    const MedialAxis exact = compute(shape).value();
+    for (const std::uint32_t pixels : {97u, 256u}) {
+      const MedialAxis sampled = ridge_axis(shape, ridge_options(pixels));
+      const Comparison found = compare(sampled, exact, 3);
+      EXPECT_LE(found.farthest_pixel, farthest_allowed)
+          << i << ": " << found.pixel.x << " " << found.pixel.y;
+      EXPECT_LE(found.farthest_point, 2) << i << ": " << found.point.x << " " << found.point.y;
+      const Certificate certificate = verify(shape, sampled);
+      EXPECT_LE(certificate.largest_residual, sampled.resolution * std::numbers::sqrt2 / 2) << i;
+      EXPECT_EQ(certificate.cycles, certificate.holes) << i;
+    }
+  }
+}
+
+TEST(Ridge, RadiusOfCurvatureLeavesNoSpokes) {
+  // The polygon of a circle's chords has none; the polygon that is given as such has them.
+  Options options = ridge_options(200);
+  const Shape disk = build_shape(std::vector<Ring>{circle({1, 2}, 3)}).value();
+  const Shape polygon = build_shape(regular_polygon(200, 3)).value();
+  for (const RidgeRule rule : {RidgeRule::difference, RidgeRule::crossing}) {
+    options.ridge_rule = rule;
+    const MedialAxis axis = ridge_axis(disk, options);
+    ASSERT_FALSE(axis.nodes.empty());
+    for (const Node& node : axis.nodes)
+      EXPECT_LE(distance(node.disk.center, {1, 2}), 2 * axis.resolution);
+    EXPECT_GT(count_of(ridge_axis(polygon, options), NodeKind::leaf), 100u);
+    // A lens: two arcs of one circle's radius each, larger than any disk between them.
+    const Shape lens = build_shape(std::vector<Ring>{bulged_polygon(2, 0.3)}).value();
+    const MedialAxis between = ridge_axis(lens, options);
+    EXPECT_GT(total_length(between), 1.8);
+  }
+}
+
+TEST(Ridge, OneSeedForEveryBoundedSet) {
+  Random random(4);
+  const Shape shape = build_shape(nested_squares(6)).value();
+  const MedialAxis axis = ridge_axis(shape, ridge_options(240));
+  const Certificate certificate = verify(shape, axis);
+  EXPECT_TRUE(certificate.passed);
+  EXPECT_EQ(certificate.graph_parts, 3u);
+  EXPECT_EQ(certificate.cycles, 3u);
+}
+
+TEST(Ridge, RefusesWhatItCannotDo) {
+  const Shape shape = build_shape(rectangle(4, 2)).value();
+  const auto code = [&](auto change) {
+    Options options = ridge_options(64);
+    change(options);
+    const auto axis = compute(shape, options);
+    return axis ? std::string("none") : std::string(name_of(axis.error().code));
+  };
+  EXPECT_EQ(code([](Options& o) { o.resolution = 1; }), "invalid_option");
+  EXPECT_EQ(code([](Options& o) { o.pixels = 0, o.resolution = -1; }), "invalid_option");
+  EXPECT_EQ(code([](Options& o) { o.pixels = 0, o.resolution = std::nan(""); }), "invalid_option");
+  EXPECT_EQ(code([](Options& o) { o.pixels = 0, o.resolution = 5; }), "invalid_option");
+  EXPECT_EQ(code([](Options& o) { o.pixels = 0, o.resolution = 1e-8; }), "too_large");
+  EXPECT_EQ(code([](Options& o) { o.ridge_collinear = 46; }), "invalid_option");
+  EXPECT_EQ(code([](Options& o) { o.pixels = 1; }), "none");
+  const Shape far =
+      build_shape(std::vector<Ring>{ring_of({{1e15, 1e15}, {1e15 + 4, 1e15}, {1e15, 1e15 + 4}})})
+          .value();
+  const auto axis = compute(far, ridge_options(64));
+  ASSERT_FALSE(axis.ok());
+  EXPECT_EQ(axis.error().code, ErrorCode::unsupported);
+}
+
+}  // namespace
+}  // namespace medial::test
