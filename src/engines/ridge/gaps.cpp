@@ -112,10 +112,10 @@ void open_gaps(const InteriorSets& sets, const BitMap& boundary, MedialMap& map)
       const std::size_t d = (start + i) % 8;
       if (set[d] || d % 2 == 1) continue;
       const Pixel q = neighbour(wall.pixel, static_cast<int>(d));
-      const bool was_medial = map.place.at(q) != 0;
-      const std::uint32_t what = joined.find(boundary.at(q) ? outside
-                                             : was_medial   ? opened.at(q)
-                                                            : rest.set_of(q));
+      const std::uint32_t now_in = opened.at(q);
+      const std::uint32_t what = joined.find(boundary.at(q)   ? outside
+                                             : now_in != none ? now_in
+                                                              : rest.set_of(q));
       const bool same_side = sides > 0 && !set[(d + 7) % 8] && !set[(d + 6) % 8];
       if (!same_side) side[sides++] = what;
     }
