@@ -1,8 +1,6 @@
 #include "geometry/bisector.h"
 
-#include <boost/multiprecision/cpp_bin_float.hpp>
 #include <optional>
-#include <utility>
 
 namespace medial::geometry {
 namespace {
@@ -15,87 +13,68 @@ Disk disk_over(const Site& s, double at, Vec2 vertex) {
   return {foot + r * s.normal(), r};
 }
 
-/// A disk, or a difference of two, and the product that contact equations are made of.
-template <class Real>
-struct Triple {
-  Real x, y, r;
-
-  friend Triple operator-(const Triple& u, const Triple& v) {
-    return {u.x - v.x, u.y - v.y, u.r - v.r};
-  }
-  friend Real product(const Triple& u, const Triple& v) {
-    return u.x * v.x + u.y * v.y - u.r * v.r;
-  }
+/// A difference of disks, and the product that contact equations are made of.
+struct Vector {
+  Vec2 c;
+  double r;
+  friend Vector operator-(const Vector& u, const Vector& v) { return {u.c - v.c, u.r - v.r}; }
 };
+double product(const Vector& u, const Vector& v) { return dot(u.c, v.c) - u.r * v.r; }
 
-/// The control point of an edge with an arc. With P the product above, a contact equation is
+/// The control point of an edge with an arc. With P(u, v) = u.v - u_r v_r, a contact equation is
 /// round P(d, d) = 2 flat (n.d - r) for the disk seen from the site's point, and its polar form at
 /// both ends holds for the control point, the pole of the edge's chord: it lies in the plane of the
 /// edge, P-perpendicular to the chord over its middle. Of the two sites the rounder one gives the
-/// height over the chord and the weight. None where that has no number.
-template <class Real>
-std::optional<Control> pole_of_chord(const Site& a, const Site& b, const Disk& from,
-                                     const Disk& to) {
-  using std::abs, std::sqrt;
-  using Triple = Triple<Real>;
-  const auto triple = [](const Disk& disk) {
-    return Triple{Real(disk.center.x), Real(disk.center.y), Real(disk.radius)};
+/// height over the chord and the weight.
+Control pole_of_chord(const Site& a, const Site& b, const Disk& from, const Disk& to) {
+  const Disk middle{midpoint(from.center, to.center), 0.5 * (from.radius + to.radius)};
+  // An edge this short against its radius, its arcs' and the distances to their centres (its foci)
+  // is straight to rounding; its plane would be lost.
+  constexpr double straight = 1e-8;
+  double size = middle.radius;
+  for (const Site* s : {&a, &b})
+    if (s->is_arc())
+      size =
+          std::min({size, 1 / std::abs(s->curvature), std::abs(1 / s->curvature - middle.radius)});
+  size *= straight;
+  if (squared_norm(to.center - from.center) <= size * size) return {middle, 1};
+  // Scaled so that round and flat add up to one in size.
+  const auto flat_of = [](const Site& s) {
+    return s.is_vertex() ? 0 : 1 / (1 + std::abs(s.curvature));
   };
-  const Triple start = triple(from), end = triple(to);
-  const Triple middle{(start.x + end.x) / Real(2), (start.y + end.y) / Real(2),
-                      (start.r + end.r) / Real(2)};
-  // A site's contact equation seen from the middle, where points keep their digits; scaled so that
-  // round and flat add up to one in size.
-  struct Contact {
-    Real round, flat;
-    Triple point, normal;
+  const auto round_of = [&](const Site& s) {
+    return s.is_vertex() ? 1 : s.curvature / (1 + std::abs(s.curvature));
   };
-  const auto contact_of = [&](const Site& s) {
-    const Triple point{Real(s.point.x) - middle.x, Real(s.point.y) - middle.y, Real(0)};
-    if (s.is_vertex()) return Contact{Real(1), Real(0), point, {Real(0), Real(0), Real(0)}};
-    const Real flat = Real(1) / (Real(1) + abs(Real(s.curvature)));
-    return Contact{Real(s.curvature) * flat,
-                   flat,
-                   point,
-                   {Real(-s.direction.y), Real(s.direction.x), Real(0)}};
-  };
-  Contact site = contact_of(a), other = contact_of(b);
-  if (abs(site.round) < abs(other.round)) std::swap(site, other);
-  // The plane of the edge: g.(x, y) + s r = constant.
-  const Real ratio = other.round / site.round, flat = ratio * site.flat;
-  const auto plane = [&](const Real& q, const Real& p, const Real& m, const Real& n) {
-    return other.round * (q - p) + other.flat * m - flat * n;
-  };
-  const Real gx = plane(other.point.x, site.point.x, other.normal.x, site.normal.x);
-  const Real gy = plane(other.point.y, site.point.y, other.normal.y, site.normal.y);
-  const Real s = flat - other.flat;
-  const Triple chord = end - start;
+  const bool by_a = std::abs(round_of(a)) >= std::abs(round_of(b));
+  const Site &site = by_a ? a : b, &other = by_a ? b : a;
+  const double round = round_of(site), flat = flat_of(site), ratio = round_of(other) / round;
+  // The plane of the edge: g.c + s r = constant. Points seen from the middle keep their digits.
+  const Vec2 p = site.point - middle.center, q = other.point - middle.center;
+  const Vec2 g =
+      round_of(other) * (q - p) + flat_of(other) * other.normal() - (ratio * flat) * site.normal();
+  const double s = ratio * flat - flat_of(other);
+  const Vector chord{to.center - from.center, to.radius - from.radius};
   // In the plane, and P-perpendicular to the chord.
-  const Triple across{-gy * chord.r - s * chord.y, s * chord.x + gx * chord.r,
-                      gx * chord.y - gy * chord.x};
+  const Vector across{{-g.y * chord.r - s * chord.c.y, s * chord.c.x + g.x * chord.r},
+                      cross(g, chord.c)};
   // The gradient of the site's contact equation, the mean of both ends.
-  const Triple gradient{-site.round * site.point.x - site.flat * site.normal.x,
-                        -site.round * site.point.y - site.flat * site.normal.y,
-                        site.round * middle.r - site.flat};
-  const Real squared = product(chord, chord);
-  const Real height = site.round * squared / (Real(4) * product(across, gradient));
-  const Real weight_squared =
-      squared / (squared + Real(4) * height * height * product(across, across));
-  const Control control{{{static_cast<double>(middle.x + height * across.x),
-                          static_cast<double>(middle.y + height * across.y)},
-                         static_cast<double>(middle.r + height * across.r)},
-                        static_cast<double>(sqrt(weight_squared))};
-  const bool usable = std::isfinite(static_cast<double>(height)) && control.weight > 0 &&
-                      std::isfinite(control.weight);
-  if (!usable) return std::nullopt;
-  return control;
+  const Vector gradient{round * (middle.center - site.point) - flat * site.normal(),
+                        round * middle.radius - flat};
+  const double squared = product(chord, chord);
+  const double height = round * squared / (4 * product(across, gradient));
+  const double weight_squared = squared / (squared + 4 * height * height * product(across, across));
+  if (!(std::isfinite(height) && weight_squared > 0 && std::isfinite(weight_squared)))
+    return {middle, 1};
+  return {{middle.center + height * across.c, middle.radius + height * across.r},
+          std::sqrt(weight_squared)};
 }
 
-/// How far the edge with this control point strays from touching both sites, at three places.
+/// How far the edge with this control point strays from touching both sites: in its middle, and
+/// next to its ends, where it may be bent most.
 double deviation(const Control& control, const Site& a, const Site& b, const Disk& from,
                  const Disk& to) {
   double worst = 0;
-  for (const double t : {0.25, 0.5, 0.75}) {
+  for (const double t : {0.0625, 0.5, 0.9375}) {
     const double first = (1 - t) * (1 - t), last = t * t, middle = 2 * t * (1 - t) * control.weight;
     const double scale = 1 / (first + middle + last);
     const Vec2 center =
@@ -108,24 +87,48 @@ double deviation(const Control& control, const Site& a, const Site& b, const Dis
   return worst;
 }
 
-/// The control point of an edge with an arc. Where centre and radius change almost alike, or an end
-/// is next to the centre of an arc, the pole loses its digits: it is worked out anew with more of
-/// them. What is left where that does not help is so nearly straight that a parabola through the
-/// disk halfway does better.
+/// The unit tangent (x, y) at a disk of the bisector of a and b, with the growth of the radius
+/// along it; in either direction.
+Vector tangent_at(const Site& a, const Site& b, const Disk& disk) {
+  const Vec2 to_a = outward(a, disk.center), to_b = outward(b, disk.center);
+  const Vec2 sum = to_a + to_b, difference = left_of(to_a - to_b);
+  const Vec2 along = squared_norm(sum) > squared_norm(difference) ? sum : difference;
+  const Vec2 unit = (1 / norm(along)) * along;
+  return {unit, 0.5 * dot(sum, unit)};
+}
+
+/// The same control point, where the tangents at both ends meet. Their parts up to there, u and v,
+/// have one product P(u, u) = P(v, v), and the weight is the square root of P(chord, chord) /
+/// (4 P(v, v)). That keeps the digits that the pole loses where centre and radius change almost
+/// alike. None where an end is the centre of an arc, or the tangents are parallel.
+std::optional<Control> meeting_of_tangents(const Site& a, const Site& b, const Disk& from,
+                                           const Disk& to) {
+  const Vector first = tangent_at(a, b, from), last = tangent_at(a, b, to);
+  const Vector chord{to.center - from.center, to.radius - from.radius};
+  // The common perpendicular of the two tangents is short: least squares.
+  const auto inner = [](const Vector& u, const Vector& v) { return dot(u.c, v.c) + u.r * v.r; };
+  const double aa = inner(first, first), ab = inner(first, last), bb = inner(last, last);
+  const double ca = inner(chord, first), cb = inner(chord, last);
+  const double determinant = aa * bb - ab * ab;
+  const double s = (ca * bb - cb * ab) / determinant, t = (ca * ab - cb * aa) / determinant;
+  const bool from_first = std::abs(s) * std::sqrt(aa) < std::abs(t) * std::sqrt(bb);
+  const Disk& end = from_first ? from : to;
+  const Vector& along = from_first ? first : last;
+  const double way = from_first ? s : t;
+  const double weight_squared =
+      product(chord, chord) / (4 * way * way * ((1 - along.r) * (1 + along.r)));
+  if (!(weight_squared > 0 && std::isfinite(weight_squared))) return std::nullopt;
+  return Control{{end.center + way * along.c, end.radius + way * along.r},
+                 std::sqrt(weight_squared)};
+}
+
+/// The control point of an edge with an arc: the pole, or where that strays, the meeting of
+/// tangents. What is left where that does not help is so nearly straight that a parabola through
+/// the disk halfway does better.
 Control control_with_arc(const Site& a, const Site& b, const Disk& from, const Disk& to) {
-  constexpr double few_roundings = 0x1p-50, long_enough = 0x1p-7, straight = 1e-8;
-  const Disk middle{midpoint(from.center, to.center), 0.5 * (from.radius + to.radius)};
-  // An edge this short against its radius, its arcs' and the distances to their centres (its foci)
-  // is straight to rounding; its plane would be lost.
-  double size = middle.radius;
-  for (const Site* s : {&a, &b})
-    if (s->is_arc())
-      size =
-          std::min({size, 1 / std::abs(s->curvature), std::abs(1 / s->curvature - middle.radius)});
-  const double length = distance(from.center, to.center);
-  if (length <= straight * size) return {middle, 1};
-  Control best = pole_of_chord<double>(a, b, from, to).value_or(Control{middle, 1});
-  if (length < long_enough * from.radius) return best;
+  constexpr double few_roundings = 0x1p-50, long_enough = 0x1p-7;
+  Control best = pole_of_chord(a, b, from, to);
+  if (distance(from.center, to.center) < long_enough * from.radius) return best;
   double strays = deviation(best, a, b, from, to);
   const auto take_if_better = [&](const Control& control) {
     const double now = deviation(control, a, b, from, to);
@@ -134,14 +137,15 @@ Control control_with_arc(const Site& a, const Site& b, const Disk& from, const D
     best = control;
   };
   if (strays <= few_roundings) return best;
-  if (const auto precise = pole_of_chord<boost::multiprecision::cpp_bin_float_quad>(a, b, from, to))
-    take_if_better(*precise);
+  if (const auto meeting = meeting_of_tangents(a, b, from, to)) take_if_better(*meeting);
   if (strays <= few_roundings) return best;
   const Bisector bisector(b, a);
   const Disk halfway =
       bisector.disk_at(0.5 * (bisector.position(from.center) + bisector.position(to.center)), from);
+  const Vec2 mean = midpoint(from.center, to.center);
   if (std::isfinite(halfway.center.x) && std::isfinite(halfway.center.y))
-    take_if_better({{2 * halfway.center - middle.center, 2 * halfway.radius - middle.radius}, 1});
+    take_if_better(
+        {{2 * halfway.center - mean, 2 * halfway.radius - 0.5 * (from.radius + to.radius)}, 1});
   return best;
 }
 

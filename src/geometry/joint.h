@@ -19,18 +19,22 @@ enum class Joint : std::uint8_t {
 ///
 /// Directions count as one below the angle that rounding of the coordinates leaves open: 1e-12, and
 /// four times `tolerance` (that of the coordinates, in their units) against the chords. At a cusp
-/// the curvatures tell whether the interior is inside or around it. `corner_angle` in radians.
+/// the interior is inside or around it as the edges lie next to each other half a chord away, where
+/// they are (sine - (sum of the curvatures) s / 2) s apart, s from the cusp. `corner_angle` in
+/// radians.
 inline Joint joint_of(const BulgeArc& before, const BulgeArc& after, double tolerance,
                       double corner_angle) {
   constexpr double least = 1e-12;
   const Vec2 arriving = end_tangent(before), leaving = start_tangent(after);
   const double sine = cross(arriving, leaving), cosine = dot(arriving, leaving);
-  const double rounding =
-      4 * tolerance *
-      (1 / distance(before.start, before.end) + 1 / distance(after.start, after.end));
+  const double chord_before = distance(before.start, before.end);
+  const double chord_after = distance(after.start, after.end);
+  const double rounding = 4 * tolerance * (1 / chord_before + 1 / chord_after);
   if (std::abs(sine) <= least + rounding) {
     if (cosine > 0) return Joint::smooth;
-    return -curvature(before) > curvature(after) ? Joint::corner : Joint::reflex;
+    const double away = 0.5 * (chord_before < chord_after ? chord_before : chord_after);
+    const double bend = 0.5 * (curvature(before) + curvature(after)) * away;
+    return sine > bend ? Joint::corner : Joint::reflex;
   }
   if (sine < 0) return Joint::reflex;
   return std::atan2(sine, cosine) <= corner_angle ? Joint::blunt : Joint::corner;

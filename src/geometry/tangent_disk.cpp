@@ -312,12 +312,18 @@ double tangent_radius(Vec2 foot, Vec2 normal, const Site& site) {
   if (!(height >= 0 && closing > 0)) return none;
   double radius = height / closing;
   // Where the disk is nearly the arc's own circle, the contact equation is its residual times
-  // 1 - radius * curvature: one Newton step on the distance itself wins the digits back.
+  // 1 - radius * curvature: Newton's method on the distance itself wins the digits back, in a step
+  // or two unless the centres are very close.
   constexpr double nearly = 0.25;
-  if (site.is_arc() && std::abs(1 - radius * site.curvature) < nearly) {
+  constexpr int most_steps = 4;
+  for (int step = 0; step < most_steps; ++step) {
+    if (!site.is_arc() || !(std::abs(1 - radius * site.curvature) < nearly)) break;
     const ArcView view = view_of_arc(site, foot + radius * normal);
+    const double error = view.distance - radius;
     const double slope = medial::dot(view.toward, normal) / view.size - 1;
-    if (slope < 0) radius -= (view.distance - radius) / slope;
+    if (!(slope < 0)) break;
+    radius -= error / slope;
+    if (std::abs(error) <= std::numeric_limits<double>::epsilon() * radius) break;
   }
   return fits_into(radius, site) ? radius : none;
 }
