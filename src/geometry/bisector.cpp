@@ -100,7 +100,8 @@ Vector tangent_at(const Site& a, const Site& b, const Disk& disk) {
 /// The same control point, where the tangents at both ends meet. Their parts up to there, u and v,
 /// have one product P(u, u) = P(v, v), and the weight is the square root of P(chord, chord) /
 /// (4 P(v, v)). That keeps the digits that the pole loses where centre and radius change almost
-/// alike. None where an end is the centre of an arc, or the tangents are parallel.
+/// alike. None where an end is the centre of an arc, or the tangents are as good as
+/// parallel.
 std::optional<Control> meeting_of_tangents(const Site& a, const Site& b, const Disk& from,
                                            const Disk& to) {
   const Vector first = tangent_at(a, b, from), last = tangent_at(a, b, to);
@@ -117,7 +118,9 @@ std::optional<Control> meeting_of_tangents(const Site& a, const Site& b, const D
   const double way = from_first ? s : t;
   const double weight_squared =
       product(chord, chord) / (4 * way * way * ((1 - along.r) * (1 + along.r)));
-  if (!(weight_squared > 0 && std::isfinite(weight_squared))) return std::nullopt;
+  // On the way from the one end to the other.
+  const bool between = s * ca > 0 && t * cb < 0;
+  if (!(between && weight_squared > 0 && std::isfinite(weight_squared))) return std::nullopt;
   return Control{{end.center + way * along.c, end.radius + way * along.r},
                  std::sqrt(weight_squared)};
 }
