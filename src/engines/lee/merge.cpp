@@ -38,7 +38,7 @@ class MergeCurve {
       const double reached = bisector.position(disk_.center);
       std::array<std::optional<Crossing>, 2> crossing;
       for (const std::size_t side : {0u, 1u}) {
-        drop_covered(side);
+        drop_covered(side, bisector, reached);
         if (top(side) != none) crossing[side] = crossing_with(side, bisector, reached);
       }
       if (!crossing[0] && !crossing[1]) return edge;
@@ -76,14 +76,17 @@ class MergeCurve {
 
   /// Drops the outermost edges that lie beyond the merge curve: where the disk at an edge's inner
   /// end reaches over the element on the other side, no disk of the edge is inside the shape.
-  void drop_covered(std::size_t side) {
-    const Site& other = site(current_[1 - side]);
+  void drop_covered(std::size_t side, const Bisector& bisector, double reached) {
     for (std::uint32_t place = top(side); place != none; place = top(side)) {
       ListEdge& edge = diagram_.edges[place];
       const Disk& inner = edge.inner;
       if (inner.radius == 0) return;
-      const double reach = inner.radius - tie();
-      if (!(reach > 0 && geometry::squared_distance(other, inner.center) < reach * reach)) return;
+      const double gap_there = gap(current_[1 - side], inner);
+      if (gap_there > tie()) return;
+      // Where the element only touches the disk, the curve may have passed it already.
+      if (gap_there >= -tie() && (bisector.position(inner.center) >= reached ||
+                                  (disk_.radius > 0 && gap(edge.element[side], disk_) <= tie())))
+        return;
       for (const std::size_t k : {0u, 1u}) {
         std::uint32_t& outermost = diagram_.top[edge.element[k]][k];
         if (outermost != place) throw std::runtime_error("two Voronoi edges cross");
