@@ -3,6 +3,7 @@
 #include "base/stopwatch.h"
 #include "base/tolerance.h"
 #include "engines/lee/graph.h"
+#include "engines/lee/ties.h"
 
 namespace medial::lee {
 namespace {
@@ -41,7 +42,11 @@ Solution solve(const Shape& shape, const Options& options, std::vector<Level>* l
   statistics.seconds_walk = watch.lap();
 
   solution.cancelled = options.cancel != nullptr && options.cancel->load();
-  if (!solution.cancelled) solution.graph = graph_of(diagram, last_edges);
+  if (!solution.cancelled) {
+    solution.graph = graph_of(diagram, last_edges);
+    // Where the shape lies far from the origin, its own coordinates are no better known.
+    join_ties(solution.graph, solution.elements, frame.scale * solution.tolerance);
+  }
   statistics.seconds_collect = watch.lap();
   return solution;
 }

@@ -42,8 +42,7 @@ class MergeCurve {
         if (top(side) != none) crossing[side] = crossing_with(side, bisector, reached);
       }
       if (!crossing[0] && !crossing[1]) return edge;
-      const std::size_t side =
-          !crossing[0] || (crossing[1] && crossing[1]->position < crossing[0]->position) ? 1 : 0;
+      const std::size_t side = first_of(crossing);
       disk_ = crossing[side]->disk;
       const std::uint32_t crossed = top(side);
       current_[side] = diagram_.edges[crossed].element[side];
@@ -148,6 +147,18 @@ class MergeCurve {
     if ((behind || !best) && disk_.radius > 0 && gap(third, disk_) <= tie())
       return Crossing{disk_, reached};
     return best;
+  }
+
+  /// On which side the curve leaves a polygon first; one crossing exists. Where the positions are
+  /// not known well, the other side's element tells: it must not reach into the disk.
+  std::size_t first_of(const std::array<std::optional<Crossing>, 2>& crossing) {
+    if (!crossing[0] || !crossing[1]) return crossing[0] ? 0 : 1;
+    const std::size_t first = crossing[1]->position < crossing[0]->position ? 1 : 0;
+    const auto is_covered = [&](std::size_t side) {
+      const std::uint32_t third = diagram_.edges[top(1 - side)].element[1 - side];
+      return gap(third, crossing[side]->disk) < -tie();
+    };
+    return is_covered(first) && !is_covered(1 - first) ? 1 - first : first;
   }
 
   /// Whether a disk that touches an edge's elements lies outward of its inner end.
