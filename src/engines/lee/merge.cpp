@@ -38,7 +38,7 @@ class MergeCurve {
       const double reached = bisector.position(disk_.center);
       std::array<std::optional<Crossing>, 2> crossing;
       for (const std::size_t side : {0u, 1u}) {
-        drop_covered(side, bisector, reached);
+        if (!drop_covered(side)) return edge;
         if (top(side) != none) crossing[side] = crossing_with(side, bisector, reached);
       }
       if (!crossing[0] && !crossing[1]) return edge;
@@ -73,19 +73,19 @@ class MergeCurve {
     return place;
   }
 
-  /// Drops the outermost edges that lie beyond the merge curve: where the disk at an edge's inner
-  /// end reaches over the element on the other side, no disk of the edge is inside the shape.
-  void drop_covered(std::size_t side, const Bisector& bisector, double reached) {
+  /// Drops the outermost edges of one side of which no disk is inside the shape: those where the
+  /// disk at the inner end reaches over the element on the other side, and those that lie behind,
+  /// in the part that the current disk cuts off. Unless it is the current disk that is not inside
+  /// the shape: then returns false.
+  bool drop_covered(std::size_t side) {
     for (std::uint32_t place = top(side); place != none; place = top(side)) {
       ListEdge& edge = diagram_.edges[place];
-      const Disk& inner = edge.inner;
-      if (inner.radius == 0) return;
-      const double gap_there = gap(current_[1 - side], inner);
-      if (gap_there > tie()) return;
-      // Where the element only touches the disk, the curve may have passed it already.
-      if (gap_there >= -tie() && (bisector.position(inner.center) >= reached ||
-                                  (disk_.radius > 0 && gap(edge.element[side], disk_) <= tie())))
-        return;
+      if (edge.inner.radius == 0) return true;
+      if (gap(current_[1 - side], edge.inner) >= -tie()) {
+        if (!is_behind(side, edge.inner)) return true;
+        const double distance_to_third = gap(edge.element[side], disk_);
+        if (distance_to_third <= vagueness()) return distance_to_third >= -vagueness();
+      }
       for (const std::size_t k : {0u, 1u}) {
         std::uint32_t& outermost = diagram_.top[edge.element[k]][k];
         if (outermost != place) throw std::runtime_error("two Voronoi edges cross");
@@ -94,6 +94,19 @@ class MergeCurve {
       edge.inward[0] = free_.first;
       free_.first = place;
     }
+    return true;
+  }
+
+  /// How far Voronoi points of three elements that hardly determine one may be off.
+  double vagueness() const { return 1e-6 * disk_.radius; }
+
+  /// Whether a disk's foot on the current element of one side has been passed for sure.
+  bool is_behind(std::size_t side, const Disk& disk) const {
+    const Site& own = site(current_[side]);
+    const Vec2 way = disk.center - disk_.center;
+    const double ahead = own.is_vertex() ? cross(way, disk_.center - own.point) / disk.radius
+                                         : dot(own.direction, way);
+    return side == 0 ? ahead > vagueness() : ahead < -vagueness();
   }
 
   double tie() const { return 0.25 * limits_.tolerance; }
@@ -106,9 +119,13 @@ class MergeCurve {
                                         double reached) {
     const ListEdge& edge = diagram_.edges[top(side)];
     const std::uint32_t third = edge.element[side], other = current_[1 - side];
-    const auto ahead = [&](const Disk& disk) -> Crossing {
+    // A disk that is behind by rounding only is the current one.
+    const auto not_behind = [&](const Disk& disk) -> std::optional<Crossing> {
       const double position = bisector.position(disk.center);
-      return position > reached ? Crossing{disk, position} : Crossing{disk_, reached};
+      if (position > reached) return Crossing{disk, position};
+      if (disk_.radius > 0 && distance(disk.center, disk_.center) <= vagueness())
+        return Crossing{disk_, reached};
+      return std::nullopt;
     };
     if (diagram_.is_spoke(edge)) {
       const bool own_vertex = site(current_[side]).is_vertex();
@@ -119,33 +136,26 @@ class MergeCurve {
       if (!(radius <= limits_.radius_limit)) return std::nullopt;
       const Disk disk{vertex.point + radius * normal, radius};
       if (!touches(other, disk)) return std::nullopt;
-      return ahead(disk);
+      return not_behind(disk);
     }
     if (edge.inner.radius > 0 && std::abs(gap(other, edge.inner)) <= tie())
-      return ahead(edge.inner);
+      return not_behind(edge.inner);
 
     ++statistics_.apollonius;
     const std::uint32_t own = current_[side];
     const geometry::TangentDisks disks =
         geometry::tangent_disks(bisector.right, bisector.left, site(third));
     std::optional<Crossing> best;
-    bool behind = false;
     for (std::size_t i = 0; i < disks.count; ++i) {
       Disk disk = disks.disk[i];
       if (!(disk.radius <= limits_.radius_limit)) continue;
       polish(disk, own, other, third);
-      const double position = bisector.position(disk.center);
-      if (position < reached) {
-        behind = true;
-        continue;
-      }
-      if (best && best->position <= position) continue;
+      const auto crossing = not_behind(disk);
+      if (!crossing || (best && best->position <= crossing->position)) continue;
       if (!touches(third, disk) || !touches(own, disk) || !touches(other, disk)) continue;
       if (!is_outward(edge, disk)) continue;
-      best = Crossing{disk, position};
+      best = crossing;
     }
-    if ((behind || !best) && disk_.radius > 0 && gap(third, disk_) <= tie())
-      return Crossing{disk_, reached};
     return best;
   }
 

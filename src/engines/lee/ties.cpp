@@ -13,13 +13,15 @@ namespace {
 using geometry::Site;
 
 /// Voronoi points of a tie are known to a rounding divided by the square of the angle between their
-/// feet: within the first of these for regular polygons of 1e5 vertices. Where not all points that
+/// feet: within the first of these for regular polygons of 1e4 vertices. Where not all points that
 /// are so near to each other are one tie, those within the next may be.
-constexpr std::array<double, 4> windows = {1e-6, 1e-8, 1e-10, 1e-12};
+constexpr std::array<double, 3> windows = {1e-8, 1e-10, 1e-12};
 
 class Sets {
  public:
-  explicit Sets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
+  explicit Sets(std::size_t count) : parent_(count) {
+    std::iota(parent_.begin(), parent_.end(), 0u);
+  }
   std::uint32_t find(std::uint32_t i) {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;
@@ -35,7 +37,8 @@ double largest_residual(const Elements& elements, std::span<const std::uint32_t>
   double largest = 0;
   for (const std::uint32_t i : touched)
     largest = std::max(
-        largest, std::abs(geometry::carrier_distance(elements.sites[i], disk.center) - disk.radius));
+        largest,
+        std::abs(geometry::carrier_distance(elements.sites[i], disk.center) - disk.radius));
   return largest;
 }
 
@@ -49,8 +52,7 @@ std::optional<Disk> fitted_disk(const Elements& elements, std::span<const std::u
     const auto count = static_cast<double>(touched.size());
     for (const std::uint32_t i : touched) {
       const Vec2 g = geometry::outward(elements.sites[i], disk.center);
-      const double error =
-          geometry::carrier_distance(elements.sites[i], disk.center) - disk.radius;
+      const double error = geometry::carrier_distance(elements.sites[i], disk.center) - disk.radius;
       xx += g.x * g.x, xy += g.x * g.y, yy += g.y * g.y, x += g.x, y += g.y;
       ex += g.x * error, ey += g.y * error, e += error;
     }
