@@ -315,7 +315,7 @@ double tangent_radius(Vec2 foot, Vec2 normal, const Site& site) {
   // 1 - radius * curvature: Newton's method on the distance itself wins the digits back, in a step
   // or two unless the centres are very close.
   constexpr double nearly = 0.25;
-  constexpr int most_steps = 4;
+  constexpr int most_steps = 16;
   for (int step = 0; step < most_steps; ++step) {
     if (!site.is_arc() || !(std::abs(1 - radius * site.curvature) < nearly)) break;
     const ArcView view = view_of_arc(site, foot + radius * normal);
