@@ -1,5 +1,8 @@
 #include "axis/sites.h"
 
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
 #include <numbers>
 
 #include "base/memory.h"
@@ -20,6 +23,24 @@ Joint joint_at(const Loop& loop, std::uint32_t i, double tolerance, double corne
                             corner_angle);
 }
 
+/// Calls work(loop, first, last) in parallel for parts of the loops that together are all points.
+template <class Work>
+void in_parts(const Shape& shape, Work&& work) {
+  constexpr std::size_t grain = 4096;
+  const std::vector<std::uint32_t>& begin = shape.loop_begin;
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, shape.points.size(), grain), [&](const auto& range) {
+        const auto after = std::upper_bound(begin.begin(), begin.end(), range.begin());
+        auto loop = static_cast<std::size_t>(after - begin.begin()) - 1;
+        for (auto i = static_cast<std::uint32_t>(range.begin()); i < range.end(); ++loop) {
+          const auto end =
+              static_cast<std::uint32_t>(std::min<std::size_t>(range.end(), begin[loop + 1]));
+          work(loop, i - begin[loop], end - begin[loop]);
+          i = end;
+        }
+      });
+}
+
 }  // namespace
 
 Pieces pieces_of(Vec2 start, Vec2 end, double bulge) {
@@ -37,14 +58,14 @@ SiteNumbers number_sites(const Shape& shape, const Frame& frame, double corner_a
   numbers.joints.resize(shape.points.size());
   const double tolerance = tolerance_for(bounding_box(shape), 0);
   const double radians = corner_angle * std::numbers::pi / 180;
-  for (std::size_t l = 0; l < shape.loop_count(); ++l) {
+  in_parts(shape, [&](std::size_t l, std::uint32_t first, std::uint32_t last) {
     const Loop loop(shape, l, frame);
-    for (std::uint32_t i = 0; i < loop.size(); ++i) {
-      const Joint joint = joint_at(loop, i, tolerance, radians);
-      numbers.joints[loop.begin() + i] = joint;
-      if (joint == Joint::reflex) ++numbers.count;
-      numbers.edge[loop.begin() + i] = numbers.count++;
-    }
+    for (std::uint32_t i = first; i < last; ++i)
+      numbers.joints[loop.begin() + i] = joint_at(loop, i, tolerance, radians);
+  });
+  for (std::size_t i = 0; i < shape.points.size(); ++i) {
+    numbers.count += numbers.is_site(i) ? 1 : 0;
+    numbers.edge[i] = numbers.count++;
   }
   return numbers;
 }
@@ -53,9 +74,9 @@ std::vector<Site> result_sites(const Shape& shape, const SiteNumbers& numbers) {
   std::vector<Site> sites;
   reserve_large(sites, numbers.count);
   sites.resize(numbers.count);
-  for (std::size_t loop = 0; loop < shape.loop_count(); ++loop) {
+  in_parts(shape, [&](std::size_t loop, std::uint32_t first, std::uint32_t last) {
     const std::uint32_t begin = shape.loop_begin[loop], end = shape.loop_begin[loop + 1];
-    for (std::uint32_t i = begin; i < end; ++i) {
+    for (std::uint32_t i = begin + first; i < begin + last; ++i) {
       const Vec2 p = shape.points[i], q = shape.points[i + 1 == end ? begin : i + 1];
       const VertexSource source = shape.sources[i];
       const double bulge = shape.bulge(i);
@@ -65,7 +86,7 @@ std::vector<Site> result_sites(const Shape& shape, const SiteNumbers& numbers) {
       if (numbers.is_site(i))
         sites[number - 1] = {p, p, source.ring, source.vertex, SiteKind::vertex};
     }
-  }
+  });
   return sites;
 }
 

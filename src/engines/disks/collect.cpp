@@ -1,6 +1,7 @@
 #include "engines/disks/collect.h"
 
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
 
 #include <algorithm>
 #include <array>
@@ -139,23 +140,27 @@ void collect(std::vector<std::unique_ptr<Chunk>>& chunks, std::size_t cut_count,
 
 void complete(const Boundary& boundary, const Frame& frame, MedialAxis& axis) {
   axis.statistics.largest_residual *= frame.inverse;
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, axis.edges.size(), 4096), [&](const auto&
-                                                                                         range) {
-    for (std::size_t i = range.begin(); i < range.end(); ++i) {
-      Edge& edge = axis.edges[i];
-      const geometry::Control control =
-          geometry::control_of(boundary.sites[edge.site[0]], boundary.sites[edge.site[1]],
-                               axis.nodes[edge.node[0]].disk, axis.nodes[edge.node[1]].disk);
-      edge.control = {frame.to_input(control.point.center), frame.inverse * control.point.radius};
-      edge.weight = control.weight;
-      for (std::uint32_t& site : edge.site) site = boundary.originals[site];
-    }
-  });
-
+  const auto control = [&] {
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, axis.edges.size(), 4096), [&](const auto& range) {
+          for (std::size_t i = range.begin(); i < range.end(); ++i) {
+            Edge& edge = axis.edges[i];
+            const geometry::Control found =
+                geometry::control_of(boundary.sites[edge.site[0]], boundary.sites[edge.site[1]],
+                                     axis.nodes[edge.node[0]].disk, axis.nodes[edge.node[1]].disk);
+            edge.control = {frame.to_input(found.point.center), frame.inverse * found.point.radius};
+            edge.weight = found.weight;
+            for (std::uint32_t& site : edge.site) site = boundary.originals[site];
+          }
+        });
+  };
   std::vector<std::uint8_t> degree(axis.nodes.size());
-  for (const Edge& edge : axis.edges)
-    for (const std::uint32_t node : edge.node)
-      if (degree[node] < 3) ++degree[node];
+  const auto count = [&] {
+    for (const Edge& edge : axis.edges)
+      for (const std::uint32_t node : edge.node)
+        if (degree[node] < 3) ++degree[node];
+  };
+  tbb::parallel_invoke(count, control);
   tbb::parallel_for(
       tbb::blocked_range<std::size_t>(0, axis.nodes.size(), 4096), [&](const auto& range) {
         for (std::size_t i = range.begin(); i < range.end(); ++i) {

@@ -281,31 +281,48 @@ class Merger {
 
   double bound() const { return 0.5 * tolerance_; }
 
-  /// Links the ends of edges, and finds the edges that are short against both of their disks: none
-  /// that leads to a leaf.
-  std::vector<std::uint32_t> link_ends() {
-    first_end_.assign(axis_.nodes.size(), none);
-    next_end_ = std::make_unique_for_overwrite<std::uint32_t[]>(2 * axis_.edges.size());
-    std::vector<std::uint32_t> found;
-    std::array<std::uint32_t, 1 << 10> some;
-    std::size_t count = 0;
-    for (std::uint32_t e = 0; e < axis_.edges.size(); ++e) {
+  /// The numbers below `count` for which `holds` is true, increasing.
+  template <class Holds>
+  static std::vector<std::uint32_t> filter(std::size_t count, Holds&& holds) {
+    constexpr std::size_t block = 1 << 12;
+    std::vector<std::vector<std::uint32_t>> found((count + block - 1) / block);
+    tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t i) {
+      std::array<std::uint32_t, block> some;
+      std::size_t size = 0;
+      for (std::size_t k = i * block; k < std::min(count, (i + 1) * block); ++k) {
+        some[size] = static_cast<std::uint32_t>(k);
+        size += holds(k) ? 1 : 0;  // without a branch that could be guessed wrong
+      }
+      found[i].assign(some.begin(), some.begin() + static_cast<std::ptrdiff_t>(size));
+    });
+    std::vector<std::uint32_t> all;
+    for (const auto& some : found) all.insert(all.end(), some.begin(), some.end());
+    return all;
+  }
+
+  /// The edges that are short against both of their disks: none that leads to a leaf.
+  std::vector<std::uint32_t> short_edges() const {
+    return filter(axis_.edges.size(), [&](std::size_t e) {
       const auto [from, to] = axis_.edges[e].node;
-      next_end_[2 * e] = first_end_[from];
-      first_end_[from] = 2 * e;
-      next_end_[2 * e + 1] = first_end_[to];
-      first_end_[to] = 2 * e + 1;
       const Disk &a = axis_.nodes[from].disk, &b = axis_.nodes[to].disk;
       const double furthest = short_edge * std::min(a.radius, b.radius);
-      // Without a branch that could be guessed wrong.
-      some[count] = e;
-      count += squared_norm(b.center - a.center) < furthest * furthest ? 1 : 0;
-      if (count == some.size() || e + 1 == axis_.edges.size()) {
-        found.insert(found.end(), some.begin(), some.begin() + count);
-        count = 0;
-      }
+      return squared_norm(b.center - a.center) < furthest * furthest;
+    });
+  }
+
+  /// Links the ends of all edges at the nodes of these ones.
+  void link_ends(const std::vector<std::uint32_t>& edges) {
+    constexpr std::uint32_t skipped = none - 1;
+    first_end_.assign(axis_.nodes.size(), skipped);
+    for (const std::uint32_t e : edges)
+      for (const std::uint32_t node : axis_.edges[e].node) first_end_[node] = none;
+    next_end_ = std::make_unique_for_overwrite<std::uint32_t[]>(2 * axis_.edges.size());
+    for (std::uint32_t end = 0; end < 2 * axis_.edges.size(); ++end) {
+      std::uint32_t& first = first_end_[axis_.edges[end / 2].node[end % 2]];
+      if (first == skipped) continue;
+      next_end_[end] = first;
+      first = end;
     }
-    return found;
   }
   bool is_branching(std::uint32_t node) const {
     const std::uint32_t second = next_end_[first_end_[node]];
@@ -315,16 +332,13 @@ class Merger {
   /// Short edges between branching nodes whose two sites and one more contact of each end could be
   /// touched by one disk. A necessary condition for contraction, and nearly always false.
   std::vector<std::uint32_t> candidates() {
-    const std::vector<std::uint32_t> edges = link_ends();
-    constexpr std::size_t block = 1 << 12;
-    std::vector<std::vector<std::uint32_t>> found((edges.size() + block - 1) / block);
-    tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t i) {
-      for (std::size_t k = i * block; k < std::min(edges.size(), (i + 1) * block); ++k)
-        if (could_be_contracted(axis_.edges[edges[k]])) found[i].push_back(edges[k]);
-    });
-    std::vector<std::uint32_t> all;
-    for (const auto& some : found) all.insert(all.end(), some.begin(), some.end());
-    return all;
+    std::vector<std::uint32_t> edges = short_edges();
+    if (edges.empty()) return edges;
+    link_ends(edges);
+    std::vector<std::uint32_t> kept = filter(
+        edges.size(), [&](std::size_t i) { return could_be_contracted(axis_.edges[edges[i]]); });
+    for (std::uint32_t& i : kept) i = edges[i];
+    return kept;
   }
 
   bool could_be_contracted(const Edge& edge) const {
@@ -602,16 +616,13 @@ class Merger {
       for (const std::uint32_t end : cluster.ends)
         axis_.edges[end / 2].node[end % 2] = cluster.node;
     }
-    fill_gaps(axis_.nodes, gone, [&](std::uint32_t from, std::uint32_t to) {
-      const std::uint32_t cluster = cluster_of(from);
-      if (cluster != none && !clusters_[cluster].dissolved) {
-        for (const std::uint32_t end : clusters_[cluster].ends)
-          axis_.edges[end / 2].node[end % 2] = to;
-      } else {
-        for (std::uint32_t end = first_end_[from]; end != none; end = next_end_[end])
-          axis_.edges[end / 2].node[end % 2] = to;
-      }
-    });
+    const std::size_t kept = axis_.nodes.size() - gone.size();
+    std::vector<std::uint32_t> place(gone.size());
+    fill_gaps(axis_.nodes, gone,
+              [&](std::uint32_t from, std::uint32_t to) { place[from - kept] = to; });
+    for (Edge& edge : axis_.edges)
+      for (std::uint32_t& node : edge.node)
+        if (node >= kept) node = place[node - kept];
     std::sort(contracted.begin(), contracted.end());
     fill_gaps(axis_.edges, contracted, [](std::uint32_t, std::uint32_t) {});
   }
@@ -638,7 +649,8 @@ class Merger {
   const index::BoundaryTree& tree_;
   double tolerance_;
   MedialAxis& axis_;
-  /// The edges at every node, as linked lists of their ends: end 2 e + k is node[k] of edge e.
+  /// The edges at the nodes of short edges, as linked lists of their ends: end 2 e + k is node[k]
+  /// of edge e.
   std::vector<std::uint32_t> first_end_;
   std::unique_ptr<std::uint32_t[]> next_end_;
   std::vector<std::uint32_t> nodes_;       ///< that are in a cluster, increasing
