@@ -17,9 +17,11 @@ namespace medial::geometry {
 /// segment), or perpendicular to the chord (two vertices). With an arc (ellipses, hyperbolas,
 /// parabolas, circles) it is where the foot lies on one of the two sites, the `reference`: the
 /// parameter of a segment or of a large arc, twice the tangent of half the angle on a small one.
+///
+/// Refers to the two sites.
 struct Bisector {
-  Site right;
-  Site left;
+  const Site& right;
+  const Site& left;
   Vec2 direction;
   const Site* reference = nullptr;  ///< of a bisector with an arc
   double scale = 0;                 ///< from the reference's parameter to the position
@@ -52,9 +54,6 @@ struct Bisector {
     const double size = norm(direction);
     if (size > 0) direction = (1 / size) * direction;
   }
-
-  Bisector(const Bisector&) = delete;  // refers to itself
-  Bisector& operator=(const Bisector&) = delete;
 
   double position(Vec2 center) const {
     if (reference != nullptr) return scale * carrier_parameter(*reference, center);

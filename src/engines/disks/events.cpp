@@ -79,6 +79,16 @@ Event EventSearch::local_event(bool on_right) {
   return event;
 }
 
+bool EventSearch::comes_later(bool on_right, const Event& event) const {
+  const std::uint32_t own = on_right ? span_.right : span_.left;
+  const std::uint32_t next = on_right ? own + 1 : own - 1;
+  if (event.kind == Event::Kind::none || !boundary_.is_corner(std::min(own, next))) return false;
+  const Vec2 center = event.disk.center;
+  const double s = geometry::carrier_parameter(site(own), center);
+  return s >= 0 && s <= site(own).length &&
+         geometry::squared_distance(site(next), center) >= event.disk.radius * event.disk.radius;
+}
+
 std::optional<EventSearch::JointDisk> EventSearch::disk_at_joint(bool on_right) const {
   const std::uint32_t own = on_right ? span_.right : span_.left;
   const std::uint32_t next = on_right ? own + 1 : own - 1;
@@ -182,9 +192,15 @@ void EventSearch::polish(Event& event, const Site& third) {
 
 Event EventSearch::next() {
   if (const auto passed = pass_over_circle()) return *passed;
-  Event event = local_event(true);
-  const Event on_left = local_event(false);
-  if (on_left.position < event.position) event = on_left;
+  // A foot that passes on smoothly is found at little cost, and makes most corners' events
+  // needless.
+  const bool right_first = boundary_.is_smooth(span_.right) || !boundary_.is_smooth(span_.left - 1);
+  Event event = local_event(right_first);
+  if (!comes_later(!right_first, event)) {
+    const Event other = local_event(!right_first);
+    if (other.position < event.position || (!right_first && other.position == event.position))
+      event = other;
+  }
   if (event.kind == Event::Kind::none) {
     event.kind = Event::Kind::far;
     event.position = bisector_.last_position(from_, context_.radius_limit);
@@ -201,6 +217,7 @@ Event EventSearch::next() {
 }
 
 std::optional<Event> EventSearch::pass_over_circle() const {
+  if (!boundary_.has_arcs) return std::nullopt;
   for (const bool on_right : {true, false}) {
     const std::uint32_t own = on_right ? span_.right : span_.left;
     if (!(site(own).curvature > 0) || !boundary_.is_smooth(on_right ? own : own - 1)) continue;

@@ -63,6 +63,9 @@ class EventSearch {
 
   /// The event at which the foot leaves `right` or `left` for its neighbour, by the sites alone.
   Event local_event(bool on_right);
+  /// Whether the foot on the right or left meets a convex corner only after this event. Of two
+  /// disks of a bisector that keep clear of a site, so do all in between.
+  bool comes_later(bool on_right, const Event& event) const;
   /// The disk where the foot on the right or left passes on to its neighbour, if there is one.
   std::optional<JointDisk> disk_at_joint(bool on_right) const;
   /// Where the sites from `next` on to `other` are arcs of one circle that continue each other and
