@@ -98,8 +98,9 @@ Verb make_axis_verb(CLI::App& program) {
           "How the axes are computed: disks (default); biarc-dc, the published\n"
           "randomised divide and conquer, for shapes without holes; lee, the merging\n"
           "of Voronoi diagrams, for polygons without holes: all the same axes; or\n"
-          "ridge, ridge following on a grid of pixels: a sampled axis.")
-      ->check(CLI::IsMember({"disks", "biarc-dc", "lee", "ridge"}).description(""))
+          "ridge, ridge following on a grid of pixels: a sampled axis; or potential,\n"
+          "the valleys of a potential field: a sampled axis too, smooth.")
+      ->check(CLI::IsMember({"disks", "biarc-dc", "lee", "ridge", "potential"}).description(""))
       ->option_text("NAME");
   verb->add_option("--seed", switches->options.seed,
                    "Of the random choices of biarc-dc (default: 1). The same seed gives the\n"
@@ -107,6 +108,12 @@ Verb make_axis_verb(CLI::App& program) {
       ->check(a_whole_number())
       ->option_text("N");
   add_ridge_switches(*verb, switches->options);
+  verb->add_option("--order", switches->options.potential.order,
+                   "Of the potential: the n of 1 / r^n. 0 (default) chooses it for each point.")
+      ->option_text("N");
+  verb->add_option("--step", switches->options.potential.step,
+                   "Of potential, as a share of the shape's size (default: 0.01).")
+      ->option_text("SHARE");
   add_picture_switches(*verb, switches->write);
   add_common_switches(*verb, switches->common);
   verb->footer(

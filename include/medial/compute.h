@@ -12,15 +12,17 @@
 
 namespace medial {
 
-/// How an axis is computed. All methods return the same graph.
+/// How an axis is computed. Exact methods return the same graph; the others come near to it and say
+/// so by MedialAxis::resolution.
 enum class Method : std::uint8_t {
-  disks,     ///< walks along the axis; asks a tree over the boundary. The fastest; holes, threads
-  biarc_dc,  ///< the randomised divide and conquer of Aichholzer et al. as published: one thread
-             ///< and shapes without holes only, O(n log n) to O(n^2)
-  lee,       ///< Lee's divide and conquer: merges Voronoi diagrams of lists of segments and reflex
-             ///< vertices; shapes of straight edges without holes only, threads
-  ridge,     ///< ridge following on a grid of pixels, as Volkmann and St. Clair have it: a sampled
-             ///< axis (see MedialAxis); one thread
+  disks,      ///< walks along the axis; asks a tree over the boundary. The fastest; holes, threads
+  biarc_dc,   ///< the randomised divide and conquer of Aichholzer et al. as published: one thread
+              ///< and shapes without holes only, O(n log n) to O(n^2)
+  lee,        ///< Lee's divide and conquer: merges Voronoi diagrams of lists of segments and reflex
+              ///< vertices; shapes of straight edges without holes only, threads
+  ridge,      ///< ridge following on a grid of pixels, as Volkmann and St. Clair have it: a sampled
+              ///< axis (see MedialAxis); one thread
+  potential,  ///< valleys of a potential after Ahuja and Chuang: sampled, near the axis, smooth
 };
 
 /// How `ridge` finds the edges nearest to a pixel. Both give the same pixels.
@@ -43,10 +45,32 @@ enum class RidgeRule : std::uint8_t {
 };
 
 /// The name of a method on the command line and in MedialAxis::method: "disks", "biarc-dc", "lee",
-/// "ridge".
+/// "ridge", "potential".
 const char* name_of(Method method);
 /// The method of that name, if there is one.
 std::optional<Method> method_from(std::string_view name);
+
+/// Of the method `potential`: see docs/potential.md.
+struct PotentialOptions {
+  /// n of the force that the points are found with, in [1, 256], any real number; 0: chosen for
+  /// each point, at most 64 (the algorithm MAT-Generalized-Polygonal).
+  double order = 0;
+  /// The order of the valleys that are traced first; lower ones where these cannot be connected.
+  /// The paper's is 1, the Newtonian potential.
+  double base_order = 3;
+  /// The longest step, as a share of the larger side of the bounding box, in [1e-4, 0.1].
+  double step = 0.01;
+  /// theta_min in degrees: how much the force may still turn with the order. In (0, 90].
+  double angle = 2.56;
+  /// e_min, as a share of the larger side of the bounding box: how far a point may still move with
+  /// the order. In (0, 0.1].
+  double movement = 0.001;
+  /// Only the branch that the force leads to from this place.
+  std::optional<Vec2> from = {};
+  /// Only what lies in this box: traced from the convex corners in it, connected or not.
+  std::optional<Box> within = {};
+  bool whole() const { return !from && !within; }
+};
 
 struct Options {
   Method method = Method::disks;
@@ -71,6 +95,7 @@ struct Options {
   RidgeRule ridge_rule = RidgeRule::crossing;
   /// Of the random choices of biarc_dc: the same seed gives the same result, byte for byte.
   std::uint64_t seed = 1;
+  PotentialOptions potential = {};
   /// Called now and then, from any thread and out of order, with the share of the boundary that the
   /// walk is done with, in [0, 1]; in the end with 1. What comes before the walk (sites, holes,
   /// tree) counts as 0, what comes after it as 1: together less than half of the time. Must not

@@ -14,6 +14,8 @@
 #include "engines/biarc_dc/biarc_dc.h"
 #include "engines/disks/disks.h"
 #include "engines/lee/lee.h"
+#include "engines/potential/force.h"
+#include "engines/potential/potential.h"
 #include "engines/ridge/ridge.h"
 #include "medial/voronoi.h"
 
@@ -47,6 +49,20 @@ bool is_consistent(const Shape& shape) {
   return true;
 }
 
+std::optional<Error> refuse(const PotentialOptions& options) {
+  const auto invalid = [](const char* text) { return Error{ErrorCode::invalid_option, text, {}}; };
+  const auto is_order = [](double n) { return n >= 1 && n <= potential::largest_order; };
+  if (!(options.order == 0 || is_order(options.order)) || !is_order(options.base_order))
+    return invalid("the order of the potential must be in [1, 256]");
+  if (!(options.step >= 1e-4 && options.step <= 0.1))
+    return invalid("the step must be in [1e-4, 0.1]");
+  if (!(options.angle > 0 && options.angle <= 90))
+    return invalid("the angle must be in (0, 90] degrees");
+  if (!(options.movement > 0 && options.movement <= 0.1))
+    return invalid("the movement must be in (0, 0.1]");
+  return std::nullopt;
+}
+
 /// What the engine cannot take, if anything.
 std::optional<Error> refuse(const Shape& shape, const Options& options) {
   if (!(options.tolerance >= 0 && options.tolerance <= 1e-3))
@@ -76,6 +92,7 @@ std::optional<Error> refuse(const Shape& shape, const Options& options) {
                  "the method lee takes straight edges only: use the method disks",
                  {}};
   if (options.method == Method::ridge) return ridge::refuse(shape, options);
+  if (options.method == Method::potential) return refuse(options.potential);
   return std::nullopt;
 }
 
@@ -86,8 +103,10 @@ bool has_right_topology(const Shape& shape, const MedialAxis& axis) {
          signed_size(shape.component_count()) - signed_size(shape.hole_count());
 }
 
-MedialAxis run(const Shape& shape, const Options& options) {
+Result<MedialAxis> run(const Shape& shape, const Options& options) {
   switch (options.method) {
+    case Method::potential:
+      return potential::run(shape, options);
     case Method::biarc_dc:
       return biarc_dc::run(shape, options);
     case Method::lee:
@@ -100,11 +119,12 @@ MedialAxis run(const Shape& shape, const Options& options) {
   return disks::run(shape, options);
 }
 
-constexpr std::array<std::pair<Method, const char*>, 4> method_names = {
+constexpr std::array<std::pair<Method, const char*>, 5> method_names = {
     {{Method::disks, "disks"},
      {Method::biarc_dc, "biarc-dc"},
      {Method::lee, "lee"},
-     {Method::ridge, "ridge"}}};
+     {Method::ridge, "ridge"},
+     {Method::potential, "potential"}}};
 
 }  // namespace
 
@@ -123,18 +143,22 @@ std::optional<Method> method_from(std::string_view name) {
 Result<MedialAxis> compute(const Shape& shape, const Options& options) {
   try {
     if (auto error = refuse(shape, options)) return std::move(*error);
-    MedialAxis axis = on_threads(options.threads, [&] { return run(shape, options); });
+    auto result = on_threads(options.threads, [&] { return run(shape, options); });
+    if (!result) return std::move(result).error();
+    MedialAxis& axis = *result;
     axis.statistics.threads = options.method == Method::biarc_dc || options.method == Method::ridge
                                   ? 1
                                   : effective_threads(options.threads);
     if (options.cancel != nullptr && options.cancel->load())
       return Error{ErrorCode::cancelled, "cancelled", {}};
-    if (axis.resolution == 0 && !has_right_topology(shape, axis))
+    const bool whole =
+        axis.resolution == 0 || (options.method == Method::potential && options.potential.whole());
+    if (whole && !has_right_topology(shape, axis))
       return Error{ErrorCode::internal,
                    "the axis does not have one cycle for each hole: please report this shape",
                    {}};
     if (options.progress) options.progress(1);
-    return axis;
+    return result;
   } catch (const std::bad_alloc&) {
     return Error{ErrorCode::out_of_memory, "memory ran out", {}};
   } catch (const std::exception& exception) {

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "medial/shape.h"
+
+namespace medial::potential {
+
+/// A charged segment of the border: straight, of charge density 1, the interior on its left.
+struct Charge {
+  Vec2 start;
+  Vec2 end;
+  std::uint32_t site = 0;  ///< what the caller calls it
+  bool first = true;       ///< of the pieces of one edge
+  bool last = true;        ///< of them
+};
+
+/// The charged border of one region: its pieces side by side, and a tree of moments over them.
+class Charges {
+ public:
+  /// Pieces in the order of the boundary, none of length 0. O(n).
+  explicit Charges(const std::vector<Charge>& pieces);
+
+  /// A set of neighbouring pieces seen from afar.
+  struct Node {
+    std::uint32_t begin = 0, end = 0;  ///< pieces
+    std::uint32_t right = 0;           ///< second child, the first follows; 0: a leaf
+    Box box;
+    double length = 0;              ///< the charge
+    Vec2 center;                    ///< of the charge
+    double radius = 0;              ///< of a disk around `center` that holds all of it
+    double xx = 0, xy = 0, yy = 0;  ///< second moments about `center`
+  };
+
+  struct Nearest {
+    double distance = 0;
+    std::uint32_t piece = 0;
+  };
+  /// The piece nearest to p; the lowest among equals. O(log n) for sensible borders.
+  Nearest nearest(Vec2 p) const;
+
+  std::size_t size() const { return site.size(); }
+  double length() const { return nodes.front().length; }
+  Vec2 start(std::size_t i) const { return {start_x[i], start_y[i]}; }
+  Vec2 tangent(std::size_t i) const { return {tangent_x[i], tangent_y[i]}; }
+
+  std::vector<double> start_x, start_y;      ///< of each piece: where it begins,
+  std::vector<double> tangent_x, tangent_y;  ///< its unit tangent,
+  std::vector<double> lengths;               ///< its length
+  std::vector<std::uint32_t> site;
+  std::vector<Node> nodes;  ///< the root is the first
+
+  static constexpr std::uint32_t leaf_size = 16;
+
+ private:
+  std::uint32_t build(std::uint32_t begin, std::uint32_t end);
+};
+
+}  // namespace medial::potential

@@ -1,0 +1,353 @@
+#include "engines/potential/force.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace medial::potential {
+namespace {
+
+/// The potential of order 1, (3): log((r1 + r2 + L) / (r1 + r2 - L)), and r1 + r2 - L without
+/// cancellation, for a segment of length L seen from the origin.
+struct Ends {
+  double r1, r2, excess;
+
+  Ends(double x1, double x2, double y) {
+    const double square = y * y;
+    r1 = std::sqrt(x1 * x1 + square);
+    r2 = std::sqrt(x2 * x2 + square);
+    // r + x where x is negative is y^2 / (r - x).
+    const double before = x1 < 0 ? square / (r1 - x1) : r1 + x1;
+    const double behind = x2 > 0 ? square / (r2 + x2) : r2 - x2;
+    excess = before + behind;
+  }
+};
+
+double first_potential(double x1, double x2, double y) {
+  return std::log1p(2 * (x2 - x1) / Ends(x1, x2, y).excess);
+}
+
+/// J(0): the angle under which the segment is seen, over |y|.
+double integral_0(double x1, double x2, double y) {
+  const double length = x2 - x1, scalar = y * y + x1 * x2, area = length * std::abs(y);
+  if (scalar > 0 && area < 1e-5 * scalar) {
+    const double z = area / scalar;
+    return length / scalar * (1 - z * z / 3);
+  }
+  return std::atan2(area, scalar) / std::abs(y);
+}
+
+/// J(1), from (6); the sines' difference without cancellation.
+double integral_1(double x1, double x2, double y) {
+  const Ends ends(x1, x2, y);
+  const double length = x2 - x1;
+  return 2 * length * (1 / ends.r1 + 1 / ends.r2) / (ends.excess * (ends.excess + 2 * length));
+}
+
+/// The integral of cos^order from `angle` to a right angle, for an angle in [pi / 4, pi / 2], over
+/// cos^(order + 1): a series of positive terms in z = cos^2.
+double tail_factor(double order, double z) {
+  double term = 1, sum = 1;
+  for (int k = 0; term > 1e-17 * sum; ++k) {
+    term *= z * (0.5 * order + 1 + k) / (0.5 * (order + 3) + k);
+    sum += term;
+  }
+  return std::sqrt(1 - z) / (order + 1) * sum;
+}
+
+/// The integral of cos^order from 0 to the angle with this sine and cosine, both positive.
+double cosine_power(double order, double sine, double cosine) {
+  if (sine > cosine) {
+    const double whole = 0.5 * std::sqrt(std::numbers::pi) *
+                         std::exp(std::lgamma(0.5 * (order + 1)) - std::lgamma(0.5 * order + 1));
+    return whole - std::pow(cosine, order + 1) * tail_factor(order, cosine * cosine);
+  }
+  // sin F(1/2, order / 2 + 1; 3/2; -tan^2), transformed so that all terms are positive:
+  // sin cos^(order + 1) F(1, order / 2 + 1; 3/2; sin^2).
+  const double z = sine * sine;
+  double term = 1, sum = 1;
+  for (int k = 0; term > 1e-17 * sum; ++k) {
+    term *= z * (0.5 * order + 1 + k) / (1.5 + k);
+    sum += term;
+  }
+  return sine * std::pow(cosine, order + 1) * sum;
+}
+
+/// By Gauss's rule of eight points, for a segment that is short against its distance.
+double short_integral(double order, double x1, double x2, double y) {
+  constexpr std::array<double, 4> nodes = {0.1834346424956498, 0.5255324099163290,
+                                           0.7966664774136267, 0.9602898564975363};
+  constexpr std::array<double, 4> weights = {0.3626837833783620, 0.3137066458778873,
+                                             0.2223810344533745, 0.1012285362903763};
+  const double middle = 0.5 * (x1 + x2), half = 0.5 * (x2 - x1);
+  double sum = 0;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    for (const double x : {middle - half * nodes[i], middle + half * nodes[i]})
+      sum += weights[i] * std::pow(x * x + y * y, -0.5 * order - 1);
+  }
+  return half * sum;
+}
+
+}  // namespace
+
+double segment_integral(double order, double x1, double x2, double y) {
+  if (order == 0) return integral_0(x1, x2, y);
+  if (order == 1) return integral_1(x1, x2, y);
+  if (x2 <= 0) return segment_integral(order, -x2, -x1, y);
+  y = std::abs(y);
+  const double r1 = std::hypot(x1, y), r2 = std::hypot(x2, y);
+  if (x1 <= 0) {
+    return (cosine_power(order, -x1 / r1, y / r1) + cosine_power(order, x2 / r2, y / r2)) *
+           std::pow(y, -order - 1);
+  }
+  if ((x2 - x1) * (order + 4) < r1) return short_integral(order, x1, x2, y);
+  // Beyond the foot: a difference of tails, or of integrals from the foot.
+  if (y >= x2)
+    return (cosine_power(order, x2 / r2, y / r2) - cosine_power(order, x1 / r1, y / r1)) *
+           std::pow(y, -order - 1);
+  if (y > x1) {
+    const double middle = y;
+    return segment_integral(order, x1, middle, y) +
+           (middle < x2 ? segment_integral(order, middle, x2, y) : 0);
+  }
+  const double z1 = (y / r1) * (y / r1), z2 = (y / r2) * (y / r2);
+  return std::pow(r1, -order - 1) * tail_factor(order, z1) -
+         std::pow(r2, -order - 1) * tail_factor(order, z2);
+}
+
+Charges::Nearest Evaluator::place(Vec2 p) {
+  place_ = p;
+  const Charges::Nearest nearest = charges_.nearest(p);
+  inverse_ = 1 / nearest.distance;
+  return nearest;
+}
+
+void Evaluator::gather(double low, double high) {
+  near_.clear();
+  far_.clear();
+  const double share = far_field / (charges_.length() * inverse_);  // a unit of charge
+  std::array<std::uint32_t, 64> stack{};
+  std::size_t depth = 1;
+  while (depth > 0) {
+    const std::uint32_t index = stack[--depth];
+    const Charges::Node& node = charges_.nodes[index];
+    const double distance = medial::distance(place_, node.center) * inverse_;
+    const double radius = node.radius * inverse_;
+    // No charge of the node is nearer than this.
+    const double gap = distance - radius;
+    if (gap > 1.25) {
+      const double logarithm = std::log(gap);
+      const double logarithm_share = std::log(share);
+      if (-(low + 1) * logarithm < logarithm_share) continue;
+      // The remainder of Taylor's expansion to the second order, where it is largest.
+      const double order = std::clamp(3 / logarithm - 2, low, high);
+      const double remainder = std::log((order + 1) * (order + 2) * (order + 3) / 6) +
+                               3 * std::log(radius) - (order + 4) * logarithm;
+      if (remainder < logarithm_share) {
+        far_.push_back(index);
+        continue;
+      }
+    }
+    if (node.right != 0) {
+      stack[depth++] = node.right;
+      stack[depth++] = index + 1;
+    } else {
+      near_.push_back({node.begin, node.end});
+    }
+  }
+}
+
+void Evaluator::add_far(double order, Force& total) const {
+  for (const std::uint32_t index : far_) {
+    const Charges::Node& node = charges_.nodes[index];
+    const Vec2 v = inverse_ * (place_ - node.center);
+    const double scale = inverse_ * inverse_ * inverse_;
+    const double xx = scale * node.xx, xy = scale * node.xy, yy = scale * node.yy;
+    const double square = squared_norm(v), charge = node.length * inverse_;
+    const double power = std::pow(square, -0.5 * order - 1);
+    const double first = (order + 2) * power / square;
+    const Vec2 moved{xx * v.x + xy * v.y, xy * v.x + yy * v.y};
+    const double second = (order + 4) * dot(v, moved) / square;
+    total.force =
+        total.force + (charge * power + 0.5 * first * (second - xx - yy)) * v - first * moved;
+    total.xx += charge * (power - first * v.x * v.x);
+    total.xy -= charge * first * v.x * v.y;
+    total.yy += charge * (power - first * v.y * v.y);
+  }
+}
+
+void Evaluator::sum(double start, double low, std::span<Force> forces) const {
+  constexpr std::size_t lanes = Charges::leaf_size;
+  const double high = low + static_cast<double>(forces.size()) - 1;
+  // Upward, the recurrence multiplies errors by 1 / |y| an order: up to 1e7 is borne.
+  const double flat = start == 1 && high < 3 ? 0 : std::pow(1e-7, 1 / high);
+  using Lanes = std::array<double, lanes>;
+  alignas(32) Lanes x1, x2, y, tx, ty, j, p1, p2, q1, q2, inverse_square;
+  for (const Range& range : near_) {
+    const std::size_t count = range.end - range.begin;
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::size_t i = range.begin + k;
+      tx[k] = charges_.tangent_x[i];
+      ty[k] = charges_.tangent_y[i];
+      const double dx = place_.x - charges_.start_x[i], dy = place_.y - charges_.start_y[i];
+      x1[k] = -(dx * tx[k] + dy * ty[k]) * inverse_;
+      x2[k] = x1[k] + charges_.lengths[i] * inverse_;
+      y[k] = (dy * tx[k] - dx * ty[k]) * inverse_;
+    }
+    if (flat > 0) {
+      for (std::size_t k = 0; k < count; ++k) {
+        if (std::abs(y[k]) >= flat) continue;
+        if (x1[k] < 0 && x2[k] > 0) continue;  // as near as the nearest: |y| is 1 or more
+        sum_steep(static_cast<std::uint32_t>(range.begin + k), start, low, forces);
+        x1[k] = x2[k] = y[k] = 1;  // nothing
+      }
+    }
+    if (start == 1) {
+      for (std::size_t k = 0; k < count; ++k) {
+        const double length = x2[k] - x1[k], square = y[k] * y[k];
+        const double r1 = std::sqrt(x1[k] * x1[k] + square);
+        const double r2 = std::sqrt(x2[k] * x2[k] + square);
+        const double size1 = std::abs(x1[k]) + r1, size2 = std::abs(x2[k]) + r2;
+        const double before = x1[k] < 0 ? square / size1 : size1;
+        const double behind = x2[k] > 0 ? square / size2 : size2;
+        const double excess = before + behind;
+        p1[k] = 1 / r1;
+        p2[k] = 1 / r2;
+        j[k] = 2 * length * (p1[k] + p2[k]) / (excess * (excess + 2 * length));
+        q1[k] = p1[k] * p1[k];
+        q2[k] = p2[k] * p2[k];
+        inverse_square[k] = 1 / std::max(square, 1e-300);
+      }
+    } else {
+      for (std::size_t k = 0; k < count; ++k) {
+        const double square = y[k] * y[k];
+        q1[k] = 1 / (x1[k] * x1[k] + square);
+        q2[k] = 1 / (x2[k] * x2[k] + square);
+        p1[k] = start == 0 ? 1 : std::pow(q1[k], 0.5 * start);
+        p2[k] = start == 0 ? 1 : std::pow(q2[k], 0.5 * start);
+        j[k] = x1[k] == x2[k] ? 0 : segment_integral(start, x1[k], x2[k], y[k]);
+        inverse_square[k] = 1 / std::max(square, 1e-300);
+      }
+    }
+    for (double n = start;; n += 2) {
+      if (n > low - 0.5 && n > 0) {
+        Force add;
+        const double inverse_n = 1 / n;
+        for (std::size_t k = 0; k < count; ++k) {
+          const double along = (p2[k] - p1[k]) * inverse_n, across = y[k] * j[k];
+          add.force.x += tx[k] * along - ty[k] * across;
+          add.force.y += ty[k] * along + tx[k] * across;
+          const double s1 = p1[k] * q1[k], s2 = p2[k] * q2[k];
+          const double a = x2[k] * s2 - x1[k] * s1;
+          const double b = -y[k] * (s2 - s1);
+          const double c = -n * j[k] - a;
+          // (a, b; b, c) turned into the frame of the plane.
+          const double xx = tx[k] * tx[k], xy = tx[k] * ty[k], yy = ty[k] * ty[k];
+          add.xx += a * xx - 2 * b * xy + c * yy;
+          add.yy += a * yy + 2 * b * xy + c * xx;
+          add.xy += (a - c) * xy + b * (xx - yy);
+        }
+        Force& sum = forces[static_cast<std::size_t>(std::lround(n - low))];
+        sum.force = sum.force + add.force;
+        sum.xx += add.xx;
+        sum.xy += add.xy;
+        sum.yy += add.yy;
+      }
+      if (n + 2 > high + 0.5) break;
+      const double inverse_next = 1 / (n + 2);
+      for (std::size_t k = 0; k < count; ++k) {
+        p1[k] *= q1[k];
+        p2[k] *= q2[k];
+        j[k] = inverse_square[k] * (x2[k] * p2[k] - x1[k] * p1[k] + (n + 1) * j[k]) * inverse_next;
+      }
+    }
+  }
+}
+
+void Evaluator::sum_steep(std::uint32_t piece, double start, double low,
+                          std::span<Force> forces) const {
+  const double high = low + static_cast<double>(forces.size()) - 1;
+  const Vec2 t = charges_.tangent(piece), d = place_ - charges_.start(piece);
+  const double first = -dot(d, t) * inverse_;
+  const double last = first + charges_.lengths[piece] * inverse_;
+  const double y = cross(t, d) * inverse_, square = y * y;
+  const bool ahead = first >= 0;
+  const double x1 = ahead ? first : -last, x2 = ahead ? last : -first;
+  const double r1 = std::sqrt(x1 * x1 + square), r2 = std::sqrt(x2 * x2 + square);
+  // The recurrence is taken downward, from where its start no longer matters: each two orders
+  // shrink an error by y^2 / r1^2.
+  double top = start;
+  while (top + 2 < high + 0.5) top += 2;
+  const double last_order = top;
+  const double ratio = 2 * std::log(r1 / std::max(std::abs(y), 1e-150));
+  const double steps = std::ceil((32 - high * std::log(r1)) / ratio);
+  top += 2 * std::clamp(steps, 1.0, 80.0);
+  double p1 = std::pow(r1, -top), p2 = std::pow(r2, -top);
+  double j = (p1 / x1 - p2 / x2) / top;
+  for (double n = top; n > start; n -= 2) {
+    // From order n to n - 2.
+    j = (n * square * j + x1 * p1 - x2 * p2) / (n - 1);
+    p1 *= r1 * r1;
+    p2 *= r2 * r2;
+    const double order = n - 2;
+    if (order > last_order + 0.5 || order < low - 0.5 || order <= 0) continue;
+    const double s1 = p1 / (r1 * r1), s2 = p2 / (r2 * r2);
+    const double sign = ahead ? 1 : -1;
+    const double along = sign * (p2 - p1) / order, across = y * j;
+    const double a = x2 * s2 - x1 * s1, b = -sign * y * (s2 - s1), c = -order * j - a;
+    const double xx = t.x * t.x, xy = t.x * t.y, yy = t.y * t.y;
+    Force& sum = forces[static_cast<std::size_t>(std::lround(order - low))];
+    sum.force = sum.force + along * t + across * left_of(t);
+    sum.xx += a * xx - 2 * b * xy + c * yy;
+    sum.yy += a * yy + 2 * b * xy + c * xx;
+    sum.xy += (a - c) * xy + b * (xx - yy);
+  }
+}
+
+Force Evaluator::force(double order) {
+  Force result;
+  gather(order, order);
+  sum(std::fmod(order, 2), order, std::span(&result, 1));
+  add_far(order, result);
+  return result;
+}
+
+void Evaluator::forces(int first, std::span<Force> forces) {
+  const int last = first + static_cast<int>(forces.size()) - 1;
+  std::fill(forces.begin(), forces.end(), Force{});
+  gather(first, last);
+  sum(1, first, forces);
+  if (last > 1) sum(0, first, forces);
+  for (int order = first; order <= last; ++order)
+    add_far(order, forces[static_cast<std::size_t>(order - first)]);
+}
+
+double Evaluator::log_potential(double order) {
+  const double scale = (1 - order) * -std::log(inverse_);
+  if (order > 2) {
+    const Force lower = force(order - 2);
+    return std::log(-(lower.xx + lower.yy) / (order - 2)) + scale;
+  }
+  double total = 0;
+  for (std::size_t i = 0; i < charges_.size(); ++i) {
+    const Vec2 t = charges_.tangent(i), d = place_ - charges_.start(i);
+    const double x1 = -dot(d, t) * inverse_, x2 = x1 + charges_.lengths[i] * inverse_;
+    const double y = cross(t, d) * inverse_;
+    if (order == 1) {
+      total += first_potential(x1, x2, y);
+    } else if (order == 2) {
+      total += integral_0(x1, x2, y);
+    } else {
+      // (n - 1) J(n - 2) is what (9) leaves of the next order.
+      const double r1 = std::hypot(x1, y), r2 = std::hypot(x2, y);
+      total += (order * y * y * segment_integral(order, x1, x2, y) - x2 * std::pow(r2, -order) +
+                x1 * std::pow(r1, -order)) /
+               (order - 1);
+    }
+  }
+  return std::log(total) + scale;
+}
+
+}  // namespace medial::potential

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "engines/potential/charges.h"
+
+namespace medial::potential {
+
+constexpr int largest_order = 256;
+
+/// The n-force at a point and its derivatives by the point's coordinates, in units in which the
+/// distance d to the nearest charge is 1: the force itself is `force` / d^n, its derivatives are
+/// (xx, xy; xy, yy) / d^(n + 1). So no order overflows. The force is minus the gradient of the
+/// potential (7) divided by n, so the derivatives are symmetric, and their trace is -n times the
+/// potential of order n + 2.
+struct Force {
+  Vec2 force;
+  double xx = 0, xy = 0, yy = 0;
+
+  double determinant() const { return xx * yy - xy * xy; }
+  Vec2 derivative(Vec2 v) const { return {xx * v.x + xy * v.y, xy * v.x + yy * v.y}; }
+};
+
+/// The integral of dx / (x^2 + y^2)^(order / 2 + 1) over [x1, x2], relative error about 1e-13.
+/// Requires order >= 0 and a segment that does not pass through the origin. Closed forms for
+/// order 0 and 1; else from the series of the incomplete beta function, for any real order.
+double segment_integral(double order, double x1, double x2, double y);
+
+/// Forces of all charges together ([ahuja1997], (5), (6), (8), (9)).
+///
+/// Each piece adds, with x along it, y across it, r^2 = x^2 + y^2 and n the order,
+/// ([r^-n] / n, y J(n)), where J(n), the integral of dx / r^(n + 2), follows from J(n - 2) by the
+/// recurrence (9). That is stable upward while |y| is not small against the distance to the nearest
+/// charge; other pieces are passed sideways (they lie on the point's own line, nearly), and take
+/// the recurrence downward. Pieces far away add as moments (charge and quadrupole about its centre)
+/// or not at all, as their bounds allow: what that changes is below `far_field` in the units of
+/// Force. Keeps a reference to the charges and scratch memory of its own: one evaluator a thread.
+class Evaluator {
+ public:
+  explicit Evaluator(const Charges& charges) : charges_(charges) {}
+
+  /// Where the next forces are asked for. Returns the nearest charge.
+  Charges::Nearest place(Vec2 p);
+
+  /// The n-force at the place. Requires a place on no charge and order in [1, largest_order].
+  Force force(double order);
+  /// Those of the whole orders first, first + 1, ... as many as `forces` holds. One pass for all.
+  void forces(int first, std::span<Force> forces);
+  /// The logarithm of the potential (7) at the place. Requires order in [1, largest_order].
+  double log_potential(double order);
+
+  static constexpr double far_field = 1e-7;
+
+ private:
+  /// Which pieces to sum one by one, and which sets by their moments, for orders in [low, high].
+  void gather(double low, double high);
+  void add_far(double order, Force& sum) const;
+  /// Adds the near pieces' forces of the orders start, start + 2, ... from `low` on; forces[i]
+  /// takes that of order low + i.
+  void sum(double start, double low, std::span<Force> forces) const;
+  void sum_steep(std::uint32_t piece, double start, double low, std::span<Force> forces) const;
+
+  struct Range {
+    std::uint32_t begin, end;
+  };
+  const Charges& charges_;
+  Vec2 place_;
+  double inverse_ = 1;  ///< of the distance to the nearest charge
+  std::vector<Range> near_;
+  std::vector<std::uint32_t> far_;
+};
+
+}  // namespace medial::potential

@@ -1,0 +1,207 @@
+#include "engines/potential/potential.h"
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "axis/sites.h"
+#include "base/frame.h"
+#include "base/stopwatch.h"
+#include "base/tolerance.h"
+#include "engines/potential/charges.h"
+#include "engines/potential/region.h"
+#include "engines/potential/skeleton.h"
+#include "engines/potential/successor.h"
+
+namespace medial::potential {
+namespace {
+
+/// Which sites the pieces of a region are, by the numbers of the result.
+class SiteNames {
+ public:
+  SiteNames(const Shape& shape, const sites::SiteNumbers& numbers)
+      : shape_(shape), numbers_(numbers) {}
+
+  /// The site that is nearest to p, of which `piece` is known to be the nearest charge.
+  std::uint32_t nearest(const Charge& piece, Vec2 p) const {
+    const Vec2 along = piece.end - piece.start;
+    const double t = dot(p - piece.start, along) / squared_norm(along);
+    const std::uint32_t edge = piece.site;
+    if (t <= 0 && numbers_.is_site(edge) && piece.first) return numbers_.edge[edge] - 1;
+    if (t >= 1 && piece.last) {
+      const std::uint32_t next = next_of(edge);
+      if (numbers_.is_site(next)) return numbers_.edge[next] - 1;
+    }
+    return numbers_.edge[edge];
+  }
+
+ private:
+  std::uint32_t next_of(std::uint32_t point) const {
+    const auto loop = std::upper_bound(shape_.loop_begin.begin(), shape_.loop_begin.end(), point);
+    return point + 1 == *loop ? *(loop - 1) : point + 1;
+  }
+  const Shape& shape_;
+  const sites::SiteNumbers& numbers_;
+};
+
+/// Between valley points whose successors lie further apart than this many steps, others are put.
+constexpr double widest_gap = 1.5;
+constexpr int most_halvings = 3;
+
+/// The successors of all points, and of further ones between them where they part.
+struct Refined {
+  std::vector<Successor> points;
+  std::vector<std::array<std::uint32_t, 2>> links;
+};
+
+Refined successors_of(const Skeleton& skeleton, const Charges& charges,
+                      const SuccessorOptions& options) {
+  Refined result;
+  result.points.resize(skeleton.points.size());
+  constexpr std::size_t grain = 16;
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, skeleton.points.size(), grain), [&](const auto& range) {
+        Evaluator evaluator(charges);
+        for (std::size_t i = range.begin(); i < range.end(); ++i)
+          result.points[i] = generalized_successor(evaluator, skeleton.points[i], options);
+      });
+  std::vector<std::vector<Successor>> between(skeleton.links.size());
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, skeleton.links.size(), grain), [&](const auto& range) {
+        Evaluator evaluator(charges);
+        for (std::size_t i = range.begin(); i < range.end(); ++i) {
+          const auto [from, to] = skeleton.links[i];
+          const auto halve = [&](const auto& self, const ValleyPoint& a, const Successor& at_a,
+                                 const ValleyPoint& b, const Successor& at_b, int depth) -> void {
+            if (depth == 0 || distance(at_a.place, at_b.place) <= widest_gap * options.step) return;
+            ValleyPoint middle = a.kind == ValleyPoint::Kind::corner ? b : a;
+            middle.kind = ValleyPoint::Kind::valley;
+            middle.place = midpoint(a.place, b.place);
+            const Vec2 along = b.place - a.place;
+            if (norm(along) > 0) middle.tangent = (1 / norm(along)) * along;
+            middle.radius = evaluator.place(middle.place).distance;
+            const Successor found = generalized_successor(evaluator, middle, options);
+            self(self, a, at_a, middle, found, depth - 1);
+            between[i].push_back(found);
+            self(self, middle, found, b, at_b, depth - 1);
+          };
+          halve(halve, skeleton.points[from], result.points[from], skeleton.points[to],
+                result.points[to], most_halvings);
+        }
+      });
+  for (std::size_t i = 0; i < skeleton.links.size(); ++i) {
+    std::uint32_t last = skeleton.links[i][0];
+    for (const Successor& point : between[i]) {
+      const auto index = static_cast<std::uint32_t>(result.points.size());
+      result.points.push_back(point);
+      result.links.push_back({last, index});
+      last = index;
+    }
+    result.links.push_back({last, skeleton.links[i][1]});
+  }
+  return result;
+}
+
+}  // namespace
+
+Result<MedialAxis> run(const Shape& shape, const Options& options) {
+  Stopwatch watch;
+  const PotentialOptions& own = options.potential;
+  MedialAxis axis;
+  axis.method = name_of(Method::potential);
+  const Box box = bounding_box(shape);
+  const Frame frame = frame_of(box);
+  axis.tolerance = tolerance_for(box, options.tolerance);
+  const sites::SiteNumbers numbers = sites::number_sites(shape, frame, options.corner_angle);
+  axis.sites = sites::result_sites(shape, numbers);
+  const SiteNames names(shape, numbers);
+  axis.statistics.seconds_sites = watch.lap();
+
+  // Arcs become chords within a hundredth of a step.
+  const double whole = std::max(box.high.x - box.low.x, box.high.y - box.low.y);
+  const std::vector<Region> regions =
+      regions_of(shape, frame, options.corner_angle, 0.01 * own.step * whole * frame.scale);
+  bool seeded = !own.from;
+  for (std::uint32_t component = 0; component < regions.size(); ++component) {
+    const Region& region = regions[component];
+    const Charges charges(region.pieces);
+    axis.statistics.seconds_tree += watch.lap();
+    SkeletonOptions tracing;
+    tracing.order = own.base_order;
+    tracing.step = own.step * region.size;
+    if (own.within)
+      tracing.within = Box{frame.to_local(own.within->low), frame.to_local(own.within->high)};
+    if (own.from) {
+      tracing.from = frame.to_local(*own.from);
+      if (!encloses(region, *tracing.from)) continue;
+      seeded = true;
+    }
+    axis.resolution = std::max(axis.resolution, tracing.step * frame.inverse);
+    // Where valleys are too flat for the arithmetic, those of a lower order are less so.
+    Skeleton skeleton = trace_valleys(region, charges, tracing);
+    while (!skeleton.whole && tracing.order > 1) {
+      axis.statistics.queries += skeleton.forces;
+      tracing.order = std::max(1.0, tracing.order - 1);
+      skeleton = trace_valleys(region, charges, tracing);
+    }
+    axis.statistics.queries += skeleton.forces;
+    axis.statistics.seconds_walk += watch.lap();
+    if (!skeleton.whole)
+      return Error{ErrorCode::unsupported,
+                   "the potential's valleys are too flat to be connected: use the method disks",
+                   {}};
+    SuccessorOptions search;
+    search.order = own.order;
+    search.angle = own.angle * std::numbers::pi / 180;
+    search.movement = own.movement * region.size;
+    search.step = tracing.step;
+    search.accuracy = tracing.step / 64;
+    Refined refined;
+    if (own.order == tracing.order) {
+      for (const ValleyPoint& point : skeleton.points)
+        refined.points.push_back({point.place, point.radius, tracing.order});
+      refined.links = skeleton.links;
+    } else {
+      refined = successors_of(skeleton, charges, search);
+    }
+    const auto base = static_cast<std::uint32_t>(axis.nodes.size());
+    for (const Successor& point : refined.points)
+      axis.nodes.push_back({{frame.to_input(point.place), point.radius * frame.inverse},
+                            component,
+                            NodeKind::site_change});
+    for (const auto& [from, to] : refined.links) {
+      const Successor &a = refined.points[from], &b = refined.points[to];
+      // The nearest charges on both sides.
+      const Successor& inner = a.radius > 0 ? a : b;
+      const Vec2 along = b.place - a.place;
+      const double length = norm(along);
+      const Vec2 aside = length > 0 ? (0.5 * inner.radius / length) * left_of(along) : Vec2{};
+      std::array<std::uint32_t, 2> touched{};
+      for (const std::size_t side : {0U, 1U}) {
+        const Vec2 p = side == 0 ? inner.place + aside : inner.place - aside;
+        touched[side] = names.nearest(region.pieces[charges.nearest(p).piece], p);
+      }
+      axis.edges.push_back({{base + from, base + to}, touched, {}, 1});
+      const Disk &first = axis.nodes[base + from].disk, &last = axis.nodes[base + to].disk;
+      axis.edges.back().control = {midpoint(first.center, last.center),
+                                   0.5 * (first.radius + last.radius)};
+    }
+    axis.statistics.seconds_collect += watch.lap();
+    if (options.cancel != nullptr && options.cancel->load()) break;
+    if (options.progress) options.progress((component + 1.0) / static_cast<double>(regions.size()));
+  }
+  if (!seeded) return Error{ErrorCode::invalid_option, "the seed lies outside of the shape", {}};
+  std::vector<std::uint32_t> degree(axis.nodes.size());
+  for (const Edge& edge : axis.edges)
+    for (const std::uint32_t node : edge.node) ++degree[node];
+  for (std::size_t i = 0; i < degree.size(); ++i)
+    axis.nodes[i].kind = degree[i] > 2   ? NodeKind::branching
+                         : degree[i] < 2 ? NodeKind::leaf
+                                         : NodeKind::site_change;
+  return axis;
+}
+
+}  // namespace medial::potential

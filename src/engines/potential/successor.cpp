@@ -1,0 +1,118 @@
+#include "engines/potential/successor.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace medial::potential {
+namespace {
+
+/// The angle between two forces.
+double angle_between(Vec2 a, Vec2 b) { return std::atan2(std::abs(cross(a, b)), dot(a, b)); }
+
+}  // namespace
+
+int adaptive_order(Evaluator& evaluator, const SuccessorOptions& options) {
+  // Orders come in ever larger blocks, since most points need but a few.
+  constexpr int first_block = 6;
+  std::array<Force, largest_order + 2> forces;
+  int known = 0;
+  const auto know = [&](int order) {
+    if (order <= known) return;
+    const int last = std::clamp(std::max(first_block, 2 * known), order, largest_order);
+    evaluator.forces(known + 1, std::span(forces).subspan(static_cast<std::size_t>(known) + 1,
+                                                          static_cast<std::size_t>(last - known)));
+    known = last;
+  };
+  const auto turn = [&](int order) {
+    know(order);
+    const auto i = static_cast<std::size_t>(order);
+    return angle_between(forces[i].force, forces[i - 1].force);
+  };
+  int order = 2;
+  while (order < options.most_order &&
+         (turn(order) > options.angle || turn(order + 1) > options.angle))
+    ++order;
+  return order;
+}
+
+Vec2 successor(Evaluator& evaluator, const ValleyPoint& point, double order,
+               const SuccessorOptions& options) {
+  const Vec2 across = left_of(point.tangent);
+  Vec2 p = point.place;
+  double radius = evaluator.place(p).distance;
+  if (!(radius > 0)) return p;
+  // The sine between force and valley at which it counts as perpendicular (Section 5).
+  constexpr double perpendicular = 0.001;
+  const auto projection = [&](const Force& force) {
+    const double size = norm(force.force);
+    return size > 0 ? dot(force.force, across) / size : 0;
+  };
+  const double first = projection(evaluator.force(order));
+  if (std::abs(first) <= perpendicular) return p;
+  const double way = first > 0 ? 1 : -1;
+  // On until the force turns around.
+  double before = 0, here = 0, f_before = std::abs(first);
+  constexpr int most_steps = 4000;
+  for (int i = 0; i < most_steps; ++i) {
+    const double step = std::min(options.step, 0.5 * radius);
+    here = before + step;
+    p = point.place + way * here * across;
+    radius = evaluator.place(p).distance;
+    if (!(radius > 0)) return point.place + way * before * across;
+    double f = way * projection(evaluator.force(order));
+    if (f > perpendicular) {
+      before = here;
+      f_before = f;
+      continue;
+    }
+    if (f >= -perpendicular) return p;
+    // Between here and before: false position, kept honest by halving.
+    double a = before, b = here, fa = f_before;
+    for (int k = 0; k < 60 && b - a > options.accuracy; ++k) {
+      double m = 0.5 * (a + b);
+      if (k % 3 != 2)
+        m = std::clamp(a + (b - a) * fa / (fa - f), a + 0.02 * (b - a), b - 0.02 * (b - a));
+      p = point.place + way * m * across;
+      radius = evaluator.place(p).distance;
+      if (!(radius > 0)) break;
+      const double fm = way * projection(evaluator.force(order));
+      if (std::abs(fm) <= perpendicular) return p;
+      if (fm > 0) {
+        a = m;
+        fa = fm;
+      } else {
+        b = m;
+        f = fm;
+      }
+    }
+    return point.place + way * 0.5 * (a + b) * across;
+  }
+  return p;
+}
+
+Successor generalized_successor(Evaluator& evaluator, const ValleyPoint& point,
+                                const SuccessorOptions& options) {
+  Successor result{point.place, point.radius, 1};
+  if (point.kind == ValleyPoint::Kind::corner) return result;
+  ValleyPoint here = point;
+  if (options.order > 0) {
+    result.order = options.order;
+    result.place = successor(evaluator, here, options.order, options);
+  } else {
+    evaluator.place(here.place);
+    int order = adaptive_order(evaluator, options);
+    for (;;) {
+      result.place = successor(evaluator, here, order, options);
+      result.order = order;
+      const bool still = distance(result.place, here.place) <= options.movement;
+      here.place = result.place;
+      if (order >= options.most_order || (still && order > 2)) break;
+      order = std::min(2 * order, options.most_order);
+    }
+  }
+  result.radius = evaluator.place(result.place).distance;
+  return result;
+}
+
+}  // namespace medial::potential

@@ -1,0 +1,38 @@
+#pragma once
+
+#include "engines/potential/force.h"
+#include "engines/potential/skeleton.h"
+
+namespace medial::potential {
+
+struct SuccessorOptions {
+  double order = 0;     ///< of the force; 0: adaptive for each point
+  double angle = 0;     ///< theta_min, in radians
+  double movement = 0;  ///< e_min: what a higher order may still move a point by
+  double step = 0;      ///< S, the first step of the search
+  double accuracy = 0;  ///< s_min, where the search ends
+  int most_order = 64;  ///< of adaptive orders
+};
+
+/// A point of the medial axis and the order of the force that it was found with.
+struct Successor {
+  Vec2 place;
+  double radius = 0;
+  double order = 1;
+};
+
+/// N of the algorithm MAT-Generalized-Polygonal, Steps 0 to 2, at a place: the lowest order from 2
+/// on at which the force's direction, and at the next order again, changes by no more than
+/// theta_min. At most options.most_order. Requires evaluator.place() to have been told the place.
+int adaptive_order(Evaluator& evaluator, const SuccessorOptions& options);
+
+/// Algorithm Successor: the point of the n-skeleton across the valley at `point`.
+Vec2 successor(Evaluator& evaluator, const ValleyPoint& point, double order,
+               const SuccessorOptions& options);
+
+/// Algorithm MAT-Generalized-Polygonal for one point, repeated with twice the order until the point
+/// moves by no more than e_min. With a fixed order, algorithm Successor alone.
+Successor generalized_successor(Evaluator& evaluator, const ValleyPoint& point,
+                                const SuccessorOptions& options);
+
+}  // namespace medial::potential

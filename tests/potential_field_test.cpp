@@ -1,0 +1,190 @@
+// The potential and the force of charged segments against their definitions, by quadrature.
+
+#include <gtest/gtest.h>
+
+#include <boost/math/quadrature/gauss_kronrod.hpp>
+#include <cmath>
+#include <vector>
+
+#include "engines/potential/force.h"
+#include "support/generate.h"
+
+namespace medial::test {
+namespace {
+
+using potential::Charge;
+using potential::Charges;
+using potential::Evaluator;
+using potential::Force;
+
+double integrate(const auto& f, double a, double b) {
+  return boost::math::quadrature::gauss_kronrod<double, 31>::integrate(f, a, b, 3, 1e-10);
+}
+
+std::vector<Charge> border_of(const Rings& rings) {
+  std::vector<Charge> pieces;
+  for (const Ring& ring : rings)
+    for (std::size_t i = 0; i < ring.points.size(); ++i)
+      pieces.push_back({ring.points[i], ring.points[(i + 1) % ring.points.size()], 0});
+  return pieces;
+}
+
+/// The force by its definition, times distance^n.
+Force by_definition(const std::vector<Charge>& pieces, Vec2 p, double order, double distance) {
+  Force sum;
+  for (const Charge& piece : pieces) {
+    const double length = medial::distance(piece.start, piece.end);
+    const Vec2 tangent = (1 / length) * (piece.end - piece.start);
+    // Divided where the integrand is largest.
+    const double foot = std::clamp(dot(p - piece.start, tangent), 0.0, length);
+    const auto term = [&](double s) {
+      const Vec2 v = (1 / distance) * (p - piece.start - s * tangent);
+      return std::pair(v, std::pow(squared_norm(v), -0.5 * order - 1) / distance);
+    };
+    const auto add = [&](double a, double b) {
+      if (!(a < b)) return;
+      sum.force.x += integrate([&](double s) { return term(s).first.x * term(s).second; }, a, b);
+      sum.force.y += integrate([&](double s) { return term(s).first.y * term(s).second; }, a, b);
+      const auto derivative = [&](int which) {
+        return integrate(
+            [&](double s) {
+              const auto [v, weight] = term(s);
+              const double first = (order + 2) * weight / squared_norm(v);
+              return which == 0   ? weight - first * v.x * v.x
+                     : which == 1 ? -first * v.x * v.y
+                                  : weight - first * v.y * v.y;
+            },
+            a, b);
+      };
+      sum.xx += derivative(0);
+      sum.xy += derivative(1);
+      sum.yy += derivative(2);
+    };
+    // Near the foot the integrand is as narrow as the distance.
+    double inner = std::min(distance, length);
+    std::vector<double> cuts = {0, foot, length};
+    for (; inner < length; inner *= 4) {
+      cuts.push_back(std::clamp(foot - inner, 0.0, length));
+      cuts.push_back(std::clamp(foot + inner, 0.0, length));
+    }
+    std::sort(cuts.begin(), cuts.end());
+    for (std::size_t i = 0; i + 1 < cuts.size(); ++i) add(cuts[i], cuts[i + 1]);
+  }
+  return sum;
+}
+
+void expect_near(const Force& a, const Force& b, double tolerance) {
+  EXPECT_NEAR(a.force.x, b.force.x, tolerance);
+  EXPECT_NEAR(a.force.y, b.force.y, tolerance);
+  EXPECT_NEAR(a.xx, b.xx, 10 * tolerance);
+  EXPECT_NEAR(a.xy, b.xy, 10 * tolerance);
+  EXPECT_NEAR(a.yy, b.yy, 10 * tolerance);
+}
+
+TEST(PotentialField, IntegralsMatchQuadratureAtAnyRealOrder) {
+  Random random(1);
+  for (int i = 0; i < 400; ++i) {
+    const double y = random.power_of_ten(-3, 1) * (random.chance(0.5) ? 1 : -1);
+    const double x1 = random.between(-5, 5), x2 = x1 + random.power_of_ten(-3, 1);
+    const double order = i % 4 == 0 ? i % 3 : random.between(0, 12);
+    const auto f = [&](double x) { return std::pow(x * x + y * y, -0.5 * order - 1); };
+    double expected = 0;
+    std::vector<double> cuts = {x1, x2, std::clamp(0.0, x1, x2)};
+    for (double w = std::abs(y); w < 20; w *= 2) {
+      cuts.push_back(std::clamp(w, x1, x2));
+      cuts.push_back(std::clamp(-w, x1, x2));
+    }
+    std::sort(cuts.begin(), cuts.end());
+    for (std::size_t k = 0; k + 1 < cuts.size(); ++k)
+      if (cuts[k] < cuts[k + 1]) expected += integrate(f, cuts[k], cuts[k + 1]);
+    EXPECT_NEAR(potential::segment_integral(order, x1, x2, y) / expected, 1, 1e-11)
+        << order << " " << x1 << " " << x2 << " " << y;
+  }
+}
+
+TEST(PotentialField, ForcesMatchTheirDefinition) {
+  Random random(7);
+  const std::vector<Rings> shapes = {rectangle(4, 2), l_shape(1), jagged_star(9), comb(3)};
+  int places = 0;
+  for (const Rings& rings : shapes) {
+    const std::vector<Charge> pieces = border_of(rings);
+    const Charges charges(pieces);
+    Evaluator evaluator(charges);
+    for (int i = 0; i < 12; ++i) {
+      // Anywhere, near a segment, near an end, or on the line of one.
+      const Charge& piece = pieces[random.next() % pieces.size()];
+      const Vec2 along = piece.end - piece.start;
+      Vec2 p{random.between(-1, 5), random.between(-1, 4)};
+      const double close = random.power_of_ten(-6, -1);
+      if (i % 4 == 1) p = piece.start + random.unit() * along + close * left_of(along);
+      if (i % 4 == 2) p = piece.end + close * Vec2{random.between(-1, 1), random.between(-1, 1)};
+      if (i % 4 == 3) p = piece.end + (close + random.unit()) * along;
+      const double distance = evaluator.place(p).distance;
+      if (!(distance > 1e-7)) continue;
+      ++places;
+      for (const double order : {1.0, 2.0, 3.0, 4.0, 8.0, 17.0, 64.0, 2.5}) {
+        SCOPED_TRACE(testing::Message() << "order " << order << " at " << p.x << " " << p.y);
+        expect_near(evaluator.force(order), by_definition(pieces, p, order, distance), 1e-6);
+      }
+    }
+  }
+  EXPECT_GT(places, 30);
+}
+
+TEST(PotentialField, AllOrdersInOnePassAreTheSame) {
+  const Charges charges(border_of(comb(5)));
+  Evaluator evaluator(charges);
+  evaluator.place({2.3, 0.7});
+  std::vector<Force> all(64);
+  evaluator.forces(1, all);
+  for (int order = 1; order <= 64; ++order)
+    expect_near(all[static_cast<std::size_t>(order - 1)], evaluator.force(order), 1e-8);
+}
+
+TEST(PotentialField, TheTreeKeepsItsBound) {
+  const std::vector<Charge> pieces = border_of(maze(4000));
+  const Charges charges(pieces);
+  Evaluator evaluator(charges);
+  Random random(3);
+  for (int i = 0; i < 20; ++i) {
+    const Vec2 p{random.between(20, 200), random.between(20, 200)};
+    const double distance = evaluator.place(p).distance;
+    if (distance < 0.1) continue;
+    for (const double order : {1.0, 2.0, 5.0}) {
+      Force sum;
+      // One piece after another has no far field.
+      for (const Charge& piece : pieces) {
+        const Charges one({piece});
+        Evaluator alone(one);
+        const double ratio = distance / alone.place(p).distance;
+        const Force f = alone.force(order);
+        sum.force = sum.force + std::pow(ratio, order) * f.force;
+      }
+      EXPECT_LT(medial::distance(evaluator.force(order).force, sum.force),
+                2 * Evaluator::far_field);
+    }
+  }
+}
+
+TEST(PotentialField, ThePotentialMatchesItsDefinition) {
+  const std::vector<Charge> pieces = border_of(l_shape(1));
+  const Charges charges(pieces);
+  Evaluator evaluator(charges);
+  for (const Vec2 p : {Vec2{0.4, 0.3}, Vec2{1.9, 0.99}, Vec2{0.01, 1.5}, Vec2{1, 0.5}}) {
+    evaluator.place(p);
+    for (const double order : {1.0, 1.5, 2.0, 2.7, 3.0, 8.0}) {
+      double sum = 0;
+      for (const Charge& piece : pieces) {
+        const auto f = [&](double t) {
+          return std::pow(distance(p, piece.start + t * (piece.end - piece.start)), -order);
+        };
+        for (int i = 0; i < 64; ++i)
+          sum += distance(piece.start, piece.end) * integrate(f, i / 64.0, (i + 1) / 64.0);
+      }
+      EXPECT_NEAR(evaluator.log_potential(order), std::log(sum), 1e-6) << order;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace medial::test

@@ -1,0 +1,134 @@
+// The engine `potential` beside the exact one.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "medial/compute.h"
+#include "medial/query.h"
+#include "support/generate.h"
+
+namespace medial::test {
+namespace {
+
+struct Distances {
+  double largest = 0, mean = 0;  ///< from samples of the axis to the exact one
+  double away = 0;               ///< the largest of samples away from leaves
+};
+
+double size_of(const Shape& shape) {
+  const Box box = bounding_box(shape);
+  return std::max(box.high.x - box.low.x, box.high.y - box.low.y);
+}
+
+/// Away from leaves: further from every leaf of the exact axis than 5% of the size.
+Distances distances(const Shape& shape, const MedialAxis& axis) {
+  const MedialAxis exact = *compute(shape);
+  const AxisLocator locator(exact);
+  const double size = size_of(shape);
+  Distances result;
+  double count = 0;
+  for (const Edge& edge : axis.edges) {
+    for (const double t : {0.0, 0.5, 1.0}) {
+      const Vec2 p = disk_at(axis, edge, t).center;
+      const double d = locator.nearest(p).distance;
+      const bool near_leaf =
+          std::any_of(exact.nodes.begin(), exact.nodes.end(), [&](const Node& n) {
+            return n.kind == NodeKind::leaf && distance(n.disk.center, p) < 0.05 * size;
+          });
+      result.largest = std::max(result.largest, d);
+      if (!near_leaf) result.away = std::max(result.away, d);
+      result.mean += d;
+      ++count;
+    }
+  }
+  if (count > 0) result.mean /= count;
+  return result;
+}
+
+std::vector<std::pair<std::string, Rings>> families() {
+  Random random(11);
+  std::vector<std::pair<std::string, Rings>> shapes = {
+      {"rectangle", rectangle(20, 10)},
+      {"square", rectangle(4, 4)},
+      {"l", l_shape(5)},
+      {"t", t_shape(5)},
+      {"u", u_shape(5)},
+      {"cross", cross_shape(5)},
+      {"comb", comb(5)},
+      {"triangle", triangle({0, 0}, {7, 1}, {2, 5})},
+      {"heptagon", regular_polygon(7)},
+      {"star", jagged_star(9)},
+      {"blob", blob(60)},
+      {"maze", maze(200)},
+      {"holes", hole_grid(3)},
+      {"nested", nested_squares(4)},
+      {"spiral", spiral(60)},
+      {"needle", needle(0.1)}};
+  for (int i = 0; i < 12; ++i)
+    shapes.push_back({"random " + std::to_string(i), untangled(random, 24, 100)});
+  return shapes;
+}
+
+/// Of all edges, whether each leads on from what the others reach.
+std::size_t parts(const MedialAxis& axis) {
+  std::vector<std::uint32_t> parent(axis.nodes.size());
+  for (std::uint32_t i = 0; i < parent.size(); ++i) parent[i] = i;
+  const auto find = [&](std::uint32_t i) {
+    while (parent[i] != i) i = parent[i] = parent[parent[i]];
+    return i;
+  };
+  std::size_t count = parent.size();
+  for (const Edge& edge : axis.edges) {
+    const std::uint32_t a = find(edge.node[0]), b = find(edge.node[1]);
+    if (a == b) continue;
+    parent[a] = b;
+    --count;
+  }
+  return count;
+}
+
+TEST(Potential, IsConnectedWithOneCycleForEachHole) {
+  for (const auto& [name, rings] : families()) {
+    SCOPED_TRACE(name);
+    const Shape shape = *build_shape(rings);
+    const auto axis = compute(shape, {.method = Method::potential});
+    ASSERT_TRUE(axis.ok());
+    EXPECT_EQ(parts(*axis), shape.component_count());
+    EXPECT_EQ(axis->edges.size() + parts(*axis) - axis->nodes.size(), shape.hole_count());
+  }
+}
+
+TEST(Potential, IsTheSameForAnyNumberOfThreads) {
+  const Shape shape = *build_shape(comb(4));
+  const auto one = compute(shape, {.method = Method::potential, .threads = 1});
+  const auto four = compute(shape, {.method = Method::potential, .threads = 4});
+  ASSERT_TRUE(one.ok() && four.ok());
+  ASSERT_EQ(one->nodes.size(), four->nodes.size());
+  for (std::size_t i = 0; i < one->nodes.size(); ++i)
+    EXPECT_EQ(one->nodes[i].disk.center, four->nodes[i].disk.center);
+}
+
+TEST(Potential, ComesNearTheExactAxis) {
+  for (const auto& [name, rings] : families()) {
+    SCOPED_TRACE(name);
+    const Shape shape = *build_shape(rings);
+    const auto axis = compute(shape, {.method = Method::potential});
+    EXPECT_TRUE(axis.ok());
+    if (!axis) continue;
+    const Distances d = distances(shape, *axis);
+    const double size = size_of(shape);
+    EXPECT_LT(d.mean, 0.003 * size);
+    EXPECT_GT(axis->resolution, 0);
+    for (const Node& node : axis->nodes)
+      EXPECT_NEAR(node.disk.radius, std::max(0.0, clearance(shape, node.disk.center)), 1e-9 * size);
+  }
+}
+
+}  // namespace
+}  // namespace medial::test
