@@ -78,12 +78,14 @@ struct Statistics {
 
 /// The medial axis transform: a graph of exact curves in (x, y, r).
 ///
-/// Sampled methods work on a grid of square pixels and say so by a `resolution` above 0, the side
-/// of a pixel. Of a sampled axis this holds: every node is the centre of a medial pixel, in the
-/// order of increasing x within increasing y; its radius is within half a pixel's diagonal of its
-/// distance to the boundary. Every edge runs straight between two neighbouring pixels (of eight),
-/// its control point in the middle and its weight 1. Its sites are two that the disk of its first
-/// node touches, within a few pixels, or both no_site. Which pixels are linked: see
+/// Sampled methods say so by a `resolution` above 0. That of `potential` is the longest step along
+/// the axis, about: nodes have their exact distance to the boundary as radius, edges run straight
+/// and name sites that are nearest on both sides. That of methods on a grid of square pixels is the
+/// side of a pixel, and of their axis this holds: every node is the centre of a medial pixel, in
+/// the order of increasing x within increasing y; its radius is within half a pixel's diagonal of
+/// its distance to the boundary. Every edge runs straight between two neighbouring pixels (of
+/// eight), its control point in the middle and its weight 1. Its sites are two that the disk of its
+/// first node touches, within a few pixels, or both no_site. Which pixels are linked: see
 /// axis/pixel_graph.h.
 struct MedialAxis {
   std::string method;     ///< the engine's name: "disks"
