@@ -44,6 +44,8 @@ class MergeCurve {
       if (!crossing[0] && !crossing[1]) return edge;
       const std::size_t side = first_of(crossing);
       disk_ = crossing[side]->disk;
+      // The curve runs below an edge or crosses it, as long as its disks are inside the shape.
+      if (top(1 - side) != none && is_behind(1 - side, diagram_.edges[top(1 - side)])) return edge;
       const std::uint32_t crossed = top(side);
       current_[side] = diagram_.edges[crossed].element[side];
       if (diagram_.top[current_[side]][side] != crossed)
@@ -75,36 +77,43 @@ class MergeCurve {
 
   /// Drops the outermost edges of one side of which no disk is inside the shape: those where the
   /// disk at the inner end reaches over the element on the other side, and those that lie behind,
-  /// in the part that the current disk cuts off. Unless it is the current disk that is not inside
-  /// the shape: then returns false.
+  /// in the part that the current disk cuts off. Returns false where it is the current disk that
+  /// is not inside the shape.
   bool drop_covered(std::size_t side) {
     for (std::uint32_t place = top(side); place != none; place = top(side)) {
-      ListEdge& edge = diagram_.edges[place];
-      if (edge.inner.radius == 0) return true;
-      if (gap(current_[1 - side], edge.inner) >= -tie()) {
-        if (!is_behind(side, edge.inner)) return true;
+      const ListEdge& edge = diagram_.edges[place];
+      const bool reaches_over =
+          edge.inner.radius > 0 && gap(current_[1 - side], edge.inner) < -tie();
+      if (!reaches_over) {
         const double distance_to_third = gap(edge.element[side], disk_);
-        if (distance_to_third <= vagueness()) return distance_to_third >= -vagueness();
+        if (distance_to_third < -vagueness()) return false;
+        if (distance_to_third <= vagueness() || !is_behind(side, edge)) return true;
       }
-      for (const std::size_t k : {0u, 1u}) {
-        std::uint32_t& outermost = diagram_.top[edge.element[k]][k];
-        if (outermost != place) throw std::runtime_error("two Voronoi edges cross");
-        outermost = edge.inward[k];
-      }
-      edge.inward[0] = free_.first;
-      free_.first = place;
+      drop(place);
     }
     return true;
+  }
+
+  void drop(std::uint32_t place) {
+    ListEdge& edge = diagram_.edges[place];
+    for (const std::size_t k : {0u, 1u}) {
+      std::uint32_t& outermost = diagram_.top[edge.element[k]][k];
+      if (outermost != place) throw std::runtime_error("two Voronoi edges cross");
+      outermost = edge.inward[k];
+    }
+    edge.inward[0] = free_.first;
+    free_.first = place;
   }
 
   /// How far Voronoi points of three elements that hardly determine one may be off.
   double vagueness() const { return 1e-6 * disk_.radius; }
 
-  /// Whether a disk's foot on the current element of one side has been passed for sure.
-  bool is_behind(std::size_t side, const Disk& disk) const {
+  /// Whether the current disk's foot on its element of one side has passed all of an edge for sure.
+  bool is_behind(std::size_t side, const ListEdge& edge) const {
+    if (edge.inner.radius == 0) return false;
     const Site& own = site(current_[side]);
-    const Vec2 way = disk.center - disk_.center;
-    const double ahead = own.is_vertex() ? cross(way, disk_.center - own.point) / disk.radius
+    const Vec2 way = edge.inner.center - disk_.center;
+    const double ahead = own.is_vertex() ? cross(way, disk_.center - own.point) / edge.inner.radius
                                          : dot(own.direction, way);
     return side == 0 ? ahead > vagueness() : ahead < -vagueness();
   }
