@@ -106,7 +106,7 @@ class MergeCurve {
   }
 
   /// How far Voronoi points of three elements that hardly determine one may be off.
-  double vagueness() const { return 1e-6 * disk_.radius; }
+  double vagueness() const { return limits_.tolerance + 1e-6 * disk_.radius; }
 
   /// Whether the current disk's foot on its element of one side has passed all of an edge for sure.
   bool is_behind(std::size_t side, const ListEdge& edge) const {
