@@ -180,10 +180,11 @@ class MergeCurve {
     return is_covered(first) && !is_covered(1 - first) ? 1 - first : first;
   }
 
-  /// Whether a disk that touches an edge's elements lies outward of its inner end.
+  /// Whether a disk that touches an edge's elements lies outward of its inner end, but for rounding.
   bool is_outward(const ListEdge& edge, const Disk& disk) const {
     const Bisector bisector(site(edge.element[1]), site(edge.element[0]));
-    return bisector.position(disk.center) >= bisector.position(edge.inner.center);
+    return bisector.position(disk.center) >= bisector.position(edge.inner.center) ||
+           distance(disk.center, edge.inner.center) <= vagueness();
   }
 
   /// Whether a disk that touches the carrier of an element touches the element: its foot lies on a
