@@ -17,7 +17,8 @@ using geometry::Site;
 /// Where the merge curve leaves a Voronoi polygon.
 struct Crossing {
   Disk disk;
-  double position = 0;  ///< on the current bisector
+  double position = 0;   ///< on the current bisector
+  std::size_t side = 0;  ///< of the edge that it crosses
 };
 
 /// The merge curve's way through two diagrams (Section II): the current bisector B(e_a, e_b), with
@@ -36,14 +37,11 @@ class MergeCurve {
     for (;;) {
       const Bisector bisector(site(current_[1]), site(current_[0]));
       const double reached = bisector.position(disk_.center);
-      std::array<std::optional<Crossing>, 2> crossing;
-      for (const std::size_t side : {0u, 1u}) {
-        if (!drop_covered(side)) return edge;
-        if (top(side) != none) crossing[side] = crossing_with(side, bisector, reached);
-      }
-      if (!crossing[0] && !crossing[1]) return edge;
-      const std::size_t side = first_of(crossing);
-      disk_ = crossing[side]->disk;
+      if (!drop_covered(0) || !drop_covered(1)) return edge;
+      const auto crossing = first_crossing(bisector, reached);
+      if (!crossing) return edge;
+      const std::size_t side = crossing->side;
+      disk_ = crossing->disk;
       // The curve runs below an edge or crosses it, as long as its disks are inside the shape.
       if (top(1 - side) != none && is_behind(1 - side, diagram_.edges[top(1 - side)])) return edge;
       const std::uint32_t crossed = top(side);
@@ -108,14 +106,18 @@ class MergeCurve {
   /// How far Voronoi points of three elements that hardly determine one may be off.
   double vagueness() const { return limits_.tolerance + 1e-6 * disk_.radius; }
 
-  /// Whether the current disk's foot on its element of one side has passed all of an edge for sure.
-  bool is_behind(std::size_t side, const ListEdge& edge) const {
-    if (edge.inner.radius == 0) return false;
+  /// By how far a disk's foot on its element of one side has passed an edge's inner end, and so all
+  /// of the edge; negative where it has not. No edge passes the ends of its elements.
+  double passed(std::size_t side, const Disk& disk, const ListEdge& edge) const {
+    if (edge.inner.radius == 0) return -disk.radius;
     const Site& own = site(current_[side]);
-    const Vec2 way = edge.inner.center - disk_.center;
-    const double ahead = own.is_vertex() ? cross(way, disk_.center - own.point) / edge.inner.radius
+    const Vec2 way = edge.inner.center - disk.center;
+    const double ahead = own.is_vertex() ? cross(way, disk.center - own.point) / edge.inner.radius
                                          : dot(own.direction, way);
-    return side == 0 ? ahead > vagueness() : ahead < -vagueness();
+    return side == 0 ? ahead : -ahead;
+  }
+  bool is_behind(std::size_t side, const ListEdge& edge) const {
+    return passed(side, disk_, edge) > vagueness();
   }
 
   double tie() const { return 0.25 * limits_.tolerance; }
@@ -131,9 +133,9 @@ class MergeCurve {
     // A disk that is behind by rounding only is the current one.
     const auto not_behind = [&](const Disk& disk) -> std::optional<Crossing> {
       const double position = bisector.position(disk.center);
-      if (position > reached) return Crossing{disk, position};
+      if (position > reached) return Crossing{disk, position, side};
       if (disk_.radius > 0 && distance(disk.center, disk_.center) <= vagueness())
-        return Crossing{disk_, reached};
+        return Crossing{disk_, reached, side};
       return std::nullopt;
     };
     if (diagram_.is_spoke(edge)) {
@@ -168,19 +170,32 @@ class MergeCurve {
     return best;
   }
 
-  /// On which side the curve leaves a polygon first; one crossing exists. Where the positions are
-  /// not known well, the other side's element tells: it must not reach into the disk.
-  std::size_t first_of(const std::array<std::optional<Crossing>, 2>& crossing) {
-    if (!crossing[0] || !crossing[1]) return crossing[0] ? 0 : 1;
-    const std::size_t first = crossing[1]->position < crossing[0]->position ? 1 : 0;
-    const auto is_covered = [&](std::size_t side) {
+  /// Where the curve leaves a polygon first. Where the positions are not known well, the other
+  /// side's element tells: it must not reach into the disk.
+  std::optional<Crossing> first_crossing(const Bisector& bisector, double reached) {
+    std::array<std::optional<Crossing>, 2> crossing;
+    const auto reach_over = [&](std::size_t side) {
       const std::uint32_t third = diagram_.edges[top(1 - side)].element[1 - side];
-      return gap(third, crossing[side]->disk) < -tie();
+      return -gap(third, crossing[side]->disk);
     };
-    return is_covered(first) && !is_covered(1 - first) ? 1 - first : first;
+    for (const std::size_t side : {0u, 1u}) {
+      if (top(side) == none) continue;
+      crossing[side] = crossing_with(side, bisector, reached);
+      if (side == 1 || !crossing[0] || top(1) == none) continue;
+      // Most often the other edge has clearly not been reached: that spares its disk.
+      const ListEdge& edge = diagram_.edges[top(1)];
+      if (!diagram_.is_spoke(edge) && reach_over(0) <= -tie() &&
+          passed(1, crossing[0]->disk, edge) <= 0)
+        return crossing[0];
+    }
+    if (!crossing[0] || !crossing[1]) return crossing[0] ? crossing[0] : crossing[1];
+    const std::size_t first = crossing[1]->position < crossing[0]->position ? 1 : 0;
+    return reach_over(first) > tie() && reach_over(1 - first) <= tie() ? crossing[1 - first]
+                                                                       : crossing[first];
   }
 
-  /// Whether a disk that touches an edge's elements lies outward of its inner end, but for rounding.
+  /// Whether a disk that touches an edge's elements lies outward of its inner end, but for
+  /// rounding.
   bool is_outward(const ListEdge& edge, const Disk& disk) const {
     const Bisector bisector(site(edge.element[1]), site(edge.element[0]));
     return bisector.position(disk.center) >= bisector.position(edge.inner.center) ||

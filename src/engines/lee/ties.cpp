@@ -32,6 +32,31 @@ class Sets {
   std::vector<std::uint32_t> parent_;
 };
 
+/// Numbers in groups, all in one array: first they are counted, then they are put in place.
+class Groups {
+ public:
+  explicit Groups(std::size_t count) : begin_(count + 2, 0) {}
+  void count(std::uint32_t group) { ++begin_[group + 2]; }
+  void end_count() {
+    for (std::size_t i = 2; i < begin_.size(); ++i) begin_[i] += begin_[i - 1];
+    items_.resize(begin_.back());
+  }
+  void put(std::uint32_t group, std::uint32_t item) { items_[begin_[group + 1]++] = item; }
+  std::span<const std::uint32_t> operator[](std::uint32_t group) const {
+    return std::span(items_).subspan(begin_[group], begin_[group + 1] - begin_[group]);
+  }
+
+ private:
+  std::vector<std::uint32_t> begin_, items_;
+};
+
+template <class ForAll>
+void for_both_passes(Groups& groups, const ForAll& for_all) {
+  for_all([&](std::uint32_t group, std::uint32_t) { groups.count(group); });
+  groups.end_count();
+  for_all([&](std::uint32_t group, std::uint32_t item) { groups.put(group, item); });
+}
+
 double largest_residual(const Elements& elements, std::span<const std::uint32_t> touched,
                         const Disk& disk) {
   double largest = 0;
@@ -73,59 +98,60 @@ std::optional<Disk> fitted_disk(const Elements& elements, std::span<const std::u
 }  // namespace
 
 void join_ties(Graph& graph, const Elements& elements, double tolerance) {
-  std::vector<bool> is_joined(graph.nodes.size(), false);
   const auto is_short = [&](const Graph::Edge& edge, double window) {
     const Disk &from = graph.nodes[edge.from], &to = graph.nodes[edge.to];
-    return from.radius > 0 && to.radius > 0 && !is_joined[edge.from] && !is_joined[edge.to] &&
+    return from.radius > 0 && to.radius > 0 &&
            squared_norm(from.center - to.center) <= window * window;
   };
-  for (const double window : windows) {
-    std::vector<std::uint32_t> tied;  // edges
-    for (std::uint32_t e = 0; e < graph.edges.size(); ++e)
-      if (!graph.edges[e].spoke && is_short(graph.edges[e], window)) tied.push_back(e);
-    if (tied.empty()) return;
-    Sets sets(graph.nodes.size());
-    std::vector<bool> is_tied(graph.nodes.size(), false);
-    for (const std::uint32_t e : tied) {
-      const Graph::Edge& edge = graph.edges[e];
-      sets.join(edge.from, edge.to);
-      is_tied[edge.from] = is_tied[edge.to] = true;
-    }
-    // What each set's points touch, and the points themselves, set by set.
-    using Member = std::pair<std::uint32_t, std::uint32_t>;
-    std::vector<Member> touched, points;
+  // The nodes that may be tied, numbered, and what they touch.
+  std::vector<std::uint32_t> tied_edges, tied, number;
+  for (std::uint32_t e = 0; e < graph.edges.size(); ++e)
+    if (!graph.edges[e].spoke && is_short(graph.edges[e], windows.front())) tied_edges.push_back(e);
+  if (tied_edges.empty()) return;
+  number.assign(graph.nodes.size(), none);
+  for (const std::uint32_t e : tied_edges)
+    for (const std::uint32_t node : {graph.edges[e].from, graph.edges[e].to})
+      if (number[node] == none) {
+        number[node] = static_cast<std::uint32_t>(tied.size());
+        tied.push_back(node);
+      }
+  Groups touched(tied.size());
+  for_both_passes(touched, [&](const auto& add) {
     for (const Graph::Edge& edge : graph.edges)
       for (const std::uint32_t node : {edge.from, edge.to})
-        if (is_tied[node])
-          for (const std::uint32_t element : edge.element)
-            touched.emplace_back(sets.find(node), element);
-    for (std::uint32_t node = 0; node < graph.nodes.size(); ++node)
-      if (is_tied[node]) points.emplace_back(sets.find(node), node);
-    const auto sort = [](std::vector<Member>& members) {
-      std::sort(members.begin(), members.end());
-      members.erase(std::unique(members.begin(), members.end()), members.end());
-    };
-    sort(touched);
-    sort(points);
-    std::vector<std::uint32_t> own;
-    auto touches = touched.cbegin();
-    for (auto point = points.cbegin(); point != points.cend();) {
-      const std::uint32_t set = point->first;
+        if (number[node] != none)
+          for (const std::uint32_t element : edge.element) add(number[node], element);
+  });
+
+  std::vector<bool> is_joined(tied.size(), false);
+  std::vector<std::uint32_t> own;
+  for (const double window : windows) {
+    Sets sets(tied.size());
+    for (const std::uint32_t e : tied_edges) {
+      const Graph::Edge& edge = graph.edges[e];
+      const std::uint32_t from = number[edge.from], to = number[edge.to];
+      if (!is_joined[from] && !is_joined[to] && is_short(edge, window)) sets.join(from, to);
+    }
+    Groups members(tied.size());
+    for_both_passes(members, [&](const auto& add) {
+      for (std::uint32_t i = 0; i < tied.size(); ++i) add(sets.find(i), i);
+    });
+    for (std::uint32_t set = 0; set < tied.size(); ++set) {
+      const std::span<const std::uint32_t> points = members[set];
+      if (points.size() < 2) continue;
       own.clear();
-      for (; touches != touched.cend() && touches->first == set; ++touches)
-        own.push_back(touches->second);
-      const auto begin = point;
-      while (point != points.cend() && point->first == set) ++point;
-      const auto disk = fitted_disk(elements, own, graph.nodes[set]);
+      for (const std::uint32_t point : points)
+        own.insert(own.end(), touched[point].begin(), touched[point].end());
+      const auto disk = fitted_disk(elements, own, graph.nodes[tied[set]]);
       if (!disk || largest_residual(elements, own, *disk) > 0.5 * tolerance) continue;
       // Other edges are longer than the window: none of them turns round.
-      const bool is_near = std::all_of(begin, point, [&](const Member& member) {
-        return distance(graph.nodes[member.second].center, disk->center) <= window;
+      const bool is_near = std::all_of(points.begin(), points.end(), [&](std::uint32_t point) {
+        return distance(graph.nodes[tied[point]].center, disk->center) <= window;
       });
       if (!is_near) continue;
-      for (auto member = begin; member != point; ++member) {
-        graph.nodes[member->second] = *disk;
-        is_joined[member->second] = true;
+      for (const std::uint32_t point : points) {
+        graph.nodes[tied[point]] = *disk;
+        is_joined[point] = true;
       }
     }
   }
