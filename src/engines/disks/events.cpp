@@ -306,7 +306,8 @@ std::optional<Event> EventSearch::contact_before(const Event& intruded) {
   for (const std::uint32_t next : {i - 1, i + 1}) {
     if (next <= span_.right || next >= span_.left || element(next) == Element::cut) continue;
     const auto on_next = contact_with(next, intruded.position);
-    if (on_next && reaches(*on_next) && !(earliest && earliest->position <= on_next->position))
+    if (on_next && reaches(*on_next) &&
+        on_next->position < (earliest ? *earliest : intruded).position)
       earliest = on_next;
   }
   if (earliest) return earliest;
