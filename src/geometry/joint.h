@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -18,21 +19,22 @@ enum class Joint : std::uint8_t {
 /// The joint where `before` ends and `after` begins, of which at least one is an arc.
 ///
 /// Directions count as one below the angle that rounding of the coordinates leaves open: 1e-12, and
-/// four times `tolerance` (that of the coordinates, in their units) against the chords. At a cusp
-/// the interior is inside or around it as the edges lie next to each other half a chord away, where
-/// they are (sine - (sum of the curvatures) s / 2) s apart, s from the cusp. `corner_angle` in
-/// radians.
+/// four times `tolerance` (that of the coordinates, in their units) against the chords; but no more
+/// than 1e-7, where a disk as large as the shape that touches one edge reaches over the other by
+/// 1e-14 of its size. At a cusp the interior is inside or around it as the edges lie next to each
+/// other half a chord away, where they are (sine - (sum of the curvatures) s / 2) s apart, s from
+/// the cusp. `corner_angle` in radians.
 inline Joint joint_of(const BulgeArc& before, const BulgeArc& after, double tolerance,
                       double corner_angle) {
-  constexpr double least = 1e-12;
+  constexpr double least = 1e-12, most = 1e-7;
   const Vec2 arriving = end_tangent(before), leaving = start_tangent(after);
   const double sine = cross(arriving, leaving), cosine = dot(arriving, leaving);
   const double chord_before = distance(before.start, before.end);
   const double chord_after = distance(after.start, after.end);
   const double rounding = 4 * tolerance * (1 / chord_before + 1 / chord_after);
-  if (std::abs(sine) <= least + rounding) {
-    if (cosine > 0) return Joint::smooth;
-    const double away = 0.5 * (chord_before < chord_after ? chord_before : chord_after);
+  if (cosine > 0 && std::abs(sine) <= std::min(least + rounding, most)) return Joint::smooth;
+  if (cosine < 0 && std::abs(sine) <= least + rounding) {
+    const double away = 0.5 * std::min(chord_before, chord_after);
     const double bend = 0.5 * (curvature(before) + curvature(after)) * away;
     return sine > bend ? Joint::corner : Joint::reflex;
   }

@@ -221,7 +221,10 @@ std::optional<Event> EventSearch::pass_over_circle() const {
   for (const bool on_right : {true, false}) {
     const std::uint32_t own = on_right ? span_.right : span_.left;
     if (!(site(own).curvature > 0) || !boundary_.is_smooth(on_right ? own : own - 1)) continue;
-    if (contacts_.touches_all(own, from_))
+    // Not on to a rounder arc, whose circle is still to come.
+    const std::uint32_t next = on_right ? own + 1 : own - 1;
+    const bool rounder = site(next).curvature > site(own).curvature;
+    if (contacts_.touches_all(own, from_) && !(rounder && !contacts_.touches_all(next, from_)))
       return Event{on_right ? Event::Kind::pass_right : Event::Kind::pass_left, Hit::none, from_,
                    low_};
   }
