@@ -107,6 +107,13 @@ Verb make_axis_verb(CLI::App& program) {
                    "same result, byte for byte.")
       ->check(a_whole_number())
       ->option_text("N");
+  verb->add_flag("--exterior", switches->options.exterior,
+                 "The axis of what lies around the shape and in its holes, within a frame.");
+  verb->add_option("--margin", switches->options.margin,
+                   "How far that frame is away from the shape's bounding box, in units of the\n"
+                   "input (default: half of the box's longer side).")
+      ->check(CLI::PositiveNumber.description(""))
+      ->option_text("D");
   add_ridge_switches(*verb, switches->options);
   verb->add_option("--order", switches->options.potential.order,
                    "Of the potential: the n of 1 / r^n. 0 (default) chooses it for each point.")

@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "cli/bench_biarc.h"
+#include "cli/bench_ridge.h"
 #include "cli/bench_shapes.h"
 #include "cli/common.h"
 #include "cli/plot.h"
@@ -346,7 +347,9 @@ Verb make_bench_verb(CLI::App& program) {
       "Examples:\n"
       "  medial bench biarc --quick\n"
       "  medial bench biarc -o biarc.svg");
-  return {verb, [switches] { return run_biarc(*switches); }};
+  const Verb ridge = add_ridge_bench(*verb);
+  return {verb,
+          [switches, ridge] { return ridge.app->parsed() ? ridge.run() : run_biarc(*switches); }};
 }
 
 }  // namespace medial::cli

@@ -217,6 +217,26 @@ class Axis(CommandLine):
         refused = self.refuse("unsupported", "axis", "ring.wkt", "--method", "biarc-dc")
         self.refuse("[a-z_]+", "axis", "teeth.wkt", "--method", "magic")
 
+    def test_ridge_and_exterior(self):
+        """Ridge following and the exterior, with their switches, and what verify says of them."""
+        self.write("frame.wkt", FRAME)
+        for rule in ("crossing", "difference"):
+            told = []
+            for search in ("tree", "sorted-list"):
+                self.succeed("axis", "frame.wkt", "--method", "ridge", "--pixels", "60", "--ridge-rule", rule,
+                             "--ridge-search", search, "--ridge-collinear", "0", "-o", search + ".json")
+                told.append(self.read(search + ".json").split(b'"statistics"')[0])
+            self.assertEqual(told[0], told[1])
+        verdict = json.loads(self.succeed("verify", "frame.wkt", "tree.json", "--json").stdout)
+        self.assertTrue(verdict["passed"])
+        self.assertGreater(verdict["resolution"], 0)
+        for method in ("disks", "ridge"):
+            self.succeed("axis", "frame.wkt", "--exterior", "--margin", "2", "--method", method, "-o", "around.json")
+            self.succeed("verify", "frame.wkt", "around.json")
+        self.refuse("too_large", "axis", "frame.wkt", "--method", "ridge", "--resolution", "1e-9")
+        self.refuse("invalid_option", "axis", "frame.wkt", "--method", "ridge", "--pixels", "9", "--resolution", "1")
+        self.refuse("invalid_option", "axis", "frame.wkt", "--exterior", "--margin", "0")
+
     def test_legal(self):
         """The axis of a shape is legal; a radius that grows faster than the way is not, and is named."""
         self.write("frame.wkt", FRAME)
@@ -751,6 +771,16 @@ class Bench(CommandLine):
         for row in report["polygons"]:  # a leaf at every convex corner of a polygon
             self.assertGreater(row["polygon_leaves"], 2 * row["arc_leaves"])
             self.assertLess(row["arc_error"], row["polygon_error"])
+
+    def test_ridge(self):
+        done = self.run_medial("bench", "ridge", "--quick", "--per-unit", "6", "-q", "-o", "ridge.csv")
+        self.assertEqual(done.returncode, 0, done.stdout.decode()[-2000:])
+        table = done.stdout.decode()
+        self.assertIn("| 10/5 | | | | | | | | | | | | | | | | refused: crossing |", table)
+        self.assertNotIn("FAILED", table)
+        rows = self.read("ridge.csv").decode().splitlines()
+        self.assertGreater(len(rows), 20)
+        self.assertEqual({len(row.split(",")) for row in rows}, {8 + 3 * 7})
 
     def test_outputs(self):
         quick = ("bench", "biarc", "--quick", "--tolerances", "1", "-q", "-o")

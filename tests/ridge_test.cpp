@@ -256,5 +256,82 @@ TEST(Ridge, RefusesWhatItCannotDo) {
   EXPECT_EQ(axis.error().code, ErrorCode::unsupported);
 }
 
+TEST(Ridge, AsManyPartsAsSets) {
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    const RandomShape random = seed % 4 == 3 ? random_arc_shape(seed) : random_shape(seed);
+    const auto shape = build_shape(random.rings);
+    if (!shape) continue;
+    ridge::Report report;
+    const MedialAxis axis = ridge::run(*shape, ridge_options(64), &report);
+    const Certificate certificate = verify(*shape, axis);
+    EXPECT_EQ(certificate.graph_parts, report.sets - report.empty_sets)
+        << random.kind << ", seed " << seed;
+  }
+}
+
+TEST(Exterior, OfAUShapeIsItsBay) {
+  // The bay of a U of width 2 and depth 2, open to the top: its axis begins in the corners at the
+  // bottom, and above the U the disks touch the frame.
+  const Shape shape = build_shape(u_shape(2)).value();
+  for (const Method method : {Method::disks, Method::ridge}) {
+    Options options = ridge_options(300);
+    options.method = method;
+    options.exterior = true;
+    options.margin = 3;
+    const auto axis = compute(shape, options);
+    ASSERT_TRUE(axis.ok()) << to_string(axis.error());
+    EXPECT_EQ(axis->exterior, 3);
+    ASSERT_FALSE(axis->edges.empty());
+    const Certificate certificate = verify(shape, *axis);
+    EXPECT_TRUE(certificate.passed)
+        << (certificate.failures.empty() ? "" : certificate.failures[0]);
+    for (const Edge& edge : axis->edges)
+      for (const std::uint32_t site : edge.site) {
+        if (site == no_site) continue;
+        ASSERT_LT(site, axis->sites.size());
+        EXPECT_EQ(axis->sites[site].ring, 0u);
+      }
+    bool in_bay = false;
+    for (const Node& node : axis->nodes)
+      in_bay = in_bay || distance(node.disk.center, {3, 3.5}) < 0.6;
+    EXPECT_TRUE(in_bay);
+    // The axis knows its radius well.
+    for (const Node& node : axis->nodes)
+      EXPECT_NEAR(-clearance(shape, node.disk.center), node.disk.radius, 1e-9);
+  }
+}
+
+TEST(Exterior, EveryHoleHasItsAxis) {
+  const Shape shape = build_shape(hole_grid(3)).value();
+  Options options;
+  options.exterior = true;
+  const MedialAxis axis = compute(shape, options).value();
+  EXPECT_TRUE(verify(shape, axis).passed);
+  // A square's axis in each hole: four leaves and a node; nothing around the convex outline.
+  EXPECT_EQ(axis.nodes.size(), 9u * 5u);
+  EXPECT_EQ(count_of(axis, NodeKind::leaf), 9u * 4u);
+  const Shape convex = build_shape(rectangle(3, 2)).value();
+  EXPECT_TRUE(compute(convex, options).value().edges.empty());
+  options.margin = -1;
+  EXPECT_EQ(compute(convex, options).error().code, ErrorCode::invalid_option);
+  options.margin = std::nan("");
+  EXPECT_EQ(compute(convex, options).error().code, ErrorCode::invalid_option);
+}
+
+TEST(Exterior, OfRandomShapesPasses) {
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    const RandomShape random = seed % 2 == 1 ? random_arc_shape(seed) : random_shape(seed);
+    const auto shape = build_shape(random.rings);
+    if (!shape) continue;
+    Options options;
+    options.exterior = true;
+    const auto axis = compute(*shape, options);
+    ASSERT_TRUE(axis.ok()) << random.kind << ", seed " << seed << ": " << to_string(axis.error());
+    const Certificate certificate = verify(*shape, *axis);
+    EXPECT_TRUE(certificate.passed)
+        << random.kind << ", seed " << seed << ": " << certificate.failures[0];
+  }
+}
+
 }  // namespace
 }  // namespace medial::test

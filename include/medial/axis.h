@@ -91,6 +91,10 @@ struct MedialAxis {
   std::string method;     ///< the engine's name: "disks"
   double tolerance = 0;   ///< in units of the input: what |distance - radius| stays below
   double resolution = 0;  ///< 0: exact; otherwise the step of a sampled method
+  /// 0: of the interior; otherwise of the exterior, within a frame that is this far away from the
+  /// shape's bounding box: without the edges whose disks touch the frame. Its sites have the
+  /// exterior on their left.
+  double exterior = 0;
   std::vector<Site> sites;
   std::vector<Node> nodes;
   std::vector<Edge> edges;

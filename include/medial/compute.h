@@ -93,6 +93,12 @@ struct Options {
   double ridge_collinear = 5;
   RidgeSearch ridge_search = RidgeSearch::tree;
   RidgeRule ridge_rule = RidgeRule::crossing;
+  /// Compute the axis of what lies around the shape and in its holes instead: of a frame less the
+  /// shape, without the edges that touch the frame. Every concavity and every hole has its axis.
+  bool exterior = false;
+  /// How far the frame is away from the shape's bounding box, in units of the input, at least 1e-6
+  /// and at most 1e6 of the diagonal; 0: half of the longer side.
+  double margin = 0;
   /// Of the random choices of biarc_dc: the same seed gives the same result, byte for byte.
   std::uint64_t seed = 1;
   PotentialOptions potential = {};

@@ -8,16 +8,19 @@
 #include <optional>
 #include <utility>
 
+#include "axis/sites.h"
 #include "base/arc.h"
 #include "base/limits.h"
 #include "base/threads.h"
 #include "engines/biarc_dc/biarc_dc.h"
 #include "engines/disks/disks.h"
+#include "engines/drop_frame.h"
 #include "engines/lee/lee.h"
 #include "engines/potential/force.h"
 #include "engines/potential/potential.h"
 #include "engines/ridge/ridge.h"
 #include "medial/voronoi.h"
+#include "shape/exterior.h"
 
 namespace medial {
 namespace {
@@ -96,6 +99,32 @@ std::optional<Error> refuse(const Shape& shape, const Options& options) {
   return std::nullopt;
 }
 
+/// The axis of the frame less the shape, without what touches the frame.
+Result<MedialAxis> compute_exterior(const Shape& shape, const Options& options) {
+  constexpr double least = 1e-6, most = 1e6;
+  const Box box = bounding_box(shape);
+  const double margin = margin_for(box, options.margin), size = diagonal(box);
+  if (!(options.margin >= 0 && margin >= least * size && margin <= most * size))
+    return Error{ErrorCode::invalid_option,
+                 "the margin must be 0 or in [1e-6, 1e6] of the shape's diagonal",
+                 {}};
+  auto exterior = exterior_of(shape, margin);
+  if (!exterior) return std::move(exterior).error();
+  Options inside = options;
+  inside.exterior = false;
+  auto axis = compute(exterior->shape, inside);
+  if (!axis) return axis;
+  // The sites of the frame: those that begin in its points.
+  const sites::SiteNumbers numbers = sites::number_sites(
+      exterior->shape, frame_of(bounding_box(exterior->shape)), options.corner_angle);
+  std::vector<bool> of_frame(axis->sites.size(), false);
+  for (std::size_t i = 0; i < exterior->of_frame.size(); ++i)
+    if (exterior->of_frame[i]) of_frame[numbers.edge[i]] = true;
+  drop_frame(of_frame, *axis);
+  axis->exterior = margin;
+  return axis;
+}
+
 /// The Euler characteristic: one connected part for each component, one cycle for each hole.
 bool has_right_topology(const Shape& shape, const MedialAxis& axis) {
   const auto signed_size = [](std::size_t n) { return static_cast<std::int64_t>(n); };
@@ -143,6 +172,7 @@ std::optional<Method> method_from(std::string_view name) {
 Result<MedialAxis> compute(const Shape& shape, const Options& options) {
   try {
     if (auto error = refuse(shape, options)) return std::move(*error);
+    if (options.exterior) return compute_exterior(shape, options);
     auto result = on_threads(options.threads, [&] { return run(shape, options); });
     if (!result) return std::move(result).error();
     MedialAxis& axis = *result;

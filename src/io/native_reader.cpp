@@ -179,6 +179,8 @@ void read_axis(json::value value, MedialAxis& axis, Unresolved& unresolved) {
       axis.tolerance = number(content);
     } else if (key == "resolution") {
       axis.resolution = number(content);
+    } else if (key == "exterior") {
+      axis.exterior = number(content);
     } else if (key == "sites") {
       for_each(content, [&](json::value element) { read_site(element, axis, unresolved); });
     } else if (key == "nodes") {

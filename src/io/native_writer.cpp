@@ -180,6 +180,7 @@ class NativeWriter {
     out_.put(quoted(axis.method));
     member(",\"tolerance\":", axis.tolerance);
     member(",\"resolution\":", axis.resolution);
+    if (axis.exterior != 0) member(",\"exterior\":", axis.exterior);
     SiteNames names(shape);
     array(",\n\"sites\":", axis.sites, [&](const Site& site) {
       if (const auto vertex = names.vertex_of(site)) {

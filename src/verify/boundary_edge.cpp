@@ -28,9 +28,9 @@ Vec2 from_center(const Directions& directions, const BoundaryEdge& edge, Vec2 p)
   return directions.curvature() * middle - directions.half.x * left_of(directions.chord);
 }
 
-/// Whether the nearest point of the carrier to p lies on the edge: p between the normals at its ends
-/// and, of an arc, on its side of the centre. Next to the centre of a short arc the normals alone
-/// would leave that side to rounding.
+/// Whether the nearest point of the carrier to p lies on the edge: p between the normals at its
+/// ends and, of an arc, on its side of the centre. Next to the centre of a short arc the normals
+/// alone would leave that side to rounding.
 bool is_beside(const Directions& directions, const BoundaryEdge& edge, Vec2 p) {
   return dot(directions.start_tangent(), p - edge.start) >= 0 &&
          dot(directions.end_tangent(), p - edge.end) <= 0 &&

@@ -302,7 +302,8 @@ void check_graph(const Problem& problem, Certificate& certificate) {
     if (axis.nodes[sets.find(i)].component != node.component) strangers.add(i);
     const std::uint32_t degree = problem.degree[i];
     // A circle's axis is one node without an edge; a single pixel may be a part by itself.
-    const bool alone = degree == 0 && (nodes_of[node.component] == 1 || axis.resolution > 0);
+    const bool alone =
+        degree == 0 && (nodes_of[node.component] == 1 || axis.resolution > 0 || axis.exterior > 0);
     const bool fits = node.kind == NodeKind::leaf          ? degree == 1 || alone
                       : node.kind == NodeKind::site_change ? degree == 2
                       : node.kind == NodeKind::branching   ? degree >= 3
@@ -335,13 +336,13 @@ void check_graph(const Problem& problem, Certificate& certificate) {
   const std::string sampled =
       axis.resolution > 0 ? sentence("At the resolution %.6g, ", axis.resolution) : std::string();
   const std::string beginning = axis.resolution > 0 ? sampled + "t" : "T";
-  if (torn.count > 0)
+  if (torn.count > 0 && axis.exterior == 0)
     failures.push_back(sentence(
         "%she graph has %llu connected parts for %llu components; component %zu has %llu of them.",
         beginning.c_str(), static_cast<unsigned long long>(certificate.graph_parts),
         static_cast<unsigned long long>(certificate.components), torn.first,
         static_cast<unsigned long long>(counts[torn.first].parts)));
-  if (cycles.count > 0) {
+  if (cycles.count > 0 && axis.exterior == 0) {
     const Count& count = counts[cycles.first];
     failures.push_back(sentence(
         "%s%zu components do not have one independent cycle for each hole; component %zu has %llu "

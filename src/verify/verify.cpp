@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "base/threads.h"
+#include "shape/exterior.h"
 #include "verify/checks.h"
 
 namespace medial {
@@ -31,9 +32,22 @@ double tolerance_of(const Box& box, double relative, const MedialAxis& axis) {
   return std::max({judged * diagonal(box), 4 * spacing_in(box), axis.tolerance});
 }
 
-void run_checks(const Shape& shape, const MedialAxis& axis, const VerifyOptions& options,
+void run_checks(const Shape& original, const MedialAxis& axis, const VerifyOptions& options,
                 Certificate& certificate) {
-  if (!check_shape(shape, certificate) || !check_values(shape, axis, certificate)) return;
+  if (!check_shape(original, certificate)) return;
+  Exterior around;
+  if (axis.exterior != 0) {
+    auto exterior = axis.exterior > 0 ? exterior_of(original, axis.exterior)
+                                      : Error{ErrorCode::invalid_option, "a negative margin", {}};
+    if (!exterior) {
+      certificate.failures.push_back(
+          "The exterior cannot be checked: " + to_string(exterior.error()) + ".");
+      return;
+    }
+    around = std::move(exterior).value();
+  }
+  const Shape& shape = axis.exterior != 0 ? around.shape : original;
+  if (!check_values(shape, axis, certificate)) return;
   const Box box = bounding_box(shape);
   Problem problem(shape, axis);
   problem.diagonal = diagonal(box);
@@ -48,6 +62,10 @@ void run_checks(const Shape& shape, const MedialAxis& axis, const VerifyOptions&
   check_graph(problem, certificate);
   if (axis.resolution > 0) {
     check_sampled_disks(problem, certificate);
+    return;
+  }
+  if (axis.exterior != 0) {
+    check_disks(problem, options.samples_per_edge, certificate);
     return;
   }
   check_vertices(problem, certificate);

@@ -1,6 +1,7 @@
 #include "engines/ridge/follow.h"
 
 #include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -19,6 +20,16 @@ Pixel neighbour(Pixel p, int direction) {
 bool crosses_contour(const BitMap& boundary, Pixel p, int direction) {
   return direction % 2 == 1 && boundary.at(neighbour(p, direction - 1)) &&
          boundary.at(neighbour(p, (direction + 1) % 8));
+}
+
+std::vector<std::uint32_t> MedialMap::in_rows() const {
+  std::vector<std::uint32_t> order;
+  for (std::uint32_t r = 0; r < medial.rows(); ++r)
+    for (std::uint32_t w = 0; w < medial.words_per_row(); ++w)
+      for (std::uint64_t rest = medial.row(r)[w]; rest != 0; rest &= rest - 1)
+        order.push_back(place.at({64 * w + static_cast<std::uint32_t>(std::countr_zero(rest)), r}) -
+                        1);
+  return order;
 }
 
 namespace {

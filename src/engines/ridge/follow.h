@@ -36,6 +36,8 @@ struct MedialMap {
     medial.set(pixel.pixel);
   }
   const Found& at(raster::Pixel p) const { return found[place.at(p) - 1]; }
+  /// The places in `found` of all medial pixels, by increasing x within increasing y.
+  std::vector<std::uint32_t> in_rows() const;
 };
 
 /// The neighbour in a direction, counted as in Section III.D: 0 is to the right, odd ones are

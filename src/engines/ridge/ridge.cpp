@@ -67,17 +67,16 @@ std::uint64_t find_first_pixels(const std::vector<Pixel>& seeds, const InteriorS
 /// The pixels that are left, in the order of increasing x within increasing y.
 std::vector<MedialPixel> result_pixels(const Outline& outline, const Frame& frame,
                                        const MedialMap& map) {
+  const std::vector<std::uint32_t> order = map.in_rows();
   std::vector<MedialPixel> pixels;
-  for (const Found& found : map.found) {
-    if (!map.medial.at(found.pixel)) continue;
+  pixels.reserve(order.size());
+  for (const std::uint32_t place : order) {
+    const Found& found = map.found[place];
     MedialPixel pixel{found.pixel, frame.inverse * found.radius, outline.component[found.first]};
     if (found.second != no_edge && outline.site[found.first] != outline.site[found.second])
       pixel.site = {outline.site[found.first], outline.site[found.second]};
     pixels.push_back(pixel);
   }
-  std::sort(pixels.begin(), pixels.end(), [](const MedialPixel& a, const MedialPixel& b) {
-    return a.pixel.row != b.pixel.row ? a.pixel.row < b.pixel.row : a.pixel.column < b.pixel.column;
-  });
   return pixels;
 }
 

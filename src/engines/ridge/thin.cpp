@@ -16,18 +16,6 @@ bool is_worse(const Found& a, const Found& b) {
   return a.pixel.row != b.pixel.row ? a.pixel.row > b.pixel.row : a.pixel.column > b.pixel.column;
 }
 
-/// The places of all pixels found, row after row.
-std::vector<std::uint32_t> in_rows(const MedialMap& map) {
-  std::vector<std::uint32_t> order;
-  order.reserve(map.found.size());
-  for (std::uint32_t r = 0; r < map.medial.rows(); ++r)
-    for (std::uint32_t w = 0; w < map.medial.words_per_row(); ++w)
-      for (std::uint64_t rest = map.medial.row(r)[w]; rest != 0; rest &= rest - 1)
-        order.push_back(
-            map.place.at({64 * w + static_cast<std::uint32_t>(__builtin_ctzll(rest)), r}) - 1);
-  return order;
-}
-
 /// Takes pixels away in the order given, as often as that changes anything.
 template <class MayGo>
 void thin(const BitMap& boundary, MedialMap& map, std::vector<std::uint32_t> order, MayGo may_go) {
@@ -67,7 +55,7 @@ bool is_simple(const BitMap& medial, const BitMap& boundary, Pixel p) {
 }
 
 void thin_by_report(const BitMap& boundary, MedialMap& map) {
-  thin(boundary, map, in_rows(map), [&](const Found& found) {
+  thin(boundary, map, map.in_rows(), [&](const Found& found) {
     for (int direction = 0; direction < 8; ++direction) {
       const Pixel q = neighbour(found.pixel, direction);
       if (map.medial.at(q) && !crosses_contour(boundary, found.pixel, direction) &&
@@ -79,7 +67,7 @@ void thin_by_report(const BitMap& boundary, MedialMap& map) {
 }
 
 void thin_to_lines(const BitMap& boundary, MedialMap& map) {
-  std::vector<std::uint32_t> order = in_rows(map);
+  std::vector<std::uint32_t> order = map.in_rows();
   std::sort(order.begin(), order.end(),
             [&](std::uint32_t a, std::uint32_t b) { return is_worse(map.found[a], map.found[b]); });
   thin(boundary, map, std::move(order), [](const Found&) { return true; });

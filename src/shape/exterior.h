@@ -1,0 +1,22 @@
+#pragma once
+
+#include "medial/shape.h"
+
+namespace medial {
+
+/// What lies around a shape and in its holes: a rectangular frame less the shape.
+struct Exterior {
+  Shape shape;
+  /// Of each point: whether it is one of the frame's. The sources of the others are those of the
+  /// original shape's points.
+  std::vector<bool> of_frame;
+};
+
+/// The exterior within a frame that is `margin` away from the shape's bounding box on all sides.
+/// Requires margin > 0. Errors: those of build_shape().
+Result<Exterior> exterior_of(const Shape& shape, double margin);
+
+/// The margin that options ask for: `margin`, or where that is 0 half of the box's longer side.
+double margin_for(const Box& box, double margin);
+
+}  // namespace medial
