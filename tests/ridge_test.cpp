@@ -295,9 +295,10 @@ TEST(Exterior, OfAUShapeIsItsBay) {
     for (const Node& node : axis->nodes)
       in_bay = in_bay || distance(node.disk.center, {3, 3.5}) < 0.6;
     EXPECT_TRUE(in_bay);
-    // The axis knows its radius well.
+    // A pixel's disk may touch the frame, if the shape is nearly as near.
     for (const Node& node : axis->nodes)
-      EXPECT_NEAR(-clearance(shape, node.disk.center), node.disk.radius, 1e-9);
+      EXPECT_NEAR(-clearance(shape, node.disk.center), node.disk.radius,
+                  std::max(1e-9, axis->resolution));
   }
 }
 

@@ -83,7 +83,7 @@ class SortedList final : public NearestEdges {
     const Vec2 a = outline_.edges[e].point, b = outline_.edges[outline_.next[e]].point;
     const double dx = std::max({std::min(a.x, b.x) - c.x, c.x - std::max(a.x, b.x), 0.0});
     const double dy = std::max({std::min(a.y, b.y) - c.y, c.y - std::max(a.y, b.y), 0.0});
-    return std::max(dx, dy);
+    return std::max(dx, dy) - outline_.sagitta;
   }
 
   void sort_for(Vec2 c) {

@@ -21,27 +21,30 @@ struct Vertex {
   double radius;  ///< of the edge; see Outline
   std::uint32_t site;
   Joint joint;
-  bool curved;  ///< the edge is a chord of an arc
+  double bulge = 0;  ///< of the edge
+  bool curved() const { return bulge != 0; }
 };
 
-/// Appends the vertices of an arc's chords, the arc's start first.
-void add_chords(const BulgeArc& arc, std::uint32_t site, Joint joint, double sagitta,
+/// Appends the vertices that cut an arc into pieces of at most this sagitta, the arc's start first.
+void add_pieces(const BulgeArc& arc, std::uint32_t site, Joint joint, double sagitta,
                 std::vector<Vertex>& out) {
   if (arc.bulge == 0) {
-    out.push_back({arc.start, infinity, site, joint, false});
+    out.push_back({arc.start, infinity, site, joint});
     return;
   }
   const double round = curvature(arc), angle = 4 * std::atan(arc.bulge);
-  // A chord over the angle a of a circle of radius R departs from it by 2 R sin^2(a / 4).
-  const double sine = std::sqrt(std::min(0.5, 0.5 * sagitta * std::abs(round)));
+  // A chord over the angle a of a circle of radius R departs from it by 2 R sin^2(a / 4). A site
+  // turns by a quarter at most: sin^2(pi / 8) > 0.14.
+  const double sine = std::sqrt(std::min(0.14, 0.5 * sagitta * std::abs(round)));
   const double count = std::max(1.0, std::ceil(std::abs(angle) / (4 * std::asin(sine))));
   const Vec2 tangent = start_tangent(arc);
   const double radius = round > 0 ? 1 / round : infinity;
+  const double bulge = std::tan(angle / (4 * count));
   for (double k = 0; k < count; ++k) {
     const double half = 0.5 * angle * (k / count);
     const Vec2 way = turned(tangent, std::cos(half), std::sin(half));
     out.push_back({arc.start + (2 * std::sin(half) / round) * way, radius, site,
-                   k == 0 ? joint : Joint::smooth, true});
+                   k == 0 ? joint : Joint::smooth, bulge});
   }
 }
 
@@ -81,7 +84,7 @@ std::vector<Vertex> combined(const std::vector<Vertex>& loop, double straight, d
   const auto at = [&](std::size_t i) -> const Vertex& { return loop[i % n]; };
   const auto is_collinear = [&](std::size_t i) {
     const Vertex &before = at(i + n - 1), &vertex = at(i), &after = at(i + 1);
-    return !before.curved && !vertex.curved &&
+    return !before.curved() && !vertex.curved() &&
            vertex_type(before.point, vertex.point, after.point, straight) == VertexType::collinear;
   };
   // Begin at a vertex that stays.
@@ -129,7 +132,7 @@ void add_loop(std::vector<Vertex> loop, std::uint32_t component, Outline& outlin
   // Where an arc is involved, chords may turn to the side that the arcs do not; elsewhere combined
   // edges may turn to the side that those they replace do not.
   const auto is_corner = [&](std::size_t i) {
-    const bool straight = !loop[i % n].curved && !loop[(i + n - 1) % n].curved;
+    const bool straight = !loop[i % n].curved() && !loop[(i + n - 1) % n].curved();
     return straight ? turn(i) > 0 : loop[i % n].joint == Joint::corner;
   };
   std::size_t first = 0;
@@ -151,7 +154,9 @@ void add_loop(std::vector<Vertex> loop, std::uint32_t component, Outline& outlin
     const bool corner = is_corner(i);
     if (corner && i > 0) finish_chain(0);
     if (!corner && i > 0) (angle > 0 ? left : right) += std::abs(angle);
-    outline.edges.push_back(geometry::make_segment(point(i), point(i + 1)));
+    outline.edges.push_back(loop[i].curved()
+                                ? geometry::make_arc(point(i), point(i + 1), loop[i].bulge)
+                                : geometry::make_segment(point(i), point(i + 1)));
     outline.site.push_back(loop[i].site);
     outline.component.push_back(component);
     outline.type.push_back(corner || (angle > 0 && loop[i].joint == Joint::smooth)
@@ -213,6 +218,7 @@ bool Outline::are_one(std::uint32_t e, std::uint32_t f, double disk) const {
 Outline outline_of(const Shape& shape, const Frame& frame, double step, const Options& options) {
   constexpr double chord_share = 1.0 / 16, combined_share = 1.0 / 4;
   Outline outline;
+  if (!shape.bulges.empty()) outline.sagitta = chord_share * step;
   outline.margin = step * (std::numbers::sqrt2 / 2 + 1.01 * chord_share);
   const double straight = std::sin(options.ridge_collinear * std::numbers::pi / 180);
   const sites::SiteNumbers numbers = sites::number_sites(shape, frame, options.corner_angle);
@@ -220,7 +226,7 @@ Outline outline_of(const Shape& shape, const Frame& frame, double step, const Op
     const sites::Loop loop(shape, l, frame);
     std::vector<Vertex> vertices;
     for (std::uint32_t i = 0; i < loop.size(); ++i)
-      add_chords({loop.local(i), loop.local(loop.next(i)), loop.bulge(i)},
+      add_pieces({loop.local(i), loop.local(loop.next(i)), loop.bulge(i)},
                  numbers.edge[loop.begin() + i], numbers.joints[loop.begin() + i],
                  chord_share * step, vertices);
     if (straight > 0) vertices = combined(vertices, straight, combined_share * step);

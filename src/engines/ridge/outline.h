@@ -18,8 +18,9 @@ enum class VertexType : std::uint8_t { convex, collinear, concave };
 /// degrees.
 VertexType vertex_type(Vec2 before, Vec2 vertex, Vec2 after, double straight);
 
-/// The shape's boundary as edges of polygons in the local frame: arcs as chords within a 16th of a
-/// pixel, and runs of nearly straight edges as one (the report's segment list, A.1.h).
+/// The shape's boundary as edges in the local frame (the report's segment list, A.1.h): runs of
+/// nearly straight edges as one, arcs in pieces that stay within a 16th of a pixel of their chords.
+/// Distances to arcs are exact; only the boundary map takes the chords.
 ///
 /// The edges of a loop follow each other. Those between two corners form a chain; in a chain the
 /// boundary turns right, or left along a curve. A loop without a corner is one closed chain.
@@ -51,6 +52,7 @@ struct Outline {
   std::vector<double> all_left, all_right;  ///< of each chain: its turns, closed as it may be
   /// least_radius[k][i]: the smallest radius of edges i..i + 2^k - 1; empty where all are straight.
   std::vector<std::vector<double>> least_radius;
+  double sagitta = 0;  ///< how far edges may lie outside the boxes of their ends; 0: all straight
   /// Half a pixel's diagonal, so that some pixel is not nearer to a circle than its centre; and how
   /// far chords depart from arcs.
   double margin = 0;
