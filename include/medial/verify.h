@@ -55,8 +55,9 @@ struct VerifyOptions {
 /// make it fail; the certificate has its resolution, and the failures say at which resolution they
 /// hold. Its contacts, corners, coverage and area are not judged and stay 0.
 ///
-/// An axis of the exterior is judged against the exterior in its frame: disks, contacts and sides as
-/// ever; parts, cycles, corners, coverage and area are not, as the edges at the frame are left out.
+/// An axis of the exterior is judged against the exterior in its frame: disks, contacts and sides
+/// as ever; parts, cycles, corners, coverage and area are not, as the edges at the frame are left
+/// out.
 ///
 /// A blunt joint has no leaf, so the disks leave a little of the boundary there untouched: at most
 /// the radius times the joint's angle, which is allowed for.
