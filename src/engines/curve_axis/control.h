@@ -1,0 +1,77 @@
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <vector>
+
+#include "engines/curve_axis/generate.h"
+#include "medial/curve_axis.h"
+
+namespace medial::curve_axis {
+
+/// A scanned piece of boundary, from the left foot of its last axis point to the right one, and the
+/// axis that describes it: a branch from a maximum of curvature, or from a junction of two older
+/// segments, which then stand behind it.
+struct Segment {
+  std::vector<AxisPoint> branch;  ///< the first one is the maximum's or the junction's
+  int first_child = -1;           ///< of a junction: the segment whose boundary comes first
+  int second_child = -1;
+  int previous = -1;  ///< neighbours along the boundary, among the segments in use
+  int next = -1;
+};
+
+/// Section 5.2: decides where generations start, who wins a conflict, and when all is done.
+class Control {
+ public:
+  Control(const SmoothBoundary& boundary, const CurveAxisOptions& options, double step);
+
+  /// Scans the whole boundary. Errors: cancelled, internal, unsupported (no maximum).
+  Status run();
+
+  const std::vector<Segment>& segments() const { return segments_; }
+  /// After run(): the segments in which the axis came to its end, the last two of a meeting.
+  const std::vector<int>& roots() const { return roots_; }
+  /// The maximum in which the last branch ends; not for a meeting.
+  const std::optional<AxisPoint>& last_tip() const { return last_tip_; }
+  const CurveAxisRules& rules() const { return rules_; }
+
+ private:
+  enum class Stop { conflict, retreat, frame, complete };
+  /// A foot of the active segment on boundary that a neighbour has scanned.
+  struct Contact {
+    int neighbour = -1;
+    bool on_right = false;
+    double foot = 0;   ///< the neighbour's foot, in the active segment's turn of the boundary
+    AxisPoint active;  ///< the active axis point with that foot
+  };
+
+  bool is_scanned(double u) const;
+  int start(double maximum);
+  Stop grow(int segment);
+  std::optional<Contact> first_contact(int segment, const AxisPoint& from,
+                                       const AxisPoint& to) const;
+  int join(int segment, const Contact& contact, const Generator::Junction& at);
+  void shrink(int segment);
+  void unlink(int segment);
+  void replace(int segment, int first, int last);
+  bool steps_over_twist(const AxisPoint& from, const AxisPoint& to) const;
+  bool end_in_tip(int segment, const AxisPoint& from);
+
+  const AxisPoint& last(int segment) const {
+    return segments_[static_cast<std::size_t>(segment)].branch.back();
+  }
+  Segment& at(int segment) { return segments_[static_cast<std::size_t>(segment)]; }
+  const Segment& at(int segment) const { return segments_[static_cast<std::size_t>(segment)]; }
+
+  const SmoothBoundary& boundary_;
+  const CurveAxisOptions& options_;
+  Generator generator_;
+  double step_;
+  std::vector<Segment> segments_;
+  int any_ = -1;  ///< one of the segments in use
+  std::vector<int> roots_;
+  std::optional<AxisPoint> last_tip_;
+  CurveAxisRules rules_;
+};
+
+}  // namespace medial::curve_axis
