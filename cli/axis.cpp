@@ -4,6 +4,7 @@
 
 #include "cli/common.h"
 #include "cli/pipeline.h"
+#include "medial/curve_axis.h"
 
 namespace medial::cli {
 namespace {
@@ -15,21 +16,63 @@ struct AxisSwitches {
   std::string format;
   io::WriteOptions write;
   Options options;
+  bool curve_axis = false;  ///< the method, which takes contours instead of a shape
+  CurveAxisOptions curve;
+  double fit = 0;  ///< for curve-axis: polygons become smooth within this distance; 0: they do not
 };
 
+/// Replaces the boundaries of all features by smooth curves within `distance` of their corners.
+Status smooth(ShapeFile& file, double distance, const InputSwitches& input) {
+  for (std::size_t i = 0; i < file.contours.size(); ++i) {
+    const auto fit = [&]() -> Result<Shape> {
+      for (Contour& contour : file.contours[i]) {
+        auto curve = fit_smooth_contour(contour.points, distance);
+        if (!curve) return std::move(curve).error();
+        contour = std::move(curve).value();
+      }
+      const auto rings = approximate_by_arcs(file.contours[i], input.arcs);
+      if (!rings) return rings.error();
+      return build_shape(*rings);
+    };
+    auto shape = fit();
+    if (!shape) {
+      Error error = std::move(shape).error();
+      error.place.file = input.path;
+      error.place.feature = i;
+      return error;
+    }
+    file.shapes[i] = std::move(shape).value();
+  }
+  return success();
+}
+
 Result<int> run_axis(const AxisSwitches& switches) {
-  const auto& [input, common, output, format, pictures, options] = switches;
+  const InputSwitches& input = switches.input;
+  const CommonSwitches& common = switches.common;
+  const std::string &output = switches.output, &format = switches.format;
   Status writable =
       check_output(output, format, io::known_output_formats(), input.path, common.json);
   if (!writable) return std::move(writable).error();
 
-  auto shapes = load_shapes(input, common.threads);
+  auto shapes = load_shapes(input, common.threads, switches.curve_axis);
   if (!shapes) return std::move(shapes).error();
   print_notes(*shapes, input, common);
-  auto axes = compute_axes(std::move(shapes).value(), input.path, common, options);
+  Engine engine;
+  if (switches.curve_axis) {
+    if (switches.fit > 0) {
+      if (Status done = smooth(*shapes, switches.fit, input); !done) return std::move(done).error();
+    }
+    engine = [&, contours = std::move(shapes->contours)](std::size_t i, const Shape&,
+                                                         const Options&) -> Result<MedialAxis> {
+      auto axis = compute_curve_axis(contours[i], switches.curve);
+      if (!axis) return std::move(axis).error();
+      return std::move(axis->axis);
+    };
+  }
+  auto axes = compute_axes(std::move(shapes).value(), input.path, common, switches.options, engine);
   if (!axes) return std::move(axes).error();
 
-  return write_and_tell(*axes, input, common, output, format, pictures);
+  return write_and_tell(*axes, input, common, output, format, switches.write);
 }
 
 /// The switches of --method ridge.
@@ -94,13 +137,18 @@ Verb make_axis_verb(CLI::App& program) {
                  "Drawings (.dxf): splines in space, with the radius as z.");
   verb->add_option_function<std::string>(
           "--method",
-          [switches](const std::string& name) { switches->options.method = *method_from(name); },
+          [switches](const std::string& name) {
+            switches->curve_axis = name == "curve-axis";
+            if (!switches->curve_axis) switches->options.method = *method_from(name);
+          },
           "How the axes are computed: disks (default); biarc-dc, the published\n"
           "randomised divide and conquer, for shapes without holes; lee, the merging\n"
           "of Voronoi diagrams, for polygons without holes: all the same axes; or\n"
           "ridge, ridge following on a grid of pixels: a sampled axis; or potential,\n"
-          "the valleys of a potential field: a sampled axis too, smooth.")
-      ->check(CLI::IsMember({"disks", "biarc-dc", "lee", "ridge", "potential"}).description(""))
+          "the valleys of a potential field: a sampled axis too, smooth; or curve-axis,\n"
+          "for one smooth boundary: sampled from its curvature's maxima on.")
+      ->check(CLI::IsMember({"disks", "biarc-dc", "lee", "ridge", "potential", "curve-axis"})
+                  .description(""))
       ->option_text("NAME");
   verb->add_option("--seed", switches->options.seed,
                    "Of the random choices of biarc-dc (default: 1). The same seed gives the\n"
@@ -121,6 +169,16 @@ Verb make_axis_verb(CLI::App& program) {
   verb->add_option("--step", switches->options.potential.step,
                    "Of potential, as a share of the shape's size (default: 0.01).")
       ->option_text("SHARE");
+  verb->add_option("--curve-step", switches->curve.step,
+                   "Of curve-axis: the way from point to point, as a share of the diagonal\n"
+                   "(default: 0.001).")
+      ->check(in_range(1e-6, 0.1))
+      ->option_text("SHARE");
+  verb->add_option("--fit", switches->fit,
+                   "For curve-axis: a smooth curve through the corners of the boundary, within\n"
+                   "this distance of it, in units of the input.")
+      ->check(CLI::PositiveNumber.description(""))
+      ->option_text("D");
   add_picture_switches(*verb, switches->write);
   add_common_switches(*verb, switches->common);
   verb->footer(

@@ -202,7 +202,31 @@ Status for_each_feature(std::span<const double> weights, int threads,
   return std::move(*errors[lowest_error.load()]);
 }
 
-Result<ShapeFile> load_shapes(const InputSwitches& input, int threads) {
+namespace {
+
+/// The boundary of a feature as contours, whatever it was read as.
+std::vector<Contour> contours_of(const io::Feature& feature) {
+  std::vector<Contour> contours = feature.contours;
+  for (const Ring& ring : feature.rings) {
+    if (ring.points.empty()) continue;
+    Contour& contour = contours.emplace_back();
+    contour.start_at(ring.points.front());
+    for (std::size_t i = 0; i < ring.points.size(); ++i) {
+      const Vec2 end = ring.points[(i + 1) % ring.points.size()];
+      if (end == ring.points[i]) continue;
+      if (ring.bulges.empty() || ring.bulges[i] == 0) {
+        contour.line_to(end);
+      } else {
+        contour.arc_to(end, ring.bulges[i]);
+      }
+    }
+  }
+  return contours;
+}
+
+}  // namespace
+
+Result<ShapeFile> load_shapes(const InputSwitches& input, int threads, bool keep_contours) {
   ShapeFile file;
   const Stopwatch reading;
   auto source = read_input(input);
@@ -229,6 +253,7 @@ Result<ShapeFile> load_shapes(const InputSwitches& input, int threads) {
     for (const Ring& ring : feature.rings) points += ring.points.size();
     for (const Contour& contour : feature.contours) points += contour.points.size();
     weights.push_back(static_cast<double>(points));
+    if (keep_contours) file.contours.push_back(contours_of(feature));
     file.attributes.push_back(std::move(feature.attributes));
   }
   file.shapes.resize(count);
@@ -273,7 +298,7 @@ void print_notes(const ShapeFile& file, const InputSwitches& input, const Common
 }
 
 Result<AxisFile> compute_axes(ShapeFile shapes, const std::string& path,
-                              const CommonSwitches& common, Options options) {
+                              const CommonSwitches& common, Options options, const Engine& engine) {
   const Stopwatch watch;
   AxisFile file;
   options.tolerance = common.tolerance;
@@ -290,7 +315,7 @@ Result<AxisFile> compute_axes(ShapeFile shapes, const std::string& path,
         Options own = options;
         own.threads = threads;
         own.progress = progress.part(weights[i]);
-        auto axis = compute(shapes.shapes[i], own);
+        auto axis = engine ? engine(i, shapes.shapes[i], own) : compute(shapes.shapes[i], own);
         if (!axis) return at_feature(std::move(axis).error(), path, i);
         io::NativeItem& item = file.native.items[i];
         item.axis = std::move(axis).value();

@@ -20,6 +20,8 @@ using Attributes = std::vector<std::pair<std::string, std::string>>;
 struct ShapeFile {
   std::vector<Shape> shapes;
   std::vector<Attributes> attributes;
+  std::vector<std::vector<Contour>>
+      contours;        ///< as read, where load_shapes() is told to keep them
   ShapeReport report;  ///< summed over the features
   ArcReport arcs;      ///< of curves that became arcs, summed over the features
   std::string crs_wkt;
@@ -75,16 +77,20 @@ Status for_each_feature(std::span<const double> weights, int threads,
 
 /// Reads polygons and curves and makes shapes of them. The shapes of medial's own JSON keep their
 /// sources. Errors name the file and the feature; of several, the first one's is given.
-Result<ShapeFile> load_shapes(const InputSwitches& input, int threads);
+/// With `keep_contours` the features' boundaries are kept as they were read, rings as contours too.
+Result<ShapeFile> load_shapes(const InputSwitches& input, int threads, bool keep_contours = false);
 
 /// Prints what a user should know of the input (geographic coordinates, repairs) on standard error,
 /// unless told to be quiet.
 void print_notes(const ShapeFile& file, const InputSwitches& input, const CommonSwitches& common);
 
 /// Computes the axis of every shape, with a progress bar where that is wanted. `path` names the
-/// input in errors. Of `options`, what the common switches tell and progress are set here.
+/// input in errors. Of `options`, what the common switches tell and progress are set here. `engine`
+/// computes the axis of feature i instead of compute(), if there is one.
+using Engine = std::function<Result<MedialAxis>(std::size_t i, const Shape&, const Options&)>;
 Result<AxisFile> compute_axes(ShapeFile shapes, const std::string& path,
-                              const CommonSwitches& common, Options options = {});
+                              const CommonSwitches& common, Options options = {},
+                              const Engine& engine = {});
 
 AxisSummary summarize(const io::NativeFile& file);
 /// "1 feature, 12 sites, 20 nodes, 19 edges, 7 branches; deepest disk: radius 3 at (1, 2)"

@@ -160,13 +160,18 @@ Control::Stop Control::grow(int segment) {
       const double shift = contact->foot - (contact->on_right ? old.left.u : old.right.u);
       const double middle = (contact->on_right ? outer.left.u : outer.right.u) + shift;
       const auto junction = generator_.junction(left, middle, right);
+      // The first point after a tip may be farther off than a step.
+      const auto reach = [&](const AxisPoint& last_one, const AxisPoint& next_one) {
+        return std::max(junction_reach * step_,
+                        2 * distance(last_one.disk.center, next_one.disk.center));
+      };
       // Within a few steps of the last points of both, from before which it is reached.
       const bool here_it_is =
           junction && junction->disk.radius > 0 &&
           junction->right < junction->left + boundary_.period() &&
           junction->left < junction->middle && junction->middle < junction->right &&
-          distance(junction->disk.center, here.disk.center) <= junction_reach * step_ &&
-          distance(junction->disk.center, old.disk.center) <= junction_reach * step_;
+          distance(junction->disk.center, here.disk.center) <= reach(here, *there) &&
+          distance(junction->disk.center, old.disk.center) <= reach(old, outer);
       if (!here_it_is) {
         ++rules_.larger;
         return Stop::conflict;

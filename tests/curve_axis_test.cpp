@@ -1,0 +1,218 @@
+// The curve axis against the exact engine on arcs within 1e-9, every rule of the control process,
+// and smooth fits.
+#include "medial/curve_axis.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "medial/compute.h"
+#include "medial/query.h"
+#include "medial/sides.h"
+#include "support/generate.h"
+
+namespace medial {
+namespace {
+
+/// A star of random radii, as a periodic cubic spline through its corners.
+Contour smooth_star(std::uint64_t seed) {
+  test::Random random(seed);
+  const auto n = static_cast<std::size_t>(random.integer(6, 25));
+  std::vector<Vec2> corners;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double angle = 2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(n);
+    const double radius = random.between(0.45, 1);
+    corners.push_back({radius * std::cos(angle), radius * std::sin(angle)});
+  }
+  auto contour = fit_smooth_contour(corners, 10);
+  EXPECT_TRUE(contour.ok());
+  return *contour;
+}
+
+Contour ellipse(double a, double b) {
+  Contour contour;
+  contour.ellipse_to({0, 0}, {a, 0}, {0, b}, 0, 2 * std::numbers::pi);
+  return contour;
+}
+
+std::size_t leaves(const MedialAxis& axis) {
+  std::size_t count = 0;
+  for (const Node& node : axis.nodes) count += node.kind == NodeKind::leaf ? 1 : 0;
+  return count;
+}
+
+void add(CurveAxisRules& sum, const CurveAxisRules& part) {
+  sum.skipped += part.skipped;
+  sum.larger += part.larger;
+  sum.smaller += part.smaller;
+  sum.junctions += part.junctions;
+  sum.dissolved += part.dissolved;
+  sum.abandoned += part.abandoned;
+  sum.retreats += part.retreats;
+  sum.outside_frame += part.outside_frame;
+  sum.resumed += part.resumed;
+  sum.ends += part.ends;
+  sum.meetings += part.meetings;
+}
+
+TEST(CurveAxis, OfAnEllipseIsExact) {
+  const Contour contour = ellipse(2, 1);
+  const auto result = compute_curve_axis({&contour, 1});
+  ASSERT_TRUE(result.ok()) << to_string(result.error());
+  EXPECT_EQ(leaves(result->axis), 2U);
+  double farthest = 0;
+  for (const Node& node : result->axis.nodes) {
+    const double x = node.disk.center.x;
+    EXPECT_NEAR(node.disk.center.y, 0, 1e-12);
+    // The disk around (x, 0) of radius b sqrt(1 - x^2 / (a^2 - b^2)), up to (a^2 - b^2) / a.
+    EXPECT_NEAR(node.disk.radius, std::sqrt(std::max(0.0, 1 - x * x / 3)), 1e-9);
+    farthest = std::max(farthest, std::abs(x));
+  }
+  EXPECT_NEAR(farthest, 1.5, 1e-9);
+}
+
+/// Forty smooth shapes: the same leaves and branching nodes as the exact engine, both ways within
+/// 1e-6 of the size at a step of 1e-3, junctions within 1e-7; and every rule is applied.
+TEST(CurveAxis, AgreesWithTheExactEngine) {
+  CurveAxisRules applied;
+  std::size_t compared = 0;
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    SCOPED_TRACE(seed);
+    const Contour contour = smooth_star(seed);
+    const auto rings = approximate_by_arcs({&contour, 1}, {.tolerance = 1e-9});
+    ASSERT_TRUE(rings.ok());
+    const auto shape = build_shape(*rings);
+    if (!shape) continue;  // it crosses itself
+    const auto exact = compute(*shape);
+    ASSERT_TRUE(exact.ok());
+    const auto result = compute_curve_axis({&contour, 1});
+    ASSERT_TRUE(result.ok()) << to_string(result.error());
+    ++compared;
+    add(applied, result->rules);
+    const double size = diagonal(bounding_box(*shape));
+    EXPECT_EQ(leaves(result->axis), leaves(*exact));
+    const AxisLocator on_exact(*exact), on_curve(result->axis);
+    for (const Node& node : result->axis.nodes) {
+      const AxisPoint nearest = on_exact.nearest(node.disk.center);
+      EXPECT_LE(nearest.distance, 2e-7 * size);
+      EXPECT_NEAR(nearest.disk.radius, node.disk.radius, 2e-6 * size);
+      if (node.kind != NodeKind::branching) continue;
+      double junction = size;
+      for (const Node& other : exact->nodes)
+        if (other.kind == NodeKind::branching)
+          junction = std::min(junction, distance(other.disk.center, node.disk.center));
+      EXPECT_LE(junction, 1e-7 * size);
+    }
+    for (const Edge& edge : exact->edges)
+      EXPECT_LE(on_curve.nearest(disk_at(*exact, edge, 0.5).center).distance, 1e-6 * size);
+  }
+  EXPECT_GE(compared, 30U);
+  EXPECT_GT(applied.skipped, 0U);
+  EXPECT_GT(applied.larger, 0U);
+  EXPECT_GT(applied.smaller, 0U);
+  EXPECT_GT(applied.junctions, 0U);
+  EXPECT_GT(applied.dissolved, 0U);
+  EXPECT_GT(applied.abandoned, 0U);
+  EXPECT_GT(applied.retreats, 0U);
+  EXPECT_GT(applied.outside_frame, 0U);
+  EXPECT_GT(applied.ends, 0U);
+  EXPECT_GT(applied.meetings, 0U);
+}
+
+TEST(CurveAxis, DoesNotDependOnTheMaximumItStartsFrom) {
+  for (const std::uint64_t seed : {3U, 8U, 11U}) {
+    const Contour contour = smooth_star(seed);
+    const auto first = compute_curve_axis({&contour, 1});
+    ASSERT_TRUE(first.ok());
+    const AxisLocator on_first(first->axis);
+    for (std::size_t maximum = 1; maximum < first->rules.maxima; ++maximum) {
+      const auto other = compute_curve_axis({&contour, 1}, {.first_maximum = maximum});
+      ASSERT_TRUE(other.ok()) << seed << " " << maximum << to_string(other.error());
+      EXPECT_EQ(leaves(other->axis), leaves(first->axis)) << seed << " " << maximum;
+      for (const Node& node : other->axis.nodes)
+        EXPECT_LE(on_first.nearest(node.disk.center).distance, 1e-6);
+    }
+  }
+}
+
+/// (7): the curvature of both sides, told by the axis alone, is the spline's.
+TEST(CurveAxis, TellsTheCurvaturesOfItsBoundary) {
+  const Contour contour = ellipse(2, 1);
+  const auto result = compute_curve_axis({&contour, 1});
+  ASSERT_TRUE(result.ok());
+  std::size_t checked = 0;
+  for (const Branch& branch : branches(result->axis)) {
+    for (const AxisFrame& frame : frames_along(result->axis, branch)) {
+      const double x = frame.disk.center.x;
+      if (std::abs(x) > 1.2) continue;  // near the tips differences lose their meaning
+      const BoundaryFrame left = boundary_at(frame, Side::left);
+      // Of an ellipse: a b / (a^2 sin^2 + b^2 cos^2)^(3/2).
+      const double cosine = left.point.x / 2, sine = left.point.y;
+      const double wanted = 2 / std::pow(4 * sine * sine + cosine * cosine, 1.5);
+      EXPECT_NEAR(left.curvature, wanted, 1e-3);
+      ++checked;
+    }
+  }
+  EXPECT_GT(checked, 100U);
+}
+
+TEST(CurveAxis, RefusesWhatItCannotFollow) {
+  const auto code = [](const std::vector<Contour>& contours, CurveAxisOptions options = {}) {
+    const auto result = compute_curve_axis(contours, options);
+    return result ? ErrorCode::internal : result.error().code;
+  };
+  Contour square;
+  square.start_at({0, 0});
+  for (const Vec2 p : {Vec2{1, 0}, Vec2{1, 1}, Vec2{0, 1}, Vec2{0, 0}}) square.line_to(p);
+  EXPECT_EQ(code({square}), ErrorCode::unsupported);
+  const auto corner = compute_curve_axis({&square, 1});
+  EXPECT_NE(corner.error().text.find("disks"), std::string::npos);
+  EXPECT_TRUE(corner.error().place.point.has_value());
+  Contour stadium;  // smooth, but its curvature jumps
+  stadium.start_at({0, 0});
+  stadium.line_to({2, 0});
+  stadium.arc_to({2, 2}, 1);
+  stadium.line_to({0, 2});
+  stadium.arc_to({0, 0}, 1);
+  EXPECT_EQ(code({stadium}), ErrorCode::unsupported);
+  EXPECT_EQ(code({ellipse(1, 1)}), ErrorCode::unsupported);
+  EXPECT_EQ(code({ellipse(2, 1), ellipse(1, 0.5)}), ErrorCode::unsupported);
+  EXPECT_EQ(code({}), ErrorCode::unsupported);
+  EXPECT_EQ(code({Contour{}}), ErrorCode::empty);
+  EXPECT_EQ(code({ellipse(2, 1)}, {.step = 0}), ErrorCode::invalid_option);
+  EXPECT_EQ(code({ellipse(2, NAN)}), ErrorCode::not_finite);
+  const std::vector<Vec2> loop{{0, 0}, {3, 0}, {3, 3}, {1, -1}, {0, 3}};
+  const auto crossing = fit_smooth_contour(loop, 10);
+  ASSERT_TRUE(crossing.ok());
+  EXPECT_EQ(code({*crossing}), ErrorCode::crossing);
+  const std::atomic<bool> stop = true;
+  CurveAxisOptions cancelled;
+  cancelled.cancel = &stop;
+  EXPECT_EQ(code({ellipse(2, 1)}, cancelled), ErrorCode::cancelled);
+}
+
+TEST(CurveAxis, SmoothFitsStayWithinTheirTolerance) {
+  const Ring polygon = test::comb(5)[0];
+  for (const double tolerance : {1.0, 0.1, 0.01}) {
+    const auto contour = fit_smooth_contour(polygon.points, tolerance);
+    ASSERT_TRUE(contour.ok());
+    const auto shape = build_shape({&polygon, 1});
+    double worst = 0;
+    for (const CurvePiece& piece : contour->pieces) {
+      const Vec2* p = contour->points.data() + piece.first;
+      const Vec2 middle = 0.125 * (p[0] + 3 * (p[1] + p[2]) + p[3]);
+      worst = std::max(worst, std::abs(clearance(*shape, middle)));
+    }
+    EXPECT_LE(worst, tolerance);
+    EXPECT_GT(worst, 0);
+  }
+  EXPECT_EQ(fit_smooth_contour(polygon.points, 0).error().code, ErrorCode::invalid_option);
+  EXPECT_EQ(fit_smooth_contour(std::vector<Vec2>{{0, 0}, {1, 1}}, 1).error().code,
+            ErrorCode::too_few_points);
+  EXPECT_EQ(fit_smooth_contour(std::vector<Vec2>{{0, 0}, {1, 1}, {0, INFINITY}}, 1).error().code,
+            ErrorCode::not_finite);
+}
+
+}  // namespace
+}  // namespace medial
