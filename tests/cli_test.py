@@ -237,6 +237,22 @@ class Axis(CommandLine):
         self.refuse("invalid_option", "axis", "frame.wkt", "--method", "ridge", "--pixels", "9", "--resolution", "1")
         self.refuse("invalid_option", "axis", "frame.wkt", "--exterior", "--margin", "0")
 
+    def test_curve_axis(self):
+        """One smooth curve is followed; corners are refused, and fitted on request."""
+        self.write("ellipse.svg", '<svg xmlns="http://www.w3.org/2000/svg">'
+                                  '<ellipse cx="20" cy="10" rx="18" ry="8"/></svg>')
+        self.succeed("axis", "ellipse.svg", "--method", "curve-axis", "-o", "curve.json")
+        told = json.loads(self.succeed("info", "curve.json", "--json").stdout)
+        self.assertEqual(told["method"], "curve-axis")
+        self.assertEqual(told["nodes"]["leaf"], 2)
+        self.assertAlmostEqual(told["length"], 2 * (18 - 64 / 18), places=6)  # between the centres of curvature
+        self.succeed("legal", "curve.json")
+        self.write("triangle.wkt", "POLYGON((0 0,10 0,0 8))")
+        text = self.refuse("unsupported", "axis", "triangle.wkt", "--method", "curve-axis", "-o", "t.json")
+        self.assertIn("corner", text)
+        self.succeed("axis", "triangle.wkt", "--method", "curve-axis", "--fit", "1", "-o", "t.json")
+        self.assertEqual(self.run_medial("legal", "t.json").returncode, 0)
+
     def test_legal(self):
         """The axis of a shape is legal; a radius that grows faster than the way is not, and is named."""
         self.write("frame.wkt", FRAME)
