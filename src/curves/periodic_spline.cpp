@@ -63,8 +63,8 @@ Contour spline_through(const std::vector<Vec2>& p) {
   contour.start_at(p[0]);
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t next = (i + 1) % n;
-    contour.bezier_to(std::array{p[i] + (h[i] / 3) * slope[i], p[next] - (h[i] / 3) * slope[next],
-                                 p[next]});
+    contour.bezier_to(
+        std::array{p[i] + (h[i] / 3) * slope[i], p[next] - (h[i] / 3) * slope[next], p[next]});
   }
   return contour;
 }

@@ -13,6 +13,8 @@ constexpr double same_disk = 1e-8;
 constexpr double junction_reach = 4;
 /// Parameters that differ by less are one.
 constexpr double same_parameter = 1e-7;
+/// Points that all generations together may find before the axis is given up: some 200 bytes each.
+constexpr std::size_t most_points = std::size_t{1} << 21;
 /// Times that generations are taken up again before the rest of the boundary is given up.
 constexpr int most_resumptions = 16;
 
@@ -63,6 +65,10 @@ Status Control::run() {
     for (const double u : maxima)
       if (!is_scanned(u) && grow(start(u)) == Stop::complete) return success();
   }
+  if (points_ > most_points)
+    return Error{ErrorCode::too_large,
+                 "the axis has more points than fit the memory: take longer steps",
+                 {}};
   Place place;
   if (any_ >= 0) place.point = last(any_).right.point;
   return Error{ErrorCode::internal,
@@ -105,6 +111,7 @@ int Control::start(double maximum) {
 
 Control::Stop Control::grow(int segment) {
   while (true) {
+    if (++points_ > most_points) return Stop::exhausted;
     const AxisPoint here = last(segment);
     const std::optional<AxisPoint> there = generator_.next(here);
     const bool alone = at(segment).next == segment;

@@ -25,7 +25,7 @@ class Control {
  public:
   Control(const SmoothBoundary& boundary, const CurveAxisOptions& options, double step);
 
-  /// Scans the whole boundary. Errors: cancelled, internal, unsupported (no maximum).
+  /// Scans the whole boundary. Errors: cancelled, internal, too_large, unsupported (no maximum).
   Status run();
 
   const std::vector<Segment>& segments() const { return segments_; }
@@ -36,7 +36,7 @@ class Control {
   const CurveAxisRules& rules() const { return rules_; }
 
  private:
-  enum class Stop { conflict, retreat, frame, complete };
+  enum class Stop { conflict, retreat, frame, exhausted, complete };
   /// A foot of the active segment on boundary that a neighbour has scanned.
   struct Contact {
     int neighbour = -1;
@@ -67,6 +67,7 @@ class Control {
   const CurveAxisOptions& options_;
   Generator generator_;
   double step_;
+  std::size_t points_ = 0;
   std::vector<Segment> segments_;
   int any_ = -1;  ///< one of the segments in use
   std::vector<int> roots_;

@@ -160,6 +160,10 @@ std::optional<Error> refuse(std::span<const Contour> contours, const CurveAxisOp
                  "the method curve-axis takes one boundary without holes: use the method disks",
                  {}};
   if (contours[0].pieces.empty()) return Error{ErrorCode::empty, "the contour is empty", {}};
+  // Segments are looked up one by one: the time grows with the square of the maxima.
+  constexpr std::size_t most_pieces = 20000;
+  if (contours[0].pieces.size() > most_pieces)
+    return Error{ErrorCode::too_large, "the contour has more than 20,000 pieces", {}};
   if (Status rough = find_roughness(normalized(contours[0])); !rough) return rough.error();
   // Crossings, and whatever else makes no shape.
   const auto rings = approximate_by_arcs(contours, {.tolerance = 1e-4});
