@@ -310,10 +310,12 @@ Json to_json(const Error& error) {
   if (error.place.feature) place["feature"] = *error.place.feature;
   if (error.place.ring) place["ring"] = *error.place.ring;
   if (error.place.vertex) place["vertex"] = *error.place.vertex;
+  if (error.place.face) place["face"] = *error.place.face;
   if (error.place.line) place["line"] = *error.place.line;
   if (error.place.point) {
     place["x"] = error.place.point->x;
     place["y"] = error.place.point->y;
+    if (error.place.z) place["z"] = *error.place.z;
   }
   return {{"error", {{"code", name_of(error.code)}, {"text", error.text}, {"place", place}}}};
 }

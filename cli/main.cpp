@@ -53,6 +53,7 @@ int run(int argc, char** argv, bool json) {
       make_legal_verb(program),     //
       make_draw_verb(program),      //
       make_distance_verb(program),  //
+      make_voxels_verb(program),    //
       make_bench_verb(program),     //
   };
   for (const Verb& verb : verbs) verb.app->group("Verbs");

@@ -14,6 +14,9 @@ endif()
 if(MEDIAL_DXF)
   set(MEDIAL_PKGCONFIG_DXF " dxflib")
 endif()
+if(MEDIAL_MESH)
+  set(MEDIAL_PKGCONFIG_MESH " assimp")
+endif()
 
 # Relative, so that the installed tree may be moved.
 file(RELATIVE_PATH MEDIAL_PREFIX_FROM_PKGCONFIG

@@ -19,7 +19,9 @@ enum class ErrorCode : std::uint8_t {
   overlap,         ///< two edges share more than a point
   hole_outside,    ///< a hole lies outside every outer ring
   nested_outer,    ///< an outer ring lies in the inside of another outer ring
-  too_large,       ///< more sites than 32-bit indices can name
+  open_surface,    ///< an edge of a mesh has one face only
+  non_manifold,    ///< an edge of a mesh has more than two faces
+  too_large,       ///< more sites than 32-bit indices can name, or more memory than was allowed
   empty,           ///< no ring, no feature, nothing to do
   unreadable,      ///< a file cannot be opened or read
   malformed,       ///< a file's content is not what its format says
@@ -40,7 +42,9 @@ struct Place {
   std::optional<std::uint64_t> feature;  ///< index of the feature (shape) in the file, from 0
   std::optional<std::uint64_t> ring;     ///< index of the ring in the input, from 0
   std::optional<std::uint64_t> vertex;   ///< index of the vertex in that ring, from 0
+  std::optional<std::uint64_t> face;     ///< index of the face of a mesh, from 0
   std::optional<Vec2> point;             ///< coordinates, in units of the input
+  std::optional<double> z;               ///< the third coordinate of the point, in space
   std::optional<std::uint64_t> line;     ///< line of a text file, from 1
 };
 

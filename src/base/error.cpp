@@ -39,6 +39,10 @@ const char* name_of(ErrorCode code) {
       return "hole_outside";
     case ErrorCode::nested_outer:
       return "nested_outer";
+    case ErrorCode::open_surface:
+      return "open_surface";
+    case ErrorCode::non_manifold:
+      return "non_manifold";
     case ErrorCode::too_large:
       return "too_large";
     case ErrorCode::empty:
@@ -70,9 +74,12 @@ std::string to_string(const Error& error) {
   append(where, "feature", place.feature);
   append(where, "ring", place.ring);
   append(where, "vertex", place.vertex);
+  append(where, "face", place.face);
   if (place.point) {
     if (!where.empty()) where += ' ';
-    where += "at (" + shortest(place.point->x) + ", " + shortest(place.point->y) + ")";
+    where += "at (" + shortest(place.point->x) + ", " + shortest(place.point->y);
+    if (place.z) where += ", " + shortest(*place.z);
+    where += ")";
   }
   std::string sentence;
   if (!place.file.empty()) sentence += place.file + ": ";

@@ -15,48 +15,21 @@
 #include <unordered_set>
 
 #include "base/arc.h"
+#include "io/color.h"
 #include "medial/query.h"
 
 namespace medial::io {
 
 namespace {
 
-struct Color {
-  double red = 0, green = 0, blue = 0;
-};
-
-// The colour map viridis (perceptually even, safe for colour-blind eyes), at 9 places; the last,
-// light yellow, is left out because the axis lies on a light ground.
-constexpr std::array<Color, 9> kViridis{{{0.267, 0.005, 0.329},
-                                         {0.283, 0.141, 0.458},
-                                         {0.254, 0.265, 0.530},
-                                         {0.207, 0.372, 0.553},
-                                         {0.164, 0.471, 0.558},
-                                         {0.128, 0.567, 0.551},
-                                         {0.135, 0.659, 0.518},
-                                         {0.267, 0.749, 0.441},
-                                         {0.478, 0.821, 0.318}}};
-
-constexpr Color kPaper{1, 1, 1};
 constexpr Color kInside{0.945, 0.945, 0.925};
 constexpr Color kOutline{0.25, 0.25, 0.27};
 constexpr Color kDisk{0.85, 0.45, 0.15};
 constexpr Color kContact{0.80, 0.20, 0.20};
 constexpr std::array<Color, 3> kNode{{{0.20, 0.55, 0.25}, {0.45, 0.45, 0.50}, {0.80, 0.15, 0.20}}};
 
-constexpr int kShades = 64;      // colours that are told apart
 constexpr int kBatch = 2000;     // pieces of a path between strokes: long paths are slow to stroke
 constexpr int kMostPieces = 32;  // of one edge
-
-Color shade(int i) {
-  const double at = (kViridis.size() - 1) * (static_cast<double>(i) / (kShades - 1));
-  const auto low = std::min(static_cast<std::size_t>(at), kViridis.size() - 2);
-  const double t = at - static_cast<double>(low);
-  const Color& a = kViridis[low];
-  const Color& b = kViridis[low + 1];
-  return {a.red + t * (b.red - a.red), a.green + t * (b.green - a.green),
-          a.blue + t * (b.blue - a.blue)};
-}
 
 /// A piece of an edge, in units of the picture: a rational quadratic curve with weights 1, w, 1.
 struct Piece {

@@ -19,6 +19,8 @@ bool is_refusal(ErrorCode code) {
     case ErrorCode::overlap:
     case ErrorCode::hole_outside:
     case ErrorCode::nested_outer:
+    case ErrorCode::open_surface:
+    case ErrorCode::non_manifold:
     case ErrorCode::too_large:
     case ErrorCode::empty:
     case ErrorCode::unreadable:

@@ -1,0 +1,288 @@
+// medial voxels: a closed mesh in, its medial axis on a grid of voxels out.
+
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "cli/common.h"
+#include "cli/pipeline.h"
+#include "cli/terminal.h"
+#include "medial/io/mesh.h"
+#include "medial/volume.h"
+
+namespace medial::cli {
+namespace {
+
+struct VoxelSwitches {
+  std::string input;
+  std::string output;
+  std::string format;
+  std::string search = "tree";
+  std::string thinning = "sheets";
+  double memory = 4;  ///< in GiB
+  double width = 1536;
+  CommonSwitches common;
+  VoxelOptions options;
+};
+
+/// What a run has to tell.
+struct Outcome {
+  Solid solid;
+  VoxelAxis axis;
+  double seconds_read = 0;
+  double seconds_solid = 0;
+  double seconds_write = 0;
+};
+
+Json to_json(const Topology& topology) {
+  return {{"components", topology.components},
+          {"tunnels", topology.tunnels},
+          {"cavities", topology.cavities}};
+}
+
+Json to_json(const MeshReport& report) {
+  return {{"input_vertices", report.input_vertices},   {"input_faces", report.input_faces},
+          {"joined_vertices", report.joined_vertices}, {"unused_vertices", report.unused_vertices},
+          {"dropped_faces", report.dropped_faces},     {"reversed_faces", report.reversed_faces},
+          {"parted_vertices", report.parted_vertices}};
+}
+
+Json summary(const Outcome& outcome) {
+  const auto& [solid, axis, read, made, written] = outcome;
+  Json object = {{"vertices", solid.surface.vertices.size()},
+                 {"faces", solid.surface.faces.size()},
+                 {"resolution", axis.resolution},
+                 {"cells", {axis.cells[0], axis.cells[1], axis.cells[2]}},
+                 {"voxels", axis.voxels.size()},
+                 {"links", axis.links.size()}};
+  object["topology"] = {{"solid", to_json(solid.topology)},
+                        {"interior_voxels", to_json(axis.interior)},
+                        {"axis", to_json(axis.topology)}};
+  const Voxel* deepest = nullptr;
+  for (const Voxel& voxel : axis.voxels)
+    if (deepest == nullptr || voxel.radius > deepest->radius) deepest = &voxel;
+  if (deepest != nullptr)
+    object["deepest"] = {{"x", deepest->center.x},
+                         {"y", deepest->center.y},
+                         {"z", deepest->center.z},
+                         {"radius", deepest->radius}};
+  return object;
+}
+
+Json stats(const Outcome& outcome) {
+  const VoxelStatistics& s = outcome.axis.statistics;
+  return {{"threads", s.threads},
+          {"mesh", to_json(outcome.solid.report)},
+          {"surface_voxels", s.surface_voxels},
+          {"interior_voxels", s.interior_voxels},
+          {"bounded_sets", s.bounded_sets},
+          {"tested_voxels", s.tested_voxels},
+          {"medial_voxels", s.medial_voxels},
+          {"bridge_voxels", s.bridge_voxels},
+          {"face_distances", s.face_distances},
+          {"seconds",
+           {{"read", outcome.seconds_read},
+            {"solid", outcome.seconds_solid},
+            {"tree", s.seconds_tree},
+            {"digitize", s.seconds_digitize},
+            {"first", s.seconds_first},
+            {"follow", s.seconds_follow},
+            {"bridge", s.seconds_bridge},
+            {"thin", s.seconds_thin},
+            {"write", outcome.seconds_write}}},
+          {"processor_seconds", processor_seconds()},
+          {"peak_bytes", peak_bytes()}};
+}
+
+std::string describe(const Topology& topology) {
+  return fmt::format("{}, {}, {}", counted(topology.components, "part"),
+                     counted(static_cast<std::uint64_t>(topology.tunnels), "tunnel"),
+                     counted(topology.cavities, "cavity", "cavities"));
+}
+
+/// What was mended, and where the grid is too coarse.
+void print_notes(const VoxelSwitches& switches, const Outcome& outcome) {
+  if (switches.common.quiet) return;
+  const MeshReport& report = outcome.solid.report;
+  std::string mended;
+  const auto mention = [&mended](std::uint64_t count, const char* noun, const char* plural) {
+    if (count > 0) mended += (mended.empty() ? "" : ", ") + counted(count, noun, plural);
+  };
+  mention(report.dropped_faces, "dropped face without an area", "dropped faces without an area");
+  mention(report.reversed_faces, "reversed face", "reversed faces");
+  mention(report.parted_vertices, "parted vertex", "parted vertices");
+  if (!mended.empty()) fmt::print(stderr, "medial: {}: {}\n", switches.input, mended);
+  if (outcome.axis.interior != outcome.solid.topology)
+    fmt::print(stderr,
+               "medial: {}: the grid is too coarse for its topology: the mesh has {}; the interior "
+               "voxels have {}\n",
+               switches.input, describe(outcome.solid.topology), describe(outcome.axis.interior));
+}
+
+Result<int> tell(const VoxelSwitches& switches, const Outcome& outcome) {
+  const CommonSwitches& common = switches.common;
+  if (common.json) {
+    Json object = {{"input", switches.input}};
+    if (!switches.output.empty()) object["output"] = switches.output;
+    if (common.stats) object.update(stats(outcome));
+    object.update(summary(outcome));
+    Status printed = print(object);
+    if (!printed) return std::move(printed).error();
+    return exit_success;
+  }
+  const VoxelAxis& axis = outcome.axis;
+  const std::string line =
+      fmt::format("{}: {}, {} x {} x {} cells, {}, {}; {}; {:.3g} s", switches.input,
+                  counted(outcome.solid.surface.faces.size(), "face"), axis.cells[0], axis.cells[1],
+                  axis.cells[2], counted(axis.voxels.size(), "voxel"),
+                  counted(axis.links.size(), "link"), describe(axis.topology),
+                  outcome.seconds_read + outcome.seconds_solid + axis.statistics.seconds +
+                      outcome.seconds_write);
+  if (switches.output.empty()) {
+    Status printed = print(line + "\n");
+    if (!printed) return std::move(printed).error();
+  } else if (error_is_terminal() && !common.quiet) {
+    fmt::print(stderr, "{} -> {}\n", line,
+               switches.output == "-" ? "standard output" : switches.output);
+  }
+  if (common.stats) fmt::print(stderr, "{}", table(stats(outcome)));
+  return exit_success;
+}
+
+Result<int> run_voxels(const VoxelSwitches& switches) {
+  const CommonSwitches& common = switches.common;
+  Status writable = check_output(switches.output, switches.format, io::known_voxel_formats(),
+                                 switches.input, common.json);
+  if (!writable) return std::move(writable).error();
+  Outcome outcome;
+  const Stopwatch reading;
+  auto mesh = io::read_mesh(switches.input);
+  if (!mesh) return std::move(mesh).error();
+  outcome.seconds_read = reading.seconds();
+  const Stopwatch making;
+  auto solid = build_solid(std::move(mesh).value());
+  if (!solid) {
+    solid.error().place.file = switches.input;
+    return std::move(solid).error();
+  }
+  outcome.solid = std::move(solid).value();
+  outcome.seconds_solid = making.seconds();
+
+  VoxelOptions options = switches.options;
+  options.threads = common.threads;
+  options.search = switches.search == "tree" ? FaceSearch::tree : FaceSearch::sorted_list;
+  options.thinning = switches.thinning == "none"     ? Thinning::none
+                     : switches.thinning == "curves" ? Thinning::curves
+                                                     : Thinning::sheets;
+  options.memory = static_cast<std::uint64_t>(switches.memory * 0x1p30);
+  Progress progress("voxels", 1, error_is_terminal() && !common.quiet);
+  options.progress = progress.part(1);
+  auto axis = compute_voxels(outcome.solid, options);
+  if (!axis) {
+    axis.error().place.file = switches.input;
+    return std::move(axis).error();
+  }
+  outcome.axis = std::move(axis).value();
+  print_notes(switches, outcome);
+
+  if (!switches.output.empty()) {
+    const Stopwatch writing;
+    Status written = io::write_voxels(switches.output, switches.format, outcome.axis, outcome.solid,
+                                      switches.width);
+    if (!written) return std::move(written).error();
+    outcome.seconds_write = writing.seconds();
+  }
+  return tell(switches, outcome);
+}
+
+void add_own_switches(CLI::App& verb, VoxelSwitches& switches) {
+  VoxelOptions& options = switches.options;
+  verb.add_option("--voxels", options.voxels,
+                  "Voxels along the longest side of the mesh (default: 128).")
+      ->check(CLI::Range(4, 4096).description(""))
+      ->option_text("N");
+  verb.add_option("--resolution", options.resolution,
+                  "Instead of that: the edge of a voxel, in units of the input.")
+      ->check(CLI::PositiveNumber.description(""))
+      ->excludes("--voxels")
+      ->option_text("H");
+  verb.add_option("--angle", options.angle,
+                  "Two feet of a voxel count as two if they lie so many degrees apart as\n"
+                  "seen from it, at most 120 (default: 30). Smaller angles give the axis of\n"
+                  "the faces as they are; meshes of curved surfaces need larger ones.")
+      ->check(CLI::Range(0.0, 120.0).description(""))
+      ->option_text("A");
+  verb.add_option("--thin", switches.thinning,
+                  "What the axis is thinned to: sheets, one voxel thick (default);\n"
+                  "curves; or none.")
+      ->check(CLI::IsMember({"sheets", "curves", "none"}).description(""))
+      ->option_text("KIND");
+  verb.add_option("--search", switches.search,
+                  "How the nearest faces are found: tree (default), or sorted-list, the\n"
+                  "published way, slow for many faces. Both give the same voxels.")
+      ->check(CLI::IsMember({"tree", "sorted-list"}).description(""))
+      ->option_text("NAME");
+  verb.add_option("--memory", switches.memory,
+                  "Give up before more than about G gibibytes are held (default: 4).")
+      ->check(CLI::Range(0.001, 1e6).description(""))
+      ->option_text("G");
+  verb.add_option("--width", switches.width, "Width of a picture, in pixels (default: 1536).")
+      ->check(CLI::Range(48.0, 8000.0).description(""))
+      ->option_text("W");
+}
+
+void add_common_part(CLI::App& verb, CommonSwitches& common) {
+  constexpr char group[] = "Common switches";
+  verb.add_option("--threads", common.threads,
+                  "Threads to use (default: 0, all of the machine). The result is the\n"
+                  "same, byte for byte.")
+      ->check(CLI::Range(0, 1024).description(""))
+      ->option_text("N")
+      ->group(group);
+  verb.add_flag("--stats", common.stats,
+                "Tell times, counts and memory: a table on standard error, or with --json\n"
+                "within the object on standard output. Times are in seconds.")
+      ->group(group);
+  verb.add_flag("--json", common.json, "Print one JSON object on standard output; errors too.")
+      ->group(group);
+  verb.add_flag("--quiet", common.quiet, "No warnings, notes or progress; only errors.")
+      ->group(group);
+}
+
+}  // namespace
+
+Verb make_voxels_verb(CLI::App& program) {
+  auto switches = std::make_shared<VoxelSwitches>();
+  CLI::App* verb =
+      program.add_subcommand("voxels", "Compute the medial axis of a closed mesh on a grid.");
+  verb->add_option("MESH", switches->input,
+                   "A closed triangle mesh: " + io::known_mesh_formats() + ".")
+      ->required()
+      ->option_text(" ");
+  verb->add_option("-o,--output", switches->output,
+                   "Where to write; the extension tells the format: " + io::known_voxel_formats() +
+                       "\n- is standard output, see --format. Without -o, only a summary is\n"
+                       "printed.")
+      ->check(a_name())
+      ->option_text("OUTPUT");
+  verb->add_option("--format", switches->format, "The format of -o -, for example ply.")
+      ->option_text("NAME");
+  add_own_switches(*verb, *switches);
+  add_common_part(*verb, switches->common);
+  verb->footer(
+      "The axis is a set of voxels with radii, by ridge following: surfaces one voxel\n"
+      "thick in general. It has as many parts, tunnels and cavities as the voxels inside\n"
+      "of the mesh. Open meshes, edges of more than two faces and faces that cross or\n"
+      "touch are refused, with the place.\n"
+      "\n"
+      ".ply and .vtk hold radius and quality, .obj the links between voxels, .png the\n"
+      "axis from three sides, coloured by radius.\n"
+      "\n"
+      "Examples:\n"
+      "  medial voxels part.stl -o axis.ply --voxels 256\n"
+      "  medial voxels part.stl -o part.png --resolution 0.5 --angle 10\n"
+      "  medial voxels tree.obj -o skeleton.obj --thin curves --stats");
+  return {verb, [switches] { return run_voxels(*switches); }};
+}
+
+}  // namespace medial::cli

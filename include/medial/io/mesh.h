@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+
+#include "medial/error.h"
+#include "medial/volume.h"
+
+namespace medial::io {
+
+/// Reads the triangles of a mesh through Assimp, by the extension of `path`: .obj .stl .ply .off.
+/// Polygons are cut into triangles. Assimp holds coordinates in single precision.
+/// Errors: unreadable, malformed, empty, unsupported (another format, or a build without Assimp).
+Result<TriangleMesh> read_mesh(const std::string& path);
+
+/// The extensions read_mesh() takes, for help texts.
+std::string known_mesh_formats();
+
+/// Writes an axis of voxels by the extension of `path`; `-` is standard output and takes `format`
+/// (an extension without its dot). .ply (binary) has vertices with radius and quality, and edges;
+/// .vtk (legacy, text) points with radius and quality, and lines; .obj points and lines; .png shows
+/// solid and axis from three sides, `width` pixels wide. Errors: unsupported, unwritable,
+/// invalid_option (the width).
+Status write_voxels(const std::string& path, const std::string& format, const VoxelAxis& axis,
+                    const Solid& solid, double width = 1536);
+
+/// The extensions write_voxels() takes, for help texts.
+std::string known_voxel_formats();
+
+}  // namespace medial::io

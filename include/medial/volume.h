@@ -1,0 +1,150 @@
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <vector>
+
+#include "medial/error.h"
+#include "medial/vec3.h"
+
+namespace medial {
+
+/// Triangles as a file holds them: any orientation, vertices joined or not.
+struct TriangleMesh {
+  std::vector<Vec3> vertices;
+  std::vector<std::array<std::uint32_t, 3>> faces;  ///< indices into vertices
+};
+
+/// How many parts, tunnels and cavities something in space has: its Betti numbers.
+struct Topology {
+  std::uint64_t components = 0;
+  std::int64_t tunnels = 0;
+  std::uint64_t cavities = 0;
+
+  friend bool operator==(const Topology&, const Topology&) = default;
+};
+
+/// What build_solid() mended, and what came of it.
+struct MeshReport {
+  std::uint64_t input_vertices = 0;
+  std::uint64_t input_faces = 0;
+  std::uint64_t joined_vertices = 0;  ///< that had the coordinates of an earlier one
+  std::uint64_t unused_vertices = 0;
+  std::uint64_t dropped_faces = 0;    ///< with two corners in one place
+  std::uint64_t reversed_faces = 0;   ///< whose normal pointed into the solid
+  std::uint64_t parted_vertices = 0;  ///< added where surfaces touched in a vertex only
+};
+
+/// A bounded part of space with a closed surface. Every edge has two faces, every vertex one fan of
+/// faces, no two faces have a point in common but shared corners and edges, and the faces' normals
+/// point out of the solid. Vertices parted by build_solid() alone have equal coordinates.
+struct Solid {
+  TriangleMesh surface;
+  std::vector<std::uint32_t> source;  ///< for each face, its index in the input
+  Topology topology;
+  MeshReport report;
+};
+
+/// Makes a solid of a mesh. What lies in an odd number of closed surfaces is inside, whatever their
+/// orientation; all decisions are exact. Mended and told in the report: equal vertices are joined,
+/// faces without an area for want of a third corner dropped, faces turned, and vertices in which
+/// otherwise separate fans of faces touch parted.
+///
+/// Errors, with the place: empty, not_finite, too_large (2^31 vertices or faces), unsupported
+/// (coordinates above 1e100 in size), malformed (an index out of range), open_surface (an edge with
+/// one face), non_manifold (an edge with more than two), not_orientable, crossing, overlap (faces
+/// that touch or share more than their corners and edges), no_area, out_of_memory. O(n log n) for
+/// meshes whose faces are not all near each other.
+Result<Solid> build_solid(TriangleMesh mesh);
+
+/// How the two nearest faces of a voxel are found. Both give the same answers, bit for bit.
+enum class FaceSearch : std::uint8_t {
+  tree,         ///< a tree of boxes over the faces
+  sorted_list,  ///< the report's: all faces, nearly sorted by lower bounds; O(faces) a voxel
+};
+
+enum class Thinning : std::uint8_t {
+  none,    ///< all voxels below the tolerance: sheets up to several voxels thick
+  sheets,  ///< sheets one voxel thick
+  curves,  ///< sheets become curves, except where they enclose a cavity
+};
+
+struct VoxelOptions {
+  double resolution = 0;  ///< edge of a voxel in units of the input; 0: by `voxels`
+  int voxels = 128;       ///< along the longest side of the bounding box, in [4, 4096]
+  /// Two feet of a voxel count as two if they lie at least so far apart as seen from its centre, in
+  /// degrees, in [0, 120]. Fine meshes of curved surfaces need an angle that is larger than the
+  /// ones between their faces.
+  double angle = 30;
+  FaceSearch search = FaceSearch::tree;
+  Thinning thinning = Thinning::sheets;
+  /// Threads to use, at most 1024; 0: all of the machine. The result is the same, byte for byte.
+  int threads = 0;
+  /// About what the computation may hold, in bytes; beyond it is too_large.
+  std::uint64_t memory = std::uint64_t{4} << 30U;
+  /// Called now and then, on one thread at a time, with the share of the work done, in [0, 1], as
+  /// far as that is known; in the end with 1. Must not throw.
+  std::function<void(double)> progress = {};
+  /// When set to true, compute_voxels() returns ErrorCode::cancelled soon.
+  const std::atomic<bool>* cancel = nullptr;
+};
+
+/// A voxel of the axis: a cube of the grid whose centre has two nearest points on the surface,
+/// nearly.
+struct Voxel {
+  static constexpr std::uint32_t no_face = std::numeric_limits<std::uint32_t>::max();
+
+  std::array<std::uint32_t, 3> cell = {};  ///< column, row, layer: x, y, z
+  Vec3 center;
+  double radius = 0;  ///< distance from the centre to the surface
+  /// How much farther the second foot is than the first: the smaller the better. Infinite for
+  /// voxels that are there only to keep the axis in one piece, and its tunnels and cavities closed.
+  double quality = 0;
+  std::array<std::uint32_t, 2> face = {no_face, no_face};  ///< of the input, of the two feet
+};
+
+struct VoxelStatistics {
+  std::uint64_t surface_voxels = 0;
+  std::uint64_t interior_voxels = 0;
+  std::uint64_t bounded_sets = 0;    ///< of interior voxels
+  std::uint64_t tested_voxels = 0;   ///< whose two nearest feet were computed
+  std::uint64_t medial_voxels = 0;   ///< below the tolerance, before thinning
+  std::uint64_t bridge_voxels = 0;   ///< added to keep the topology
+  std::uint64_t face_distances = 0;  ///< computed
+  double seconds_tree = 0;
+  double seconds_digitize = 0;
+  double seconds_first = 0;  ///< first medial voxel of each bounded set
+  double seconds_follow = 0;
+  double seconds_bridge = 0;
+  double seconds_thin = 0;
+  double seconds = 0;  ///< all of compute_voxels()
+  int threads = 1;
+};
+
+/// The medial axis of a solid on a grid.
+struct VoxelAxis {
+  double resolution = 0;                    ///< edge of a voxel
+  Vec3 origin;                              ///< low corner of the cell (0, 0, 0)
+  std::array<std::uint32_t, 3> cells = {};  ///< of the grid
+  std::vector<Voxel> voxels;                ///< by increasing x within y within z
+  /// Pairs of voxels that share a face, an edge or a corner, lower index first, increasing; but no
+  /// pair with a third voxel of the axis between the two, which connects them already.
+  std::vector<std::array<std::uint32_t, 2>> links;
+  Topology topology;  ///< of the voxels as cubes that share faces, edges and corners
+  /// Of the interior voxels, and so of the axis. It is the solid's where the grid is fine enough.
+  Topology interior;
+  VoxelStatistics statistics;
+};
+
+/// The medial axis of a solid by ridge following, extended to space (docs/voxels.md). The voxels
+/// that the surface meets are no part of it. The axis has the topology of the interior voxels,
+/// by construction.
+///
+/// Memory: O(voxels of surface and axis + volume / 512). Errors: invalid_option, cancelled, empty
+/// (no solid), too_large, malformed (a solid that build_solid() did not make), out_of_memory.
+Result<VoxelAxis> compute_voxels(const Solid& solid, const VoxelOptions& options = {});
+
+}  // namespace medial

@@ -1,0 +1,147 @@
+#include "volume/follow.h"
+
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace medial::volume {
+namespace {
+
+/// Voxels tested between two looks at the stack, and so between two answers to the caller. It does
+/// not depend on the number of threads, nor does the result on it.
+constexpr std::size_t batch_size = 4096;
+
+MedialVoxel describe(std::uint64_t rank, Vec3 center, const Feet& feet) {
+  MedialVoxel voxel{rank, feet.radius, feet.quality, feet.face, MedialVoxel::no_axis};
+  if (!feet.medial()) return voxel;
+  // The distances to the two feet differ most along the difference of the directions to them.
+  const Vec3 a = feet.foot[0] - center, b = feet.foot[1] - center;
+  const Vec3 normal = 1 / norm(a) * a - 1 / norm(b) * b;
+  int best = 0;
+  for (int axis = 1; axis < 3; ++axis)
+    if (std::abs(normal[axis]) > std::abs(normal[best])) best = axis;
+  voxel.across = static_cast<std::uint8_t>(best);
+  return voxel;
+}
+
+}  // namespace
+
+RidgeFollower::RidgeFollower(const Grid& grid, const VoxelSet& interior, const FeetFinder& finder,
+                             Control& control)
+    : grid_(grid),
+      interior_(interior),
+      finder_(finder),
+      control_(control),
+      checked_(grid.size),
+      medial_(grid.size) {}
+
+const std::vector<Feet>& RidgeFollower::test(const std::vector<Candidate>& batch) {
+  control_.check(bytes());
+  feet_.resize(batch.size());
+  constexpr std::size_t grain = 64;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, batch.size(), grain),
+                    [&](const tbb::blocked_range<std::size_t>& range) {
+                      FeetFinder::Scratch& scratch = scratch_.local();
+                      for (std::size_t i = range.begin(); i < range.end(); ++i)
+                        feet_[i] = finder_.feet(center_of(cell_of(batch[i].rank, grid_.size)),
+                                                batch[i].hint, scratch);
+                    });
+  tested_ += batch.size();
+  return feet_;
+}
+
+void RidgeFollower::keep(const Candidate& candidate, const Feet& feet) {
+  const Cell cell = cell_of(candidate.rank, grid_.size);
+  voxels_.push_back(describe(candidate.rank, center_of(cell), feet));
+  medial_.insert(cell);
+  Neighbourhood fresh = interior_.around(cell) & ~checked_.around(cell);
+  for (; fresh != 0; fresh &= fresh - 1) {
+    const Cell next = neighbour(cell, std::countr_zero(fresh));
+    checked_.insert(next);
+    stack_.push_back({rank_of(next, grid_.size), feet.face[0]});
+  }
+}
+
+void RidgeFollower::find_first(const BoundedSet& set) {
+  const std::uint32_t middle = set.low + (set.high - set.low) / 2;
+  std::uint32_t hint = 0;
+  for (std::uint32_t step = 0; step <= 2 * (set.high - set.low) + 1; ++step) {
+    const std::uint32_t away = (step + 1) / 2;
+    if (step % 2 == 1 ? middle + away > set.high : away > middle - set.low) continue;
+    const std::uint32_t layer = step % 2 == 1 ? middle + away : middle - away;
+    auto run = std::lower_bound(set.runs.begin(), set.runs.end(), layer,
+                                [](const CellRun& r, std::uint32_t z) { return r.z < z; });
+    std::uint32_t x = run == set.runs.end() ? 0 : run->begin;
+    while (run != set.runs.end() && run->z == layer) {
+      batch_.clear();
+      while (batch_.size() < batch_size && run != set.runs.end() && run->z == layer) {
+        const Cell cell = {x, run->y, run->z};
+        if (checked_.insert(cell)) batch_.push_back({rank_of(cell, grid_.size), hint});
+        if (++x < run->end) continue;
+        if (++run != set.runs.end()) x = run->begin;
+      }
+      const std::vector<Feet>& feet = test(batch_);
+      bool found = false;
+      for (std::size_t i = 0; i < batch_.size(); ++i) {
+        hint = feet[i].face[0];
+        if (!feet[i].medial()) continue;
+        found = true;
+        keep(batch_[i], feet[i]);
+      }
+      if (found) return;
+    }
+  }
+}
+
+void RidgeFollower::follow() {
+  // What is still to come is not known; a sheet of about six voxels for each on the stack is a
+  // guess.
+  while (!stack_.empty()) {
+    const std::size_t count = std::min(batch_size, stack_.size());
+    batch_.assign(stack_.end() - static_cast<std::ptrdiff_t>(count), stack_.end());
+    stack_.resize(stack_.size() - count);
+    const std::vector<Feet>& feet = test(batch_);
+    for (std::size_t i = 0; i < batch_.size(); ++i)
+      if (feet[i].medial()) keep(batch_[i], feet[i]);
+    const auto done = static_cast<double>(tested_);
+    control_.report(0.1 + 0.6 * done / (done + 6 * static_cast<double>(stack_.size()) + 1e5));
+  }
+}
+
+bool RidgeFollower::add_bridges(const std::vector<std::uint64_t>& ranks) {
+  bool found = false;
+  std::vector<Candidate> batch;
+  for (std::size_t begin = 0; begin < ranks.size(); begin += batch_size) {
+    const std::size_t end = std::min(ranks.size(), begin + batch_size);
+    batch.clear();
+    for (std::size_t i = begin; i < end; ++i) batch.push_back({ranks[i], 0});
+    const std::vector<Feet>& feet = test(batch);
+    for (std::size_t i = 0; i < batch.size(); ++i) {
+      checked_.insert(cell_of(batch[i].rank, grid_.size));
+      if (feet[i].medial()) {
+        found = true;
+        keep(batch[i], feet[i]);
+      } else {
+        voxels_.push_back(describe(batch[i].rank, {}, feet[i]));
+      }
+    }
+  }
+  return found;
+}
+
+std::uint64_t RidgeFollower::distances() const {
+  std::uint64_t total = 0;
+  for (const FeetFinder::Scratch& scratch : scratch_) total += scratch.distances;
+  return total;
+}
+
+std::uint64_t RidgeFollower::bytes() const {
+  return interior_.bytes() + checked_.bytes() + medial_.bytes() +
+         voxels_.capacity() * sizeof(MedialVoxel) + stack_.capacity() * sizeof(Candidate) +
+         grid_.faces.size() * 400;
+}
+
+}  // namespace medial::volume
