@@ -208,9 +208,9 @@ void add_own_switches(CLI::App& verb, VoxelSwitches& switches) {
       ->option_text("H");
   verb.add_option("--angle", options.angle,
                   "Two feet of a voxel count as two if they lie so many degrees apart as\n"
-                  "seen from it, at most 120 (default: 30). Smaller angles give the axis of\n"
+                  "seen from it, 1 to 120 (default: 30). Smaller angles give the axis of\n"
                   "the faces as they are; meshes of curved surfaces need larger ones.")
-      ->check(CLI::Range(0.0, 120.0).description(""))
+      ->check(CLI::Range(1.0, 120.0).description(""))
       ->option_text("A");
   verb.add_option("--thin", switches.thinning,
                   "What the axis is thinned to: sheets, one voxel thick (default);\n"

@@ -76,7 +76,7 @@ struct VoxelOptions {
   double resolution = 0;  ///< edge of a voxel in units of the input; 0: by `voxels`
   int voxels = 128;       ///< along the longest side of the bounding box, in [4, 4096]
   /// Two feet of a voxel count as two if they lie at least so far apart as seen from its centre, in
-  /// degrees, in [0, 120]. Fine meshes of curved surfaces need an angle that is larger than the
+  /// degrees, in [1, 120]. Fine meshes of curved surfaces need an angle that is larger than the
   /// ones between their faces.
   double angle = 30;
   FaceSearch search = FaceSearch::tree;

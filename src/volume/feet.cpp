@@ -15,60 +15,15 @@ constexpr double rounding = 1e-10;
 
 FeetFinder::FeetFinder(const Grid& grid, const FaceTree& tree, FaceSearch search, double angle,
                        double tolerance)
-    : grid_(grid),
-      tree_(tree),
+    : tree_(tree),
       search_(search),
       cosine_(std::cos(angle * std::numbers::pi / 180)),
       sine_(std::sin(angle * std::numbers::pi / 180)),
       tolerance_(tolerance),
-      beside_(3 * grid.faces.size()),
-      around_begin_(grid.vertices.size() + 1, 0),
-      around_(3 * grid.faces.size()) {
+      reach_(tolerance / (2 * std::sin(angle * std::numbers::pi / 360))) {
   triangles_.reserve(grid.faces.size());
-  for (const Face& face : grid.faces) {
-    triangles_.push_back(triangle_of(grid.vertices, face));
-    for (const std::uint32_t vertex : face) ++around_begin_[vertex + 1];
-  }
-  for (std::size_t i = 1; i < around_begin_.size(); ++i) around_begin_[i] += around_begin_[i - 1];
-  std::vector<std::uint32_t> next(around_begin_.begin(), around_begin_.end() - 1);
-  for (std::uint32_t f = 0; f < grid.faces.size(); ++f)
-    for (const std::uint32_t vertex : grid.faces[f]) around_[next[vertex]++] = f;
-  for (std::uint32_t f = 0; f < grid.faces.size(); ++f) {
-    for (std::uint32_t k = 0; k < 3; ++k) {
-      const std::uint32_t from = grid.faces[f][k], to = grid.faces[f][(k + 1) % 3];
-      beside_[3 * f + k] = f;
-      for (std::uint32_t i = around_begin_[from]; i < around_begin_[from + 1]; ++i) {
-        const Face& other = grid.faces[around_[i]];
-        if (around_[i] != f && std::find(other.begin(), other.end(), to) != other.end())
-          beside_[3 * f + k] = around_[i];
-      }
-    }
-  }
-}
-
-bool FeetFinder::is_foot(Vec3 p, std::uint32_t face, const Closest& there, Scratch& scratch) const {
-  const double bound = there.squared_distance * (1 - rounding);
-  const auto nearer = [&](std::uint32_t other) {
-    return closest(p, other, scratch).squared_distance < bound;
-  };
-  switch (there.feature) {
-    case Feature::inside:
-      return true;
-    case Feature::side01:
-      return !nearer(beside_[3 * face]);
-    case Feature::side12:
-      return !nearer(beside_[3 * face + 1]);
-    case Feature::side20:
-      return !nearer(beside_[3 * face + 2]);
-    case Feature::corner0:
-    case Feature::corner1:
-    case Feature::corner2:
-      break;
-  }
-  const std::uint32_t vertex = grid_.faces[face][static_cast<std::size_t>(there.feature)];
-  for (std::uint32_t i = around_begin_[vertex]; i < around_begin_[vertex + 1]; ++i)
-    if (around_[i] != face && nearer(around_[i])) return false;
-  return true;
+  for (std::uint32_t face = 0; face < grid.faces.size(); ++face)
+    triangles_.push_back(grid.triangle(face));
 }
 
 /// Whether all of a box lies within the angle around `direction` as seen from p: what is in there
@@ -189,8 +144,8 @@ Feet FeetFinder::feet(Vec3 p, std::uint32_t hint, Scratch& scratch) const {
     Vec3 p;
     Scratch& scratch;
     Vec3 direction;  ///< to the first foot, of length 1
-    Vec3 first_foot;
-    double limit;  ///< squared distance
+    double radius;   ///< its distance
+    double limit;    ///< squared distance
     std::uint32_t at = Voxel::no_face;
     Closest best = {};
 
@@ -206,16 +161,15 @@ Feet FeetFinder::feet(Vec3 p, std::uint32_t hint, Scratch& scratch) const {
       if (!better) return;
       const double along = dot(there.point - p, direction);
       if (along > finder.cosine_ * std::sqrt(there.squared_distance)) return;
-      // With an angle of zero, feet that differ by rounding alone.
-      if (medial::squared_norm(there.point - first_foot) < rounding) return;
-      if (!finder.is_foot(p, index, there, scratch)) return;
+      const double lag = there.squared_distance - radius * radius;
+      if (!(lag <= 2 * finder.reach_ * (radius - along))) return;
       best = there;
       at = index;
       limit = there.squared_distance;
     }
   };
   const double reach = result.radius + tolerance_;
-  Second second{*this,        p, scratch, 1 / result.radius * (result.foot[0] - p), result.foot[0],
+  Second second{*this,        p, scratch, 1 / result.radius * (result.foot[0] - p), result.radius,
                 reach * reach};
   if (by_tree) {
     visit_tree<Second&>(p, scratch, second);

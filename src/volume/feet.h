@@ -25,13 +25,24 @@ struct Feet {
   bool medial() const { return face[1] != Voxel::no_face; }
 };
 
-/// Tells the feet of voxels. A foot of p on a face counts as a second one beside the nearest, f, if
-///  - no face that shares the corner or side on which it lies is nearer to p: else it is no foot at
-///    all, but the place where its face comes nearest to the foot on its neighbour. This is the
-///    report's rule of the concave angle, for any number of faces around a corner, and for convex
-///    and flat angles as well;
-///  - the directions from p to it and to f differ by the angle at least: two feet that coincide, or
-///    nearly so, are one. This is the report's rule of collinear edges, measured where it matters.
+/// Tells the feet of voxels. With f the nearest point of the surface, at the distance r, and u the
+/// direction from f to the voxel's centre p, a face's nearest point x at the distance s counts as a
+/// second foot if
+///  - s - r is below the tolerance (the report's quality);
+///  - x and f lie at least the angle apart as seen from p. Two feet that coincide, as those on
+///  faces
+///    around a concave edge or vertex do, or that nearly do, are one: the report's rules of concave
+///    and of collinear edges in one;
+///  - the ball that touches the surface in f, grown until it touches x, has its centre not farther
+///    than `reach` from p: at t = (s^2 - r^2) / (2 (r + u.(x - p))). Points beside f on its own
+///    plane are touched never, those of faces beyond a convex edge not before their face's foot is.
+/// The exact axis of the mesh meets the segment from p to p + t u, because the largest ball that
+/// touches f from that side is at most that large. So a medial voxel lies within `reach` of it,
+/// whatever the shape.
+///
+/// `reach` is the tolerance / (2 sin(angle / 2)), for this reason: where a sheet's feet lie at an
+/// angle a, p at a distance e from it has s - r = 2 e sin(a / 2) and t = e / sin(a / 2), about. So
+/// all p with e <= 1/2 pass, and the voxels that do hold a digital plane, which has no gaps.
 ///
 /// Both searches look at every face that can matter and break ties by the faces' indices, so their
 /// answers are the same, bit for bit.
@@ -52,8 +63,8 @@ class FeetFinder {
     std::vector<Bound> list;  ///< of the sorted list: the faces in order of their lower bounds
   };
 
-  /// `angle` in degrees; `tolerance` in units of the grid: how far the second foot may be farther.
-  /// Keeps references to the grid and the tree.
+  /// `angle` in degrees, positive; `tolerance` in units of the grid.
+  /// Keeps a reference to the tree.
   FeetFinder(const Grid& grid, const FaceTree& tree, FaceSearch search, double angle,
              double tolerance);
 
@@ -66,21 +77,16 @@ class FeetFinder {
     ++scratch.distances;
     return closest_point(p, triangles_[face]);
   }
-  bool is_foot(Vec3 p, std::uint32_t face, const Closest& there, Scratch& scratch) const;
   bool in_cone(Vec3 p, Vec3 direction, const Box3& box) const;
   template <class Take>
   void visit_tree(Vec3 p, Scratch& scratch, Take take) const;
   void sort_list(Vec3 p, Scratch& scratch) const;
 
-  const Grid& grid_;
   const FaceTree& tree_;
   FaceSearch search_;
   double cosine_, sine_;
-  double tolerance_;
+  double tolerance_, reach_;
   std::vector<Triangle> triangles_;
-  std::vector<std::uint32_t> beside_;        ///< for side k of face f, at 3 f + k: the other face
-  std::vector<std::uint32_t> around_begin_;  ///< for each vertex, into around_
-  std::vector<std::uint32_t> around_;        ///< faces
 };
 
 }  // namespace medial::volume

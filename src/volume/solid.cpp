@@ -193,11 +193,13 @@ bool orient(Solid& solid, Sides& other, std::vector<std::uint32_t>& surface_of,
   return orientable;
 }
 
-/// Gives each fan of faces around a vertex a vertex of its own. Requires consistent `other`.
-void part_vertices(Solid& solid, const Sides& other) {
+/// Gives each fan of faces around a vertex a vertex of its own. Tells which vertices lie in the
+/// place of another one now.
+std::vector<bool> part_vertices(Solid& solid, const Sides& other) {
   TriangleMesh& mesh = solid.surface;
   std::vector<bool> seen(3 * mesh.faces.size(), false);  // corner k of face f
   std::vector<bool> taken(mesh.vertices.size(), false);
+  std::vector<bool> touching(mesh.vertices.size(), false);
   std::vector<std::uint32_t> fan;
   for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
     for (std::uint32_t k = 0; k < 3; ++k) {
@@ -225,10 +227,13 @@ void part_vertices(Solid& solid, const Sides& other) {
       const auto copy = static_cast<std::uint32_t>(mesh.vertices.size());
       mesh.vertices.push_back(Vec3(mesh.vertices[vertex]));
       taken.push_back(true);
+      touching.push_back(true);
+      touching[vertex] = true;
       ++solid.report.parted_vertices;
       for (const std::uint32_t corner : fan) mesh.faces[corner / 3][corner % 3] = copy;
     }
   }
+  return touching;
 }
 
 /// The first pair of faces that share more than corners and edges, as an error.
@@ -303,20 +308,19 @@ struct Nesting {
   std::vector<bool> outward;
 };
 
-Nesting nest(const Solid& solid, const FaceTree& tree, const std::vector<std::uint32_t>& surface_of,
-             std::uint32_t surfaces) {
+Result<Nesting> nest(const Solid& solid, const FaceTree& tree,
+                     const std::vector<std::uint32_t>& surface_of, std::uint32_t surfaces,
+                     const std::vector<bool>& touching) {
   const TriangleMesh& mesh = solid.surface;
-  // The vertex of the largest x of each surface: from there the ray leaves the surface itself.
+  // A vertex of each surface that lies on no other one.
   std::vector<std::uint32_t> tip(surfaces, none);
-  const auto less = [&](std::uint32_t i, std::uint32_t j) {
-    const Vec3 a = mesh.vertices[i], b = mesh.vertices[j];
-    return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
-  };
   for (std::size_t f = 0; f < mesh.faces.size(); ++f)
-    for (const std::uint32_t vertex : mesh.faces[f]) {
-      std::uint32_t& best = tip[surface_of[f]];
-      if (best == none || less(best, vertex)) best = vertex;
-    }
+    for (const std::uint32_t vertex : mesh.faces[f])
+      if (!touching[vertex]) tip[surface_of[f]] = std::min(tip[surface_of[f]], vertex);
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f)
+    if (tip[surface_of[f]] == none)
+      return error_at_point(ErrorCode::non_manifold, "a surface touches others in all its vertices",
+                            mesh.vertices[mesh.faces[f][0]], solid.source[f]);
   Nesting nesting;
   nesting.depth.assign(surfaces, 0);
   nesting.outward.assign(surfaces, true);
@@ -385,11 +389,13 @@ Result<Solid> make_solid(TriangleMesh mesh) {
   std::vector<bool> turned;
   if (!orient(solid, *other, surface_of, turned))
     return Error{ErrorCode::internal, "a surface without crossings is one-sided", {}};
-  part_vertices(solid, *other);
+  const std::vector<bool> touching = part_vertices(solid, *other);
   for (std::size_t f = 0; f < turned.size(); ++f)
     if (turned[f]) std::swap(solid.surface.faces[f][1], solid.surface.faces[f][2]);
   const std::uint32_t surfaces = *std::max_element(surface_of.begin(), surface_of.end()) + 1;
-  const Nesting nesting = nest(solid, tree, surface_of, surfaces);
+  const auto nested = nest(solid, tree, surface_of, surfaces, touching);
+  if (!nested) return nested.error();
+  const Nesting& nesting = *nested;
   for (std::size_t f = 0; f < turned.size(); ++f) {
     const std::uint32_t s = surface_of[f];
     const bool flip = nesting.outward[s] == (nesting.depth[s] % 2 == 1);

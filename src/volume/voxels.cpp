@@ -37,8 +37,8 @@ std::optional<Error> refuse(const Solid& solid, const VoxelOptions& options) {
     return invalid("the resolution must be positive, or 0");
   if (options.voxels < fewest_voxels || options.voxels > most_voxels)
     return invalid("the number of voxels must be in [4, 4096]");
-  if (!(options.angle >= 0 && options.angle <= 120))
-    return invalid("the angle must be in [0, 120] degrees");
+  if (!(options.angle >= 1 && options.angle <= 120))
+    return invalid("the angle must be in [1, 120] degrees");
   if (options.threads < 0 || options.threads > most_threads)
     return invalid("the number of threads must be in [0, 1024]");
   const TriangleMesh& mesh = solid.surface;
