@@ -122,7 +122,8 @@ Ring regular_polygon_of_area(int edges, double area) { return scaled_to(regular(
 std::vector<Ring> toothed_square(int holes) {
   constexpr double tooth = 0.5, height = 0.4, margin = 2, depth = 1;
   constexpr int places = 5, teeth_each = 3;
-  constexpr double side = 2 * margin + places * teeth_each * tooth;
+  // A tooth that stays before, between and after the places: no two long edges make one.
+  constexpr double side = 2 * margin + (places * (teeth_each + 1) + 1) * tooth;
   std::vector<Ring> rings(1);
   int place = 0;
   for (int s = 0; s < 4; ++s) {
@@ -132,15 +133,21 @@ std::vector<Ring> toothed_square(int holes) {
       for (int turn = 0; turn < s; ++turn) p = left_of(p);
       return p;
     };
+    const auto add_teeth = [&](double x, int count) {
+      for (int t = 0; t < count; ++t) {
+        rings[0].points.push_back(put(x + t * tooth, 0));
+        rings[0].points.push_back(put(x + (t + 0.5) * tooth, height));
+      }
+    };
     rings[0].points.push_back(put(0, 0));
     for (int k = 0; k < places; ++k, ++place) {
-      const double x = margin + k * teeth_each * tooth;
+      const double before = margin + k * (teeth_each + 1) * tooth, x = before + tooth;
       const bool hole = place * holes / 20 != (place + 1) * holes / 20;  // spread evenly
-      rings[0].points.push_back(put(x, 0));
-      for (int t = 0; t < teeth_each && !hole; ++t) {
-        rings[0].points.push_back(put(x + (t + 0.5) * tooth, height));
-        if (t + 1 < teeth_each) rings[0].points.push_back(put(x + (t + 1) * tooth, 0));
-      }
+      add_teeth(before, 1);
+      if (hole)
+        rings[0].points.push_back(put(x, 0));
+      else
+        add_teeth(x, teeth_each);
       if (!hole) continue;
       // A triangle with dents in two of its sides.
       const double c = x + 0.5 * teeth_each * tooth;
@@ -150,7 +157,8 @@ std::vector<Ring> toothed_square(int holes) {
         ring.points.push_back(put(c + p.x, depth + p.y));
       rings.push_back(std::move(ring));
     }
-    rings[0].points.push_back(put(margin + places * teeth_each * tooth, 0));
+    add_teeth(side - margin - tooth, 1);
+    rings[0].points.push_back(put(side - margin, 0));
   }
   return rings;
 }

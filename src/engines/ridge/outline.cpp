@@ -143,8 +143,11 @@ void add_loop(std::vector<Vertex> loop, std::uint32_t component, Outline& outlin
 
   const auto begin = static_cast<std::uint32_t>(outline.edges.size());
   double left = 0, right = 0;
+  std::uint32_t chain_begin = begin;
   const auto finish_chain = [&](std::uint32_t edges) {
     outline.closed.push_back(edges);
+    outline.chain_begin.push_back(chain_begin);
+    chain_begin = static_cast<std::uint32_t>(outline.edges.size());
     outline.all_left.push_back(left);
     outline.all_right.push_back(right);
     left = right = 0;
@@ -209,8 +212,7 @@ bool Outline::are_one(std::uint32_t e, std::uint32_t f, double disk) const {
   // The other way round the loop; chains of a loop without a corner begin with its first edge.
   const double other_lefts = all_left[c] - lefts, other_rights = all_right[c] - rights;
   if (other_lefts > half_turn || other_rights > half_turn || least_radius.empty()) return false;
-  std::uint32_t first = i;
-  while (first > 0 && chain[first - 1] == c) --first;
+  const std::uint32_t first = chain_begin[c];
   const std::uint32_t last = first + closed[c] - 1;
   return disk + margin < std::min(curve(first, i), curve(j, last));
 }

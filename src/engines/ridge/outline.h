@@ -46,6 +46,7 @@ struct Outline {
   /// than it and turns by less than half of it does not come back to it.
   bool are_one(std::uint32_t e, std::uint32_t f, double disk) const;
 
+  std::vector<std::uint32_t> chain_begin;   ///< of each chain: its first edge
   std::vector<std::uint32_t> chain;         ///< of each edge
   std::vector<double> left, right;          ///< how far the chain has turned before each edge
   std::vector<std::uint32_t> closed;        ///< of each chain: its number of edges if closed, or 0
