@@ -197,6 +197,8 @@ Verb make_axis_verb(CLI::App& program) {
       "  medial axis --text \"Rg&8\" --font DejaVuSans.ttf -o letters.svg\n"
       "  medial axis part.dxf --layer OUTLINE -o axis.dxf --radius-as-z\n"
       "  medial axis broken.shp --repair=even-odd -o axes.shp\n"
+      "  medial axis plan.wkt --method ridge --pixels 2000 -o plan.png\n"
+      "  medial axis part.dxf --exterior --margin 20 -o around.svg\n"
       "  cat shape.wkt | medial axis - -o - --format csv --chord 1e-4 | head");
   return {verb, [switches] { return run_axis(*switches); }};
 }
