@@ -124,13 +124,15 @@ void fill_least_radius(Outline& outline) {
 void add_loop(std::vector<Vertex> loop, std::uint32_t component, Outline& outline) {
   const std::size_t n = loop.size();
   const auto point = [&](std::size_t i) { return loop[i % n].point; };
-  const auto way = [&](std::size_t i) { return point(i + 1) - point(i); };
+  const auto edge = [&](std::size_t i) {
+    return BulgeArc{point(i), point(i + 1), loop[i % n].bulge};
+  };
   const auto turn = [&](std::size_t i) {
-    const Vec2 arriving = way(i + n - 1), leaving = way(i);
+    const Vec2 arriving = end_tangent(edge(i + n - 1)), leaving = start_tangent(edge(i));
     return std::atan2(cross(arriving, leaving), dot(arriving, leaving));
   };
-  // Where an arc is involved, chords may turn to the side that the arcs do not; elsewhere combined
-  // edges may turn to the side that those they replace do not.
+  // Where an arc is involved, a joint may be smooth or blunt; elsewhere combined edges may turn to
+  // the side that those they replace do not.
   const auto is_corner = [&](std::size_t i) {
     const bool straight = !loop[i % n].curved() && !loop[(i + n - 1) % n].curved();
     return straight ? turn(i) > 0 : loop[i % n].joint == Joint::corner;
@@ -143,6 +145,15 @@ void add_loop(std::vector<Vertex> loop, std::uint32_t component, Outline& outlin
 
   const auto begin = static_cast<std::uint32_t>(outline.edges.size());
   double left = 0, right = 0;
+  // A curve that goes on smoothly turns a little at least, so that its radius is looked at.
+  const auto add_turn = [&](std::size_t i, double angle) {
+    constexpr double a_little = 1e-12;
+    const bool curves = loop[i].radius < infinity || loop[(i + n - 1) % n].radius < infinity;
+    if (loop[i].joint == Joint::smooth)
+      left += curves ? a_little : 0;
+    else
+      (angle > 0 ? left : right) += std::abs(angle);
+  };
   std::uint32_t chain_begin = begin;
   const auto finish_chain = [&](std::uint32_t edges) {
     outline.closed.push_back(edges);
@@ -151,12 +162,16 @@ void add_loop(std::vector<Vertex> loop, std::uint32_t component, Outline& outlin
     outline.all_left.push_back(left);
     outline.all_right.push_back(right);
     left = right = 0;
+    if (edges > 0) add_turn(0, turn(0));
+    outline.closing_left.push_back(left);
+    outline.closing_right.push_back(right);
+    left = right = 0;
   };
   for (std::size_t i = 0; i < n; ++i) {
     const double angle = turn(i);
     const bool corner = is_corner(i);
     if (corner && i > 0) finish_chain(0);
-    if (!corner && i > 0) (angle > 0 ? left : right) += std::abs(angle);
+    if (!corner && i > 0) add_turn(i, angle);
     outline.edges.push_back(loop[i].curved()
                                 ? geometry::make_arc(point(i), point(i + 1), loop[i].bulge)
                                 : geometry::make_segment(point(i), point(i + 1)));
@@ -170,8 +185,11 @@ void add_loop(std::vector<Vertex> loop, std::uint32_t component, Outline& outlin
     outline.chain.push_back(static_cast<std::uint32_t>(outline.closed.size()));
     outline.left.push_back(left);
     outline.right.push_back(right);
+    const double own = 4 * std::atan(loop[i].bulge);
+    (own > 0 ? left : right) += std::abs(own);
+    outline.left_end.push_back(left);
+    outline.right_end.push_back(right);
   }
-  if (closed) (turn(0) > 0 ? left : right) += std::abs(turn(0));
   finish_chain(closed ? static_cast<std::uint32_t>(n) : 0);
 }
 
@@ -197,24 +215,26 @@ bool Outline::are_one(std::uint32_t e, std::uint32_t f, double disk) const {
   const std::uint32_t c = chain[e];
   if (chain[f] != c) return false;
   const std::uint32_t i = std::min(e, f), j = std::max(e, f);
-  if (closed[c] > 0 && all_left[c] == 0) return true;  // a convex hole
+  if (closed[c] > 0 && all_left[c] + closing_left[c] == 0) return true;  // a convex hole
   const auto curve = [&](std::uint32_t from, std::uint32_t to) {
     const auto level = static_cast<std::size_t>(std::bit_width(to - from + 1) - 1);
     const std::vector<double>& least = least_radius[level];
     return std::min(least[from], least[to + 1 - (std::uint32_t{1} << level)]);
   };
   constexpr double half_turn = std::numbers::pi;
-  const double lefts = left[j] - left[i], rights = right[j] - right[i];
+  const double lefts = left[j] - left_end[i], rights = right[j] - right_end[i];
   if (lefts <= half_turn && rights <= half_turn &&
       (lefts == 0 || (!least_radius.empty() && disk + margin < curve(i, j))))
     return true;
   if (closed[c] == 0) return false;
   // The other way round the loop; chains of a loop without a corner begin with its first edge.
-  const double other_lefts = all_left[c] - lefts, other_rights = all_right[c] - rights;
-  if (other_lefts > half_turn || other_rights > half_turn || least_radius.empty()) return false;
+  const double other_lefts = (all_left[c] - left_end[j]) + closing_left[c] + left[i];
+  const double other_rights = (all_right[c] - right_end[j]) + closing_right[c] + right[i];
+  if (other_lefts > half_turn || other_rights > half_turn) return false;
   const std::uint32_t first = chain_begin[c];
   const std::uint32_t last = first + closed[c] - 1;
-  return disk + margin < std::min(curve(first, i), curve(j, last));
+  return other_lefts == 0 || least_radius.empty() ||
+         disk + margin < std::min(curve(first, i), curve(j, last));
 }
 
 Outline outline_of(const Shape& shape, const Frame& frame, double step, const Options& options) {

@@ -46,11 +46,13 @@ struct Outline {
   /// than it and turns by less than half of it does not come back to it.
   bool are_one(std::uint32_t e, std::uint32_t f, double disk) const;
 
-  std::vector<std::uint32_t> chain_begin;   ///< of each chain: its first edge
-  std::vector<std::uint32_t> chain;         ///< of each edge
-  std::vector<double> left, right;          ///< how far the chain has turned before each edge
-  std::vector<std::uint32_t> closed;        ///< of each chain: its number of edges if closed, or 0
-  std::vector<double> all_left, all_right;  ///< of each chain: its turns, closed as it may be
+  std::vector<std::uint32_t> chain_begin;  ///< of each chain: its first edge
+  std::vector<std::uint32_t> chain;        ///< of each edge
+  /// How far the chain has turned to the left before each edge and at its end; and to the right.
+  std::vector<double> left, left_end, right, right_end;
+  std::vector<std::uint32_t> closed;  ///< of each chain: its number of edges if closed, or 0
+  /// Of each chain: how far it has turned at its end; and, closed, then turns to its beginning.
+  std::vector<double> all_left, all_right, closing_left, closing_right;
   /// least_radius[k][i]: the smallest radius of edges i..i + 2^k - 1; empty where all are straight.
   std::vector<std::vector<double>> least_radius;
   double sagitta = 0;  ///< how far edges may lie outside the boxes of their ends; 0: all straight
