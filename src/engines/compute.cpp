@@ -8,7 +8,6 @@
 #include <optional>
 #include <utility>
 
-#include "axis/sites.h"
 #include "base/arc.h"
 #include "base/limits.h"
 #include "base/threads.h"
@@ -114,12 +113,16 @@ Result<MedialAxis> compute_exterior(const Shape& shape, const Options& options) 
   inside.exterior = false;
   auto axis = compute(exterior->shape, inside);
   if (!axis) return axis;
-  // The sites of the frame: those that begin in its points.
-  const sites::SiteNumbers numbers = sites::number_sites(
-      exterior->shape, frame_of(bounding_box(exterior->shape)), options.corner_angle);
-  std::vector<bool> of_frame(axis->sites.size(), false);
+  // The sites of the frame: those that begin and end in its corners, however a method numbers them.
+  std::vector<Vec2> corners;
   for (std::size_t i = 0; i < exterior->of_frame.size(); ++i)
-    if (exterior->of_frame[i]) of_frame[numbers.edge[i]] = true;
+    if (exterior->of_frame[i]) corners.push_back(exterior->shape.points[i]);
+  const auto is_corner = [&](Vec2 p) {
+    return std::find(corners.begin(), corners.end(), p) != corners.end();
+  };
+  std::vector<bool> of_frame;
+  for (const Site& site : axis->sites)
+    of_frame.push_back(is_corner(site.start) && is_corner(site.end));
   drop_frame(of_frame, *axis);
   axis->exterior = margin;
   return axis;
