@@ -116,23 +116,24 @@ void collect(std::vector<std::unique_ptr<Chunk>>& chunks, std::size_t cut_count,
   std::uint32_t node_count = 0, edge_count = 0;
   const std::vector<Placed> placed = place(chunks, node_count, edge_count);
 
-  reserve_large(axis.nodes, node_count);
-  axis.nodes.resize(node_count);
-  tbb::parallel_for(std::size_t{0}, placed.size(), [&](std::size_t p) {
-    placed[p].chunk->nodes.drain([&](std::size_t i, const Disk& disk) {
-      if (i > 0)
-        axis.nodes[placed[p].first_node + i - 1] = {disk, placed[p].chunk->component,
-                                                    NodeKind::leaf};
-    });
-  });
-  reserve_large(axis.edges, edge_count);
-  axis.edges.resize(edge_count);
-  tbb::parallel_for(std::size_t{0}, placed.size(), [&](std::size_t p) {
-    placed[p].chunk->edges.drain([&](std::size_t i, const RawEdge& raw) {
-      axis.edges[placed[p].first_edge + i] = {
-          {placed[p].node(raw.from), placed[p].node(raw.to)}, {raw.left, raw.right}, {}, 1};
-    });
-  });
+  // One after the other: what takes the time is memory that is touched for the first time.
+  const auto collect_nodes = [&] {
+    reserve_large(axis.nodes, node_count);
+    for (const Placed& p : placed) {
+      p.chunk->nodes.drain([&](std::size_t i, const Disk& disk) {
+        if (i > 0) axis.nodes.push_back({disk, p.chunk->component, NodeKind::leaf});
+      });
+    }
+  };
+  const auto collect_edges = [&] {
+    reserve_large(axis.edges, edge_count);
+    for (const Placed& p : placed) {
+      p.chunk->edges.drain([&](std::size_t, const RawEdge& raw) {
+        axis.edges.push_back({{p.node(raw.from), p.node(raw.to)}, {raw.left, raw.right}, {}, 1});
+      });
+    }
+  };
+  tbb::parallel_invoke(collect_nodes, collect_edges);
   for (const Placed& p : placed) add_statistics(p.chunk->statistics, axis.statistics);
   if (cut_count > 0) glue_cuts(placed, cut_count, axis);
   chunks.clear();
