@@ -163,8 +163,7 @@ std::int64_t euler_characteristic(const VoxelSet& set) {
       for (std::uint32_t block = 0; block * 8 < width; ++block) {
         std::array<std::uint32_t, 4> rows;
         for (std::uint32_t k = 0; k < 4; ++k)
-          rows[k] =
-              std::uint32_t{set.row(block, y - 1 + k % 2, z - 1 + k / 2)} << 1U | before[k];
+          rows[k] = std::uint32_t{set.row(block, y - 1 + k % 2, z - 1 + k / 2)} << 1U | before[k];
         if ((rows[0] | rows[1] | rows[2] | rows[3]) != 0) {
           for (std::uint32_t x = 0; x < 8; ++x) {
             const std::uint32_t index = (rows[0] >> x & 3U) | (rows[1] >> x & 3U) << 2U |
