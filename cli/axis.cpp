@@ -179,6 +179,10 @@ Verb make_axis_verb(CLI::App& program) {
                    "this distance of it, in units of the input.")
       ->check(CLI::PositiveNumber.description(""))
       ->option_text("D");
+  verb->add_flag("--exact", switches->options.exact,
+                 "Make every decision of the combinatorics certain: which sites a disk\n"
+                 "touches, and which nodes an edge joins. What was decided how is counted in\n"
+                 "--stats. Ties within the tolerance that are none get nodes of their own.");
   add_picture_switches(*verb, switches->write);
   add_common_switches(*verb, switches->common);
   verb->footer(
@@ -194,6 +198,7 @@ Verb make_axis_verb(CLI::App& program) {
       "  medial axis plan.geojson -o plan.svg --disks 200\n"
       "  medial axis lakes.gpkg --layer lakes --where \"area > 1e6\" --project -o axes.gpkg\n"
       "  medial axis maze.wkt.gz -o maze.json --stats\n"
+      "  medial axis gear.dxf --exact --stats -o gear.json\n"
       "  medial axis --text \"Rg&8\" --font DejaVuSans.ttf -o letters.svg\n"
       "  medial axis part.dxf --layer OUTLINE -o axis.dxf --radius-as-z\n"
       "  medial axis broken.shp --repair=even-odd -o axes.shp\n"

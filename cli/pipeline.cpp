@@ -81,7 +81,8 @@ Json stats(const AxisFile& file, const AxisSummary& summary, double seconds_writ
                    {"tree", counted_by_engine.seconds_tree},
                    {"connect", counted_by_engine.seconds_connect},
                    {"walk", counted_by_engine.seconds_walk},
-                   {"collect", counted_by_engine.seconds_collect}}},
+                   {"collect", counted_by_engine.seconds_collect},
+                   {"exact", counted_by_engine.seconds_exact}}},
                  {"features", summary.features},
                  {"sites", summary.sites},
                  {"nodes", summary.nodes()},
@@ -98,6 +99,12 @@ Json stats(const AxisFile& file, const AxisSummary& summary, double seconds_writ
                  {"input_rings", file.cleaned.input_rings},
                  {"input_points", file.cleaned.input_points},
                  {"cleaned", to_json(file.cleaned)}};
+  if (counted_by_engine.seconds_exact > 0)
+    object["exact"] = {{"filtered", counted_by_engine.exact_filtered},
+                       {"precise", counted_by_engine.exact_precise},
+                       {"rational", counted_by_engine.exact_rational},
+                       {"ties", counted_by_engine.exact_ties},
+                       {"changes", counted_by_engine.exact_changes}};
   if (file.arcs.pieces > 0) object["arcs"] = to_json(file.arcs);
   return object;
 }
@@ -334,17 +341,23 @@ Result<AxisFile> compute_axes(ShapeFile shapes, const std::string& path,
     sum.brackets += part.brackets;
     sum.precision_retries += part.precision_retries;
     sum.cuts += part.cuts;
+    sum.exact_filtered += part.exact_filtered;
+    sum.exact_precise += part.exact_precise;
+    sum.exact_rational += part.exact_rational;
+    sum.exact_ties += part.exact_ties;
+    sum.exact_changes += part.exact_changes;
     sum.largest_residual = std::max(sum.largest_residual, part.largest_residual);
     sum.seconds_sites += part.seconds_sites;
     sum.seconds_tree += part.seconds_tree;
     sum.seconds_connect += part.seconds_connect;
     sum.seconds_walk += part.seconds_walk;
     sum.seconds_collect += part.seconds_collect;
+    sum.seconds_exact += part.seconds_exact;
     sum.seconds += part.seconds;
     // What differs from run to run is told by --stats and is no part of the file.
     part.threads = 1;
     part.seconds_sites = part.seconds_tree = part.seconds_connect = 0;
-    part.seconds_walk = part.seconds_collect = part.seconds = 0;
+    part.seconds_walk = part.seconds_collect = part.seconds_exact = part.seconds = 0;
   }
   file.statistics.threads = effective_threads(common.threads);
   file.cleaned = shapes.report;

@@ -81,6 +81,11 @@ struct Options {
   /// Where two edges meet at a convex angle and one of them is an arc, the joint is smooth, no
   /// corner, if the directions differ by less than this; in degrees, in [0, 10].
   double corner_angle = 0.01;
+  /// Makes every decision of the combinatorics certain: which sites a disk touches and in which
+  /// order, and which nodes an edge joins. Sites that touch one disk within the tolerance, but not
+  /// exactly, then have nodes of their own, with edges shorter than the tolerance in between; see
+  /// docs/exact.md for what counts as the exact shape. Slower; the disks are the same.
+  bool exact = false;
   /// Threads to use, at most 1024; 0: all of the machine. The result is the same, byte for byte.
   int threads = 0;
   /// Of ridge: the side of a pixel, in units of the input, at most the longer side of the bounding

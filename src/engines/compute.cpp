@@ -20,6 +20,9 @@
 #include "engines/ridge/ridge.h"
 #include "medial/voronoi.h"
 #include "shape/exterior.h"
+#ifdef MEDIAL_HAS_EXACT
+#include "exact/certify.h"
+#endif
 
 namespace medial {
 namespace {
@@ -80,6 +83,11 @@ std::optional<Error> refuse(const Shape& shape, const Options& options) {
   if (auto error = beyond_limits(shape)) return error;
   if (!is_consistent(shape))
     return Error{ErrorCode::malformed, "the shape was not made by build_shape()", {}};
+#ifndef MEDIAL_HAS_EXACT
+  if (options.exact) return Error{ErrorCode::unsupported, "this build has no exact decisions", {}};
+#endif
+  if (options.exact && (options.method == Method::ridge || options.method == Method::potential))
+    return Error{ErrorCode::invalid_option, "exact decisions are for exact methods only", {}};
   if (options.method == Method::biarc_dc && shape.hole_count() > 0)
     return Error{ErrorCode::unsupported,
                  "the method biarc-dc takes shapes without holes only: use the method disks",
@@ -190,6 +198,13 @@ Result<MedialAxis> compute(const Shape& shape, const Options& options) {
       return Error{ErrorCode::internal,
                    "the axis does not have one cycle for each hole: please report this shape",
                    {}};
+#ifdef MEDIAL_HAS_EXACT
+    if (options.exact) {
+      Status certain =
+          on_threads(options.threads, [&] { return exact::certify(shape, options, axis); });
+      if (!certain) return std::move(certain).error();
+    }
+#endif
     if (options.progress) options.progress(1);
     return result;
   } catch (const std::bad_alloc&) {

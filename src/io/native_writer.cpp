@@ -221,12 +221,22 @@ class NativeWriter {
     out_.put(statistics.precision_retries);
     out_.put(",\"cuts\":");
     out_.put(statistics.cuts);
+    for (const auto& [key, count] : {std::pair{",\"exact_filtered\":", statistics.exact_filtered},
+                                     std::pair{",\"exact_precise\":", statistics.exact_precise},
+                                     std::pair{",\"exact_rational\":", statistics.exact_rational},
+                                     std::pair{",\"exact_ties\":", statistics.exact_ties},
+                                     std::pair{",\"exact_changes\":", statistics.exact_changes}}) {
+      if (count == 0) continue;
+      out_.put(key);
+      out_.put(count);
+    }
     member(",\"largest_residual\":", statistics.largest_residual);
     member(",\"seconds_sites\":", statistics.seconds_sites);
     member(",\"seconds_tree\":", statistics.seconds_tree);
     member(",\"seconds_connect\":", statistics.seconds_connect);
     member(",\"seconds_walk\":", statistics.seconds_walk);
     member(",\"seconds_collect\":", statistics.seconds_collect);
+    member(",\"seconds_exact\":", statistics.seconds_exact);
     member(",\"seconds\":", statistics.seconds);
     out_.put(",\"threads\":");
     out_.put(statistics.threads);

@@ -1,0 +1,143 @@
+#include "exact/disk_bounds.h"
+
+#include <algorithm>
+#include <type_traits>
+
+#include "exact/in_disk.h"
+
+namespace medial::exact {
+namespace {
+
+/// The disk on a spoke whose radius is `times` the spoke.
+template <class Real>
+std::optional<DiskBounds<Real>> disk_on(const Spoke<Bounded<Real>>& spoke,
+                                        const Bounded<Real>& times) {
+  if (!times.positive()) return std::nullopt;
+  return DiskBounds<Real>{spoke.foot + times * spoke.normal, times * spoke.size};
+}
+
+/// How often Newton's method is asked for a better start.
+constexpr int most_steps = 3;
+
+double size_of(const Vector<Bounded<double>>& v) {
+  return v.x.most() + v.y.most();
+}
+
+std::optional<DiskBounds<double>> three_apart(const Outline& outline,
+                                            const std::array<std::uint32_t, 3>& sites,
+                                            const Disk& start) {
+  using Number = Bounded<double>;
+  ApproximateRoots<double> roots;
+  double x = start.center.x, y = start.center.y, r = start.radius;
+  for (int step = 0;; ++step) {
+    const Vector<Number> center{Number(x), Number(y)};
+    const Number radius(r);
+    std::array<Vector<Number>, 3> u;
+    std::array<Number, 3> f;
+    double residual = 0, noise = 0, bend = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto form = form_of<Number>(outline.sites[sites[i]], center, roots);
+      const Number turn = form.round * radius;
+      const Number slope = form.size + turn + turn;  // against the radius
+      if (!slope.positive()) return std::nullopt;
+      const Number inverse = Number(1.0) / slope;
+      u[i] = inverse * form.slope;
+      f[i] = inverse * (form.height - radius * (form.size + turn));
+      residual = std::max(residual, f[i].most());
+      noise = std::max(noise, f[i].error);
+      bend = std::max(bend, (inverse * form.round).most());
+    }
+    const Vector<Number> b = u[1] - u[0], c = u[2] - u[0];
+    const Number area = cross(b, c);
+    if (!area.positive()) return std::nullopt;
+    if (residual > 4 * noise && step < most_steps) {
+      const double fb = f[0].value - f[1].value, fc = f[0].value - f[2].value;
+      const double dx = (fb * c.y.value - fc * b.y.value) / area.value;
+      const double dy = (b.x.value * fc - c.x.value * fb) / area.value;
+      x += dx;
+      y += dy;
+      r += u[0].x.value * dx + u[0].y.value * dy + f[0].value;
+      continue;
+    }
+    const double spread = 2 * (size_of(b) + size_of(c)) / area.least() + 1;
+    // The factor beyond 2 is for the rounding of the bounds.
+    const double within = 2.001 * spread * residual;
+    if (!(4 * bend * spread * within < 1)) return std::nullopt;
+    const DiskBounds<double> result{{{x, within}, {y, within}}, {r, within}};
+    if (!result.radius.positive()) return std::nullopt;
+    return result;
+  }
+}
+
+}  // namespace
+
+template <class Real>
+std::optional<DiskBounds<Real>> disk_bounds(const Outline& outline,
+                                            const std::array<std::uint32_t, 3>& sites,
+                                            const Disk& start) {
+  using Number = Bounded<Real>;
+  ApproximateRoots<Real> roots;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::uint32_t a = sites[i], b = sites[(i + 1) % 3], c = sites[(i + 2) % 3];
+    if (!outline.joined(a, b) || !outline.joined(b, c)) continue;
+    const ExactSite& arc = outline.sites[b];
+    if (!(arc.bulge > 0)) continue;
+    return disk_on(spoke_of<Number>(arc, false, roots),
+                   Number(1.0) / Number(4 * arc.bulge));
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::uint32_t a = sites[i], b = sites[(i + 1) % 3], c = sites[(i + 2) % 3];
+    if (!outline.joined(a, b)) continue;
+    if (outline.joined(b, c) || outline.joined(c, a)) return std::nullopt;
+    const auto spoke = outline.template spoke_after<Number>(a, roots);
+    const auto form = form_of<Number>(outline.sites[c], spoke.foot, roots);
+    const Number closing = form.size * spoke.size - dot(form.slope, spoke.normal);
+    if (!closing.positive()) return std::nullopt;
+    const auto disk = disk_on(spoke, form.height / closing);
+    if (!disk) return std::nullopt;
+    // It is smaller than the circles of all three.
+    for (const std::uint32_t site : sites) {
+      if (!(outline.sites[site].bulge > 0)) continue;
+      const auto own = spoke_of<Number>(outline.sites[site], false, roots);
+      if (!(own.size - Number(4 * outline.sites[site].bulge) * disk->radius).positive())
+        return std::nullopt;
+    }
+    return disk;
+  }
+  if constexpr (std::is_same_v<Real, Precise>)
+    return disk_of_three(outline, sites);
+  else
+    return three_apart(outline, sites, start);
+}
+
+template <class Real>
+std::optional<int> further_along(const ExactSite& site, const DiskBounds<Real>& from,
+                                 const DiskBounds<Real>& to) {
+  using Number = Bounded<Real>;
+  const auto start = exact_vector<Number>(site.start);
+  if (site.is_vertex()) {
+    // Round a reflex vertex, normals turn to the right.
+    return cross(to.center - start, from.center - start).sign();
+  }
+  if (!site.is_arc())
+    return dot(exact_vector<Number>(site.end) - start, to.center - from.center).sign();
+  ApproximateRoots<Real> roots;
+  const auto normal = spoke_of<Number>(site, false, roots).normal;
+  const Number factor(-4 * site.bulge);
+  const auto turn = cross(normal + factor * (from.center - start),
+                          normal + factor * (to.center - start));
+  return (site.bulge > 0 ? turn : -turn).sign();
+}
+
+template std::optional<DiskBounds<double>> disk_bounds(const Outline&,
+                                                       const std::array<std::uint32_t, 3>&,
+                                                       const Disk&);
+template std::optional<DiskBounds<Precise>> disk_bounds(const Outline&,
+                                                        const std::array<std::uint32_t, 3>&,
+                                                        const Disk&);
+template std::optional<int> further_along(const ExactSite&, const DiskBounds<double>&,
+                                          const DiskBounds<double>&);
+template std::optional<int> further_along(const ExactSite&, const DiskBounds<Precise>&,
+                                          const DiskBounds<Precise>&);
+
+}  // namespace medial::exact

@@ -1,0 +1,154 @@
+#pragma once
+
+// The numbers of exact decisions, beside Bounded<double>: Bounded<Precise>, and numbers from a
+// field of square roots, whose signs are decided by rational arithmetic.
+
+#include <boost/multiprecision/gmp.hpp>
+#include <boost/multiprecision/mpfr.hpp>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "base/bounded.h"
+
+namespace medial {
+
+namespace exact {
+
+using Rational = boost::multiprecision::mpq_rational;
+
+/// At least 256 bits, on the stack.
+using Precise = boost::multiprecision::number<
+    boost::multiprecision::mpfr_float_backend<78, boost::multiprecision::allocate_stack>,
+    boost::multiprecision::et_off>;
+
+}  // namespace exact
+
+/// As for double, but the bounds are rough and quick: with 256 bits there is room. `size` bounds the
+/// number and its value.
+template <>
+struct Bounded<exact::Precise> {
+  using Real = exact::Precise;
+  using Size = long double;  // its exponents have room for products of many small coordinates
+  Real value{0};
+  Size size = 0;
+  Size error = 0;
+
+  Bounded() = default;
+  explicit Bounded(double exact) : value(exact), size(std::abs(exact)) {}
+  explicit Bounded(const Real& exact) : Bounded(exact, 0) {}
+  Bounded(Real approximate, Size bound)
+      : value(std::move(approximate)), size(widen * (magnitude() + bound)), error(bound) {}
+
+  std::optional<int> sign() const {
+    if (magnitude() > widen * error) return value > 0 ? 1 : -1;
+    if (error == 0 && value == 0) return 0;
+    return std::nullopt;
+  }
+  bool positive() const { return sign() == 1; }
+  Size most() const { return widen * (magnitude() + error); }
+  Size least() const { return std::max<Size>(0, magnitude() / widen - error); }
+
+  /// Bounds the size anew, where differences have made it smaller than operations alone can tell.
+  void tighten() { size = most(); }
+
+  /// Every operation is correctly rounded to 259 bits at least.
+  static constexpr Size unit = 0x1p-256L;
+  /// Bounds are sums and products of positive numbers with a few roundings each.
+  static constexpr Size widen = 1 + 0x1p-48L;
+
+  friend Bounded operator-(const Bounded& a) { return {Real(-a.value), a.size, a.error}; }
+  friend Bounded operator+(const Bounded& a, const Bounded& b) {
+    const Size size = widen * (a.size + b.size);
+    return {Real(a.value + b.value), size, widen * (a.error + b.error + unit * size)};
+  }
+  friend Bounded operator-(const Bounded& a, const Bounded& b) { return a + (-b); }
+  friend Bounded operator*(const Bounded& a, const Bounded& b) {
+    const Size size = widen * a.size * b.size;
+    return {Real(a.value * b.value), size,
+            widen * (a.size * b.error + b.size * a.error + unit * size)};
+  }
+  friend Bounded operator/(const Bounded& a, const Bounded& b) {
+    const Size divisor = b.least();
+    if (!(divisor > 0)) return {Real(0), std::numeric_limits<Size>::infinity()};
+    const Size size = widen * a.most() / divisor;  // a quotient's error grows by its size
+    return {Real(a.value / b.value), size,
+            widen * ((a.error + size * b.error) / divisor + unit * size)};
+  }
+  friend Bounded root_of(const Bounded& a) {
+    if (a.value == 0 && a.error == 0) return {};
+    if (!(a.least() > 0)) {
+      const Size half = std::sqrt(std::max<Size>(0, a.most())) / 2;
+      return {Real(half), widen * half};
+    }
+    const Size root = std::sqrt(a.least()), size = std::sqrt(a.most());
+    return {Real(sqrt(a.value)), widen * size, widen * (a.error / root + unit * size)};
+  }
+
+ private:
+  Bounded(Real approximate, Size largest, Size bound)
+      : value(std::move(approximate)), size(largest), error(bound) {}
+  Size magnitude() const { return std::abs(static_cast<Size>(value)); }
+};
+
+namespace exact {
+
+class RootField;
+
+/// A number of a RootField: a sum of rational multiples of products of its roots.
+///
+/// Stands as 2^k factors: the i-th belongs to the product of the roots whose bits i has. No operation
+/// rounds.
+class RootNumber {
+ public:
+  RootNumber() = default;
+  explicit RootNumber(double exact) : RootNumber(Rational(exact)) {}
+  explicit RootNumber(Rational value) {
+    if (value != 0) factors_.push_back(std::move(value));
+  }
+
+  friend RootNumber operator+(const RootNumber& a, const RootNumber& b);
+  friend RootNumber operator-(const RootNumber& a, const RootNumber& b);
+  friend RootNumber operator*(const RootNumber& a, const RootNumber& b);
+  friend RootNumber operator-(const RootNumber& a);
+
+  /// Exact: a + b sqrt(A) has the sign of the larger of a^2 and b^2 A where the signs of a and b
+  /// differ, which are numbers of a field with one root less. Asked only where 256 bits do not tell.
+  int sign() const;
+  /// The number in 256 bits.
+  Bounded<Precise> bounded() const;
+
+ private:
+  friend class RootField;
+  RootNumber(const RootField* field, std::vector<Rational> factors);
+
+  const RootField* field_ = nullptr;  ///< none needed for a rational number
+  std::vector<Rational> factors_;     ///< 2^j of them, or none: zero
+};
+
+/// The rational numbers with the square roots of some positive ones.
+class RootField {
+ public:
+  RootField() = default;
+  RootField(const RootField&) = delete;  // numbers refer to it
+  RootField& operator=(const RootField&) = delete;
+
+  /// The square root of a positive rational number: rational where that is a square, a multiple of
+  /// a root that is there already where the product of the two is one, and a new root otherwise.
+  RootNumber root(const RootNumber& rational);
+  const Rational& radicand(std::size_t i) const { return radicands_[i]; }
+  const Bounded<Precise>& approximate_root(std::size_t i) const { return roots_[i]; }
+
+ private:
+  std::vector<Rational> radicands_;
+  std::vector<Bounded<Precise>> roots_;
+};
+
+/// The sign of a + b sqrt(square) for square >= 0.
+int sign_with_root(const RootNumber& a, const RootNumber& b, const RootNumber& square);
+
+}  // namespace exact
+}  // namespace medial

@@ -1,0 +1,35 @@
+#include "exact/outline.h"
+
+namespace medial::exact {
+
+Outline outline_of(const Shape& shape, const Frame& frame, const sites::SiteNumbers& numbers) {
+  Outline outline;
+  outline.sites.resize(numbers.count);
+  outline.next.resize(numbers.count);
+  outline.passes.assign(numbers.count, false);
+  outline.component = shape.component;
+  for (std::size_t l = 0; l < shape.loop_count(); ++l) {
+    const sites::Loop loop(shape, l, frame);
+    const auto first_of = [&](std::uint32_t i) {
+      const std::size_t point = loop.begin() + i;
+      return numbers.edge[point] - (numbers.is_site(point) ? 1 : 0);
+    };
+    outline.loop_begin.push_back(first_of(0));
+    for (std::uint32_t i = 0; i < loop.size(); ++i) {
+      const std::size_t point = loop.begin() + i, after = loop.begin() + loop.next(i);
+      const std::uint32_t edge = numbers.edge[point];
+      if (numbers.is_site(point)) {
+        outline.sites[edge - 1] = {loop.local(i), loop.local(i), 0};
+        outline.next[edge - 1] = edge;
+        outline.passes[edge - 1] = true;
+      }
+      outline.sites[edge] = {loop.local(i), loop.local(loop.next(i)), loop.bulge(i)};
+      outline.next[edge] = first_of(loop.next(i));
+      outline.passes[edge] = numbers.joints[after] != geometry::Joint::corner;
+    }
+  }
+  outline.loop_begin.push_back(numbers.count);
+  return outline;
+}
+
+}  // namespace medial::exact

@@ -1,0 +1,214 @@
+// Options::exact: the numbers it decides with, its decisions, and that the default and exact axes
+// have the same combinatorics. MEDIAL_PROPERTY_COUNT: how many random shapes (2,000 without it).
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "exact/in_disk.h"
+#include "exact/numbers.h"
+#include "medial/compute.h"
+#include "medial/verify.h"
+#include "support/generate.h"
+#include "support/generate_arcs.h"
+#include "support/same_graph.h"
+
+namespace medial::test {
+namespace {
+
+using exact::Rational;
+using exact::RootField;
+using exact::RootNumber;
+
+// ---- Numbers.
+
+TEST(Bounded, KnowsWhatDoubleRepresents) {
+  const Bounded<double> a(3), b(5), c(15);
+  EXPECT_EQ((a * b - c).sign(), 0);
+  EXPECT_EQ((c / b - a).sign(), 0);
+  EXPECT_EQ((root_of(Bounded<double>(49)) - Bounded<double>(7)).sign(), 0);
+  // What is rounded is bounded: 0.1 + 0.2 is more than 0.3, as doubles, by more than the rounding.
+  const auto sum = Bounded<double>(0.1) + Bounded<double>(0.2);
+  EXPECT_GT(sum.error, 0);
+  EXPECT_EQ((sum - Bounded<double>(0.3)).sign(), 1);
+  const auto root = root_of(Bounded<double>(2));
+  EXPECT_EQ((root * root - Bounded<double>(2)).sign(), std::nullopt);
+}
+
+TEST(Bounded, BoundsItsErrors) {
+  // Sums, products, quotients and roots of random numbers, in double and in 256 bits.
+  Random random(7);
+  for (int i = 0; i < 2000; ++i) {
+    Bounded<double> x(random.between(-1, 1));
+    Bounded<exact::Precise> y(x.value);
+    for (int step = 0; step < 12; ++step) {
+      const double other = random.between(0.5, 2) * (random.chance(0.3) ? -1 : 1);
+      switch (random.integer(0, 3)) {
+        case 0:
+          x = x + Bounded<double>(other);
+          y = y + Bounded<exact::Precise>(other);
+          break;
+        case 1:
+          x = x * Bounded<double>(other);
+          y = y * Bounded<exact::Precise>(other);
+          break;
+        case 2:
+          x = x / Bounded<double>(other);
+          y = y / Bounded<exact::Precise>(other);
+          break;
+        default:
+          x = root_of(x * x + Bounded<double>(0.25));
+          y = root_of(y * y + Bounded<exact::Precise>(0.25));
+      }
+    }
+    const exact::Precise off = abs(exact::Precise(x.value) - y.value);
+    EXPECT_LE(off, exact::Precise(x.error) * (1 + 1e-9) + 1e-70) << i;
+    EXPECT_LT(x.error, 1e-12);
+  }
+}
+
+TEST(RootNumber, TellsNestedRadicalsFromZero) {
+  RootField field;
+  const auto root = [&](int n) { return field.root(RootNumber(double(n))); };
+  const RootNumber two = root(2), three = root(3), six = root(6), eight = root(8);
+  EXPECT_EQ((two * three - six).sign(), 0);
+  EXPECT_EQ((eight - RootNumber(2.0) * two).sign(), 0);
+  EXPECT_EQ((root(9) - RootNumber(3.0)).sign(), 0);
+  EXPECT_EQ((two + three - root(10)).sign(), -1);
+  EXPECT_EQ((root(10) - two - three).sign(), 1);
+  // sqrt(5 + 2 sqrt 6) = sqrt 2 + sqrt 3.
+  const RootNumber nested = RootNumber(5.0) + RootNumber(2.0) * six;
+  EXPECT_EQ(exact::sign_with_root(-(two + three), RootNumber(1.0), nested), 0);
+  EXPECT_EQ(exact::sign_with_root(-two, RootNumber(1.0), nested), 1);
+  // (sqrt 2 + sqrt 3)^2 (5 - 2 sqrt 6) = 1.
+  const RootNumber sum = two + three;
+  EXPECT_EQ((sum * sum * (RootNumber(5.0) - RootNumber(2.0) * six) - RootNumber(1.0)).sign(), 0);
+}
+
+TEST(RootNumber, TellsWhatIsNearZero) {
+  // sqrt 2 against a rational within 1e-60 and within 1e-200 of it, beyond 256 bits.
+  for (const unsigned steps : {7u, 9u}) {
+    Rational near(3, 2);
+    for (unsigned i = 0; i < steps; ++i) near = (near + 2 / near) / 2;  // Newton, from above
+    RootField field;
+    const RootNumber two = field.root(RootNumber(2.0));
+    EXPECT_EQ((RootNumber(near) - two).sign(), 1);
+    EXPECT_EQ((two - RootNumber(near)).sign(), -1);
+    EXPECT_EQ((RootNumber(near) - two + (two - RootNumber(near))).sign(), 0);
+  }
+}
+
+// ---- Decisions.
+
+exact::Outline outline_of(const Shape& shape) {
+  const Frame frame = frame_of(bounding_box(shape));
+  return exact::outline_of(shape, frame, sites::number_sites(shape, frame, 0.01));
+}
+
+TEST(InDisk, DecidesTiesOfEveryKind) {
+  exact::Decisions decisions;
+  const auto of_square = [&](double cosine, double sine) {
+    std::vector<Vec2> points;
+    for (const Vec2 p : {Vec2{0, 0}, Vec2{8, 0}, Vec2{8, 8}, Vec2{0, 8}})
+      points.push_back({p.x * cosine - p.y * sine, p.x * sine + p.y * cosine});
+    const auto shape = build_shape(std::vector<Ring>{ring_of(points)});
+    return exact::in_disk(outline_of(*shape), 0, 1, 2, 3, decisions);
+  };
+  // Axis-parallel, Pythagorean, along diagonals, and with an irrational length.
+  EXPECT_EQ(of_square(1, 0), exact::Sign::zero);
+  EXPECT_EQ(of_square(3, 4), exact::Sign::zero);
+  EXPECT_EQ(of_square(1, 1), exact::Sign::zero);
+  EXPECT_EQ(of_square(2, 1), exact::Sign::zero);
+  EXPECT_EQ(decisions.ties, 4u);
+  EXPECT_GT(decisions.filtered, 0u);
+  EXPECT_GT(decisions.rational, 0u);
+  // One ulp taller or lower: the disk between the other three reaches over the left side, or not.
+  for (const double top : {std::nextafter(8.0, 9.0), std::nextafter(8.0, 7.0)}) {
+    const auto shape = build_shape(rectangle(8, top));
+    const auto sign = exact::in_disk(outline_of(*shape), 0, 1, 2, 3, decisions);
+    EXPECT_EQ(sign, top > 8 ? exact::Sign::negative : exact::Sign::positive);
+  }
+}
+
+// ---- Axes.
+
+std::vector<std::string> compare_exact(const Rings& rings, Statistics* counts = nullptr) {
+  const auto shape = build_shape(rings);
+  if (!shape) return {to_string(shape.error())};
+  Options options;
+  const auto plain = compute(*shape, options);
+  options.exact = true;
+  const auto certain = compute(*shape, options);
+  for (const auto* one : {&plain, &certain})
+    if (!*one) return {to_string(one->error())};
+  if (counts) *counts = certain->statistics;
+  std::vector<std::string> failures;
+  const std::string differs = difference(*shape, *plain, *certain, plain->tolerance);
+  if (!differs.empty()) failures.push_back(differs);
+  if (verify(*shape, *plain).passed) {
+    const Certificate certificate = verify(*shape, *certain);
+    failures.insert(failures.end(), certificate.failures.begin(), certificate.failures.end());
+  }
+  // What is exact already stays as it is.
+  if (certain->statistics.exact_changes == 0 &&
+      (plain->nodes.size() != certain->nodes.size() || plain->edges.size() != certain->edges.size()))
+    failures.push_back("changed without a reason");
+  return failures;
+}
+
+const std::vector<std::string> no_failures;
+
+TEST(ExactAxis, OfFixedShapes) {
+  for (const auto& rings :
+       {rectangle(8, 3), rectangle(3, 3), l_shape(2), t_shape(2), u_shape(3), cross_shape(2),
+        comb(5), maze(400), hole_grid(4), nested_squares(6), needle(1e-6), spiral(40), blob(60)}) {
+    EXPECT_EQ(compare_exact(rings), no_failures) << to_wkt(rings);
+  }
+}
+
+TEST(ExactAxis, KeepsTrueTiesAndDividesOthers) {
+  Statistics counts;
+  EXPECT_EQ(compare_exact(rectangle(8, 8), &counts), no_failures);
+  EXPECT_EQ(counts.exact_ties, 1u);
+  EXPECT_EQ(counts.exact_changes, 0u);
+  // A corner moved by one ulp: default precision calls it a tie.
+  const double taller = std::nextafter(8.0, 9.0);
+  EXPECT_EQ(compare_exact(rectangle(8, taller), &counts), no_failures);
+  EXPECT_EQ(counts.exact_ties, 0u);
+  EXPECT_EQ(counts.exact_changes, 1u);
+  // The vertices of a regular polygon, rounded, lie on no circle.
+  EXPECT_EQ(compare_exact(regular_polygon(24), &counts), no_failures);
+  EXPECT_GT(counts.exact_precise, 0u);
+  EXPECT_EQ(counts.exact_changes, 1u);
+}
+
+std::uint64_t count_from_environment(std::uint64_t otherwise) {
+  const char* text = std::getenv("MEDIAL_PROPERTY_COUNT");
+  return text && *text ? std::strtoull(text, nullptr, 10) / 10 : otherwise;
+}
+
+template <class Generate>
+void check_random(std::uint64_t count, const Generate& generate) {
+  int failed = 0;
+  for (std::uint64_t seed = 0; seed < count && failed < 5; ++seed) {
+    const RandomShape shape = generate(seed);
+    const auto failures = compare_exact(shape.rings);
+    if (failures.empty()) continue;
+    ++failed;
+    ADD_FAILURE() << "seed " << seed << ", " << shape.kind << ": " << failures[0];
+  }
+}
+
+TEST(ExactAxis, OfRandomPolygons) { check_random(count_from_environment(600), random_shape); }
+TEST(ExactAxis, OfRandomPolygonsOnGrids) {
+  check_random(count_from_environment(2000), random_integer_shape);
+}
+TEST(ExactAxis, OfRandomArcs) { check_random(count_from_environment(800), random_arc_shape); }
+
+}  // namespace
+}  // namespace medial::test

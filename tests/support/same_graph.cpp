@@ -1,0 +1,121 @@
+#include "support/same_graph.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "base/frame.h"
+#include "exact/contact_graph.h"
+#include "medial/query.h"
+
+namespace medial::test {
+namespace {
+
+using exact::ContactGraph;
+using exact::Link;
+using SitePair = std::array<std::uint32_t, 2>;
+
+/// One axis, and which of its nodes are one after contraction.
+class Contracted {
+ public:
+  Contracted(const MedialAxis& axis, const exact::Outline& outline, double tolerance)
+      : axis_(axis), tolerance_(tolerance), parent_(axis.nodes.size()) {
+    std::iota(parent_.begin(), parent_.end(), 0u);
+    if (const auto node = ContactGraph::build(axis, outline, graph_))
+      failure_ = "the edges around node " + std::to_string(*node) + " are out of order";
+    for (Link& link : graph_.links) {
+      if (link.site[0] <= link.site[1]) continue;
+      std::swap(link.site[0], link.site[1]);
+      std::swap(link.node[0], link.node[1]);
+    }
+  }
+
+  const std::string& failure() const { return failure_; }
+  const exact::Links& links() const { return graph_.links; }
+  Vec2 end(const Link& link, std::size_t which) const {
+    return axis_.nodes[link.node[which]].disk.center;
+  }
+  std::uint32_t node(std::uint32_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+
+  /// Contracts a link; false where it is not short.
+  bool contract(const Link& link) {
+    parent_[node(link.node[0])] = node(link.node[1]);
+    return touches(link.node[0], link.node[1]) || touches(link.node[1], link.node[0]);
+  }
+
+ private:
+  bool touches(std::uint32_t by, std::uint32_t other) const {
+    const Disk& disk = axis_.nodes[by].disk;
+    const auto contacts = graph_.contacts(other);
+    return std::all_of(contacts.begin(), contacts.end(), [&](const exact::Contact& contact) {
+      const Vec2 nearest = foot(axis_.sites[contact.site], disk.center);
+      return std::abs(distance(nearest, disk.center) - disk.radius) <= tolerance_;
+    });
+  }
+
+  const MedialAxis& axis_;
+  double tolerance_;
+  ContactGraph graph_;
+  std::vector<std::uint32_t> parent_;
+  std::string failure_;
+};
+
+std::string name_of(const Link& link) {
+  return "the edge between the sites " + std::to_string(link.site[0]) + " and " +
+         std::to_string(link.site[1]);
+}
+
+}  // namespace
+
+std::string difference(const Shape& shape, const MedialAxis& a, const MedialAxis& b,
+                       double tolerance) {
+  const Frame frame = frame_of(bounding_box(shape));
+  const exact::Outline outline =
+      exact::outline_of(shape, frame, sites::number_sites(shape, frame, 0.01));
+  if (a.sites.size() != b.sites.size()) return "the sites differ";
+  Contracted first(a, outline, tolerance), second(b, outline, tolerance);
+  for (const Contracted* one : {&first, &second})
+    if (!one->failure().empty()) return one->failure();
+
+  std::map<SitePair, std::vector<const Link*>> by_sites;
+  for (const Link& link : second.links()) by_sites[link.site].push_back(&link);
+  std::vector<std::pair<const Link*, const Link*>> common;
+  for (const Link& link : first.links()) {
+    auto& others = by_sites[link.site];
+    const auto off = [&](const Link* other) {
+      return distance(first.end(link, 0), second.end(*other, 0)) +
+             distance(first.end(link, 1), second.end(*other, 1));
+    };
+    const auto nearest = std::min_element(
+        others.begin(), others.end(),
+        [&](const Link* x, const Link* y) { return off(x) < off(y); });
+    if (nearest != others.end()) {
+      common.emplace_back(&link, *nearest);
+      others.erase(nearest);
+    } else if (!first.contract(link)) {
+      return "only the first axis has " + name_of(link);
+    }
+  }
+  for (const auto& [pair, others] : by_sites)
+    for (const Link* link : others)
+      if (!second.contract(*link)) return "only the second axis has " + name_of(*link);
+
+  std::map<std::uint32_t, std::uint32_t> forth, back;
+  for (const auto& [x, y] : common) {
+    for (std::size_t i = 0; i < 2; ++i) {
+      const std::uint32_t u = first.node(x->node[i]), v = second.node(y->node[i]);
+      if (forth.emplace(u, v).first->second != v || back.emplace(v, u).first->second != u)
+        return name_of(*x) + " ends in different nodes";
+    }
+  }
+  return {};
+}
+
+}  // namespace medial::test
