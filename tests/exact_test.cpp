@@ -155,8 +155,8 @@ std::vector<std::string> compare_exact(const Rings& rings, Statistics* counts = 
     failures.insert(failures.end(), certificate.failures.begin(), certificate.failures.end());
   }
   // What is exact already stays as it is.
-  if (certain->statistics.exact_changes == 0 &&
-      (plain->nodes.size() != certain->nodes.size() || plain->edges.size() != certain->edges.size()))
+  if (certain->statistics.exact_changes == 0 && (plain->nodes.size() != certain->nodes.size() ||
+                                                 plain->edges.size() != certain->edges.size()))
     failures.push_back("changed without a reason");
   return failures;
 }

@@ -7,9 +7,9 @@
 
 namespace medial {
 
-/// A real number known as `value`, off by at most `error` (infinite where nothing is known): running
-/// error analysis. The operations below keep that true whatever they round. In double, what an
-/// operation rounds away is computed itself (Dekker, Knuth; fused multiply-add), so numbers that
+/// A real number known as `value`, off by at most `error` (infinite where nothing is known):
+/// running error analysis. The operations below keep that true whatever they round. In double, what
+/// an operation rounds away is computed itself (Dekker, Knuth; fused multiply-add), so numbers that
 /// double represents, those of an integer grid for one, keep the error 0, and a sum of them that is
 /// zero is known to be zero. Requires round to nearest, and numbers below 1e300 in size.
 template <class Real>
@@ -59,7 +59,8 @@ struct Rounding<double> {
   }
   static double of_quotient(double a, double b, double quotient) {
     const double off = std::abs(std::fma(quotient, b, -a));
-    return (std::abs(a) < tiny && a != 0 ? off + lost : off) / std::abs(b) + std::numeric_limits<double>::min();
+    return (std::abs(a) < tiny && a != 0 ? off + lost : off) / std::abs(b) +
+           std::numeric_limits<double>::min();
   }
   static double of_root(double a, double root) {
     const double off = std::abs(std::fma(root, root, -a));

@@ -52,7 +52,8 @@ class Certifier {
     // What is put in order may ask for its neighbours to be so, too.
     constexpr int most_rounds = 64;
     for (int round = 0; !doubtful.empty() || !apart.empty(); ++round) {
-      if (round == most_rounds) return place_of(doubtful.empty() ? apart[0] : links_[doubtful[0]].node[0]);
+      if (round == most_rounds)
+        return place_of(doubtful.empty() ? apart[0] : links_[doubtful[0]].node[0]);
       std::vector<std::uint32_t> changed;
       if (const auto failed = resolve(doubtful, apart, changed)) return place_of(*failed);
       apart.clear();
@@ -380,9 +381,9 @@ class Certifier {
   bool move_to_bounds(std::uint32_t node) {
     const auto bounds = bounds_of<Precise>(node);
     if (!bounds) return false;
-    const Disk disk{{static_cast<double>(bounds->center.x.value),
-                     static_cast<double>(bounds->center.y.value)},
-                    static_cast<double>(bounds->radius.value)};
+    const Disk disk{
+        {static_cast<double>(bounds->center.x.value), static_cast<double>(bounds->center.y.value)},
+        static_cast<double>(bounds->radius.value)};
     axis_.nodes[node].disk = {frame_.to_input(disk.center), frame_.inverse * disk.radius};
     return true;
   }
@@ -392,9 +393,8 @@ class Certifier {
     const ExactSite& exact = outline_.sites[site];
     if (exact.is_vertex()) return geometry::make_vertex(exact.start);
     const sites::Pieces pieces = sites::pieces_of(exact.start, exact.end, exact.bulge);
-    const bool last = pieces.count > 1 &&
-                      geometry::squared_distance(pieces.last(), center) <
-                          geometry::squared_distance(pieces.first(), center);
+    const bool last = pieces.count > 1 && geometry::squared_distance(pieces.last(), center) <
+                                              geometry::squared_distance(pieces.first(), center);
     return last ? pieces.last() : pieces.first();
   }
 
@@ -480,7 +480,8 @@ Status certify(const Shape& shape, const Options& options, MedialAxis& axis) {
   ContactGraph graph;
   const auto failure = [](Vec2 place) {
     Error error{ErrorCode::internal,
-                "the axis could not be made certain here: please report this shape", {}};
+                "the axis could not be made certain here: please report this shape",
+                {}};
     error.place.point = place;
     return error;
   };

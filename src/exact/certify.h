@@ -4,10 +4,10 @@
 
 namespace medial::exact {
 
-/// Makes sure that the combinatorics of an axis that compute() made in double precision are those of
-/// the exact one: which sites each node touches and in which order, and which nodes each edge joins.
-/// Where rounding has decided otherwise, nodes and edges are replaced. What is decided, and how, is
-/// counted in the axis' statistics (docs/exact.md). Errors: internal, with the place.
+/// Makes sure that the combinatorics of an axis that compute() made in double precision are those
+/// of the exact one: which sites each node touches and in which order, and which nodes each edge
+/// joins. Where rounding has decided otherwise, nodes and edges are replaced. What is decided, and
+/// how, is counted in the axis' statistics (docs/exact.md). Errors: internal, with the place.
 ///
 /// O(n) expected; the same result for any number of threads. Call it inside of a task arena.
 Status certify(const Shape& shape, const Options& options, MedialAxis& axis);

@@ -14,13 +14,11 @@ bool divides_link(const MedialAxis& axis, const Incidence& incidence, std::uint3
   const Edge &a = axis.edges[incidence.edges(node)[0]], &b = axis.edges[incidence.edges(node)[1]];
   if (&a == &b) return false;
   const bool a_leaves = a.node[0] == node, b_leaves = b.node[0] == node;
-  return a_leaves == b_leaves ? a.site[0] == b.site[1] && a.site[1] == b.site[0]
-                              : a.site == b.site;
+  return a_leaves == b_leaves ? a.site[0] == b.site[1] && a.site[1] == b.site[0] : a.site == b.site;
 }
 
 /// The axis' links, in the order of their first edges.
-Links links_of(const MedialAxis& axis, const Incidence& incidence,
-               const std::vector<bool>& inner) {
+Links links_of(const MedialAxis& axis, const Incidence& incidence, const std::vector<bool>& inner) {
   Links links;
   links.reserve(axis.edges.size());
   std::vector<bool> used(axis.edges.size(), false);
@@ -53,9 +51,8 @@ class NodeReader {
   /// Requires a half.
   bool read(std::span<const Half> halves, std::vector<Contact>& contacts) {
     halves_.assign(halves.begin(), halves.end());
-    std::sort(halves_.begin(), halves_.end(), [&](Half a, Half b) {
-      return right_site(links_, a) < right_site(links_, b);
-    });
+    std::sort(halves_.begin(), halves_.end(),
+              [&](Half a, Half b) { return right_site(links_, a) < right_site(links_, b); });
     contacts.clear();
     const std::size_t most = outline_.sites.size() + halves_.size();
     std::size_t left = halves_.size();
@@ -80,9 +77,9 @@ class NodeReader {
 
  private:
   Half leaving_at(std::uint32_t site) const {
-    const auto found = std::lower_bound(
-        halves_.begin(), halves_.end(), site,
-        [&](Half half, std::uint32_t s) { return right_site(links_, half) < s; });
+    const auto found =
+        std::lower_bound(halves_.begin(), halves_.end(), site,
+                         [&](Half half, std::uint32_t s) { return right_site(links_, half) < s; });
     return found != halves_.end() && right_site(links_, *found) == site ? *found : no_half;
   }
 
@@ -116,8 +113,8 @@ std::optional<std::uint32_t> ContactGraph::build(const MedialAxis& axis, const O
   std::vector<Contact> contacts;
   std::uint32_t loop = 0;
   for (std::uint32_t node = 0; node < axis.nodes.size(); ++node) {
-    const auto halves = std::span(leaving).subspan(
-        leaving_begin[node], leaving_begin[node + 1] - leaving_begin[node]);
+    const auto halves = std::span(leaving).subspan(leaving_begin[node],
+                                                   leaving_begin[node + 1] - leaving_begin[node]);
     contacts.clear();
     if (inner[node]) {
       // Nothing changes here.

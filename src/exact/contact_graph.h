@@ -12,8 +12,9 @@
 
 namespace medial::exact {
 
-/// What lies between two nodes where the contacts change: an edge of the axis, or several in a chain
-/// whose inner nodes only divide it, because the curve of an edge on a long arc has several pieces.
+/// What lies between two nodes where the contacts change: an edge of the axis, or several in a
+/// chain whose inner nodes only divide it, because the curve of an edge on a long arc has several
+/// pieces.
 struct Link {
   std::array<std::uint32_t, 2> node;  ///< from, to
   std::array<std::uint32_t, 2> site;  ///< on the left and on the right
@@ -25,8 +26,8 @@ struct Link {
   std::array<End, 2> end;
 };
 
-/// A direction along a link: twice its index, and one more from its second node to its first. It has
-/// a site on its right and one on its left.
+/// A direction along a link: twice its index, and one more from its second node to its first. It
+/// has a site on its right and one on its left.
 using Half = std::uint32_t;
 constexpr Half no_half = ~Half{0};
 inline Half twin(Half half) { return half ^ 1; }
@@ -43,7 +44,8 @@ inline std::uint32_t left_site(const Links& links, Half half) {
 }
 
 /// A site that a node's disk touches, and what lies between it and the next one around the disk,
-/// counter-clockwise, which is forward along the boundary: a link that leaves there, or none where the two sites are joined, or meet in the corner where the node is.
+/// counter-clockwise, which is forward along the boundary: a link that leaves there, or none where
+/// the two sites are joined, or meet in the corner where the node is.
 struct Contact {
   std::uint32_t site = 0;
   Half half = no_half;

@@ -19,13 +19,11 @@ std::optional<DiskBounds<Real>> disk_on(const Spoke<Bounded<Real>>& spoke,
 /// How often Newton's method is asked for a better start.
 constexpr int most_steps = 3;
 
-double size_of(const Vector<Bounded<double>>& v) {
-  return v.x.most() + v.y.most();
-}
+double size_of(const Vector<Bounded<double>>& v) { return v.x.most() + v.y.most(); }
 
 std::optional<DiskBounds<double>> three_apart(const Outline& outline,
-                                            const std::array<std::uint32_t, 3>& sites,
-                                            const Disk& start) {
+                                              const std::array<std::uint32_t, 3>& sites,
+                                              const Disk& start) {
   using Number = Bounded<double>;
   ApproximateRoots<double> roots;
   double x = start.center.x, y = start.center.y, r = start.radius;
@@ -82,8 +80,7 @@ std::optional<DiskBounds<Real>> disk_bounds(const Outline& outline,
     if (!outline.joined(a, b) || !outline.joined(b, c)) continue;
     const ExactSite& arc = outline.sites[b];
     if (!(arc.bulge > 0)) continue;
-    return disk_on(spoke_of<Number>(arc, false, roots),
-                   Number(1.0) / Number(4 * arc.bulge));
+    return disk_on(spoke_of<Number>(arc, false, roots), Number(1.0) / Number(4 * arc.bulge));
   }
   for (std::size_t i = 0; i < 3; ++i) {
     const std::uint32_t a = sites[i], b = sites[(i + 1) % 3], c = sites[(i + 2) % 3];
@@ -124,8 +121,8 @@ std::optional<int> further_along(const ExactSite& site, const DiskBounds<Real>& 
   ApproximateRoots<Real> roots;
   const auto normal = spoke_of<Number>(site, false, roots).normal;
   const Number factor(-4 * site.bulge);
-  const auto turn = cross(normal + factor * (from.center - start),
-                          normal + factor * (to.center - start));
+  const auto turn =
+      cross(normal + factor * (from.center - start), normal + factor * (to.center - start));
   return (site.bulge > 0 ? turn : -turn).sign();
 }
 

@@ -80,9 +80,9 @@ class Kernel {
     std::array<Number, 3> disk = three.point;
     if (three.round) {
       const Number root = root_of(three.discriminant);
-      const Number lambda = three.cancels
-                                ? three.zeroth / (three.upper ? -three.first - root : root - three.first)
-                                : (three.upper ? root - three.first : -three.first - root) / three.second;
+      const Number lambda =
+          three.cancels ? three.zeroth / (three.upper ? -three.first - root : root - three.first)
+                        : (three.upper ? root - three.first : -three.first - root) / three.second;
       for (std::size_t i = 0; i < 3; ++i) disk[i] = disk[i] + lambda * three.along[i];
     }
     for (Number& coordinate : disk) coordinate = coordinate / three.scale;
@@ -145,8 +145,8 @@ class Kernel {
     return {form.height, form.size * spoke.size - dot(form.slope, spoke.normal)};
   }
 
-  /// Whether the disk that grows at the joint after `a` meets a site before it is as large as the own
-  /// circle of an arc that begins or ends there.
+  /// Whether the disk that grows at the joint after `a` meets a site before it is as large as the
+  /// own circle of an arc that begins or ends there.
   Sign meets(std::uint32_t a, const Spoke<Number>& spoke, const Reach& c) {
     Sign sign = sign_of(c.closing);
     for (const std::uint32_t edge : {a, outline_.next[a]}) {
@@ -164,8 +164,8 @@ class Kernel {
   }
 
   /// The disk that touches three sites in counter-clockwise order: as seen from the origin,
-  /// point / scale where all three are straight. Otherwise it is (point + lambda along) / scale, and
-  /// lambda a root of second / 2 lambda^2 + first lambda + zeroth / 2.
+  /// point / scale where all three are straight. Otherwise it is (point + lambda along) / scale,
+  /// and lambda a root of second / 2 lambda^2 + first lambda + zeroth / 2.
   struct Three {
     Vector<Number> origin;
     std::array<Number, 3> point;
@@ -226,15 +226,15 @@ class Kernel {
             base.round * f.height - f.round * base.height};
   }
 
-  /// Two planes meet in a line, on which the base form is a quadratic function. Of its two roots the
-  /// order of the contacts tells the right one: the base form's slope along the line has the sign of
-  /// the three gradients' determinant, which is negative for disks that the three sites touch in
-  /// counter-clockwise order.
+  /// Two planes meet in a line, on which the base form is a quadratic function. Of its two roots
+  /// the order of the contacts tells the right one: the base form's slope along the line has the
+  /// sign of the three gradients' determinant, which is negative for disks that the three sites
+  /// touch in counter-clockwise order.
   static Sign solve_round(const std::array<Form<Number>, 3>& forms, Three& three) {
     const Form<Number>& base = three.base = forms[0];
     const Row<Number> a = plane_of(base, forms[1]), b = plane_of(base, forms[2]);
-    auto& along = three.along = {a.y * b.r - a.r * b.y, a.r * b.x - a.x * b.r,
-                                 a.x * b.y - a.y * b.x};
+    auto& along =
+        three.along = {a.y * b.r - a.r * b.y, a.r * b.x - a.x * b.r, a.x * b.y - a.y * b.x};
     tighten(along[0], along[1], along[2]);
     // The point of the line where one coordinate is zero: that along which the line is longest.
     std::size_t k = 0;
@@ -263,8 +263,8 @@ class Kernel {
     const Number two(2.0);
     three.second = two * base.round * quadric(along, along);
     three.first = two * base.round * quadric(point, along) + scale * linear(along);
-    three.zeroth = two * (base.round * quadric(point, point) +
-                          scale * (linear(point) + scale * base.height));
+    three.zeroth =
+        two * (base.round * quadric(point, point) + scale * (linear(point) + scale * base.height));
     tighten(three.second, three.first, three.zeroth);
     three.discriminant = three.first * three.first - three.second * three.zeroth;
     tighten(three.discriminant);
@@ -288,12 +288,11 @@ class Kernel {
 
   /// The sign of (constant + lambda factor) / scale.
   static Sign sign_of_linear(const Three& three, const Number& constant, const Number& factor) {
-    const Sign value =
-        three.cancels
-            ? sign_with(factor * three.zeroth - constant * three.first,
-                        three.upper ? -constant : constant, three.discriminant)
-            : sign_with(constant * three.second - factor * three.first,
-                        three.upper ? factor : -factor, three.discriminant);
+    const Sign value = three.cancels
+                           ? sign_with(factor * three.zeroth - constant * three.first,
+                                       three.upper ? -constant : constant, three.discriminant)
+                           : sign_with(constant * three.second - factor * three.first,
+                                       three.upper ? factor : -factor, three.discriminant);
     return times(times(value, three.divisor), three.scale_sign);
   }
 
@@ -310,8 +309,7 @@ class Kernel {
     const auto at = [&](const std::array<Number, 3>& v) {
       return plane.x * v[0] + plane.y * v[1] + plane.r * v[2];
     };
-    return times(sign_of_linear(three, at(three.point) + plane.rest * three.scale,
-                                at(three.along)),
+    return times(sign_of_linear(three, at(three.point) + plane.rest * three.scale, at(three.along)),
                  sign_of(three.base.round));
   }
 
@@ -326,14 +324,17 @@ struct Quad {
 
   Quad turned(std::size_t by) const {
     Quad result = *this;
-    std::rotate(result.site.begin(), result.site.begin() + static_cast<std::ptrdiff_t>(by), result.site.end());
-    std::rotate(result.joined.begin(), result.joined.begin() + static_cast<std::ptrdiff_t>(by), result.joined.end());
+    std::rotate(result.site.begin(), result.site.begin() + static_cast<std::ptrdiff_t>(by),
+                result.site.end());
+    std::rotate(result.joined.begin(), result.joined.begin() + static_cast<std::ptrdiff_t>(by),
+                result.joined.end());
     return result;
   }
 };
 
-/// Three sites joined one after the other, the middle one an arc whose circle can be a maximal disk:
-/// the fourth must stay clear of it. The middle of three is passed on its whole length otherwise.
+/// Three sites joined one after the other, the middle one an arc whose circle can be a maximal
+/// disk: the fourth must stay clear of it. The middle of three is passed on its whole length
+/// otherwise.
 template <class AKernel>
 Sign three_joined(const Outline& outline, AKernel& kernel, const Quad& quad) {
   const std::uint32_t before = quad.site[0], middle = quad.site[1], after = quad.site[2];
@@ -387,8 +388,8 @@ std::optional<DiskBounds<Precise>> disk_of_three(const Outline& outline,
   return Kernel<Bounded<Precise>, ApproximateRoots<Precise>>(outline, roots).disk_of(sites);
 }
 
-Sign in_disk(const Outline& outline, std::uint32_t first, std::uint32_t second,
-             std::uint32_t third, std::uint32_t fourth, Decisions& decisions) {
+Sign in_disk(const Outline& outline, std::uint32_t first, std::uint32_t second, std::uint32_t third,
+             std::uint32_t fourth, Decisions& decisions) {
   const Quad quad{{first, second, third, fourth},
                   {outline.joined(first, second), outline.joined(second, third),
                    outline.joined(third, fourth), outline.joined(fourth, first)}};
@@ -399,8 +400,8 @@ Sign in_disk(const Outline& outline, std::uint32_t first, std::uint32_t second,
     ++decisions.filtered;
   } else {
     ApproximateRoots<Precise> precise;
-    sign = decide(outline,
-                  Kernel<Bounded<Precise>, ApproximateRoots<Precise>>(outline, precise), quad);
+    sign = decide(outline, Kernel<Bounded<Precise>, ApproximateRoots<Precise>>(outline, precise),
+                  quad);
     if (sign != Sign::open) {
       ++decisions.precise;
     } else {

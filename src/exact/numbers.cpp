@@ -60,8 +60,7 @@ Factors product(const RootField* field, View a, View b) {
   }
   low.resize(half);
   high.resize(half);
-  low.insert(low.end(), std::make_move_iterator(high.begin()),
-             std::make_move_iterator(high.end()));
+  low.insert(low.end(), std::make_move_iterator(high.begin()), std::make_move_iterator(high.end()));
   return low;
 }
 

@@ -27,8 +27,8 @@ using Precise = boost::multiprecision::number<
 
 }  // namespace exact
 
-/// As for double, but the bounds are rough and quick: with 256 bits there is room. `size` bounds the
-/// number and its value.
+/// As for double, but the bounds are rough and quick: with 256 bits there is room. `size` bounds
+/// the number and its value.
 template <>
 struct Bounded<exact::Precise> {
   using Real = exact::Precise;
@@ -100,8 +100,8 @@ class RootField;
 
 /// A number of a RootField: a sum of rational multiples of products of its roots.
 ///
-/// Stands as 2^k factors: the i-th belongs to the product of the roots whose bits i has. No operation
-/// rounds.
+/// Stands as 2^k factors: the i-th belongs to the product of the roots whose bits i has. No
+/// operation rounds.
 class RootNumber {
  public:
   RootNumber() = default;
@@ -116,7 +116,8 @@ class RootNumber {
   friend RootNumber operator-(const RootNumber& a);
 
   /// Exact: a + b sqrt(A) has the sign of the larger of a^2 and b^2 A where the signs of a and b
-  /// differ, which are numbers of a field with one root less. Asked only where 256 bits do not tell.
+  /// differ, which are numbers of a field with one root less. Asked only where 256 bits do not
+  /// tell.
   int sign() const;
   /// The number in 256 bits.
   Bounded<Precise> bounded() const;

@@ -10,8 +10,8 @@
 
 namespace medial::exact {
 
-/// A site in the local frame, where coordinates are those of the input, exactly, but for a shift and
-/// a power of two.
+/// A site in the local frame, where coordinates are those of the input, exactly, but for a shift
+/// and a power of two.
 struct ExactSite {
   Vec2 start;
   Vec2 end;  ///< a vertex has end == start

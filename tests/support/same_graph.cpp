@@ -93,9 +93,9 @@ std::string difference(const Shape& shape, const MedialAxis& a, const MedialAxis
       return distance(first.end(link, 0), second.end(*other, 0)) +
              distance(first.end(link, 1), second.end(*other, 1));
     };
-    const auto nearest = std::min_element(
-        others.begin(), others.end(),
-        [&](const Link* x, const Link* y) { return off(x) < off(y); });
+    const auto nearest =
+        std::min_element(others.begin(), others.end(),
+                         [&](const Link* x, const Link* y) { return off(x) < off(y); });
     if (nearest != others.end()) {
       common.emplace_back(&link, *nearest);
       others.erase(nearest);
