@@ -70,7 +70,14 @@ class Kernel {
     Three three;
     const Sign found = solve(touched, three);
     if (found != Sign::positive) return found;
-    return value(three, form_of<Number>(outline_.sites[fourth], three.origin, roots_));
+    const Sign sign = value(three, form_of<Number>(outline_.sites[fourth], three.origin, roots_));
+    return on_arc(sign, fourth, [&](const Vector<Number>& direction, const Vector<Number>& foot) {
+      const Number constant = direction.x * three.point[0] + direction.y * three.point[1] +
+                              dot(direction, three.origin - foot) * three.scale;
+      if (!three.round) return times(sign_of(constant), three.scale_sign);
+      return sign_of_linear(three, constant,
+                            direction.x * three.along[0] + direction.y * three.along[1]);
+    });
   }
 
   /// The disk that touches three sites of which no two are joined; none where it is left open.
@@ -102,7 +109,8 @@ class Kernel {
              : meets_d == Sign::open   ? Sign::open
                                        : Sign::none;
     }
-    return sign_of(d.height * c.closing - c.height * d.closing);
+    return on_arc(sign_of(d.height * c.closing - c.height * d.closing), fourth,
+                  side_on(spoke, c.height, c.closing));
   }
 
   /// `a` and the site after it are joined, and so are `third` and the one after that: whether the
@@ -124,7 +132,8 @@ class Kernel {
     const ExactSite& site = outline_.sites[arc];
     const Spoke<Number> spoke = spoke_of<Number>(site, false, roots_);
     const Reach d = reach(spoke, fourth);
-    return sign_of(Number(4 * site.bulge) * d.height - d.closing);
+    const Number size(4 * site.bulge);
+    return on_arc(sign_of(size * d.height - d.closing), fourth, side_on(spoke, Number(1.0), size));
   }
 
   /// The sign of a's curvature less b's; arcs.
@@ -143,6 +152,30 @@ class Kernel {
   Reach reach(const Spoke<Number>& spoke, std::uint32_t site) {
     const auto form = form_of<Number>(outline_.sites[site], spoke.foot, roots_);
     return {form.height, form.size * spoke.size - dot(form.slope, spoke.normal)};
+  }
+
+  /// Near the centre of a convex arc's own circle, a disk can reach over that circle elsewhere than
+  /// on the arc: where its centre lies beyond the normals at the arc's ends. What is beside the arc
+  /// then decides, and the arc itself stays outside. `side` tells the sign of
+  /// direction.(centre - point).
+  template <class Side>
+  Sign on_arc(Sign sign, std::uint32_t fourth, const Side& side) {
+    const ExactSite& arc = outline_.sites[fourth];
+    if (sign != Sign::negative || !(arc.bulge > 0)) return sign;
+    for (const bool at_end : {false, true}) {
+      const auto end = spoke_of<Number>(arc, at_end, roots_);
+      const Sign ahead = side(end.tangent(), end.foot);
+      if (ahead == Sign::open) return ahead;
+      if (ahead == (at_end ? Sign::positive : Sign::negative)) return Sign::positive;
+    }
+    return sign;
+  }
+  /// For the disk at a spoke whose radius is height / closing of it.
+  static auto side_on(const Spoke<Number>& spoke, const Number& height, const Number& closing) {
+    return [&spoke, height, closing](const Vector<Number>& direction, const Vector<Number>& point) {
+      return sign_of(dot(direction, spoke.foot - point) * closing +
+                     height * dot(direction, spoke.normal));
+    };
   }
 
   /// Whether the disk that grows at the joint after `a` meets a site before it is as large as the
