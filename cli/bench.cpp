@@ -27,7 +27,6 @@ struct BenchSwitches {
 };
 
 constexpr char formats[] = ".svg .csv .json";
-constexpr char not_built[] = "not built";  // exact arithmetic in the engine
 
 /// The rows of each shape, in order.
 std::vector<std::vector<BiarcRow>> by_shape(const std::vector<BiarcRow>& rows) {
@@ -65,6 +64,10 @@ std::string published_cell(const BiarcRow& row) {
                      row.published_note.empty() ? "" : " (" + row.published_note + ")");
 }
 
+std::string exact_cell(const BiarcRow& row) {
+  return row.exact ? fmt::format("{:.4f}", row.exact->processor) : row.exact_note;
+}
+
 std::string rows_table(const std::vector<BiarcRow>& rows) {
   std::string text =
       "| shape | tolerance | arcs | error | conversion s | build s | axis s | axis, wall s | "
@@ -85,8 +88,8 @@ std::string rows_table(const std::vector<BiarcRow>& rows) {
         row.building.processor, row.axis.processor, row.axis.wall,
         per_edge(row.conversion.processor, row), per_edge(row.building.processor, row),
         per_edge(row.axis.processor, row), published_cell(row),
-        row.published ? fmt::format("{:.3f}", row.published_conquer) : "", not_built, row.leaves,
-        row.branchings, row.failure.empty() ? "yes" : "NO: " + row.failure);
+        row.published ? fmt::format("{:.3f}", row.published_conquer) : "", exact_cell(row),
+        row.leaves, row.branchings, row.failure.empty() ? "yes" : "NO: " + row.failure);
   }
   return text;
 }
@@ -179,7 +182,9 @@ Json to_json(const BiarcRow& row) {
                  {"failure", row.failure},
                  {"biarc_dc_note", row.published_note},
                  {"base_cases", row.base_cases},
-                 {"exact_note", not_built}};
+                 {"exact_note", row.exact_note},
+                 {"exact_changes", row.exact_changes}};
+  if (row.exact) object["seconds"]["exact"] = to_json(*row.exact);
   if (row.published) {
     object["seconds"]["biarc_dc"] = to_json(*row.published);
     object["seconds"]["biarc_dc_conquer"] = row.published_conquer;
@@ -210,15 +215,16 @@ Json to_json(const BiarcReport& report) {
 std::string report_csv(const BiarcReport& report) {
   std::string text =
       "series,shape,tolerance,edges,straight,error,conversion,conversion_wall,build,build_wall,"
-      "axis,axis_wall,biarc_dc,leaves,branchings,passed\n";
+      "axis,axis_wall,biarc_dc,exact,leaves,branchings,passed\n";
   const auto add = [&text](const char* series, const std::vector<BiarcRow>& rows) {
     for (const BiarcRow& row : rows) {
-      text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", series, row.shape,
+      text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", series, row.shape,
                           row.tolerance, row.edges, row.straight, row.error,
                           row.conversion.processor, row.conversion.wall, row.building.processor,
                           row.building.wall, row.axis.processor, row.axis.wall,
                           row.published ? fmt::format("{}", row.published->processor) : "",
-                          row.leaves, row.branchings, row.failure.empty());
+                          row.exact ? fmt::format("{}", row.exact->processor) : "", row.leaves,
+                          row.branchings, row.failure.empty());
     }
   };
   add("tolerance", report.by_tolerance);

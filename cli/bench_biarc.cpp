@@ -120,6 +120,17 @@ BiarcRow measure(const NamedContours& input, double tolerance, const BiarcOption
     row.failure = to_string(axis.error());
     return row;
   }
+  Options with_exact = options;
+  with_exact.exact = true;
+  Timing exact_timing;
+  const auto exact =
+      timed(limits.rounds, exact_timing, [&] { return compute(*shape, with_exact); });
+  if (exact) {
+    row.exact = exact_timing;
+    row.exact_changes = exact->statistics.exact_changes;
+  } else {
+    row.exact_note = to_string(exact.error());
+  }
   row.leaves = count(*axis, NodeKind::leaf);
   row.branchings = count(*axis, NodeKind::branching);
   row.failure = failure_of(*shape, *axis);

@@ -29,6 +29,11 @@ struct BiarcRow {
   Timing conversion;  ///< approximate_by_arcs(), the paper's first column of times
   Timing building;    ///< build_shape(): crossings, nesting; the paper has no such step
   Timing axis;        ///< compute(), the paper's column of double
+  /// compute() with Options::exact, the paper's column of Gmpq; without a value where
+  /// `exact_note` says why.
+  std::optional<Timing> exact;
+  std::string exact_note;
+  std::uint64_t exact_changes = 0;  ///< where it decided otherwise
   std::uint64_t leaves = 0;
   std::uint64_t branchings = 0;
   std::string failure;  ///< an error, or what verify() refused; empty: verified
