@@ -59,8 +59,8 @@ struct Rounding<double> {
   }
   static double of_quotient(double a, double b, double quotient) {
     const double off = std::abs(std::fma(quotient, b, -a));
-    return (std::abs(a) < tiny && a != 0 ? off + lost : off) / std::abs(b) +
-           std::numeric_limits<double>::min();
+    if (off == 0 && (std::abs(a) >= tiny || a == 0)) return 0;
+    return (off + lost) / std::abs(b) + std::numeric_limits<double>::min();
   }
   static double of_root(double a, double root) {
     const double off = std::abs(std::fma(root, root, -a));

@@ -227,8 +227,14 @@ class Certifier {
     std::sort(links.begin(), links.end());
     links.erase(std::unique(links.begin(), links.end()), links.end());
     std::erase_if(links, [&](std::uint32_t link) {
-      const auto direction = direction_in_precise(link);
-      ++decisions_.precise;
+      const auto [from, to] = links_[link].node;
+      auto direction = direction_of(link, states_[from].bounds, states_[to].bounds);
+      if (direction) {
+        ++decisions_.filtered;
+      } else {
+        direction = direction_in_precise(link);
+        ++decisions_.precise;
+      }
       // Links between new nodes have been decided already.
       const bool inner = link >= link_count_;
       return inner ? direction != -1 : direction == 1;
@@ -379,13 +385,25 @@ class Certifier {
 
   /// Gives a new node its disk; false where there is none.
   bool move_to_bounds(std::uint32_t node) {
+    states_[node].bounds = bounds_of<double>(node);
+    // Where double knows the disk to its last digits.
+    if (const auto& rough = states_[node].bounds;
+        rough && rough->center.x.error + rough->center.y.error + rough->radius.error <
+                     0x1p-50 * rough->radius.value) {
+      set_disk(node, *rough);
+      return true;
+    }
     const auto bounds = bounds_of<Precise>(node);
     if (!bounds) return false;
-    const Disk disk{
-        {static_cast<double>(bounds->center.x.value), static_cast<double>(bounds->center.y.value)},
-        static_cast<double>(bounds->radius.value)};
-    axis_.nodes[node].disk = {frame_.to_input(disk.center), frame_.inverse * disk.radius};
+    set_disk(node, *bounds);
     return true;
+  }
+  template <class Real>
+  void set_disk(std::uint32_t node, const DiskBounds<Real>& bounds) {
+    const Vec2 center{static_cast<double>(bounds.center.x.value),
+                      static_cast<double>(bounds.center.y.value)};
+    axis_.nodes[node].disk = {frame_.to_input(center),
+                              frame_.inverse * static_cast<double>(bounds.radius.value)};
   }
 
   /// The piece of a site that a disk touches.
