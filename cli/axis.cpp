@@ -166,6 +166,28 @@ Verb make_axis_verb(CLI::App& program) {
   verb->add_option("--order", switches->options.potential.order,
                    "Of the potential: the n of 1 / r^n. 0 (default) chooses it for each point.")
       ->option_text("N");
+  verb->add_option("--base-order", switches->options.potential.base_order,
+                   "Of the force lines that potential follows first (default: the order, at most\n"
+                   "24). 1 is the paper's.")
+      ->option_text("N");
+  verb->add_option_function<std::vector<double>>(
+          "--from",
+          [switches](const std::vector<double>& xy) {
+            switches->options.potential.from = Vec2{xy[0], xy[1]};
+          },
+          "Potential: only the branch that the force leads to from here.")
+      ->delimiter(',')
+      ->expected(2)
+      ->option_text("X,Y");
+  verb->add_option_function<std::vector<double>>(
+          "--within",
+          [switches](const std::vector<double>& box) {
+            switches->options.potential.within = Box{{box[0], box[1]}, {box[2], box[3]}};
+          },
+          "Potential: only what lies in this box.")
+      ->delimiter(',')
+      ->expected(4)
+      ->option_text("X,Y,X,Y");
   verb->add_option("--step", switches->options.potential.step,
                    "Of potential, as a share of the shape's size (default: 0.01).")
       ->option_text("SHARE");

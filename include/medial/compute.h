@@ -55,16 +55,16 @@ struct PotentialOptions {
   /// n of the force that the points are found with, in [1, 256], any real number; 0: chosen for
   /// each point, at most 64 (the algorithm MAT-Generalized-Polygonal).
   double order = 0;
-  /// The order of the valleys that are traced first; lower ones where these cannot be connected.
-  /// The paper's is 1, the Newtonian potential.
-  double base_order = 3;
+  /// The order of the force lines that are followed first, in [1, 256]; 0: `order`, at most 24, or
+  /// 24 where that is 0. Half of it, down to 1, where the arithmetic cannot connect these valleys.
+  double base_order = 0;
   /// The longest step, as a share of the larger side of the bounding box, in [1e-4, 0.1].
   double step = 0.01;
   /// theta_min in degrees: how much the force may still turn with the order. In (0, 90].
   double angle = 2.56;
   /// e_min, as a share of the larger side of the bounding box: how far a point may still move with
   /// the order. In (0, 0.1].
-  double movement = 0.001;
+  double movement = 0.0005;
   /// Only the branch that the force leads to from this place.
   std::optional<Vec2> from = {};
   /// Only what lies in this box: traced from the convex corners in it, connected or not.

@@ -47,9 +47,48 @@ class SiteNames {
   const sites::SiteNumbers& numbers_;
 };
 
+/// The order of the force lines, unless told otherwise: high enough for lines that end near the
+/// exact axis's, low enough for corridors of some widths' length.
+constexpr double usual_order = 24;
+
+/// The same where a part is asked for: valleys are followed upward then, which takes a force that
+/// can be told from none.
+constexpr double partial_order = 4;
+
 /// Between valley points whose successors lie further apart than this many steps, others are put.
 constexpr double widest_gap = 1.5;
 constexpr int most_halvings = 3;
+
+/// The points with the minima where those of the final order are, and what is near them moved
+/// along, the less the further it is: a branch must not overshoot its end.
+std::vector<ValleyPoint> shifted(const Skeleton& skeleton, const Charges& charges,
+                                 const SuccessorOptions& options) {
+  std::vector<ValleyPoint> points = skeleton.points;
+  std::vector<std::vector<std::uint32_t>> neighbors(points.size());
+  for (const auto& [from, to] : skeleton.links) {
+    neighbors[from].push_back(to);
+    neighbors[to].push_back(from);
+  }
+  Evaluator evaluator(charges);
+  constexpr double reach = 4;  // of the shift, in lengths of it
+  for (std::uint32_t i = 0; i < points.size(); ++i) {
+    if (skeleton.points[i].kind != ValleyPoint::Kind::minimum) continue;
+    const Vec2 place = skeleton.points[i].place;
+    const Vec2 shift = minimum_near(evaluator, skeleton.points[i], options) - place;
+    const double size = norm(shift);
+    if (!(size > 0)) continue;
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> queue = {{i, i}};  // and from where
+    for (std::size_t k = 0; k < queue.size(); ++k) {
+      const auto [here, before] = queue[k];
+      const double away = distance(skeleton.points[here].place, place);
+      if (skeleton.points[here].kind == ValleyPoint::Kind::corner || away >= reach * size) continue;
+      points[here].place = skeleton.points[here].place + (1 - away / (reach * size)) * shift;
+      for (const std::uint32_t next : neighbors[here])
+        if (next != before && queue.size() < 1000) queue.emplace_back(next, here);
+    }
+  }
+  return points;
+}
 
 /// The successors of all points, and of further ones between them where they part.
 struct Refined {
@@ -61,13 +100,14 @@ Refined successors_of(const Skeleton& skeleton, const Charges& charges,
                       const SuccessorOptions& options) {
   Refined result;
   result.points.resize(skeleton.points.size());
+  const std::vector<ValleyPoint> points = shifted(skeleton, charges, options);
   constexpr std::size_t grain = 16;
-  tbb::parallel_for(
-      tbb::blocked_range<std::size_t>(0, skeleton.points.size(), grain), [&](const auto& range) {
-        Evaluator evaluator(charges);
-        for (std::size_t i = range.begin(); i < range.end(); ++i)
-          result.points[i] = generalized_successor(evaluator, skeleton.points[i], options);
-      });
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, skeleton.points.size(), grain),
+                    [&](const auto& range) {
+                      Evaluator evaluator(charges);
+                      for (std::size_t i = range.begin(); i < range.end(); ++i)
+                        result.points[i] = generalized_successor(evaluator, points[i], options);
+                    });
   std::vector<std::vector<Successor>> between(skeleton.links.size());
   tbb::parallel_for(
       tbb::blocked_range<std::size_t>(0, skeleton.links.size(), grain), [&](const auto& range) {
@@ -88,8 +128,8 @@ Refined successors_of(const Skeleton& skeleton, const Charges& charges,
             between[i].push_back(found);
             self(self, middle, found, b, at_b, depth - 1);
           };
-          halve(halve, skeleton.points[from], result.points[from], skeleton.points[to],
-                result.points[to], most_halvings);
+          halve(halve, points[from], result.points[from], points[to], result.points[to],
+                most_halvings);
         }
       });
   for (std::size_t i = 0; i < skeleton.links.size(); ++i) {
@@ -130,10 +170,13 @@ Result<MedialAxis> run(const Shape& shape, const Options& options) {
     const Charges charges(region.pieces);
     axis.statistics.seconds_tree += watch.lap();
     SkeletonOptions tracing;
-    tracing.order = own.base_order;
+    tracing.order = own.base_order > 0 ? own.base_order
+                    : own.order > 0    ? std::min(own.order, usual_order)
+                                       : usual_order;
     tracing.step = own.step * region.size;
     if (own.within)
       tracing.within = Box{frame.to_local(own.within->low), frame.to_local(own.within->high)};
+    if (!own.whole() && own.base_order == 0) tracing.order = std::min(tracing.order, partial_order);
     if (own.from) {
       tracing.from = frame.to_local(*own.from);
       if (!encloses(region, *tracing.from)) continue;
@@ -144,7 +187,7 @@ Result<MedialAxis> run(const Shape& shape, const Options& options) {
     Skeleton skeleton = trace_valleys(region, charges, tracing);
     while (!skeleton.whole && tracing.order > 1) {
       axis.statistics.queries += skeleton.forces;
-      tracing.order = std::max(1.0, tracing.order - 1);
+      tracing.order = std::max(1.0, tracing.order / 2);
       skeleton = trace_valleys(region, charges, tracing);
     }
     axis.statistics.queries += skeleton.forces;
@@ -157,6 +200,8 @@ Result<MedialAxis> run(const Shape& shape, const Options& options) {
     search.order = own.order;
     search.angle = own.angle * std::numbers::pi / 180;
     search.movement = own.movement * region.size;
+    // Points on a valley of some order are no worse than that.
+    search.least_order = static_cast<int>(tracing.order);
     search.step = tracing.step;
     search.accuracy = tracing.step / 64;
     Refined refined;

@@ -104,7 +104,11 @@ struct Sample {
 class Tracer {
  public:
   Tracer(const Region& region, const Charges& charges, const SkeletonOptions& options)
-      : region_(region), options_(options), evaluator_(charges), limit_(options.step) {}
+      : region_(region),
+        options_(options),
+        evaluator_(charges),
+        limit_(options.step),
+        budget_(50000 + 1000 * region.pieces.size()) {}
 
   Skeleton run() {
     if (options_.from) {
@@ -112,8 +116,12 @@ class Tracer {
     } else {
       trace_corners();
       trace_bends();
-      if (skeleton_.points.empty() && !options_.within) probe_any();
-      connect();
+      if (options_.within) {
+        trace_box(*options_.within);
+      } else {
+        if (skeleton_.points.empty()) probe_any();
+        connect();
+      }
     }
     return std::move(skeleton_);
   }
@@ -262,11 +270,11 @@ class Tracer {
     Force force = force_at(p, radius);
     double scale = 0.8;
     constexpr double least_scale = 0.8 / 64;
-    constexpr int most_steps = 100000;
+    constexpr int most_steps = 10000;
     constexpr int most_stalls = 40;
     int stalls = 0;
     bool settled = false;  // since the last good step
-    for (int count = 0; count < most_steps; ++count) {
+    for (int count = 0; count < most_steps && skeleton_.forces <= budget_; ++count) {
       if (options_.within && !contains(*options_.within, p) && count > 0) return trail;
       if (scale < 0.15 && !settled && settle(p, radius, force, direction)) {
         // Steps of this size would zigzag across the valley.
@@ -458,7 +466,6 @@ class Tracer {
 
   /// A line from the border: what it belongs to. Where it may have passed a saddle is in `trail`.
   Label probe(std::uint32_t piece, double share, Trail& trail) {
-    if (probes_ > 0) --probes_;
     const Charge& charge = region_.pieces[piece];
     const Vec2 along = charge.end - charge.start;
     const Vec2 foot = charge.start + share * along;
@@ -506,7 +513,7 @@ class Tracer {
   void part_lines(const Sample& first, const Sample& second, bool sides, int depth) {
     const bool same_minimum = first.label.minimum == second.label.minimum;
     if (first.label.minimum == none || second.label.minimum == none || complete()) return;
-    if (probes_ == 0) return;
+    if (skeleton_.forces > budget_) return;
     if (sides ? first.label == second.label
               : same_minimum || find(first.label.minimum) == find(second.label.minimum))
       return;
@@ -540,9 +547,6 @@ class Tracer {
 
   void connect() {
     if (skeleton_.points.empty()) return;
-    if (options_.within) return;
-    // No border asks for more, but one whose valleys the arithmetic cannot tell apart.
-    probes_ = 1000 + 60 * (minima_.size() + region_.holes()) + 4 * region_.pieces.size();
     // Ever more places of the border, until all is connected.
     for (const int round : {0, 1, 2}) {
       if (complete()) return;
@@ -585,19 +589,97 @@ class Tracer {
 
   // ---- A part only.
 
-  void trace_branch(Vec2 seed) {
+  /// Step 1 of the algorithm: from a seed to the floor of a valley, as the force leads. False where
+  /// it leads to a minimum without one.
+  bool reach_valley(Vec2 p, ValleyPoint& contact) {
     double radius = 0;
-    const Force force = force_at(seed, radius);
-    const Trail trail = follow(seed, unit(force.force), 0);
-    const std::uint32_t first =
-        add_point({seed, radius, unit(force.force), ValleyPoint::Kind::valley}, none, false);
-    keep(first, trail);
+    Force force = force_at(p, radius);
+    constexpr int most_steps = 1000;
+    for (int i = 0; i < most_steps && radius > 0; ++i) {
+      Vec2 direction = unit(force.force);
+      if (settle(p, radius, force, direction)) {
+        contact = {p, radius, direction, ValleyPoint::Kind::valley};
+        return true;
+      }
+      p = p + 0.4 * reach(radius) * unit(force.force);
+      force = force_at(p, radius);
+    }
+    return false;
+  }
+
+  /// Follows a valley upward, to a corner, to a saddle, out of the box, or to where it ends.
+  std::uint32_t climb(std::uint32_t from, Vec2 direction) {
+    Vec2 p = skeleton_.points[from].place;
+    double radius = skeleton_.points[from].radius, scale = 0.5;
+    std::uint32_t last = from;
+    constexpr int most_steps = 10000;
+    for (int i = 0; i < most_steps && scale > 0.05; ++i) {
+      if (options_.within && !contains(*options_.within, p)) break;
+      if (radius < 0.02 * limit_) return link_to_corner(last);
+      Vec2 q;
+      Force force;
+      double next_radius = 0;
+      if (!advance(p, direction, scale * reach(radius), q, force, next_radius) ||
+          dot(unit(q - p), direction) < 0.8) {
+        scale /= 2;
+        continue;
+      }
+      direction = unit(q - p);
+      if (dot(force.force, direction) > 0) break;
+      p = q;
+      radius = next_radius;
+      scale = std::min(0.5, 1.5 * scale);
+      const std::uint32_t known = joined(p, radius, -direction, merge_share);
+      const std::uint32_t index =
+          known != none
+              ? known
+              : add_point({p, radius, -direction, ValleyPoint::Kind::valley}, none, false);
+      add_link(index, last);
+      if (known != none) return known;
+      last = index;
+    }
+    return last;
+  }
+
+  std::uint32_t link_to_corner(std::uint32_t last) {
+    const ValleyPoint& point = skeleton_.points[last];
+    for (const std::uint32_t piece : region_.corners) {
+      const Vec2 corner = region_.pieces[piece].start;
+      if (distance(corner, point.place) > 0.1 * limit_) continue;
+      const std::uint32_t leaf = add_point({corner, 0, {}, ValleyPoint::Kind::corner}, none, false);
+      add_link(leaf, last);
+      return leaf;
+    }
+    return last;
+  }
+
+  /// Steps 2 and 3: the branch of the skeleton that the force leads to from a seed, both ways.
+  void trace_branch(Vec2 seed) {
+    ValleyPoint contact;
+    if (!reach_valley(seed, contact)) return;
+    if (!wanted(contact.place)) return;
+    if (joined(contact.place, contact.radius, contact.tangent, merge_share) != none) return;
+    const std::uint32_t first = add_point(contact, none, false);
+    climb(first, -contact.tangent);
+    keep(first, follow(contact.place, contact.tangent, merge_share));
+  }
+
+  /// Branches that cross the box without a corner in it, from seeds all over it.
+  void trace_box(const Box& box) {
+    constexpr int seeds = 8;  // a side
+    for (int i = 0; i < seeds; ++i)
+      for (int k = 0; k < seeds; ++k) {
+        const Vec2 seed{box.low.x + (i + 0.5) / seeds * (box.high.x - box.low.x),
+                        box.low.y + (k + 0.5) / seeds * (box.high.y - box.low.y)};
+        if (encloses(region_, seed)) trace_branch(seed);
+      }
   }
 
   const Region& region_;
   const SkeletonOptions& options_;
   Evaluator evaluator_;
-  double limit_;  ///< the longest step
+  double limit_;          ///< the longest step
+  std::uint64_t budget_;  ///< forces that may be computed: more than any sound border asks for
   Skeleton skeleton_;
   LinkIndex links_;
   std::vector<Label> label_;           ///< of each point
@@ -607,7 +689,6 @@ class Tracer {
   std::vector<Pass> saddles_;
   std::vector<Label> corner_labels_;
   const Region::Loop* loop_ = nullptr;
-  std::size_t probes_ = 0;  ///< that are left
 };
 
 }  // namespace

@@ -7,6 +7,9 @@
 namespace medial::potential {
 namespace {
 
+/// How far a point moves at most, as a share of its radius.
+constexpr double widest_move = 0.25;
+
 /// The angle between two forces.
 double angle_between(Vec2 a, Vec2 b) { return std::atan2(std::abs(cross(a, b)), dot(a, b)); }
 
@@ -16,24 +19,50 @@ int adaptive_order(Evaluator& evaluator, const SuccessorOptions& options) {
   // Orders come in ever larger blocks, since most points need but a few.
   constexpr int first_block = 6;
   std::array<Force, largest_order + 2> forces;
-  int known = 0;
-  const auto know = [&](int order) {
-    if (order <= known) return;
-    const int last = std::clamp(std::max(first_block, 2 * known), order, largest_order);
+  int order = std::clamp(options.least_order, 2, options.most_order);
+  int known = order - 2;
+  const auto know = [&](int wanted) {
+    if (wanted <= known) return;
+    const int last = std::clamp(known + std::max(first_block, known / 2), wanted, largest_order);
     evaluator.forces(known + 1, std::span(forces).subspan(static_cast<std::size_t>(known) + 1,
                                                           static_cast<std::size_t>(last - known)));
     known = last;
   };
-  const auto turn = [&](int order) {
-    know(order);
-    const auto i = static_cast<std::size_t>(order);
+  const auto turn = [&](int n) {
+    know(n);
+    const auto i = static_cast<std::size_t>(n);
     return angle_between(forces[i].force, forces[i - 1].force);
   };
-  int order = 2;
   while (order < options.most_order &&
          (turn(order) > options.angle || turn(order + 1) > options.angle))
     ++order;
   return order;
+}
+
+Vec2 minimum_near(Evaluator& evaluator, const ValleyPoint& minimum,
+                  const SuccessorOptions& options) {
+  const double order = options.order > 0 ? options.order : options.most_order;
+  Vec2 p = minimum.place;
+  for (int i = 0; i < 60; ++i) {
+    const double radius = evaluator.place(p).distance;
+    if (!(radius > 0) || distance(p, minimum.place) > widest_move * minimum.radius) break;
+    const Force force = evaluator.force(order);
+    const double determinant = force.determinant();
+    const double size = norm(force.force);
+    Vec2 move = size > 0 ? (1 / size) * force.force : Vec2{};
+    double length = 0.02 * radius;
+    if (determinant > 0) {
+      const Vec2 newton = {
+          -radius * (force.yy * force.force.x - force.xy * force.force.y) / determinant,
+          -radius * (force.xx * force.force.y - force.xy * force.force.x) / determinant};
+      const double whole = norm(newton);
+      if (whole <= 1e-6 * radius) return p;
+      length = std::min(whole, length);
+      move = (1 / whole) * newton;
+    }
+    p = p + length * move;
+  }
+  return minimum.place;
 }
 
 Vec2 successor(Evaluator& evaluator, const ValleyPoint& point, double order,
@@ -53,10 +82,9 @@ Vec2 successor(Evaluator& evaluator, const ValleyPoint& point, double order,
   const double way = first > 0 ? 1 : -1;
   // On until the force turns around.
   double before = 0, here = 0, f_before = std::abs(first);
-  constexpr int most_steps = 4000;
-  for (int i = 0; i < most_steps; ++i) {
-    const double step = std::min(options.step, 0.5 * radius);
-    here = before + step;
+  const double furthest = widest_move * radius;
+  while (before < furthest) {
+    here = std::min(before + std::min(options.step, 0.5 * radius), furthest);
     p = point.place + way * here * across;
     radius = evaluator.place(p).distance;
     if (!(radius > 0)) return point.place + way * before * across;
@@ -88,7 +116,7 @@ Vec2 successor(Evaluator& evaluator, const ValleyPoint& point, double order,
     }
     return point.place + way * 0.5 * (a + b) * across;
   }
-  return p;
+  return point.place;
 }
 
 Successor generalized_successor(Evaluator& evaluator, const ValleyPoint& point,
@@ -102,12 +130,15 @@ Successor generalized_successor(Evaluator& evaluator, const ValleyPoint& point,
   } else {
     evaluator.place(here.place);
     int order = adaptive_order(evaluator, options);
+    // The valley's own order says nothing of what a higher one would change.
+    if (options.least_order > 1) order = std::max(order, 2 * options.least_order);
+    order = std::min(order, options.most_order);
     for (;;) {
       result.place = successor(evaluator, here, order, options);
       result.order = order;
       const bool still = distance(result.place, here.place) <= options.movement;
       here.place = result.place;
-      if (order >= options.most_order || (still && order > 2)) break;
+      if (order >= options.most_order || still) break;
       order = std::min(2 * order, options.most_order);
     }
   }

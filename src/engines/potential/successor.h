@@ -6,12 +6,13 @@
 namespace medial::potential {
 
 struct SuccessorOptions {
-  double order = 0;     ///< of the force; 0: adaptive for each point
-  double angle = 0;     ///< theta_min, in radians
-  double movement = 0;  ///< e_min: what a higher order may still move a point by
-  double step = 0;      ///< S, the first step of the search
-  double accuracy = 0;  ///< s_min, where the search ends
-  int most_order = 64;  ///< of adaptive orders
+  double order = 0;      ///< of the force; 0: adaptive for each point
+  double angle = 0;      ///< theta_min, in radians
+  double movement = 0;   ///< e_min: what a higher order may still move a point by
+  double step = 0;       ///< S, the first step of the search
+  double accuracy = 0;   ///< s_min, where the search ends
+  int least_order = 2;   ///< of adaptive orders, where the search for one begins
+  int most_order = 128;  ///< of them
 };
 
 /// A point of the medial axis and the order of the force that it was found with.
@@ -21,12 +22,20 @@ struct Successor {
   double order = 1;
 };
 
-/// N of the algorithm MAT-Generalized-Polygonal, Steps 0 to 2, at a place: the lowest order from 2
-/// on at which the force's direction, and at the next order again, changes by no more than
-/// theta_min. At most options.most_order. Requires evaluator.place() to have been told the place.
+/// N of the algorithm MAT-Generalized-Polygonal, Steps 0 to 2, at a place: the lowest order from
+/// options.least_order on at which the force's direction, and at the next order again, changes by
+/// no more than theta_min. At most options.most_order. Requires evaluator.place() to have been told
+/// the place.
 int adaptive_order(Evaluator& evaluator, const SuccessorOptions& options);
 
-/// Algorithm Successor: the point of the n-skeleton across the valley at `point`.
+/// The minimum of the potential of the final order (the highest, where that is adaptive) near one
+/// of a lower order; the latter's place where there is none within a quarter of its radius.
+Vec2 minimum_near(Evaluator& evaluator, const ValleyPoint& minimum,
+                  const SuccessorOptions& options);
+
+/// Algorithm Successor: the point of the n-skeleton across the valley at `point`, by a step of S
+/// until the n-force turns around, and halving then; at most a quarter of the radius away, since
+/// where no valley is nearer there is none to follow: `point` itself then.
 Vec2 successor(Evaluator& evaluator, const ValleyPoint& point, double order,
                const SuccessorOptions& options);
 
