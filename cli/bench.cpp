@@ -8,9 +8,11 @@
 #include <memory>
 
 #include "cli/bench_biarc.h"
+#include "cli/bench_potential.h"
 #include "cli/bench_ridge.h"
 #include "cli/bench_shapes.h"
 #include "cli/common.h"
+#include "cli/pipeline.h"
 #include "cli/plot.h"
 #include "cli/terminal.h"
 
@@ -309,6 +311,29 @@ Result<int> run_biarc(const BenchSwitches& switches) {
   return report.passed() ? exit_success : exit_failed_verdict;
 }
 
+/// Files of shapes and the paper's regions; of each file the feature with the most vertices.
+Result<int> run_potential(const std::vector<std::string>& files, bool quiet) {
+  std::vector<std::pair<std::string, Shape>> shapes = potential_regions();
+  for (const std::string& path : files) {
+    InputSwitches input;
+    input.path = path;
+    auto file = load_shapes(input, 0);
+    if (!file) return std::move(file).error();
+    const auto largest = std::max_element(
+        file->shapes.begin(), file->shapes.end(),
+        [](const Shape& a, const Shape& b) { return a.points.size() < b.points.size(); });
+    if (largest != file->shapes.end())
+      shapes.emplace_back(std::filesystem::path(path).stem().string(), std::move(*largest));
+  }
+  const bool shown = error_is_terminal() && !quiet;
+  const PotentialReport report = run_potential_experiments(shapes, [&](const std::string& name) {
+    if (shown) fmt::print(stderr, "{}\n", name);
+  });
+  Status printed = print(report.text);
+  if (!printed) return std::move(printed).error();
+  return report.passed ? exit_success : exit_failed_verdict;
+}
+
 }  // namespace
 
 Verb make_bench_verb(CLI::App& program) {
@@ -353,9 +378,21 @@ Verb make_bench_verb(CLI::App& program) {
       "Examples:\n"
       "  medial bench biarc --quick\n"
       "  medial bench biarc -o biarc.svg");
+  CLI::App* potential = verb->add_subcommand(
+      "potential",
+      "The generalised potential field: the experiments of Ahuja and Chuang (1997), and\n"
+      "the distances to the exact axis against the order.");
+  auto files = std::make_shared<std::vector<std::string>>();
+  potential->add_option("INPUT", *files, "Further shapes; of each file, the largest one.")
+      ->option_text("");
+  potential->add_flag("--quiet,-q", switches->quiet, "No progress on standard error.");
+  potential->footer("Example:\n  medial bench potential data/plan.wkt data/gear.wkt");
   const Verb ridge = add_ridge_bench(*verb);
-  return {verb,
-          [switches, ridge] { return ridge.app->parsed() ? ridge.run() : run_biarc(*switches); }};
+  return {verb, [switches, files, potential, ridge] {
+            return potential->parsed()   ? run_potential(*files, switches->quiet)
+                   : ridge.app->parsed() ? ridge.run()
+                                         : run_biarc(*switches);
+          }};
 }
 
 }  // namespace medial::cli

@@ -38,6 +38,7 @@ Verb make_distance_verb(CLI::App& program);
 Verb make_voxels_verb(CLI::App& program);
 Verb make_bench_verb(CLI::App& program);
 Verb make_field_verb(CLI::App& program);
+Verb make_compare_verb(CLI::App& program);
 
 /// Where shapes come from.
 struct InputSwitches {

@@ -55,6 +55,8 @@ int run(int argc, char** argv, bool json) {
       make_distance_verb(program),  //
       make_voxels_verb(program),    //
       make_bench_verb(program),     //
+      make_field_verb(program),     //
+      make_compare_verb(program),   //
   };
   for (const Verb& verb : verbs) verb.app->group("Verbs");
 

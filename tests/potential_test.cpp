@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "medial/compute.h"
+#include "medial/field.h"
 #include "medial/query.h"
 #include "support/generate.h"
 
@@ -123,11 +124,80 @@ TEST(Potential, ComesNearTheExactAxis) {
     if (!axis) continue;
     const Distances d = distances(shape, *axis);
     const double size = size_of(shape);
-    EXPECT_LT(d.mean, 0.003 * size);
+    EXPECT_LT(d.mean, 0.001 * size);
+    EXPECT_LT(d.away, 0.01 * size);
     EXPECT_GT(axis->resolution, 0);
     for (const Node& node : axis->nodes)
       EXPECT_NEAR(node.disk.radius, std::max(0.0, clearance(shape, node.disk.center)), 1e-9 * size);
   }
+}
+
+TEST(Potential, ComesNearerWithTheOrder) {
+  Random random(5);
+  for (const Rings& rings : {rectangle(20, 10), l_shape(5), comb(3), untangled(random, 20, 100)}) {
+    const Shape shape = *build_shape(rings);
+    double before = size_of(shape);
+    for (const double order : {2.0, 8.0, 32.0}) {
+      const auto axis =
+          compute(shape, {.method = Method::potential, .potential = {.order = order}});
+      ASSERT_TRUE(axis.ok()) << order;
+      const double mean = distances(shape, *axis).mean;
+      EXPECT_LT(mean, before) << order;
+      before = mean;
+    }
+  }
+}
+
+TEST(Potential, APartIsAPartOfTheWhole) {
+  const Shape shape = *build_shape(comb(6));
+  const auto exact = *compute(shape);
+  const AxisLocator locator(exact);
+  const Box box{{-1, -1}, {3.5, 9}};
+  const auto part = compute(shape, {.method = Method::potential, .potential = {.within = box}});
+  ASSERT_TRUE(part.ok());
+  EXPECT_GT(part->nodes.size(), 50U);
+  for (const Node& node : part->nodes) {
+    EXPECT_LT(node.disk.center.x, box.high.x + 0.2);
+    EXPECT_LT(locator.nearest(node.disk.center).distance, 0.15);
+  }
+  // Up to the tip of a tooth, and down to a minimum.
+  const auto branch =
+      compute(shape, {.method = Method::potential, .potential = {.from = Vec2{4.6, 4}}});
+  ASSERT_TRUE(branch.ok());
+  EXPECT_GT(branch->edges.size(), 5U);
+  EXPECT_LT(branch->nodes.size(), part->nodes.size());
+  const auto outside =
+      compute(shape, {.method = Method::potential, .potential = {.from = Vec2{3.5, 4}}});
+  ASSERT_FALSE(outside.ok());
+  EXPECT_EQ(outside.error().code, ErrorCode::invalid_option);
+}
+
+TEST(Potential, RefusesOptionsOutOfRange) {
+  const Shape shape = *build_shape(rectangle(2, 1));
+  for (const PotentialOptions& wrong :
+       {PotentialOptions{.order = 0.5}, PotentialOptions{.order = 300},
+        PotentialOptions{.base_order = -1}, PotentialOptions{.step = 0},
+        PotentialOptions{.angle = 100}, PotentialOptions{.movement = 1}}) {
+    const auto axis = compute(shape, {.method = Method::potential, .potential = wrong});
+    ASSERT_FALSE(axis.ok());
+    EXPECT_EQ(axis.error().code, ErrorCode::invalid_option);
+  }
+}
+
+TEST(Potential, FieldOfASquareIsSymmetric) {
+  const Shape shape = *build_shape(rectangle(2, 2));
+  const auto field = PotentialField::make(shape, 3);
+  ASSERT_TRUE(field.ok());
+  const auto a = field->at({0.5, 0.7}), b = field->at({1.5, 1.3});
+  ASSERT_TRUE(a && b);
+  EXPECT_NEAR(a->log_potential, b->log_potential, 1e-9);
+  EXPECT_NEAR(a->direction.x, -b->direction.x, 1e-9);
+  EXPECT_NEAR(a->clearance, 0.5, 1e-12);
+  EXPECT_FALSE(field->at({3, 1}));
+  const std::vector<Vec2> line = field->streamline({0.3, 0.4}, 0.02, 1000);
+  ASSERT_GT(line.size(), 10U);
+  EXPECT_LT(distance(line.back(), {1, 1}), 0.1);
+  EXPECT_FALSE(PotentialField::make(shape, 0.5).ok());
 }
 
 }  // namespace

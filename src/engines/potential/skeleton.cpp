@@ -108,7 +108,7 @@ class Tracer {
         options_(options),
         evaluator_(charges),
         limit_(options.step),
-        budget_(50000 + 1000 * region.pieces.size()) {}
+        budget_(20000 + 200 * region.pieces.size() + 5000 * region.holes()) {}
 
   Skeleton run() {
     if (options_.from) {

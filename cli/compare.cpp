@@ -1,0 +1,230 @@
+// medial compare: all methods that take an input, side by side.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <sstream>
+
+#include "cli/axis_distance.h"
+#include "cli/common.h"
+#include "cli/pipeline.h"
+#include "cli/plot.h"
+#include "cli/terminal.h"
+#include "medial/compute.h"
+#include "medial/verify.h"
+
+namespace medial::cli {
+namespace {
+
+/// What --methods all means, the exact engine first. A new method is one more line.
+constexpr std::array all_methods = {Method::disks, Method::biarc_dc, Method::lee, Method::ridge,
+                                    Method::potential};
+
+struct CompareSwitches {
+  InputSwitches input;
+  CommonSwitches common;
+  std::string methods = "all";
+  std::string output;
+};
+
+struct Row {
+  std::string method;
+  std::string refused;  ///< why there is nothing else
+  double seconds = 0;
+  std::uint64_t nodes = 0, branches = 0, parts = 0, cycles = 0;
+  AxisDistance distance;
+  double radius_error = 0;
+  bool passed = false;
+  std::string failure;
+  MedialAxis axis;
+};
+
+/// The largest |distance to the boundary - radius|, over 1000 nodes or a few more.
+double radius_error(const Shape& shape, const MedialAxis& axis) {
+  double largest = 0;
+  const std::size_t stride = axis.nodes.size() / 1000 + 1;
+  for (std::size_t i = 0; i < axis.nodes.size(); i += stride) {
+    const Disk& disk = axis.nodes[i].disk;
+    largest = std::max(largest, std::abs(std::abs(clearance(shape, disk.center)) - disk.radius));
+  }
+  return largest;
+}
+
+Row measure(const Shape& shape, const MedialAxis& exact, Method method,
+            const CommonSwitches& common) {
+  Row row;
+  row.method = name_of(method);
+  Options options;
+  options.method = method;
+  options.threads = 1;
+  options.tolerance = common.tolerance;
+  options.corner_angle = common.corner_angle;
+  const Stopwatch watch;
+  auto axis = compute(shape, options);
+  row.seconds = watch.seconds();
+  if (!axis) {
+    row.refused = axis.error().text;
+    return row;
+  }
+  row.axis = std::move(axis).value();
+  row.nodes = row.axis.nodes.size();
+  row.branches = branches(row.axis).size();
+  const Box box = bounding_box(shape);
+  const double size = std::max(box.high.x - box.low.x, box.high.y - box.low.y);
+  row.distance = distance_between(row.axis, exact, 0.005 * size, 0.05 * size);
+  row.radius_error = radius_error(shape, row.axis);
+  const Certificate certificate = verify(shape, row.axis);
+  row.parts = certificate.graph_parts;
+  row.cycles = certificate.cycles;
+  row.passed = certificate.passed;
+  if (!certificate.failures.empty()) row.failure = certificate.failures.front();
+  return row;
+}
+
+Json to_json(const Row& row) {
+  if (!row.refused.empty()) return {{"method", row.method}, {"refused", row.refused}};
+  return {{"method", row.method},
+          {"seconds", row.seconds},
+          {"nodes", row.nodes},
+          {"branches", row.branches},
+          {"hausdorff", std::max(row.distance.largest, row.distance.uncovered)},
+          {"largest_distance", row.distance.largest},
+          {"mean_distance", row.distance.mean},
+          {"largest_uncovered", row.distance.uncovered},
+          {"radius_error", row.radius_error},
+          {"parts", row.parts},
+          {"cycles", row.cycles},
+          {"passed", row.passed},
+          {"failure", row.failure}};
+}
+
+std::string table_of(const std::vector<Row>& rows) {
+  std::string text = fmt::format("{:<10} {:>10} {:>8} {:>8} {:>10} {:>10} {:>10} {:>6} {:>7}  {}\n",
+                                 "method", "seconds", "nodes", "branches", "Hausdorff", "mean",
+                                 "radius", "parts", "cycles", "verified");
+  for (const Row& row : rows) {
+    if (!row.refused.empty()) {
+      text += fmt::format("{:<10} {}\n", row.method, row.refused);
+      continue;
+    }
+    text += fmt::format(
+        "{:<10} {:>10.6f} {:>8} {:>8} {:>10.3g} {:>10.3g} {:>10.3g} {:>6} {:>7}  {}\n", row.method,
+        row.seconds, row.nodes, row.branches,
+        std::max(row.distance.largest, row.distance.uncovered), row.distance.mean, row.radius_error,
+        row.parts, row.cycles, row.passed ? "yes" : "NO: " + row.failure);
+  }
+  return text;
+}
+
+/// The methods of a list, separated by commas. Errors: invalid_option.
+Result<std::vector<Method>> methods_of(const std::string& names) {
+  if (names == "all") return std::vector<Method>(all_methods.begin(), all_methods.end());
+  std::vector<Method> methods;
+  std::istringstream list(names);
+  for (std::string name; std::getline(list, name, ',');) {
+    const auto method = method_from(name);
+    if (!method) return invalid_option("no such method: " + name);
+    methods.push_back(*method);
+  }
+  if (methods.empty()) return invalid_option("--methods needs a name");
+  return methods;
+}
+
+/// One picture of all axes: each in a frame of its own, side by side in the plane.
+Status write_comparison(const std::string& path, const Shape& shape, std::vector<Row>& rows,
+                        const ShapeFile& file) {
+  io::NativeFile native;
+  native.crs_wkt = file.crs_wkt;
+  native.y_down = file.y_down;
+  const Box box = bounding_box(shape);
+  const Vec2 pitch = 1.1 * (box.high - box.low);
+  std::size_t count = 0;
+  constexpr std::size_t columns = 3;
+  for (Row& row : rows) {
+    if (!row.refused.empty()) continue;
+    const Vec2 move{static_cast<double>(count % columns) * pitch.x,
+                    (file.y_down ? 1 : -1) * static_cast<double>(count / columns) * pitch.y};
+    ++count;
+    io::NativeItem item;
+    item.shape = shape;
+    item.axis = row.axis;
+    for (Vec2& p : item.shape.points) p = p + move;
+    for (Site& site : item.axis.sites) {
+      site.start = site.start + move;
+      site.end = site.end + move;
+    }
+    for (Node& node : item.axis.nodes) node.disk.center = node.disk.center + move;
+    for (Edge& edge : item.axis.edges) edge.control.center = edge.control.center + move;
+    native.items.push_back(std::move(item));
+  }
+  io::WriteOptions options;
+  options.width = 1500;
+  return io::write_axes(path, {}, native, options);
+}
+
+Result<int> run_compare(const CompareSwitches& switches) {
+  const auto& [input, common, names, output] = switches;
+  auto methods = methods_of(names);
+  if (!methods) return std::move(methods).error();
+  Status writable = check_output(output, {}, ".svg .pdf .png .ps", input.path, common.json);
+  if (!writable) return std::move(writable).error();
+  auto file = load_shapes(input, common.threads);
+  if (!file) return std::move(file).error();
+  print_notes(*file, input, common);
+  Json features = Json::array();
+  std::string text;
+  for (std::size_t i = 0; i < file->shapes.size(); ++i) {
+    const Shape& shape = file->shapes[i];
+    Options reference;
+    reference.tolerance = common.tolerance;
+    reference.corner_angle = common.corner_angle;
+    const auto exact = compute(shape, reference);
+    if (!exact) return exact.error();
+    std::vector<Row> rows;
+    for (const Method method : *methods) rows.push_back(measure(shape, *exact, method, common));
+    if (file->shapes.size() > 1) text += fmt::format("feature {}\n", i);
+    text += table_of(rows);
+    Json list = Json::array();
+    for (const Row& row : rows) list.push_back(to_json(row));
+    features.push_back(std::move(list));
+    if (i == 0 && !output.empty()) {
+      Status written = write_comparison(output, shape, rows, *file);
+      if (!written) return std::move(written).error();
+    }
+  }
+  Status printed = common.json ? print(Json{{"features", std::move(features)}}) : print(text);
+  if (!printed) return std::move(printed).error();
+  return exit_success;
+}
+
+}  // namespace
+
+Verb make_compare_verb(CLI::App& program) {
+  auto switches = std::make_shared<CompareSwitches>();
+  CLI::App* verb =
+      program.add_subcommand("compare", "Compute axes by several methods and compare them.");
+  add_input_switches(*verb, switches->input);
+  verb->add_option("--methods", switches->methods,
+                   "all (default), or names separated by commas, for example disks,potential.")
+      ->option_text("NAMES");
+  verb->add_option("-o,--output", switches->output,
+                   "A picture of the first feature's axes side by side: .svg .pdf .png .ps")
+      ->check(a_name())
+      ->option_text("PICTURE");
+  add_common_switches(*verb, switches->common);
+  verb->footer(
+      "Each method runs on one thread. Distances are to the axis of the method disks, by\n"
+      "samples; Hausdorff is the larger of both directions. A method that does not take\n"
+      "the input says why.\n"
+      "\n"
+      "Examples:\n"
+      "  medial compare plan.wkt\n"
+      "  medial compare plan.wkt --methods disks,ridge,potential -o methods.svg --json");
+  return {verb, [switches] { return run_compare(*switches); }};
+}
+
+}  // namespace medial::cli
