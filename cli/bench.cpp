@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "cli/bench_biarc.h"
+#include "cli/bench_lee.h"
 #include "cli/bench_potential.h"
 #include "cli/bench_ridge.h"
 #include "cli/bench_shapes.h"
@@ -388,9 +389,11 @@ Verb make_bench_verb(CLI::App& program) {
   potential->add_flag("--quiet,-q", switches->quiet, "No progress on standard error.");
   potential->footer("Example:\n  medial bench potential data/plan.wkt data/gear.wkt");
   const Verb ridge = add_ridge_bench(*verb);
-  return {verb, [switches, files, potential, ridge] {
+  const Verb lee = add_lee_bench(*verb);
+  return {verb, [switches, files, potential, ridge, lee] {
             return potential->parsed()   ? run_potential(*files, switches->quiet)
                    : ridge.app->parsed() ? ridge.run()
+                   : lee.app->parsed()   ? lee.run()
                                          : run_biarc(*switches);
           }};
 }

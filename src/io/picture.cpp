@@ -28,6 +28,8 @@ constexpr Color kDisk{0.85, 0.45, 0.15};
 constexpr Color kContact{0.80, 0.20, 0.20};
 constexpr std::array<Color, 3> kNode{{{0.20, 0.55, 0.25}, {0.45, 0.45, 0.50}, {0.80, 0.15, 0.20}}};
 
+constexpr double kHueStep = 0.618033988749895;  // the golden section: neighbours differ
+
 constexpr int kBatch = 2000;     // pieces of a path between strokes: long paths are slow to stroke
 constexpr int kMostPieces = 32;  // of one edge
 
@@ -144,13 +146,26 @@ Frame frame_of(const NativeFile& file, double width) {
   return frame;
 }
 
+/// A light colour of this hue in [0, 1).
+Color pastel(double hue) {
+  constexpr double kDarkest = 0.72;
+  const auto part = [&](double shift) {
+    const double wave = 0.5 + 0.5 * std::cos(2 * std::numbers::pi * (hue - shift));
+    return kDarkest + (1 - kDarkest) * wave;
+  };
+  return {part(0), part(1.0 / 3), part(2.0 / 3)};
+}
+
 class Picture {
  public:
-  Picture(cairo_t* context, const Frame& frame, const NativeFile& file, const WriteOptions& options)
+  /// `diagrams`: where Voronoi diagrams are drawn, those of the file's items; or null.
+  Picture(cairo_t* context, const Frame& frame, const NativeFile& file, const WriteOptions& options,
+          const VoronoiFile* diagrams = nullptr)
       : context_(context),
         frame_(frame),
         file_(file),
         options_(options),
+        diagrams_(diagrams),
         pixels_(cairo_surface_get_type(cairo_get_target(context)) == CAIRO_SURFACE_TYPE_IMAGE) {
     double edges = 0;
     for (const NativeItem& item : file.items) {
@@ -168,6 +183,7 @@ class Picture {
     color(kPaper);
     cairo_paint(context_);
     if (options_.shape) draw_shapes();
+    if (diagrams_ != nullptr) draw_faces();
     if (options_.disks > 0) draw_disks();
     if (options_.contacts) draw_contacts();
     draw_axes();
@@ -243,6 +259,10 @@ class Picture {
       trace_shape(item.shape);
       cairo_fill(context_);
     }
+    stroke_shapes();
+  }
+
+  void stroke_shapes() {
     color(kOutline);
     cairo_set_line_width(context_, thickness(0.8));
     int batch = 0;
@@ -256,6 +276,49 @@ class Picture {
       }
     }
     cairo_stroke(context_);
+  }
+
+  /// Goes along an edge of a diagram, from its node[0] or from its node[1].
+  void trace_edge(const VoronoiDiagram& diagram, const Edge& edge, bool forward) {
+    const auto place = [&](std::uint32_t node) { return frame_(diagram.nodes[node].disk.center); };
+    Piece piece{place(edge.node[0]), frame_(edge.control.center), place(edge.node[1]), edge.weight,
+                diagram.sites[edge.site[0]].kind == diagram.sites[edge.site[1]].kind};
+    if (!forward) std::swap(piece.from, piece.to);
+    if (piece.straight) {
+      line_to(piece.to);
+    } else {
+      conic_to(piece);
+    }
+  }
+
+  void draw_faces() {
+    for (const VoronoiItem& item : diagrams_->items) {
+      const VoronoiDiagram& diagram = item.diagram;
+      for (std::uint32_t site = 0; site < diagram.sites.size(); ++site) {
+        const bool vertex = diagram.sites[site].kind == SiteKind::vertex;
+        const double hue = std::fmod(kHueStep * site, 1.0);
+        constexpr Color kGrey{0.82, 0.82, 0.84};
+        color(vertex ? kGrey : pastel(hue));
+        move_to(frame_(diagram.sites[site].start));
+        for (const std::uint32_t e : diagram.face(site))
+          trace_edge(diagram, diagram.edges[e], diagram.edges[e].site[1] == site);
+        cairo_close_path(context_);
+        cairo_fill(context_);
+      }
+    }
+    color(kOutline, 0.5);
+    cairo_set_line_width(context_, thickness(0.5));
+    int batch = 0;
+    for (const VoronoiItem& item : diagrams_->items) {
+      for (const VoronoiEdge& edge : item.diagram.edges) {
+        if (!edge.spoke) continue;
+        move_to(frame_(item.diagram.nodes[edge.node[0]].disk.center));
+        line_to(frame_(item.diagram.nodes[edge.node[1]].disk.center));
+        if (++batch % kBatch == 0) cairo_stroke(context_);
+      }
+    }
+    cairo_stroke(context_);
+    if (options_.shape) stroke_shapes();
   }
 
   /// About as many disks as asked for, at even distances along all axes.
@@ -418,6 +481,7 @@ class Picture {
   const Frame& frame_;
   const NativeFile& file_;
   const WriteOptions& options_;
+  const VoronoiFile* diagrams_;
   bool pixels_ = false;  ///< a picture of pixels, in which nobody can look closer
   double largest_ = 0;   ///< radius
   double fineness_ = 1;  ///< factor of all line widths
@@ -437,10 +501,8 @@ cairo_surface_t* create_surface(OutputStream& out, const std::string& format, co
                                     static_cast<int>(frame.height));
 }
 
-}  // namespace
-
-Status write_picture(OutputStream& out, const std::string& format, const NativeFile& file,
-                     const WriteOptions& options) {
+Status draw_picture(OutputStream& out, const std::string& format, const NativeFile& file,
+                    const WriteOptions& options, const VoronoiFile* diagrams) {
   constexpr double kSmallest = 16;
   constexpr double kLargest = 8000;  // four times as high stays below Cairo's 32767
   if (!(options.width >= kSmallest && options.width <= kLargest)) {
@@ -452,7 +514,7 @@ Status write_picture(OutputStream& out, const std::string& format, const NativeF
   const Surface surface(create_surface(out, format, frame), &cairo_surface_destroy);
   const std::unique_ptr<cairo_t, decltype(&cairo_destroy)> context(cairo_create(surface.get()),
                                                                    &cairo_destroy);
-  Picture(context.get(), frame, file, options).draw();
+  Picture(context.get(), frame, file, options, diagrams).draw();
   cairo_status_t status = cairo_status(context.get());
   if (status == CAIRO_STATUS_SUCCESS && format == "png") {
     status = cairo_surface_write_to_png_stream(surface.get(), write_bytes, &out);
@@ -464,6 +526,29 @@ Status write_picture(OutputStream& out, const std::string& format, const NativeF
         ErrorCode::unwritable, fmt::format("cannot draw: {}", cairo_status_to_string(status)), {}};
   }
   return success();
+}
+
+}  // namespace
+
+Status write_picture(OutputStream& out, const std::string& format, const NativeFile& file,
+                     const WriteOptions& options) {
+  return draw_picture(out, format, file, options, nullptr);
+}
+
+Status write_voronoi_picture(OutputStream& out, const std::string& format, const VoronoiFile& file,
+                             const WriteOptions& options) {
+  // Less its spokes, the diagram is the axis.
+  NativeFile axes;
+  axes.y_down = file.y_down;
+  for (const VoronoiItem& item : file.items) {
+    NativeItem& own = axes.items.emplace_back();
+    own.shape = item.shape;
+    own.axis.sites = item.diagram.sites;
+    own.axis.nodes = item.diagram.nodes;
+    for (const VoronoiEdge& edge : item.diagram.edges)
+      if (!edge.spoke) own.axis.edges.push_back(edge);
+  }
+  return draw_picture(out, format, axes, options, &file);
 }
 
 }  // namespace medial::io

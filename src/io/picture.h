@@ -14,4 +14,9 @@ namespace medial::io {
 Status write_picture(OutputStream& out, const std::string& format, const NativeFile& file,
                      const WriteOptions& options);
 
+/// The same for Voronoi diagrams: every face filled with a colour, segments' faces in light colours
+/// and reflex vertices' in greys; the spokes thin. The boundary is options.shape's.
+Status write_voronoi_picture(OutputStream& out, const std::string& format, const VoronoiFile& file,
+                             const WriteOptions& options);
+
 }  // namespace medial::io

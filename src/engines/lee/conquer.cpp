@@ -2,6 +2,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <bit>
 #include <mutex>
 
@@ -51,6 +52,22 @@ class Conquest {
     add(own);
   }
 
+  /// One level after another, on this thread.
+  std::uint32_t merge_measured(const Halving& halving, std::vector<Level>& levels) {
+    const int deepest = halving.deepest();
+    levels.resize(std::max(levels.size(), static_cast<std::size_t>(deepest)));
+    for (int k = deepest - 1; k >= 0 && !cancelled(); --k) {
+      Statistics own;
+      Stopwatch watch;
+      for (std::uint64_t j = 0; j < std::uint64_t{1} << k; ++j) merge_halves(halving, k, j, own);
+      Level& level = levels[static_cast<std::size_t>(k)];
+      level.seconds += watch.lap();
+      level.crossings += own.queries;
+      add(own);
+    }
+    return last_edge_;
+  }
+
   std::uint32_t merge_all(const Halving& halving) {
     int block_level = 0;
     while ((halving.count >> block_level) > block_size) ++block_level;
@@ -87,12 +104,13 @@ class Conquest {
 }  // namespace
 
 std::vector<std::uint32_t> conquer(Diagram& diagram, const ConquerContext& context,
-                                   Statistics& statistics, std::vector<Level>*) {
+                                   Statistics& statistics, std::vector<Level>* levels) {
   std::vector<std::uint32_t> last_edges;
   Conquest conquest(diagram, context, statistics);
   for (const Elements::Loop& loop : diagram.elements.loops) {
     const Halving halving{loop.first_chain, loop.end_chain - loop.first_chain};
-    last_edges.push_back(conquest.merge_all(halving));
+    last_edges.push_back(levels != nullptr ? conquest.merge_measured(halving, *levels)
+                                           : conquest.merge_all(halving));
   }
   return last_edges;
 }

@@ -9,10 +9,9 @@
 
 namespace medial::lee {
 
-/// What is done with the merges of one level, for measurements.
+/// What the merges of one level amount to, for measurements.
 struct Level {
-  std::uint64_t merges = 0;
-  std::uint64_t crossings = 0;  ///< edges of all merge curves
+  std::uint64_t crossings = 0;  ///< of all merge curves
   double seconds = 0;
 };
 

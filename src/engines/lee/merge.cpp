@@ -40,6 +40,7 @@ class MergeCurve {
       if (!drop_covered(0) || !drop_covered(1)) return edge;
       const auto crossing = first_crossing(bisector, reached);
       if (!crossing) return edge;
+      ++statistics_.queries;
       const std::size_t side = crossing->side;
       disk_ = crossing->disk;
       // The curve runs below an edge or crosses it, as long as its disks are inside the shape.
@@ -103,8 +104,9 @@ class MergeCurve {
     free_.first = place;
   }
 
-  /// How far Voronoi points of three elements that hardly determine one may be off.
-  double vagueness() const { return limits_.tolerance + 1e-6 * disk_.radius; }
+  /// How far Voronoi points of three elements that hardly determine one may be off: a rounding
+  /// divided by the square of the angle between their feet, for up to 1e6 of them around a disk.
+  double vagueness() const { return limits_.tolerance + 1e-5 * disk_.radius; }
 
   /// By how far a disk's foot on its element of one side has passed an edge's inner end, and so all
   /// of the edge; negative where it has not. No edge passes the ends of its elements.

@@ -1,0 +1,387 @@
+// The figures of Lee's paper, drawn anew.
+
+#include <cairo-svg.h>
+
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <memory>
+
+#include "base/tolerance.h"
+#include "cli/bench_lee.h"
+#include "cli/plot.h"
+#include "engines/lee/diagram.h"
+#include "engines/lee/merge.h"
+#include "geometry/bisector.h"
+#include "medial/medial.h"
+
+namespace medial::cli {
+namespace {
+
+constexpr double width = 480, margin = 20;
+
+/// One figure: a part of the plane, drawn by Cairo.
+class Figure {
+ public:
+  Figure(Box box) : box_(box) {
+    scale_ = (width - 2 * margin) / (box.high.x - box.low.x);
+    height_ = std::ceil((box.high.y - box.low.y) * scale_ + 2 * margin);
+    surface_.reset(cairo_svg_surface_create_for_stream(append, &text_, width, height_));
+    cairo_.reset(cairo_create(surface_.get()));
+    cairo_set_source_rgb(cairo_.get(), 1, 1, 1);
+    cairo_paint(cairo_.get());
+    cairo_set_line_cap(cairo_.get(), CAIRO_LINE_CAP_ROUND);
+    cairo_set_line_join(cairo_.get(), CAIRO_LINE_JOIN_ROUND);
+    cairo_rectangle(cairo_.get(), 1, 1, width - 2, height_ - 2);
+    cairo_clip(cairo_.get());
+  }
+
+  void pen(double red, double green, double blue, double line_width) {
+    cairo_set_source_rgb(cairo_.get(), red, green, blue);
+    cairo_set_line_width(cairo_.get(), line_width);
+  }
+  void ink() { pen(0.15, 0.15, 0.17, 1.2); }
+  void thin() { pen(0.6, 0.6, 0.63, 0.8); }
+  void line(const std::vector<Vec2>& points) {
+    cairo_new_path(cairo_.get());
+    for (const Vec2 p : points) {
+      const Vec2 at = place(p);
+      cairo_line_to(cairo_.get(), at.x, at.y);
+    }
+    cairo_stroke(cairo_.get());
+  }
+  void dot(Vec2 p) {
+    const Vec2 at = place(p);
+    cairo_new_path(cairo_.get());
+    cairo_arc(cairo_.get(), at.x, at.y, 2.8, 0, 4 * std::acos(0.0));
+    cairo_fill(cairo_.get());
+  }
+  void circle(const Disk& disk) {
+    const Vec2 at = place(disk.center);
+    cairo_new_path(cairo_.get());
+    cairo_arc(cairo_.get(), at.x, at.y, disk.radius * scale_, 0, 4 * std::acos(0.0));
+    cairo_stroke(cairo_.get());
+  }
+  void label(Vec2 p, const char* text) {
+    const Vec2 at = place(p);
+    cairo_set_font_size(cairo_.get(), 13);
+    cairo_move_to(cairo_.get(), at.x + 5, at.y - 5);
+    cairo_show_text(cairo_.get(), text);
+  }
+  Status write(const std::filesystem::path& path) {
+    cairo_.reset();
+    cairo_surface_finish(surface_.get());
+    return write_text(path.string(), text_);
+  }
+  const Box& box() const { return box_; }
+
+ private:
+  static cairo_status_t append(void* text, const unsigned char* data, unsigned int size) {
+    static_cast<std::string*>(text)->append(reinterpret_cast<const char*>(data), size);
+    return CAIRO_STATUS_SUCCESS;
+  }
+  Vec2 place(Vec2 p) const {
+    return {margin + (p.x - box_.low.x) * scale_, height_ - margin - (p.y - box_.low.y) * scale_};
+  }
+
+  Box box_;
+  double scale_ = 1, height_ = 1;
+  std::string text_;
+  std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)> surface_{
+      nullptr, cairo_surface_destroy};
+  std::unique_ptr<cairo_t, decltype(&cairo_destroy)> cairo_{nullptr, cairo_destroy};
+};
+
+/// The components of a bisector in turn.
+void component_pen(Figure& figure, int which) {
+  constexpr std::array<std::array<double, 3>, 4> pens{
+      {{0.80, 0.20, 0.20}, {0.15, 0.45, 0.75}, {0.20, 0.55, 0.25}, {0.75, 0.45, 0.10}}};
+  const auto& [red, green, blue] = pens[static_cast<std::size_t>(which) % pens.size()];
+  figure.pen(red, green, blue, 1.8);
+}
+
+/// Draws where two closed segments (or points) are equally far, cell by cell of a fine grid, each
+/// component in its colour: which part of each one is nearest, an end or the inside.
+void draw_bisector(Figure& figure, const Site& first, const Site& second) {
+  constexpr int cells = 160;
+  const Vec2 low = figure.box().low, size = figure.box().high - low;
+  const auto at = [&](double i, double j) {
+    return Vec2{low.x + size.x * i / cells, low.y + size.y * j / cells};
+  };
+  const auto difference = [&](Vec2 p) {
+    return distance(foot(first, p), p) - distance(foot(second, p), p);
+  };
+  const auto part_of = [](const Site& site, Vec2 p) {
+    const Vec2 f = foot(site, p);
+    return f == site.start ? 0 : f == site.end ? 1 : 2;
+  };
+  for (int i = 0; i < cells; ++i) {
+    for (int j = 0; j < cells; ++j) {
+      const std::array<Vec2, 4> corner{at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)};
+      std::vector<Vec2> crossings;
+      for (std::size_t k = 0; k < 4; ++k) {
+        const Vec2 a = corner[k], b = corner[(k + 1) % 4];
+        const double da = difference(a), db = difference(b);
+        if ((da < 0) != (db < 0)) crossings.push_back(a + (da / (da - db)) * (b - a));
+      }
+      if (crossings.size() != 2) continue;
+      const Vec2 middle = midpoint(crossings[0], crossings[1]);
+      component_pen(figure, part_of(first, middle) + part_of(second, middle));
+      figure.line(crossings);
+    }
+  }
+}
+
+Site segment(Vec2 a, Vec2 b) { return {a, b}; }
+
+/// The polygon of Figs. 3 to 6: ten segments and their like, five reflex vertices.
+Shape polygon() {
+  const Ring ring{{{0, 0},
+                   {10, -1},
+                   {12, 3},
+                   {20, 2},
+                   {22, 10},
+                   {15, 9},
+                   {14, 14},
+                   {9, 10},
+                   {5, 15},
+                   {3, 9},
+                   {-3, 10},
+                   {1, 5}}};
+  return build_shape(std::vector<Ring>{ring}).value();
+}
+
+void draw_polygon(Figure& figure, const Shape& shape) {
+  std::vector<Vec2> outline(shape.points.begin(), shape.points.end());
+  outline.push_back(outline.front());
+  figure.ink();
+  figure.line(outline);
+}
+
+std::vector<Vec2> samples(const VoronoiDiagram& diagram, const VoronoiEdge& edge) {
+  MedialAxis one;
+  one.nodes = diagram.nodes;
+  one.sites = diagram.sites;
+  std::vector<Vec2> line;
+  for (const Disk& disk : sample_by_chord(one, edge, 1e-3)) line.push_back(disk.center);
+  return line;
+}
+
+void draw_diagram(Figure& figure, const VoronoiDiagram& diagram, bool spokes) {
+  for (const VoronoiEdge& edge : diagram.edges) {
+    if (edge.spoke && !spokes) continue;
+    if (edge.spoke)
+      figure.thin();
+    else
+      figure.pen(0.15, 0.45, 0.75, 1.6);
+    figure.line(samples(diagram, edge));
+  }
+}
+
+Box with_room(const Shape& shape, double room) {
+  const Box box = bounding_box(shape);
+  return {box.low - Vec2{room, room}, box.high + Vec2{room, room}};
+}
+
+/// Fig. 6: lists of chains before and after the last merge. Here the frame is the identity.
+class Halves {
+ public:
+  explicit Halves(const Shape& shape)
+      : shape_(shape),
+        frame_{},
+        elements_(lee::elements_of(shape, sites::number_sites(shape, frame_, 0.01), frame_)),
+        diagram_(elements_),
+        limits_{tolerance_for(bounding_box(shape), 0), 4 * diagonal(bounding_box(shape))} {
+    const auto count = static_cast<std::uint32_t>(elements_.chains.size() - 1);
+    int deepest = 0;
+    while ((1u << deepest) < count) ++deepest;
+    for (int level = deepest - 1; level >= 1; --level) merge_level(level, count);
+  }
+  void merge_last() { merge_level(0, static_cast<std::uint32_t>(elements_.chains.size() - 1)); }
+
+  /// The edges among one half's elements, or among all (2); the merge curve in red.
+  void draw(Figure& figure, int half) const {
+    const auto count = static_cast<std::uint32_t>(elements_.chains.size() - 1);
+    const std::uint32_t middle = elements_.chains[count / 2];
+    figure.thin();
+    for (std::uint32_t i = 0; i < elements_.size(); ++i) {
+      const geometry::Site& site = elements_.sites[i];
+      if (site.is_vertex()) continue;
+      if (half == 2 || (i < middle) == (half == 0))
+        figure.ink();
+      else
+        figure.thin();
+      figure.line({site.point, site.end()});
+    }
+    for (std::uint32_t i = 0; i < elements_.size(); ++i) {
+      if (half != 2 && (i < middle) != (half == 0)) continue;
+      for (std::uint32_t place = diagram_.top[i][0]; place != lee::none;
+           place = diagram_.edges[place].inward[0])
+        draw_edge(figure, diagram_.edges[place], middle);
+    }
+  }
+
+ private:
+  void merge_level(int level, std::uint64_t count) {
+    Statistics statistics;
+    for (std::uint64_t i = 0; i < std::uint64_t{1} << level; ++i) {
+      const auto at = [&](int k, std::uint64_t j) {
+        return static_cast<std::uint32_t>((count * j) >> k);
+      };
+      const std::uint32_t first = at(level, i), middle = at(level + 1, 2 * i + 1),
+                          end = at(level, i + 1);
+      if (first != middle && middle != end)
+        lee::merge(diagram_, first, middle, end, limits_, statistics);
+    }
+  }
+
+  void draw_edge(Figure& figure, const lee::ListEdge& edge, std::uint32_t middle) const {
+    const auto [i, j] = edge.element;
+    const geometry::Site &left = elements_.sites[i], &right = elements_.sites[j];
+    const bool on_curve = i < middle && j >= middle;
+    if (diagram_.is_spoke(edge))
+      figure.thin();
+    else if (on_curve)
+      figure.pen(0.80, 0.20, 0.20, 2.2);
+    else
+      figure.pen(0.15, 0.45, 0.75, 1.6);
+    const Vec2 start = edge.inner.center;
+    const Vec2 end = edge.outer != lee::none ? diagram_.edges[edge.outer].inner.center : start;
+    if (diagram_.is_spoke(edge)) {
+      const Vec2 normal = left.is_vertex() ? right.normal() : left.normal();
+      figure.line({start, edge.outer != lee::none ? end : start + 60 * normal});
+      return;
+    }
+    const geometry::Bisector bisector(right, left);
+    const double from = bisector.position(start);
+    const bool last = i == 0 && j + 1 == elements_.size();
+    double to = from + 60;
+    if (edge.outer != lee::none) to = bisector.position(end);
+    if (edge.outer == lee::none && last) to = bisector.position(elements_.sites[0].point);
+    constexpr int pieces = 64;
+    std::vector<Vec2> line;
+    for (int k = 0; k <= pieces; ++k) {
+      const double t = static_cast<double>(k) / pieces;
+      const Vec2 p = bisector.disk_at(from + t * (to - from), edge.inner).center;
+      if (!std::isfinite(p.x) || !std::isfinite(p.y)) break;
+      line.push_back(p);
+    }
+    figure.line(line);
+  }
+
+  const Shape& shape_;
+  Frame frame_;
+  lee::Elements elements_;
+  lee::Diagram diagram_;
+  lee::MergeLimits limits_;
+};
+
+Status figure_of_point_and_segment(const std::filesystem::path& path) {
+  Figure figure({{-4, -2.6}, {4, 3.4}});
+  const Vec2 q{0.4, 1.2}, a{-1.5, 0}, b{1.5, 0};
+  draw_bisector(figure, segment(q, q), segment(a, b));
+  figure.ink();
+  figure.line({a, b});
+  for (const auto& [p, name] : {std::pair{q, "q"}, {a, "a"}, {b, "b"}}) {
+    figure.dot(p);
+    figure.label(p, name);
+  }
+  return figure.write(path);
+}
+
+Status figure_of_two_segments(const std::filesystem::path& path) {
+  Figure figure({{-4, -3}, {4, 3.2}});
+  const Vec2 a{-2.2, 1.0}, b{1.6, 1.9}, c{-1.2, -0.8}, d{2.4, -1.6};
+  draw_bisector(figure, segment(a, b), segment(c, d));
+  figure.ink();
+  figure.line({a, b});
+  figure.line({c, d});
+  for (const auto& [p, name] : {std::pair{a, "a"}, {b, "b"}, {c, "c"}, {d, "d"}}) {
+    figure.dot(p);
+    figure.label(p, name);
+  }
+  return figure.write(path);
+}
+
+Status figure_of_diagram(const std::filesystem::path& path, bool spokes) {
+  const Shape shape = polygon();
+  const auto diagram = voronoi_diagram(shape, {.threads = 1});
+  if (!diagram) return diagram.error();
+  Figure figure(with_room(shape, 0.5));
+  draw_diagram(figure, *diagram, spokes);
+  draw_polygon(figure, shape);
+  return figure.write(path);
+}
+
+/// Lemma 1: from z to its image on its element; Lemma 2: an empty disk that touches two elements.
+Status figure_of_lemmas(const std::filesystem::path& path) {
+  const Shape shape = polygon();
+  const auto diagram = voronoi_diagram(shape, {.threads = 1});
+  if (!diagram) return diagram.error();
+  Figure figure(with_room(shape, 0.5));
+  draw_diagram(figure, *diagram, true);
+  const Vec2 z{16.5, 3.6};
+  const auto nearest = std::min_element(diagram->sites.begin(), diagram->sites.end(),
+                                        [&](const Site& a, const Site& b) {
+                                          return distance(foot(a, z), z) < distance(foot(b, z), z);
+                                        });
+  component_pen(figure, 0);
+  figure.line({z, foot(*nearest, z)});
+  figure.dot(z);
+  figure.label(z, "z");
+  std::size_t longest = 0;
+  for (std::size_t e = 0; e < diagram->edges.size(); ++e)
+    if (!diagram->edges[e].spoke && diagram->nodes[diagram->edges[e].node[0]].disk.radius > 3)
+      longest = e;
+  MedialAxis one;
+  one.nodes = diagram->nodes;
+  one.sites = diagram->sites;
+  const VoronoiEdge& edge = diagram->edges[longest];
+  const Disk disk = disk_at(one, edge, 0.5);
+  component_pen(figure, 2);
+  figure.circle(disk);
+  for (const std::uint32_t site : edge.site) {
+    figure.line({disk.center, foot(diagram->sites[site], disk.center)});
+    figure.dot(foot(diagram->sites[site], disk.center));
+  }
+  draw_polygon(figure, shape);
+  return figure.write(path);
+}
+
+Status figures_of_merge(const std::filesystem::path& directory) {
+  const Shape shape = polygon();
+  Halves halves(shape);
+  for (const auto& [half, name] : {std::pair{0, "lee-fig6a.svg"}, {1, "lee-fig6b.svg"}}) {
+    Figure figure(with_room(shape, 2.5));
+    halves.draw(figure, half);
+    Status written = figure.write(directory / name);
+    if (!written) return written;
+  }
+  halves.merge_last();
+  Figure figure(with_room(shape, 2.5));
+  halves.draw(figure, 2);
+  return figure.write(directory / "lee-fig6c.svg");
+}
+
+}  // namespace
+
+Status write_lee_figures(const std::string& directory) {
+  std::error_code problem;
+  std::filesystem::create_directories(directory, problem);
+  if (problem) return error_at(ErrorCode::unwritable, directory, problem.message());
+  const std::filesystem::path to(directory);
+  using Draw = std::function<Status()>;
+  for (const Draw& draw : {Draw([&] { return figure_of_point_and_segment(to / "lee-fig1.svg"); }),
+                           Draw([&] { return figure_of_two_segments(to / "lee-fig2.svg"); }),
+                           Draw([&] { return figure_of_diagram(to / "lee-fig3.svg", true); }),
+                           Draw([&] { return figure_of_diagram(to / "lee-fig4.svg", false); }),
+                           Draw([&] { return figure_of_lemmas(to / "lee-fig5.svg"); }),
+                           Draw([&] { return figures_of_merge(to); })}) {
+    Status drawn = draw();
+    if (!drawn) return drawn;
+  }
+  return success();
+}
+
+}  // namespace medial::cli

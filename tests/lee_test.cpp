@@ -1,0 +1,269 @@
+// Lee's divide and conquer: what the paper proves of the diagram holds for random simple polygons,
+// and its axis is that of `disks`.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <ostream>
+#include <string>
+
+#include "medial/medial.h"
+#include "support/generate.h"
+#include "support/property.h"
+
+namespace medial::test {
+namespace {
+
+/// Where along its site an edge's disk of one node touches: the parameter of a segment, in units of
+/// length; around a reflex vertex no foot moves.
+double foot_parameter(const Site& site, Vec2 center) {
+  if (site.kind == SiteKind::vertex) return 0;
+  const Vec2 d = site.end - site.start;
+  return dot(center - site.start, d) / norm(d);
+}
+
+double distance_to(const Site& site, Vec2 p) { return distance(foot(site, p), p); }
+
+/// What does not hold of the diagram of a polygon; empty where all does.
+std::string check_diagram(const Shape& shape, const VoronoiDiagram& diagram) {
+  const double slack = 1e-7 * diagonal(bounding_box(shape));
+  const std::size_t loops = shape.loop_count(), count = diagram.sites.size();
+  // Lemma 3.
+  if (diagram.edges.size() != 2 * count - 3 * loops) return "the number of edges is not 2N - 3";
+  std::size_t points = 0;
+  for (const Node& node : diagram.nodes) points += node.disk.radius > 0 ? 1 : 0;
+  if (points != count - 2 * loops) return "the number of Voronoi points is not N - 2";
+  // Corollary 2: the disks of an edge touch both of its sites, Lemma 2: and no other reaches in.
+  for (const VoronoiEdge& edge : diagram.edges)
+    for (const std::uint32_t node : edge.node) {
+      const Disk& disk = diagram.nodes[node].disk;
+      for (const std::uint32_t site : edge.site)
+        if (std::abs(distance_to(diagram.sites[site], disk.center) - disk.radius) > slack)
+          return "a disk does not touch a site of its edge";
+    }
+  // By brute force, for all but the largest.
+  constexpr std::size_t most_pairs = 20000;
+  const bool is_small = diagram.nodes.size() * count <= most_pairs;
+  for (const Node& node : diagram.nodes)
+    for (std::uint32_t i = 0; i < (is_small ? count : 0); ++i)
+      if (const Site& site = diagram.sites[i];
+          distance_to(site, node.disk.center) < node.disk.radius - slack)
+        return "a disk is not empty";
+  // Corollary 1: a face is one chain of edges from the start of its site to the end, along which
+  // the foot moves forward.
+  std::size_t spokes = 0;
+  for (std::uint32_t site = 0; site < count; ++site) {
+    const Site& own = diagram.sites[site];
+    const auto face = diagram.face(site);
+    if (face.empty()) return "a face has no edge";
+    Vec2 at = own.start;
+    double reached = 0;
+    for (std::size_t i = 0; i < face.size(); ++i) {
+      const VoronoiEdge& edge = diagram.edges[face[i]];
+      const bool forward = edge.site[1] == site;
+      if (!forward && edge.site[0] != site) return "a face has an edge of others";
+      if (distance(at, diagram.nodes[edge.node[forward ? 0 : 1]].disk.center) > slack)
+        return "a face is not one chain";
+      at = diagram.nodes[edge.node[forward ? 1 : 0]].disk.center;
+      const double parameter = foot_parameter(own, at);
+      if (parameter < reached - slack) return "a foot moves backward";
+      reached = std::max(reached, parameter);
+      spokes += edge.spoke ? 1 : 0;
+    }
+    if (distance(at, own.end) > slack) return "a face does not end at its site's end";
+  }
+  const auto reflex = static_cast<std::size_t>(
+      std::count_if(diagram.sites.begin(), diagram.sites.end(),
+                    [](const Site& site) { return site.kind == SiteKind::vertex; }));
+  if (spokes != 4 * reflex) return "a reflex vertex does not have two spokes";
+  return "";
+}
+
+/// Largest distance from samples of one axis to another axis.
+double furthest(const MedialAxis& from, const MedialAxis& to, double step) {
+  const AxisLocator locator(to);
+  double largest = 0;
+  for (const Edge& edge : from.edges)
+    for (const Disk& disk : sample_by_step(from, edge, step))
+      largest = std::max(largest, locator.nearest(disk.center).distance);
+  return largest;
+}
+
+Options by_lee(int threads = 1) { return {.method = Method::lee, .threads = threads}; }
+
+/// The axis is verified and is that of `disks`; empty where it is.
+std::string check_axis_of(const Shape& shape, bool as_graph) {
+  const auto axis = compute(shape, by_lee());
+  if (!axis) return to_string(axis.error());
+  const Certificate certificate = verify(shape, *axis, {.threads = 1});
+  if (!certificate.passed) return certificate.failures.front();
+  const auto other = compute(shape, {.threads = 1});
+  if (!other) return "disks: " + to_string(other.error());
+  const double size = diagonal(bounding_box(shape));
+  const Invariants ours = invariants_of(*axis, size), theirs = invariants_of(*other, size);
+  if (std::abs(ours.deepest - theirs.deepest) > 1e-12 * size) return "another deepest disk";
+  if (!as_graph) return "";
+  if (ours.leaves != theirs.leaves) return "other leaves";
+  if (ours.branching != theirs.branching) return "other branchings";
+  if (std::abs(ours.length - theirs.length) > 1e-8 * theirs.length) return "another length";
+  const double off =
+      std::max(furthest(*axis, *other, 0.05 * size), furthest(*other, *axis, 0.05 * size));
+  return off > 1e-8 * size ? "another set of points" : "";
+}
+
+constexpr std::uint64_t shares = 8;
+
+class Lee : public testing::TestWithParam<std::uint64_t> {
+ protected:
+  /// Calls `check` with this share of about `count` polygons without holes.
+  template <class Check>
+  static void for_polygons(double share_of_all, const Check& check) {
+    const char* text = std::getenv("MEDIAL_PROPERTY_COUNT");
+    const double all = text && *text ? std::strtod(text, nullptr) : 20000;
+    const char* seed_text = std::getenv("MEDIAL_PROPERTY_SEED");
+    const std::uint64_t base =
+        seed_text && *seed_text ? std::strtoull(seed_text, nullptr, 10) << 32 : 0;
+    const auto wanted = static_cast<std::uint64_t>(share_of_all * all / shares) + 1;
+    std::uint64_t checked = 0;
+    int failed = 0;
+    for (std::uint64_t i = GetParam(); checked < wanted && failed < 3; i += shares) {
+      const RandomShape random = random_shape(base + i);
+      const auto shape = build_shape(random.rings);
+      if (!shape || shape->hole_count() > 0) continue;
+      ++checked;
+      const std::string failure = check(random, *shape);
+      if (failure.empty()) continue;
+      ++failed;
+      ADD_FAILURE() << "random_shape(" << base + i << "), " << random.kind << ": " << failure
+                    << "\n"
+                    << to_wkt(random.rings);
+    }
+  }
+};
+
+TEST_P(Lee, HasTheDiagramOfTheLemmas) {
+  for_polygons(1, [](const RandomShape&, const Shape& shape) -> std::string {
+    const auto diagram = voronoi_diagram(shape, {.threads = 1});
+    if (!diagram) return to_string(diagram.error());
+    return check_diagram(shape, *diagram);
+  });
+}
+
+TEST_P(Lee, HasTheAxisOfDisks) {
+  for_polygons(0.1, [](const RandomShape& random, const Shape& shape) {
+    return check_axis_of(shape, random.rigid);
+  });
+}
+
+INSTANTIATE_TEST_SUITE_P(Random, Lee, testing::Range<std::uint64_t>(0, shares));
+
+Shape built(const Rings& rings) { return build_shape(rings).value(); }
+
+/// In general position no edge is without length: Lemma 3 holds with equality in the plane, too.
+TEST(LeeDiagram, HasNoEmptyEdgesInGeneralPosition) {
+  Random random(7);
+  for (int i = 0; i < 200; ++i) {
+    const Shape shape = built({star(random, 30)});
+    const auto diagram = voronoi_diagram(shape, {.threads = 1});
+    ASSERT_TRUE(diagram.ok());
+    for (const VoronoiEdge& edge : diagram->edges)
+      EXPECT_GT(distance(diagram->nodes[edge.node[0]].disk.center,
+                         diagram->nodes[edge.node[1]].disk.center),
+                0);
+  }
+}
+
+TEST(LeeDiagram, LessItsSpokesIsTheAxis) {
+  const Shape shape = built(l_shape(2));
+  const auto diagram = voronoi_diagram(shape, {.threads = 1});
+  const auto axis = compute(shape, by_lee());
+  ASSERT_TRUE(diagram.ok() && axis.ok());
+  double length_of_edges = 0;
+  for (const VoronoiEdge& edge : diagram->edges) {
+    MedialAxis one;
+    one.nodes = diagram->nodes;
+    one.sites = diagram->sites;
+    if (!edge.spoke) length_of_edges += length(one, edge);
+  }
+  EXPECT_NEAR(length_of_edges, total_length(*axis), 1e-12);
+}
+
+struct Degenerate {
+  const char* name;
+  Rings (*rings)();
+  bool as_graph = true;
+};
+void PrintTo(const Degenerate& tested, std::ostream* out) { *out << tested.name; }
+
+class LeeDegenerate : public testing::TestWithParam<Degenerate> {};
+
+TEST_P(LeeDegenerate, HasTheAxisOfDisks) {
+  EXPECT_EQ(check_axis_of(built(GetParam().rings()), GetParam().as_graph), "");
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Fixed, LeeDegenerate,
+    testing::Values(Degenerate{"Triangle",
+                               [] {
+                                 return triangle({0, 0}, {4, 0}, {1, 3});
+                               }},
+                    Degenerate{"Square", [] { return rectangle(4, 4); }},
+                    Degenerate{"Regular7", [] { return regular_polygon(7); }},
+                    Degenerate{"Regular1000", [] { return regular_polygon(1000); }, false},
+                    Degenerate{"Regular10000", [] { return regular_polygon(10000); }, false},
+                    Degenerate{"Blob", [] { return blob(3000); }, false},
+                    Degenerate{"Maze", [] { return maze(3000); }},
+                    Degenerate{"Comb", [] { return comb(300); }},
+                    Degenerate{"Spiral", [] { return spiral(1000, 20); }},
+                    Degenerate{"Needle", [] { return needle(1e-7); }, false},
+                    Degenerate{"Cross", [] { return cross_shape(2); }},
+                    Degenerate{"JaggedStar", [] { return jagged_star(1000); }}),
+    [](const auto& tested) { return std::string(tested.param.name); });
+
+TEST(LeeThreads, GiveTheSameBytes) {
+  for (const Rings& rings : {maze(20000), blob(20000), jagged_star(10000), spiral(10000, 20)}) {
+    const Shape shape = built(rings);
+    const auto one = compute(shape, by_lee(1));
+    ASSERT_TRUE(one.ok());
+    for (const int threads : {2, 8}) EXPECT_TRUE(identical(*one, *compute(shape, by_lee(threads))));
+  }
+}
+
+TEST(LeeRefuses, HolesAndArcsAndNamesDisks) {
+  const Shape holes = built(hole_grid(1));
+  Ring half_disk{{{0, 0}, {2, 0}}};
+  half_disk.bulges = {0, 1};
+  const Shape arcs = build_shape(std::vector<Ring>{half_disk}).value();
+  for (const Shape& shape : {holes, arcs}) {
+    const auto axis = compute(shape, by_lee());
+    ASSERT_FALSE(axis.ok());
+    EXPECT_EQ(axis.error().code, ErrorCode::unsupported);
+    EXPECT_NE(axis.error().text.find("disks"), std::string::npos);
+    EXPECT_FALSE(voronoi_diagram(shape).ok());
+  }
+}
+
+TEST(LeeRefuses, ShapesThatNobodyBuilt) {
+  Shape bowtie;  // crosses itself: any typed answer, but no crash and no hang
+  bowtie.points = {{0, 0}, {4, 4}, {4, 0}, {0, 4.5}, {-1, 2}};
+  bowtie.sources.resize(5);
+  bowtie.loop_begin = {0, 5};
+  bowtie.component = {0};
+  bowtie.hole = {false};
+  const auto axis = compute(bowtie, by_lee());
+  EXPECT_TRUE(axis.ok() || !axis.error().text.empty());
+}
+
+TEST(LeeRefuses, WhenCancelled) {
+  const std::atomic<bool> cancel = true;
+  Options options = by_lee();
+  options.cancel = &cancel;
+  const auto axis = compute(built(maze(1000)), options);
+  ASSERT_FALSE(axis.ok());
+  EXPECT_EQ(axis.error().code, ErrorCode::cancelled);
+}
+
+}  // namespace
+}  // namespace medial::test
