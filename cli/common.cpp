@@ -325,7 +325,7 @@ Json to_json(const ShapeReport& report) {
       {"closing_points", report.closing_points},   {"unclosed_rings", report.unclosed_rings},
       {"repeated_points", report.repeated_points}, {"collinear_points", report.collinear_points},
       {"reversed_rings", report.reversed_rings},   {"touching_vertices", report.touching_vertices},
-      {"split_edges", report.split_edges}};
+      {"split_edges", report.split_edges},         {"crossings", report.crossings}};
 }
 
 Json to_json(const ArcReport& report) {
@@ -388,6 +388,7 @@ std::string describe(const ShapeReport& report) {
   mention(report.reversed_rings, "reversed ring");
   mention(report.touching_vertices, "touching vertex", "touching vertices");
   mention(report.split_edges, "split edge");
+  mention(report.crossings, "crossing");
   return text;
 }
 
@@ -410,6 +411,7 @@ void add(ShapeReport& sum, const ShapeReport& part) {
   sum.reversed_rings += part.reversed_rings;
   sum.touching_vertices += part.touching_vertices;
   sum.split_edges += part.split_edges;
+  sum.crossings += part.crossings;
 }
 
 std::string counted(std::uint64_t count, const std::string& noun, const std::string& plural) {

@@ -109,6 +109,17 @@ Json stats(const AxisFile& file, const AxisSummary& summary, double seconds_writ
   return object;
 }
 
+/// The roles by which a rule decides what is inside. make-valid keeps what the file says: its own
+/// rule of filling, or even-odd for outer rings and holes.
+void apply_rule(io::RepairRule rule, std::vector<Ring>& rings) {
+  for (Ring& ring : rings) {
+    if (rule == io::RepairRule::non_zero)
+      ring.role = RingRole::winding;
+    else if (rule == io::RepairRule::even_odd || ring.role != RingRole::winding)
+      ring.role = RingRole::any;
+  }
+}
+
 /// What a file holds, and where it is in medial's own format, the shapes they were.
 struct InputFile {
   io::Dataset dataset;
@@ -119,8 +130,8 @@ Result<InputFile> read_input(const InputSwitches& input) {
   InputFile source;
   if (!input.text.empty()) {
     if (!input.read.layer.empty() || !input.read.where.empty() || input.read.project ||
-        input.read.repair != io::RepairRule::none || input.read.close) {
-      return invalid_option("--layer, --where, --repair, --project and --close are not for --text");
+        input.read.close) {
+      return invalid_option("--layer, --where, --project and --close are not for --text");
     }
     auto dataset = io::read_text(input.text, input.path);
     if (!dataset) return std::move(dataset).error();
@@ -268,13 +279,21 @@ Result<ShapeFile> load_shapes(const InputSwitches& input, int threads, bool keep
   std::vector<ArcReport> arc_reports(count);
   Status built = for_each_feature(weights, threads, [&](std::size_t i, int) -> Status {
     io::Feature& feature = dataset.features[i];
+    const bool curved =
+        !feature.contours.empty() ||
+        std::ranges::any_of(feature.rings, [](const Ring& ring) { return !ring.bulges.empty(); });
     if (!feature.contours.empty()) {
       auto rings = approximate_by_arcs(feature.contours, input.arcs, &arc_reports[i]);
       if (!rings) return at_feature(std::move(rings).error(), input.path, i);
       std::ranges::move(*rings, std::back_inserter(feature.rings));
       feature.contours = {};
     }
-    auto shape = build_shape(feature.rings, &reports[i]);
+    ShapeOptions shape_options;
+    if (curved && input.read.repair != io::RepairRule::none) {
+      shape_options.node_crossings = true;
+      apply_rule(input.read.repair, feature.rings);
+    }
+    auto shape = build_shape(feature.rings, shape_options, &reports[i]);
     if (!shape) return at_feature(std::move(shape).error(), input.path, i);
     feature.rings = {};
     file.shapes[i] = std::move(shape).value();
@@ -284,6 +303,13 @@ Result<ShapeFile> load_shapes(const InputSwitches& input, int threads, bool keep
     return success();
   });
   if (!built) return std::move(built).error();
+  for (std::size_t i = 0; i < count; ++i) {
+    if (reports[i].crossings == 0) continue;
+    file.notes.push_back(
+        fmt::format("feature {} was repaired: its edges cross in {} places and are split there; {} "
+                    "rings before, {} loops after",
+                    i, reports[i].crossings, reports[i].input_rings, file.shapes[i].loop_count()));
+  }
   for (const ShapeReport& report : reports) add(file.report, report);
   for (const ArcReport& report : arc_reports) add(file.arcs, report);
   file.seconds_shape = shaping.seconds();

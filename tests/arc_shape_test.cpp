@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/arc.h"
-#include "medial/shape.h"
+#include "medial/medial.h"
 #include "support/generate_arcs.h"
 #include "support/wkt.h"
 
@@ -451,6 +451,83 @@ TEST(RandomArcShapes, CrossingsAreFoundAsByAllPairs) {
   }
   EXPECT_GT(crossings, 500);
   EXPECT_GT(valid, 500);
+}
+
+// Crossings: an error, or places to split edges at.
+
+Result<Shape> noded(Rings rings, RingRole role, ShapeReport* report = nullptr) {
+  for (Ring& ring : rings) ring.role = role;
+  return build_shape(rings, {.node_crossings = true}, report);
+}
+
+TEST(ArcCrossings, TwoDisksByBothRules) {
+  // Circles of radius 1 whose centres are 1 apart: their common part is a lens.
+  const double lens = 2 * kPi / 3 - std::sqrt(3.0) / 2;
+  const Rings rings{circle({0, 0}, 1), circle({1, 0}, 1)};
+  EXPECT_EQ(code_of(rings), ErrorCode::crossing);
+  ShapeReport report;
+  const auto both = noded(rings, RingRole::winding, &report);
+  ASSERT_TRUE(both) << to_string(both.error());
+  EXPECT_EQ(report.crossings, 2u);
+  EXPECT_EQ(both->loop_count(), 1u);
+  EXPECT_NEAR(area(*both), 2 * kPi - lens, 1e-13);
+  const auto either = noded(rings, RingRole::any);
+  ASSERT_TRUE(either) << to_string(either.error());
+  EXPECT_EQ(either->component_count(), 2u);  // two moons that touch in their tips
+  EXPECT_NEAR(area(*either), 2 * (kPi - lens), 1e-13);
+}
+
+TEST(ArcCrossings, PolygonsToo) {
+  const Rings star = *test::rings_of_wkt("POLYGON((0 0, 3 5, 6 0, 0 3, 6 3, 0 0))");
+  EXPECT_EQ(code_of(star), ErrorCode::crossing);
+  ShapeReport report;
+  const auto shape = noded(star, RingRole::winding, &report);
+  ASSERT_TRUE(shape) << to_string(shape.error());
+  EXPECT_GT(report.crossings, 0u);
+  const auto axis = compute(*shape);
+  ASSERT_TRUE(axis);
+  EXPECT_TRUE(verify(*shape, *axis).passed);
+}
+
+TEST(ArcCrossings, AHoleAmongCrossingsHasItsComponent) {
+  // Four bars around a square hole; at the hole's leftmost corner only edges inside end.
+  Rings rings;
+  const auto bar = [&](Vec2 low, Vec2 high) {
+    const bool flat = high.x - low.x > high.y - low.y;  // half circles at the ends
+    const std::vector<double> bulges =
+        flat ? std::vector<double>{0, 1, 0, 1} : std::vector<double>{1, 0, 1, 0};
+    rings.push_back({{low, {high.x, low.y}, high, {low.x, high.y}}, RingRole::any, bulges});
+  };
+  bar({0, 0}, {5, 1});
+  bar({0, 4}, {5, 5});
+  bar({0.25, -1}, {1.25, 6});
+  bar({3.75, -1}, {4.75, 6});
+  const auto shape = noded(rings, RingRole::winding);
+  ASSERT_TRUE(shape) << to_string(shape.error());
+  EXPECT_EQ(shape->component_count(), 1u);
+  EXPECT_EQ(shape->hole_count(), 1u);
+  const auto axis = compute(*shape);
+  ASSERT_TRUE(axis);
+  EXPECT_TRUE(verify(*shape, *axis).passed);
+}
+
+TEST(ArcCrossings, RandomDisksAreVerified) {
+  test::Random random(5);
+  for (int round = 0; round < 60; ++round) {
+    Rings rings;
+    const int count = static_cast<int>(random.integer(2, 12));
+    for (int i = 0; i < count; ++i)
+      rings.push_back(circle({random.between(0, 4), random.between(0, 4)}, random.between(0.2, 2),
+                             random.between(0, kPi)));
+    for (const RingRole role : {RingRole::winding, RingRole::any}) {
+      const auto shape = noded(rings, role);
+      ASSERT_TRUE(shape) << round << ": " << to_string(shape.error());
+      const auto axis = compute(*shape, {.threads = 1});
+      ASSERT_TRUE(axis);
+      const Certificate certificate = verify(*shape, *axis, {.threads = 1});
+      EXPECT_TRUE(certificate.passed) << round << ": " << certificate.failures[0];
+    }
+  }
 }
 
 }  // namespace

@@ -446,7 +446,13 @@ class Axis(CommandLine):
         for wrong in ("0", "nan", "2", "x"):
             self.refuse("invalid_option", "info", "ellipse.svg", "--arc-tolerance", wrong)
         self.refuse("invalid_option", "info", "ellipse.svg", "--close")
-        self.refuse("unsupported", "info", "ellipse.svg", "--repair")
+        self.write("moons.svg", '<svg><path d="M0 5a5 5 0 1 1 10 0a5 5 0 1 1-10 0zM6 5a5 5 0 1 1 10 0'
+                   'a5 5 0 1 1-10 0z"/></svg>')
+        self.refuse("crossing", "info", "moons.svg")
+        for rule, parts in (("--repair", 1), ("--repair=non-zero", 1), ("--repair=even-odd", 2)):
+            mended = self.succeed("info", rule, "moons.svg", "--json")
+            self.assertEqual(json.loads(mended.stdout)["components"], parts, rule)
+            self.assertIn(b"cross in 2 places", mended.stderr)
         lines = "0 SECTION 2 ENTITIES 0 LINE 8 A 10 0 20 0 11 4 21 0 0 LINE 8 A 10 4 20 0 11 4 21 3 "
         lines += "0 LINE 8 A 10 4 20 3 11 0 21 0.1 0 ENDSEC 0 EOF"
         self.write("open.dxf", lines.replace(" ", "\n") + "\n")

@@ -556,7 +556,7 @@ TEST_F(CurvedIo, CurveGeometriesAreArcs) {
   EXPECT_EQ(data.features[3].rings[0].bulges[0], 0);  // three points in a row
   EXPECT_TRUE(data.notes.empty());
   ReadOptions options;
-  options.repair = RepairRule::make_valid;
+  options.project = true;
   EXPECT_EQ(refused("a.wkt", "CURVEPOLYGON(CIRCULARSTRING(0 0,6 8,0 0))", options).code,
             ErrorCode::unsupported);
 }

@@ -46,6 +46,15 @@ struct ShapeReport {
   std::uint64_t dropped_rings = 0;     ///< rings that the non-zero rule has inside of others
   std::uint64_t touching_vertices = 0;  ///< places where rings touch in a vertex
   std::uint64_t split_edges = 0;        ///< edges split where a vertex touches their inside
+  std::uint64_t crossings = 0;          ///< places where edges crossed (ShapeOptions)
+};
+
+struct ShapeOptions {
+  /// Edges that cross are no error: they are split where they do, and what is interior follows from
+  /// the rings' roles: the non-zero rule for RingRole::winding, the even-odd rule for others.
+  /// Decided to the tolerance, as for arcs, also where all edges are straight. Takes time in the
+  /// square of the number of edges above each other at worst.
+  bool node_crossings = false;
 };
 
 /// A bounded planar region: closed loops of straight and circular edges with the interior on the
@@ -102,5 +111,7 @@ double area(const Shape& shape);
 /// Errors: not_finite, too_few_points, no_area, crossing, overlap (the place names ring, vertex and
 /// the point), hole_outside, nested_outer, empty, too_large.
 Result<Shape> build_shape(std::span<const Ring> rings, ShapeReport* report = nullptr);
+Result<Shape> build_shape(std::span<const Ring> rings, const ShapeOptions& options,
+                          ShapeReport* report = nullptr);
 
 }  // namespace medial

@@ -210,20 +210,17 @@ Result<Dataset> finish(Dataset dataset, const ReadOptions& options) {
   if (auto error = find_not_finite(dataset)) return *error;
   drop_empty_features(dataset);
   if (dataset.features.empty()) return Error{ErrorCode::empty, "there is no polygon", {}};
-  if (options.project || options.repair != RepairRule::none) {
+  if (options.project) {
     const auto curved = std::ranges::find_if(dataset.features, has_curves);
     if (curved != dataset.features.end()) {
-      return Error{ErrorCode::unsupported,
-                   options.project ? "arcs and curves cannot be projected"
-                                   : "arcs and curves cannot be repaired yet",
+      return Error{ErrorCode::unsupported, "arcs and curves cannot be projected",
                    in_feature(static_cast<std::uint64_t>(curved - dataset.features.begin()))};
     }
-  }
-  if (options.project) {
     if (Status status = project_to_local(dataset); !status) return status.error();
   }
   if (options.repair != RepairRule::none) {
     for (std::size_t i = 0; i < dataset.features.size(); ++i) {
+      if (has_curves(dataset.features[i])) continue;  // see ReadOptions
       Status status = repair(dataset.features[i], i, options.repair, dataset.notes);
       if (!status) return status.error();
     }

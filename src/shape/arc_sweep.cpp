@@ -72,6 +72,97 @@ Meetings meetings(const MonotoneArc& a, const MonotoneArc& b) {
   return result;
 }
 
+/// Finds where edges meet, each in its inside or one of them in an end: what noding splits them at.
+/// Their common ends are none of these places.
+class CrossingFinder {
+ public:
+  CrossingFinder(const Noding& noding, const NodedOutline& noded)
+      : noded_(noded), tolerance_(noding.tolerance()) {
+    const Outline& outline = noded.outline;
+    pieces_.reserve(outline.points.size());
+    for (std::uint32_t v = 0; v < outline.points.size(); ++v) {
+      const std::uint32_t w = outline.next(v);
+      const Vec2 p = outline.points[v], q = outline.points[w];
+      const bool forward = lexicographic_less(p, q);
+      const MonotoneArc arc =
+          forward ? monotone_arc(p, q, outline.bulges[v]) : monotone_arc(q, p, -outline.bulges[v]);
+      pieces_.push_back({arc,
+                         arc.low() - tolerance_,
+                         arc.high() + tolerance_,
+                         noded.edges[v],
+                         {forward ? v : w, forward ? w : v}});
+    }
+    std::sort(pieces_.begin(), pieces_.end(), [](const Piece& a, const Piece& b) {
+      return lexicographic_less(a.arc.left, b.arc.left);
+    });
+  }
+
+  std::vector<Contact> find() {
+    std::vector<std::size_t> above;  // the sweep line meets them
+    for (std::size_t i = 0; i < pieces_.size(); ++i) {
+      const Piece& piece = pieces_[i];
+      std::erase_if(above, [&](std::size_t j) {
+        return pieces_[j].arc.right.x < piece.arc.left.x - tolerance_;
+      });
+      for (const std::size_t j : above) {
+        const Piece& other = pieces_[j];
+        if (other.edge != piece.edge && other.low <= piece.high && piece.low <= other.high)
+          meet(other, piece);
+      }
+      above.push_back(i);
+    }
+    return std::move(contacts_);
+  }
+  std::uint64_t crossings() const { return crossings_; }
+
+ private:
+  struct Piece {
+    MonotoneArc arc;
+    double low, high;
+    std::uint32_t edge;
+    std::array<std::uint32_t, 2> ends;
+  };
+
+  /// The end of a piece that a point is at; kNone in its inside.
+  std::uint32_t end_at(const Piece& piece, Vec2 p) const {
+    for (const std::uint32_t end : piece.ends)
+      if (distance(noded_.outline.points[end], p) <= 2 * tolerance_) return end;
+    return kNone;
+  }
+
+  void meet(const Piece& a, const Piece& b) {
+    const Meetings found = meetings(a.arc, b.arc);
+    for (std::size_t i = 0; i < found.size; ++i) {
+      const auto point = a.arc.projected(found.points[i]);
+      if (!point || !a.arc.is_near(*point, tolerance_) || !b.arc.is_near(*point, tolerance_))
+        continue;
+      const std::uint32_t end_of_a = end_at(a, *point), end_of_b = end_at(b, *point);
+      if (end_of_a != kNone && end_of_b != kNone) continue;
+      if (end_of_a != kNone) {
+        add_end(a, end_of_a, b);
+      } else if (end_of_b != kNone) {
+        add_end(b, end_of_b, a);
+      } else {
+        contacts_.push_back({a.edge, kNone, *point});
+        contacts_.push_back({b.edge, kNone, *point});
+        ++crossings_;
+      }
+    }
+  }
+
+  /// One piece ends in the inside of the other.
+  void add_end(const Piece& ending, std::uint32_t end, const Piece& other) {
+    if (noded_.passing[end]) contacts_.push_back({ending.edge, end, {}});
+    contacts_.push_back({other.edge, end, {}});
+  }
+
+  const NodedOutline& noded_;
+  double tolerance_;
+  std::vector<Piece> pieces_;
+  std::vector<Contact> contacts_;
+  std::uint64_t crossings_ = 0;
+};
+
 /// One pass over the plane: Shamos and Hoey's, which compares pieces that become neighbours. Goes
 /// on at contacts, as if the pieces kept their order there, as long as there is one.
 class ArcSweeper {
@@ -396,18 +487,28 @@ class ArcSweeper {
 
 }  // namespace
 
-Result<SweptArcs> sweep_arcs(const Outline& outline) {
+Result<SweptArcs> sweep_arcs(const Outline& outline, bool node_crossings) {
   // Nearly always one round more than there are layers of contacts that hide each other.
   constexpr int most_rounds = 64;
   Noding noding(outline);
+  std::uint64_t crossings = 0;
   for (int round = 0; round < most_rounds; ++round) {
     NodedOutline noded = noding.monotone();
+    if (node_crossings) {
+      CrossingFinder finder(noding, noded);
+      const std::vector<Contact> contacts = finder.find();
+      crossings += finder.crossings();
+      if (!contacts.empty()) {
+        if (auto error = noding.apply(noded, contacts, {})) return std::move(*error);
+        continue;
+      }
+    }
     ArcSweeper sweeper(noding, noded);
     auto error = sweeper.run();
     if (sweeper.contacts().empty() && sweeper.merges().empty()) {
       if (error) return std::move(*error);
       Sweep found = std::move(sweeper.found());
-      return SweptArcs{std::move(noded), std::move(found), noding.split_edges()};
+      return SweptArcs{std::move(noded), std::move(found), noding.split_edges(), crossings};
     }
     error = noding.apply(noded, sweeper.contacts(), sweeper.merges());
     if (error) return std::move(*error);

@@ -14,6 +14,7 @@ struct SweptArcs {
   NodedOutline noded;
   Sweep sweep;  ///< without splits: where a vertex touched an edge there are two now
   std::uint64_t split_edges = 0;
+  std::uint64_t crossings = 0;
 };
 
 /// What sweep() does, for outlines with arcs. Unlike there, contacts are decided to a tolerance
@@ -21,6 +22,9 @@ struct SweptArcs {
 /// passes through a vertex within it, and two edges that come within it without crossing by more
 /// touch in one point. O((n + c) log n) for each of a few rounds, c the number of contacts; one
 /// round if nothing touches. Errors: crossing, overlap, no_area (a ring within the tolerance).
-Result<SweptArcs> sweep_arcs(const Outline& outline);
+///
+/// With `node_crossings` edges are split where they cross first, which takes O(n log n + p) for p
+/// pairs of edges above each other, in each of a few rounds.
+Result<SweptArcs> sweep_arcs(const Outline& outline, bool node_crossings = false);
 
 }  // namespace medial

@@ -21,11 +21,13 @@ std::uint64_t count_reversed(const Arrangement& arrangement) {
   return count;
 }
 
-/// Polygons take the exact path, shapes with arcs the one with a tolerance.
-Result<Arrangement> arrange(Outline outline, ShapeReport& report) {
+/// Polygons take the exact path, shapes with arcs or crossings the one with a tolerance.
+Result<Arrangement> arrange(Outline outline, const ShapeOptions& options, ShapeReport& report) {
+  if (options.node_crossings) outline.bulges.resize(outline.points.size());
   if (!outline.bulges.empty()) {
-    Result<SweptArcs> swept = sweep_arcs(outline);
+    Result<SweptArcs> swept = sweep_arcs(outline, options.node_crossings);
     if (!swept) return std::move(swept).error();
+    report.crossings = swept->crossings;
     report.touching_vertices = swept->sweep.place_count;
     report.split_edges = swept->split_edges;
     return arrange_arcs(std::move(swept).value());
@@ -37,11 +39,11 @@ Result<Arrangement> arrange(Outline outline, ShapeReport& report) {
   return insert_splits(std::move(outline), std::move(swept).value());
 }
 
-Result<Shape> build(std::span<const Ring> rings, ShapeReport& report) {
+Result<Shape> build(std::span<const Ring> rings, const ShapeOptions& options, ShapeReport& report) {
   Result<Outline> outline = clean(rings, report);
   if (!outline) return std::move(outline).error();
 
-  Result<Arrangement> arranged = arrange(std::move(outline).value(), report);
+  Result<Arrangement> arranged = arrange(std::move(outline).value(), options, report);
   if (!arranged) return std::move(arranged).error();
   Arrangement& arrangement = *arranged;
   report.dropped_rings = apply_winding(rings, arrangement);
@@ -57,9 +59,14 @@ Result<Shape> build(std::span<const Ring> rings, ShapeReport& report) {
 }  // namespace
 
 Result<Shape> build_shape(std::span<const Ring> rings, ShapeReport* report) {
+  return build_shape(rings, {}, report);
+}
+
+Result<Shape> build_shape(std::span<const Ring> rings, const ShapeOptions& options,
+                          ShapeReport* report) {
   try {
     ShapeReport counted;
-    Result<Shape> shape = build(rings, counted);
+    Result<Shape> shape = build(rings, options, counted);
     if (report) *report = counted;
     return shape;
   } catch (const std::bad_alloc&) {

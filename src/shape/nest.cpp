@@ -1,12 +1,14 @@
 #include "shape/nest.h"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 #include <tuple>
 #include <unordered_map>
 
 #include "base/predicates.h"
 #include "shape/errors.h"
+#include "shape/monotone_arc.h"
 
 namespace medial {
 namespace {
@@ -77,6 +79,31 @@ std::optional<Error> check_roles(std::span<const Ring> rings, const Arrangement&
   return std::nullopt;
 }
 
+namespace {
+
+/// The highest edge that stays strictly below a vertex and begins further left; kNone if there is
+/// none. O(n).
+std::uint32_t edge_below(const Arrangement& arrangement, std::uint32_t vertex) {
+  const Vec2 p = arrangement.points[vertex];
+  std::uint32_t highest = kNone;
+  double height = -std::numeric_limits<double>::infinity();
+  for (std::uint32_t e = 0; e < arrangement.points.size(); ++e) {
+    if (arrangement.is_dropped(e)) continue;
+    const Vec2 from = arrangement.points[e], to = arrangement.points[arrangement.next[e]];
+    const bool rightward = lexicographic_less(from, to);
+    const Vec2 left = rightward ? from : to, right = rightward ? to : from;
+    if (!(left.x < p.x && p.x <= right.x) || right == p) continue;
+    const double bulge = arrangement.bulges.empty() ? 0 : arrangement.bulges[e];
+    const double y = monotone_arc(left, right, rightward ? bulge : -bulge).y_at(p.x);
+    if (!(y < p.y && y > height)) continue;
+    height = y;
+    highest = e;
+  }
+  return highest;
+}
+
+}  // namespace
+
 std::optional<Error> nest(const Arrangement& arrangement, Loops& loops) {
   // A hole's leftmost vertex has the interior on the left: no edge ends there. So the sweep has
   // noted the edge below, whose loop began further left and borders the same component.
@@ -104,6 +131,18 @@ std::optional<Error> nest(const Arrangement& arrangement, Loops& loops) {
       if (below == kNone) continue;
       loops.loops[hole->second].component = loops.loops[loops.loop_of[below]].component;
     }
+  }
+  // Unless dropped edges end there, with the interior on both sides.
+  std::vector<std::uint32_t> lost;
+  for (std::uint32_t i = 0; i < loops.loops.size(); ++i)
+    if (loops.loops[i].component == kNone) lost.push_back(i);
+  std::sort(lost.begin(), lost.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return lexicographic_less(arrangement.points[loops.loops[a].leftmost],
+                              arrangement.points[loops.loops[b].leftmost]);
+  });
+  for (const std::uint32_t i : lost) {
+    const std::uint32_t below = edge_below(arrangement, loops.loops[i].leftmost);
+    if (below != kNone) loops.loops[i].component = loops.loops[loops.loop_of[below]].component;
   }
   for (const Loop& loop : loops.loops) {
     if (loop.component == kNone) {

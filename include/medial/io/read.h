@@ -37,6 +37,8 @@ enum class RepairRule : std::uint8_t { none, make_valid, even_odd, non_zero };
 struct ReadOptions {
   std::string layer;  ///< name of the layer; empty: the first
   std::string where;  ///< attribute filter of OGR SQL; empty: all
+  /// Of polygons. Features with curves stay as they are: their arcs are repaired by build_shape()
+  /// (ShapeOptions::node_crossings).
   RepairRule repair = RepairRule::none;
   bool project = false;  ///< geographic coordinates to a fitting local projection, in metres
   /// Of loose curves (DXF): ends at most this far apart, in units of the input, are joined; what
