@@ -134,8 +134,8 @@ void add_input_switches(CLI::App& verb, InputSwitches& input) {
   verb.parse_complete_callback([&input] { settle_input(input, {}, nullptr); });
   verb.add_option("INPUT", input.path,
                   "Shapes: any vector file that GDAL reads, .svg, .dxf, .wkt, plain `x y`\n"
-                  "text, medial's own .json, any of them with .gz, or - for standard\n"
-                  "input.")
+                  "text, medial's own .json, any of them with .gz; a binary image (PNG, TIFF,\n"
+                  "GeoTIFF, PGM, PBM); or - for standard input.")
       ->option_text(" ");
   verb.add_option("--layer", input.read.layer, "Read this layer (default: the first).")
       ->option_text("NAME");
@@ -156,7 +156,20 @@ void add_input_switches(CLI::App& verb, InputSwitches& input) {
   verb.add_flag("--project", input.read.project,
                 "Longitudes and latitudes: compute in a fitting local projection, in\n"
                 "metres.");
+  add_image_switches(verb, input.read.image);
+  verb.add_flag("--smooth-contour", input.read.smooth_contour,
+                "Of images: a smooth curve within half a pixel instead of the pixels'\n"
+                "boundary.");
   add_shape_switches(verb, input);
+}
+
+void add_image_switches(CLI::App& verb, io::ImageOptions& options) {
+  verb.add_option("--threshold", options.threshold,
+                  "Of images: pixels from this value on are foreground (default: half of\n"
+                  "the format's range; 128 of 8 bits).")
+      ->option_text("VALUE");
+  verb.add_flag("--invert", options.invert,
+                "Of images: pixels below the threshold are foreground instead.");
 }
 
 void add_common_switches(CLI::App& verb, CommonSwitches& common) {

@@ -69,6 +69,8 @@ void add_input_switches(CLI::App& verb, InputSwitches& input);
 void add_input_switches(CLI::App& verb, InputSwitches& input, const std::string& second_name,
                         const std::string& second_help, std::string& second);
 void add_common_switches(CLI::App& verb, CommonSwitches& common);
+/// --threshold and --invert.
+void add_image_switches(CLI::App& verb, io::ImageOptions& options);
 void add_picture_switches(CLI::App& verb, io::WriteOptions& write);
 
 /// A number in [low, high]; NaN is in no range.

@@ -7,7 +7,6 @@
 #include <memory>
 
 #include "cli/common.h"
-#include "cli/image_switches.h"
 #include "cli/pipeline.h"
 #include "cli/terminal.h"
 #include "medial/image.h"
@@ -91,15 +90,6 @@ Result<int> run_distance(const DistanceSwitches& switches) {
 }
 
 }  // namespace
-
-void add_image_switches(CLI::App& verb, io::ImageOptions& options) {
-  verb.add_option("--threshold", options.threshold,
-                  "Of images: pixels from this value on are foreground (default: half of\n"
-                  "the format's range; 128 of 8 bits).")
-      ->option_text("VALUE");
-  verb.add_flag("--invert", options.invert,
-                "Of images: pixels below the threshold are foreground instead.");
-}
 
 Verb make_distance_verb(CLI::App& program) {
   auto switches = std::make_shared<DistanceSwitches>();

@@ -259,6 +259,7 @@ Result<ShapeFile> load_shapes(const InputSwitches& input, int threads, bool keep
   }
   file.crs_wkt = std::move(dataset.crs_wkt);
   file.y_down = dataset.y_down;
+  file.pixel = dataset.pixel;
   file.geographic = dataset.geographic;
   file.notes = std::move(dataset.notes);
   file.seconds_read = reading.seconds();

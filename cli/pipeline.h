@@ -27,6 +27,7 @@ struct ShapeFile {
   std::string crs_wkt;
   bool geographic = false;         ///< coordinates are longitudes and latitudes
   bool y_down = false;             ///< the y axis points down
+  double pixel = 0;                ///< of an image: the side of its pixels; otherwise 0
   std::vector<std::string> notes;  ///< what repair or reprojection changed
   double seconds_read = 0;
   double seconds_shape = 0;

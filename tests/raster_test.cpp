@@ -12,6 +12,7 @@
 
 #include "medial/brushfire.h"
 #include "medial/image.h"
+#include "medial/shape.h"
 
 namespace medial {
 namespace {
@@ -184,6 +185,137 @@ TEST(Distance, IsTheSameWithAnyNumberOfThreads) {
   EXPECT_EQ(one->squared, four->squared);
   EXPECT_EQ(distance_transform(image, {DistanceTo::pixels, true, -1}).error().code,
             ErrorCode::invalid_option);
+}
+
+/// Twice the area inside a ring, positive where the foreground lies inside.
+double doubled_area(const Ring& ring) {
+  double sum = 0;
+  for (std::size_t i = 0; i < ring.points.size(); ++i)
+    sum += cross(ring.points[i], ring.points[(i + 1) % ring.points.size()]);
+  return sum;
+}
+
+void expect_outline(const Image& image) {
+  const auto rings = pixel_outline(image);
+  ASSERT_TRUE(rings.ok());
+  Topology found;
+  double doubled = 0;
+  for (const Ring& ring : *rings) {
+    ++(doubled_area(ring) > 0 ? found.components : found.holes);
+    doubled += doubled_area(ring);
+  }
+  EXPECT_EQ(found, topology(image)) << text(image);
+  EXPECT_EQ(doubled, 2 * static_cast<double>(image.count()));
+  if (rings->empty()) return;
+  ShapeReport report;
+  const auto shape = build_shape(*rings, &report);
+  ASSERT_TRUE(shape.ok()) << to_string(shape.error()) << text(image);
+  EXPECT_EQ(area(*shape), static_cast<double>(image.count()));
+  EXPECT_EQ(report.collinear_points + report.repeated_points, 0U);
+  // The interior is connected over sides only: what touches in a corner is another component.
+  EXPECT_EQ(shape->component_count(), count_parts(image, true, false)) << text(image);
+}
+
+TEST(Outline, HasARingForEachComponentAndHole) {
+  for (std::uint32_t bits = 0; bits < 1 << 16; bits += 3) {
+    Image image(4, 4);
+    for (std::uint32_t i = 0; i < 16; ++i) image.set(i % 4, i / 4, (bits >> i) & 1);
+    expect_outline(image);
+    if (HasFatalFailure()) return;
+  }
+  for (std::uint32_t seed = 0; seed < 20; ++seed)
+    expect_outline(random_image(80 + seed, 50, static_cast<int>(seed % 4), seed));
+}
+
+TEST(Outline, GoesTwiceThroughACornerWherePixelsTouch) {
+  const auto pair = pixel_outline(parse({"#.", ".#"}));
+  ASSERT_TRUE(pair.ok());
+  ASSERT_EQ(pair->size(), 1U);
+  EXPECT_EQ(std::ranges::count((*pair)[0].points, Vec2{1, 1}), 2);
+  const auto holes = pixel_outline(parse({"####", "#.##", "##.#", "####"}));
+  ASSERT_TRUE(holes.ok());
+  ASSERT_EQ(holes->size(), 3U);
+  EXPECT_EQ((*holes)[1].points.size() + (*holes)[2].points.size(), 8U);
+}
+
+double distance_to_segment(Vec2 p, Vec2 a, Vec2 b) {
+  const double t = std::clamp(dot(p - a, b - a) / dot(b - a, b - a), 0.0, 1.0);
+  return norm(p - (a + t * (b - a)));
+}
+
+/// The largest distance of points on the contour from a ring, and of the ring's corners from it.
+std::pair<double, double> distances_between(const Contour& contour, const Ring& ring) {
+  std::vector<Vec2> samples;
+  for (const CurvePiece& piece : contour.pieces) {
+    for (int i = 0; i < 16; ++i) {
+      const double t = i / 16.0, s = 1 - t;
+      const Vec2* const p = contour.points.data() + piece.first;
+      samples.push_back(s * s * p[0] + 2 * s * t * p[1] + t * t * p[2]);
+    }
+  }
+  double out = 0, back = 0;
+  for (const Vec2 sample : samples) {
+    double nearest = 1e9;
+    for (std::size_t i = 0; i < ring.points.size(); ++i)
+      nearest = std::min(nearest, distance_to_segment(sample, ring.points[i],
+                                                      ring.points[(i + 1) % ring.points.size()]));
+    out = std::max(out, nearest);
+  }
+  for (const Vec2 corner : ring.points) {
+    double nearest = 1e9;
+    for (std::size_t i = 0; i < samples.size(); ++i)
+      nearest = std::min(
+          nearest, distance_to_segment(corner, samples[i], samples[(i + 1) % samples.size()]));
+    back = std::max(back, nearest);
+  }
+  return {out, back};
+}
+
+void expect_smooth_outline(const Image& image) {
+  const auto rings = pixel_outline(image);
+  const auto contours = smooth_outline(image);
+  ASSERT_TRUE(rings.ok() && contours.ok());
+  ASSERT_EQ(rings->size(), contours->size());
+  for (std::size_t i = 0; i < rings->size(); ++i) {
+    const auto [out, back] = distances_between((*contours)[i], (*rings)[i]);
+    EXPECT_LE(out, 0.5) << text(image);
+    EXPECT_LE(back, 0.501) << text(image);
+  }
+  const auto arcs = approximate_by_arcs(*contours);
+  ASSERT_TRUE(arcs.ok()) << to_string(arcs.error());
+  const auto shape = build_shape(*arcs);
+  ASSERT_TRUE(shape.ok()) << to_string(shape.error()) << text(image);
+  // Necks connect what touches in a corner: the shape has the image's own topology.
+  EXPECT_EQ((Topology{shape->component_count(), shape->hole_count()}), topology(image))
+      << text(image);
+}
+
+TEST(SmoothOutline, StaysSimpleAndNear) {
+  for (std::uint32_t bits = 1; bits < 1 << 12; bits += 7) {
+    Image image(4, 3);
+    for (std::uint32_t i = 0; i < 12; ++i) image.set(i % 4, i / 4, (bits >> i) & 1);
+    expect_smooth_outline(image);
+    if (HasFailure()) return;
+  }
+  for (std::uint32_t seed = 0; seed < 12; ++seed)
+    expect_smooth_outline(random_image(30 + seed, 25, static_cast<int>(seed % 4), seed));
+}
+
+TEST(SmoothOutline, MakesStairsStraight) {
+  // A long stripe of slope 1/7: away from its ends the curve has nearly no bend.
+  Image image(240, 60);
+  for (std::uint32_t x = 4; x < 236; ++x)
+    for (std::uint32_t y = 0; y < 14; ++y) image.set(x, 5 + y + x / 7, true);
+  const auto contours = smooth_outline(image);
+  ASSERT_TRUE(contours.ok());
+  double largest = 0;
+  for (const CurvePiece& piece : (*contours)[0].pieces) {
+    const Vec2* const p = (*contours)[0].points.data() + piece.first;
+    if (p[1].x < 40 || p[1].x > 200) continue;
+    const Vec2 in = p[1] - p[0], out = p[2] - p[1];
+    largest = std::max(largest, std::abs(std::atan2(cross(in, out), dot(in, out))));
+  }
+  EXPECT_LT(largest, 0.05);  // radians
 }
 
 constexpr std::array families = {Brushfire::sequential, Brushfire::sides, Brushfire::marking,

@@ -124,4 +124,17 @@ struct DistanceMap {
 /// too_large, out_of_memory.
 Result<DistanceMap> distance_transform(const Image& image, const DistanceOptions& options = {});
 
+/// The boundary of the foreground pixels' squares, exactly: its corners, with y downwards. One ring
+/// goes around each component and one around each hole, as topology() counts them; where pixels
+/// meet in a corner, the ring of the foreground goes through it twice. The rings are in the order
+/// of their topmost and there leftmost pixels; build_shape() makes a Shape of them, whose interior
+/// is not connected through such corners. O(pixels / 64 + cracks).
+Result<std::vector<Ring>> pixel_outline(const Image& image);
+
+/// The same boundary as smooth closed curves: one contour for each ring, a quadratic B-spline with
+/// one parabola for each crack, that bends as little as it can within half a pixel of the cracks
+/// (both ways: no corner of a pixel is further than that from the curve). Curves of an image never
+/// meet: where pixels touch in a corner, the foreground becomes connected through a neck.
+Result<std::vector<Contour>> smooth_outline(const Image& image);
+
 }  // namespace medial

@@ -19,6 +19,7 @@
 #include "io/repair.h"
 #include "io/svg_reader.h"
 #include "io/text_reader.h"
+#include "medial/image.h"
 #include "medial/io/projection.h"
 
 namespace medial::io {
@@ -99,7 +100,45 @@ std::string gdal_name(const std::string& path) {
   return path;
 }
 
+/// The outline of an image's foreground as one feature.
+Result<Dataset> read_outline(const std::string& path, const ReadOptions& options) {
+  if (!options.layer.empty() || !options.where.empty() || options.close ||
+      options.repair != RepairRule::none) {
+    return Error{ErrorCode::invalid_option,
+                 "an image has no layers, and nothing to close or repair", in_file(path)};
+  }
+  Result<ImageFile> file = read_image(path, options.image);
+  if (!file) return file.error();
+  const PixelPlacement& t = file->placement;
+  const auto place = [&t, placed = file->placed()](std::vector<Vec2>& points) {
+    if (!placed) return;
+    for (Vec2& p : points) p = {t[0] + p.x * t[1] + p.y * t[2], t[3] + p.x * t[4] + p.y * t[5]};
+  };
+  Dataset dataset;
+  Feature feature;
+  if (options.smooth_contour) {
+    Result<std::vector<Contour>> contours = smooth_outline(file->image);
+    if (!contours) return contours.error();
+    feature.contours = std::move(*contours);
+    for (Contour& contour : feature.contours) place(contour.points);
+  } else {
+    Result<std::vector<Ring>> rings = pixel_outline(file->image);
+    if (!rings) return rings.error();
+    feature.rings = std::move(*rings);
+    for (Ring& ring : feature.rings) place(ring.points);
+  }
+  dataset.features.push_back(std::move(feature));
+  dataset.crs_wkt = std::move(file->crs_wkt);
+  dataset.geographic = file->geographic;
+  dataset.y_down = !file->placed();
+  dataset.notes = std::move(file->notes);
+  const bool square = t[2] == 0 && t[4] == 0 && std::abs(t[1]) == std::abs(t[5]);
+  if (square && !options.project) dataset.pixel = std::abs(t[1]);
+  return dataset;
+}
+
 Result<Dataset> read_any(const std::string& path, const ReadOptions& options) {
+  if (is_image(path)) return read_outline(path, options);
   if (path == "-") {
     Result<std::shared_ptr<TextSource>> source = TextSource::open(path);
     if (!source) return source.error();

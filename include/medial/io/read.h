@@ -8,6 +8,7 @@
 #include "medial/axis.h"
 #include "medial/contour.h"
 #include "medial/error.h"
+#include "medial/io/image.h"
 #include "medial/shape.h"
 
 namespace medial::io {
@@ -30,6 +31,7 @@ struct Dataset {
   bool geographic = false;         ///< coordinates are longitude and latitude
   bool y_down = false;             ///< the y axis points down, as in SVG; for pictures
   std::vector<std::string> notes;  ///< what repair or reprojection changed, one sentence each
+  double pixel = 0;                ///< of an image: the side of its pixels, where they are squares
 };
 
 enum class RepairRule : std::uint8_t { none, make_valid, even_odd, non_zero };
@@ -45,13 +47,16 @@ struct ReadOptions {
   /// stays open is left out. Infinity closes whatever is open. Nothing: 1e-6 of the diagonal of the
   /// bounding box.
   std::optional<double> close;
+  ImageOptions image;           ///< of images: what is foreground
+  bool smooth_contour = false;  ///< of images: smooth_outline() instead of pixel_outline()
 };
 
 /// Reads polygons and curved shapes. `-` is standard input (WKT, GeoJSON, SVG, DXF, `x y` text or
 /// medial's own by its first characters). .svg and .dxf are read as docs/format.md tells; .wkt,
-/// .txt, .xy and .json of medial's own go through fast readers of their own; everything else
-/// through GDAL. Any may be compressed by gzip.
-/// Errors: unreadable, malformed, unsupported, empty, not_finite, too_large.
+/// .txt, .xy and .json of medial's own go through fast readers of their own; images (PNG, TIFF,
+/// PBM, PGM: told by their first bytes) become one feature, the outline of their foreground with y
+/// downwards, or placed where the file says; everything else through GDAL. Any may be compressed by
+/// gzip. Errors: unreadable, malformed, unsupported, empty, not_finite, too_large.
 Result<Dataset> read_dataset(const std::string& path, const ReadOptions& options = {});
 
 /// The outlines of a text, set in one line with the font's advances and kerning: a feature for each
