@@ -75,19 +75,29 @@ Result<int> run_axis(const AxisSwitches& switches) {
   return write_and_tell(*axes, input, common, output, format, switches.write);
 }
 
-/// The switches of --method ridge.
-void add_ridge_switches(CLI::App& verb, Options& options) {
-  constexpr char group[] = "Ridge following (--method ridge)";
+/// The switches of the methods that sample.
+void add_grid_switches(CLI::App& verb, Options& options) {
+  constexpr char group[] = "Grids of pixels (--method ridge, brushfire)";
   CLI::Option* resolution = verb.add_option("--resolution", options.resolution,
                                             "The side of a pixel, in units of the input.")
                                 ->check(CLI::PositiveNumber.description(""))
                                 ->option_text("H")
                                 ->group(group);
   verb.add_option("--pixels", options.pixels,
-                  "Pixels along the longer side of the bounding box (default: 1024).")
+                  "Pixels along the longer side of the bounding box (default: 1024; of an\n"
+                  "image its own pixels).")
       ->check(CLI::PositiveNumber.description(""))
       ->excludes(resolution)
       ->option_text("N")
+      ->group(group);
+  verb.add_option_function<std::string>(
+          "--brushfire",
+          [&options](const std::string& name) { options.brushfire = *brushfire_from(name); },
+          "How a fire is kept from burning shapes apart: simultaneous (default), from\n"
+          "all sides at once; marking, of two kinds in turn; sides, in turn; or\n"
+          "sequential, pixel by pixel.")
+      ->check(CLI::IsMember({"sequential", "sides", "marking", "simultaneous"}).description(""))
+      ->option_text("FAMILY")
       ->group(group);
   verb.add_option("--ridge-collinear", options.ridge_collinear,
                   "Vertices that turn by less than this, in degrees, are dropped where that\n"
@@ -144,10 +154,12 @@ Verb make_axis_verb(CLI::App& program) {
           "How the axes are computed: disks (default); biarc-dc, the published\n"
           "randomised divide and conquer, for shapes without holes; lee, the merging\n"
           "of Voronoi diagrams, for polygons without holes: all the same axes; or\n"
-          "ridge, ridge following on a grid of pixels: a sampled axis; or potential,\n"
-          "the valleys of a potential field: a sampled axis too, smooth; or curve-axis,\n"
-          "for one smooth boundary: sampled from its curvature's maxima on.")
-      ->check(CLI::IsMember({"disks", "biarc-dc", "lee", "ridge", "potential", "curve-axis"})
+          "ridge, ridge following on a grid of pixels, or brushfire, thinning of pixels:\n"
+          "sampled axes; or potential, the valleys of a potential field: a sampled axis\n"
+          "too, smooth; or curve-axis, for one smooth boundary: sampled from its\n"
+          "curvature's maxima on.")
+      ->check(CLI::IsMember(
+                  {"disks", "biarc-dc", "lee", "ridge", "brushfire", "potential", "curve-axis"})
                   .description(""))
       ->option_text("NAME");
   verb->add_option("--seed", switches->options.seed,
@@ -162,7 +174,7 @@ Verb make_axis_verb(CLI::App& program) {
                    "input (default: half of the box's longer side).")
       ->check(CLI::PositiveNumber.description(""))
       ->option_text("D");
-  add_ridge_switches(*verb, switches->options);
+  add_grid_switches(*verb, switches->options);
   verb->add_option("--order", switches->options.potential.order,
                    "Of the potential: the n of 1 / r^n. 0 (default) chooses it for each point.")
       ->option_text("N");

@@ -337,6 +337,7 @@ Result<AxisFile> compute_axes(ShapeFile shapes, const std::string& path,
   AxisFile file;
   options.tolerance = common.tolerance;
   options.corner_angle = common.corner_angle;
+  if (options.resolution == 0 && options.pixels == 0) options.resolution = shapes.pixel;
   const std::size_t count = shapes.shapes.size();
   file.native.items.resize(count);
   file.native.crs_wkt = std::move(shapes.crs_wkt);

@@ -196,7 +196,7 @@ double doubled_area(const Ring& ring) {
 }
 
 void expect_outline(const Image& image) {
-  const auto rings = pixel_outline(image);
+  const auto rings = pixel_outline(image, 0);
   ASSERT_TRUE(rings.ok());
   Topology found;
   double doubled = 0;
@@ -214,6 +214,14 @@ void expect_outline(const Image& image) {
   EXPECT_EQ(report.collinear_points + report.repeated_points, 0U);
   // The interior is connected over sides only: what touches in a corner is another component.
   EXPECT_EQ(shape->component_count(), count_parts(image, true, false)) << text(image);
+
+  // Through necks it is connected as the image is.
+  const auto connected_rings = pixel_outline(image);
+  ASSERT_TRUE(connected_rings.ok());
+  const auto connected = build_shape(*connected_rings);
+  ASSERT_TRUE(connected.ok()) << to_string(connected.error()) << text(image);
+  EXPECT_EQ((Topology{connected->component_count(), connected->hole_count()}), topology(image));
+  EXPECT_NEAR(area(*connected), area(*shape), static_cast<double>(connected->points.size()) / 512);
 }
 
 TEST(Outline, HasARingForEachComponentAndHole) {
@@ -228,14 +236,15 @@ TEST(Outline, HasARingForEachComponentAndHole) {
 }
 
 TEST(Outline, GoesTwiceThroughACornerWherePixelsTouch) {
-  const auto pair = pixel_outline(parse({"#.", ".#"}));
+  const auto pair = pixel_outline(parse({"#.", ".#"}), 0);
   ASSERT_TRUE(pair.ok());
   ASSERT_EQ(pair->size(), 1U);
   EXPECT_EQ(std::ranges::count((*pair)[0].points, Vec2{1, 1}), 2);
-  const auto holes = pixel_outline(parse({"####", "#.##", "##.#", "####"}));
+  const auto holes = pixel_outline(parse({"####", "#.##", "##.#", "####"}), 0);
   ASSERT_TRUE(holes.ok());
   ASSERT_EQ(holes->size(), 3U);
   EXPECT_EQ((*holes)[1].points.size() + (*holes)[2].points.size(), 8U);
+  EXPECT_EQ(pixel_outline(Image(1, 1), 0.5).error().code, ErrorCode::invalid_option);
 }
 
 double distance_to_segment(Vec2 p, Vec2 a, Vec2 b) {
@@ -272,7 +281,7 @@ std::pair<double, double> distances_between(const Contour& contour, const Ring& 
 }
 
 void expect_smooth_outline(const Image& image) {
-  const auto rings = pixel_outline(image);
+  const auto rings = pixel_outline(image, 0);
   const auto contours = smooth_outline(image);
   ASSERT_TRUE(rings.ok() && contours.ok());
   ASSERT_EQ(rings->size(), contours->size());

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "medial/axis.h"
+#include "medial/brushfire.h"
 #include "medial/error.h"
 #include "medial/shape.h"
 
@@ -23,6 +24,7 @@ enum class Method : std::uint8_t {
   ridge,      ///< ridge following on a grid of pixels, as Volkmann and St. Clair have it: a sampled
               ///< axis (see MedialAxis); one thread
   potential,  ///< valleys of a potential after Ahuja and Chuang: sampled, near the axis, smooth
+  brushfire,  ///< thins the interior's pixels to lines: a sampled axis; one thread
 };
 
 /// How `ridge` finds the edges nearest to a pixel. Both give the same pixels.
@@ -45,7 +47,7 @@ enum class RidgeRule : std::uint8_t {
 };
 
 /// The name of a method on the command line and in MedialAxis::method: "disks", "biarc-dc", "lee",
-/// "ridge", "potential".
+/// "ridge", "potential", "brushfire".
 const char* name_of(Method method);
 /// The method of that name, if there is one.
 std::optional<Method> method_from(std::string_view name);
@@ -88,9 +90,9 @@ struct Options {
   bool exact = false;
   /// Threads to use, at most 1024; 0: all of the machine. The result is the same, byte for byte.
   int threads = 0;
-  /// Of ridge: the side of a pixel, in units of the input, at most the longer side of the bounding
-  /// box; or 0, and `pixels` tells how many lie along that side; both 0: 1024. At most 2^31 pixels
-  /// in all.
+  /// Of ridge and brushfire: the side of a pixel, in units of the input, at most the longer side of
+  /// the bounding box; or 0, and `pixels` tells how many lie along that side; both 0: 1024. At most
+  /// 2^31 pixels in all.
   double resolution = 0;
   std::uint32_t pixels = 0;
   /// Of ridge: vertices between straight edges that turn by less than this, in degrees, in [0, 45],
@@ -104,6 +106,8 @@ struct Options {
   /// How far the frame is away from the shape's bounding box, in units of the input, at least 1e-6
   /// and at most 1e6 of the diagonal; 0: half of the longer side.
   double margin = 0;
+  /// Of brushfire: which of the report's families.
+  Brushfire brushfire = Brushfire::simultaneous;
   /// Of the random choices of biarc_dc: the same seed gives the same result, byte for byte.
   std::uint64_t seed = 1;
   PotentialOptions potential = {};
@@ -120,12 +124,15 @@ struct Options {
 /// The exact medial axis transform of a shape; by the method `disks` O(n log n) expected.
 ///
 /// The graph has one connected part for each component of the shape and exactly one independent
-/// cycle for each hole; by the method `ridge` that holds for each bounded set of interior pixels
+/// cycle for each hole; by the methods `ridge` and `brushfire` that holds for each bounded set of
+/// interior pixels
 /// and its holes, which are the shape's where nothing is narrower than some pixels. Errors:
-/// invalid_option, cancelled, empty, too_large (ridge: also more than 2^31 pixels), unsupported (a
+/// invalid_option, cancelled, empty, too_large (ridge: also more than 2^31 pixels; brushfire: a
+/// diagonal above 2^16 pixels), unsupported (a
 /// coordinate above 1e100 in size, or one that is not zero but below 1e-100, or below that share of
 /// the largest; holes, for biarc_dc
-/// and lee; arcs, for lee; pixels as fine as the coordinates, for ridge), malformed (a
+/// and lee; arcs, for lee; pixels as fine as the coordinates, for ridge and brushfire;
+/// no pixel's centre inside, for brushfire), malformed (a
 /// shape that build_shape() did not make), out_of_memory, internal.
 Result<MedialAxis> compute(const Shape& shape, const Options& options = {});
 

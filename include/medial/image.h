@@ -125,11 +125,13 @@ struct DistanceMap {
 Result<DistanceMap> distance_transform(const Image& image, const DistanceOptions& options = {});
 
 /// The boundary of the foreground pixels' squares, exactly: its corners, with y downwards. One ring
-/// goes around each component and one around each hole, as topology() counts them; where pixels
-/// meet in a corner, the ring of the foreground goes through it twice. The rings are in the order
-/// of their topmost and there leftmost pixels; build_shape() makes a Shape of them, whose interior
-/// is not connected through such corners. O(pixels / 64 + cracks).
-Result<std::vector<Ring>> pixel_outline(const Image& image);
+/// goes around each component and one around each hole, as topology() counts them, in the order of
+/// their topmost and there leftmost pixels. Where foreground pixels meet in a corner only, the two
+/// corners of background there are cut off by `neck`, in [0, 1/2) pixels: so the interior is
+/// connected, and build_shape() finds the image's own components and holes. With 0 nothing is cut,
+/// rings touch there, and the interior is not connected. O(pixels / 64 + cracks). Errors:
+/// invalid_option, too_large, out_of_memory.
+Result<std::vector<Ring>> pixel_outline(const Image& image, double neck = 1.0 / 16);
 
 /// The same boundary as smooth closed curves: one contour for each ring, a quadratic B-spline with
 /// one parabola for each crack, that bends as little as it can within half a pixel of the cracks

@@ -155,7 +155,7 @@ Contour contour_of(const std::vector<Crack>& cracks) {
 }  // namespace
 
 Result<std::vector<Contour>> smooth_outline(const Image& image) {
-  auto rings = pixel_outline(image);
+  auto rings = pixel_outline(image, 0);
   if (!rings) return std::move(rings).error();
   try {
     std::vector<Contour> contours;

@@ -12,6 +12,7 @@
 #include "base/limits.h"
 #include "base/threads.h"
 #include "engines/biarc_dc/biarc_dc.h"
+#include "engines/brushfire/brushfire.h"
 #include "engines/disks/disks.h"
 #include "engines/drop_frame.h"
 #include "engines/lee/lee.h"
@@ -104,6 +105,7 @@ std::optional<Error> refuse(const Shape& shape, const Options& options) {
                  {}};
   if (options.method == Method::ridge) return ridge::refuse(shape, options);
   if (options.method == Method::potential) return refuse(options.potential);
+  if (options.method == Method::brushfire) return brushfire::refuse(shape, options);
   return std::nullopt;
 }
 
@@ -154,18 +156,21 @@ Result<MedialAxis> run(const Shape& shape, const Options& options) {
       return lee::run(shape, options);
     case Method::ridge:
       return ridge::run(shape, options);
+    case Method::brushfire:
+      return brushfire::run(shape, options);
     case Method::disks:
       break;
   }
   return disks::run(shape, options);
 }
 
-constexpr std::array<std::pair<Method, const char*>, 5> method_names = {
+constexpr std::array<std::pair<Method, const char*>, 6> method_names = {
     {{Method::disks, "disks"},
      {Method::biarc_dc, "biarc-dc"},
      {Method::lee, "lee"},
      {Method::ridge, "ridge"},
-     {Method::potential, "potential"}}};
+     {Method::potential, "potential"},
+     {Method::brushfire, "brushfire"}}};
 
 }  // namespace
 
@@ -188,9 +193,9 @@ Result<MedialAxis> compute(const Shape& shape, const Options& options) {
     auto result = on_threads(options.threads, [&] { return run(shape, options); });
     if (!result) return std::move(result).error();
     MedialAxis& axis = *result;
-    axis.statistics.threads = options.method == Method::biarc_dc || options.method == Method::ridge
-                                  ? 1
-                                  : effective_threads(options.threads);
+    const bool one_thread = options.method == Method::biarc_dc || options.method == Method::ridge ||
+                            options.method == Method::brushfire;
+    axis.statistics.threads = one_thread ? 1 : effective_threads(options.threads);
     if (options.cancel != nullptr && options.cancel->load())
       return Error{ErrorCode::cancelled, "cancelled", {}};
     const bool whole =

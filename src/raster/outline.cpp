@@ -11,7 +11,8 @@ namespace {
 /// at the image. Each ring has a crack above a pixel; those are marked where a ring took them.
 class Tracer {
  public:
-  explicit Tracer(const Image& image) : image_(image), taken_(image.width(), image.height()) {}
+  Tracer(const Image& image, double neck)
+      : image_(image), neck_(neck), taken_(image.width(), image.height()) {}
 
   std::vector<Ring> trace() {
     std::vector<Ring> rings;
@@ -48,29 +49,39 @@ class Tracer {
       x += step[direction][0];
       y += step[direction][1];
       // The foreground that is ahead on the left is connected, over the corner if need be.
-      std::size_t turn = 1;
-      if (image_.at(x + left[direction][0], y + left[direction][1])) {
-        turn = 3;
-      } else if (image_.at(x + right[direction][0], y + right[direction][1])) {
-        turn = 0;
+      const bool on_left = image_.at(x + left[direction][0], y + left[direction][1]);
+      const bool on_right = image_.at(x + right[direction][0], y + right[direction][1]);
+      const std::size_t next = (direction + (on_left ? 3 : on_right ? 0 : 1)) % 4;
+      const Vec2 corner{static_cast<double>(x), static_cast<double>(y)};
+      if (on_left && !on_right && neck_ > 0) {
+        ring.points.push_back(corner - neck_ * vector(step[direction]));
+        ring.points.push_back(corner + neck_ * vector(step[next]));
+      } else if (next != direction) {
+        ring.points.push_back(corner);
       }
-      if (turn != 0) ring.points.push_back({static_cast<double>(x), static_cast<double>(y)});
-      direction = (direction + turn) % 4;
+      direction = next;
     } while (x != first_x || y != first_y || direction != 0);
     return ring;
   }
 
+  static Vec2 vector(const std::array<int, 2>& step) {
+    return {static_cast<double>(step[0]), static_cast<double>(step[1])};
+  }
+
   const Image& image_;
+  double neck_;
   Image taken_;
 };
 
 }  // namespace
 
-Result<std::vector<Ring>> pixel_outline(const Image& image) {
+Result<std::vector<Ring>> pixel_outline(const Image& image, double neck) {
+  if (!(neck >= 0 && neck < 0.5))
+    return Error{ErrorCode::invalid_option, "the neck must be in [0, 1/2) pixels", {}};
   if (!fits_image(image.width(), image.height()))
     return Error{ErrorCode::too_large, "the diagonal of the image is above 2^16 pixels", {}};
   try {
-    return Tracer(image).trace();
+    return Tracer(image, neck).trace();
   } catch (const std::bad_alloc&) {
     return Error{ErrorCode::out_of_memory, "memory ran out", {}};
   } catch (const std::exception& exception) {
