@@ -15,7 +15,7 @@ BENCH := build/bench
 BENCH_BOOST := build/boost-1.81
 SOURCES = $(shell git ls-files '*.h' '*.cpp')
 
-.PHONY: help setup build demo test bench bench-flo-mat fuzz corpus tsan format lint clean install
+.PHONY: help setup build demo test bench bench-flo-mat bench-images fuzz corpus tsan format lint clean install
 .DEFAULT_GOAL := help
 
 help:     ## this list
@@ -49,6 +49,14 @@ bench: setup    ## compare with Boost.Polygon and CGAL
 bench-flo-mat: build    ## compare with flo-mat (npm): see bench/flo_mat/README.md
 	@cd bench/flo_mat && npm install --no-audit --no-fund || true
 	@node bench/flo_mat/compare.mjs $(RELEASE)/cli/medial
+
+bench-images: setup    ## compare brushfire with scikit-image and OpenCV (PyPI)
+	@tools/setup.sh bench
+	@cmake --preset bench
+	@cmake --build $(BENCH) -j $(JOBS) --target medial_bench_images
+	@python3 -m venv $(BENCH)/python
+	@$(BENCH)/python/bin/pip install --quiet scikit-image opencv-contrib-python-headless
+	@$(BENCH)/python/bin/python bench/images/compare.py $(BENCH)/bench/medial_bench_images out/images
 
 fuzz: setup     ## random polygons and mutated files with new seeds: make fuzz SECONDS=60 [FROM=seed]
 	@cmake --preset release

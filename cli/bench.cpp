@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "cli/bench_biarc.h"
+#include "cli/bench_brushfire.h"
 #include "cli/bench_lee.h"
 #include "cli/bench_potential.h"
 #include "cli/bench_ridge.h"
@@ -27,6 +28,12 @@ struct BenchSwitches {
   bool quick = false;
   bool json = false;
   bool quiet = false;
+};
+
+struct AccuracySwitches {
+  std::vector<std::string> images;
+  io::ImageOptions reading;
+  std::string output;
 };
 
 constexpr char formats[] = ".svg .csv .json";
@@ -335,6 +342,54 @@ Result<int> run_potential(const std::vector<std::string>& files, bool quiet) {
   return report.passed ? exit_success : exit_failed_verdict;
 }
 
+Result<int> run_accuracy(const AccuracySwitches& switches) {
+  Status writable = check_output(switches.output, {}, ".svg .csv", {}, false);
+  if (!writable) return std::move(writable).error();
+  std::vector<AccuracyRow> rows;
+  auto built_in = measure_accuracy("a shape like Fig. 14", figure_14());
+  if (!built_in) return std::move(built_in).error();
+  rows.push_back(std::move(built_in).value());
+  for (const std::string& path : switches.images) {
+    const auto file = io::read_image(path, switches.reading);
+    if (!file) return file.error();
+    auto row = measure_accuracy(std::filesystem::path(path).stem().string(), file->image);
+    if (!row) {
+      Error error = std::move(row).error();
+      error.place.file = path;
+      return error;
+    }
+    rows.push_back(std::move(row).value());
+  }
+  if (!switches.output.empty()) {
+    Status written = write_text(switches.output, switches.output.ends_with(".svg")
+                                                     ? accuracy_drawing(rows.front())
+                                                     : accuracy_csv(rows));
+    if (!written) return std::move(written).error();
+  }
+  Status printed = print(accuracy_table(rows));
+  if (!printed) return std::move(printed).error();
+  return exit_success;
+}
+
+CLI::App* add_accuracy(CLI::App& bench, const std::shared_ptr<AccuracySwitches>& switches) {
+  CLI::App* verb = bench.add_subcommand(
+      "brushfire",
+      "Axes of pixels, inverted: how many pixels differ (Volkmann and St. Clair 1987,\n"
+      "Section II.B.3, Fig. 14), by brushfire, ridge following, and exactly.");
+  verb->add_option("IMAGES", switches->images, "Binary images beside the shape of Fig. 14's kind.")
+      ->option_text(" ");
+  add_image_switches(*verb, switches->reading);
+  verb->add_option("-o,--output", switches->output,
+                   "The built-in shape, its axes and what they become (.svg), or all numbers\n"
+                   "(.csv).")
+      ->check(a_name())
+      ->option_text("FILE");
+  verb->footer(
+      "Example:\n"
+      "  medial bench brushfire horse.png -o figure14.svg");
+  return verb;
+}
+
 }  // namespace
 
 Verb make_bench_verb(CLI::App& program) {
@@ -390,7 +445,10 @@ Verb make_bench_verb(CLI::App& program) {
   potential->footer("Example:\n  medial bench potential data/plan.wkt data/gear.wkt");
   const Verb ridge = add_ridge_bench(*verb);
   const Verb lee = add_lee_bench(*verb);
-  return {verb, [switches, files, potential, ridge, lee] {
+  auto accuracy = std::make_shared<AccuracySwitches>();
+  const CLI::App* brushfire = add_accuracy(*verb, accuracy);
+  return {verb, [switches, files, potential, ridge, lee, accuracy, brushfire] {
+            if (brushfire->parsed()) return run_accuracy(*accuracy);
             return potential->parsed()   ? run_potential(*files, switches->quiet)
                    : ridge.app->parsed() ? ridge.run()
                    : lee.app->parsed()   ? lee.run()

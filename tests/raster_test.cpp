@@ -187,6 +187,28 @@ TEST(Distance, IsTheSameWithAnyNumberOfThreads) {
             ErrorCode::invalid_option);
 }
 
+TEST(Distance, DisksAroundAllPixelsAreTheImage) {
+  for (std::uint32_t seed = 0; seed < 10; ++seed) {
+    const Image image = random_image(70, 45, static_cast<int>(seed % 5), seed);
+    const auto distances = distance_transform(image);
+    const auto cracks = distance_transform(image, {DistanceTo::cracks, true, 1});
+    ASSERT_TRUE(distances.ok() && cracks.ok());
+    EXPECT_EQ(text(union_of_disks(image, *distances)), text(image));
+    std::vector<Disk> disks;
+    for (std::uint32_t y = 0; y < 45; ++y)
+      for (std::uint32_t x = 0; x < 70; ++x)
+        if (image.at(x, y)) disks.push_back({{x + 0.5, y + 0.5}, cracks->at(x, y)});
+    EXPECT_EQ(text(union_of_disks(70, 45, disks)), text(image));
+  }
+  // One disk, of the squared radius 9: open.
+  Image one(9, 9);
+  one.set(4, 4);
+  DistanceMap nine{9, 9, std::vector<std::uint32_t>(81, 9), DistanceTo::pixels};
+  const Image disk = union_of_disks(one, nine);
+  EXPECT_EQ(disk.count(), 25U);
+  EXPECT_TRUE(disk.at(2, 2) && disk.at(4, 2) && !disk.at(4, 1));
+}
+
 /// Twice the area inside a ring, positive where the foreground lies inside.
 double doubled_area(const Ring& ring) {
   double sum = 0;

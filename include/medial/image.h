@@ -124,6 +124,14 @@ struct DistanceMap {
 /// too_large, out_of_memory.
 Result<DistanceMap> distance_transform(const Image& image, const DistanceOptions& options = {});
 
+/// The pixels whose centres lie inside the disks around the pixels `centers`, of the distances to
+/// pixels as radii: what an axis of pixels retains of its image. All disks are open, so none
+/// reaches a background pixel. Requires that both have one size. O(sum of the radii).
+Image union_of_disks(const Image& centers, const DistanceMap& distances);
+/// The pixels of an image of this size whose centres lie in any of the disks, in coordinates of
+/// pixels.
+Image union_of_disks(std::uint32_t width, std::uint32_t height, std::span<const Disk> disks);
+
 /// The boundary of the foreground pixels' squares, exactly: its corners, with y downwards. One ring
 /// goes around each component and one around each hole, as topology() counts them, in the order of
 /// their topmost and there leftmost pixels. Where foreground pixels meet in a corner only, the two

@@ -75,7 +75,7 @@ Status marking(Tiles& tiles, const BrushfireOptions& options) {
 /// topology exactly where a critical clique would go as a whole: two pixels side by side whose
 /// common edge has contact to others at both of its ends or at none; or all pixels around a common
 /// corner, if two of them meet in nothing more than the corner. Of these the first stays, in the
-/// order of rows. What goes leaves the critical kernel (Bertrand and Couprie 2008, Theorem 2).
+/// order of rows. What stays holds the critical kernel (Bertrand and Couprie 2008).
 Status simultaneous(Tiles& tiles, const BrushfireOptions& options) {
   Tiles goes(tiles);  // what the rule lets go, as far as it is known; correct beyond the front
   return burn_down(tiles, 2, options, [&](Front& front) {

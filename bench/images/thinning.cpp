@@ -1,0 +1,61 @@
+// Times thinning and distances of binary images (PBM) on one thread; compare.py reads what it
+// prints.
+//
+//   medial_bench_images FAMILY ROUNDS IMAGE.pbm [RESULT.pbm]
+//
+// FAMILY is one of the brushfire's, or `distance`. Prints the least seconds of
+// processor time of all rounds and the
+// peak memory in bytes. Thinning includes the exact distance of each pixel, as medial_axis() does.
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <string>
+
+#include "medial/brushfire.h"
+#include "medial/image.h"
+#include "medial/io/image.h"
+
+namespace {
+
+/// Seconds of processor time since `start`, another result of std::clock().
+double seconds_since(std::clock_t start) {
+  return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+}
+
+}  // namespace
+
+int main(int count, char** words) {
+  if (count < 4) return 2;
+  const std::string what = words[1];
+  const auto file = medial::io::read_image(words[3]);
+  if (!file) {
+    std::fprintf(stderr, "%s\n", medial::to_string(file.error()).c_str());
+    return 2;
+  }
+  medial::DistanceOptions distances;
+  distances.threads = 1;
+  medial::BrushfireOptions fire;
+  if (const auto family = medial::brushfire_from(what)) fire.family = *family;
+  double thinning = 0, measuring = 0;
+  for (int round = 0; round < std::atoi(words[2]); ++round) {
+    if (what != "distance") {
+      const auto start = std::clock();
+      const auto axis = medial::thin(file->image, fire);
+      if (!axis) return 2;
+      const double seconds = seconds_since(start);
+      thinning = round == 0 ? seconds : std::min(thinning, seconds);
+      if (round == 0 && count > 4 && !medial::io::write_image(words[4], *axis, *file)) return 2;
+    }
+    const auto start = std::clock();
+    if (!medial::distance_transform(file->image, distances)) return 2;
+    const double seconds = seconds_since(start);
+    measuring = round == 0 ? seconds : std::min(measuring, seconds);
+  }
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  std::printf("%.9g %.9g %ld\n", thinning, measuring, usage.ru_maxrss * 1024L);
+}
