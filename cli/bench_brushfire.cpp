@@ -56,17 +56,37 @@ std::vector<Disk> disks_along(const MedialAxis& axis) {
   return disks;
 }
 
-/// Squares of ten units for the pixels of a drawing.
+/// The pixels of a drawing in squares of ten units, `inset` smaller all around, as one path; runs
+/// of pixels in a row as one box where `inset` is 0.
 void draw_pixels(std::string& svg, const Image& image, double left, double top, const char* color,
-                 double inset) {
+                 int inset) {
+  svg += fmt::format("<path transform=\"translate({} {})\" fill=\"{}\" d=\"", left, top, color);
   for (std::uint32_t y = 0; y < image.height(); ++y) {
-    for (std::uint32_t x = 0; x < image.width(); ++x) {
-      if (!image.at(x, y)) continue;
-      svg += fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"{}\"/>\n",
-                         left + 10 * x + inset, top + 10 * y + inset, 10 - 2 * inset,
-                         10 - 2 * inset, color);
+    for (std::uint32_t x = 0; x < image.width();) {
+      std::uint32_t end = x + 1;
+      if (!image.at(x, y)) {
+        x = end;
+        continue;
+      }
+      while (inset == 0 && image.at(end, y)) ++end;
+      svg += fmt::format("M{} {}h{}v{}h-{}z", 10 * x + static_cast<std::uint32_t>(inset),
+                         10 * y + static_cast<std::uint32_t>(inset),
+                         10 * (end - x) - 2 * static_cast<std::uint32_t>(inset), 10 - 2 * inset,
+                         10 * (end - x) - 2 * static_cast<std::uint32_t>(inset));
+      x = end;
     }
   }
+  svg += "\"/>\n";
+}
+
+/// White lines between the pixels.
+void draw_grid(std::string& svg, const Image& image, double left, double top) {
+  svg += fmt::format("<path transform=\"translate({} {})\" stroke=\"white\" d=\"", left, top);
+  for (std::uint32_t x = 0; x <= image.width(); ++x)
+    svg += fmt::format("M{} 0v{}", 10 * x, 10 * image.height());
+  for (std::uint32_t y = 0; y <= image.height(); ++y)
+    svg += fmt::format("M0 {}h{}", 10 * y, 10 * image.width());
+  svg += "\"/>\n";
 }
 
 }  // namespace
@@ -131,8 +151,9 @@ std::string accuracy_drawing(const AccuracyRow& row) {
     for (int panel = 0; panel < 3; ++panel) {
       const double left = 10 + panel * width;
       const Image& shown = panel == 2 ? cell.inverted : row.image;
-      if (panel == 2) draw_pixels(svg, row.image, left, top + 28, "#d4404a", 0.5);
-      draw_pixels(svg, shown, left, top + 28, "#c9d6df", 0.5);
+      if (panel == 2) draw_pixels(svg, row.image, left, top + 28, "#d4404a", 0);
+      draw_pixels(svg, shown, left, top + 28, "#c9d6df", 0);
+      draw_grid(svg, row.image, left, top + 28);
       if (panel == 1) draw_pixels(svg, cell.axis, left, top + 28, "#1f3c88", 2);
     }
     top += height;
