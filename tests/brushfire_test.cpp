@@ -110,6 +110,9 @@ TEST(BrushfireMethod, RefusesWhatItCannot) {
   options.resolution = 0;
   options.cancel = &cancel;
   EXPECT_EQ(compute(*square, options).error().code, ErrorCode::cancelled);
+  options.cancel = nullptr;
+  options.exterior = true;
+  EXPECT_EQ(compute(*square, options).error().code, ErrorCode::unsupported);
 }
 
 }  // namespace

@@ -106,8 +106,9 @@ def peer(name):
 def run_peer(name, path, rounds, pipe):
     cv2.setNumThreads(1)
     image = cv2.imread(str(path), cv2.IMREAD_GRAYSCALE) == 0  # PBM: black is set
-    before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     thin = peer(name)
+    with open("/proc/self/statm") as file:
+        before = int(file.read().split()[1]) * resource.getpagesize() // 1024
     best = math.inf
     for _ in range(rounds):
         start = time.process_time()

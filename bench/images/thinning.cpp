@@ -4,9 +4,11 @@
 //   medial_bench_images FAMILY ROUNDS IMAGE.pbm [RESULT.pbm]
 //
 // FAMILY is one of the brushfire's. Prints the least seconds of processor time of all rounds, for
-// thinning and for the exact distances, and by how many bytes the peak memory grew.
+// thinning and for the exact distances, and how many bytes the peak memory
+// is above what was held before.
 
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -32,6 +34,16 @@ long peak_bytes() {
   return usage.ru_maxrss * 1024L;
 }
 
+/// The memory this process holds now, in bytes.
+long held_bytes() {
+  long pages = 0, resident = 0;
+  if (std::FILE* file = std::fopen("/proc/self/statm", "r")) {
+    if (std::fscanf(file, "%ld %ld", &pages, &resident) != 2) resident = 0;
+    std::fclose(file);
+  }
+  return resident * sysconf(_SC_PAGESIZE);
+}
+
 }  // namespace
 
 int main(int count, char** words) {
@@ -47,7 +59,7 @@ int main(int count, char** words) {
   medial::BrushfireOptions fire;
   if (const auto family = medial::brushfire_from(what)) fire.family = *family;
   double thinning = 0, measuring = 0;
-  const long before = peak_bytes();
+  const long before = held_bytes();
   for (int round = 0; round < std::atoi(words[2]); ++round) {
     if (what != "distance") {
       const auto start = std::clock();

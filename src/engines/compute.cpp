@@ -111,6 +111,10 @@ std::optional<Error> refuse(const Shape& shape, const Options& options) {
 
 /// The axis of the frame less the shape, without what touches the frame.
 Result<MedialAxis> compute_exterior(const Shape& shape, const Options& options) {
+  if (options.method == Method::brushfire)
+    return Error{ErrorCode::unsupported,
+                 "the method brushfire does not know what touches the frame: use ridge",
+                 {}};
   constexpr double least = 1e-6, most = 1e6;
   const Box box = bounding_box(shape);
   const double margin = margin_for(box, options.margin), size = diagonal(box);
