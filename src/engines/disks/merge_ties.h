@@ -6,8 +6,8 @@
 
 namespace medial::disks {
 
-/// Merges nodes that are one within the tolerance, of which one is a branching node at least. `axis` is in the local frame, its
-/// edges name sites of the boundary and have no curves yet.
+/// Merges nodes that are one within the tolerance, of which one is a branching node at least.
+/// `axis` is in the local frame, its edges name sites of the boundary and have no curves yet.
 ///
 /// The walk follows exact bisectors. Where many sites touch one disk but for the rounding of their
 /// coordinates, the bisector of two that enclose a small angle passes beside that disk's centre by
@@ -17,11 +17,11 @@ namespace medial::disks {
 /// keep their directions. Half, because coordinates rounded to doubles move a tie's contacts by at
 /// most the square root of 1/2 of a spacing, and the tolerance is at least two spacings.
 ///
-/// With arcs, nodes that branch no further fall off in the same way: places where a foot passes from
-/// one site to the next, and the centres of arcs that the disk touches all along. Their edges are
-/// contracted into a branching node where they are no longer than such a disk's play: the rounding
-/// over the sine of half of the angle between the edge's contacts, or over 1 - cos of half of the
-/// arc's angle.
+/// With arcs, nodes that branch no further fall off in the same way: places where a foot passes
+/// from one site to the next, and the centres of arcs that the disk touches all along. Their edges
+/// are contracted into a branching node where they are no longer than such a disk's play: the
+/// rounding over the sine of half of the angle between the edge's contacts, or over 1 - cos of half
+/// of the arc's angle.
 ///
 /// Every contraction takes one edge and one node, and none closes a cycle: the graph keeps its
 /// Euler number and its cycles. The result depends on the graph only. O(n),
