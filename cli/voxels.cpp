@@ -34,7 +34,7 @@ struct Outcome {
   double seconds_write = 0;
 };
 
-Json to_json(const Topology& topology) {
+Json to_json(const VoxelTopology& topology) {
   return {{"components", topology.components},
           {"tunnels", topology.tunnels},
           {"cavities", topology.cavities}};
@@ -94,7 +94,7 @@ Json stats(const Outcome& outcome) {
           {"peak_bytes", peak_bytes()}};
 }
 
-std::string describe(const Topology& topology) {
+std::string describe(const VoxelTopology& topology) {
   return fmt::format("{}, {}, {}", counted(topology.components, "part"),
                      counted(static_cast<std::uint64_t>(topology.tunnels), "tunnel"),
                      counted(topology.cavities, "cavity", "cavities"));

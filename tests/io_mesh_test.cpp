@@ -78,7 +78,7 @@ TEST_F(MeshFiles, OfEveryFormatAreRead) {
     const auto solid = build_solid(std::move(read).value());
     ASSERT_TRUE(solid.ok()) << format << ": " << to_string(solid.error());
     EXPECT_EQ(solid->surface.vertices.size(), 12U) << format;
-    EXPECT_EQ(solid->topology, (Topology{1, 0, 0})) << format;
+    EXPECT_EQ(solid->topology, (VoxelTopology{1, 0, 0})) << format;
     double high = 0;
     for (const Vec3 p : solid->surface.vertices) high = std::max(high, p.x);
     EXPECT_EQ(high, 2) << format;
@@ -159,7 +159,7 @@ TEST_F(MeshFiles, OfTheDataFolderHaveTheirTopology) {
   options.voxels = 64;
   const auto axis = compute_voxels(*solid, options);
   ASSERT_TRUE(axis.ok());
-  EXPECT_EQ(axis->topology, (Topology{1, 0, 0}));
+  EXPECT_EQ(axis->topology, (VoxelTopology{1, 0, 0}));
   EXPECT_EQ(axis->interior, axis->topology);
 }
 

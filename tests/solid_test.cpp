@@ -112,21 +112,21 @@ TEST(ClosestPoint, IsNoFartherThanAnyPointOfTheTriangle) {
 
 TEST(Solid, ABoxIsOne) {
   const Solid solid = solid_of(box_mesh({0, 0, 0}, {1, 2, 3}));
-  EXPECT_EQ(solid.topology, (Topology{1, 0, 0}));
+  EXPECT_EQ(solid.topology, (VoxelTopology{1, 0, 0}));
   EXPECT_DOUBLE_EQ(signed_volume(solid.surface), 6);
   EXPECT_EQ(solid.report.reversed_faces, 0U);
 }
 
 TEST(Solid, TopologyOfKnownSolids) {
-  EXPECT_EQ(solid_of(test::torus_mesh(2, 0.5, 20, 10)).topology, (Topology{1, 1, 0}));
+  EXPECT_EQ(solid_of(test::torus_mesh(2, 0.5, 20, 10)).topology, (VoxelTopology{1, 1, 0}));
   EXPECT_EQ(solid_of(test::sphere_mesh({}, 2, 2) + test::sphere_mesh({}, 1, 1)).topology,
-            (Topology{1, 0, 1}));
+            (VoxelTopology{1, 0, 1}));
   EXPECT_EQ(solid_of(box_mesh({0, 0, 0}, {9, 9, 9}) + box_mesh({1, 1, 1}, {8, 8, 8}) +
                      box_mesh({2, 2, 2}, {3, 3, 3}) + box_mesh({10, 0, 0}, {11, 1, 1}))
                 .topology,
-            (Topology{3, 0, 1}));
+            (VoxelTopology{3, 0, 1}));
   EXPECT_EQ(solid_of(test::letter_mesh({"#####", "#...#", "#####", "#...#", "#####"}, 2)).topology,
-            (Topology{1, 2, 0}));
+            (VoxelTopology{1, 2, 0}));
 }
 
 TEST(Solid, JoinsCornersAndTurnsFaces) {
@@ -157,7 +157,7 @@ TEST(Solid, PartsSurfacesThatTouchInAVertex) {
   const Solid solid = solid_of(box_mesh({0, 0, 0}, {1, 1, 1}) + box_mesh({1, 1, 1}, {2, 2, 2}));
   EXPECT_EQ(solid.report.parted_vertices, 1U);
   EXPECT_EQ(solid.surface.vertices.size(), 16U);
-  EXPECT_EQ(solid.topology, (Topology{2, 0, 0}));
+  EXPECT_EQ(solid.topology, (VoxelTopology{2, 0, 0}));
 }
 
 TEST(Solid, RefusesOpenSurfacesWithThePlace) {
@@ -200,7 +200,7 @@ TEST(Solid, TurnedAndScaledMeshesStaySolids) {
   for (const double scale : {1e-60, 1e-3, 1.0, 1e6, 1e60}) {
     const Solid solid =
         solid_of(test::turned(test::torus_mesh(2, 0.5, 30, 12), scale, scale * Vec3{5, -3, 1}));
-    EXPECT_EQ(solid.topology, (Topology{1, 1, 0})) << scale;
+    EXPECT_EQ(solid.topology, (VoxelTopology{1, 1, 0})) << scale;
   }
 }
 

@@ -131,18 +131,18 @@ TEST(VoxelTopology, OfKnownSets) {
                         static_cast<std::uint32_t>(z + 1)});
     return volume::topology_of(set);
   };
-  EXPECT_EQ(of(5, [](int, int, int) { return false; }), (Topology{0, 0, 0}));
-  EXPECT_EQ(of(9, [](int, int, int) { return true; }), (Topology{1, 0, 0}));
+  EXPECT_EQ(of(5, [](int, int, int) { return false; }), (VoxelTopology{0, 0, 0}));
+  EXPECT_EQ(of(9, [](int, int, int) { return true; }), (VoxelTopology{1, 0, 0}));
   EXPECT_EQ(of(3, [](int x, int y, int z) { return x != 1 || y != 1 || z != 1; }),
-            (Topology{1, 0, 1}));
-  EXPECT_EQ(of(3, [](int x, int y, int) { return x != 1 || y != 1; }), (Topology{1, 1, 0}));
+            (VoxelTopology{1, 0, 1}));
+  EXPECT_EQ(of(3, [](int x, int y, int) { return x != 1 || y != 1; }), (VoxelTopology{1, 1, 0}));
   // A cube's edges: 12 edges, 8 corners.
   EXPECT_EQ(of(3, [](int x, int y, int z) { return (x == 1) + (y == 1) + (z == 1) <= 1; }),
-            (Topology{1, 5, 0}));
+            (VoxelTopology{1, 5, 0}));
   // Cubes that share corners only are one part; so are the gaps between none.
-  EXPECT_EQ(of(6, [](int x, int y, int z) { return x == y && y == z; }), (Topology{1, 0, 0}));
+  EXPECT_EQ(of(6, [](int x, int y, int z) { return x == y && y == z; }), (VoxelTopology{1, 0, 0}));
   EXPECT_EQ(of(7, [](int x, int y, int z) { return x % 2 == 0 && y % 2 == 0 && z % 2 == 0; }),
-            (Topology{64, 0, 0}));
+            (VoxelTopology{64, 0, 0}));
 }
 
 TEST(VoxelTopology, SimpleVoxelsAreThoseWhoseNeighboursAreOneContractiblePart) {
@@ -159,7 +159,7 @@ TEST(VoxelTopology, SimpleVoxelsAreThoseWhoseNeighboursAreOneContractiblePart) {
       if (bit != 13 && (bits >> bit & 1U) != 0)
         neighbours.insert(volume::neighbour({2, 2, 2}, bit));
     // Where all six neighbours across faces are there, the middle is enclosed.
-    const bool expected = volume::topology_of(neighbours) == Topology{1, 0, 0};
+    const bool expected = volume::topology_of(neighbours) == VoxelTopology{1, 0, 0};
     simple += expected;
     ASSERT_EQ(volume::is_simple(bits | volume::center_bit), expected) << bits;
   }
@@ -218,13 +218,13 @@ TEST(Digitize, ANeckThatTheGridClosesPartsTheBoundedSets) {
   // Two cubes of 8 and a bar between them, of 1: less than two voxels wide.
   const Solid solid = solid_of(test::cubes_mesh(
       24, 8, 8, [](int x, int y, int z) { return x < 8 || x >= 16 || (y == 3 && z == 3); }));
-  EXPECT_EQ(solid.topology, (Topology{1, 0, 0}));
+  EXPECT_EQ(solid.topology, (VoxelTopology{1, 0, 0}));
   const VoxelAxis coarse = axis_of(solid, with(24));
   EXPECT_EQ(coarse.statistics.bounded_sets, 2U);
-  EXPECT_EQ(coarse.interior, (Topology{2, 0, 0}));
+  EXPECT_EQ(coarse.interior, (VoxelTopology{2, 0, 0}));
   EXPECT_EQ(coarse.topology, coarse.interior);
   const VoxelAxis fine = axis_of(solid, with(24 * 5));
-  EXPECT_EQ(fine.topology, (Topology{1, 0, 0}));
+  EXPECT_EQ(fine.topology, (VoxelTopology{1, 0, 0}));
 }
 
 // ---- Axes.
@@ -232,7 +232,7 @@ TEST(Digitize, ANeckThatTheGridClosesPartsTheBoundedSets) {
 struct Known {
   const char* name;
   TriangleMesh mesh;
-  Topology topology;
+  VoxelTopology topology;
 };
 
 std::vector<Known> known_solids() {
@@ -535,10 +535,10 @@ TEST(Voxels, OfThinPlatesThereMayBeNone) {
   const Solid solid = solid_of(test::box_mesh({0, 0, 0}, {8, 8, 0.1}));
   const VoxelAxis axis = axis_of(solid, with(16));
   EXPECT_TRUE(axis.voxels.empty());
-  EXPECT_EQ(axis.topology, (Topology{0, 0, 0}));
+  EXPECT_EQ(axis.topology, (VoxelTopology{0, 0, 0}));
   EXPECT_EQ(axis.statistics.bounded_sets, 0U);
   // One layer of voxels inside is enough.
-  EXPECT_EQ(axis_of(solid, with(400)).topology, (Topology{1, 0, 0}));
+  EXPECT_EQ(axis_of(solid, with(400)).topology, (VoxelTopology{1, 0, 0}));
 }
 
 TEST(Voxels, RefuseWhatTheyCannotDo) {

@@ -19,12 +19,12 @@ struct TriangleMesh {
 };
 
 /// How many parts, tunnels and cavities something in space has: its Betti numbers.
-struct Topology {
+struct VoxelTopology {
   std::uint64_t components = 0;
   std::int64_t tunnels = 0;
   std::uint64_t cavities = 0;
 
-  friend bool operator==(const Topology&, const Topology&) = default;
+  friend bool operator==(const VoxelTopology&, const VoxelTopology&) = default;
 };
 
 /// What build_solid() mended, and what came of it.
@@ -44,7 +44,7 @@ struct MeshReport {
 struct Solid {
   TriangleMesh surface;
   std::vector<std::uint32_t> source;  ///< for each face, its index in the input
-  Topology topology;
+  VoxelTopology topology;
   MeshReport report;
 };
 
@@ -133,9 +133,9 @@ struct VoxelAxis {
   /// Pairs of voxels that share a face, an edge or a corner, lower index first, increasing; but no
   /// pair with a third voxel of the axis between the two, which connects them already.
   std::vector<std::array<std::uint32_t, 2>> links;
-  Topology topology;  ///< of the voxels as cubes that share faces, edges and corners
+  VoxelTopology topology;  ///< of the voxels as cubes that share faces, edges and corners
   /// Of the interior voxels, and so of the axis. It is the solid's where the grid is fine enough.
-  Topology interior;
+  VoxelTopology interior;
   VoxelStatistics statistics;
 };
 

@@ -191,8 +191,8 @@ bool is_simple(Neighbourhood around) {
   return (beside & ~flood(beside & (~beside + 1), outside, masks.near6)) == 0;
 }
 
-Topology topology_of(const VoxelSet& set) {
-  Topology topology;
+VoxelTopology topology_of(const VoxelSet& set) {
+  VoxelTopology topology;
   topology.components = count_parts(set, false, 1);
   // The complement has an unbounded part that the border belongs to.
   topology.cavities = count_parts(set, true, 0) - 1;

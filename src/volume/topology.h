@@ -9,7 +9,7 @@ namespace medial::volume {
 
 /// The Betti numbers of the union of the set's closed cubes. Requires a set that is empty at the
 /// border of the grid. O(blocks + rows' runs of voxels).
-Topology topology_of(const VoxelSet& set);
+VoxelTopology topology_of(const VoxelSet& set);
 
 /// Whether a voxel may be removed without changing the topology: its topological numbers, the
 /// parts of the set among its neighbours and of the complement beside it, are both 1 (Bertrand and
