@@ -22,8 +22,8 @@ using SitePair = std::array<std::uint32_t, 2>;
 /// One axis, and which of its nodes are one after contraction.
 class Contracted {
  public:
-  Contracted(const MedialAxis& axis, const exact::Outline& outline, double tolerance)
-      : axis_(axis), tolerance_(tolerance), parent_(axis.nodes.size()) {
+  Contracted(const MedialAxis& axis, const exact::Outline& outline)
+      : axis_(axis), parent_(axis.nodes.size()) {
     std::iota(parent_.begin(), parent_.end(), 0u);
     if (const auto node = ContactGraph::build(axis, outline, graph_))
       failure_ = "the edges around node " + std::to_string(*node) + " are out of order";
@@ -44,24 +44,29 @@ class Contracted {
     return i;
   }
 
-  /// Contracts a link; false where it is not short.
-  bool contract(const Link& link) {
-    parent_[node(link.node[0])] = node(link.node[1]);
-    return touches(link.node[0], link.node[1]) || touches(link.node[1], link.node[0]);
-  }
+  void contract(const Link& link) { parent_[node(link.node[0])] = node(link.node[1]); }
 
- private:
-  bool touches(std::uint32_t by, std::uint32_t other) const {
-    const Disk& disk = axis_.nodes[by].disk;
-    const auto contacts = graph_.contacts(other);
-    return std::all_of(contacts.begin(), contacts.end(), [&](const exact::Contact& contact) {
-      const Vec2 nearest = foot(axis_.sites[contact.site], disk.center);
-      return std::abs(distance(nearest, disk.center) - disk.radius) <= tolerance_;
+  /// The nodes that have become one, by the one that stands for them.
+  std::map<std::uint32_t, std::vector<std::uint32_t>> clusters() {
+    std::map<std::uint32_t, std::vector<std::uint32_t>> result;
+    for (std::uint32_t i = 0; i < parent_.size(); ++i)
+      if (!graph_.contacts(i).empty()) result[node(i)].push_back(i);
+    return result;
+  }
+  const Disk& disk(std::uint32_t i) const { return axis_.nodes[i].disk; }
+  /// Whether a disk touches all that the nodes' disks touch.
+  bool touched(const std::vector<std::uint32_t>& nodes, const Disk& disk, double tolerance) const {
+    return std::all_of(nodes.begin(), nodes.end(), [&](std::uint32_t i) {
+      const auto contacts = graph_.contacts(i);
+      return std::all_of(contacts.begin(), contacts.end(), [&](const exact::Contact& contact) {
+        const Vec2 nearest = foot(axis_.sites[contact.site], disk.center);
+        return std::abs(distance(nearest, disk.center) - disk.radius) <= tolerance;
+      });
     });
   }
 
+ private:
   const MedialAxis& axis_;
-  double tolerance_;
   ContactGraph graph_;
   std::vector<std::uint32_t> parent_;
   std::string failure_;
@@ -80,7 +85,7 @@ std::string difference(const Shape& shape, const MedialAxis& a, const MedialAxis
   const exact::Outline outline =
       exact::outline_of(shape, frame, sites::number_sites(shape, frame, 0.01));
   if (a.sites.size() != b.sites.size()) return "the sites differ";
-  Contracted first(a, outline, tolerance), second(b, outline, tolerance);
+  Contracted first(a, outline), second(b, outline);
   for (const Contracted* one : {&first, &second})
     if (!one->failure().empty()) return one->failure();
 
@@ -99,13 +104,12 @@ std::string difference(const Shape& shape, const MedialAxis& a, const MedialAxis
     if (nearest != others.end()) {
       common.emplace_back(&link, *nearest);
       others.erase(nearest);
-    } else if (!first.contract(link)) {
-      return "only the first axis has " + name_of(link);
+    } else {
+      first.contract(link);
     }
   }
   for (const auto& [pair, others] : by_sites)
-    for (const Link* link : others)
-      if (!second.contract(*link)) return "only the second axis has " + name_of(*link);
+    for (const Link* link : others) second.contract(*link);
 
   std::map<std::uint32_t, std::uint32_t> forth, back;
   for (const auto& [x, y] : common) {
@@ -114,6 +118,23 @@ std::string difference(const Shape& shape, const MedialAxis& a, const MedialAxis
       if (forth.emplace(u, v).first->second != v || back.emplace(v, u).first->second != u)
         return name_of(*x) + " ends in different nodes";
     }
+  }
+
+  const auto those = first.clusters(), these = second.clusters();
+  if (those.size() != these.size()) return "the numbers of nodes differ";
+  for (const auto& [u, nodes] : those) {
+    const auto other = forth.find(u);
+    if (other == forth.end()) continue;  // the centre of a disk: no edge leads there
+    const std::vector<std::uint32_t>& others = these.at(other->second);
+    if (nodes.size() == 1 && others.size() == 1) continue;
+    const auto touches_all = [&](const Disk& disk) {
+      return first.touched(nodes, disk, tolerance) && second.touched(others, disk, tolerance);
+    };
+    if (!std::any_of(nodes.begin(), nodes.end(),
+                     [&](std::uint32_t i) { return touches_all(first.disk(i)); }) &&
+        !std::any_of(others.begin(), others.end(),
+                     [&](std::uint32_t i) { return touches_all(second.disk(i)); }))
+      return "no disk touches all sites around node " + std::to_string(nodes[0]);
   }
   return {};
 }

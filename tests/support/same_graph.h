@@ -11,9 +11,10 @@ namespace medial::test {
 ///
 /// An edge is known by the sites on its two sides (nodes that only divide an edge between the same
 /// two sites count as inside of it). Edges that both axes have correspond to each other, of several
-/// with the same sites those that are nearest. Every other edge must be a short one: the disk of
-/// one of its ends touches what that of the other end touches, to within `tolerance`. Contracting
-/// the short ones must leave the same graph: one-to-one on nodes and edges.
+/// with the same sites those that are nearest. Contracting all others must leave the same
+/// graph, one-to-one on nodes and edges. And for each node of that graph, one disk must touch all
+/// that the disks contracted to it touch, in both axes, to within `tolerance`: one of these disks
+/// does.
 std::string difference(const Shape& shape, const MedialAxis& a, const MedialAxis& b,
                        double tolerance);
 
