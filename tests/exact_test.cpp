@@ -150,7 +150,10 @@ std::vector<std::string> compare_exact(const Rings& rings, Statistics* counts = 
   std::vector<std::string> failures;
   const std::string differs = difference(*shape, *plain, *certain, plain->tolerance);
   if (!differs.empty()) failures.push_back(differs);
-  if (verify(*shape, *plain).passed) {
+  // Of arcs whose own circles are all but one, docs/exact.md: curves of edges as short as rounding
+  // are right in their ends only.
+  const bool has_short_arcs = certain->statistics.exact_changes > 0 && !shape->bulges.empty();
+  if (!has_short_arcs && verify(*shape, *plain).passed) {
     const Certificate certificate = verify(*shape, *certain);
     failures.insert(failures.end(), certificate.failures.begin(), certificate.failures.end());
   }

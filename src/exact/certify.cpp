@@ -74,7 +74,9 @@ class Certifier {
  private:
   struct State {
     std::optional<DiskBounds<double>> bounds;
-    bool divides = false;  ///< more than three contacts that no one disk touches
+    /// The nodes that more than three contacts are divided into where no one disk touches them.
+    std::vector<std::vector<std::uint32_t>> divided;
+    bool divides = false;
     bool gone = false;
     bool added = false;
   };
@@ -160,8 +162,9 @@ class Certifier {
       const auto node = static_cast<std::uint32_t>(i);
       const auto contacts = graph_.contacts(node);
       if (contacts.size() > 3 && axis_.nodes[node].disk.radius > 0) {
-        const auto nodes = divide(outline_, sites_of(contacts), decisions);
+        auto nodes = divide(outline_, sites_of(contacts), decisions);
         states_[i].divides = nodes.size() > 1;
+        if (states_[i].divides) states_[i].divided = std::move(nodes);
       }
       states_[i].bounds = bounds_of<double>(node);
     }));
@@ -332,7 +335,10 @@ class Certifier {
                        std::vector<std::uint32_t>& changed) {
     const std::vector<Contact> outer = outer_contacts(nodes);
     if (outer.size() < 3) return false;
-    const auto divided = divide(outline_, sites_of(outer), decisions_);
+    // A node alone has been looked at already; its contacts stand in the same order.
+    const bool known = nodes.size() == 1 && states_[nodes[0]].divides;
+    const auto divided = known ? std::move(states_[nodes[0]].divided)
+                               : divide(outline_, sites_of(outer), decisions_);
     if (is_divided_so(nodes, outer, divided)) return true;
     ++changes_;
     const std::uint32_t old = nodes.front();
@@ -369,7 +375,7 @@ class Certifier {
         contacts.push_back(contact);
       }
       graph_.append(contacts);
-      states_.push_back({std::nullopt, false, false, true});
+      states_.push_back({std::nullopt, {}, false, false, true});
       changed.push_back(node);
       if (!move_to_bounds(node)) return false;
     }
