@@ -34,14 +34,14 @@ struct Bounded<exact::Precise> {
   using Real = exact::Precise;
   using Size = long double;  // its exponents have room for products of many small coordinates
   Real value{0};
-  Size size = 0;
+  Size largest = 0;
   Size error = 0;
 
   Bounded() = default;
-  explicit Bounded(double exact) : value(exact), size(std::abs(exact)) {}
+  explicit Bounded(double exact) : value(exact), largest(std::abs(exact)) {}
   explicit Bounded(const Real& exact) : Bounded(exact, 0) {}
   Bounded(Real approximate, Size bound)
-      : value(std::move(approximate)), size(widen * (magnitude() + bound)), error(bound) {}
+      : value(std::move(approximate)), largest(widen * (magnitude() + bound)), error(bound) {}
 
   std::optional<int> sign() const {
     if (magnitude() > widen * error) return value > 0 ? 1 : -1;
@@ -53,23 +53,23 @@ struct Bounded<exact::Precise> {
   Size least() const { return std::max<Size>(0, magnitude() / widen - error); }
 
   /// Bounds the size anew, where differences have made it smaller than operations alone can tell.
-  void tighten() { size = most(); }
+  void tighten() { largest = most(); }
 
   /// Every operation is correctly rounded to 259 bits at least.
   static constexpr Size unit = 0x1p-256L;
   /// Bounds are sums and products of positive numbers with a few roundings each.
   static constexpr Size widen = 1 + 0x1p-48L;
 
-  friend Bounded operator-(const Bounded& a) { return {Real(-a.value), a.size, a.error}; }
+  friend Bounded operator-(const Bounded& a) { return {Real(-a.value), a.largest, a.error}; }
   friend Bounded operator+(const Bounded& a, const Bounded& b) {
-    const Size size = widen * (a.size + b.size);
+    const Size size = widen * (a.largest + b.largest);
     return {Real(a.value + b.value), size, widen * (a.error + b.error + unit * size)};
   }
   friend Bounded operator-(const Bounded& a, const Bounded& b) { return a + (-b); }
   friend Bounded operator*(const Bounded& a, const Bounded& b) {
-    const Size size = widen * a.size * b.size;
+    const Size size = widen * a.largest * b.largest;
     return {Real(a.value * b.value), size,
-            widen * (a.size * b.error + b.size * a.error + unit * size)};
+            widen * (a.largest * b.error + b.largest * a.error + unit * size)};
   }
   friend Bounded operator/(const Bounded& a, const Bounded& b) {
     const Size divisor = b.least();
@@ -89,8 +89,8 @@ struct Bounded<exact::Precise> {
   }
 
  private:
-  Bounded(Real approximate, Size largest, Size bound)
-      : value(std::move(approximate)), size(largest), error(bound) {}
+  Bounded(Real approximate, Size size, Size bound)
+      : value(std::move(approximate)), largest(size), error(bound) {}
   Size magnitude() const { return std::abs(static_cast<Size>(value)); }
 };
 

@@ -122,8 +122,9 @@ std::string difference(const Shape& shape, const MedialAxis& a, const MedialAxis
 
   const auto those = first.clusters(), these = second.clusters();
   if (those.size() != these.size()) return "the numbers of nodes differ";
-  for (const auto& [u, nodes] : those) {
-    const auto other = forth.find(u);
+  for (const auto& entry : those) {
+    const std::vector<std::uint32_t>& nodes = entry.second;
+    const auto other = forth.find(entry.first);
     if (other == forth.end()) continue;  // the centre of a disk: no edge leads there
     const std::vector<std::uint32_t>& others = these.at(other->second);
     if (nodes.size() == 1 && others.size() == 1) continue;
