@@ -174,6 +174,19 @@ TEST(ExactAxis, OfFixedShapes) {
   }
 }
 
+TEST(ExactAxis, OfConcentricHalfCircles) {
+  // Each edge of the axis turns by a half circle.
+  Rings rings;
+  for (const double radius : {8.0, 10.0}) {
+    Ring& ring = rings.emplace_back();
+    ring.points = {{12 - radius, 12}, {12 + radius, 12}};
+    ring.bulges = {1, 1};
+  }
+  Statistics counts;
+  EXPECT_EQ(compare_exact(rings, &counts), no_failures);
+  EXPECT_EQ(counts.exact_ties, 2u);
+}
+
 TEST(ExactAxis, KeepsTrueTiesAndDividesOthers) {
   Statistics counts;
   EXPECT_EQ(compare_exact(rectangle(8, 8), &counts), no_failures);

@@ -121,9 +121,17 @@ std::optional<int> further_along(const ExactSite& site, const DiskBounds<Real>& 
   ApproximateRoots<Real> roots;
   const auto normal = spoke_of<Number>(site, false, roots).normal;
   const Number factor(-4 * site.bulge);
-  const auto turn =
-      cross(normal + factor * (from.center - start), normal + factor * (to.center - start));
-  return (site.bulge > 0 ? turn : -turn).sign();
+  const auto normal_at = [&](const DiskBounds<Real>& disk) {
+    return normal + factor * (disk.center - start);
+  };
+  const auto before = normal_at(from), after = normal_at(to);
+  // An arc can turn by a half circle: on different sides of its middle feet are told apart first.
+  const auto middle = left_of(exact_vector<Number>(site.end) - start);
+  const auto from_side = cross(middle, before).sign(), to_side = cross(middle, after).sign();
+  const int left = site.bulge > 0 ? 1 : -1;
+  if (from_side && to_side && *from_side * *to_side < 0) return *to_side * left;
+  const auto turn = cross(before, after);
+  return (left > 0 ? turn : -turn).sign();
 }
 
 template std::optional<DiskBounds<double>> disk_bounds(const Outline&,
