@@ -364,7 +364,7 @@ Result<Nesting> nest(const Solid& solid, const FaceTree& tree,
     for (std::size_t i = 0; i < crossed.size();) {
       std::size_t end = i;
       while (end < crossed.size() && crossed[end] == crossed[i]) ++end;
-      nesting.depth[s] += (end - i) % 2;
+      nesting.depth[s] += static_cast<std::uint32_t>((end - i) % 2);
       i = end;
     }
   }
