@@ -34,6 +34,7 @@ Verb make_verify_verb(CLI::App& program);
 Verb make_info_verb(CLI::App& program);
 Verb make_legal_verb(CLI::App& program);
 Verb make_draw_verb(CLI::App& program);
+Verb make_prune_verb(CLI::App& program);
 Verb make_distance_verb(CLI::App& program);
 Verb make_voxels_verb(CLI::App& program);
 Verb make_bench_verb(CLI::App& program);

@@ -5,8 +5,7 @@
 #include <memory>
 
 #include "cli/common.h"
-#include "cli/pipeline.h"
-#include "cli/terminal.h"
+#include "cli/stored_axes.h"
 
 namespace medial::cli {
 namespace {
@@ -21,32 +20,12 @@ struct DrawSwitches {
   io::WriteOptions write;
 };
 
-/// Stored axes as they are; of shapes, axes computed now.
-Result<AxisFile> axes_to_draw(const InputSwitches& input, const CommonSwitches& common) {
-  if (input.text.empty() && io::is_native(input.path)) {
-    const Stopwatch reading;
-    auto native = io::read_native(input.path);
-    if (!native) return std::move(native).error();
-    if (!holds_contours(*native)) {
-      AxisFile file;
-      file.native = std::move(native).value();
-      file.statistics.threads = effective_threads(common.threads);
-      file.seconds_read = reading.seconds();
-      return file;
-    }
-  }
-  auto shapes = load_shapes(input, common.threads);
-  if (!shapes) return std::move(shapes).error();
-  print_notes(*shapes, input, common);
-  return compute_axes(std::move(shapes).value(), input.path, common);
-}
-
 Result<int> run_draw(const DrawSwitches& switches) {
   const auto& [input, common, output, format, pictures] = switches;
   if (output.empty()) return invalid_option("-o needs the name of a picture");
   Status writable = check_output(output, format, picture_formats, input.path, common.json);
   if (!writable) return std::move(writable).error();
-  auto axes = axes_to_draw(input, common);
+  auto axes = load_axes(input, common);
   if (!axes) return std::move(axes).error();
   return write_and_tell(*axes, input, common, output, format, pictures);
 }

@@ -5,6 +5,7 @@
 #include "medial/compute.h"
 #include "medial/contour.h"
 #include "medial/error.h"
+#include "medial/prune.h"
 #include "medial/query.h"
 #include "medial/shape.h"
 #include "medial/verify.h"

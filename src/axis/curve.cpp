@@ -198,6 +198,21 @@ Curve::Derivatives Curve::derivatives(double t) const {
   return out;
 }
 
+Curve Curve::part(double t0, double t1) const {
+  // Blossoms of the curve in homogeneous coordinates, relative to the origin.
+  struct Lifted {
+    Vec2 p;
+    double r, w;
+  };
+  const auto blossom = [this](double a, double b) {
+    const double b0 = (1 - a) * (1 - b), b1 = weight * ((1 - a) * b + a * (1 - b)), b2 = a * b;
+    const double w = b0 + b1 + b2;
+    return Lifted{(1 / w) * (b1 * p1 + b2 * p2), (b0 * r0 + b1 * r1 + b2 * r2) / w, w};
+  };
+  const Lifted first = blossom(t0, t0), middle = blossom(t0, t1), last = blossom(t1, t1);
+  return {at(t0), {origin + middle.p, middle.r}, at(t1), middle.w / std::sqrt(first.w * last.w)};
+}
+
 bool Curve::straight() const {
   // Control points of straight edges are rounded like others; what is flatter than that is
   // straight.

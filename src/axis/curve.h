@@ -32,6 +32,9 @@ struct Curve {
   /// at(t).center - origin, without the rounding of the addition.
   Vec2 offset(double t) const;
 
+  /// The same curve from t0 to t1: exact, its weight positive. Requires 0 <= t0 <= t1 <= 1.
+  Curve part(double t0, double t1) const;
+
   /// First and second derivatives by t of offset() and of the radius.
   struct Derivatives {
     Vec2 first, second;

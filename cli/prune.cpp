@@ -1,0 +1,200 @@
+// medial prune: axes less what does not matter.
+
+#include "medial/prune.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <memory>
+
+#include "cli/prune_switches.h"
+#include "cli/stored_axes.h"
+#include "cli/terminal.h"
+#include "medial/query.h"
+
+namespace medial::cli {
+
+namespace {
+
+const char* help_of(PruneMeasure measure) {
+  switch (measure) {
+    case PruneMeasure::significance:
+      return "Branches by how far the shape reaches out beyond the disk where they\n"
+             "begin, by that disk's radius (Ho and Dyer)";
+    case PruneMeasure::length:
+      return "Branches by their longest way to an end, by that radius";
+    case PruneMeasure::ratio:
+      return "Branches by the boundary beyond that disk, by the chord it stands on";
+    case PruneMeasure::radius:
+      return "Points by their radius, by R";
+    case PruneMeasure::angle:
+      return "Points by the angle between the radii to the boundary, in degrees";
+    case PruneMeasure::erosion:
+      return "Points by erosion thickness: how far the shape reaches out, by R";
+    case PruneMeasure::potential:
+      return "Points by the length of the boundary beyond, by 2 pi R";
+    case PruneMeasure::residual:
+      return "Points by that length less the chord it stands on, by 2 R";
+    case PruneMeasure::area:
+      return "Points by the area that would be lost, by that of the shape";
+    case PruneMeasure::lambda:
+      return "The lambda medial axis: the smallest circle around the feet, by R";
+    case PruneMeasure::scale:
+      return "The scale axis: the growth that hides a disk in another, from 1 up";
+  }
+  return "";
+}
+
+}  // namespace
+
+void add_prune_switches(CLI::App& verb, PruneSwitches& switches) {
+  constexpr char group[] = "What matters";
+  switches.thresholds.resize(prune_measures().size());
+  std::vector<CLI::Option*> options;
+  for (const PruneMeasure measure : prune_measures()) {
+    CLI::Option* option = verb.add_option(fmt::format("--{}", name_of(measure)),
+                                          switches.thresholds[static_cast<std::size_t>(measure)],
+                                          fmt::format("{} (default: {}).", help_of(measure),
+                                                      default_threshold(measure)))
+                              ->check(in_range(0, 1e9))
+                              ->option_text("T")
+                              ->group(group);
+    for (CLI::Option* other : options) option->excludes(other);
+    options.push_back(option);
+  }
+  CLI::Option* by =
+      verb.add_option("--by", switches.by,
+                      "One of these measures with its default, or for --keep (default:\n"
+                      "significance).")
+          ->option_text("MEASURE")
+          ->group(group);
+  CLI::Option* keep = verb.add_option("--keep", switches.keep,
+                                      "The most important branches, so many at most for each\n"
+                                      "feature, instead of a threshold.")
+                          ->check(a_whole_number())
+                          ->option_text("N")
+                          ->group(group);
+  for (CLI::Option* option : options) {
+    by->excludes(option);
+    keep->excludes(option);
+  }
+  verb.add_flag("--tips", switches.tips,
+                "What is kept runs on to its tips, along the ways that reach farthest.")
+      ->group(group);
+}
+
+Result<PruneOptions> prune_options(const PruneSwitches& switches) {
+  PruneOptions options;
+  options.keep = switches.keep;
+  options.tips = switches.tips;
+  if (!switches.by.empty()) {
+    const auto measure = prune_measure_from(switches.by);
+    if (!measure) {
+      std::string names;
+      for (const PruneMeasure one : prune_measures()) names += fmt::format(" {}", name_of(one));
+      return invalid_option(fmt::format("--by takes no '{}', only one of:{}", switches.by, names));
+    }
+    options.measure = *measure;
+  }
+  for (std::size_t i = 0; i < switches.thresholds.size(); ++i) {
+    if (!switches.thresholds[i]) continue;
+    options.measure = prune_measures()[i];
+    options.threshold = switches.thresholds[i];
+  }
+  return options;
+}
+
+Result<PruneReport> prune_all(AxisFile& file, const PruneOptions& options, int threads) {
+  std::vector<double> weights;
+  for (const io::NativeItem& item : file.native.items)
+    weights.push_back(static_cast<double>(item.axis.edges.size()));
+  std::vector<PruneReport> reports(weights.size());
+  Status done = for_each_feature(weights, threads, [&](std::size_t i, int) -> Status {
+    MedialAxis& axis = file.native.items[i].axis;
+    auto pruned = prune(axis, options, &reports[i]);
+    if (!pruned) return std::move(pruned).error();
+    axis = std::move(pruned).value();
+    return success();
+  });
+  if (!done) return std::move(done).error();
+  PruneReport sum;
+  for (const PruneReport& one : reports) {
+    sum.threshold = std::max(sum.threshold, one.threshold);
+    sum.edges_before += one.edges_before;
+    sum.edges += one.edges;
+    sum.branches_before += one.branches_before;
+    sum.branches += one.branches;
+    sum.cuts += one.cuts;
+  }
+  return sum;
+}
+
+namespace {
+
+struct Switches {
+  InputSwitches input;
+  CommonSwitches common;
+  PruneSwitches prune;
+  std::string output;
+  std::string format;
+  io::WriteOptions write;
+};
+
+Result<int> run_prune(const Switches& switches) {
+  const auto& [input, common, how, output, format, pictures] = switches;
+  const auto options = prune_options(how);
+  if (!options) return options.error();
+  Status writable =
+      check_output(output, format, io::known_output_formats(), input.path, common.json);
+  if (!writable) return std::move(writable).error();
+  auto axes = load_axes(input, common);
+  if (!axes) return std::move(axes).error();
+  const Stopwatch pruning;
+  const auto report = prune_all(*axes, *options, common.threads);
+  if (!report) return report.error();
+  const double seconds = pruning.seconds();
+  if (common.stats && !common.json) {
+    fmt::print(stderr, "{}",
+               table({{"measure", name_of(options->measure)},
+                      {"threshold", report->threshold},
+                      {"branches_before", report->branches_before},
+                      {"edges_before", report->edges_before},
+                      {"cuts", report->cuts},
+                      {"seconds_prune", seconds}}));
+  }
+  return write_and_tell(*axes, input, common, output, format, pictures);
+}
+
+}  // namespace
+
+Verb make_prune_verb(CLI::App& program) {
+  auto switches = std::make_shared<Switches>();
+  CLI::App* verb = program.add_subcommand("prune", "Remove the branches that do not matter.");
+  add_input_switches(*verb, switches->input);
+  verb->add_option("-o,--output", switches->output,
+                   fmt::format("Where to write; the extension tells the format: {}\n"
+                               "- is standard output, see --format.",
+                               io::known_output_formats()))
+      ->check(a_name())
+      ->option_text("FILE");
+  verb->add_option("--format", switches->format, "The format of -o - (default: json).")
+      ->option_text("NAME");
+  add_prune_switches(*verb, switches->prune);
+  add_picture_switches(*verb, switches->write);
+  add_common_switches(*verb, switches->common);
+  verb->footer(
+      "INPUT is medial's own .json with axes, or shapes, whose axes are then computed. R\n"
+      "is the radius of the deepest disk of each connected part. No measure has a unit.\n"
+      "Parts and cycles stay whatever the threshold, and more of a measure leaves less\n"
+      "of the axis, never anything else. Edges of exact axes are cut exactly. One measure\n"
+      "at a time.\n"
+      "\n"
+      "Examples:\n"
+      "  medial prune plan.json -o spine.json\n"
+      "  medial prune coast.wkt.gz --erosion 0.2 -o coast.svg\n"
+      "  medial axis gear.svg -o - | medial prune - --angle 60 -o gear.pdf\n"
+      "  medial prune leaf.png --keep 20 --tips -o veins.svg");
+  return {verb, [switches] { return run_prune(*switches); }};
+}
+
+}  // namespace medial::cli

@@ -1,0 +1,28 @@
+#pragma once
+
+// What the verbs share that prune.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/pipeline.h"
+#include "medial/prune.h"
+
+namespace medial::cli {
+
+struct PruneSwitches {
+  std::vector<std::optional<double>> thresholds;  ///< by measure
+  std::string by;
+  std::optional<std::uint64_t> keep;
+  bool tips = false;
+};
+
+/// A switch for every measure, --by, --keep and --tips.
+void add_prune_switches(CLI::App& verb, PruneSwitches& switches);
+/// Errors: invalid_option.
+Result<PruneOptions> prune_options(const PruneSwitches& switches);
+/// Prunes all axes of a file; the report is summed, the threshold the largest.
+Result<PruneReport> prune_all(AxisFile& file, const PruneOptions& options, int threads);
+
+}  // namespace medial::cli

@@ -1,0 +1,26 @@
+#include "cli/stored_axes.h"
+
+#include "cli/terminal.h"
+
+namespace medial::cli {
+
+Result<AxisFile> load_axes(const InputSwitches& input, const CommonSwitches& common) {
+  if (input.text.empty() && io::is_native(input.path)) {
+    const Stopwatch reading;
+    auto native = io::read_native(input.path);
+    if (!native) return std::move(native).error();
+    if (!holds_contours(*native)) {
+      AxisFile file;
+      file.native = std::move(native).value();
+      file.statistics.threads = effective_threads(common.threads);
+      file.seconds_read = reading.seconds();
+      return file;
+    }
+  }
+  auto shapes = load_shapes(input, common.threads);
+  if (!shapes) return std::move(shapes).error();
+  print_notes(*shapes, input, common);
+  return compute_axes(std::move(shapes).value(), input.path, common);
+}
+
+}  // namespace medial::cli

@@ -1,0 +1,121 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "base/spatial_order.h"
+#include "medial/axis.h"
+
+namespace medial::ops {
+
+/// The disks at the nodes of an axis, for the search of the scale axis; those of each connected
+/// part by themselves.
+class DiskTree {
+ public:
+  /// `part` of each node, counted from 0. O(n log n).
+  DiskTree(const std::vector<Node>& nodes, std::span<const std::uint32_t> part) {
+    std::size_t parts = 0;
+    for (const std::uint32_t p : part) parts = std::max<std::size_t>(parts, p + 1);
+    std::vector<std::vector<std::uint32_t>> members(parts);
+    for (std::uint32_t i = 0; i < nodes.size(); ++i) members[part[i]].push_back(i);
+    std::vector<Vec2> places;
+    for (const std::vector<std::uint32_t>& own : members) {
+      places.clear();
+      for (const std::uint32_t i : own) places.push_back(nodes[i].disk.center);
+      Part& tree = parts_.emplace_back();
+      for (const std::uint32_t k : spatial_order(places, fan_out))
+        tree.disks.push_back(nodes[own[k]].disk);
+      build(tree);
+    }
+  }
+
+  /// The factor s at which `disk`, grown by it, lies in another disk of the part, grown too: the
+  /// least |p - q| / (r(q) - r(p)) over the disks with larger radii; infinite where there is none.
+  double vanishes_at(const Disk& disk, std::uint32_t part) const {
+    const Part& tree = parts_[part];
+    double best = std::numeric_limits<double>::infinity();
+    search(tree, tree.levels.size() - 1, 0, disk, best);
+    return best;
+  }
+
+ private:
+  static constexpr std::size_t fan_out = 8;
+  /// A box around centres, and the largest radius in it.
+  struct Bound {
+    Vec2 low, high;
+    double radius = 0;
+  };
+  struct Part {
+    std::vector<Disk> disks;
+    std::vector<std::vector<Bound>> levels;  ///< the last one has one bound
+  };
+
+  static void build(Part& tree) {
+    std::vector<Bound> level;
+    for (std::size_t i = 0; i < tree.disks.size(); i += fan_out) {
+      Bound bound{tree.disks[i].center, tree.disks[i].center, tree.disks[i].radius};
+      for (std::size_t k = i; k < std::min(i + fan_out, tree.disks.size()); ++k)
+        join(bound, {tree.disks[k].center, tree.disks[k].center, tree.disks[k].radius});
+      level.push_back(bound);
+    }
+    tree.levels.push_back(std::move(level));
+    while (tree.levels.back().size() > 1) {
+      const std::vector<Bound>& below = tree.levels.back();
+      std::vector<Bound> above;
+      for (std::size_t i = 0; i < below.size(); i += fan_out) {
+        Bound bound = below[i];
+        for (std::size_t k = i + 1; k < std::min(i + fan_out, below.size()); ++k)
+          join(bound, below[k]);
+        above.push_back(bound);
+      }
+      tree.levels.push_back(std::move(above));
+    }
+  }
+  static void join(Bound& bound, const Bound& other) {
+    bound.low = {std::min(bound.low.x, other.low.x), std::min(bound.low.y, other.low.y)};
+    bound.high = {std::max(bound.high.x, other.high.x), std::max(bound.high.y, other.high.y)};
+    bound.radius = std::max(bound.radius, other.radius);
+  }
+  /// Below this no disk of the bound lets `disk` vanish.
+  static double least(const Bound& bound, const Disk& disk) {
+    if (!(bound.radius > disk.radius)) return std::numeric_limits<double>::infinity();
+    const Vec2 p = disk.center;
+    const double dx = std::max({bound.low.x - p.x, 0.0, p.x - bound.high.x});
+    const double dy = std::max({bound.low.y - p.y, 0.0, p.y - bound.high.y});
+    return norm({dx, dy}) / (bound.radius - disk.radius);
+  }
+  void search(const Part& tree, std::size_t level, std::size_t i, const Disk& disk,
+              double& best) const {
+    const std::size_t first = i * fan_out;
+    if (level == 0) {
+      for (std::size_t k = first; k < std::min(first + fan_out, tree.disks.size()); ++k) {
+        const double more = tree.disks[k].radius - disk.radius;
+        if (more > 0) best = std::min(best, distance(tree.disks[k].center, disk.center) / more);
+      }
+      return;
+    }
+    // The most promising first.
+    std::array<std::pair<double, std::size_t>, fan_out> children;
+    std::size_t count = 0;
+    const std::vector<Bound>& below = tree.levels[level - 1];
+    for (std::size_t k = first; k < std::min(first + fan_out, below.size()); ++k) {
+      const double bound = least(below[k], disk);
+      if (!(bound < best)) continue;
+      std::size_t place = count++;
+      for (; place > 0 && children[place - 1].first > bound; --place)
+        children[place] = children[place - 1];
+      children[place] = {bound, k};
+    }
+    for (std::size_t k = 0; k < count && children[k].first < best; ++k)
+      search(tree, level - 1, children[k].second, disk, best);
+  }
+
+  std::vector<Part> parts_;
+};
+
+}  // namespace medial::ops

@@ -1,0 +1,59 @@
+#pragma once
+
+// The way around an axis: with the axis on the left and the boundary on the right.
+
+#include <cstdint>
+#include <vector>
+
+#include "medial/axis.h"
+#include "medial/query.h"
+#include "medial/sides.h"
+
+namespace medial::ops {
+
+/// An edge seen from one of its ends: half edge 2 e leaves edge e's node[0], 2 e + 1 its node[1].
+using HalfEdge = std::uint32_t;
+
+/// Keeps a reference to the axis, which must live longer.
+class HalfEdges {
+ public:
+  /// O(edges log(degree)).
+  explicit HalfEdges(const MedialAxis& axis);
+
+  HalfEdge count() const { return static_cast<HalfEdge>(next_.size()); }
+  /// The half edge after one that arrives: the one that leaves next, to the right.
+  HalfEdge next(HalfEdge half) const { return next_[half]; }
+  const Edge& edge(HalfEdge half) const { return axis_.edges[half / 2]; }
+  std::uint32_t from(HalfEdge half) const { return edge(half).node[half % 2]; }
+  std::uint32_t to(HalfEdge half) const { return edge(half).node[1 - half % 2]; }
+  const Disk& disk(HalfEdge half, bool at_end) const {
+    return axis_.nodes[at_end ? to(half) : from(half)].disk;
+  }
+
+  /// Whether the right side is known as a site, exactly.
+  bool exact(HalfEdge half) const {
+    return axis_.resolution == 0 && right_site(half) < axis_.sites.size();
+  }
+  std::uint32_t right_site(HalfEdge half) const { return edge(half).site[half % 2 == 0 ? 1 : 0]; }
+
+  /// The frame where a half edge begins, or where it ends; in its direction.
+  AxisFrame frame(HalfEdge half, bool at_end) const;
+  /// Where the disk at an end of a half edge touches the boundary on the right.
+  Vec2 touch(HalfEdge half, bool at_end) const;
+  /// The angle of the disk's arc, counter-clockwise, from where the right side of a half edge ends
+  /// to where that of the next one begins; in [0, 2 pi). 0 where the two are one point to rounding,
+  /// and where the sides of samples overlap.
+  double gap(HalfEdge half) const;
+
+ private:
+  /// The direction in which a half edge leaves.
+  double direction(HalfEdge half) const;
+
+  const MedialAxis& axis_;
+  std::vector<HalfEdge> next_;
+};
+
+/// The arc of a disk from one point to another, counter-clockwise, as one piece or two.
+void add_arc(const Disk& disk, Vec2 begin, Vec2 end, double angle, Contour& contour);
+
+}  // namespace medial::ops

@@ -1,0 +1,202 @@
+#include "ops/importance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "axis/curve.h"
+#include "base/arc.h"
+#include "medial/query.h"
+
+namespace medial::ops {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr double degrees = 180 / pi;
+
+/// The length of an arc with this chord and bulge: chord (1 + b^2) atan(b) / b.
+double arc_length(double chord, double bulge) {
+  const double b = std::abs(bulge);
+  return b > 0 ? chord * (1 + b * b) * (std::atan(b) / b) : chord;
+}
+
+/// a / b, but finite.
+double share(double a, double b) {
+  return a <= 0 ? 0 : std::min(a / b, std::numeric_limits<double>::max());
+}
+
+}  // namespace
+
+Importance::Importance(const MedialAxis& axis, const Trees& trees, PruneMeasure measure,
+                       bool reaches)
+    : axis_(axis), trees_(trees), measure_(measure), size_(trees.deepest.size()) {
+  using enum PruneMeasure;
+  of_branches_ = measure == significance || measure == length || measure == ratio;
+  of_sides_ = measure == ratio || measure == potential || measure == residual || measure == area;
+  of_reach_ = reaches || measure == significance || measure == length || measure == erosion;
+  if (measure == angle || measure == lambda || measure == residual) steps_ = 4;
+  for (std::size_t i = 0; i < size_.size(); ++i)
+    size_[i] = axis.nodes[trees.deepest[i]].disk.radius;
+  if (measure == scale) disks_.emplace(axis.nodes, trees.part);
+  if (of_reach_ || of_sides_) sum_up();
+}
+
+void Importance::sum_up() {
+  beyond_.resize(axis_.nodes.size());
+  for (std::size_t i = 0; i < beyond_.size(); ++i) beyond_[i].reach = axis_.nodes[i].disk.radius;
+  if (of_sides_) {
+    const HalfEdges halves(axis_);
+    for (HalfEdge half = 0; half < halves.count(); ++half) {
+      const double angle = halves.gap(half), radius = halves.disk(half, true).radius;
+      Beyond& at = beyond_[halves.to(half)];
+      at.boundary += radius * angle;
+      at.area += radius * radius * angle / 2;
+    }
+  }
+  for (const std::uint32_t e : trees_.order) {
+    const Beyond all = beyond(e, 1);
+    const auto& ends = axis_.edges[e].node;
+    Beyond& inner = beyond_[ends[trees_.outer_end(axis_, e) == 0 ? 1 : 0]];
+    inner.way = std::max(inner.way, all.way);
+    inner.reach = std::max(inner.reach, all.reach);
+    inner.boundary += all.boundary;
+    inner.area += all.area;
+  }
+  if (measure_ != PruneMeasure::area) return;
+  // Of each part: what hangs on the core, and the core's own sides.
+  std::fill(size_.begin(), size_.end(), 0.0);
+  for (std::uint32_t i = 0; i < axis_.nodes.size(); ++i)
+    if (trees_.inwards[i] == no_edge) size_[trees_.part[i]] += beyond_[i].area;
+  for (std::uint32_t e = 0; e < axis_.edges.size(); ++e) {
+    if (trees_.in_tree(axis_, e)) continue;
+    Beyond sides;
+    add_sides(e, 0, 1, sides);
+    size_[trees_.part[axis_.edges[e].node[0]]] += sides.area;
+  }
+}
+
+Importance::Feet Importance::feet(const Edge& edge, double t, const Disk& disk) const {
+  const auto [left, right] = edge.site;
+  const std::size_t sites = axis_.sites.size();
+  if (left < sites && right < sites && left != right)
+    return {foot(axis_.sites[left], disk.center), foot(axis_.sites[right], disk.center)};
+  const AxisFrame frame = frame_at(axis_, edge, t);
+  return {boundary_at(frame, Side::left).point, boundary_at(frame, Side::right).point};
+}
+
+void Importance::add_sides(std::uint32_t e, double t0, double t1, Beyond& sum) const {
+  const Edge& edge = axis_.edges[e];
+  const Curve whole = curve_of(axis_, edge);
+  const Curve curve = t0 == 0 && t1 == 1 ? whole : whole.part(t0, t1);
+  const Disk first{curve.origin, curve.r0}, last{curve.end, curve.r2};
+  const bool exact = axis_.resolution == 0;
+  const auto points = [&](double t, const Disk& disk) -> Feet {
+    if (exact) return feet(edge, t, disk);
+    const AxisFrame frame = frame_at(axis_, edge, t);
+    return {boundary_at(frame, Side::left).point, boundary_at(frame, Side::right).point};
+  };
+  const Feet from = points(t0, first), to = points(t1, last);
+  // Around the piece on the right, counter-clockwise: out along the first radius, along the
+  // boundary, back along the last radius and the axis; on the left its mirror image.
+  const auto side = [&](Vec2 a, Vec2 b, std::uint32_t site, double sign) {
+    double bulge = 0;
+    if (exact && site < axis_.sites.size() && axis_.sites[site].kind == SiteKind::arc &&
+        !(a == b)) {
+      const Site& arc = axis_.sites[site];
+      // On the left the boundary runs against the edge.
+      bulge = sign < 0 ? partial_bulge({arc.start, arc.end, arc.bulge}, a, b)
+                       : -partial_bulge({arc.start, arc.end, arc.bulge}, b, a);
+    }
+    sum.boundary += arc_length(distance(a, b), bulge);
+    const Vec2 p = a - curve.origin, q = b - curve.origin;
+    const double around = cross(p, q) + cross(q, curve.p2);
+    const double beside = a == b ? 0 : area_beside_chord({a, b, bulge});
+    sum.area += -sign * (around / 2 + beside) + sign * curve.area_beside_chord();
+  };
+  side(from.right, to.right, edge.site[1], -1);
+  side(from.left, to.left, edge.site[0], 1);
+}
+
+Importance::Beyond Importance::beyond(std::uint32_t e, double s) const {
+  const Edge& edge = axis_.edges[e];
+  const bool outer_first = trees_.outer_end(axis_, e) == 0;
+  Beyond sum = beyond_[edge.node[outer_first ? 0 : 1]];
+  if (s == 0) return sum;
+  if (of_reach_) {
+    const Curve curve = curve_of(axis_, edge);
+    const double along = s == 1        ? curve.length()
+                         : outer_first ? curve.length(s)
+                                       : curve.length() - curve.length(1 - s);
+    sum.way += along;
+    sum.reach += along;
+  }
+  if (of_sides_) add_sides(e, outer_first ? 0 : 1 - s, outer_first ? s : 1, sum);
+  return sum;
+}
+
+double Importance::reach(std::uint32_t e) const { return beyond(e, 1).reach; }
+
+double Importance::lost_area(const Edge& edge, bool outer_first, double t, const Disk& disk,
+                             double area_beyond) const {
+  // The sector of the disk that faces outwards stays.
+  constexpr double apart = 1e-6;
+  Feet f = feet(edge, t, disk);
+  if (outer_first) std::swap(f.left, f.right);  // outwards is against the edge
+  const Vec2 right = f.right - disk.center, left = f.left - disk.center;
+  double angle = std::atan2(cross(right, left), dot(right, left));
+  if (angle < 0) angle += 2 * pi;
+  if (distance(left, right) <= apart * disk.radius) {
+    const double rate = curve_of(axis_, edge).derivatives(t).radius_first;
+    angle = (rate > 0) == outer_first ? 0 : 2 * pi;
+  }
+  return area_beyond - disk.radius * disk.radius * angle / 2;
+}
+
+double Importance::at(std::uint32_t e, double s) const {
+  using enum PruneMeasure;
+  const Edge& edge = axis_.edges[e];
+  const bool outer_first = trees_.outer_end(axis_, e) == 0;
+  const double t = outer_first ? s : 1 - s;
+  const Disk disk = curve_of(axis_, edge).at(t);
+  const std::uint32_t part = trees_.part[edge.node[0]];
+  const double size = size_[part], r = disk.radius;
+  const auto chord = [&] {
+    const Feet f = feet(edge, t, disk);
+    return distance(f.left, f.right);
+  };
+  switch (measure_) {
+    case significance:
+      return share(beyond(e, s).reach - r, r);
+    case length:
+      return share(beyond(e, s).way, r);
+    case ratio:
+      return share(beyond(e, s).boundary, chord());
+    case radius:
+      return share(r, size);
+    case angle: {
+      if (!(r > 0)) {  // the limit, in a corner
+        const double rate = std::min(std::abs(frame_at(axis_, edge, t).radius_rate), 1.0);
+        return 2 * degrees * std::acos(rate);
+      }
+      const Feet f = feet(edge, t, disk);
+      const Vec2 left = f.left - disk.center, right = f.right - disk.center;
+      return degrees * std::atan2(std::abs(cross(left, right)), dot(left, right));
+    }
+    case erosion:
+      return share(beyond(e, s).reach - r, size);
+    case potential:
+      return share(beyond(e, s).boundary, 2 * pi * size);
+    case residual:
+      return share(beyond(e, s).boundary - chord(), 2 * size);
+    case area:
+      return share(lost_area(edge, outer_first, t, disk, beyond(e, s).area), size);
+    case lambda:
+      return share(chord(), 2 * size);
+    case scale:
+      return disks_->vanishes_at(disk, part);
+  }
+  return 0;
+}
+
+}  // namespace medial::ops

@@ -1,0 +1,39 @@
+#pragma once
+
+// What of a graph hangs on what: the core, which holds all cycles and the ways between them, or one
+// node of each part that is a tree; and the trees on it.
+
+#include <cstdint>
+#include <vector>
+
+#include "medial/axis.h"
+#include "ops/half_edges.h"
+
+namespace medial::ops {
+
+constexpr std::uint32_t no_edge = 0xFFFFFFFF;
+
+struct Trees {
+  /// The edges of all trees, each after all that are farther out.
+  std::vector<std::uint32_t> order;
+  /// Of each node: the edge that leads to the core, or no_edge in the core.
+  std::vector<std::uint32_t> inwards;
+  /// Of each node: its connected part, counted from 0.
+  std::vector<std::uint32_t> part;
+  /// Of each connected part: its deepest node.
+  std::vector<std::uint32_t> deepest;
+
+  /// O(n). The core of a tree is its deepest node.
+  explicit Trees(const MedialAxis& axis);
+
+  bool in_tree(const MedialAxis& axis, std::uint32_t edge) const {
+    const auto& node = axis.edges[edge].node;
+    return inwards[node[0]] == edge || inwards[node[1]] == edge;
+  }
+  /// Which end of an edge of a tree is farther out: 0 or 1.
+  int outer_end(const MedialAxis& axis, std::uint32_t edge) const {
+    return inwards[axis.edges[edge].node[0]] == edge ? 0 : 1;
+  }
+};
+
+}  // namespace medial::ops
