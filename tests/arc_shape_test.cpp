@@ -21,7 +21,7 @@ using test::circle;
 using test::Rings;
 using test::stadium;
 
-constexpr double kPi = std::numbers::pi;
+constexpr double pi = std::numbers::pi;
 
 Ring with_role(Ring ring, RingRole role) {
   ring.role = role;
@@ -108,8 +108,8 @@ void expect_contract(const Rings& rings, const Shape& shape) {
 TEST(ArcCleaning, FullCircleOfManyArcsBecomesTwoHalfCircles) {
   Ring ring;
   for (int i = 0; i < 12; ++i) {
-    ring.points.push_back({3 * std::cos(i * kPi / 6), 3 * std::sin(i * kPi / 6)});
-    ring.bulges.push_back(std::tan(kPi / 24));
+    ring.points.push_back({3 * std::cos(i * pi / 6), 3 * std::sin(i * pi / 6)});
+    ring.bulges.push_back(std::tan(pi / 24));
   }
   ShapeReport report;
   const Shape shape = built({ring}, &report);
@@ -130,10 +130,10 @@ TEST(ArcCleaning, FullCircleOfManyArcsBecomesTwoHalfCircles) {
 }
 
 TEST(ArcCleaning, LongArcsAreSplit) {
-  const double bulge = std::tan(3 * kPi / 8);  // three quarters of a circle
+  const double bulge = std::tan(3 * pi / 8);  // three quarters of a circle
   const Shape shape = built({{{{1, 0}, {0, -1}}, RingRole::any, {bulge, 0}}});
   ASSERT_EQ(shape.points.size(), 3U);
-  EXPECT_NEAR(area(shape), 0.75 * kPi + 0.5, 1e-15);
+  EXPECT_NEAR(area(shape), 0.75 * pi + 0.5, 1e-15);
   EXPECT_EQ(shape.sources[1].vertex, 0U);
   const Box box = bounding_box(shape);
   EXPECT_NEAR(box.low.x, -1, 1e-15);
@@ -144,7 +144,7 @@ TEST(ArcCleaning, LongArcsAreSplit) {
 TEST(ArcCleaning, NearlyFullCircle) {
   const Shape shape = built({{{{0, 0}, {1e-3, 0}}, RingRole::any, {1e4, 0}}});
   const double radius = 1e-3 * (1 + 1e8) / 4e4;
-  EXPECT_NEAR(area(shape) / (kPi * radius * radius), 1, 1e-7);
+  EXPECT_NEAR(area(shape) / (pi * radius * radius), 1, 1e-7);
 }
 
 TEST(ArcCleaning, BulgesBelowRoundingAreStraight) {
@@ -188,11 +188,11 @@ TEST(ArcCleaning, VerticesThatDifferByLessThanTheSweepResolvesAreOne) {
 }
 
 TEST(ArcMeasures, AreaAndBox) {
-  EXPECT_NEAR(area(built({circle({5, 7}, 2, 0.3)})), 4 * kPi, 1e-14);
-  EXPECT_NEAR(area(built({circle({0, 0}, 2), circle({0.5, 0.1}, 1, 1)})), 3 * kPi, 1e-14);
-  EXPECT_NEAR(area(built({stadium({0, 0}, {3, 4}, 1)})), 10 + kPi, 1e-14);
-  const Shape reuleaux = built({bulged_polygon(3, std::tan(kPi / 12))});
-  EXPECT_NEAR(area(reuleaux), 3 * (kPi - std::sqrt(3.0)) / 2, 1e-14);
+  EXPECT_NEAR(area(built({circle({5, 7}, 2, 0.3)})), 4 * pi, 1e-14);
+  EXPECT_NEAR(area(built({circle({0, 0}, 2), circle({0.5, 0.1}, 1, 1)})), 3 * pi, 1e-14);
+  EXPECT_NEAR(area(built({stadium({0, 0}, {3, 4}, 1)})), 10 + pi, 1e-14);
+  const Shape reuleaux = built({bulged_polygon(3, std::tan(pi / 12))});
+  EXPECT_NEAR(area(reuleaux), 3 * (pi - std::sqrt(3.0)) / 2, 1e-14);
   const Box box = bounding_box(built({circle({5, 7}, 2, 0.3)}));
   EXPECT_NEAR(box.low.x, 3, 1e-14);
   EXPECT_NEAR(box.low.y, 5, 1e-14);
@@ -229,7 +229,7 @@ TEST(ArcContacts, TangentCirclesTouch) {
       const Shape crescent = built(inside, &report);
       EXPECT_EQ(report.touching_vertices, 1U);
       EXPECT_EQ(crescent.loop_count(), 1U);
-      EXPECT_NEAR(area(crescent), 0.75 * kPi, 1e-14);
+      EXPECT_NEAR(area(crescent), 0.75 * pi, 1e-14);
       expect_contract(inside, crescent);
       // Two disks: two components.
       const Rings outside = {circle({0, 0}, 1, start), circle(1.5 * direction, 0.5, turn - start)};
@@ -247,7 +247,7 @@ TEST(ArcContacts, CircleTouchesStraightEdgesAndVertices) {
   const Shape corners = built(square, &report);
   EXPECT_EQ(report.touching_vertices, 4U);
   EXPECT_EQ(corners.component_count(), 4U);
-  EXPECT_NEAR(area(corners), 4 - kPi, 1e-14);
+  EXPECT_NEAR(area(corners), 4 - pi, 1e-14);
 
   // A square in a circle: its corners lie on the arcs, to rounding.
   const double s = std::sqrt(0.5);
@@ -255,7 +255,7 @@ TEST(ArcContacts, CircleTouchesStraightEdgesAndVertices) {
   const Shape segments = built(inscribed, &report);
   EXPECT_EQ(report.touching_vertices, 4U);
   EXPECT_EQ(segments.component_count(), 4U);
-  EXPECT_NEAR(area(segments), kPi - 2, 1e-14);
+  EXPECT_NEAR(area(segments), pi - 2, 1e-14);
 }
 
 TEST(ArcContacts, CrossingIsNamed) {
@@ -325,9 +325,9 @@ TEST(Winding, WithArcsAndTouching) {
   ShapeReport report;
   const Ring disk = with_role(circle({0, 0}, 1, 0.2), RingRole::winding);
   const Ring small = with_role(circle({0.5, 0}, 0.5, 1), RingRole::winding);
-  EXPECT_NEAR(area(built({disk, small}, &report)), kPi, 1e-14);
+  EXPECT_NEAR(area(built({disk, small}, &report)), pi, 1e-14);
   EXPECT_EQ(report.dropped_rings, 1U);
-  EXPECT_NEAR(area(built({disk, reversed(small)}, &report)), 0.75 * kPi, 1e-14);
+  EXPECT_NEAR(area(built({disk, reversed(small)}, &report)), 0.75 * pi, 1e-14);
   EXPECT_EQ(report.dropped_rings, 0U);
   // A ring that winds twice about its inner part, which it touches in a vertex.
   Ring twice{{{0, 0}, {4, 0}, {4, 4}, {0, 4}, {0, 0}, {2, 1}, {1, 2}}, RingRole::winding};
@@ -462,7 +462,7 @@ Result<Shape> noded(Rings rings, RingRole role, ShapeReport* report = nullptr) {
 
 TEST(ArcCrossings, TwoDisksByBothRules) {
   // Circles of radius 1 whose centres are 1 apart: their common part is a lens.
-  const double lens = 2 * kPi / 3 - std::sqrt(3.0) / 2;
+  const double lens = 2 * pi / 3 - std::sqrt(3.0) / 2;
   const Rings rings{circle({0, 0}, 1), circle({1, 0}, 1)};
   EXPECT_EQ(code_of(rings), ErrorCode::crossing);
   ShapeReport report;
@@ -470,11 +470,11 @@ TEST(ArcCrossings, TwoDisksByBothRules) {
   ASSERT_TRUE(both) << to_string(both.error());
   EXPECT_EQ(report.crossings, 2u);
   EXPECT_EQ(both->loop_count(), 1u);
-  EXPECT_NEAR(area(*both), 2 * kPi - lens, 1e-13);
+  EXPECT_NEAR(area(*both), 2 * pi - lens, 1e-13);
   const auto either = noded(rings, RingRole::any);
   ASSERT_TRUE(either) << to_string(either.error());
   EXPECT_EQ(either->component_count(), 2u);  // two moons that touch in their tips
-  EXPECT_NEAR(area(*either), 2 * (kPi - lens), 1e-13);
+  EXPECT_NEAR(area(*either), 2 * (pi - lens), 1e-13);
 }
 
 TEST(ArcCrossings, PolygonsToo) {
@@ -518,7 +518,7 @@ TEST(ArcCrossings, RandomDisksAreVerified) {
     const int count = static_cast<int>(random.integer(2, 12));
     for (int i = 0; i < count; ++i)
       rings.push_back(circle({random.between(0, 4), random.between(0, 4)}, random.between(0.2, 2),
-                             random.between(0, kPi)));
+                             random.between(0, pi)));
     for (const RingRole role : {RingRole::winding, RingRole::any}) {
       const auto shape = noded(rings, role);
       ASSERT_TRUE(shape) << round << ": " << to_string(shape.error());

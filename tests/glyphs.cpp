@@ -33,7 +33,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// What is slower than this is a failure of its own.
-constexpr double kLongestSeconds = 10;
+constexpr double longest_seconds = 10;
 
 struct Settings {
   std::vector<fs::path> paths;
@@ -113,7 +113,7 @@ void examine_feature(const io::Feature& feature, const std::string& name, const 
     outcome = refused_or_failed(arcs.error());
   }
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
-  if (spent.count() > kLongestSeconds) {
+  if (spent.count() > longest_seconds) {
     outcome = {
         Verdict::failed, ErrorCode::internal, {"took " + std::to_string(spent.count()) + " s"}};
   }

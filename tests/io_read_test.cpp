@@ -250,7 +250,7 @@ TEST_F(Io, EveryDamagedByteOfNativeFilesIsReadOrRefused) {
 
 // ----------------------------------------------------------------------------------------- GDAL
 
-constexpr const char* kCollection =
+constexpr const char* collection =
     R"({"type":"FeatureCollection","features":[
 {"type":"Feature","id":5,"properties":{"name":"a","n":1,"x":0.1},"geometry":{"type":"Polygon",
  "coordinates":[[[10,50],[10.1,50],[10.1,50.1],[10,50]]]}},
@@ -260,7 +260,7 @@ constexpr const char* kCollection =
 {"type":"Feature","id":7,"properties":{"name":"c","n":3},"geometry":null}]})";
 
 TEST_F(Io, ReadsFeaturesWithAttributes) {
-  const Result<Dataset> data = read_dataset(write("a.geojson", kCollection));
+  const Result<Dataset> data = read_dataset(write("a.geojson", collection));
   ASSERT_TRUE(data.ok()) << to_string(data.error());
   ASSERT_EQ(data->features.size(), 2U);
   EXPECT_TRUE(data->geographic);

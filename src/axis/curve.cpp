@@ -12,7 +12,7 @@ namespace medial {
 namespace {
 
 /// Most samples of one edge, whatever the caller asks for.
-constexpr double kMostPieces = 100000;
+constexpr double most_pieces = 100000;
 
 /// The Bernstein polynomials with the weights 1, w, 1, normalised to the sum 1.
 struct Basis {
@@ -156,7 +156,7 @@ double bracketed_root(Function f, double low, double high) {
 }
 
 std::size_t piece_count(double count) {
-  return count >= 1 ? static_cast<std::size_t>(std::min(std::ceil(count), kMostPieces)) : 1;
+  return count >= 1 ? static_cast<std::size_t>(std::min(std::ceil(count), most_pieces)) : 1;
 }
 
 }  // namespace

@@ -12,7 +12,7 @@
 namespace medial {
 namespace {
 
-constexpr std::size_t kFanOut = 8;
+constexpr std::size_t fan_out = 8;
 
 Box hull(const Box& a, const Box& b) {
   return {{std::min(a.low.x, b.low.x), std::min(a.low.y, b.low.y)},
@@ -36,8 +36,8 @@ Box box_of(const MedialAxis& axis, const Edge& edge) {
 
 }  // namespace
 
-/// A tree without pointers: level 0 holds the boxes of runs of kFanOut edges in `order`, every next
-/// level those of kFanOut boxes below.
+/// A tree without pointers: level 0 holds the boxes of runs of fan_out edges in `order`, every next
+/// level those of fan_out boxes below.
 struct AxisLocator::Index {
   const MedialAxis* axis = nullptr;
   std::vector<std::uint32_t> order;
@@ -50,15 +50,15 @@ struct AxisLocator::Index {
       const Box box = box_of(*axis, edge);
       center.push_back(midpoint(box.low, box.high));
     }
-    order = spatial_order(center, kFanOut);
+    order = spatial_order(center, fan_out);
     std::vector<Box> boxes;
     boxes.reserve(order.size());
     for (const std::uint32_t edge : order) boxes.push_back(box_of(*axis, axis->edges[edge]));
     while (true) {
       std::vector<Box> parents;
-      for (std::size_t i = 0; i < boxes.size(); i += kFanOut) {
+      for (std::size_t i = 0; i < boxes.size(); i += fan_out) {
         Box box = boxes[i];
-        for (std::size_t j = i + 1; j < std::min(i + kFanOut, boxes.size()); ++j)
+        for (std::size_t j = i + 1; j < std::min(i + fan_out, boxes.size()); ++j)
           box = hull(box, boxes[j]);
         parents.push_back(box);
       }
@@ -71,8 +71,8 @@ struct AxisLocator::Index {
   /// Visits node `index` of `level`, its children nearest first, unless it is farther than `best`.
   void visit(std::size_t level, std::size_t index, Vec2 p, AxisPoint& best) const {
     if (level == 0) {
-      const std::size_t end = std::min((index + 1) * kFanOut, order.size());
-      for (std::size_t i = index * kFanOut; i < end; ++i) {
+      const std::size_t end = std::min((index + 1) * fan_out, order.size());
+      for (std::size_t i = index * fan_out; i < end; ++i) {
         const Curve curve = curve_of(*axis, axis->edges[order[i]]);
         const double t = curve.nearest(p);
         // From the curve's own origin, where the point is not yet rounded.
@@ -83,8 +83,8 @@ struct AxisLocator::Index {
       return;
     }
     const std::vector<Box>& boxes = levels[level - 1];
-    const std::size_t begin = index * kFanOut, end = std::min(begin + kFanOut, boxes.size());
-    std::array<std::pair<double, std::size_t>, kFanOut> child;
+    const std::size_t begin = index * fan_out, end = std::min(begin + fan_out, boxes.size());
+    std::array<std::pair<double, std::size_t>, fan_out> child;
     child.fill({std::numeric_limits<double>::infinity(), boxes.size()});
     for (std::size_t i = begin; i < end; ++i)
       child[i - begin] = {std::sqrt(squared_distance(boxes[i], p)), i};

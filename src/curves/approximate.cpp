@@ -19,10 +19,10 @@ namespace {
 
 using namespace curves;
 
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
+constexpr double infinite = std::numeric_limits<double>::infinity();
 
 /// Pieces that one task converts.
-constexpr std::size_t kChunk = 64;
+constexpr std::size_t curves_per_task = 64;
 
 /// The distance that means nothing on a curve with coordinates up to `largest`: what rounding does
 /// to points, and to control points that have been halved again and again (each time with one
@@ -38,9 +38,9 @@ double rounding_of(const Bezier& curve, double largest) {
 }
 
 /// A joint where directions differ by less is smooth.
-constexpr double kSmooth = 1e-3;
+constexpr double smooth_joint = 1e-3;
 /// Curvatures at a joint that differ by less, relatively, do not jump.
-constexpr double kJump = 1e-4;
+constexpr double jump = 1e-4;
 
 /// One piece, ready to be converted.
 struct Piece {
@@ -136,7 +136,7 @@ void PieceSource::load(std::size_t index, Piece& piece) const {
   piece.frame = frame_of_piece(points);
   double largest = 0;
   for (Vec2 p : points) largest = std::max({largest, std::abs(p.x), std::abs(p.y)});
-  std::array<Vec2, kMaxDegree + 1> local;
+  std::array<Vec2, max_degree + 1> local;
   for (std::size_t i = 0; i < points.size(); ++i) local[i] = piece.frame.to_local(points[i]);
   const std::span<const double> weights =
       contour_.weights.empty() ? std::span<const double>()
@@ -162,10 +162,10 @@ void PieceSource::load(std::size_t index, Piece& piece) const {
 /// up to the neighbour, if curvature jumps up there.
 double curvature_limit(double own, double neighbour, Vec2 own_tangent, Vec2 neighbour_tangent) {
   const bool smooth = dot(own_tangent, neighbour_tangent) > 0 &&
-                      std::abs(cross(own_tangent, neighbour_tangent)) < kSmooth;
-  const bool jumps = std::abs(neighbour) > (1 + kJump) * std::abs(own) && own * neighbour > 0 &&
+                      std::abs(cross(own_tangent, neighbour_tangent)) < smooth_joint;
+  const bool jumps = std::abs(neighbour) > (1 + jump) * std::abs(own) && own * neighbour > 0 &&
                      std::isfinite(neighbour);
-  return smooth && jumps ? 0.5 * (std::abs(own) + std::abs(neighbour)) : kInfinite;
+  return smooth && jumps ? 0.5 * (std::abs(own) + std::abs(neighbour)) : infinite;
 }
 
 /// What one task makes of some neighbouring pieces of one contour.
@@ -188,7 +188,7 @@ void append_straight(const Piece& piece, ArcChain& chain) {
     const Vec2 d = curve.point(i) - curve.point(0);
     if (squared_norm(d) > squared_norm(axis)) axis = d;
   }
-  Fixed<double, kMaxDegree + 1> along, weight;
+  Fixed<double, max_degree + 1> along, weight;
   bool rising = true, falling = true;
   for (int i = 0; i <= curve.degree; ++i) {
     along[i] = axis.x * curve.x[i] + axis.y * curve.y[i];
@@ -293,7 +293,7 @@ std::optional<Error> fault_of(const Contour& contour, std::size_t index) {
     if (piece.first != next || piece.degree == 0 || piece.degree >= contour.points.size() - next) {
       return error_in(ErrorCode::malformed, "the pieces of a contour are not end to end", index);
     }
-    if (piece.degree > kMaxDegree) {
+    if (piece.degree > max_degree) {
       return at_point(ErrorCode::unsupported, "a curve has a degree above 32", next);
     }
     if (!std::isfinite(piece.bulge)) {
@@ -309,7 +309,7 @@ std::optional<Error> fault_of(const Contour& contour, std::size_t index) {
 
 /// Half of the bounding box' diagonal: the whole may be too large for a double.
 double half_diagonal_of(std::span<const Contour> contours) {
-  double low_x = kInfinite, low_y = kInfinite, high_x = -kInfinite, high_y = -kInfinite;
+  double low_x = infinite, low_y = infinite, high_x = -infinite, high_y = -infinite;
   for (const Contour& contour : contours) {
     for (Vec2 p : contour.points) {
       low_x = std::min(low_x, p.x);
@@ -343,8 +343,8 @@ Result<std::vector<Ring>> approximate_by_arcs(std::span<const Contour> contours,
   for (std::size_t i = 0; i < contours.size(); ++i) {
     sources.emplace_back(contours[i]);
     const std::size_t pieces = sources.back().size();
-    for (std::size_t first = 0; first < pieces; first += kChunk) {
-      chunks.push_back({i, first, std::min(kChunk, pieces - first), {}, 0, 0});
+    for (std::size_t first = 0; first < pieces; first += curves_per_task) {
+      chunks.push_back({i, first, std::min(curves_per_task, pieces - first), {}, 0, 0});
     }
   }
   const auto convert_chunk = [&](std::size_t i) {

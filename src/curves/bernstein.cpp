@@ -8,7 +8,7 @@ namespace medial::curves {
 namespace {
 
 /// Intervals that are halved until they have no more than this width hold one root.
-constexpr double kNarrowest = 0x1p-44;
+constexpr double narrowest = 0x1p-44;
 
 /// Bernstein coefficients of a polynomial on the part [low, high] of [0, 1].
 struct Part {
@@ -16,7 +16,7 @@ struct Part {
   double low = 0;
   double high = 1;
   double noise = 0;  ///< bound on the rounding errors of the coefficients
-  Fixed<double, kMaxPolynomialDegree + 1> b;
+  Fixed<double, max_polynomial_degree + 1> b;
 
   Part() {}  // NOLINT(modernize-use-equals-default)
 
@@ -55,7 +55,7 @@ double only_root(const Part& part) {
   const bool rising = part.b[n] > 0;
   double low = 0, high = 1;
   double s = part.b[0] / (part.b[0] - part.b[n]);
-  Fixed<double, kMaxPolynomialDegree + 1> b;
+  Fixed<double, max_polynomial_degree + 1> b;
   for (int step = 0; step < 100; ++step) {
     std::copy_n(part.b.begin(), n + 1, b.begin());
     for (int level = n; level > 1; --level) {
@@ -83,7 +83,7 @@ void isolate(Part& part, Roots& found) {
     return;
   }
   const double middle = part.parameter(0.5);
-  if (part.high - part.low <= kNarrowest) {
+  if (part.high - part.low <= narrowest) {
     found.add(middle);
     return;
   }

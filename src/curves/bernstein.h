@@ -3,9 +3,9 @@
 namespace medial::curves {
 
 /// The largest degree of a Bezier piece.
-inline constexpr int kMaxDegree = 32;
+inline constexpr int max_degree = 32;
 /// The largest degree of a polynomial made of one: see apex_polynomial().
-inline constexpr int kMaxPolynomialDegree = 9 * kMaxDegree;
+inline constexpr int max_polynomial_degree = 9 * max_degree;
 
 /// An array for a known number of values at most: indexed by int, and not initialised.
 template <class T, int N>
@@ -29,7 +29,7 @@ struct Polynomial {
   /// A bound on the Bernstein coefficients of what was added up: the rounding errors of the
   /// coefficients are some units in the last place of this, whatever has cancelled.
   double magnitude = 0;
-  Fixed<double, kMaxPolynomialDegree + 1> c;  // only [0, degree] is ever used
+  Fixed<double, max_polynomial_degree + 1> c;  // only [0, degree] is ever used
 
   // Not initialised: most are of a small degree.
   Polynomial() {}  // NOLINT(modernize-use-equals-default)
@@ -52,7 +52,7 @@ Polynomial wronskian(const Polynomial& a, const Polynomial& b);
 /// Parameters in [0, 1], increasing.
 struct Roots {
   int count = 0;
-  Fixed<double, 2 * kMaxPolynomialDegree> t;
+  Fixed<double, 2 * max_polynomial_degree> t;
 
   Roots() {}  // NOLINT(modernize-use-equals-default)
 

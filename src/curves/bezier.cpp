@@ -9,7 +9,7 @@ namespace {
 
 /// A first derivative below this part of the largest is zero: the radius of curvature there is
 /// below 1e-16 of the curve's size.
-constexpr double kSingular = 1e-8;
+constexpr double singular = 1e-8;
 
 /// Value and derivatives of one coordinate at t; overwrites b.
 struct Values {
@@ -17,7 +17,7 @@ struct Values {
   double first = 0;
   double second = 0;
 };
-Values casteljau(Fixed<double, kMaxDegree + 1>& b, int degree, double t) {
+Values casteljau(Fixed<double, max_degree + 1>& b, int degree, double t) {
   const double n = degree;
   for (int level = degree; level > 2; --level) {
     for (int i = 0; i < level; ++i) b[i] += t * (b[i + 1] - b[i]);
@@ -33,9 +33,9 @@ Values casteljau(Fixed<double, kMaxDegree + 1>& b, int degree, double t) {
   return values;
 }
 
-void split(const Fixed<double, kMaxDegree + 1>& c, int degree, double t,
-           Fixed<double, kMaxDegree + 1>& before, Fixed<double, kMaxDegree + 1>& after) {
-  Fixed<double, kMaxDegree + 1> b;
+void split(const Fixed<double, max_degree + 1>& c, int degree, double t,
+           Fixed<double, max_degree + 1>& before, Fixed<double, max_degree + 1>& after) {
+  Fixed<double, max_degree + 1> b;
   std::copy_n(c.begin(), degree + 1, b.begin());
   for (int level = 0; level <= degree; ++level) {
     before[level] = b[0];
@@ -84,8 +84,8 @@ Bezier make_bezier(std::span<const Vec2> points, std::span<const double> weights
 }
 
 Jet evaluate(const Bezier& curve, double t) {
-  Fixed<double, kMaxDegree + 1> b{};
-  const auto values = [&](const Fixed<double, kMaxDegree + 1>& c) {
+  Fixed<double, max_degree + 1> b{};
+  const auto values = [&](const Fixed<double, max_degree + 1>& c) {
     std::copy_n(c.begin(), curve.degree + 1, b.begin());
     return casteljau(b, curve.degree, t);
   };
@@ -166,13 +166,13 @@ Station station_at(const Bezier& curve, double t, Side side) {
   const Jet jet = evaluate(curve, t);
   const double speed = norm(jet.first);
   const double largest = largest_step(curve);
-  if (speed > kSingular * curve.degree * largest) {
+  if (speed > singular * curve.degree * largest) {
     return {t, jet.point, (1 / speed) * jet.first, curvature(jet)};
   }
   Bezier before, after;
   split(curve, t, before, after);
   const Vec2 tangent =
-      end_direction(side == Side::after ? after : before, side, kSingular * largest);
+      end_direction(side == Side::after ? after : before, side, singular * largest);
   return {t, jet.point, tangent, std::numeric_limits<double>::infinity()};
 }
 

@@ -12,9 +12,9 @@ namespace medial::curves {
 struct Bezier {
   int degree = 0;
   bool rational = false;
-  Fixed<double, kMaxDegree + 1> x;
-  Fixed<double, kMaxDegree + 1> y;
-  Fixed<double, kMaxDegree + 1> w;
+  Fixed<double, max_degree + 1> x;
+  Fixed<double, max_degree + 1> y;
+  Fixed<double, max_degree + 1> w;
 
   // Not initialised: only [0, degree] is ever used.
   Bezier() {}  // NOLINT(modernize-use-equals-default)

@@ -9,7 +9,7 @@
 namespace medial::curves {
 namespace {
 
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
+constexpr double infinite = std::numeric_limits<double>::infinity();
 
 /// The direction `v` turned as a mirror along `axis` turns it.
 Vec2 mirror(Vec2 v, Vec2 axis) { return (2 * dot(v, axis) / squared_norm(axis)) * axis - v; }
@@ -17,7 +17,7 @@ Vec2 mirror(Vec2 v, Vec2 axis) { return (2 * dot(v, axis) / squared_norm(axis)) 
 /// The distance from the circle of curvature k to a point with F = k |c|^2 - 2 (v x c).
 double distance_of(double f, double k) {
   const double root = 1 + k * f;
-  return root > 0 ? std::abs(f) / (1 + std::sqrt(root)) : kInfinite;
+  return root > 0 ? std::abs(f) / (1 + std::sqrt(root)) : infinite;
 }
 
 double circle_function(const Arc& arc, Vec2 tangent, double k, Vec2 point) {
@@ -41,7 +41,7 @@ double largest_circle_function(const Bezier& curve, Vec2 base, Vec2 tangent, dou
   const int n = curve.degree;
   const Binomials& binomials = binomials_of(n);
   // Coefficients times the binomials: c, its turned component, and the weight.
-  Fixed<double, kMaxDegree + 1> cx, cy, side, w;
+  Fixed<double, max_degree + 1> cx, cy, side, w;
   for (int i = 0; i <= n; ++i) {
     const double scale = binomials.row[i];
     w[i] = scale * curve.weight(i);
@@ -154,7 +154,7 @@ std::optional<double> projected_joint(const Bezier& curve, const Biarc& biarc) {
   const Vec2 joint = biarc.first.end;
   const Vec2 tangent = tangent_at_end(biarc.first);
   const int n = curve.degree;
-  Fixed<double, kMaxDegree + 1> h, b;
+  Fixed<double, max_degree + 1> h, b;
   for (int i = 0; i <= n; ++i) {
     h[i] = tangent.x * curve.x[i] + tangent.y * curve.y[i] - curve.weight(i) * dot(tangent, joint);
   }
@@ -183,19 +183,19 @@ std::optional<double> projected_joint(const Bezier& curve, const Biarc& biarc) {
 
 double certified_error(const Bezier& curve, const Arc& arc, double rounding) {
   const Vec2 begin = tangent_at_begin(arc), end = tangent_at_end(arc);
-  if (!in_sector(curve, arc.begin, begin, arc.end, end, rounding)) return kInfinite;
+  if (!in_sector(curve, arc.begin, begin, arc.end, end, rounding)) return infinite;
   return circle_error(curve, arc.begin, begin, curvature(arc));
 }
 
 double certified_error(const Bezier& curve, const Biarc& biarc, double rounding) {
   const std::optional<double> t = projected_joint(curve, biarc);
-  if (!t) return kInfinite;
+  if (!t) return infinite;
   Bezier before, after;
   split(curve, *t, before, after);
   // Each circle through the end where it touches the curve.
   const Vec2 begin = tangent_at_begin(biarc.first), end = tangent_at_end(biarc.second);
   if (!in_sector(curve, biarc.first.begin, begin, biarc.second.end, end, rounding)) {
-    return kInfinite;
+    return infinite;
   }
   return std::max(circle_error(before, biarc.first.begin, begin, curvature(biarc.first)),
                   circle_error(after, biarc.second.end, end, curvature(biarc.second)));
@@ -203,7 +203,7 @@ double certified_error(const Bezier& curve, const Biarc& biarc, double rounding)
 
 double sampled_error(const Bezier& curve, const Biarc& biarc, int samples) {
   const std::optional<double> t = projected_joint(curve, biarc);
-  if (!t) return kInfinite;
+  if (!t) return infinite;
   double largest = 0;
   const auto sample = [&](const Arc& arc, double from, double to) {
     const Vec2 tangent = tangent_at_begin(arc);
@@ -221,7 +221,7 @@ double sampled_error(const Bezier& curve, const Biarc& biarc, int samples) {
 
 double extremal_error(const Bezier& curve, const Biarc& biarc) {
   const std::optional<double> t = projected_joint(curve, biarc);
-  if (!t) return kInfinite;
+  if (!t) return infinite;
   Bezier parts[2];
   split(curve, *t, parts[0], parts[1]);
   double largest = 0;
@@ -231,7 +231,7 @@ double extremal_error(const Bezier& curve, const Biarc& biarc) {
     const Vec2 tangent = tangent_at_begin(arc);
     const double k = curvature(arc);
     // F = N / W^2 has the derivative (N'W - 2NW') / W^3.
-    Fixed<double, kMaxDegree + 1> cx, cy, side, w;
+    Fixed<double, max_degree + 1> cx, cy, side, w;
     for (int i = 0; i <= piece.degree; ++i) {
       w[i] = piece.weight(i);
       cx[i] = piece.x[i] - w[i] * arc.begin.x;

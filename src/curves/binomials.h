@@ -6,14 +6,14 @@ namespace medial::curves {
 
 /// Binomials of a degree n, and the inverses of those of 2n.
 struct Binomials {
-  Fixed<double, kMaxDegree + 1> row;
-  Fixed<double, 2 * kMaxDegree + 1> inverse_double_row;
+  Fixed<double, max_degree + 1> row;
+  Fixed<double, 2 * max_degree + 1> inverse_double_row;
 };
 
 inline const Binomials& binomials_of(int degree) {
   static const auto table = [] {
-    Fixed<Binomials, kMaxDegree + 1> all{};
-    for (int n = 0; n <= kMaxDegree; ++n) {
+    Fixed<Binomials, max_degree + 1> all{};
+    for (int n = 0; n <= max_degree; ++n) {
       double binomial = 1;
       for (int i = 0; i <= n; ++i) {
         all[n].row[i] = binomial;

@@ -9,31 +9,31 @@
 namespace medial::curves {
 namespace {
 
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
+constexpr double infinite = std::numeric_limits<double>::infinity();
 
 /// Arcs turn by at most a quarter turn, so that two of them make at most a half circle: tan(pi /
 /// 8).
-constexpr double kLargestBulge = 0.41421356237309503 + 1e-12;
+constexpr double largest_bulge = 0.41421356237309503 + 1e-12;
 
 /// Parts of one curve that are looked at before the rest becomes chords. A curve within a tolerance
 /// of rounding has some 1e5; this is what bounds time and memory if a bound here is ever wrong. The
 /// report's error then shows it.
-constexpr int kMostParts = 1 << 21;
+constexpr int most_parts = 1 << 21;
 
 /// Bisections after which a part is no larger than rounding, whatever the curve.
-constexpr int kDeepest = 60;
+constexpr int deepest = 60;
 
 /// Around a cusp the other roots are rounding: a root of multiplicity three is known to about the
 /// third root of a double's precision.
-constexpr double kCuspNeighbourhood = 1e-4;
+constexpr double cusp_neighbourhood = 1e-4;
 
 /// Curvatures that differ by less are the same: roots that are there by rounding only.
-constexpr double kSameCurvature = 1e-8;
+constexpr double same_curvature = 1e-8;
 
 /// A curve whose curvature goes monotonically from one value to another that differs by d, over a
 /// chord c, is less than d c^2 / 50 away from the arc between the directions at its ends (largest
 /// where curvature jumps at two thirds). Below a third of the rounding it is that arc.
-constexpr double kConstant = 16;
+constexpr double constant = 16;
 
 bool is_singular(const Station& station) { return std::isinf(station.curvature); }
 
@@ -125,8 +125,8 @@ double Converter::run() {
     } else {
       split(rest, (next.t - a.t) / (1 - a.t), part, rest);
     }
-    const CurvatureLimits limits{i == 0 ? options_.limits.begin : kInfinite,
-                                 last ? options_.limits.end : kInfinite};
+    const CurvatureLimits limits{i == 0 ? options_.limits.begin : infinite,
+                                 last ? options_.limits.end : infinite};
     merge_ = i > 0 && !is_singular(a) && std::abs(before_a.curvature) < std::abs(a.curvature) &&
              std::abs(b.curvature) < std::abs(a.curvature);
     ++chain_.spirals;
@@ -145,14 +145,14 @@ void Converter::convert(const Bezier& part, const Station& a, const Station& b,
     if (singular) {
       if (try_singular_end(part, a, b, limits)) return;
     } else if (std::abs(a.curvature - b.curvature) * squared_norm(chord) <=
-               kConstant * options_.rounding) {
+               constant * options_.rounding) {
       if (try_single_arc(part, a, b)) return;
     } else if (try_biarc(part, a, b, limits)) {
       return;
     }
   }
   const double size = extent(part);
-  if (depth >= kDeepest || ++parts_ > kMostParts || size <= options_.rounding) {
+  if (depth >= deepest || ++parts_ > most_parts || size <= options_.rounding) {
     // Too small to have a direction.
     if (!(a.point == b.point)) emit(a.point, 0, size);
     merge_ = ends_osculating_ = false;
@@ -163,9 +163,9 @@ void Converter::convert(const Bezier& part, const Station& a, const Station& b,
   const Station middle = snapped(station_at(curve_, t, Side::before));
   Bezier left, right;
   split(part, 0.5, left, right);
-  convert(left, a, middle, {limits.begin, kInfinite}, depth + 1);
+  convert(left, a, middle, {limits.begin, infinite}, depth + 1);
   const Station from = is_singular(middle) ? snapped(station_at(curve_, t, Side::after)) : middle;
-  convert(right, from, b, {kInfinite, limits.end}, depth + 1);
+  convert(right, from, b, {infinite, limits.end}, depth + 1);
 }
 
 /// Where curvature is constant but for rounding: one arc, between the directions at both ends.
@@ -174,8 +174,8 @@ bool Converter::try_single_arc(const Bezier& part, const Station& a, const Stati
   const double leaving = bulge_leaving(a.tangent, chord);
   const double arriving = bulge_arriving(chord, b.tangent);
   const double bulge = 0.5 * (leaving + arriving);
-  if (!(std::abs(bulge) <= kLargestBulge)) return false;
-  if (std::abs(leaving - arriving) * norm(chord) > kConstant * options_.rounding) return false;
+  if (!(std::abs(bulge) <= largest_bulge)) return false;
+  if (std::abs(leaving - arriving) * norm(chord) > constant * options_.rounding) return false;
   const double error = certified_error(part, Arc{a.point, b.point, bulge}, options_.rounding);
   if (error > options_.tolerance) return false;
   emit(a.point, bulge, error);
@@ -193,7 +193,7 @@ bool Converter::try_singular_end(const Bezier& part, const Station& a, const Sta
   const Vec2 chord = b.point - a.point;
   const double bulge =
       is_singular(a) ? bulge_arriving(chord, b.tangent) : bulge_leaving(a.tangent, chord);
-  if (!(std::abs(bulge) <= kLargestBulge)) return false;
+  if (!(std::abs(bulge) <= largest_bulge)) return false;
   const Arc arc{a.point, b.point, bulge};
   const double amount = std::copysign(1.0, low.curvature) * curvature(arc);
   const double slack = options_.rounding / squared_norm(chord);
@@ -246,8 +246,8 @@ bool Converter::try_biarc(const Bezier& part, const Station& a, const Station& b
 /// spiral that is short enough, and are below the limit.
 bool Converter::is_spiral(const Biarc& biarc, const Station& a, const Station& b,
                           CurvatureLimits limits) const {
-  if (!(std::abs(biarc.first.bulge) <= kLargestBulge) ||
-      !(std::abs(biarc.second.bulge) <= kLargestBulge)) {
+  if (!(std::abs(biarc.first.bulge) <= largest_bulge) ||
+      !(std::abs(biarc.second.bulge) <= largest_bulge)) {
     return false;
   }
   const bool forward = std::abs(a.curvature) >= std::abs(b.curvature);
@@ -280,7 +280,7 @@ Splits find_splits(const Bezier& curve) {
   // Cusps: where the speed is stationary and zero. Seldom, so looked for only where a split is slow
   // or an end is singular.
   const double size = extent(curve);
-  double cusps[kMaxDegree + 2];
+  double cusps[max_degree + 2];
   int cusp_count = 0;
   for (double t : {0.0, 1.0}) {
     if (is_singular(station_at(curve, t, t == 0 ? Side::after : Side::before))) {
@@ -289,7 +289,7 @@ Splits find_splits(const Bezier& curve) {
   }
   const auto near_cusp = [&](double t) {
     return std::any_of(cusps, cusps + cusp_count,
-                       [&](double cusp) { return std::abs(t - cusp) <= kCuspNeighbourhood; });
+                       [&](double cusp) { return std::abs(t - cusp) <= cusp_neighbourhood; });
   };
   constexpr double slow = 1e-2;
   const bool any_slow = std::any_of(
@@ -299,8 +299,8 @@ Splits find_splits(const Bezier& curve) {
     const Roots stationary = roots(derivative(polynomials.speed));
     for (int i = 0; i < stationary.count; ++i) {
       const double t = stationary.t[i];
-      const bool known = near_cusp(t) || t <= kCuspNeighbourhood || t >= 1 - kCuspNeighbourhood;
-      if (!known && cusp_count <= kMaxDegree && is_singular(station_at(curve, t, Side::after))) {
+      const bool known = near_cusp(t) || t <= cusp_neighbourhood || t >= 1 - cusp_neighbourhood;
+      if (!known && cusp_count <= max_degree && is_singular(station_at(curve, t, Side::after))) {
         cusps[cusp_count++] = t;
         found.add({t, Split::Kind::cusp});
       }
@@ -314,13 +314,13 @@ Splits find_splits(const Bezier& curve) {
 
   // Roots that rounding has doubled: nothing happens to the curvature between them.
   int kept = 0;
-  double last_curvature = kInfinite, last_t = 0;
+  double last_curvature = infinite, last_t = 0;
   for (const Split* split = begin; split != end; ++split) {
     const double k =
         split->kind == Split::Kind::inflection ? 0 : curvature(evaluate(curve, split->t));
-    if (split->kind != Split::Kind::cusp && kept > 0 && split->t - last_t <= kCuspNeighbourhood &&
+    if (split->kind != Split::Kind::cusp && kept > 0 && split->t - last_t <= cusp_neighbourhood &&
         std::abs(k - last_curvature) <=
-            kSameCurvature * std::max(std::abs(k), std::abs(last_curvature))) {
+            same_curvature * std::max(std::abs(k), std::abs(last_curvature))) {
       continue;
     }
     last_curvature = k;

@@ -79,7 +79,7 @@ struct Split {
 };
 struct Splits {
   int count = 0;
-  Fixed<Split, 3 * kMaxPolynomialDegree> at;
+  Fixed<Split, 3 * max_polynomial_degree> at;
 
   Splits() {}  // NOLINT(modernize-use-equals-default)
   void add(Split split) {

@@ -21,9 +21,9 @@ namespace {
 
 // What blocks may unfold to, however deeply they are nested: a drawing can ask for a billion copies
 // in a kilobyte.
-constexpr std::uint64_t kMostCopied = 10'000'000;  // control points
-constexpr std::uint64_t kMostInserts = 1'000'000;
-constexpr int kDeepest = 64;  // blocks inside blocks
+constexpr std::uint64_t most_copied = 10'000'000;  // control points
+constexpr std::uint64_t most_inserts = 1'000'000;
+constexpr int deepest = 64;  // blocks inside blocks
 
 /// Thrown inside this file only, and caught in read_dxf().
 struct Refused {
@@ -130,12 +130,12 @@ class Collector : public DL_CreationAdapter {
     const Vec2 v = side * data.ratio * left_of(u);
     const double turn = data.angle2 - data.angle1;
     if (!(squared_norm(u) > 0) || !(squared_norm(v) > 0)) return;
-    constexpr double kWhole = 2 * std::numbers::pi;
-    constexpr double kDigits = 1e-6;  // angles are written with few digits
-    if (std::fabs(std::remainder(turn, kWhole)) < kDigits) {
+    constexpr double whole = 2 * std::numbers::pi;
+    constexpr double digits = 1e-6;  // angles are written with few digits
+    if (std::fabs(std::remainder(turn, whole)) < digits) {
       return add(closed_ellipse(center, u, v), true);
     }
-    const double end = data.angle1 + std::fmod(std::fmod(turn, kWhole) + kWhole, kWhole);
+    const double end = data.angle1 + std::fmod(std::fmod(turn, whole) + whole, whole);
     const EllipticalArc arc{center, u, v, data.angle1, end};
     Contour contour;
     contour.start_at(center + std::cos(arc.begin) * u + std::sin(arc.begin) * v);
@@ -145,8 +145,8 @@ class Collector : public DL_CreationAdapter {
 
   void addPolyline(const DL_PolylineData& data) override {
     if (!begin("POLYLINE")) return;
-    constexpr int kMesh = 16 | 64;
-    if ((data.flags & kMesh) != 0) {
+    constexpr int mesh_flags = 16 | 64;
+    if ((data.flags & mesh_flags) != 0) {
       ++left_out["polygon mesh"];
       return;
     }
@@ -215,8 +215,8 @@ class Collector : public DL_CreationAdapter {
   bool begin(const char* name) {
     finish();
     const double* direction = getExtrusion()->getDirection();
-    constexpr double kTilt = 1e-9;
-    if (std::fabs(direction[0]) > kTilt || std::fabs(direction[1]) > kTilt) {
+    constexpr double tilt = 1e-9;
+    if (std::fabs(direction[0]) > tilt || std::fabs(direction[1]) > tilt) {
       ++left_out[std::string("tilted ") + name];
       return false;
     }
@@ -296,8 +296,8 @@ class Unfolded {
   void add(const std::string& block, const Affine& map, const std::string& layer, int depth) {
     const auto found = found_.blocks.find(block);
     if (found == found_.blocks.end()) return;
-    if (depth > kDeepest) {
-      refuse(ErrorCode::unsupported, fmt::format("blocks are nested more than {} deep", kDeepest));
+    if (depth > deepest) {
+      refuse(ErrorCode::unsupported, fmt::format("blocks are nested more than {} deep", deepest));
     }
     const Affine placed = map * Affine{{1, 0}, {0, 1}, -found->second.base};
     const auto own = [&layer, depth](const std::string& name) {
@@ -306,9 +306,9 @@ class Unfolded {
     for (const Curve& curve : found->second.curves) {
       if (depth > 0) {
         copied_ += curve.contour.points.size();
-        if (copied_ > kMostCopied) {
+        if (copied_ > most_copied) {
           refuse(ErrorCode::too_large,
-                 fmt::format("blocks unfold to more than {} points", kMostCopied));
+                 fmt::format("blocks unfold to more than {} points", most_copied));
         }
       }
       Layer& target = layer_of(own(curve.layer));
@@ -318,9 +318,9 @@ class Unfolded {
     for (const Insert& insert : found->second.inserts) {
       for (int row = 0; row < insert.rows; ++row) {
         for (int column = 0; column < insert.columns; ++column) {
-          if (++inserts_ > kMostInserts) {
+          if (++inserts_ > most_inserts) {
             refuse(ErrorCode::too_large,
-                   fmt::format("blocks are inserted more than {} times", kMostInserts));
+                   fmt::format("blocks are inserted more than {} times", most_inserts));
           }
           Affine copy = insert.map;
           copy.origin = copy.origin + static_cast<double>(column) * insert.column_step +

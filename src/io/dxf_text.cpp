@@ -15,13 +15,13 @@ namespace medial::io {
 
 namespace {
 
-constexpr std::size_t kLongest = std::size_t{1} << 32U;  // bytes
-constexpr std::size_t kLongestLine = 256;  // what is kept of a text; dxflib stops at 1,024
-constexpr std::array<std::string_view, 9> kStructure{
+constexpr std::size_t longest = std::size_t{1} << 32U;  // bytes
+constexpr std::size_t longest_line = 256;  // what is kept of a text; dxflib stops at 1,024
+constexpr std::array<std::string_view, 9> structure{
     "SECTION", "ENDSEC", "TABLE", "ENDTAB", "LAYER", "BLOCK", "ENDBLK", "SEQEND", "VERTEX"};
-constexpr std::array<std::string_view, 8> kEntities{"LINE",     "ARC",    "CIRCLE", "ELLIPSE",
-                                                    "POLYLINE", "SPLINE", "INSERT", "LWPOLYLINE"};
-constexpr std::array<std::string_view, 3> kSections{"TABLES", "BLOCKS", "ENTITIES"};
+constexpr std::array<std::string_view, 8> entities{"LINE",     "ARC",    "CIRCLE", "ELLIPSE",
+                                                   "POLYLINE", "SPLINE", "INSERT", "LWPOLYLINE"};
+constexpr std::array<std::string_view, 3> sections{"TABLES", "BLOCKS", "ENTITIES"};
 
 template <class List>
 bool lists(const List& list, std::string_view word) {
@@ -93,7 +93,7 @@ class Filter {
         begin(*value);
       } else if (*code == 2 && name_ == "SECTION") {
         section_ = *value;
-        if (lists(kSections, section_)) put(0, "SECTION");
+        if (lists(sections, section_)) put(0, "SECTION");
       }
       if (!kept()) continue;
       if (Status status = check(*code, *value); !status) return status.error();
@@ -115,15 +115,15 @@ class Filter {
   void begin(std::string_view name) {
     name_ = name;
     if (name == "SECTION") section_.clear();
-    if (!lists(kStructure, name) && !lists(kEntities, name) && section_ == "ENTITIES" &&
+    if (!lists(structure, name) && !lists(entities, name) && section_ == "ENTITIES" &&
         name != "EOF") {
       ++result_.others[std::string(name.substr(0, 40))];
     }
   }
   bool kept() const {
-    if (!lists(kSections, section_)) return false;
+    if (!lists(sections, section_)) return false;
     if (section_ == "TABLES" && (name_ == "TABLE" || name_ == "ENDTAB")) return true;
-    return lists(kStructure, name_) || lists(kEntities, name_);
+    return lists(structure, name_) || lists(entities, name_);
   }
 
   Status check(int code, std::string_view value) const {
@@ -152,7 +152,7 @@ class Filter {
 
   void put(int code, std::string_view value) {
     fmt::format_to(std::back_inserter(result_.text), "{}\n{}\n", code,
-                   value.substr(0, kLongestLine));
+                   value.substr(0, longest_line));
   }
 
   const TextSource& source_;
@@ -178,9 +178,9 @@ bool begins_like_dxf(std::string_view text) {
 
 Result<DxfText> read_dxf_text(TextSource& source) {
   std::string text;
-  source.read_all(text, kLongest);
+  source.read_all(text, longest);
   if (source.failure()) return *source.failure();
-  if (text.size() >= kLongest) {
+  if (text.size() >= longest) {
     return source.error(ErrorCode::too_large, "the drawing has 4 GiB or more");
   }
   if (text.starts_with("AutoCAD Binary DXF")) {

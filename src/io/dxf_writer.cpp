@@ -13,7 +13,7 @@ namespace medial::io {
 
 namespace {
 
-constexpr char kLayer[] = "AXIS";
+constexpr char layer[] = "AXIS";
 
 /// dxflib's writer, with its groups going to a stream that notices a full disk, and its numbers
 /// written without loss.
@@ -65,7 +65,7 @@ void write_tables(DL_Dxf& drawing, Groups& groups) {
   groups.tableEnd();
   groups.tableLayers(2);
   drawing.writeLayer(groups, DL_LayerData("0", 0), plain);
-  drawing.writeLayer(groups, DL_LayerData(kLayer, 0), plain);
+  drawing.writeLayer(groups, DL_LayerData(layer, 0), plain);
   groups.tableEnd();
   groups.tableStyle(1);
   drawing.writeStyle(groups, DL_StyleData("Standard", 0, 0.0, 1.0, 0.0, 0, 2.5, "txt", ""));
@@ -93,7 +93,7 @@ void write_blocks(DL_Dxf& drawing, Groups& groups) {
 void begin_entity(Groups& groups, const char* name, const char* subclass) {
   groups.entity(name);
   groups.dxfString(100, "AcDbEntity");
-  groups.dxfString(8, kLayer);
+  groups.dxfString(8, layer);
   groups.dxfString(100, subclass);
 }
 
@@ -111,10 +111,10 @@ void write_spline(Groups& groups, const MedialAxis& axis, const Edge& edge, bool
                   bool radius_as_z) {
   const std::array<Disk, 3> control{axis.nodes[edge.node[forward ? 0 : 1]].disk, edge.control,
                                     axis.nodes[edge.node[forward ? 1 : 0]].disk};
-  constexpr int kPlanar = 8;
-  constexpr int kRational = 4;
+  constexpr int planar = 8;
+  constexpr int rational = 4;
   begin_entity(groups, "SPLINE", "AcDbSpline");
-  groups.dxfInt(70, (radius_as_z ? 0 : kPlanar) | (edge.weight == 1 ? 0 : kRational));
+  groups.dxfInt(70, (radius_as_z ? 0 : planar) | (edge.weight == 1 ? 0 : rational));
   groups.dxfInt(71, 2);
   groups.dxfInt(72, 6);
   groups.dxfInt(73, 3);

@@ -104,7 +104,7 @@ Result<Face> open_face(FT_Library library, const std::string& path) {
 }
 
 Result<Dataset> set_text(const std::vector<Character>& characters, FT_Face face) {
-  static const FT_Outline_Funcs kFunctions{
+  static const FT_Outline_Funcs functions{
       &Pen::move_to, &Pen::line_to, &Pen::conic_to, &Pen::cubic_to, 0, 0};
   Dataset dataset;
   std::set<std::string> missing;
@@ -128,7 +128,7 @@ Result<Dataset> set_text(const std::vector<Character>& characters, FT_Face face)
       Pen pen;
       pen.origin = {x, 0};
       if ((slot->outline.flags & FT_OUTLINE_EVEN_ODD_FILL) != 0) pen.role = RingRole::any;
-      if (FT_Outline_Decompose(&slot->outline, &kFunctions, &pen) != 0) {
+      if (FT_Outline_Decompose(&slot->outline, &functions, &pen) != 0) {
         return Error{ErrorCode::malformed,
                      fmt::format("the outline of '{}' is broken", characters[i].text),
                      in_feature(i)};

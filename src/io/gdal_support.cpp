@@ -90,9 +90,9 @@ void CPL_STDCALL GdalMessages::collect(CPLErr level, CPLErrorNum, const char* te
   std::ranges::replace_if(
       line, [](unsigned char c) { return c < ' '; }, ' ');
   while (!line.empty() && (line.back() == '.' || line.back() == ' ')) line.pop_back();
-  constexpr std::size_t kEnough = 20;  // a broken file can warn at each of its features
+  constexpr std::size_t enough = 20;  // a broken file can warn at each of its features
   if (level == CE_Warning) {
-    if (self->warnings_.size() < kEnough &&
+    if (self->warnings_.size() < enough &&
         std::ranges::find(self->warnings_, line) == self->warnings_.end()) {
       self->warnings_.push_back(std::move(line));
     }
@@ -128,10 +128,10 @@ void add_rings(const OGRGeometry& geometry, std::vector<Ring>& rings, GeometryCo
 }
 
 Status add_rings_of_wkt(const std::string& text, std::vector<Ring>& rings) {
-  constexpr std::ptrdiff_t kDeepest = 8;  // GDAL reads nested brackets by recursion
+  constexpr std::ptrdiff_t deepest = 8;  // GDAL reads nested brackets by recursion
   std::ptrdiff_t depth = 0;
   for (const char c : text) {
-    if (c == '(' && ++depth > kDeepest) {
+    if (c == '(' && ++depth > deepest) {
       return Error{ErrorCode::unsupported, "brackets nested too deeply", {}};
     }
     if (c == ')') --depth;

@@ -17,8 +17,8 @@ namespace medial::io {
 
 namespace {
 
-constexpr std::size_t kSniffed = 8;
-constexpr std::size_t kLongestStream = std::size_t{1} << 32U;
+constexpr std::size_t sniffed = 8;
+constexpr std::size_t longest_stream = std::size_t{1} << 32U;
 
 bool begins_like_pnm(std::string_view text) {
   return text.size() > 2 && text[0] == 'P' &&
@@ -278,7 +278,7 @@ Result<ImageFile> read_raster(const std::string& name, const ImageOptions& optio
 Result<ImageFile> read_any(const std::string& path, const ImageOptions& options) {
   Result<std::shared_ptr<TextSource>> source = TextSource::open(path);
   if (!source) return source.error();
-  const std::string_view beginning = (*source)->lookahead(kSniffed);
+  const std::string_view beginning = (*source)->lookahead(sniffed);
   if ((*source)->failure()) return *(*source)->failure();
   if (begins_like_pnm(beginning)) {
     Result<Image> image = PnmReader(**source, options).read();
@@ -292,8 +292,8 @@ Result<ImageFile> read_any(const std::string& path, const ImageOptions& options)
     return Error{ErrorCode::unsupported, "this is no PNG, TIFF, PBM or PGM", {}};
   if (path != "-") return read_raster(path, options);
   std::string bytes;
-  (*source)->read_all(bytes, kLongestStream);
-  if (bytes.size() > kLongestStream)
+  (*source)->read_all(bytes, longest_stream);
+  if (bytes.size() > longest_stream)
     return Error{ErrorCode::too_large, "more than 4 GiB on standard input", {}};
   const std::string name = fmt::format("/vsimem/medial_{}", static_cast<const void*>(&bytes));
   VSILFILE* file = VSIFileFromMemBuffer(name.c_str(), reinterpret_cast<GByte*>(bytes.data()),
@@ -310,7 +310,7 @@ Result<ImageFile> read_any(const std::string& path, const ImageOptions& options)
 bool is_image(const std::string& path) {
   Result<std::shared_ptr<TextSource>> source = TextSource::open(path);
   if (!source) return false;
-  const std::string_view beginning = (*source)->lookahead(kSniffed);
+  const std::string_view beginning = (*source)->lookahead(sniffed);
   return begins_like_pnm(beginning) || begins_like_raster(beginning);
 }
 

@@ -12,8 +12,8 @@ namespace medial::io {
 
 namespace {
 
-constexpr double kDefaultGap = 1e-6;  // of the diagonal
-constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+constexpr double default_gap = 1e-6;  // of the diagonal
+constexpr std::uint32_t no_index = std::numeric_limits<std::uint32_t>::max();
 
 /// End 2 i is where curve i begins, end 2 i + 1 where it ends.
 using End = std::uint32_t;
@@ -54,8 +54,8 @@ class Places {
       const Vec2 p = place_of(curves, end);
       extent = std::max({extent, std::fabs(p.x), std::fabs(p.y)});
     }
-    constexpr double kMostCells = 9e15;  // what a double counts
-    const bool exact = !(cell > 0) || extent / cell > kMostCells;
+    constexpr double most_cells = 9e15;  // what a double counts
+    const bool exact = !(cell > 0) || extent / cell > most_cells;
     const auto key = [&](Vec2 p, int dx, int dy) {
       if (exact) return Key{p.x + 0.0, p.y + 0.0};  // -0 becomes 0
       return Key{std::floor(p.x / cell) + dx, std::floor(p.y / cell) + dy};
@@ -91,9 +91,9 @@ class Places {
   };
   struct KeyHash {
     std::size_t operator()(const Key& key) const {
-      constexpr std::size_t kMixer = 0x9E3779B97F4A7C15U;  // 2^64 / golden ratio
+      constexpr std::size_t mixer = 0x9E3779B97F4A7C15U;  // 2^64 / golden ratio
       const std::hash<double> hash;
-      return (hash(key.x) * kMixer) ^ hash(key.y);
+      return (hash(key.x) * mixer) ^ hash(key.y);
     }
   };
   /// The lowest end stands for a place, whatever the order of joining.
@@ -129,7 +129,7 @@ std::vector<bool> in_loops(const std::vector<End>& place) {
   return kept;
 }
 
-/// The end that each end goes on at; kNone where a curve goes nowhere.
+/// The end that each end goes on at; no_index where a curve goes nowhere.
 std::vector<End> partners(const std::vector<Contour>& curves, const std::vector<End>& place,
                           const std::vector<bool>& kept) {
   struct Leaving {
@@ -145,7 +145,7 @@ std::vector<End> partners(const std::vector<Contour>& curves, const std::vector<
   std::ranges::sort(leaving, {}, [](const Leaving& one) {
     return std::tuple(one.place, one.direction, one.end);
   });
-  std::vector<End> partner(place.size(), kNone);
+  std::vector<End> partner(place.size(), no_index);
   for (std::size_t i = 0; i + 1 < leaving.size(); ++i) {
     if (leaving[i].place != leaving[i + 1].place) continue;
     partner[leaving[i].end] = leaving[i + 1].end;
@@ -175,9 +175,9 @@ void append(Contour& contour, const Contour& curve, bool backward) {
 }
 
 double diagonal_of(const std::vector<Contour>& curves) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  Vec2 low{kInfinity, kInfinity};
-  Vec2 high{-kInfinity, -kInfinity};
+  constexpr double endless = std::numeric_limits<double>::infinity();
+  Vec2 low{endless, endless};
+  Vec2 high{-endless, -endless};
   for (const Contour& curve : curves) {
     for (const Vec2 p : curve.points) {
       low = {std::min(low.x, p.x), std::min(low.y, p.y)};
@@ -193,7 +193,7 @@ JoinedCurves join_curves(std::vector<Contour> curves, std::optional<double> gap)
   std::erase_if(curves, [](const Contour& curve) { return curve.pieces.empty(); });
   JoinedCurves result;
   const bool close_all = gap && std::isinf(*gap);
-  result.tolerance = gap && !close_all ? *gap : kDefaultGap * diagonal_of(curves);
+  result.tolerance = gap && !close_all ? *gap : default_gap * diagonal_of(curves);
   Places places(curves, result.tolerance);
   std::vector<End> place(2 * curves.size());
   for (End end = 0; end < place.size(); ++end) place[end] = places[end];
@@ -215,7 +215,7 @@ JoinedCurves join_curves(std::vector<Contour> curves, std::optional<double> gap)
         contour.points.back() = contour.points.front();
         return true;
       }
-      if (next == kNone || used[next / 2]) return false;
+      if (next == no_index || used[next / 2]) return false;
       at = next;
     }
   };
@@ -233,7 +233,7 @@ JoinedCurves join_curves(std::vector<Contour> curves, std::optional<double> gap)
   };
   // Ways that end somewhere are walked from their ends, then what is left is closed.
   for (End end = 0; end < place.size(); ++end) {
-    if (kept[end / 2] && !used[end / 2] && partner[end] == kNone) gather(end);
+    if (kept[end / 2] && !used[end / 2] && partner[end] == no_index) gather(end);
   }
   for (End end = 0; end < place.size(); end += 2) {
     if (kept[end / 2] && !used[end / 2]) gather(end);

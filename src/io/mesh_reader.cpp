@@ -24,7 +24,7 @@ namespace medial::io {
 
 namespace {
 
-constexpr std::array<std::string_view, 4> kMeshFormats{"obj", "stl", "ply", "off"};
+constexpr std::array<std::string_view, 4> mesh_formats{"obj", "stl", "ply", "off"};
 
 #ifdef MEDIAL_MESH
 
@@ -90,14 +90,14 @@ Result<TriangleMesh> read_by_assimp(const std::string& path) {
 
 }  // namespace
 
-std::string known_mesh_formats() { return fmt::format(".{}", fmt::join(kMeshFormats, " .")); }
+std::string known_mesh_formats() { return fmt::format(".{}", fmt::join(mesh_formats, " .")); }
 
 Result<TriangleMesh> read_mesh(const std::string& path) {
   std::string extension = std::filesystem::path(path).extension().string();
   if (!extension.empty()) extension.erase(0, 1);
   std::ranges::transform(extension, extension.begin(),
                          [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (std::ranges::find(kMeshFormats, extension) == kMeshFormats.end()) {
+  if (std::ranges::find(mesh_formats, extension) == mesh_formats.end()) {
     return Error{
         ErrorCode::unsupported,
         fmt::format("'{}' is no mesh format; known are {}", extension, known_mesh_formats()),

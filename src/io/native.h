@@ -10,7 +10,7 @@ namespace medial::io {
 
 /// The highest version of the native format that is read (docs/format.md). A file is written in the
 /// lowest version that can tell it: 1, or 2 where there are arcs.
-inline constexpr int kNativeVersion = 2;
+inline constexpr int native_version = 2;
 
 /// Whether a text begins like medial's own JSON: an object whose first member is "medial".
 bool begins_like_native(std::string_view text);

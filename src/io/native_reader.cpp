@@ -401,7 +401,7 @@ NativeFile read_document(json::document& document) {
     json::value content = field.value();
     if (key == "medial") {
       const auto version = integer<std::uint64_t>(content);
-      if (version > kNativeVersion) throw TooNew{version};
+      if (version > native_version) throw TooNew{version};
       demand(version > 0, "there is no version 0");
       versioned = true;
     } else if (key == "crs") {
@@ -433,13 +433,12 @@ bool begins_like_native(std::string_view text) {
 }
 
 Result<NativeFile> read_native(TextSource& source) {
-  constexpr std::size_t kLongest =
-      simdjson::SIMDJSON_MAXSIZE_BYTES - simdjson::SIMDJSON_PADDING - 1;
+  constexpr std::size_t longest = simdjson::SIMDJSON_MAXSIZE_BYTES - simdjson::SIMDJSON_PADDING - 1;
   std::string bytes;
-  bytes.reserve(std::min(source.length_hint(), kLongest) + simdjson::SIMDJSON_PADDING);
-  source.read_all(bytes, kLongest);
+  bytes.reserve(std::min(source.length_hint(), longest) + simdjson::SIMDJSON_PADDING);
+  source.read_all(bytes, longest);
   if (source.failure()) return *source.failure();
-  if (bytes.size() > kLongest) {
+  if (bytes.size() > longest) {
     return source.error(ErrorCode::too_large, "the file has 4 GiB or more");
   }
   bytes.reserve(bytes.size() + simdjson::SIMDJSON_PADDING);
@@ -472,7 +471,7 @@ Result<NativeFile> read_native(TextSource& source) {
   } catch (const TooNew& found) {
     return source.error(ErrorCode::unsupported,
                         fmt::format("version {} of the format; this program reads up to {}",
-                                    found.version, kNativeVersion));
+                                    found.version, native_version));
   } catch (const simdjson::simdjson_error& problem) {
     return malformed(problem.what());
   }

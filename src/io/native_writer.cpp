@@ -91,7 +91,7 @@ class NativeWriter {
     const bool arcs = std::ranges::any_of(
         file.items, [](const NativeItem& item) { return !item.shape.bulges.empty(); });
     out_.put("{\"medial\":");
-    out_.put(arcs ? kNativeVersion : 1);
+    out_.put(arcs ? native_version : 1);
     if (!file.crs_wkt.empty()) {
       out_.put(",\n\"crs\":");
       out_.put(quoted(file.crs_wkt));

@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kBuffer = std::size_t{1} << 20;
+constexpr std::size_t buffer = std::size_t{1} << 20;
 
 Error unwritable(const std::string& path, int problem) {
   return Error{ErrorCode::unwritable, fmt::format("cannot write: {}", std::strerror(problem)),
@@ -31,26 +31,26 @@ Error unwritable(const std::string& path, int problem) {
 // What remove_partial_files() has to remove. A signal handler must not allocate, lock or list
 // directories, so every name that can occur in a hidden directory is spelled out beforehand, each
 // ended by a NUL, the directory last.
-constexpr int kSlots = 16;
-std::array<std::atomic<const char*>, kSlots> g_partial{};
+constexpr int slots = 16;
+std::array<std::atomic<const char*>, slots> g_partial{};
 
 // The companions of a shapefile and of a database, by what replaces or follows the extension.
-constexpr std::array<std::string_view, 5> kSiblings{".shx", ".dbf", ".prj", ".cpg", ".shp"};
-constexpr std::array<std::string_view, 3> kTails{"-journal", "-wal", "-shm"};
+constexpr std::array<std::string_view, 5> siblings{".shx", ".dbf", ".prj", ".cpg", ".shp"};
+constexpr std::array<std::string_view, 3> tails{"-journal", "-wal", "-shm"};
 
 /// The names for one hidden directory: each ended by a NUL, an empty one at the end.
 std::string partial_names(const std::string& path, const std::string& directory) {
   std::string names = path + '\0';
-  for (const std::string_view tail : kTails) (names += path).append(tail) += '\0';
+  for (const std::string_view tail : tails) (names += path).append(tail) += '\0';
   const std::string stem = (fs::path(directory) / fs::path(path).stem()).string();
-  for (const std::string_view sibling : kSiblings) (names += stem).append(sibling) += '\0';
+  for (const std::string_view sibling : siblings) (names += stem).append(sibling) += '\0';
   return names + directory + '\0';
 }
 
 int remember(const std::string& names) {
   char* copy = new char[names.size() + 1];
   std::memcpy(copy, names.c_str(), names.size() + 1);
-  for (int slot = 0; slot < kSlots; ++slot) {
+  for (int slot = 0; slot < slots; ++slot) {
     const char* free = nullptr;
     if (g_partial[static_cast<std::size_t>(slot)].compare_exchange_strong(free, copy)) return slot;
   }
@@ -142,7 +142,7 @@ Result<OutputStream> OutputStream::open(const std::string& path) {
 }
 
 OutputStream::OutputStream(std::string path, int descriptor, bool owned)
-    : path_(std::move(path)), descriptor_(descriptor), owned_(owned), buffer_(kBuffer) {}
+    : path_(std::move(path)), descriptor_(descriptor), owned_(owned), buffer_(buffer) {}
 
 OutputStream::OutputStream(OutputStream&& other) noexcept
     : path_(std::move(other.path_)),

@@ -55,7 +55,7 @@ class OutputStream {
   void put(std::string_view text);
   /// The shortest decimal number that reads back as the same double. Requires a finite value.
   void put(double value) {
-    reserve(kLongestNumber);
+    reserve(longest_number);
     used_ = static_cast<std::size_t>(
         std::to_chars(buffer_.data() + used_, buffer_.data() + buffer_.size(), value).ptr -
         buffer_.data());
@@ -63,7 +63,7 @@ class OutputStream {
   template <class Integer>
   requires std::is_integral_v<Integer> &&
       (!std::is_same_v<Integer, char>)&&(!std::is_same_v<Integer, bool>)void put(Integer value) {
-    reserve(kLongestNumber);
+    reserve(longest_number);
     used_ = static_cast<std::size_t>(
         std::to_chars(buffer_.data() + used_, buffer_.data() + buffer_.size(), value).ptr -
         buffer_.data());
@@ -73,7 +73,7 @@ class OutputStream {
   Status finish();
 
  private:
-  static constexpr std::size_t kLongestNumber = 40;
+  static constexpr std::size_t longest_number = 40;
   OutputStream(std::string path, int descriptor, bool owned);
   void reserve(std::size_t count) {
     if (buffer_.size() - used_ < count) flush();

@@ -16,10 +16,10 @@ Vec2 point_at(const EllipticalArc& arc, double angle) {
 
 /// Whether the half axes are a circle's up to the rounding of a few operations.
 bool is_circular(const EllipticalArc& arc) {
-  constexpr double kRounding = 16 * std::numeric_limits<double>::epsilon();
+  constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
   const double u = squared_norm(arc.u);
   const double v = squared_norm(arc.v);
-  return std::fabs(u - v) <= kRounding * u && std::fabs(dot(arc.u, arc.v)) <= kRounding * u;
+  return std::fabs(u - v) <= rounding * u && std::fabs(dot(arc.u, arc.v)) <= rounding * u;
 }
 
 }  // namespace

@@ -22,16 +22,18 @@ namespace medial::io {
 
 namespace {
 
-constexpr Color kInside{0.945, 0.945, 0.925};
-constexpr Color kOutline{0.25, 0.25, 0.27};
-constexpr Color kDisk{0.85, 0.45, 0.15};
-constexpr Color kContact{0.80, 0.20, 0.20};
-constexpr std::array<Color, 3> kNode{{{0.20, 0.55, 0.25}, {0.45, 0.45, 0.50}, {0.80, 0.15, 0.20}}};
+constexpr Color inside_color{0.945, 0.945, 0.925};
+constexpr Color outline_color{0.25, 0.25, 0.27};
+constexpr Color disk_color{0.85, 0.45, 0.15};
+constexpr Color contact_color{0.80, 0.20, 0.20};
+constexpr std::array<Color, 3> node_colors{
+    {{0.20, 0.55, 0.25}, {0.45, 0.45, 0.50}, {0.80, 0.15, 0.20}}};
 
-constexpr double kHueStep = 0.618033988749895;  // the golden section: neighbours differ
+constexpr double hue_step = 0.618033988749895;  // the golden section: neighbours differ
 
-constexpr int kBatch = 2000;     // pieces of a path between strokes: long paths are slow to stroke
-constexpr int kMostPieces = 32;  // of one edge
+constexpr int pieces_per_stroke =
+    2000;                        // pieces of a path between strokes: long paths are slow to stroke
+constexpr int most_pieces = 32;  // of one edge
 
 /// A piece of an edge, in units of the picture: a rational quadratic curve with weights 1, w, 1.
 struct Piece {
@@ -86,13 +88,13 @@ class Cells {
   bool add(const Piece& piece) {
     const double extent =
         std::max(std::fabs(piece.to.x - piece.from.x), std::fabs(piece.to.y - piece.from.y));
-    if (extent > kCell) return true;
-    const auto column = static_cast<std::uint64_t>(std::max(piece.from.x, 0.0) / kCell);
-    const auto row = static_cast<std::uint64_t>(std::max(piece.from.y, 0.0) / kCell);
+    if (extent > cell) return true;
+    const auto column = static_cast<std::uint64_t>(std::max(piece.from.x, 0.0) / cell);
+    const auto row = static_cast<std::uint64_t>(std::max(piece.from.y, 0.0) / cell);
     return drawn_.insert(row << 32U | column).second;
   }
   /// The distance below which points of an outline are not told apart, either.
-  static constexpr double kCell = 0.25;  // pixels
+  static constexpr double cell = 0.25;  // pixels
 
  private:
   std::unordered_set<std::uint64_t> drawn_;
@@ -114,8 +116,8 @@ struct Frame {
 };
 
 Frame frame_of(const NativeFile& file, double width) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  Box box{{kInfinity, kInfinity}, {-kInfinity, -kInfinity}};
+  constexpr double endless = std::numeric_limits<double>::infinity();
+  Box box{{endless, endless}, {-endless, -endless}};
   const auto include = [&box](Vec2 p) {
     box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y)};
     box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y)};
@@ -148,10 +150,10 @@ Frame frame_of(const NativeFile& file, double width) {
 
 /// A light colour of this hue in [0, 1).
 Color pastel(double hue) {
-  constexpr double kDarkest = 0.72;
+  constexpr double darkest = 0.72;
   const auto part = [&](double shift) {
     const double wave = 0.5 + 0.5 * std::cos(2 * std::numbers::pi * (hue - shift));
-    return kDarkest + (1 - kDarkest) * wave;
+    return darkest + (1 - darkest) * wave;
   };
   return {part(0), part(1.0 / 3), part(2.0 / 3)};
 }
@@ -173,14 +175,14 @@ class Picture {
       edges += static_cast<double>(item.axis.edges.size());
     }
     // The more there is to see, the finer the lines: down to a third.
-    constexpr double kManyEdges = 5000;
-    fineness_ = std::clamp(std::pow(kManyEdges / std::max(edges, 1.0), 0.2), 1.0 / 3, 1.0);
+    constexpr double many_edges = 5000;
+    fineness_ = std::clamp(std::pow(many_edges / std::max(edges, 1.0), 0.2), 1.0 / 3, 1.0);
   }
 
   void draw() {
     cairo_set_line_cap(context_, CAIRO_LINE_CAP_ROUND);
     cairo_set_line_join(context_, CAIRO_LINE_JOIN_ROUND);
-    color(kPaper);
+    color(paper_color);
     cairo_paint(context_);
     if (options_.shape) draw_shapes();
     if (diagrams_ != nullptr) draw_faces();
@@ -209,9 +211,9 @@ class Picture {
   /// Goes on along an arc. Pieces of a 16th turn or less become cubic curves: they stay within 7e-8
   /// radii.
   void arc_to(const BulgeArc& arc) {
-    const double kLongest = 0.0985;  // tangent of a quarter of a 16th turn
+    const double longest = 0.0985;  // tangent of a quarter of a 16th turn
     const double bulge = arc.bulge;
-    if (std::fabs(bulge) > kLongest) {
+    if (std::fabs(bulge) > longest) {
       const Vec2 middle = apex(arc);
       arc_to({arc.start, middle, half_bulge(bulge)});
       arc_to({middle, arc.end, half_bulge(bulge)});
@@ -234,7 +236,7 @@ class Picture {
     for (std::size_t k = begin; k < end; ++k) {
       const Vec2 p = frame_(shape.points[k + 1 == end ? begin : k + 1]);
       const double bulge = shape.bulge(k);
-      if (pixels_ && distance(p, last) < Cells::kCell) continue;
+      if (pixels_ && distance(p, last) < Cells::cell) continue;
       if (bulge == 0) {
         line_to(p);
       } else {
@@ -255,7 +257,7 @@ class Picture {
   void draw_shapes() {
     cairo_set_fill_rule(context_, CAIRO_FILL_RULE_EVEN_ODD);
     for (const NativeItem& item : file_.items) {
-      color(kInside);
+      color(inside_color);
       trace_shape(item.shape);
       cairo_fill(context_);
     }
@@ -263,13 +265,13 @@ class Picture {
   }
 
   void stroke_shapes() {
-    color(kOutline);
+    color(outline_color);
     cairo_set_line_width(context_, thickness(0.8));
     int batch = 0;
     for (const NativeItem& item : file_.items) {
       for (std::size_t i = 0; i < item.shape.loop_count(); ++i) {
         trace_loop(item.shape, i, [&](Vec2 p) {
-          if (++batch % kBatch != 0) return;
+          if (++batch % pieces_per_stroke != 0) return;
           cairo_stroke(context_);
           move_to(p);
         });
@@ -296,9 +298,9 @@ class Picture {
       const VoronoiDiagram& diagram = item.diagram;
       for (std::uint32_t site = 0; site < diagram.sites.size(); ++site) {
         const bool vertex = diagram.sites[site].kind == SiteKind::vertex;
-        const double hue = std::fmod(kHueStep * site, 1.0);
-        constexpr Color kGrey{0.82, 0.82, 0.84};
-        color(vertex ? kGrey : pastel(hue));
+        const double hue = std::fmod(hue_step * site, 1.0);
+        constexpr Color grey{0.82, 0.82, 0.84};
+        color(vertex ? grey : pastel(hue));
         move_to(frame_(diagram.sites[site].start));
         for (const std::uint32_t e : diagram.face(site))
           trace_edge(diagram, diagram.edges[e], diagram.edges[e].site[1] == site);
@@ -306,7 +308,7 @@ class Picture {
         cairo_fill(context_);
       }
     }
-    color(kOutline, 0.5);
+    color(outline_color, 0.5);
     cairo_set_line_width(context_, thickness(0.5));
     int batch = 0;
     for (const VoronoiItem& item : diagrams_->items) {
@@ -314,7 +316,7 @@ class Picture {
         if (!edge.spoke) continue;
         move_to(frame_(item.diagram.nodes[edge.node[0]].disk.center));
         line_to(frame_(item.diagram.nodes[edge.node[1]].disk.center));
-        if (++batch % kBatch == 0) cairo_stroke(context_);
+        if (++batch % pieces_per_stroke == 0) cairo_stroke(context_);
       }
     }
     cairo_stroke(context_);
@@ -329,7 +331,7 @@ class Picture {
     const double step = total / options_.disks;
     double next = 0.5 * step;
     double walked = 0;
-    color(kDisk, 0.6);
+    color(disk_color, 0.6);
     cairo_set_line_width(context_, thickness(0.6));
     for (const NativeItem& item : file_.items) {
       for (const Edge& edge : item.axis.edges) {
@@ -349,7 +351,7 @@ class Picture {
     cairo_set_line_width(context_, thickness(0.35));
     int batch = 0;
     const auto radii_or_feet = [&](bool feet) {
-      color(kContact, feet ? 1.0 : 0.35);
+      color(contact_color, feet ? 1.0 : 0.35);
       for (const NativeItem& item : file_.items) {
         for (const Edge& edge : item.axis.edges) {
           for (const std::uint32_t node : edge.node) {
@@ -364,7 +366,8 @@ class Picture {
                 move_to(frame_(disk.center));
                 line_to(touch);
               }
-              if (++batch % kBatch == 0) feet ? cairo_fill(context_) : cairo_stroke(context_);
+              if (++batch % pieces_per_stroke == 0)
+                feet ? cairo_fill(context_) : cairo_stroke(context_);
             }
           }
         }
@@ -389,8 +392,8 @@ class Picture {
     const bool straight = runs_straight(axis, edge);
     const double ends = std::fabs(curve.radius(0) - curve.radius(1));
     const double dip = std::fabs(curve.radius(0.5) - 0.5 * (curve.radius(0) + curve.radius(1)));
-    const double shades = largest_ > 0 ? (ends + 2 * dip) / largest_ * kShades : 0;
-    const int pieces = std::clamp(static_cast<int>(std::ceil(shades)), 1, kMostPieces);
+    const double shades = largest_ > 0 ? (ends + 2 * dip) / largest_ * shade_count : 0;
+    const int pieces = std::clamp(static_cast<int>(std::ceil(shades)), 1, most_pieces);
     for (int i = 0; i < pieces; ++i) {
       const double t0 = static_cast<double>(i) / pieces;
       const double t1 = static_cast<double>(i + 1) / pieces;
@@ -400,8 +403,8 @@ class Picture {
       const auto place = [this](const Homogeneous& p) { return frame_({p.x / p.w, p.y / p.w}); };
       const double radius = std::max(curve.radius(0.5 * (t0 + t1)), 0.0);
       const int index =
-          largest_ > 0 ? static_cast<int>(std::lround(radius / largest_ * (kShades - 1))) : 0;
-      take(std::clamp(index, 0, kShades - 1),
+          largest_ > 0 ? static_cast<int>(std::lround(radius / largest_ * (shade_count - 1))) : 0;
+      take(std::clamp(index, 0, shade_count - 1),
            Piece{place(a), place(b), place(c), b.w / std::sqrt(a.w * c.w), straight});
     }
   }
@@ -419,9 +422,9 @@ class Picture {
   /// once they are cut so often that their weights are nearly 1, which each cut in halves makes
   /// them four times as nearly: a circle's 16th turn stays within 7e-8 radii.
   void conic_to(const Piece& piece) {
-    const double kNearlyOne = 0.0192;  // 1 - cos(turn / 2) of a 16th turn
+    const double nearly_one = 0.0192;  // 1 - cos(turn / 2) of a 16th turn
     const double w = piece.weight;
-    if (std::fabs(1 - w) > kNearlyOne) {
+    if (std::fabs(1 - w) > nearly_one) {
       const Vec2 left = 1 / (1 + w) * (piece.from + w * piece.control);
       const Vec2 right = 1 / (1 + w) * (piece.to + w * piece.control);
       const Vec2 middle = midpoint(left, right);
@@ -438,8 +441,8 @@ class Picture {
 
   void draw_axes() {
     // Few changes of colour: pieces are counted, then sorted by shade, then stroked in batches.
-    std::array<std::vector<Piece>, kShades> pieces;
-    std::array<Cells, kShades> cells;
+    std::array<std::vector<Piece>, shade_count> pieces;
+    std::array<Cells, shade_count> cells;
     for (const NativeItem& item : file_.items) {
       for (const Edge& edge : item.axis.edges) {
         cut(item.axis, edge, [&](int index, const Piece& piece) {
@@ -449,12 +452,12 @@ class Picture {
       }
     }
     cairo_set_line_width(context_, thickness(1.6));
-    for (int i = 0; i < kShades; ++i) {
+    for (int i = 0; i < shade_count; ++i) {
       color(shade(i));
       int batch = 0;
       for (const Piece& piece : pieces[static_cast<std::size_t>(i)]) {
         trace(piece);
-        if (++batch % kBatch == 0) cairo_stroke(context_);
+        if (++batch % pieces_per_stroke == 0) cairo_stroke(context_);
       }
       cairo_stroke(context_);
     }
@@ -463,14 +466,14 @@ class Picture {
   void draw_nodes() {
     cairo_set_fill_rule(context_, CAIRO_FILL_RULE_WINDING);
     for (const NodeKind kind : {NodeKind::site_change, NodeKind::leaf, NodeKind::branching}) {
-      color(kNode[static_cast<std::size_t>(kind)]);
+      color(node_colors[static_cast<std::size_t>(kind)]);
       const double radius = thickness(kind == NodeKind::site_change ? 1.5 : 2.6);
       int batch = 0;
       for (const NativeItem& item : file_.items) {
         for (const Node& node : item.axis.nodes) {
           if (node.kind != kind) continue;
           circle(frame_(node.disk.center), radius);
-          if (++batch % kBatch == 0) cairo_fill(context_);
+          if (++batch % pieces_per_stroke == 0) cairo_fill(context_);
         }
       }
       cairo_fill(context_);
@@ -503,12 +506,13 @@ cairo_surface_t* create_surface(OutputStream& out, const std::string& format, co
 
 Status draw_picture(OutputStream& out, const std::string& format, const NativeFile& file,
                     const WriteOptions& options, const VoronoiFile* diagrams) {
-  constexpr double kSmallest = 16;
-  constexpr double kLargest = 8000;  // four times as high stays below Cairo's 32767
-  if (!(options.width >= kSmallest && options.width <= kLargest)) {
-    return Error{ErrorCode::invalid_option,
-                 fmt::format("the width of a picture lies between {} and {}", kSmallest, kLargest),
-                 {}};
+  constexpr double smallest_size = 16;
+  constexpr double largest_size = 8000;  // four times as high stays below Cairo's 32767
+  if (!(options.width >= smallest_size && options.width <= largest_size)) {
+    return Error{
+        ErrorCode::invalid_option,
+        fmt::format("the width of a picture lies between {} and {}", smallest_size, largest_size),
+        {}};
   }
   const Frame frame = frame_of(file, std::floor(options.width));
   const Surface surface(create_surface(out, format, frame), &cairo_surface_destroy);

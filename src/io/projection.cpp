@@ -15,11 +15,11 @@ namespace medial::io {
 namespace {
 
 // The name by which a projection of our own is known again, in memory and in files.
-constexpr const char* kLocalName = "medial local projection";
+constexpr const char* local_name = "medial local projection";
 
 // Beyond this distance from the middle, in degrees of the great circle (about 300 km), the
 // transverse Mercator projection stretches by more than 0.11 percent.
-constexpr double kConformalReach = 2.7;
+constexpr double conformal_reach = 2.7;
 
 using Transformer = std::unique_ptr<OGRCoordinateTransformation>;
 
@@ -38,9 +38,9 @@ bool transform_points(OGRCoordinateTransformation& transformation, std::vector<V
     y[i] = points[i].y;
   }
   // GDAL counts points by int.
-  constexpr std::size_t kBatch = std::size_t{1} << 20;
-  for (std::size_t begin = 0; begin < points.size(); begin += kBatch) {
-    const int count = static_cast<int>(std::min(kBatch, points.size() - begin));
+  constexpr std::size_t points_per_batch = std::size_t{1} << 20;
+  for (std::size_t begin = 0; begin < points.size(); begin += points_per_batch) {
+    const int count = static_cast<int>(std::min(points_per_batch, points.size() - begin));
     if (!transformation.Transform(count, x.data() + begin, y.data() + begin)) return false;
   }
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -129,9 +129,9 @@ Status project_to_local(Dataset& dataset) {
   }
 
   const Extent extent = extent_of(dataset);
-  const bool conformal = extent.reach <= kConformalReach;
+  const bool conformal = extent.reach <= conformal_reach;
   OGRSpatialReference local;
-  local.SetProjCS(kLocalName);
+  local.SetProjCS(local_name);
   local.CopyGeogCSFrom(&geographic);
   if (conformal) {
     local.SetTM(extent.latitude, extent.longitude, 1, 0, 0);
@@ -160,8 +160,8 @@ Status project_to_local(Dataset& dataset) {
 }
 
 bool is_local_projection(const std::string& crs_wkt) {
-  return crs_wkt.starts_with(fmt::format("PROJCRS[\"{}\"", kLocalName)) ||
-         crs_wkt.starts_with(fmt::format("PROJCS[\"{}\"", kLocalName));
+  return crs_wkt.starts_with(fmt::format("PROJCRS[\"{}\"", local_name)) ||
+         crs_wkt.starts_with(fmt::format("PROJCS[\"{}\"", local_name));
 }
 
 struct BackToGeographic::Transformation {

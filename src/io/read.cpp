@@ -26,8 +26,8 @@ namespace medial::io {
 
 namespace {
 
-constexpr std::size_t kSniffed = 4096;
-constexpr std::size_t kLongestStream = std::size_t{1} << 32U;  // what GDAL gets through memory
+constexpr std::size_t sniffed = 4096;
+constexpr std::size_t longest_stream = std::size_t{1} << 32U;  // what GDAL gets through memory
 
 std::string lower(std::string text) {
   std::ranges::transform(text, text.begin(),
@@ -142,12 +142,12 @@ Result<Dataset> read_any(const std::string& path, const ReadOptions& options) {
   if (path == "-") {
     Result<std::shared_ptr<TextSource>> source = TextSource::open(path);
     if (!source) return source.error();
-    const Format format = format_of_text((*source)->lookahead(kSniffed));
+    const Format format = format_of_text((*source)->lookahead(sniffed));
     if (format != Format::gdal) return read_own(**source, format, path, options);
     if (options.close) return nothing_to_close(path);
     std::string bytes;
-    (*source)->read_all(bytes, kLongestStream);
-    if (bytes.size() > kLongestStream) {
+    (*source)->read_all(bytes, longest_stream);
+    if (bytes.size() > longest_stream) {
       return Error{ErrorCode::too_large, "more than 4 GiB on standard input", in_file(path)};
     }
     if ((*source)->failure()) return *(*source)->failure();
@@ -170,7 +170,7 @@ Result<Dataset> read_any(const std::string& path, const ReadOptions& options) {
   Result<std::shared_ptr<TextSource>> source = TextSource::open(path);
   if (!source) return source.error();
   if (format != Format::json) return read_own(**source, format, path, options);
-  if (begins_like_native((*source)->lookahead(kSniffed))) {
+  if (begins_like_native((*source)->lookahead(sniffed))) {
     return read_own(**source, Format::native, path, options);
   }
   if ((*source)->failure()) return *(*source)->failure();
@@ -270,7 +270,7 @@ Result<Dataset> finish(Dataset dataset, const ReadOptions& options) {
 Result<NativeFile> read_native_path(const std::string& path) {
   Result<std::shared_ptr<TextSource>> source = TextSource::open(path);
   if (!source) return source.error();
-  if (!begins_like_native((*source)->lookahead(kSniffed))) {
+  if (!begins_like_native((*source)->lookahead(sniffed))) {
     return (*source)->error(ErrorCode::malformed, "this is no JSON of medial's own");
   }
   return read_native(**source);
@@ -305,7 +305,7 @@ Result<Dataset> read_dataset(const std::string& path, const ReadOptions& options
 
 bool is_native(const std::string& path) {
   const Result<std::shared_ptr<TextSource>> source = TextSource::open(path);
-  return source && begins_like_native((*source)->lookahead(kSniffed));
+  return source && begins_like_native((*source)->lookahead(sniffed));
 }
 
 Result<NativeFile> read_native(const std::string& path) {

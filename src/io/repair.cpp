@@ -77,13 +77,15 @@ Counts counts_of(const std::vector<Ring>& rings) {
   return counts;
 }
 
-/// How often closed rings wind around points. Takes O(n / kRun + crossed runs) for each point.
+/// How often closed rings wind around points. Takes O(n / points_per_run + crossed runs) for each
+/// point.
 class Winding {
  public:
   explicit Winding(const std::vector<std::vector<Vec2>>& rings) {
     for (const std::vector<Vec2>& ring : rings) {
-      for (std::size_t begin = 0; begin + 1 < ring.size(); begin += kRun) {
-        Run run{std::span(ring).subspan(begin, std::min(kRun + 1, ring.size() - begin)), 0, 0, 0};
+      for (std::size_t begin = 0; begin + 1 < ring.size(); begin += points_per_run) {
+        Run run{std::span(ring).subspan(begin, std::min(points_per_run + 1, ring.size() - begin)),
+                0, 0, 0};
         const auto [low, high] =
             std::ranges::minmax_element(run.points, {}, [](Vec2 p) { return p.y; });
         run.low = low->y;
@@ -117,7 +119,7 @@ class Winding {
   }
 
  private:
-  static constexpr std::size_t kRun = 64;
+  static constexpr std::size_t points_per_run = 64;
   struct Run {
     std::span<const Vec2> points;
     double low, high, right;

@@ -13,12 +13,12 @@ namespace medial::io {
 
 namespace {
 
-constexpr std::size_t kLongest = (std::size_t{1} << 31U) - 1;  // what libxml2 takes
-constexpr std::size_t kLongestEntity = 256;
-constexpr int kDeepest = 1000;  // open elements; the reader allows fewer, but tells that better
-constexpr char kSvg[] = "http://www.w3.org/2000/svg";
-constexpr char kXlink[] = "http://www.w3.org/1999/xlink";
-constexpr char kSpace[] = " \t\r\n";
+constexpr std::size_t longest = (std::size_t{1} << 31U) - 1;  // what libxml2 takes
+constexpr std::size_t longest_entity = 256;
+constexpr int deepest = 1000;  // open elements; the reader allows fewer, but tells that better
+constexpr char svg_namespace[] = "http://www.w3.org/2000/svg";
+constexpr char xlink_namespace[] = "http://www.w3.org/1999/xlink";
+constexpr char white_space[] = " \t\r\n";
 
 const xmlChar* as_xml(const char* text) { return reinterpret_cast<const xmlChar*>(text); }
 
@@ -31,7 +31,7 @@ using XmlText = std::unique_ptr<xmlChar, decltype(xmlFree)>;
 void declare_entity(void* context, const xmlChar* name, int type, const xmlChar* public_id,
                     const xmlChar* system_id, xmlChar* content) {
   const std::string_view text = as_text(content);
-  if (type != XML_INTERNAL_GENERAL_ENTITY || text.size() > kLongestEntity ||
+  if (type != XML_INTERNAL_GENERAL_ENTITY || text.size() > longest_entity ||
       text.find('&') != std::string_view::npos) {
     return;
   }
@@ -43,7 +43,7 @@ void start_element(void* context, const xmlChar* name, const xmlChar* prefix, co
                    int namespaces, const xmlChar** namespace_names, int attributes, int defaulted,
                    const xmlChar** attribute_values) {
   const auto parser = static_cast<xmlParserCtxtPtr>(context);
-  if (parser->nodeNr >= kDeepest) {
+  if (parser->nodeNr >= deepest) {
     xmlStopParser(parser);
     return;
   }
@@ -56,23 +56,23 @@ struct Required {
   std::string_view element;
   std::array<const char*, 2> attributes;
 };
-constexpr std::array<Required, 7> kRequired{{{"path", {"d", nullptr}},
-                                             {"rect", {"width", "height"}},
-                                             {"circle", {"r", nullptr}},
-                                             {"ellipse", {"rx", "ry"}},
-                                             {"polygon", {"points", nullptr}},
-                                             {"polyline", {"points", nullptr}},
-                                             {"line", {nullptr, nullptr}}}};
+constexpr std::array<Required, 7> required_attributes{{{"path", {"d", nullptr}},
+                                                       {"rect", {"width", "height"}},
+                                                       {"circle", {"r", nullptr}},
+                                                       {"ellipse", {"rx", "ry"}},
+                                                       {"polygon", {"points", nullptr}},
+                                                       {"polyline", {"points", nullptr}},
+                                                       {"line", {nullptr, nullptr}}}};
 
 bool paints_nothing(const xmlNode* node) {
   const std::string_view name = as_text(node->name);
-  for (const Required& required : kRequired) {
+  for (const Required& required : required_attributes) {
     if (name != required.element) continue;
     if (name == "line") return true;
     for (const char* wanted : required.attributes) {
       if (wanted == nullptr) continue;
       const std::string value = attribute(node, wanted);
-      if (value == "none" || value.find_first_not_of(kSpace) == std::string::npos) return true;
+      if (value == "none" || value.find_first_not_of(white_space) == std::string::npos) return true;
     }
   }
   return false;
@@ -110,7 +110,7 @@ std::uint64_t line_of(const xmlNode* node) {
 
 Result<SvgDocument> SvgDocument::read(TextSource& source) {
   std::string bytes;
-  source.read_all(bytes, kLongest);
+  source.read_all(bytes, longest);
   if (source.failure()) return *source.failure();
   const auto error = [&source](ErrorCode code, std::string text, std::uint64_t line) {
     Error result = source.error(code, std::move(text));
@@ -118,24 +118,23 @@ Result<SvgDocument> SvgDocument::read(TextSource& source) {
     if (line > 0) result.place.line = line;
     return result;
   };
-  if (bytes.size() >= kLongest) return error(ErrorCode::too_large, "2 GiB or more", 0);
+  if (bytes.size() >= longest) return error(ErrorCode::too_large, "2 GiB or more", 0);
 
   const std::unique_ptr<xmlParserCtxt, decltype(&xmlFreeParserCtxt)> context(xmlNewParserCtxt(),
                                                                              &xmlFreeParserCtxt);
   if (!context) return error(ErrorCode::out_of_memory, "there is not enough memory", 0);
   context->sax->entityDecl = &declare_entity;
   context->sax->startElementNs = &start_element;
-  constexpr int kOptions = XML_PARSE_NOENT | XML_PARSE_NONET | XML_PARSE_NOERROR |
-                           XML_PARSE_NOWARNING | XML_PARSE_COMPACT | XML_PARSE_HUGE |
-                           XML_PARSE_BIG_LINES;
+  constexpr int options = XML_PARSE_NOENT | XML_PARSE_NONET | XML_PARSE_NOERROR |
+                          XML_PARSE_NOWARNING | XML_PARSE_COMPACT | XML_PARSE_HUGE |
+                          XML_PARSE_BIG_LINES;
   SvgDocument result;
   result.document_.reset(xmlCtxtReadMemory(
-      context.get(), bytes.data(), static_cast<int>(bytes.size()), nullptr, nullptr, kOptions));
+      context.get(), bytes.data(), static_cast<int>(bytes.size()), nullptr, nullptr, options));
   if (!result.document_ || result.root() == nullptr) {
     const xmlError* problem = xmlCtxtGetLastError(context.get());
     if (problem != nullptr && problem->code == XML_ERR_USER_STOP) {
-      return error(ErrorCode::malformed, fmt::format("elements are more than {} deep", kDeepest),
-                   0);
+      return error(ErrorCode::malformed, fmt::format("elements are more than {} deep", deepest), 0);
     }
     if (problem != nullptr && problem->code == XML_ERR_NO_MEMORY) {
       return error(ErrorCode::out_of_memory, "there is not enough memory", 0);
@@ -162,8 +161,8 @@ xmlNode* SvgDocument::find(const std::string& id) const {
 void SvgDocument::prepare() {
   xmlNode* const top = root();
   const bool nameless = top->ns == nullptr;
-  xmlNs* const svg = nameless ? xmlNewNs(top, as_xml(kSvg), nullptr) : top->ns;
-  xmlNs* xlink = xmlSearchNsByHref(document_.get(), top, as_xml(kXlink));
+  xmlNs* const svg = nameless ? xmlNewNs(top, as_xml(svg_namespace), nullptr) : top->ns;
+  xmlNs* xlink = xmlSearchNsByHref(document_.get(), top, as_xml(xlink_namespace));
   xmlNode* next = nullptr;
   for (xmlNode* node = top; node != nullptr; node = next) {
     const bool element = node->type == XML_ELEMENT_NODE;
@@ -180,7 +179,7 @@ void SvgDocument::prepare() {
       by_id_.try_emplace(std::move(id), node);
     const std::string href = as_text(node->name) == "use" ? attribute(node, "href") : "";
     if (href.empty()) continue;
-    if (xlink == nullptr) xlink = xmlNewNs(top, as_xml(kXlink), as_xml("xlink"));
+    if (xlink == nullptr) xlink = xmlNewNs(top, as_xml(xlink_namespace), as_xml("xlink"));
     if (xlink != nullptr) xmlSetNsProp(node, xlink, as_xml("href"), as_xml(href.c_str()));
   }
   prepare_root();

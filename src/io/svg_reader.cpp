@@ -26,9 +26,9 @@ namespace mpl = boost::mpl;
 
 // What a document may unfold to through `use`, however deeply nested: a document can ask for a
 // billion copies in a kilobyte.
-constexpr std::uint64_t kMostCopies = 1'000'000;   // elements
-constexpr std::uint64_t kMostCopied = 10'000'000;  // control points
-constexpr int kDeepest = 400;                      // elements inside elements, copies included
+constexpr std::uint64_t most_copies = 1'000'000;   // elements
+constexpr std::uint64_t most_copied = 10'000'000;  // control points
+constexpr int deepest = 400;                       // elements inside elements, copies included
 
 /// Thrown inside this file only, and caught in read_svg().
 struct Refused {
@@ -91,14 +91,14 @@ class Element {
         depth_(parent.depth_ + 1),
         reference_size_(parent.size_for_child_),
         node_(node) {
-    if (depth_ > kDeepest) {
+    if (depth_ > deepest) {
       refuse(
           ErrorCode::unsupported,
-          fmt::format("elements are nested more than {} deep, copies by 'use' included", kDeepest));
+          fmt::format("elements are nested more than {} deep, copies by 'use' included", deepest));
     }
-    if (copied_ && ++drawing_.copies > kMostCopies) {
+    if (copied_ && ++drawing_.copies > most_copies) {
       refuse(ErrorCode::too_large,
-             fmt::format("'use' unfolds to more than {} elements", kMostCopies));
+             fmt::format("'use' unfolds to more than {} elements", most_copies));
     }
   }
 
@@ -194,9 +194,9 @@ class Element {
  private:
   void apply(const Affine& inner) { transform_ = transform_ * inner; }
   void add(const PathStep& step) {
-    if (copied_ && ++drawing_.copied_points > kMostCopied) {
+    if (copied_ && ++drawing_.copied_points > most_copied) {
       refuse(ErrorCode::too_large,
-             fmt::format("'use' unfolds to more than {} points", kMostCopied));
+             fmt::format("'use' unfolds to more than {} points", most_copied));
     }
     steps_.push_back(step);
   }

@@ -13,7 +13,7 @@ namespace medial::io {
 
 namespace {
 
-constexpr std::size_t kLongestWord = 64;
+constexpr std::size_t longest_word = 64;
 
 bool is_letter(int c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 
@@ -107,7 +107,7 @@ class WktReader {
   std::string read_word() {
     source_.skip_space();
     std::string word;
-    while (word.size() < kLongestWord && is_letter(source_.peek())) {
+    while (word.size() < longest_word && is_letter(source_.peek())) {
       word.push_back(upper(source_.peek()));
       source_.skip();
     }

@@ -16,7 +16,7 @@ namespace medial::io {
 
 namespace {
 
-constexpr std::size_t kWindow = std::size_t{1} << 18;
+constexpr std::size_t window = std::size_t{1} << 18;
 
 }  // namespace
 
@@ -28,7 +28,7 @@ struct TextSource::Handle {
 };
 
 TextSource::TextSource(std::string path, std::unique_ptr<Handle> handle)
-    : path_(std::move(path)), handle_(std::move(handle)), window_(kWindow) {
+    : path_(std::move(path)), handle_(std::move(handle)), window_(window) {
   next_ = end_ = window_.data();
 }
 
@@ -110,7 +110,7 @@ void TextSource::read_all(std::string& text, std::size_t limit) {
 }
 
 TextSource::Number TextSource::read_number(double& value) {
-  if (available() < kLongestNumber) refill(kLongestNumber);
+  if (available() < longest_number) refill(longest_number);
   const char* start = next_;
   if (start != end_ && *start == '+') {
     ++start;  // which from_chars does not take
@@ -118,7 +118,7 @@ TextSource::Number TextSource::read_number(double& value) {
   }
   const auto [stop, problem] = fast_float::from_chars(start, end_, value);
   if (problem == std::errc::invalid_argument) return Number::none;
-  if (static_cast<std::size_t>(stop - next_) >= kLongestNumber) return Number::too_long;
+  if (static_cast<std::size_t>(stop - next_) >= longest_number) return Number::too_long;
   if (!std::isfinite(value)) return Number::not_finite;
   next_ = stop;
   return Number::read;

@@ -19,7 +19,7 @@ namespace medial::io {
 class TextSource {
  public:
   /// The longest number, in characters.
-  static constexpr std::size_t kLongestNumber = 4096;
+  static constexpr std::size_t longest_number = 4096;
 
   /// Opens a file; `-` is standard input, which is one and the same source for the whole process:
   /// what one reader peeks at, the next one finds.

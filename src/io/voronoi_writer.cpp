@@ -17,7 +17,7 @@ namespace medial::io {
 
 namespace {
 
-constexpr std::array<std::string_view, 6> kFormats{"json", "geojson", "svg", "pdf", "png", "ps"};
+constexpr std::array<std::string_view, 6> formats{"json", "geojson", "svg", "pdf", "png", "ps"};
 
 std::string quoted(const std::string& text) {
   using Json = nlohmann::json;
@@ -111,7 +111,7 @@ Status write_any(const std::string& path, const std::string& option, const Voron
   if (format.empty())
     format = path == "-" ? "json" : std::filesystem::path(path).extension().string();
   if (format.starts_with('.')) format.erase(0, 1);
-  if (std::ranges::find(kFormats, format) == kFormats.end())
+  if (std::ranges::find(formats, format) == formats.end())
     return Error{ErrorCode::unsupported,
                  fmt::format("'{}' is no format for Voronoi diagrams; known are {}", format,
                              known_voronoi_formats()),
@@ -220,7 +220,7 @@ void write_voronoi_geojson(OutputStream& out, const VoronoiFile& file,
   features.finish();
 }
 
-std::string known_voronoi_formats() { return fmt::format(".{}", fmt::join(kFormats, " .")); }
+std::string known_voronoi_formats() { return fmt::format(".{}", fmt::join(formats, " .")); }
 
 Status write_voronoi(const std::string& path, const std::string& format, const VoronoiFile& file,
                      const WriteOptions& options) {

@@ -45,7 +45,7 @@ class Canvas {
   Canvas(int width, int height)
       : width_(width),
         height_(height),
-        color_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), kPaper),
+        color_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), paper_color),
         depth_(color_.size(), -std::numeric_limits<float>::infinity()) {}
 
   void clear_depth() { std::ranges::fill(depth_, -std::numeric_limits<float>::infinity()); }
@@ -171,7 +171,7 @@ class Scene {
     const double half = 0.5 * axis_.resolution;
     for (const Voxel& voxel : axis_.voxels) {
       const double at = largest_ > 0 ? voxel.radius / largest_ : 0;
-      const Color base = shade(static_cast<int>(std::lround(at * (kShades - 1))));
+      const Color base = shade(static_cast<int>(std::lround(at * (shade_count - 1))));
       for (int k = 0; k < 3; ++k) {
         const double facing = view.towards[k];
         if (facing == 0) continue;
@@ -212,12 +212,12 @@ std::uint32_t packed(const Color& color) {
 
 Status write_voxel_picture(OutputStream& out, const VoxelAxis& axis, const Solid& solid,
                            double width) {
-  constexpr double kSmallest = 48, kLargest = 8000;
-  if (!(width >= kSmallest && width <= kLargest)) {
-    return Error{
-        ErrorCode::invalid_option,
-        fmt::format("the width of a picture of voxels lies between {} and {}", kSmallest, kLargest),
-        {}};
+  constexpr double smallest_size = 48, largest_size = 8000;
+  if (!(width >= smallest_size && width <= largest_size)) {
+    return Error{ErrorCode::invalid_option,
+                 fmt::format("the width of a picture of voxels lies between {} and {}",
+                             smallest_size, largest_size),
+                 {}};
   }
   constexpr int factor = 2;  // pixels painted for each one shown, along a side
   const int side = static_cast<int>(width) / 3;

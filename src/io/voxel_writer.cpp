@@ -21,7 +21,7 @@ namespace medial::io {
 
 namespace {
 
-constexpr std::array<std::string_view, 4> kVoxelFormats{"ply", "vtk", "obj", "png"};
+constexpr std::array<std::string_view, 4> voxel_formats{"ply", "vtk", "obj", "png"};
 
 /// Of bridges, which have no second foot, files tell -1.
 double finite_quality(const Voxel& voxel) {
@@ -132,7 +132,7 @@ Status write_any(const std::string& path, const std::string& option, const Voxel
   if (format.starts_with('.')) format.erase(0, 1);
   std::ranges::transform(format, format.begin(),
                          [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (std::ranges::find(kVoxelFormats, format) == kVoxelFormats.end()) {
+  if (std::ranges::find(voxel_formats, format) == voxel_formats.end()) {
     return Error{
         ErrorCode::unsupported,
         fmt::format("'{}' is no format for voxels; known are {}", format, known_voxel_formats()),
@@ -148,7 +148,7 @@ Status write_any(const std::string& path, const std::string& option, const Voxel
 
 }  // namespace
 
-std::string known_voxel_formats() { return fmt::format(".{}", fmt::join(kVoxelFormats, " .")); }
+std::string known_voxel_formats() { return fmt::format(".{}", fmt::join(voxel_formats, " .")); }
 
 Status write_voxels(const std::string& path, const std::string& format, const VoxelAxis& axis,
                     const Solid& solid, double width) {

@@ -23,8 +23,8 @@ namespace medial::io {
 
 namespace {
 
-constexpr std::array<std::string_view, 12> kFormats{"json", "geojson", "gpkg", "shp", "fgb", "wkt",
-                                                    "csv",  "dxf",     "svg",  "pdf", "png", "ps"};
+constexpr std::array<std::string_view, 12> formats{"json", "geojson", "gpkg", "shp", "fgb", "wkt",
+                                                   "csv",  "dxf",     "svg",  "pdf", "png", "ps"};
 
 bool through_gdal(const std::string& format) {
   return format == "geojson" || format == "gpkg" || format == "shp" || format == "fgb";
@@ -39,7 +39,7 @@ Result<std::string> format_of(const std::string& path, const std::string& option
   if (format.starts_with('.')) format.erase(0, 1);
   std::ranges::transform(format, format.begin(),
                          [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (std::ranges::find(kFormats, format) != kFormats.end()) return format;
+  if (std::ranges::find(formats, format) != formats.end()) return format;
   return Error{
       ErrorCode::unsupported,
       fmt::format("'{}' is no format to write; known are {}", format, known_output_formats()),
@@ -119,7 +119,7 @@ Status write_any(const std::string& path, const std::string& option, const Nativ
 
 }  // namespace
 
-std::string known_output_formats() { return fmt::format(".{}", fmt::join(kFormats, " .")); }
+std::string known_output_formats() { return fmt::format(".{}", fmt::join(formats, " .")); }
 
 Status write_axes(const std::string& path, const std::string& format, const NativeFile& file,
                   const WriteOptions& options) {

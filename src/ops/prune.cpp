@@ -22,7 +22,7 @@ struct Named {
   double threshold;
 };
 using enum PruneMeasure;
-constexpr std::array<Named, 11> kMeasures{{
+constexpr std::array<Named, 11> measures{{
     {significance, "significance", 0.3},
     {length, "length", 1.5},
     {ratio, "ratio", 1.5},
@@ -36,7 +36,7 @@ constexpr std::array<Named, 11> kMeasures{{
     {scale, "scale", 1.3},
 }};
 
-const Named& named(PruneMeasure measure) { return kMeasures[static_cast<std::size_t>(measure)]; }
+const Named& named(PruneMeasure measure) { return measures[static_cast<std::size_t>(measure)]; }
 
 /// Where in [low, high] a measure reaches the threshold, which it has at `high`. Halving asks the
 /// same points whatever the threshold, so that a larger one never gives a lower place.
@@ -57,14 +57,14 @@ const char* name_of(PruneMeasure measure) { return named(measure).name; }
 const std::vector<PruneMeasure>& prune_measures() {
   static const std::vector<PruneMeasure> all = [] {
     std::vector<PruneMeasure> list;
-    for (const Named& one : kMeasures) list.push_back(one.measure);
+    for (const Named& one : measures) list.push_back(one.measure);
     return list;
   }();
   return all;
 }
 
 std::optional<PruneMeasure> prune_measure_from(std::string_view name) {
-  for (const Named& one : kMeasures)
+  for (const Named& one : measures)
     if (name == one.name) return one.measure;
   return std::nullopt;
 }

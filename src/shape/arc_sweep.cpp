@@ -123,11 +123,11 @@ class CrossingFinder {
     std::array<std::uint32_t, 2> ends;
   };
 
-  /// The end of a piece that a point is at; kNone in its inside.
+  /// The end of a piece that a point is at; no_index in its inside.
   std::uint32_t end_at(const Piece& piece, Vec2 p) const {
     for (const std::uint32_t end : piece.ends)
       if (distance(noded_.outline.points[end], p) <= 2 * tolerance_) return end;
-    return kNone;
+    return no_index;
   }
 
   void meet(const Piece& a, const Piece& b) {
@@ -137,14 +137,14 @@ class CrossingFinder {
       if (!point || !a.arc.is_near(*point, tolerance_) || !b.arc.is_near(*point, tolerance_))
         continue;
       const std::uint32_t end_of_a = end_at(a, *point), end_of_b = end_at(b, *point);
-      if (end_of_a != kNone && end_of_b != kNone) continue;
-      if (end_of_a != kNone) {
+      if (end_of_a != no_index && end_of_b != no_index) continue;
+      if (end_of_a != no_index) {
         add_end(a, end_of_a, b);
-      } else if (end_of_b != kNone) {
+      } else if (end_of_b != no_index) {
         add_end(b, end_of_b, a);
       } else {
-        contacts_.push_back({a.edge, kNone, *point});
-        contacts_.push_back({b.edge, kNone, *point});
+        contacts_.push_back({a.edge, no_index, *point});
+        contacts_.push_back({b.edge, no_index, *point});
         ++crossings_;
       }
     }
@@ -274,7 +274,7 @@ class ArcSweeper {
 
     if (block_.empty()) {
       for (const std::uint32_t vertex : group) {
-        found_.left_ends.push_back({vertex, below ? below->piece : kNone});
+        found_.left_ends.push_back({vertex, below ? below->piece : no_index});
       }
     }
     if (group.size() > 1) {
@@ -414,7 +414,7 @@ class ArcSweeper {
         const Vec2 point = lower.arc.halfway(stops[i].point, stops[j].point);
         const Vec2 contact = i == j ? stops[i].point : point;
         for (const ActivePiece* piece : {&lower, &upper}) {
-          contacts_.push_back({noded_.edges[piece->piece], kNone, contact});
+          contacts_.push_back({noded_.edges[piece->piece], no_index, contact});
         }
       }
       i = j;

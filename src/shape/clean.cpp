@@ -11,7 +11,7 @@ namespace medial {
 namespace {
 
 /// A vertex can become two sites, and each site can split an edge at most once.
-constexpr std::uint64_t kMostPoints = std::numeric_limits<std::uint32_t>::max() / 4;
+constexpr std::uint64_t most_points = std::numeric_limits<std::uint32_t>::max() / 4;
 
 /// Appends the points of a ring, each distinct from its neighbours.
 std::optional<Error> append_distinct(const Ring& ring, std::uint32_t index, Outline& outline,
@@ -158,7 +158,7 @@ Result<Outline> clean(std::span<const Ring> rings, ShapeReport& report) {
   if (rings.empty()) return error_without_place(ErrorCode::empty, "there is no ring");
   report.input_rings = rings.size();
   for (const Ring& ring : rings) report.input_points += ring.points.size();
-  if (report.input_points > kMostPoints || rings.size() > kMostPoints) {
+  if (report.input_points > most_points || rings.size() > most_points) {
     return error_without_place(ErrorCode::too_large, "there are too many points");
   }
 

@@ -13,11 +13,11 @@ namespace medial {
 namespace {
 
 /// Of a sum of angles, relative.
-constexpr double kSlack = 64 * std::numeric_limits<double>::epsilon();
+constexpr double slack = 64 * std::numeric_limits<double>::epsilon();
 
 /// Of an arc of at most a half circle.
 double bulge_of_angle(double angle) {
-  return angle >= std::numbers::pi * (1 - kSlack) ? 1 : std::tan(angle / 4);
+  return angle >= std::numbers::pi * (1 - slack) ? 1 : std::tan(angle / 4);
 }
 
 /// The edges of one ring with arcs.
@@ -148,8 +148,8 @@ class Cleaner {
     constexpr double pi = std::numbers::pi;
     const double sign = angle > 0 ? 1 : -1;
     angle = std::abs(angle);
-    if (end - begin == 1 || angle > 2 * pi * (1 + kSlack)) return keep();
-    if (angle <= pi * (1 + kSlack) && start != stop) {
+    if (end - begin == 1 || angle > 2 * pi * (1 + slack)) return keep();
+    if (angle <= pi * (1 + slack) && start != stop) {
       const double bulge = sign * bulge_of_angle(angle);
       if (!follows({start, stop, bulge}, begin, end)) return keep();
       report_.collinear_points += end - begin - 1;
@@ -167,7 +167,7 @@ class Cleaner {
         angle_to_middle = sum;
       }
     }
-    const bool divides = std::max(angle_to_middle, angle - angle_to_middle) <= pi * (1 + kSlack);
+    const bool divides = std::max(angle_to_middle, angle - angle_to_middle) <= pi * (1 + slack);
     if (divides && end - begin == 2) return keep();
     RingEdge second = edges_[middle];
     std::size_t end_of_first = middle;

@@ -81,11 +81,11 @@ std::optional<Error> check_roles(std::span<const Ring> rings, const Arrangement&
 
 namespace {
 
-/// The highest edge that stays strictly below a vertex and begins further left; kNone if there is
-/// none. O(n).
+/// The highest edge that stays strictly below a vertex and begins further left; no_index if there
+/// is none. O(n).
 std::uint32_t edge_below(const Arrangement& arrangement, std::uint32_t vertex) {
   const Vec2 p = arrangement.points[vertex];
-  std::uint32_t highest = kNone;
+  std::uint32_t highest = no_index;
   double height = -std::numeric_limits<double>::infinity();
   for (std::uint32_t e = 0; e < arrangement.points.size(); ++e) {
     if (arrangement.is_dropped(e)) continue;
@@ -125,27 +125,27 @@ std::optional<Error> nest(const Arrangement& arrangement, Loops& loops) {
   if (!hole_at.empty()) {
     for (const LeftEnd& end : arrangement.left_ends) {
       const auto hole = hole_at.find(end.vertex);
-      if (hole == hole_at.end() || end.below == kNone) continue;
+      if (hole == hole_at.end() || end.below == no_index) continue;
       const std::uint32_t below =
           arrangement.is_dropped(end.below) ? arrangement.stands_for[end.below] : end.below;
-      if (below == kNone) continue;
+      if (below == no_index) continue;
       loops.loops[hole->second].component = loops.loops[loops.loop_of[below]].component;
     }
   }
   // Unless dropped edges end there, with the interior on both sides.
   std::vector<std::uint32_t> lost;
   for (std::uint32_t i = 0; i < loops.loops.size(); ++i)
-    if (loops.loops[i].component == kNone) lost.push_back(i);
+    if (loops.loops[i].component == no_index) lost.push_back(i);
   std::sort(lost.begin(), lost.end(), [&](std::uint32_t a, std::uint32_t b) {
     return lexicographic_less(arrangement.points[loops.loops[a].leftmost],
                               arrangement.points[loops.loops[b].leftmost]);
   });
   for (const std::uint32_t i : lost) {
     const std::uint32_t below = edge_below(arrangement, loops.loops[i].leftmost);
-    if (below != kNone) loops.loops[i].component = loops.loops[loops.loop_of[below]].component;
+    if (below != no_index) loops.loops[i].component = loops.loops[loops.loop_of[below]].component;
   }
   for (const Loop& loop : loops.loops) {
-    if (loop.component == kNone) {
+    if (loop.component == no_index) {
       return error_without_place(ErrorCode::internal, "a hole has no component");
     }
   }

@@ -16,7 +16,7 @@ namespace {
 
 /// An angle of no meaning: edges and tangents of drawings are hardly ever upright after a turn by
 /// it.
-constexpr double kTurn = 0.5931;
+constexpr double turn = 0.5931;
 
 Box box_of(const Outline& outline) {
   Box box{outline.points[0], outline.points[0]};
@@ -46,14 +46,14 @@ Noding::Noding(const Outline& outline) : begin_(outline.begin) {
 }
 
 Vec2 Noding::to_local(Vec2 input) const {
-  static const double cosine = std::cos(kTurn);
-  static const double sine = std::sin(kTurn);
+  static const double cosine = std::cos(turn);
+  static const double sine = std::sin(turn);
   const Vec2 local = turned(frame_.to_local(input), cosine, sine);
   return {local.x + 0.0, local.y + 0.0};  // makes -0 to 0
 }
 
 Vec2 Noding::to_input(Vec2 local) const {
-  const Vec2 point = frame_.to_input(turned(local, std::cos(kTurn), -std::sin(kTurn)));
+  const Vec2 point = frame_.to_input(turned(local, std::cos(turn), -std::sin(turn)));
   return {point.x + 0.0, point.y + 0.0};
 }
 
@@ -134,7 +134,7 @@ std::optional<Error> Noding::apply(const NodedOutline& noded, std::span<const Co
     const auto ring = static_cast<std::uint32_t>(after - begin_.begin()) - 1;
     const Vec2 end = nodes_[next(ring, contact.edge)].local;
     Node cut = node;
-    if (contact.vertex == kNone) {
+    if (contact.vertex == no_index) {
       cut.original = to_input(contact.point);
     } else {
       cut.original = target(noded.originals[contact.vertex]);

@@ -24,10 +24,11 @@ struct NodedOutline {
   std::vector<bool> passing;          ///< vertices that are there for the sweep only
 };
 
-/// An edge touches a point: a vertex of the NodedOutline, or (kNone) a point in local coordinates.
+/// An edge touches a point: a vertex of the NodedOutline, or (no_index) a point in local
+/// coordinates.
 struct Contact {
   std::uint32_t edge = 0;
-  std::uint32_t vertex = kNone;
+  std::uint32_t vertex = no_index;
   Vec2 point;
 };
 

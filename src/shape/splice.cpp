@@ -86,7 +86,7 @@ Arrangement insert_splits(Outline outline, Sweep sweep) {
   std::stable_sort(result.touches.begin(), result.touches.end(),
                    [](const Touch& a, const Touch& b) { return a.place < b.place; });
   const auto new_edge = [&](std::uint32_t piece) {
-    if (piece == kNone) return kNone;
+    if (piece == no_index) return no_index;
     if (piece >= edge_count) return new_edge_of_split[piece - edge_count];
     // The leftmost piece is the last one of an edge walked leftward.
     if (lexicographic_less(outline.points[piece], outline.points[outline.next(piece)])) {
@@ -120,7 +120,7 @@ Ray ray_from_start(const Arrangement& arrangement, std::uint32_t edge) {
   const double bulge = arrangement.bulges.empty() ? 0 : arrangement.bulges[edge];
   return {arrangement.points[arrangement.next[edge]],
           edge,
-          kNone,
+          no_index,
           bulge,
           arrangement.interior_left[edge],
           true};
@@ -128,7 +128,8 @@ Ray ray_from_start(const Arrangement& arrangement, std::uint32_t edge) {
 
 Ray ray_from_end(const Arrangement& arrangement, std::uint32_t edge) {
   const double bulge = arrangement.bulges.empty() ? 0 : arrangement.bulges[edge];
-  return {arrangement.points[edge], edge, kNone, -bulge, !arrangement.interior_left[edge], false};
+  return {arrangement.points[edge],         edge, no_index, -bulge,
+          !arrangement.interior_left[edge], false};
 }
 
 bool turns_left(Vec2 center, const Ray& a, const Ray& b) {
@@ -306,9 +307,9 @@ Result<Loops> splice(std::span<const Ring> rings, const Arrangement& arrangement
     first = last;
   }
 
-  result.loop_of.assign(arrangement.points.size(), kNone);
+  result.loop_of.assign(arrangement.points.size(), no_index);
   for (std::uint32_t e = 0; e < result.loop_of.size(); ++e) {
-    if (result.loop_of[e] == kNone && !arrangement.is_dropped(e))
+    if (result.loop_of[e] == no_index && !arrangement.is_dropped(e))
       result.loops.push_back(walk(arrangement, result, e));
   }
   return result;

@@ -69,7 +69,7 @@ struct Loop {
   std::uint32_t size = 0;
   std::uint32_t leftmost = 0;  ///< the leftmost vertex
   bool hole = false;
-  std::uint32_t component = kNone;
+  std::uint32_t component = no_index;
 };
 
 /// The edges joined into loops. An edge with the interior on its right is walked backwards.

@@ -195,7 +195,7 @@ class Sweeper {
 
     if (block_.empty()) {
       for (const std::uint32_t vertex : group) {
-        found_.left_ends.push_back({vertex, below ? below->piece : kNone});
+        found_.left_ends.push_back({vertex, below ? below->piece : no_index});
       }
     }
     if (group.size() > 1 || !passing_.empty()) note_touch(group);

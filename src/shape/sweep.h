@@ -9,7 +9,7 @@
 
 namespace medial {
 
-inline constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+inline constexpr std::uint32_t no_index = std::numeric_limits<std::uint32_t>::max();
 
 /// A vertex in the inside of an edge.
 struct Split {
@@ -24,7 +24,7 @@ struct Touch {
   std::uint32_t vertex = 0;
 };
 
-/// A vertex with no edge to its left, and the piece directly below it (kNone: none).
+/// A vertex with no edge to its left, and the piece directly below it (no_index: none).
 struct LeftEnd {
   std::uint32_t vertex = 0;
   std::uint32_t below = 0;

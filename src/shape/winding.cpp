@@ -23,7 +23,7 @@ class Winder {
     right_.resize(count);
     known_.resize(count);
     winding_.resize(count);
-    place_.assign(count, kNone);
+    place_.assign(count, no_index);
     for (std::uint32_t ring = 0; ring < rings.size(); ++ring) {
       if (rings[ring].role != RingRole::winding) continue;
       for (std::uint32_t e = arrangement.begin[ring]; e < arrangement.begin[ring + 1]; ++e) {
@@ -44,7 +44,7 @@ class Winder {
     for (const LeftEnd& end : arrangement_.left_ends) {
       if (known_[end.vertex]) continue;
       // Nothing is left of this vertex: below its lowest ray is what is above the edge below.
-      go_around(end.vertex, 0, end.below == kNone ? 0 : above(end.below));
+      go_around(end.vertex, 0, end.below == no_index ? 0 : above(end.below));
       spread();
     }
     drop();
@@ -60,9 +60,9 @@ class Winder {
 
   /// The rays around a vertex, counter-clockwise from below.
   void collect(std::uint32_t vertex) {
-    const Touch alone{kNone, vertex};
+    const Touch alone{no_index, vertex};
     std::span<const Touch> touches(&alone, 1);
-    if (place_[vertex] != kNone) {
+    if (place_[vertex] != no_index) {
       const std::uint32_t first = place_begin_[place_[vertex]];
       touches =
           std::span(arrangement_.touches).subspan(first, place_begin_[place_[vertex] + 1] - first);
@@ -94,7 +94,7 @@ class Winder {
       waiting_.pop_back();
       for (const bool at_start : {true, false}) {
         const std::uint32_t vertex = at_start ? edge : arrangement_.next[edge];
-        if (place_[vertex] == kNone) {
+        if (place_[vertex] == no_index) {
           // The common case: only one other edge.
           const std::uint32_t other = at_start ? previous_[vertex] : vertex;
           if (known_[other]) continue;
@@ -130,7 +130,7 @@ class Winder {
     if (!any) return;
     arrangement_.dropped = std::move(dropped);
     std::vector<std::uint32_t>& stands = arrangement_.stands_for;
-    stands.assign(count, kNone);
+    stands.assign(count, no_index);
     std::vector<std::uint32_t> group;
     std::vector<bool> seen(count);
     for (const LeftEnd& end : arrangement_.left_ends) {
@@ -141,7 +141,7 @@ class Winder {
     }
     // Dropped edges without a left end hang on others.
     for (std::uint32_t e = 0; e < count; ++e) {
-      if (arrangement_.dropped[e] && !seen[e]) fill(e, kNone, seen, group);
+      if (arrangement_.dropped[e] && !seen[e]) fill(e, no_index, seen, group);
     }
   }
 
@@ -151,7 +151,7 @@ class Winder {
             std::vector<std::uint32_t>& group) {
     group.assign(1, first);
     seen[first] = true;
-    std::uint32_t kept = kNone;
+    std::uint32_t kept = no_index;
     for (std::size_t i = 0; i < group.size(); ++i) {
       const std::uint32_t edge = group[i];
       for (const bool at_start : {true, false}) {
@@ -175,7 +175,7 @@ class Winder {
         }
       }
     }
-    if (kept == kNone && below != kNone) {
+    if (kept == no_index && below != no_index) {
       kept = arrangement_.dropped[below] ? arrangement_.stands_for[below] : below;
     }
     for (const std::uint32_t edge : group) arrangement_.stands_for[edge] = kept;
@@ -200,7 +200,7 @@ class Winder {
   std::vector<bool> known_;
   std::vector<bool> winding_;  ///< of each edge: its ring has the role
   std::vector<std::uint32_t> previous_;
-  std::vector<std::uint32_t> place_;  ///< of each vertex; kNone: nothing touches there
+  std::vector<std::uint32_t> place_;  ///< of each vertex; no_index: nothing touches there
   std::vector<std::uint32_t> place_begin_;
   std::vector<bool> place_done_;
   std::vector<std::uint32_t> waiting_;

@@ -35,14 +35,14 @@ Stretches collect(const Problem& problem) {
   for (std::uint32_t i = 0; i < count; ++i) before[problem.next[i]] = i;
   for (const Edge& edge : axis.edges)
     for (const std::uint32_t site : edge.site)
-      if (problem.place[site] != kNone) ++out.first[problem.place[site] + 1];
+      if (problem.place[site] != no_index) ++out.first[problem.place[site] + 1];
   for (std::size_t i = 1; i <= count; ++i) out.first[i] += out.first[i - 1];
   out.all.resize(out.first[count]);
   std::vector<std::uint32_t> next(out.first.begin(), out.first.end() - 1);
   for (const Edge& edge : axis.edges) {
     for (const std::uint32_t site : edge.site) {
       const std::uint32_t place = problem.place[site];
-      if (place == kNone) continue;
+      if (place == no_index) continue;
       if (axis.sites[site].kind == SiteKind::vertex) {
         const Vec2 arriving = end_tangent(problem.edge(before[place]));
         const auto turn = [&](std::uint32_t node) {
@@ -189,7 +189,7 @@ void cross_gap(const Problem& problem, const Foot& from, const Foot& to, bool wr
 }
 
 /// Walks once around a loop, from stretch to stretch. `lone_node` is a node without edges of each
-/// component, or kNone.
+/// component, or no_index.
 void walk_loop(const Problem& problem, const Stretches& stretches,
                const std::vector<std::uint32_t>& lone_node, std::size_t loop, Uncovered& worst) {
   const std::uint32_t begin = problem.shape.loop_begin[loop],
@@ -216,7 +216,7 @@ void walk_loop(const Problem& problem, const Stretches& stretches,
   }
   // No edge touches it: a circle, which one disk fills.
   const std::uint32_t lone = lone_node[problem.component[begin]];
-  if (lone == kNone)
+  if (lone == no_index)
     worst.add(problem.diagonal, 0, problem.point(begin));
   else
     cross_gap(problem, {begin, 0, lone}, {begin, 0, lone}, true, worst);
@@ -320,7 +320,7 @@ double angle_between_feet(Vec2 center, Vec2 right, Vec2 left, bool shrinks) {
 
 double check_coverage(const Problem& problem, Certificate& certificate) {
   const Stretches stretches = collect(problem);
-  std::vector<std::uint32_t> lone_node(problem.shape.component_count(), kNone);
+  std::vector<std::uint32_t> lone_node(problem.shape.component_count(), no_index);
   for (std::uint32_t i = 0; i < problem.axis.nodes.size(); ++i)
     if (problem.degree[i] == 0) lone_node[problem.axis.nodes[i].component] = i;
   Uncovered worst;

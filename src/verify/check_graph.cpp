@@ -79,7 +79,7 @@ bool ends_at_arc(const Problem& problem, const Edge& edge, std::size_t end, std:
   };
   // Ahead of the end, the boundary runs from the site on the right to the one on the left.
   const std::size_t right = end, left = 1 - end;
-  if (place(right) == kNone || place(left) == kNone) return false;
+  if (place(right) == no_index || place(left) == no_index) return false;
   const Disk& disk = problem.disk(edge.node[end]);
   const std::uint32_t first = is_vertex(right) ? place(right) : problem.next[place(right)];
   bool arcs = false;
@@ -116,7 +116,7 @@ bool ends_at_arc(const Problem& problem, const Edge& edge, std::size_t end, std:
 bool check_shape(const Shape& shape, Certificate& certificate) {
   const std::size_t loops = shape.component.size();
   const bool arcs = !shape.bulges.empty();
-  bool valid = shape.hole.size() == loops && shape.points.size() < kNone &&
+  bool valid = shape.hole.size() == loops && shape.points.size() < no_index &&
                (!arcs || shape.bulges.size() == shape.points.size()) &&
                (loops == 0 ? shape.points.empty()
                            : shape.loop_begin.size() == loops + 1 && shape.loop_begin[0] == 0 &&
@@ -145,7 +145,8 @@ bool check_values(const Shape& shape, const MedialAxis& axis, Certificate& certi
       certificate.failures.push_back(
           sentence("%zu %s; the first is %s %zu.", offences.count, what, which, offences.first));
   };
-  if (axis.nodes.size() >= kNone || axis.edges.size() >= kNone || axis.sites.size() >= kNone) {
+  if (axis.nodes.size() >= no_index || axis.edges.size() >= no_index ||
+      axis.sites.size() >= no_index) {
     certificate.failures.push_back("The axis has more parts than 32-bit indices can name.");
     return false;
   }
@@ -242,15 +243,15 @@ void prepare(Problem& problem, double corner_angle, Certificate& certificate) {
            (site.bulge != 0) == (site.kind == SiteKind::arc);
   };
   std::vector<std::uint32_t> sorted;
-  problem.place.assign(axis.sites.size(), kNone);
+  problem.place.assign(axis.sites.size(), no_index);
   std::uint32_t cursor = 0;
   Offences foreign;
   for (std::size_t s = 0; s < axis.sites.size(); ++s) {
     const Site& site = axis.sites[s];
     std::uint32_t& place = problem.place[s];
-    for (std::uint32_t i = cursor; i < std::min(cursor + 2, count) && place == kNone; ++i)
+    for (std::uint32_t i = cursor; i < std::min(cursor + 2, count) && place == no_index; ++i)
       if (fits(site, i)) place = i;
-    if (place == kNone) {
+    if (place == no_index) {
       if (sorted.empty()) {
         sorted.resize(count);
         std::iota(sorted.begin(), sorted.end(), 0U);
@@ -264,7 +265,7 @@ void prepare(Problem& problem, double corner_angle, Certificate& certificate) {
       for (; found != sorted.end() && shape.points[*found] == site.start; ++found)
         if (fits(site, *found)) place = *found;
     }
-    if (place == kNone)
+    if (place == no_index)
       foreign.add(s);
     else
       cursor = place;
@@ -317,7 +318,7 @@ void check_graph(const Problem& problem, Certificate& certificate) {
     for (const std::uint32_t site : edge.site) {
       if (site == no_site) continue;
       const std::uint32_t place = problem.place[site];
-      if (place != kNone && problem.component[place] != component) foreign_sites.add(i);
+      if (place != no_index && problem.component[place] != component) foreign_sites.add(i);
     }
   }
 
@@ -427,7 +428,7 @@ void check_vertices(const Problem& problem, Certificate& certificate) {
   for (const Edge& edge : axis.edges) {
     for (const std::uint32_t site : edge.site) {
       const std::uint32_t place = problem.place[site];
-      if (place == kNone) continue;
+      if (place == no_index) continue;
       if (axis.sites[site].kind == SiteKind::vertex) {
         touched[place] = true;
         continue;
@@ -443,14 +444,14 @@ void check_vertices(const Problem& problem, Certificate& certificate) {
       }
     }
   }
-  std::uint32_t first = kNone;
+  std::uint32_t first = no_index;
   for (std::uint32_t i = 0; i < count; ++i) {
     if (problem.joint[i] != Joint::reflex) continue;
     ++certificate.reflex_vertices;
     if (touched[i]) continue;
     if (certificate.reflex_without_contact++ == 0) first = i;
   }
-  if (first != kNone)
+  if (first != no_index)
     failures.push_back(sentence(
         "%llu of %llu reflex vertices are touched by no disk; the first is (%.17g, %.17g).",
         static_cast<unsigned long long>(certificate.reflex_without_contact),

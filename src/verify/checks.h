@@ -19,7 +19,7 @@ namespace medial::verify_detail {
 
 using geometry::Joint;
 
-constexpr std::uint32_t kNone = 0xFFFFFFFF;
+constexpr std::uint32_t no_index = 0xFFFFFFFF;
 
 /// A shape and its axis, and what all checks need to know of them.
 struct Problem {
@@ -32,7 +32,7 @@ struct Problem {
   std::vector<std::uint32_t> component;  ///< of each point
   std::vector<Joint> joint;              ///< at each point; smooth where straight edges go on
   std::vector<double> blunt_angle;       ///< at each point where it is blunt, else 0; or empty
-  /// Of each site: the point of the shape that it is, or that its edge begins in; or kNone.
+  /// Of each site: the point of the shape that it is, or that its edge begins in; or no_index.
   std::vector<std::uint32_t> place;
   std::vector<std::uint32_t> degree;  ///< of each node
 

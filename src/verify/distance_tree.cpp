@@ -13,17 +13,17 @@
 namespace medial::verify_detail {
 namespace {
 
-constexpr std::size_t kFanOut = 4;
+constexpr std::size_t fan_out = 4;
 /// Below this many edges no tree is built.
-constexpr std::size_t kBruteForce = 16;
+constexpr std::size_t brute_force = 16;
 /// Above this many edges a set gets no slab: it would be about as wide as the box.
-constexpr std::size_t kLargestSlab = 4096;
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr std::size_t largest_slab = 4096;
+constexpr double machine_epsilon = std::numeric_limits<double>::epsilon();
+constexpr double endless = std::numeric_limits<double>::infinity();
 
 /// Longer arcs are bounded piece by piece: the boxes of concentric half circles would lie in each
 /// other, and all of them in the way of every query.
-constexpr double kLongestPiece = std::numbers::pi / 8;
+constexpr double longest_piece = std::numbers::pi / 8;
 
 /// Calls `visit` with points whose hull holds the edge: its ends, and for an arc the corners of the
 /// trapezoid whose other sides are tangent to it at the ends and in the middle.
@@ -39,11 +39,11 @@ void for_each_hull_point(const BoundaryEdge& edge, const Visitor& visit) {
   visit(edge.end - side + height);
 }
 
-/// Calls `visit` with the edge, cut into pieces of at most kLongestPiece.
+/// Calls `visit` with the edge, cut into pieces of at most longest_piece.
 template <class Visitor>
 void for_each_piece(const BoundaryEdge& edge, const Visitor& visit) {
   const double angle = 4 * std::atan(edge.bulge);
-  const double count = std::ceil(std::abs(angle) / kLongestPiece);
+  const double count = std::ceil(std::abs(angle) / longest_piece);
   if (count <= 1) {
     visit(edge);
     return;
@@ -71,7 +71,7 @@ DistanceTree::DistanceTree(const Shape& shape) {
     for (std::size_t j = 0; j < loop.size(); ++j) {
       const BoundaryEdge edge{loop[j], loop[j + 1 < loop.size() ? j + 1 : 0],
                               shape.bulge(shape.loop_begin[i] + j)};
-      if (shape.points.size() <= kBruteForce) {
+      if (shape.points.size() <= brute_force) {
         edges_.push_back(edge);
         continue;
       }
@@ -83,7 +83,7 @@ DistanceTree::DistanceTree(const Shape& shape) {
     }
   }
   if (pieces.empty()) return;
-  const std::vector<std::uint32_t> order = spatial_order(middle, kFanOut);
+  const std::vector<std::uint32_t> order = spatial_order(middle, fan_out);
   const auto in_order = [&](const std::vector<BoundaryEdge>& edges) {
     std::vector<BoundaryEdge> ordered;
     ordered.reserve(edges.size());
@@ -95,23 +95,23 @@ DistanceTree::DistanceTree(const Shape& shape) {
 
   const Box box = bounding_box(shape);
   origin_ = box.low;
-  slack_ = 16 * kEpsilon * diagonal(box);
+  slack_ = 16 * machine_epsilon * diagonal(box);
   // The ends of an arc's pieces are rounded.
   if (arcs)
     for (const double c : {box.low.x, box.low.y, box.high.x, box.high.y})
-      slack_ = std::max(slack_, 16 * kEpsilon * std::abs(c));
-  std::size_t run = kFanOut;  // edges below one bound
+      slack_ = std::max(slack_, 16 * machine_epsilon * std::abs(c));
+  std::size_t run = fan_out;  // edges below one bound
   while (true) {
     const std::size_t bounds = (pieces.size() + run - 1) / run;
-    std::vector<Bounds> level((bounds + kFanOut - 1) / kFanOut);
-    tbb::parallel_for(std::size_t{0}, level.size() * kFanOut, [&](std::size_t i) {
+    std::vector<Bounds> level((bounds + fan_out - 1) / fan_out);
+    tbb::parallel_for(std::size_t{0}, level.size() * fan_out, [&](std::size_t i) {
       const std::size_t begin = std::min(i * run, pieces.size());
-      bound({pieces.data() + begin, std::min(run, pieces.size() - begin)}, level[i / kFanOut],
-            i % kFanOut);
+      bound({pieces.data() + begin, std::min(run, pieces.size() - begin)}, level[i / fan_out],
+            i % fan_out);
     });
     levels_.push_back(std::move(level));
-    if (bounds <= kFanOut) break;
-    run *= kFanOut;
+    if (bounds <= fan_out) break;
+    run *= fan_out;
   }
   if (!arcs) edges_ = std::move(pieces);
 }
@@ -119,7 +119,7 @@ DistanceTree::DistanceTree(const Shape& shape) {
 /// Bounds edges, or pieces of them; nothing is near to an empty set.
 void DistanceTree::bound(std::span<const BoundaryEdge> edges, Bounds& bounds,
                          std::size_t place) const {
-  Vec2 left{kInfinity, 0}, right{-kInfinity, 0}, bottom{0, kInfinity}, top{0, -kInfinity};
+  Vec2 left{endless, 0}, right{-endless, 0}, bottom{0, endless}, top{0, -endless};
   const auto each_point = [&](auto work) {
     for (const BoundaryEdge& edge : edges) for_each_hull_point(edge, work);
   };
@@ -138,10 +138,10 @@ void DistanceTree::bound(std::span<const BoundaryEdge> edges, Bounds& bounds,
   Vec2 normal;
   double low = 0, high = 0;
   const Vec2 extent = right.x - left.x >= top.y - bottom.y ? right - left : top - bottom;
-  if (!edges.empty() && edges.size() <= kLargestSlab && norm(extent) > 0) {
+  if (!edges.empty() && edges.size() <= largest_slab && norm(extent) > 0) {
     normal = (1 / norm(extent)) * left_of(extent);
-    low = kInfinity;
-    high = -kInfinity;
+    low = endless;
+    high = -endless;
     each_point([&](Vec2 p) {
       low = std::min(low, dot(normal, p - origin_));
       high = std::max(high, dot(normal, p - origin_));
@@ -156,7 +156,7 @@ void DistanceTree::bound(std::span<const BoundaryEdge> edges, Bounds& bounds,
 bool DistanceTree::search(Vec2 p, double& best) const {
   // Bounds round as well: a limit this much larger loses no edge.
   const auto limit_for = [this](double distance) {
-    const double limit = (1 + 8 * kEpsilon) * (distance + slack_);
+    const double limit = (1 + 8 * machine_epsilon) * (distance + slack_);
     // Nothing reaches the infinite bounds of empty sets.
     return std::min(limit * limit, std::numeric_limits<double>::max());
   };
@@ -175,8 +175,8 @@ bool DistanceTree::search(Vec2 p, double& best) const {
     const Visit visit = stack[--size];
     if (visit.squared > limit) continue;
     const Bounds& bounds = levels_[visit.level][visit.index];
-    double squared[kFanOut];
-    for (std::size_t j = 0; j < kFanOut; ++j) {
+    double squared[fan_out];
+    for (std::size_t j = 0; j < fan_out; ++j) {
       const auto larger = [](double a, double b) { return a > b ? a : b; };
       const double x = larger(larger(bounds.low_x[j] - p.x, p.x - bounds.high_x[j]), 0);
       const double y = larger(larger(bounds.low_y[j] - p.y, p.y - bounds.high_y[j]), 0);
@@ -186,13 +186,13 @@ bool DistanceTree::search(Vec2 p, double& best) const {
       squared[j] = larger(x * x + y * y, across * across);
     }
     // The nearest child goes on top.
-    const auto child = static_cast<std::uint32_t>(visit.index * kFanOut);
+    const auto child = static_cast<std::uint32_t>(visit.index * fan_out);
     const std::size_t base = size;
-    for (std::uint32_t j = 0; j < kFanOut; ++j) {
+    for (std::uint32_t j = 0; j < fan_out; ++j) {
       if (!(squared[j] <= limit)) continue;
       if (visit.level == 0) {
-        const std::size_t begin = std::size_t{child + j} * kFanOut;
-        for (std::size_t i = begin; i < std::min(begin + kFanOut, edges_.size()); ++i) {
+        const std::size_t begin = std::size_t{child + j} * fan_out;
+        for (std::size_t i = begin; i < std::min(begin + fan_out, edges_.size()); ++i) {
           const double d = distance_to_edge(p, edges_[i]);
           if (d <= best) {
             best = d;
@@ -218,8 +218,8 @@ double DistanceTree::some_distance(Vec2 p) const {
   for (std::size_t level = levels_.size(); level-- > 0;) {
     const Bounds& boxes = levels_[level][index];
     std::uint32_t best = 0;
-    double nearest = kInfinity;
-    for (std::uint32_t j = 0; j < kFanOut; ++j) {
+    double nearest = endless;
+    for (std::uint32_t j = 0; j < fan_out; ++j) {
       const double x = std::max({boxes.low_x[j] - p.x, 0.0, p.x - boxes.high_x[j]});
       const double y = std::max({boxes.low_y[j] - p.y, 0.0, p.y - boxes.high_y[j]});
       if (std::hypot(x, y) < nearest) {
@@ -227,9 +227,9 @@ double DistanceTree::some_distance(Vec2 p) const {
         best = j;
       }
     }
-    index = index * static_cast<std::uint32_t>(kFanOut) + best;
+    index = index * static_cast<std::uint32_t>(fan_out) + best;
   }
-  return distance_to_edge(p, edges_[std::min(index * kFanOut, edges_.size() - 1)]);
+  return distance_to_edge(p, edges_[std::min(index * fan_out, edges_.size() - 1)]);
 }
 
 double DistanceTree::distance(Vec2 p, double expected) const {
@@ -240,7 +240,7 @@ double DistanceTree::distance(Vec2 p, double expected) const {
     search(p, best);
     return best;
   }
-  best = kInfinity;
+  best = endless;
   for (const BoundaryEdge& edge : edges_) best = std::min(best, distance_to_edge(p, edge));
   return best;
 }

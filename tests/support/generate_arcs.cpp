@@ -9,7 +9,7 @@
 namespace medial::test {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+constexpr double pi = std::numbers::pi;
 
 Vec2 at_angle(double angle, double radius) {
   return {radius * std::cos(angle), radius * std::sin(angle)};
@@ -38,7 +38,7 @@ double bulge_from(Vec2 tangent, Vec2 chord) {
 Rings placed(Random& random, const Rings& rings) {
   Symmetry s;
   const double scale = random.chance(0.5) ? 1 : random.power_of_ten(-6, 6);
-  const double angle = random.chance(0.3) ? 0 : random.between(0, 2 * kPi);
+  const double angle = random.chance(0.3) ? 0 : random.between(0, 2 * pi);
   const double mirror = random.chance(0.5) ? -1 : 1;
   s.xx = scale * std::cos(angle);
   s.yx = scale * std::sin(angle);
@@ -74,7 +74,7 @@ Ring bulged_polygon(std::size_t n, double bulge, double radius) {
   Ring ring;
   for (std::size_t i = 0; i < n; ++i) {
     ring.points.push_back(
-        at_angle(2 * kPi * static_cast<double>(i) / static_cast<double>(n), radius));
+        at_angle(2 * pi * static_cast<double>(i) / static_cast<double>(n), radius));
     ring.bulges.push_back(bulge);
   }
   return ring;
@@ -82,7 +82,7 @@ Ring bulged_polygon(std::size_t n, double bulge, double radius) {
 
 Ring gear(std::size_t teeth, double root) {
   Ring ring;
-  const double step = kPi / (2 * static_cast<double>(teeth));
+  const double step = pi / (2 * static_cast<double>(teeth));
   const double bulge = std::tan(step / 4);
   for (std::size_t i = 0; i < 4 * teeth; ++i) {
     const bool top = i % 4 < 2;
@@ -154,7 +154,7 @@ Ring smooth_biarcs(Random& random, std::size_t n, int waves) {
   std::vector<double> phase;
   for (int k = 1; k <= waves; ++k) {
     weight.push_back(random.between(-0.5, 0.5) / (k * waves));
-    phase.push_back(random.between(0, 2 * kPi));
+    phase.push_back(random.between(0, 2 * pi));
   }
   const auto curve = [&](double t, Vec2& point, Vec2& tangent) {
     double r = 1;
@@ -172,7 +172,7 @@ Ring smooth_biarcs(Random& random, std::size_t n, int waves) {
   std::vector<Vec2> points(n);
   std::vector<Vec2> tangents(n);
   for (std::size_t i = 0; i < n; ++i) {
-    curve(2 * kPi * static_cast<double>(i) / static_cast<double>(n), points[i], tangents[i]);
+    curve(2 * pi * static_cast<double>(i) / static_cast<double>(n), points[i], tangents[i]);
   }
   Ring ring;
   for (std::size_t i = 0; i < n; ++i) {
@@ -216,17 +216,17 @@ std::size_t random_size(Random& random, double low, double high) {
 
 /// A disk with circular holes that touch each other or it, or nearly so.
 Rings tangent_circles(Random& random, double gap) {
-  Rings rings = {circle({0, 0}, 1, random.between(0, kPi))};
+  Rings rings = {circle({0, 0}, 1, random.between(0, pi))};
   const double first = random.between(0.2, 0.6);
-  const double angle = random.between(0, 2 * kPi);
-  rings.push_back(circle(at_angle(angle, 1 - first - gap), first, random.between(0, kPi)));
+  const double angle = random.between(0, 2 * pi);
+  rings.push_back(circle(at_angle(angle, 1 - first - gap), first, random.between(0, pi)));
   if (random.chance(0.6)) {
     // Opposite, in the rest of the diameter.
     const double room = 2 - 2 * first;
     const double second =
         random.chance(0.5) ? (room - 2 * gap) / 2 : random.between(0.1, 0.4) * room;
-    rings.push_back(circle(at_angle(angle + kPi, 1 - second - gap / 2), second,
-                           random.chance(0.5) ? angle : random.between(0, kPi)));
+    rings.push_back(circle(at_angle(angle + pi, 1 - second - gap / 2), second,
+                           random.chance(0.5) ? angle : random.between(0, pi)));
   }
   return rings;
 }
@@ -310,7 +310,7 @@ RandomShape random_arc_shape(std::uint64_t seed) {
     case 13: {
       const std::size_t n = random_size(random, 2, 30);
       const bool inward = n > 2 && random.chance(0.5);
-      const double angle = kPi - 2 * kPi / static_cast<double>(n);
+      const double angle = pi - 2 * pi / static_cast<double>(n);
       const double most = inward ? std::tan(0.2 * angle) : 1;
       const double factor = random.chance(0.3) ? random.power_of_ten(-13, -1) : random.unit();
       const double bulge = inward ? -most * factor : most * factor + 1e-15;
@@ -322,11 +322,11 @@ RandomShape random_arc_shape(std::uint64_t seed) {
       return anywhere("stadium", std::move(rings), false);
     }
     default: {
-      Rings rings = {circle({0, 0}, 1, random.between(0, kPi))};
+      Rings rings = {circle({0, 0}, 1, random.between(0, pi))};
       if (random.chance(0.8)) {
         const double radius = random.power_of_ten(-6, -0.3);
         const double offset = random.chance(0.3) ? 0 : random.between(0, 0.95 * (1 - radius));
-        rings.push_back(circle(at_angle(random.between(0, 2 * kPi), offset), radius));
+        rings.push_back(circle(at_angle(random.between(0, 2 * pi), offset), radius));
       }
       return anywhere("annulus", std::move(rings), false);
     }
