@@ -363,25 +363,7 @@ Result<AxisFile> compute_axes(ShapeFile shapes, const std::string& path,
 
   for (io::NativeItem& item : file.native.items) {
     Statistics& part = item.axis.statistics;
-    Statistics& sum = file.statistics;
-    sum.queries += part.queries;
-    sum.apollonius += part.apollonius;
-    sum.brackets += part.brackets;
-    sum.precision_retries += part.precision_retries;
-    sum.cuts += part.cuts;
-    sum.exact_filtered += part.exact_filtered;
-    sum.exact_precise += part.exact_precise;
-    sum.exact_rational += part.exact_rational;
-    sum.exact_ties += part.exact_ties;
-    sum.exact_changes += part.exact_changes;
-    sum.largest_residual = std::max(sum.largest_residual, part.largest_residual);
-    sum.seconds_sites += part.seconds_sites;
-    sum.seconds_tree += part.seconds_tree;
-    sum.seconds_connect += part.seconds_connect;
-    sum.seconds_walk += part.seconds_walk;
-    sum.seconds_collect += part.seconds_collect;
-    sum.seconds_exact += part.seconds_exact;
-    sum.seconds += part.seconds;
+    file.statistics += part;
     // What differs from run to run is told by --stats and is no part of the file.
     part.threads = 1;
     part.seconds_sites = part.seconds_tree = part.seconds_connect = 0;

@@ -80,6 +80,9 @@ struct Statistics {
   double seconds_exact = 0;
   double seconds = 0;  ///< all of compute()
   int threads = 1;
+
+  /// Adds what another part of the work has counted and taken; `threads` stays.
+  Statistics& operator+=(const Statistics& part);
 };
 
 /// The medial axis transform: a graph of exact curves in (x, y, r).

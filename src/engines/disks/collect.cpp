@@ -47,14 +47,6 @@ std::vector<Placed> place(const std::vector<std::unique_ptr<Chunk>>& chunks, std
   return placed;
 }
 
-void add_statistics(const Statistics& part, Statistics& all) {
-  all.queries += part.queries;
-  all.apollonius += part.apollonius;
-  all.brackets += part.brackets;
-  all.precision_retries += part.precision_retries;
-  all.largest_residual = std::max(all.largest_residual, part.largest_residual);
-}
-
 /// Joins the two ends of the axis that meet at each cut: two edges become one, or a node takes the
 /// other's place. Removes what is then left over.
 void glue_cuts(const std::vector<Placed>& placed, std::size_t cut_count, MedialAxis& axis) {
@@ -134,7 +126,7 @@ void collect(std::vector<std::unique_ptr<Chunk>>& chunks, std::size_t cut_count,
     }
   };
   tbb::parallel_invoke(collect_nodes, collect_edges);
-  for (const Placed& p : placed) add_statistics(p.chunk->statistics, axis.statistics);
+  for (const Placed& p : placed) axis.statistics += p.chunk->statistics;
   if (cut_count > 0) glue_cuts(placed, cut_count, axis);
   chunks.clear();
 }

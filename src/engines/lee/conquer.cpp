@@ -89,10 +89,7 @@ class Conquest {
   }
   void add(const Statistics& own) {
     const std::scoped_lock lock(mutex_);
-    statistics_.apollonius += own.apollonius;
-    statistics_.queries += own.queries;
-    statistics_.brackets += own.brackets;
-    statistics_.precision_retries += own.precision_retries;
+    statistics_ += own;
   }
   Diagram& diagram_;
   const ConquerContext& context_;
