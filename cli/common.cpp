@@ -27,7 +27,7 @@ constexpr double largest_arc_tolerance = 0.1;
 constexpr int most_threads = 1024;
 constexpr int most_disks = 1'000'000;
 constexpr double narrowest_picture = 16;
-constexpr double widest_picture = 30'000;  // Cairo's images end at 32,767 pixels
+constexpr double widest_picture = 8000;  // what medial::io draws
 
 /// What Options::tolerance takes.
 CLI::Validator a_tolerance() {
@@ -338,7 +338,8 @@ Json to_json(const ShapeReport& report) {
       {"closing_points", report.closing_points},   {"unclosed_rings", report.unclosed_rings},
       {"repeated_points", report.repeated_points}, {"collinear_points", report.collinear_points},
       {"reversed_rings", report.reversed_rings},   {"touching_vertices", report.touching_vertices},
-      {"split_edges", report.split_edges},         {"crossings", report.crossings}};
+      {"split_edges", report.split_edges},         {"crossings", report.crossings},
+      {"dropped_rings", report.dropped_rings}};
 }
 
 Json to_json(const ArcReport& report) {
@@ -402,6 +403,7 @@ std::string describe(const ShapeReport& report) {
   mention(report.touching_vertices, "touching vertex", "touching vertices");
   mention(report.split_edges, "split edge");
   mention(report.crossings, "crossing");
+  mention(report.dropped_rings, "dropped ring");
   return text;
 }
 
@@ -425,6 +427,7 @@ void add(ShapeReport& sum, const ShapeReport& part) {
   sum.touching_vertices += part.touching_vertices;
   sum.split_edges += part.split_edges;
   sum.crossings += part.crossings;
+  sum.dropped_rings += part.dropped_rings;
 }
 
 std::string counted(std::uint64_t count, const std::string& noun, const std::string& plural) {

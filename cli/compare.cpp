@@ -77,7 +77,8 @@ Row measure(const Shape& shape, const MedialAxis& exact, Method method,
   const double size = std::max(box.high.x - box.low.x, box.high.y - box.low.y);
   row.distance = distance_between(row.axis, exact, 0.005 * size, 0.05 * size);
   row.radius_error = radius_error(shape, row.axis);
-  const Certificate certificate = verify(shape, row.axis);
+  const Certificate certificate =
+      verify(shape, row.axis, {.tolerance = common.tolerance, .corner_angle = common.corner_angle});
   row.parts = certificate.graph_parts;
   row.cycles = certificate.cycles;
   row.passed = certificate.passed;
@@ -183,7 +184,12 @@ Result<int> run_compare(const CompareSwitches& switches) {
     reference.tolerance = common.tolerance;
     reference.corner_angle = common.corner_angle;
     const auto exact = compute(shape, reference);
-    if (!exact) return exact.error();
+    if (!exact) {
+      Error error = exact.error();
+      error.place.file = input.path;
+      error.place.feature = i;
+      return error;
+    }
     std::vector<Row> rows;
     for (const Method method : *methods) rows.push_back(measure(shape, *exact, method, common));
     if (file->shapes.size() > 1) text += fmt::format("feature {}\n", i);

@@ -91,15 +91,15 @@ int main(int argc, char** argv) {
   const bool json =
       std::any_of(argv, argv + argc, [](const char* word) { return !std::strcmp(word, "--json"); });
   cli::install_signal_handlers();
-  std::string text = "something unexpected happened";
+  Error error{ErrorCode::internal, "something unexpected happened", {}};
   try {
     return cli::run(argc, argv, json);
   } catch (const std::bad_alloc&) {
-    text = "out of memory";
+    error = {ErrorCode::out_of_memory, "memory ran out", {}};
   } catch (const std::exception& exception) {
-    text += std::string(": ") + exception.what();
+    error.text += std::string(": ") + exception.what();
   } catch (...) {
   }
   io::remove_partial_files();
-  return cli::report_error({ErrorCode::internal, text, {}}, json);
+  return cli::report_error(error, json);
 }

@@ -233,6 +233,11 @@ class Axis(CommandLine):
         for method in ("disks", "ridge"):
             self.succeed("axis", "frame.wkt", "--exterior", "--margin", "2", "--method", method, "-o", "around.json")
             self.succeed("verify", "frame.wkt", "around.json")
+        # A hole that touches its outer ring leaves one loop, but an exterior of two parts.
+        self.write("touching.wkt", "POLYGON ((0 0, 10 0, 10 10, 0 10), (0 5, 3 7, 3 3))")
+        self.succeed("axis", "touching.wkt", "--exterior", "-o", "around.json")
+        self.succeed("verify", "touching.wkt", "around.json")
+        self.refuse("invalid_option", "axis", "frame.wkt", "--method", "brushfire", "--exact")
         self.refuse("too_large", "axis", "frame.wkt", "--method", "ridge", "--resolution", "1e-9")
         self.refuse("invalid_option", "axis", "frame.wkt", "--method", "ridge", "--pixels", "9", "--resolution", "1")
         self.refuse("invalid_option", "axis", "frame.wkt", "--exterior", "--margin", "0")

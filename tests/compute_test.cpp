@@ -59,15 +59,40 @@ TEST(Compute, TellsItsProgress) {
 
 TEST(Compute, RefusesOptionsOutOfRange) {
   const Shape shape = *build_shape(rectangle(2, 1));
-  for (const Options& options : std::vector<Options>{{.tolerance = -1},
-                                                     {.tolerance = 0.1},
-                                                     {.tolerance = std::nan("")},
-                                                     {.threads = -1},
-                                                     {.threads = 1025}}) {
+  for (const Options& options :
+       std::vector<Options>{{.tolerance = -1},
+                            {.tolerance = 0.1},
+                            {.tolerance = std::nan("")},
+                            {.threads = -1},
+                            {.threads = 1025},
+                            {.method = Method::ridge, .exact = true},
+                            {.method = Method::brushfire, .exact = true},
+                            {.method = Method::potential, .exact = true}}) {
     const auto axis = compute(shape, options);
     ASSERT_FALSE(axis.ok());
     EXPECT_EQ(axis.error().code, ErrorCode::invalid_option);
   }
+}
+
+/// Shapes that build_shape() never makes are no reason to crash.
+TEST(Compute, RefusesHandMadeShapes) {
+  const Shape shape = *build_shape(
+      std::vector<Ring>{{{{0, 0}, {9, 0}, {9, 9}, {0, 9}}}, {{{3, 3}, {6, 3}, {6, 6}, {3, 6}}}});
+  ASSERT_TRUE(compute(shape).ok());
+  const auto expect_malformed = [](const Shape& broken) {
+    const auto axis = compute(broken);
+    ASSERT_FALSE(axis.ok());
+    EXPECT_EQ(axis.error().code, ErrorCode::malformed);
+  };
+  Shape broken = shape;
+  broken.component[1] = 1;  // there is only component 0
+  expect_malformed(broken);
+  broken = shape;
+  broken.hole[0] = true;  // nothing bounds the component
+  expect_malformed(broken);
+  broken = shape;
+  broken.points[5] = broken.points[4];
+  expect_malformed(broken);
 }
 
 }  // namespace

@@ -337,6 +337,9 @@ TEST(VerifyFinds, BrokenIndicesAndNumbers) {
   m = rectangle();
   m.shape.loop_begin[1] = 9;
   expect_failure(m, "The shape itself is malformed");
+  m = rectangle();  // no component is left, though there is a loop
+  m.shape.hole[0] = true;
+  expect_failure(m, "The shape itself is malformed");
 }
 
 TEST(VerifyFinds, NodesOfAnotherComponent) {

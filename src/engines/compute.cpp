@@ -28,6 +28,19 @@
 namespace medial {
 namespace {
 
+/// Whether every component has one outer loop, and every hole lies in one of them.
+bool has_one_outer_loop_each(const Shape& shape) {
+  std::vector<bool> bounded(shape.component_count(), false);
+  for (std::size_t i = 0; i < shape.loop_count(); ++i) {
+    const std::uint32_t component = shape.component[i];
+    if (component >= bounded.size()) return false;
+    if (shape.hole[i]) continue;
+    if (bounded[component]) return false;
+    bounded[component] = true;
+  }
+  return true;
+}
+
 /// Whether the arrays of a hand-made shape fit together well enough to walk along them.
 bool is_consistent(const Shape& shape) {
   const std::size_t loops = shape.component.size();
@@ -36,6 +49,7 @@ bool is_consistent(const Shape& shape) {
       shape.loop_begin.back() != shape.points.size() ||
       !(shape.bulges.empty() || shape.bulges.size() == shape.points.size()))
     return false;
+  if (!has_one_outer_loop_each(shape)) return false;
   for (const double bulge : shape.bulges)
     if (!(std::abs(bulge) <= 1)) return false;
   for (std::size_t i = 0; i < loops; ++i) {
@@ -47,6 +61,7 @@ bool is_consistent(const Shape& shape) {
     double doubled = 0;
     for (std::size_t j = 0; j < points.size(); ++j) {
       const Vec2 start = points[j], end = points[j + 1 == points.size() ? 0 : j + 1];
+      if (start == end) return false;
       doubled += cross(start - points[0], end - points[0]);
       doubled += 2 * area_beside_chord({start, end, shape.bulge(shape.loop_begin[i] + j)});
     }
@@ -88,7 +103,9 @@ std::optional<Error> refuse(const Shape& shape, const Options& options) {
 #ifndef MEDIAL_HAS_EXACT
   if (options.exact) return Error{ErrorCode::unsupported, "this build has no exact decisions", {}};
 #endif
-  if (options.exact && (options.method == Method::ridge || options.method == Method::potential))
+  const bool sampled = options.method == Method::ridge || options.method == Method::potential ||
+                       options.method == Method::brushfire;
+  if (options.exact && sampled)
     return Error{ErrorCode::invalid_option, "exact decisions are for exact methods only", {}};
   if (options.method == Method::biarc_dc && shape.hole_count() > 0)
     return Error{ErrorCode::unsupported,

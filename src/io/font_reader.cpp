@@ -9,6 +9,7 @@
 #include <memory>
 #include <set>
 
+#include "io/guarded.h"
 #include "io/path_builder.h"
 #include "io/place.h"
 #include "medial/io/read.h"
@@ -157,7 +158,7 @@ Result<Dataset> set_text(const std::vector<Character>& characters, FT_Face face)
 }  // namespace
 
 Result<Dataset> read_text(const std::string& text, const std::string& font) {
-  const auto read = [&]() -> Result<Dataset> {
+  return guarded(font, [&]() -> Result<Dataset> {
     Result<std::vector<Character>> characters = characters_of(text);
     if (!characters) return characters.error();
     FT_Library raw = nullptr;
@@ -168,10 +169,7 @@ Result<Dataset> read_text(const std::string& text, const std::string& font) {
     Result<Face> face = open_face(raw, font);
     if (!face) return face.error();
     return set_text(*characters, face->get());
-  };
-  Result<Dataset> result = read();
-  if (!result && result.error().place.file.empty()) result.error().place.file = font;
-  return result;
+  });
 }
 
 }  // namespace medial::io

@@ -13,6 +13,7 @@
 #include <optional>
 #include <set>
 
+#include "io/format_name.h"
 #include "io/gdal_support.h"
 #include "io/place.h"
 #include "io/table_writer.h"
@@ -70,13 +71,9 @@ std::vector<Column> columns_of(const NativeFile& file) {
                                         "r_min",   "r_max",  "site_left", "site_right", "fid",
                                         "ogc_fid", "geom",   "node"};
   std::set<std::string> taken;
-  const auto lower = [](std::string text) {
-    for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return text;
-  };
   for (const char* name : own) taken.insert(name);
   for (Column& column : columns) {
-    for (int i = 1; !taken.insert(lower(column.column)).second; ++i) {
+    for (int i = 1; !taken.insert(lower_case(column.column)).second; ++i) {
       column.column = fmt::format("{}_{}", column.name, i);
     }
   }

@@ -5,11 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <new>
 #include <string_view>
 
 #include "io/gdal_support.h"
-#include "io/place.h"
+#include "io/guarded.h"
 #include "io/text_source.h"
 #include "medial/io/image.h"
 
@@ -216,9 +215,8 @@ class Bands {
     if (has_nodata_ != 0 && value == nodata_ && table_ == nullptr) return false;
     if (std::isnan(value)) return false;
     if (table_ != nullptr) {
-      const auto index = static_cast<int>(value);
-      if (index < 0 || index >= table_->GetColorEntryCount()) return false;
-      const GDALColorEntry* entry = table_->GetColorEntry(index);
+      if (!(value >= 0 && value < table_->GetColorEntryCount())) return false;
+      const GDALColorEntry* entry = table_->GetColorEntry(static_cast<int>(value));
       if (entry->c4 < 128) return false;
       value = 0.299 * entry->c1 + 0.587 * entry->c2 + 0.114 * entry->c3;
     }
@@ -315,19 +313,16 @@ bool is_image(const std::string& path) {
 }
 
 Result<ImageFile> read_image(const std::string& path, const ImageOptions& options) {
-  try {
+  return guarded(path, [&]() -> Result<ImageFile> {
     Result<ImageFile> file = read_any(path, options);
     if (file && file->image.count() == 0) {
       return Error{ErrorCode::empty,
                    options.invert ? "no pixel is below the threshold, so there is no foreground"
                                   : "no pixel reaches the threshold, so there is no foreground",
-                   in_file(path)};
+                   {}};
     }
-    if (!file && file.error().place.file.empty()) file.error().place.file = path;
     return file;
-  } catch (const std::bad_alloc&) {
-    return Error{ErrorCode::out_of_memory, "memory ran out", in_file(path)};
-  }
+  });
 }
 
 }  // namespace medial::io

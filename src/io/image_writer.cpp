@@ -5,9 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <new>
 
+#include "io/format_name.h"
 #include "io/gdal_support.h"
+#include "io/guarded.h"
 #include "io/output.h"
 #include "io/place.h"
 #include "medial/io/image.h"
@@ -15,14 +16,6 @@
 namespace medial::io {
 
 namespace {
-
-std::string extension_of(const std::string& path) {
-  const auto dot = path.rfind('.');
-  std::string extension = dot == std::string::npos ? "" : path.substr(dot + 1);
-  std::ranges::transform(extension, extension.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
-}
 
 /// Rows of pixels in memory, of one of GDAL's types.
 struct Pixels {
@@ -88,7 +81,7 @@ std::vector<Value> values_of(const DistanceMap& distances, const Get& get) {
 
 Status write_distances_to(const std::string& path, const DistanceMap& distances,
                           const ImageFile& source, const DistanceFormat& format) {
-  const std::string extension = extension_of(path);
+  const std::string extension = format_name(path);
   const bool tiff = extension == "tif" || extension == "tiff";
   if (!tiff && extension != "png" && extension != "pgm")
     return unknown_format(path, ".tif .png .pgm");
@@ -147,7 +140,7 @@ Status write_pbm(const std::string& path, const Image& image) {
 }
 
 Status write_image_to(const std::string& path, const Image& image, const ImageFile& source) {
-  const std::string extension = extension_of(path);
+  const std::string extension = format_name(path);
   if (extension == "pbm") return write_pbm(path, image);
   const bool tiff = extension == "tif" || extension == "tiff";
   if (!tiff && extension != "png") return unknown_format(path, ".png .tif .pbm");
@@ -160,24 +153,15 @@ Status write_image_to(const std::string& path, const Image& image, const ImageFi
                       tiff ? &source : nullptr);
 }
 
-template <class Write>
-Status guarded(const Write& write) {
-  try {
-    return write();
-  } catch (const std::bad_alloc&) {
-    return Error{ErrorCode::out_of_memory, "memory ran out", {}};
-  }
-}
-
 }  // namespace
 
 Status write_distances(const std::string& path, const DistanceMap& distances,
                        const ImageFile& source, const DistanceFormat& format) {
-  return guarded([&] { return write_distances_to(path, distances, source, format); });
+  return guarded(path, [&] { return write_distances_to(path, distances, source, format); });
 }
 
 Status write_image(const std::string& path, const Image& image, const ImageFile& source) {
-  return guarded([&] { return write_image_to(path, image, source); });
+  return guarded(path, [&] { return write_image_to(path, image, source); });
 }
 
 }  // namespace medial::io

@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <filesystem>
 #include <fstream>
 #include <string_view>
 
+#include "io/format_name.h"
 #include "io/place.h"
 #include "medial/io/mesh.h"
 
@@ -93,10 +93,7 @@ Result<TriangleMesh> read_by_assimp(const std::string& path) {
 std::string known_mesh_formats() { return fmt::format(".{}", fmt::join(mesh_formats, " .")); }
 
 Result<TriangleMesh> read_mesh(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  if (!extension.empty()) extension.erase(0, 1);
-  std::ranges::transform(extension, extension.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string extension = format_name(path);
   if (std::ranges::find(mesh_formats, extension) == mesh_formats.end()) {
     return Error{
         ErrorCode::unsupported,

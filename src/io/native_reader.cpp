@@ -241,13 +241,14 @@ void check_shape(const Shape& shape) {
   demand(shape.loop_begin.size() == loops + 1, "not one 'loop_begin' for each loop and one more");
   demand(shape.loop_begin.front() == 0 && shape.loop_begin.back() == shape.points.size(),
          "the loops do not cover the points");
+  const std::size_t components = shape.component_count();
   for (std::size_t i = 0; i < loops; ++i) {
     // Two arcs can make a loop, two segments cannot.
     const std::uint32_t fewest = shape.bulges.empty() ? 3 : 2;
     demand(shape.loop_begin[i] < shape.loop_begin[i + 1] &&
                shape.loop_begin[i + 1] - shape.loop_begin[i] >= fewest,
            "a loop has too few points");
-    demand(shape.component[i] < loops, "a component out of range");
+    demand(shape.component[i] < components, "a component out of range");
   }
 }
 
@@ -280,10 +281,12 @@ void resolve(const Shape& shape, MedialAxis& axis, const Unresolved& unresolved)
     Edge& edge = axis.edges[i];
     edge.control = middle_of(axis.nodes[edge.node[0]].disk, axis.nodes[edge.node[1]].disk);
   }
+  // The exterior has components of its own: a frame, and what loops enclose between their vertices.
+  const std::size_t components =
+      std::max<std::size_t>(axis.exterior != 0 ? shape.points.size() : shape.component_count(), 1);
   for (const Node& node : axis.nodes) {
     demand(node.disk.radius >= 0, "a node's radius is negative");
-    demand(node.component < std::max<std::size_t>(shape.component.size(), 1),
-           "a node's component out of range");
+    demand(node.component < components, "a node's component out of range");
   }
 }
 

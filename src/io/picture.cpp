@@ -515,6 +515,9 @@ Status draw_picture(OutputStream& out, const std::string& format, const NativeFi
         {}};
   }
   const Frame frame = frame_of(file, std::floor(options.width));
+  if (!(frame.scale > 0) || !std::isfinite(frame.scale) || !std::isfinite(frame.height)) {
+    return Error{ErrorCode::unsupported, "the coordinates are too large or too small to draw", {}};
+  }
   const Surface surface(create_surface(out, format, frame), &cairo_surface_destroy);
   const std::unique_ptr<cairo_t, decltype(&cairo_destroy)> context(cairo_create(surface.get()),
                                                                    &cairo_destroy);

@@ -4,16 +4,16 @@
 #include <sys/stat.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cerrno>
 #include <cmath>
 #include <cstring>
-#include <new>
 
 #include "io/dxf_reader.h"
 #include "io/dxf_text.h"
+#include "io/format_name.h"
 #include "io/gdal_reader.h"
 #include "io/gdal_support.h"
+#include "io/guarded.h"
 #include "io/native.h"
 #include "io/place.h"
 #include "io/repair.h"
@@ -29,16 +29,10 @@ namespace {
 constexpr std::size_t sniffed = 4096;
 constexpr std::size_t longest_stream = std::size_t{1} << 32U;  // what GDAL gets through memory
 
-std::string lower(std::string text) {
-  std::ranges::transform(text, text.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
 enum class Format : std::uint8_t { wkt, xy, svg, dxf, native, json, gdal };
 
 Format format_of_name(std::string name) {
-  name = lower(std::move(name));
+  name = lower_case(std::move(name));
   if (name.ends_with(".gz")) name.resize(name.size() - 3);
   if (name.ends_with(".wkt")) return Format::wkt;
   if (name.ends_with(".svg") || name.ends_with(".svgz")) return Format::svg;
@@ -91,7 +85,7 @@ Result<Dataset> read_own(TextSource& source, Format format, const std::string& p
 
 /// GDAL's name of a file: compressed files are read through.
 std::string gdal_name(const std::string& path) {
-  const std::string name = lower(path);
+  const std::string name = lower_case(path);
   if (name.starts_with("/vsi")) return path;
   if (name.ends_with(".gz")) return "/vsigzip/" + path;
   if (name.ends_with(".zip") && !name.ends_with(".shz") && !name.ends_with(".kmz")) {
@@ -276,27 +270,10 @@ Result<NativeFile> read_native_path(const std::string& path) {
   return read_native(**source);
 }
 
-/// Runs a reader; what it may throw becomes an error. Every error names the file.
-template <class Value, class Read>
-Result<Value> guarded(const std::string& path, Read read) {
-  Error error;
-  try {
-    Result<Value> result = read();
-    if (result) return result;
-    error = std::move(result.error());
-  } catch (const std::bad_alloc&) {
-    error = {ErrorCode::too_large, "there is not enough memory", {}};
-  } catch (const std::exception& problem) {
-    error = {ErrorCode::internal, problem.what(), {}};
-  }
-  if (error.place.file.empty()) error.place.file = path;
-  return error;
-}
-
 }  // namespace
 
 Result<Dataset> read_dataset(const std::string& path, const ReadOptions& options) {
-  return guarded<Dataset>(path, [&]() -> Result<Dataset> {
+  return guarded(path, [&]() -> Result<Dataset> {
     Result<Dataset> dataset = read_any(path, options);
     if (!dataset) return dataset;
     return finish(std::move(*dataset), options);
@@ -309,7 +286,7 @@ bool is_native(const std::string& path) {
 }
 
 Result<NativeFile> read_native(const std::string& path) {
-  return guarded<NativeFile>(path, [&] { return read_native_path(path); });
+  return guarded(path, [&] { return read_native_path(path); });
 }
 
 }  // namespace medial::io

@@ -6,6 +6,8 @@
 #include <array>
 #include <cctype>
 #include <charconv>
+#include <cmath>
+#include <limits>
 
 #include "io/gdal_support.h"
 
@@ -128,7 +130,9 @@ class WktReader {
     source_.skip();  // '='
     double code = 0;
     source_.skip_space();
-    if (source_.read_number(code) != TextSource::Number::read || code != static_cast<int>(code)) {
+    constexpr int largest = std::numeric_limits<int>::max();
+    if (source_.read_number(code) != TextSource::Number::read || !(code >= 0 && code <= largest) ||
+        code != std::floor(code)) {
       return expected("a whole number after SRID=");
     }
     if (!accept(';')) return expected("';' after the SRID");

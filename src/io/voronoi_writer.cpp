@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
-#include <new>
 #include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "io/format_name.h"
+#include "io/guarded.h"
 #include "io/picture.h"
 #include "io/place.h"
 #include "medial/query.h"
@@ -107,10 +107,7 @@ Status write_stream(OutputStream& out, const std::string& format, const VoronoiF
 
 Status write_any(const std::string& path, const std::string& option, const VoronoiFile& file,
                  const WriteOptions& options) {
-  std::string format = option;
-  if (format.empty())
-    format = path == "-" ? "json" : std::filesystem::path(path).extension().string();
-  if (format.starts_with('.')) format.erase(0, 1);
+  const std::string format = path == "-" && option.empty() ? "json" : format_name(path, option);
   if (std::ranges::find(formats, format) == formats.end())
     return Error{ErrorCode::unsupported,
                  fmt::format("'{}' is no format for Voronoi diagrams; known are {}", format,
@@ -224,18 +221,7 @@ std::string known_voronoi_formats() { return fmt::format(".{}", fmt::join(format
 
 Status write_voronoi(const std::string& path, const std::string& format, const VoronoiFile& file,
                      const WriteOptions& options) {
-  Error error;
-  try {
-    Status status = write_any(path, format, file, options);
-    if (status) return status;
-    error = std::move(status.error());
-  } catch (const std::bad_alloc&) {
-    error = {ErrorCode::out_of_memory, "memory ran out", {}};
-  } catch (const std::exception& problem) {
-    error = {ErrorCode::internal, problem.what(), {}};
-  }
-  error.place.file = path;
-  return error;
+  return guarded(path, [&] { return write_any(path, format, file, options); });
 }
 
 }  // namespace medial::io

@@ -5,13 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cctype>
 #include <cmath>
 #include <cstring>
-#include <filesystem>
-#include <new>
 #include <string_view>
 
+#include "io/format_name.h"
+#include "io/guarded.h"
 #include "io/output.h"
 #include "io/place.h"
 #include "io/voxel_picture.h"
@@ -128,10 +127,7 @@ Status write_stream(const std::string& path, const std::string& format, const Vo
 
 Status write_any(const std::string& path, const std::string& option, const VoxelAxis& axis,
                  const Solid& solid, double width) {
-  std::string format = option.empty() ? std::filesystem::path(path).extension().string() : option;
-  if (format.starts_with('.')) format.erase(0, 1);
-  std::ranges::transform(format, format.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string format = format_name(path, option);
   if (std::ranges::find(voxel_formats, format) == voxel_formats.end()) {
     return Error{
         ErrorCode::unsupported,
@@ -152,18 +148,7 @@ std::string known_voxel_formats() { return fmt::format(".{}", fmt::join(voxel_fo
 
 Status write_voxels(const std::string& path, const std::string& format, const VoxelAxis& axis,
                     const Solid& solid, double width) {
-  Error error;
-  try {
-    Status status = write_any(path, format, axis, solid, width);
-    if (status) return status;
-    error = std::move(status.error());
-  } catch (const std::bad_alloc&) {
-    error = {ErrorCode::out_of_memory, "memory ran out", {}};
-  } catch (const std::exception& problem) {
-    error = {ErrorCode::internal, problem.what(), {}};
-  }
-  error.place.file = path;
-  return error;
+  return guarded(path, [&] { return write_any(path, format, axis, solid, width); });
 }
 
 }  // namespace medial::io

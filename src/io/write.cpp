@@ -5,14 +5,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
-#include <filesystem>
-#include <new>
 #include <string_view>
 
 #include "io/dxf_writer.h"
+#include "io/format_name.h"
 #include "io/gdal_writer.h"
+#include "io/guarded.h"
 #include "io/native.h"
 #include "io/output.h"
 #include "io/picture.h"
@@ -32,13 +31,7 @@ bool through_gdal(const std::string& format) {
 
 /// The format by the option or, without one, by the extension.
 Result<std::string> format_of(const std::string& path, const std::string& option) {
-  std::string format = option;
-  if (format.empty()) {
-    format = path == "-" ? "json" : std::filesystem::path(path).extension().string();
-  }
-  if (format.starts_with('.')) format.erase(0, 1);
-  std::ranges::transform(format, format.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string format = path == "-" && option.empty() ? "json" : format_name(path, option);
   if (std::ranges::find(formats, format) != formats.end()) return format;
   return Error{
       ErrorCode::unsupported,
@@ -123,18 +116,7 @@ std::string known_output_formats() { return fmt::format(".{}", fmt::join(formats
 
 Status write_axes(const std::string& path, const std::string& format, const NativeFile& file,
                   const WriteOptions& options) {
-  Error error;
-  try {
-    Status status = write_any(path, format, file, options);
-    if (status) return status;
-    error = std::move(status.error());
-  } catch (const std::bad_alloc&) {
-    error = {ErrorCode::too_large, "there is not enough memory", {}};
-  } catch (const std::exception& problem) {
-    error = {ErrorCode::internal, problem.what(), {}};
-  }
-  error.place.file = path;
-  return error;
+  return guarded(path, [&] { return write_any(path, format, file, options); });
 }
 
 }  // namespace medial::io

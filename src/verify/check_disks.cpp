@@ -36,6 +36,9 @@ struct Worst {
   }
 };
 
+/// More points inside an edge than this nobody gets.
+constexpr int most_samples = 1 << 20;
+
 struct Findings {
   Worst residual, intrusion, contact, legality, turned, negative;
   std::uint64_t disks = 0;
@@ -156,7 +159,7 @@ void check_disks(const Problem& problem, int samples_per_edge, Certificate& cert
   const MedialAxis& axis = problem.axis;
   const double tolerance = problem.tolerance;
   const DistanceTree boundary(problem.shape);
-  const int samples = std::max(0, samples_per_edge);
+  const int samples = std::clamp(samples_per_edge, 0, most_samples);
 
   Findings nodes, edges;
   for (const Findings& run :

@@ -2,6 +2,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "base/disjoint_sets.h"
 #include "base/limits.h"
 #include "base/predicates.h"
 #include "base/tolerance.h"
@@ -19,25 +20,6 @@ struct Offences {
   void add(std::size_t i) {
     if (count++ == 0) first = i;
   }
-};
-
-class DisjointSets {
- public:
-  explicit DisjointSets(std::size_t count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), 0U);
-  }
-  std::uint32_t find(std::uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(std::uint32_t i, std::uint32_t j) {
-    i = find(i);
-    j = find(j);
-    parent_[std::max(i, j)] = std::min(i, j);
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
 };
 
 bool before(Vec2 a, Vec2 b) { return lexicographic_less(a, b); }
@@ -123,13 +105,14 @@ bool check_shape(const Shape& shape, Certificate& certificate) {
                                  shape.loop_begin[loops] == shape.points.size());
   for (std::size_t i = 0; valid && i < loops; ++i)
     valid = shape.loop_begin[i] <= shape.loop_begin[i + 1] &&
-            shape.loop(i).size() >= (arcs ? 2 : 3) && shape.component[i] < loops;
+            shape.loop(i).size() >= (arcs ? 2 : 3) && shape.component[i] < shape.component_count();
   for (std::size_t i = 0; valid && i < shape.points.size(); ++i)
     valid = finite(shape.points[i]) && std::abs(shape.bulge(i)) <= 1;
   if (!valid)
     certificate.failures.push_back(
-        "The shape itself is malformed: loops that do not fit its points, coordinates that are not "
-        "finite, or bulges above 1.");
+        "The shape itself is malformed: loops that do not fit its points or components, "
+        "coordinates "
+        "that are not finite, or bulges above 1.");
   if (!valid || shape.points.empty()) return valid;
   if (const auto error = beyond_limits(shape)) {
     certificate.failures.push_back("The shape cannot be checked: " + to_string(*error) + ".");
