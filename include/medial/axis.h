@@ -43,7 +43,7 @@ constexpr std::uint32_t no_site = 0xFFFFFFFF;
 
 struct Node {
   Disk disk;
-  std::uint32_t component = 0;  ///< of the shape
+  std::uint32_t component = 0;  ///< of the shape, or of its exterior
   NodeKind kind = NodeKind::leaf;
 };
 
@@ -97,7 +97,7 @@ struct Statistics {
 /// first node touches, within a few pixels, or both no_site. Which pixels are linked: see
 /// axis/pixel_graph.h.
 struct MedialAxis {
-  std::string method;     ///< the engine's name: "disks"
+  std::string method;     ///< the engine's name: see name_of(Method)
   double tolerance = 0;   ///< in units of the input: what |distance - radius| stays below
   double resolution = 0;  ///< 0: exact; otherwise the step of a sampled method
   /// 0: of the interior; otherwise of the exterior, within a frame that is this far away from the

@@ -86,7 +86,7 @@ struct Options {
   /// Makes every decision of the combinatorics certain: which sites a disk touches and in which
   /// order, and which nodes an edge joins. Sites that touch one disk within the tolerance, but not
   /// exactly, then have nodes of their own, with edges shorter than the tolerance in between; see
-  /// docs/exact.md for what counts as the exact shape. Slower; the disks are the same.
+  /// docs/exact.md for what counts as the exact shape. Slower. Not for methods that sample.
   bool exact = false;
   /// Threads to use, at most 1024; 0: all of the machine. The result is the same, byte for byte.
   int threads = 0;
@@ -125,15 +125,15 @@ struct Options {
 ///
 /// The graph has one connected part for each component of the shape and exactly one independent
 /// cycle for each hole; by the methods `ridge` and `brushfire` that holds for each bounded set of
-/// interior pixels
-/// and its holes, which are the shape's where nothing is narrower than some pixels. Errors:
-/// invalid_option, cancelled, empty, too_large (ridge: also more than 2^31 pixels; brushfire: a
-/// diagonal above 2^16 pixels), unsupported (a
-/// coordinate above 1e100 in size, or one that is not zero but below 1e-100, or below that share of
-/// the largest; holes, for biarc_dc
-/// and lee; arcs, for lee; pixels as fine as the coordinates, for ridge and brushfire;
-/// no pixel's centre inside, for brushfire), malformed (a
-/// shape that build_shape() did not make), out_of_memory, internal.
+/// interior pixels and its holes, which are the shape's where nothing is narrower than some pixels.
+///
+/// Errors: invalid_option; cancelled; empty; too_large (2^29 vertices; ridge: 2^31 pixels;
+/// brushfire: a diagonal of 2^16 pixels); unsupported (a coordinate above 1e100, or not 0 but below
+/// 1e-100 in size or as a share of the largest; holes, for biarc_dc and lee; arcs, for lee;
+/// pixels as fine as the coordinates, for ridge and brushfire; no pixel's centre inside, and the
+/// exterior, for brushfire; Options::exact, where the build lacks it); malformed (a shape that
+/// build_shape() did not make, as far as its arrays tell: whether edges cross is not looked at);
+/// out_of_memory; internal.
 Result<MedialAxis> compute(const Shape& shape, const Options& options = {});
 
 }  // namespace medial

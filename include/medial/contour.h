@@ -39,14 +39,14 @@ struct Contour {
   /// quadratics of at most a quarter turn each. The contour ends at the point of angle `begin`, or
   /// is empty.
   void ellipse_to(Vec2 center, Vec2 u, Vec2 v, double begin, double end);
-  /// A B-spline or NURBS curve: `knots` has degree + 1 more entries than `control`; clamped or not.
+  /// A B-spline or NURBS: `knots` has degree + 1 more than `control`. Errors: malformed.
   Status spline_to(std::uint32_t degree, std::span<const double> knots,
                    std::span<const Vec2> control, std::span<const double> control_weights = {});
 };
 
 struct ArcOptions {
   /// Largest distance between a contour and its arcs; relative to the diagonal of the bounding box,
-  /// or in units of the input.
+  /// or in units of the input. Above 0.
   double tolerance = 1e-6;
   bool relative = true;
   /// Threads to use; 0: all of the machine. The result is the same, byte for byte.
@@ -65,8 +65,8 @@ struct ArcReport {
 
 /// Contours as rings of arcs and segments, by spiral biarcs (Aichholzer et al., Algorithms 1 and
 /// 2): tangent continuous inside pieces and wherever two pieces join smoothly, within the tolerance
-/// of the contour. Straight pieces stay straight and arcs stay as they are. Errors: not_finite,
-/// invalid_option, unsupported (a weight that is not positive), no_area.
+/// of the contour. Straight pieces and arcs stay as they are. Errors: not_finite, invalid_option,
+/// malformed, unsupported (a weight that is not positive, a degree above 32), no_area.
 Result<std::vector<Ring>> approximate_by_arcs(std::span<const Contour> contours,
                                               const ArcOptions& options = {},
                                               ArcReport* report = nullptr);

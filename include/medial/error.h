@@ -58,7 +58,7 @@ struct Error {
 /// "FILE: feature 3, ring 1, vertex 7 at (x, y): text [code]".
 std::string to_string(const Error& error);
 
-/// Either a value or an error.
+/// Either a value or an error; asking for the one it has not throws std::bad_variant_access.
 template <class T>
 class [[nodiscard]] Result {
  public:

@@ -143,8 +143,8 @@ Result<std::vector<Ring>> pixel_outline(const Image& image, double neck = 1.0 / 
 
 /// The same boundary as smooth closed curves: one contour for each ring, a quadratic B-spline with
 /// one parabola for each crack, that bends as little as it can within half a pixel of the cracks
-/// (both ways: no corner of a pixel is further than that from the curve). Curves of an image never
-/// meet: where pixels touch in a corner, the foreground becomes connected through a neck.
+/// (both ways). Curves of an image never meet: where pixels touch in a corner, the foreground
+/// becomes connected through a neck. Errors: those of pixel_outline().
 Result<std::vector<Contour>> smooth_outline(const Image& image);
 
 }  // namespace medial

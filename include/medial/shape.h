@@ -89,11 +89,11 @@ struct Box {
   Vec2 high;
 };
 
-/// The bounding box of the shape, its arcs included, and the length of its diagonal.
+/// The bounding box of the shape, its arcs included (O(n)), and the length of its diagonal.
 Box bounding_box(const Shape& shape);
 double diagonal(const Box& box);
 
-/// The area enclosed by the shape (holes subtracted), in squared units of the input.
+/// The area enclosed by the shape (holes subtracted), in squared units of the input. O(n).
 double area(const Shape& shape);
 
 /// Cleans, checks, orients and nests rings into a Shape. O(n log n).
@@ -109,7 +109,7 @@ double area(const Shape& shape);
 /// the largest coordinate) touches, vertices there become one, and edges touch inside too (tangent
 /// circles): both are split there. Joints that are smooth to rounding are nothing special.
 /// Errors: not_finite, too_few_points, no_area, crossing, overlap (the place names ring, vertex and
-/// the point), hole_outside, nested_outer, empty, too_large.
+/// the point), hole_outside, nested_outer, empty, too_large (2^30 points), out_of_memory.
 Result<Shape> build_shape(std::span<const Ring> rings, ShapeReport* report = nullptr);
 Result<Shape> build_shape(std::span<const Ring> rings, const ShapeOptions& options,
                           ShapeReport* report = nullptr);

@@ -39,8 +39,10 @@ struct Certificate {
 };
 
 struct VerifyOptions {
-  double tolerance = 0;  ///< relative to the diagonal; 0: 1e-14, or the coordinates' own spacing
-  int samples_per_edge = 8;    ///< points inside every edge
+  /// Relative to the diagonal; 0: 1e-14. Nothing is judged by less than four spacings of doubles at
+  /// the largest coordinate, nor by less than the axis's own tolerance, at most 1e-3.
+  double tolerance = 0;
+  int samples_per_edge = 8;    ///< points inside every edge, in [0, 2^20]
   double corner_angle = 0.01;  ///< what the axis was computed with; see Options
   int threads = 0;             ///< at most 1024 are used; 0: all of the machine
 };

@@ -56,7 +56,7 @@ struct DistanceFormat {
 Status write_distances(const std::string& path, const DistanceMap& distances,
                        const ImageFile& source, const DistanceFormat& format = {});
 
-/// Writes a binary image as .png, .tif (8 bits a pixel, 0 and 255) or .pbm.
+/// Writes an image as .png, .tif (bytes 0 and 255) or .pbm. Errors: unsupported, unwritable.
 Status write_image(const std::string& path, const Image& image, const ImageFile& source);
 
 }  // namespace medial::io

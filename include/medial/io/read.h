@@ -52,18 +52,18 @@ struct ReadOptions {
 };
 
 /// Reads polygons and curved shapes. `-` is standard input (WKT, GeoJSON, SVG, DXF, `x y` text or
-/// medial's own by its first characters). .svg and .dxf are read as docs/format.md tells; .wkt,
-/// .txt, .xy and .json of medial's own go through fast readers of their own; images (PNG, TIFF,
-/// PBM, PGM: told by their first bytes) become one feature, the outline of their foreground with y
-/// downwards, or placed where the file says; everything else through GDAL. Any may be compressed by
-/// gzip. Errors: unreadable, malformed, unsupported, empty, not_finite, too_large.
+/// medial's own by its first characters). .svg and .dxf are read as docs/inputs.md tells; .wkt,
+/// .txt, .xy and .json of medial's own by fast readers; images (PNG, TIFF, PBM, PGM: told by their
+/// first bytes) become one feature, the outline of their foreground with y downwards, or placed
+/// where the file says; all else by GDAL. Any may be compressed by gzip. Errors: unreadable,
+/// malformed, unsupported, empty, not_finite, no_area, too_large, invalid_option, out_of_memory.
 Result<Dataset> read_dataset(const std::string& path, const ReadOptions& options = {});
 
 /// The outlines of a text, set in one line with the font's advances and kerning: a feature for each
 /// character that has an outline, in font units, the baseline at y = 0. `text` is UTF-8, `font` a
 /// scalable font file (TrueType, OpenType, Type 1). A character that the font lacks is drawn as
 /// its replacement and told in a note.
-/// Errors: unreadable, malformed (text), unsupported (bitmap fonts), empty.
+/// Errors: unreadable, malformed (text), unsupported (bitmap fonts), empty, out_of_memory.
 Result<Dataset> read_text(const std::string& text, const std::string& font);
 
 /// One shape of a native file, and its axis.
@@ -84,7 +84,7 @@ struct NativeFile {
 /// A loop of a shape as a ring.
 Ring ring_of(const Shape& shape, std::size_t loop);
 
-/// Whether the file begins like medial's own JSON.
+/// Whether the file begins like medial's own JSON; and its content. Errors: as read_dataset().
 bool is_native(const std::string& path);
 Result<NativeFile> read_native(const std::string& path);
 

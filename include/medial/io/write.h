@@ -10,10 +10,10 @@
 namespace medial::io {
 
 struct WriteOptions {
-  double chord = 1e-3;       ///< chords stay within this fraction of the bounding box diagonal
+  double chord = 1e-3;       ///< chords stay within this share (> 0) of the bounding box diagonal
   bool radius_as_z = false;  ///< drawings (.dxf) have the radius as z
   // pictures (.svg .pdf .png .ps)
-  double width = 1024;    ///< of the picture, in pixels or points
+  double width = 1024;    ///< of the picture, in pixels or points, in [16, 8000]
   int disks = 0;          ///< draw about this many maximal disks; 0: none
   bool contacts = false;  ///< draw the feet of the nodes' disks
   bool shape = true;      ///< draw the shape
@@ -23,7 +23,7 @@ struct WriteOptions {
 /// Writes axes by the extension of `path`: .json (native) .geojson .gpkg .shp .fgb .wkt .csv
 /// .dxf .svg .pdf .png .ps; `-` is standard output and takes `format` (an extension without its
 /// dot). Writes to a temporary name beside the target and renames: never a partial file. Errors:
-/// unsupported, unwritable.
+/// unsupported, unwritable, invalid_option (chord, width), out_of_memory.
 Status write_axes(const std::string& path, const std::string& format, const NativeFile& file,
                   const WriteOptions& options = {});
 
