@@ -11,6 +11,7 @@
 
 #include "cli/axis_distance.h"
 #include "cli/common.h"
+#include "cli/costs.h"
 #include "cli/pipeline.h"
 #include "cli/plot.h"
 #include "cli/terminal.h"
@@ -176,6 +177,7 @@ Result<int> run_compare(const CompareSwitches& switches) {
   auto file = load_shapes(input, common.threads);
   if (!file) return std::move(file).error();
   print_notes(*file, input, common);
+  const Stopwatch comparing;
   Json features = Json::array();
   std::string text;
   for (std::size_t i = 0; i < file->shapes.size(); ++i) {
@@ -202,8 +204,14 @@ Result<int> run_compare(const CompareSwitches& switches) {
       if (!written) return std::move(written).error();
     }
   }
-  Status printed = common.json ? print(Json{{"features", std::move(features)}}) : print(text);
+  const Json costs = costs_of(common, {{"read", file->seconds_read},
+                                       {"shape", file->seconds_shape},
+                                       {"compare", comparing.seconds()}});
+  Json object = {{"features", std::move(features)}};
+  if (common.stats) object.update(costs);
+  Status printed = common.json ? print(object) : print(text);
   if (!printed) return std::move(printed).error();
+  print_costs(common, costs);
   return exit_success;
 }
 

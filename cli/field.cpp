@@ -8,6 +8,7 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -15,8 +16,10 @@
 
 #include "base/arc.h"
 #include "cli/common.h"
+#include "cli/costs.h"
 #include "cli/pipeline.h"
 #include "cli/plot.h"
+#include "cli/terminal.h"
 
 namespace medial::cli {
 namespace {
@@ -182,15 +185,22 @@ Result<int> run_field(const FieldSwitches& switches) {
   auto file = load_shapes(switches.input, switches.common.threads);
   if (!file) return std::move(file).error();
   print_notes(*file, switches.input, switches.common);
+  const Stopwatch drawing;
   Fields fields;
-  for (const Shape& shape : file->shapes) {
-    auto field = PotentialField::make(shape, switches.order);
-    if (!field) return std::move(field).error();
+  for (std::size_t i = 0; i < file->shapes.size(); ++i) {
+    auto field = PotentialField::make(file->shapes[i], switches.order);
+    if (!field) {
+      Error error = std::move(field).error();
+      error.place.file = switches.input.path;
+      error.place.feature = i;
+      return error;
+    }
     fields.push_back(std::move(field).value());
   }
   const View view = view_of(*file, switches.width);
   std::string document;
-  const std::string extension = std::filesystem::path(switches.output).extension().string();
+  std::string extension = std::filesystem::path(switches.output).extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   const std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)> surface(
       extension == ".svg"
           ? cairo_svg_surface_create_for_stream(append, &document, view.width, view.height)
@@ -208,6 +218,16 @@ Result<int> run_field(const FieldSwitches& switches) {
     return error_at(ErrorCode::unwritable, switches.output, "the picture cannot be drawn");
   Status written = write_text(switches.output, document);
   if (!written) return std::move(written).error();
+  const Json costs = costs_of(
+      switches.common,
+      {{"read", file->seconds_read}, {"shape", file->seconds_shape}, {"draw", drawing.seconds()}});
+  if (switches.common.json) {
+    Json object = {{"input", switches.input.path}, {"output", switches.output}};
+    if (switches.common.stats) object.update(costs);
+    Status printed = print(object);
+    if (!printed) return std::move(printed).error();
+  }
+  print_costs(switches.common, costs);
   return exit_success;
 }
 

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "cli/common.h"
+#include "cli/costs.h"
 #include "cli/pipeline.h"
 #include "cli/terminal.h"
 
@@ -92,13 +93,11 @@ std::string crs_text(const std::string& wkt, bool geographic) {
 /// Prints what was found as an object or as a table, with the costs of finding it on request.
 Result<int> tell(const CommonSwitches& common, Json object, const Table& table,
                  const Json& seconds) {
-  const Json costs = {{"seconds", seconds},
-                      {"threads", effective_threads(common.threads)},
-                      {"peak_bytes", peak_bytes()}};
+  const Json costs = costs_of(common, seconds);
   if (common.json && common.stats) object.update(costs);
   Status printed = common.json ? print(object) : print(table.text());
   if (!printed) return std::move(printed).error();
-  if (common.stats && !common.json) fmt::print(stderr, "{}", cli::table(costs));
+  print_costs(common, costs);
   return exit_success;
 }
 

@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "cli/common.h"
+#include "cli/costs.h"
 #include "cli/pipeline.h"
 #include "cli/terminal.h"
 
@@ -181,11 +182,9 @@ Result<int> run_verify(const VerifySwitches& switches) {
   if (!done) return std::move(done).error();
 
   const Certificate all = merge(certificates);
-  const Json costs = {
-      {"seconds",
-       {{"read", seconds_read}, {"shape", shapes->seconds_shape}, {"verify", checking.seconds()}}},
-      {"threads", effective_threads(common.threads)},
-      {"peak_bytes", peak_bytes()}};
+  const Json costs = costs_of(
+      common,
+      {{"read", seconds_read}, {"shape", shapes->seconds_shape}, {"verify", checking.seconds()}});
   Status printed = success();
   if (common.json) {
     Json object = {{"input", input.path}, {"axis", axis_path}, {"features", count}};
@@ -198,7 +197,7 @@ Result<int> run_verify(const VerifySwitches& switches) {
     printed = print(verdict_table(all, count));
   }
   if (!printed) return std::move(printed).error();
-  if (common.stats && !common.json) fmt::print(stderr, "{}", table(costs));
+  print_costs(common, costs);
   return all.passed ? exit_success : exit_failed_verdict;
 }
 

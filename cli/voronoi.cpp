@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "cli/common.h"
+#include "cli/costs.h"
 #include "cli/pipeline.h"
 #include "cli/terminal.h"
 
@@ -62,17 +63,16 @@ Result<io::VoronoiFile> compute_diagrams(ShapeFile shapes, const std::string& pa
   return file;
 }
 
-Status tell(const io::VoronoiFile& file, const VoronoiSwitches& switches, double seconds) {
+Status tell(const io::VoronoiFile& file, const VoronoiSwitches& switches, double seconds,
+            const Json& costs) {
   const Summary sum = summarize(file);
   if (switches.common.json) {
-    return print(Json{{"input", switches.input.path},
-                      {"features", file.items.size()},
-                      {"segments", sum.segments},
-                      {"reflex_vertices", sum.vertices},
-                      {"edges", sum.edges},
-                      {"spokes", sum.spokes},
-                      {"voronoi_points", sum.points},
-                      {"seconds", seconds}});
+    Json object = {{"input", switches.input.path}, {"features", file.items.size()},
+                   {"segments", sum.segments},     {"reflex_vertices", sum.vertices},
+                   {"edges", sum.edges},           {"spokes", sum.spokes},
+                   {"voronoi_points", sum.points}, {"seconds", seconds}};
+    if (switches.common.stats) object.update(costs);
+    return print(object);
   }
   const std::string line = fmt::format(
       "{}: {}, {}, {}; {} ({}), {}; {:.3g} s\n", switches.input.path,
@@ -92,18 +92,25 @@ Result<int> run_voronoi(const VoronoiSwitches& switches) {
   auto shapes = load_shapes(input, common.threads);
   if (!shapes) return std::move(shapes).error();
   print_notes(*shapes, input, common);
+  const double seconds_read = shapes->seconds_read, seconds_shape = shapes->seconds_shape;
   const Stopwatch watch;
   auto diagrams = compute_diagrams(std::move(shapes).value(), input.path, common);
   if (!diagrams) return std::move(diagrams).error();
   const double seconds = watch.seconds();
+  const Stopwatch writing;
   if (!output.empty()) {
     io::WriteOptions write = pictures;
     write.chord = common.chord;
     Status written = io::write_voronoi(output, format, *diagrams, write);
     if (!written) return std::move(written).error();
   }
-  Status told = tell(*diagrams, switches, seconds);
+  const Json costs = costs_of(common, {{"read", seconds_read},
+                                       {"shape", seconds_shape},
+                                       {"voronoi", seconds},
+                                       {"write", writing.seconds()}});
+  Status told = tell(*diagrams, switches, seconds, costs);
   if (!told) return std::move(told).error();
+  print_costs(common, costs);
   return exit_success;
 }
 

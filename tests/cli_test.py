@@ -608,6 +608,19 @@ class Verify(CommandLine):
                 self.run_medial(*verb)
 
 
+class Costs(CommandLine):
+    def test_every_verb_tells_them(self):
+        self.write("elbow.wkt", "POLYGON ((0 0, 8 0, 8 3, 3 3, 3 8, 0 8))")
+        for verb, *switches in (("info",), ("voronoi",), ("compare", "--methods", "disks"),
+                                ("field", "-o", "field.PNG", "--width", "60", "--lines", "2")):
+            told = json.loads(self.succeed(verb, "elbow.wkt", *switches, "--stats", "--json").stdout)
+            self.assertGreater(told["peak_bytes"], 0)
+            self.assertGreater(told["threads"], 0)
+            self.assertIn("read", told["seconds"])
+            self.assertIn("peak bytes", self.succeed(verb, "elbow.wkt", *switches, "--stats").stderr)
+        self.assertTrue(self.read("field.PNG").startswith(b"\x89PNG"))
+
+
 class Info(CommandLine):
     def test_polygons(self):
         self.write("frame.wkt", FRAME.replace("9 0,", "9 0, 9 0, 9 3,"))

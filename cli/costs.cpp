@@ -1,0 +1,22 @@
+#include "cli/costs.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "cli/pipeline.h"
+#include "cli/terminal.h"
+
+namespace medial::cli {
+
+Json costs_of(const CommonSwitches& common, Json seconds) {
+  return {{"seconds", std::move(seconds)},
+          {"threads", effective_threads(common.threads)},
+          {"peak_bytes", peak_bytes()}};
+}
+
+void print_costs(const CommonSwitches& common, const Json& costs) {
+  if (common.stats && !common.json) fmt::print(stderr, "{}", table(costs));
+}
+
+}  // namespace medial::cli
