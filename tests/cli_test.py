@@ -617,7 +617,7 @@ class Costs(CommandLine):
             self.assertGreater(told["peak_bytes"], 0)
             self.assertGreater(told["threads"], 0)
             self.assertIn("read", told["seconds"])
-            self.assertIn("peak bytes", self.succeed(verb, "elbow.wkt", *switches, "--stats").stderr)
+            self.assertIn(b"peak bytes", self.succeed(verb, "elbow.wkt", *switches, "--stats").stderr)
         self.assertTrue(self.read("field.PNG").startswith(b"\x89PNG"))
 
 
