@@ -316,6 +316,73 @@ double angle_between_feet(Vec2 center, Vec2 right, Vec2 left, bool shrinks) {
   return angle < 0 ? angle + 2 * std::numbers::pi : angle;
 }
 
+/// A shape's own area and perimeter, from a point of it.
+struct Extent {
+  double area = 0, perimeter = 0;
+};
+Extent extent_of(const Problem& problem) {
+  const Vec2 origin = problem.point(0);
+  Sum area, perimeter;
+  for (std::uint32_t i = 0; i < problem.shape.points.size(); ++i) {
+    const BoundaryEdge edge = problem.edge(i);
+    area.add(0.5 * doubled_triangle(origin, edge.start, edge.end));
+    if (edge.bulge != 0) area.add(area_beside_chord(edge));
+    perimeter.add(length_of(edge));
+  }
+  return {area.value(), perimeter.value()};
+}
+
+/// An edge's areas, and where its disks touch.
+struct Swept {
+  Sides sides;
+  Contacts contacts;
+};
+std::vector<Swept> swept_by_edges(const Problem& problem) {
+  const MedialAxis& axis = problem.axis;
+  std::vector<Swept> edges(axis.edges.size());
+  tbb::parallel_for(std::size_t{0}, edges.size(), [&](std::size_t i) {
+    const Edge& edge = axis.edges[i];
+    for (std::size_t side = 0; side < 2; ++side)
+      for (std::size_t end = 0; end < 2; ++end)
+        edges[i].contacts[side][end] =
+            contact_of(problem, axis.sites[edge.site[side]], problem.disk(edge.node[end]));
+    edges[i].sides = swept(axis, edge, edges[i].contacts);
+  });
+  return edges;
+}
+
+/// Adds what the edges leave of the nodes' disks: every spoke of an edge ends one swept area, and
+/// the spokes around each node say what lies between.
+///
+/// What is left of the full angle are slices of the disk, at its contacts with arcs. Or they are
+/// due to rounding: where the axis passes from a segment to the vertex at its end, or several sites
+/// touch within the tolerance, the feet differ a little.
+void add_slices(const Problem& problem, const std::vector<Swept>& edges, Sum& area) {
+  const MedialAxis& axis = problem.axis;
+  const Incidence incidence(axis);
+  std::vector<Spoke> spokes;
+  for (std::uint32_t n = 0; n < axis.nodes.size(); ++n) {
+    const Disk& disk = problem.disk(n);
+    spokes.clear();
+    double angle = 2 * std::numbers::pi;
+    const auto around = incidence.edges(n);
+    for (std::size_t k = 0; k < around.size(); ++k) {
+      const Edge& edge = axis.edges[around[k]];
+      // An edge from the node to itself stands here twice, first with its beginning.
+      const bool again = k > 0 && around[k - 1] == around[k];
+      const std::size_t end = edge.node[0] == n && !again ? 0 : 1;
+      // Seen from the centre, an edge's area begins on its right side and ends on its left.
+      const auto& contacts = edges[around[k]].contacts;
+      for (std::size_t side = 0; side < 2; ++side)
+        spokes.push_back({edge.site[side], contacts[side][end].foot, (side == 1) == (end == 0)});
+      angle -= angle_between_feet(disk.center, contacts[1 - end][end].foot, contacts[end][end].foot,
+                                  problem.disk(edge.node[1 - end]).radius < disk.radius);
+    }
+    if (!all_paired(spokes)) area.add(0.5 * disk.radius * disk.radius * angle);
+    if (around.empty()) area.add(std::numbers::pi * disk.radius * disk.radius);
+  }
+}
+
 }  // namespace
 
 double check_coverage(const Problem& problem, Certificate& certificate) {
@@ -339,36 +406,13 @@ double check_coverage(const Problem& problem, Certificate& certificate) {
 }
 
 void check_area(const Problem& problem, double open, Certificate& certificate) {
-  const Shape& shape = problem.shape;
   const MedialAxis& axis = problem.axis;
-  if (shape.points.empty()) return;
+  if (problem.shape.points.empty()) return;
 
-  // The shape's own area and perimeter, from a point of it.
-  const Vec2 origin = shape.points[0];
-  Sum own, perimeter;
-  for (std::uint32_t i = 0; i < shape.points.size(); ++i) {
-    const BoundaryEdge edge = problem.edge(i);
-    own.add(0.5 * doubled_triangle(origin, edge.start, edge.end));
-    if (edge.bulge != 0) own.add(area_beside_chord(edge));
-    perimeter.add(length_of(edge));
-  }
-  certificate.shape_area = own.value();
-
-  // Every spoke of an edge ends one swept area; the spokes around each node say what lies between.
-  struct Swept {
-    Sides sides;
-    Contacts contacts;
-  };
-  std::vector<Swept> edges(axis.edges.size());
-  tbb::parallel_for(std::size_t{0}, edges.size(), [&](std::size_t i) {
-    const Edge& edge = axis.edges[i];
-    for (std::size_t side = 0; side < 2; ++side)
-      for (std::size_t end = 0; end < 2; ++end)
-        edges[i].contacts[side][end] =
-            contact_of(problem, axis.sites[edge.site[side]], problem.disk(edge.node[end]));
-    edges[i].sides = swept(axis, edge, edges[i].contacts);
-  });
-  const double limit = 4 * problem.tolerance * perimeter.value();
+  const Extent extent = extent_of(problem);
+  certificate.shape_area = extent.area;
+  const std::vector<Swept> edges = swept_by_edges(problem);
+  const double limit = 4 * problem.tolerance * extent.perimeter;
   Sum all;
   std::size_t backward = 0, first = 0;
   for (std::size_t i = 0; i < edges.size(); ++i) {
@@ -381,31 +425,7 @@ void check_area(const Problem& problem, double open, Certificate& certificate) {
         slack += side[end].slack * problem.disk(axis.edges[i].node[end]).radius;
     if (std::min(sides.left, sides.right) < -slack && backward++ == 0) first = i;
   }
-  const Incidence incidence(axis);
-  std::vector<Spoke> spokes;
-  for (std::uint32_t n = 0; n < axis.nodes.size(); ++n) {
-    const Disk& disk = problem.disk(n);
-    spokes.clear();
-    // What the edges leave of the full angle are slices of the disk, at its contacts with arcs. Or
-    // they are due to rounding: where the axis passes from a segment to the vertex at its end, or
-    // several sites touch within the tolerance, the feet differ a little.
-    double angle = 2 * std::numbers::pi;
-    const auto around = incidence.edges(n);
-    for (std::size_t k = 0; k < around.size(); ++k) {
-      const Edge& edge = axis.edges[around[k]];
-      // An edge from the node to itself stands here twice, first with its beginning.
-      const bool again = k > 0 && around[k - 1] == around[k];
-      const std::size_t end = edge.node[0] == n && !again ? 0 : 1;
-      // Seen from the centre, an edge's area begins on its right side and ends on its left.
-      const auto& contacts = edges[around[k]].contacts;
-      for (std::size_t side = 0; side < 2; ++side)
-        spokes.push_back({edge.site[side], contacts[side][end].foot, (side == 1) == (end == 0)});
-      angle -= angle_between_feet(disk.center, contacts[1 - end][end].foot, contacts[end][end].foot,
-                                  problem.disk(edge.node[1 - end]).radius < disk.radius);
-    }
-    if (!all_paired(spokes)) all.add(0.5 * disk.radius * disk.radius * angle);
-    if (around.empty()) all.add(std::numbers::pi * disk.radius * disk.radius);
-  }
+  add_slices(problem, edges, all);
   certificate.disks_area = all.value();
 
   // Neighbouring areas share their spokes, so only the feet's rounding, a part of the tolerance

@@ -184,9 +184,11 @@ bool check_values(const Shape& shape, const MedialAxis& axis, Certificate& certi
   return certificate.failures.size() == before_count;
 }
 
-void prepare(Problem& problem, double corner_angle, Certificate& certificate) {
+namespace {
+
+/// What follows what on the boundary, and how edges join.
+void read_boundary(Problem& problem, double corner_angle, Certificate& certificate) {
   const Shape& shape = problem.shape;
-  const MedialAxis& axis = problem.axis;
   const auto count = static_cast<std::uint32_t>(shape.points.size());
   problem.next.resize(count);
   problem.component.resize(count);
@@ -210,74 +212,114 @@ void prepare(Problem& problem, double corner_angle, Certificate& certificate) {
                                                  problem.blunt_angle[j] * 180 / std::numbers::pi);
     }
   }
-
-  problem.degree.assign(axis.nodes.size(), 0);
-  for (const Edge& edge : axis.edges)
-    for (const std::uint32_t node : edge.node) ++problem.degree[node];
-
-  // Sites mostly come in the order of the boundary, so the point after the last one is tried first;
-  // otherwise the points are looked up by their coordinates.
-  const auto fits = [&](const Site& site, std::uint32_t i) {
-    if (!(shape.points[i] == site.start)) return false;
-    if (site.kind == SiteKind::vertex)
-      return site.end == site.start &&
-             (problem.joint[i] == Joint::reflex || problem.joint[i] == Joint::smooth);
-    return shape.points[problem.next[i]] == site.end && shape.bulge(i) == site.bulge &&
-           (site.bulge != 0) == (site.kind == SiteKind::arc);
-  };
-  std::vector<std::uint32_t> sorted;
-  problem.place.assign(axis.sites.size(), no_index);
-  std::uint32_t cursor = 0;
-  Offences foreign;
-  for (std::size_t s = 0; s < axis.sites.size(); ++s) {
-    const Site& site = axis.sites[s];
-    std::uint32_t& place = problem.place[s];
-    for (std::uint32_t i = cursor; i < std::min(cursor + 2, count) && place == no_index; ++i)
-      if (fits(site, i)) place = i;
-    if (place == no_index) {
-      if (sorted.empty()) {
-        sorted.resize(count);
-        std::iota(sorted.begin(), sorted.end(), 0U);
-        std::sort(sorted.begin(), sorted.end(), [&](std::uint32_t a, std::uint32_t b) {
-          return before(shape.points[a], shape.points[b]);
-        });
-      }
-      auto found = std::lower_bound(
-          sorted.begin(), sorted.end(), site.start,
-          [&](std::uint32_t a, Vec2 point) { return before(shape.points[a], point); });
-      for (; found != sorted.end() && shape.points[*found] == site.start; ++found)
-        if (fits(site, *found)) place = *found;
-    }
-    if (place == no_index)
-      foreign.add(s);
-    else
-      cursor = place;
-  }
-  if (foreign.count > 0) {
-    const Site& site = axis.sites[foreign.first];
-    certificate.failures.push_back(sentence(
-        "%zu sites are no edge and no reflex vertex of the shape; the first is site %zu from "
-        "(%.17g, %.17g) to (%.17g, %.17g).",
-        foreign.count, foreign.first, site.start.x, site.start.y, site.end.x, site.end.y));
-  }
 }
 
-void check_graph(const Problem& problem, Certificate& certificate) {
+/// Finds the boundary points of sites. These mostly come in the order of the boundary, so the point
+/// after the last one is tried first; otherwise points are looked up by their coordinates.
+class PlaceFinder {
+ public:
+  explicit PlaceFinder(const Problem& problem) : problem_(problem), shape_(problem.shape) {}
+
+  /// The point that a site is, or that its edge begins in; no_index if there is none.
+  std::uint32_t place_of(const Site& site) {
+    const auto count = static_cast<std::uint32_t>(shape_.points.size());
+    std::uint32_t place = no_index;
+    for (std::uint32_t i = last_; i < std::min(last_ + 2, count) && place == no_index; ++i)
+      if (fits(site, i)) place = i;
+    if (place == no_index) place = look_up(site);
+    if (place != no_index) last_ = place;
+    return place;
+  }
+
+ private:
+  bool fits(const Site& site, std::uint32_t i) const {
+    if (!(shape_.points[i] == site.start)) return false;
+    if (site.kind == SiteKind::vertex)
+      return site.end == site.start &&
+             (problem_.joint[i] == Joint::reflex || problem_.joint[i] == Joint::smooth);
+    return shape_.points[problem_.next[i]] == site.end && shape_.bulge(i) == site.bulge &&
+           (site.bulge != 0) == (site.kind == SiteKind::arc);
+  }
+
+  std::uint32_t look_up(const Site& site) {
+    if (sorted_.empty()) {
+      sorted_.resize(shape_.points.size());
+      std::iota(sorted_.begin(), sorted_.end(), 0U);
+      std::sort(sorted_.begin(), sorted_.end(), [&](std::uint32_t a, std::uint32_t b) {
+        return before(shape_.points[a], shape_.points[b]);
+      });
+    }
+    std::uint32_t place = no_index;
+    auto found = std::lower_bound(
+        sorted_.begin(), sorted_.end(), site.start,
+        [&](std::uint32_t a, Vec2 point) { return before(shape_.points[a], point); });
+    for (; found != sorted_.end() && shape_.points[*found] == site.start; ++found)
+      if (fits(site, *found)) place = *found;
+    return place;
+  }
+
+  const Problem& problem_;
+  const Shape& shape_;
+  std::vector<std::uint32_t> sorted_;  ///< points by their coordinates; made when first needed
+  std::uint32_t last_ = 0;
+};
+
+void locate_sites(Problem& problem, Certificate& certificate) {
+  const MedialAxis& axis = problem.axis;
+  PlaceFinder finder(problem);
+  Offences foreign;
+  problem.place.resize(axis.sites.size());
+  for (std::size_t s = 0; s < axis.sites.size(); ++s) {
+    problem.place[s] = finder.place_of(axis.sites[s]);
+    if (problem.place[s] == no_index) foreign.add(s);
+  }
+  if (foreign.count == 0) return;
+  const Site& site = axis.sites[foreign.first];
+  certificate.failures.push_back(sentence(
+      "%zu sites are no edge and no reflex vertex of the shape; the first is site %zu from "
+      "(%.17g, %.17g) to (%.17g, %.17g).",
+      foreign.count, foreign.first, site.start.x, site.start.y, site.end.x, site.end.y));
+}
+
+}  // namespace
+
+void prepare(Problem& problem, double corner_angle, Certificate& certificate) {
+  read_boundary(problem, corner_angle, certificate);
+  problem.degree.assign(problem.axis.nodes.size(), 0);
+  for (const Edge& edge : problem.axis.edges)
+    for (const std::uint32_t node : edge.node) ++problem.degree[node];
+  locate_sites(problem, certificate);
+}
+
+namespace {
+
+/// What one component's part of the graph consists of.
+struct Count {
+  std::uint64_t parts = 0, nodes = 0, edges = 0, holes = 0;
+  std::uint64_t cycles() const { return edges + parts - nodes; }
+};
+
+struct Tally {
+  std::vector<Count> counts;  ///< of each component
+  Offences kinds;             ///< nodes whose kind does not fit the number of their edges
+  Offences strangers;         ///< nodes connected with nodes of another component
+  Offences foreign_sites;     ///< edges with a site of another component
+};
+
+Tally tally(const Problem& problem) {
   const Shape& shape = problem.shape;
   const MedialAxis& axis = problem.axis;
+  Tally result;
+  auto& [counts, kinds, strangers, foreign_sites] = result;
   const auto node_count = static_cast<std::uint32_t>(axis.nodes.size());
   DisjointSets sets(node_count);
   for (const Edge& edge : axis.edges) sets.join(edge.node[0], edge.node[1]);
 
-  struct Count {
-    std::uint64_t parts = 0, nodes = 0, edges = 0, holes = 0;
-  };
-  std::vector<Count> counts(shape.component_count());
+  counts.resize(shape.component_count());
   for (std::size_t i = 0; i < shape.loop_count(); ++i)
     if (shape.hole[i]) ++counts[shape.component[i]].holes;
   std::vector<std::uint64_t> nodes_of(counts.size());
   for (const Node& node : axis.nodes) ++nodes_of[node.component];
-  Offences kinds, strangers, foreign_sites;
   for (std::uint32_t i = 0; i < node_count; ++i) {
     const Node& node = axis.nodes[i];
     Count& count = counts[node.component];
@@ -304,17 +346,23 @@ void check_graph(const Problem& problem, Certificate& certificate) {
       if (place != no_index && problem.component[place] != component) foreign_sites.add(i);
     }
   }
+  return result;
+}
 
+}  // namespace
+
+void check_graph(const Problem& problem, Certificate& certificate) {
+  const MedialAxis& axis = problem.axis;
+  const auto [counts, kinds, strangers, foreign_sites] = tally(problem);
   certificate.components = counts.size();
   Offences torn, cycles;
   for (std::size_t i = 0; i < counts.size(); ++i) {
     const Count& count = counts[i];
-    const std::uint64_t independent = count.edges + count.parts - count.nodes;
     certificate.graph_parts += count.parts;
     certificate.holes += count.holes;
-    certificate.cycles += independent;
+    certificate.cycles += count.cycles();
     if (count.parts != 1) torn.add(i);
-    if (independent != count.holes) cycles.add(i);
+    if (count.cycles() != count.holes) cycles.add(i);
   }
   auto& failures = certificate.failures;
   const std::string sampled =
@@ -332,7 +380,7 @@ void check_graph(const Problem& problem, Certificate& certificate) {
         "%s%zu components do not have one independent cycle for each hole; component %zu has %llu "
         "cycles and %llu holes.",
         sampled.c_str(), cycles.count, cycles.first,
-        static_cast<unsigned long long>(count.edges + count.parts - count.nodes),
+        static_cast<unsigned long long>(count.cycles()),
         static_cast<unsigned long long>(count.holes)));
   }
   if (strangers.count > 0)
@@ -350,13 +398,14 @@ void check_graph(const Problem& problem, Certificate& certificate) {
         kinds.count, kinds.first, problem.degree[kinds.first]));
 }
 
-void check_vertices(const Problem& problem, Certificate& certificate) {
+namespace {
+
+/// Corners and leaves as sorted lists: what stands in one only is an offence. Where all joints are
+/// blunt, an axis may begin at one of them.
+void check_leaves(const Problem& problem, Certificate& certificate) {
   const MedialAxis& axis = problem.axis;
   const auto count = static_cast<std::uint32_t>(problem.shape.points.size());
   auto& failures = certificate.failures;
-
-  // Corners and leaves as sorted lists: what stands in one only is an offence. Where all joints are
-  // blunt, an axis may begin at one of them.
   std::vector<Corner> corners, blunt, leaves;
   for (std::uint32_t i = 0; i < count; ++i) {
     const Corner corner{problem.point(i), problem.component[i]};
@@ -404,10 +453,13 @@ void check_vertices(const Problem& problem, Certificate& certificate) {
                  "%zu at (%.17g, %.17g), r = %.17g.",
                  raised.count, raised.first, disk.center.x, disk.center.y, disk.radius));
   }
+}
 
-  // A reflex vertex is touched by the disks of its own edges; or, where all of them have shrunk to
-  // a node, by the last disk on one of the segments that it ends.
-  std::vector<bool> touched(count, false);
+/// Which boundary points disks touch. A reflex vertex is touched by the disks of its own edges; or,
+/// where all of them have shrunk to a node, by the last disk on one of the segments that it ends.
+std::vector<bool> touched_points(const Problem& problem) {
+  const MedialAxis& axis = problem.axis;
+  std::vector<bool> touched(problem.shape.points.size(), false);
   for (const Edge& edge : axis.edges) {
     for (const std::uint32_t site : edge.site) {
       const std::uint32_t place = problem.place[site];
@@ -427,19 +479,31 @@ void check_vertices(const Problem& problem, Certificate& certificate) {
       }
     }
   }
+  return touched;
+}
+
+void check_reflex_vertices(const Problem& problem, Certificate& certificate) {
+  const std::vector<bool> touched = touched_points(problem);
   std::uint32_t first = no_index;
-  for (std::uint32_t i = 0; i < count; ++i) {
+  for (std::uint32_t i = 0; i < touched.size(); ++i) {
     if (problem.joint[i] != Joint::reflex) continue;
     ++certificate.reflex_vertices;
     if (touched[i]) continue;
     if (certificate.reflex_without_contact++ == 0) first = i;
   }
   if (first != no_index)
-    failures.push_back(sentence(
+    certificate.failures.push_back(sentence(
         "%llu of %llu reflex vertices are touched by no disk; the first is (%.17g, %.17g).",
         static_cast<unsigned long long>(certificate.reflex_without_contact),
         static_cast<unsigned long long>(certificate.reflex_vertices), problem.point(first).x,
         problem.point(first).y));
+}
+
+}  // namespace
+
+void check_vertices(const Problem& problem, Certificate& certificate) {
+  check_leaves(problem, certificate);
+  check_reflex_vertices(problem, certificate);
 }
 
 }  // namespace medial::verify_detail
