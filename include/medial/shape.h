@@ -44,7 +44,7 @@ struct ShapeReport {
   std::uint64_t collinear_points = 0;  ///< vertices in the inside of a straight run or arc, dropped
   std::uint64_t reversed_rings = 0;    ///< rings that had the interior on the right
   std::uint64_t dropped_rings = 0;     ///< rings that the non-zero rule has inside of others
-  std::uint64_t touching_vertices = 0;  ///< places where rings touch in a vertex
+  std::uint64_t touching_vertices = 0;  ///< places where rings touch, in vertices or edges
   std::uint64_t split_edges = 0;        ///< edges split where a vertex touches their inside
   std::uint64_t crossings = 0;          ///< places where edges crossed (ShapeOptions)
 };

@@ -88,15 +88,18 @@ class Cells {
   bool add(const Piece& piece) {
     const double extent =
         std::max(std::fabs(piece.to.x - piece.from.x), std::fabs(piece.to.y - piece.from.y));
-    if (extent > cell) return true;
-    const auto column = static_cast<std::uint64_t>(std::max(piece.from.x, 0.0) / cell);
-    const auto row = static_cast<std::uint64_t>(std::max(piece.from.y, 0.0) / cell);
-    return drawn_.insert(row << 32U | column).second;
+    if (!(extent <= cell)) return true;
+    // A file may hold curves that leave the picture.
+    const auto index = [](double place) {
+      return static_cast<std::uint64_t>(std::clamp(place, 0.0, farthest) / cell);
+    };
+    return drawn_.insert(index(piece.from.y) << 32U | index(piece.from.x)).second;
   }
   /// The distance below which points of an outline are not told apart, either.
   static constexpr double cell = 0.25;  // pixels
 
  private:
+  static constexpr double farthest = 1e6;  // pixels, more than any picture has
   std::unordered_set<std::uint64_t> drawn_;
 };
 

@@ -22,8 +22,12 @@ namespace medial::io {
 
 namespace {
 
-constexpr std::array<std::string_view, 12> formats{"json", "geojson", "gpkg", "shp", "fgb", "wkt",
-                                                   "csv",  "dxf",     "svg",  "pdf", "png", "ps"};
+using namespace std::string_view_literals;
+constexpr std::array formats{"json"sv, "geojson"sv, "gpkg"sv, "shp"sv, "fgb"sv, "wkt"sv, "csv"sv,
+#ifdef MEDIAL_DXF
+                             "dxf"sv,
+#endif
+                             "svg"sv,  "pdf"sv,     "png"sv,  "ps"sv};
 
 bool through_gdal(const std::string& format) {
   return format == "geojson" || format == "gpkg" || format == "shp" || format == "fgb";
@@ -48,11 +52,9 @@ Status write_stream(OutputStream& out, const std::string& format, const NativeFi
     write_csv(out, file, options);
   } else if (format == "wkt") {
     write_wkt(out, file, options);
-  } else if (format == "dxf") {
 #ifdef MEDIAL_DXF
+  } else if (format == "dxf") {
     status = write_dxf(out, file, options);
-#else
-    status = Error{ErrorCode::unsupported, "this program was built without DXF", {}};
 #endif
   } else {
     status = write_picture(out, format, file, options);

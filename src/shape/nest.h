@@ -17,7 +17,8 @@ std::optional<Error> check_roles(std::span<const Ring> rings, const Arrangement&
                                  const Loops& loops);
 
 /// Numbers the components of the interior by the lowest source of their outer loops, and gives
-/// every hole to the component it lies in. O(n + loops log loops).
+/// every hole to the component it lies in. O(n + loops log loops), and O(n) more for each hole at
+/// whose leftmost vertex dropped edges end. Error: internal, should a hole lie in none.
 std::optional<Error> nest(const Arrangement& arrangement, Loops& loops);
 
 /// The shape with its loops in order: by component, the outer loop first, then by lowest source.
