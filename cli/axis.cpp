@@ -75,6 +75,32 @@ Result<int> run_axis(const AxisSwitches& switches) {
   return write_and_tell(*axes, input, common, output, format, switches.write);
 }
 
+/// Which method, and what decides its random choices.
+void add_method_switches(CLI::App& verb, AxisSwitches& switches) {
+  verb.add_option_function<std::string>(
+          "--method",
+          [&switches](const std::string& name) {
+            switches.curve_axis = name == "curve-axis";
+            if (!switches.curve_axis) switches.options.method = *method_from(name);
+          },
+          "How the axes are computed: disks (default); biarc-dc, the published\n"
+          "randomised divide and conquer, for shapes without holes; lee, the merging\n"
+          "of Voronoi diagrams, for polygons without holes: all the same axes; or\n"
+          "ridge, ridge following on a grid of pixels, or brushfire, thinning of pixels:\n"
+          "sampled axes; or potential, the valleys of a potential field: a sampled axis\n"
+          "too, smooth; or curve-axis, for one smooth boundary: sampled from its\n"
+          "curvature's maxima on.")
+      ->check(CLI::IsMember(
+                  {"disks", "biarc-dc", "lee", "ridge", "brushfire", "potential", "curve-axis"})
+                  .description(""))
+      ->option_text("NAME");
+  verb.add_option("--seed", switches.options.seed,
+                  "Of the random choices of biarc-dc (default: 1). The same seed gives the\n"
+                  "same result, byte for byte.")
+      ->check(a_whole_number())
+      ->option_text("N");
+}
+
 /// The switches of the methods that sample.
 void add_grid_switches(CLI::App& verb, Options& options) {
   constexpr char group[] = "Grids of pixels (--method ridge, brushfire)";
@@ -128,6 +154,52 @@ void add_grid_switches(CLI::App& verb, Options& options) {
       ->group(group);
 }
 
+/// The switches of potential.
+void add_potential_switches(CLI::App& verb, PotentialOptions& options) {
+  verb.add_option("--order", options.order,
+                  "Of the potential: the n of 1 / r^n. 0 (default) chooses it for each point.")
+      ->option_text("N");
+  verb.add_option("--base-order", options.base_order,
+                  "Of the force lines that potential follows first (default: the order, at most\n"
+                  "24). 1 is the paper's.")
+      ->option_text("N");
+  verb.add_option_function<std::vector<double>>(
+          "--from",
+          [&options](const std::vector<double>& xy) {
+            options.from = Vec2{xy[0], xy[1]};
+          },
+          "Potential: only the branch that the force leads to from here.")
+      ->delimiter(',')
+      ->expected(2)
+      ->option_text("X,Y");
+  verb.add_option_function<std::vector<double>>(
+          "--within",
+          [&options](const std::vector<double>& box) {
+            options.within = Box{{box[0], box[1]}, {box[2], box[3]}};
+          },
+          "Potential: only what lies in this box.")
+      ->delimiter(',')
+      ->expected(4)
+      ->option_text("X,Y,X,Y");
+  verb.add_option("--step", options.step,
+                  "Of potential, as a share of the shape's size (default: 0.01).")
+      ->option_text("SHARE");
+}
+
+/// The switches of curve-axis.
+void add_curve_switches(CLI::App& verb, AxisSwitches& switches) {
+  verb.add_option("--curve-step", switches.curve.step,
+                  "Of curve-axis: the way from point to point, as a share of the diagonal\n"
+                  "(default: 0.001).")
+      ->check(in_range(1e-6, 0.1))
+      ->option_text("SHARE");
+  verb.add_option("--fit", switches.fit,
+                  "For curve-axis: a smooth curve through the corners of the boundary, within\n"
+                  "this distance of it, in units of the input.")
+      ->check(CLI::PositiveNumber.description(""))
+      ->option_text("D");
+}
+
 }  // namespace
 
 Verb make_axis_verb(CLI::App& program) {
@@ -145,28 +217,7 @@ Verb make_axis_verb(CLI::App& program) {
       ->option_text("NAME");
   verb->add_flag("--radius-as-z", switches->write.radius_as_z,
                  "Drawings (.dxf): splines in space, with the radius as z.");
-  verb->add_option_function<std::string>(
-          "--method",
-          [switches](const std::string& name) {
-            switches->curve_axis = name == "curve-axis";
-            if (!switches->curve_axis) switches->options.method = *method_from(name);
-          },
-          "How the axes are computed: disks (default); biarc-dc, the published\n"
-          "randomised divide and conquer, for shapes without holes; lee, the merging\n"
-          "of Voronoi diagrams, for polygons without holes: all the same axes; or\n"
-          "ridge, ridge following on a grid of pixels, or brushfire, thinning of pixels:\n"
-          "sampled axes; or potential, the valleys of a potential field: a sampled axis\n"
-          "too, smooth; or curve-axis, for one smooth boundary: sampled from its\n"
-          "curvature's maxima on.")
-      ->check(CLI::IsMember(
-                  {"disks", "biarc-dc", "lee", "ridge", "brushfire", "potential", "curve-axis"})
-                  .description(""))
-      ->option_text("NAME");
-  verb->add_option("--seed", switches->options.seed,
-                   "Of the random choices of biarc-dc (default: 1). The same seed gives the\n"
-                   "same result, byte for byte.")
-      ->check(a_whole_number())
-      ->option_text("N");
+  add_method_switches(*verb, *switches);
   verb->add_flag("--exterior", switches->options.exterior,
                  "The axis of what lies around the shape and in its holes, within a frame.");
   verb->add_option("--margin", switches->options.margin,
@@ -175,44 +226,8 @@ Verb make_axis_verb(CLI::App& program) {
       ->check(CLI::PositiveNumber.description(""))
       ->option_text("D");
   add_grid_switches(*verb, switches->options);
-  verb->add_option("--order", switches->options.potential.order,
-                   "Of the potential: the n of 1 / r^n. 0 (default) chooses it for each point.")
-      ->option_text("N");
-  verb->add_option("--base-order", switches->options.potential.base_order,
-                   "Of the force lines that potential follows first (default: the order, at most\n"
-                   "24). 1 is the paper's.")
-      ->option_text("N");
-  verb->add_option_function<std::vector<double>>(
-          "--from",
-          [switches](const std::vector<double>& xy) {
-            switches->options.potential.from = Vec2{xy[0], xy[1]};
-          },
-          "Potential: only the branch that the force leads to from here.")
-      ->delimiter(',')
-      ->expected(2)
-      ->option_text("X,Y");
-  verb->add_option_function<std::vector<double>>(
-          "--within",
-          [switches](const std::vector<double>& box) {
-            switches->options.potential.within = Box{{box[0], box[1]}, {box[2], box[3]}};
-          },
-          "Potential: only what lies in this box.")
-      ->delimiter(',')
-      ->expected(4)
-      ->option_text("X,Y,X,Y");
-  verb->add_option("--step", switches->options.potential.step,
-                   "Of potential, as a share of the shape's size (default: 0.01).")
-      ->option_text("SHARE");
-  verb->add_option("--curve-step", switches->curve.step,
-                   "Of curve-axis: the way from point to point, as a share of the diagonal\n"
-                   "(default: 0.001).")
-      ->check(in_range(1e-6, 0.1))
-      ->option_text("SHARE");
-  verb->add_option("--fit", switches->fit,
-                   "For curve-axis: a smooth curve through the corners of the boundary, within\n"
-                   "this distance of it, in units of the input.")
-      ->check(CLI::PositiveNumber.description(""))
-      ->option_text("D");
+  add_potential_switches(*verb, switches->options.potential);
+  add_curve_switches(*verb, *switches);
   verb->add_flag("--exact", switches->options.exact,
                  "Make every decision of the combinatorics certain: which sites a disk\n"
                  "touches, and which nodes an edge joins. What was decided how is counted in\n"

@@ -242,6 +242,29 @@ std::vector<Contour> contours_of(const io::Feature& feature) {
   return contours;
 }
 
+/// The shape of a feature, whose boundaries are given back as soon as they are not needed any more:
+/// curves become arcs, and what crosses is mended if that is asked for.
+Result<Shape> shape_of(io::Feature& feature, const InputSwitches& input, ShapeReport& report,
+                       ArcReport& arc_report) {
+  const bool curved =
+      !feature.contours.empty() ||
+      std::ranges::any_of(feature.rings, [](const Ring& ring) { return !ring.bulges.empty(); });
+  if (!feature.contours.empty()) {
+    auto rings = approximate_by_arcs(feature.contours, input.arcs, &arc_report);
+    if (!rings) return std::move(rings).error();
+    std::ranges::move(*rings, std::back_inserter(feature.rings));
+    feature.contours = {};
+  }
+  ShapeOptions options;
+  if (curved && input.read.repair != io::RepairRule::none) {
+    options.node_crossings = true;
+    apply_rule(input.read.repair, feature.rings);
+  }
+  auto shape = build_shape(feature.rings, options, &report);
+  feature.rings = {};
+  return shape;
+}
+
 }  // namespace
 
 Result<ShapeFile> load_shapes(const InputSwitches& input, int threads, bool keep_contours) {
@@ -279,24 +302,8 @@ Result<ShapeFile> load_shapes(const InputSwitches& input, int threads, bool keep
   std::vector<ShapeReport> reports(count);
   std::vector<ArcReport> arc_reports(count);
   Status built = for_each_feature(weights, threads, [&](std::size_t i, int) -> Status {
-    io::Feature& feature = dataset.features[i];
-    const bool curved =
-        !feature.contours.empty() ||
-        std::ranges::any_of(feature.rings, [](const Ring& ring) { return !ring.bulges.empty(); });
-    if (!feature.contours.empty()) {
-      auto rings = approximate_by_arcs(feature.contours, input.arcs, &arc_reports[i]);
-      if (!rings) return at_feature(std::move(rings).error(), input.path, i);
-      std::ranges::move(*rings, std::back_inserter(feature.rings));
-      feature.contours = {};
-    }
-    ShapeOptions shape_options;
-    if (curved && input.read.repair != io::RepairRule::none) {
-      shape_options.node_crossings = true;
-      apply_rule(input.read.repair, feature.rings);
-    }
-    auto shape = build_shape(feature.rings, shape_options, &reports[i]);
+    auto shape = shape_of(dataset.features[i], input, reports[i], arc_reports[i]);
     if (!shape) return at_feature(std::move(shape).error(), input.path, i);
-    feature.rings = {};
     file.shapes[i] = std::move(shape).value();
     if (!source->originals.empty() && !source->originals[i].points.empty()) {
       keep_sources(file.shapes[i], source->originals[i]);
