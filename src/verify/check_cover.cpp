@@ -1,4 +1,5 @@
 #include <array>
+#include <bit>
 #include <cmath>
 #include <numbers>
 #include <tuple>
@@ -282,26 +283,26 @@ Sides swept(const MedialAxis& axis, const Edge& edge, const Contacts& contacts) 
 
 /// Where a side of an edge ends at a node: its foot there.
 struct Spoke {
-  std::uint32_t site;
   Vec2 foot;
   bool counter_clockwise;  ///< whether the swept area lies on the foot's counter-clockwise side
 };
 
 /// Whether all spokes stand in pairs on both sides of one foot, so that nothing lies between the
-/// swept areas around a node. That is the rule.
+/// swept areas around a node. That is the rule. (Spokes of one site have one foot.) O(k log k).
 bool all_paired(std::vector<Spoke>& spokes) {
-  std::vector<Spoke> left;
-  for (const Spoke& spoke : spokes) {
-    const auto other = std::find_if(left.begin(), left.end(), [&](const Spoke& one) {
-      return one.counter_clockwise != spoke.counter_clockwise &&
-             (one.site == spoke.site || one.foot == spoke.foot);
-    });
-    if (other == left.end())
-      left.push_back(spoke);
-    else
-      left.erase(other);
+  // By their bits feet have an order, whatever numbers they are; -0 becomes 0.
+  const auto place = [](const Spoke& spoke) {
+    return std::pair(std::bit_cast<std::uint64_t>(spoke.foot.x + 0.0),
+                     std::bit_cast<std::uint64_t>(spoke.foot.y + 0.0));
+  };
+  std::ranges::sort(spokes, {}, place);
+  std::int64_t unpaired = 0;
+  for (std::size_t i = 0; i < spokes.size(); ++i) {
+    unpaired += spokes[i].counter_clockwise ? 1 : -1;
+    const bool last_here = i + 1 == spokes.size() || place(spokes[i]) != place(spokes[i + 1]);
+    if (last_here && unpaired != 0) return false;
   }
-  return left.empty();
+  return true;
 }
 
 /// The angle at an edge's end between its feet, on the side of the edge, in [0, 2 pi]. Feet that
@@ -374,7 +375,7 @@ void add_slices(const Problem& problem, const std::vector<Swept>& edges, Sum& ar
       // Seen from the centre, an edge's area begins on its right side and ends on its left.
       const auto& contacts = edges[around[k]].contacts;
       for (std::size_t side = 0; side < 2; ++side)
-        spokes.push_back({edge.site[side], contacts[side][end].foot, (side == 1) == (end == 0)});
+        spokes.push_back({contacts[side][end].foot, (side == 1) == (end == 0)});
       angle -= angle_between_feet(disk.center, contacts[1 - end][end].foot, contacts[end][end].foot,
                                   problem.disk(edge.node[1 - end]).radius < disk.radius);
     }
