@@ -443,11 +443,25 @@ void check_vertices(const Problem& problem, Certificate& certificate) {
       }
     }
   }
+  // Where an axis has shrunk to little, as that of a circle of many arcs, any disk will do.
+  constexpr std::size_t most_looks = 64;
+  std::size_t looks = most_looks * (axis.nodes.size() + count);
+  const auto touched_by_any = [&](std::uint32_t i) {
+    for (const Node& node : axis.nodes) {
+      if (looks == 0) return false;
+      --looks;
+      if (node.component == problem.component[i] &&
+          std::abs(distance(node.disk.center, problem.point(i)) - node.disk.radius) <=
+              problem.tolerance)
+        return true;
+    }
+    return false;
+  };
   std::uint32_t first = kNone;
   for (std::uint32_t i = 0; i < count; ++i) {
     if (problem.joint[i] != Joint::reflex) continue;
     ++certificate.reflex_vertices;
-    if (touched[i]) continue;
+    if (touched[i] || touched_by_any(i)) continue;
     if (certificate.reflex_without_contact++ == 0) first = i;
   }
   if (first != kNone)
