@@ -403,17 +403,23 @@ double tangent_radius(Vec2 foot, Vec2 normal, const Site& site) {
   double radius = height / closing;
   // Where the disk is nearly the arc's own circle, the contact equation is its residual times
   // 1 - radius * curvature: Newton's method on the distance itself wins the digits back, in a step
-  // or two unless the centres are very close.
+  // or two unless the centres are very close. Distance less radius falls and is concave in the
+  // radius: a step may lead too far, from where the next ones come back, and at the arc's own
+  // radius it is far enough.
   constexpr double nearly = 0.25;
-  constexpr int most_steps = 16;
+  constexpr int most_steps = 32;
+  if (!site.is_arc() || !(std::abs(1 - radius * site.curvature) < nearly))
+    return fits_into(radius, site) ? radius : none;
+  const double own = 1 / site.curvature;
+  radius = std::min(radius, own);
   for (int step = 0; step < most_steps; ++step) {
-    if (!site.is_arc() || !(std::abs(1 - radius * site.curvature) < nearly)) break;
     const ArcView view = view_of_arc(site, foot + radius * normal);
     const double error = view.distance - radius;
-    const double slope = medial::dot(view.toward, normal) / view.size - 1;
-    if (!(slope < 0)) break;
-    radius -= error / slope;
     if (std::abs(error) <= std::numeric_limits<double>::epsilon() * radius) break;
+    const double slope = medial::dot(view.toward, normal) / view.size - 1;
+    const double next = slope < 0 ? std::min(radius - error / slope, own) : own;
+    if (!(next != radius)) break;
+    radius = next;
   }
   return fits_into(radius, site) ? radius : none;
 }
