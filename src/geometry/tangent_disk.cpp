@@ -280,8 +280,10 @@ Solutions<Real> three_carriers(std::array<const Carrier<Real>*, 3> carriers) {
   using std::abs, std::sqrt;
   sort_three(carriers, [](const auto* a, const auto* b) { return abs(a->round) > abs(b->round); });
   const Carrier<Real>& roundest = *carriers[0];
-  if (nearly_concentric(roundest, *carriers[1]) || nearly_concentric(roundest, *carriers[2]))
-    return about_center<Real>(roundest, {carriers[1], carriers[2]});
+  for (std::size_t i = 0; i < 2; ++i)
+    for (std::size_t j = i + 1; j < 3; ++j)
+      if (nearly_concentric(*carriers[i], *carriers[j]))
+        return about_center<Real>(*carriers[i], {carriers[j], carriers[3 - i - j]});
   struct Plane {
     Vector<Real> g;
     Real s, h;  // g.(x, y) + s r = h
