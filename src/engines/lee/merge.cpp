@@ -122,7 +122,8 @@ class MergeCurve {
     return passed(side, disk_, edge) > vagueness();
   }
 
-  double tie() const { return 0.25 * limits_.tolerance; }
+  /// What a stored disk touches: far less than ties.h allows, which then joins such disks.
+  double tie() const { return 0.0625 * limits_.tolerance; }
   double gap(std::uint32_t i, const Disk& disk) const {
     return std::sqrt(geometry::squared_distance(site(i), disk.center)) - disk.radius;
   }
@@ -132,12 +133,12 @@ class MergeCurve {
                                         double reached) {
     const ListEdge& edge = diagram_.edges[top(side)];
     const std::uint32_t third = edge.element[side], other = current_[1 - side];
-    // A disk that is behind by rounding only is the current one.
+    // A disk that is behind by rounding only is not: ties.h looks after it.
     const auto not_behind = [&](const Disk& disk) -> std::optional<Crossing> {
       const double position = bisector.position(disk.center);
       if (position > reached) return Crossing{disk, position, side};
       if (disk_.radius > 0 && distance(disk.center, disk_.center) <= vagueness())
-        return Crossing{disk_, reached, side};
+        return Crossing{std::abs(gap(third, disk_)) <= tie() ? disk_ : disk, reached, side};
       return std::nullopt;
     };
     if (diagram_.is_spoke(edge)) {
@@ -153,6 +154,7 @@ class MergeCurve {
     }
     if (edge.inner.radius > 0 && std::abs(gap(other, edge.inner)) <= tie())
       return not_behind(edge.inner);
+    if (disk_.radius > 0 && std::abs(gap(third, disk_)) <= tie()) return not_behind(disk_);
 
     ++statistics_.apollonius;
     const std::uint32_t own = current_[side];
