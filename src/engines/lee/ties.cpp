@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 #include "geometry/bisector.h"
@@ -18,44 +17,34 @@ class Ties {
   Ties(Graph& graph, const Elements& elements, double slack)
       : graph_(graph), elements_(elements), slack_(slack) {
     for (const Graph::Edge& edge : graph.edges) {
-      if (edge.spoke || graph.nodes[edge.from].radius == 0 || graph.nodes[edge.to].radius == 0)
-        continue;
-      if (touches(edge.from, graph.nodes[edge.to]) || touches(edge.to, graph.nodes[edge.from])) {
-        links_.emplace_back(edge.from, edge.to);
-        links_.emplace_back(edge.to, edge.from);
-        edges_.push_back(&edge);
-      }
+      const Disk &from = graph.nodes[edge.from], &to = graph.nodes[edge.to];
+      if (edge.spoke || from.radius == 0 || to.radius == 0) continue;
+      if (touches(edge.to, from) || touches(edge.from, to)) edges_.push_back(&edge);
     }
-    std::sort(links_.begin(), links_.end());
   }
 
-  /// From the best known point outward, all that its disk touches become its disk.
+  bool empty() const { return edges_.empty(); }
+
+  /// From the best known point outward, all that its disk touches become its disk. O(points).
   void join() {
-    std::vector<std::pair<double, std::size_t>> order;  // by how badly known; the first link
-    for (std::size_t i = 0; i < links_.size(); ++i)
-      if (i == 0 || links_[i].first != links_[i - 1].first)
-        order.emplace_back(-spread(links_[i].first), i);
-    std::sort(order.begin(), order.end());
-    std::vector<bool> is_joined(links_.size(), false);  // of the first link of each node
-    std::vector<std::size_t> open;
-    for (const auto& [unused, start] : order) {
+    number_points();
+    const std::vector<std::uint32_t> order = best_known_first();
+    std::vector<bool> is_joined(points_.size(), false);
+    std::vector<std::uint32_t> open;
+    for (const std::uint32_t start : order) {
       if (is_joined[start]) continue;
       is_joined[start] = true;
-      const Disk disk = graph_.nodes[links_[start].first];
+      const Disk disk = graph_.nodes[points_[start]];
       open.assign(1, start);
       while (!open.empty()) {
-        std::size_t i = open.back();
+        const std::uint32_t point = open.back();
         open.pop_back();
-        const std::uint32_t node = links_[i].first;
-        for (; i < links_.size() && links_[i].first == node; ++i) {
-          const std::uint32_t next = links_[i].second;
-          const auto first = static_cast<std::size_t>(
-              std::lower_bound(links_.begin(), links_.end(), std::pair{next, std::uint32_t{0}}) -
-              links_.begin());
-          if (is_joined[first] || !touches(next, disk)) continue;
-          is_joined[first] = true;
-          graph_.nodes[next] = disk;
-          open.push_back(first);
+        for (std::uint32_t i = first_[point]; i < first_[point + 1]; ++i) {
+          const std::uint32_t next = neighbours_[i];
+          if (is_joined[next] || !touches(points_[next], disk)) continue;
+          is_joined[next] = true;
+          graph_.nodes[points_[next]] = disk;
+          open.push_back(next);
         }
       }
     }
@@ -85,6 +74,47 @@ class Ties {
   }
 
  private:
+  /// Numbers the ends of the edges, and lists the neighbours of each.
+  void number_points() {
+    constexpr std::uint32_t unused = ~std::uint32_t{0};
+    std::vector<std::uint32_t> number(graph_.nodes.size(), unused);
+    const auto for_ends = [&](const auto& work) {
+      for (const Graph::Edge* edge : edges_) {
+        work(edge->from, edge->to);
+        work(edge->to, edge->from);
+      }
+    };
+    first_.assign(2, 0);
+    for_ends([&](std::uint32_t node, std::uint32_t) {
+      if (number[node] == unused) {
+        number[node] = static_cast<std::uint32_t>(points_.size());
+        points_.push_back(node);
+        first_.push_back(0);
+      }
+      ++first_[number[node] + 2];
+    });
+    for (std::size_t i = 2; i < first_.size(); ++i) first_[i] += first_[i - 1];
+    neighbours_.resize(first_.back());
+    for_ends([&](std::uint32_t node, std::uint32_t other) {
+      neighbours_[first_[number[node] + 1]++] = number[other];
+    });
+  }
+
+  /// The points, in steps of a power of two of how well they are known.
+  std::vector<std::uint32_t> best_known_first() const {
+    constexpr int worst = 127;
+    std::vector<std::uint8_t> rank(points_.size());
+    std::array<std::uint32_t, worst + 2> begin{};
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      rank[i] = static_cast<std::uint8_t>(std::clamp(2 - std::ilogb(spread(points_[i])), 0, worst));
+      ++begin[rank[i] + 1u];
+    }
+    for (std::size_t i = 1; i < begin.size(); ++i) begin[i] += begin[i - 1];
+    std::vector<std::uint32_t> order(points_.size());
+    for (std::uint32_t i = 0; i < points_.size(); ++i) order[begin[rank[i]]++] = i;
+    return order;
+  }
+
   /// Whether a disk could stand for a Voronoi point: it touches the elements, and their carriers,
   /// so that no edge is bent.
   bool touches(std::uint32_t node, const Disk& disk) const {
@@ -109,14 +139,16 @@ class Ties {
   Graph& graph_;
   const Elements& elements_;
   double slack_;
-  std::vector<const Graph::Edge*> edges_;                       ///< that may have no length
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> links_;  ///< both ways, sorted
+  std::vector<const Graph::Edge*> edges_;  ///< that may have no length
+  std::vector<std::uint32_t> points_;      ///< their ends, numbered
+  std::vector<std::uint32_t> first_, neighbours_;
 };
 
 }  // namespace
 
 void join_ties(Graph& graph, const Elements& elements, double tolerance) {
   Ties ties(graph, elements, 0.5 * tolerance);
+  if (ties.empty()) return;
   ties.join();
   ties.straighten();
 }
