@@ -19,6 +19,10 @@ class Ties {
     for (const Graph::Edge& edge : graph.edges) {
       const Disk &from = graph.nodes[edge.from], &to = graph.nodes[edge.to];
       if (edge.spoke || from.radius == 0 || to.radius == 0) continue;
+      // Points that are further apart are known well enough.
+      constexpr double furthest = 1e-4;
+      const double limit = furthest * from.radius;
+      if (squared_norm(from.center - to.center) > limit * limit) continue;
       if (touches(edge.to, from) || touches(edge.from, to)) edges_.push_back(&edge);
     }
   }
@@ -61,9 +65,9 @@ class Ties {
       for (const Graph::Edge* edge : edges_) {
         Disk &from = graph_.nodes[edge->from], &to = graph_.nodes[edge->to];
         if (from.center == to.center) continue;
-        const geometry::Bisector bisector(elements_.sites[edge->element[1]],
-                                          elements_.sites[edge->element[0]]);
-        if (bisector.position(from.center) <= bisector.position(to.center)) continue;
+        const Vec2 along = geometry::direction_along(elements_.sites[edge->element[1]],
+                                                     elements_.sites[edge->element[0]]);
+        if (dot(along, from.center) <= dot(along, to.center)) continue;
         is_straight = false;
         if (touches(edge->from, to))
           from = to;
