@@ -217,6 +217,44 @@ class Axis(CommandLine):
         refused = self.refuse("unsupported", "axis", "ring.wkt", "--method", "biarc-dc")
         self.refuse("[a-z_]+", "axis", "teeth.wkt", "--method", "magic")
 
+    def test_lee(self):
+        """Lee's method finds the axis of disks; its diagram less the spokes is that axis."""
+        self.write("teeth.wkt", comb(20))
+        self.write("ring.wkt", FRAME)
+        self.write("half.svg", '<svg xmlns="http://www.w3.org/2000/svg"><path d="M0 0H20A10 10 0 0 1 0 0Z"/></svg>')
+        self.succeed("axis", "teeth.wkt", "--method", "lee", "-o", "lee.json")
+        self.succeed("verify", "teeth.wkt", "lee.json")
+        by_lee = json.loads(self.succeed("info", "lee.json", "--json").stdout)
+        self.succeed("axis", "teeth.wkt", "-o", "disks.json")
+        by_disks = json.loads(self.succeed("info", "disks.json", "--json").stdout)
+        self.assertEqual(by_lee["method"], "lee")
+        self.assertEqual(by_lee["nodes"], by_disks["nodes"])
+        self.assertAlmostEqual(by_lee["length"] / by_disks["length"], 1, places=12)
+        for shape in ("ring.wkt", "half.svg"):
+            text = self.refuse("unsupported", "axis", shape, "--method", "lee", "-o", "x.json")
+            self.assertIn("disks", text)
+
+    def test_voronoi(self):
+        """Lemma 3: 2 N - 3 edges and N - 2 points; every format; holes are refused."""
+        self.write("teeth.wkt", comb(20))
+        self.write("ring.wkt", FRAME)
+        told = json.loads(self.succeed("voronoi", "teeth.wkt", "--method", "lee", "--json").stdout)
+        elements = told["segments"] + told["reflex_vertices"]
+        self.assertEqual(told["edges"], 2 * elements - 3)
+        self.assertEqual(told["voronoi_points"], elements - 2)
+        self.assertEqual(told["spokes"], 4 * told["reflex_vertices"] // 2)
+        for name, start in (("v.json", b"{"), ("v.geojson", b"{"), ("v.svg", b"<?xml"), ("v.png", b"\x89PNG"),
+                            ("v.pdf", b"%PDF")):
+            self.succeed("voronoi", "teeth.wkt", "-o", name)
+            self.assertTrue(self.read(name).startswith(start), name)
+        stored = json.loads(self.read("v.json"))
+        self.assertEqual(len(stored["items"][0]["edges"]), told["edges"])
+        piped = self.succeed("voronoi", "-", "-o", "-", "--format", "geojson", given=comb(20).encode()).stdout
+        kinds = {f["geometry"]["type"] for f in json.loads(piped)["features"]}
+        self.assertIn("Polygon", kinds)
+        self.refuse("unsupported", "voronoi", "ring.wkt", "-o", "x.json")
+        self.refuse("[a-z_]+", "voronoi", "teeth.wkt", "--method", "magic")
+
     def test_ridge_and_exterior(self):
         """Ridge following and the exterior, with their switches, and what verify says of them."""
         self.write("frame.wkt", FRAME)
@@ -853,6 +891,18 @@ class Bench(CommandLine):
         rows = self.read("ridge.csv").decode().splitlines()
         self.assertGreater(len(rows), 20)
         self.assertEqual({len(row.split(",")) for row in rows}, {8 + 3 * 7})
+
+    def test_lee(self):
+        done = self.run_medial("bench", "lee", "--quick", "--json", "-q")
+        self.assertEqual(done.returncode, 0, done.stdout.decode()[-2000:])
+        rows = json.loads(done.stdout)
+        self.assertEqual({row["shape"] for row in rows}, {"coast", "maze", "blob", "convex", "regular"})
+        for row in rows:
+            self.assertTrue(row["passed"], row)
+            self.assertGreater(row["lee"], 0)
+            self.assertLess(row["crossings"], 4)
+        self.succeed("bench", "lee", "--figures", "figures")
+        self.assertGreaterEqual(len(os.listdir(self.path("figures"))), 6)
 
     def test_outputs(self):
         quick = ("bench", "biarc", "--quick", "--tolerances", "1", "-q", "-o")

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "base/memory.h"
 #include "geometry/bisector.h"
 
 namespace medial::lee {
@@ -83,10 +84,10 @@ class Nodes {
 Graph graph_of(const Diagram& diagram, const std::vector<std::uint32_t>& last_edges) {
   const Elements& elements = diagram.elements;
   Graph graph;
-  graph.nodes.reserve(diagram.edges.size());
-  graph.touched.reserve(diagram.edges.size());
-  graph.component.reserve(diagram.edges.size());
-  graph.edges.reserve(diagram.edges.size());
+  reserve_large(graph.nodes, diagram.edges.size());
+  reserve_large(graph.touched, diagram.edges.size());
+  reserve_large(graph.component, diagram.edges.size());
+  reserve_large(graph.edges, diagram.edges.size());
   Numbering number(diagram, graph);
   for (std::size_t l = 0; l < elements.loops.size(); ++l) {
     const Elements::Loop& loop = elements.loops[l];
@@ -175,7 +176,9 @@ void complete(const Graph& graph, const Elements& elements, const Frame& frame, 
   }
   std::vector<std::uint8_t> degree;
   double largest_residual = 0;
-  axis.edges.reserve(kept);
+  reserve_large(axis.edges, kept);
+  reserve_large(axis.nodes, kept + elements.loops.size());  // one tree a loop
+  degree.reserve(kept + elements.loops.size());
   const auto number_of = [&](std::uint32_t node) {
     if (number[node] == unused) {
       number[node] = static_cast<std::uint32_t>(axis.nodes.size());

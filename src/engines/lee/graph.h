@@ -23,6 +23,7 @@ struct Graph {
   };
   std::vector<Disk> nodes;
   /// Of each Voronoi point: the elements whose polygons meet there. Of a corner, its two segments.
+  /// For join_ties() only.
   std::vector<std::array<std::uint32_t, 3>> touched;
   std::vector<std::uint32_t> component;  ///< of each node
   std::vector<Edge> edges;
