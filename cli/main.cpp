@@ -59,6 +59,7 @@ int run(int argc, char** argv, bool json) {
       make_bench_verb(program),     //
       make_field_verb(program),     //
       make_compare_verb(program),   //
+      make_offset_verb(program),    //
   };
   for (const Verb& verb : verbs) verb.app->group("Verbs");
 

@@ -11,6 +11,7 @@
 #include "base/arc.h"
 #include "medial/compute.h"
 #include "medial/query.h"
+#include "medial/verify.h"
 #include "support/generate_arcs.h"
 #include "support/offset_check.h"
 
@@ -22,7 +23,7 @@ constexpr double pi = std::numbers::pi;
 
 std::uint64_t shape_count() {
   const char* text = std::getenv("MEDIAL_PROPERTY_COUNT");
-  return text && *text ? std::strtoull(text, nullptr, 10) / 20 : 1000;
+  return text && *text ? std::strtoull(text, nullptr, 10) / 20 : 600;
 }
 
 Shape shape_of(const test::Rings& rings) {
@@ -198,6 +199,112 @@ TEST(Offset, EveryPointHasItsDistance) {
   }
   EXPECT_GT(points, 20 * shape_count());
   EXPECT_GT(regions, shape_count());
+}
+
+/// Sorted clearances, ring counts, areas and lengths of all regions.
+struct Measures {
+  std::vector<std::size_t> rings;
+  std::vector<double> areas, lengths;
+};
+Measures measures_of(const Offsets& offsets, double scale) {
+  struct One {
+    double clearance, area, length;
+    std::size_t rings;
+  };
+  std::vector<One> all;
+  for (const OffsetRegion& r : offsets.regions)
+    all.push_back({r.clearance, area(r) / (scale * scale), length(r) / scale, r.rings.size()});
+  std::sort(all.begin(), all.end(), [](const One& a, const One& b) {
+    return a.clearance != b.clearance ? a.clearance < b.clearance : a.area < b.area;
+  });
+  Measures out;
+  for (const One& one : all) {
+    out.rings.push_back(one.rings);
+    out.areas.push_back(one.area);
+    out.lengths.push_back(one.length);
+  }
+  return out;
+}
+
+TEST(Offset, MovesWithTheShape) {
+  // Rotation, scale, another start, the other direction: the same but for rounding.
+  std::size_t compared = 0;
+  for (std::uint64_t seed = 0; seed < shape_count() / 5; ++seed) {
+    const RandomShape random =
+        seed % 2 == 0 ? test::random_shape(seed) : test::random_arc_shape(seed);
+    SCOPED_TRACE(random.kind + " " + std::to_string(seed));
+    const Shape shape = shape_of(random.rings);
+    const double size = diagonal(bounding_box(shape));
+    test::Random numbers(seed);
+    const auto axis = compute(shape);
+    ASSERT_TRUE(axis.ok());
+    const double deepest = axis->nodes[deepest_node(*axis)].disk.radius;
+    if (deepest < 1e-3 * size) continue;
+    const std::vector<double> levels{deepest * numbers.between(0.1, 0.9), -0.1 * size};
+    const auto original = offset_curves(shape, levels);
+    ASSERT_TRUE(original.ok());
+    const double angle = numbers.between(0, 6), scale = numbers.power_of_ten(-2, 2);
+    test::Rings rings = random.rings;
+    for (Ring& ring : rings) {
+      for (Vec2& p : ring.points) p = scale * turned(p, std::cos(angle), std::sin(angle));
+      if (ring.points.size() < 3) continue;
+      if (ring.points.front() == ring.points.back()) continue;  // closed twice otherwise
+      std::rotate(ring.points.begin(), ring.points.begin() + 1, ring.points.end());
+      if (!ring.bulges.empty()) {
+        ring.bulges.resize(ring.points.size());
+        std::rotate(ring.bulges.begin(), ring.bulges.begin() + 1, ring.bulges.end());
+      }
+      std::reverse(ring.points.begin(), ring.points.end());
+      if (!ring.bulges.empty()) {
+        std::reverse(ring.bulges.begin(), ring.bulges.end() - 1);
+        for (double& bulge : ring.bulges) bulge = -bulge;
+      }
+    }
+    const auto moved_shape = build_shape(rings);
+    if (!moved_shape.ok()) continue;  // contacts that rounding has opened or crossed
+    const auto moved =
+        offset_curves(*moved_shape, std::vector{scale * levels[0], scale * levels[1]});
+    ASSERT_TRUE(moved.ok());
+    const Measures a = measures_of(*original, 1), b = measures_of(*moved, scale);
+    if (moved_shape->component_count() != shape.component_count()) continue;
+    ASSERT_EQ(a.rings, b.rings);
+    for (std::size_t i = 0; i < a.areas.size(); ++i) {
+      EXPECT_NEAR(a.areas[i], b.areas[i], 1e-8 * size * size);
+      EXPECT_NEAR(a.lengths[i], b.lengths[i], 1e-5 * (size + a.lengths[i]));
+    }
+    ++compared;
+    if (HasFailure()) return;
+  }
+  EXPECT_GT(compared, shape_count() / 12);
+}
+
+TEST(Offset, CountsRingsAsPixelsDo) {
+  std::size_t compared = 0;
+  for (std::uint64_t seed = 0; seed < std::min<std::uint64_t>(shape_count() / 10, 60); ++seed) {
+    const RandomShape random =
+        seed % 2 == 0 ? test::random_shape(seed) : test::random_arc_shape(seed);
+    SCOPED_TRACE(random.kind + " " + std::to_string(seed));
+    const Shape shape = shape_of(random.rings);
+    const Box box = bounding_box(shape);
+    const auto axis = compute(shape);
+    ASSERT_TRUE(axis.ok());
+    const double deepest = axis->nodes[deepest_node(*axis)].disk.radius;
+    for (const double level : {0.3 * deepest, 0.7 * deepest, -0.5 * deepest}) {
+      const std::size_t pixels = 150;
+      const Vec2 extent = box.high - box.low;
+      const double pixel = std::max(extent.x, extent.y) / static_cast<double>(pixels);
+      if (!test::is_steady(shape, level, 3 * pixel)) continue;
+      const auto offsets = offset_curves(shape, {&level, 1});
+      ASSERT_TRUE(offsets.ok());
+      const test::PixelCount count = test::count_by_pixels(shape, level, pixels);
+      std::size_t rings = 0;
+      for (const OffsetRegion& region : offsets->regions) rings += region.rings.size();
+      EXPECT_EQ(offsets->regions.size(), count.regions) << level;
+      EXPECT_EQ(rings, count.rings) << level;
+      ++compared;
+    }
+  }
+  EXPECT_GT(compared, std::min<std::uint64_t>(shape_count() / 20, 30));
 }
 
 }  // namespace

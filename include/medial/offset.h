@@ -35,9 +35,9 @@ struct Offsets {
   /// By increasing clearance, so that a parent comes before its children; those of one clearance
   /// have no point in common, but touching points within rounding.
   std::vector<OffsetRegion> regions;
-  double tolerance = 0;      ///< of the axes: what a curve's clearance is off by, about
-  double seconds_axis = 0;   ///< to compute axes
-  double seconds_curves = 0; ///< to walk along them
+  double tolerance = 0;       ///< of the axes: what a curve's clearance is off by, about
+  double seconds_axis = 0;    ///< to compute axes
+  double seconds_curves = 0;  ///< to walk along them
 };
 
 /// The regions {clearance > c} for all `clearances` at once, of an axis of the interior. Duplicates

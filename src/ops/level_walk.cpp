@@ -138,7 +138,8 @@ void LevelWalk::link_around(std::uint32_t node, std::span<const std::uint32_t> e
   leaving.reserve(edges.size());
   for (std::size_t i = 0; i < edges.size(); ++i) {
     // An edge from a node to itself stands there twice.
-    const bool second = axis_.edges[edges[i]].node[0] != node || (i > 0 && edges[i - 1] == edges[i]);
+    const bool second =
+        axis_.edges[edges[i]].node[0] != node || (i > 0 && edges[i - 1] == edges[i]);
     leaving.push_back(2 * edges[i] + (second ? 1 : 0));
   }
   if (leaving.size() <= 2) {
@@ -191,8 +192,9 @@ void LevelWalk::link_around(std::uint32_t node, std::span<const std::uint32_t> e
   const auto apart = [&](const End& end) {
     return std::abs(std::remainder(end.key - in_left[0].key, 2 * std::numbers::pi));
   };
-  const auto nearest = std::min_element(out_left.begin(), out_left.end(),
-                                        [&](const End& a, const End& b) { return apart(a) < apart(b); });
+  const auto nearest =
+      std::min_element(out_left.begin(), out_left.end(),
+                       [&](const End& a, const End& b) { return apart(a) < apart(b); });
   const auto shift = static_cast<std::size_t>(nearest - out_left.begin());
   for (std::size_t k = 0; k < in_left.size(); ++k)
     next_[in_left[k].half] = out_left[(k + shift) % out_left.size()].half;
@@ -265,7 +267,8 @@ std::vector<LevelLoop> LevelWalk::loops_at(double level, std::size_t k) {
     if (!curved) loop.ring.bulges.clear();
     if (loop.ring.points.size() >= (curved ? 2U : 3U)) loops.push_back(std::move(loop));
   };
-  const auto crossed = std::span(bin_edges_).subspan(bin_begin_[k], bin_begin_[k + 1] - bin_begin_[k]);
+  const auto crossed =
+      std::span(bin_edges_).subspan(bin_begin_[k], bin_begin_[k + 1] - bin_begin_[k]);
   for (const std::uint32_t e : crossed) find_crossing(e, level);
   for (const std::uint32_t e : crossed)
     for (const HalfEdge half : {2 * e, 2 * e + 1})

@@ -70,13 +70,13 @@ class LevelWalk {
   }
 
   const MedialAxis& axis_;
-  std::vector<HalfEdge> next_;    ///< around the face on the right
-  std::vector<double> lowest_;    ///< of each edge
-  std::vector<Face> faces_;       ///< one for each loop of the boundary that has edges
+  std::vector<HalfEdge> next_;        ///< around the face on the right
+  std::vector<double> lowest_;        ///< of each edge
+  std::vector<Face> faces_;           ///< one for each loop of the boundary that has edges
   std::vector<std::uint32_t> alone_;  ///< nodes without edges
   std::vector<std::uint32_t> bin_begin_, bin_edges_;  ///< of each level: the edges that cross it
-  std::vector<Vec2> rise_;            ///< where each half edge rises above the level under way
-  std::vector<bool> risen_;           ///< and whether it does, and was not walked yet
+  std::vector<Vec2> rise_;   ///< where each half edge rises above the level under way
+  std::vector<bool> risen_;  ///< and whether it does, and was not walked yet
 };
 
 }  // namespace medial::ops

@@ -89,7 +89,7 @@ class Regions {
   struct Upper {
     std::uint32_t region, key;
   };
-  std::vector<Upper> upper_;             ///< the regions of the level before
+  std::vector<Upper> upper_;              ///< the regions of the level before
   std::vector<std::uint32_t> region_of_;  ///< of each key, the last one
 };
 
@@ -132,8 +132,7 @@ struct Surroundings {
 };
 
 /// Sites are numbered in the order of the points, a vertex before the edge that starts there.
-Surroundings surroundings_of(const Shape& shape, const Exterior& exterior,
-                             const MedialAxis& axis) {
+Surroundings surroundings_of(const Shape& shape, const Exterior& exterior, const MedialAxis& axis) {
   const auto component_at = [&](std::size_t point) {
     return exterior.of_frame[point] ? Surroundings::frame
                                     : shape.component[exterior.of_loop[point]];
@@ -148,7 +147,8 @@ Surroundings surroundings_of(const Shape& shape, const Exterior& exterior,
   }
   around.of_part.resize(exterior.shape.component_count());
   for (std::size_t i = 0; i < exterior.shape.loop_count(); ++i) {
-    const std::uint32_t begin = exterior.shape.loop_begin[i], end = exterior.shape.loop_begin[i + 1];
+    const std::uint32_t begin = exterior.shape.loop_begin[i],
+                        end = exterior.shape.loop_begin[i + 1];
     around.of_part[exterior.shape.component[i]] = component_at(begin);
     for (std::uint32_t p = begin + 1; p < end; ++p)
       if (component_at(p) != component_at(p - 1))
@@ -159,9 +159,8 @@ Surroundings surroundings_of(const Shape& shape, const Exterior& exterior,
 
 /// Appends the regions of the shape grown by each level, first level first: its components, which
 /// are connected where the exterior's axis between two of them is below the level.
-void add_outward(const MedialAxis& axis, const Surroundings& around,
-                 std::span<const double> levels, Regions& regions,
-                 std::vector<OffsetRegion>& out) {
+void add_outward(const MedialAxis& axis, const Surroundings& around, std::span<const double> levels,
+                 Regions& regions, std::vector<OffsetRegion>& out) {
   const auto component_of = [&](const LevelLoop& loop) {
     return loop.site != no_site ? around.of_site[loop.site]
                                 : around.of_part[axis.nodes[loop.node].component];
@@ -258,8 +257,7 @@ Result<Offsets> offset_both_sides(const Shape& shape, std::span<const double> cl
     offsets.tolerance = std::max(offsets.tolerance, axis->tolerance);
     ops::divide_at_summits(*axis);
     regions.rename(shape.component_count(), [](std::uint32_t component) { return component; });
-    add_outward(*axis, surroundings_of(shape, *exterior, *axis), outside, regions,
-                offsets.regions);
+    add_outward(*axis, surroundings_of(shape, *exterior, *axis), outside, regions, offsets.regions);
     offsets.seconds_curves += walking.lap();
   }
   finish(offsets);

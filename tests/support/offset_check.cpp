@@ -1,6 +1,7 @@
 #include "support/offset_check.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -44,6 +45,25 @@ std::vector<Ring> rings_of(const Shape& shape) {
       ring.bulges.push_back(shape.bulge(shape.loop_begin[i] + k));
   }
   return rings;
+}
+
+/// How often an edge winds around a point, counted where it passes the ray to the right.
+int winding_of(const BoundaryEdge& edge, Vec2 p) {
+  const Vec2 u = edge.start - p, v = edge.end - p;
+  const double side = cross(u, v);
+  const bool up = u.y <= 0 && v.y > 0, down = u.y > 0 && v.y <= 0;
+  // What is on the chord itself counts as right of what goes up, left of what goes down, and above
+  // of what is level.
+  const bool level = !up && !down && side == 0;
+  const bool left = side > 0 || (side == 0 && (down || (level && v.x > u.x)));
+  const bool right = side < 0 || (side == 0 && (up || (level && v.x < u.x)));
+  int sum = up && left ? 1 : down && right ? -1 : 0;
+  if (edge.bulge == 0) return sum;
+  // Between the chord and the arc.
+  const double beside = verify_detail::distance_to_carrier(p, edge);
+  if (edge.bulge > 0 && right && beside > 0) ++sum;
+  if (edge.bulge < 0 && left && beside < 0) --sum;
+  return sum;
 }
 
 /// A point of a ring that is on no line of symmetry.
@@ -96,19 +116,8 @@ std::string fault_of(const Offsets& offsets, std::size_t i) {
 
 int winding(const std::vector<Ring>& rings, Vec2 p) {
   int sum = 0;
-  for (const Ring& ring : rings) {
-    for_edges(ring, [&](const BoundaryEdge& edge) {
-      const Vec2 u = edge.start - p, v = edge.end - p;
-      const double side = cross(u, v);
-      if (u.y <= 0 && v.y > 0 && side > 0) ++sum;
-      if (u.y > 0 && v.y <= 0 && side < 0) --sum;
-      if (edge.bulge == 0) return;
-      // Between the chord and the arc.
-      const double beside = verify_detail::distance_to_carrier(p, edge);
-      if (edge.bulge > 0 && side < 0 && beside > 0) ++sum;
-      if (edge.bulge < 0 && side > 0 && beside < 0) --sum;
-    });
-  }
+  for (const Ring& ring : rings)
+    for_edges(ring, [&](const BoundaryEdge& edge) { sum += winding_of(edge, p); });
   return sum;
 }
 
@@ -155,6 +164,23 @@ OffsetCheck check_offsets(const Shape& shape, const Offsets& offsets, int inside
   return check;
 }
 
+bool is_steady(const Shape& shape, double clearance, double slack) {
+  if (std::abs(clearance) <= slack) return false;
+  const std::vector<double> levels{clearance - slack, clearance - slack / 2, clearance,
+                                   clearance + slack / 2, clearance + slack};
+  const auto offsets = offset_curves(shape, levels);
+  if (!offsets) return false;
+  std::vector<int> children(offsets->regions.size(), 0);
+  for (const OffsetRegion& region : offsets->regions) {
+    if (region.parent == no_region) continue;
+    ++children[region.parent];
+    if (region.rings.size() != offsets->regions[region.parent].rings.size()) return false;
+  }
+  for (std::size_t i = 0; i < children.size(); ++i)
+    if (offsets->regions[i].clearance < levels.back() && children[i] != 1) return false;
+  return true;
+}
+
 PixelCount count_by_pixels(const Shape& shape, double clearance, std::size_t pixels) {
   const verify_detail::DistanceTree tree(shape);
   const std::vector<Ring> own = rings_of(shape);
@@ -166,14 +192,29 @@ PixelCount count_by_pixels(const Shape& shape, double clearance, std::size_t pix
   const auto columns = static_cast<std::size_t>(std::ceil(size.x / step)) + 3;
   const auto rows = static_cast<std::size_t>(std::ceil(size.y / step)) + 3;
   std::vector<bool> in(columns * rows);
+  std::vector<double> beyond(columns * rows);  // how far from the curve, about
   for (std::size_t y = 0; y < rows; ++y) {
+    const double level = low.y + (static_cast<double>(y) - 1) * step;
+    // Only edges that a horizontal line meets wind around its points.
+    std::vector<Ring> near;
+    for (const Ring& ring : own) {
+      for_edges(ring, [&](const BoundaryEdge& edge) {
+        const double room = std::abs(edge.bulge) * distance(edge.start, edge.end);
+        if (std::min(edge.start.y, edge.end.y) - room <= level &&
+            std::max(edge.start.y, edge.end.y) + room >= level)
+          near.push_back({{edge.start, edge.end}, RingRole::any, {edge.bulge}});
+      });
+    }
     double expected = step;
     for (std::size_t x = 0; x < columns; ++x) {
-      const Vec2 p{low.x + (static_cast<double>(x) - 1) * step,
-                   low.y + (static_cast<double>(y) - 1) * step};
+      const Vec2 p{low.x + (static_cast<double>(x) - 1) * step, level};
       expected = tree.distance(p, expected + step);
-      const double of_p = winding(own, p) != 0 ? expected : -expected;
+      int around = 0;
+      for (const Ring& edge : near)
+        around += winding_of({edge.points[0], edge.points[1], edge.bulges[0]}, p);
+      const double of_p = around != 0 ? expected : -expected;
       in[y * columns + x] = of_p > clearance;
+      beyond[y * columns + x] = std::abs(of_p - clearance);
     }
   }
   // Inside by eight neighbours, outside by four: each region has one boundary more than holes.
@@ -190,10 +231,14 @@ PixelCount count_by_pixels(const Shape& shape, double clearance, std::size_t pix
       if (y + 1 < rows && x > 0 && in[here]) join(here, here + columns - 1);
     }
   }
+  // What pixels break off at the tip of a cusp is nowhere far from the curve.
+  std::vector<bool> counts(in.size(), false);
+  for (std::uint32_t i = 0; i < in.size(); ++i)
+    if (beyond[i] > 1.5 * step) counts[sets.find(i)] = true;
   PixelCount count;
   std::size_t outside = 0;
-  for (std::uint32_t i = 0; i < in.size(); ++i)
-    if (sets.find(i) == i) ++(in[i] ? count.regions : outside);
+  for (std::size_t i = 0; i < in.size(); ++i)
+    if (counts[i]) ++(in[i] ? count.regions : outside);
   count.rings = count.regions + outside - 1;
   return count;
 }

@@ -26,10 +26,16 @@ OffsetCheck check_offsets(const Shape& shape, const Offsets& offsets, int inside
 int winding(const std::vector<Ring>& rings, Vec2 p);
 
 /// How many rings the boundary of {clearance > c} has, by the pixels of a grid of this many along
-/// the longer side: the components of pixels whose centres are inside, and their holes.
+/// the longer side: the components of pixels whose centres are inside, and their holes; those that
+/// reach further than one and a half pixels from the curve.
 struct PixelCount {
   std::size_t regions = 0, rings = 0;
 };
+/// Whether every region at clearance - slack holds just one at each of some clearances up to
+/// clearance + slack, with as many rings: then pixels of a third of the slack tell how many there
+/// are.
+bool is_steady(const Shape& shape, double clearance, double slack);
+
 PixelCount count_by_pixels(const Shape& shape, double clearance, std::size_t pixels);
 
 }  // namespace medial::test
