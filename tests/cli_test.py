@@ -1004,5 +1004,44 @@ class Interruption(CommandLine):
         self.assertGreater(interrupted, 8)
 
 
+class Offset(CommandLine):
+    SQUARE = "POLYGON ((0 0, 10 0, 10 8, 0 8, 0 0), (4 3, 4 5, 6 5, 6 3, 4 3))"
+
+    def test_every_format(self):
+        self.write("s.wkt", self.SQUARE)
+        for name in ("o.json", "o.geojson", "o.wkt", "o.dxf", "o.svg", "o.pdf", "o.png", "o.ps"):
+            self.succeed("offset", "s.wkt", "--distance=1,-1", "-o", name)
+            self.assertGreater(len(self.read(name)), 100)
+        stored = json.loads(self.read("o.json"))
+        regions = stored["items"][0]["regions"]
+        self.assertEqual([r["clearance"] for r in regions], [-1, 1])
+        self.assertEqual([r["parent"] for r in regions], [None, 0])
+        self.assertEqual([len(r["rings"]) for r in regions], [1, 2])
+        features = json.loads(self.read("o.geojson"))["features"]
+        self.assertAlmostEqual(features[0]["properties"]["area"], 80 + 36 + math.pi)
+        self.assertIn(b"CIRCULARSTRING", self.read("o.wkt"))
+        self.assertEqual(self.read("o.wkt").count(b"\n"), 2)
+
+    def test_passes(self):
+        self.write("s.wkt", self.SQUARE)
+        told = json.loads(self.succeed("offset", "s.wkt", "--step", "0.5", "--until", "empty",
+                                       "--json").stdout)
+        self.assertEqual((told["features"], told["regions"]), (1, 1 + 1 + 2 + 4))
+        self.succeed("offset", "s.wkt", "--step", "0.5", "--until", "2", "--exterior", "-o", "-",
+                     "--format", "wkt")
+        self.refuse("invalid_option", "offset", "s.wkt", "--step", "0.5", "--exterior")
+        self.refuse("too_large", "offset", "s.wkt", "--step", "1e-9")
+
+    def test_what_cannot_be_done_is_refused(self):
+        self.write("s.wkt", self.SQUARE)
+        self.write("l.wkt", "LINESTRING (0 0, 1 1)")
+        self.refuse("invalid_option", "offset", "s.wkt")
+        self.refuse("invalid_option", "offset", "s.wkt", "--distance", "0")
+        self.refuse("invalid_option", "offset", "s.wkt", "--distance", "1", "--step", "1")
+        self.refuse("invalid_option", "offset", "s.wkt", "--step", "1", "--until", "never")
+        self.refuse("unsupported", "offset", "s.wkt", "--distance", "1", "-o", "o.shp")
+        self.assertNotEqual(self.run_medial("offset", "l.wkt", "--distance", "1").returncode, 0)
+
+
 if __name__ == "__main__":
     unittest.main(verbosity=2)
