@@ -82,6 +82,19 @@ TEST_P(NearCircle, OfManyDigitsIsACircle) {
   EXPECT_TRUE(verify(*shape, *axis).passed);
 }
 
+/// An arc so short that its own curvature means nothing belongs to the circle around it.
+TEST(CircleOfArcs, WithASliverIsACircle) {
+  Ring ring;
+  for (const double angle : {0.0, 1e-6, 2.0, 4.0})
+    ring.points.push_back({std::cos(angle), std::sin(angle)});
+  ring.bulges = {1.01 * std::tan(1e-6 / 4), std::tan((2.0 - 1e-6) / 4), std::tan(0.5),
+                 std::tan((2 * std::numbers::pi - 4) / 4)};
+  const auto shape = build_shape(Rings{ring});
+  ASSERT_TRUE(shape) << to_string(shape.error());
+  EXPECT_EQ(shape->points.size(), 2);
+  EXPECT_EQ(failures_of(ring), "");
+}
+
 INSTANTIATE_TEST_SUITE_P(Arcs, NearCircle, testing::Values(3, 4, 5, 8, 12, 24, 64));
 
 }  // namespace

@@ -101,8 +101,8 @@ class Cleaner {
     const double length = norm(second.chord());
     const double expected = bulge_of(end_tangent(first), second.chord());
     if (!(std::abs(expected - second.bulge) * length <= play_)) return false;
-    const double longer = std::max(length, norm(first.chord()));
-    return std::abs(curvature(first) - curvature(second)) * longer * longer <= 4 * play_;
+    const double shorter = std::min(length, norm(first.chord()));
+    return std::abs(curvature(first) - curvature(second)) * shorter * shorter <= 8 * play_;
   }
 
   /// Replaces each run of arcs on one circle by one arc, or by two if it is more than a half
@@ -209,15 +209,16 @@ class Cleaner {
     result.push_back(second);
   }
 
-  /// Whether all vertices between two edges lie on the arc, within the play.
+  /// Whether all edges of a run lie on the arc, within the play: their ends and their middles.
   bool follows(const BulgeArc& whole, std::size_t begin, std::size_t end) const {
     const Vec2 normal = left_of(start_tangent(whole));
     const double half_curvature = curvature(whole) / 2;
-    for (std::size_t i = begin + 1; i < end; ++i) {
-      const Vec2 q = edges_[i].point - whole.start;
-      const double offset = dot(normal, q) - half_curvature * squared_norm(q);
-      if (!(std::abs(offset) <= play_)) return false;
-    }
+    const auto is_on = [&](Vec2 p) {
+      const Vec2 q = p - whole.start;
+      return std::abs(dot(normal, q) - half_curvature * squared_norm(q)) <= play_;
+    };
+    for (std::size_t i = begin; i < end; ++i)
+      if (!is_on(edges_[i].point) || !is_on(apex(arc(i)))) return false;
     return true;
   }
 
