@@ -87,7 +87,7 @@ TEST(CircleOfArcs, WithASliverIsACircle) {
   Ring ring;
   for (const double angle : {0.0, 1e-6, 2.0, 4.0})
     ring.points.push_back({std::cos(angle), std::sin(angle)});
-  ring.bulges = {1.01 * std::tan(1e-6 / 4), std::tan((2.0 - 1e-6) / 4), std::tan(0.5),
+  ring.bulges = {(1 + 1e-9) * std::tan(1e-6 / 4), std::tan((2.0 - 1e-6) / 4), std::tan(0.5),
                  std::tan((2 * std::numbers::pi - 4) / 4)};
   const auto shape = build_shape(Rings{ring});
   ASSERT_TRUE(shape) << to_string(shape.error());
