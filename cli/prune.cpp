@@ -18,6 +18,8 @@ namespace {
 
 const char* help_of(PruneMeasure measure) {
   switch (measure) {
+    case PruneMeasure::prominence:
+      return "Branches by the geometric mean of significance and of the same by R";
     case PruneMeasure::significance:
       return "Branches by how far the shape reaches out beyond the disk where they\n"
              "begin, by that disk's radius (Ho and Dyer)";
@@ -65,7 +67,7 @@ void add_prune_switches(CLI::App& verb, PruneSwitches& switches) {
   CLI::Option* by =
       verb.add_option("--by", switches.by,
                       "One of these measures with its default, or for --keep (default:\n"
-                      "significance).")
+                      "prominence).")
           ->option_text("MEASURE")
           ->group(group);
   CLI::Option* keep = verb.add_option("--keep", switches.keep,
