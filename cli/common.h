@@ -35,6 +35,8 @@ Verb make_info_verb(CLI::App& program);
 Verb make_legal_verb(CLI::App& program);
 Verb make_draw_verb(CLI::App& program);
 Verb make_prune_verb(CLI::App& program);
+Verb make_smooth_verb(CLI::App& program);
+Verb make_rebuild_verb(CLI::App& program);
 Verb make_distance_verb(CLI::App& program);
 Verb make_voxels_verb(CLI::App& program);
 Verb make_bench_verb(CLI::App& program);

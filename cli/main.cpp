@@ -53,6 +53,8 @@ int run(int argc, char** argv, bool json) {
       make_legal_verb(program),     //
       make_draw_verb(program),      //
       make_prune_verb(program),     //
+      make_smooth_verb(program),    //
+      make_rebuild_verb(program),   //
       make_voronoi_verb(program),   //
       make_distance_verb(program),  //
       make_voxels_verb(program),    //

@@ -1,0 +1,293 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <new>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <string_view>
+
+#include "base/arc.h"
+#include "io/native.h"
+#include "io/output.h"
+#include "io/picture.h"
+#include "io/place.h"
+#include "medial/io/shapes.h"
+#include "medial/io/write.h"
+
+namespace medial::io {
+
+namespace {
+
+constexpr std::array<std::string_view, 7> kFormats{"json", "svg", "wkt", "geojson",
+                                                   "pdf",  "png", "ps"};
+
+std::string quoted(const std::string& text) {
+  using Json = nlohmann::json;
+  return Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+/// The loops of a shape, part by part: the outer loop first, then its holes.
+std::vector<std::vector<std::size_t>> parts_of(const Shape& shape) {
+  std::vector<std::vector<std::size_t>> parts(shape.component_count());
+  for (const bool holes : {false, true})
+    for (std::size_t i = 0; i < shape.loop_count(); ++i)
+      if (shape.hole[i] == holes) parts[shape.component[i]].push_back(i);
+  return parts;
+}
+
+/// Calls edge(BulgeArc) for the edges of a loop in their order.
+template <class Visit>
+void for_each_edge(const Shape& shape, std::size_t loop, const Visit& visit) {
+  const auto points = shape.loop(loop);
+  for (std::size_t k = 0; k < points.size(); ++k)
+    visit(BulgeArc{points[k], points[k + 1 < points.size() ? k + 1 : 0],
+                   shape.bulge(shape.loop_begin[loop] + k)});
+}
+
+bool has_arcs(const Shape& shape) {
+  return std::ranges::any_of(shape.bulges, [](double bulge) { return bulge != 0; });
+}
+
+void put_point(OutputStream& out, Vec2 p, char between) {
+  out.put(p.x);
+  out.put(between);
+  out.put(p.y);
+}
+
+/// The points of a loop, arcs cut so that chords stay within a distance; the first one again.
+std::vector<Vec2> points_of(const Shape& shape, std::size_t loop, double chord) {
+  std::vector<Vec2> points;
+  for_each_edge(shape, loop, [&](const BulgeArc& arc) {
+    points.push_back(arc.start);
+    if (arc.bulge == 0) return;
+    const double angle = 4 * std::atan(arc.bulge);
+    const double radius = 1 / std::abs(curvature(arc));
+    const double longest = 2 * std::acos(std::max(1 - chord / radius, 0.0));
+    const double count = std::min(std::ceil(std::abs(angle) / longest), 1e5);
+    const Vec2 tangent = start_tangent(arc);
+    for (double k = 1; k < count; ++k) {
+      const double half = angle * k / count / 2;
+      const Vec2 direction = turned(tangent, std::cos(half), std::sin(half));
+      points.push_back(arc.start + 2 * radius * std::abs(std::sin(half)) * direction);
+    }
+  });
+  points.push_back(points.front());
+  return points;
+}
+
+void write_svg(OutputStream& out, const ShapesFile& file) {
+  Box box{{0, 0}, {0, 0}};
+  bool first = true;
+  for (const ShapeItem& item : file.items) {
+    if (item.shape.points.empty()) continue;
+    const Box own = bounding_box(item.shape);
+    if (first) box = own;
+    first = false;
+    box.low = {std::min(box.low.x, own.low.x), std::min(box.low.y, own.low.y)};
+    box.high = {std::max(box.high.x, own.high.x), std::max(box.high.y, own.high.y)};
+  }
+  const double margin = 0.02 * diagonal(box);
+  const Vec2 size = box.high - box.low + 2 * margin * Vec2{1, 1};
+  const double top = file.y_down ? box.low.y - margin : -box.high.y - margin;
+  const double width = file.width, height = size.x > 0 ? width * size.y / size.x : width;
+  out.put(
+      fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{:.6g}\" "
+                  "height=\"{:.6g}\" viewBox=\"{:.9g} {:.9g} {:.9g} {:.9g}\">\n",
+                  width, height, box.low.x - margin, top, size.x, size.y));
+  out.put(fmt::format(
+      "<g{} fill=\"#f1f1ec\" fill-rule=\"evenodd\" stroke=\"#404045\" stroke-width=\"{:.3g}\" "
+      "stroke-linejoin=\"round\">\n",
+      file.y_down ? "" : " transform=\"scale(1 -1)\"", 1.5e-3 * std::max(size.x, size.y)));
+  for (const ShapeItem& item : file.items) {
+    out.put("<path d=\"");
+    for (std::size_t i = 0; i < item.shape.loop_count(); ++i) {
+      bool begun = false;
+      for_each_edge(item.shape, i, [&](const BulgeArc& arc) {
+        if (!begun) {
+          out.put('M');
+          put_point(out, arc.start, ' ');
+          begun = true;
+        }
+        if (arc.bulge == 0) {
+          out.put('L');
+        } else {
+          const double radius = 1 / std::abs(curvature(arc));
+          out.put('A');
+          out.put(radius);
+          out.put(' ');
+          out.put(radius);
+          out.put(arc.bulge > 0 ? " 0 0 1 " : " 0 0 0 ");
+        }
+        put_point(out, arc.end, ' ');
+      });
+      out.put("Z\n");
+    }
+    out.put("\"/>\n");
+  }
+  out.put("</g>\n</svg>\n");
+}
+
+/// A loop in well-known text: plain, or a curve of lines and arcs through three points each.
+void put_wkt_loop(OutputStream& out, const Shape& shape, std::size_t loop, bool curved) {
+  if (!curved) {
+    const char* separator = "(";
+    for (const Vec2 p : points_of(shape, loop, 1)) {
+      out.put(std::string_view(separator));
+      put_point(out, p, ' ');
+      separator = ", ";
+    }
+    out.put(')');
+    return;
+  }
+  out.put("COMPOUNDCURVE (");
+  bool first = true;
+  for_each_edge(shape, loop, [&](const BulgeArc& arc) {
+    if (!first) out.put(", ");
+    first = false;
+    out.put(arc.bulge == 0 ? "(" : "CIRCULARSTRING (");
+    put_point(out, arc.start, ' ');
+    if (arc.bulge != 0) {
+      out.put(", ");
+      put_point(out, apex(arc), ' ');
+    }
+    out.put(", ");
+    put_point(out, arc.end, ' ');
+    out.put(')');
+  });
+  out.put(')');
+}
+
+void write_wkt(OutputStream& out, const ShapesFile& file) {
+  for (const ShapeItem& item : file.items) {
+    const Shape& shape = item.shape;
+    const bool curved = has_arcs(shape);
+    const auto parts = parts_of(shape);
+    const bool one = parts.size() == 1;
+    if (parts.empty()) {
+      out.put("POLYGON EMPTY\n");
+      continue;
+    }
+    if (!one) out.put(curved ? "MULTISURFACE (" : "MULTIPOLYGON (");
+    if (one && !curved) out.put("POLYGON ");
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+      if (k > 0) out.put(", ");
+      out.put(curved ? "CURVEPOLYGON (" : "(");
+      for (std::size_t i = 0; i < parts[k].size(); ++i) {
+        if (i > 0) out.put(", ");
+        put_wkt_loop(out, shape, parts[k][i], curved);
+      }
+      out.put(')');
+    }
+    out.put(one ? "\n" : ")\n");
+  }
+}
+
+void write_geojson(OutputStream& out, const ShapesFile& file) {
+  out.put("{\"type\":\"FeatureCollection\",\"features\":[");
+  bool first = true;
+  for (const ShapeItem& item : file.items) {
+    const Shape& shape = item.shape;
+    out.put(first ? "\n" : ",\n");
+    first = false;
+    out.put("{\"type\":\"Feature\",\"properties\":{");
+    for (std::size_t i = 0; i < item.attributes.size(); ++i)
+      out.put(fmt::format("{}{}:{}", i > 0 ? "," : "", quoted(item.attributes[i].first),
+                          quoted(item.attributes[i].second)));
+    out.put("},\"geometry\":{\"type\":\"MultiPolygon\",\"coordinates\":[");
+    const double chord = shape.points.empty() ? 1 : file.chord * diagonal(bounding_box(shape));
+    const auto parts = parts_of(shape);
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+      out.put(k > 0 ? ",[" : "[");
+      for (std::size_t i = 0; i < parts[k].size(); ++i) {
+        out.put(i > 0 ? ",[" : "[");
+        const char* separator = "[";
+        for (const Vec2 p : points_of(shape, parts[k][i], chord)) {
+          out.put(std::string_view(separator));
+          put_point(out, p, ',');
+          out.put(']');
+          separator = ",[";
+        }
+        out.put(']');
+      }
+      out.put(']');
+    }
+    out.put("]}}");
+  }
+  out.put("\n]}\n");
+}
+
+Status write_stream(OutputStream& out, const std::string& format, const ShapesFile& file) {
+  Status status = success();
+  if (format == "svg") {
+    write_svg(out, file);
+  } else if (format == "wkt") {
+    write_wkt(out, file);
+  } else if (format == "geojson") {
+    write_geojson(out, file);
+  } else {
+    NativeFile native;
+    native.crs_wkt = file.crs_wkt;
+    native.y_down = file.y_down;
+    for (const ShapeItem& item : file.items) {
+      native.items.emplace_back();
+      native.items.back().shape = item.shape;
+      native.items.back().attributes = item.attributes;
+    }
+    WriteOptions pictures;
+    pictures.width = file.width;
+    status =
+        format == "json" ? write_native(out, native) : write_picture(out, format, native, pictures);
+  }
+  if (!status) return status;
+  return out.finish();
+}
+
+Status write_any(const std::string& path, const std::string& option, const ShapesFile& file) {
+  std::string format = option;
+  if (format.empty())
+    format = path == "-" ? "json" : std::filesystem::path(path).extension().string();
+  if (format.starts_with('.')) format.erase(0, 1);
+  std::ranges::transform(format, format.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (std::ranges::find(kFormats, format) == kFormats.end()) {
+    return Error{ErrorCode::unsupported,
+                 fmt::format("'{}' is no format of shapes to write; known are {}", format,
+                             known_shape_formats()),
+                 in_file(path)};
+  }
+  if (is_stream(path)) {
+    Result<OutputStream> out = OutputStream::open(path);
+    if (!out) return out.error();
+    return write_stream(*out, format, file);
+  }
+  Result<PendingFile> pending = PendingFile::create(path);
+  if (!pending) return pending.error();
+  Result<OutputStream> out = OutputStream::open(pending->path());
+  if (!out) return out.error();
+  if (Status status = write_stream(*out, format, file); !status) return status;
+  return pending->commit();
+}
+
+}  // namespace
+
+std::string known_shape_formats() { return fmt::format(".{}", fmt::join(kFormats, " .")); }
+
+Status write_shapes(const std::string& path, const std::string& format, const ShapesFile& file) {
+  Error error;
+  try {
+    Status status = write_any(path, format, file);
+    if (status) return status;
+    error = std::move(status.error());
+  } catch (const std::bad_alloc&) {
+    error = {ErrorCode::out_of_memory, "memory ran out", {}};
+  } catch (const std::exception& problem) {
+    error = {ErrorCode::internal, problem.what(), {}};
+  }
+  error.place.file = path;
+  return error;
+}
+
+}  // namespace medial::io
