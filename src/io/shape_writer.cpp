@@ -92,11 +92,10 @@ void write_svg(OutputStream& out, const ShapesFile& file) {
   const double margin = 0.02 * diagonal(box);
   const Vec2 size = box.high - box.low + 2 * margin * Vec2{1, 1};
   const double top = file.y_down ? box.low.y - margin : -box.high.y - margin;
-  const double width = file.width, height = size.x > 0 ? width * size.y / size.x : width;
-  out.put(
-      fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{:.6g}\" "
-                  "height=\"{:.6g}\" viewBox=\"{:.9g} {:.9g} {:.9g} {:.9g}\">\n",
-                  width, height, box.low.x - margin, top, size.x, size.y));
+  // Without a width of the picture a unit stays a unit for who reads it again.
+  out.put(fmt::format(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"{:.9g} {:.9g} {:.9g} {:.9g}\">\n",
+      box.low.x - margin, top, size.x, size.y));
   out.put(fmt::format(
       "<g{} fill=\"#f1f1ec\" fill-rule=\"evenodd\" stroke=\"#404045\" stroke-width=\"{:.3g}\" "
       "stroke-linejoin=\"round\">\n",

@@ -51,7 +51,8 @@ AxisFrame HalfEdges::frame(HalfEdge half, bool at_end) const {
 }
 
 Vec2 HalfEdges::touch(HalfEdge half, bool at_end) const {
-  if (exact(half)) return foot(axis_.sites[right_site(half)], disk(half, at_end).center);
+  if (exact(half))
+    return touch_of(axis_, axis_.sites[right_site(half)], disk(half, at_end).center, at_end);
   return boundary_at(frame(half, at_end), Side::right).point;
 }
 
@@ -71,6 +72,8 @@ double HalfEdges::direction(HalfEdge half) const {
 
 double HalfEdges::gap(HalfEdge half) const {
   const HalfEdge after = next_[half];
+  // Along one site, the boundary just goes on.
+  if (exact(half) && right_site(half) == right_site(after) && (half ^ 1U) != after) return 0;
   const Disk& at = disk(half, true);
   const Vec2 begin = touch(half, true), end = touch(after, false);
   const double slack = std::max(4 * axis_.tolerance, 1e-9 * at.radius);
@@ -88,6 +91,15 @@ double HalfEdges::gap(HalfEdge half) const {
   };
   const double expected = angle_between(back.tangent, on.tangent) - to_foot(back) - to_foot(on);
   return expected > 0 ? angle : 0;
+}
+
+Vec2 touch_of(const MedialAxis& axis, const Site& site, Vec2 center, bool ends) {
+  if (site.kind == SiteKind::arc && site.bulge > 0) {
+    const BulgeArc arc{site.start, site.end, site.bulge};
+    const Vec2 middle = arc.start + (1 / curvature(arc)) * left_of(start_tangent(arc));
+    if (distance(middle, center) <= 64 * axis.tolerance) return ends ? site.end : site.start;
+  }
+  return foot(site, center);
 }
 
 void add_arc(const Disk& disk, Vec2 begin, Vec2 end, double angle, Contour& contour) {

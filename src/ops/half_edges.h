@@ -53,6 +53,10 @@ class HalfEdges {
   std::vector<HalfEdge> next_;
 };
 
+/// Where a disk around `center` touches a site whose stretch of the boundary begins or ends there.
+/// Around the centre of an arc, within rounding, it touches all of it: that is its start or end.
+Vec2 touch_of(const MedialAxis& axis, const Site& site, Vec2 center, bool ends);
+
 /// The arc of a disk from one point to another, counter-clockwise, as one piece or two.
 void add_arc(const Disk& disk, Vec2 begin, Vec2 end, double angle, Contour& contour);
 

@@ -111,8 +111,13 @@ void Importance::add_sides(std::uint32_t e, double t0, double t1, Beyond& sum) c
   const Curve curve = t0 == 0 && t1 == 1 ? whole : whole.part(t0, t1);
   const Disk first{curve.origin, curve.r0}, last{curve.end, curve.r2};
   const bool exact = axis_.resolution == 0;
+  const std::size_t sites = axis_.sites.size();
   const auto points = [&](double t, const Disk& disk) -> Feet {
-    if (exact) return feet(edge, t, disk);
+    if (exact && edge.site[0] < sites && edge.site[1] < sites) {
+      const bool at_last = t == t1;  // where the right side ends, and the left one begins
+      return {touch_of(axis_, axis_.sites[edge.site[0]], disk.center, !at_last),
+              touch_of(axis_, axis_.sites[edge.site[1]], disk.center, at_last)};
+    }
     const AxisFrame frame = frame_at(axis_, edge, t);
     return {boundary_at(frame, Side::left).point, boundary_at(frame, Side::right).point};
   };
@@ -121,6 +126,8 @@ void Importance::add_sides(std::uint32_t e, double t0, double t1, Beyond& sum) c
   // boundary, back along the last radius and the axis; on the left its mirror image.
   const auto side = [&](Vec2 a, Vec2 b, std::uint32_t site, double sign) {
     double bulge = 0;
+    // From the centre of an arc to its centre: nothing of it was passed.
+    if (exact && curve.origin == curve.end) return;
     if (exact && site < axis_.sites.size() && axis_.sites[site].kind == SiteKind::arc &&
         !(a == b)) {
       const Site& arc = axis_.sites[site];

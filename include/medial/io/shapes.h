@@ -21,11 +21,11 @@ struct ShapesFile {
   std::string crs_wkt;
   bool y_down = false;  ///< the y axis points down
   double chord = 1e-3;  ///< where arcs become points: by this fraction of the diagonal
-  double width = 1024;  ///< of pictures
+  double width = 1024;  ///< of pictures of fixed size: .pdf .png .ps
 };
 
 /// Writes shapes by the extension of `path`: .json (native, lossless), .svg (paths of lines and
-/// arcs in the shapes' own coordinates, to be read again), .wkt (a geometry a line; with arcs a
+/// arcs, without loss but for the shift of its frame), .wkt (a geometry a line; with arcs a
 /// MULTISURFACE), .geojson (arcs as points), .dxf (closed polylines with bulges), and pictures:
 /// .pdf .png .ps. `-` is standard output and takes `format`. Writes to a temporary name beside the
 /// target and renames. Errors: unsupported, unwritable.
