@@ -65,6 +65,12 @@ double HalfEdges::direction(HalfEdge half) const {
     const Vec2 right = touch(half, false) - at.center, left = touch(half ^ 1U, true) - at.center;
     if (distance(left, right) > apart * at.radius)
       return std::remainder(std::atan2(right.y, right.x) + angle_between(right, left) / 2, turn);
+    // Both feet in one place: straight towards it where the radius shrinks, or away from it.
+    const Disk& other = disk(half, true);
+    if (distance(other.center, at.center) <= apart * at.radius) {
+      const Vec2 out = other.radius <= at.radius ? right + left : -(right + left);
+      return std::atan2(out.y, out.x);
+    }
   }
   const Vec2 tangent = frame(half, false).tangent;
   return std::atan2(tangent.y, tangent.x);

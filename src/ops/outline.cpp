@@ -1,4 +1,5 @@
-#include <span>
+#include <cmath>
+#include <optional>
 
 #include "base/arc.h"
 #include "medial/sides.h"
@@ -37,6 +38,8 @@ class Outliner {
         add_gap(half);
         half = halves_.next(half);
       } while (half != start);
+      if (joint_) pieces_.front().begin = *joint_;
+      joint_.reset();
       join_ends();
       Contour contour = contour_of_pieces();
       if (!contour.pieces.empty()) contours.push_back(std::move(contour));
@@ -51,6 +54,8 @@ class Outliner {
   void add_side(HalfEdge half) {
     Piece piece{halves_.touch(half, false), halves_.touch(half, true), no_site, 0, {}};
     if (halves_.exact(half)) piece.site = halves_.right_site(half);
+    if (joint_) piece.begin = *joint_;
+    joint_.reset();
     if (!pieces_.empty() && piece.site != no_site && pieces_.back().site == piece.site) {
       pieces_.back().end = piece.end;
     } else {
@@ -62,6 +67,18 @@ class Outliner {
   void add_gap(HalfEdge half) {
     const double angle = halves_.gap(half);
     if (angle == 0) return;
+    // Where the disk touches the joint of the two sites as well, the boundary is known better.
+    const HalfEdge next = halves_.next(half);
+    if (halves_.exact(half) && halves_.exact(next)) {
+      const Vec2 joint = axis_.sites[halves_.right_site(half)].end;
+      const Disk& disk = halves_.disk(half, true);
+      if (joint == axis_.sites[halves_.right_site(next)].start &&
+          std::abs(distance(joint, disk.center) - disk.radius) <= 4 * axis_.tolerance) {
+        pieces_.back().end = joint;
+        joint_ = joint;
+        return;
+      }
+    }
     pieces_.push_back({halves_.touch(half, true), halves_.touch(halves_.next(half), false), no_site,
                        angle, halves_.disk(half, true)});
   }
@@ -84,13 +101,22 @@ class Outliner {
   }
 
   Contour contour_of_pieces() {
-    // Neighbours share a point: the end of a site where there is one.
+    // Along a site the boundary goes forward; a step backwards is rounding.
+    for (Piece& piece : pieces_) {
+      if (piece.site == no_site) continue;
+      const Site& site = axis_.sites[piece.site];
+      if (dot(piece.end - piece.begin, site.end - site.start) < 0) piece.end = piece.begin;
+    }
+    // Neighbours share a point: the end of a site where there is one. Between two sides of an exact
+    // axis without an arc of a disk in between, they are apart by rounding.
     const double slack = 64 * axis_.tolerance;
     for (std::size_t i = 0; i < pieces_.size(); ++i) {
       Piece &piece = pieces_[i], &next = pieces_[i + 1 < pieces_.size() ? i + 1 : 0];
+      const bool sides = piece.site != no_site && next.site != no_site;
       const Vec2 end = snapped(piece.end, piece), begin = snapped(next.begin, next);
-      if (distance(end, begin) > slack) continue;
-      piece.end = next.begin = end == piece.end && piece.site == no_site ? begin : end;
+      if (!sides && distance(end, begin) > slack) continue;
+      const bool by_next = end == piece.end && !(begin == next.begin);
+      piece.end = next.begin = by_next || piece.site == no_site ? begin : end;
     }
     Contour contour;
     for (const Piece& piece : pieces_) {
@@ -124,6 +150,7 @@ class Outliner {
   const MedialAxis& axis_;
   const ops::HalfEdges halves_;
   std::vector<Piece> pieces_;  ///< of the contour under way
+  std::optional<Vec2> joint_;  ///< where its next piece begins
 };
 
 }  // namespace
