@@ -275,6 +275,64 @@ class Axis(CommandLine):
         self.refuse("invalid_option", "axis", "frame.wkt", "--method", "ridge", "--pixels", "9", "--resolution", "1")
         self.refuse("invalid_option", "axis", "frame.wkt", "--exterior", "--margin", "0")
 
+    def test_prune_and_rebuild(self):
+        """An axis goes through a pipe: pruned, then back to a shape; all from `medial axis` on."""
+        self.write("frame.wkt", FRAME)
+        self.succeed("rebuild", "frame.wkt", "-o", "x.svg")
+        stored = self.succeed("axis", "x.svg", "-o", "-").stdout
+        pruned = self.succeed("prune", "-", "--angle", "100", "-o", "-", given=stored).stdout
+        self.succeed("rebuild", "-", "-o", "y.svg", given=pruned)
+        whole = json.loads(self.succeed("info", "x.svg", "--json").stdout)
+        rounded = json.loads(self.succeed("info", "y.svg", "--json").stdout)
+        self.assertEqual(rounded["holes"], whole["holes"])
+        self.assertLess(rounded["area"], whole["area"])
+        self.assertGreater(rounded["area"], 0.8 * whole["area"])
+        self.assertLess(len(json.loads(pruned)["items"][0]["axis"]["edges"]),
+                        len(json.loads(stored)["items"][0]["axis"]["edges"]))
+        # Back again, in every format; .svg moves what it holds to its own corner.
+        for name in ("a.json", "a.wkt", "a.geojson", "a.dxf"):
+            self.succeed("rebuild", "frame.wkt", "-o", name)
+            told = json.loads(self.succeed("rebuild", name, "--against", "frame.wkt", "--json", "--quiet").stdout)
+            self.assertLess(told["against"]["hausdorff"], 1e-12)
+        self.succeed("prune", "frame.wkt", "--radius", "0.5", "-o", "cut.json")
+        for name in ("b.json", "b.wkt", "b.dxf"):  # with arcs
+            self.succeed("rebuild", "cut.json", "-o", name)
+            told = json.loads(self.succeed("rebuild", name, "--against", "b.json", "--json").stdout)
+            self.assertLess(told["against"]["hausdorff"], 1e-9)
+        told = json.loads(self.succeed("rebuild", "frame.wkt", "--tangents", "--points", "500", "--json",
+                                       "--against", "frame.wkt").stdout)
+        self.assertLess(told["against"]["hausdorff"], 0.1)
+        self.assertGreater(told["medial_points"], 400)
+        self.succeed("rebuild", "frame.wkt", "--pixels", "100", "-o", "disks.png")
+        self.assertEqual(self.read("disks.png")[1:4], b"PNG")
+        self.refuse("invalid_option", "rebuild", "frame.wkt", "--pixels", "100")
+        self.refuse("unsupported", "rebuild", "frame.wkt", "-o", "x.shp")
+
+    def test_prune_and_smooth_by_what_matters(self):
+        """Measures, numbers of branches, tips, previews; two bumps of one size are told apart."""
+        bumps = ("POLYGON((0 -4,10 -1,14 -1,24 -4,24 4,14 1,12.4 1,12.4 1.6,11.6 1.6,11.6 1,10 1,0 4,0 .4,"
+                 "-.6 .4,-.6 -.4,0 -.4))")
+        self.write("bumps.wkt", bumps)
+        told = json.loads(self.succeed("smooth", "bumps.wkt", "--significance", "0.3", "-o", "calm.wkt",
+                                       "--json").stdout)
+        self.assertEqual(told["measure"], "significance")
+        self.assertLess(told["branches"], told["branches_before"])
+        text = self.read("calm.wkt").decode()
+        self.assertIn("1.6", text)            # the bump in the waist stays
+        self.assertNotIn("-0.6 0.4", text)    # the one on the broad side goes
+        self.assertLess(told["against"]["area_error"], 0)
+        for switch in (["--keep", "3"], ["--keep", "3", "--tips"], ["--by", "scale"], ["--lambda", "0.2"], []):
+            few = json.loads(self.succeed("prune", "bumps.wkt", "--json", "-o", "few.json", *switch).stdout)
+            self.assertLessEqual(few["branches"], 15)
+            self.assertEqual(few["branches"], json.loads(self.succeed("info", "few.json", "--json").stdout)["branches"])
+        self.succeed("prune", "bumps.wkt", "--preview", "-o", "preview.svg")
+        self.assertIn(b"<svg", self.read("preview.svg"))
+        self.refuse("invalid_option", "prune", "bumps.wkt", "--preview")
+        self.refuse("invalid_option", "prune", "bumps.wkt", "--angle", "60", "--erosion", "1")
+        self.refuse("invalid_option", "prune", "bumps.wkt", "--angle", "60", "--keep", "1")
+        self.refuse("invalid_option", "prune", "bumps.wkt", "--by", "size")
+        self.refuse("invalid_option", "prune", "bumps.wkt", "--angle", "-1")
+
     def test_curve_axis(self):
         """One smooth curve is followed; corners are refused, and fitted on request."""
         self.write("ellipse.svg", '<svg xmlns="http://www.w3.org/2000/svg">'
@@ -791,7 +849,7 @@ class Errors(CommandLine):
         self.refuse("unsupported", "axis", "frame.wkt", "-o", "out.xyz")
         self.refuse("unsupported", "axis", "frame.wkt", "-o", "out")
         self.refuse("unsupported", "axis", "frame.wkt", "-o", "-", "--format", "xyz")
-        self.refuse("invalid_option", "axis", "frame.wkt", "-o", "-")
+        self.refuse("invalid_option", "draw", "frame.wkt", "-o", "-")
         self.refuse("invalid_option", "axis", "frame.wkt", "-o", "out.csv", "--format", "csv")
         self.refuse("invalid_option", "axis", "frame.wkt", "-o", "-", "--format", "csv", "--json")
         self.refuse("unwritable", "axis", "frame.wkt", "-o", "none/out.csv")

@@ -1,10 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <filesystem>
-#include <new>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <string_view>
@@ -13,16 +10,17 @@
 #include "io/native.h"
 #include "io/output.h"
 #include "io/picture.h"
-#include "io/place.h"
 #include "medial/io/shapes.h"
 #include "medial/io/write.h"
+#ifdef MEDIAL_DXF
+#include "io/dxf_drawing.h"
+#endif
 
 namespace medial::io {
 
 namespace {
 
-constexpr std::array<std::string_view, 7> kFormats{"json", "svg", "wkt", "geojson",
-                                                   "pdf",  "png", "ps"};
+constexpr char kFormats[] = ".json .svg .wkt .geojson .dxf .pdf .png .ps";
 
 std::string quoted(const std::string& text) {
   using Json = nlohmann::json;
@@ -218,6 +216,28 @@ void write_geojson(OutputStream& out, const ShapesFile& file) {
   out.put("\n]}\n");
 }
 
+/// Every loop as a closed polyline with bulges: nothing is lost.
+Status write_dxf([[maybe_unused]] OutputStream& out, [[maybe_unused]] const ShapesFile& file) {
+#ifdef MEDIAL_DXF
+  const std::string layer = "SHAPE";
+  DxfDrawing drawing(out, {layer});
+  for (const ShapeItem& item : file.items) {
+    const Shape& shape = item.shape;
+    for (std::size_t i = 0; i < shape.loop_count(); ++i) {
+      const auto points = shape.loop(i);
+      std::vector<double> bulges;
+      if (has_arcs(shape))
+        for (std::size_t k = 0; k < points.size(); ++k)
+          bulges.push_back(shape.bulge(shape.loop_begin[i] + k));
+      drawing.polyline(layer, {points.begin(), points.end()}, bulges, true);
+    }
+  }
+  return drawing.finish();
+#else
+  return Error{ErrorCode::unsupported, "this program was built without DXF", {}};
+#endif
+}
+
 Status write_stream(OutputStream& out, const std::string& format, const ShapesFile& file) {
   Status status = success();
   if (format == "svg") {
@@ -226,6 +246,8 @@ Status write_stream(OutputStream& out, const std::string& format, const ShapesFi
     write_wkt(out, file);
   } else if (format == "geojson") {
     write_geojson(out, file);
+  } else if (format == "dxf") {
+    status = write_dxf(out, file);
   } else {
     NativeFile native;
     native.crs_wkt = file.crs_wkt;
@@ -240,53 +262,18 @@ Status write_stream(OutputStream& out, const std::string& format, const ShapesFi
     status =
         format == "json" ? write_native(out, native) : write_picture(out, format, native, pictures);
   }
-  if (!status) return status;
-  return out.finish();
-}
-
-Status write_any(const std::string& path, const std::string& option, const ShapesFile& file) {
-  std::string format = option;
-  if (format.empty())
-    format = path == "-" ? "json" : std::filesystem::path(path).extension().string();
-  if (format.starts_with('.')) format.erase(0, 1);
-  std::ranges::transform(format, format.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (std::ranges::find(kFormats, format) == kFormats.end()) {
-    return Error{ErrorCode::unsupported,
-                 fmt::format("'{}' is no format of shapes to write; known are {}", format,
-                             known_shape_formats()),
-                 in_file(path)};
-  }
-  if (is_stream(path)) {
-    Result<OutputStream> out = OutputStream::open(path);
-    if (!out) return out.error();
-    return write_stream(*out, format, file);
-  }
-  Result<PendingFile> pending = PendingFile::create(path);
-  if (!pending) return pending.error();
-  Result<OutputStream> out = OutputStream::open(pending->path());
-  if (!out) return out.error();
-  if (Status status = write_stream(*out, format, file); !status) return status;
-  return pending->commit();
+  return status;
 }
 
 }  // namespace
 
-std::string known_shape_formats() { return fmt::format(".{}", fmt::join(kFormats, " .")); }
+std::string known_shape_formats() { return kFormats; }
 
 Status write_shapes(const std::string& path, const std::string& format, const ShapesFile& file) {
-  Error error;
-  try {
-    Status status = write_any(path, format, file);
-    if (status) return status;
-    error = std::move(status.error());
-  } catch (const std::bad_alloc&) {
-    error = {ErrorCode::out_of_memory, "memory ran out", {}};
-  } catch (const std::exception& problem) {
-    error = {ErrorCode::internal, problem.what(), {}};
-  }
-  error.place.file = path;
-  return error;
+  Result<std::string> own = output_format(path, format, "json", kFormats);
+  if (!own) return std::move(own).error();
+  return write_whole(path,
+                     [&](OutputStream& out) -> Status { return write_stream(out, *own, file); });
 }
 
 }  // namespace medial::io
