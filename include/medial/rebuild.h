@@ -48,9 +48,9 @@ struct DiskImage {
 
 /// The pixels whose centres lie in one of the disks, the longer side of their bounding box `pixels`
 /// wide and a margin of one pixel around; the first row is that of the largest y, or with `y_down`
-/// of the smallest. The disks along an edge follow each other in steps of at most half a pixel, so
-/// that less than a tenth of a pixel is missed where radii exceed one. Errors: empty,
-/// invalid_option (pixels is 0 or above 32768).
+/// of the smallest. So many disks are taken that no point of the union is missed that is a tenth of
+/// a pixel inside, where radii exceed one. Errors: empty, invalid_option (pixels is 0 or above
+/// 32768).
 Result<DiskImage> rebuild_image(const MedialAxis& axis, std::uint32_t pixels, bool y_down = false);
 
 }  // namespace medial

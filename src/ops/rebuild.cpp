@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <utility>
 
 #include "axis/curve.h"
@@ -176,6 +177,32 @@ Ring polygon_of(const Ring& ring, double chord) {
   return out;
 }
 
+/// The nodes whose disks do not lie within that of another such node beside them, but for `slack`.
+std::vector<std::uint32_t> uncovered(const MedialAxis& axis, double slack) {
+  const Incidence incidence(axis);
+  std::vector<std::uint32_t> order(axis.nodes.size()), kept;
+  std::iota(order.begin(), order.end(), 0U);
+  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return axis.nodes[a].disk.radius > axis.nodes[b].disk.radius;
+  });
+  std::vector<bool> keeps(axis.nodes.size(), false);
+  for (const std::uint32_t i : order) {
+    const Disk& disk = axis.nodes[i].disk;
+    bool covered = false;
+    for (const std::uint32_t e : incidence.edges(i)) {
+      const auto& node = axis.edges[e].node;
+      const std::uint32_t other = node[0] == i ? node[1] : node[0];
+      const Disk& larger = axis.nodes[other].disk;
+      covered = covered || (keeps[other] && distance(disk.center, larger.center) + disk.radius <=
+                                                larger.radius + slack);
+    }
+    if (covered) continue;
+    keeps[i] = true;
+    kept.push_back(i);
+  }
+  return kept;
+}
+
 }  // namespace
 
 Result<Shape> rebuild(const MedialAxis& axis, const RebuildOptions& options,
@@ -233,16 +260,31 @@ Result<DiskImage> rebuild_image(const MedialAxis& axis, std::uint32_t pixels, bo
     return static_cast<std::uint32_t>(std::ceil(extent / result.pixel * (1 - 1e-12))) + 2;
   };
   const std::uint32_t width = cells(high.x - low.x), height = cells(high.y - low.y);
+  constexpr double slack = 0.05;  // of a pixel
   std::vector<Disk> disks;
   const auto add = [&](const Disk& disk) {
     Vec2 center = (1 / result.pixel) * (disk.center - result.corner);
     if (!y_down) center.y = height - center.y;
     disks.push_back({center, std::max(disk.radius, 0.0) / result.pixel});
   };
-  for (const Node& node : axis.nodes) add(node.disk);
+  for (const std::uint32_t i : uncovered(axis, slack * result.pixel)) add(axis.nodes[i].disk);
   for (const Edge& edge : axis.edges) {
-    const std::vector<Disk> along = sample_by_step(axis, edge, result.pixel / 2);
-    for (std::size_t i = 1; i + 1 < along.size(); ++i) add(along[i]);
+    // Between two disks of radius r at a distance d, d^2 / 8 r is missed.
+    const double radius =
+        std::min(axis.nodes[edge.node[0]].disk.radius, axis.nodes[edge.node[1]].disk.radius);
+    const double step = std::max(result.pixel / 2, std::sqrt(8 * slack * result.pixel * radius));
+    const Curve curve = curve_of(axis, edge);
+    const auto halve = [&](const auto& self, double t0, const Disk& a, double t1, const Disk& b,
+                           int depth) -> void {
+      constexpr int deepest = 24;
+      if (distance(a.center, b.center) <= step || depth == deepest) return;
+      const double t = 0.5 * (t0 + t1);
+      const Disk middle = curve.at(t);
+      add(middle);
+      self(self, t0, a, t, middle, depth + 1);
+      self(self, t, middle, t1, b, depth + 1);
+    };
+    halve(halve, 0, axis.nodes[edge.node[0]].disk, 1, axis.nodes[edge.node[1]].disk, 0);
   }
   result.image = union_of_disks(width, height, disks);
   return result;
