@@ -83,12 +83,20 @@ double HalfEdges::gap(HalfEdge half) const {
   const Disk& at = disk(half, true);
   const Vec2 begin = touch(half, true), end = touch(after, false);
   const double slack = std::max(4 * axis_.tolerance, 1e-9 * at.radius);
-  if (distance(begin, end) <= slack || at.radius <= slack) return 0;
+  if (at.radius <= slack) return 0;
   const double angle = angle_between(begin - at.center, end - at.center);
-  // A disk that touches all around but for one point is a step backwards by rounding.
+  const bool around_an_end = (half ^ 1U) == after;
   constexpr double hardly = 1e-6;
-  if (turn - angle < hardly) return 0;
-  if (angle <= std::numbers::pi || exact(half) || (half ^ 1U) == after) return angle;
+  if (around_an_end && distance(begin, end) <= hardly * at.radius) {
+    // Both feet in one place: in front, where the radius shrinks along the edge, and all around is
+    // open; or behind, where it grows.
+    if (!(disk(after, true).radius < at.radius))
+      return distance(begin, end) <= slack || angle > std::numbers::pi ? 0 : angle;
+    return angle > std::numbers::pi ? angle : turn;
+  }
+  // A disk that touches all around but for one point is a step backwards by rounding.
+  if (distance(begin, end) <= slack || turn - angle < hardly) return 0;
+  if (angle <= std::numbers::pi || exact(half) || around_an_end) return angle;
   // Samples: a step backwards, or more than a half circle? The tangents and rates decide: a foot
   // is acos(-R_a) away from the direction in which the axis leaves.
   const AxisFrame back = frame(half ^ 1U, false), on = frame(after, false);

@@ -41,7 +41,7 @@ class HalfEdges {
   /// Where the disk at an end of a half edge touches the boundary on the right.
   Vec2 touch(HalfEdge half, bool at_end) const;
   /// The angle of the disk's arc, counter-clockwise, from where the right side of a half edge ends
-  /// to where that of the next one begins; in [0, 2 pi). 0 where the two are one point to rounding,
+  /// to where that of the next one begins; in [0, 2 pi]. 0 where the two are one point to rounding,
   /// and where the sides of samples overlap.
   double gap(HalfEdge half) const;
 

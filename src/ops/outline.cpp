@@ -122,7 +122,8 @@ class Outliner {
     for (const Piece& piece : pieces_) {
       if (contour.points.empty()) contour.start_at(piece.begin);
       if (!(contour.points.back() == piece.begin)) contour.line_to(piece.begin);
-      if (piece.begin == piece.end) continue;
+      constexpr double half_turn = 3;  // about: no such arc ends where it begins, but a circle
+      if (piece.begin == piece.end && piece.angle < half_turn) continue;
       if (piece.angle > 0) {
         ops::add_arc(piece.disk, piece.begin, piece.end, piece.angle, contour);
       } else if (piece.site != no_site && axis_.sites[piece.site].kind == SiteKind::arc) {
