@@ -95,12 +95,14 @@ std::optional<T> in_child(const std::function<std::optional<T>(std::string&)>& b
   return std::nullopt;
 }
 
-std::optional<MedialFigures> figures_of_medial(const std::vector<Ring>& rings, int rounds,
-                                               std::string& why) {
+std::optional<MedialFigures> figures_of_medial(const std::vector<Ring>& rings, Method method,
+                                               int rounds, std::string& why) {
   MedialFigures figures;
   // Once before: what the program itself needs, code and tables, is no memory of the input's.
   const std::vector<Ring> small{{{{0, 0}, {2, 0}, {2, 1}, {0, 1}}, RingRole::any}};
-  if (const auto built = build_shape(small)) static_cast<void>(compute(*built, {.threads = 1}));
+  if (const auto built = build_shape(small)) {
+    static_cast<void>(compute(*built, {.method = method, .threads = 1}));
+  }
   malloc_trim(0);
   const double baseline = status_bytes("VmRSS");
   reset_peak();
@@ -119,7 +121,7 @@ std::optional<MedialFigures> figures_of_medial(const std::vector<Ring>& rings, i
     start = processor_seconds();
     double wall = wall_seconds();
     {
-      const auto axis = compute(*built, {.threads = 1});
+      const auto axis = compute(*built, {.method = method, .threads = 1});
       one.push_back(processor_seconds() - start);
       one_wall.push_back(wall_seconds() - wall);
       if (!axis) {
@@ -138,7 +140,7 @@ std::optional<MedialFigures> figures_of_medial(const std::vector<Ring>& rings, i
       }
     }
     wall = wall_seconds();
-    const auto axis = compute(*built, {.threads = 2});
+    const auto axis = compute(*built, {.method = method, .threads = 2});
     two_wall.push_back(wall_seconds() - wall);
     if (!axis) {
       why = to_string(axis.error());
@@ -154,12 +156,12 @@ std::optional<MedialFigures> figures_of_medial(const std::vector<Ring>& rings, i
 
 }  // namespace
 
-std::optional<MedialFigures> measure_medial(const Input& input, int rounds, double limit,
-                                            std::string& why) {
+std::optional<MedialFigures> measure_medial(const Input& input, Method method, int rounds,
+                                            double limit, std::string& why) {
   return in_child<MedialFigures>(
       [&](std::string& reason) -> std::optional<MedialFigures> {
         const auto rings = input.rings();
-        if (rings) return figures_of_medial(*rings, rounds, reason);
+        if (rings) return figures_of_medial(*rings, method, rounds, reason);
         reason = to_string(rings.error());
         return std::nullopt;
       },

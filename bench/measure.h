@@ -9,6 +9,7 @@
 #include <string>
 
 #include "inputs.h"
+#include "medial/compute.h"
 #include "medial/error.h"
 #include "peers.h"
 
@@ -34,8 +35,8 @@ struct PeerFigures {
 
 /// Runs build_shape() and compute() `rounds` times; medians. Nothing where the input is absent, the
 /// child died or took longer than `limit` seconds; then `why` says so.
-std::optional<MedialFigures> measure_medial(const Input& input, int rounds, double limit,
-                                            std::string& why);
+std::optional<MedialFigures> measure_medial(const Input& input, Method method, int rounds,
+                                            double limit, std::string& why);
 std::optional<PeerFigures> measure_peer(const Input& input,
                                         const std::function<PeerRun(std::span<const Ring>)>& peer,
                                         int rounds, double limit, std::string& why);

@@ -20,12 +20,12 @@ struct LeeRow {
   double disks = 0;            ///< seconds of the method disks
   double crossings = 0;        ///< of merge curves with Voronoi edges, an element
   std::vector<double> levels;  ///< seconds of the merges, from the last one down
-  double bytes = 0;            ///< of the merges, an element: sites and the diagram
+  double bytes = 0;            ///< at the peak, of compute(), an element; 0 where nobody tells
   std::string failure;         ///< an error, or what verify() refused; empty: verified
 };
 
-/// Sizes 1e2 to 10^largest of a coast, a maze, a blob and a convex polygon. `progress` is told each
-/// row's name before it is measured.
+/// Sizes 1e2 to 10^largest of a coast, a maze, a blob, an ellipse and a regular polygon. `progress`
+/// is told each row's name before it is measured.
 std::vector<LeeRow> run_lee_experiment(int largest, int rounds,
                                        void (*progress)(const std::string&));
 

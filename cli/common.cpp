@@ -261,8 +261,11 @@ Status check_output(const std::string& path, const std::string& format,
                     const std::string& known_formats, const std::string& input, bool json) {
   if (path.empty() && format.empty()) return success();
   if (path == "-") {
-    if (format.empty()) return invalid_option("-o - needs --format, for example --format csv");
-    if (lists(known_formats, lower(format))) {
+    // Without a format, a pipe takes medial's own.
+    const bool native = format.empty() && lists(known_formats, "json");
+    if (format.empty() && !native)
+      return invalid_option("-o - needs --format, for example --format csv");
+    if (native || lists(known_formats, lower(format))) {
       if (!json) return success();
       return invalid_option("--json and -o - both claim standard output");
     }

@@ -35,12 +35,15 @@ Verb make_info_verb(CLI::App& program);
 Verb make_legal_verb(CLI::App& program);
 Verb make_draw_verb(CLI::App& program);
 Verb make_prune_verb(CLI::App& program);
+Verb make_smooth_verb(CLI::App& program);
+Verb make_rebuild_verb(CLI::App& program);
 Verb make_distance_verb(CLI::App& program);
 Verb make_voxels_verb(CLI::App& program);
 Verb make_bench_verb(CLI::App& program);
 Verb make_field_verb(CLI::App& program);
 Verb make_compare_verb(CLI::App& program);
 Verb make_voronoi_verb(CLI::App& program);
+Verb make_offset_verb(CLI::App& program);
 
 /// Where shapes come from.
 struct InputSwitches {

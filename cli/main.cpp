@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cli/common.h"
+#include "cli/lines.h"
 #include "cli/terminal.h"
 
 namespace medial::cli {
@@ -47,18 +48,23 @@ int run(int argc, char** argv, bool json) {
       "is wrong [code]`. Features, rings and vertices count from 0. Nothing is written\n"
       "then, and an interrupted run leaves no partial file.");
   const std::array verbs = {
-      make_axis_verb(program),      //
-      make_verify_verb(program),    //
-      make_info_verb(program),      //
-      make_legal_verb(program),     //
-      make_draw_verb(program),      //
-      make_prune_verb(program),     //
-      make_voronoi_verb(program),   //
-      make_distance_verb(program),  //
-      make_voxels_verb(program),    //
-      make_bench_verb(program),     //
-      make_field_verb(program),     //
-      make_compare_verb(program),   //
+      make_axis_verb(program),        //
+      make_verify_verb(program),      //
+      make_info_verb(program),        //
+      make_legal_verb(program),       //
+      make_draw_verb(program),        //
+      make_prune_verb(program),       //
+      make_smooth_verb(program),      //
+      make_rebuild_verb(program),     //
+      make_voronoi_verb(program),     //
+      make_distance_verb(program),    //
+      make_voxels_verb(program),      //
+      make_bench_verb(program),       //
+      make_field_verb(program),       //
+      make_compare_verb(program),     //
+      make_offset_verb(program),      //
+      make_centreline_verb(program),  //
+      make_measure_verb(program),     //
   };
   for (const Verb& verb : verbs) verb.app->group("Verbs");
 

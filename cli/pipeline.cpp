@@ -12,6 +12,7 @@
 #include <optional>
 
 #include "cli/terminal.h"
+#include "medial/measure.h"
 #include "medial/query.h"
 
 namespace medial::cli {
@@ -409,7 +410,7 @@ AxisSummary summarize(const io::NativeFile& file) {
       }
     }
     if (axis.nodes.empty()) continue;
-    const Disk disk = axis.nodes[deepest_node(axis)].disk;
+    const Disk disk = deepest_disk(axis);
     if (disk.radius > summary.deepest.radius) {
       summary.deepest = disk;
       summary.deepest_feature = i;

@@ -1,5 +1,6 @@
 #include "cli/plot.h"
 
+#include <cairo-pdf.h>
 #include <cairo-svg.h>
 #include <cairo.h>
 #include <fmt/format.h>
@@ -32,24 +33,55 @@ constexpr std::array<Color, 6> colors{{{0.00, 0.45, 0.70},
                                        {0.90, 0.62, 0.00}}};
 constexpr Color gray{0.55, 0.55, 0.55}, ink{0.15, 0.15, 0.15}, grid{0.88, 0.88, 0.88};
 
-/// An axis from 10^low to 10^high.
-struct Decades {
-  int low = 0, high = 1;
-  double share(double value) const { return (std::log10(value) - low) / (high - low); }
+/// An axis and its ticks: from 10^low to 10^high, or from low to high in even steps.
+struct Scale {
+  double low = 0, high = 1, step = 1;
+  bool logarithmic = true;
+
+  double share(double value) const {
+    return ((logarithmic ? std::log10(value) : value) - low) / (high - low);
+  }
+  int ticks() const { return static_cast<int>(std::floor((high - low) / step + 1e-9)); }
+  double tick(int i) const {
+    const double at = low + i * step;
+    return logarithmic ? std::pow(10, at) : at;
+  }
+  std::string label(int i) const {
+    if (logarithmic) return fmt::format("1e{}", static_cast<int>(low) + i);
+    const double value = low + i * step;
+    return fmt::format("{:.10g}", std::abs(value) < 1e-9 * step ? 0.0 : value);
+  }
 };
 
+/// Steps of 1, 2 or 5 times a power of ten, some five to ten of them.
+Scale even_scale(double least, double most) {
+  if (!(most > least)) most = least + 1;
+  const double rough = (most - least) / 7;
+  const double power = std::pow(10, std::floor(std::log10(rough)));
+  double step = 10 * power;
+  for (const double factor : {5.0, 2.0, 1.0})
+    if (rough <= factor * power) step = factor * power;
+  return {step * std::floor(least / step), step * std::ceil(most / step), step, false};
+}
+
 template <class Get>
-Decades decades_of(const Plot& plot, const Get& get) {
-  double least = std::numeric_limits<double>::infinity(), most = 0;
+Scale scale_of(const Plot& plot, const Get& get, bool from_zero) {
+  double least = std::numeric_limits<double>::infinity(), most = -least;
   for (const Series& series : plot.series) {
     for (const auto& point : series.points) {
       least = std::min(least, get(point));
       most = std::max(most, get(point));
     }
   }
+  if (!(least <= most)) return {};
+  if (!plot.logarithmic) {
+    Scale even = even_scale(from_zero ? std::min(least, 0.0) : least, most);
+    if (!from_zero && most > least) even.high = most;
+    return even;
+  }
   if (!(most > 0)) return {};
-  const int low = static_cast<int>(std::floor(std::log10(least)));
-  return {low, std::max(low + 1, static_cast<int>(std::ceil(std::log10(most))))};
+  const double low = std::floor(std::log10(least));
+  return {low, std::max(low + 1, std::ceil(std::log10(most))), 1, true};
 }
 
 enum class Align { left, center, right };
@@ -60,8 +92,10 @@ class Painter {
   Painter(cairo_t* cairo, const Plot& plot)
       : cairo_(cairo),
         plot_(plot),
-        x_(decades_of(plot, [](const auto& point) { return point.first; })),
-        y_(decades_of(plot, [](const auto& point) { return point.second; })) {}
+        x_(scale_of(
+            plot, [](const auto& point) { return point.first; }, false)),
+        y_(scale_of(
+            plot, [](const auto& point) { return point.second; }, true)) {}
 
   void draw() {
     cairo_select_font_face(cairo_, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
@@ -101,19 +135,19 @@ class Painter {
 
   void draw_axes() {
     cairo_set_line_width(cairo_, 0.7);
-    for (int i = x_.low; i <= x_.high; ++i) {
-      const double x = across(std::pow(10, i));
+    for (int i = 0; i <= x_.ticks(); ++i) {
+      const double x = across(x_.tick(i));
       set(grid);
       line(x, top_room, x, plot_height - bottom_room);
       set(ink);
-      text(fmt::format("1e{}", i), x, plot_height - bottom_room + 1.4 * text_size, Align::center);
+      text(x_.label(i), x, plot_height - bottom_room + 1.4 * text_size, Align::center);
     }
-    for (int i = y_.low; i <= y_.high; ++i) {
-      const double y = down(std::pow(10, i));
+    for (int i = 0; i <= y_.ticks(); ++i) {
+      const double y = down(y_.tick(i));
       set(grid);
       line(left_room, y, plot_width - right_room, y);
       set(ink);
-      text(fmt::format("1e{}", i), left_room - 5, y + 0.35 * text_size, Align::right);
+      text(y_.label(i), left_room - 5, y + 0.35 * text_size, Align::right);
     }
     cairo_rectangle(cairo_, left_room, top_room, plot_width - left_room - right_room,
                     plot_height - top_room - bottom_room);
@@ -132,10 +166,12 @@ class Painter {
     constexpr double dash = 4;
     cairo_set_line_width(cairo_, series.reference ? 0.8 : 1.3);
     if (series.reference) cairo_set_dash(cairo_, &dash, 1, 0);
-    for (const auto& [x, y] : series.points) cairo_line_to(cairo_, across(x), down(y));
-    cairo_stroke(cairo_);
+    if (series.line) {
+      for (const auto& [x, y] : series.points) cairo_line_to(cairo_, across(x), down(y));
+      cairo_stroke(cairo_);
+    }
     cairo_set_dash(cairo_, nullptr, 0, 0);
-    if (series.reference) return;
+    if (series.reference || !series.marks) return;
     for (const auto& [x, y] : series.points) mark(across(x), down(y));
   }
 
@@ -157,7 +193,7 @@ class Painter {
 
   cairo_t* cairo_;
   const Plot& plot_;
-  Decades x_, y_;
+  Scale x_, y_;
 };
 
 cairo_status_t append(void* text, const unsigned char* data, unsigned int size) {
@@ -171,12 +207,25 @@ Status write_plots(const std::string& path, const std::vector<Plot>& plots) {
   constexpr std::size_t columns = 2;
   const auto rows = static_cast<double>((plots.size() + columns - 1) / columns);
   std::string document;
+  const double width = static_cast<double>(std::min(columns, plots.size())) * plot_width;
+  const double height = rows * plot_height;
+  const bool png = path.ends_with(".png");
+  constexpr double pixels_a_point = 2;
+  cairo_surface_t* created = nullptr;
+  if (png) {
+    created =
+        cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(pixels_a_point * width),
+                                   static_cast<int>(pixels_a_point * height));
+  } else if (path.ends_with(".pdf")) {
+    created = cairo_pdf_surface_create_for_stream(append, &document, width, height);
+  } else {
+    created = cairo_svg_surface_create_for_stream(append, &document, width, height);
+  }
   const std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)> surface(
-      cairo_svg_surface_create_for_stream(append, &document, columns * plot_width,
-                                          rows * plot_height),
-      cairo_surface_destroy);
+      created, cairo_surface_destroy);
   const std::unique_ptr<cairo_t, decltype(&cairo_destroy)> cairo(cairo_create(surface.get()),
                                                                  cairo_destroy);
+  if (png) cairo_scale(cairo.get(), pixels_a_point, pixels_a_point);
   cairo_set_source_rgb(cairo.get(), 1, 1, 1);
   cairo_paint(cairo.get());
   for (std::size_t i = 0; i < plots.size(); ++i) {
@@ -186,6 +235,7 @@ Status write_plots(const std::string& path, const std::vector<Plot>& plots) {
     Painter(cairo.get(), plots[i]).draw();
     cairo_restore(cairo.get());
   }
+  if (png) cairo_surface_write_to_png_stream(surface.get(), append, &document);
   cairo_surface_finish(surface.get());
   const cairo_status_t status = cairo_surface_status(surface.get());
   if (status != CAIRO_STATUS_SUCCESS) {
@@ -197,10 +247,17 @@ Status write_plots(const std::string& path, const std::vector<Plot>& plots) {
 }
 
 Status write_text(const std::string& path, const std::string& text) {
-  auto out = io::OutputStream::open(path);
-  if (!out) return std::move(out).error();
-  out->put(std::string_view(text));
-  return out->finish();
+  const auto put = [&text](const std::string& to) -> Status {
+    auto out = io::OutputStream::open(to);
+    if (!out) return std::move(out).error();
+    out->put(std::string_view(text));
+    return out->finish();
+  };
+  if (io::is_stream(path)) return put(path);
+  auto pending = io::PendingFile::create(path);
+  if (!pending) return std::move(pending).error();
+  if (Status written = put(pending->path()); !written) return written;
+  return pending->commit();
 }
 
 }  // namespace medial::cli

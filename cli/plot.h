@@ -1,6 +1,6 @@
 #pragma once
 
-// Plots with logarithmic axes, drawn by Cairo.
+// Plots with logarithmic or even axes, drawn by Cairo.
 
 #include <string>
 #include <utility>
@@ -12,8 +12,10 @@ namespace medial::cli {
 
 struct Series {
   std::string name;
-  std::vector<std::pair<double, double>> points;  ///< positive
+  std::vector<std::pair<double, double>> points;  ///< positive on logarithmic axes
   bool reference = false;                         ///< a dashed line without marks, to compare with
+  bool marks = true;                              ///< draw the points,
+  bool line = true;                               ///< and a line through them
 };
 
 struct Plot {
@@ -21,9 +23,11 @@ struct Plot {
   std::string x_label;
   std::string y_label;
   std::vector<Series> series;
+  bool logarithmic = true;  ///< both axes; otherwise even ones, y from 0
 };
 
-/// Writes the plots, two in a row, as one SVG. Errors: unwritable.
+/// Writes the plots, two in a row, as one SVG, or by the extension as .png or .pdf. Errors:
+/// unwritable.
 Status write_plots(const std::string& path, const std::vector<Plot>& plots);
 
 /// Writes a text to a new file that appears all at once. Errors: unwritable.

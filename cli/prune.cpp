@@ -4,12 +4,12 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <memory>
 
 #include "cli/prune_switches.h"
 #include "cli/stored_axes.h"
 #include "cli/terminal.h"
+#include "medial/io/preview.h"
 #include "medial/query.h"
 
 namespace medial::cli {
@@ -18,6 +18,8 @@ namespace {
 
 const char* help_of(PruneMeasure measure) {
   switch (measure) {
+    case PruneMeasure::prominence:
+      return "Branches by the geometric mean of significance and of the same by R";
     case PruneMeasure::significance:
       return "Branches by how far the shape reaches out beyond the disk where they\n"
              "begin, by that disk's radius (Ho and Dyer)";
@@ -65,7 +67,7 @@ void add_prune_switches(CLI::App& verb, PruneSwitches& switches) {
   CLI::Option* by =
       verb.add_option("--by", switches.by,
                       "One of these measures with its default, or for --keep (default:\n"
-                      "significance).")
+                      "prominence).")
           ->option_text("MEASURE")
           ->group(group);
   CLI::Option* keep = verb.add_option("--keep", switches.keep,
@@ -138,17 +140,54 @@ struct Switches {
   std::string output;
   std::string format;
   io::WriteOptions write;
+  bool preview = false;
 };
 
+/// The axes at thresholds around the chosen one, side by side.
+Status write_previews(const AxisFile& file, const PruneOptions& options, const Switches& switches) {
+  const double chosen = options.threshold.value_or(default_threshold(options.measure));
+  std::vector<double> thresholds;
+  for (const double factor : {0.0, 0.25, 0.5, 1.0, 2.0, 4.0}) {
+    if (options.measure == PruneMeasure::angle) {  // from 0 to 180 degrees
+      const double half = factor <= 1 ? chosen * factor : chosen + (180 - chosen) * factor / 5;
+      thresholds.push_back(half);
+    } else if (options.measure == PruneMeasure::scale) {  // from 1 up
+      thresholds.push_back(1 + (chosen - 1) * factor);
+    } else {
+      thresholds.push_back(chosen * factor);
+    }
+  }
+  std::vector<io::PreviewPanel> panels;
+  for (const double threshold : thresholds)
+    panels.push_back({fmt::format("{} {:.3g}", name_of(options.measure), threshold), {}});
+  std::vector<Shape> shapes;
+  for (const io::NativeItem& item : file.native.items) {
+    shapes.push_back(item.shape);
+    const PruneOrder order(item.axis, options.measure, options.tips);
+    for (std::size_t i = 0; i < panels.size(); ++i)
+      panels[i].axes.push_back(order.at(thresholds[i]));
+  }
+  return io::write_preview(switches.output, switches.format, shapes, panels, switches.write.width,
+                           file.native.y_down);
+}
+
 Result<int> run_prune(const Switches& switches) {
-  const auto& [input, common, how, output, format, pictures] = switches;
+  const auto& [input, common, how, output, format, pictures, preview] = switches;
+  if (preview && (output.empty() || how.keep))
+    return invalid_option("--preview needs -o with the name of a picture, and no --keep");
   const auto options = prune_options(how);
   if (!options) return options.error();
-  Status writable =
-      check_output(output, format, io::known_output_formats(), input.path, common.json);
+  Status writable = check_output(output, format,
+                                 preview ? io::known_preview_formats() : io::known_output_formats(),
+                                 input.path, common.json);
   if (!writable) return std::move(writable).error();
   auto axes = load_axes(input, common);
   if (!axes) return std::move(axes).error();
+  if (preview) {
+    Status written = write_previews(*axes, *options, switches);
+    if (!written) return std::move(written).error();
+    return exit_success;
+  }
   const Stopwatch pruning;
   const auto report = prune_all(*axes, *options, common.threads);
   if (!report) return report.error();
@@ -180,6 +219,9 @@ Verb make_prune_verb(CLI::App& program) {
   verb->add_option("--format", switches->format, "The format of -o - (default: json).")
       ->option_text("NAME");
   add_prune_switches(*verb, switches->prune);
+  verb->add_flag("--preview", switches->preview,
+                 "One picture over thresholds instead: none, a quarter, a half, the chosen one,\n"
+                 "twice and four times it.");
   add_picture_switches(*verb, switches->write);
   add_common_switches(*verb, switches->common);
   verb->footer(
@@ -193,7 +235,8 @@ Verb make_prune_verb(CLI::App& program) {
       "  medial prune plan.json -o spine.json\n"
       "  medial prune coast.wkt.gz --erosion 0.2 -o coast.svg\n"
       "  medial axis gear.svg -o - | medial prune - --angle 60 -o gear.pdf\n"
-      "  medial prune leaf.png --keep 20 --tips -o veins.svg");
+      "  medial prune leaf.png --keep 20 --tips -o veins.svg\n"
+      "  medial prune coast.wkt.gz --preview -o thresholds.png");
   return {verb, [switches] { return run_prune(*switches); }};
 }
 

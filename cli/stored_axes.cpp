@@ -1,5 +1,7 @@
 #include "cli/stored_axes.h"
 
+#include <algorithm>
+
 #include "cli/terminal.h"
 
 namespace medial::cli {
@@ -9,7 +11,10 @@ Result<AxisFile> load_axes(const InputSwitches& input, const CommonSwitches& com
     const Stopwatch reading;
     auto native = io::read_native(input.path);
     if (!native) return std::move(native).error();
-    if (!holds_contours(*native)) {
+    // A file may hold shapes alone.
+    const bool has_axes = std::ranges::any_of(
+        native->items, [](const auto& item) { return !item.axis.nodes.empty(); });
+    if (!holds_contours(*native) && (has_axes || native->items.empty())) {
       AxisFile file;
       file.native = std::move(native).value();
       file.statistics.threads = effective_threads(common.threads);

@@ -217,6 +217,44 @@ class Axis(CommandLine):
         refused = self.refuse("unsupported", "axis", "ring.wkt", "--method", "biarc-dc")
         self.refuse("[a-z_]+", "axis", "teeth.wkt", "--method", "magic")
 
+    def test_lee(self):
+        """Lee's method finds the axis of disks; its diagram less the spokes is that axis."""
+        self.write("teeth.wkt", comb(20))
+        self.write("ring.wkt", FRAME)
+        self.write("half.svg", '<svg xmlns="http://www.w3.org/2000/svg"><path d="M0 0H20A10 10 0 0 1 0 0Z"/></svg>')
+        self.succeed("axis", "teeth.wkt", "--method", "lee", "-o", "lee.json")
+        self.succeed("verify", "teeth.wkt", "lee.json")
+        by_lee = json.loads(self.succeed("info", "lee.json", "--json").stdout)
+        self.succeed("axis", "teeth.wkt", "-o", "disks.json")
+        by_disks = json.loads(self.succeed("info", "disks.json", "--json").stdout)
+        self.assertEqual(by_lee["method"], "lee")
+        self.assertEqual(by_lee["nodes"], by_disks["nodes"])
+        self.assertAlmostEqual(by_lee["length"] / by_disks["length"], 1, places=12)
+        for shape in ("ring.wkt", "half.svg"):
+            text = self.refuse("unsupported", "axis", shape, "--method", "lee", "-o", "x.json")
+            self.assertIn("disks", text)
+
+    def test_voronoi(self):
+        """Lemma 3: 2 N - 3 edges and N - 2 points; every format; holes are refused."""
+        self.write("teeth.wkt", comb(20))
+        self.write("ring.wkt", FRAME)
+        told = json.loads(self.succeed("voronoi", "teeth.wkt", "--method", "lee", "--json").stdout)
+        elements = told["segments"] + told["reflex_vertices"]
+        self.assertEqual(told["edges"], 2 * elements - 3)
+        self.assertEqual(told["voronoi_points"], elements - 2)
+        self.assertEqual(told["spokes"], 4 * told["reflex_vertices"] // 2)
+        for name, start in (("v.json", b"{"), ("v.geojson", b"{"), ("v.svg", b"<?xml"), ("v.png", b"\x89PNG"),
+                            ("v.pdf", b"%PDF")):
+            self.succeed("voronoi", "teeth.wkt", "-o", name)
+            self.assertTrue(self.read(name).startswith(start), name)
+        stored = json.loads(self.read("v.json"))
+        self.assertEqual(len(stored["items"][0]["edges"]), told["edges"])
+        piped = self.succeed("voronoi", "-", "-o", "-", "--format", "geojson", given=comb(20).encode()).stdout
+        kinds = {f["geometry"]["type"] for f in json.loads(piped)["features"]}
+        self.assertIn("Polygon", kinds)
+        self.refuse("unsupported", "voronoi", "ring.wkt", "-o", "x.json")
+        self.refuse("[a-z_]+", "voronoi", "teeth.wkt", "--method", "magic")
+
     def test_ridge_and_exterior(self):
         """Ridge following and the exterior, with their switches, and what verify says of them."""
         self.write("frame.wkt", FRAME)
@@ -241,6 +279,64 @@ class Axis(CommandLine):
         self.refuse("too_large", "axis", "frame.wkt", "--method", "ridge", "--resolution", "1e-9")
         self.refuse("invalid_option", "axis", "frame.wkt", "--method", "ridge", "--pixels", "9", "--resolution", "1")
         self.refuse("invalid_option", "axis", "frame.wkt", "--exterior", "--margin", "0")
+
+    def test_prune_and_rebuild(self):
+        """An axis goes through a pipe: pruned, then back to a shape; all from `medial axis` on."""
+        self.write("frame.wkt", FRAME)
+        self.succeed("rebuild", "frame.wkt", "-o", "x.svg")
+        stored = self.succeed("axis", "x.svg", "-o", "-").stdout
+        pruned = self.succeed("prune", "-", "--angle", "100", "-o", "-", given=stored).stdout
+        self.succeed("rebuild", "-", "-o", "y.svg", given=pruned)
+        whole = json.loads(self.succeed("info", "x.svg", "--json").stdout)
+        rounded = json.loads(self.succeed("info", "y.svg", "--json").stdout)
+        self.assertEqual(rounded["holes"], whole["holes"])
+        self.assertLess(rounded["area"], whole["area"])
+        self.assertGreater(rounded["area"], 0.8 * whole["area"])
+        self.assertLess(len(json.loads(pruned)["items"][0]["axis"]["edges"]),
+                        len(json.loads(stored)["items"][0]["axis"]["edges"]))
+        # Back again, in every format; .svg moves what it holds to its own corner.
+        for name in ("a.json", "a.wkt", "a.geojson", "a.dxf"):
+            self.succeed("rebuild", "frame.wkt", "-o", name)
+            told = json.loads(self.succeed("rebuild", name, "--against", "frame.wkt", "--json", "--quiet").stdout)
+            self.assertLess(told["against"]["hausdorff"], 1e-12)
+        self.succeed("prune", "frame.wkt", "--radius", "0.5", "-o", "cut.json")
+        for name in ("b.json", "b.wkt", "b.dxf"):  # with arcs
+            self.succeed("rebuild", "cut.json", "-o", name)
+            told = json.loads(self.succeed("rebuild", name, "--against", "b.json", "--json").stdout)
+            self.assertLess(told["against"]["hausdorff"], 1e-9)
+        told = json.loads(self.succeed("rebuild", "frame.wkt", "--tangents", "--points", "500", "--json",
+                                       "--against", "frame.wkt").stdout)
+        self.assertLess(told["against"]["hausdorff"], 0.1)
+        self.assertGreater(told["medial_points"], 400)
+        self.succeed("rebuild", "frame.wkt", "--pixels", "100", "-o", "disks.png")
+        self.assertEqual(self.read("disks.png")[1:4], b"PNG")
+        self.refuse("invalid_option", "rebuild", "frame.wkt", "--pixels", "100")
+        self.refuse("unsupported", "rebuild", "frame.wkt", "-o", "x.shp")
+
+    def test_prune_and_smooth_by_what_matters(self):
+        """Measures, numbers of branches, tips, previews; two bumps of one size are told apart."""
+        bumps = ("POLYGON((0 -4,10 -1,14 -1,24 -4,24 4,14 1,12.4 1,12.4 1.6,11.6 1.6,11.6 1,10 1,0 4,0 .4,"
+                 "-.6 .4,-.6 -.4,0 -.4))")
+        self.write("bumps.wkt", bumps)
+        told = json.loads(self.succeed("smooth", "bumps.wkt", "--significance", "0.3", "-o", "calm.wkt",
+                                       "--json").stdout)
+        self.assertEqual(told["measure"], "significance")
+        self.assertLess(told["branches"], told["branches_before"])
+        text = self.read("calm.wkt").decode()
+        self.assertIn("1.6", text)            # the bump in the waist stays
+        self.assertNotIn("-0.6 0.4", text)    # the one on the broad side goes
+        self.assertLess(told["against"]["area_error"], 0)
+        for switch in (["--keep", "3"], ["--keep", "3", "--tips"], ["--by", "scale"], ["--lambda", "0.2"], []):
+            few = json.loads(self.succeed("prune", "bumps.wkt", "--json", "-o", "few.json", *switch).stdout)
+            self.assertLessEqual(few["branches"], 15)
+            self.assertEqual(few["branches"], json.loads(self.succeed("info", "few.json", "--json").stdout)["branches"])
+        self.succeed("prune", "bumps.wkt", "--preview", "-o", "preview.svg")
+        self.assertIn(b"<svg", self.read("preview.svg"))
+        self.refuse("invalid_option", "prune", "bumps.wkt", "--preview")
+        self.refuse("invalid_option", "prune", "bumps.wkt", "--angle", "60", "--erosion", "1")
+        self.refuse("invalid_option", "prune", "bumps.wkt", "--angle", "60", "--keep", "1")
+        self.refuse("invalid_option", "prune", "bumps.wkt", "--by", "size")
+        self.refuse("invalid_option", "prune", "bumps.wkt", "--angle", "-1")
 
     def test_curve_axis(self):
         """One smooth curve is followed; corners are refused, and fitted on request."""
@@ -771,7 +867,7 @@ class Errors(CommandLine):
         self.refuse("unsupported", "axis", "frame.wkt", "-o", "out.xyz")
         self.refuse("unsupported", "axis", "frame.wkt", "-o", "out")
         self.refuse("unsupported", "axis", "frame.wkt", "-o", "-", "--format", "xyz")
-        self.refuse("invalid_option", "axis", "frame.wkt", "-o", "-")
+        self.refuse("invalid_option", "draw", "frame.wkt", "-o", "-")
         self.refuse("invalid_option", "axis", "frame.wkt", "-o", "out.csv", "--format", "csv")
         self.refuse("invalid_option", "axis", "frame.wkt", "-o", "-", "--format", "csv", "--json")
         self.refuse("unwritable", "axis", "frame.wkt", "-o", "none/out.csv")
@@ -823,6 +919,84 @@ class Errors(CommandLine):
         self.assertEqual(json.loads(done.stdout)["error"]["code"], "crossing")
 
 
+class Centrelines(CommandLine):
+    def rows(self, text):
+        return list(csv.DictReader(text.decode().splitlines()))
+
+    def test_main_path(self):
+        self.write("rectangle.wkt", RECTANGLE)
+        told = json.loads(self.succeed("centreline", "rectangle.wkt", "--json").stdout)
+        self.assertAlmostEqual(told["features"][0]["lines"][0]["length"], 2)
+        text = self.succeed("centreline", "rectangle.wkt", "--extend", "-o", "-", "--format", "wkt").stdout
+        for end in (b"0 1", b"4 1"):
+            self.assertIn(end, text)
+        for extension in FORMATS:
+            with self.subTest(extension=extension):
+                self.succeed("centreline", "rectangle.wkt", "--extend", "-o", "line." + extension)
+                self.succeed("centreline", "rectangle.wkt", "--smooth", "1", "-o", "smooth." + extension)
+        for name in ("line.json", "smooth.json"):
+            self.succeed("draw", name, "-o", "again.svg")
+
+    def test_between_places(self):
+        self.write("frame.wkt", FRAME)
+        path = json.loads(self.succeed("centreline", "frame.wkt", "--from", "0/3", "--to=1,1", "--json").stdout)
+        self.assertGreater(path["features"][0]["lines"][0]["length"], 0.5)
+        wide = self.succeed("centreline", "frame.wkt", "--widest", "1,3", "8,3", "--json")
+        self.assertAlmostEqual(json.loads(wide.stdout)["features"][0]["lines"][0]["narrowest_radius"], 1)
+        self.refuse("invalid_option", "centreline", "frame.wkt", "--from", "1,1")
+        self.refuse("invalid_option", "centreline", "frame.wkt", "--from", "1", "--to", "2,2")
+        self.refuse("invalid_option", "centreline", "frame.wkt", "--from", "9/9", "--to", "2,2")
+        self.refuse("invalid_option", "centreline", "frame.wkt", "--widest", "1,1", "2,2", "--clearance", "1")
+        self.refuse("invalid_option", "centreline", "frame.wkt", "--collapse", "0")
+
+    def test_clearance_and_collapse(self):
+        self.write("frame.wkt", FRAME)
+        told = json.loads(self.succeed("centreline", "frame.wkt", "--clearance", "1.1", "--json").stdout)
+        self.assertGreater(told["length"], 1)
+        for extension in ("json", "geojson", "gpkg", "wkt", "svg", "pdf", "png", "ps"):
+            with self.subTest(extension=extension):
+                self.succeed("centreline", "frame.wkt", "--collapse", "2.5", "-o", "parts." + extension)
+        layers = [f["properties"]["layer"] for f in json.loads(self.read("parts.geojson"))["features"]]
+        self.assertEqual(layers, sorted(layers, reverse=True))
+        self.assertEqual(set(layers), {"polygons", "lines"})
+        database = sqlite3.connect(self.path("parts.gpkg"))
+        self.assertEqual(database.execute("select count(*) from polygons").fetchone()[0],
+                         layers.count("polygons"))
+        database.close()
+        self.refuse("unsupported", "centreline", "frame.wkt", "--collapse", "2.5", "-o", "parts.dxf")
+
+    def test_measure(self):
+        self.write("rectangle.wkt", RECTANGLE)
+        table = self.succeed("measure", "rectangle.wkt").stdout.decode()
+        self.assertIn("widest", table)
+        told = json.loads(self.succeed("measure", "rectangle.wkt", "--disks", "3", "--json").stdout)["features"][0]
+        self.assertAlmostEqual(told["area"], 8)
+        self.assertAlmostEqual(told["mean_width"]["by_length"], 2)
+        self.assertEqual([round(disk["r"], 6) for disk in told["disks"]], [1, 1, 0.25])
+        rows = self.rows(self.succeed("measure", "rectangle.wkt", "--samples", "4", "-o", "-",
+                                      "--format", "csv").stdout)
+        self.assertEqual([float(row["along"]) for row in rows], [0, 0.5, 1, 1.5, 2])
+        self.assertEqual({round(float(row["width"]), 9) for row in rows}, {2})
+        self.succeed("measure", "rectangle.wkt", "--spacing", "0.5", "-o", "transects.shp")
+        for extension in ("geojson", "gpkg", "wkt", "svg", "pdf", "png", "ps"):
+            self.succeed("measure", "rectangle.wkt", "--transects", "7", "--disks", "2", "-o", "m." + extension)
+        self.assertEqual(len(json.loads(self.read("m.geojson"))["features"]), 9)
+        for extension in ("svg", "png", "pdf"):
+            self.succeed("measure", "rectangle.wkt", "--plot", "plot." + extension)
+        self.refuse("unsupported", "measure", "rectangle.wkt", "--transects", "7", "--disks", "2", "-o", "m.fgb",
+                    nothing_new=True)
+        self.refuse("invalid_option", "measure", "rectangle.wkt", "--widening", "1")
+
+    def test_several_features_with_attributes(self):
+        self.write("places.geojson", GEOGRAPHIC)
+        self.succeed("centreline", "places.geojson", "--project", "-o", "lines.geojson")
+        names = [f["properties"]["name"] for f in json.loads(self.read("lines.geojson"))["features"]]
+        self.assertEqual(names, ["west", "east"])
+        self.succeed("measure", "places.geojson", "--project", "--transects", "2", "-o", "t.geojson")
+        names = [f["properties"]["name"] for f in json.loads(self.read("t.geojson"))["features"]]
+        self.assertEqual(names, ["west", "west", "east", "east"])
+
+
 class Help(CommandLine):
     def test_help_and_version(self):
         text = self.succeed("--help").stdout.decode()
@@ -871,6 +1045,18 @@ class Bench(CommandLine):
         rows = self.read("ridge.csv").decode().splitlines()
         self.assertGreater(len(rows), 20)
         self.assertEqual({len(row.split(",")) for row in rows}, {8 + 3 * 7})
+
+    def test_lee(self):
+        done = self.run_medial("bench", "lee", "--quick", "--json", "-q")
+        self.assertEqual(done.returncode, 0, done.stdout.decode()[-2000:])
+        rows = json.loads(done.stdout)
+        self.assertEqual({row["shape"] for row in rows}, {"coast", "maze", "blob", "convex", "regular"})
+        for row in rows:
+            self.assertTrue(row["passed"], row)
+            self.assertGreater(row["lee"], 0)
+            self.assertLess(row["crossings"], 4)
+        self.succeed("bench", "lee", "--figures", "figures")
+        self.assertGreaterEqual(len(os.listdir(self.path("figures"))), 6)
 
     def test_outputs(self):
         quick = ("bench", "biarc", "--quick", "--tolerances", "1", "-q", "-o")
@@ -970,6 +1156,45 @@ class Interruption(CommandLine):
                         if name != "comb.wkt":
                             os.remove(self.path(name))
         self.assertGreater(interrupted, 8)
+
+
+class Offset(CommandLine):
+    SQUARE = "POLYGON ((0 0, 10 0, 10 8, 0 8, 0 0), (4 3, 4 5, 6 5, 6 3, 4 3))"
+
+    def test_every_format(self):
+        self.write("s.wkt", self.SQUARE)
+        for name in ("o.json", "o.geojson", "o.wkt", "o.dxf", "o.svg", "o.pdf", "o.png", "o.ps"):
+            self.succeed("offset", "s.wkt", "--distance=1,-1", "-o", name)
+            self.assertGreater(len(self.read(name)), 100)
+        stored = json.loads(self.read("o.json"))
+        regions = stored["items"][0]["regions"]
+        self.assertEqual([r["clearance"] for r in regions], [-1, 1])
+        self.assertEqual([r["parent"] for r in regions], [None, 0])
+        self.assertEqual([len(r["rings"]) for r in regions], [1, 2])
+        features = json.loads(self.read("o.geojson"))["features"]
+        self.assertAlmostEqual(features[0]["properties"]["area"], 80 + 36 + math.pi)
+        self.assertIn(b"CIRCULARSTRING", self.read("o.wkt"))
+        self.assertEqual(self.read("o.wkt").count(b"\n"), 2)
+
+    def test_passes(self):
+        self.write("s.wkt", self.SQUARE)
+        told = json.loads(self.succeed("offset", "s.wkt", "--step", "0.5", "--until", "empty",
+                                       "--json").stdout)
+        self.assertEqual((told["features"], told["regions"]), (1, 1 + 1 + 2 + 4))
+        self.succeed("offset", "s.wkt", "--step", "0.5", "--until", "2", "--exterior", "-o", "-",
+                     "--format", "wkt")
+        self.refuse("invalid_option", "offset", "s.wkt", "--step", "0.5", "--exterior")
+        self.refuse("too_large", "offset", "s.wkt", "--step", "1e-9")
+
+    def test_what_cannot_be_done_is_refused(self):
+        self.write("s.wkt", self.SQUARE)
+        self.write("l.wkt", "LINESTRING (0 0, 1 1)")
+        self.refuse("invalid_option", "offset", "s.wkt")
+        self.refuse("invalid_option", "offset", "s.wkt", "--distance", "0")
+        self.refuse("invalid_option", "offset", "s.wkt", "--distance", "1", "--step", "1")
+        self.refuse("invalid_option", "offset", "s.wkt", "--step", "1", "--until", "never")
+        self.refuse("unsupported", "offset", "s.wkt", "--distance", "1", "-o", "o.shp")
+        self.assertNotEqual(self.run_medial("offset", "l.wkt", "--distance", "1").returncode, 0)
 
 
 if __name__ == "__main__":

@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -225,6 +227,36 @@ TEST(ExactAxis, OfRandomPolygonsOnGrids) {
   check_random(count_from_environment(2000), random_integer_shape);
 }
 TEST(ExactAxis, OfRandomArcs) { check_random(count_from_environment(800), random_arc_shape); }
+
+/// Gears whose arcs have one circle but for rounding: a disk near the centre may touch such a
+/// circle where its arc is not.
+TEST(ExactAxis, OfGearsAroundTheirHub) {
+  for (const std::uint64_t seed : {184, 1522}) {
+    const auto shape = build_shape(random_arc_shape(seed).rings);
+    ASSERT_TRUE(shape);
+    const auto axis = compute(*shape, {.exact = true});
+    ASSERT_TRUE(axis) << to_string(axis.error());
+    const Certificate certificate = verify(*shape, *axis);
+    EXPECT_TRUE(certificate.passed) << seed << ": " << certificate.failures[0];
+  }
+}
+
+/// Disks at blunt joints of almost one circle touch both arcs, each where its own normal leads.
+TEST(ExactAxis, OfNearCircles) {
+  Random random(5);
+  for (const int n : {3, 4, 5, 12, 24}) {
+    for (int e = 3; e <= 9; ++e) {
+      Ring ring;
+      for (int i = 0; i < n; ++i) {
+        const double angle = 2 * std::numbers::pi * i / n + 0.1, size = std::pow(10.0, -e);
+        ring.points.push_back({std::cos(angle), std::sin(angle)});
+        ring.bulges.push_back(std::tan(std::numbers::pi / (2 * n)) *
+                              (1 + random.between(-size, size)));
+      }
+      EXPECT_EQ(compare_exact({ring}), no_failures) << n << " arcs, off by 1e-" << e;
+    }
+  }
+}
 
 }  // namespace
 }  // namespace medial::test

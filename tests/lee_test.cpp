@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <numbers>
 #include <ostream>
 #include <string>
 
@@ -190,6 +191,15 @@ TEST(LeeDiagram, LessItsSpokesIsTheAxis) {
   EXPECT_NEAR(length_of_edges, total_length(*axis), 1e-12);
 }
 
+Rings ellipse(std::size_t n) {
+  Ring ring;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double angle = 2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(n);
+    ring.points.push_back({2 * std::cos(angle), std::sin(angle)});
+  }
+  return {ring};
+}
+
 struct Degenerate {
   const char* name;
   Rings (*rings)();
@@ -213,6 +223,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Degenerate{"Regular7", [] { return regular_polygon(7); }},
                     Degenerate{"Regular1000", [] { return regular_polygon(1000); }, false},
                     Degenerate{"Regular10000", [] { return regular_polygon(10000); }, false},
+                    Degenerate{"Ellipse100000", [] { return ellipse(100000); }, false},
                     Degenerate{"Blob", [] { return blob(3000); }, false},
                     Degenerate{"Maze", [] { return maze(3000); }},
                     Degenerate{"Comb", [] { return comb(300); }},
@@ -221,6 +232,28 @@ INSTANTIATE_TEST_SUITE_P(
                     Degenerate{"Cross", [] { return cross_shape(2); }},
                     Degenerate{"JaggedStar", [] { return jagged_star(1000); }}),
     [](const auto& tested) { return std::string(tested.param.name); });
+
+/// All sides touch one disk: one node, however the merges broke the tie.
+TEST(LeeTies, OfRegularPolygonsAreOneNode) {
+  for (const int n : {5, 12, 100, 1000, 10000, 100000}) {
+    const auto axis = compute(built(regular_polygon(n)), by_lee());
+    ASSERT_TRUE(axis.ok());
+    EXPECT_EQ(axis->nodes.size(), static_cast<std::size_t>(n) + 1);
+    EXPECT_EQ(axis->edges.size(), static_cast<std::size_t>(n));
+  }
+}
+
+TEST(LeeProgress, GrowsToOneOnOneThread) {
+  std::vector<double> told;
+  Options options = by_lee();
+  options.progress = [&](double share) { told.push_back(share); };
+  ASSERT_TRUE(compute(built(blob(20000)), options).ok());
+  EXPECT_GT(told.size(), 10u);
+  EXPECT_GT(told.front(), 0);
+  EXPECT_LT(told.front(), 0.2);
+  EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
+  EXPECT_EQ(told.back(), 1);
+}
 
 TEST(LeeThreads, GiveTheSameBytes) {
   for (const Rings& rings : {maze(20000), blob(20000), jagged_star(10000), spiral(10000, 20)}) {

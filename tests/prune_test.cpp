@@ -216,6 +216,8 @@ TEST(Prune, MeasuresOfARectangle) {
   // Of branches: all or nothing.
   EXPECT_NEAR(length_at(significance, 0.41), all, close);
   EXPECT_NEAR(length_at(significance, 0.42), 4, close);
+  EXPECT_NEAR(length_at(prominence, 0.41), all, close);
+  EXPECT_NEAR(length_at(prominence, 0.42), 4, close);
   EXPECT_NEAR(length_at(length, 1.41), all, close);
   EXPECT_NEAR(length_at(length, 1.42), 4, close);
   EXPECT_NEAR(length_at(ratio, 1.41), all, close);

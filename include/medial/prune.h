@@ -23,6 +23,7 @@ namespace medial {
 /// Measures of branches: a branch stays or goes as a whole, judged where it begins, at the disk of
 /// its inner end with the radius r; what hangs on a branch that goes, goes too.
 enum class PruneMeasure : std::uint8_t {
+  prominence,    ///< branches: the geometric mean of significance and of the same by R
   significance,  ///< branches: how far the shape reaches out beyond the disk, by r (Ho and Dyer)
   length,        ///< branches: the longest way along the axis to an end beyond, by r
   ratio,         ///< branches: the length of the boundary beyond by the chord between the two feet
@@ -46,7 +47,7 @@ std::optional<PruneMeasure> prune_measure_from(std::string_view name);
 double default_threshold(PruneMeasure measure);
 
 struct PruneOptions {
-  PruneMeasure measure = PruneMeasure::significance;
+  PruneMeasure measure = PruneMeasure::prominence;
   std::optional<double> threshold = {};  ///< nothing: the default of the measure
   /// Keep at most so many branches instead, those that matter most; more only where the cycles
   /// consist of more.

@@ -60,7 +60,7 @@ struct Branch {
 std::vector<Branch> branches(const MedialAxis& axis);
 
 /// The node of the largest radius (the lowest index among equals): its disk is the maximum
-/// inscribed circle, because no radius along an edge exceeds both ends'. Requires a node.
+/// inscribed circle if no arc bounds the shape; see deepest_disk() otherwise. Requires a node.
 std::uint32_t deepest_node(const MedialAxis& axis);
 
 /// A nearest point of the axis.

@@ -82,7 +82,7 @@ inline bool is_corner(std::span<const Contact> contacts, const Outline& outline)
   for (std::size_t i = 0; i < 2; ++i) {
     const std::uint32_t before = contacts[i].site;
     if (contacts[i].half == no_half && outline.next[before] == contacts[1 - i].site &&
-        !outline.passes[before])
+        (!outline.passes[before] || outline.blunt[before]))
       return true;
   }
   return false;

@@ -1,6 +1,7 @@
 #include "exact/divide.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "exact/disk_bounds.h"
@@ -23,9 +24,14 @@ std::vector<std::vector<std::uint32_t>> divide(const Outline& outline,
     if (high < low + 2) continue;
     std::vector<std::uint32_t> first;  // those met first, all by one disk
     for (std::uint32_t i = low + 1; i < high; ++i) {
-      if (some_fit_into_circles && high > low + 2 &&
-          !disk_bounds<Precise>(outline, {sites[low], sites[i], sites[high]}, {}))
-        continue;
+      if (some_fit_into_circles && high > low + 2) {
+        const auto disk = disk_bounds<Precise>(outline, {sites[low], sites[i], sites[high]}, {});
+        if (!disk) continue;
+        const bool reaches = std::ranges::all_of(std::array{low, i, high}, [&](std::uint32_t k) {
+          return may_reach(outline.sites[sites[k]], *disk);
+        });
+        if (!reaches) continue;
+      }
       if (first.empty()) {
         first.push_back(i);
         continue;

@@ -7,6 +7,7 @@ Outline outline_of(const Shape& shape, const Frame& frame, const sites::SiteNumb
   outline.sites.resize(numbers.count);
   outline.next.resize(numbers.count);
   outline.passes.assign(numbers.count, false);
+  outline.blunt.assign(numbers.count, false);
   outline.component = shape.component;
   for (std::size_t l = 0; l < shape.loop_count(); ++l) {
     const sites::Loop loop(shape, l, frame);
@@ -26,6 +27,7 @@ Outline outline_of(const Shape& shape, const Frame& frame, const sites::SiteNumb
       outline.sites[edge] = {loop.local(i), loop.local(loop.next(i)), loop.bulge(i)};
       outline.next[edge] = first_of(loop.next(i));
       outline.passes[edge] = numbers.joints[after] != geometry::Joint::corner;
+      outline.blunt[edge] = numbers.joints[after] == geometry::Joint::blunt;
     }
   }
   outline.loop_begin.push_back(numbers.count);

@@ -16,15 +16,18 @@ struct Outline {
   /// Whether a foot can pass on from the site to the next one: at a reflex vertex's ends and at a
   /// smooth joint, but not at a corner.
   std::vector<bool> passes;
+  /// Whether the site ends in a blunt joint: disks touch the edges on both sides of it as they do
+  /// at a corner, only that no edge of the axis leads there.
+  std::vector<bool> blunt;
   std::vector<std::uint32_t> loop_begin;  ///< first site of each loop, and the number of all sites
   std::vector<std::uint32_t> component;   ///< of each loop
 
   bool joined(std::uint32_t site, std::uint32_t after) const {
-    return passes[site] && next[site] == after;
+    return passes[site] && !blunt[site] && next[site] == after;
   }
   /// The disks that touch the boundary where `site` ends and the next one begins: on the normal of
   /// the edge that ends there, or, after a vertex, of the edge that begins. So where two edges join
-  /// smoothly only to rounding, or bluntly, the first one's normal counts for both.
+  /// smoothly only to rounding, the first one's normal counts for both.
   template <class Number, class Roots>
   Spoke<Number> spoke_after(std::uint32_t site, Roots& roots) const {
     if (sites[site].is_vertex()) return spoke_of<Number>(sites[next[site]], false, roots);

@@ -70,12 +70,12 @@ Control pole_of_chord(const Site& a, const Site& b, const Disk& from, const Disk
 }
 
 /// How far the edge with this control point strays from touching both sites: in its middle, and
-/// next to its ends, where it may be bent most.
+/// next to its ends, where it may be bent most; next to a focus, on all scales down to rounding.
 double deviation(const Control& control, const Site& a, const Site& b, const Disk& from,
-                 const Disk& to) {
+                 const Disk& to, bool near_focus) {
   double worst = 0;
-  for (const double t : {0.0625, 0.5, 0.9375}) {
-    const double first = (1 - t) * (1 - t), last = t * t, middle = 2 * t * (1 - t) * control.weight;
+  const auto add = [&](double t, double rest) {
+    const double first = rest * rest, last = t * t, middle = 2 * t * rest * control.weight;
     const double scale = 1 / (first + middle + last);
     const Vec2 center =
         scale * (first * from.center + middle * control.point.center + last * to.center);
@@ -83,8 +83,22 @@ double deviation(const Control& control, const Site& a, const Site& b, const Dis
         scale * (first * from.radius + middle * control.point.radius + last * to.radius);
     for (const Site* s : {&a, &b})
       worst = std::max(worst, std::abs(carrier_distance(*s, center) - radius));
+  };
+  for (const double t : {0.0625, 0.5, 0.9375}) add(t, 1 - t);
+  if (!near_focus) return worst;
+  for (double t = 0x1p-6; t > 0x1p-26; t *= 0x1p-2) {
+    add(t, 1 - t);
+    add(1 - t, t);
   }
   return worst;
+}
+
+/// The least distance of a disk from the centres of arcs among two sites, and its radius.
+double focal_distance(const Site& a, const Site& b, const Disk& disk) {
+  double least = disk.radius;
+  for (const Site* s : {&a, &b})
+    if (s->is_arc()) least = std::min(least, std::abs(1 / s->curvature - disk.radius));
+  return least;
 }
 
 /// The unit tangent (x, y) at a disk of the bisector of a and b, with the growth of the radius
@@ -106,12 +120,20 @@ std::optional<Control> meeting_of_tangents(const Site& a, const Site& b, const D
                                            const Disk& to) {
   const Vector first = tangent_at(a, b, from), last = tangent_at(a, b, to);
   const Vector chord{to.center - from.center, to.radius - from.radius};
-  // The common perpendicular of the two tangents is short: least squares.
+  // The common perpendicular of the two tangents is short: least squares, in each case without the
+  // part along the other tangent, which is where digits would cancel.
   const auto inner = [](const Vector& u, const Vector& v) { return dot(u.c, v.c) + u.r * v.r; };
+  const auto without = [](const Vector& u, double share, const Vector& v) {
+    return Vector{u.c - share * v.c, u.r - share * v.r};
+  };
   const double aa = inner(first, first), ab = inner(first, last), bb = inner(last, last);
   const double ca = inner(chord, first), cb = inner(chord, last);
-  const double determinant = aa * bb - ab * ab;
-  const double s = (ca * bb - cb * ab) / determinant, t = (ca * ab - cb * aa) / determinant;
+  const Vector first_across = without(first, ab / bb, last);
+  const Vector last_across = without(last, ab / aa, first);
+  const double s =
+      inner(without(chord, cb / bb, last), first_across) / inner(first_across, first_across);
+  const double t =
+      -inner(without(chord, ca / aa, first), last_across) / inner(last_across, last_across);
   const bool from_first = std::abs(s) * std::sqrt(aa) < std::abs(t) * std::sqrt(bb);
   const Disk& end = from_first ? from : to;
   const Vector& along = from_first ? first : last;
@@ -129,12 +151,15 @@ std::optional<Control> meeting_of_tangents(const Site& a, const Site& b, const D
 /// tangents. What is left where that does not help is so nearly straight that a parabola through
 /// the disk halfway does better.
 Control control_with_arc(const Site& a, const Site& b, const Disk& from, const Disk& to) {
-  constexpr double few_roundings = 0x1p-50, long_enough = 0x1p-7;
+  constexpr double few_roundings = 0x1p-50, long_enough = 0x1p-7, curved = 0x1p-3;
   Control best = pole_of_chord(a, b, from, to);
-  if (distance(from.center, to.center) < long_enough * from.radius) return best;
-  double strays = deviation(best, a, b, from, to);
+  const double length = distance(from.center, to.center);
+  const double focal = std::min(focal_distance(a, b, from), focal_distance(a, b, to));
+  if (length < long_enough * focal) return best;
+  const bool near_focus = focal < curved * length;
+  double strays = deviation(best, a, b, from, to, near_focus);
   const auto take_if_better = [&](const Control& control) {
-    const double now = deviation(control, a, b, from, to);
+    const double now = deviation(control, a, b, from, to, near_focus);
     if (!(now < strays)) return;
     strays = now;
     best = control;

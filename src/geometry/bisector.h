@@ -8,6 +8,20 @@
 
 namespace medial::geometry {
 
+/// The direction, of any length, in which the walk along the bisector of two sites goes, neither of
+/// them an arc: the position of a disk grows like the product of its centre with it.
+inline Vec2 direction_along(const Site& right, const Site& left) {
+  if (right.is_vertex() && left.is_vertex()) return -left_of(left.point - right.point);
+  // Two segments that run almost the same way: the sum of the normals is parallel to the
+  // difference of the directions, and keeps its digits. Where they share a corner the walk
+  // leaves it or ends in it; otherwise it goes where the two lines open.
+  if (!(dot(right.direction, left.direction) > 0)) return right.direction - left.direction;
+  const Vec2 sum = right.normal() + left.normal();
+  const bool leaves =
+      meets(left, right) || (!meets(right, left) && cross(right.direction, left.direction) < 0);
+  return leaves ? sum : -sum;
+}
+
 /// The bisector of two sites as a walk meets it: going along it, the foot on `right` moves forward
 /// along the boundary and the foot on `left` moves backward.
 ///
@@ -37,20 +51,7 @@ struct Bisector {
       if (!by_right) scale = -scale;
       return;
     }
-    if (right.is_vertex() && left.is_vertex()) {
-      direction = -left_of(left.point - right.point);
-    } else {
-      direction = right.direction - left.direction;
-      // Two segments that run almost the same way: the sum of the normals is parallel to the
-      // difference of the directions, and keeps its digits. Where they share a corner the walk
-      // leaves it or ends in it; otherwise it goes where the two lines open.
-      if (dot(right.direction, left.direction) > 0) {
-        const Vec2 sum = right.normal() + left.normal();
-        const bool leaves = meets(left, right) ||
-                            (!meets(right, left) && cross(right.direction, left.direction) < 0);
-        direction = leaves ? sum : -sum;
-      }
-    }
+    direction = direction_along(right, left);
     const double size = norm(direction);
     if (size > 0) direction = (1 / size) * direction;
   }

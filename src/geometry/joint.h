@@ -32,7 +32,13 @@ inline Joint joint_of(const BulgeArc& before, const BulgeArc& after, double tole
   const double chord_before = distance(before.start, before.end);
   const double chord_after = distance(after.start, after.end);
   const double rounding = 4 * tolerance * (1 / chord_before + 1 / chord_after);
-  if (cosine > 0 && std::abs(sine) <= std::min(least + rounding, most)) return Joint::smooth;
+  const auto keeps_clear = [&] {
+    const double bend = std::abs(curvature(before) - curvature(after)), angle = std::abs(sine);
+    return angle * angle <= tolerance * bend ||
+           angle * std::min(chord_before, chord_after) <= 0.5 * tolerance;
+  };
+  if (cosine > 0 && std::abs(sine) <= std::min(least + rounding, most) && keeps_clear())
+    return Joint::smooth;
   if (cosine < 0 && std::abs(sine) <= least + rounding) {
     const double away = 0.5 * std::min(chord_before, chord_after);
     const double bend = 0.5 * (curvature(before) + curvature(after)) * away;

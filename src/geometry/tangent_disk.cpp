@@ -185,6 +185,94 @@ Solutions<Real> corner_and_site(const Vector<Real>& corner, const Vector<Real>& 
   return disks_on(line, c);
 }
 
+/// The centre of an arc's circle and its signed radius, as it stands in the contact equation.
+template <class Real>
+struct Circle {
+  explicit Circle(const Carrier<Real>& arc)
+      : radius(arc.flat / arc.round), center(arc.point + radius * arc.normal) {}
+  Real radius;
+  Vector<Real> center;
+};
+
+/// Whether two arcs are nearly of one circle, so that seen from their points most digits of what
+/// tells them apart are lost.
+template <class Real>
+bool nearly_concentric(const Carrier<Real>& a, const Carrier<Real>& b) {
+  if (a.vertex || b.vertex || !(a.round * b.round > Real(0))) return false;
+  constexpr double near = 0x1p-8;
+  const Circle<Real> first(a), second(b);
+  const Vector<Real> apart = second.center - first.center;
+  const Real reach = Real(near) * first.radius;
+  return dot(apart, apart) < reach * reach;
+}
+
+/// Three carriers, the first one an arc to which another one is nearly concentric. Seen from the
+/// arc's centre, x = c - q and s = rho - r, its own equation is x.x = s s, and that of another one
+/// round (x + D).(x + D) - round (rho - s)^2 = 2 flat (n.(x + D) - rho + s), with D = q - point.
+/// Their difference is linear, and for an arc with the centre q + u and the radius rho + e it is
+/// u.x + e s = (u.u - e e) / 2, which is as exact as u and e are.
+template <class Real>
+Solutions<Real> about_center(const Carrier<Real>& arc,
+                             const std::array<const Carrier<Real>*, 2>& others) {
+  using std::sqrt;
+  const Circle<Real> own(arc);
+  struct Plane {
+    Vector<Real> g;
+    Real s, h;  // g.x + s_ s = h, of unit size
+  };
+  const auto plane_of = [&](const Carrier<Real>& c) {
+    Plane plane;
+    if (nearly_concentric(arc, c)) {
+      const Circle<Real> circle(c);
+      const Vector<Real> u = circle.center - own.center;
+      const Real e = circle.radius - own.radius;
+      plane = {u, e, (dot(u, u) - e * e) / Real(2)};
+    } else {
+      const Vector<Real> d = own.center - c.point;
+      const Real rho = own.radius;
+      plane = {c.round * d - c.flat * c.normal, c.round * rho - c.flat,
+               c.flat * (dot(c.normal, d) - rho) - c.round * (dot(d, d) - rho * rho) / Real(2)};
+    }
+    const Real size = sqrt(dot(plane.g, plane.g) + plane.s * plane.s);
+    if (size == Real(0)) return plane;
+    return Plane{(Real(1) / size) * plane.g, plane.s / size, plane.h / size};
+  };
+  const Plane a = plane_of(*others[0]), b = plane_of(*others[1]);
+  const Vector<Real> along{a.g.y * b.s - a.s * b.g.y, a.s * b.g.x - a.g.x * b.s};
+  const Real rise = cross(a.g, b.g);
+  const Real squared = dot(along, along) + rise * rise;
+  Solutions<Real> result;
+  if (squared == Real(0)) return result;
+  // As in three_carriers(): the point of both planes nearest to the centre.
+  const Vector<Real> b_d{b.g.y * rise - b.s * along.y, b.s * along.x - b.g.x * rise};
+  const Vector<Real> d_a{along.y * a.s - rise * a.g.y, rise * a.g.x - along.x * a.s};
+  const Real inverse = Real(1) / squared, scale = sqrt(inverse);
+  const Vector<Real> origin = inverse * (a.h * b_d + b.h * d_a);
+  const Real start = inverse * (a.h * cross(b.g, along) + b.h * cross(along, a.g));
+  const Vector<Real> way = scale * along;
+  const Real slope = scale * rise;
+  // x.x = s s on the line.
+  const Real qa = dot(way, way) - slope * slope, qb = dot(origin, way) - start * slope;
+  const Real qc = dot(origin, origin) - start * start;
+  Real discriminant = qb * qb - qa * qc;
+  const Real noise = Real(16) * std::numeric_limits<Real>::epsilon();
+  if (discriminant < Real(0)) {
+    if (discriminant < -noise * qb * qb) return result;
+    discriminant = Real(0);
+  }
+  const auto add = [&](const Real& l) {
+    const Real s = start + l * slope, r = own.radius - s;
+    // Inside of the circle of a convex arc, outside of the other.
+    if (r >= Real(0) && s * own.radius >= Real(0))
+      result.disk[result.count++] = {own.center + origin + l * way, r};
+  };
+  const Real root = sqrt(discriminant);
+  const Real q = qb > Real(0) ? Real(-qb - root) : Real(root - qb);
+  if (qa != Real(0)) add(q / qa);
+  if (q != Real(0)) add(qc / q);
+  return result;
+}
+
 /// Three carriers of which one is an arc: the equation of the roundest eliminates the quadric from
 /// the other two, which leaves two planes in (x, y, r); their line meets the roundest.
 template <class Real>
@@ -192,6 +280,10 @@ Solutions<Real> three_carriers(std::array<const Carrier<Real>*, 3> carriers) {
   using std::abs, std::sqrt;
   sort_three(carriers, [](const auto* a, const auto* b) { return abs(a->round) > abs(b->round); });
   const Carrier<Real>& roundest = *carriers[0];
+  for (std::size_t i = 0; i < 2; ++i)
+    for (std::size_t j = i + 1; j < 3; ++j)
+      if (nearly_concentric(*carriers[i], *carriers[j]))
+        return about_center<Real>(*carriers[i], {carriers[j], carriers[3 - i - j]});
   struct Plane {
     Vector<Real> g;
     Real s, h;  // g.(x, y) + s r = h
@@ -313,17 +405,23 @@ double tangent_radius(Vec2 foot, Vec2 normal, const Site& site) {
   double radius = height / closing;
   // Where the disk is nearly the arc's own circle, the contact equation is its residual times
   // 1 - radius * curvature: Newton's method on the distance itself wins the digits back, in a step
-  // or two unless the centres are very close.
+  // or two unless the centres are very close. Distance less radius falls and is concave in the
+  // radius: a step may lead too far, from where the next ones come back, and at the arc's own
+  // radius it is far enough.
   constexpr double nearly = 0.25;
-  constexpr int most_steps = 16;
+  constexpr int most_steps = 32;
+  if (!site.is_arc() || !(std::abs(1 - radius * site.curvature) < nearly))
+    return fits_into(radius, site) ? radius : none;
+  const double own = 1 / site.curvature;
+  radius = std::min(radius, own);
   for (int step = 0; step < most_steps; ++step) {
-    if (!site.is_arc() || !(std::abs(1 - radius * site.curvature) < nearly)) break;
     const ArcView view = view_of_arc(site, foot + radius * normal);
     const double error = view.distance - radius;
-    const double slope = medial::dot(view.toward, normal) / view.size - 1;
-    if (!(slope < 0)) break;
-    radius -= error / slope;
     if (std::abs(error) <= std::numeric_limits<double>::epsilon() * radius) break;
+    const double slope = medial::dot(view.toward, normal) / view.size - 1;
+    const double next = slope < 0 ? std::min(radius - error / slope, own) : own;
+    if (!(next != radius)) break;
+    radius = next;
   }
   return fits_into(radius, site) ? radius : none;
 }
@@ -398,7 +496,9 @@ bool tangent_disk_in_high_precision(const Site& a, const Site& b, const Site& c,
     const auto& s = solved.disk[i];
     const Disk candidate{{static_cast<double>(s.center.x), static_cast<double>(s.center.y)},
                          static_cast<double>(s.radius)};
-    const double off = distance(candidate.center, near.center);
+    // The circle of an arc is touched from its other side at the same place; the residual tells.
+    const double off =
+        std::max(distance(candidate.center, near.center), residual(candidate, a, b, c));
     if (off < best) {
       best = off;
       disk = candidate;

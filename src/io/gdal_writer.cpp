@@ -6,17 +6,15 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <optional>
-#include <set>
 
-#include "io/format_name.h"
+#include "io/gdal_columns.h"
 #include "io/gdal_support.h"
 #include "io/place.h"
 #include "io/table_writer.h"
+#include "medial/centreline.h"
 #include "medial/io/projection.h"
 #include "medial/query.h"
 
@@ -31,78 +29,19 @@ const char* driver_of(const std::string& format) {
   return "FlatGeobuf";
 }
 
-template <class Number>
-bool spells(const std::string& text, Number& value) {
-  const char* end = text.data() + text.size();
-  const auto [stop, problem] = std::from_chars(text.data(), end, value);
-  if (problem != std::errc() || stop != end) return false;
-  std::array<char, 40> again{};
-  const auto printed = std::to_chars(again.data(), again.data() + again.size(), value);
-  return std::string_view(again.data(), static_cast<std::size_t>(printed.ptr - again.data())) ==
-         text;
-}
-
-/// An attribute of the input. Attributes travel as text; a column whose every value is the usual
-/// spelling of a number becomes numbers again (so "007" stays a text).
-struct Column {
-  std::string name;    ///< in the input
-  std::string column;  ///< in the output, different from medial's own
-  OGRFieldType type = OFTInteger64;
-};
-
-std::vector<Column> columns_of(const NativeFile& file) {
-  std::vector<Column> columns;
-  std::map<std::string, std::size_t> index;
-  for (const NativeItem& item : file.items) {
-    for (const auto& [name, value] : item.attributes) {
-      const auto [found, inserted] = index.try_emplace(name, columns.size());
-      if (inserted) columns.push_back({name, name, OFTInteger64});
-      OGRFieldType& type = columns[found->second].type;
-      std::int64_t whole = 0;
-      double real = 0;
-      if (type == OFTInteger64 && !spells(value, whole)) type = OFTReal;
-      if (type == OFTReal && !(spells(value, real) && std::isfinite(real)) &&
-          !spells(value, whole)) {
-        type = OFTString;
-      }
-    }
-  }
-  const std::array<const char*, 13> own{"feature", "branch", "r_from",    "r_to",       "length",
-                                        "r_min",   "r_max",  "site_left", "site_right", "fid",
-                                        "ogc_fid", "geom",   "node"};
-  std::set<std::string> taken;
-  for (const char* name : own) taken.insert(name);
-  for (Column& column : columns) {
-    for (int i = 1; !taken.insert(lower_case(column.column)).second; ++i) {
-      column.column = fmt::format("{}_{}", column.name, i);
-    }
-  }
-  return columns;
+AttributeColumns columns_of(const NativeFile& file) {
+  std::vector<const Attributes*> items;
+  for (const NativeItem& item : file.items) items.push_back(&item.attributes);
+  static const std::array<std::string, 10> own{"feature",    "branch", "r_from", "r_to",
+                                               "length",     "r_min",  "r_max",  "site_left",
+                                               "site_right", "node"};
+  return {items, own};
 }
 
 /// "ring/vertex" (a colon would make readers take it for a time of day); empty for no site.
 std::string site_text(const MedialAxis& axis, std::uint32_t site) {
   if (site == no_site) return {};
   return fmt::format("{}/{}", axis.sites[site].ring, axis.sites[site].vertex);
-}
-
-/// The smallest radius along an edge. The derivative of a rational quadratic function with weights
-/// 1, w, 1 has the sign of the quadratic Bernstein polynomial with coefficients w (r1 - r0),
-/// (r2 - r0) / 2, w (r2 - r1).
-double smallest_radius(const MedialAxis& axis, const Edge& edge) {
-  const double r0 = axis.nodes[edge.node[0]].disk.radius;
-  const double r1 = edge.control.radius;
-  const double r2 = axis.nodes[edge.node[1]].disk.radius;
-  double smallest = std::min(r0, r2);
-  const double a = edge.weight * (r1 - r0);
-  const double b = 0.5 * (r2 - r0);
-  const double c = edge.weight * (r2 - r1);
-  if (a < 0 && c > 0) {  // falls, then rises: exactly one root in between
-    const double root = std::sqrt(b * b - a * c);
-    const double t = b > 0 ? -a / (b - a + root) : (root - b) / (c - b + root);
-    if (t > 0 && t < 1) smallest = std::min(smallest, disk_at(axis, edge, t).radius);
-  }
-  return smallest;
 }
 
 class GdalWriter {
@@ -155,11 +94,7 @@ class GdalWriter {
       OGRFieldDefn definition(field, field_type);
       if (layer->CreateField(&definition) != OGRERR_NONE) return nullptr;
     }
-    for (const Column& column : columns_) {
-      OGRFieldDefn definition(column.column.c_str(), column.type);
-      if (layer->CreateField(&definition) != OGRERR_NONE) return nullptr;
-    }
-    return layer;
+    return columns_.create_in(*layer) ? layer : nullptr;
   }
 
   Status write_layers(GDALDataset& target, const std::string& format,
@@ -195,23 +130,6 @@ class GdalWriter {
     return success();
   }
 
-  void set_attributes(OGRFeature& feature, int first, const NativeItem& item) const {
-    for (const auto& [name, value] : item.attributes) {
-      const auto column = std::ranges::find(columns_, name, &Column::name);
-      const int field = first + static_cast<int>(column - columns_.begin());
-      std::int64_t whole = 0;
-      double real = 0;
-      if (column->type == OFTInteger64 && spells(value, whole)) {
-        feature.SetField(field, static_cast<GIntBig>(whole));
-      } else if (column->type == OFTReal) {
-        std::from_chars(value.data(), value.data() + value.size(), real);
-        feature.SetField(field, real);
-      } else {
-        feature.SetField(field, value.c_str());
-      }
-    }
-  }
-
   Status write_branches(OGRLayer& layer, std::size_t index, const GdalMessages& messages) {
     const NativeItem& item = file_.items[index];
     const MedialAxis& axis = item.axis;
@@ -236,10 +154,10 @@ class GdalWriter {
       for (const Step& step : branch.steps) {
         const Edge& edge = axis.edges[step.edge];
         total += length(axis, edge);
-        smallest = std::min(smallest, smallest_radius(axis, edge));
-        for (const std::uint32_t node : edge.node) {
-          largest = std::max(largest, axis.nodes[node].disk.radius);
-        }
+        const double low = narrowest_place(axis, step.edge).t;
+        const double high = widest_place(axis, step.edge).t;
+        smallest = std::min(smallest, disk_at(axis, edge, low).radius);
+        largest = std::max(largest, disk_at(axis, edge, high).radius);
       }
       const Step& first = branch.steps.front();
       const auto& site = axis.edges[first.edge].site;
@@ -253,7 +171,7 @@ class GdalWriter {
       feature.SetField(6, largest);
       feature.SetField(7, site_text(axis, site[first.forward ? 0 : 1]).c_str());
       feature.SetField(8, site_text(axis, site[first.forward ? 1 : 0]).c_str());
-      set_attributes(feature, 9, item);
+      columns_.set(feature, 9, item.attributes);
       feature.SetGeometryDirectly(line.release());
       if (layer.CreateFeature(&feature) != OGRERR_NONE) return failed(messages);
     }
@@ -275,7 +193,7 @@ class GdalWriter {
       feature.SetField(1, static_cast<GIntBig>(i));
       feature.SetField(2, node.disk.radius);
       feature.SetField(3, kinds[static_cast<std::size_t>(node.kind)]);
-      set_attributes(feature, 4, item);
+      columns_.set(feature, 4, item.attributes);
       feature.SetGeometryDirectly(new OGRPoint(points[i].x, points[i].y));
       if (layer.CreateFeature(&feature) != OGRERR_NONE) return failed(messages);
     }
@@ -285,7 +203,7 @@ class GdalWriter {
   const NativeFile& file_;
   const WriteOptions& options_;
   std::string shown_;
-  std::vector<Column> columns_;
+  AttributeColumns columns_;
   OGRSpatialReference crs_;
   bool has_crs_ = false;
   std::optional<BackToGeographic> back_;

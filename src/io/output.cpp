@@ -8,9 +8,12 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <new>
+#include <sstream>
 
 #include "io/place.h"
 #include "medial/io/write.h"
@@ -193,6 +196,52 @@ Status OutputStream::finish() {
   }
   if (problem_ != 0) return unwritable(path_, problem_);
   return success();
+}
+
+Status write_whole(const std::string& path, const std::function<Status(OutputStream&)>& write) {
+  const auto to = [&](const std::string& where) -> Status {
+    Result<OutputStream> out = OutputStream::open(where);
+    if (!out) return std::move(out).error();
+    Status written = write(*out);
+    if (!written) return written;
+    return out->finish();
+  };
+  const auto run = [&]() -> Status {
+    if (is_stream(path)) return to(path);
+    Result<PendingFile> pending = PendingFile::create(path);
+    if (!pending) return std::move(pending).error();
+    Status written = to(pending->path());
+    if (!written) return written;
+    return pending->commit();
+  };
+  Error error;
+  try {
+    Status status = run();
+    if (status) return status;
+    error = std::move(status.error());
+  } catch (const std::bad_alloc&) {
+    error = {ErrorCode::out_of_memory, "memory ran out", {}};
+  } catch (const std::exception& problem) {
+    error = {ErrorCode::internal, problem.what(), {}};
+  }
+  error.place.file = path;
+  return error;
+}
+
+Result<std::string> output_format(const std::string& path, const std::string& name,
+                                  const std::string& standard, const std::string& known) {
+  std::string format = name;
+  if (format.empty()) format = path == "-" ? standard : fs::path(path).extension().string();
+  if (format.starts_with('.')) format.erase(0, 1);
+  for (char& c : format) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  std::istringstream words(known);
+  for (std::string word; words >> word;)
+    if (word == "." + format) return format;
+  Error error{ErrorCode::unsupported,
+              "'" + format + "' is no format to write here; known are " + known,
+              {}};
+  error.place.file = path;
+  return error;
 }
 
 }  // namespace medial::io

@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -88,5 +89,14 @@ class OutputStream {
   std::vector<char> buffer_;
   std::size_t used_ = 0;
 };
+
+/// Writes a file all at once, or to a stream: `write` puts the bytes. Exceptions become errors, and
+/// errors name the file.
+Status write_whole(const std::string& path, const std::function<Status(OutputStream&)>& write);
+
+/// The format by name, or where that is empty by the extension of `path` (`standard` for "-"), in
+/// small letters. Errors: unsupported, where it is none of the words in `known`.
+Result<std::string> output_format(const std::string& path, const std::string& name,
+                                  const std::string& standard, const std::string& known);
 
 }  // namespace medial::io

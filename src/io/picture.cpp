@@ -29,6 +29,10 @@ constexpr Color contact_color{0.80, 0.20, 0.20};
 constexpr std::array<Color, 3> node_colors{
     {{0.20, 0.55, 0.25}, {0.45, 0.45, 0.50}, {0.80, 0.15, 0.20}}};
 
+// Of layers, one after another: polygons have the first.
+constexpr std::array<Color, 4> layer_colors{
+    {{0.00, 0.45, 0.70}, {0.84, 0.37, 0.00}, {0.80, 0.15, 0.20}, {0.00, 0.62, 0.45}}};
+
 constexpr double hue_step = 0.618033988749895;  // the golden section: neighbours differ
 
 constexpr int pieces_per_stroke =
@@ -163,14 +167,16 @@ Color pastel(double hue) {
 
 class Picture {
  public:
-  /// `diagrams`: where Voronoi diagrams are drawn, those of the file's items; or null.
+  /// `diagrams`: where Voronoi diagrams are drawn, those of the file's items; or null. `layers`:
+  /// what is drawn around and above the axes; or null.
   Picture(cairo_t* context, const Frame& frame, const NativeFile& file, const WriteOptions& options,
-          const VoronoiFile* diagrams = nullptr)
+          const VoronoiFile* diagrams = nullptr, const LayerFile* layers = nullptr)
       : context_(context),
         frame_(frame),
         file_(file),
         options_(options),
         diagrams_(diagrams),
+        layers_(layers),
         pixels_(cairo_surface_get_type(cairo_get_target(context)) == CAIRO_SURFACE_TYPE_IMAGE) {
     double edges = 0;
     for (const NativeItem& item : file.items) {
@@ -188,10 +194,12 @@ class Picture {
     color(paper_color);
     cairo_paint(context_);
     if (options_.shape) draw_shapes();
+    if (layers_ != nullptr) draw_polygons();
     if (diagrams_ != nullptr) draw_faces();
     if (options_.disks > 0) draw_disks();
     if (options_.contacts) draw_contacts();
     draw_axes();
+    if (layers_ != nullptr) draw_lines_and_disks();
     if (options_.nodes) draw_nodes();
   }
 
@@ -293,6 +301,46 @@ class Picture {
       line_to(piece.to);
     } else {
       conic_to(piece);
+    }
+  }
+
+  void trace(const std::vector<Vec2>& points) {
+    for (std::size_t i = 0; i < points.size(); ++i)
+      i == 0 ? move_to(frame_(points[i])) : line_to(frame_(points[i]));
+  }
+
+  void draw_polygons() {
+    cairo_set_fill_rule(context_, CAIRO_FILL_RULE_EVEN_ODD);
+    for (const Layer& layer : layers_->layers) {
+      if (layer.kind != LayerKind::polygons) continue;
+      for (const LayerFeature& feature : layer.features) {
+        for (const auto& ring : feature.parts) {
+          trace(ring);
+          cairo_close_path(context_);
+        }
+        color(layer_colors[0], 0.35);
+        cairo_fill_preserve(context_);
+        color(layer_colors[0]);
+        cairo_set_line_width(context_, thickness(0.8));
+        cairo_stroke(context_);
+      }
+    }
+  }
+
+  void draw_lines_and_disks() {
+    std::size_t kind = 0;
+    for (const Layer& layer : layers_->layers) {
+      if (layer.kind == LayerKind::polygons) continue;
+      color(layer_colors[++kind % layer_colors.size()]);
+      for (const LayerFeature& feature : layer.features) {
+        cairo_set_line_width(context_, thickness(1.2));
+        if (layer.kind == LayerKind::lines) {
+          trace(feature.parts[0]);
+        } else {
+          circle(frame_(feature.parts[0][0]), feature.values[0] * frame_.scale);
+        }
+        cairo_stroke(context_);
+      }
     }
   }
 
@@ -488,6 +536,7 @@ class Picture {
   const NativeFile& file_;
   const WriteOptions& options_;
   const VoronoiFile* diagrams_;
+  const LayerFile* layers_;
   bool pixels_ = false;  ///< a picture of pixels, in which nobody can look closer
   double largest_ = 0;   ///< radius
   double fineness_ = 1;  ///< factor of all line widths
@@ -508,7 +557,8 @@ cairo_surface_t* create_surface(OutputStream& out, const std::string& format, co
 }
 
 Status draw_picture(OutputStream& out, const std::string& format, const NativeFile& file,
-                    const WriteOptions& options, const VoronoiFile* diagrams) {
+                    const WriteOptions& options, const VoronoiFile* diagrams,
+                    const LayerFile* layers = nullptr) {
   constexpr double smallest_size = 16;
   constexpr double largest_size = 8000;  // four times as high stays below Cairo's 32767
   if (!(options.width >= smallest_size && options.width <= largest_size)) {
@@ -524,7 +574,7 @@ Status draw_picture(OutputStream& out, const std::string& format, const NativeFi
   const Surface surface(create_surface(out, format, frame), &cairo_surface_destroy);
   const std::unique_ptr<cairo_t, decltype(&cairo_destroy)> context(cairo_create(surface.get()),
                                                                    &cairo_destroy);
-  Picture(context.get(), frame, file, options, diagrams).draw();
+  Picture(context.get(), frame, file, options, diagrams, layers).draw();
   cairo_status_t status = cairo_status(context.get());
   if (status == CAIRO_STATUS_SUCCESS && format == "png") {
     status = cairo_surface_write_to_png_stream(surface.get(), write_bytes, &out);
@@ -543,6 +593,11 @@ Status draw_picture(OutputStream& out, const std::string& format, const NativeFi
 Status write_picture(OutputStream& out, const std::string& format, const NativeFile& file,
                      const WriteOptions& options) {
   return draw_picture(out, format, file, options, nullptr);
+}
+
+Status write_layers_picture(OutputStream& out, const std::string& format, const LayerFile& file,
+                            const NativeFile& background, const WriteOptions& options) {
+  return draw_picture(out, format, background, options, nullptr, &file);
 }
 
 Status write_voronoi_picture(OutputStream& out, const std::string& format, const VoronoiFile& file,

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "io/output.h"
+#include "medial/io/layers.h"
 #include "medial/io/write.h"
 
 namespace medial::io {
@@ -13,6 +14,11 @@ namespace medial::io {
 /// invalid_option (width), unwritable.
 Status write_picture(OutputStream& out, const std::string& format, const NativeFile& file,
                      const WriteOptions& options);
+
+/// The same with layers: polygons below the axes, lines and disks above them, a colour for each
+/// layer.
+Status write_layers_picture(OutputStream& out, const std::string& format, const LayerFile& file,
+                            const NativeFile& background, const WriteOptions& options);
 
 /// The same for Voronoi diagrams: every face filled with a colour, segments' faces in light colours
 /// and reflex vertices' in greys; the spokes thin. The boundary is options.shape's.

@@ -36,11 +36,13 @@ class DiskTree {
 
   /// The factor s at which `disk`, grown by it, lies in another disk of the part, grown too: the
   /// least |p - q| / (r(q) - r(p)) over the disks with larger radii; infinite where there is none.
-  double vanishes_at(const Disk& disk, std::uint32_t part) const {
+  /// `other` is that disk, unchanged where there is none; before, any disk of the part that is
+  /// likely to be near to it.
+  double vanishes_at(const Disk& disk, std::uint32_t part, Disk& other) const {
     const Part& tree = parts_[part];
-    double best = std::numeric_limits<double>::infinity();
-    search(tree, tree.levels.size() - 1, 0, disk, best);
-    return best;
+    Search search{tree, disk, factor(disk, other), other};
+    search.run(tree.levels.size() - 1, 0);
+    return search.best;
   }
 
  private:
@@ -89,31 +91,44 @@ class DiskTree {
     const double dy = std::max({bound.low.y - p.y, 0.0, p.y - bound.high.y});
     return norm({dx, dy}) / (bound.radius - disk.radius);
   }
-  void search(const Part& tree, std::size_t level, std::size_t i, const Disk& disk,
-              double& best) const {
-    const std::size_t first = i * fan_out;
-    if (level == 0) {
-      for (std::size_t k = first; k < std::min(first + fan_out, tree.disks.size()); ++k) {
-        const double more = tree.disks[k].radius - disk.radius;
-        if (more > 0) best = std::min(best, distance(tree.disks[k].center, disk.center) / more);
-      }
-      return;
-    }
-    // The most promising first.
-    std::array<std::pair<double, std::size_t>, fan_out> children;
-    std::size_t count = 0;
-    const std::vector<Bound>& below = tree.levels[level - 1];
-    for (std::size_t k = first; k < std::min(first + fan_out, below.size()); ++k) {
-      const double bound = least(below[k], disk);
-      if (!(bound < best)) continue;
-      std::size_t place = count++;
-      for (; place > 0 && children[place - 1].first > bound; --place)
-        children[place] = children[place - 1];
-      children[place] = {bound, k};
-    }
-    for (std::size_t k = 0; k < count && children[k].first < best; ++k)
-      search(tree, level - 1, children[k].second, disk, best);
+  static double factor(const Disk& disk, const Disk& other) {
+    const double more = other.radius - disk.radius;
+    return more > 0 ? distance(other.center, disk.center) / more
+                    : std::numeric_limits<double>::infinity();
   }
+  struct Search {
+    const Part& tree;
+    const Disk& disk;
+    double best;
+    Disk& other;
+
+    void run(std::size_t level, std::size_t i) {
+      const std::size_t first = i * fan_out;
+      if (level == 0) {
+        for (std::size_t k = first; k < std::min(first + fan_out, tree.disks.size()); ++k) {
+          const double here = factor(disk, tree.disks[k]);
+          if (!(here < best)) continue;
+          best = here;
+          other = tree.disks[k];
+        }
+        return;
+      }
+      // The most promising first.
+      std::array<std::pair<double, std::size_t>, fan_out> children;
+      std::size_t count = 0;
+      const std::vector<Bound>& below = tree.levels[level - 1];
+      for (std::size_t k = first; k < std::min(first + fan_out, below.size()); ++k) {
+        const double bound = least(below[k], disk);
+        if (!(bound < best)) continue;
+        std::size_t place = count++;
+        for (; place > 0 && children[place - 1].first > bound; --place)
+          children[place] = children[place - 1];
+        children[place] = {bound, k};
+      }
+      for (std::size_t k = 0; k < count && children[k].first < best; ++k)
+        run(level - 1, children[k].second);
+    }
+  };
 
   std::vector<Part> parts_;
 };

@@ -51,7 +51,8 @@ AxisFrame HalfEdges::frame(HalfEdge half, bool at_end) const {
 }
 
 Vec2 HalfEdges::touch(HalfEdge half, bool at_end) const {
-  if (exact(half)) return foot(axis_.sites[right_site(half)], disk(half, at_end).center);
+  if (exact(half))
+    return touch_of(axis_, axis_.sites[right_site(half)], disk(half, at_end).center, at_end);
   return boundary_at(frame(half, at_end), Side::right).point;
 }
 
@@ -64,6 +65,12 @@ double HalfEdges::direction(HalfEdge half) const {
     const Vec2 right = touch(half, false) - at.center, left = touch(half ^ 1U, true) - at.center;
     if (distance(left, right) > apart * at.radius)
       return std::remainder(std::atan2(right.y, right.x) + angle_between(right, left) / 2, turn);
+    // Both feet in one place: straight towards it where the radius shrinks, or away from it.
+    const Disk& other = disk(half, true);
+    if (distance(other.center, at.center) <= apart * at.radius) {
+      const Vec2 out = other.radius <= at.radius ? right + left : -(right + left);
+      return std::atan2(out.y, out.x);
+    }
   }
   const Vec2 tangent = frame(half, false).tangent;
   return std::atan2(tangent.y, tangent.x);
@@ -71,15 +78,25 @@ double HalfEdges::direction(HalfEdge half) const {
 
 double HalfEdges::gap(HalfEdge half) const {
   const HalfEdge after = next_[half];
+  // Along one site, the boundary just goes on.
+  if (exact(half) && right_site(half) == right_site(after) && (half ^ 1U) != after) return 0;
   const Disk& at = disk(half, true);
   const Vec2 begin = touch(half, true), end = touch(after, false);
   const double slack = std::max(4 * axis_.tolerance, 1e-9 * at.radius);
-  if (distance(begin, end) <= slack || at.radius <= slack) return 0;
+  if (at.radius <= slack) return 0;
   const double angle = angle_between(begin - at.center, end - at.center);
-  // A disk that touches all around but for one point is a step backwards by rounding.
+  const bool around_an_end = (half ^ 1U) == after;
   constexpr double hardly = 1e-6;
-  if (turn - angle < hardly) return 0;
-  if (angle <= std::numbers::pi || exact(half) || (half ^ 1U) == after) return angle;
+  if (around_an_end && distance(begin, end) <= hardly * at.radius) {
+    // Both feet in one place: in front, where the radius shrinks along the edge, and all around is
+    // open; or behind, where it grows.
+    if (!(disk(after, true).radius < at.radius))
+      return distance(begin, end) <= slack || angle > std::numbers::pi ? 0 : angle;
+    return angle > std::numbers::pi ? angle : turn;
+  }
+  // A disk that touches all around but for one point is a step backwards by rounding.
+  if (distance(begin, end) <= slack || turn - angle < hardly) return 0;
+  if (angle <= std::numbers::pi || exact(half) || around_an_end) return angle;
   // Samples: a step backwards, or more than a half circle? The tangents and rates decide: a foot
   // is acos(-R_a) away from the direction in which the axis leaves.
   const AxisFrame back = frame(half ^ 1U, false), on = frame(after, false);
@@ -88,6 +105,15 @@ double HalfEdges::gap(HalfEdge half) const {
   };
   const double expected = angle_between(back.tangent, on.tangent) - to_foot(back) - to_foot(on);
   return expected > 0 ? angle : 0;
+}
+
+Vec2 touch_of(const MedialAxis& axis, const Site& site, Vec2 center, bool ends) {
+  if (site.kind == SiteKind::arc && site.bulge > 0) {
+    const BulgeArc arc{site.start, site.end, site.bulge};
+    const Vec2 middle = arc.start + (1 / curvature(arc)) * left_of(start_tangent(arc));
+    if (distance(middle, center) <= 64 * axis.tolerance) return ends ? site.end : site.start;
+  }
+  return foot(site, center);
 }
 
 void add_arc(const Disk& disk, Vec2 begin, Vec2 end, double angle, Contour& contour) {

@@ -41,7 +41,7 @@ class HalfEdges {
   /// Where the disk at an end of a half edge touches the boundary on the right.
   Vec2 touch(HalfEdge half, bool at_end) const;
   /// The angle of the disk's arc, counter-clockwise, from where the right side of a half edge ends
-  /// to where that of the next one begins; in [0, 2 pi). 0 where the two are one point to rounding,
+  /// to where that of the next one begins; in [0, 2 pi]. 0 where the two are one point to rounding,
   /// and where the sides of samples overlap.
   double gap(HalfEdge half) const;
 
@@ -52,6 +52,10 @@ class HalfEdges {
   const MedialAxis& axis_;
   std::vector<HalfEdge> next_;
 };
+
+/// Where a disk around `center` touches a site whose stretch of the boundary begins or ends there.
+/// Around the centre of an arc, within rounding, it touches all of it: that is its start or end.
+Vec2 touch_of(const MedialAxis& axis, const Site& site, Vec2 center, bool ends);
 
 /// The arc of a disk from one point to another, counter-clockwise, as one piece or two.
 void add_arc(const Disk& disk, Vec2 begin, Vec2 end, double angle, Contour& contour);

@@ -32,14 +32,34 @@ Importance::Importance(const MedialAxis& axis, const Trees& trees, PruneMeasure 
                        bool reaches)
     : axis_(axis), trees_(trees), measure_(measure), size_(trees.deepest.size()) {
   using enum PruneMeasure;
-  of_branches_ = measure == significance || measure == length || measure == ratio;
+  of_branches_ =
+      measure == prominence || measure == significance || measure == length || measure == ratio;
   of_sides_ = measure == ratio || measure == potential || measure == residual || measure == area;
-  of_reach_ = reaches || measure == significance || measure == length || measure == erosion;
+  of_reach_ = reaches || measure == prominence || measure == significance || measure == length ||
+              measure == erosion;
   if (measure == angle || measure == lambda || measure == residual) steps_ = 4;
   for (std::size_t i = 0; i < size_.size(); ++i)
     size_[i] = axis.nodes[trees.deepest[i]].disk.radius;
-  if (measure == scale) disks_.emplace(axis.nodes, trees.part);
+  if (measure == scale) find_vanishing();
   if (of_reach_ || of_sides_) sum_up();
+}
+
+void Importance::find_vanishing() {
+  disks_.emplace(axis_.nodes, trees_.part);
+  vanishing_.resize(axis_.nodes.size());
+  const auto find = [&](std::uint32_t node, const Disk& likely) {
+    auto& [factor, other] = vanishing_[node];
+    other = likely;
+    factor = disks_->vanishes_at(axis_.nodes[node].disk, trees_.part[node], other);
+  };
+  // From the core outwards: neighbours vanish in the same disk, mostly.
+  for (std::uint32_t i = 0; i < axis_.nodes.size(); ++i)
+    if (trees_.inwards[i] == no_edge) find(i, axis_.nodes[trees_.deepest[trees_.part[i]]].disk);
+  for (auto e = trees_.order.rbegin(); e != trees_.order.rend(); ++e) {
+    const auto& node = axis_.edges[*e].node;
+    const bool outer_first = trees_.outer_end(axis_, *e) == 0;
+    find(node[outer_first ? 0 : 1], vanishing_[node[outer_first ? 1 : 0]].second);
+  }
 }
 
 void Importance::sum_up() {
@@ -91,8 +111,13 @@ void Importance::add_sides(std::uint32_t e, double t0, double t1, Beyond& sum) c
   const Curve curve = t0 == 0 && t1 == 1 ? whole : whole.part(t0, t1);
   const Disk first{curve.origin, curve.r0}, last{curve.end, curve.r2};
   const bool exact = axis_.resolution == 0;
+  const std::size_t sites = axis_.sites.size();
   const auto points = [&](double t, const Disk& disk) -> Feet {
-    if (exact) return feet(edge, t, disk);
+    if (exact && edge.site[0] < sites && edge.site[1] < sites) {
+      const bool at_last = t == t1;  // where the right side ends, and the left one begins
+      return {touch_of(axis_, axis_.sites[edge.site[0]], disk.center, !at_last),
+              touch_of(axis_, axis_.sites[edge.site[1]], disk.center, at_last)};
+    }
     const AxisFrame frame = frame_at(axis_, edge, t);
     return {boundary_at(frame, Side::left).point, boundary_at(frame, Side::right).point};
   };
@@ -101,6 +126,8 @@ void Importance::add_sides(std::uint32_t e, double t0, double t1, Beyond& sum) c
   // boundary, back along the last radius and the axis; on the left its mirror image.
   const auto side = [&](Vec2 a, Vec2 b, std::uint32_t site, double sign) {
     double bulge = 0;
+    // From the centre of an arc to its centre: nothing of it was passed.
+    if (exact && curve.origin == curve.end) return;
     if (exact && site < axis_.sites.size() && axis_.sites[site].kind == SiteKind::arc &&
         !(a == b)) {
       const Site& arc = axis_.sites[site];
@@ -166,6 +193,8 @@ double Importance::at(std::uint32_t e, double s) const {
     return distance(f.left, f.right);
   };
   switch (measure_) {
+    case prominence:
+      return share(beyond(e, s).reach - r, std::sqrt(r) * std::sqrt(size));
     case significance:
       return share(beyond(e, s).reach - r, r);
     case length:
@@ -193,8 +222,11 @@ double Importance::at(std::uint32_t e, double s) const {
       return share(lost_area(edge, outer_first, t, disk, beyond(e, s).area), size);
     case lambda:
       return share(chord(), 2 * size);
-    case scale:
-      return disks_->vanishes_at(disk, part);
+    case scale: {
+      if (t == 0 || t == 1) return vanishing_[edge.node[t == 0 ? 0 : 1]].first;
+      Disk other = vanishing_[edge.node[outer_first ? 1 : 0]].second;
+      return disks_->vanishes_at(disk, part, other);
+    }
   }
   return 0;
 }

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "medial/axis.h"
@@ -47,6 +48,7 @@ class Importance {
   void add_sides(std::uint32_t edge, double t0, double t1, Beyond& sum) const;
   Beyond beyond(std::uint32_t edge, double s) const;
   void sum_up();
+  void find_vanishing();
   /// Of the area beyond a point, what the disk there does not cover.
   double lost_area(const Edge& edge, bool outer_first, double t, const Disk& disk,
                    double area_beyond) const;
@@ -59,6 +61,8 @@ class Importance {
   std::vector<Beyond> beyond_;  ///< of each node, with the arcs of its own disk
   std::vector<double> size_;    ///< of each connected part: what the measure is divided by
   std::optional<DiskTree> disks_;
+  /// Of each node: where it vanishes, and in what.
+  std::vector<std::pair<double, Disk>> vanishing_;
 };
 
 }  // namespace medial::ops

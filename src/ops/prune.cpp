@@ -22,12 +22,13 @@ struct Named {
   double threshold;
 };
 using enum PruneMeasure;
-constexpr std::array<Named, 11> measures{{
+constexpr std::array<Named, 12> measures{{
+    {prominence, "prominence", 0.25},
     {significance, "significance", 0.3},
     {length, "length", 1.5},
     {ratio, "ratio", 1.5},
     {radius, "radius", 0.1},
-    {angle, "angle", 90},
+    {angle, "angle", 100},
     {erosion, "erosion", 0.1},
     {potential, "potential", 0.1},
     {residual, "residual", 0.1},

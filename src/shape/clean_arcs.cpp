@@ -7,6 +7,7 @@
 
 #include "base/arc.h"
 #include "base/predicates.h"
+#include "base/tolerance.h"
 #include "shape/clean.h"
 
 namespace medial {
@@ -24,11 +25,15 @@ double bulge_of_angle(double angle) {
 class Cleaner {
  public:
   Cleaner(std::vector<RingEdge>& edges, ShapeReport& report) : edges_(edges), report_(report) {
-    double largest = 0;
+    Box box{edges[0].point, edges[0].point};
     for (const RingEdge& edge : edges) {
-      largest = std::max({largest, std::abs(edge.point.x), std::abs(edge.point.y)});
+      box.low = {std::min(box.low.x, edge.point.x), std::min(box.low.y, edge.point.y)};
+      box.high = {std::max(box.high.x, edge.point.x), std::max(box.high.y, edge.point.y)};
     }
+    const double largest = std::max(
+        {std::abs(box.low.x), std::abs(box.low.y), std::abs(box.high.x), std::abs(box.high.y)});
     rounding_ = largest * std::numeric_limits<double>::epsilon();
+    play_ = std::max(4 * rounding_, tolerance_for(box, 0) / 2);
   }
 
   void run() {
@@ -88,16 +93,16 @@ class Cleaner {
     if (result.size() >= 2) edges_ = std::move(result);
   }
 
-  /// Whether an arc continues the one before it on the same circle, to rounding.
+  /// Whether an arc may continue the one before it on the same circle.
   bool continues(std::size_t i) const {
     const BulgeArc first = arc(previous(i));
     const BulgeArc second = arc(i);
     if (!(first.bulge * second.bulge > 0)) return false;
     const double length = norm(second.chord());
     const double expected = bulge_of(end_tangent(first), second.chord());
-    if (!(std::abs(expected - second.bulge) * length <= 2 * rounding_)) return false;
-    const double longer = std::max(length, norm(first.chord()));
-    return std::abs(curvature(first) - curvature(second)) * longer * longer <= 8 * rounding_;
+    if (!(std::abs(expected - second.bulge) * length <= play_)) return false;
+    const double shorter = std::min(length, norm(first.chord()));
+    return std::abs(curvature(first) - curvature(second)) * shorter * shorter <= 8 * play_;
   }
 
   /// Replaces each run of arcs on one circle by one arc, or by two if it is more than a half
@@ -135,10 +140,17 @@ class Cleaner {
     if (!smooth[0]) std::rotate(edges_.begin(), lowest, edges_.end());
   }
 
-  /// Appends the run of edges [begin, end) to the result, merged if its vertices allow it.
+  /// Appends the run of edges [begin, end) to the result, merged if its vertices allow it, or else
+  /// its two halves.
   void append_run(std::size_t begin, std::size_t end, std::vector<RingEdge>& result) {
     const auto keep = [&] {
-      for (std::size_t i = begin; i < end; ++i) result.push_back(edges_[i]);
+      if (end - begin <= 2) {
+        for (std::size_t i = begin; i < end; ++i) result.push_back(edges_[i]);
+        return;
+      }
+      const std::size_t half = begin + (end - begin) / 2;
+      append_run(begin, half, result);
+      append_run(half, end, result);
     };
     const std::size_t last = end < edges_.size() ? end : 0;
     const Vec2 start = edges_[begin].point;
@@ -197,21 +209,25 @@ class Cleaner {
     result.push_back(second);
   }
 
-  /// Whether all vertices between two edges lie on the arc, to rounding.
+  /// Whether all edges of a run lie on the arc, within the play: their ends and their middles.
   bool follows(const BulgeArc& whole, std::size_t begin, std::size_t end) const {
     const Vec2 normal = left_of(start_tangent(whole));
     const double half_curvature = curvature(whole) / 2;
-    for (std::size_t i = begin + 1; i < end; ++i) {
-      const Vec2 q = edges_[i].point - whole.start;
-      const double offset = dot(normal, q) - half_curvature * squared_norm(q);
-      if (!(std::abs(offset) <= 4 * rounding_)) return false;
-    }
+    const auto is_on = [&](Vec2 p) {
+      const Vec2 q = p - whole.start;
+      return std::abs(dot(normal, q) - half_curvature * squared_norm(q)) <= play_;
+    };
+    for (std::size_t i = begin; i < end; ++i)
+      if (!is_on(edges_[i].point) || !is_on(apex(arc(i)))) return false;
     return true;
   }
 
   std::vector<RingEdge>& edges_;
   ShapeReport& report_;
   double rounding_ = 0;  ///< the spacing of doubles at the largest coordinate, about
+  /// How far arcs may be off one circle and still become one: what half of the engine's tolerance
+  /// cannot tell apart.
+  double play_ = 0;
 };
 
 }  // namespace

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "medial/shape.h"
 
 namespace medial {
@@ -10,6 +13,8 @@ struct Exterior {
   /// Of each point: whether it is one of the frame's. The sources of the others are those of the
   /// original shape's points.
   std::vector<bool> of_frame;
+  /// Of each point: the loop of the original shape that it was on; 0xFFFFFFFF for the frame's.
+  std::vector<std::uint32_t> of_loop;
 };
 
 /// The exterior within a frame that is `margin` away from the shape's bounding box on all sides.

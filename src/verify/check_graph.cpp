@@ -484,11 +484,25 @@ std::vector<bool> touched_points(const Problem& problem) {
 
 void check_reflex_vertices(const Problem& problem, Certificate& certificate) {
   const std::vector<bool> touched = touched_points(problem);
+  // Where an axis has shrunk to little, as that of a circle of many arcs, any disk will do.
+  constexpr std::size_t most_looks = 64;
+  std::size_t looks = most_looks * (problem.axis.nodes.size() + touched.size());
+  const auto touched_by_any = [&](std::uint32_t i) {
+    for (const Node& node : problem.axis.nodes) {
+      if (looks == 0) return false;
+      --looks;
+      if (node.component == problem.component[i] &&
+          std::abs(distance(node.disk.center, problem.point(i)) - node.disk.radius) <=
+              problem.tolerance)
+        return true;
+    }
+    return false;
+  };
   std::uint32_t first = no_index;
   for (std::uint32_t i = 0; i < touched.size(); ++i) {
     if (problem.joint[i] != Joint::reflex) continue;
     ++certificate.reflex_vertices;
-    if (touched[i]) continue;
+    if (touched[i] || touched_by_any(i)) continue;
     if (certificate.reflex_without_contact++ == 0) first = i;
   }
   if (first != no_index)

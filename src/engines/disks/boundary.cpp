@@ -4,6 +4,8 @@
 #include <limits>
 #include <optional>
 
+#include "base/arc.h"
+
 namespace medial::disks {
 namespace {
 
@@ -49,12 +51,17 @@ Start start_of_outer(const Loop& loop, const SiteNumbers& numbers, bool has_arcs
 
   double least = std::numeric_limits<double>::infinity();
   Start start;
+  const auto curvature_of = [&](std::uint32_t i) {
+    return curvature({loop.local(i), loop.local(loop.next(i)), loop.bulge(i)});
+  };
+  double before = curvature_of(loop.size() - 1);
   for (std::uint32_t i = 0; i < loop.size(); ++i) {
+    const double after = curvature_of(i);
+    const double larger = std::max(before, after);
+    before = after;
     if (numbers.joints[loop.begin() + i] == Joint::blunt) continue;
-    const double curvature =
-        std::max(loop.edge(loop.before(i)).last().curvature, loop.edge(i).first().curvature);
-    if (curvature < least) start.point = i;
-    least = std::min(least, curvature);
+    if (larger < least) start.point = i;
+    least = std::min(least, larger);
   }
   return start;
 }

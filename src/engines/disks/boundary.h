@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -79,8 +80,12 @@ struct Boundary {
     Vec2 normal;
   };
   Place smooth_place(std::uint32_t before, std::uint32_t after) const {
-    // Of two edges the longer one knows its direction better; a vertex has length 0.
-    const bool by_after = sites[after].length > sites[before].length;
+    // Of two edges the longer one knows its direction better; a vertex has length 0. But of two
+    // arcs of almost one circle the rounder one says where a disk as round has to be.
+    const double a = sites[before].curvature, b = sites[after].curvature;
+    constexpr double almost = 0x1p-20;
+    const bool alike = a > 0 && b > 0 && a != b && std::abs(a - b) <= almost * a;
+    const bool by_after = alike ? b > a : sites[after].length > sites[before].length;
     const Vec2 point =
         elements[before] == Element::vertex ? sites[before].point : sites[after].point;
     return {point, by_after ? sites[after].normal() : sites[before].end_normal()};

@@ -63,7 +63,12 @@ Event EventSearch::local_event(bool on_right) {
   const Vec2 next_normal = on_right ? site(next).normal() : site(next).end_normal();
   const double radius = geometry::tangent_radius(foot, normal, site(other));
   const bool in_reach = radius <= context_.radius_limit;
-  const double intrusion = 0.5 * radius * squared_norm(normal - next_normal);
+  // Where the disk is nearly an arc's circle, it reaches over the next arc by more than next to a
+  // segment.
+  const double intrusion =
+      site(next).is_arc() && in_reach
+          ? radius - geometry::carrier_distance(site(next), foot + radius * normal)
+          : 0.5 * radius * squared_norm(normal - next_normal);
   const bool flat = in_reach && intrusion <= 0.5 * context_.tolerance;
   if (!flat) {
     std::optional<Event> contact = contact_at_joint(next);

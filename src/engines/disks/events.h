@@ -59,7 +59,7 @@ class EventSearch {
   }
   /// Rounding may put a disk a little behind the place where it should be; what is further behind
   /// is another solution.
-  double slack() const { return 4 * context_.tolerance + 1e-9 * from_.radius; }
+  double slack() const { return 4 * context_.tolerance + 1e-12 * from_.radius; }
 
   /// The event at which the foot leaves `right` or `left` for its neighbour, by the sites alone.
   Event local_event(bool on_right);

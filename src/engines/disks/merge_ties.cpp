@@ -230,6 +230,7 @@ struct Cluster {
   std::vector<std::uint32_t> ends;  ///< of edges, at all its nodes
   bool branching = false;           ///< one of its nodes is
   std::uint64_t spent = 0;          ///< contacts looked at to fit it together with others
+  bool merged = false;              ///< it has more than one node
   bool dissolved = false;           ///< its nodes are left as they were
 };
 
@@ -485,6 +486,7 @@ class Merger {
     large.contacts.insert(large.contacts.end(), small.contacts.begin(), small.contacts.end());
     large.ends.insert(large.ends.end(), small.ends.begin(), small.ends.end());
     large.branching = true;
+    large.merged = true;
     large.spent += small.spent;
     small.contacts = {};
     small.ends = {};
@@ -559,8 +561,10 @@ class Merger {
       for (const std::uint32_t cluster : there)
         if (cluster != none) backward.push_back(cluster);
     };
-    for (const Cluster& cluster : clusters_)
+    for (const Cluster& cluster : clusters_) {
+      if (!cluster.merged) continue;
       for (const std::uint32_t end : cluster.ends) check(end);
+    }
     while (!backward.empty()) {
       Cluster& cluster = clusters_[backward.back()];
       backward.pop_back();

@@ -96,7 +96,11 @@ class Walker {
     const Span whole{run.first, run.last, 0};
     std::uint32_t touched = Hit::none;
     while (const Hit hit = contacts_.nearest(disk_of(radius), whole)) {
-      const double smaller = geometry::touching_radius(foot, normal, site(hit.site));
+      // The edge behind a reflex vertex bends into the disk, if at all, up to its end.
+      const bool behind = element(run.first) == Element::vertex && hit.site == run.first + 1;
+      const Site& hindrance = site(hit.site);
+      const double smaller = geometry::touching_radius(
+          foot, normal, behind ? geometry::make_vertex(hindrance.end()) : hindrance);
       touched = hit.site;
       if (!(smaller < radius)) break;
       radius = smaller;

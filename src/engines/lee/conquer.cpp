@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <mutex>
 
@@ -24,12 +25,21 @@ struct Halving {
   std::uint32_t boundary(int level, std::uint64_t i) const {
     return first + static_cast<std::uint32_t>((count * i) >> level);
   }
+  /// Of the merges of some levels, in chains times levels.
+  std::uint64_t work(int begin_level, int end_level) const {
+    return std::uint64_t{count} * static_cast<std::uint64_t>(end_level - begin_level);
+  }
 };
 
 class Conquest {
  public:
   Conquest(Diagram& diagram, const ConquerContext& context, Statistics& statistics)
-      : diagram_(diagram), context_(context), statistics_(statistics) {}
+      : diagram_(diagram), context_(context), statistics_(statistics) {
+    for (const Elements::Loop& loop : diagram.elements.loops) {
+      const Halving halving{loop.first_chain, loop.end_chain - loop.first_chain};
+      all_work_ += halving.work(0, halving.deepest());
+    }
+  }
 
   /// Merges list i of a level out of its halves, of which one may be empty.
   void merge_halves(const Halving& halving, int level, std::uint64_t i, Statistics& statistics) {
@@ -50,6 +60,7 @@ class Conquest {
       for (std::uint64_t j = begin; j < end; ++j) merge_halves(halving, k, j, own);
     }
     add(own);
+    report(halving.work(level, halving.deepest()) >> level);
   }
 
   /// One level after another, on this thread.
@@ -78,12 +89,18 @@ class Conquest {
         Statistics own;
         merge_halves(halving, level, i, own);
         add(own);
+        report(halving.work(level, level + 1) >> level);
       });
     }
     return last_edge_;
   }
 
  private:
+  void report(std::uint64_t work) {
+    if (!context_.progress) return;
+    const auto done = static_cast<double>(done_ += work);
+    context_.progress(std::min(1.0, done / static_cast<double>(all_work_)));
+  }
   bool cancelled() const {
     return context_.cancel != nullptr && context_.cancel->load(std::memory_order_relaxed);
   }
@@ -95,6 +112,8 @@ class Conquest {
   const ConquerContext& context_;
   Statistics& statistics_;
   std::mutex mutex_;
+  std::uint64_t all_work_ = 0;
+  std::atomic<std::uint64_t> done_ = 0;
   std::uint32_t last_edge_ = none;
 };
 

@@ -18,6 +18,7 @@ struct Level {
 struct ConquerContext {
   MergeLimits limits;
   const std::atomic<bool>* cancel = nullptr;
+  /// Told the share of the merges that is done, from any thread.
   std::function<void(double)> progress = {};
 };
 

@@ -1,14 +1,15 @@
 #include "engines/lee/diagram.h"
 
+#include "base/memory.h"
+
 namespace medial::lee {
 
 /// Begins with the diagrams of the chains: the spokes, and nothing else. A disk that touches a
 /// chain twice would enclose a boundary that turns to the left, which a chain does not.
 Diagram::Diagram(const Elements& all)
-    : elements(all),
-      edges(2 * std::size_t{all.size()}),
-      top(all.size(), {none, none}),
-      free(all.chains.size() - 1) {
+    : elements(all), top(all.size(), {none, none}), free(all.chains.size() - 1) {
+  reserve_large(edges, 2 * std::size_t{all.size()});
+  edges.resize(2 * std::size_t{all.size()});
   for (std::size_t chain = 0; chain < free.size(); ++chain) {
     const std::uint32_t begin = all.chains[chain], end = all.chains[chain + 1];
     std::uint32_t next_free = none;

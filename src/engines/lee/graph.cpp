@@ -5,6 +5,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "base/memory.h"
 #include "geometry/bisector.h"
 
 namespace medial::lee {
@@ -24,11 +25,13 @@ class Numbering {
     if (second_spoke) {
       number_[place] = number_[2 * (edge.element[0] - 1)];
     } else {
-      number_[place] = add_node(edge.inner, component);
+      number_[place] = add_node(edge.inner, edge.element, component);
     }
   }
-  std::uint32_t add_node(const Disk& disk, std::uint32_t component) {
+  std::uint32_t add_node(const Disk& disk, const std::array<std::uint32_t, 2>& element,
+                         std::uint32_t component) {
     graph_.nodes.push_back(disk);
+    graph_.touched.push_back({element[0], element[1], element[1]});
     graph_.component.push_back(component);
     return static_cast<std::uint32_t>(graph_.nodes.size() - 1);
   }
@@ -81,9 +84,10 @@ class Nodes {
 Graph graph_of(const Diagram& diagram, const std::vector<std::uint32_t>& last_edges) {
   const Elements& elements = diagram.elements;
   Graph graph;
-  graph.nodes.reserve(diagram.edges.size());
-  graph.component.reserve(diagram.edges.size());
-  graph.edges.reserve(diagram.edges.size());
+  reserve_large(graph.nodes, diagram.edges.size());
+  reserve_large(graph.touched, diagram.edges.size());
+  reserve_large(graph.component, diagram.edges.size());
+  reserve_large(graph.edges, diagram.edges.size());
   Numbering number(diagram, graph);
   for (std::size_t l = 0; l < elements.loops.size(); ++l) {
     const Elements::Loop& loop = elements.loops[l];
@@ -97,15 +101,19 @@ Graph graph_of(const Diagram& diagram, const std::vector<std::uint32_t>& last_ed
     };
     for_all([&](std::uint32_t place) { number.add(place, loop.component); });
     const std::uint32_t last_corner =
-        number.add_node({elements.sites[begin].point, 0}, loop.component);
+        number.add_node({elements.sites[begin].point, 0}, {begin, end - 1}, loop.component);
     const std::size_t edges_before = graph.edges.size();
     for_all([&](std::uint32_t place) {
       const ListEdge& edge = diagram.edges[place];
       const bool terminating = place == last_edges[l];
       if ((edge.outer == none) != terminating || (!terminating && number[edge.outer] == none))
         throw std::runtime_error("a Voronoi edge has no end");
-      graph.edges.push_back({number[place], terminating ? last_corner : number[edge.outer],
-                             edge.element, diagram.is_spoke(edge)});
+      const std::uint32_t to = terminating ? last_corner : number[edge.outer];
+      graph.edges.push_back({number[place], to, edge.element, diagram.is_spoke(edge)});
+      if (terminating) return;
+      std::array<std::uint32_t, 3>& touched = graph.touched[to];
+      const bool shares_first = edge.element[0] == touched[0] || edge.element[0] == touched[1];
+      touched[2] = edge.element[shares_first ? 1 : 0];
     });
     if (graph.edges.size() - edges_before != 2 * std::size_t{end - begin} - 3)
       throw std::runtime_error("a Voronoi diagram has too few edges");
@@ -168,7 +176,9 @@ void complete(const Graph& graph, const Elements& elements, const Frame& frame, 
   }
   std::vector<std::uint8_t> degree;
   double largest_residual = 0;
-  axis.edges.reserve(kept);
+  reserve_large(axis.edges, kept);
+  reserve_large(axis.nodes, kept + elements.loops.size());  // one tree a loop
+  degree.reserve(kept + elements.loops.size());
   const auto number_of = [&](std::uint32_t node) {
     if (number[node] == unused) {
       number[node] = static_cast<std::uint32_t>(axis.nodes.size());

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <vector>
 
 #include "axis/sites.h"
@@ -20,6 +22,9 @@ struct Graph {
     bool spoke = false;
   };
   std::vector<Disk> nodes;
+  /// Of each Voronoi point: the elements whose polygons meet there. Of a corner, its two segments.
+  /// For join_ties() only.
+  std::vector<std::array<std::uint32_t, 3>> touched;
   std::vector<std::uint32_t> component;  ///< of each node
   std::vector<Edge> edges;
 };

@@ -1,5 +1,7 @@
 #include "engines/lee/lee.h"
 
+#include <optional>
+
 #include "base/stopwatch.h"
 #include "base/tolerance.h"
 #include "engines/lee/graph.h"
@@ -34,18 +36,20 @@ Solution solve(const Shape& shape, const Options& options, std::vector<Level>* l
   solution.elements = elements_of(shape, solution.numbers, frame);
   statistics.seconds_sites = watch.lap();
 
-  Diagram diagram(solution.elements);
+  std::optional<Diagram> diagram(std::in_place, solution.elements);
   const ConquerContext context{{tolerance_for(local, options.tolerance), radius_limit(box, frame)},
                                options.cancel,
                                options.progress};
-  const std::vector<std::uint32_t> last_edges = conquer(diagram, context, statistics, levels);
+  const std::vector<std::uint32_t> last_edges = conquer(*diagram, context, statistics, levels);
   statistics.seconds_walk = watch.lap();
 
   solution.cancelled = options.cancel != nullptr && options.cancel->load();
   if (!solution.cancelled) {
-    solution.graph = graph_of(diagram, last_edges);
+    solution.graph = graph_of(*diagram, last_edges);
+    diagram.reset();
     // Where the shape lies far from the origin, its own coordinates are no better known.
     join_ties(solution.graph, solution.elements, frame.scale * solution.tolerance);
+    solution.graph.touched = {};
   }
   statistics.seconds_collect = watch.lap();
   return solution;
@@ -56,7 +60,7 @@ Solution solve(const Shape& shape, const Options& options, std::vector<Level>* l
 MedialAxis run(const Shape& shape, const Options& options, std::vector<Level>* levels) {
   Stopwatch all;
   Stopwatch watch;
-  const Solution solution = solve(shape, options, levels);
+  Solution solution = solve(shape, options, levels);
   MedialAxis axis;
   axis.method = name_of(Method::lee);
   axis.tolerance = solution.tolerance;
@@ -65,6 +69,8 @@ MedialAxis run(const Shape& shape, const Options& options, std::vector<Level>* l
   watch.lap();
   complete(solution.graph, solution.elements, solution.frame,
            solution.frame.scale * solution.tolerance, axis);
+  solution.graph = {};  // or there would be three of everything
+  solution.elements = {};
   axis.sites = sites::result_sites(shape, solution.numbers);
   axis.statistics.seconds_collect += watch.lap();
   axis.statistics.seconds = all.lap();

@@ -11,8 +11,14 @@
 namespace medial::lee {
 namespace {
 
-using geometry::Bisector;
 using geometry::Site;
+
+/// The order of disks on a bisector.
+struct Along {
+  Vec2 direction;
+  Along(const Site& right, const Site& left) : direction(geometry::direction_along(right, left)) {}
+  double position(Vec2 center) const { return dot(direction, center); }
+};
 
 /// Where the merge curve leaves a Voronoi polygon.
 struct Crossing {
@@ -35,7 +41,7 @@ class MergeCurve {
     disk_ = {site(b).point, 0};
     std::uint32_t edge = add_edge();
     for (;;) {
-      const Bisector bisector(site(current_[1]), site(current_[0]));
+      const Along bisector(site(current_[1]), site(current_[0]));
       const double reached = bisector.position(disk_.center);
       if (!drop_covered(0) || !drop_covered(1)) return edge;
       const auto crossing = first_crossing(bisector, reached);
@@ -122,22 +128,22 @@ class MergeCurve {
     return passed(side, disk_, edge) > vagueness();
   }
 
-  double tie() const { return 0.25 * limits_.tolerance; }
+  /// What a stored disk touches: far less than ties.h allows, which then joins such disks.
+  double tie() const { return 0.0625 * limits_.tolerance; }
   double gap(std::uint32_t i, const Disk& disk) const {
     return std::sqrt(geometry::squared_distance(site(i), disk.center)) - disk.radius;
   }
 
   /// Where the current bisector crosses the outermost edge on one side, if it does.
-  std::optional<Crossing> crossing_with(std::size_t side, const Bisector& bisector,
-                                        double reached) {
+  std::optional<Crossing> crossing_with(std::size_t side, const Along& bisector, double reached) {
     const ListEdge& edge = diagram_.edges[top(side)];
     const std::uint32_t third = edge.element[side], other = current_[1 - side];
-    // A disk that is behind by rounding only is the current one.
+    // A disk that is behind by rounding only is not: ties.h looks after it.
     const auto not_behind = [&](const Disk& disk) -> std::optional<Crossing> {
       const double position = bisector.position(disk.center);
       if (position > reached) return Crossing{disk, position, side};
       if (disk_.radius > 0 && distance(disk.center, disk_.center) <= vagueness())
-        return Crossing{disk_, reached, side};
+        return Crossing{std::abs(gap(third, disk_)) <= tie() ? disk_ : disk, reached, side};
       return std::nullopt;
     };
     if (diagram_.is_spoke(edge)) {
@@ -153,11 +159,12 @@ class MergeCurve {
     }
     if (edge.inner.radius > 0 && std::abs(gap(other, edge.inner)) <= tie())
       return not_behind(edge.inner);
+    if (disk_.radius > 0 && std::abs(gap(third, disk_)) <= tie()) return not_behind(disk_);
 
     ++statistics_.apollonius;
     const std::uint32_t own = current_[side];
     const geometry::TangentDisks disks =
-        geometry::tangent_disks(bisector.right, bisector.left, site(third));
+        geometry::tangent_disks(site(current_[1]), site(current_[0]), site(third));
     std::optional<Crossing> best;
     for (std::size_t i = 0; i < disks.count; ++i) {
       Disk disk = disks.disk[i];
@@ -174,7 +181,7 @@ class MergeCurve {
 
   /// Where the curve leaves a polygon first. Where the positions are not known well, the other
   /// side's element tells: it must not reach into the disk.
-  std::optional<Crossing> first_crossing(const Bisector& bisector, double reached) {
+  std::optional<Crossing> first_crossing(const Along& bisector, double reached) {
     std::array<std::optional<Crossing>, 2> crossing;
     const auto reach_over = [&](std::size_t side) {
       const std::uint32_t third = diagram_.edges[top(1 - side)].element[1 - side];
@@ -199,7 +206,7 @@ class MergeCurve {
   /// Whether a disk that touches an edge's elements lies outward of its inner end, but for
   /// rounding.
   bool is_outward(const ListEdge& edge, const Disk& disk) const {
-    const Bisector bisector(site(edge.element[1]), site(edge.element[0]));
+    const Along bisector(site(edge.element[1]), site(edge.element[0]));
     return bisector.position(disk.center) >= bisector.position(edge.inner.center) ||
            distance(disk.center, edge.inner.center) <= vagueness();
   }

@@ -1,160 +1,160 @@
 #include "engines/lee/ties.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <numeric>
-#include <optional>
-#include <span>
-#include <utility>
+#include <cstdint>
+#include <vector>
+
+#include "geometry/bisector.h"
 
 namespace medial::lee {
 namespace {
 
-using geometry::Site;
-
-/// Voronoi points of a tie are known to a rounding divided by the square of the angle between their
-/// feet: within the first of these for regular polygons of 1e4 vertices. Where not all points that
-/// are so near to each other are one tie, those within the next may be.
-constexpr std::array<double, 3> windows = {1e-8, 1e-10, 1e-12};
-
-class Sets {
+/// Voronoi points that may be one, with what tells how well each is known.
+class Ties {
  public:
-  explicit Sets(std::size_t count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), 0u);
-  }
-  std::uint32_t find(std::uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(std::uint32_t i, std::uint32_t j) { parent_[find(j)] = find(i); }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
-
-/// Numbers in groups, all in one array: first they are counted, then they are put in place.
-class Groups {
- public:
-  explicit Groups(std::size_t count) : begin_(count + 2, 0) {}
-  void count(std::uint32_t group) { ++begin_[group + 2]; }
-  void end_count() {
-    for (std::size_t i = 2; i < begin_.size(); ++i) begin_[i] += begin_[i - 1];
-    items_.resize(begin_.back());
-  }
-  void put(std::uint32_t group, std::uint32_t item) { items_[begin_[group + 1]++] = item; }
-  std::span<const std::uint32_t> operator[](std::uint32_t group) const {
-    return std::span(items_).subspan(begin_[group], begin_[group + 1] - begin_[group]);
-  }
-
- private:
-  std::vector<std::uint32_t> begin_, items_;
-};
-
-template <class ForAll>
-void for_both_passes(Groups& groups, const ForAll& for_all) {
-  for_all([&](std::uint32_t group, std::uint32_t) { groups.count(group); });
-  groups.end_count();
-  for_all([&](std::uint32_t group, std::uint32_t item) { groups.put(group, item); });
-}
-
-double largest_residual(const Elements& elements, std::span<const std::uint32_t> touched,
-                        const Disk& disk) {
-  double largest = 0;
-  for (const std::uint32_t i : touched)
-    largest = std::max(
-        largest,
-        std::abs(geometry::carrier_distance(elements.sites[i], disk.center) - disk.radius));
-  return largest;
-}
-
-/// The disk of least squared residuals, by Gauss and Newton's method from a disk nearby.
-std::optional<Disk> fitted_disk(const Elements& elements, std::span<const std::uint32_t> touched,
-                                Disk disk) {
-  constexpr int steps = 3;
-  for (int step = 0; step < steps; ++step) {
-    // Normal equations of g.d - s = -residual in the step d of the centre and s of the radius.
-    double xx = 0, xy = 0, yy = 0, x = 0, y = 0, ex = 0, ey = 0, e = 0;
-    const auto count = static_cast<double>(touched.size());
-    for (const std::uint32_t i : touched) {
-      const Vec2 g = geometry::outward(elements.sites[i], disk.center);
-      const double error = geometry::carrier_distance(elements.sites[i], disk.center) - disk.radius;
-      xx += g.x * g.x, xy += g.x * g.y, yy += g.y * g.y, x += g.x, y += g.y;
-      ex += g.x * error, ey += g.y * error, e += error;
+  Ties(Graph& graph, const Elements& elements, double slack)
+      : graph_(graph), elements_(elements), slack_(slack) {
+    for (const Graph::Edge& edge : graph.edges) {
+      const Disk &from = graph.nodes[edge.from], &to = graph.nodes[edge.to];
+      if (edge.spoke || from.radius == 0 || to.radius == 0) continue;
+      // Points that are further apart are known well enough.
+      constexpr double furthest = 1e-4;
+      const double limit = furthest * from.radius;
+      if (squared_norm(from.center - to.center) > limit * limit) continue;
+      if (touches(edge.to, from) || touches(edge.from, to)) edges_.push_back(&edge);
     }
-    // s = (g.d + error), averaged, leaves two equations for d.
-    const double a = xx - x * x / count, b = xy - x * y / count, c = yy - y * y / count;
-    const double u = ex - x * e / count, v = ey - y * e / count;
-    const double determinant = a * c - b * b;
-    if (!(determinant > 0)) return std::nullopt;
-    const Vec2 d{(b * v - c * u) / determinant, (b * u - a * v) / determinant};
-    disk.center = disk.center + d;
-    disk.radius += (x * d.x + y * d.y + e) / count;
   }
-  if (!std::isfinite(disk.center.x) || !std::isfinite(disk.center.y) || !(disk.radius > 0))
-    return std::nullopt;
-  return disk;
-}
+
+  bool empty() const { return edges_.empty(); }
+
+  /// From the best known point outward, all that its disk touches become its disk. O(points).
+  void join() {
+    number_points();
+    const std::vector<std::uint32_t> order = best_known_first();
+    std::vector<bool> is_joined(points_.size(), false);
+    std::vector<std::uint32_t> open;
+    for (const std::uint32_t start : order) {
+      if (is_joined[start]) continue;
+      is_joined[start] = true;
+      const Disk disk = graph_.nodes[points_[start]];
+      open.assign(1, start);
+      while (!open.empty()) {
+        const std::uint32_t point = open.back();
+        open.pop_back();
+        for (std::uint32_t i = first_[point]; i < first_[point + 1]; ++i) {
+          const std::uint32_t next = neighbours_[i];
+          if (is_joined[next] || !touches(points_[next], disk)) continue;
+          is_joined[next] = true;
+          graph_.nodes[points_[next]] = disk;
+          open.push_back(next);
+        }
+      }
+    }
+  }
+
+  /// Where the borders of such sets have changed places, their ends move on one by one, with a
+  /// little more slack.
+  void straighten() {
+    slack_ *= 2;
+    constexpr int most_rounds = 16;
+    bool is_straight = false;
+    for (int round = 0; round < most_rounds && !is_straight; ++round) {
+      is_straight = true;
+      for (const Graph::Edge* edge : edges_) {
+        Disk &from = graph_.nodes[edge->from], &to = graph_.nodes[edge->to];
+        if (from.center == to.center) continue;
+        const Vec2 along = geometry::direction_along(elements_.sites[edge->element[1]],
+                                                     elements_.sites[edge->element[0]]);
+        if (dot(along, from.center) <= dot(along, to.center)) continue;
+        is_straight = false;
+        if (touches(edge->from, to))
+          from = to;
+        else if (touches(edge->to, from))
+          to = from;
+      }
+    }
+  }
+
+ private:
+  /// Numbers the ends of the edges, and lists the neighbours of each.
+  void number_points() {
+    constexpr std::uint32_t unused = ~std::uint32_t{0};
+    std::vector<std::uint32_t> number(graph_.nodes.size(), unused);
+    const auto for_ends = [&](const auto& work) {
+      for (const Graph::Edge* edge : edges_) {
+        work(edge->from, edge->to);
+        work(edge->to, edge->from);
+      }
+    };
+    first_.assign(2, 0);
+    for_ends([&](std::uint32_t node, std::uint32_t) {
+      if (number[node] == unused) {
+        number[node] = static_cast<std::uint32_t>(points_.size());
+        points_.push_back(node);
+        first_.push_back(0);
+      }
+      ++first_[number[node] + 2];
+    });
+    for (std::size_t i = 2; i < first_.size(); ++i) first_[i] += first_[i - 1];
+    neighbours_.resize(first_.back());
+    for_ends([&](std::uint32_t node, std::uint32_t other) {
+      neighbours_[first_[number[node] + 1]++] = number[other];
+    });
+  }
+
+  /// The points, in steps of a power of two of how well they are known.
+  std::vector<std::uint32_t> best_known_first() const {
+    constexpr int worst = 127;
+    std::vector<std::uint8_t> rank(points_.size());
+    std::array<std::uint32_t, worst + 2> begin{};
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      rank[i] = static_cast<std::uint8_t>(std::clamp(2 - std::ilogb(spread(points_[i])), 0, worst));
+      ++begin[rank[i] + 1u];
+    }
+    for (std::size_t i = 1; i < begin.size(); ++i) begin[i] += begin[i - 1];
+    std::vector<std::uint32_t> order(points_.size());
+    for (std::uint32_t i = 0; i < points_.size(); ++i) order[begin[rank[i]]++] = i;
+    return order;
+  }
+
+  /// Whether a disk could stand for a Voronoi point: it touches the elements, and their carriers,
+  /// so that no edge is bent.
+  bool touches(std::uint32_t node, const Disk& disk) const {
+    const auto& touched = graph_.touched[node];
+    return std::all_of(touched.rbegin(), touched.rend(), [&](std::uint32_t element) {
+      const geometry::Site& site = elements_.sites[element];
+      const double squared = geometry::squared_distance(site, disk.center);
+      return std::abs(std::sqrt(squared) - disk.radius) <= slack_ &&
+             std::abs(geometry::carrier_distance(site, disk.center) - disk.radius) <= slack_;
+    });
+  }
+
+  /// Twice the area of the triangle of the unit vectors to a Voronoi point's feet: the determinant
+  /// of its equations.
+  double spread(std::uint32_t node) const {
+    std::array<Vec2, 3> g;
+    for (std::size_t k = 0; k < 3; ++k)
+      g[k] = geometry::outward(elements_.sites[graph_.touched[node][k]], graph_.nodes[node].center);
+    return std::abs(cross(g[1] - g[0], g[2] - g[0]));
+  }
+
+  Graph& graph_;
+  const Elements& elements_;
+  double slack_;
+  std::vector<const Graph::Edge*> edges_;  ///< that may have no length
+  std::vector<std::uint32_t> points_;      ///< their ends, numbered
+  std::vector<std::uint32_t> first_, neighbours_;
+};
 
 }  // namespace
 
 void join_ties(Graph& graph, const Elements& elements, double tolerance) {
-  const auto is_short = [&](const Graph::Edge& edge, double window) {
-    const Disk &from = graph.nodes[edge.from], &to = graph.nodes[edge.to];
-    return from.radius > 0 && to.radius > 0 &&
-           squared_norm(from.center - to.center) <= window * window;
-  };
-  // The nodes that may be tied, numbered, and what they touch.
-  std::vector<std::uint32_t> tied_edges, tied, number;
-  for (std::uint32_t e = 0; e < graph.edges.size(); ++e)
-    if (!graph.edges[e].spoke && is_short(graph.edges[e], windows.front())) tied_edges.push_back(e);
-  if (tied_edges.empty()) return;
-  number.assign(graph.nodes.size(), none);
-  for (const std::uint32_t e : tied_edges)
-    for (const std::uint32_t node : {graph.edges[e].from, graph.edges[e].to})
-      if (number[node] == none) {
-        number[node] = static_cast<std::uint32_t>(tied.size());
-        tied.push_back(node);
-      }
-  Groups touched(tied.size());
-  for_both_passes(touched, [&](const auto& add) {
-    for (const Graph::Edge& edge : graph.edges)
-      for (const std::uint32_t node : {edge.from, edge.to})
-        if (number[node] != none)
-          for (const std::uint32_t element : edge.element) add(number[node], element);
-  });
-
-  std::vector<bool> is_joined(tied.size(), false);
-  std::vector<std::uint32_t> own;
-  for (const double window : windows) {
-    Sets sets(tied.size());
-    for (const std::uint32_t e : tied_edges) {
-      const Graph::Edge& edge = graph.edges[e];
-      const std::uint32_t from = number[edge.from], to = number[edge.to];
-      if (!is_joined[from] && !is_joined[to] && is_short(edge, window)) sets.join(from, to);
-    }
-    Groups members(tied.size());
-    for_both_passes(members, [&](const auto& add) {
-      for (std::uint32_t i = 0; i < tied.size(); ++i) add(sets.find(i), i);
-    });
-    for (std::uint32_t set = 0; set < tied.size(); ++set) {
-      const std::span<const std::uint32_t> points = members[set];
-      if (points.size() < 2) continue;
-      own.clear();
-      for (const std::uint32_t point : points)
-        own.insert(own.end(), touched[point].begin(), touched[point].end());
-      const auto disk = fitted_disk(elements, own, graph.nodes[tied[set]]);
-      if (!disk || largest_residual(elements, own, *disk) > 0.5 * tolerance) continue;
-      // Other edges are longer than the window: none of them turns round.
-      const bool is_near = std::all_of(points.begin(), points.end(), [&](std::uint32_t point) {
-        return distance(graph.nodes[tied[point]].center, disk->center) <= window;
-      });
-      if (!is_near) continue;
-      for (const std::uint32_t point : points) {
-        graph.nodes[tied[point]] = *disk;
-        is_joined[point] = true;
-      }
-    }
-  }
+  Ties ties(graph, elements, 0.5 * tolerance);
+  if (ties.empty()) return;
+  ties.join();
+  ties.straighten();
 }
 
 }  // namespace medial::lee

@@ -1,0 +1,357 @@
+// medial centreline: shapes in; their main paths, widest ways or wide parts out.
+
+#include "medial/centreline.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include "cli/common.h"
+#include "cli/lines.h"
+#include "cli/pipeline.h"
+#include "cli/terminal.h"
+#include "medial/io/layers.h"
+#include "medial/query.h"
+
+namespace medial::cli {
+namespace {
+
+struct CentrelineSwitches {
+  InputSwitches input;
+  CommonSwitches common;
+  std::string output;
+  std::string format;
+  io::WriteOptions write;
+  PathSwitches path;
+  CentreLineOptions line;
+  double clearance = 0;
+  double collapse = 0;  ///< a width
+  Options options;      ///< of the axis
+};
+
+constexpr char collapse_formats[] = ".json .geojson .gpkg .wkt .svg .pdf .png .ps";
+
+using Paths = std::vector<std::vector<AxisPath>>;
+
+void append(MedialAxis& all, const MedialAxis& one) {
+  if (all.edges.empty() && all.nodes.empty()) {
+    all = one;
+    return;
+  }
+  const auto shift = static_cast<std::uint32_t>(all.nodes.size());
+  all.nodes.insert(all.nodes.end(), one.nodes.begin(), one.nodes.end());
+  for (Edge edge : one.edges) {
+    for (std::uint32_t& node : edge.node) node += shift;
+    all.edges.push_back(edge);
+  }
+  all.resolution = std::max(all.resolution, one.resolution);
+}
+
+/// Replaces the axes of a file by lines along the paths.
+Status make_lines(io::NativeFile& file, const Paths& paths, const CentrelineSwitches& switches) {
+  const std::vector<double> weights(file.items.size(), 1.0);
+  return for_each_feature(weights, switches.common.threads, [&](std::size_t i, int) -> Status {
+    io::NativeItem& item = file.items[i];
+    MedialAxis all;
+    all.method = item.axis.method;
+    all.tolerance = item.axis.tolerance;
+    all.sites = item.axis.sites;
+    all.resolution = item.axis.resolution;
+    for (const AxisPath& path : paths[i])
+      append(all, centre_line(item.shape, item.axis, path, switches.line));
+    item.axis = std::move(all);
+    return success();
+  });
+}
+
+Json to_json(const Paths& paths, const io::NativeFile& file) {
+  Json features = Json::array();
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    Json list = Json::array();
+    for (const AxisPath& path : paths[i]) {
+      list.push_back({{"length", path.length},
+                      {"narrowest_radius", path.narrowest},
+                      {"closed", path.closed},
+                      {"gap", path.gap}});
+    }
+    Json attributes = Json::object();
+    for (const auto& [name, value] : file.items[i].attributes) attributes[name] = value;
+    features.push_back({{"lines", std::move(list)}, {"attributes", std::move(attributes)}});
+  }
+  return features;
+}
+
+Result<int> tell(const Paths& paths, const io::NativeFile& file, const CentrelineSwitches& switches,
+                 const Json& seconds) {
+  std::uint64_t count = 0;
+  double length = 0, narrowest = std::numeric_limits<double>::infinity();
+  for (const auto& of_feature : paths) {
+    for (const AxisPath& path : of_feature) {
+      ++count;
+      length += path.length;
+      narrowest = std::min(narrowest, path.narrowest);
+    }
+  }
+  Status printed = success();
+  if (switches.common.json) {
+    Json object = {{"input", switches.input.path}};
+    if (!switches.output.empty()) object["output"] = switches.output;
+    object["features"] = to_json(paths, file);
+    if (switches.common.stats) object["seconds"] = seconds;
+    printed = print(object);
+  } else if (!switches.common.quiet && (switches.output.empty() || error_is_terminal())) {
+    std::string line =
+        fmt::format("{}: {}, {}, length {:.10g}", switches.input.path,
+                    counted(paths.size(), "feature"), counted(count, "line"), length);
+    if (count > 0) line += fmt::format(", smallest radius {:.10g}", narrowest);
+    if (switches.output.empty()) {
+      printed = print(line + "\n");
+    } else {
+      fmt::print(stderr, "{} -> {}\n", line,
+                 switches.output == "-" ? "standard output" : switches.output);
+    }
+  }
+  if (!printed) return std::move(printed).error();
+  if (switches.common.stats && !switches.common.json)
+    fmt::print(stderr, "{}", table(Json{{"seconds", seconds}}));
+  return exit_success;
+}
+
+/// The polygons of a shape, one for each component, as rings of points: arcs within a chord.
+void add_polygons(const Shape& shape, std::uint32_t feature, double chord, io::Layer& layer) {
+  std::vector<io::LayerFeature> polygons(shape.component_count());
+  for (std::size_t i = 0; i < shape.loop_count(); ++i) {
+    std::vector<Vec2> ring;
+    for (std::uint32_t k = shape.loop_begin[i]; k < shape.loop_begin[i + 1]; ++k) {
+      const Vec2 start = shape.points[k];
+      const Vec2 end = shape.points[k + 1 < shape.loop_begin[i + 1] ? k + 1 : shape.loop_begin[i]];
+      ring.push_back(start);
+      const double bulge = shape.bulge(k);
+      if (bulge == 0) continue;
+      // A chord over an angle a departs by r (1 - cos(a / 2)) from its arc.
+      const double angle = 4 * std::atan(bulge);
+      const double radius = distance(start, end) / (2 * std::abs(std::sin(angle / 2)));
+      const double step = 2 * std::acos(std::clamp(1 - chord / radius, 0.0, 1.0));
+      const int pieces = static_cast<int>(std::clamp(std::ceil(std::abs(angle) / step), 1.0, 1e4));
+      const Vec2 center =
+          midpoint(start, end) + (1 / (2 * std::tan(angle / 2))) * left_of(end - start);
+      for (int j = 1; j < pieces; ++j) {
+        const double turn = angle * j / pieces;
+        const Vec2 arm = start - center;
+        ring.push_back(center + std::cos(turn) * arm + std::sin(turn) * left_of(arm));
+      }
+    }
+    ring.push_back(ring.front());
+    auto& parts = polygons[shape.component[i]].parts;
+    parts.insert(shape.hole[i] ? parts.end() : parts.begin(), std::move(ring));
+  }
+  for (io::LayerFeature& polygon : polygons) {
+    polygon.feature = feature;
+    layer.features.push_back(std::move(polygon));
+  }
+}
+
+/// The branches of lines, as lines with their lengths.
+void add_lines(const MedialAxis& lines, std::uint32_t feature, double chord, io::Layer& layer) {
+  for (const Branch& branch : branches(lines)) {
+    std::vector<Vec2> points;
+    double sum = 0, narrowest = std::numeric_limits<double>::infinity();
+    for (const Step& step : branch.steps) {
+      const Edge& edge = lines.edges[step.edge];
+      std::vector<Disk> samples = sample_by_chord(lines, edge, chord);
+      if (!step.forward) std::ranges::reverse(samples);
+      for (std::size_t i = points.empty() ? 0 : 1; i < samples.size(); ++i) {
+        points.push_back(samples[i].center);
+        narrowest = std::min(narrowest, samples[i].radius);
+      }
+      sum += length(lines, edge);
+    }
+    layer.features.push_back({feature, {std::move(points)}, {sum, 2 * narrowest}});
+  }
+}
+
+Result<int> run_collapse(AxisFile axes, const CentrelineSwitches& switches) {
+  std::vector<CollapsedShape> collapsed(axes.native.items.size());
+  const std::vector<double> weights(collapsed.size(), 1.0);
+  const Stopwatch watch;
+  Status done =
+      for_each_feature(weights, switches.common.threads, [&](std::size_t i, int) -> Status {
+        auto one =
+            collapse_narrow(axes.native.items[i].axis, switches.collapse, switches.path.path.trim);
+        if (!one) {
+          Error error = std::move(one).error();
+          error.place.file = switches.input.path;
+          error.place.feature = i;
+          return error;
+        }
+        collapsed[i] = std::move(one).value();
+        return success();
+      });
+  if (!done) return std::move(done).error();
+  const double seconds = watch.seconds();
+  std::uint64_t polygons = 0, lines = 0;
+  double sum_area = 0, sum_length = 0;
+  io::LayerFile layers;
+  layers.crs_wkt = axes.native.crs_wkt;
+  layers.layers = {{"polygons", io::LayerKind::polygons, {}, {}},
+                   {"lines", io::LayerKind::lines, {"length", "width_min"}, {}}};
+  for (std::uint32_t i = 0; i < collapsed.size(); ++i) {
+    const CollapsedShape& one = collapsed[i];
+    const io::NativeItem& item = axes.native.items[i];
+    polygons += one.polygons.component_count();
+    sum_area += area(one.polygons);
+    sum_length += total_length(one.lines);
+    const double chord = switches.common.chord * diagonal(bounding_box(item.shape));
+    add_polygons(one.polygons, i, chord, layers.layers[0]);
+    add_lines(one.lines, i, chord, layers.layers[1]);
+    layers.attributes.push_back(item.attributes);
+  }
+  lines = layers.layers[1].features.size();
+  const bool native = switches.format == "json" || switches.output.ends_with(".json");
+  if (!switches.output.empty()) {
+    io::WriteOptions write = switches.write;
+    write.chord = switches.common.chord;
+    for (std::size_t i = 0; i < collapsed.size(); ++i) {
+      io::NativeItem& item = axes.native.items[i];
+      item.axis = native ? std::move(collapsed[i].lines) : MedialAxis{};
+      if (native) item.shape = std::move(collapsed[i].polygons);
+    }
+    Status written =
+        native ? io::write_axes(switches.output, switches.format, axes.native, write)
+               : io::write_layers(switches.output, switches.format, layers, axes.native, write);
+    if (!written) return std::move(written).error();
+  }
+  Status printed = success();
+  if (switches.common.json) {
+    printed = print(Json{{"input", switches.input.path},
+                         {"features", collapsed.size()},
+                         {"polygons", polygons},
+                         {"area", sum_area},
+                         {"lines", lines},
+                         {"length", sum_length},
+                         {"seconds", seconds}});
+  } else if (!switches.common.quiet && (switches.output.empty() || error_is_terminal())) {
+    const std::string line =
+        fmt::format("{}: {}, {} of area {:.10g}, {} of length {:.10g}\n", switches.input.path,
+                    counted(collapsed.size(), "feature"), counted(polygons, "polygon"), sum_area,
+                    counted(lines, "line"), sum_length);
+    if (switches.output.empty()) {
+      printed = print(line);
+    } else {
+      fmt::print(stderr, "{}", line);
+    }
+  }
+  if (!printed) return std::move(printed).error();
+  return exit_success;
+}
+
+Result<int> run_centreline(const CentrelineSwitches& switches) {
+  const auto& [input, common] = std::tie(switches.input, switches.common);
+  Status writable =
+      check_output(switches.output, switches.format,
+                   switches.collapse > 0 ? collapse_formats : io::known_output_formats(),
+                   input.path, common.json);
+  if (!writable) return std::move(writable).error();
+  auto shapes = load_shapes(input, common.threads);
+  if (!shapes) return std::move(shapes).error();
+  print_notes(*shapes, input, common);
+  auto axes = compute_axes(std::move(shapes).value(), input.path, common, switches.options);
+  if (!axes) return std::move(axes).error();
+  if (switches.collapse > 0) return run_collapse(std::move(axes).value(), switches);
+  if (switches.clearance > 0) {
+    for (io::NativeItem& item : axes->native.items)
+      item.axis = clearance_part(item.axis, switches.clearance);
+    return write_and_tell(*axes, input, common, switches.output, switches.format, switches.write);
+  }
+  const Stopwatch making;
+  auto paths = choose_paths(axes->native, switches.path, input.path, common.threads);
+  if (!paths) return std::move(paths).error();
+  Status made = make_lines(axes->native, *paths, switches);
+  if (!made) return std::move(made).error();
+  const double seconds_lines = making.seconds();
+  const Stopwatch writing;
+  if (!switches.output.empty()) {
+    io::WriteOptions write = switches.write;
+    write.chord = common.chord;
+    Status written = io::write_axes(switches.output, switches.format, axes->native, write);
+    if (!written) return std::move(written).error();
+  }
+  const Json seconds = {{"read", axes->seconds_read},
+                        {"shape", axes->seconds_shape},
+                        {"axis", axes->seconds_axis},
+                        {"lines", seconds_lines},
+                        {"write", writing.seconds()}};
+  return tell(*paths, axes->native, switches, seconds);
+}
+
+}  // namespace
+
+Verb make_centreline_verb(CLI::App& program) {
+  auto switches = std::make_shared<CentrelineSwitches>();
+  CLI::App* verb = program.add_subcommand(
+      "centreline", "Compute the centre lines of shapes, or the widest way between two places.");
+  add_input_switches(*verb, switches->input);
+  verb->add_option("-o,--output", switches->output,
+                   "Where to write; the extension tells the format:\n" +
+                       io::known_output_formats() +
+                       "\n- is standard output, see --format. Without -o, only a summary is\n"
+                       "printed.")
+      ->check(a_name())
+      ->option_text("OUTPUT");
+  verb->add_option("--format", switches->format, "The format of -o -, for example csv.")
+      ->option_text("NAME");
+  add_path_switches(*verb, switches->path);
+  verb->add_flag("--extend", switches->line.extend, "Extend both ends to the boundary.");
+  verb->add_option("--smooth", switches->line.smooth,
+                   "Average the line over so many of its mean radii (Gaussian weights). It\n"
+                   "stays inside the shape.")
+      ->check(in_range(0, 1000))
+      ->option_text("RADII");
+  verb->add_option("--clearance", switches->clearance,
+                   "Instead of a line: all of the axis where a disk of this radius has room.")
+      ->check(CLI::PositiveNumber.description(""))
+      ->excludes("--from")
+      ->excludes("--to")
+      ->excludes("--widest")
+      ->option_text("R");
+  verb->add_option("--collapse", switches->collapse,
+                   "Instead: parts narrower than this become lines, the rest stays polygons;\n"
+                   "as layers, or as shapes with lines in .json. Formats:\n" +
+                       std::string(collapse_formats))
+      ->check(CLI::PositiveNumber.description(""))
+      ->excludes("--from")
+      ->excludes("--to")
+      ->excludes("--widest")
+      ->excludes("--clearance")
+      ->option_text("WIDTH");
+  verb->add_flag("--exterior", switches->options.exterior,
+                 "Lines of what lies around the shape and in its holes, within a frame.")
+      ->excludes("--collapse");
+  verb->add_option("--margin", switches->options.margin,
+                   "How far that frame is away from the shape's bounding box, in units of the\n"
+                   "input (default: half of the box's longer side).")
+      ->check(CLI::PositiveNumber.description(""))
+      ->option_text("D");
+  add_picture_switches(*verb, switches->write);
+  add_common_switches(*verb, switches->common);
+  verb->footer(
+      "The main path of a shape joins the two ends of its axis that are farthest apart,\n"
+      "measured along the axis. Each part of a feature has one; a ring without dead ends\n"
+      "has a closed one. The attributes of the features are carried along.\n"
+      "\n"
+      "Formats are those of `medial axis`: exact curves in .json, .dxf and .svg, lines\n"
+      "with both ends' radii in .geojson, .gpkg, .shp and .fgb, samples with radii in .csv.\n"
+      "\n"
+      "Examples:\n"
+      "  medial centreline rivers.geojson --project --extend --smooth 1 -o lines.gpkg\n"
+      "  medial centreline river.wkt --from 0/12 --to 0/873 -o line.svg\n"
+      "  medial centreline plan.geojson --widest 2,3 40,12 -o way.csv\n"
+      "  medial centreline plan.geojson --clearance 0.6 -o reachable.svg\n"
+      "  medial centreline rivers.geojson --project --collapse 50 -o rivers.gpkg");
+  return {verb, [switches] { return run_centreline(*switches); }};
+}
+
+}  // namespace medial::cli

@@ -1,0 +1,163 @@
+#include "cli/lines.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "cli/pipeline.h"
+#include "medial/query.h"
+
+namespace medial::cli {
+namespace {
+
+/// Where a line is to begin or end: a point, or the middle of the side that begins at a vertex.
+struct Named {
+  std::optional<Vec2> point;
+  VertexSource side;
+};
+
+std::optional<Named> named(const std::string& text) {
+  const std::size_t at = text.find_first_of(",/");
+  if (at == std::string::npos) return std::nullopt;
+  const char *begin = text.data(), *middle = begin + at, *end = begin + text.size();
+  const auto all = [](const char* first, const char* last, auto& value) {
+    const auto [stop, problem] = std::from_chars(first, last, value);
+    return problem == std::errc() && stop == last;
+  };
+  Named place;
+  if (*middle == '/') {
+    const bool read =
+        all(begin, middle, place.side.ring) && all(middle + 1, end, place.side.vertex);
+    return read ? std::optional(place) : std::nullopt;
+  }
+  Vec2 p;
+  if (!all(begin, middle, p.x) || !all(middle + 1, end, p.y)) return std::nullopt;
+  if (!std::isfinite(p.x) || !std::isfinite(p.y)) return std::nullopt;
+  place.point = p;
+  return place;
+}
+
+CLI::Validator a_place() {
+  return CLI::Validator(
+      [](const std::string& text) {
+        return named(text) ? std::string() : text + " is neither X,Y nor RING/VERTEX";
+      },
+      "");
+}
+
+/// The middle of a side of a shape, if it has that side.
+std::optional<Vec2> middle_of(const Shape& shape, VertexSource side) {
+  for (std::size_t i = 0; i < shape.loop_count(); ++i) {
+    for (std::uint32_t k = shape.loop_begin[i]; k < shape.loop_begin[i + 1]; ++k) {
+      if (shape.sources[k].ring != side.ring || shape.sources[k].vertex != side.vertex) continue;
+      const Vec2 end = shape.points[k + 1 < shape.loop_begin[i + 1] ? k + 1 : shape.loop_begin[i]];
+      const Vec2 chord = end - shape.points[k];
+      return midpoint(shape.points[k], end) - (shape.bulge(k) / 2) * left_of(chord);
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<Vec2> point_in(const Shape& shape, const Named& place) {
+  return place.point ? place.point : middle_of(shape, place.side);
+}
+
+/// The path between the two named places in one feature.
+Result<AxisPath> path_between_named(const io::NativeItem& item, const Named& from, const Named& to,
+                                    const PathSwitches& switches) {
+  std::optional<AxisPlace> ends[2];
+  const Named* names[2] = {&from, &to};
+  for (std::size_t i = 0; i < 2; ++i) {
+    const auto point = point_in(item.shape, *names[i]);
+    if (!point) {
+      return invalid_option(
+          fmt::format("there is no side {}/{}", names[i]->side.ring, names[i]->side.vertex));
+    }
+    ends[i] = place_on_axis(item.axis, *point);
+    if (!ends[i]) return invalid_option("the shape's axis is a single point");
+  }
+  if (!switches.widest.empty()) return widest_path(item.axis, *ends[0], *ends[1]);
+  return path_between(item.axis, *ends[0], *ends[1], switches.path.route);
+}
+
+/// In which feature a place lies, or nearest to which.
+std::size_t feature_of(const io::NativeFile& file, const Named& place) {
+  std::size_t best = 0;
+  double deepest = -std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < file.items.size(); ++i) {
+    const auto point = point_in(file.items[i].shape, place);
+    if (!point) continue;
+    const double depth = place.point ? clearance(file.items[i].shape, *point) : 0;
+    if (!(depth > deepest)) continue;
+    deepest = depth;
+    best = i;
+  }
+  return best;
+}
+
+}  // namespace
+
+void add_path_switches(CLI::App& verb, PathSwitches& switches) {
+  CLI::Option* from =
+      verb.add_option("--from", switches.from,
+                      "Where the line begins, instead of the end that is farthest from all: at a\n"
+                      "point X,Y or in the middle of a side, as RING/VERTEX, the vertex where it\n"
+                      "starts in the input.");
+  CLI::Option* to = verb.add_option("--to", switches.to, "Where it ends, likewise.");
+  CLI::Option* widest =
+      verb.add_option("--widest", switches.widest,
+                      "The way between two places along which the largest disk can pass, and of\n"
+                      "those the shortest.");
+  for (CLI::Option* place : {from, to}) place->check(a_place())->option_text("PLACE");
+  widest->check(a_place())->expected(2)->option_text("PLACE PLACE")->excludes(from)->excludes(to);
+  verb.add_option_function<std::string>(
+          "--route",
+          [&switches](const std::string& name) {
+            switches.path.route = name == "shortest" ? Route::shortest : Route::roomy;
+          },
+          "Which way around holes: roomy (default), where a passage twice as wide may\n"
+          "be twice as long; or shortest.")
+      ->check(CLI::IsMember({"roomy", "shortest"}).description(""))
+      ->option_text("NAME");
+  verb.add_option("--trim", switches.path.trim,
+                  "Ends do not run into corners: what protrudes from a disk by at most so\n"
+                  "many of its radii is cut (default: 1, corners of 60 degrees and more; 0\n"
+                  "cuts nothing).")
+      ->check(in_range(0, 1e6))
+      ->option_text("RADII");
+}
+
+Result<std::vector<std::vector<AxisPath>>> choose_paths(const io::NativeFile& file,
+                                                        const PathSwitches& switches,
+                                                        const std::string& input, int threads) {
+  std::vector<std::vector<AxisPath>> paths(file.items.size());
+  const bool widest = !switches.widest.empty();
+  const std::string& from = widest ? switches.widest[0] : switches.from;
+  const std::string& to = widest ? switches.widest[1] : switches.to;
+  if (from.empty() != to.empty()) return invalid_option("--from and --to go together");
+  if (!from.empty()) {
+    const Named begin = *named(from), end = *named(to);
+    const std::size_t chosen = feature_of(file, begin);
+    auto path = path_between_named(file.items[chosen], begin, end, switches);
+    if (!path) {
+      Error error = std::move(path).error();
+      error.place.file = input;
+      error.place.feature = chosen;
+      return error;
+    }
+    paths[chosen].push_back(std::move(path).value());
+    return paths;
+  }
+  const std::vector<double> weights(file.items.size(), 1.0);
+  Status found = for_each_feature(weights, threads, [&](std::size_t i, int) -> Status {
+    paths[i] = main_paths(file.items[i].axis, switches.path);
+    return success();
+  });
+  if (!found) return std::move(found).error();
+  return paths;
+}
+
+}  // namespace medial::cli

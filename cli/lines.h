@@ -1,0 +1,33 @@
+#pragma once
+
+// Which paths along the axes of a file are meant: the switches of `centreline` and `measure`.
+
+#include <string>
+#include <vector>
+
+#include "cli/common.h"
+#include "medial/centreline.h"
+
+namespace medial::cli {
+
+Verb make_centreline_verb(CLI::App& program);
+Verb make_measure_verb(CLI::App& program);
+
+struct PathSwitches {
+  std::string from, to;             ///< "X,Y" or "RING/VERTEX"
+  std::vector<std::string> widest;  ///< two of them, instead
+  MainPathOptions path;
+
+  bool between_places() const { return !from.empty() || !to.empty() || !widest.empty(); }
+};
+
+/// --from, --to, --widest, --route, --trim.
+void add_path_switches(CLI::App& verb, PathSwitches& switches);
+
+/// The paths of every feature: the main paths, or the one between the places that were named, in
+/// the feature where the first of them lies. Errors name the feature.
+Result<std::vector<std::vector<AxisPath>>> choose_paths(const io::NativeFile& file,
+                                                        const PathSwitches& switches,
+                                                        const std::string& input, int threads);
+
+}  // namespace medial::cli

@@ -1,0 +1,473 @@
+// medial measure: how wide shapes are: profiles, transects, necks, means, largest disks.
+
+#include "medial/measure.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <memory>
+
+#include "cli/common.h"
+#include "cli/lines.h"
+#include "cli/pipeline.h"
+#include "cli/plot.h"
+#include "cli/terminal.h"
+#include "medial/io/layers.h"
+#include "medial/query.h"
+
+namespace medial::cli {
+namespace {
+
+constexpr std::uint64_t most_samples = 1'000'000;
+constexpr std::uint64_t most_disks = 10'000;
+constexpr std::size_t necks_told = 5;
+
+struct MeasureSwitches {
+  InputSwitches input;
+  CommonSwitches common;
+  std::string output;
+  std::string format;
+  std::string plot;
+  io::WriteOptions write;
+  PathSwitches path;
+  std::uint64_t samples = 200;
+  std::uint64_t transects = 0;
+  double spacing = 0;
+  std::uint64_t necks = 0;
+  double widening = 1.1;
+  std::uint64_t disks = 0;
+};
+
+/// A centre line and the widths along it.
+struct Line {
+  AxisPath path;
+  std::vector<LocalWidth> profile, transects;
+  std::vector<Neck> necks;  ///< of the line by itself
+};
+
+/// What is measured of a feature.
+struct Measured {
+  std::vector<Line> lines;
+  MeanWidth mean;
+  Disk widest;
+  std::vector<Neck> necks;
+  std::vector<Disk> disks;
+};
+
+/// `count` + 1 lengths from 0 to the whole.
+std::vector<double> even_lengths(double whole, std::uint64_t count) {
+  std::vector<double> at(count + 1);
+  for (std::uint64_t i = 0; i <= count; ++i)
+    at[i] = whole * static_cast<double>(i) / static_cast<double>(count);
+  return at;
+}
+
+/// In the middles of `count` equal parts, or at multiples of a spacing, evened out around the
+/// middle of the line.
+std::vector<double> transect_lengths(double whole, const MeasureSwitches& switches) {
+  std::vector<double> at;
+  if (switches.spacing > 0) {
+    const double count =
+        std::min(std::floor(whole / switches.spacing), static_cast<double>(most_samples));
+    const double first = 0.5 * (whole - count * switches.spacing);
+    for (double i = 0; i <= count; ++i) at.push_back(first + i * switches.spacing);
+  } else {
+    for (std::uint64_t i = 0; i < switches.transects; ++i)
+      at.push_back(whole * (static_cast<double>(i) + 0.5) /
+                   static_cast<double>(switches.transects));
+  }
+  return at;
+}
+
+/// The necks of a line seen by itself, with their lengths along it.
+std::vector<Neck> necks_of(const MedialAxis& axis, const AxisPath& path, double widening) {
+  const MedialAxis line = part_of(axis, path.pieces);
+  std::vector<Neck> found = necks(line, widening);
+  std::vector<double> before{0};
+  for (const Edge& edge : line.edges) before.push_back(before.back() + length(line, edge));
+  for (Neck& neck : found) {
+    const std::vector<PathPiece> up_to{{neck.place.edge, 0, neck.place.t}};
+    neck.width.along =
+        before[neck.place.edge] + (neck.place.t > 0 ? total_length(part_of(line, up_to)) : 0.0);
+  }
+  return found;
+}
+
+Result<Measured> measure(const io::NativeItem& item, const std::vector<AxisPath>& paths,
+                         const MeasureSwitches& switches) {
+  Measured out;
+  AxisPath all;
+  for (const AxisPath& path : paths) {
+    Line& line = out.lines.emplace_back();
+    line.path = path;
+    line.profile = widths_along(item.axis, path, even_lengths(path.length, switches.samples));
+    line.transects = widths_along(item.axis, path, transect_lengths(path.length, switches));
+    line.necks = necks_of(item.axis, path, switches.widening);
+    all.pieces.insert(all.pieces.end(), path.pieces.begin(), path.pieces.end());
+    all.length += path.length;
+  }
+  out.mean = mean_width(item.axis, all);
+  if (!item.axis.nodes.empty()) out.widest = deepest_disk(item.axis);
+  out.necks = necks(item.axis, switches.widening);
+  if (switches.disks > 0) {
+    auto disks = largest_disjoint_disks(item.shape, switches.disks);
+    if (!disks) return std::move(disks).error();
+    out.disks = std::move(disks).value();
+  }
+  return out;
+}
+
+/// The narrowest neck of a feature's lines, if they have one.
+const Neck* narrowest_neck(const Measured& measured) {
+  const Neck* narrowest = nullptr;
+  for (const Line& line : measured.lines)
+    for (const Neck& neck : line.necks)
+      if (narrowest == nullptr || neck.width.disk.radius < narrowest->width.disk.radius)
+        narrowest = &neck;
+  return narrowest;
+}
+
+double narrowest_of(const Measured& measured) {
+  double narrowest = std::numeric_limits<double>::infinity();
+  for (const Line& line : measured.lines) narrowest = std::min(narrowest, 2 * line.path.narrowest);
+  return narrowest;
+}
+
+Json point(Vec2 p) { return {{"x", p.x}, {"y", p.y}}; }
+
+Json to_json(const Disk& disk) {
+  return {{"x", disk.center.x}, {"y", disk.center.y}, {"r", disk.radius}};
+}
+
+Json to_json(const Neck& neck, bool on_line) {
+  Json object = {{"x", neck.width.disk.center.x},     {"y", neck.width.disk.center.y},
+                 {"width", neck.width.width()},       {"opens_to", 2 * neck.opens_to},
+                 {"left", point(neck.width.feet[0])}, {"right", point(neck.width.feet[1])}};
+  object["around_hole"] = neck.around_hole;
+  if (on_line) object["along"] = neck.width.along;
+  return object;
+}
+
+Json to_json(const Measured& measured, std::size_t necks_wanted) {
+  Json lines = Json::array();
+  for (const Line& line : measured.lines) {
+    Json necks = Json::array();
+    for (const Neck& neck : line.necks) necks.push_back(to_json(neck, true));
+    lines.push_back({{"length", line.path.length},
+                     {"narrowest_width", 2 * line.path.narrowest},
+                     {"closed", line.path.closed},
+                     {"necks", std::move(necks)}});
+  }
+  Json object = {{"area", measured.mean.area},
+                 {"length", measured.mean.length},
+                 {"mean_width",
+                  {{"by_length", measured.mean.by_length},
+                   {"by_area", measured.mean.by_area},
+                   {"area_by_length", measured.mean.area_by_length}}},
+                 {"widest", to_json(measured.widest)},
+                 {"lines", std::move(lines)}};
+  object["necks"] = Json::array();
+  for (std::size_t i = 0; i < std::min(necks_wanted, measured.necks.size()); ++i)
+    object["necks"].push_back(to_json(measured.necks[i], false));
+  if (!measured.disks.empty()) {
+    object["disks"] = Json::array();
+    for (const Disk& disk : measured.disks) object["disks"].push_back(to_json(disk));
+  }
+  return object;
+}
+
+std::string place(Vec2 p) { return fmt::format("({:.10g}, {:.10g})", p.x, p.y); }
+
+/// One feature as lines of a name and a value.
+std::string describe(const Measured& measured, const MeasureSwitches& switches) {
+  std::string text;
+  const auto row = [&text](const char* name, const std::string& value) {
+    text += fmt::format("{:<24}{}\n", name, value);
+  };
+  row("area", fmt::format("{:.10g}", measured.mean.area));
+  row("length",
+      fmt::format("{:.10g}{}", measured.mean.length,
+                  measured.lines.size() > 1 ? fmt::format(" ({} lines)", measured.lines.size())
+                                            : std::string()));
+  if (measured.mean.length > 0) {
+    row("mean width by length", fmt::format("{:.10g}", measured.mean.by_length));
+    row("area by length", fmt::format("{:.10g}", measured.mean.area_by_length));
+  }
+  row("mean width by area", fmt::format("{:.10g}", measured.mean.by_area));
+  row("widest",
+      fmt::format("{:.10g} at {}", 2 * measured.widest.radius, place(measured.widest.center)));
+  if (const Neck* neck = narrowest_neck(measured)) {
+    row("narrowest neck on line", fmt::format("{:.10g} at {}, {:.10g} along", neck->width.width(),
+                                              place(neck->width.disk.center), neck->width.along));
+  }
+  const std::size_t told = switches.necks > 0 ? switches.necks : necks_told;
+  for (std::size_t i = 0; i < std::min<std::size_t>(told, measured.necks.size()); ++i) {
+    const Neck& neck = measured.necks[i];
+    row(i == 0 ? "necks" : "", fmt::format("{:.10g} at {}, opens to {:.10g}{}", neck.width.width(),
+                                           place(neck.width.disk.center), 2 * neck.opens_to,
+                                           neck.around_hole ? ", around a hole" : ""));
+  }
+  for (std::size_t i = 0; i < measured.disks.size(); ++i) {
+    row(i == 0 ? "largest disks" : "",
+        fmt::format("r {:.10g} at {}", measured.disks[i].radius, place(measured.disks[i].center)));
+  }
+  return text;
+}
+
+/// Several features, a line each.
+std::string describe(const std::vector<Measured>& all) {
+  std::string text =
+      fmt::format("{:>7} {:>12} {:>12} {:>12} {:>12} {:>12} {:>12} {:>12}\n", "feature", "area",
+                  "length", "narrowest", "by length", "by area", "widest", "neck");
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const Measured& one = all[i];
+    const Neck* neck = narrowest_neck(one);
+    const auto number = [](double value, bool known) {
+      return known ? fmt::format("{:.6g}", value) : std::string("-");
+    };
+    const bool line = one.mean.length > 0;
+    text += fmt::format("{:>7} {:>12.6g} {:>12.6g} {:>12} {:>12} {:>12.6g} {:>12.6g} {:>12}\n", i,
+                        one.mean.area, one.mean.length, number(narrowest_of(one), line),
+                        number(one.mean.by_length, line), one.mean.by_area, 2 * one.widest.radius,
+                        number(neck == nullptr ? 0 : neck->width.width(), neck != nullptr));
+  }
+  return text;
+}
+
+/// feature,line,along,x,y,width,span and both feet.
+std::string profile_csv(const std::vector<Measured>& all) {
+  std::string text = "feature,line,along,x,y,width,span,left_x,left_y,right_x,right_y\n";
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    for (std::size_t k = 0; k < all[i].lines.size(); ++k) {
+      for (const LocalWidth& width : all[i].lines[k].profile) {
+        fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{},{},{},{}\n", i, k,
+                       width.along, width.disk.center.x, width.disk.center.y, width.width(),
+                       width.span(), width.feet[0].x, width.feet[0].y, width.feet[1].x,
+                       width.feet[1].y);
+      }
+    }
+  }
+  return text;
+}
+
+std::vector<Plot> profile_plots(const std::vector<Measured>& all, const std::string& name) {
+  constexpr std::size_t most_plots = 24;
+  std::vector<Plot> plots;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    for (const Line& line : all[i].lines) {
+      if (plots.size() == most_plots) return plots;
+      Plot plot;
+      plot.logarithmic = false;
+      plot.title = all.size() > 1 ? fmt::format("feature {}", i) : name;
+      plot.x_label = "length along the centre line";
+      plot.y_label = "width";
+      Series width{"width", {}, false, false}, span{"foot to foot", {}, false, false};
+      Series mean{"mean by length", {}, true, false};
+      for (const LocalWidth& at : line.profile) {
+        width.points.emplace_back(at.along, at.width());
+        span.points.emplace_back(at.along, at.span());
+      }
+      mean.points = {{0, all[i].mean.by_length}, {line.path.length, all[i].mean.by_length}};
+      Series necks{"necks", {}, false, true};
+      necks.line = false;
+      for (const Neck& neck : line.necks)
+        necks.points.emplace_back(neck.width.along, neck.width.width());
+      plot.series = {width, span, mean};
+      if (!necks.points.empty()) plot.series.push_back(necks);
+      plots.push_back(std::move(plot));
+    }
+  }
+  return plots;
+}
+
+io::LayerFile layers_of(const io::NativeFile& file, const std::vector<Measured>& all,
+                        const MeasureSwitches& switches) {
+  io::LayerFile layers;
+  layers.crs_wkt = file.crs_wkt;
+  io::Layer transects{"transects", io::LayerKind::lines, {"line", "along", "width", "span"}, {}};
+  io::Layer necks{"necks", io::LayerKind::lines, {"width", "opens_to", "around_hole"}, {}};
+  io::Layer disks{"disks", io::LayerKind::disks, {"r", "rank"}, {}};
+  for (std::uint32_t i = 0; i < all.size(); ++i) {
+    layers.attributes.push_back(file.items[i].attributes);
+    for (std::size_t k = 0; k < all[i].lines.size(); ++k) {
+      for (const LocalWidth& at : all[i].lines[k].transects) {
+        transects.features.push_back({i,
+                                      {{at.feet[0], at.feet[1]}},
+                                      {static_cast<double>(k), at.along, at.width(), at.span()}});
+      }
+    }
+    for (std::size_t k = 0; k < std::min<std::size_t>(switches.necks, all[i].necks.size()); ++k) {
+      const Neck& neck = all[i].necks[k];
+      necks.features.push_back(
+          {i,
+           {{neck.width.feet[0], neck.width.feet[1]}},
+           {neck.width.width(), 2 * neck.opens_to, neck.around_hole ? 1.0 : 0.0}});
+    }
+    for (std::size_t k = 0; k < all[i].disks.size(); ++k) {
+      const Disk& disk = all[i].disks[k];
+      disks.features.push_back({i, {{disk.center}}, {disk.radius, static_cast<double>(k)}});
+    }
+  }
+  if (switches.transects > 0 || switches.spacing > 0) layers.layers.push_back(std::move(transects));
+  if (switches.necks > 0) layers.layers.push_back(std::move(necks));
+  if (switches.disks > 0) layers.layers.push_back(std::move(disks));
+  return layers;
+}
+
+Status write_output(io::NativeFile& file, const std::vector<Measured>& all,
+                    const MeasureSwitches& switches) {
+  if (switches.output.empty()) return success();
+  if (switches.format == "csv" || switches.output.ends_with(".csv")) {
+    if (switches.output == "-") return print(profile_csv(all));
+    return write_text(switches.output, profile_csv(all));
+  }
+  const io::LayerFile layers = layers_of(file, all, switches);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    std::vector<PathPiece> pieces;
+    for (const Line& line : all[i].lines)
+      pieces.insert(pieces.end(), line.path.pieces.begin(), line.path.pieces.end());
+    file.items[i].axis = part_of(file.items[i].axis, pieces);
+  }
+  io::WriteOptions write = switches.write;
+  write.chord = switches.common.chord;
+  return io::write_layers(switches.output, switches.format, layers, file, write);
+}
+
+Result<int> run_measure(MeasureSwitches switches) {
+  const InputSwitches& input = switches.input;
+  const CommonSwitches& common = switches.common;
+  const std::string formats = ".csv " + io::known_layer_formats();
+  Status writable =
+      check_output(switches.output, switches.format, formats, input.path, common.json);
+  if (writable)
+    writable = check_output(switches.plot, {}, ".svg .png .pdf", input.path, common.json);
+  if (!writable) return std::move(writable).error();
+  // Layers without any would be empty.
+  if (switches.transects == 0 && switches.spacing == 0 && switches.necks == 0 &&
+      switches.disks == 0 && !switches.output.empty())
+    switches.transects = 50;
+
+  auto shapes = load_shapes(input, common.threads);
+  if (!shapes) return std::move(shapes).error();
+  print_notes(*shapes, input, common);
+  auto axes = compute_axes(std::move(shapes).value(), input.path, common);
+  if (!axes) return std::move(axes).error();
+  const Stopwatch measuring;
+  io::NativeFile& file = axes->native;
+  auto paths = choose_paths(file, switches.path, input.path, common.threads);
+  if (!paths) return std::move(paths).error();
+  std::vector<Measured> all(file.items.size());
+  const std::vector<double> weights(all.size(), 1.0);
+  Status measured = for_each_feature(weights, common.threads, [&](std::size_t i, int) -> Status {
+    auto one = measure(file.items[i], (*paths)[i], switches);
+    if (!one) {
+      Error error = std::move(one).error();
+      error.place.file = input.path;
+      error.place.feature = i;
+      return error;
+    }
+    all[i] = std::move(one).value();
+    return success();
+  });
+  if (!measured) return std::move(measured).error();
+  const double seconds = measuring.seconds();
+  if (Status written = write_output(file, all, switches); !written)
+    return std::move(written).error();
+  if (!switches.plot.empty()) {
+    Status plotted = write_plots(switches.plot, profile_plots(all, input.path));
+    if (!plotted) return std::move(plotted).error();
+  }
+
+  const Json costs = {{"seconds",
+                       {{"read", axes->seconds_read},
+                        {"shape", axes->seconds_shape},
+                        {"axis", axes->seconds_axis},
+                        {"measure", seconds}}}};
+  Status printed = success();
+  if (common.json) {
+    Json object = {{"input", input.path}, {"features", Json::array()}};
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      Json one = to_json(all[i], switches.necks > 0 ? switches.necks : necks_told);
+      one["attributes"] = Json::object();
+      for (const auto& [name, value] : file.items[i].attributes) one["attributes"][name] = value;
+      object["features"].push_back(std::move(one));
+    }
+    if (common.stats) object.update(costs);
+    printed = print(object);
+  } else if (!common.quiet && switches.output != "-") {
+    printed = print(all.size() == 1 ? describe(all[0], switches) : describe(all));
+  }
+  if (!printed) return std::move(printed).error();
+  if (common.stats && !common.json) fmt::print(stderr, "{}", table(costs));
+  return exit_success;
+}
+
+}  // namespace
+
+Verb make_measure_verb(CLI::App& program) {
+  auto switches = std::make_shared<MeasureSwitches>();
+  CLI::App* verb = program.add_subcommand(
+      "measure", "Measure how wide shapes are: profiles, transects, necks, largest disks.");
+  add_input_switches(*verb, switches->input);
+  verb->add_option("-o,--output", switches->output,
+                   "Where to write: the width profile as .csv, or transects, necks and disks as\n"
+                   "layers or as a picture:\n" +
+                       io::known_layer_formats() + "\n- is standard output, see --format.")
+      ->check(a_name())
+      ->option_text("OUTPUT");
+  verb->add_option("--format", switches->format, "The format of -o -, for example csv.")
+      ->option_text("NAME");
+  verb->add_option("--plot", switches->plot, "Draw the width profiles: .svg .png .pdf.")
+      ->check(a_name())
+      ->option_text("FILE");
+  verb->add_option("--samples", switches->samples,
+                   "Steps of a width profile (default: 200), from end to end of the line.")
+      ->check(CLI::Range(std::uint64_t{1}, most_samples).description(""))
+      ->option_text("N");
+  CLI::Option* transects = verb->add_option("--transects", switches->transects,
+                                            "So many transects along each line, from foot to foot.")
+                               ->check(CLI::Range(std::uint64_t{1}, most_samples).description(""))
+                               ->option_text("N");
+  verb->add_option("--spacing", switches->spacing,
+                   "Transects at this distance from each other, in units of the input.")
+      ->check(CLI::PositiveNumber.description(""))
+      ->excludes(transects)
+      ->option_text("D");
+  verb->add_option("--necks", switches->necks,
+                   "So many necks, those first that open most on both sides.")
+      ->check(CLI::Range(std::uint64_t{1}, most_samples).description(""))
+      ->option_text("K");
+  verb->add_option("--widening", switches->widening,
+                   "A neck opens on both sides to so many times its width (default: 1.1).")
+      ->check(in_range(1 + 1e-9, 1e9))
+      ->option_text("FACTOR");
+  verb->add_option("--disks", switches->disks,
+                   "The so many largest disks inside the shape that do not overlap, one after\n"
+                   "another.")
+      ->check(CLI::Range(std::uint64_t{1}, most_disks).description(""))
+      ->option_text("K");
+  add_path_switches(*verb, switches->path);
+  verb->add_option("--width", switches->write.width,
+                   "Width of a picture in pixels or points (default: 1024).")
+      ->check(CLI::Range(16.0, 8000.0).description(""))
+      ->option_text("W")
+      ->group("Pictures");
+  add_common_switches(*verb, switches->common);
+  verb->footer(
+      "Widths are diameters of maximal disks along the centre line (medial centreline).\n"
+      "`mean width by length` is their mean along the line, `by area` the mean over all\n"
+      "points of the shape of the width where they belong. A neck is narrower than what\n"
+      "lies on both sides of it.\n"
+      "\n"
+      "Examples:\n"
+      "  medial measure river.geojson --project --plot widths.svg -o widths.csv\n"
+      "  medial measure roads.gpkg --spacing 25 -o transects.shp\n"
+      "  medial measure plan.wkt --necks 10 --disks 5 -o plan.svg\n"
+      "  medial measure parcels.geojson --json | jq '.features[].mean_width.by_area'");
+  return {verb, [switches] { return run_measure(*switches); }};
+}
+
+}  // namespace medial::cli

@@ -1,0 +1,208 @@
+// medial offset: offset curves, inwards and outwards.
+
+#include "medial/offset.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include "cli/common.h"
+#include "cli/pipeline.h"
+#include "cli/terminal.h"
+#include "medial/io/offsets.h"
+
+namespace medial::cli {
+namespace {
+
+struct OffsetSwitches {
+  InputSwitches input;
+  CommonSwitches common;
+  std::string output;
+  std::string format;
+  io::WriteOptions write;
+  std::vector<double> distances;
+  double step = 0;   ///< 0: no passes
+  double first = 0;  ///< of the passes; 0: the step
+  std::string until = "empty";
+  double last = std::numeric_limits<double>::infinity();  ///< of the passes, as `until` tells
+  bool exterior = false;
+  bool chords = false;
+};
+
+/// The passes step, 2 step, ... of one shape: as clearances, inside until nothing is left.
+Result<Offsets> offset_one(const Shape& shape, const OffsetSwitches& switches,
+                           const Options& options) {
+  std::vector<double> clearances;
+  for (const double d : switches.distances) clearances.push_back(switches.exterior ? -d : d);
+  if (switches.step == 0) return offset_curves(shape, clearances, options);
+  const double first = switches.first > 0 ? switches.first : switches.step;
+  if (!std::isfinite(switches.last)) {
+    auto axis = compute(shape, options);
+    if (!axis) return std::move(axis).error();
+    auto passes = offset_passes(*axis, first, switches.step);
+    if (!passes) return std::move(passes).error();
+    return inward_offsets(*axis, *passes);
+  }
+  constexpr double most = 1e6;
+  if ((switches.last - first) / switches.step > most)
+    return Error{ErrorCode::too_large, "more than 1e6 passes: the step is too small", {}};
+  for (int k = 0; first + k * switches.step <= switches.last; ++k)
+    clearances.push_back((switches.exterior ? -1 : 1) * (first + k * switches.step));
+  return offset_curves(shape, clearances, options);
+}
+
+Status tell(const io::OffsetFile& file, const OffsetSwitches& switches, double seconds) {
+  std::uint64_t regions = 0, rings = 0, edges = 0;
+  double seconds_axis = 0, seconds_curves = 0, total = 0, deepest = 0;
+  for (const io::OffsetItem& item : file.items) {
+    seconds_axis += item.offsets.seconds_axis;
+    seconds_curves += item.offsets.seconds_curves;
+    regions += item.offsets.regions.size();
+    for (const OffsetRegion& region : item.offsets.regions) {
+      rings += region.rings.size();
+      total += length(region);
+      deepest = std::max(deepest, region.clearance);
+      for (const Ring& ring : region.rings) edges += ring.points.size();
+    }
+  }
+  if (switches.common.json) {
+    Json object{{"input", switches.input.path},
+                {"features", file.items.size()},
+                {"regions", regions},
+                {"rings", rings},
+                {"edges", edges},
+                {"length", total}};
+    if (switches.common.stats)
+      object.update(
+          Json{{"seconds", {{"axis", seconds_axis}, {"curves", seconds_curves}, {"all", seconds}}},
+               {"peak_bytes", peak_bytes()}});
+    return print(object);
+  }
+  const std::string line =
+      fmt::format("{}: {}, {}, {} of {}, length {:.6g}; {:.3g} s\n", switches.input.path,
+                  counted(file.items.size(), "feature"), counted(regions, "region"),
+                  counted(rings, "ring"), counted(edges, "edge"), total, seconds);
+  if (switches.common.stats)
+    fmt::print(stderr, "{}",
+               table(Json{{"seconds", {{"axis", seconds_axis}, {"curves", seconds_curves}}},
+                          {"peak_bytes", peak_bytes()}}));
+  if (switches.output.empty()) return print(line);
+  if (error_is_terminal() && !switches.common.quiet) fmt::print(stderr, "{}", line);
+  return success();
+}
+
+Result<int> run_offset(const OffsetSwitches& switches) {
+  const auto& input = switches.input;
+  const auto& common = switches.common;
+  if (switches.distances.empty() == (switches.step == 0))
+    return invalid_option("give --distance or --step, one of the two");
+  if (switches.exterior && switches.step > 0 && !std::isfinite(switches.last))
+    return invalid_option("outwards nothing gets empty: give a distance to --until");
+  Status writable = check_output(switches.output, switches.format, io::known_offset_formats(),
+                                 input.path, common.json);
+  if (!writable) return std::move(writable).error();
+  auto shapes = load_shapes(input, common.threads);
+  if (!shapes) return std::move(shapes).error();
+  print_notes(*shapes, input, common);
+  const Stopwatch watch;
+  io::OffsetFile file;
+  file.crs_wkt = shapes->crs_wkt;
+  file.y_down = shapes->y_down;
+  file.items.resize(shapes->shapes.size());
+  Status computed = for_each_feature(
+      weights_of(shapes->shapes), common.threads, [&](std::size_t i, int threads) -> Status {
+        Options options;
+        options.tolerance = common.tolerance;
+        options.corner_angle = common.corner_angle;
+        options.threads = threads;
+        auto offsets = offset_one(shapes->shapes[i], switches, options);
+        if (!offsets) {
+          Error error = std::move(offsets).error();
+          if (error.place.file.empty()) error.place.file = input.path;
+          error.place.feature = i;
+          return error;
+        }
+        file.items[i] = {std::move(shapes->shapes[i]), std::move(offsets).value(),
+                         std::move(shapes->attributes[i])};
+        return success();
+      });
+  if (!computed) return std::move(computed).error();
+  const double seconds = watch.seconds();
+  if (!switches.output.empty()) {
+    io::WriteOptions write = switches.write;
+    write.chord = common.chord;
+    Status written =
+        io::write_offsets(switches.output, switches.format, file, write, switches.chords);
+    if (!written) return std::move(written).error();
+  }
+  Status told = tell(file, switches, seconds);
+  if (!told) return std::move(told).error();
+  return exit_success;
+}
+
+}  // namespace
+
+Verb make_offset_verb(CLI::App& program) {
+  auto switches = std::make_shared<OffsetSwitches>();
+  CLI::App* verb = program.add_subcommand(
+      "offset", "Compute offset curves, inwards and outwards, with true arcs.");
+  add_input_switches(*verb, switches->input);
+  verb->add_option("--distance", switches->distances,
+                   "Distances from the boundary, in units of the input: inside of the shape\n"
+                   "where they are positive, outside where they are negative.")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->option_text("D[,D...]");
+  verb->add_option("--step", switches->step,
+                   "Instead: nested passes, one every S, from --first on.")
+      ->check(CLI::PositiveNumber.description(""))
+      ->option_text("S");
+  verb->add_option("--first", switches->first, "The first pass (default: S).")
+      ->check(CLI::PositiveNumber.description(""))
+      ->option_text("D");
+  verb->add_option("--until", switches->until,
+                   "The last pass: empty (default), when nothing is left inside; or a distance.")
+      ->each([switches](const std::string& text) {
+        if (text == "empty") return;
+        if (!CLI::detail::lexical_cast(text, switches->last) || !(switches->last > 0))
+          throw CLI::ValidationError("--until", text + " is neither empty nor a distance");
+      })
+      ->option_text("D");
+  verb->add_flag("--exterior", switches->exterior,
+                 "Positive distances are outside, around the shape and in its holes.");
+  verb->add_option("-o,--output", switches->output,
+                   fmt::format("Where to write; the extension tells the format:\n{}\n"
+                               "- is standard output, see --format. Without -o, only a summary is\n"
+                               "printed.",
+                               io::known_offset_formats()))
+      ->check(a_name())
+      ->option_text("OUTPUT");
+  verb->add_option("--format", switches->format, "The format of -o -, for example wkt.")
+      ->option_text("NAME");
+  verb->add_flag("--chords", switches->chords,
+                 "Well-known text: polygons of chords (see --chord) instead of exact arcs.");
+  verb->add_option("--width", switches->write.width,
+                   "Width of a picture, in pixels or points (default: 1024).")
+      ->check(in_range(16, 8000))
+      ->option_text("W")
+      ->group("Pictures");
+  add_common_switches(*verb, switches->common);
+  verb->footer(
+      "A region is a connected part of all points farther than D from the boundary\n"
+      "(inside), or of the shape grown by D (outside): an outer ring, then its holes. Rings\n"
+      "are lines and arcs; all distances are found in one walk along the axis. Regions of\n"
+      "successive distances nest: .json and .geojson tell each one's parent. .dxf has\n"
+      "closed polylines with bulges, a layer for each distance; .wkt exact circular\n"
+      "strings; .geojson chords.\n"
+      "\n"
+      "Examples:\n"
+      "  medial offset plan.wkt --distance 0.5,1,2 -o plan.svg\n"
+      "  medial offset plate.dxf --distance=-3 -o grown.dxf\n"
+      "  medial offset plate.dxf --step 2 --first 1 --until empty -o passes.dxf\n"
+      "  medial offset plan.wkt --distance 1 -o - --format wkt");
+  return {verb, [switches] { return run_offset(*switches); }};
+}
+
+}  // namespace medial::cli

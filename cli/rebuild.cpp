@@ -1,0 +1,312 @@
+// medial rebuild and medial smooth: from axes back to shapes.
+
+#include "medial/rebuild.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+
+#include "cli/prune_switches.h"
+#include "cli/stored_axes.h"
+#include "cli/terminal.h"
+#include "medial/io/image.h"
+#include "medial/io/shapes.h"
+#include "medial/query.h"
+#include "medial/shape_distance.h"
+
+namespace medial::cli {
+namespace {
+
+constexpr char image_formats[] = ".png .tif .pbm";
+
+struct Switches {
+  InputSwitches input;
+  CommonSwitches common;
+  PruneSwitches prune;  ///< of smooth
+  std::string output;
+  std::string format;
+  bool tangents = false;
+  std::uint64_t points = 0;
+  bool polygon = false;
+  std::uint32_t pixels = 0;
+  std::string against;
+  double width = 1024;
+};
+
+/// What was rebuilt, summed over the features, and how far it is from what it should be.
+struct Told {
+  double area = 0;
+  std::uint64_t vertices = 0, medial_points = 0, crossings = 0;
+  bool compared = false;
+  ShapeDistance distance;
+};
+
+Error at_feature(Error error, const std::string& path, std::size_t feature) {
+  if (error.place.file.empty()) error.place.file = path;
+  error.place.feature = feature;
+  return error;
+}
+
+Result<std::vector<Shape>> rebuild_all(const AxisFile& axes, const Switches& switches, Told& told) {
+  const auto& items = axes.native.items;
+  std::vector<Shape> shapes(items.size());
+  std::vector<RebuildReport> reports(items.size());
+  std::vector<double> weights;
+  for (const io::NativeItem& item : items)
+    weights.push_back(static_cast<double>(item.axis.edges.size()));
+  Status done =
+      for_each_feature(weights, switches.common.threads, [&](std::size_t i, int) -> Status {
+        const MedialAxis& axis = items[i].axis;
+        RebuildOptions options;
+        if (switches.tangents) options.by = RebuildBy::tangents;
+        options.points = switches.points;
+        if (switches.polygon) {
+          const Shape& shape = items[i].shape;
+          double size = 0;
+          for (const Node& node : axis.nodes)
+            size = std::max(size, distance(node.disk.center, axis.nodes[0].disk.center));
+          if (!shape.points.empty()) size = diagonal(bounding_box(shape));
+          options.chord = switches.common.chord * size;
+        }
+        auto shape = rebuild(axis, options, &reports[i]);
+        if (!shape) return at_feature(std::move(shape).error(), switches.input.path, i);
+        shapes[i] = std::move(shape).value();
+        return success();
+      });
+  if (!done) return std::move(done).error();
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    told.area += area(shapes[i]);
+    told.vertices += shapes[i].points.size();
+    told.medial_points += reports[i].medial_points;
+    told.crossings += reports[i].crossings;
+  }
+  return shapes;
+}
+
+/// The largest distances of all features, the sums of their areas.
+Status compare(const std::vector<Shape>& shapes, const std::vector<Shape>& others,
+               const std::string& path, int threads, Told& told) {
+  if (shapes.size() != others.size()) {
+    return error_at(ErrorCode::malformed, path,
+                    fmt::format("holds {} where there are {} rebuilt",
+                                counted(others.size(), "feature"), shapes.size()));
+  }
+  std::vector<ShapeDistance> distances(shapes.size());
+  Status done = for_each_feature(weights_of(shapes), threads, [&](std::size_t i, int) -> Status {
+    distances[i] = shape_distance(shapes[i], others[i]);
+    return success();
+  });
+  if (!done) return done;
+  told.compared = true;
+  for (const ShapeDistance& one : distances) {
+    if (one.hausdorff() >= told.distance.hausdorff()) told.distance.worst = one.worst;
+    told.distance.area += one.area;
+    told.distance.other_area += one.other_area;
+    told.distance.from_first = std::max(told.distance.from_first, one.from_first);
+    told.distance.from_second = std::max(told.distance.from_second, one.from_second);
+  }
+  return success();
+}
+
+Status write_pixels(const AxisFile& axes, const Switches& switches, Json& object) {
+  if (axes.native.items.size() != 1) {
+    return error_at(ErrorCode::unsupported, switches.input.path, "--pixels takes one feature only");
+  }
+  auto image = rebuild_image(axes.native.items[0].axis, switches.pixels, axes.native.y_down);
+  if (!image) return std::move(image).error();
+  io::ImageFile placed;
+  placed.crs_wkt = axes.native.crs_wkt;
+  const double h = image->pixel;
+  const double height = h * image->image.height();
+  placed.placement =
+      axes.native.y_down
+          ? io::PixelPlacement{image->corner.x, h, 0, image->corner.y, 0, h}
+          : io::PixelPlacement{image->corner.x, h, 0, image->corner.y + height, 0, -h};
+  object["pixel"] = h;
+  object["pixels"] = image->image.count();
+  object["area"] = static_cast<double>(image->image.count()) * h * h;
+  return io::write_image(switches.output, image->image, placed);
+}
+
+Status tell(const Told& told, const Switches& switches, Json object, const Json& seconds) {
+  const CommonSwitches& common = switches.common;
+  if (switches.pixels == 0) {
+    object["vertices"] = told.vertices;
+    object["area"] = told.area;
+    if (told.medial_points > 0) object["medial_points"] = told.medial_points;
+    if (told.crossings > 0) object["crossings"] = told.crossings;
+  }
+  if (told.compared) {
+    object["against"] = {
+        {"input", switches.against.empty() ? switches.input.path : switches.against},
+        {"area", told.distance.other_area},
+        {"area_error", told.distance.area - told.distance.other_area},
+        {"hausdorff", told.distance.hausdorff()},
+        {"x", told.distance.worst.x},
+        {"y", told.distance.worst.y}};
+  }
+  const Json costs = {{"seconds", seconds}, {"peak_bytes", peak_bytes()}};
+  if (common.json) {
+    if (common.stats) object.update(costs);
+    return print(object);
+  }
+  if (common.stats) fmt::print(stderr, "{}", table(costs));
+  const bool to_screen = switches.output.empty() || told.compared;
+  if (switches.output == "-" || common.quiet || !to_screen) return success();
+  return print(table(object));
+}
+
+Result<int> run(const Switches& switches, bool smooths) {
+  const auto& [input, common, how, output, format, tangents, points, polygon, pixels, against,
+               width] = switches;
+  if (pixels > 0 && (output.empty() || output == "-"))
+    return invalid_option("--pixels needs -o with the name of an image");
+  if (pixels > 0 && !against.empty()) return invalid_option("--against is not for --pixels");
+  const auto options = prune_options(how);
+  if (!options) return options.error();
+  Status writable =
+      check_output(output, format, pixels > 0 ? image_formats : io::known_shape_formats(),
+                   input.path, common.json);
+  if (!writable) return std::move(writable).error();
+  auto axes = load_axes(input, common);
+  if (!axes) return std::move(axes).error();
+  const Stopwatch watch;
+  Json object = {{"input", input.path}};
+  if (!output.empty()) object["output"] = output;
+  std::vector<Shape> before;
+  if (smooths) {
+    for (const io::NativeItem& item : axes->native.items) before.push_back(item.shape);
+    const auto report = prune_all(*axes, *options, common.threads);
+    if (!report) return report.error();
+    object["measure"] = name_of(options->measure);
+    object["threshold"] = report->threshold;
+    object["branches_before"] = report->branches_before;
+    object["branches"] = report->branches;
+  }
+  Told told;
+  if (pixels > 0) {
+    Status written = write_pixels(*axes, switches, object);
+    if (!written) return std::move(written).error();
+  } else {
+    auto shapes = rebuild_all(*axes, switches, told);
+    if (!shapes) return std::move(shapes).error();
+    const double seconds = watch.seconds();
+    if (!against.empty()) {
+      InputSwitches other = input;
+      other.path = against;
+      auto file = load_shapes(other, common.threads);
+      if (!file) return std::move(file).error();
+      Status done = compare(*shapes, file->shapes, against, common.threads, told);
+      if (!done) return std::move(done).error();
+    } else if (smooths && (common.json || output.empty())) {
+      Status done = compare(*shapes, before, input.path, common.threads, told);
+      if (!done) return std::move(done).error();
+    }
+    if (!output.empty()) {
+      io::ShapesFile file;
+      file.crs_wkt = axes->native.crs_wkt;
+      file.y_down = axes->native.y_down;
+      file.chord = common.chord;
+      file.width = width;
+      for (std::size_t i = 0; i < shapes->size(); ++i)
+        file.items.push_back(
+            {std::move((*shapes)[i]), std::move(axes->native.items[i].attributes)});
+      Status written = io::write_shapes(output, format, file);
+      if (!written) return std::move(written).error();
+    }
+    Status printed = tell(told, switches, std::move(object),
+                          {{"read", axes->seconds_read},
+                           {"shape", axes->seconds_shape},
+                           {"axis", axes->seconds_axis},
+                           {smooths ? "smooth" : "rebuild", seconds}});
+    if (!printed) return std::move(printed).error();
+    return exit_success;
+  }
+  Status printed = tell(told, switches, std::move(object),
+                        {{"read", axes->seconds_read},
+                         {"shape", axes->seconds_shape},
+                         {"axis", axes->seconds_axis},
+                         {"rebuild", watch.seconds()}});
+  if (!printed) return std::move(printed).error();
+  return exit_success;
+}
+
+void add_switches(CLI::App& verb, Switches& switches, bool smooths) {
+  add_input_switches(verb, switches.input);
+  verb.add_option("-o,--output", switches.output,
+                  fmt::format("Where to write; the extension tells the format: {}\n"
+                              "- is standard output, see --format.",
+                              io::known_shape_formats()))
+      ->check(a_name())
+      ->option_text("FILE");
+  verb.add_option("--format", switches.format, "The format of -o - (default: json).")
+      ->option_text("NAME");
+  verb.add_flag("--polygon", switches.polygon,
+                "Straight edges only: arcs become chords within --chord.");
+  verb.add_option("--width", switches.width, "Width of pictures in pixels or points.")
+      ->check(in_range(16, 8000))
+      ->option_text("W");
+  verb.add_option("--against", switches.against,
+                  "Measure area and Hausdorff distance against these shapes.")
+      ->check(a_name())
+      ->option_text("SHAPES");
+  if (!smooths) {
+    CLI::Option* tangents =
+        verb.add_flag("--tangents", switches.tangents,
+                      "Polygons by tangents of disks instead, as of sampled axes.");
+    verb.add_option("--points", switches.points,
+                    "With --tangents: points on the axis, about (default: the samples, or\n"
+                    "1000 of an exact axis).")
+        ->check(a_whole_number())
+        ->option_text("N");
+    verb.add_option("--pixels", switches.pixels,
+                    fmt::format("The union of the disks as an image, its longer side so many\n"
+                                "pixels: {}",
+                                image_formats))
+        ->check(CLI::Range(1, 32768))
+        ->option_text("N")
+        ->excludes(tangents);
+  }
+  if (smooths) add_prune_switches(verb, switches.prune);
+  add_common_switches(verb, switches.common);
+}
+
+}  // namespace
+
+Verb make_rebuild_verb(CLI::App& program) {
+  auto switches = std::make_shared<Switches>();
+  CLI::App* verb = program.add_subcommand("rebuild", "The shape that an axis stands for.");
+  add_switches(*verb, *switches, false);
+  verb->footer(
+      "From an exact axis the boundary comes back exactly, as segments and arcs; where it\n"
+      "was pruned, arcs of the last disks close it. Sampled axes give polygons. INPUT is\n"
+      "medial's own .json with axes; of shapes the axis is computed first.\n"
+      "\n"
+      "Examples:\n"
+      "  medial rebuild plan.json -o again.svg --against plan.geojson\n"
+      "  medial axis gear.svg -o - | medial prune - --angle 60 -o - |\n"
+      "    medial rebuild - -o smooth.svg\n"
+      "  medial rebuild ridge.json --against plan.wkt --json\n"
+      "  medial rebuild plan.json --pixels 2000 -o plan.png");
+  return {verb, [switches] { return run(*switches, false); }};
+}
+
+Verb make_smooth_verb(CLI::App& program) {
+  auto switches = std::make_shared<Switches>();
+  CLI::App* verb = program.add_subcommand("smooth", "Remove what does not matter from shapes.");
+  add_switches(*verb, *switches, true);
+  verb->footer(
+      "Computes the axis, prunes it as `medial prune` does, and rebuilds the shape: what\n"
+      "is removed is replaced by the arcs of the disks that it stood on (Ho and Dyer).\n"
+      "Only what sticks out is removed; notches stay. Parts and holes stay.\n"
+      "\n"
+      "Examples:\n"
+      "  medial smooth coast.wkt.gz -o calm.geojson\n"
+      "  medial smooth scan.svg --significance 0.2 -o clean.svg\n"
+      "  medial smooth plan.wkt --radius 0.3 --json");
+  return {verb, [switches] { return run(*switches, true); }};
+}
+
+}  // namespace medial::cli

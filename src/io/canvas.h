@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cairo.h>
+
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "io/color.h"
+#include "io/output.h"
+#include "medial/shape.h"
+
+namespace medial::io {
+
+/// A picture of curves in the plane, drawn through Cairo: y upwards unless told otherwise, aspect
+/// kept. Line widths are in thousandths of the picture's longer side.
+class Canvas {
+ public:
+  /// `write_canvas` makes it. `scale` is in pixels by units of the input.
+  Canvas(cairo_t* context, const Box& box, double width, double height, double scale, bool y_down)
+      : context_(context),
+        center_(midpoint(box.low, box.high)),
+        width_(width),
+        height_(height),
+        scale_(scale),
+        up_(y_down ? -1 : 1) {}
+
+  void color(const Color& c, double alpha = 1) {
+    cairo_set_source_rgba(context_, c.red, c.green, c.blue, alpha);
+  }
+  void line_width(double thousandths) {
+    cairo_set_line_width(context_, 1e-3 * thousandths * std::max(width_, height_));
+  }
+  double scale() const { return scale_; }
+  void width_in_units(double units) { cairo_set_line_width(context_, units * scale_); }
+
+  /// Adds a closed ring to the path, or an open polyline.
+  void trace(const Ring& ring);
+  void trace(const Shape& shape);
+  void trace(std::span<const Vec2> line);
+  void circle(Vec2 center, double radius);
+  void fill() { cairo_fill(context_); }
+  void fill_even_odd();
+  void stroke() { cairo_stroke(context_); }
+  void text(Vec2 at, double thousandths, const std::string& words);
+
+ private:
+  Vec2 place(Vec2 p) const {
+    return {0.5 * width_ + (p.x - center_.x) * scale_,
+            0.5 * height_ - (p.y - center_.y) * (up_ * scale_)};
+  }
+  void edge_to(Vec2 from, Vec2 to, double bulge);
+  void arc_to(Vec2 from, Vec2 to, double bulge);
+
+  cairo_t* context_;
+  Vec2 center_;
+  double width_, height_, scale_, up_;
+};
+
+/// Draws a picture of a box of the plane as svg, pdf, ps or png. Errors: invalid_option (width),
+/// unwritable.
+Status write_canvas(OutputStream& out, const std::string& format, const Box& box, double width,
+                    bool y_down, const std::function<void(Canvas&)>& draw);
+
+}  // namespace medial::io

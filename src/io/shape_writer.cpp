@@ -1,0 +1,279 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <string_view>
+
+#include "base/arc.h"
+#include "io/native.h"
+#include "io/output.h"
+#include "io/picture.h"
+#include "medial/io/shapes.h"
+#include "medial/io/write.h"
+#ifdef MEDIAL_DXF
+#include "io/dxf_drawing.h"
+#endif
+
+namespace medial::io {
+
+namespace {
+
+constexpr char formats[] = ".json .svg .wkt .geojson .dxf .pdf .png .ps";
+
+std::string quoted(const std::string& text) {
+  using Json = nlohmann::json;
+  return Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+/// The loops of a shape, part by part: the outer loop first, then its holes.
+std::vector<std::vector<std::size_t>> parts_of(const Shape& shape) {
+  std::vector<std::vector<std::size_t>> parts(shape.component_count());
+  for (const bool holes : {false, true})
+    for (std::size_t i = 0; i < shape.loop_count(); ++i)
+      if (shape.hole[i] == holes) parts[shape.component[i]].push_back(i);
+  return parts;
+}
+
+/// Calls edge(BulgeArc) for the edges of a loop in their order.
+template <class Visit>
+void for_each_edge(const Shape& shape, std::size_t loop, const Visit& visit) {
+  const auto points = shape.loop(loop);
+  for (std::size_t k = 0; k < points.size(); ++k)
+    visit(BulgeArc{points[k], points[k + 1 < points.size() ? k + 1 : 0],
+                   shape.bulge(shape.loop_begin[loop] + k)});
+}
+
+bool has_arcs(const Shape& shape) {
+  return std::ranges::any_of(shape.bulges, [](double bulge) { return bulge != 0; });
+}
+
+void put_point(OutputStream& out, Vec2 p, char between) {
+  out.put(p.x);
+  out.put(between);
+  out.put(p.y);
+}
+
+/// The points of a loop, arcs cut so that chords stay within a distance; the first one again.
+std::vector<Vec2> points_of(const Shape& shape, std::size_t loop, double chord) {
+  std::vector<Vec2> points;
+  for_each_edge(shape, loop, [&](const BulgeArc& arc) {
+    points.push_back(arc.start);
+    if (arc.bulge == 0) return;
+    const double angle = 4 * std::atan(arc.bulge);
+    const double radius = 1 / std::abs(curvature(arc));
+    const double longest = 2 * std::acos(std::max(1 - chord / radius, 0.0));
+    const double count = std::min(std::ceil(std::abs(angle) / longest), 1e5);
+    const Vec2 tangent = start_tangent(arc);
+    for (double k = 1; k < count; ++k) {
+      const double half = angle * k / count / 2;
+      const Vec2 direction = turned(tangent, std::cos(half), std::sin(half));
+      points.push_back(arc.start + 2 * radius * std::abs(std::sin(half)) * direction);
+    }
+  });
+  points.push_back(points.front());
+  return points;
+}
+
+void write_svg(OutputStream& out, const ShapesFile& file) {
+  Box box{{0, 0}, {0, 0}};
+  bool first = true;
+  for (const ShapeItem& item : file.items) {
+    if (item.shape.points.empty()) continue;
+    const Box own = bounding_box(item.shape);
+    if (first) box = own;
+    first = false;
+    box.low = {std::min(box.low.x, own.low.x), std::min(box.low.y, own.low.y)};
+    box.high = {std::max(box.high.x, own.high.x), std::max(box.high.y, own.high.y)};
+  }
+  const double margin = 0.02 * diagonal(box);
+  const Vec2 size = box.high - box.low + 2 * margin * Vec2{1, 1};
+  const double top = file.y_down ? box.low.y - margin : -box.high.y - margin;
+  // Without a width of the picture a unit stays a unit for who reads it again.
+  out.put(fmt::format(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"{:.9g} {:.9g} {:.9g} {:.9g}\">\n",
+      box.low.x - margin, top, size.x, size.y));
+  out.put(fmt::format(
+      "<g{} fill=\"#f1f1ec\" fill-rule=\"evenodd\" stroke=\"#404045\" stroke-width=\"{:.3g}\" "
+      "stroke-linejoin=\"round\">\n",
+      file.y_down ? "" : " transform=\"scale(1 -1)\"", 1.5e-3 * std::max(size.x, size.y)));
+  for (const ShapeItem& item : file.items) {
+    out.put("<path d=\"");
+    for (std::size_t i = 0; i < item.shape.loop_count(); ++i) {
+      bool begun = false;
+      for_each_edge(item.shape, i, [&](const BulgeArc& arc) {
+        if (!begun) {
+          out.put('M');
+          put_point(out, arc.start, ' ');
+          begun = true;
+        }
+        if (arc.bulge == 0) {
+          out.put('L');
+        } else {
+          const double radius = 1 / std::abs(curvature(arc));
+          out.put('A');
+          out.put(radius);
+          out.put(' ');
+          out.put(radius);
+          out.put(arc.bulge > 0 ? " 0 0 1 " : " 0 0 0 ");
+        }
+        put_point(out, arc.end, ' ');
+      });
+      out.put("Z\n");
+    }
+    out.put("\"/>\n");
+  }
+  out.put("</g>\n</svg>\n");
+}
+
+/// A loop in well-known text: plain, or a curve of lines and arcs through three points each.
+void put_wkt_loop(OutputStream& out, const Shape& shape, std::size_t loop, bool curved) {
+  if (!curved) {
+    const char* separator = "(";
+    for (const Vec2 p : points_of(shape, loop, 1)) {
+      out.put(std::string_view(separator));
+      put_point(out, p, ' ');
+      separator = ", ";
+    }
+    out.put(')');
+    return;
+  }
+  out.put("COMPOUNDCURVE (");
+  bool first = true;
+  for_each_edge(shape, loop, [&](const BulgeArc& arc) {
+    if (!first) out.put(", ");
+    first = false;
+    out.put(arc.bulge == 0 ? "(" : "CIRCULARSTRING (");
+    put_point(out, arc.start, ' ');
+    if (arc.bulge != 0) {
+      out.put(", ");
+      put_point(out, apex(arc), ' ');
+    }
+    out.put(", ");
+    put_point(out, arc.end, ' ');
+    out.put(')');
+  });
+  out.put(')');
+}
+
+void write_wkt(OutputStream& out, const ShapesFile& file) {
+  for (const ShapeItem& item : file.items) {
+    const Shape& shape = item.shape;
+    const bool curved = has_arcs(shape);
+    const auto parts = parts_of(shape);
+    const bool one = parts.size() == 1;
+    if (parts.empty()) {
+      out.put("POLYGON EMPTY\n");
+      continue;
+    }
+    if (!one) out.put(curved ? "MULTISURFACE (" : "MULTIPOLYGON (");
+    if (one && !curved) out.put("POLYGON ");
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+      if (k > 0) out.put(", ");
+      out.put(curved ? "CURVEPOLYGON (" : "(");
+      for (std::size_t i = 0; i < parts[k].size(); ++i) {
+        if (i > 0) out.put(", ");
+        put_wkt_loop(out, shape, parts[k][i], curved);
+      }
+      out.put(')');
+    }
+    out.put(one ? "\n" : ")\n");
+  }
+}
+
+void write_geojson(OutputStream& out, const ShapesFile& file) {
+  out.put("{\"type\":\"FeatureCollection\",\"features\":[");
+  bool first = true;
+  for (const ShapeItem& item : file.items) {
+    const Shape& shape = item.shape;
+    out.put(first ? "\n" : ",\n");
+    first = false;
+    out.put("{\"type\":\"Feature\",\"properties\":{");
+    for (std::size_t i = 0; i < item.attributes.size(); ++i)
+      out.put(fmt::format("{}{}:{}", i > 0 ? "," : "", quoted(item.attributes[i].first),
+                          quoted(item.attributes[i].second)));
+    out.put("},\"geometry\":{\"type\":\"MultiPolygon\",\"coordinates\":[");
+    const double chord = shape.points.empty() ? 1 : file.chord * diagonal(bounding_box(shape));
+    const auto parts = parts_of(shape);
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+      out.put(k > 0 ? ",[" : "[");
+      for (std::size_t i = 0; i < parts[k].size(); ++i) {
+        out.put(i > 0 ? ",[" : "[");
+        const char* separator = "[";
+        for (const Vec2 p : points_of(shape, parts[k][i], chord)) {
+          out.put(std::string_view(separator));
+          put_point(out, p, ',');
+          out.put(']');
+          separator = ",[";
+        }
+        out.put(']');
+      }
+      out.put(']');
+    }
+    out.put("]}}");
+  }
+  out.put("\n]}\n");
+}
+
+/// Every loop as a closed polyline with bulges: nothing is lost.
+Status write_dxf([[maybe_unused]] OutputStream& out, [[maybe_unused]] const ShapesFile& file) {
+#ifdef MEDIAL_DXF
+  const std::string layer = "SHAPE";
+  DxfDrawing drawing(out, {layer});
+  for (const ShapeItem& item : file.items) {
+    const Shape& shape = item.shape;
+    for (std::size_t i = 0; i < shape.loop_count(); ++i) {
+      const auto points = shape.loop(i);
+      std::vector<double> bulges;
+      if (has_arcs(shape))
+        for (std::size_t k = 0; k < points.size(); ++k)
+          bulges.push_back(shape.bulge(shape.loop_begin[i] + k));
+      drawing.polyline(layer, {points.begin(), points.end()}, bulges, true);
+    }
+  }
+  return drawing.finish();
+#else
+  return Error{ErrorCode::unsupported, "this program was built without DXF", {}};
+#endif
+}
+
+Status write_stream(OutputStream& out, const std::string& format, const ShapesFile& file) {
+  Status status = success();
+  if (format == "svg") {
+    write_svg(out, file);
+  } else if (format == "wkt") {
+    write_wkt(out, file);
+  } else if (format == "geojson") {
+    write_geojson(out, file);
+  } else if (format == "dxf") {
+    status = write_dxf(out, file);
+  } else {
+    NativeFile native;
+    native.crs_wkt = file.crs_wkt;
+    native.y_down = file.y_down;
+    for (const ShapeItem& item : file.items) {
+      native.items.emplace_back();
+      native.items.back().shape = item.shape;
+      native.items.back().attributes = item.attributes;
+    }
+    WriteOptions pictures;
+    pictures.width = file.width;
+    status =
+        format == "json" ? write_native(out, native) : write_picture(out, format, native, pictures);
+  }
+  return status;
+}
+
+}  // namespace
+
+std::string known_shape_formats() { return formats; }
+
+Status write_shapes(const std::string& path, const std::string& format, const ShapesFile& file) {
+  Result<std::string> own = output_format(path, format, "json", formats);
+  if (!own) return std::move(own).error();
+  return write_whole(path,
+                     [&](OutputStream& out) -> Status { return write_stream(out, *own, file); });
+}
+
+}  // namespace medial::io

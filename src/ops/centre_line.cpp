@@ -1,0 +1,274 @@
+// A path along the axis as a line: extended to the boundary, smoothed.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "axis/curve.h"
+#include "axis/sites.h"
+#include "base/arc.h"
+#include "index/boundary_tree.h"
+#include "medial/centreline.h"
+#include "medial/query.h"
+
+namespace medial {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Answers how far the boundary is.
+class Boundary {
+ public:
+  explicit Boundary(const Shape& shape)
+      : frame_(frame_of(bounding_box(shape))), sites_(sites_of(shape, frame_)), tree_(sites_) {}
+
+  double distance_from(Vec2 p) const {
+    const auto hit = tree_.nearest(frame_.to_local(p), infinity, 0,
+                                   static_cast<std::uint32_t>(sites_.size() - 1));
+    return frame_.inverse * std::sqrt(hit.squared_distance);
+  }
+
+ private:
+  static std::vector<geometry::Site> sites_of(const Shape& shape, const Frame& frame) {
+    std::vector<geometry::Site> result;
+    result.reserve(shape.points.size());
+    for (std::size_t i = 0; i < shape.loop_count(); ++i) {
+      const sites::Loop loop(shape, i, frame);
+      for (std::uint32_t k = 0; k < loop.size(); ++k) {
+        const sites::Pieces pieces = loop.edge(k);
+        for (std::size_t j = 0; j < pieces.count; ++j) result.push_back(pieces.site[j]);
+      }
+    }
+    return result;
+  }
+
+  Frame frame_;
+  std::vector<geometry::Site> sites_;
+  index::BoundaryTree tree_;
+};
+
+/// Where a ray from p in a direction of length 1 meets a site first, after `least`.
+double hit(const Site& site, Vec2 p, Vec2 direction, double least) {
+  const Vec2 chord = site.end - site.start, to = site.start - p;
+  double first = infinity;
+  if (site.kind == SiteKind::segment) {
+    const double slope = cross(direction, chord);
+    const double along = cross(to, chord) / slope, share = cross(to, direction) / slope;
+    if (share >= 0 && share <= 1 && along > least) first = along;
+    return first;
+  }
+  if (site.kind != SiteKind::arc) return first;
+  // |p + s direction - centre| = radius, and on the arc's side of its chord.
+  const BulgeArc arc{site.start, site.end, site.bulge};
+  const double bend = curvature(arc);
+  const Vec2 centre = (1 / bend) * left_of(start_tangent(arc)) + to;  // seen from p
+  const double middle = dot(centre, direction), beside = cross(direction, centre);
+  const double root = std::sqrt(1 / (bend * bend) - beside * beside);
+  for (const double s : {middle - root, middle + root}) {
+    const Vec2 q = s * direction - to;  // seen from the start
+    if (s > least && s < first && cross(chord, q) * site.bulge <= 0) first = s;
+  }
+  return first;
+}
+
+/// What continues a line at its last node: the end of a straight edge there.
+class Extension {
+ public:
+  explicit Extension(const MedialAxis& axis) : axis_(axis) {}
+
+  /// From the line's node, which its edges reach in `ahead`.
+  struct End {
+    Vec2 point;
+    std::uint32_t site;  ///< on which it lies
+  };
+  std::optional<End> from(const Disk& disk, Vec2 ahead) const {
+    constexpr double far = 2;  // radii: beyond, it is not this end that lies straight ahead
+    if (!(disk.radius > axis_.tolerance) || !(norm(ahead) > 0)) return std::nullopt;
+    const Vec2 direction = (1 / norm(ahead)) * ahead;
+    double straight = infinity, most = -infinity;
+    std::uint32_t straight_site = 0;
+    std::optional<End> best;
+    for (std::uint32_t i = 0; i < axis_.sites.size(); ++i) {
+      const double along = hit(axis_.sites[i], disk.center, direction, 0.5 * disk.radius);
+      if (along < straight) {
+        straight = along;
+        straight_site = i;
+      }
+      const Vec2 q = foot(axis_.sites[i], disk.center);
+      const Vec2 d = q - disk.center;
+      constexpr double touching = 1 + 1e-9;
+      if (norm(d) > disk.radius * touching || !(dot(d, direction) > most)) continue;
+      most = dot(d, direction);
+      best = {q, i};
+    }
+    if (straight <= far * disk.radius)
+      return End{disk.center + straight * direction, straight_site};
+    return best;
+  }
+
+ private:
+  const MedialAxis& axis_;
+};
+
+/// The direction in which a line arrives at its last node: from where it is one radius before.
+Vec2 ahead_of(const MedialAxis& line, bool at_end) {
+  const std::size_t count = line.edges.size();
+  const auto edge_at = [&](std::size_t i) -> const Edge& {
+    return line.edges[at_end ? count - 1 - i : i];
+  };
+  const Disk& last = line.nodes[edge_at(0).node[at_end ? 1 : 0]].disk;
+  double left = last.radius;
+  Vec2 back = last.center;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Curve curve = curve_of(line, edge_at(i));
+    const double all = curve.length();
+    back = line.nodes[edge_at(i).node[at_end ? 0 : 1]].disk.center;
+    if (all >= left) {
+      back = curve.at(curve.at_length(at_end ? all - left : left)).center;
+      break;
+    }
+    left -= all;
+  }
+  return last.center - back;
+}
+
+Edge straight_edge(const MedialAxis& line, std::uint32_t from, std::uint32_t to,
+                   std::uint32_t site = no_site) {
+  const Disk &a = line.nodes[from].disk, &b = line.nodes[to].disk;
+  Edge edge{};
+  edge.node = {from, to};
+  edge.site = {site, site};
+  edge.control = {midpoint(a.center, b.center), a.radius + 0.5 * (b.radius - a.radius)};
+  return edge;
+}
+
+void extend(const MedialAxis& axis, MedialAxis& line) {
+  if (axis.sites.empty()) return;
+  const Extension extension(axis);
+  const std::uint32_t first = line.edges.front().node[0], last = line.edges.back().node[1];
+  const auto begin = extension.from(line.nodes[first].disk, ahead_of(line, false));
+  const auto end = extension.from(line.nodes[last].disk, ahead_of(line, true));
+  const auto add_node = [&](Vec2 p, std::uint32_t neighbour) {
+    line.nodes[neighbour].kind = NodeKind::site_change;
+    line.nodes.push_back({{p, 0}, line.nodes[neighbour].component, NodeKind::leaf});
+    return static_cast<std::uint32_t>(line.nodes.size() - 1);
+  };
+  if (begin) {
+    const std::uint32_t node = add_node(begin->point, first);
+    line.edges.insert(line.edges.begin(), straight_edge(line, node, first, begin->site));
+  }
+  if (end) {
+    const std::uint32_t node = add_node(end->point, last);
+    line.edges.push_back(straight_edge(line, last, node, end->site));
+  }
+}
+
+/// Samples of a line, each step at most a quarter of the radius but no shorter than a share of the
+/// whole: so that a straight step between two points in the inner halves of their disks stays in
+/// one of the disks.
+std::vector<Disk> sample_line(const MedialAxis& line) {
+  constexpr double steps_a_radius = 4, most_steps = 20000;
+  const double shortest = total_length(line) / most_steps;
+  std::vector<Disk> samples{line.nodes[line.edges.front().node[0]].disk};
+  for (const Edge& edge : line.edges) {
+    const Curve curve = curve_of(line, edge);
+    const double all = curve.length();
+    for (double s = 0; s < all;) {
+      s += std::max(samples.back().radius / steps_a_radius, shortest);
+      samples.push_back(curve.at(s < all ? curve.at_length(s) : 1));
+    }
+  }
+  return samples;
+}
+
+MedialAxis smoothed(const Shape& shape, const MedialAxis& line, double radii, bool closed) {
+  std::vector<Disk> samples = sample_line(line);
+  if (closed) samples.pop_back();
+  const std::size_t count = samples.size();
+  std::vector<double> at(count, 0);
+  for (std::size_t i = 1; i < count; ++i)
+    at[i] = at[i - 1] + distance(samples[i - 1].center, samples[i].center);
+  const double whole = at.back() + distance(samples.back().center, samples.front().center);
+  double mean_radius = 0;
+  for (const Disk& disk : samples) mean_radius += disk.radius / static_cast<double>(count);
+
+  // Sample k of the line that goes on around a cycle, or beyond an end mirrored in it: so ends
+  // stay.
+  const auto n = static_cast<std::ptrdiff_t>(count);
+  struct Beyond {
+    Vec2 center;
+    double at;
+  };
+  const auto sample = [&](std::ptrdiff_t k) -> Beyond {
+    if (k >= 0 && k < n)
+      return {samples[static_cast<std::size_t>(k)].center, at[static_cast<std::size_t>(k)]};
+    if (closed) {
+      const auto i = static_cast<std::size_t>((k % n + n) % n);
+      return {samples[i].center, at[i] + (k < 0 ? -whole : whole)};
+    }
+    const auto end = static_cast<std::size_t>(k < 0 ? 0 : n - 1);
+    const auto i = static_cast<std::size_t>(
+        std::clamp<std::ptrdiff_t>(k < 0 ? -k : 2 * (n - 1) - k, 0, n - 1));
+    return {2 * samples[end].center - samples[i].center, 2 * at[end] - at[i]};
+  };
+  const Boundary boundary(shape);
+  MedialAxis out;
+  out.method = line.method;
+  out.tolerance = line.tolerance;
+  out.sites = line.sites;
+  out.resolution = whole / static_cast<double>(count);
+  const std::uint32_t component = line.nodes.front().component;
+  constexpr double reach_of_kernel = 3;  // standard deviations
+  for (std::ptrdiff_t i = 0; i < n; ++i) {
+    const Disk& here = samples[static_cast<std::size_t>(i)];
+    const double s = at[static_cast<std::size_t>(i)];
+    // Where the line is thin it may move less, so it is averaged over less.
+    const double deviation = radii * std::min(mean_radius, 2 * here.radius);
+    Vec2 sum;
+    double weights = 0;
+    const auto add = [&](std::ptrdiff_t k) {
+      const Beyond other = sample(k);
+      const double before = sample(k - 1).at, after = sample(k + 1).at;
+      const double z = (other.at - s) / deviation;
+      if (!(std::abs(z) <= reach_of_kernel)) return false;
+      const double weight = std::exp(-0.5 * z * z) * std::max(after - before, 0.0);
+      sum = sum + weight * (other.center - here.center);
+      weights += weight;
+      return true;
+    };
+    if (deviation > 0) {
+      for (std::ptrdiff_t k = i; k > i - n && add(k); --k) {
+      }
+      for (std::ptrdiff_t k = i + 1; k < i + n && add(k); ++k) {
+      }
+    }
+    Vec2 move = weights > 0 ? (1 / weights) * sum : Vec2{};
+    if (!closed && (i == 0 || i == n - 1)) move = {};
+    const double most = 0.5 * here.radius;
+    if (norm(move) > most) move = (most / norm(move)) * move;
+    const Vec2 center = here.center + move;
+    const double radius = move == Vec2{} ? here.radius : boundary.distance_from(center);
+    out.nodes.push_back({{center, radius}, component, NodeKind::site_change});
+  }
+  for (std::uint32_t i = 0; i + 1 < count; ++i) out.edges.push_back(straight_edge(out, i, i + 1));
+  if (closed) {
+    out.edges.push_back(straight_edge(out, static_cast<std::uint32_t>(count - 1), 0));
+  } else {
+    out.nodes.front().kind = out.nodes.back().kind = NodeKind::leaf;
+  }
+  return out;
+}
+
+}  // namespace
+
+MedialAxis centre_line(const Shape& shape, const MedialAxis& axis, const AxisPath& path,
+                       const CentreLineOptions& options) {
+  MedialAxis line = part_of(axis, path.pieces);
+  if (line.edges.empty()) return line;
+  if (options.extend && !path.closed) extend(axis, line);
+  if (options.smooth > 0) line = smoothed(shape, line, options.smooth, path.closed);
+  return line;
+}
+
+}  // namespace medial

@@ -1,0 +1,337 @@
+#include "ops/level_walk.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/arc.h"
+
+namespace medial::ops {
+namespace {
+
+/// The smallest radius along an edge: at an end, or where it falls and then rises in between.
+double lowest_radius(const MedialAxis& axis, const Edge& edge) {
+  const double r0 = axis.nodes[edge.node[0]].disk.radius;
+  const double r2 = axis.nodes[edge.node[1]].disk.radius;
+  const double r1 = edge.control.radius, least = std::min(r0, r2);
+  if (r1 >= least) return least;  // convex hull: the weights are positive
+  // The derivative's numerator is a s^2 + 2 b s t + c t^2 with s = 1 - t.
+  const double a = edge.weight * (r1 - r0), b = 0.5 * (r2 - r0), c = edge.weight * (r2 - r1);
+  if (!(a < 0 && c > 0)) return least;
+  const double root = std::sqrt(b * b - a * c);
+  const double u = b > 0 ? -a / (b + root) : (root - b) / c;  // t / s
+  const double w = edge.weight;
+  const double low = (r0 + 2 * w * u * r1 + u * u * r2) / (1 + 2 * w * u + u * u);
+  return std::min(least, low);
+}
+
+/// The angle from u to v, of a walk that goes clockwise: what is not so is rounding.
+double clockwise(Vec2 u, Vec2 v) {
+  const double angle = std::atan2(cross(u, v), dot(u, v));
+  return angle > 0.5 * std::numbers::pi ? angle - 2 * std::numbers::pi : angle;
+}
+
+}  // namespace
+
+/// Puts a ring together, piece by piece.
+class LevelWalk::RingBuilder {
+ public:
+  RingBuilder(const MedialAxis& axis, double level, Ring& ring)
+      : axis_(axis), level_(level), ring_(ring) {}
+
+  /// Begins a piece at a point: the offset of a site.
+  void begin(std::uint32_t site, Vec2 point) {
+    site_ = site;
+    first_ = last_ = point;
+    turn_ = 0;
+  }
+  /// Goes on to a point on the offset of the same site. Only turns around a vertex are counted: a
+  /// step is less than a half turn then.
+  void pass(Vec2 towards) {
+    const Site& site = axis_.sites[site_];
+    if (site.kind != SiteKind::vertex) return;
+    turn_ += clockwise(last_ - site.start, towards - site.start);
+    last_ = towards;
+  }
+  void end(Vec2 point) {
+    const Site& site = axis_.sites[site_];
+    switch (site.kind) {
+      case SiteKind::segment:
+        return add(point, 0);
+      case SiteKind::vertex:
+        pass(point);
+        return add_turn(site.start, point, turn_);
+      case SiteKind::arc:
+        return add_offset({site.start, site.end, site.bulge}, point);
+    }
+  }
+  /// The arc of a disk that touches the boundary all along, counter-clockwise; or a step of
+  /// rounding.
+  void close_gap(Vec2 center, Vec2 point, Vec2 to, bool around_an_end, double slack) {
+    first_ = point;
+    const Vec2 u = point - center, v = to - center;
+    double angle = std::atan2(cross(u, v), dot(u, v));
+    if (distance(point, to) <= slack || (angle < 0 && !around_an_end)) return add(to, 0);
+    if (angle < 0) angle += 2 * std::numbers::pi;
+    add_turn(center, to, angle);
+  }
+
+ private:
+  /// The offset of an arc spans the same angle as the feet of its ends. The angle is taken from
+  /// where there is more room: a small arc has large offsets, a large one's centre is far away.
+  void add_offset(const BulgeArc& arc, Vec2 point) {
+    const double round = curvature(arc);
+    if (round < 0 && -round * level_ > 1) {
+      const Vec2 center = arc.start + (1 / round) * left_of(start_tangent(arc));
+      return add(point, std::tan(clockwise(first_ - center, point - center) / 4));
+    }
+    const Site site{arc.start, arc.end, 0, 0, SiteKind::arc, arc.bulge};
+    const Vec2 a = foot(site, first_), b = foot(site, point);
+    add(point, a == b ? 0 : partial_bulge(arc, a, b));
+  }
+  void add_turn(Vec2 center, Vec2 point, double angle) {
+    if (std::abs(angle) <= std::numbers::pi) return add(point, std::tan(angle / 4));
+    const Vec2 start = first_;
+    first_ = center + turned(start - center, std::cos(angle / 2), std::sin(angle / 2));
+    const Vec2 middle = first_;
+    first_ = start;
+    add(middle, std::tan(angle / 8));
+    first_ = middle;
+    add(point, std::tan(angle / 8));
+  }
+  /// The piece from first_ to `to`; the ring holds its start.
+  void add(Vec2 to, double bulge) {
+    if (first_ == to) return;
+    ring_.points.push_back(first_);
+    ring_.bulges.push_back(bulge);
+  }
+
+  const MedialAxis& axis_;
+  double level_;
+  Ring& ring_;
+  std::uint32_t site_ = no_site;
+  Vec2 first_, last_;
+  double turn_ = 0;
+};
+
+LevelWalk::LevelWalk(const MedialAxis& axis)
+    : axis_(axis),
+      next_(2 * axis.edges.size()),
+      rise_(2 * axis.edges.size()),
+      risen_(2 * axis.edges.size(), false) {
+  lowest_.reserve(axis.edges.size());
+  for (const Edge& e : axis.edges) lowest_.push_back(lowest_radius(axis, e) - axis.tolerance);
+  const Incidence incidence(axis);
+  for (std::uint32_t node = 0; node < axis.nodes.size(); ++node) {
+    const auto edges = incidence.edges(node);
+    if (edges.empty()) alone_.push_back(node);
+    link_around(node, edges);
+  }
+  find_faces();
+}
+
+/// After a half edge that arrives, the walk goes on along the one that leaves next, to the right:
+/// the boundary between the two has one site as a rule, which tells them. Where it has two, they
+/// follow each other as the feet do. Directions of edges are not asked for: short ones have none.
+void LevelWalk::link_around(std::uint32_t node, std::span<const std::uint32_t> edges) {
+  std::vector<HalfEdge> leaving;
+  leaving.reserve(edges.size());
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    // An edge from a node to itself stands there twice.
+    const bool second =
+        axis_.edges[edges[i]].node[0] != node || (i > 0 && edges[i - 1] == edges[i]);
+    leaving.push_back(2 * edges[i] + (second ? 1 : 0));
+  }
+  if (leaving.size() <= 2) {
+    for (std::size_t i = 0; i < leaving.size(); ++i)
+      next_[twin(leaving[i])] = leaving[leaving.size() - 1 - i];
+    return;
+  }
+  struct End {
+    double key;  // the site, then the angle of its foot
+    HalfEdge half;
+  };
+  std::vector<End> in, out, in_left, out_left;
+  for (const HalfEdge half : leaving) {
+    in.push_back({static_cast<double>(right_site(twin(half))), twin(half)});
+    out.push_back({static_cast<double>(right_site(half)), half});
+  }
+  const auto by_key = [](const End& a, const End& b) {
+    return a.key < b.key || (a.key == b.key && a.half < b.half);
+  };
+  std::sort(in.begin(), in.end(), by_key);
+  std::sort(out.begin(), out.end(), by_key);
+  const auto once = [](const std::vector<End>& ends, std::size_t i) {
+    return (i == 0 || ends[i - 1].key != ends[i].key) &&
+           (i + 1 == ends.size() || ends[i + 1].key != ends[i].key);
+  };
+  std::size_t i = 0, j = 0;
+  while (i < in.size() || j < out.size()) {
+    if (j == out.size() || (i < in.size() && in[i].key < out[j].key)) {
+      in_left.push_back(in[i++]);
+    } else if (i == in.size() || out[j].key < in[i].key) {
+      out_left.push_back(out[j++]);
+    } else if (once(in, i) && once(out, j)) {
+      next_[in[i++].half] = out[j++].half;
+    } else {
+      const double key = in[i].key;
+      while (i < in.size() && in[i].key == key) in_left.push_back(in[i++]);
+      while (j < out.size() && out[j].key == key) out_left.push_back(out[j++]);
+    }
+  }
+  if (in_left.empty()) return;
+  const Vec2 center = axis_.nodes[node].disk.center;
+  for (auto* ends : {&in_left, &out_left}) {
+    for (End& end : *ends) {
+      const Vec2 touch = foot(axis_.sites[right_site(end.half)], center) - center;
+      end.key = std::atan2(touch.y, touch.x);
+    }
+    std::sort(ends->begin(), ends->end(), by_key);
+  }
+  // The turn of one list against the other that brings the first foot to the nearest one.
+  const auto apart = [&](const End& end) {
+    return std::abs(std::remainder(end.key - in_left[0].key, 2 * std::numbers::pi));
+  };
+  const auto nearest =
+      std::min_element(out_left.begin(), out_left.end(),
+                       [&](const End& a, const End& b) { return apart(a) < apart(b); });
+  const auto shift = static_cast<std::size_t>(nearest - out_left.begin());
+  for (std::size_t k = 0; k < in_left.size(); ++k)
+    next_[in_left[k].half] = out_left[(k + shift) % out_left.size()].half;
+}
+
+void LevelWalk::find_faces() {
+  std::vector<bool> done(next_.size(), false);
+  for (HalfEdge start = 0; start < next_.size(); ++start) {
+    if (done[start]) continue;
+    Face face{start, lowest_[start / 2]};
+    for (HalfEdge half = start; !done[half]; half = next_[half]) {
+      done[half] = true;
+      face.lowest = std::min(face.lowest, lowest_[half / 2]);
+      if (right_site(half) != right_site(next_[half])) face.first = next_[half];
+    }
+    faces_.push_back(face);
+  }
+}
+
+void LevelWalk::bin_crossings(std::span<const double> levels) {
+  // An edge crosses the levels in [lowest, largest).
+  const auto first_from = [&](double radius) {
+    return std::lower_bound(levels.begin(), levels.end(), radius) - levels.begin();
+  };
+  bin_begin_.assign(levels.size() + 1, 0);
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> ranges(axis_.edges.size());
+  for (std::uint32_t e = 0; e < axis_.edges.size(); ++e) {
+    const auto& node = axis_.edges[e].node;
+    const double largest = std::max(height(node[0]), height(node[1]));
+    ranges[e] = {static_cast<std::uint32_t>(first_from(lowest_[e])),
+                 static_cast<std::uint32_t>(first_from(largest))};
+    for (std::uint32_t k = ranges[e].first; k < ranges[e].second; ++k) ++bin_begin_[k + 1];
+  }
+  for (std::size_t k = 0; k < levels.size(); ++k) bin_begin_[k + 1] += bin_begin_[k];
+  bin_edges_.resize(bin_begin_.back());
+  std::vector<std::uint32_t> place(bin_begin_.begin(), bin_begin_.end() - 1);
+  for (std::uint32_t e = 0; e < axis_.edges.size(); ++e)
+    for (std::uint32_t k = ranges[e].first; k < ranges[e].second; ++k) bin_edges_[place[k]++] = e;
+}
+
+/// Where an edge crosses the level: its radius less the level is a s^2 + 2 b s t + c t^2 over a
+/// positive denominator, with s = 1 - t.
+void LevelWalk::find_crossing(std::uint32_t index, double level) {
+  const Edge& e = axis_.edges[index];
+  const Curve curve = curve_of(axis_, e);
+  // A node that counts as outside must not be above the level.
+  const bool inside0 = height(e.node[0]) > level, inside2 = height(e.node[1]) > level;
+  const double a = inside0 ? curve.r0 - level : std::min(curve.r0 - level, 0.0);
+  const double b = curve.weight * (curve.r1 - level);
+  const double c = inside2 ? curve.r2 - level : std::min(curve.r2 - level, 0.0);
+  const double root = std::sqrt(std::max(b * b - a * c, 0.0));
+  const auto at = [&](double numerator, double denominator) {  // t / s = numerator / denominator
+    return curve.at(numerator / (numerator + denominator)).center;
+  };
+  if (inside2) {
+    rise_[2 * index] = b <= 0 ? at(root - b, c) : at(-a, b + root);
+    risen_[2 * index] = true;
+  }
+  if (inside0) {
+    rise_[2 * index + 1] = b <= 0 ? at(a, root - b) : at(b + root, -c);
+    risen_[2 * index + 1] = true;
+  }
+}
+
+std::vector<LevelLoop> LevelWalk::loops_at(double level, std::size_t k) {
+  std::vector<LevelLoop> loops;
+  const auto keep = [&](LevelLoop loop) {
+    const bool curved = std::any_of(loop.ring.bulges.begin(), loop.ring.bulges.end(),
+                                    [](double bulge) { return bulge != 0; });
+    if (!curved) loop.ring.bulges.clear();
+    if (loop.ring.points.size() >= (curved ? 2U : 3U)) loops.push_back(std::move(loop));
+  };
+  const auto crossed =
+      std::span(bin_edges_).subspan(bin_begin_[k], bin_begin_[k + 1] - bin_begin_[k]);
+  for (const std::uint32_t e : crossed) find_crossing(e, level);
+  for (const std::uint32_t e : crossed)
+    for (const HalfEdge half : {2 * e, 2 * e + 1})
+      if (risen_[half]) keep(loop_from(half, level, true));
+  for (const Face& face : faces_)
+    if (face.lowest > level) keep(loop_from(face.first, level, false));
+  for (const std::uint32_t node : alone_) {
+    const Disk& disk = axis_.nodes[node].disk;
+    if (!(height(node) > level)) continue;
+    const Vec2 east{disk.radius - level, 0};
+    keep({{{disk.center - east, disk.center + east}, RingRole::any, {1, 1}}, node, no_site});
+  }
+  return loops;
+}
+
+/// The loop that begins where a half edge rises above the level, or with the face's first site.
+LevelLoop LevelWalk::loop_from(HalfEdge first, double level, bool crossed) {
+  LevelLoop loop;
+  loop.node = to(first);
+  loop.site = right_site(first);
+  RingBuilder builder(axis_, level, loop.ring);
+  const auto offset_at = [&](std::uint32_t site, const Disk& disk) {
+    const Vec2 touch = foot(axis_.sites[site], disk.center);
+    return touch + (level / disk.radius) * (disk.center - touch);
+  };
+  // Where feet of one disk are apart by no more than this, they are one.
+  const auto slack = [&](const Disk& disk) {
+    return std::max(4 * axis_.tolerance, 1e-9 * disk.radius);
+  };
+  const Vec2 start = crossed ? rise_[first] : offset_at(loop.site, axis_.nodes[from(first)].disk);
+  builder.begin(loop.site, start);
+  HalfEdge half = first;
+  bool risen = crossed;  // the walk goes on from where the half edge rises, not from its start
+  bool one_site = true;
+  for (;;) {
+    if (!risen && falls(half, level)) {
+      half = twin(half);
+      risen = true;
+      risen_[half] = false;
+      builder.end(rise_[half]);
+      if (half == first) return loop;
+      builder.begin(right_site(half), rise_[half]);
+      continue;
+    }
+    risen = false;
+    const std::uint32_t before = right_site(half);
+    const Disk& disk = axis_.nodes[to(half)].disk;
+    const HalfEdge after = next_[half];
+    const std::uint32_t site = right_site(after);
+    if (site == before) {
+      builder.pass(disk.center);
+    } else {
+      const Vec2 p = offset_at(before, disk), q = offset_at(site, disk);
+      builder.end(p);
+      builder.close_gap(disk.center, p, q, twin(half) == after, slack(disk));
+      builder.begin(site, q);
+      one_site = false;
+    }
+    half = after;
+    if (!crossed && half == first) break;
+  }
+  if (one_site) builder.end(start);
+  return loop;
+}
+
+}  // namespace medial::ops

@@ -1,0 +1,82 @@
+#pragma once
+
+// The curves on which an axis has a given radius on its sides: the level sets of the clearance.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "axis/curve.h"
+#include "medial/axis.h"
+#include "medial/query.h"
+#include "medial/shape.h"
+
+namespace medial::ops {
+
+/// A closed curve of all points of one clearance, with the larger clearance on its left.
+struct LevelLoop {
+  Ring ring;
+  std::uint32_t node = 0;  ///< of the axis: in the region on the left
+  /// One that the loop is an offset of; no_site for a circle around a node without edges.
+  std::uint32_t site = 0;
+};
+
+/// An edge seen from one of its ends: half edge 2 e leaves edge e's node[0], 2 e + 1 its node[1].
+using HalfEdge = std::uint32_t;
+
+/// Walks around an exact axis, the axis on its left and the boundary on its right.
+class LevelWalk {
+ public:
+  /// O(n). Keeps a reference to the axis.
+  explicit LevelWalk(const MedialAxis& axis);
+
+  /// The smallest radius along an edge, less the axis's tolerance.
+  double lowest(std::uint32_t edge) const { return lowest_[edge]; }
+
+  /// Calls take(k, loops) for every level from the last to the first. Levels increase strictly.
+  /// A node is inside where its radius exceeds the level by more than the tolerance, an edge where
+  /// its lowest radius does: so what is exactly at the level is outside, whatever rounding did.
+  template <class Take>
+  void run(std::span<const double> levels, const Take& take) {
+    bin_crossings(levels);
+    for (std::size_t k = levels.size(); k-- > 0;) take(k, loops_at(levels[k], k));
+  }
+
+ private:
+  struct Face {
+    HalfEdge first;  ///< where the right site is another one than before, if that is anywhere
+    double lowest;   ///< of its edges
+  };
+  class RingBuilder;
+
+  void link_around(std::uint32_t node, std::span<const std::uint32_t> edges);
+  void find_faces();
+  void bin_crossings(std::span<const double> levels);
+  std::vector<LevelLoop> loops_at(double level, std::size_t k);
+  void find_crossing(std::uint32_t edge, double level);
+  LevelLoop loop_from(HalfEdge first, double level, bool crossed);
+
+  const Edge& edge(HalfEdge half) const { return axis_.edges[half / 2]; }
+  std::uint32_t from(HalfEdge half) const { return edge(half).node[half % 2]; }
+  std::uint32_t to(HalfEdge half) const { return edge(half).node[1 - half % 2]; }
+  double height(std::uint32_t node) const {
+    return axis_.nodes[node].disk.radius - axis_.tolerance;
+  }
+  std::uint32_t right_site(HalfEdge half) const { return edge(half).site[1 - half % 2]; }
+  static HalfEdge twin(HalfEdge half) { return half ^ 1U; }
+  /// Whether a walk along the half edge leaves what is above the level.
+  bool falls(HalfEdge half, double level) const {
+    return !(height(to(half)) > level) || !(lowest_[half / 2] > level);
+  }
+
+  const MedialAxis& axis_;
+  std::vector<HalfEdge> next_;        ///< around the face on the right
+  std::vector<double> lowest_;        ///< of each edge
+  std::vector<Face> faces_;           ///< one for each loop of the boundary that has edges
+  std::vector<std::uint32_t> alone_;  ///< nodes without edges
+  std::vector<std::uint32_t> bin_begin_, bin_edges_;  ///< of each level: the edges that cross it
+  std::vector<Vec2> rise_;   ///< where each half edge rises above the level under way
+  std::vector<bool> risen_;  ///< and whether it does, and was not walked yet
+};
+
+}  // namespace medial::ops

@@ -1,0 +1,10 @@
+#pragma once
+
+#include "medial/measure.h"
+
+namespace medial::ops {
+
+/// The width at a place, for somebody who passes along the edge or against it.
+LocalWidth width_at(const MedialAxis& axis, AxisPlace place, bool forward = true);
+
+}  // namespace medial::ops

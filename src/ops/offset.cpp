@@ -1,0 +1,342 @@
+#include "medial/offset.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <new>
+#include <utility>
+
+#include "base/arc.h"
+#include "base/disjoint_sets.h"
+#include "base/stopwatch.h"
+#include "ops/level_walk.h"
+#include "ops/summits.h"
+#include "shape/exterior.h"
+
+namespace medial {
+namespace {
+
+using ops::LevelLoop;
+using ops::LevelWalk;
+
+double enclosed_area(const Ring& ring) {
+  double doubled = 0;
+  const std::size_t count = ring.points.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vec2 a = ring.points[i], b = ring.points[i + 1 == count ? 0 : i + 1];
+    doubled += cross(a - ring.points[0], b - ring.points[0]);
+    if (!ring.bulges.empty() && ring.bulges[i] != 0)
+      doubled += 2 * area_beside_chord({a, b, ring.bulges[i]});
+  }
+  return doubled / 2;
+}
+
+void reverse(Ring& ring) {
+  std::reverse(ring.points.begin(), ring.points.end());
+  if (ring.bulges.empty()) return;
+  // The bulge of the edge after a point now belongs to the point before.
+  std::reverse(ring.bulges.begin(), ring.bulges.end() - 1);
+  for (double& bulge : ring.bulges) bulge = -bulge;
+}
+
+/// Loops of one level, sorted into regions by a key of each.
+class Regions {
+ public:
+  explicit Regions(std::size_t keys) : region_of_(keys, no_region) {}
+
+  /// Appends the regions of a level to `out`: of the loops with one key the one that encloses most
+  /// is the outer ring. `lower` gives for the key of a region one level up its key now.
+  template <class KeyOf, class Lower>
+  void add(double clearance, std::vector<LevelLoop> loops, const KeyOf& key_of, const Lower& lower,
+           std::vector<OffsetRegion>& out) {
+    std::vector<std::uint32_t> keys;
+    std::vector<double> largest;
+    const std::size_t begin = out.size();
+    for (LevelLoop& loop : loops) {
+      const std::uint32_t key = key_of(loop);
+      if (region_of_[key] == no_region || region_of_[key] < begin) {
+        region_of_[key] = static_cast<std::uint32_t>(out.size());
+        out.push_back({clearance, {}, no_region});
+        keys.push_back(key);
+        largest.push_back(-std::numeric_limits<double>::infinity());
+      }
+      OffsetRegion& region = out[region_of_[key]];
+      const double enclosed = enclosed_area(loop.ring);
+      double& most = largest[region_of_[key] - begin];
+      region.rings.push_back(std::move(loop.ring));
+      if (enclosed > most) {
+        most = enclosed;
+        std::swap(region.rings.front(), region.rings.back());
+      }
+    }
+    for (std::size_t i = 0; i < upper_.size(); ++i) {
+      const std::uint32_t region = region_of_[lower(upper_[i].key)];
+      if (region != no_region && region >= begin) out[upper_[i].region].parent = region;
+    }
+    upper_.clear();
+    for (std::size_t i = 0; i < keys.size(); ++i)
+      upper_.push_back({static_cast<std::uint32_t>(begin + i), keys[i]});
+  }
+
+  /// Replaces the keys of the last level's regions by others.
+  template <class Rename>
+  void rename(std::size_t keys, const Rename& rename_key) {
+    for (Upper& one : upper_) one.key = rename_key(one.key);
+    region_of_.assign(keys, no_region);
+  }
+
+ private:
+  struct Upper {
+    std::uint32_t region, key;
+  };
+  std::vector<Upper> upper_;              ///< the regions of the level before
+  std::vector<std::uint32_t> region_of_;  ///< of each key, the last one
+};
+
+/// The edges that come to count at each level, last level first or first level first.
+std::vector<std::vector<std::uint32_t>> bins_of(const LevelWalk& walk, std::size_t edges,
+                                                std::span<const double> levels, bool inside) {
+  std::vector<std::vector<std::uint32_t>> bins(levels.size());
+  for (std::uint32_t e = 0; e < edges; ++e) {
+    const auto at = static_cast<std::size_t>(
+        std::lower_bound(levels.begin(), levels.end(), walk.lowest(e)) - levels.begin());
+    if (inside && at > 0) bins[at - 1].push_back(e);
+    if (!inside && at < levels.size()) bins[at].push_back(e);
+  }
+  return bins;
+}
+
+/// Appends the regions above each level, last level first, which are connected along the axis.
+/// Leaves nodes of the axis as keys.
+void add_inward(const MedialAxis& axis, std::span<const double> levels, Regions& regions,
+                std::vector<OffsetRegion>& out) {
+  LevelWalk walk(axis);
+  const auto bins = bins_of(walk, axis.edges.size(), levels, true);
+  DisjointSets sets(axis.nodes.size());
+  walk.run(levels, [&](std::size_t k, std::vector<LevelLoop> loops) {
+    for (const std::uint32_t e : bins[k]) sets.join(axis.edges[e].node[0], axis.edges[e].node[1]);
+    regions.add(
+        levels[k], std::move(loops), [&](const LevelLoop& loop) { return sets.find(loop.node); },
+        [&](std::uint32_t node) { return sets.find(node); }, out);
+  });
+}
+
+/// Which components of the shape the exterior's sites belong to.
+struct Surroundings {
+  static constexpr std::uint32_t frame = 0xFFFFFFFF;
+  std::vector<std::uint32_t> of_site;  ///< of each site: the component, or `frame`
+  std::vector<std::uint32_t> of_part;  ///< of each component of the exterior: one that it touches
+  /// Components of the shape that touch: neighbours along the boundary of the exterior.
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> touching;
+  std::size_t components = 0;  ///< of the shape
+};
+
+/// Sites are numbered in the order of the points, a vertex before the edge that starts there.
+Surroundings surroundings_of(const Shape& shape, const Exterior& exterior, const MedialAxis& axis) {
+  const auto component_at = [&](std::size_t point) {
+    return exterior.of_frame[point] ? Surroundings::frame
+                                    : shape.component[exterior.of_loop[point]];
+  };
+  Surroundings around;
+  around.components = shape.component_count();
+  around.of_site.reserve(axis.sites.size());
+  std::size_t point = 0;
+  for (const Site& site : axis.sites) {
+    around.of_site.push_back(component_at(point));
+    if (site.kind != SiteKind::vertex) ++point;
+  }
+  around.of_part.resize(exterior.shape.component_count());
+  for (std::size_t i = 0; i < exterior.shape.loop_count(); ++i) {
+    const std::uint32_t begin = exterior.shape.loop_begin[i],
+                        end = exterior.shape.loop_begin[i + 1];
+    around.of_part[exterior.shape.component[i]] = component_at(begin);
+    for (std::uint32_t p = begin + 1; p < end; ++p)
+      if (component_at(p) != component_at(p - 1))
+        around.touching.emplace_back(component_at(p - 1), component_at(p));
+  }
+  return around;
+}
+
+/// Appends the regions of the shape grown by each level, first level first: its components, which
+/// are connected where the exterior's axis between two of them is below the level.
+void add_outward(const MedialAxis& axis, const Surroundings& around, std::span<const double> levels,
+                 Regions& regions, std::vector<OffsetRegion>& out) {
+  const auto component_of = [&](const LevelLoop& loop) {
+    return loop.site != no_site ? around.of_site[loop.site]
+                                : around.of_part[axis.nodes[loop.node].component];
+  };
+  LevelWalk walk(axis);
+  std::vector<std::vector<LevelLoop>> loops(levels.size());
+  walk.run(levels,
+           [&](std::size_t k, std::vector<LevelLoop> found) { loops[k] = std::move(found); });
+  const auto bins = bins_of(walk, axis.edges.size(), levels, false);
+  DisjointSets sets(around.components);
+  for (const auto& [one, other] : around.touching) sets.join(one, other);
+  for (std::size_t k = 0; k < levels.size(); ++k) {
+    for (const std::uint32_t e : bins[k]) {
+      const std::uint32_t left = around.of_site[axis.edges[e].site[0]];
+      const std::uint32_t right = around.of_site[axis.edges[e].site[1]];
+      if (left != Surroundings::frame && right != Surroundings::frame) sets.join(left, right);
+    }
+    std::vector<LevelLoop> own;
+    for (LevelLoop& loop : loops[k]) {
+      if (component_of(loop) == Surroundings::frame) continue;  // the frame's own offset
+      reverse(loop.ring);
+      own.push_back(std::move(loop));
+    }
+    regions.add(
+        -levels[k], std::move(own),
+        [&](const LevelLoop& loop) { return sets.find(component_of(loop)); },
+        [&](std::uint32_t component) { return sets.find(component); }, out);
+  }
+}
+
+/// By increasing clearance; parents named anew; rings with their roles.
+void finish(Offsets& offsets) {
+  auto& regions = offsets.regions;
+  std::reverse(regions.begin(), regions.end());
+  for (OffsetRegion& region : regions) {
+    if (region.parent != no_region)
+      region.parent = static_cast<std::uint32_t>(regions.size() - 1) - region.parent;
+    for (Ring& ring : region.rings) ring.role = RingRole::hole;
+    region.rings.front().role = RingRole::outer;
+  }
+}
+
+std::vector<double> increasing(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+  return values;
+}
+
+Error invalid(const char* text) { return {ErrorCode::invalid_option, text, {}}; }
+
+Result<Offsets> offset_both_sides(const Shape& shape, std::span<const double> clearances,
+                                  const Options& options) {
+  constexpr double farthest = 1e5;  // diagonals
+  std::vector<double> inside, outside;
+  if (shape.points.empty()) return Error{ErrorCode::empty, "the shape is empty", {}};
+  const Box box = bounding_box(shape);
+  for (const double c : clearances) {
+    if (!std::isfinite(c) || c == 0) return invalid("a distance must be finite and not 0");
+    if (-c > farthest * diagonal(box)) return invalid("a distance outwards is above 1e5 diagonals");
+    (c > 0 ? inside : outside).push_back(std::abs(c));
+  }
+  inside = increasing(std::move(inside));
+  outside = increasing(std::move(outside));
+  Options own = options;
+  own.exterior = false;
+  Offsets offsets;
+  Regions regions(0);
+  if (!inside.empty()) {
+    Stopwatch computing;
+    auto axis = compute(shape, own);
+    if (!axis) return std::move(axis).error();
+    offsets.seconds_axis += computing.lap();
+    Stopwatch walking;
+    if (axis->resolution > 0) return inward_offsets(*axis, inside).error();
+    offsets.tolerance = axis->tolerance;
+    ops::divide_at_summits(*axis);
+    regions.rename(axis->nodes.size(), [](std::uint32_t key) { return key; });
+    add_inward(*axis, inside, regions, offsets.regions);
+    regions.rename(0, [&](std::uint32_t node) { return axis->nodes[node].component; });
+    offsets.seconds_curves += walking.lap();
+  }
+  if (!outside.empty()) {
+    // The frame must be farther away than twice the distance: then no curve is nearer to it.
+    constexpr double reach = 2.5;
+    Stopwatch computing;
+    const double margin = std::max(reach * outside.back(), 0.1 * margin_for(box, 0));
+    auto exterior = exterior_of(shape, margin);
+    if (!exterior) return std::move(exterior).error();
+    auto axis = compute(exterior->shape, own);
+    if (!axis) return std::move(axis).error();
+    if (axis->resolution > 0) return inward_offsets(*axis, outside).error();
+    offsets.seconds_axis += computing.lap();
+    Stopwatch walking;
+    offsets.tolerance = std::max(offsets.tolerance, axis->tolerance);
+    ops::divide_at_summits(*axis);
+    regions.rename(shape.component_count(), [](std::uint32_t component) { return component; });
+    add_outward(*axis, surroundings_of(shape, *exterior, *axis), outside, regions, offsets.regions);
+    offsets.seconds_curves += walking.lap();
+  }
+  finish(offsets);
+  return offsets;
+}
+
+template <class Work>
+auto guarded(const Work& work) -> decltype(work()) {
+  try {
+    return work();
+  } catch (const std::bad_alloc&) {
+    return Error{ErrorCode::out_of_memory, "memory ran out", {}};
+  } catch (const std::exception& exception) {
+    return Error{ErrorCode::internal, exception.what(), {}};
+  }
+}
+
+}  // namespace
+
+Result<Offsets> inward_offsets(const MedialAxis& axis, std::span<const double> clearances) {
+  if (axis.resolution > 0)
+    return Error{ErrorCode::unsupported, "offsets are walked along exact axes only", {}};
+  if (axis.exterior > 0)
+    return Error{ErrorCode::unsupported, "the axis is one of the exterior", {}};
+  for (const double c : clearances)
+    if (!(c > 0) || !std::isfinite(c)) return invalid("a distance must be positive and finite");
+  return guarded([&]() -> Result<Offsets> {
+    Stopwatch walking;
+    MedialAxis divided;
+    if (ops::has_summits(axis)) {
+      divided = axis;
+      ops::divide_at_summits(divided);
+    }
+    const MedialAxis& own = divided.nodes.empty() ? axis : divided;
+    Offsets offsets;
+    offsets.tolerance = own.tolerance;
+    Regions regions(own.nodes.size());
+    add_inward(own, increasing({clearances.begin(), clearances.end()}), regions, offsets.regions);
+    finish(offsets);
+    offsets.seconds_curves = walking.lap();
+    return offsets;
+  });
+}
+
+Result<Offsets> offset_curves(const Shape& shape, std::span<const double> clearances,
+                              const Options& options) {
+  return guarded([&] { return offset_both_sides(shape, clearances, options); });
+}
+
+Result<std::vector<double>> offset_passes(const MedialAxis& axis, double first, double step) {
+  constexpr double most = 1e6;
+  if (!(first > 0 && step > 0 && std::isfinite(first) && std::isfinite(step)))
+    return invalid("a step must be positive and finite");
+  std::vector<double> passes;
+  const double deepest = ops::largest_radius(axis) - axis.tolerance;
+  if ((deepest - first) / step > most)
+    return Error{ErrorCode::too_large, "more than 1e6 passes: the step is too small", {}};
+  for (double c = first; c < deepest; c = first + static_cast<double>(passes.size()) * step)
+    passes.push_back(c);
+  return passes;
+}
+
+double length(const OffsetRegion& region) {
+  double sum = 0;
+  for (const Ring& ring : region.rings) {
+    for (std::size_t i = 0; i < ring.points.size(); ++i) {
+      const Vec2 chord = ring.points[i + 1 == ring.points.size() ? 0 : i + 1] - ring.points[i];
+      const double bulge = ring.bulges.empty() ? 0 : std::abs(ring.bulges[i]);
+      // An arc of the angle 4 atan b has the radius chord (1 + b^2) / (4 b).
+      sum += norm(chord) * (bulge > 0 ? (1 + bulge * bulge) * std::atan(bulge) / bulge : 1);
+    }
+  }
+  return sum;
+}
+
+double area(const OffsetRegion& region) {
+  double sum = 0;
+  for (const Ring& ring : region.rings) sum += enclosed_area(ring);
+  return sum;
+}
+
+}  // namespace medial

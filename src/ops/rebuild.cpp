@@ -1,0 +1,293 @@
+#include "medial/rebuild.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <utility>
+
+#include "axis/curve.h"
+#include "base/arc.h"
+#include "medial/query.h"
+#include "medial/sides.h"
+#include "ops/half_edges.h"
+
+namespace medial {
+namespace {
+
+using ops::HalfEdge;
+constexpr double pi = std::numbers::pi;
+
+/// The points of an axis that the tangents start from: its ends and branching points, and along
+/// each branch about `step` apart; as a sampled axis of straight edges.
+MedialAxis sampled(const MedialAxis& axis, double step) {
+  MedialAxis out;
+  out.tolerance = axis.tolerance;
+  out.resolution = step;
+  constexpr std::uint32_t none = 0xFFFFFFFF;
+  std::vector<std::uint32_t> index(axis.nodes.size(), none);
+  const auto add = [&](const Disk& disk) {
+    out.nodes.push_back({disk, 0, NodeKind::site_change});
+    return static_cast<std::uint32_t>(out.nodes.size() - 1);
+  };
+  const auto node = [&](std::uint32_t i) {
+    if (index[i] == none) index[i] = add(axis.nodes[i].disk);
+    return index[i];
+  };
+  const auto connect = [&](std::uint32_t a, std::uint32_t b) {
+    const Disk &from = out.nodes[a].disk, &to = out.nodes[b].disk;
+    out.edges.push_back({{a, b},
+                         {no_site, no_site},
+                         {midpoint(from.center, to.center), (from.radius + to.radius) / 2},
+                         1});
+  };
+  for (const Branch& branch : branches(axis)) {
+    double total = 0;
+    std::vector<double> lengths;
+    for (const Step& s : branch.steps) {
+      lengths.push_back(length(axis, axis.edges[s.edge]));
+      total += lengths.back();
+    }
+    // A closed branch needs points to be more than one.
+    const double fewest = branch.from == branch.to ? 3 : 1;
+    const auto pieces = static_cast<std::uint64_t>(std::max(std::round(total / step), fewest));
+    std::uint32_t last = node(branch.from);
+    std::size_t k = 0;
+    double walked = 0;
+    for (std::uint64_t i = 1; i < pieces; ++i) {
+      const double at = total * (static_cast<double>(i) / static_cast<double>(pieces));
+      while (k + 1 < lengths.size() && walked + lengths[k] < at) walked += lengths[k++];
+      const Curve curve = curve_of(axis, axis.edges[branch.steps[k].edge]);
+      const double along = std::clamp(at - walked, 0.0, lengths[k]);
+      const double t = curve.at_length(branch.steps[k].forward ? along : lengths[k] - along);
+      const std::uint32_t here = add(curve.at(t));
+      connect(last, here);
+      last = here;
+    }
+    connect(last, node(branch.to));
+  }
+  const Incidence incidence(axis);
+  for (std::uint32_t i = 0; i < axis.nodes.size(); ++i)
+    if (incidence.degree(i) == 0) node(i);
+  return out;
+}
+
+/// The point on the right of a disk where its tangent is parallel to the line that touches the
+/// disks `before` and `after` on the right of the way between them.
+Vec2 tangent_point(const Disk& disk, const Disk& before, const Disk& after) {
+  const Vec2 way = after.center - before.center;
+  const double size = norm(way);
+  if (!(size > 0)) return disk.center;
+  const Vec2 along = (1 / size) * way;
+  const double rate = std::clamp((after.radius - before.radius) / size, -1.0, 1.0);
+  return disk.center - disk.radius * (rate * along + std::sqrt(1 - rate * rate) * left_of(along));
+}
+
+/// The corners of a polygon around a disk from one of its points to another, counter-clockwise,
+/// without the last one. Enough of them that chords stay within 0.2% of the radius.
+void add_corners(const Disk& disk, Vec2 begin, double angle, std::vector<Vec2>& points) {
+  constexpr double longest = pi / 24;
+  const double count = std::max(1.0, std::ceil(angle / longest));
+  for (double i = 0; i < count; ++i) {
+    const double turn = angle * i / count;
+    points.push_back(disk.center + turned(begin - disk.center, std::cos(turn), std::sin(turn)));
+  }
+}
+
+std::vector<Ring> rings_by_tangents(const MedialAxis& samples) {
+  const ops::HalfEdges halves(samples);
+  const Incidence incidence(samples);
+  std::vector<Ring> rings;
+  std::vector<bool> done(halves.count(), false);
+  for (HalfEdge start = 0; start < halves.count(); ++start) {
+    if (done[start]) continue;
+    Ring ring;
+    HalfEdge half = start;
+    do {
+      done[half] = true;
+      const HalfEdge next = halves.next(half);
+      const Disk &before = halves.disk(half, false), &here = halves.disk(half, true);
+      const Disk& after = halves.disk(next, true);
+      const std::size_t degree = incidence.degree(halves.to(half));
+      if (degree == 2) {  // a normal point
+        ring.points.push_back(tangent_point(here, before, after));
+      } else if (degree == 1) {  // an end: around it, from tangent to tangent
+        const Vec2 begin = tangent_point(here, before, here),
+                   end = tangent_point(here, here, after);
+        const Vec2 u = begin - here.center, v = end - here.center;
+        double angle = std::atan2(cross(u, v), dot(u, v));
+        if (angle < 0) angle += 2 * pi;
+        if (here.radius > 0) add_corners(here, begin, angle, ring.points);
+        ring.points.push_back(end);
+      }  // a branching point does nothing
+      half = next;
+    } while (half != start);
+    if (ring.points.size() >= 3) rings.push_back(std::move(ring));
+  }
+  for (std::uint32_t i = 0; i < samples.nodes.size(); ++i) {
+    if (incidence.degree(i) > 0) continue;
+    const Disk& disk = samples.nodes[i].disk;
+    add_corners(disk, disk.center + Vec2{disk.radius, 0}, 2 * pi, rings.emplace_back().points);
+  }
+  return rings;
+}
+
+/// A contour of segments and arcs as a ring.
+Ring ring_of(const Contour& contour) {
+  Ring ring;
+  ring.bulges.reserve(contour.pieces.size());
+  bool arcs = false;
+  for (const CurvePiece& piece : contour.pieces) {
+    ring.points.push_back(contour.points[piece.first]);
+    ring.bulges.push_back(piece.bulge);
+    arcs = arcs || piece.bulge != 0;
+  }
+  const Vec2 last = contour.points.back();
+  if (!(last == ring.points.front())) {
+    ring.points.push_back(last);
+    ring.bulges.push_back(0);
+  }
+  if (!arcs) ring.bulges.clear();
+  return ring;
+}
+
+/// The ring with its arcs as chords within a distance.
+Ring polygon_of(const Ring& ring, double chord) {
+  if (ring.bulges.empty()) return ring;
+  Ring out;
+  for (std::size_t i = 0; i < ring.points.size(); ++i) {
+    const Vec2 start = ring.points[i], end = ring.points[i + 1 < ring.points.size() ? i + 1 : 0];
+    out.points.push_back(start);
+    const double bulge = ring.bulges[i];
+    if (bulge == 0 || start == end) continue;
+    // The sagitta of an n-th of an arc of the angle a: r (1 - cos(a / 2 n)).
+    const double angle = 4 * std::atan(bulge);
+    const double radius = distance(start, end) / (2 * std::sin(std::abs(angle) / 2));
+    const double most = 2 * std::acos(std::max(1 - chord / radius, -1.0));
+    constexpr double most_pieces = 100000;
+    const double count = std::clamp(std::ceil(std::abs(angle) / most), 1.0, most_pieces);
+    const Vec2 tangent = start_tangent({start, end, bulge});
+    for (double k = 1; k < count; ++k) {
+      const double half = angle * k / count / 2;
+      const double reach = 2 * radius * std::abs(std::sin(half));
+      out.points.push_back(start + reach * turned(tangent, std::cos(half), std::sin(half)));
+    }
+  }
+  return out;
+}
+
+/// The nodes whose disks do not lie within that of another such node beside them, but for `slack`.
+std::vector<std::uint32_t> uncovered(const MedialAxis& axis, double slack) {
+  const Incidence incidence(axis);
+  std::vector<std::uint32_t> order(axis.nodes.size()), kept;
+  std::iota(order.begin(), order.end(), 0U);
+  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return axis.nodes[a].disk.radius > axis.nodes[b].disk.radius;
+  });
+  std::vector<bool> keeps(axis.nodes.size(), false);
+  for (const std::uint32_t i : order) {
+    const Disk& disk = axis.nodes[i].disk;
+    bool covered = false;
+    for (const std::uint32_t e : incidence.edges(i)) {
+      const auto& node = axis.edges[e].node;
+      const std::uint32_t other = node[0] == i ? node[1] : node[0];
+      const Disk& larger = axis.nodes[other].disk;
+      covered = covered || (keeps[other] && distance(disk.center, larger.center) + disk.radius <=
+                                                larger.radius + slack);
+    }
+    if (covered) continue;
+    keeps[i] = true;
+    kept.push_back(i);
+  }
+  return kept;
+}
+
+}  // namespace
+
+Result<Shape> rebuild(const MedialAxis& axis, const RebuildOptions& options,
+                      RebuildReport* report) {
+  if (axis.nodes.empty()) return Error{ErrorCode::empty, "an axis without nodes", {}};
+  if (!(options.chord >= 0))
+    return Error{ErrorCode::invalid_option, "chord is not a number from 0 up", {}};
+  std::vector<Ring> rings;
+  RebuildReport own;
+  const bool by_tangents = options.by == RebuildBy::tangents || axis.resolution > 0;
+  if (by_tangents) {
+    constexpr std::uint64_t usual = 1000;
+    const std::uint64_t points = options.points > 0 ? options.points : usual;
+    const double step = total_length(axis) / static_cast<double>(points);
+    const bool as_it_is = axis.resolution > 0 && options.points == 0;
+    const MedialAxis samples = as_it_is || !(step > 0) ? axis : sampled(axis, step);
+    own.medial_points = samples.nodes.size();
+    rings = rings_by_tangents(samples);
+  } else {
+    for (const Contour& contour : boundary_of(axis)) rings.push_back(ring_of(contour));
+  }
+  if (options.chord > 0)
+    for (Ring& ring : rings) ring = polygon_of(ring, options.chord);
+  ShapeReport shaping;
+  ShapeOptions noded;
+  noded.node_crossings = true;
+  // The outline of an exact axis crosses itself by rounding only; polygons of few points may.
+  auto shape = by_tangents ? Result<Shape>(Error{}) : build_shape(rings, &shaping);
+  if (!shape) {
+    for (Ring& ring : rings) ring.role = RingRole::winding;
+    shape = build_shape(rings, noded, &shaping);
+  }
+  own.crossings = shaping.crossings;
+  if (report != nullptr) *report = own;
+  return shape;
+}
+
+Result<DiskImage> rebuild_image(const MedialAxis& axis, std::uint32_t pixels, bool y_down) {
+  constexpr std::uint32_t most = 32768;
+  if (pixels == 0 || pixels > most)
+    return Error{ErrorCode::invalid_option, "the number of pixels is not in 1 to 32768", {}};
+  if (axis.nodes.empty()) return Error{ErrorCode::empty, "an axis without nodes", {}};
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  Vec2 low{infinity, infinity}, high = -low;
+  for (const Node& node : axis.nodes) {
+    const auto [c, r] = node.disk;
+    low = {std::min(low.x, c.x - r), std::min(low.y, c.y - r)};
+    high = {std::max(high.x, c.x + r), std::max(high.y, c.y + r)};
+  }
+  DiskImage result;
+  const double size = std::max(high.x - low.x, high.y - low.y);
+  result.pixel = size > 0 ? size / pixels : 1;
+  result.corner = low - result.pixel * Vec2{1, 1};
+  const auto cells = [&](double extent) {
+    return static_cast<std::uint32_t>(std::ceil(extent / result.pixel * (1 - 1e-12))) + 2;
+  };
+  const std::uint32_t width = cells(high.x - low.x), height = cells(high.y - low.y);
+  constexpr double slack = 0.05;  // of a pixel
+  std::vector<Disk> disks;
+  const auto add = [&](const Disk& disk) {
+    Vec2 center = (1 / result.pixel) * (disk.center - result.corner);
+    if (!y_down) center.y = height - center.y;
+    disks.push_back({center, std::max(disk.radius, 0.0) / result.pixel});
+  };
+  for (const std::uint32_t i : uncovered(axis, slack * result.pixel)) add(axis.nodes[i].disk);
+  for (const Edge& edge : axis.edges) {
+    // Between two disks of radius r at a distance d, d^2 / 8 r is missed.
+    const double radius =
+        std::min(axis.nodes[edge.node[0]].disk.radius, axis.nodes[edge.node[1]].disk.radius);
+    const double step = std::max(result.pixel / 2, std::sqrt(8 * slack * result.pixel * radius));
+    const Curve curve = curve_of(axis, edge);
+    const auto halve = [&](const auto& self, double t0, const Disk& a, double t1, const Disk& b,
+                           int depth) -> void {
+      constexpr int deepest = 24;
+      if (distance(a.center, b.center) <= step || depth == deepest) return;
+      const double t = 0.5 * (t0 + t1);
+      const Disk middle = curve.at(t);
+      add(middle);
+      self(self, t0, a, t, middle, depth + 1);
+      self(self, t, middle, t1, b, depth + 1);
+    };
+    halve(halve, 0, axis.nodes[edge.node[0]].disk, 1, axis.nodes[edge.node[1]].disk, 0);
+  }
+  result.image = union_of_disks(width, height, disks);
+  return result;
+}
+
+}  // namespace medial

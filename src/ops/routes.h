@@ -1,0 +1,76 @@
+#pragma once
+
+// Searches on the graph of an axis.
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "medial/axis.h"
+#include "medial/centreline.h"
+#include "medial/query.h"
+
+namespace medial::ops {
+
+constexpr std::uint32_t no_edge = 0xFFFFFFFF;
+
+/// What the part of an edge from one parameter to another costs; never negative.
+double cost_of(const MedialAxis& axis, const PathPiece& piece, Route route);
+
+/// From where a search begins: a node, and what it costs to be there.
+struct Start {
+  std::uint32_t node = 0;
+  double cost = 0;
+};
+
+/// Least costs from a set of starts (Dijkstra's algorithm, with a heap), on the edges that have a
+/// finite cost. Kept for use again, so that a search costs what it visits.
+class Search {
+ public:
+  Search(const MedialAxis& axis, const Incidence& incidence, std::span<const double> costs)
+      : axis_(axis),
+        incidence_(incidence),
+        edge_costs_(costs),
+        cost_(axis.nodes.size(), std::numeric_limits<double>::infinity()),
+        via_(axis.nodes.size(), no_edge) {}
+
+  void run(std::span<const Start> starts);
+  /// Infinite where no way leads.
+  double cost(std::uint32_t node) const { return cost_[node]; }
+  /// All nodes that were reached, by increasing cost.
+  std::span<const std::uint32_t> reached() const { return reached_; }
+  /// The way from a start to a node.
+  std::vector<Step> way_to(std::uint32_t node) const;
+
+ private:
+  const MedialAxis& axis_;
+  const Incidence& incidence_;
+  std::span<const double> edge_costs_;
+  std::vector<double> cost_;
+  std::vector<std::uint32_t> via_;
+  std::vector<std::uint32_t> reached_;
+  std::vector<std::pair<double, std::uint32_t>> heap_;
+};
+
+/// The node at the other end of an edge.
+inline std::uint32_t other_end(const Edge& edge, std::uint32_t node) {
+  return edge.node[0] == node ? edge.node[1] : edge.node[0];
+}
+inline std::uint32_t tail_of(const MedialAxis& axis, Step step) {
+  return axis.edges[step.edge].node[step.forward ? 0 : 1];
+}
+inline std::uint32_t head_of(const MedialAxis& axis, Step step) {
+  return axis.edges[step.edge].node[step.forward ? 1 : 0];
+}
+
+/// Whole edges as a path, with its length and narrowest radius.
+AxisPath path_of(const MedialAxis& axis, std::span<const Step> steps);
+/// Sets the length and the narrowest radius from the pieces.
+void measure(const MedialAxis& axis, AxisPath& path);
+
+/// The smallest radius on a part of an edge.
+double narrowest_radius(const MedialAxis& axis, const PathPiece& piece);
+
+}  // namespace medial::ops

@@ -1,0 +1,259 @@
+// Widths: closed forms, dense grids, random shapes.
+#include "medial/measure.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <numbers>
+#include <numeric>
+
+#include "medial/compute.h"
+#include "medial/query.h"
+#include "support/generate_arcs.h"
+
+namespace medial {
+namespace {
+
+using test::RandomShape;
+using test::Rings;
+
+constexpr double pi = std::numbers::pi;
+
+std::uint64_t shape_count(std::uint64_t share) {
+  const char* text = std::getenv("MEDIAL_PROPERTY_COUNT");
+  return (text && *text ? std::strtoull(text, nullptr, 10) : 20000) / share;
+}
+
+struct Computed {
+  Shape shape;
+  MedialAxis axis;
+};
+
+Computed computed(const Rings& rings) {
+  auto shape = build_shape(rings);
+  EXPECT_TRUE(shape.ok());
+  auto axis = compute(*shape);
+  EXPECT_TRUE(axis.ok());
+  return {std::move(shape).value(), std::move(axis).value()};
+}
+
+RandomShape random_any(std::uint64_t seed) {
+  return seed % 2 == 0 ? test::random_shape(seed) : test::random_arc_shape(seed);
+}
+
+/// Two chambers of 4 x 4 with a neck between them, 2 long and `width` wide.
+Rings bottle(double width) {
+  const double h = width / 2;
+  return {test::ring_of({{0, -2},
+                         {4, -2},
+                         {4, -h},
+                         {6, -h},
+                         {6, -2},
+                         {10, -2},
+                         {10, 2},
+                         {6, 2},
+                         {6, h},
+                         {4, h},
+                         {4, 2},
+                         {0, 2}})};
+}
+
+std::vector<double> even(double length, std::size_t count) {
+  std::vector<double> at(count + 1);
+  for (std::size_t i = 0; i <= count; ++i)
+    at[i] = length * static_cast<double>(i) / static_cast<double>(count);
+  return at;
+}
+
+TEST(WidthsAlong, OfAWedgeAreLinear) {
+  const double half = 10 * pi / 180;
+  const auto [shape, axis] =
+      computed(test::triangle({0, 0}, {10, -10 * std::tan(half)}, {10, 10 * std::tan(half)}));
+  const auto paths = main_paths(axis);
+  ASSERT_EQ(paths.size(), 1U);
+  for (const LocalWidth& width : widths_along(axis, paths[0], even(paths[0].length, 50))) {
+    const double x = width.disk.center.x;
+    EXPECT_NEAR(width.width(), 2 * x * std::sin(half), 1e-12);
+    EXPECT_NEAR(width.span(), 2 * x * std::sin(half) * std::cos(half), 1e-12);
+    EXPECT_NEAR(width.disk.center.y, 0, 1e-12);
+  }
+}
+
+TEST(WidthsAlong, HaveFeetOnBothSides) {
+  for (std::uint64_t seed = 0; seed < shape_count(200); ++seed) {
+    const RandomShape random = random_any(seed);
+    const auto [shape, axis] = computed(random.rings);
+    const double size = diagonal(bounding_box(shape));
+    SCOPED_TRACE(random.kind + " " + std::to_string(seed));
+    for (const AxisPath& path : main_paths(axis)) {
+      const auto widths = widths_along(axis, path, even(path.length, 20));
+      ASSERT_EQ(widths.size(), 21U);
+      for (std::size_t i = 0; i < widths.size(); ++i) {
+        for (const Vec2 q : widths[i].feet)
+          EXPECT_NEAR(distance(q, widths[i].disk.center), widths[i].disk.radius, 1e-9 * size);
+        if (i == 0) continue;
+        EXPECT_LE(distance(widths[i].disk.center, widths[i - 1].disk.center),
+                  path.length / 20 + 1e-9 * size);
+      }
+    }
+  }
+}
+
+TEST(Necks, OfABottleIsItsNeck) {
+  for (const double width : {0.1, 1.0, 2.0}) {
+    const auto [shape, axis] = computed(bottle(width));
+    const auto found = necks(axis);
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_NEAR(found[0].width.width(), width, 1e-12);
+    EXPECT_NEAR(found[0].width.span(), width, 1e-12);
+    EXPECT_NEAR(found[0].width.disk.center.x, 5, 1e-12);
+    EXPECT_GE(found[0].opens_to, 2 - 1e-12);
+  }
+}
+
+TEST(Necks, AreNoneInConvexShapes) {
+  for (const Rings& rings :
+       {test::rectangle(10, 3), test::regular_polygon(7), Rings{test::stadium({0, 0}, {5, 1}, 2)},
+        test::triangle({0, 0}, {5, 0}, {1, 3})}) {
+    EXPECT_TRUE(necks(computed(rings).axis, 1.0001).empty());
+  }
+}
+
+TEST(Necks, AroundAHole) {
+  // An eccentric circular hole: one widest and one narrowest place.
+  const auto [shape, axis] = computed({test::circle({0, 0}, 5), test::circle({1, 0}, 2)});
+  const auto found = necks(axis);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_NEAR(found[0].width.width(), 2, 1e-9);
+  EXPECT_NEAR(found[0].opens_to, 2, 1e-9);
+  EXPECT_NEAR(found[0].width.disk.center.x, 4, 1e-9);
+}
+
+TEST(Necks, AreLocalMinima) {
+  std::size_t count = 0;
+  for (std::uint64_t seed = 0; seed < shape_count(100); ++seed) {
+    const RandomShape random = random_any(seed);
+    const auto [shape, axis] = computed(random.rings);
+    const Incidence incidence(axis);
+    SCOPED_TRACE(random.kind + " " + std::to_string(seed));
+    for (const Neck& neck : necks(axis, 1.01)) {
+      const Edge& edge = axis.edges[neck.place.edge];
+      const double r = neck.width.disk.radius, slack = 1e-9 * r + 8 * axis.tolerance;
+      for (const double t : {0.0, 0.25, 0.5, 0.75, 1.0})
+        EXPECT_GE(disk_at(axis, edge, t).radius, r - slack);
+      if (neck.place.t > 0 && neck.place.t < 1) {
+        ++count;
+        continue;
+      }
+      // In a node: it rises from there on two edges at least, or stays.
+      const std::uint32_t node = edge.node[neck.place.t == 0 ? 0 : 1];
+      int rising = 0;
+      for (const std::uint32_t e : incidence.edges(node)) {
+        const AxisPlace low = narrowest_place(axis, e);
+        rising += disk_at(axis, axis.edges[e], low.t).radius >= r - slack ? 1 : 0;
+      }
+      EXPECT_GE(rising, 2);
+      ++count;
+    }
+  }
+  EXPECT_GT(count, 0U);
+}
+
+TEST(MeanWidth, OfARectangle) {
+  // a = 10 by b = 2: the middle strip has the width b, and each end's corner squares (of the two
+  // diagonals) widths that grow evenly from the corner.
+  const auto [shape, axis] = computed(test::rectangle(10, 2));
+  const auto paths = main_paths(axis);
+  const MeanWidth mean = mean_width(axis, paths[0]);
+  EXPECT_NEAR(mean.length, 8, 1e-12);
+  EXPECT_NEAR(mean.area, 20, 1e-11);
+  EXPECT_NEAR(mean.by_length, 2, 1e-12);
+  EXPECT_NEAR(mean.area_by_length, 2.5, 1e-12);
+  // Four unit squares in the corners: each point belongs to the disk of its distance from the
+  // nearer side along that side: the mean of 2 max(x, y) is 4 / 3. The ends' middles do not exist.
+  EXPECT_NEAR(mean.by_area, (16 * 2 + 4 * 4.0 / 3) / 20, 1e-11);
+}
+
+TEST(MeanWidth, OfADiskAndAStadium) {
+  const auto disk = computed({test::circle({1, 1}, 3)});
+  const MeanWidth round = mean_width(disk.axis, {});
+  EXPECT_NEAR(round.area, 9 * pi, 1e-10);
+  EXPECT_NEAR(round.by_area, 6, 1e-11);
+  const auto stadium = computed({test::stadium({0, 0}, {3, 4}, 1)});
+  const MeanWidth mean = mean_width(stadium.axis, main_paths(stadium.axis)[0]);
+  EXPECT_NEAR(mean.area, 10 + pi, 1e-11);
+  EXPECT_NEAR(mean.by_area, 2, 1e-11);
+  EXPECT_NEAR(mean.by_length, 2, 1e-11);
+}
+
+TEST(MeanWidth, KnowsTheArea) {
+  for (std::uint64_t seed = 0; seed < shape_count(80); ++seed) {
+    const RandomShape random = random_any(seed);
+    const auto [shape, axis] = computed(random.rings);
+    const double expected = area(shape), size = diagonal(bounding_box(shape));
+    const MeanWidth mean = mean_width(axis, {});
+    EXPECT_NEAR(mean.area, expected, 1e-9 * expected + 1e-11 * size * size)
+        << random.kind << " " << seed;
+    const double deepest = deepest_disk(axis).radius;
+    EXPECT_LE(mean.by_area, 2 * deepest * (1 + 1e-9));
+  }
+}
+
+TEST(LargestDisjointDisks, OfASquare) {
+  const auto [shape, axis] = computed(test::rectangle(2, 2));
+  const auto disks = largest_disjoint_disks(shape, 9);
+  ASSERT_TRUE(disks.ok()) << to_string(disks.error());
+  ASSERT_EQ(disks->size(), 9U);
+  EXPECT_NEAR((*disks)[0].radius, 1, 1e-12);
+  const double corner = 3 - 2 * std::sqrt(2.0);
+  for (std::size_t i = 1; i < 5; ++i) EXPECT_NEAR((*disks)[i].radius, corner, 1e-12);
+  // Eight more touch a side and two disks: 1 / sqrt r = 1 + 1 / sqrt(corner), by Soddy's formula.
+  const double root = 1 / (1 + 1 / std::sqrt(corner));
+  for (std::size_t i = 5; i < 9; ++i) EXPECT_NEAR((*disks)[i].radius, root * root, 1e-11);
+}
+
+TEST(LargestDisjointDisks, AgreeWithADenseGrid) {
+  std::size_t compared = 0;
+  for (std::uint64_t seed = 0; seed < shape_count(1000) + 4; ++seed) {
+    const RandomShape random = random_any(seed);
+    const auto [shape, axis] = computed(random.rings);
+    if (shape.points.size() > 60) continue;
+    SCOPED_TRACE(random.kind + " " + std::to_string(seed));
+    const double size = diagonal(bounding_box(shape));
+    const auto disks = largest_disjoint_disks(shape, 5, 1e-3 * size);
+    ASSERT_TRUE(disks.ok()) << to_string(disks.error());
+    constexpr int n = 60;
+    const Box box = bounding_box(shape);
+    std::vector<Vec2> grid;
+    std::vector<double> room;
+    for (int i = 0; i <= n; ++i) {
+      for (int j = 0; j <= n; ++j) {
+        grid.push_back({box.low.x + (box.high.x - box.low.x) * i / n,
+                        box.low.y + (box.high.y - box.low.y) * j / n});
+        room.push_back(clearance(shape, grid.back()));
+      }
+    }
+    for (const Disk& disk : *disks) {
+      EXPECT_NEAR(
+          disk.radius,
+          clearance(shape, disk.center) < disk.radius ? clearance(shape, disk.center) : disk.radius,
+          1e-9 * size);
+      const double best = *std::ranges::max_element(room);
+      EXPECT_GE(disk.radius, best - 1e-9 * size);
+      EXPECT_LE(disk.radius, best + size / n);  // a cell's diagonal
+      for (std::size_t k = 0; k < grid.size(); ++k)
+        room[k] = std::min(room[k], distance(grid[k], disk.center) - disk.radius);
+      ++compared;
+    }
+    for (std::size_t i = 0; i < disks->size(); ++i)
+      for (std::size_t j = 0; j < i; ++j)
+        EXPECT_GE(distance((*disks)[i].center, (*disks)[j].center),
+                  (*disks)[i].radius + (*disks)[j].radius - 1e-9 * size);
+  }
+  EXPECT_GT(compared, 0U);
+}
+
+}  // namespace
+}  // namespace medial

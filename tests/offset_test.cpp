@@ -1,0 +1,311 @@
+// Offset curves: closed forms, the distance of every point, topology by pixels, symmetries.
+#include "medial/offset.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <numbers>
+
+#include "base/arc.h"
+#include "medial/compute.h"
+#include "medial/query.h"
+#include "medial/verify.h"
+#include "support/generate_arcs.h"
+#include "support/offset_check.h"
+
+namespace medial {
+namespace {
+
+using test::RandomShape;
+constexpr double pi = std::numbers::pi;
+
+std::uint64_t shape_count() {
+  const char* text = std::getenv("MEDIAL_PROPERTY_COUNT");
+  return text && *text ? std::strtoull(text, nullptr, 10) / 20 : 600;
+}
+
+Shape shape_of(const test::Rings& rings) {
+  auto shape = build_shape(rings);
+  EXPECT_TRUE(shape.ok());
+  return std::move(shape).value();
+}
+
+Offsets offsets_of(const test::Rings& rings, std::vector<double> clearances) {
+  auto offsets = offset_curves(shape_of(rings), clearances);
+  EXPECT_TRUE(offsets.ok());
+  return std::move(offsets).value();
+}
+
+TEST(Offset, OfASquareInwards) {
+  const Offsets offsets = offsets_of(test::rectangle(4, 4), {1});
+  ASSERT_EQ(offsets.regions.size(), 1U);
+  EXPECT_EQ(offsets.regions[0].rings.size(), 1U);
+  EXPECT_EQ(offsets.regions[0].rings[0].points.size(), 4U);
+  EXPECT_NEAR(area(offsets.regions[0]), 4, 1e-13);
+  EXPECT_NEAR(length(offsets.regions[0]), 8, 1e-13);
+  EXPECT_TRUE(offsets_of(test::rectangle(4, 4), {2}).regions.empty());
+}
+
+TEST(Offset, OfASquareOutwards) {
+  for (const double d : {0.01, 1.0, 50.0}) {
+    const Offsets offsets = offsets_of(test::rectangle(4, 3), {-d});
+    ASSERT_EQ(offsets.regions.size(), 1U);
+    EXPECT_EQ(offsets.regions[0].rings[0].points.size(), 8U);
+    const double exact = 12 + 14 * d + pi * d * d;
+    EXPECT_NEAR(area(offsets.regions[0]), exact, 1e-13 * exact);
+    EXPECT_NEAR(length(offsets.regions[0]), 14 + 2 * pi * d, 1e-13 * (14 + 2 * pi * d));
+  }
+}
+
+TEST(Offset, OfACircle) {
+  const Offsets offsets = offsets_of({test::circle({3, 4}, 2)}, {-1, 0.5, 1.5});
+  ASSERT_EQ(offsets.regions.size(), 3U);
+  const double radii[] = {3, 1.5, 0.5};
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(offsets.regions[i].rings.size(), 1U);
+    EXPECT_NEAR(area(offsets.regions[i]), pi * radii[i] * radii[i], 1e-12);
+    EXPECT_EQ(offsets.regions[i].parent, i == 0 ? no_region : i - 1);
+  }
+}
+
+TEST(Offset, OfAStadium) {
+  // Its axis does not cross small levels: the loop closes around both ends.
+  const Offsets offsets = offsets_of({test::stadium({0, 0}, {5, 0}, 2)}, {-3, 0.5, 1.5, 1.9999});
+  ASSERT_EQ(offsets.regions.size(), 4U);
+  for (const OffsetRegion& region : offsets.regions) {
+    const double r = 2 - region.clearance;
+    EXPECT_NEAR(area(region), 10 * r + pi * r * r, 1e-12);
+    EXPECT_NEAR(length(region), 10 + 2 * pi * r, 1e-12);
+  }
+}
+
+TEST(Offset, OfARingClosesItsHoleOutwards) {
+  test::Rings rings{test::circle({0, 0}, 5), test::circle({0, 0}, 2)};
+  const Offsets offsets = offsets_of(rings, {-3, -1, 1});
+  ASSERT_EQ(offsets.regions.size(), 3U);
+  EXPECT_EQ(offsets.regions[0].rings.size(), 1U);
+  EXPECT_NEAR(area(offsets.regions[0]), 64 * pi, 1e-12);
+  EXPECT_EQ(offsets.regions[1].rings.size(), 2U);
+  EXPECT_NEAR(area(offsets.regions[1]), (36 - 1) * pi, 1e-12);
+  EXPECT_NEAR(area(offsets.regions[2]), (16 - 9) * pi, 1e-12);
+}
+
+TEST(Offset, DividesADumbbell) {
+  // Two squares of side 4 and a corridor of width 1, which goes at 0.5.
+  const test::Rings rings{test::ring_of({{0, 0},
+                                         {4, 0},
+                                         {4, 1.5},
+                                         {6, 1.5},
+                                         {6, 0},
+                                         {10, 0},
+                                         {10, 4},
+                                         {6, 4},
+                                         {6, 2.5},
+                                         {4, 2.5},
+                                         {4, 4},
+                                         {0, 4}})};
+  const Offsets offsets = offsets_of(rings, {0.4, 0.5, 1, 1.9});
+  ASSERT_EQ(offsets.regions.size(), 7U);
+  EXPECT_EQ(offsets.regions[0].clearance, 0.4);
+  EXPECT_EQ(offsets.regions[1].parent, 0U);
+  EXPECT_EQ(offsets.regions[2].parent, 0U);
+  for (std::size_t i = 3; i < 7; ++i) {
+    const OffsetRegion& region = offsets.regions[i];
+    ASSERT_LT(region.parent, i);
+    EXPECT_LT(offsets.regions[region.parent].clearance, region.clearance);
+    // The same square.
+    EXPECT_EQ(region.rings[0].points[0].x < 5,
+              offsets.regions[region.parent].rings[0].points[0].x < 5);
+  }
+}
+
+TEST(Offset, IslandsJoinOutwards) {
+  test::Rings rings;
+  for (int i = 0; i < 3; ++i) {
+    const double x = 3 * i;
+    rings.push_back(test::ring_of({{x, 0}, {x + 1, 0}, {x + 1, 1}, {x, 1}}));
+  }
+  const Offsets offsets = offsets_of(rings, {0.25, -0.9, -1.1});
+  ASSERT_EQ(offsets.regions.size(), 7U);
+  EXPECT_EQ(offsets.regions[0].clearance, -1.1);
+  EXPECT_EQ(offsets.regions[0].rings.size(), 1U);
+  for (std::size_t i = 1; i <= 3; ++i) EXPECT_EQ(offsets.regions[i].parent, 0U);
+  for (std::size_t i = 4; i <= 6; ++i) {
+    EXPECT_EQ(offsets.regions[i].clearance, 0.25);
+    const auto& parent = offsets.regions[offsets.regions[i].parent];
+    EXPECT_EQ(parent.clearance, -0.9);
+    EXPECT_NEAR(parent.rings[0].points[0].x, offsets.regions[i].rings[0].points[0].x, 2.5);
+  }
+}
+
+TEST(Offset, PassesUntilNothingIsLeft) {
+  const auto axis = compute(shape_of(test::rectangle(4, 3)));
+  ASSERT_TRUE(axis.ok());
+  const auto passes = offset_passes(*axis, 0.25, 0.5);
+  ASSERT_TRUE(passes.ok());
+  EXPECT_EQ(*passes, (std::vector<double>{0.25, 0.75, 1.25}));
+  const auto offsets = inward_offsets(*axis, *passes);
+  ASSERT_TRUE(offsets.ok());
+  EXPECT_EQ(offsets->regions.size(), 3U);
+  EXPECT_FALSE(offset_passes(*axis, 0, 1).ok());
+  EXPECT_FALSE(offset_passes(*axis, 1, 0).ok());
+  EXPECT_EQ(offset_passes(*axis, 1e-9, 1e-9).error().code, ErrorCode::too_large);
+}
+
+TEST(Offset, RefusesWhatItCannotDo) {
+  const Shape square = shape_of(test::rectangle(1, 1));
+  for (const double c : {0.0, std::nan(""), HUGE_VAL, -1e9})
+    EXPECT_EQ(offset_curves(square, {&c, 1}).error().code, ErrorCode::invalid_option) << c;
+  const double one = 1;
+  EXPECT_EQ(offset_curves(Shape{}, {&one, 1}).error().code, ErrorCode::empty);
+  Options sampled;
+  sampled.method = Method::ridge;
+  EXPECT_EQ(offset_curves(square, {&one, 1}, sampled).error().code, ErrorCode::unsupported);
+}
+
+/// Clearances inside and outside of a shape: small ones, and some at which things happen.
+std::vector<double> interesting(const MedialAxis& axis, double size, test::Random& random) {
+  const double deepest = axis.nodes[deepest_node(axis)].disk.radius;
+  std::vector<double> out{deepest * random.unit(), deepest * random.unit(), deepest * 0.999,
+                          -size * random.unit(), -size * 0.01 * random.unit()};
+  const auto node = random.integer(0, static_cast<std::int64_t>(axis.nodes.size()) - 1);
+  out.push_back(axis.nodes[static_cast<std::size_t>(node)].disk.radius);  // exactly at a node
+  std::erase_if(out, [&](double c) { return std::abs(c) < 1e-6 * size; });
+  return out;
+}
+
+TEST(Offset, EveryPointHasItsDistance) {
+  std::size_t points = 0, regions = 0;
+  for (std::uint64_t seed = 0; seed < shape_count(); ++seed) {
+    const RandomShape random =
+        seed % 2 == 0 ? test::random_shape(seed) : test::random_arc_shape(seed);
+    SCOPED_TRACE(random.kind + " " + std::to_string(seed));
+    const Shape shape = shape_of(random.rings);
+    const double size = diagonal(bounding_box(shape));
+    test::Random numbers(seed);
+    const auto axis = compute(shape);
+    ASSERT_TRUE(axis.ok());
+    const auto clearances = interesting(*axis, size, numbers);
+    const auto offsets = offset_curves(shape, clearances);
+    ASSERT_TRUE(offsets.ok()) << to_string(offsets.error());
+    const test::OffsetCheck check = test::check_offsets(shape, *offsets);
+    EXPECT_LE(check.largest_error, 1e-9 * size) << check.worst.x << " " << check.worst.y;
+    EXPECT_EQ(check.fault, "");
+    points += check.points;
+    regions += offsets->regions.size();
+    if (HasFailure()) return;
+  }
+  EXPECT_GT(points, 20 * shape_count());
+  EXPECT_GT(regions, shape_count());
+}
+
+/// Sorted clearances, ring counts, areas and lengths of all regions.
+struct Measures {
+  std::vector<std::size_t> rings;
+  std::vector<double> areas, lengths;
+};
+Measures measures_of(const Offsets& offsets, double scale) {
+  struct One {
+    double clearance, area, length;
+    std::size_t rings;
+  };
+  std::vector<One> all;
+  for (const OffsetRegion& r : offsets.regions)
+    all.push_back({r.clearance, area(r) / (scale * scale), length(r) / scale, r.rings.size()});
+  std::sort(all.begin(), all.end(), [](const One& a, const One& b) {
+    return a.clearance != b.clearance ? a.clearance < b.clearance : a.area < b.area;
+  });
+  Measures out;
+  for (const One& one : all) {
+    out.rings.push_back(one.rings);
+    out.areas.push_back(one.area);
+    out.lengths.push_back(one.length);
+  }
+  return out;
+}
+
+TEST(Offset, MovesWithTheShape) {
+  // Rotation, scale, another start, the other direction: the same but for rounding.
+  std::size_t compared = 0;
+  for (std::uint64_t seed = 0; seed < shape_count() / 5; ++seed) {
+    const RandomShape random =
+        seed % 2 == 0 ? test::random_shape(seed) : test::random_arc_shape(seed);
+    SCOPED_TRACE(random.kind + " " + std::to_string(seed));
+    const Shape shape = shape_of(random.rings);
+    const double size = diagonal(bounding_box(shape));
+    test::Random numbers(seed);
+    const auto axis = compute(shape);
+    ASSERT_TRUE(axis.ok());
+    const double deepest = axis->nodes[deepest_node(*axis)].disk.radius;
+    if (deepest < 1e-3 * size) continue;
+    const std::vector<double> levels{deepest * numbers.between(0.1, 0.9), -0.1 * size};
+    const auto original = offset_curves(shape, levels);
+    ASSERT_TRUE(original.ok());
+    const double angle = numbers.between(0, 6), scale = numbers.power_of_ten(-2, 2);
+    test::Rings rings = random.rings;
+    for (Ring& ring : rings) {
+      for (Vec2& p : ring.points) p = scale * turned(p, std::cos(angle), std::sin(angle));
+      if (ring.points.size() < 3) continue;
+      if (ring.points.front() == ring.points.back()) continue;  // closed twice otherwise
+      std::rotate(ring.points.begin(), ring.points.begin() + 1, ring.points.end());
+      if (!ring.bulges.empty()) {
+        ring.bulges.resize(ring.points.size());
+        std::rotate(ring.bulges.begin(), ring.bulges.begin() + 1, ring.bulges.end());
+      }
+      std::reverse(ring.points.begin(), ring.points.end());
+      if (!ring.bulges.empty()) {
+        std::reverse(ring.bulges.begin(), ring.bulges.end() - 1);
+        for (double& bulge : ring.bulges) bulge = -bulge;
+      }
+    }
+    const auto moved_shape = build_shape(rings);
+    if (!moved_shape.ok()) continue;  // contacts that rounding has opened or crossed
+    const auto moved =
+        offset_curves(*moved_shape, std::vector{scale * levels[0], scale * levels[1]});
+    ASSERT_TRUE(moved.ok());
+    const Measures a = measures_of(*original, 1), b = measures_of(*moved, scale);
+    if (moved_shape->component_count() != shape.component_count()) continue;
+    ASSERT_EQ(a.rings, b.rings);
+    for (std::size_t i = 0; i < a.areas.size(); ++i) {
+      EXPECT_NEAR(a.areas[i], b.areas[i], 1e-8 * size * size);
+      EXPECT_NEAR(a.lengths[i], b.lengths[i], 1e-5 * (size + a.lengths[i]));
+    }
+    ++compared;
+    if (HasFailure()) return;
+  }
+  EXPECT_GT(compared, shape_count() / 12);
+}
+
+TEST(Offset, CountsRingsAsPixelsDo) {
+  std::size_t compared = 0;
+  for (std::uint64_t seed = 0; seed < std::min<std::uint64_t>(shape_count() / 10, 60); ++seed) {
+    const RandomShape random =
+        seed % 2 == 0 ? test::random_shape(seed) : test::random_arc_shape(seed);
+    SCOPED_TRACE(random.kind + " " + std::to_string(seed));
+    const Shape shape = shape_of(random.rings);
+    const Box box = bounding_box(shape);
+    const auto axis = compute(shape);
+    ASSERT_TRUE(axis.ok());
+    const double deepest = axis->nodes[deepest_node(*axis)].disk.radius;
+    for (const double level : {0.3 * deepest, 0.7 * deepest, -0.5 * deepest}) {
+      const std::size_t pixels = 150;
+      const Vec2 extent = box.high - box.low;
+      const double pixel = std::max(extent.x, extent.y) / static_cast<double>(pixels);
+      if (!test::is_steady(shape, level, 3 * pixel)) continue;
+      const auto offsets = offset_curves(shape, {&level, 1});
+      ASSERT_TRUE(offsets.ok());
+      const test::PixelCount count = test::count_by_pixels(shape, level, pixels);
+      std::size_t rings = 0;
+      for (const OffsetRegion& region : offsets->regions) rings += region.rings.size();
+      EXPECT_EQ(offsets->regions.size(), count.regions) << level;
+      EXPECT_EQ(rings, count.rings) << level;
+      ++compared;
+    }
+  }
+  EXPECT_GT(compared, std::min<std::uint64_t>(shape_count() / 20, 30));
+}
+
+}  // namespace
+}  // namespace medial

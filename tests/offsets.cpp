@@ -1,0 +1,130 @@
+// Offsets every polygon of a data folder inwards and outwards, and checks the curves: the distance
+// of their points from the boundary, random points on both sides, nesting, and the number of rings
+// against pixels.
+//
+//   medial_offsets FOLDER...
+//
+// Exit status: 0; 1 where a check failed; 2 for a wrong call; 77 (what ctest takes for a skipped
+// test) where a folder does not exist.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "medial/compute.h"
+#include "medial/io/read.h"
+#include "medial/query.h"
+#include "support/offset_check.h"
+
+namespace medial::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Row {
+  std::size_t features = 0, curves = 0, rings = 0, points = 0, counted = 0, faults = 0;
+  double largest_error = 0;  ///< by the size of the shape
+};
+
+void examine(const Shape& shape, const std::string& name, bool count, Row& row) {
+  const auto fault = [&](const std::string& text) {
+    ++row.faults;
+    std::printf("    FAULT %s: %s\n", name.c_str(), text.c_str());
+  };
+  const auto axis = compute(shape);
+  if (!axis) return fault(to_string(axis.error()));
+  const double deepest = axis->nodes[deepest_node(*axis)].disk.radius;
+  std::vector<double> levels;
+  for (const double share : {-1.0, -0.3, -0.05, 0.02, 0.1, 0.3, 0.6, 0.95})
+    levels.push_back(share * deepest);
+  const auto offsets = offset_curves(shape, levels);
+  if (!offsets) return fault(to_string(offsets.error()));
+  const Box box = bounding_box(shape);
+  const double size = diagonal(box);
+  const OffsetCheck check = check_offsets(shape, *offsets, 1, 20);
+  ++row.features;
+  row.curves += levels.size();
+  row.points += check.points;
+  row.largest_error = std::max(row.largest_error, check.largest_error / size);
+  if (!check.fault.empty()) fault(check.fault);
+  if (!(check.largest_error <= 1e-9 * size))
+    fault("a point is " + std::to_string(check.largest_error / size) + " off");
+  for (const OffsetRegion& region : offsets->regions) row.rings += region.rings.size();
+  if (!count) return;
+  constexpr std::size_t pixels = 300;
+  const double pixel = std::max(box.high.x - box.low.x, box.high.y - box.low.y) / pixels;
+  for (const double level : levels) {
+    if (!is_steady(shape, level, 3 * pixel)) continue;
+    const PixelCount found = count_by_pixels(shape, level, pixels);
+    std::size_t regions = 0, rings = 0;
+    for (const OffsetRegion& region : offsets->regions) {
+      if (region.clearance != level) continue;
+      ++regions;
+      rings += region.rings.size();
+    }
+    ++row.counted;
+    if (found.regions != regions || found.rings != rings)
+      fault(std::to_string(rings) + " rings, but " + std::to_string(found.rings) +
+            " by pixels at " + std::to_string(level));
+  }
+}
+
+int run(const std::vector<fs::path>& folders) {
+  std::printf("%-58s %8s %7s %9s %10s %7s %9s %6s\n", "file", "features", "curves", "rings",
+              "points", "counted", "error", "FAULTS");
+  std::size_t faults = 0;
+  for (const fs::path& folder : folders) {
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+      const std::string name = entry.path().filename().string();
+      for (const char* ending : {".wkt", ".wkt.gz", ".geojson", ".geojson.gz", ".dxf"})
+        if (entry.is_regular_file() && name.ends_with(ending)) files.push_back(entry.path());
+    }
+    std::sort(files.begin(), files.end());
+    for (const fs::path& path : files) {
+      const auto dataset = io::read_dataset(path.string());
+      if (!dataset) continue;  // not for this test
+      Row row;
+      for (std::size_t i = 0; i < dataset->features.size(); ++i) {
+        const auto& feature = dataset->features[i];
+        std::vector<Ring> rings = feature.rings;
+        if (!feature.contours.empty()) {
+          const auto arcs = approximate_by_arcs(feature.contours);
+          if (!arcs) continue;
+          rings.insert(rings.end(), arcs->begin(), arcs->end());
+        }
+        const auto shape = build_shape(rings);
+        if (!shape) continue;
+        constexpr std::size_t most_counted = 10, largest_counted = 20000;
+        examine(*shape, std::to_string(i),
+                i < most_counted && shape->points.size() < largest_counted, row);
+      }
+      std::printf("%-58s %8zu %7zu %9zu %10zu %7zu %9.1e %6zu\n",
+                  fs::relative(path, folder).generic_string().c_str(), row.features, row.curves,
+                  row.rings, row.points, row.counted, row.largest_error, row.faults);
+      std::fflush(stdout);
+      faults += row.faults;
+    }
+  }
+  return faults == 0 ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace medial::test
+
+int main(int count, char** arguments) {
+  std::vector<std::filesystem::path> folders(arguments + 1, arguments + count);
+  if (folders.empty()) {
+    std::fprintf(stderr, "usage: medial_offsets FOLDER...\n");
+    return 2;
+  }
+  for (const auto& folder : folders) {
+    if (std::filesystem::is_directory(folder)) continue;
+    std::printf("%s: no such folder: skipped\n", folder.c_str());
+    return 77;
+  }
+  return medial::test::run(folders);
+}

@@ -1,0 +1,214 @@
+// From axes back to shapes: exactly, after pruning, by tangents of samples, as pixels.
+#include "medial/rebuild.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <numbers>
+
+#include "medial/compute.h"
+#include "medial/prune.h"
+#include "medial/query.h"
+#include "medial/shape_distance.h"
+#include "support/generate_arcs.h"
+
+namespace medial {
+namespace {
+
+using test::RandomShape;
+
+std::uint64_t shape_count() {
+  const char* text = std::getenv("MEDIAL_PROPERTY_COUNT");
+  return text && *text ? std::strtoull(text, nullptr, 10) / 40 : 400;
+}
+
+struct Case {
+  std::string name;
+  Shape shape;
+  MedialAxis axis;
+  double size = 0;
+};
+
+Case case_of(std::uint64_t seed) {
+  const RandomShape random =
+      seed % 2 == 0 ? test::random_shape(seed) : test::random_arc_shape(seed);
+  auto shape = build_shape(random.rings);
+  EXPECT_TRUE(shape.ok());
+  auto axis = compute(*shape);
+  EXPECT_TRUE(axis.ok());
+  const double size = diagonal(bounding_box(*shape));
+  return {random.kind + " " + std::to_string(seed), std::move(*shape), std::move(*axis), size};
+}
+
+Case case_of(std::vector<Vec2> points) {
+  const Ring ring{std::move(points)};
+  auto shape = build_shape({&ring, 1});
+  auto axis = compute(*shape);
+  const double size = diagonal(bounding_box(*shape));
+  return {"polygon", std::move(*shape), std::move(*axis), size};
+}
+
+std::vector<Vec2> sorted(std::vector<Vec2> points) {
+  std::sort(points.begin(), points.end(),
+            [](Vec2 a, Vec2 b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
+  return points;
+}
+
+TEST(Rebuild, TheAxisOfAShapeGivesItBack) {
+  std::size_t same_points = 0, polygons = 0;
+  for (std::uint64_t seed = 0; seed < shape_count(); ++seed) {
+    const Case one = case_of(seed);
+    SCOPED_TRACE(one.name);
+    RebuildReport report;
+    const auto again = rebuild(one.axis, {}, &report);
+    ASSERT_TRUE(again.ok()) << to_string(again.error());
+    const ShapeDistance apart = shape_distance(*again, one.shape);
+    ASSERT_LE(apart.hausdorff(), 1e-9 * one.size);
+    ASSERT_NEAR(apart.area, apart.other_area, 1e-9 * one.size * one.size);
+    ASSERT_EQ(again->component_count(), one.shape.component_count());
+    ASSERT_EQ(again->hole_count(), one.shape.hole_count());
+    if (!one.shape.bulges.empty()) continue;
+    ++polygons;
+    same_points += sorted(again->points) == sorted(one.shape.points) ? 1 : 0;
+  }
+  // The very same vertices; seldom one more, where a corner is blunter than rounding.
+  EXPECT_GE(same_points, polygons - polygons / 50);
+}
+
+/// What is left of a shape lies in it, has the same parts and holes, and is less for a larger
+/// threshold; the disks of the pruned axis are as large in it as they were.
+TEST(Rebuild, OfAPrunedAxisIsTheUnionOfItsDisks) {
+  std::size_t smaller = 0;
+  for (std::uint64_t seed = 0; seed < shape_count() / 2; ++seed) {
+    const Case one = case_of(seed);
+    SCOPED_TRACE(one.name);
+    const PruneMeasure measure = prune_measures()[seed / 2 % prune_measures().size()];
+    SCOPED_TRACE(name_of(measure));
+    const PruneOrder order(one.axis, measure);
+    double before = area(one.shape);
+    const double whole = before;
+    for (const double factor : {0.5, 1.0, 4.0}) {
+      const MedialAxis pruned = order.at(factor * default_threshold(measure));
+      const auto shape = rebuild(pruned);
+      ASSERT_TRUE(shape.ok()) << to_string(shape.error());
+      EXPECT_EQ(shape->component_count(), one.shape.component_count());
+      EXPECT_EQ(shape->hole_count(), one.shape.hole_count());
+      const double now = area(*shape);
+      EXPECT_LE(now, before + 1e-9 * whole);
+      smaller += now < (1 - 1e-6) * before ? 1 : 0;
+      before = now;
+      for (std::size_t i = 0; i < shape->points.size(); i += 1 + shape->points.size() / 50)
+        EXPECT_GE(clearance(one.shape, shape->points[i]), -1e-9 * one.size);
+      for (std::size_t i = 0; i < pruned.nodes.size(); i += 1 + pruned.nodes.size() / 50) {
+        const Disk& disk = pruned.nodes[i].disk;
+        EXPECT_NEAR(clearance(*shape, disk.center), disk.radius, 1e-9 * one.size);
+      }
+    }
+  }
+  EXPECT_GT(smaller, shape_count() / 8);
+}
+
+/// The measure `area` tells what is lost.
+TEST(Rebuild, OneEndCutOffLosesTheAreaThatItsMeasureTells) {
+  // A house: one roof corner of 90 degrees.
+  const Case one = case_of({{0, 0}, {4, 0}, {4, 4}, {2, 6}, {0, 4}});
+  const PruneOrder order(one.axis, PruneMeasure::area);
+  std::vector<double> values;
+  for (std::uint32_t e = 0; e < one.axis.edges.size(); ++e) values.push_back(order.of_edge(e));
+  const double threshold = 0.3 * *std::min_element(values.begin(), values.end());
+  const MedialAxis pruned = order.at(threshold);
+  const std::size_t cut = static_cast<std::size_t>(std::count_if(
+      pruned.nodes.begin(), pruned.nodes.end(),
+      [](const Node& node) { return node.kind == NodeKind::leaf && node.disk.radius > 0; }));
+  const auto shape = rebuild(pruned);
+  ASSERT_TRUE(shape.ok());
+  EXPECT_EQ(cut, 5U);
+  EXPECT_NEAR(area(*shape), 20 * (1 - static_cast<double>(cut) * threshold), 1e-9);
+}
+
+TEST(Rebuild, OneDiskIsACircle) {
+  const Case one = case_of({{0, 0}, {2, 0}, {2, 2}, {0, 2}});
+  const auto shape = rebuild(PruneOrder(one.axis, PruneMeasure::erosion).at(1e6));
+  ASSERT_TRUE(shape.ok());
+  EXPECT_NEAR(area(*shape), std::numbers::pi, 1e-12);
+  EXPECT_FALSE(rebuild(MedialAxis{}).ok());
+}
+
+TEST(Rebuild, PolygonsStayWithinTheChord) {
+  const Case one = case_of({{0, 0}, {6, 0}, {6, 2}, {0, 2}});
+  const MedialAxis pruned = PruneOrder(one.axis, PruneMeasure::angle).at(100);
+  const auto exact = rebuild(pruned);
+  const auto polygon = rebuild(pruned, {.chord = 1e-3});
+  ASSERT_TRUE(exact.ok() && polygon.ok());
+  EXPECT_FALSE(exact->bulges.empty());
+  EXPECT_NEAR(area(*exact), 8 + std::numbers::pi, 1e-12);
+  EXPECT_TRUE(polygon->bulges.empty());
+  const double apart = shape_distance(*exact, *polygon, 200).hausdorff();
+  EXPECT_LE(apart, 1.0001e-3);
+  EXPECT_GE(apart, 0.3e-3);
+}
+
+/// Section II.C: the more points, the nearer.
+TEST(Rebuild, TangentsOfMorePointsComeNearer) {
+  const Case one =
+      case_of({{0, 0}, {9, 0}, {9, 3}, {6, 3}, {6, 7}, {4, 7}, {4, 3}, {2, 4}, {0, 3}});
+  double before = one.size;
+  for (const std::uint64_t points : {50, 200, 800, 3200}) {
+    RebuildReport report;
+    const auto shape = rebuild(one.axis, {.by = RebuildBy::tangents, .points = points}, &report);
+    ASSERT_TRUE(shape.ok());
+    EXPECT_NEAR(static_cast<double>(report.medial_points), static_cast<double>(points),
+                20 + 0.1 * static_cast<double>(points));
+    const ShapeDistance apart = shape_distance(*shape, one.shape);
+    EXPECT_LT(apart.hausdorff(), 0.6 * before);
+    EXPECT_NEAR(apart.area, apart.other_area, 2 * apart.hausdorff() * one.size);
+    before = apart.hausdorff();
+  }
+  EXPECT_LT(before, 2e-3 * one.size);
+}
+
+TEST(Rebuild, SampledAxesGivePolygons) {
+  const Case one =
+      case_of({{0, 0}, {9, 0}, {9, 3}, {6, 3}, {6, 7}, {4, 7}, {4, 3}, {2, 4}, {0, 3}});
+  Options options;
+  options.method = Method::potential;
+  const auto axis = compute(one.shape, options);
+  ASSERT_TRUE(axis.ok());
+  const auto shape = rebuild(*axis);
+  ASSERT_TRUE(shape.ok()) << to_string(shape.error());
+  EXPECT_NEAR(area(*shape), area(one.shape), 0.02 * area(one.shape));
+}
+
+TEST(Rebuild, AsPixels) {
+  const Case one = case_of({{1, 1}, {9, 1}, {9, 4}, {4, 4}, {4, 6}, {1, 6}});
+  const auto up = rebuild_image(one.axis, 400), down = rebuild_image(one.axis, 400, true);
+  ASSERT_TRUE(up.ok() && down.ok());
+  EXPECT_NEAR(up->pixel, 0.02, 1e-12);
+  EXPECT_EQ(up->image.width(), 402U);
+  EXPECT_EQ(up->image.height(), 252U);
+  const auto pixels = static_cast<double>(up->image.count());
+  EXPECT_NEAR(pixels * up->pixel * up->pixel, area(one.shape), 0.005 * area(one.shape));
+  EXPECT_TRUE(up->image.at(380, 240));  // the arm below is long: the last rows
+  EXPECT_FALSE(up->image.at(380, 10));
+  EXPECT_TRUE(down->image.at(380, 10));  // and the first ones where y points down
+  EXPECT_FALSE(rebuild_image(one.axis, 0).ok());
+  EXPECT_FALSE(rebuild_image(MedialAxis{}, 10).ok());
+}
+
+TEST(ShapeDistance, IsWhatItIsByHand) {
+  const Case one = case_of({{0, 0}, {4, 0}, {4, 4}, {0, 4}});
+  const Case other = case_of({{0, 0}, {4, 0}, {4, 5}, {0, 4}});
+  const ShapeDistance apart = shape_distance(one.shape, other.shape);
+  EXPECT_EQ(apart.area, 16);
+  EXPECT_EQ(apart.other_area, 18);
+  EXPECT_NEAR(apart.hausdorff(), 1, 1e-12);
+  EXPECT_EQ(apart.worst.y, 5);
+  EXPECT_EQ(shape_distance(one.shape, one.shape).hausdorff(), 0);
+  EXPECT_EQ(shape_distance({}, {}).hausdorff(), 0);
+  EXPECT_TRUE(std::isinf(shape_distance(one.shape, {}).hausdorff()));
+}
+
+}  // namespace
+}  // namespace medial
