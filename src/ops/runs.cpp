@@ -35,8 +35,16 @@ bool is_linear(const MedialAxis& axis, const Edge& edge) {
 }
 
 /// Whether an edge's second derivatives may change their sign inside: not on lines and parabolas.
-bool is_conic(const Edge& edge, const Curve& curve) {
-  return edge.weight != 1 && !curve.straight();
+bool is_conic(const Edge& edge, bool straight) { return edge.weight != 1 && !straight; }
+
+/// Whether an edge runs straight: between vertices, or by its control points.
+bool is_straight(const MedialAxis& axis, const Edge& edge, const Curve& curve) {
+  const std::size_t count = axis.sites.size();
+  if (edge.site[0] < count && edge.site[1] < count &&
+      axis.sites[edge.site[0]].kind == SiteKind::vertex &&
+      axis.sites[edge.site[1]].kind == SiteKind::vertex)
+    return true;
+  return curve.straight();
 }
 
 /// Signs of the second derivative of the radius and of the derivative of |K|, by the length; both
@@ -148,19 +156,21 @@ Vec2 tangent_at(const Curve& curve, double t) {
 }
 
 /// The part [t0, t1] of a curve as a run, in its own direction.
-Run curved_run(const Curve& curve, double t0, double t1) {
+Run curved_run(const Curve& curve, bool straight, double t0, double t1) {
   Run run;
-  const double begin = t0 > 0 ? curve.length(t0) : 0;
-  run.length = curve.length(t1) - begin;
+  const auto length_to = [&](double t) {
+    return straight ? norm(curve.offset(t)) : curve.length(t);
+  };
+  const double begin = t0 > 0 ? length_to(t0) : 0;
+  run.length = length_to(t1) - begin;
   if (!(run.length > 0)) return run;
   run.first_tangent = tangent_at(curve, t0);
   run.last_tangent = tangent_at(curve, t1);
-  const bool straight = curve.straight();
   for (std::size_t i = 0; i < kAbscissa.size(); ++i) {
     const double t = t0 + (t1 - t0) * kAbscissa[i];
     const Vec2 velocity = curve.derivatives(t).first;
     const double ds = (t1 - t0) * kFactor[i] * norm(velocity);
-    const double s = curve.length(t) - begin;
+    const double s = length_to(t) - begin;
     const double radius = curve.at(t).radius;
     const double angle = straight ? 0 : angle_between(run.first_tangent, velocity);
     for (auto [moments, value] :
@@ -265,14 +275,15 @@ void RunCutter::add_pieces(const Step& step) {
   cuts_.clear();
   add_level_places(curve, cuts_);
   for (const double t : cuts_) smallest_ = std::min(smallest_, curve.at(t).radius);
-  if (is_conic(edge, curve)) add_sign_changes(curve, cuts_);
+  const bool straight = is_straight(axis_, edge, curve);
+  if (is_conic(edge, straight)) add_sign_changes(curve, cuts_);
   cuts_.push_back(0);
   cuts_.push_back(1);
   std::sort(cuts_.begin(), cuts_.end());
   for (std::size_t k = 0; k + 1 < cuts_.size(); ++k) {
     const std::size_t i = step.forward ? k : cuts_.size() - 2 - k;
     if (cuts_[i] < cuts_[i + 1])
-      add(curved_run(curve, cuts_[i], cuts_[i + 1]), cuts_[i], cuts_[i + 1]);
+      add(curved_run(curve, straight, cuts_[i], cuts_[i + 1]), cuts_[i], cuts_[i + 1]);
   }
 }
 
