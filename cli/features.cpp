@@ -195,7 +195,7 @@ Verb make_features_verb(CLI::App& program) {
       "\n"
       "Examples:\n"
       "  medial features leaf.svg -o leaf-features.svg\n"
-      "  medial axis plan.geojson -o - | medial features - -o features.gpkg\n"
+      "  medial axis plan.geojson -o - --format json | medial features - -o features.gpkg\n"
       "  medial features gear.dxf -o - --format csv --table branches");
   return {verb, [switches] { return run_features(*switches); }};
 }

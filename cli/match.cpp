@@ -12,6 +12,7 @@
 #include "cli/pipeline.h"
 #include "cli/stored_axes.h"
 #include "cli/terminal.h"
+#include "medial/compute.h"
 
 namespace medial::cli {
 namespace {
@@ -32,6 +33,42 @@ struct Named {
   ShapeSignature signature;
 };
 
+/// Makes one shape with one axis of all items, in the first.
+void join_items(std::vector<io::NativeItem>& items) {
+  for (std::size_t i = 1; i < items.size(); ++i) {
+    MedialAxis& axis = items[0].axis;
+    const auto nodes = static_cast<std::uint32_t>(axis.nodes.size());
+    const auto sites = static_cast<std::uint32_t>(axis.sites.size());
+    for (Edge edge : items[i].axis.edges) {
+      for (std::uint32_t& node : edge.node) node += nodes;
+      for (std::uint32_t& site : edge.site)
+        if (site != no_site) site += sites;
+      axis.edges.push_back(edge);
+    }
+    const auto append = [](auto& to, const auto& from) {
+      to.insert(to.end(), from.begin(), from.end());
+    };
+    append(axis.nodes, items[i].axis.nodes);
+    append(axis.sites, items[i].axis.sites);
+    Shape& shape = items[0].shape;
+    const Shape& part = items[i].shape;
+    const auto points = static_cast<std::uint32_t>(shape.points.size());
+    const auto components = static_cast<std::uint32_t>(shape.component_count());
+    if (!shape.bulges.empty() || !part.bulges.empty()) {
+      shape.bulges.resize(shape.points.size(), 0);
+      append(shape.bulges, part.bulges);
+      shape.bulges.resize(shape.points.size() + part.points.size(), 0);
+    }
+    append(shape.points, part.points);
+    append(shape.sources, part.sources);
+    append(shape.hole, part.hole);
+    for (std::size_t k = 1; k < part.loop_begin.size(); ++k)
+      shape.loop_begin.push_back(points + part.loop_begin[k]);
+    for (const std::uint32_t component : part.component)
+      shape.component.push_back(components + component);
+  }
+}
+
 /// The signatures of a file's features, or of all of it as one shape.
 Result<std::vector<Named>> signatures_of(const InputSwitches& input, const CommonSwitches& common,
                                          bool each) {
@@ -39,28 +76,22 @@ Result<std::vector<Named>> signatures_of(const InputSwitches& input, const Commo
   if (!axes) return std::move(axes).error();
   std::vector<io::NativeItem>& items = axes->native.items;
   std::vector<Named> out(each ? items.size() : std::min<std::size_t>(items.size(), 1));
-  if (!each && items.size() > 1) {
-    // One axis of all parts.
-    MedialAxis& whole = items[0].axis;
-    for (std::size_t i = 1; i < items.size(); ++i) {
-      const MedialAxis& part = items[i].axis;
-      const auto nodes = static_cast<std::uint32_t>(whole.nodes.size());
-      const auto sites = static_cast<std::uint32_t>(whole.sites.size());
-      for (Edge edge : part.edges) {
-        for (std::uint32_t& node : edge.node) node += nodes;
-        for (std::uint32_t& site : edge.site)
-          if (site != no_site) site += sites;
-        whole.edges.push_back(edge);
-      }
-      whole.nodes.insert(whole.nodes.end(), part.nodes.begin(), part.nodes.end());
-      whole.sites.insert(whole.sites.end(), part.sites.begin(), part.sites.end());
-    }
-  }
+  if (!each) join_items(items);
   std::vector<double> weights;
   for (std::size_t i = 0; i < out.size(); ++i)
     weights.push_back(static_cast<double>(items[i].axis.edges.size()) + 1);
-  Status signed_all = for_each_feature(weights, common.threads, [&](std::size_t i, int) {
-    const MedialAxis& axis = items[i].axis;
+  Status signed_all = for_each_feature(weights, common.threads, [&](std::size_t i, int) -> Status {
+    MedialAxis& axis = items[i].axis;
+    const Shape kept = without_specks(items[i].shape);
+    // An exact axis of the interior is computed again where specks were left out.
+    if (kept.loop_count() < items[i].shape.loop_count() && axis.resolution == 0 &&
+        axis.exterior == 0) {
+      Options options;
+      options.threads = 1;
+      auto again = compute(kept, options);
+      if (!again) return std::move(again).error();
+      axis = std::move(again).value();
+    }
     out[i].signature = signature_of(axis, describe(axis));
     return success();
   });

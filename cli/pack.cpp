@@ -107,7 +107,8 @@ Result<int> pack_squares(const PackSwitches& switches) {
 Result<int> run_pack(const PackSwitches& switches) {
   const auto& [input, common, output, error, units, squares, compare] = switches;
   if (output.empty()) return invalid_option("-o needs the name of a pack");
-  Status writable = check_output(output, "mpk", pack_formats, input.path, common.json);
+  Status writable =
+      check_output(output, output == "-" ? "mpk" : "", pack_formats, input.path, common.json);
   if (!writable) return std::move(writable).error();
   if (squares) return pack_squares(switches);
   auto axes = load_axes(input, common);
@@ -235,7 +236,7 @@ Verb make_pack_verb(CLI::App& program) {
       "\n"
       "Examples:\n"
       "  medial pack leaf.svg -o leaf.mpk --error 0.002 --compare\n"
-      "  medial axis plan.wkt -o - | medial pack - -o plan.mpk\n"
+      "  medial axis plan.wkt -o - --format json | medial pack - -o plan.mpk\n"
       "  medial pack scan.png -o scan.mpk --squares");
   return {verb, [switches] { return run_pack(*switches); }};
 }
@@ -259,7 +260,7 @@ Verb make_unpack_verb(CLI::App& program) {
   verb->footer(
       "Examples:\n"
       "  medial unpack leaf.mpk -o leaf.svg\n"
-      "  medial unpack plan.mpk -o - | medial info -\n"
+      "  medial unpack plan.mpk -o - --format json | medial info -\n"
       "  medial unpack scan.mpk -o scan.png");
   return {verb, [switches] { return run_unpack(*switches); }};
 }

@@ -6,10 +6,10 @@
 #include <memory>
 #include <new>
 
+#include "io/hulls.h"
 #include "io/output.h"
 #include "io/place.h"
 #include "medial/io/pack.h"
-#include "medial/sides.h"
 #include "ops/code_bytes.h"
 
 namespace medial::io {
@@ -28,6 +28,9 @@ constexpr int kLevel = 19;
 
 /// No frame may grow by more: what does is stored as it is.
 constexpr std::size_t kMostRatio = 256, kAlways = 65536;
+
+/// What chords of disks may take of a pack's error: the polylines leave as much.
+constexpr double kChord = 1.0 / 16;
 
 Error malformed(const char* text) { return {ErrorCode::malformed, text, {}}; }
 
@@ -255,15 +258,8 @@ Result<NativeFile> native_of(const PackFile& file, std::vector<std::string>* not
   native.y_down = file.y_down;
   for (MedialAxis& axis : *axes) {
     NativeItem& item = native.items.emplace_back();
-    std::vector<Contour> contours = boundary_of(axis);
-    for (Contour& contour : contours) contour.role = RingRole::winding;
-    ArcOptions arcs;
-    arcs.relative = false;
-    arcs.tolerance = axis.resolution / 16;
-    arcs.threads = 1;
-    const auto rings = approximate_by_arcs(contours, arcs);
-    auto shape = rings ? build_shape(*rings, {.node_crossings = true}, nullptr)
-                       : Result<Shape>(rings.error());
+    const auto rings = union_of_hulls(axis, kChord * axis.resolution);
+    auto shape = rings ? build_shape(*rings) : Result<Shape>(rings.error());
     if (shape) {
       item.shape = std::move(shape).value();
     } else if (notes != nullptr) {

@@ -256,7 +256,8 @@ class DiskLiner {
           std::min<std::size_t>(graph_.junctions.size(), from + std::size_t{1}));
       return;
     }
-    constexpr double share = 1.0 / 16;  // what the samples themselves may miss
+    // What the samples themselves may miss, and chords when disks become polygons.
+    constexpr double share = 2.0 / 16;
     const auto excess = [&](std::uint32_t i, std::uint32_t first, std::uint32_t last) {
       const Disk &a = samples[first].disk, &b = samples[last].disk, &p = samples[i].disk;
       const Vec2 d = b.center - a.center, v = p.center - a.center;
