@@ -7,8 +7,8 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <new>
 #include <limits>
+#include <new>
 #include <string_view>
 
 #include "io/place.h"
