@@ -349,6 +349,74 @@ class Axis(CommandLine):
         self.succeed("axis", "triangle.wkt", "--method", "curve-axis", "--fit", "1", "-o", "t.json")
         self.assertEqual(self.run_medial("legal", "t.json").returncode, 0)
 
+    def test_features(self):
+        """A rectangle is a worm and four wedges, in every format; of axes and of shapes alike."""
+        self.write("long.wkt", "POLYGON ((0 0, 8 0, 8 2, 0 2, 0 0))")
+        told = json.loads(self.succeed("features", "long.wkt", "--json").stdout)
+        self.assertEqual((told["ends"], told["branches"], told["runs"]), (4, 5, 5))
+        self.assertAlmostEqual(told["primitives"]["worm"], 6 / (6 + 4 * math.sqrt(2)))
+        self.succeed("axis", "long.wkt", "-o", "long.json")
+        for output in ("f.json", "f.csv", "f.geojson", "f.gpkg", "f.shp", "f.fgb", "f.svg", "f.pdf", "f.png"):
+            self.succeed("features", "long.json", "-o", output)
+            self.assertGreater(os.path.getsize(self.path(output)), 0, output)
+        item = json.loads(self.read("f.json"))["items"][0]
+        self.assertEqual(sorted(b["runs"][0]["primitive"] for b in item["branches"]),
+                         ["closing_wedge"] * 4 + ["worm"])
+        self.assertAlmostEqual(sum(b["area"] for b in item["branches"]), 16)
+        rows = list(csv.DictReader(self.read("f.csv").decode().splitlines()))
+        self.assertEqual(len(rows), 5)
+        for table, count in (("runs", 5), ("branches", 5), ("points", 6)):
+            text = self.succeed("features", "long.wkt", "-o", "-", "--format", "csv", "--table", table).stdout
+            self.assertEqual(len(text.decode().splitlines()), count + 1, table)
+        self.refuse("invalid_option", "features", "long.wkt", "--bend", "nan")
+        self.refuse("unsupported", "features", "long.wkt", "-o", "f.dxf")
+
+    def test_match(self):
+        """The rectangle turned is the rectangle; the square is further away."""
+        self.write("a.wkt", "POLYGON ((0 0, 8 0, 8 2, 0 2, 0 0))")
+        os.mkdir(self.path("others"))
+        self.write("others/turned.wkt", "POLYGON ((0 0, 3 0, 3 12, 0 12, 0 0))")
+        self.write("others/square.wkt", "POLYGON ((0 0, 3 0, 3 3, 0 3, 0 0))")
+        self.write("others/no-shape.txt", "nothing")
+        told = json.loads(self.succeed("match", "a.wkt", "others", "--json").stdout)
+        self.assertEqual(told["refused"], 1)
+        self.assertEqual([os.path.basename(m["shape"]) for m in told["matches"]], ["turned.wkt", "square.wkt"])
+        self.assertLess(told["matches"][0]["dissimilarity"], 1e-2)
+        self.assertGreater(told["matches"][1]["dissimilarity"], 0.2)
+        self.refuse("unreadable", "match", "a.wkt", "nowhere")
+
+    def test_pack(self):
+        """What is packed comes back within the error; damage is told."""
+        self.write("frame.wkt", FRAME)
+        told = json.loads(self.succeed("pack", "frame.wkt", "-o", "f.mpk", "--error", "0.001", "--compare",
+                                       "--json").stdout)
+        self.assertEqual(told["bytes"], os.path.getsize(self.path("f.mpk")))
+        self.assertLess(told["bytes"], 200)
+        self.assertGreater(told["compare"]["boundary_within_error"], 0)
+        self.succeed("unpack", "f.mpk", "-o", "back.json")
+        info = json.loads(self.succeed("info", "back.json", "--json").stdout)
+        self.assertAlmostEqual(info["area"], 48, delta=0.3)
+        self.assertEqual(info["holes"], 1)
+        self.succeed("unpack", "f.mpk", "-o", "back.svg")
+        with open(self.path("f.mpk"), "rb") as pack:
+            content = pack.read()
+        piped = self.succeed("pack", "frame.wkt", "-o", "-", "--error", "0.001").stdout
+        self.assertEqual(piped, content)
+        with open(self.path("damaged.mpk"), "wb") as pack:
+            pack.write(content[:-3])
+        self.refuse("malformed", "unpack", "damaged.mpk", "-o", "x.json")
+        self.refuse("malformed", "unpack", "frame.wkt", "-o", "x.json")
+        self.refuse("invalid_option", "pack", "frame.wkt", "-o", "x.mpk", "--error", "0")
+
+    def test_pack_squares(self):
+        """An image of three squares is three squares, without loss."""
+        self.write("i.pbm", "P1\n6 3\n1 1 0 1 0 1\n1 1 0 0 0 0\n0 0 0 0 0 0\n")
+        told = json.loads(self.succeed("pack", "i.pbm", "-o", "i.mpk", "--squares", "--json").stdout)
+        self.assertEqual((told["squares"], told["missing_pixels"], told["pixels"]), (3, 0, 6))
+        self.succeed("unpack", "i.mpk", "-o", "back.png")
+        again = json.loads(self.succeed("pack", "back.png", "-o", "j.mpk", "--squares", "--json").stdout)
+        self.assertEqual((again["squares"], again["pixels"]), (3, 6))
+
     def test_legal(self):
         """The axis of a shape is legal; a radius that grows faster than the way is not, and is named."""
         self.write("frame.wkt", FRAME)
