@@ -10,6 +10,7 @@
 
 #include "cli/common.h"
 #include "cli/lines.h"
+#include "cli/shape_verbs.h"
 #include "cli/terminal.h"
 
 namespace medial::cli {

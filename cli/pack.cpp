@@ -10,6 +10,7 @@
 
 #include "cli/common.h"
 #include "cli/pipeline.h"
+#include "cli/shape_verbs.h"
 #include "cli/stored_axes.h"
 #include "cli/terminal.h"
 

@@ -297,6 +297,37 @@ TEST(Variations, OfShapes) {
               runs[0].variation == Variation::right_circular);
 }
 
+TEST(Variations, OfASpiralIsOne) {
+  // A band of half circles, each larger than the one before: as spirals are approximated by arcs.
+  constexpr double half_width = 0.5;
+  Ring band;
+  std::vector<Vec2> outer, inner;
+  double x = 4, radius = 4;
+  for (int i = 0; i <= 8; ++i) {
+    const double side = i % 2 == 0 ? 1 : -1;
+    outer.push_back({x + side * half_width, 0});
+    inner.push_back({x - side * half_width, 0});
+    x -= side * 2 * radius;
+    radius += 0.6;
+  }
+  for (std::size_t i = 0; i < outer.size(); ++i) {
+    band.points.push_back(outer[i]);
+    band.bulges.push_back(i + 1 < outer.size() ? 1 : 0);
+  }
+  for (std::size_t i = inner.size(); i-- > 0;) {
+    band.points.push_back(inner[i]);
+    band.bulges.push_back(i > 0 ? -1 : 0);
+  }
+  const auto runs = main_runs(describe(axis_of({band})));
+  ASSERT_EQ(runs.size(), 1U);
+  EXPECT_EQ(runs[0].primitive, Primitive::worm);
+  EXPECT_TRUE(runs[0].variation == Variation::spiral_out_left ||
+              runs[0].variation == Variation::spiral_out_right ||
+              runs[0].variation == Variation::spiral_in_left ||
+              runs[0].variation == Variation::spiral_in_right);
+  EXPECT_NEAR(std::abs(runs[0].turning), 8 * pi, 0.3);
+}
+
 /// Shares with left and right, opening and closing taken together.
 using Folded = std::array<std::array<double, 4>, 4>;
 Folded folded(const AxisFeatures& features) {

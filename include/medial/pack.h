@@ -60,10 +60,10 @@ struct SquareReport {
   std::uint64_t missing = 0;  ///< foreground pixels that no square covers
 };
 
-/// Codes an image as squares of foreground pixels, none of background: maximal ones, the largest
-/// first, as long as they cover what the others do not. No foreground pixel is further than
-/// `error` pixels (in x and in y) from one that is covered; with 0 the image is kept. O(pixels
-/// log(pixels)) at most.
+/// Codes an image as squares of foreground pixels, none of background: maximal ones, first those of
+/// which no other covers half, the largest first, then less, until all is covered. No foreground
+/// pixel is further than `error` pixels (in x and in y) from one that is covered; with 0 the image
+/// is kept. O(pixels log(pixels)) at most.
 ShapeCode encode_squares(const Image& image, std::uint32_t error = 0,
                          SquareReport* report = nullptr);
 /// Errors: malformed, too_large.

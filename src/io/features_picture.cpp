@@ -134,7 +134,7 @@ class FeaturesPicture {
   void line_to(Vec2 p) { cairo_line_to(context_, p.x, p.y); }
 
   void arc_to(const BulgeArc& arc) {
-    constexpr double flat = 0.05;  // tangent of a quarter of the angle: chords do from there on
+    constexpr double flat = 0.01;  // tangent of a quarter of the angle: chords do from there on
     if (std::fabs(arc.bulge) > flat) {
       const Vec2 middle = apex(arc);
       arc_to({arc.start, middle, half_bulge(arc.bulge)});

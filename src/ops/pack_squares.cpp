@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <bit>
 #include <numeric>
 
 #include "medial/pack.h"
@@ -105,23 +106,34 @@ ShapeCode encode_squares(const Image& image, std::uint32_t error, SquareReport* 
                    [](const Square& a, const Square& b) { return a.size > b.size; });
   // What is covered, or near enough to what is.
   Image done(image.width(), image.height());
-  const auto needed = [&](const Square& s) {
+  const auto open_pixels = [&](const Square& s) {
+    std::uint64_t count = 0;
     for (std::uint32_t y = s.y; y < s.y + s.size; ++y) {
       const auto row = done.row(y);
-      if (over_row(s.x, s.x + s.size, [&](std::uint32_t word, std::uint64_t bits) {
-            return (row[word] & bits) != bits;
-          }))
-        return true;
+      over_row(s.x, s.x + s.size, [&](std::uint32_t word, std::uint64_t bits) {
+        count += static_cast<unsigned>(std::popcount(bits & ~row[word]));
+        return false;
+      });
     }
-    return false;
+    return count;
   };
+  // First those squares that mostly cover what none does yet, then whatever is left to cover.
   std::vector<Square> chosen;
-  for (const Square& s : squares) {
-    if (!needed(s)) continue;
-    chosen.push_back(s);
-    const auto low = [error](std::uint32_t v) { return v > error ? v - error : 0; };
-    fill(done, low(s.x), low(s.y), std::min(image.width(), s.x + s.size + error),
-         std::min(image.height(), s.y + s.size + error));
+  for (const std::uint64_t divisor : {2, 4, 8, 16, 0}) {
+    std::vector<Square> rest;
+    for (const Square& s : squares) {
+      const std::uint64_t area = std::uint64_t{s.size} * s.size, open = open_pixels(s);
+      if (open == 0) continue;
+      if (divisor != 0 && open * divisor < area) {
+        rest.push_back(s);
+        continue;
+      }
+      chosen.push_back(s);
+      const auto low = [error](std::uint32_t v) { return v > error ? v - error : 0; };
+      fill(done, low(s.x), low(s.y), std::min(image.width(), s.x + s.size + error),
+           std::min(image.height(), s.y + s.size + error));
+    }
+    squares = std::move(rest);
   }
   std::sort(chosen.begin(), chosen.end(),
             [](const Square& a, const Square& b) { return a.y != b.y ? a.y < b.y : a.x < b.x; });

@@ -200,6 +200,34 @@ Run curved_run(const Curve& curve, bool straight, int depth = 0) {
   return both;
 }
 
+/// Whether runs differ in a sign: one opens and the other closes, sides bulge and are hollow, one
+/// turns to the left and the other to the right, one spirals in and the other out. Where they meet
+/// is a cut, however well one function fits both.
+bool opposed(const Run& a, const Run& b) {
+  const auto sign = [](bool positive, bool negative) { return positive ? 1 : negative ? -1 : 0; };
+  const auto opening = [&](const Run& r) {
+    using enum Primitive;
+    return sign(
+        r.primitive == opening_wedge || r.primitive == opening_cup || r.primitive == opening_flare,
+        r.primitive != worm);
+  };
+  const auto bulging = [&](const Run& r) {
+    using enum Primitive;
+    return sign(r.primitive == opening_cup || r.primitive == closing_cup,
+                r.primitive == opening_flare || r.primitive == closing_flare);
+  };
+  const auto left = [&](const Run& r) {
+    return sign(r.variation<Variation::straight, r.variation> Variation::straight);
+  };
+  const auto inwards = [&](const Run& r) {
+    using enum Variation;
+    return sign(r.variation == spiral_in_left || r.variation == spiral_in_right,
+                r.variation == spiral_out_left || r.variation == spiral_out_right);
+  };
+  return opening(a) * opening(b) < 0 || bulging(a) * bulging(b) < 0 || left(a) * left(b) < 0 ||
+         inwards(a) * inwards(b) < 0;
+}
+
 /// The same run walked from its other end.
 Run reversed(const Run& run) {
   Run back = run;
@@ -402,33 +430,44 @@ void RunCutter::agglomerate(bool cyclic, const Judge& judge) {
   if (changed) compact();
 }
 
-/// Samples are taken together as long as quadratic functions fit, best fits first: so cuts come to
-/// lie where radius or direction have a corner.
-void RunCutter::fit_samples(bool cyclic) {
-  // What is noise: half a step of the samples in the radius, and in the direction what it turns by
-  // from sample to sample; and these shares for what a quadratic function cannot follow.
-  constexpr double radius_noise = 0.002, angle_noise = 0.02;
-  const double turns = bending_ / static_cast<double>(runs_.size());
+/// Neighbours are taken together as long as quadratic functions fit, best fits first: so the cuts
+/// that stay lie where radius or direction have a corner.
+void RunCutter::join_fitting(bool cyclic) {
+  // Of samples, half a step in the radius, and in the direction what it turns by from sample to
+  // sample, are noise; and these shares, of the radius and in radians, what nobody sees.
+  const bool samples = axis_.resolution > 0;
+  constexpr double radius_share = 0.002;
+  const double turns = samples ? bending_ / static_cast<double>(runs_.size()) : 0;
+  const double angle_share = samples ? 0.02 : 0.005;
+  constexpr double never = std::numeric_limits<double>::infinity();
   agglomerate(cyclic, [&](const Run& a, const Run& b) {
+    if (!samples && opposed(a, b)) return never;
     const Run both = joined(a, b);
     const double radius = fit(both.radius, both.length).residual /
-                          (radius_noise * both.mean_radius() + 0.5 * axis_.resolution);
-    const double angle = fit(both.direction, both.length).residual / (angle_noise + turns);
+                          (radius_share * both.mean_radius() + 0.5 * axis_.resolution);
+    const double angle = fit(both.direction, both.length).residual / (angle_share + turns);
     const double worst = std::max(radius, angle);
-    return worst <= 1 ? worst : std::numeric_limits<double>::infinity();
+    return worst <= 1 ? worst : never;
   });
 }
 
-/// Neighbours of one class whose union is of that class become one, the shortest unions first.
+/// Neighbours of one class whose union is of that class become one, the shortest unions first; and
+/// circular ones, and spirals, of one primitive and side whose union is nearly a spiral: so arcs
+/// that approximate a spiral are one.
 void RunCutter::join_equal(bool cyclic) {
-  const auto same = [](const Run& a, const Run& b) {
-    return a.primitive == b.primitive && a.variation == b.variation;
-  };
+  constexpr double never = std::numeric_limits<double>::infinity();
+  constexpr double spiral_share = 0.03;  // of the turning: what a spiral's direction may miss
   agglomerate(cyclic, [&](const Run& a, const Run& b) {
-    if (!same(a, b)) return std::numeric_limits<double>::infinity();
+    const bool same = a.variation == b.variation;
+    if (a.primitive != b.primitive || (!same && opposed(a, b))) return never;
+    const auto is_straight = [](const Run& r) { return r.variation == Variation::straight; };
+    if (!same && (is_straight(a) || is_straight(b))) return never;
     Run both = joined(a, b);
     classify(both, options_);
-    return same(both, a) ? both.length : std::numeric_limits<double>::infinity();
+    if (both.primitive != a.primitive || is_straight(both) != is_straight(a)) return never;
+    if (same && both.variation == a.variation) return both.length;
+    const Fit angle = fit(both.direction, both.length);
+    return angle.residual <= spiral_share * std::abs(angle.slope) ? both.length : never;
   });
 }
 
@@ -493,10 +532,11 @@ std::span<const Run> RunCutter::cut(std::span<const Step> steps, bool cyclic) {
   if (samples) {
     for (std::uint32_t i = 0; i < runs_.size(); ++i) runs_[i].first_piece = i;
     pieces_ = runs_;
-    fit_samples(cyclic);
+    join_fitting(cyclic);
   }
   merge_short(cyclic);
   for (Run& run : runs_) classify(run, options_);
+  if (!samples) join_fitting(cyclic);
   join_equal(cyclic);
   if (samples) split_level();
   if (cyclic && runs_.size() > 1) {

@@ -79,7 +79,7 @@ class RunCutter {
   void absorb_next(std::uint32_t i, const Run& both);
   template <class Judge>
   void agglomerate(bool cyclic, const Judge& judge);
-  void fit_samples(bool cyclic);
+  void join_fitting(bool cyclic);
   void merge_short(bool cyclic);
   void join_equal(bool cyclic);
   void split_level();
