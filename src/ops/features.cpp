@@ -180,7 +180,7 @@ class Describer {
     const ops::Fit angle = ops::fit(run.direction, run.length);
     out.slope = radius.slope / run.length;
     out.bend = radius.bend / run.length;
-    out.turning = angle.slope;
+    out.turning = axis_.resolution > 0 ? angle.slope : run.direction_change;
     if (run.variation != Variation::straight) out.spiral = angle.bend / angle.slope;
     features_
         .share[static_cast<std::size_t>(run.primitive)][static_cast<std::size_t>(run.variation)] +=
