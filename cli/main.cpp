@@ -57,6 +57,10 @@ int run(int argc, char** argv, bool json) {
       make_prune_verb(program),       //
       make_smooth_verb(program),      //
       make_rebuild_verb(program),     //
+      make_features_verb(program),    //
+      make_match_verb(program),       //
+      make_pack_verb(program),        //
+      make_unpack_verb(program),      //
       make_voronoi_verb(program),     //
       make_distance_verb(program),    //
       make_voxels_verb(program),      //
@@ -66,25 +70,6 @@ int run(int argc, char** argv, bool json) {
       make_offset_verb(program),      //
       make_centreline_verb(program),  //
       make_measure_verb(program),     //
-      make_axis_verb(program),      //
-      make_verify_verb(program),    //
-      make_info_verb(program),      //
-      make_legal_verb(program),     //
-      make_draw_verb(program),      //
-      make_prune_verb(program),     //
-      make_smooth_verb(program),    //
-      make_rebuild_verb(program),   //
-      make_features_verb(program),  //
-      make_match_verb(program),     //
-      make_pack_verb(program),      //
-      make_unpack_verb(program),    //
-      make_voronoi_verb(program),   //
-      make_distance_verb(program),  //
-      make_voxels_verb(program),    //
-      make_bench_verb(program),     //
-      make_field_verb(program),     //
-      make_compare_verb(program),   //
-      make_offset_verb(program),    //
   };
   for (const Verb& verb : verbs) verb.app->group("Verbs");
 
