@@ -201,6 +201,33 @@ TEST(MeanWidth, KnowsTheArea) {
   }
 }
 
+TEST(MeanWidth, AndNecksAreTheSameUnderSymmetries) {
+  std::size_t compared = 0;
+  for (std::uint64_t seed = 0; seed < shape_count(250); ++seed) {
+    const RandomShape random = test::random_shape(seed);
+    if (!random.rigid) continue;
+    const auto [shape, axis] = computed(random.rings);
+    SCOPED_TRACE(random.kind + " " + std::to_string(seed));
+    const double expected = mean_width(axis, {}).by_area;
+    const auto expected_necks = necks(axis, 1.5);
+    const double smallest = expected_necks.empty() ? 0 : expected_necks[0].width.width();
+    for (const test::Symmetry& symmetry : test::symmetries()) {
+      const auto moved = computed(test::transformed(random.rings, symmetry));
+      const double scale = symmetry.scale(), slack = 100 * moved.axis.tolerance / scale;
+      ASSERT_NEAR(mean_width(moved.axis, {}).by_area / scale, expected, 1e-6 * expected + slack)
+          << symmetry.name;
+      const auto found = necks(moved.axis, 1.5);
+      ASSERT_EQ(found.empty(), expected_necks.empty()) << symmetry.name;
+      if (!found.empty()) {
+        ASSERT_NEAR(found[0].width.width() / scale, smallest, 1e-6 * expected + slack)
+            << symmetry.name;
+      }
+      ++compared;
+    }
+  }
+  EXPECT_GT(compared, 0U);
+}
+
 TEST(LargestDisjointDisks, OfASquare) {
   const auto [shape, axis] = computed(test::rectangle(2, 2));
   const auto disks = largest_disjoint_disks(shape, 9);

@@ -2,11 +2,13 @@
 
 // The whole core library in one include.
 #include "medial/axis.h"
+#include "medial/centreline.h"
 #include "medial/compute.h"
 #include "medial/contour.h"
 #include "medial/error.h"
 #include "medial/features.h"
 #include "medial/match.h"
+#include "medial/measure.h"
 #include "medial/pack.h"
 #include "medial/prune.h"
 #include "medial/query.h"
