@@ -25,7 +25,8 @@ constexpr double pi = std::numbers::pi;
 
 std::uint64_t shape_count(std::uint64_t share) {
   const char* text = std::getenv("MEDIAL_PROPERTY_COUNT");
-  return (text && *text ? std::strtoull(text, nullptr, 10) : 20000) / share;
+  const std::uint64_t all = text && *text ? std::strtoull(text, nullptr, 10) : 20000;
+  return std::max<std::uint64_t>(all / share, 24);
 }
 
 struct Computed {
