@@ -152,7 +152,7 @@ TEST(Necks, AreLocalMinima) {
       const std::uint32_t node = edge.node[neck.place.t == 0 ? 0 : 1];
       int rising = 0;
       for (const std::uint32_t e : incidence.edges(node)) {
-        const AxisPlace low = narrowest_place(axis, e);
+        const EdgePlace low = narrowest_place(axis, e);
         rising += disk_at(axis, axis.edges[e], low.t).radius >= r - slack ? 1 : 0;
       }
       EXPECT_GE(rising, 2);
