@@ -109,7 +109,9 @@ Status tell(const AxisFile& file, std::span<const AxisFeatures> features,
 }
 
 Result<int> run_features(const FeatureSwitches& switches) {
-  const auto& [input, common, output, format, write, options] = switches;
+  const InputSwitches& input = switches.input;
+  const CommonSwitches& common = switches.common;
+  const std::string &output = switches.output, &format = switches.format;
   Status writable =
       check_output(output, format, io::known_feature_formats(), input.path, common.json);
   if (!writable) return std::move(writable).error();
@@ -121,14 +123,14 @@ Result<int> run_features(const FeatureSwitches& switches) {
   for (const io::NativeItem& item : axes->native.items)
     weights.push_back(static_cast<double>(item.axis.edges.size()) + 1);
   Status described = for_each_feature(weights, common.threads, [&](std::size_t i, int) {
-    features[i] = describe(axes->native.items[i].axis, options);
+    features[i] = describe(axes->native.items[i].axis, switches.options);
     return success();
   });
   if (!described) return std::move(described).error();
   const double seconds = watch.seconds();
   const Stopwatch writing;
   if (!output.empty()) {
-    io::FeatureWriteOptions own = write;
+    io::FeatureWriteOptions own = switches.write;
     own.write.chord = common.chord;
     Status written = io::write_features(output, format, axes->native, features, own);
     if (!written) return std::move(written).error();

@@ -19,7 +19,6 @@ KINDS = {
     "icons (mdi)": ("packaged/B_svg/mdi", ["*.svg"]),
     "drawings (openclipart)": ("packaged/B_svg/openclipart", ["*.svg*"]),
     "copper": ("packaged/B_pcb", ["ecc83*", "flat*"]),
-    "silhouettes": ("packaged/C_images", ["*.png"]),
 }
 ERRORS = [1e-2, 1e-3, 1e-4]
 

@@ -119,7 +119,7 @@ ShapeCode encode_squares(const Image& image, std::uint32_t error, SquareReport* 
   };
   // First those squares that mostly cover what none does yet, then whatever is left to cover.
   std::vector<Square> chosen;
-  for (const std::uint64_t divisor : {2, 4, 8, 16, 0}) {
+  for (const std::uint64_t divisor : {2U, 4U, 8U, 16U, 0U}) {
     std::vector<Square> rest;
     for (const Square& s : squares) {
       const std::uint64_t area = std::uint64_t{s.size} * s.size, open = open_pixels(s);
