@@ -232,6 +232,20 @@ TEST(Prune, MeasuresOfARectangle) {
   EXPECT_TRUE(least.edges.empty());
 }
 
+/// A lens of two arcs: the deepest disk lies inside its only edge, which stays.
+TEST(Prune, TheDeepestDiskMayLieInsideAnEdge) {
+  Ring lens{{{-1, 0}, {1, 0}}, RingRole::any, {0.3, 0.3}};
+  const auto shape = build_shape({&lens, 1});
+  ASSERT_TRUE(shape.ok());
+  const auto axis = compute(*shape);
+  ASSERT_TRUE(axis.ok());
+  ASSERT_EQ(axis->edges.size(), 1U);
+  for (const PruneMeasure measure : prune_measures()) {
+    const MedialAxis pruned = PruneOrder(*axis, measure).at(1e6);
+    EXPECT_NEAR(total_length(pruned), 2, 1e-9) << name_of(measure);
+  }
+}
+
 TEST(Prune, KeepsSoManyBranches) {
   for (std::uint64_t seed = 0; seed < shape_count() / 8; ++seed) {
     const MedialAxis axis = axis_of(shape_of(seed).rings);
