@@ -294,6 +294,22 @@ int Control::join_tip(int segment, const AxisPoint& here) {
         distance(junction->disk.center, tip.disk.center) > reach ||
         junction->disk.radius < tip.disk.radius)
       continue;
+    // The way from the tip to it, in steps.
+    const double left = (on_right ? junction->middle : junction->left) - shift;
+    const double right = (on_right ? junction->right : junction->middle) - shift;
+    const double way = distance(junction->disk.center, tip.disk.center);
+    const int steps = static_cast<int>(std::ceil(way / step_));
+    const AxisPoint origin = tip;  // the branch grows
+    for (int i = 1; i < steps; ++i) {
+      // Feet part like the root of the way.
+      const double share = std::sqrt(static_cast<double>(i) / steps);
+      const auto point = generator_.stabilised(between(origin.left.u, left, share),
+                                               between(origin.right.u, right, share));
+      const AxisPoint& before = last(neighbour);
+      if (point && point->left.u < before.left.u && point->right.u > before.right.u &&
+          point->left.u > left && point->right.u < right)
+        at(neighbour).branch.push_back(*point);
+    }
     ++rules_.junctions;
     return join(segment, {neighbour, on_right, junction->middle, here}, *junction);
   }
