@@ -12,6 +12,7 @@
 #include <optional>
 
 #include "cli/terminal.h"
+#include "medial/curve_axis.h"
 #include "medial/measure.h"
 #include "medial/query.h"
 
@@ -494,6 +495,30 @@ Result<int> write_and_tell(const AxisFile& file, const InputSwitches& input,
   }
   if (common.stats) fmt::print(stderr, "{}", table(stats(file, summary, seconds_write)));
   return exit_success;
+}
+
+Status smooth_boundaries(ShapeFile& file, double distance, const InputSwitches& input) {
+  for (std::size_t i = 0; i < file.contours.size(); ++i) {
+    const auto fit = [&]() -> Result<Shape> {
+      for (Contour& contour : file.contours[i]) {
+        auto curve = fit_smooth_contour(contour.points, distance);
+        if (!curve) return std::move(curve).error();
+        contour = std::move(curve).value();
+      }
+      const auto rings = approximate_by_arcs(file.contours[i], input.arcs);
+      if (!rings) return rings.error();
+      return build_shape(*rings);
+    };
+    auto shape = fit();
+    if (!shape) {
+      Error error = std::move(shape).error();
+      error.place.file = input.path;
+      error.place.feature = i;
+      return error;
+    }
+    file.shapes[i] = std::move(shape).value();
+  }
+  return success();
 }
 
 }  // namespace medial::cli

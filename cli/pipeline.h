@@ -81,6 +81,10 @@ Status for_each_feature(std::span<const double> weights, int threads,
 /// With `keep_contours` the features' boundaries are kept as they were read, rings as contours too.
 Result<ShapeFile> load_shapes(const InputSwitches& input, int threads, bool keep_contours = false);
 
+/// Replaces the boundaries of all features, whose contours were kept, by smooth curves within
+/// `distance` of their corners.
+Status smooth_boundaries(ShapeFile& file, double distance, const InputSwitches& input);
+
 /// Prints what a user should know of the input (geographic coordinates, repairs) on standard error,
 /// unless told to be quiet.
 void print_notes(const ShapeFile& file, const InputSwitches& input, const CommonSwitches& common);
