@@ -421,6 +421,23 @@ class Axis(CommandLine):
         again = json.loads(self.succeed("pack", "back.png", "-o", "j.mpk", "--squares", "--json").stdout)
         self.assertEqual((again["squares"], again["pixels"]), (3, 6))
 
+    def test_compare(self):
+        """Every method that takes the input takes part, curve-axis on a smooth boundary."""
+        self.write("island.wkt", "POLYGON((0 0,10 0,14 5,10 9,4 8,0 6))")
+        told = json.loads(self.succeed("compare", "island.wkt", "--json").stdout)["features"][0]
+        self.assertEqual([row["method"] for row in told],
+                         ["disks", "biarc-dc", "lee", "ridge", "brushfire", "potential", "curve-axis"])
+        self.assertIn("refused", told[-1])
+        for row in told[:3]:
+            self.assertTrue(row["passed"], row)
+            self.assertLess(row["hausdorff"], 1e-9)
+        told = json.loads(self.succeed("compare", "island.wkt", "--fit", "0.5", "--methods", "disks,curve-axis",
+                                       "--arc-tolerance", "1e-9", "--json", "-o", "both.svg").stdout)["features"][0]
+        self.assertEqual(told[0]["branches"], told[1]["branches"])
+        self.assertLess(told[1]["largest_distance"], 1e-5)
+        self.assertTrue(self.read("both.svg").startswith(b"<?xml"))
+        self.refuse("invalid_option", "compare", "island.wkt", "--methods", "magic")
+
     def test_legal(self):
         """The axis of a shape is legal; a radius that grows faster than the way is not, and is named."""
         self.write("frame.wkt", FRAME)
