@@ -68,7 +68,7 @@ std::vector<double> thresholds_of(const PruneOrder& order, const MedialAxis& axi
     if (std::isfinite(order.of_edge(e))) finite.push_back(order.of_edge(e));
   std::sort(finite.begin(), finite.end());
   std::vector<double> thresholds{0, default_threshold(measure), 0.5 * default_threshold(measure)};
-  for (const std::size_t share : {1, 2, 3, 4})
+  for (const std::size_t share : {1U, 2U, 3U, 4U})
     if (!finite.empty()) thresholds.push_back(finite[(finite.size() - 1) * share / 4]);
   if (!finite.empty()) thresholds.push_back(2 * finite.back());
   std::sort(thresholds.begin(), thresholds.end());
@@ -251,7 +251,7 @@ TEST(Prune, KeepsSoManyBranches) {
     const MedialAxis axis = axis_of(shape_of(seed).rings);
     for (const PruneMeasure measure : {PruneMeasure::significance, PruneMeasure::residual}) {
       const std::size_t fewest = PruneOrder(axis, measure).branches_at(1e300);
-      for (const std::uint64_t keep : {1, 5, 20}) {
+      for (const std::uint64_t keep : {1U, 5U, 20U}) {
         PruneOptions options;
         options.measure = measure;
         options.keep = keep;
