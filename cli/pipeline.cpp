@@ -78,6 +78,10 @@ Json stats(const AxisFile& file, const AxisSummary& summary, double seconds_writ
                    {"shape", file.seconds_shape},
                    {"axis", file.seconds_axis},
                    {"write", seconds_write}}},
+                 {"processor",
+                  {{"read", file.processor_read},
+                   {"shape", file.processor_shape},
+                   {"axis", file.processor_axis}}},
                  {"phases",
                   {{"sites", counted_by_engine.seconds_sites},
                    {"tree", counted_by_engine.seconds_tree},
@@ -249,6 +253,7 @@ std::vector<Contour> contours_of(const io::Feature& feature) {
 Result<ShapeFile> load_shapes(const InputSwitches& input, int threads, bool keep_contours) {
   ShapeFile file;
   const Stopwatch reading;
+  double processor = processor_seconds();
   auto source = read_input(input);
   if (!source) {
     Error error = std::move(source).error();
@@ -265,8 +270,10 @@ Result<ShapeFile> load_shapes(const InputSwitches& input, int threads, bool keep
   file.geographic = dataset.geographic;
   file.notes = std::move(dataset.notes);
   file.seconds_read = reading.seconds();
+  file.processor_read = processor_seconds() - processor;
 
   const Stopwatch shaping;
+  processor = processor_seconds();
   const std::size_t count = dataset.features.size();
   std::vector<double> weights;
   for (io::Feature& feature : dataset.features) {
@@ -316,6 +323,7 @@ Result<ShapeFile> load_shapes(const InputSwitches& input, int threads, bool keep
   for (const ShapeReport& report : reports) add(file.report, report);
   for (const ArcReport& report : arc_reports) add(file.arcs, report);
   file.seconds_shape = shaping.seconds();
+  file.processor_shape = processor_seconds() - processor;
   return file;
 }
 
@@ -336,6 +344,7 @@ void print_notes(const ShapeFile& file, const InputSwitches& input, const Common
 Result<AxisFile> compute_axes(ShapeFile shapes, const std::string& path,
                               const CommonSwitches& common, Options options, const Engine& engine) {
   const Stopwatch watch;
+  const double processor = processor_seconds();
   AxisFile file;
   options.tolerance = common.tolerance;
   options.corner_angle = common.corner_angle;
@@ -395,6 +404,9 @@ Result<AxisFile> compute_axes(ShapeFile shapes, const std::string& path,
   file.seconds_read = shapes.seconds_read;
   file.seconds_shape = shapes.seconds_shape;
   file.seconds_axis = watch.seconds();
+  file.processor_read = shapes.processor_read;
+  file.processor_shape = shapes.processor_shape;
+  file.processor_axis = processor_seconds() - processor;
   return file;
 }
 

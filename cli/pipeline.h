@@ -31,6 +31,8 @@ struct ShapeFile {
   std::vector<std::string> notes;  ///< what repair or reprojection changed
   double seconds_read = 0;
   double seconds_shape = 0;
+  double processor_read = 0;  ///< seconds of processor time of the same phases
+  double processor_shape = 0;
 };
 
 /// The axes of a file.
@@ -42,6 +44,9 @@ struct AxisFile {
   double seconds_read = 0;
   double seconds_shape = 0;
   double seconds_axis = 0;
+  double processor_read = 0;  ///< seconds of processor time of the same phases
+  double processor_shape = 0;
+  double processor_axis = 0;
 };
 
 /// What axes look like, summed over the features of a file.

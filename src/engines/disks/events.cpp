@@ -35,7 +35,7 @@ Event EventSearch::local_event(bool on_right) {
     if (!joint) return event;
     const double position = bisector_.position(joint->disk.center);
     // On a parabola the foot's normal may turn that far only on the way back.
-    if (position < low_ - slack()) return event;
+    if (is_behind(position)) return event;
     event = {on_right ? Event::Kind::pass_right : Event::Kind::pass_left, Hit::none, joint->disk,
              position};
     if (!joint->fits) event.kind = Event::Kind::far;
@@ -80,7 +80,7 @@ Event EventSearch::local_event(bool on_right) {
   event.site = next;
   event.disk = {foot + radius * normal, radius};
   event.position = bisector_.position(event.disk.center);
-  if (event.position < low_ - slack()) return {};  // the foot turns that far on the way back only
+  if (is_behind(event.position)) return {};  // the foot turns that far on the way back only
   return event;
 }
 

@@ -60,6 +60,7 @@ class EventSearch {
   /// Rounding may put a disk a little behind the place where it should be; what is further behind
   /// is another solution.
   double slack() const { return 4 * context_.tolerance + 1e-12 * from_.radius; }
+  bool is_behind(double position) const { return position < low_ && position < low_ - slack(); }
 
   /// The event at which the foot leaves `right` or `left` for its neighbour, by the sites alone.
   Event local_event(bool on_right);
