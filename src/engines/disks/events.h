@@ -64,6 +64,9 @@ class EventSearch {
 
   /// The event at which the foot leaves `right` or `left` for its neighbour, by the sites alone.
   Event local_event(bool on_right);
+  /// The disk whose foot on the right or left is where a cut ends the range of a site of a soup:
+  /// the walk gets no further, as the cut's disk reaches across.
+  Event end_of_range(bool on_right) const;
   /// Whether the foot on the right or left meets a convex corner only after this event. Of two
   /// disks of a bisector that keep clear of a site, so do all in between.
   bool comes_later(bool on_right, const Event& event) const;
@@ -87,6 +90,7 @@ class EventSearch {
   void polish(Event& event, const geometry::Site& third);
   /// Where the disk of the node is the circle of an arc, it touches all of it: the foot passes on.
   std::optional<Event> pass_over_circle() const;
+  bool is_at_node(std::uint32_t touched) const;
   Event at_node(std::uint32_t touched) const;
   /// Shortens the way to `event` until the disk there is empty: each intruder gives a disk
   /// that comes earlier.
