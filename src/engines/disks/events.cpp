@@ -301,6 +301,11 @@ Event EventSearch::first_contact(Event event) {
       }
       return bracket(from_, asked);
     }
+    // A disk too far ahead may reach a point whose other copy was touched before.
+    if (boundary_.two_sided && element(earlier->site) == Element::vertex &&
+        earlier->position <= low_ + slack() &&
+        !contacts_.faces(earlier->site, earlier->disk.center))
+      return bracket(from_, asked);
     look_beyond = earlier->position < event.position;
     event = *earlier;
   }

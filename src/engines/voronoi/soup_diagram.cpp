@@ -228,13 +228,11 @@ class Assembly {
     const Edge& edge = axis_.edges[e];
     return {site_of(edge.site[0]), site_of(edge.site[1])};
   }
-  /// The ends as nodes of the diagram.
-  std::array<std::uint32_t, 2> nodes_of(std::uint32_t e) {
-    if (e >= axis_.edges.size()) {
-      const Spoke& spoke = spokes_[e - axis_.edges.size()];
-      return {node_of_point(spoke.point), node_of(spoke.node)};
-    }
-    return {node_of(axis_.edges[e].node[0]), node_of(axis_.edges[e].node[1])};
+  /// An end as a node of the diagram.
+  std::uint32_t node_at(std::uint32_t e, std::size_t end) {
+    if (e < axis_.edges.size()) return node_of(axis_.edges[e].node[end]);
+    const Spoke& spoke = spokes_[e - axis_.edges.size()];
+    return end == 0 ? node_of_point(spoke.point) : node_of(spoke.node);
   }
   std::uint32_t node_of_point(std::uint32_t point) {
     std::uint32_t& node = node_of_point_[point];
@@ -250,6 +248,27 @@ class Assembly {
   std::uint32_t add_node(const Disk& disk, std::uint32_t component) {
     diagram_.nodes.push_back({disk, component, NodeKind::leaf});
     return static_cast<std::uint32_t>(diagram_.nodes.size() - 1);
+  }
+
+  /// The control point of a part of an edge, from its ends: a part of a long curve would have that
+  /// one's rounding.
+  void take_control(std::uint32_t e, ConicEdge& part) const {
+    const Vec2 origin = part.from.center, middle = midpoint({0, 0}, part.to.center - origin);
+    const auto local = [&](std::uint32_t own) {
+      const Site& site = axis_.sites[own];
+      if (site.kind == SiteKind::vertex) return geometry::make_vertex(site.start - origin);
+      const sites::Pieces pieces =
+          sites::pieces_of(site.start - origin, site.end - origin, site.bulge);
+      const bool first = pieces.count == 1 || geometry::squared_distance(pieces.first(), middle) <=
+                                                  geometry::squared_distance(pieces.last(), middle);
+      return first ? pieces.first() : pieces.last();
+    };
+    const Edge& edge = axis_.edges[e];
+    const geometry::Control control = geometry::control_of(
+        local(edge.site[0]), local(edge.site[1]), {{0, 0}, part.from.radius},
+        {part.to.center - origin, part.to.radius});
+    part.control = {control.point.center + origin, control.point.radius};
+    part.weight = control.weight;
   }
 
   /// The edges inside of the frame, or the parts of them.
@@ -268,35 +287,47 @@ class Assembly {
       const bool spoke = e >= axis_.edges.size();
       const ConicEdge curve = curve_of(e);
       clip(curve, frame_, parts);
+      // Whether a node is inside is decided for all of its edges alike; where it is so near to the
+      // frame that an edge saw it otherwise, a part without length makes up for that.
+      const bool begins = is_inside(frame_, curve.from.center);
+      const bool ends_inside = is_inside(frame_, curve.to.center);
+      if (begins && ends_inside && parts.empty()) parts.push_back({0, 1});
+      if (begins && (parts.empty() || parts.front().from > 0)) parts.insert(parts.begin(), {0, 0});
+      if (ends_inside && (parts.empty() || parts.back().to < 1)) parts.push_back({1, 1});
       for (const ClippedPart& part : parts) {
-        const bool whole = part.from == 0 && part.to == 1;
+        const bool from_node = begins && part.from == 0, to_node = ends_inside && part.to == 1;
+        const bool whole = from_node && to_node && part.from < part.to;
         if (whole) {
           diagram_.edges.push_back(
-              {{nodes_of(e), site, curve.control, curve.weight}, spoke, false});
+              {{{node_at(e, 0), node_at(e, 1)}, site, curve.control, curve.weight}, spoke, false});
           continue;
         }
-        const ConicEdge cut = curve.part(part.from, part.to);
+        ConicEdge cut = curve.part(part.from, part.to);
+        if (!spoke && part.from < part.to) take_control(e, cut);
         const auto number = static_cast<std::uint32_t>(diagram_.edges.size());
         std::array<std::uint32_t, 2> ends{none, none};
         const auto cross = [&](std::uint32_t end, const Disk& disk) {
           // Outward, the edge has one site on its left, which comes after it along the frame.
-          const Vec2 on_border = onto_border(frame_, disk.center);
+          Vec2 on_border = onto_border(frame_, disk.center);
+          const double place = place_on_border(frame_, on_border);
+          if (place == std::floor(place))  // to rounding in a corner
+            on_border = corner_of(frame_, static_cast<std::size_t>(place) % 4);
           const std::uint32_t after = site[1 - end], before = site[end];
-          crossings_.push_back({place_on_border(frame_, on_border),
+          crossings_.push_back({place,
                                 {on_border, disk.radius},
                                 before,
                                 after,
                                 number,
                                 end});
         };
-        if (part.from > 0)
+        if (from_node)
+          ends[0] = node_at(e, 0);
+        else
           cross(0, cut.from);
+        if (to_node)
+          ends[1] = node_at(e, 1);
         else
-          ends[0] = nodes_of(e)[0];
-        if (part.to < 1)
           cross(1, cut.to);
-        else
-          ends[1] = nodes_of(e)[1];
         diagram_.edges.push_back({{ends, site, cut.control, cut.weight}, spoke, false});
       }
     }
@@ -401,7 +432,8 @@ class Assembly {
   /// mirror image in the frame.
   void add_frame_edge(std::uint32_t from, std::uint32_t to, std::uint32_t site) {
     const Disk &a = diagram_.nodes[from].disk, &b = diagram_.nodes[to].disk;
-    const bool upright = a.center.x == b.center.x;
+    const bool upright =
+        std::abs(b.center.x - a.center.x) < std::abs(b.center.y - a.center.y);
     const Vec2 origin = a.center;
     const auto mirrored = [&](Vec2 p) { return upright ? Vec2{-p.x, p.y} : Vec2{p.x, -p.y}; };
     const Disk first{{0, 0}, a.radius}, last{b.center - origin, b.radius};
