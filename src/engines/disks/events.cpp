@@ -268,6 +268,7 @@ Event EventSearch::first_contact(Event event) {
   bool look_beyond = true;
   // Every round but one that looked beyond comes earlier; rounding could make rounds repeat.
   for (int round = 0; round < most_rounds; ++round) {
+    if (boundary_.two_sided) event = short_of_point(event);
     Event asked = event;
     if (event.kind == Event::Kind::contact && look_beyond) asked = beyond(event);
     const Hit hit = contacts_.nearest(asked.disk, span_);
@@ -310,6 +311,21 @@ Event EventSearch::first_contact(Event event) {
     event = *earlier;
   }
   return bracket(from_, intruded);
+}
+
+Event EventSearch::short_of_point(Event event) {
+  const bool in_point = event.disk.radius <= 8 * context_.tolerance &&
+                        span_.left - span_.right > 2 && from_.radius > 0;
+  if (!in_point) return event;
+  double way = event.position - low_;
+  for (int step = 0; step < bracket_steps; ++step) {
+    way *= 0.5;
+    const double position = event.position - way;
+    if (!(low_ < position && position < event.position)) break;
+    const Disk disk = bisector_.disk_at(position, from_);
+    if (contacts_.nearest(disk, span_)) return {Event::Kind::far, Hit::none, disk, position};
+  }
+  return event;
 }
 
 Event EventSearch::beyond(const Event& contact) const {

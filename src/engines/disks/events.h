@@ -95,6 +95,9 @@ class EventSearch {
   /// Shortens the way to `event` until the disk there is empty: each intruder gives a disk
   /// that comes earlier.
   Event first_contact(Event event);
+  /// Where edges of a soup meet, a disk of no radius touches them all, and those between the two
+  /// sites reach into the disks before. Such an event becomes one of those disks.
+  Event short_of_point(Event event);
   /// The disk a little further, where the touched site intrudes by half of the tolerance. A flat
   /// contact leaves its position open: many neighbours on a circle are touched by one disk within
   /// the tolerance, although each three of them ask for another one. Looking from beyond finds the
