@@ -15,5 +15,6 @@
 #include "medial/rebuild.h"
 #include "medial/shape.h"
 #include "medial/shape_distance.h"
+#include "medial/soup.h"
 #include "medial/verify.h"
 #include "medial/voronoi.h"

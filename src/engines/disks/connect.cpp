@@ -16,11 +16,21 @@ using geometry::Site;
 /// Cuts are kept where no query finds them.
 const Site far_away = geometry::make_vertex({1e30, 1e30});
 
-/// The run of the loop that a site belongs to.
+/// The run of the loop that a site belongs to. Loops that are neighbours in the plane mostly have
+/// about the same number of sites, so a guess saves most of the search.
 Boundary::Run run_of(const Boundary& loops, std::uint32_t site) {
-  const auto run =
-      std::upper_bound(loops.runs.begin(), loops.runs.end(), site,
-                       [](std::uint32_t s, const Boundary::Run& r) { return s < r.first; });
+  const auto count = static_cast<std::uint64_t>(loops.runs.size());
+  const auto guess = static_cast<std::size_t>(count * site / loops.sites.size());
+  constexpr std::size_t around = 32;
+  const auto begin = loops.runs.begin();
+  auto from = begin, to = loops.runs.end();
+  if (guess >= around && begin[static_cast<std::ptrdiff_t>(guess - around)].first <= site)
+    from = begin + static_cast<std::ptrdiff_t>(guess - around);
+  if (guess + around < count && site < begin[static_cast<std::ptrdiff_t>(guess + around)].first)
+    to = begin + static_cast<std::ptrdiff_t>(guess + around);
+  const auto run = std::upper_bound(from, to, site, [](std::uint32_t s, const Boundary::Run& r) {
+    return s < r.first;
+  });
   return *std::prev(run);
 }
 
@@ -39,29 +49,36 @@ std::uint32_t owner_of_foot(const Boundary& loops, const Boundary::Run& run, std
 
 /// Of the sites that a disk touches in the same place as the given one, the one that it touches
 /// from inside: on its left, in its own range of directions.
-std::uint32_t facing_site(const Boundary& loops,
-                          const index::FirstTouch& first_touch, std::uint32_t group,
-                          std::uint32_t site, Vec2 center) {
-  const auto faces = [&](std::uint32_t i) {
+std::uint32_t facing_site(const Boundary& loops, const index::FirstTouch& first_touch,
+                          std::uint32_t group, std::uint32_t site, Vec2 center) {
+  const auto faces = [&](std::uint32_t i, const Boundary::Run& run) {
     if (loops.elements[i] == Element::edge) return faces_edge(loops.sites[i], center);
-    const Boundary::Run run = run_of(loops, i);
     if (run.first == run.last) return true;
     const std::uint32_t before = i == run.first ? run.last : i - 1;
     const std::uint32_t after = i == run.last ? run.first : i + 1;
     return in_wedge(loops.sites[before].end_normal(), loops.sites[after].normal(),
                     center - loops.sites[i].point);
   };
-  if (faces(site)) return site;
+  if (loops.elements[site] == Element::edge && faces_edge(loops.sites[site], center)) return site;
   const Vec2 foot = geometry::foot(loops.sites[site], center);
   constexpr double same_place = 0x1p-46;
+  const auto is_it = [&](std::uint32_t i, const Boundary::Run& run) {
+    return geometry::squared_distance(loops.sites[i], foot) <= same_place * same_place &&
+           faces(i, run);
+  };
+  // A loose segment is a run of two ends and two sides.
+  constexpr std::uint32_t few = 4;
+  const Boundary::Run own = run_of(loops, site);
+  if (own.last - own.first < few)
+    for (std::uint32_t i = own.first; i <= own.last; ++i)
+      if (is_it(i, own)) return i;
   std::uint32_t found = site;
   first_touch.near(foot, same_place, group, [&](std::uint32_t i) {
     const Boundary::Run run = run_of(loops, i);
     // A vertex is the end of the edge before it.
-    for (const std::uint32_t candidate : {i, i == run.last ? run.first : i + 1, i - (i > run.first ? 1 : 0)})
-      if (geometry::squared_distance(loops.sites[candidate], foot) <= same_place * same_place &&
-          faces(candidate))
-        found = candidate;
+    for (const std::uint32_t candidate :
+         {i, i == run.last ? run.first : i + 1, i - (i > run.first ? 1 : 0)})
+      if (is_it(candidate, run)) found = candidate;
   });
   return found;
 }
@@ -253,11 +270,20 @@ std::vector<Cut> connecting_disks(const Shape& shape, const Boundary& loops, dou
   // A vertex ends an edge, so edges are enough, but for vertices without any.
   std::vector<std::uint32_t> edges;
   edges.reserve(loops.sites.size());
-  for (std::uint32_t i = 0; i < loops.sites.size(); ++i)
-    if (loops.elements[i] == Element::edge) edges.push_back(i);
-  if (loops.two_sided)
-    for (const Boundary::Run& run : loops.runs)
-      if (run.first == run.last) edges.push_back(run.first);
+  for (const Boundary::Run& run : loops.runs) {
+    // Of a loose segment or arc, one side is enough, too: a run of two ends and two sides.
+    const std::uint32_t side = run.first + 1, other = run.first + 3;
+    const bool is_loose =
+        loops.two_sided && run.last == other && loops.elements[run.first] == Element::vertex &&
+        loops.elements[side + 1] == Element::vertex &&
+        loops.sites[side].length == loops.sites[other].length &&
+        loops.sites[side].curvature == -loops.sites[other].curvature;
+    for (std::uint32_t i = run.first; i <= run.last; ++i) {
+      if (loops.elements[i] != Element::edge && run.first < run.last) continue;
+      edges.push_back(i);
+      if (is_loose) break;
+    }
+  }
   const index::FirstTouch first_touch(loops.sites, edges, components);
 
   std::vector<Cut> cuts(holes.size());
