@@ -80,8 +80,8 @@ Result<LooseFile> load_chains(const InputSwitches& input, int threads) {
   io::ReadOptions read = input.read;
   read.loose = true;
   read.repair = io::RepairRule::none;
-  auto dataset =
-      input.text.empty() ? io::read_dataset(input.path, read) : io::read_text(input.text, input.path);
+  auto dataset = input.text.empty() ? io::read_dataset(input.path, read)
+                                    : io::read_text(input.text, input.path);
   if (!dataset) return std::move(dataset).error();
   LooseFile file;
   file.y_down = dataset->y_down;
@@ -156,13 +156,13 @@ Status tell(const io::VoronoiFile& file, const VoronoiSwitches& switches, double
                       {"voronoi_points", sum.points},
                       {"seconds", seconds}});
   }
-  const std::string line = fmt::format(
-      "{}: {}, {}, {}; {} ({}), {}; {:.3g} s\n", switches.input.path,
-      counted(file.items.size(), "feature"), counted(sum.segments, "segment"),
-      sum.soup ? counted(sum.vertices, "point")
-               : counted(sum.vertices, "reflex vertex", "reflex vertices"),
-      counted(sum.edges, "edge"),
-      counted(sum.spokes, "spoke"), counted(sum.points, "Voronoi point"), seconds);
+  const std::string line =
+      fmt::format("{}: {}, {}, {}; {} ({}), {}; {:.3g} s\n", switches.input.path,
+                  counted(file.items.size(), "feature"), counted(sum.segments, "segment"),
+                  sum.soup ? counted(sum.vertices, "point")
+                           : counted(sum.vertices, "reflex vertex", "reflex vertices"),
+                  counted(sum.edges, "edge"), counted(sum.spokes, "spoke"),
+                  counted(sum.points, "Voronoi point"), seconds);
   if (switches.output.empty()) return print(line);
   if (error_is_terminal() && !switches.common.quiet) fmt::print(stderr, "{}", line);
   return success();

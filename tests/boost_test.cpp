@@ -241,7 +241,8 @@ std::string compare_soups(const std::vector<Chain>& chains) {
   };
   std::vector<Point> points;
   std::vector<Segment> segments;
-  for (const LonePoint& lone : soup->lone_points) points.push_back(integer(soup->points[lone.point]));
+  for (const LonePoint& lone : soup->lone_points)
+    points.push_back(integer(soup->points[lone.point]));
   for (const SoupEdge& edge : soup->edges)
     segments.emplace_back(integer(soup->points[edge.from]), integer(soup->points[edge.to]));
   boost::polygon::voronoi_diagram<double> theirs;
@@ -283,7 +284,8 @@ TEST(Boost, HasTheSameNodesOnSoups) {
     std::vector<Chain> chains;
     for (std::uint32_t i = 0, n = 2 + random.below(20); i < n; ++i) {
       const auto place = [&] {
-        return Vec2{static_cast<double>(random.below(side)), static_cast<double>(random.below(side))};
+        return Vec2{static_cast<double>(random.below(side)),
+                    static_cast<double>(random.below(side))};
       };
       Chain chain{{place()}};
       if (random.below(4) > 0) chain.points.push_back(place());

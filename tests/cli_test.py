@@ -245,15 +245,37 @@ class Axis(CommandLine):
         self.assertEqual(told["spokes"], 4 * told["reflex_vertices"] // 2)
         for name, start in (("v.json", b"{"), ("v.geojson", b"{"), ("v.svg", b"<?xml"), ("v.png", b"\x89PNG"),
                             ("v.pdf", b"%PDF")):
-            self.succeed("voronoi", "teeth.wkt", "-o", name)
+            self.succeed("voronoi", "teeth.wkt", "--method", "lee", "-o", name)
             self.assertTrue(self.read(name).startswith(start), name)
         stored = json.loads(self.read("v.json"))
         self.assertEqual(len(stored["items"][0]["edges"]), told["edges"])
-        piped = self.succeed("voronoi", "-", "-o", "-", "--format", "geojson", given=comb(20).encode()).stdout
+        piped = self.succeed("voronoi", "-", "--method", "lee", "-o", "-", "--format", "geojson", given=comb(20).encode()).stdout
         kinds = {f["geometry"]["type"] for f in json.loads(piped)["features"]}
         self.assertIn("Polygon", kinds)
-        self.refuse("unsupported", "voronoi", "ring.wkt", "-o", "x.json")
+        self.refuse("unsupported", "voronoi", "ring.wkt", "--method", "lee", "-o", "x.json")
         self.refuse("[a-z_]+", "voronoi", "teeth.wkt", "--method", "magic")
+
+    def test_voronoi_of_loose_pieces(self):
+        soup = b"POINT(1 3);LINESTRING(0 0,2 0,2 2);POLYGON((5 0,7 0,7 2,5 2,5 0));MULTIPOINT(4 4,(5 5))"
+        told = json.loads(self.succeed("voronoi", "-", "--json", given=soup).stdout)
+        self.assertEqual((told["segments"], told["points"]), (6, 10))
+        made = json.loads(self.succeed("voronoi", "-", "-o", "-", given=soup).stdout)
+        item = made["items"][0]
+        self.assertEqual(len(item["faces"]), 16)
+        self.assertEqual(item["frame"], [-3.5, -3.5, 10.5, 8.5])
+        framed = self.succeed("voronoi", "-", "--frame", "-1", "-1", "9", "9", "-o", "-", "--format", "geojson", given=soup)
+        faces = [f for f in json.loads(framed.stdout)["features"] if f["properties"]["part"] == "face"]
+        area = 0
+        for face in faces:
+            ring = face["geometry"]["coordinates"][0]
+            area += sum(a[0] * b[1] - a[1] * b[0] for a, b in zip(ring, ring[1:])) / 2
+        self.assertAlmostEqual(area, 100, delta=0.1)
+        crossing = b"LINESTRING(0 0,2 2);LINESTRING(0 2,2 0)"
+        self.assertIn("(1, 1)", self.refuse("crossing", "voronoi", "-", given=crossing))
+        told = json.loads(self.succeed("voronoi", "-", "--repair", "--json", given=crossing).stdout)
+        self.assertEqual((told["segments"], told["points"]), (4, 5))
+        points = json.loads(self.succeed("voronoi", "-", "--json", given=b"0 0\n1 0\n0 1\n").stdout)
+        self.assertEqual((points["segments"], points["points"]), (0, 3))
 
     def test_ridge_and_exterior(self):
         """Ridge following and the exterior, with their switches, and what verify says of them."""

@@ -1,6 +1,8 @@
 // Soups and their Voronoi diagrams: closed forms, ties, errors, and random soups against distances
 // that are computed here, site by site.
 
+#include "medial/soup.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,7 +16,6 @@
 
 #include "base/random.h"
 #include "medial/medial.h"
-#include "medial/soup.h"
 #include "medial/voronoi.h"
 
 namespace medial::test {

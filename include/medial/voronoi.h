@@ -87,8 +87,8 @@ struct NearestSite {
   double distance = 0;
 };
 
-/// Answers "which site is nearest to p" in O(log n) expected, after O(n log n). Keeps a copy of what
-/// it needs.
+/// Answers "which site is nearest to p" in O(log n) expected, after O(n log n). Keeps a copy of
+/// what it needs.
 class SiteLocator {
  public:
   explicit SiteLocator(std::span<const Site> sites);

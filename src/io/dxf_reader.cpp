@@ -435,8 +435,8 @@ Result<Dataset> dataset_of(Collector& found, std::map<std::string, std::uint64_t
 
 }  // namespace
 
-Result<Dataset> read_dxf(TextSource& source, const std::string& layer,
-                         std::optional<double> close, bool loose) {
+Result<Dataset> read_dxf(TextSource& source, const std::string& layer, std::optional<double> close,
+                         bool loose) {
   Result<DxfText> text = read_dxf_text(source);
   if (!text) return text.error();
   try {

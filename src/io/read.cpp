@@ -236,8 +236,9 @@ void drop_empty_features(Dataset& dataset) {
   const auto has_no_point = [](const Feature& feature) {
     return std::ranges::all_of(feature.rings,
                                [](const Ring& ring) { return ring.points.empty(); }) &&
-           std::ranges::all_of(feature.contours,
-                               [](const Contour& contour) { return contour.pieces.empty() && !contour.open; }) &&
+           std::ranges::all_of(
+               feature.contours,
+               [](const Contour& contour) { return contour.pieces.empty() && !contour.open; }) &&
            feature.chains.empty();
   };
   const std::size_t dropped = std::erase_if(dataset.features, has_no_point);
@@ -249,7 +250,8 @@ void drop_empty_features(Dataset& dataset) {
 Result<Dataset> finish(Dataset dataset, const ReadOptions& options) {
   if (auto error = find_not_finite(dataset)) return *error;
   drop_empty_features(dataset);
-  if (dataset.features.empty()) return Error{ErrorCode::empty, options.loose ? "there is nothing" : "there is no polygon", {}};
+  if (dataset.features.empty())
+    return Error{ErrorCode::empty, options.loose ? "there is nothing" : "there is no polygon", {}};
   if (options.project) {
     const auto curved = std::ranges::find_if(dataset.features, has_curves);
     if (curved != dataset.features.end()) {

@@ -77,9 +77,9 @@ class WktReader {
     }
     if (source_.failure()) return *source_.failure();
     if (others_ > 0) {
-      const bool polygons = std::ranges::any_of(
-          dataset_.features,
-          [](const Feature& feature) { return !feature.rings.empty() || !feature.chains.empty(); });
+      const bool polygons = std::ranges::any_of(dataset_.features, [](const Feature& feature) {
+        return !feature.rings.empty() || !feature.chains.empty();
+      });
       if (!polygons) {
         return Error{ErrorCode::unsupported,
                      fmt::format("no polygons, only other geometries ({} of them)", others_),
@@ -392,9 +392,7 @@ Result<Line> read_line(TextSource& source, Vec2& vertex) {
 
 }  // namespace
 
-Result<Dataset> read_wkt(TextSource& source, bool loose) {
-  return WktReader(source, loose).read();
-}
+Result<Dataset> read_wkt(TextSource& source, bool loose) { return WktReader(source, loose).read(); }
 
 Result<Dataset> read_xy(TextSource& source, bool loose) {
   Dataset dataset;

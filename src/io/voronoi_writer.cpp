@@ -244,7 +244,9 @@ void write_voronoi_json(OutputStream& out, const VoronoiFile& file) {
     table(out, "edges", diagram.edges.size(), [&](std::size_t k) {
       const VoronoiEdge& edge = diagram.edges[k];
       row(out, edge.node[0], edge.node[1], number_of(edge.site[0]), number_of(edge.site[1]),
-          edge.frame ? 2 : edge.spoke ? 1 : 0,
+          edge.frame   ? 2
+          : edge.spoke ? 1
+                       : 0,
           edge.control.center.x, edge.control.center.y, edge.control.radius, edge.weight);
     });
     table(out, "faces", diagram.sites.size(), [&](std::size_t k) {

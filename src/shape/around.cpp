@@ -35,8 +35,8 @@ Shape around(const Soup& soup, const Box& frame) {
   };
 
   add_loop(0, false);
-  for (const Vec2 corner : {frame.low, Vec2{frame.high.x, frame.low.y}, frame.high,
-                            Vec2{frame.low.x, frame.high.y}})
+  for (const Vec2 corner :
+       {frame.low, Vec2{frame.high.x, frame.low.y}, frame.high, Vec2{frame.low.x, frame.high.y}})
     add_point(corner, 0, {kNone, kNone});
   // Faces count from 1 in the order of their outer loops.
   std::vector<std::uint32_t> holes;

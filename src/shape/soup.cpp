@@ -46,8 +46,7 @@ Result<Input> input_of(std::span<const Chain> chains, SoupReport& report) {
   double largest = 0;
   for (const Chain& chain : chains) {
     report.input_points += chain.points.size();
-    for (const Vec2 p : chain.points)
-      largest = std::max({largest, std::abs(p.x), std::abs(p.y)});
+    for (const Vec2 p : chain.points) largest = std::max({largest, std::abs(p.x), std::abs(p.y)});
   }
   if (report.input_points > most_points || chains.size() > most_points)
     return error_without_place(ErrorCode::too_large, "there are too many points");
@@ -169,13 +168,13 @@ class Faces {
     std::uint32_t edge;  ///< vertex that the outline's edge begins at
   };
   std::vector<Link> links;
-  std::vector<std::uint32_t> place;        ///< of each vertex: the lowest vertex there
-  std::vector<std::uint32_t> next;         ///< of each half-edge, in its loop
-  std::vector<std::uint32_t> loop;         ///< of each half-edge
-  std::vector<std::uint32_t> loop_start;   ///< a half-edge of each loop
-  std::vector<std::uint32_t> face;         ///< of each loop
-  std::vector<bool> hole;                  ///< of each loop
-  std::vector<LonePoint> lone;             ///< by place
+  std::vector<std::uint32_t> place;       ///< of each vertex: the lowest vertex there
+  std::vector<std::uint32_t> next;        ///< of each half-edge, in its loop
+  std::vector<std::uint32_t> loop;        ///< of each half-edge
+  std::vector<std::uint32_t> loop_start;  ///< a half-edge of each loop
+  std::vector<std::uint32_t> face;        ///< of each loop
+  std::vector<bool> hole;                 ///< of each loop
+  std::vector<LonePoint> lone;            ///< by place
   std::uint32_t face_count = 1;
 
   std::uint32_t start(std::uint32_t half_edge) const {
@@ -203,8 +202,7 @@ class Faces {
     links.resize(count + sweep_.splits.size(), {kNone, kNone, 0, kNone});
     for (std::uint32_t v = 0; v < count; ++v) {
       const std::uint32_t to = outline_.next(v);
-      if (to != kNone)
-        links[v] = {v, to, outline_.bulges.empty() ? 0 : outline_.bulges[v], v};
+      if (to != kNone) links[v] = {v, to, outline_.bulges.empty() ? 0 : outline_.bulges[v], v};
     }
     // Splits of one edge come from left to right; each cuts its rightmost piece so far.
     std::vector<std::uint32_t> last;
@@ -380,7 +378,8 @@ Soup assemble(const Input& input, const Faces& faces, const NodedOutline* noded)
     } while (h != faces.loop_start[i]);
   }
   soup.loop_begin.push_back(static_cast<std::uint32_t>(soup.half_edges.size()));
-  for (const LonePoint& lone : faces.lone) soup.lone_points.push_back({point_at(lone.point), lone.face});
+  for (const LonePoint& lone : faces.lone)
+    soup.lone_points.push_back({point_at(lone.point), lone.face});
   return soup;
 }
 

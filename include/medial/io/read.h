@@ -21,7 +21,7 @@ struct Feature {
   std::vector<Ring> rings;
   std::vector<Contour> contours;
   std::vector<Chain> chains;  ///< loose points and lines, with ReadOptions::loose
-  std::int64_t id = 0;  ///< of the source, or its index
+  std::int64_t id = 0;        ///< of the source, or its index
   /// Name and value as text, in order.
   std::vector<std::pair<std::string, std::string>> attributes;
 };
@@ -49,7 +49,7 @@ struct ReadOptions {
   /// stays open is left out. Infinity closes whatever is open. Nothing: 1e-6 of the diagonal of the
   /// bounding box.
   std::optional<double> close;
-  ImageOptions image;           ///< of images: what is foreground
+  ImageOptions image;  ///< of images: what is foreground
   /// For soups: points, lines and open curves are kept too, lines and points as chains, open curves
   /// as contours that say so; of a drawing (SVG) also shapes that are not filled. A plain text of
   /// one block is a list of points, one of several has a chain or a point in each.

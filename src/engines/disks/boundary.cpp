@@ -150,7 +150,8 @@ double clockwise_turn(Vec2 from, Vec2 to) {
 }
 
 bool faces_edge(const geometry::Site& edge, Vec2 c) {
-  constexpr double beyond = 0x1p-40;  // of the distance: what rounding may turn the foot's normal by
+  constexpr double beyond =
+      0x1p-40;  // of the distance: what rounding may turn the foot's normal by
   const double away = geometry::carrier_distance(edge, c);
   if (!(away > 0)) return false;
   const double s = geometry::carrier_parameter(edge, c), slack = beyond * away;

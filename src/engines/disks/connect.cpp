@@ -28,9 +28,8 @@ Boundary::Run run_of(const Boundary& loops, std::uint32_t site) {
     from = begin + static_cast<std::ptrdiff_t>(guess - around);
   if (guess + around < count && site < begin[static_cast<std::ptrdiff_t>(guess + around)].first)
     to = begin + static_cast<std::ptrdiff_t>(guess + around);
-  const auto run = std::upper_bound(from, to, site, [](std::uint32_t s, const Boundary::Run& r) {
-    return s < r.first;
-  });
+  const auto run = std::upper_bound(
+      from, to, site, [](std::uint32_t s, const Boundary::Run& r) { return s < r.first; });
   return *std::prev(run);
 }
 
@@ -273,11 +272,11 @@ std::vector<Cut> connecting_disks(const Shape& shape, const Boundary& loops, dou
   for (const Boundary::Run& run : loops.runs) {
     // Of a loose segment or arc, one side is enough, too: a run of two ends and two sides.
     const std::uint32_t side = run.first + 1, other = run.first + 3;
-    const bool is_loose =
-        loops.two_sided && run.last == other && loops.elements[run.first] == Element::vertex &&
-        loops.elements[side + 1] == Element::vertex &&
-        loops.sites[side].length == loops.sites[other].length &&
-        loops.sites[side].curvature == -loops.sites[other].curvature;
+    const bool is_loose = loops.two_sided && run.last == other &&
+                          loops.elements[run.first] == Element::vertex &&
+                          loops.elements[side + 1] == Element::vertex &&
+                          loops.sites[side].length == loops.sites[other].length &&
+                          loops.sites[side].curvature == -loops.sites[other].curvature;
     for (std::uint32_t i = run.first; i <= run.last; ++i) {
       if (loops.elements[i] != Element::edge && run.first < run.last) continue;
       edges.push_back(i);

@@ -94,8 +94,8 @@ Event EventSearch::end_of_range(bool on_right) const {
   const std::uint32_t next = on_right ? own + 1 : own - 1;
   const Cut& cut = context_.cuts[boundary_.originals[next]];
   const Vec2 foot = geometry::foot(site(own), cut.disk.center), to = cut.disk.center - foot;
-  const double radius =
-      geometry::tangent_radius(foot, (1 / norm(to)) * to, site(on_right ? span_.left : span_.right));
+  const double radius = geometry::tangent_radius(foot, (1 / norm(to)) * to,
+                                                 site(on_right ? span_.left : span_.right));
   if (!(radius <= context_.radius_limit)) return {};
   Event event{Event::Kind::far, on_right ? own + 2 : own - 2,
               Disk{foot + (radius / norm(to)) * to, radius}, 0};

@@ -23,9 +23,7 @@ Weighted blossom(const ConicEdge& edge, double s, double t) {
   return sum((1 - s) * (1 - t), weighted(edge.from, 1), (1 - s) * t + s * (1 - t),
              weighted(edge.control, edge.weight), s * t, weighted(edge.to, 1));
 }
-Disk disk_of(const Weighted& w) {
-  return {(1 / w.weight) * w.center, w.radius / w.weight};
-}
+Disk disk_of(const Weighted& w) { return {(1 / w.weight) * w.center, w.radius / w.weight}; }
 
 /// Roots in (0, 1) of a (1-t)^2 + 2 b t (1-t) + c t^2.
 void add_roots(double a, double b, double c, std::vector<double>& roots) {

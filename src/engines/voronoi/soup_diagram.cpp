@@ -113,18 +113,17 @@ class Assembly {
     constexpr std::size_t few = 24;
     if (steps.size() > few) return put_many_in_order(steps);
     for (std::size_t i = 0; i < steps.size(); ++i) {
-      const bool begins = std::none_of(steps.begin(), steps.end(), [&](const Step& other) {
-        return other.to == steps[i].from;
-      });
+      const bool begins = std::none_of(
+          steps.begin(), steps.end(), [&](const Step& other) { return other.to == steps[i].from; });
       if (begins) {
         std::swap(steps[0], steps[i]);
         break;
       }
     }
     for (std::size_t i = 1; i < steps.size(); ++i) {
-      const auto next = std::find_if(
-          steps.begin() + static_cast<std::ptrdiff_t>(i), steps.end(),
-          [&](const Step& other) { return other.from == steps[i - 1].to; });
+      const auto next =
+          std::find_if(steps.begin() + static_cast<std::ptrdiff_t>(i), steps.end(),
+                       [&](const Step& other) { return other.from == steps[i - 1].to; });
       if (next == steps.end()) throw std::runtime_error("a Voronoi face is not connected");
       std::swap(steps[i], *next);
     }
@@ -143,9 +142,9 @@ class Assembly {
     for (std::size_t i = 0; i < steps.size(); ++i) {
       steps[i] = at;
       if (i + 1 == steps.size()) break;
-      const auto next = std::lower_bound(
-          sorted.begin(), sorted.end(), at.to,
-          [](const Step& step, std::uint32_t node) { return step.from < node; });
+      const auto next =
+          std::lower_bound(sorted.begin(), sorted.end(), at.to,
+                           [](const Step& step, std::uint32_t node) { return step.from < node; });
       if (next == sorted.end() || next->from != at.to)
         throw std::runtime_error("a Voronoi face is not connected");
       at = *next;
@@ -266,13 +265,13 @@ class Assembly {
     return first ? pieces.first() : pieces.last();
   }
 
-  /// The control point of an edge, or of a part of one, from its ends. (A part of a long curve would
-  /// have that one's rounding.)
+  /// The control point of an edge, or of a part of one, from its ends. (A part of a long curve
+  /// would have that one's rounding.)
   void take_control(std::array<std::uint32_t, 2> own, ConicEdge& part) const {
     const Vec2 origin = part.from.center, middle = midpoint({0, 0}, part.to.center - origin);
-    const geometry::Control control = geometry::control_of(
-        seen_from(origin, own[0], middle), seen_from(origin, own[1], middle),
-        {{0, 0}, part.from.radius}, {part.to.center - origin, part.to.radius});
+    const geometry::Control control =
+        geometry::control_of(seen_from(origin, own[0], middle), seen_from(origin, own[1], middle),
+                             {{0, 0}, part.from.radius}, {part.to.center - origin, part.to.radius});
     part.control = {control.point.center + origin, control.point.radius};
     part.weight = control.weight;
   }
@@ -324,8 +323,7 @@ class Assembly {
   /// The disk through a point that grows in a direction until it touches an arc.
   Disk disk_towards(Vec2 point, Vec2 direction, std::uint32_t own) const {
     const Site& site = axis_.sites[own];
-    const sites::Pieces pieces =
-        sites::pieces_of(site.start - point, site.end - point, site.bulge);
+    const sites::Pieces pieces = sites::pieces_of(site.start - point, site.end - point, site.bulge);
     const double radius = geometry::tangent_radius({0, 0}, direction, pieces.first());
     if (!std::isfinite(radius)) throw std::runtime_error("a Voronoi edge has no middle");
     return {point + radius * direction, radius};
@@ -373,12 +371,7 @@ class Assembly {
           if (place == std::floor(place))  // to rounding in a corner
             on_border = corner_of(frame_, static_cast<std::size_t>(place) % 4);
           const std::uint32_t after = site[1 - end], before = site[end];
-          crossings_.push_back({place,
-                                {on_border, disk.radius},
-                                before,
-                                after,
-                                number,
-                                end});
+          crossings_.push_back({place, {on_border, disk.radius}, before, after, number, end});
         };
         if (from_node)
           ends[0] = node_at(e, 0);
@@ -442,8 +435,8 @@ class Assembly {
   /// Where several edges cross the frame in one place, puts them in an order in which each site
   /// that ends there does so where it began.
   void settle_ties() {
-    const double together = 8 * axis_.tolerance /
-                            std::min(frame_.high.x - frame_.low.x, frame_.high.y - frame_.low.y);
+    const double together =
+        8 * axis_.tolerance / std::min(frame_.high.x - frame_.low.x, frame_.high.y - frame_.low.y);
     const std::size_t count = crossings_.size();
     if (count < 2) return;
     // A place where all is clear to begin at.
@@ -492,17 +485,17 @@ class Assembly {
   /// mirror image in the frame.
   void add_frame_edge(std::uint32_t from, std::uint32_t to, std::uint32_t site) {
     const Disk &a = diagram_.nodes[from].disk, &b = diagram_.nodes[to].disk;
-    const bool upright =
-        std::abs(b.center.x - a.center.x) < std::abs(b.center.y - a.center.y);
+    const bool upright = std::abs(b.center.x - a.center.x) < std::abs(b.center.y - a.center.y);
     const Vec2 origin = a.center;
     const auto mirrored = [&](Vec2 p) { return upright ? Vec2{-p.x, p.y} : Vec2{p.x, -p.y}; };
     const Disk first{{0, 0}, a.radius}, last{b.center - origin, b.radius};
-    geometry::Control control{{midpoint(first.center, last.center), 0.5 * (a.radius + b.radius)}, 1};
+    geometry::Control control{{midpoint(first.center, last.center), 0.5 * (a.radius + b.radius)},
+                              1};
     if (a.center != b.center) {
       if (site < point_count_) {
         const Vec2 p = soup_.points[site] - origin;
-        control = geometry::control_of(geometry::make_vertex(p),
-                                       geometry::make_vertex(mirrored(p)), first, last);
+        control = geometry::control_of(geometry::make_vertex(p), geometry::make_vertex(mirrored(p)),
+                                       first, last);
       } else if (const SoupEdge& edge = soup_.edges[site - point_count_]; edge.bulge != 0) {
         control = control_over_arc(soup_.points[edge.from] - origin, soup_.points[edge.to] - origin,
                                    edge.bulge, first, last, mirrored);
@@ -522,14 +515,14 @@ class Assembly {
     const Vec2 middle = midpoint(first.center, last.center);
     const sites::Pieces pieces = sites::pieces_of(from, to, bulge);
     geometry::Site arc = pieces.first();
-    if (pieces.count == 2 && geometry::squared_distance(pieces.last(), middle) <
-                                 geometry::squared_distance(arc, middle))
+    if (pieces.count == 2 &&
+        geometry::squared_distance(pieces.last(), middle) < geometry::squared_distance(arc, middle))
       arc = pieces.last();
     if (geometry::carrier_distance(arc, middle) < 0) arc = geometry::reversed(arc);
     const Vec2 direction = mirrored(arc.direction);
     // A mirror image turns the other way: the same arc backward.
-    const geometry::Site image = geometry::reversed(
-        {mirrored(arc.point), direction, arc.length, -arc.curvature});
+    const geometry::Site image =
+        geometry::reversed({mirrored(arc.point), direction, arc.length, -arc.curvature});
     return geometry::control_of(arc, image, first, last);
   }
 
