@@ -279,7 +279,7 @@ TEST(Boost, HasTheSameNodesOnSoups) {
   const std::uint64_t count = text && *text ? std::strtoull(text, nullptr, 10) / 10 : 1500;
   int failed = 0;
   for (std::uint64_t seed = 0; seed < count && failed < 3; ++seed) {
-    Random random(seed);
+    medial::Random random(seed);
     const std::uint32_t side = seed % 2 == 0 ? 12 : 1000;
     std::vector<Chain> chains;
     for (std::uint32_t i = 0, n = 2 + random.below(20); i < n; ++i) {
