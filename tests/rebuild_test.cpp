@@ -169,6 +169,15 @@ TEST(Rebuild, TangentsOfMorePointsComeNearer) {
   EXPECT_LT(before, 2e-3 * one.size);
 }
 
+TEST(Rebuild, TangentsOfAnyShapeGiveOne) {
+  for (std::uint64_t seed = 0; seed < shape_count() / 4; ++seed) {
+    const Case one = case_of(seed);
+    SCOPED_TRACE(one.name);
+    const auto shape = rebuild(one.axis, {.by = RebuildBy::tangents, .points = 200});
+    EXPECT_TRUE(shape.ok()) << to_string(shape.error());
+  }
+}
+
 TEST(Rebuild, SampledAxesGivePolygons) {
   const Case one =
       case_of({{0, 0}, {9, 0}, {9, 3}, {6, 3}, {6, 7}, {4, 7}, {4, 3}, {2, 4}, {0, 3}});
