@@ -21,31 +21,6 @@ struct AxisSwitches {
   double fit = 0;  ///< for curve-axis: polygons become smooth within this distance; 0: they do not
 };
 
-/// Replaces the boundaries of all features by smooth curves within `distance` of their corners.
-Status smooth(ShapeFile& file, double distance, const InputSwitches& input) {
-  for (std::size_t i = 0; i < file.contours.size(); ++i) {
-    const auto fit = [&]() -> Result<Shape> {
-      for (Contour& contour : file.contours[i]) {
-        auto curve = fit_smooth_contour(contour.points, distance);
-        if (!curve) return std::move(curve).error();
-        contour = std::move(curve).value();
-      }
-      const auto rings = approximate_by_arcs(file.contours[i], input.arcs);
-      if (!rings) return rings.error();
-      return build_shape(*rings);
-    };
-    auto shape = fit();
-    if (!shape) {
-      Error error = std::move(shape).error();
-      error.place.file = input.path;
-      error.place.feature = i;
-      return error;
-    }
-    file.shapes[i] = std::move(shape).value();
-  }
-  return success();
-}
-
 Result<int> run_axis(const AxisSwitches& switches) {
   const InputSwitches& input = switches.input;
   const CommonSwitches& common = switches.common;
@@ -60,7 +35,8 @@ Result<int> run_axis(const AxisSwitches& switches) {
   Engine engine;
   if (switches.curve_axis) {
     if (switches.fit > 0) {
-      if (Status done = smooth(*shapes, switches.fit, input); !done) return std::move(done).error();
+      if (Status done = smooth_boundaries(*shapes, switches.fit, input); !done)
+        return std::move(done).error();
     }
     engine = [&, contours = std::move(shapes->contours)](std::size_t i, const Shape&,
                                                          const Options&) -> Result<MedialAxis> {

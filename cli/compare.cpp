@@ -16,20 +16,22 @@
 #include "cli/plot.h"
 #include "cli/terminal.h"
 #include "medial/compute.h"
+#include "medial/curve_axis.h"
 #include "medial/verify.h"
 
 namespace medial::cli {
 namespace {
 
-/// What --methods all means, the exact engine first. A new method is one more line.
-constexpr std::array all_methods = {Method::disks, Method::biarc_dc, Method::lee, Method::ridge,
-                                    Method::potential};
+/// What --methods all means, the exact engine first. A new method is one more word.
+constexpr char all_methods[] = "disks,biarc-dc,lee,ridge,brushfire,potential,curve-axis";
+constexpr char curve_axis[] = "curve-axis";
 
 struct CompareSwitches {
   InputSwitches input;
   CommonSwitches common;
   std::string methods = "all";
   std::string output;
+  double fit = 0;  ///< boundaries become smooth within this distance; 0: they do not
 };
 
 struct Row {
@@ -55,17 +57,28 @@ double radius_error(const Shape& shape, const MedialAxis& axis) {
   return largest;
 }
 
-Row measure(const Shape& shape, const MedialAxis& exact, Method method,
-            const CommonSwitches& common) {
-  Row row;
-  row.method = name_of(method);
+/// By the method of this name, which is known.
+Result<MedialAxis> compute_by(const std::string& method, const Shape& shape,
+                              const std::vector<Contour>& contours, const CommonSwitches& common) {
+  if (method == curve_axis) {
+    auto axis = compute_curve_axis(contours);
+    if (!axis) return std::move(axis).error();
+    return std::move(axis->axis);
+  }
   Options options;
-  options.method = method;
+  options.method = *method_from(method);
   options.threads = 1;
   options.tolerance = common.tolerance;
   options.corner_angle = common.corner_angle;
+  return compute(shape, options);
+}
+
+Row measure(const Shape& shape, const std::vector<Contour>& contours, const MedialAxis& exact,
+            const std::string& method, const CommonSwitches& common) {
+  Row row;
+  row.method = method;
   const Stopwatch watch;
-  auto axis = compute(shape, options);
+  auto axis = compute_by(method, shape, contours, common);
   row.seconds = watch.seconds();
   if (!axis) {
     row.refused = axis.error().text;
@@ -123,14 +136,12 @@ std::string table_of(const std::vector<Row>& rows) {
 }
 
 /// The methods of a list, separated by commas. Errors: invalid_option.
-Result<std::vector<Method>> methods_of(const std::string& names) {
-  if (names == "all") return std::vector<Method>(all_methods.begin(), all_methods.end());
-  std::vector<Method> methods;
-  std::istringstream list(names);
+Result<std::vector<std::string>> methods_of(const std::string& names) {
+  std::vector<std::string> methods;
+  std::istringstream list(names == "all" ? all_methods : names);
   for (std::string name; std::getline(list, name, ',');) {
-    const auto method = method_from(name);
-    if (!method) return invalid_option("no such method: " + name);
-    methods.push_back(*method);
+    if (name != curve_axis && !method_from(name)) return invalid_option("no such method: " + name);
+    methods.push_back(name);
   }
   if (methods.empty()) return invalid_option("--methods needs a name");
   return methods;
@@ -169,13 +180,17 @@ Status write_comparison(const std::string& path, const Shape& shape, std::vector
 }
 
 Result<int> run_compare(const CompareSwitches& switches) {
-  const auto& [input, common, names, output] = switches;
+  const auto& [input, common, names, output, fit] = switches;
   auto methods = methods_of(names);
   if (!methods) return std::move(methods).error();
   Status writable = check_output(output, {}, ".svg .pdf .png .ps", input.path, common.json);
   if (!writable) return std::move(writable).error();
-  auto file = load_shapes(input, common.threads);
+  const bool smooth = std::find(methods->begin(), methods->end(), curve_axis) != methods->end();
+  auto file = load_shapes(input, common.threads, smooth || fit > 0);
   if (!file) return std::move(file).error();
+  if (fit > 0)
+    if (Status done = smooth_boundaries(*file, fit, input); !done) return std::move(done).error();
+  const std::vector<Contour> nothing;
   print_notes(*file, input, common);
   const Stopwatch comparing;
   Json features = Json::array();
@@ -193,7 +208,9 @@ Result<int> run_compare(const CompareSwitches& switches) {
       return error;
     }
     std::vector<Row> rows;
-    for (const Method method : *methods) rows.push_back(measure(shape, *exact, method, common));
+    for (const std::string& method : *methods)
+      rows.push_back(measure(shape, i < file->contours.size() ? file->contours[i] : nothing, *exact,
+                             method, common));
     if (file->shapes.size() > 1) text += fmt::format("feature {}\n", i);
     text += table_of(rows);
     Json list = Json::array();
@@ -229,6 +246,12 @@ Verb make_compare_verb(CLI::App& program) {
                    "A picture of the first feature's axes side by side: .svg .pdf .png .ps")
       ->check(a_name())
       ->option_text("PICTURE");
+  verb->add_option(
+          "--fit", switches->fit,
+          "First replace every boundary by a smooth curve through its corners and within D\n"
+          "of it, as curve-axis wants it.")
+      ->check(CLI::PositiveNumber.description(""))
+      ->option_text("D");
   add_common_switches(*verb, switches->common);
   verb->footer(
       "Each method runs on one thread. Distances are to the axis of the method disks, by\n"
@@ -237,7 +260,8 @@ Verb make_compare_verb(CLI::App& program) {
       "\n"
       "Examples:\n"
       "  medial compare plan.wkt\n"
-      "  medial compare plan.wkt --methods disks,ridge,potential -o methods.svg --json");
+      "  medial compare plan.wkt --methods disks,ridge,potential -o methods.svg --json\n"
+      "  medial compare island.wkt --methods all --fit 0.5");
   return {verb, [switches] { return run_compare(*switches); }};
 }
 

@@ -68,7 +68,7 @@ std::optional<Vec2> point_in(const Shape& shape, const Named& place) {
 /// The path between the two named places in one feature.
 Result<AxisPath> path_between_named(const io::NativeItem& item, const Named& from, const Named& to,
                                     const PathSwitches& switches) {
-  std::optional<AxisPlace> ends[2];
+  std::optional<EdgePlace> ends[2];
   const Named* names[2] = {&from, &to};
   for (std::size_t i = 0; i < 2; ++i) {
     const auto point = point_in(item.shape, *names[i]);

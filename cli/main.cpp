@@ -10,6 +10,7 @@
 
 #include "cli/common.h"
 #include "cli/lines.h"
+#include "cli/shape_verbs.h"
 #include "cli/terminal.h"
 
 namespace medial::cli {
@@ -56,6 +57,10 @@ int run(int argc, char** argv, bool json) {
       make_prune_verb(program),       //
       make_smooth_verb(program),      //
       make_rebuild_verb(program),     //
+      make_features_verb(program),    //
+      make_match_verb(program),       //
+      make_pack_verb(program),        //
+      make_unpack_verb(program),      //
       make_voronoi_verb(program),     //
       make_distance_verb(program),    //
       make_voxels_verb(program),      //

@@ -12,6 +12,7 @@
 #include <optional>
 
 #include "cli/terminal.h"
+#include "medial/curve_axis.h"
 #include "medial/measure.h"
 #include "medial/query.h"
 
@@ -77,6 +78,10 @@ Json stats(const AxisFile& file, const AxisSummary& summary, double seconds_writ
                    {"shape", file.seconds_shape},
                    {"axis", file.seconds_axis},
                    {"write", seconds_write}}},
+                 {"processor",
+                  {{"read", file.processor_read},
+                   {"shape", file.processor_shape},
+                   {"axis", file.processor_axis}}},
                  {"phases",
                   {{"sites", counted_by_engine.seconds_sites},
                    {"tree", counted_by_engine.seconds_tree},
@@ -271,6 +276,7 @@ Result<Shape> shape_of(io::Feature& feature, const InputSwitches& input, ShapeRe
 Result<ShapeFile> load_shapes(const InputSwitches& input, int threads, bool keep_contours) {
   ShapeFile file;
   const Stopwatch reading;
+  double processor = processor_seconds();
   auto source = read_input(input);
   if (!source) {
     Error error = std::move(source).error();
@@ -287,8 +293,10 @@ Result<ShapeFile> load_shapes(const InputSwitches& input, int threads, bool keep
   file.geographic = dataset.geographic;
   file.notes = std::move(dataset.notes);
   file.seconds_read = reading.seconds();
+  file.processor_read = processor_seconds() - processor;
 
   const Stopwatch shaping;
+  processor = processor_seconds();
   const std::size_t count = dataset.features.size();
   std::vector<double> weights;
   for (io::Feature& feature : dataset.features) {
@@ -322,6 +330,7 @@ Result<ShapeFile> load_shapes(const InputSwitches& input, int threads, bool keep
   for (const ShapeReport& report : reports) add(file.report, report);
   for (const ArcReport& report : arc_reports) add(file.arcs, report);
   file.seconds_shape = shaping.seconds();
+  file.processor_shape = processor_seconds() - processor;
   return file;
 }
 
@@ -342,6 +351,7 @@ void print_notes(const ShapeFile& file, const InputSwitches& input, const Common
 Result<AxisFile> compute_axes(ShapeFile shapes, const std::string& path,
                               const CommonSwitches& common, Options options, const Engine& engine) {
   const Stopwatch watch;
+  const double processor = processor_seconds();
   AxisFile file;
   options.tolerance = common.tolerance;
   options.corner_angle = common.corner_angle;
@@ -383,6 +393,9 @@ Result<AxisFile> compute_axes(ShapeFile shapes, const std::string& path,
   file.seconds_read = shapes.seconds_read;
   file.seconds_shape = shapes.seconds_shape;
   file.seconds_axis = watch.seconds();
+  file.processor_read = shapes.processor_read;
+  file.processor_shape = shapes.processor_shape;
+  file.processor_axis = processor_seconds() - processor;
   return file;
 }
 
@@ -483,6 +496,30 @@ Result<int> write_and_tell(const AxisFile& file, const InputSwitches& input,
   }
   if (common.stats) fmt::print(stderr, "{}", table(stats(file, summary, seconds_write)));
   return exit_success;
+}
+
+Status smooth_boundaries(ShapeFile& file, double distance, const InputSwitches& input) {
+  for (std::size_t i = 0; i < file.contours.size(); ++i) {
+    const auto fit = [&]() -> Result<Shape> {
+      for (Contour& contour : file.contours[i]) {
+        auto curve = fit_smooth_contour(contour.points, distance);
+        if (!curve) return std::move(curve).error();
+        contour = std::move(curve).value();
+      }
+      const auto rings = approximate_by_arcs(file.contours[i], input.arcs);
+      if (!rings) return rings.error();
+      return build_shape(*rings);
+    };
+    auto shape = fit();
+    if (!shape) {
+      Error error = std::move(shape).error();
+      error.place.file = input.path;
+      error.place.feature = i;
+      return error;
+    }
+    file.shapes[i] = std::move(shape).value();
+  }
+  return success();
 }
 
 }  // namespace medial::cli

@@ -31,6 +31,8 @@ struct ShapeFile {
   std::vector<std::string> notes;  ///< what repair or reprojection changed
   double seconds_read = 0;
   double seconds_shape = 0;
+  double processor_read = 0;  ///< seconds of processor time of the same phases
+  double processor_shape = 0;
 };
 
 /// The axes of a file.
@@ -42,6 +44,9 @@ struct AxisFile {
   double seconds_read = 0;
   double seconds_shape = 0;
   double seconds_axis = 0;
+  double processor_read = 0;  ///< seconds of processor time of the same phases
+  double processor_shape = 0;
+  double processor_axis = 0;
 };
 
 /// What axes look like, summed over the features of a file.
@@ -80,6 +85,10 @@ Status for_each_feature(std::span<const double> weights, int threads,
 /// sources. Errors name the file and the feature; of several, the first one's is given.
 /// With `keep_contours` the features' boundaries are kept as they were read, rings as contours too.
 Result<ShapeFile> load_shapes(const InputSwitches& input, int threads, bool keep_contours = false);
+
+/// Replaces the boundaries of all features, whose contours were kept, by smooth curves within
+/// `distance` of their corners.
+Status smooth_boundaries(ShapeFile& file, double distance, const InputSwitches& input);
 
 /// Prints what a user should know of the input (geographic coordinates, repairs) on standard error,
 /// unless told to be quiet.

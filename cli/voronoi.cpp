@@ -1,10 +1,11 @@
-// medial voronoi: polygons in, Voronoi diagrams of their segments and reflex vertices out.
+// medial voronoi: points, lines, curves and polygons in, Voronoi diagrams out.
 
 #include "medial/voronoi.h"
 
 #include <fmt/format.h>
 
 #include <memory>
+#include <optional>
 
 #include "cli/common.h"
 #include "cli/costs.h"
@@ -17,6 +18,9 @@ namespace {
 struct VoronoiSwitches {
   InputSwitches input;
   CommonSwitches common;
+  std::string method = "disks";
+  std::vector<double> frame;
+  double margin = 0;
   std::string output;
   std::string format;
   io::WriteOptions write;
@@ -25,6 +29,7 @@ struct VoronoiSwitches {
 /// What there is to tell of diagrams.
 struct Summary {
   std::uint64_t segments = 0, vertices = 0, edges = 0, spokes = 0, points = 0;
+  bool soup = false;
 };
 
 Summary summarize(const io::VoronoiFile& file) {
@@ -33,6 +38,7 @@ Summary summarize(const io::VoronoiFile& file) {
     const VoronoiDiagram& diagram = item.diagram;
     for (const Site& site : diagram.sites)
       ++(site.kind == SiteKind::vertex ? sum.vertices : sum.segments);
+    sum.soup = sum.soup || diagram.frame.has_value();
     sum.edges += diagram.edges.size();
     for (const VoronoiEdge& edge : diagram.edges) sum.spokes += edge.spoke ? 1 : 0;
     for (const Node& node : diagram.nodes) sum.points += node.disk.radius > 0 ? 1 : 0;
@@ -63,40 +69,139 @@ Result<io::VoronoiFile> compute_diagrams(ShapeFile shapes, const std::string& pa
   return file;
 }
 
+/// All that a file holds, and the feature that each chain is of.
+struct LooseFile {
+  std::vector<Chain> chains;
+  std::vector<std::uint32_t> feature;
+  bool y_down = false;
+  std::vector<std::string> notes;
+};
+
+Result<LooseFile> load_chains(const InputSwitches& input, int threads) {
+  io::ReadOptions read = input.read;
+  read.loose = true;
+  read.repair = io::RepairRule::none;
+  auto dataset = input.text.empty() ? io::read_dataset(input.path, read)
+                                    : io::read_text(input.text, input.path);
+  if (!dataset) return std::move(dataset).error();
+  LooseFile file;
+  file.y_down = dataset->y_down;
+  file.notes = std::move(dataset->notes);
+  ArcOptions arcs = input.arcs;
+  arcs.threads = threads;
+  for (std::uint32_t i = 0; i < dataset->features.size(); ++i) {
+    auto chains = io::chains_of(dataset->features[i], arcs);
+    if (!chains) {
+      Error error = std::move(chains).error();
+      error.place.file = input.path;
+      error.place.feature = i;
+      return error;
+    }
+    for (Chain& chain : *chains) {
+      file.chains.push_back(std::move(chain));
+      file.feature.push_back(i);
+    }
+  }
+  return file;
+}
+
+/// Seconds by phase.
+struct Phases {
+  double read = 0;
+  double shape = 0;
+  double voronoi = 0;
+};
+
+/// One diagram of all that the file holds.
+Result<io::VoronoiFile> compute_soup(const VoronoiSwitches& switches, Phases& seconds) {
+  const auto& input = switches.input;
+  const Stopwatch reading;
+  auto loose = load_chains(input, switches.common.threads);
+  if (!loose) return std::move(loose).error();
+  if (!switches.common.quiet)
+    for (const std::string& note : loose->notes)
+      fmt::print(stderr, "medial: {}: {}\n", input.path, note);
+  const auto named = [&](Error error) {
+    if (error.place.file.empty()) error.place.file = input.path;
+    if (error.place.ring && *error.place.ring < loose->feature.size()) {
+      const std::uint64_t chain = *error.place.ring;
+      error.place.feature = loose->feature[chain];
+      std::uint64_t first = chain;
+      while (first > 0 && loose->feature[first - 1] == loose->feature[chain]) --first;
+      error.place.ring = chain - first;
+    }
+    return error;
+  };
+  seconds.read = reading.seconds();
+  const Stopwatch shaping;
+  SoupReport report;
+  auto soup = build_soup(loose->chains,
+                         {.node_crossings = input.read.repair != io::RepairRule::none}, &report);
+  if (!soup) return named(std::move(soup).error());
+  seconds.shape = shaping.seconds();
+  const Stopwatch watch;
+  std::optional<Box> frame;
+  if (!switches.frame.empty())
+    frame = Box{{switches.frame[0], switches.frame[1]}, {switches.frame[2], switches.frame[3]}};
+  auto diagram = voronoi_diagram(*soup,
+                                 {.tolerance = switches.common.tolerance,
+                                  .threads = switches.common.threads,
+                                  .margin = switches.margin},
+                                 frame);
+  if (!diagram) return named(std::move(diagram).error());
+  seconds.voronoi = watch.seconds();
+  io::VoronoiFile file;
+  file.y_down = loose->y_down;
+  file.items.push_back({{}, std::move(diagram).value(), {}});
+  return file;
+}
+
 Status tell(const io::VoronoiFile& file, const VoronoiSwitches& switches, double seconds,
             const Json& costs) {
   const Summary sum = summarize(file);
   if (switches.common.json) {
-    Json object = {{"input", switches.input.path}, {"features", file.items.size()},
-                   {"segments", sum.segments},     {"reflex_vertices", sum.vertices},
-                   {"edges", sum.edges},           {"spokes", sum.spokes},
-                   {"voronoi_points", sum.points}, {"seconds", seconds}};
+    Json object = {
+        {"input", switches.input.path}, {"features", file.items.size()},
+        {"segments", sum.segments},     {sum.soup ? "points" : "reflex_vertices", sum.vertices},
+        {"edges", sum.edges},           {"spokes", sum.spokes},
+        {"voronoi_points", sum.points}, {"seconds", seconds}};
     if (switches.common.stats) object.update(costs);
     return print(object);
   }
-  const std::string line = fmt::format(
-      "{}: {}, {}, {}; {} ({}), {}; {:.3g} s\n", switches.input.path,
-      counted(file.items.size(), "feature"), counted(sum.segments, "segment"),
-      counted(sum.vertices, "reflex vertex", "reflex vertices"), counted(sum.edges, "edge"),
-      counted(sum.spokes, "spoke"), counted(sum.points, "Voronoi point"), seconds);
+  const std::string line =
+      fmt::format("{}: {}, {}, {}; {} ({}), {}; {:.3g} s\n", switches.input.path,
+                  counted(file.items.size(), "feature"), counted(sum.segments, "segment"),
+                  sum.soup ? counted(sum.vertices, "point")
+                           : counted(sum.vertices, "reflex vertex", "reflex vertices"),
+                  counted(sum.edges, "edge"), counted(sum.spokes, "spoke"),
+                  counted(sum.points, "Voronoi point"), seconds);
   if (switches.output.empty()) return print(line);
   if (error_is_terminal() && !switches.common.quiet) fmt::print(stderr, "{}", line);
   return success();
 }
 
 Result<int> run_voronoi(const VoronoiSwitches& switches) {
-  const auto& [input, common, output, format, pictures] = switches;
+  const auto& [input, common, method, frame, margin, output, format, pictures] = switches;
   Status writable =
       check_output(output, format, io::known_voronoi_formats(), input.path, common.json);
   if (!writable) return std::move(writable).error();
-  auto shapes = load_shapes(input, common.threads);
-  if (!shapes) return std::move(shapes).error();
-  print_notes(*shapes, input, common);
-  const double seconds_read = shapes->seconds_read, seconds_shape = shapes->seconds_shape;
-  const Stopwatch watch;
-  auto diagrams = compute_diagrams(std::move(shapes).value(), input.path, common);
+  const bool by_lee = method == "lee";
+  if (by_lee && !(frame.empty() && margin == 0))
+    return invalid_option("the method lee has no frame: polygons are it");
+  Phases seconds;
+  const auto compute_by_lee = [&]() -> Result<io::VoronoiFile> {
+    auto shapes = load_shapes(input, common.threads);
+    if (!shapes) return std::move(shapes).error();
+    print_notes(*shapes, input, common);
+    seconds.read = shapes->seconds_read;
+    seconds.shape = shapes->seconds_shape;
+    const Stopwatch watch;
+    auto computed = compute_diagrams(std::move(shapes).value(), input.path, common);
+    seconds.voronoi = watch.seconds();
+    return computed;
+  };
+  auto diagrams = by_lee ? compute_by_lee() : compute_soup(switches, seconds);
   if (!diagrams) return std::move(diagrams).error();
-  const double seconds = watch.seconds();
   const Stopwatch writing;
   if (!output.empty()) {
     io::WriteOptions write = pictures;
@@ -104,11 +209,11 @@ Result<int> run_voronoi(const VoronoiSwitches& switches) {
     Status written = io::write_voronoi(output, format, *diagrams, write);
     if (!written) return std::move(written).error();
   }
-  const Json costs = costs_of(common, {{"read", seconds_read},
-                                       {"shape", seconds_shape},
-                                       {"voronoi", seconds},
+  const Json costs = costs_of(common, {{"read", seconds.read},
+                                       {"shape", seconds.shape},
+                                       {"voronoi", seconds.voronoi},
                                        {"write", writing.seconds()}});
-  Status told = tell(*diagrams, switches, seconds, costs);
+  Status told = tell(*diagrams, switches, seconds.voronoi, costs);
   if (!told) return std::move(told).error();
   print_costs(common, costs);
   return exit_success;
@@ -119,7 +224,7 @@ Result<int> run_voronoi(const VoronoiSwitches& switches) {
 Verb make_voronoi_verb(CLI::App& program) {
   auto switches = std::make_shared<VoronoiSwitches>();
   CLI::App* verb = program.add_subcommand(
-      "voronoi", "Compute the Voronoi diagrams of the edges of polygons, inside of them.");
+      "voronoi", "Compute the Voronoi diagram of points, lines, curves and polygons.");
   add_input_switches(*verb, switches->input);
   verb->add_option("-o,--output", switches->output,
                    fmt::format("Where to write; the extension tells the format:\n{}\n"
@@ -130,23 +235,39 @@ Verb make_voronoi_verb(CLI::App& program) {
       ->option_text("OUTPUT");
   verb->add_option("--format", switches->format, "The format of -o -, for example geojson.")
       ->option_text("NAME");
-  verb->add_option_function<std::string>(
-          "--method", [](const std::string&) {}, "How: lee (default), the only method so far.")
-      ->check(CLI::IsMember({"lee"}).description(""))
+  verb->add_option("--method", switches->method,
+                   "How: disks (default), of everything in the file together, within a\n"
+                   "frame; or lee, of each polygon inside of it.")
+      ->check(CLI::IsMember({"disks", "lee"}).description(""))
       ->option_text("NAME");
+  verb->add_option("--margin", switches->margin,
+                   "How far the frame is away from the input's bounding box (default: half of\n"
+                   "its longer side).")
+      ->check(CLI::PositiveNumber.description(""))
+      ->option_text("M");
+  verb->add_option("--frame", switches->frame,
+                   "The frame itself: low x, low y, high x, high y. It must hold the input.")
+      ->expected(4)
+      ->excludes("--margin")
+      ->option_text("X Y X Y");
   add_picture_switches(*verb, switches->write);
   add_common_switches(*verb, switches->common);
   verb->footer(
-      "Polygons without holes and without arcs: every segment and every reflex vertex\n"
-      "has a face. The edges are exact lines and parabolas; the spokes, those between a\n"
-      "reflex vertex and its segments, included. Without the spokes this is the medial\n"
-      "axis.\n"
+      "Every point, and every segment and arc between its ends, has a face: the places\n"
+      "that are nearer to it than to all others, bounded by exact curves and by the\n"
+      "frame. Edges may meet in ends; where they cross, --repair splits them. In plain\n"
+      "text, blocks between blank lines are chains, and a single block a list of points.\n"
+      "\n"
+      "With --method lee, polygons without holes and without arcs: every segment and every\n"
+      "reflex vertex has a face inside.\n"
       "\n"
       ".json holds the graph without loss, .geojson the faces as polygons and the edges\n"
-      "as lines; pictures show the faces in colours.\n"
+      "as lines, .wkt the faces, .csv the edges; pictures show the faces in colours.\n"
       "\n"
       "Examples:\n"
-      "  medial voronoi plan.wkt -o plan.svg\n"
+      "  medial voronoi wells.csv -o wells.geojson\n"
+      "  medial voronoi roads.gpkg --margin 500 --repair -o nearest.geojson\n"
+      "  medial voronoi plan.wkt --method lee -o plan.svg\n"
       "  medial voronoi parcels.geojson --where \"area > 100\" -o faces.geojson\n"
       "  medial voronoi plan.wkt -o - --format json | jq '.items[0].edges | length'");
   return {verb, [switches] { return run_voronoi(*switches); }};

@@ -13,6 +13,9 @@
 #include <vector>
 
 #include "medial/medial.h"
+#ifdef MEDIAL_BENCH_SHAPES
+#include "cli/bench_shapes.h"
+#endif
 #include "support/generate.h"
 #include "support/generate_arcs.h"
 #include "support/property.h"
@@ -213,6 +216,21 @@ TEST(BiarcDc, TheSeedDecides) {
   EXPECT_FALSE(identical(*first, *other));
   EXPECT_NEAR(total_length(*first), total_length(*other), 1e-10);
 }
+
+#ifdef MEDIAL_BENCH_SHAPES
+/// Many of a fine tree's disks are nearly their arcs' own circles, where positions along a bisector
+/// are told by feet that turn fast.
+TEST(BiarcDc, AgreesOnATreeOfFineArcs) {
+  ArcOptions fine;
+  fine.tolerance = 1e-6;
+  const auto rings = approximate_by_arcs(cli::tree(4), fine);
+  ASSERT_TRUE(rings.ok());
+  const auto shape = build_shape(*rings);
+  ASSERT_TRUE(shape.ok());
+  for (const std::uint64_t seed : {1, 2})
+    EXPECT_EQ(compare(*shape, seed, 1e-9), std::vector<std::string>{}) << "seed " << seed;
+}
+#endif
 
 TEST(BiarcDc, RefusesHoles) {
   const auto shape = build_shape(hole_grid(1));

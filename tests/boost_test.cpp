@@ -29,6 +29,7 @@
 #include <boost/polygon/voronoi.hpp>
 #pragma GCC diagnostic pop
 
+#include "base/random.h"
 #include "medial/medial.h"
 #include "support/generate.h"
 
@@ -223,6 +224,78 @@ TEST_P(Integers, HaveTheSameGraph) {
     ADD_FAILURE() << "random_integer_shape(" << base + i << "), " << shape.kind << ": "
                   << difference << "\n"
                   << to_wkt(shape.rings);
+  }
+}
+
+/// The places of Boost's vertices off the sites, inside of a frame, and those of ours where three
+/// edges or more meet: what one has and the other has not, in words.
+std::string compare_soups(const std::vector<Chain>& chains) {
+  const auto soup = build_soup(chains);
+  if (!soup) return "";  // edges that cross
+  const auto diagram = voronoi_diagram(*soup, {.threads = 1});
+  if (!diagram) return "not computed: " + to_string(diagram.error());
+  using Point = boost::polygon::point_data<std::int32_t>;
+  using Segment = boost::polygon::segment_data<std::int32_t>;
+  const auto integer = [](Vec2 p) {
+    return Point(static_cast<std::int32_t>(p.x), static_cast<std::int32_t>(p.y));
+  };
+  std::vector<Point> points;
+  std::vector<Segment> segments;
+  for (const LonePoint& lone : soup->lone_points)
+    points.push_back(integer(soup->points[lone.point]));
+  for (const SoupEdge& edge : soup->edges)
+    segments.emplace_back(integer(soup->points[edge.from]), integer(soup->points[edge.to]));
+  boost::polygon::voronoi_diagram<double> theirs;
+  boost::polygon::construct_voronoi(points.begin(), points.end(), segments.begin(), segments.end(),
+                                    &theirs);
+  const SiteLocator locator(diagram->sites);
+  const double near = agreement * diagonal(*diagram->frame);
+  const auto inside = [&](Vec2 p) {
+    return p.x > diagram->frame->low.x + near && p.x < diagram->frame->high.x - near &&
+           p.y > diagram->frame->low.y + near && p.y < diagram->frame->high.y - near &&
+           locator.nearest(p).distance > near;
+  };
+  std::vector<Vec2> of_boost, ours;
+  for (const auto& vertex : theirs.vertices())
+    if (inside({vertex.x(), vertex.y()})) of_boost.push_back({vertex.x(), vertex.y()});
+  for (const Node& node : diagram->nodes)
+    if (node.kind == NodeKind::branching && inside(node.disk.center))
+      ours.push_back(node.disk.center);
+  const auto lacks = [&](const std::vector<Vec2>& from, const std::vector<Vec2>& in) {
+    for (const Vec2 p : from)
+      if (std::none_of(in.begin(), in.end(), [&](Vec2 q) { return distance(p, q) <= 2 * near; }))
+        return " (" + std::to_string(p.x) + ", " + std::to_string(p.y) + ")";
+    return std::string();
+  };
+  if (const std::string lost = lacks(of_boost, ours); !lost.empty())
+    return "ours lacks Boost's node" + lost;
+  if (const std::string lost = lacks(ours, of_boost); !lost.empty())
+    return "Boost's lacks our node" + lost;
+  return "";
+}
+
+TEST(Boost, HasTheSameNodesOnSoups) {
+  const char* text = std::getenv("MEDIAL_PROPERTY_COUNT");
+  const std::uint64_t count = text && *text ? std::strtoull(text, nullptr, 10) / 10 : 1500;
+  int failed = 0;
+  for (std::uint64_t seed = 0; seed < count && failed < 3; ++seed) {
+    medial::Random random(seed);
+    const std::uint32_t side = seed % 2 == 0 ? 12 : 1000;
+    std::vector<Chain> chains;
+    for (std::uint32_t i = 0, n = 2 + random.below(20); i < n; ++i) {
+      const auto place = [&] {
+        return Vec2{static_cast<double>(random.below(side)),
+                    static_cast<double>(random.below(side))};
+      };
+      Chain chain{{place()}};
+      if (random.below(4) > 0) chain.points.push_back(place());
+      chains.push_back(chain);
+      if (!build_soup(chains)) chains.pop_back();
+    }
+    const std::string difference = compare_soups(chains);
+    if (difference.empty()) continue;
+    ++failed;
+    ADD_FAILURE() << "soup " << seed << ": " << difference;
   }
 }
 

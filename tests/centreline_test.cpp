@@ -25,7 +25,8 @@ constexpr double pi = std::numbers::pi;
 
 std::uint64_t shape_count(std::uint64_t share) {
   const char* text = std::getenv("MEDIAL_PROPERTY_COUNT");
-  return (text && *text ? std::strtoull(text, nullptr, 10) : 20000) / share;
+  const std::uint64_t all = text && *text ? std::strtoull(text, nullptr, 10) : 20000;
+  return std::max<std::uint64_t>(all / share, 24);
 }
 
 struct Computed {
@@ -273,7 +274,7 @@ TEST(WidestPath, AgreesWithEveryPath) {
     const auto from = static_cast<std::uint32_t>(random.integer(0, n - 1));
     const auto to = static_cast<std::uint32_t>(random.integer(0, n - 1));
     if (from == to) continue;
-    const auto place = [&, &axis = axis](std::uint32_t node) -> AxisPlace {
+    const auto place = [&, &axis = axis](std::uint32_t node) -> EdgePlace {
       const std::uint32_t edge = incidence.edges(node)[0];
       return {edge, axis.edges[edge].node[0] == node ? 0.0 : 1.0};
     };

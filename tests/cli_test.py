@@ -245,15 +245,37 @@ class Axis(CommandLine):
         self.assertEqual(told["spokes"], 4 * told["reflex_vertices"] // 2)
         for name, start in (("v.json", b"{"), ("v.geojson", b"{"), ("v.svg", b"<?xml"), ("v.png", b"\x89PNG"),
                             ("v.pdf", b"%PDF")):
-            self.succeed("voronoi", "teeth.wkt", "-o", name)
+            self.succeed("voronoi", "teeth.wkt", "--method", "lee", "-o", name)
             self.assertTrue(self.read(name).startswith(start), name)
         stored = json.loads(self.read("v.json"))
         self.assertEqual(len(stored["items"][0]["edges"]), told["edges"])
-        piped = self.succeed("voronoi", "-", "-o", "-", "--format", "geojson", given=comb(20).encode()).stdout
+        piped = self.succeed("voronoi", "-", "--method", "lee", "-o", "-", "--format", "geojson", given=comb(20).encode()).stdout
         kinds = {f["geometry"]["type"] for f in json.loads(piped)["features"]}
         self.assertIn("Polygon", kinds)
-        self.refuse("unsupported", "voronoi", "ring.wkt", "-o", "x.json")
+        self.refuse("unsupported", "voronoi", "ring.wkt", "--method", "lee", "-o", "x.json")
         self.refuse("[a-z_]+", "voronoi", "teeth.wkt", "--method", "magic")
+
+    def test_voronoi_of_loose_pieces(self):
+        soup = b"POINT(1 3);LINESTRING(0 0,2 0,2 2);POLYGON((5 0,7 0,7 2,5 2,5 0));MULTIPOINT(4 4,(5 5))"
+        told = json.loads(self.succeed("voronoi", "-", "--json", given=soup).stdout)
+        self.assertEqual((told["segments"], told["points"]), (6, 10))
+        made = json.loads(self.succeed("voronoi", "-", "-o", "-", given=soup).stdout)
+        item = made["items"][0]
+        self.assertEqual(len(item["faces"]), 16)
+        self.assertEqual(item["frame"], [-3.5, -3.5, 10.5, 8.5])
+        framed = self.succeed("voronoi", "-", "--frame", "-1", "-1", "9", "9", "-o", "-", "--format", "geojson", given=soup)
+        faces = [f for f in json.loads(framed.stdout)["features"] if f["properties"]["part"] == "face"]
+        area = 0
+        for face in faces:
+            ring = face["geometry"]["coordinates"][0]
+            area += sum(a[0] * b[1] - a[1] * b[0] for a, b in zip(ring, ring[1:])) / 2
+        self.assertAlmostEqual(area, 100, delta=0.1)
+        crossing = b"LINESTRING(0 0,2 2);LINESTRING(0 2,2 0)"
+        self.assertIn("(1, 1)", self.refuse("crossing", "voronoi", "-", given=crossing))
+        told = json.loads(self.succeed("voronoi", "-", "--repair", "--json", given=crossing).stdout)
+        self.assertEqual((told["segments"], told["points"]), (4, 5))
+        points = json.loads(self.succeed("voronoi", "-", "--json", given=b"0 0\n1 0\n0 1\n").stdout)
+        self.assertEqual((points["segments"], points["points"]), (0, 3))
 
     def test_ridge_and_exterior(self):
         """Ridge following and the exterior, with their switches, and what verify says of them."""
@@ -353,6 +375,95 @@ class Axis(CommandLine):
         self.assertIn("corner", text)
         self.succeed("axis", "triangle.wkt", "--method", "curve-axis", "--fit", "1", "-o", "t.json")
         self.assertEqual(self.run_medial("legal", "t.json").returncode, 0)
+
+    def test_features(self):
+        """A rectangle is a worm and four wedges, in every format; of axes and of shapes alike."""
+        self.write("long.wkt", "POLYGON ((0 0, 8 0, 8 2, 0 2, 0 0))")
+        told = json.loads(self.succeed("features", "long.wkt", "--json").stdout)
+        self.assertEqual((told["ends"], told["branches"], told["runs"]), (4, 5, 5))
+        self.assertAlmostEqual(told["primitives"]["worm"], 6 / (6 + 4 * math.sqrt(2)))
+        self.succeed("axis", "long.wkt", "-o", "long.json")
+        for output in ("f.json", "f.csv", "f.geojson", "f.gpkg", "f.shp", "f.fgb", "f.svg", "f.pdf", "f.png"):
+            self.succeed("features", "long.json", "-o", output)
+            self.assertGreater(os.path.getsize(self.path(output)), 0, output)
+        item = json.loads(self.read("f.json"))["items"][0]
+        self.assertEqual(sorted(b["runs"][0]["primitive"] for b in item["branches"]),
+                         ["closing_wedge"] * 4 + ["worm"])
+        self.assertAlmostEqual(sum(b["area"] for b in item["branches"]), 16)
+        rows = list(csv.DictReader(self.read("f.csv").decode().splitlines()))
+        self.assertEqual(len(rows), 5)
+        for table, count in (("runs", 5), ("branches", 5), ("points", 6)):
+            text = self.succeed("features", "long.wkt", "-o", "-", "--format", "csv", "--table", table).stdout
+            self.assertEqual(len(text.decode().splitlines()), count + 1, table)
+        self.refuse("invalid_option", "features", "long.wkt", "--bend", "nan")
+        self.refuse("unsupported", "features", "long.wkt", "-o", "f.dxf")
+
+    def test_match(self):
+        """The rectangle turned is the rectangle; the square is further away."""
+        self.write("a.wkt", "POLYGON ((0 0, 8 0, 8 2, 0 2, 0 0))")
+        os.mkdir(self.path("others"))
+        self.write("others/turned.wkt", "POLYGON ((0 0, 3 0, 3 12, 0 12, 0 0))")
+        self.write("others/square.wkt", "POLYGON ((0 0, 3 0, 3 3, 0 3, 0 0))")
+        self.write("others/no-shape.txt", "nothing")
+        told = json.loads(self.succeed("match", "a.wkt", "others", "--json").stdout)
+        self.assertEqual(told["refused"], 1)
+        self.assertEqual([os.path.basename(m["shape"]) for m in told["matches"]], ["turned.wkt", "square.wkt"])
+        self.assertLess(told["matches"][0]["dissimilarity"], 1e-2)
+        self.assertGreater(told["matches"][1]["dissimilarity"], 0.2)
+        self.refuse("unreadable", "match", "a.wkt", "nowhere")
+
+    def test_pack(self):
+        """What is packed comes back within the error; damage is told."""
+        self.write("frame.wkt", FRAME)
+        told = json.loads(self.succeed("pack", "frame.wkt", "-o", "f.mpk", "--error", "0.001", "--compare",
+                                       "--json").stdout)
+        self.assertEqual(told["bytes"], os.path.getsize(self.path("f.mpk")))
+        self.assertLess(told["bytes"], 200)
+        self.assertGreater(told["compare"]["boundary_within_error"], 0)
+        self.succeed("unpack", "f.mpk", "-o", "back.json")
+        shape = json.loads(self.read("back.json"))["items"][0]["shape"]
+        self.assertEqual(shape["hole"].count(True), 1)
+        area = 0
+        for begin, end in zip(shape["loop_begin"], shape["loop_begin"][1:]):
+            loop = shape["points"][begin:end]
+            area += sum(p[0] * q[1] - p[1] * q[0] for p, q in zip(loop, loop[1:] + loop[:1])) / 2
+        self.assertAlmostEqual(area, 48, delta=0.3)
+        self.succeed("unpack", "f.mpk", "-o", "back.svg")
+        with open(self.path("f.mpk"), "rb") as pack:
+            content = pack.read()
+        piped = self.succeed("pack", "frame.wkt", "-o", "-", "--error", "0.001").stdout
+        self.assertEqual(piped, content)
+        with open(self.path("damaged.mpk"), "wb") as pack:
+            pack.write(content[:-3])
+        self.refuse("malformed", "unpack", "damaged.mpk", "-o", "x.json")
+        self.refuse("malformed", "unpack", "frame.wkt", "-o", "x.json")
+        self.refuse("invalid_option", "pack", "frame.wkt", "-o", "x.mpk", "--error", "0")
+
+    def test_pack_squares(self):
+        """An image of three squares is three squares, without loss."""
+        self.write("i.pbm", "P1\n6 3\n1 1 0 1 0 1\n1 1 0 0 0 0\n0 0 0 0 0 0\n")
+        told = json.loads(self.succeed("pack", "i.pbm", "-o", "i.mpk", "--squares", "--json").stdout)
+        self.assertEqual((told["squares"], told["missing_pixels"], told["pixels"]), (3, 0, 6))
+        self.succeed("unpack", "i.mpk", "-o", "back.png")
+        again = json.loads(self.succeed("pack", "back.png", "-o", "j.mpk", "--squares", "--json").stdout)
+        self.assertEqual((again["squares"], again["pixels"]), (3, 6))
+
+    def test_compare(self):
+        """Every method that takes the input takes part, curve-axis on a smooth boundary."""
+        self.write("island.wkt", "POLYGON((0 0,10 0,14 5,10 9,4 8,0 6))")
+        told = json.loads(self.succeed("compare", "island.wkt", "--json").stdout)["features"][0]
+        self.assertEqual([row["method"] for row in told],
+                         ["disks", "biarc-dc", "lee", "ridge", "brushfire", "potential", "curve-axis"])
+        self.assertIn("refused", told[-1])
+        for row in told[:3]:
+            self.assertTrue(row["passed"], row)
+            self.assertLess(row["hausdorff"], 1e-9)
+        told = json.loads(self.succeed("compare", "island.wkt", "--fit", "0.5", "--methods", "disks,curve-axis",
+                                       "--arc-tolerance", "1e-9", "--json", "-o", "both.svg").stdout)["features"][0]
+        self.assertEqual(told[0]["branches"], told[1]["branches"])
+        self.assertLess(told[1]["largest_distance"], 1e-5)
+        self.assertTrue(self.read("both.svg").startswith(b"<?xml"))
+        self.refuse("invalid_option", "compare", "island.wkt", "--methods", "magic")
 
     def test_legal(self):
         """The axis of a shape is legal; a radius that grows faster than the way is not, and is named."""

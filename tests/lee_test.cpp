@@ -243,6 +243,12 @@ TEST(LeeTies, OfRegularPolygonsAreOneNode) {
   }
 }
 
+/// Ties by the thousand: disks that touch the end of a segment from behind, and so not the segment.
+TEST(LeeTies, OfMazesAreBrokenAlike) {
+  for (const std::uint64_t seed : {153U, 155U, 446U, 451U, 600U})
+    EXPECT_EQ(check_axis_of(built(maze(10000, seed)), true), "") << seed;
+}
+
 TEST(LeeProgress, GrowsToOneOnOneThread) {
   std::vector<double> told;
   Options options = by_lee();

@@ -23,7 +23,8 @@ constexpr double pi = std::numbers::pi;
 
 std::uint64_t shape_count(std::uint64_t share) {
   const char* text = std::getenv("MEDIAL_PROPERTY_COUNT");
-  return (text && *text ? std::strtoull(text, nullptr, 10) : 20000) / share;
+  const std::uint64_t all = text && *text ? std::strtoull(text, nullptr, 10) : 20000;
+  return std::max<std::uint64_t>(all / share, 24);
 }
 
 struct Computed {
@@ -151,7 +152,7 @@ TEST(Necks, AreLocalMinima) {
       const std::uint32_t node = edge.node[neck.place.t == 0 ? 0 : 1];
       int rising = 0;
       for (const std::uint32_t e : incidence.edges(node)) {
-        const AxisPlace low = narrowest_place(axis, e);
+        const EdgePlace low = narrowest_place(axis, e);
         rising += disk_at(axis, axis.edges[e], low.t).radius >= r - slack ? 1 : 0;
       }
       EXPECT_GE(rising, 2);
@@ -199,6 +200,33 @@ TEST(MeanWidth, KnowsTheArea) {
     const double deepest = deepest_disk(axis).radius;
     EXPECT_LE(mean.by_area, 2 * deepest * (1 + 1e-9));
   }
+}
+
+TEST(MeanWidth, AndNecksAreTheSameUnderSymmetries) {
+  std::size_t compared = 0;
+  for (std::uint64_t seed = 0; seed < shape_count(250); ++seed) {
+    const RandomShape random = test::random_shape(seed);
+    if (!random.rigid) continue;
+    const auto [shape, axis] = computed(random.rings);
+    SCOPED_TRACE(random.kind + " " + std::to_string(seed));
+    const double expected = mean_width(axis, {}).by_area;
+    const auto expected_necks = necks(axis, 1.5);
+    const double smallest = expected_necks.empty() ? 0 : expected_necks[0].width.width();
+    for (const test::Symmetry& symmetry : test::symmetries()) {
+      const auto moved = computed(test::transformed(random.rings, symmetry));
+      const double scale = symmetry.scale(), slack = 1000 * moved.axis.tolerance / scale;
+      ASSERT_NEAR(mean_width(moved.axis, {}).by_area / scale, expected, 1e-6 * expected + slack)
+          << symmetry.name;
+      const auto found = necks(moved.axis, 1.5);
+      ASSERT_EQ(found.empty(), expected_necks.empty()) << symmetry.name;
+      if (!found.empty()) {
+        ASSERT_NEAR(found[0].width.width() / scale, smallest, 1e-6 * expected + slack)
+            << symmetry.name;
+      }
+      ++compared;
+    }
+  }
+  EXPECT_GT(compared, 0U);
 }
 
 TEST(LargestDisjointDisks, OfASquare) {

@@ -68,7 +68,7 @@ std::vector<double> thresholds_of(const PruneOrder& order, const MedialAxis& axi
     if (std::isfinite(order.of_edge(e))) finite.push_back(order.of_edge(e));
   std::sort(finite.begin(), finite.end());
   std::vector<double> thresholds{0, default_threshold(measure), 0.5 * default_threshold(measure)};
-  for (const std::size_t share : {1, 2, 3, 4})
+  for (const std::size_t share : {1U, 2U, 3U, 4U})
     if (!finite.empty()) thresholds.push_back(finite[(finite.size() - 1) * share / 4]);
   if (!finite.empty()) thresholds.push_back(2 * finite.back());
   std::sort(thresholds.begin(), thresholds.end());
@@ -232,12 +232,26 @@ TEST(Prune, MeasuresOfARectangle) {
   EXPECT_TRUE(least.edges.empty());
 }
 
+/// A lens of two arcs: the deepest disk lies inside its only edge, which stays.
+TEST(Prune, TheDeepestDiskMayLieInsideAnEdge) {
+  Ring lens{{{-1, 0}, {1, 0}}, RingRole::any, {0.3, 0.3}};
+  const auto shape = build_shape({&lens, 1});
+  ASSERT_TRUE(shape.ok());
+  const auto axis = compute(*shape);
+  ASSERT_TRUE(axis.ok());
+  ASSERT_EQ(axis->edges.size(), 1U);
+  for (const PruneMeasure measure : prune_measures()) {
+    const MedialAxis pruned = PruneOrder(*axis, measure).at(1e6);
+    EXPECT_NEAR(total_length(pruned), 2, 1e-9) << name_of(measure);
+  }
+}
+
 TEST(Prune, KeepsSoManyBranches) {
   for (std::uint64_t seed = 0; seed < shape_count() / 8; ++seed) {
     const MedialAxis axis = axis_of(shape_of(seed).rings);
     for (const PruneMeasure measure : {PruneMeasure::significance, PruneMeasure::residual}) {
       const std::size_t fewest = PruneOrder(axis, measure).branches_at(1e300);
-      for (const std::uint64_t keep : {1, 5, 20}) {
+      for (const std::uint64_t keep : {1U, 5U, 20U}) {
         PruneOptions options;
         options.measure = measure;
         options.keep = keep;

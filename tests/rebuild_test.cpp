@@ -155,7 +155,7 @@ TEST(Rebuild, TangentsOfMorePointsComeNearer) {
   const Case one =
       case_of({{0, 0}, {9, 0}, {9, 3}, {6, 3}, {6, 7}, {4, 7}, {4, 3}, {2, 4}, {0, 3}});
   double before = one.size;
-  for (const std::uint64_t points : {50, 200, 800, 3200}) {
+  for (const std::uint64_t points : {50U, 200U, 800U, 3200U}) {
     RebuildReport report;
     const auto shape = rebuild(one.axis, {.by = RebuildBy::tangents, .points = points}, &report);
     ASSERT_TRUE(shape.ok());
@@ -167,6 +167,15 @@ TEST(Rebuild, TangentsOfMorePointsComeNearer) {
     before = apart.hausdorff();
   }
   EXPECT_LT(before, 2e-3 * one.size);
+}
+
+TEST(Rebuild, TangentsOfAnyShapeGiveOne) {
+  for (std::uint64_t seed = 0; seed < shape_count() / 4; ++seed) {
+    const Case one = case_of(seed);
+    SCOPED_TRACE(one.name);
+    const auto shape = rebuild(one.axis, {.by = RebuildBy::tangents, .points = 200});
+    EXPECT_TRUE(shape.ok()) << to_string(shape.error());
+  }
 }
 
 TEST(Rebuild, SampledAxesGivePolygons) {

@@ -1,13 +1,15 @@
 // medial beside flo-mat: the same SVG files, one run, warm, one thread. Prints Markdown.
-// node compare.mjs MEDIAL [--rounds N] [--tolerance T] [FILE.svg | FILE.wkt ...]; see README.md.
+// node compare.mjs MEDIAL [--rounds N] [--tolerance T | equal] [FILE.svg | FILE.wkt ...]; see README.md.
 
 import { execFileSync, spawnSync } from 'node:child_process';
 import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { basename, join } from 'node:path';
 
-let tolerance = 1e-6;      // of medial's arcs, relative to the diagonal
+let tolerance = 1e-6;      // of medial's arcs, relative to the diagonal; 0: as exact as flo-mat is
+const finest = 1e-9;     // the axis that both are measured against
 const copies = 20;       // of a shape in one run of medial
+const share = 0.99;      // of an axis' points whose error counts
 const near = 1e-3;       // ends of branches at the same place, relative to the diagonal
 
 let flo;
@@ -24,10 +26,10 @@ let rounds = 3;
 while (words[0] === '--rounds' || words[0] === '--tolerance') {
   const [name, value] = words.splice(0, 2);
   if (name === '--rounds') rounds = Number(value);
-  else tolerance = Number(value);
+  else tolerance = value === 'equal' ? 0 : Number(value);
 }
-if (!medial || !existsSync(medial) || !(rounds >= 1) || !(tolerance > 0)) {
-  console.error('usage: node compare.mjs MEDIAL [--rounds N] [--tolerance T] [FILE.svg | FILE.wkt ...]');
+if (!medial || !existsSync(medial) || !(rounds >= 1) || !(tolerance >= 0)) {
+  console.error('usage: node compare.mjs MEDIAL [--rounds N] [--tolerance T | equal] [FILE.svg | FILE.wkt ...]');
   process.exit(2);
 }
 
@@ -89,44 +91,122 @@ function floBranches(mats) {
   return branches;
 }
 
+/** The point of a Bezier curve. */
+function pointAt(points, t) {
+  while (points.length > 1) {
+    points = points.slice(1).map(([x, y], i) =>
+      [(1 - t) * points[i][0] + t * x, (1 - t) * points[i][1] + t * y]);
+  }
+  return points[0];
+}
+
+/** Points of flo-mat's axis: of each of its curves the end and three in between. */
+function floPoints(mats) {
+  const points = [];
+  for (const mat of mats) {
+    if (!mat.cpNode) continue;
+    for (const branch of flo.getBranches(mat.cpNode)) {
+      for (const node of branch) {
+        const curve = flo.CpNodeFs.getMatCurveToNext(node);
+        for (const t of [0.25, 0.5, 0.75, 1]) points.push(pointAt(curve, t));
+      }
+    }
+  }
+  return points;
+}
+
 /** flo-mat's time and branches: its default accuracy, nothing simplified or culled. */
 function runFlo(file) {
   const loops = flo.getPathsFromStr(pathsOf(file).join('\n'));
   const options = { applySat: false, simplify: false };
   const [milliseconds, mats] = timed(() => flo.findMats(loops, options));
   const curves = loops.reduce((sum, loop) => sum + loop.length, 0);
-  return { milliseconds, curves, branches: floBranches(mats) };
+  return { milliseconds, curves, branches: floBranches(mats), points: floPoints(mats) };
 }
 
-/** Milliseconds of processor time of a child, all of it. */
-function processorTime(...command) {
-  const script = 'TIMEFORMAT="%U %S"; time "$@" > /dev/null';
-  const done = spawnSync('bash', ['-c', script, 'bash', ...command],
-                         { encoding: 'utf8', env: { ...process.env, LC_ALL: 'C' } });
-  const [user, system] = done.stderr.trim().split('\n').pop().split(' ').map(Number);
-  if (done.status !== 0) throw new Error(done.stderr);
-  return 1e3 * (user + system);
-}
-
-/** medial's time and its branches. Warm: what a run with many copies of the shape takes longer than
- * a run with one, reading included. */
-function runMedial(file) {
+/** medial's axis of one copy of a shape. */
+function axisOf(file, tolerance) {
   const axis = join(folder, 'axis.json');
   const once = writeSvg(join(folder, 'once.svg'), pathsOf(file), 1);
+  const options = ['--arc-tolerance', `${tolerance}`, '--quiet'];
+  execFileSync(medial, ['axis', once, '--threads', '1', ...options, '-o', axis]);
+  const verified = spawnSync(medial, ['verify', once, axis, ...options]).status === 0;
+  return { verified, native: JSON.parse(readFileSync(axis, 'utf8')) };
+}
+
+/** medial's time and its branches. The time is the processor's, on one thread, from Bezier curves
+ * to the axis, without reading, as flo-mat's is; warm: what a run with many copies of the shape
+ * takes longer than a run with one. */
+function runMedial(file, tolerance) {
+  const once = writeSvg(join(folder, 'once.svg'), pathsOf(file), 1);
   const often = writeSvg(join(folder, 'often.svg'), pathsOf(file), copies + 1);
-  const arguments_ = ['--threads', '1', '--arc-tolerance', `${tolerance}`, '--quiet'];
-  const least = input => Math.min(...Array.from(
-    { length: rounds + 1 }, () => processorTime(medial, 'axis', input, ...arguments_)));
+  const options = ['--threads', '1', '--arc-tolerance', `${tolerance}`, '--quiet', '--stats', '--json'];
+  const run = input => {
+    const told = JSON.parse(execFileSync(medial, ['axis', input, ...options], { encoding: 'utf8' }));
+    return 1e3 * (told.processor.shape + told.processor.axis);
+  };
+  const least = input => Math.min(...Array.from({ length: rounds + 1 }, () => run(input)));
   const milliseconds = (least(often) - least(once)) / copies;
-  execFileSync(medial, ['axis', once, ...arguments_, '-o', axis]);
-  let verified = true;
-  try {
-    execFileSync(medial, ['verify', once, axis, '--arc-tolerance', `${tolerance}`, '--quiet'],
-                 { stdio: 'ignore' });
-  } catch {
-    verified = false;
+  const { verified, native } = axisOf(file, tolerance);
+  return { milliseconds, tolerance, verified, native, ...branchesOf(native) };
+}
+
+/** Finds how far points are from an axis of many short edges, up to `reach`. */
+class Distances {
+  constructor(native, reach) {
+    this.reach = reach;
+    this.cells = new Map();
+    for (const { axis } of native.items) {
+      for (const [from, to] of axis.edges) {
+        const a = axis.nodes[from], b = axis.nodes[to];
+        const steps = Math.ceil(distance(a, b) / reach) + 1;
+        const names = new Set();
+        for (let i = 0; i <= steps; ++i) {
+          names.add(this.name(this.cell(a[0] + (b[0] - a[0]) * i / steps),
+                              this.cell(a[1] + (b[1] - a[1]) * i / steps)));
+        }
+        for (const name of names) {
+          if (!this.cells.has(name)) this.cells.set(name, []);
+          this.cells.get(name).push([a, b]);
+        }
+      }
+    }
   }
-  return { milliseconds, verified, ...branchesOf(JSON.parse(readFileSync(axis, 'utf8'))) };
+  cell(value) { return Math.floor(value / this.reach); }
+  name(x, y) { return `${x},${y}`; }
+  of(p) {
+    let least = this.reach;
+    for (let i = -1; i <= 1; ++i) {
+      for (let j = -1; j <= 1; ++j) {
+        for (const [a, b] of this.cells.get(this.name(this.cell(p[0]) + i, this.cell(p[1]) + j)) ?? []) {
+          const d = [b[0] - a[0], b[1] - a[1]];
+          const squared = d[0] * d[0] + d[1] * d[1];
+          const t = squared > 0 ? ((p[0] - a[0]) * d[0] + (p[1] - a[1]) * d[1]) / squared : 0;
+          const s = Math.min(1, Math.max(0, t));
+          least = Math.min(least, distance(p, [a[0] + s * d[0], a[1] + s * d[1]]));
+        }
+      }
+    }
+    return least;
+  }
+  /** The distance that so large a share of the points stays below. */
+  quantile(points, share) {
+    const all = points.map(p => this.of(p)).sort((a, b) => a - b);
+    return all[Math.min(all.length - 1, Math.floor(share * all.length))];
+  }
+}
+
+/** The nodes of a native file. */
+function nodesOf(native) {
+  return native.items.flatMap(({ axis }) => axis.nodes.map(node => node.slice(0, 2)));
+}
+
+/** The coarsest tolerance at which medial's axis is as near to the finest one as flo-mat's is. */
+function equalTolerance(file, error, distances) {
+  for (let t = 1e-2; t > finest; t /= 10 ** 0.5) {
+    if (distances.quantile(nodesOf(axisOf(file, t).native), share) <= error) return t;
+  }
+  return finest;
 }
 
 /** The branches of a native file as pairs of ends, and the diagonal of the shape's vertices. */
@@ -184,26 +264,34 @@ function matched(wanted, found, radius) {
   return { count, long };
 }
 
-console.log('| shape | curves | medial ms | flo-mat ms | ratio | branches medial | branches flo-mat ' +
-            '| medial\'s found by flo-mat | flo-mat\'s found by medial | medial verified |');
-console.log('| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | --- |');
+console.log('| shape | curves | tolerance | error medial | error flo-mat | medial ms | flo-mat ms | ratio ' +
+            '| branches medial | branches flo-mat | medial\'s found by flo-mat ' +
+            '| flo-mat\'s found by medial | medial verified |');
+console.log('| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | --- |');
 const missed = [];
 let failed = false;
 for (const file of inputs()) {
   const name = basename(file, '.svg');
-  const ours = runMedial(file);
   let theirs;
   try {
     theirs = runFlo(file);
   } catch (error) {
-    console.log(`| ${name} | | ${ours.milliseconds.toFixed(2)} | flo-mat fails: ${error.message} |`);
+    console.log(`| ${name} | | | | | | flo-mat fails: ${error.message} |`);
     missed.push(`${name}: all`);
     continue;
   }
+  const finestAxis = axisOf(file, finest).native;
+  const { diagonal } = branchesOf(finestAxis);
+  const distances = new Distances(finestAxis, near * diagonal);
+  const error = distances.quantile(theirs.points, share);
+  const ours = runMedial(file, tolerance || equalTolerance(file, error, distances));
+  const own = distances.quantile(nodesOf(ours.native), share);
   const radius = near * ours.diagonal;
   const by = matched(ours.branches, theirs.branches, radius);
   const back = matched(theirs.branches, ours.branches, radius);
-  console.log(`| ${name} | ${theirs.curves} | ${ours.milliseconds.toFixed(2)} | ` +
+  const relative = value => (value / diagonal).toExponential(0);
+  console.log(`| ${name} | ${theirs.curves} | ${ours.tolerance.toExponential(0)} | ${relative(own)} | ` +
+    `${relative(error)} | ${ours.milliseconds.toFixed(2)} | ` +
     `${theirs.milliseconds.toFixed(0)} | ${(theirs.milliseconds / ours.milliseconds).toFixed(0)} | ` +
     `${ours.branches.length} | ${theirs.branches.length} | ${by.count} of ${by.long} | ` +
     `${back.count} of ${back.long} | ${ours.verified ? 'yes' : 'NO'} |`);

@@ -16,7 +16,7 @@
 namespace medial {
 
 /// A point of the axis: the parameter t in [0, 1] on an edge.
-struct AxisPlace {
+struct EdgePlace {
   std::uint32_t edge = 0;
   double t = 0;
 };
@@ -42,8 +42,8 @@ struct AxisPath {
 /// The place of the smallest radius on an edge, and of the largest; the middle of one whose radius
 /// does not change. Closed forms: along an edge the radius falls, then rises; between arcs it may
 /// also rise, then fall.
-AxisPlace narrowest_place(const MedialAxis& axis, std::uint32_t edge);
-AxisPlace widest_place(const MedialAxis& axis, std::uint32_t edge);
+EdgePlace narrowest_place(const MedialAxis& axis, std::uint32_t edge);
+EdgePlace widest_place(const MedialAxis& axis, std::uint32_t edge);
 
 /// The part of the axis that the pieces cover: an axis of the same sites, its edges in the order
 /// and direction of the pieces, its nodes those where they end; pieces that end at the same place
@@ -58,7 +58,7 @@ MedialAxis clearance_part(const MedialAxis& axis, double clearance);
 /// of the maximal disk that touches the boundary where the point is nearest to it. So the middle
 /// of a side leads to the disk that touches that side in its middle. O(sites + edges). Of an axis
 /// that names no sites, its nearest point. Nothing where there is no edge.
-std::optional<AxisPlace> place_on_axis(const MedialAxis& axis, Vec2 p);
+std::optional<EdgePlace> place_on_axis(const MedialAxis& axis, Vec2 p);
 
 /// How one way among several is chosen: around holes.
 enum class Route : std::uint8_t {
@@ -70,12 +70,12 @@ enum class Route : std::uint8_t {
 
 /// The best way between two places. O(edges log edges). Errors: invalid_option (a place that is
 /// none, or no way between them).
-Result<AxisPath> path_between(const MedialAxis& axis, AxisPlace from, AxisPlace to,
+Result<AxisPath> path_between(const MedialAxis& axis, EdgePlace from, EdgePlace to,
                               Route route = Route::shortest);
 
 /// The widest way: the one along which the largest disk can move, and of those the shortest.
 /// O(edges log edges). Errors: as path_between().
-Result<AxisPath> widest_path(const MedialAxis& axis, AxisPlace from, AxisPlace to);
+Result<AxisPath> widest_path(const MedialAxis& axis, EdgePlace from, EdgePlace to);
 
 struct MainPathOptions {
   /// A path does not run into a corner: its end is cut back to a branching node from whose disk the

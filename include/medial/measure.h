@@ -36,7 +36,7 @@ Disk deepest_disk(const MedialAxis& axis);
 
 /// A place where a shape is narrower than on both sides of it.
 struct Neck {
-  AxisPlace place;
+  EdgePlace place;
   LocalWidth width;
   /// The smaller of the radii of the widest disks that can be reached on both sides without passing
   /// anything as narrow.

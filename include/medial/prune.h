@@ -72,8 +72,9 @@ struct EdgePart {
 
 /// How much every point of an axis matters by one measure: never less than anything beyond it. So
 /// what matters at least so much is a connected part of every connected part, holds all cycles and
-/// the ways between them, or at least the deepest disk of a tree (the lowest index among equals),
-/// and is a subset of what matters less.
+/// the ways between them, or at least the deepest disk of a tree (the lowest index among equals;
+/// where that disk lies inside an edge between two arcs, the edge), and is a subset of what matters
+/// less.
 ///
 /// Keeps a reference to the axis, which must live longer. O(n), for `scale` O(n log n) expected.
 class PruneOrder {

@@ -3,7 +3,8 @@
 // What an axis tells of the boundary on its two sides, and whether it can be an axis at all:
 // Shaked and Bruckstein, "The Curve Axis", 1996, Sections 2 and 3. The numbers in brackets are the
 // paper's equations. `a` is the length along the axis, subscripts are derivatives by it.
-// For the axis of any engine; analytic on exact edges, from three neighbours on sampled ones.
+// For the axis of any engine; analytic on exact edges, from three neighbours on sampled ones, from
+// seven on a curve axis.
 
 #include <array>
 #include <cstdint>
@@ -55,8 +56,8 @@ std::vector<double> boundary_curvatures(const MedialAxis& axis, const Edge& edge
                                         Side side, int order);
 
 /// The frames along a branch in its direction: of an exact axis `samples_per_edge` inside every
-/// edge, of a sampled one (resolution > 0) one at every inner node, from its two neighbours. Edges
-/// of length 0 have none.
+/// edge, of a sampled one (resolution > 0) one at every inner node, from its two neighbours; by the
+/// method curve-axis, whose nodes are exact, from seven. Edges of length 0 have none.
 std::vector<AxisFrame> frames_along(const MedialAxis& axis, const Branch& branch,
                                     int samples_per_edge = 8);
 

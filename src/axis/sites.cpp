@@ -15,6 +15,7 @@ namespace {
 using geometry::Joint;
 
 Joint joint_at(const Loop& loop, std::uint32_t i, double tolerance, double corner_angle) {
+  if (loop.turns_back(i)) return Joint::reflex;
   const std::uint32_t before = loop.before(i), after = loop.next(i);
   const Vec2 p = loop.point(before), q = loop.point(i), r = loop.point(after);
   if (loop.bulge(before) == 0 && loop.bulge(i) == 0)
@@ -53,9 +54,13 @@ SiteNumbers number_sites(const Shape& shape, const Frame& frame, double corner_a
                 joint_at(loop, static_cast<std::uint32_t>(i) - loop.begin(), tolerance, radians);
         }
       });
-  for (std::size_t i = 0; i < shape.points.size(); ++i) {
-    numbers.count += numbers.is_site(i) ? 1 : 0;
-    numbers.edge[i] = numbers.count++;
+  for (std::size_t loop = 0; loop < shape.loop_count(); ++loop) {
+    const std::size_t begin = shape.loop_begin[loop], end = shape.loop_begin[loop + 1];
+    for (std::size_t i = begin; i < end; ++i) {
+      numbers.count += numbers.is_site(i) ? 1 : 0;
+      numbers.edge[i] = numbers.count;
+      if (end - begin > 1) ++numbers.count;
+    }
   }
   return numbers;
 }
@@ -70,6 +75,7 @@ std::vector<Site> result_sites(const Shape& shape, const SiteNumbers& numbers) {
       const auto [ring, vertex] = shape.sources[i];
       const double bulge = shape.bulge(i);
       if (numbers.is_site(i)) sites.push_back({p, p, ring, vertex, SiteKind::vertex});
+      if (end - begin == 1) continue;
       sites.push_back({p, q, ring, vertex, bulge == 0 ? SiteKind::segment : SiteKind::arc, bulge});
     }
   }

@@ -41,6 +41,11 @@ class Loop {
   Vec2 point(std::uint32_t i) const { return shape_.points[begin_ + i]; }
   Vec2 local(std::uint32_t i) const { return frame_.to_local(point(i)); }
   double bulge(std::uint32_t i) const { return shape_.bulge(begin_ + i); }
+  /// Whether the loop goes back there on the edge that it came on: a point, or an open end, of a
+  /// soup (see shape/around.h).
+  bool turns_back(std::uint32_t i) const {
+    return point(before(i)) == point(next(i)) && bulge(before(i)) == -bulge(i);
+  }
   Pieces edge(std::uint32_t i) const { return pieces_of(local(i), local(next(i)), bulge(i)); }
 
  private:
@@ -50,7 +55,7 @@ class Loop {
 };
 
 /// Which vertices are sites, and how the result numbers its sites: in the order of the shape's
-/// points, the vertex before the segment that starts there.
+/// points, the vertex before the segment that starts there. A loop of one point has no segment.
 struct SiteNumbers {
   std::vector<std::uint32_t> edge;      ///< of each point; the vertex's number is one less
   std::vector<geometry::Joint> joints;  ///< at each point

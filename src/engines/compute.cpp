@@ -19,7 +19,9 @@
 #include "engines/potential/force.h"
 #include "engines/potential/potential.h"
 #include "engines/ridge/ridge.h"
+#include "engines/voronoi/soup_diagram.h"
 #include "medial/voronoi.h"
+#include "shape/around.h"
 #include "shape/exterior.h"
 #ifdef MEDIAL_HAS_EXACT
 #include "exact/certify.h"
@@ -252,6 +254,74 @@ Result<VoronoiDiagram> voronoi_diagram(const Shape& shape, const Options& option
     if (own.cancel != nullptr && own.cancel->load())
       return Error{ErrorCode::cancelled, "cancelled", {}};
     if (own.progress) own.progress(1);
+    return diagram;
+  } catch (const std::bad_alloc&) {
+    return Error{ErrorCode::out_of_memory, "memory ran out", {}};
+  } catch (const std::exception& exception) {
+    return Error{ErrorCode::internal, exception.what(), {}};
+  }
+}
+
+namespace {
+
+/// The frame that a soup's diagram is cut off at; an error where it does not hold the soup.
+Result<Box> frame_for(const Soup& soup, const Options& options, const std::optional<Box>& frame) {
+  constexpr double most = 1e6;  // of the soup's size, or of its coordinates'
+  const Box box = bounding_box(soup);
+  const double size = diagonal(box);
+  const double largest = std::max(
+      {std::abs(box.low.x), std::abs(box.low.y), std::abs(box.high.x), std::abs(box.high.y), size});
+  if (frame) {
+    const bool holds = frame->low.x < box.low.x && frame->low.y < box.low.y &&
+                       frame->high.x > box.high.x && frame->high.y > box.high.y;
+    if (!holds || !(diagonal(*frame) <= most * std::max(largest, 1.0)))
+      return Error{ErrorCode::invalid_option, "the frame must hold all of the input inside", {}};
+    return *frame;
+  }
+  double margin = margin_for(box, options.margin);
+  if (margin == 0) margin = largest > 0 ? 0.5 * largest : 1;
+  if (!(options.margin >= 0 && margin >= 1e-6 * size && margin <= most * std::max(largest, 1.0)))
+    return Error{ErrorCode::invalid_option,
+                 "the margin must be 0 or in [1e-6, 1e6] of the input's diagonal",
+                 {}};
+  return Box{box.low - Vec2{margin, margin}, box.high + Vec2{margin, margin}};
+}
+
+std::optional<Error> refuse(const Soup& soup, const Options& options) {
+  if (!(options.tolerance >= 0 && options.tolerance <= 1e-3))
+    return Error{ErrorCode::invalid_option, "the tolerance must be in [0, 1e-3]", {}};
+  if (options.threads < 0 || options.threads > most_threads)
+    return Error{ErrorCode::invalid_option, "the number of threads must be in [0, 1024]", {}};
+  if (soup.points.empty()) return Error{ErrorCode::empty, "there is no point", {}};
+  if (soup.half_edges.size() + soup.lone_points.size() >
+      std::numeric_limits<std::uint32_t>::max() / 16)
+    return Error{ErrorCode::too_large, "there are more than 2^28 edges and points", {}};
+  return std::nullopt;
+}
+
+}  // namespace
+
+Result<VoronoiDiagram> voronoi_diagram(const Soup& soup, const Options& options,
+                                       const std::optional<Box>& frame) {
+  try {
+    if (auto error = refuse(soup, options)) return std::move(*error);
+    auto box = frame_for(soup, options, frame);
+    if (!box) return std::move(box).error();
+    const Shape shape = around(soup, voronoi::far_frame(*box));
+    if (auto error = beyond_limits(shape)) return std::move(*error);
+    Result<VoronoiDiagram> diagram = on_threads(options.threads, [&]() -> Result<VoronoiDiagram> {
+      MedialAxis axis = disks::run_two_sided(shape, options);
+      if (options.cancel != nullptr && options.cancel->load())
+        return Error{ErrorCode::cancelled, "cancelled", {}};
+      if (!has_right_topology(shape, axis))
+        return Error{ErrorCode::internal,
+                     "the diagram is not connected as it should be: please report this input",
+                     {}};
+      return voronoi::diagram_of(soup, shape, std::move(axis), *box);
+    });
+    if (!diagram) return diagram;
+    diagram->statistics.threads = effective_threads(options.threads);
+    if (options.progress) options.progress(1);
     return diagram;
   } catch (const std::bad_alloc&) {
     return Error{ErrorCode::out_of_memory, "memory ran out", {}};

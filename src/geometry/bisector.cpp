@@ -260,9 +260,17 @@ Control control_of(const Site& a, const Site& b, const Disk& from, const Disk& t
   const Site& segment = a.is_vertex() ? b : a;
   const Vec2 vertex = a.is_vertex() ? a.point : b.point;
   const double y = cross(segment.direction, vertex - segment.point);
-  const double s = dot(segment.direction, from.center - vertex);
-  const double t = dot(segment.direction, to.center - vertex);
+  double s = dot(segment.direction, from.center - vertex);
+  double t = dot(segment.direction, to.center - vertex);
   if (!(y > 0)) return {middle, 1};
+  // Far from a vertex that is next to the segment, the radius knows better how far, as (s - x)^2 +
+  // y^2 = 2 y r: what is lost in y then cancels.
+  constexpr double next_to = 0x1p-4;
+  const auto by_radius = [&](double way, double radius) {
+    return y < next_to * std::abs(way) ? std::copysign(std::sqrt(y * (2 * radius - y)), way) : way;
+  };
+  s = by_radius(s, from.radius);
+  t = by_radius(t, to.radius);
   const double r = (s * t + y * y) / (2 * y);
   // Centres lie at height r over the line; the vertex at height y.
   const Vec2 center = vertex + (0.5 * (s + t)) * segment.direction + (r - y) * segment.normal();

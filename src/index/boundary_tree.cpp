@@ -272,6 +272,45 @@ BoundaryTree::Hit BoundaryTree::nearest(Vec2 c, double reach, std::uint32_t firs
   return hit;
 }
 
+BoundaryTree::Hit BoundaryTree::nearest_facing(Vec2 c, double reach, std::uint32_t first,
+                                               std::uint32_t last) const {
+  Hit front, back;
+  if (first > last || !(reach > 0)) return front;
+  // What two distances to one place may differ by.
+  constexpr double rounding = 0x1p-48;
+  front.squared_distance = back.squared_distance = reach * reach;
+  double limit = reach * reach;
+  const auto faces = [&](const Site& site) {
+    if (site.is_vertex()) return true;
+    const double s = geometry::carrier_parameter(site, c);
+    return geometry::carrier_distance(site, c) > 0 && s >= 0 && s <= site.length;
+  };
+  const auto look_at = [&](std::uint32_t i) {
+    const double squared = geometry::squared_distance(sites_[i], c);
+    if (!(squared < limit)) return;
+    Hit& hit = faces(sites_[i]) ? front : back;
+    if (squared < hit.squared_distance) hit = {i, squared};
+    const double near = std::sqrt(back.squared_distance) + rounding;
+    limit = std::min({front.squared_distance, near * near, limit});
+  };
+  visit_blocks(c, reach, first, last, [&](std::uint32_t from, std::uint32_t to) {
+    const double before = limit;
+    if (!has_arcs_) {
+      for (; from < to; from += 2) {
+        if (!one_is_nearer(sites_[from], sites_[from + 1], c, limit)) continue;
+        look_at(from);
+        look_at(from + 1);
+      }
+    }
+    for (; from <= to; ++from) look_at(from);
+    if (limit < before) reach = std::sqrt(limit);
+  });
+  if (!back) return front;
+  if (!front) return back;
+  return std::sqrt(front.squared_distance) <= std::sqrt(back.squared_distance) + rounding ? front
+                                                                                          : back;
+}
+
 BoundaryTree::Hit BoundaryTree::nearest_lowest(Vec2 c, double reach) const {
   Hit hit;
   if (sites_.empty() || !(reach > 0)) return hit;

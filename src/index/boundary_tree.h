@@ -33,6 +33,10 @@ class BoundaryTree {
   /// `reach`. O(log n) expected. Of sites at equal distance, any.
   Hit nearest(Vec2 c, double reach, std::uint32_t first, std::uint32_t last) const;
 
+  /// The same where sites may lie upon each other: of those at equal distance, up to rounding, one
+  /// that has c on its left and over its inside, if there is any; vertices count as such.
+  Hit nearest_facing(Vec2 c, double reach, std::uint32_t first, std::uint32_t last) const;
+
   /// The same over all sites, and of sites at equal distance the lowest index.
   Hit nearest_lowest(Vec2 c, double reach) const;
 

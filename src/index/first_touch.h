@@ -35,6 +35,10 @@ class FirstTouch {
   std::optional<Touch> find(Vec2 foot, Vec2 direction, double largest, std::uint32_t group,
                             std::uint32_t first, std::uint32_t last) const;
 
+  /// Calls visit(site) for all sites of the group within `reach` of a point of the local frame.
+  template <class Visit>
+  void near(Vec2 point, double reach, std::uint32_t group, Visit&& visit) const;
+
  private:
   static constexpr std::size_t fan = 4;
   static constexpr std::size_t block_size = 8;
@@ -64,5 +68,34 @@ class FirstTouch {
   std::vector<Entry> entries_;               ///< in spatial order
   std::vector<std::vector<Bounds>> levels_;  ///< levels_[0] bounds blocks of entries
 };
+
+template <class Visit>
+void FirstTouch::near(Vec2 point, double reach, std::uint32_t group, Visit&& visit) const {
+  constexpr double rounding = 0x1p-20;  // of single precision
+  const auto x = static_cast<float>(point.x), y = static_cast<float>(point.y);
+  const auto limit = static_cast<float>((reach + rounding) * (reach + rounding));
+  struct Waiting {
+    std::uint32_t level, index;
+  };
+  std::vector<Waiting> stack{{static_cast<std::uint32_t>(levels_.size()), 0}};
+  while (!stack.empty()) {
+    const Waiting top = stack.back();
+    stack.pop_back();
+    if (top.level == 0) {
+      const std::size_t begin = top.index * block_size;
+      for (std::size_t i = begin; i < std::min(begin + block_size, entries_.size()); ++i)
+        if (groups_[entries_[i].index] == group &&
+            geometry::squared_distance(entries_[i].site, point) <= reach * reach)
+          visit(entries_[i].index);
+      continue;
+    }
+    Lanes squared;
+    const std::uint32_t mask =
+        nearer(levels_[top.level - 1][top.index].boxes, x, y, limit, squared);
+    for (std::uint32_t lane = 0; lane < fan; ++lane)
+      if ((mask >> lane & 1) != 0)
+        stack.push_back({top.level - 1, top.index * static_cast<std::uint32_t>(fan) + lane});
+  }
+}
 
 }  // namespace medial::index

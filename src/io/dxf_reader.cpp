@@ -98,6 +98,12 @@ class Collector : public DL_CreationAdapter {
     block_.clear();
   }
 
+  void addPoint(const DL_PointData& data) override {
+    if (!begin("POINT")) return;
+    Contour contour;
+    contour.start_at({data.x, data.y});
+    add(std::move(contour), false);
+  }
   void addLine(const DL_LineData& data) override {
     if (!begin("LINE")) return;
     Contour contour;
@@ -353,7 +359,7 @@ std::string listed(const std::map<std::string, std::uint64_t>& counts) {
 }
 
 Result<Dataset> dataset_of(Collector& found, std::map<std::string, std::uint64_t> others,
-                           const std::string& wanted, std::optional<double> close) {
+                           const std::string& wanted, std::optional<double> close, bool loose) {
   Unfolded drawing(found);
   drawing.add("", {}, "", 0);
   Dataset dataset;
@@ -369,6 +375,20 @@ Result<Dataset> dataset_of(Collector& found, std::map<std::string, std::uint64_t
       ++hidden;
       continue;
     }
+    if (loose) {
+      Feature feature;
+      feature.contours = std::move(layer.closed);
+      for (Contour& contour : layer.open) {
+        contour.open = true;
+        feature.contours.push_back(std::move(contour));
+      }
+      if (feature.contours.empty()) continue;
+      feature.id = static_cast<std::int64_t>(dataset.features.size());
+      feature.attributes.emplace_back("layer", layer.name);
+      dataset.features.push_back(std::move(feature));
+      continue;
+    }
+    std::erase_if(layer.open, [](const Contour& contour) { return contour.pieces.empty(); });
     JoinedCurves joined = join_curves(std::move(layer.open), close);
     open += joined.open;
     if (joined.open > 0) smallest_gap = std::min(smallest_gap, joined.smallest_gap);
@@ -415,8 +435,8 @@ Result<Dataset> dataset_of(Collector& found, std::map<std::string, std::uint64_t
 
 }  // namespace
 
-Result<Dataset> read_dxf(TextSource& source, const std::string& layer,
-                         std::optional<double> close) {
+Result<Dataset> read_dxf(TextSource& source, const std::string& layer, std::optional<double> close,
+                         bool loose) {
   Result<DxfText> text = read_dxf_text(source);
   if (!text) return text.error();
   try {
@@ -424,7 +444,7 @@ Result<Dataset> read_dxf(TextSource& source, const std::string& layer,
     std::istringstream stream(std::move(text->text));
     DL_Dxf().in(stream, &found);
     found.finish();
-    return dataset_of(found, std::move(text->others), layer, close);
+    return dataset_of(found, std::move(text->others), layer, close, loose);
   } catch (const Refused& refused) {
     return refused.error;
   }

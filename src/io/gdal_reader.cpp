@@ -135,12 +135,19 @@ class GdalReader {
         continue;
       }
       const std::uint64_t others = counts_.others;
-      add_rings(*geometry, feature.rings, counts_);
-      if (feature.rings.empty() && counts_.others > others) continue;
+      if (options_.loose)
+        add_loose(*geometry, feature.rings, feature.chains, counts_);
+      else
+        add_rings(*geometry, feature.rings, counts_);
+      if (feature.rings.empty() && feature.chains.empty() && counts_.others > others) continue;
       if (latitude_first_) {
         for (Ring& ring : feature.rings) {
           for (Vec2& point : ring.points) std::swap(point.x, point.y);
           for (double& bulge : ring.bulges) bulge = -bulge;
+        }
+        for (Chain& chain : feature.chains) {
+          for (Vec2& point : chain.points) std::swap(point.x, point.y);
+          for (double& bulge : chain.bulges) bulge = -bulge;
         }
       }
       for (int i = 0; i < source->GetFieldCount(); ++i) {

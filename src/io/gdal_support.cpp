@@ -101,6 +101,51 @@ void CPL_STDCALL GdalMessages::collect(CPLErr level, CPLErrorNum, const char* te
   }
 }
 
+namespace {
+
+/// Appends a point or a line; false where the geometry is neither.
+bool add_chain(const OGRGeometry& part, std::vector<Chain>& chains) {
+  switch (wkbFlatten(part.getGeometryType())) {
+    case wkbPoint: {
+      const OGRPoint* point = part.toPoint();
+      if (!point->IsEmpty()) chains.push_back({{{point->getX(), point->getY()}}});
+      return true;
+    }
+    case wkbLineString:
+    case wkbCircularString:
+    case wkbCompoundCurve: {
+      Ring line;
+      add_ring(*part.toCurve(), line);
+      if (!line.points.empty())
+        chains.push_back({std::move(line.points), std::move(line.bulges), false});
+      return true;
+    }
+    default:
+      return false;
+  }
+}
+
+}  // namespace
+
+void add_loose(const OGRGeometry& geometry, std::vector<Ring>& rings, std::vector<Chain>& chains,
+               GeometryCounts& counts) {
+  std::vector<const OGRGeometry*> waiting{&geometry};
+  while (!waiting.empty()) {
+    const OGRGeometry* part = waiting.back();
+    waiting.pop_back();
+    if (add_chain(*part, chains)) continue;
+    const OGRwkbGeometryType type = wkbFlatten(part->getGeometryType());
+    if (type == wkbMultiPoint || type == wkbMultiLineString || type == wkbMultiCurve ||
+        type == wkbGeometryCollection) {
+      const OGRGeometryCollection* collection = part->toGeometryCollection();
+      for (int i = collection->getNumGeometries(); i > 0; --i)
+        waiting.push_back(collection->getGeometryRef(i - 1));
+      continue;
+    }
+    add_rings(*part, rings, counts);
+  }
+}
+
 void add_rings(const OGRGeometry& geometry, std::vector<Ring>& rings, GeometryCounts& counts) {
   std::vector<const OGRGeometry*> waiting{&geometry};
   while (!waiting.empty()) {
@@ -127,8 +172,10 @@ void add_rings(const OGRGeometry& geometry, std::vector<Ring>& rings, GeometryCo
   }
 }
 
-Status add_rings_of_wkt(const std::string& text, std::vector<Ring>& rings) {
-  constexpr std::ptrdiff_t deepest = 8;  // GDAL reads nested brackets by recursion
+namespace {
+
+Status add_of_wkt(const std::string& text, std::vector<Ring>& rings, std::vector<Chain>* chains) {
+  constexpr std::ptrdiff_t deepest_bracket = 8;  // GDAL reads nested brackets by recursion
   std::ptrdiff_t depth = 0;
   for (const char c : text) {
     if (c == '(' && ++depth > deepest) {
@@ -146,8 +193,22 @@ Status add_rings_of_wkt(const std::string& text, std::vector<Ring>& rings) {
                  {}};
   }
   GeometryCounts counts;
-  add_rings(*geometry, rings, counts);
+  if (chains != nullptr)
+    add_loose(*geometry, rings, *chains, counts);
+  else
+    add_rings(*geometry, rings, counts);
   return success();
+}
+
+}  // namespace
+
+Status add_rings_of_wkt(const std::string& text, std::vector<Ring>& rings) {
+  return add_of_wkt(text, rings, nullptr);
+}
+
+Status add_chains_of_wkt(const std::string& text, std::vector<Chain>& chains) {
+  std::vector<Ring> rings;
+  return add_of_wkt(text, rings, &chains);
 }
 
 void set_crs(const OGRSpatialReference& reference, Dataset& dataset) {

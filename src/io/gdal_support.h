@@ -43,8 +43,13 @@ struct GeometryCounts {
 /// stay arcs.
 void add_rings(const OGRGeometry& geometry, std::vector<Ring>& rings, GeometryCounts& counts);
 
+/// The same for a soup: also its lines, open or closed, and points, as chains.
+void add_loose(const OGRGeometry& geometry, std::vector<Ring>& rings, std::vector<Chain>& chains,
+               GeometryCounts& counts);
+
 /// The same for a geometry as well-known text. Errors: malformed, unsupported (nested too deeply).
 Status add_rings_of_wkt(const std::string& text, std::vector<Ring>& rings);
+Status add_chains_of_wkt(const std::string& text, std::vector<Chain>& chains);
 
 /// Sets crs_wkt and geographic; a reference system that cannot be told becomes a note.
 void set_crs(const OGRSpatialReference& reference, Dataset& dataset);

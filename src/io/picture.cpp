@@ -136,6 +136,7 @@ Frame frame_of(const NativeFile& file, double width) {
       include(extent.high);
     }
     for (const Node& node : item.axis.nodes) include(node.disk.center);
+    for (const Site& site : item.axis.sites) include(site.start);
   }
   if (!(box.low.x <= box.high.x)) box = {{0, 0}, {1, 1}};
   const Vec2 size = box.high - box.low;
@@ -292,10 +293,10 @@ class Picture {
   }
 
   /// Goes along an edge of a diagram, from its node[0] or from its node[1].
-  void trace_edge(const VoronoiDiagram& diagram, const Edge& edge, bool forward) {
+  void trace_edge(const VoronoiDiagram& diagram, const VoronoiEdge& edge, bool forward) {
     const auto place = [&](std::uint32_t node) { return frame_(diagram.nodes[node].disk.center); };
     Piece piece{place(edge.node[0]), frame_(edge.control.center), place(edge.node[1]), edge.weight,
-                diagram.sites[edge.site[0]].kind == diagram.sites[edge.site[1]].kind};
+                runs_straight(diagram, edge)};
     if (!forward) std::swap(piece.from, piece.to);
     if (piece.straight) {
       line_to(piece.to);
@@ -352,7 +353,11 @@ class Picture {
         const double hue = std::fmod(hue_step * site, 1.0);
         constexpr Color grey{0.82, 0.82, 0.84};
         color(vertex ? grey : pastel(hue));
-        move_to(frame_(diagram.sites[site].start));
+        if (diagram.face(site).empty()) continue;
+        const VoronoiEdge& first = diagram.edges[diagram.face(site).front()];
+        move_to(frame_(diagram.frame
+                           ? diagram.nodes[first.node[first.site[1] == site ? 0 : 1]].disk.center
+                           : diagram.sites[site].start));
         for (const std::uint32_t e : diagram.face(site))
           trace_edge(diagram, diagram.edges[e], diagram.edges[e].site[1] == site);
         cairo_close_path(context_);
@@ -372,6 +377,37 @@ class Picture {
     }
     cairo_stroke(context_);
     if (options_.shape) stroke_shapes();
+    if (options_.shape) draw_sites();
+  }
+
+  /// The sites of soups.
+  void draw_sites() {
+    color(outline);
+    cairo_set_line_width(context_, thickness(1.6));
+    int batch = 0;
+    const auto draw = [&](bool points) {
+      for (const VoronoiItem& item : diagrams_->items) {
+        if (!item.diagram.frame) continue;
+        for (const Site& site : item.diagram.sites) {
+          if ((site.kind == SiteKind::vertex) != points) continue;
+          if (points) {
+            circle(frame_(site.start), thickness(2));
+          } else {
+            move_to(frame_(site.start));
+            if (site.bulge == 0)
+              line_to(frame_(site.end));
+            else
+              arc_to({frame_(site.start), frame_(site.end), frame_.bulge(site.bulge)});
+          }
+          if (++batch % pieces_per_stroke == 0)
+            points ? cairo_fill(context_) : cairo_stroke(context_);
+        }
+      }
+      points ? cairo_fill(context_) : cairo_stroke(context_);
+    };
+    draw(false);
+    cairo_set_fill_rule(context_, CAIRO_FILL_RULE_WINDING);
+    draw(true);
   }
 
   /// About as many disks as asked for, at even distances along all axes.
@@ -430,6 +466,11 @@ class Picture {
     radii_or_feet(true);
   }
 
+  static bool runs_straight(const VoronoiDiagram& diagram, const VoronoiEdge& edge) {
+    if (edge.spoke || edge.frame) return true;
+    const SiteKind kind = diagram.sites[edge.site[0]].kind;
+    return kind == diagram.sites[edge.site[1]].kind && kind != SiteKind::arc;
+  }
   static bool runs_straight(const MedialAxis& axis, const Edge& edge) {
     if (axis.resolution > 0) return true;
     const SiteKind kind = axis.sites[edge.site[0]].kind;
@@ -611,7 +652,7 @@ Status write_voronoi_picture(OutputStream& out, const std::string& format, const
     own.axis.sites = item.diagram.sites;
     own.axis.nodes = item.diagram.nodes;
     for (const VoronoiEdge& edge : item.diagram.edges)
-      if (!edge.spoke) own.axis.edges.push_back(edge);
+      if (!edge.spoke && !edge.frame) own.axis.edges.push_back(edge);
   }
   return draw_picture(out, format, axes, options, &file);
 }

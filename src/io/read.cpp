@@ -70,12 +70,12 @@ Result<Dataset> read_own(TextSource& source, Format format, const std::string& p
     return Error{ErrorCode::invalid_option,
                  "this format has no layers and no attributes to choose by", in_file(path)};
   }
-  if (format == Format::wkt) return read_wkt(source);
-  if (format == Format::xy) return read_xy(source);
-  if (format == Format::svg) return read_svg(source);
+  if (format == Format::wkt) return read_wkt(source, options.loose);
+  if (format == Format::xy) return read_xy(source, options.loose);
+  if (format == Format::svg) return read_svg(source, options.loose);
   if (format == Format::dxf) {
 #ifdef MEDIAL_DXF
-    return read_dxf(source, options.layer, options.close);
+    return read_dxf(source, options.layer, options.close, options.loose);
 #else
     return Error{ErrorCode::unsupported, "this program was built without DXF", in_file(path)};
 #endif
@@ -230,8 +230,10 @@ void drop_empty_features(Dataset& dataset) {
   const auto has_no_point = [](const Feature& feature) {
     return std::ranges::all_of(feature.rings,
                                [](const Ring& ring) { return ring.points.empty(); }) &&
-           std::ranges::all_of(feature.contours,
-                               [](const Contour& contour) { return contour.pieces.empty(); });
+           std::ranges::all_of(
+               feature.contours,
+               [](const Contour& contour) { return contour.pieces.empty() && !contour.open; }) &&
+           feature.chains.empty();
   };
   const std::size_t dropped = std::erase_if(dataset.features, has_no_point);
   if (dropped > 0 && !dataset.features.empty()) {
@@ -242,7 +244,8 @@ void drop_empty_features(Dataset& dataset) {
 Result<Dataset> finish(Dataset dataset, const ReadOptions& options) {
   if (auto error = find_not_finite(dataset)) return *error;
   drop_empty_features(dataset);
-  if (dataset.features.empty()) return Error{ErrorCode::empty, "there is no polygon", {}};
+  if (dataset.features.empty())
+    return Error{ErrorCode::empty, options.loose ? "there is nothing" : "there is no polygon", {}};
   if (options.project) {
     const auto curved = std::ranges::find_if(dataset.features, has_curves);
     if (curved != dataset.features.end()) {

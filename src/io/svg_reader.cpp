@@ -43,6 +43,7 @@ struct Refused {
 struct Drawing {
   const SvgDocument& document;
   Dataset dataset;
+  bool loose = false;
   std::uint64_t copies = 0;
   std::uint64_t copied_points = 0;
   std::uint64_t unfilled = 0;
@@ -232,9 +233,13 @@ std::vector<Contour> Element::contours() const {
   Contour contour;
   contour.role = even_odd_ ? RingRole::any : RingRole::winding;
   Vec2 start;
+  bool closed = false;
   const auto finish = [&] {
-    if (!is_degenerate(contour)) result.push_back(std::move(contour));
+    const bool drawn = drawing_.loose ? !contour.pieces.empty() : !is_degenerate(contour);
+    contour.open = drawing_.loose && !filled_ && !closed;
+    if (drawn) result.push_back(std::move(contour));
     contour = {};
+    closed = false;
     contour.role = even_odd_ ? RingRole::any : RingRole::winding;
   };
   for (const PathStep& step : steps_) {
@@ -249,6 +254,7 @@ std::vector<Contour> Element::contours() const {
         start = at(0);
         break;
       case PathStep::Kind::close:
+        closed = true;
         finish();
         break;
       case PathStep::Kind::line:
@@ -271,7 +277,7 @@ std::vector<Contour> Element::contours() const {
 
 void Element::add_feature() {
   if (!displayed_ || !visible_) return;
-  if (!filled_) {
+  if (!filled_ && !drawing_.loose) {
     ++drawing_.unfilled;
     return;
   }
@@ -405,10 +411,10 @@ bool begins_like_svg(std::string_view text) {
   return text.find("<svg") != std::string_view::npos;
 }
 
-Result<Dataset> read_svg(TextSource& source) {
+Result<Dataset> read_svg(TextSource& source, bool loose) {
   const Result<SvgDocument> document = SvgDocument::read(source);
   if (!document) return document.error();
-  Drawing drawing{*document, {}};
+  Drawing drawing{*document, {}, loose};
   const auto error = [&source](Error problem) {
     problem.place.file = source.error(problem.code, {}).place.file;
     return problem;

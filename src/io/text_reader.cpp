@@ -22,7 +22,19 @@ bool is_letter(int c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
 char upper(int c) { return static_cast<char>(std::toupper(c)); }
 
 /// What to do with a geometry, by its name.
-enum class Kind : std::uint8_t { unknown, polygon, multipolygon, collection, curved, other };
+enum class Kind : std::uint8_t {
+  unknown,
+  polygon,
+  multipolygon,
+  collection,
+  curved,
+  point,
+  multipoint,
+  line,
+  multiline,
+  curve,  ///< open, with arcs
+  other
+};
 
 Kind kind_of(std::string_view name) {
   if (name == "POLYGON") return Kind::polygon;
@@ -30,9 +42,13 @@ Kind kind_of(std::string_view name) {
   if (name == "GEOMETRYCOLLECTION") return Kind::collection;
   constexpr std::array<std::string_view, 3> curved{"CURVEPOLYGON", "MULTISURFACE", "TRIANGLE"};
   if (std::ranges::find(curved, name) != curved.end()) return Kind::curved;
-  constexpr std::array<std::string_view, 10> other{
-      "POINT",         "MULTIPOINT", "LINESTRING", "MULTILINESTRING",   "CIRCULARSTRING",
-      "COMPOUNDCURVE", "MULTICURVE", "TIN",        "POLYHEDRALSURFACE", "LINEARRING"};
+  if (name == "POINT") return Kind::point;
+  if (name == "MULTIPOINT") return Kind::multipoint;
+  if (name == "LINESTRING" || name == "LINEARRING") return Kind::line;
+  if (name == "MULTILINESTRING") return Kind::multiline;
+  if (name == "CIRCULARSTRING" || name == "COMPOUNDCURVE" || name == "MULTICURVE")
+    return Kind::curve;
+  constexpr std::array<std::string_view, 2> other{"TIN", "POLYHEDRALSURFACE"};
   if (std::ranges::find(other, name) != other.end()) return Kind::other;
   return Kind::unknown;
 }
@@ -49,7 +65,7 @@ std::string without_dimension(const std::string& name) {
 
 class WktReader {
  public:
-  explicit WktReader(TextSource& source) : source_(source) {}
+  WktReader(TextSource& source, bool loose) : source_(source), loose_(loose) {}
 
   Result<Dataset> read() {
     for (;;) {
@@ -63,8 +79,9 @@ class WktReader {
     }
     if (source_.failure()) return *source_.failure();
     if (others_ > 0) {
-      const bool polygons = std::ranges::any_of(
-          dataset_.features, [](const Feature& feature) { return !feature.rings.empty(); });
+      const bool polygons = std::ranges::any_of(dataset_.features, [](const Feature& feature) {
+        return !feature.rings.empty() || !feature.chains.empty();
+      });
       if (!polygons) {
         return Error{ErrorCode::unsupported,
                      fmt::format("no polygons, only other geometries ({} of them)", others_),
@@ -177,7 +194,42 @@ class WktReader {
     }
   }
 
+  /// Points and lines for a soup.
+  Status read_loose(Kind kind, const std::string& name, Feature& feature) {
+    const auto add_line = [&]() -> Status {
+      Chain chain;
+      Status status = read_points(chain.points);
+      if (status) feature.chains.push_back(std::move(chain));
+      return status;
+    };
+    if (kind == Kind::point || kind == Kind::line) return add_line();
+    if (kind == Kind::curve) {
+      std::string text = name + "(";
+      if (Status status = read_balanced(&text); !status) return status;
+      Status status = add_chains_of_wkt(text, feature.chains);
+      if (!status) return source_.error(status.error().code, status.error().text);
+      return status;
+    }
+    source_.skip_space();
+    if (kind == Kind::multipoint && source_.peek() != '(' && !is_letter(source_.peek())) {
+      std::vector<Vec2> points;  // without brackets of their own
+      Status status = read_points(points);
+      for (const Vec2 p : points) feature.chains.push_back({{p}});
+      return status;
+    }
+    do {
+      Result<bool> body = open_body();
+      if (!body) return body.error();
+      if (!*body) continue;
+      if (Status status = add_line(); !status) return status;
+    } while (accept(','));
+    return accept(')') ? success() : Status(expected("',' or ')'"));
+  }
+
   Status read_body(Kind kind, const std::string& name, Feature& feature) {
+    if (loose_ && (kind == Kind::point || kind == Kind::multipoint || kind == Kind::line ||
+                   kind == Kind::multiline || kind == Kind::curve))
+      return read_loose(kind, name, feature);
     switch (kind) {
       case Kind::polygon:
         return read_polygon(feature.rings);
@@ -269,6 +321,7 @@ class WktReader {
   }
 
   TextSource& source_;
+  const bool loose_;
   Dataset dataset_;
   std::uint64_t feature_ = 0;
   std::uint64_t others_ = 0;
@@ -343,9 +396,9 @@ Result<Line> read_line(TextSource& source, Vec2& vertex) {
 
 }  // namespace
 
-Result<Dataset> read_wkt(TextSource& source) { return WktReader(source).read(); }
+Result<Dataset> read_wkt(TextSource& source, bool loose) { return WktReader(source, loose).read(); }
 
-Result<Dataset> read_xy(TextSource& source) {
+Result<Dataset> read_xy(TextSource& source, bool loose) {
   Dataset dataset;
   Feature feature;
   bool in_ring = false;
@@ -368,6 +421,16 @@ Result<Dataset> read_xy(TextSource& source) {
     if (source.peek() >= 0) source.skip();
   }
   if (source.failure()) return *source.failure();
+  if (loose) {
+    const bool list = feature.rings.size() == 1;
+    for (Ring& ring : feature.rings) {
+      if (!list)
+        feature.chains.push_back({std::move(ring.points)});
+      else
+        for (const Vec2 p : ring.points) feature.chains.push_back({{p}});
+    }
+    feature.rings.clear();
+  }
   dataset.features.push_back(std::move(feature));
   return dataset;
 }

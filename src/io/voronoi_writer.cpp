@@ -17,14 +17,32 @@ namespace medial::io {
 
 namespace {
 
-constexpr std::array<std::string_view, 6> formats{"json", "geojson", "svg", "pdf", "png", "ps"};
+constexpr std::array<std::string_view, 8> known_formats{"json", "geojson", "csv", "wkt",
+                                                        "svg",  "pdf",     "png", "ps"};
 
 std::string quoted(const std::string& text) {
   using Json = nlohmann::json;
   return Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-const char* name_of(SiteKind kind) { return kind == SiteKind::vertex ? "vertex" : "segment"; }
+const char* name_of(SiteKind kind) {
+  return kind == SiteKind::vertex ? "vertex" : kind == SiteKind::arc ? "arc" : "segment";
+}
+
+const char* name_of(const VoronoiEdge& edge) {
+  return edge.frame ? "frame" : edge.spoke ? "spoke" : "edge";
+}
+
+/// A site's number, -1 for none.
+std::int64_t number_of(std::uint32_t site) {
+  return site == no_site ? -1 : static_cast<std::int64_t>(site);
+}
+
+/// The allowed deviation of chords, in units of the input.
+double chord_of(const VoronoiItem& item, const WriteOptions& options) {
+  const Box box = item.diagram.frame ? *item.diagram.frame : bounding_box(item.shape);
+  return options.chord * diagonal(box);
+}
 
 /// Numbers in brackets: a row of a table.
 template <class... Values>
@@ -59,15 +77,72 @@ void table(OutputStream& out, std::string_view name, std::size_t count, const Pu
 /// An edge as a line, from node[0] or from node[1].
 std::vector<Disk> line_of(const VoronoiDiagram& diagram, const VoronoiEdge& edge, double chord,
                           bool forward) {
-  MedialAxis one;  // what samples an edge asks for
-  one.nodes = {diagram.nodes[edge.node[0]], diagram.nodes[edge.node[1]]};
-  one.sites = {diagram.sites[edge.site[0]], diagram.sites[edge.site[1]]};
-  Edge own = edge;
-  own.node = {0, 1};
-  own.site = {0, 1};
-  std::vector<Disk> line = sample_by_chord(one, own, chord);
+  std::vector<Disk> line = sample_by_chord(diagram, edge, chord);
   if (!forward) std::ranges::reverse(line);
   return line;
+}
+
+/// A face as a closed ring of points; empty where the face is.
+std::vector<Vec2> ring_of_face(const VoronoiDiagram& diagram, std::uint32_t k, double chord) {
+  std::vector<Vec2> ring;
+  const Site& site = diagram.sites[k];
+  if (diagram.frame) {
+    ring = face_outline(diagram, k, chord);
+  } else {
+    ring.push_back(site.start);
+    for (const std::uint32_t e : diagram.face(k)) {
+      const VoronoiEdge& edge = diagram.edges[e];
+      const auto line = line_of(diagram, edge, chord, edge.site[1] == k);
+      for (std::size_t p = 1; p < line.size(); ++p) ring.push_back(line[p].center);
+    }
+    if (site.kind == SiteKind::segment) ring.push_back(site.start);
+    return ring;
+  }
+  if (!ring.empty()) ring.push_back(ring.front());
+  return ring;
+}
+
+/// A row for each sample of an edge.
+void write_voronoi_csv(OutputStream& out, const VoronoiFile& file, const WriteOptions& options) {
+  out.put("edge,part,left,right,x,y,r\n");
+  std::uint64_t number = 0;
+  for (const VoronoiItem& item : file.items) {
+    const double chord = chord_of(item, options);
+    for (const VoronoiEdge& edge : item.diagram.edges) {
+      for (const Disk& disk : line_of(item.diagram, edge, chord, true)) {
+        out.put(fmt::format("{},{},{},{},", number, name_of(edge), number_of(edge.site[0]),
+                            number_of(edge.site[1])));
+        out.put(disk.center.x);
+        out.put(',');
+        out.put(disk.center.y);
+        out.put(',');
+        out.put(disk.radius);
+        out.put('\n');
+      }
+      ++number;
+    }
+  }
+}
+
+/// A polygon for each face, a line of text each, in the order of the sites.
+void write_voronoi_wkt(OutputStream& out, const VoronoiFile& file, const WriteOptions& options) {
+  for (const VoronoiItem& item : file.items) {
+    const double chord = chord_of(item, options);
+    for (std::uint32_t k = 0; k < item.diagram.sites.size(); ++k) {
+      const std::vector<Vec2> ring = ring_of_face(item.diagram, k, chord);
+      out.put(ring.empty() ? "POLYGON EMPTY\n" : "POLYGON (");
+      if (ring.empty()) continue;
+      char separator = '(';
+      for (const Vec2 p : ring) {
+        out.put(separator);
+        separator = ',';
+        out.put(p.x);
+        out.put(' ');
+        out.put(p.y);
+      }
+      out.put("))\n");
+    }
+  }
 }
 
 /// Features of a GeoJSON collection, one by one.
@@ -98,6 +173,10 @@ Status write_stream(OutputStream& out, const std::string& format, const VoronoiF
     write_voronoi_json(out, file);
   } else if (format == "geojson") {
     write_voronoi_geojson(out, file, options);
+  } else if (format == "csv") {
+    write_voronoi_csv(out, file, options);
+  } else if (format == "wkt") {
+    write_voronoi_wkt(out, file, options);
   } else {
     Status drawn = write_voronoi_picture(out, format, file, options);
     if (!drawn) return drawn;
@@ -138,13 +217,22 @@ void write_voronoi_json(OutputStream& out, const VoronoiFile& file) {
     out.put(quoted(diagram.method));
     out.put(",\"tolerance\":");
     out.put(diagram.tolerance);
+    if (diagram.frame) {
+      out.put(",\"frame\":");
+      row(out, diagram.frame->low.x, diagram.frame->low.y, diagram.frame->high.x,
+          diagram.frame->high.y);
+    }
     table(out, "attributes", attributes.size(), [&](std::size_t k) {
       out.put(fmt::format("[{},{}]", quoted(attributes[k].first), quoted(attributes[k].second)));
     });
     table(out, "sites", diagram.sites.size(), [&](std::size_t k) {
       const Site& site = diagram.sites[k];
-      row(out, site.kind, site.start.x, site.start.y, site.end.x, site.end.y, site.ring,
-          site.vertex);
+      if (site.kind == SiteKind::arc)
+        row(out, site.kind, site.start.x, site.start.y, site.end.x, site.end.y, site.ring,
+            site.vertex, site.bulge);
+      else
+        row(out, site.kind, site.start.x, site.start.y, site.end.x, site.end.y, site.ring,
+            site.vertex);
     });
     table(out, "nodes", diagram.nodes.size(), [&](std::size_t k) {
       const Node& node = diagram.nodes[k];
@@ -152,7 +240,10 @@ void write_voronoi_json(OutputStream& out, const VoronoiFile& file) {
     });
     table(out, "edges", diagram.edges.size(), [&](std::size_t k) {
       const VoronoiEdge& edge = diagram.edges[k];
-      row(out, edge.node[0], edge.node[1], edge.site[0], edge.site[1], edge.spoke ? 1 : 0,
+      row(out, edge.node[0], edge.node[1], number_of(edge.site[0]), number_of(edge.site[1]),
+          edge.frame   ? 2
+          : edge.spoke ? 1
+                       : 0,
           edge.control.center.x, edge.control.center.y, edge.control.radius, edge.weight);
     });
     table(out, "faces", diagram.sites.size(), [&](std::size_t k) {
@@ -174,23 +265,18 @@ void write_voronoi_geojson(OutputStream& out, const VoronoiFile& file,
   Features features(out);
   for (std::size_t i = 0; i < file.items.size(); ++i) {
     const VoronoiDiagram& diagram = file.items[i].diagram;
-    const double chord = options.chord * diagonal(bounding_box(file.items[i].shape));
+    const double chord = chord_of(file.items[i], options);
     for (std::uint32_t k = 0; k < diagram.sites.size(); ++k) {
       const Site& site = diagram.sites[k];
+      const std::vector<Vec2> ring = ring_of_face(diagram, k, chord);
+      if (ring.empty()) continue;
       features.start("Polygon");
-      out.put("[[");
-      row(out, site.start.x, site.start.y);
-      for (const std::uint32_t e : diagram.face(k)) {
-        const VoronoiEdge& edge = diagram.edges[e];
-        const auto line = line_of(diagram, edge, chord, edge.site[1] == k);
-        for (std::size_t p = 1; p < line.size(); ++p) {
-          out.put(',');
-          row(out, line[p].center.x, line[p].center.y);
-        }
-      }
-      if (site.kind == SiteKind::segment) {
-        out.put(',');
-        row(out, site.start.x, site.start.y);
+      out.put('[');
+      char separator = '[';
+      for (const Vec2 p : ring) {
+        out.put(separator);
+        separator = ',';
+        row(out, p.x, p.y);
       }
       out.put("]]");
       features.properties(
@@ -210,7 +296,7 @@ void write_voronoi_geojson(OutputStream& out, const VoronoiFile& file,
       features.properties(fmt::format(
           "\"feature\":{},\"part\":\"{}\",\"left\":{},\"right\":{},\"radius_from\":{},"
           "\"radius_to\":{}",
-          i, edge.spoke ? "spoke" : "edge", edge.site[0], edge.site[1],
+          i, name_of(edge), number_of(edge.site[0]), number_of(edge.site[1]),
           diagram.nodes[edge.node[0]].disk.radius, diagram.nodes[edge.node[1]].disk.radius));
     }
   }

@@ -65,11 +65,11 @@ class Collapse {
       if (wide_[i])
         for (const std::uint32_t node : axis_.edges[i].node) at_cut_[node] = true;
     for (const auto& edges : narrow_parts()) {
-      if (belongs_to_polygon(edges)) {
-        for (const std::uint32_t edge : edges) stays_[edge] = true;
-      } else {
-        add_lines(edges);
-      }
+      // What would leave no line is no part of its own.
+      const std::size_t lines_before = lines_.size();
+      if (!belongs_to_polygon(edges)) add_lines(edges);
+      if (lines_.size() > lines_before) continue;
+      for (const std::uint32_t edge : edges) stays_[edge] = true;
     }
   }
 

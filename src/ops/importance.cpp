@@ -30,7 +30,7 @@ double share(double a, double b) {
 
 Importance::Importance(const MedialAxis& axis, const Trees& trees, PruneMeasure measure,
                        bool reaches)
-    : axis_(axis), trees_(trees), measure_(measure), size_(trees.deepest.size()) {
+    : axis_(axis), trees_(trees), measure_(measure), size_(trees.radius) {
   using enum PruneMeasure;
   of_branches_ =
       measure == prominence || measure == significance || measure == length || measure == ratio;
@@ -38,8 +38,6 @@ Importance::Importance(const MedialAxis& axis, const Trees& trees, PruneMeasure 
   of_reach_ = reaches || measure == prominence || measure == significance || measure == length ||
               measure == erosion;
   if (measure == angle || measure == lambda || measure == residual) steps_ = 4;
-  for (std::size_t i = 0; i < size_.size(); ++i)
-    size_[i] = axis.nodes[trees.deepest[i]].disk.radius;
   if (measure == scale) find_vanishing();
   if (of_reach_ || of_sides_) sum_up();
 }

@@ -5,6 +5,6 @@
 namespace medial::ops {
 
 /// The width at a place, for somebody who passes along the edge or against it.
-LocalWidth width_at(const MedialAxis& axis, AxisPlace place, bool forward = true);
+LocalWidth width_at(const MedialAxis& axis, EdgePlace place, bool forward = true);
 
 }  // namespace medial::ops

@@ -20,11 +20,11 @@ namespace {
 /// An edge without an inner maximum of the radius, or a part of one up to its maximum.
 struct Link {
   std::uint32_t from, to;  ///< nodes; a maximum is a node of its own, after those of the axis
-  AxisPlace place;         ///< of its smallest radius
+  EdgePlace place;         ///< of its smallest radius
   double narrowest;
 };
 
-bool is_inner(AxisPlace place) { return place.t > 0 && place.t < 1; }
+bool is_inner(EdgePlace place) { return place.t > 0 && place.t < 1; }
 
 /// Whether the radius does not change along an edge but for rounding.
 bool is_flat(const MedialAxis& axis, std::uint32_t edge) {
@@ -32,7 +32,7 @@ bool is_flat(const MedialAxis& axis, std::uint32_t edge) {
 }
 
 /// The middle of the flat edges that a place lies on, or at the end of.
-AxisPlace middle_of_flat(const MedialAxis& axis, const Incidence& incidence, AxisPlace place) {
+EdgePlace middle_of_flat(const MedialAxis& axis, const Incidence& incidence, EdgePlace place) {
   std::vector<Step> chain;
   const auto follow = [&](std::uint32_t node, std::uint32_t before) {
     for (bool more = true; more;) {
@@ -85,7 +85,7 @@ std::vector<Neck> necks(const MedialAxis& axis, double widening) {
   for (const Node& node : axis.nodes) widest.push_back(node.disk.radius);
   for (std::uint32_t i = 0; i < axis.edges.size(); ++i) {
     const auto [from, to] = axis.edges[i].node;
-    const AxisPlace top = widest_place(axis, i);
+    const EdgePlace top = widest_place(axis, i);
     if (is_inner(top) && !is_flat(axis, i)) {
       const auto node = static_cast<std::uint32_t>(widest.size());
       widest.push_back(disk_at(axis, axis.edges[i], top.t).radius);
@@ -105,7 +105,7 @@ std::vector<Neck> necks(const MedialAxis& axis, double widening) {
     const std::uint32_t a = parts.find(link.from), b = parts.find(link.to);
     const double opens_to = std::min(widest[a], widest[b]);
     if (opens_to >= widening * link.narrowest && opens_to > 0) {
-      const AxisPlace place = middle_of_flat(axis, incidence, link.place);
+      const EdgePlace place = middle_of_flat(axis, incidence, link.place);
       found.push_back({place, ops::width_at(axis, place), opens_to, a == b});
     }
     if (a == b) continue;

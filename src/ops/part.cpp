@@ -71,7 +71,7 @@ std::pair<double, double> crossing_of(const Curve& curve, Vec2 foot, Vec2 inward
 namespace {
 
 /// The place of the smallest radius (sign 1) or of the largest (sign -1).
-AxisPlace extreme_place(const MedialAxis& axis, std::uint32_t edge, double sign) {
+EdgePlace extreme_place(const MedialAxis& axis, std::uint32_t edge, double sign) {
   const Edge& e = axis.edges[edge];
   const double r0 = axis.nodes[e.node[0]].disk.radius, r2 = axis.nodes[e.node[1]].disk.radius;
   // The derivative has the sign of the quadratic Bernstein polynomial a, b, c.
@@ -90,11 +90,11 @@ AxisPlace extreme_place(const MedialAxis& axis, std::uint32_t edge, double sign)
 
 }  // namespace
 
-AxisPlace narrowest_place(const MedialAxis& axis, std::uint32_t edge) {
+EdgePlace narrowest_place(const MedialAxis& axis, std::uint32_t edge) {
   return extreme_place(axis, edge, 1);
 }
 
-AxisPlace widest_place(const MedialAxis& axis, std::uint32_t edge) {
+EdgePlace widest_place(const MedialAxis& axis, std::uint32_t edge) {
   return extreme_place(axis, edge, -1);
 }
 
@@ -200,10 +200,10 @@ MedialAxis clearance_part(const MedialAxis& axis, double clearance) {
   return part;
 }
 
-std::optional<AxisPlace> place_on_axis(const MedialAxis& axis, Vec2 p) {
+std::optional<EdgePlace> place_on_axis(const MedialAxis& axis, Vec2 p) {
   if (axis.edges.empty()) return std::nullopt;
-  const auto nearest_of = [&](const auto& takes) -> std::optional<AxisPlace> {
-    std::optional<AxisPlace> best;
+  const auto nearest_of = [&](const auto& takes) -> std::optional<EdgePlace> {
+    std::optional<EdgePlace> best;
     double nearest = infinity;
     for (std::uint32_t i = 0; i < axis.edges.size(); ++i) {
       if (!takes(axis.edges[i])) continue;
@@ -244,7 +244,7 @@ std::optional<AxisPlace> place_on_axis(const MedialAxis& axis, Vec2 p) {
   };
   const Vec2 inward = inward_at(axis.sites[site], touched, p);
   if (!(norm(inward) > 0)) return nearest_of(has_site);
-  std::optional<AxisPlace> best;
+  std::optional<EdgePlace> best;
   double least = infinity;
   for (std::uint32_t i = 0; i < axis.edges.size(); ++i) {
     if (!has_site(axis.edges[i])) continue;

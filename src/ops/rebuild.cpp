@@ -177,6 +177,22 @@ Ring polygon_of(const Ring& ring, double chord) {
   return out;
 }
 
+/// The ring without points nearer than `step` to the one before, and without spikes as thin as
+/// that, where it runs back on itself.
+Ring calmed(const Ring& ring, double step) {
+  Ring out;
+  std::vector<Vec2>& points = out.points;
+  for (const Vec2 p : ring.points) {
+    while (points.size() >= 2) {
+      const Vec2 u = points.back() - points[points.size() - 2], v = p - points.back();
+      if (dot(u, v) >= 0 || std::abs(cross(u, v)) > step * std::max(norm(u), norm(v))) break;
+      points.pop_back();
+    }
+    if (points.empty() || distance(points.back(), p) > step) points.push_back(p);
+  }
+  return out;
+}
+
 /// The nodes whose disks do not lie within that of another such node beside them, but for `slack`.
 std::vector<std::uint32_t> uncovered(const MedialAxis& axis, double slack) {
   const Incidence incidence(axis);
@@ -233,6 +249,16 @@ Result<Shape> rebuild(const MedialAxis& axis, const RebuildOptions& options,
   auto shape = by_tangents ? Result<Shape>(Error{}) : build_shape(rings, &shaping);
   if (!shape) {
     for (Ring& ring : rings) ring.role = RingRole::winding;
+    shape = build_shape(rings, noded, &shaping);
+  }
+  if (!shape && by_tangents) {
+    // Where the boundary is nearly straight, corners of samples may run back over each other.
+    constexpr double calm = 1e-6;
+    double size = 0;
+    for (const Node& node : axis.nodes)
+      size = std::max(size, distance(node.disk.center, axis.nodes[0].disk.center));
+    for (Ring& ring : rings) ring = calmed(ring, calm * size);
+    std::erase_if(rings, [](const Ring& ring) { return ring.points.size() < 3; });
     shape = build_shape(rings, noded, &shaping);
   }
   own.crossings = shaping.crossings;

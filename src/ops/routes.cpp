@@ -111,11 +111,11 @@ using ops::Start;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-bool is_place(const MedialAxis& axis, AxisPlace place) {
+bool is_place(const MedialAxis& axis, EdgePlace place) {
   return place.edge < axis.edges.size() && place.t >= 0 && place.t <= 1;
 }
 
-Status check_places(const MedialAxis& axis, AxisPlace from, AxisPlace to) {
+Status check_places(const MedialAxis& axis, EdgePlace from, EdgePlace to) {
   if (is_place(axis, from) && is_place(axis, to)) return success();
   return Error{ErrorCode::invalid_option, "a place is not on the axis", {}};
 }
@@ -125,7 +125,7 @@ Error no_way() {
 }
 
 /// The ways from a place to the two nodes of its edge.
-std::array<PathPiece, 2> ways_out(AxisPlace place) {
+std::array<PathPiece, 2> ways_out(EdgePlace place) {
   return {{{place.edge, place.t, 0}, {place.edge, place.t, 1}}};
 }
 
@@ -133,7 +133,7 @@ std::array<PathPiece, 2> ways_out(AxisPlace place) {
 /// are closed.
 template <class PieceCost>
 Result<AxisPath> least_path(const MedialAxis& axis, std::span<const double> costs,
-                            const PieceCost& cost_of_piece, AxisPlace from, AxisPlace to) {
+                            const PieceCost& cost_of_piece, EdgePlace from, EdgePlace to) {
   const Incidence incidence(axis);
   Search search(axis, incidence, costs);
   std::array<Start, 2> starts;
@@ -174,7 +174,7 @@ Result<AxisPath> least_path(const MedialAxis& axis, std::span<const double> cost
 
 }  // namespace
 
-Result<AxisPath> path_between(const MedialAxis& axis, AxisPlace from, AxisPlace to, Route route) {
+Result<AxisPath> path_between(const MedialAxis& axis, EdgePlace from, EdgePlace to, Route route) {
   if (Status places = check_places(axis, from, to); !places) return std::move(places).error();
   std::vector<double> costs(axis.edges.size());
   for (std::uint32_t i = 0; i < costs.size(); ++i) costs[i] = ops::cost_of(axis, {i, 0, 1}, route);
@@ -183,7 +183,7 @@ Result<AxisPath> path_between(const MedialAxis& axis, AxisPlace from, AxisPlace 
       to);
 }
 
-Result<AxisPath> widest_path(const MedialAxis& axis, AxisPlace from, AxisPlace to) {
+Result<AxisPath> widest_path(const MedialAxis& axis, EdgePlace from, EdgePlace to) {
   if (Status places = check_places(axis, from, to); !places) return std::move(places).error();
   // Edges and nodes by decreasing clearance, joined until both places are: the bottleneck of the
   // maximum spanning tree is that of the widest way (Hu 1961).

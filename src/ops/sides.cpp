@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
+#include <vector>
 
 #include "axis/curve.h"
 #include "ops/power_series.h"
@@ -40,6 +42,55 @@ Curve::Derivatives through(const Disk& before, const Disk& here, const Disk& aft
   const double rate1 = (after.radius - here.radius) / h1;
   return {w0 * slope0 + w1 * slope1, (2 / (h0 + h1)) * (slope1 - slope0), w0 * rate0 + w1 * rate1,
           2 * (rate1 - rate0) / (h0 + h1)};
+}
+
+/// The derivatives of the polynomial through some disks, by the length of the chords between them,
+/// at the one of index `at`: Lagrange's weights. Requires different centres one after another.
+Curve::Derivatives through(std::span<const Disk* const> disks, std::size_t at) {
+  std::vector<double> t(disks.size(), 0);
+  for (std::size_t i = 1; i < disks.size(); ++i)
+    t[i] = t[i - 1] + distance(disks[i - 1]->center, disks[i]->center);
+  const double origin = t[at];
+  for (double& one : t) one -= origin;
+  Curve::Derivatives sum{};
+  for (std::size_t i = 0; i < disks.size(); ++i) {
+    if (i == at) continue;  // differences from it: its own weights are minus the others' sums
+    // Of L_i(x) = product over k of (x - t_k) / (t_i - t_k), at 0, where t_at = 0.
+    double scale = t[i], product = 1, inverses = 0;
+    for (std::size_t k = 0; k < disks.size(); ++k) {
+      if (k == i || k == at) continue;
+      scale *= t[i] - t[k];
+      product *= -t[k];
+      inverses -= 1 / t[k];
+    }
+    const double first = product / scale, second = 2 * first * inverses;
+    const Vec2 d = disks[i]->center - disks[at]->center;
+    const double r = disks[i]->radius - disks[at]->radius;
+    sum.first = sum.first + first * d;
+    sum.second = sum.second + second * d;
+    sum.radius_first += first * r;
+    sum.radius_second += second * r;
+  }
+  return sum;
+}
+
+/// The frames at the inner nodes of a branch whose nodes are exact, from seven nodes each: the
+/// three on both sides, or as many as there are before the branch ends.
+std::vector<AxisFrame> frames_of_exact_nodes(const MedialAxis& axis, const Branch& branch) {
+  std::vector<const Disk*> disks = {&axis.nodes[branch.from].disk};
+  for (const Step& step : branch.steps) {
+    const Disk* next = &axis.nodes[axis.edges[step.edge].node[step.forward ? 1 : 0]].disk;
+    if (!(next->center == disks.back()->center)) disks.push_back(next);
+  }
+  std::vector<AxisFrame> frames;
+  constexpr std::size_t window = 7, aside = window / 2;
+  const std::size_t count = disks.size(), width = std::min(window, count);
+  for (std::size_t i = 1; i + 1 < count; ++i) {
+    const std::size_t first = std::min(i > aside ? i - aside : 0, count - width);
+    const std::span<const Disk* const> near(disks.data() + first, width);
+    frames.push_back(frame_of(*disks[i], through(near, i - first), 0));
+  }
+  return frames;
 }
 
 /// A series of a Bezier curve's coordinate at t + u, from its three weighted control values.
@@ -118,6 +169,8 @@ std::vector<double> boundary_curvatures(const MedialAxis& axis, const Edge& edge
 std::vector<AxisFrame> frames_along(const MedialAxis& axis, const Branch& branch,
                                     int samples_per_edge) {
   std::vector<AxisFrame> frames;
+  if (axis.resolution > 0 && axis.method == "curve-axis")
+    return frames_of_exact_nodes(axis, branch);
   if (axis.resolution > 0) {
     const auto end_of = [&](const Step& step) -> const Disk& {
       return axis.nodes[axis.edges[step.edge].node[step.forward ? 1 : 0]].disk;

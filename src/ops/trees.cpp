@@ -1,8 +1,30 @@
 #include "ops/trees.h"
 
+#include <algorithm>
+
+#include "axis/curve.h"
 #include "base/disjoint_sets.h"
 
 namespace medial::ops {
+namespace {
+
+/// The largest radius inside an edge, or 0 where none exceeds those of its ends.
+double largest_inside(const MedialAxis& axis, const Edge& edge) {
+  const Curve curve = curve_of(axis, edge);
+  // The radius stays in the hull of its control points.
+  if (curve.r1 <= std::max(curve.r0, curve.r2)) return 0;
+  double low = 0, high = 1;
+  if (curve.derivatives(low).radius_first <= 0 || curve.derivatives(high).radius_first >= 0)
+    return 0;
+  constexpr int halvings = 40;
+  for (int i = 0; i < halvings; ++i) {
+    const double middle = 0.5 * (low + high);
+    (curve.derivatives(middle).radius_first > 0 ? low : high) = middle;
+  }
+  return curve.at(low).radius;
+}
+
+}  // namespace
 
 Trees::Trees(const MedialAxis& axis)
     : inwards(axis.nodes.size(), no_edge), part(axis.nodes.size()) {
@@ -26,13 +48,35 @@ Trees::Trees(const MedialAxis& axis)
     std::uint32_t& deep = deepest[part[i]];
     if (axis.nodes[i].disk.radius > axis.nodes[deep].disk.radius) deep = i;
   }
+  for (const std::uint32_t deep : deepest) radius.push_back(axis.nodes[deep].disk.radius);
+  deepest_edge.assign(deepest.size(), no_edge);
+  std::vector<std::uint32_t> edges(deepest.size(), 0), nodes(deepest.size(), 0);
+  for (const std::uint32_t p : part) ++nodes[p];
+  for (std::uint32_t e = 0; e < axis.edges.size(); ++e) {
+    const std::uint32_t p = part[axis.edges[e].node[0]];
+    ++edges[p];
+    const double inside = largest_inside(axis, axis.edges[e]);
+    if (inside <= radius[p] * (1 + 1e-9)) continue;
+    radius[p] = inside;
+    deepest_edge[p] = e;
+  }
+  // What a tree must keep.
+  std::vector<bool> stays(n, false);
+  for (std::uint32_t p = 0; p < deepest.size(); ++p) {
+    if (edges[p] + 1 != nodes[p]) continue;
+    if (deepest_edge[p] == no_edge) {
+      stays[deepest[p]] = true;
+    } else {
+      for (const std::uint32_t node : axis.edges[deepest_edge[p]].node) stays[node] = true;
+    }
+  }
   // The sum of the edges at a node is the last one left when its degree is 1.
   std::vector<std::uint32_t> last(n, 0);
   for (std::uint32_t e = 0; e < axis.edges.size(); ++e)
     for (const std::uint32_t node : axis.edges[e].node) last[node] ^= e;
   std::vector<std::uint32_t> leaves;
   const auto consider = [&](std::uint32_t node) {
-    if (degree[node] == 1 && deepest[part[node]] != node) leaves.push_back(node);
+    if (degree[node] == 1 && !stays[node]) leaves.push_back(node);
   };
   for (std::uint32_t i = 0; i < n; ++i) consider(i);
   while (!leaves.empty()) {
@@ -47,23 +91,6 @@ Trees::Trees(const MedialAxis& axis)
     last[inner] ^= e;
     --degree[inner];
     consider(inner);
-  }
-  // The deepest node of a part with cycles is no leaf that must stay: a tree that hangs on a cycle
-  // may hold it.
-  for (const std::uint32_t deep : deepest) {
-    std::uint32_t node = deep;
-    // What is left of a tree is its deepest node alone; of a part with cycles, a path from it.
-    while (degree[node] == 1) {
-      const std::uint32_t e = last[node];
-      const auto& ends = axis.edges[e].node;
-      const std::uint32_t inner = ends[0] == node ? ends[1] : ends[0];
-      order.push_back(e);
-      inwards[node] = e;
-      degree[node] = 0;
-      last[inner] ^= e;
-      --degree[inner];
-      node = inner;
-    }
   }
 }
 

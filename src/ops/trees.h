@@ -1,7 +1,7 @@
 #pragma once
 
-// What of a graph hangs on what: the core, which holds all cycles and the ways between them, or one
-// node of each part that is a tree; and the trees on it.
+// What of a graph hangs on what: the core, which holds all cycles and the ways between them, or the
+// deepest place of each part that is a tree; and the trees on it.
 
 #include <cstdint>
 #include <vector>
@@ -20,10 +20,12 @@ struct Trees {
   std::vector<std::uint32_t> inwards;
   /// Of each node: its connected part, counted from 0.
   std::vector<std::uint32_t> part;
-  /// Of each connected part: its deepest node.
-  std::vector<std::uint32_t> deepest;
+  /// Of each connected part: its deepest node, and the radius of its deepest disk. That disk may
+  /// lie inside an edge, between two arcs; then `deepest_edge` is that edge, or else no_edge.
+  std::vector<std::uint32_t> deepest, deepest_edge;
+  std::vector<double> radius;
 
-  /// O(n). The core of a tree is its deepest node.
+  /// O(n). The core of a tree is its deepest node, or its deepest edge.
   explicit Trees(const MedialAxis& axis);
 
   bool in_tree(const MedialAxis& axis, std::uint32_t edge) const {

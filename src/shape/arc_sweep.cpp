@@ -82,6 +82,7 @@ class CrossingFinder {
     pieces_.reserve(outline.points.size());
     for (std::uint32_t v = 0; v < outline.points.size(); ++v) {
       const std::uint32_t w = outline.next(v);
+      if (w == no_index) continue;
       const Vec2 p = outline.points[v], q = outline.points[w];
       const bool forward = lexicographic_less(p, q);
       const MonotoneArc arc =
@@ -255,9 +256,9 @@ class ArcSweeper {
            monotone_arc(point, outline_.points[other], here == piece ? bulge : -bulge)});
     };
     for (const std::uint32_t vertex : group) {
-      const std::uint32_t previous = outline_.previous(vertex);
-      visit(previous, vertex, previous);
-      visit(vertex, vertex, outline_.next(vertex));
+      const std::uint32_t previous = outline_.previous(vertex), next = outline_.next(vertex);
+      if (previous != no_index) visit(previous, vertex, previous);
+      if (next != no_index) visit(vertex, vertex, next);
     }
 
     // The pieces that end here are neighbours, if none has crossed another.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -8,22 +9,30 @@
 
 namespace medial {
 
+inline constexpr std::uint32_t no_index = std::numeric_limits<std::uint32_t>::max();
+
 /// The rings of the input without what does not matter: ring i is points[begin[i], begin[i + 1]).
 /// Edge v runs from vertex v to next(v). In each ring there are at least three vertices (two where
 /// it has arcs), neighbours differ, and no vertex lies in the inside of a straight run or, to
 /// rounding, of an arc of at most a half circle. No coordinate is -0.
+///
+/// Or, of a soup, open chains: the last vertex of each begins no edge, and one vertex is a point.
 struct Outline {
   std::vector<Vec2> points;
   std::vector<double> bulges;         ///< of each edge, at most 1 in magnitude; empty: all straight
   std::vector<VertexSource> sources;  ///< sources[v].ring is also the index in `begin`
   std::vector<std::uint32_t> begin;
+  bool open = false;
 
+  /// no_index where an open chain has no more.
   std::uint32_t next(std::uint32_t vertex) const {
     const std::uint32_t ring = sources[vertex].ring;
-    return vertex + 1 == begin[ring + 1] ? begin[ring] : vertex + 1;
+    if (vertex + 1 < begin[ring + 1]) return vertex + 1;
+    return open ? no_index : begin[ring];
   }
   std::uint32_t previous(std::uint32_t vertex) const {
     const std::uint32_t ring = sources[vertex].ring;
+    if (open && vertex == begin[ring]) return no_index;
     return (vertex == begin[ring] ? begin[ring + 1] : vertex) - 1;
   }
 };

@@ -25,8 +25,9 @@ Box box_of(const Outline& outline) {
     box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y)};
   };
   for (std::uint32_t v = 0; v < outline.points.size(); ++v) {
+    include(outline.points[v]);
+    if (outline.next(v) == no_index) continue;
     const BulgeArc arc{outline.points[v], outline.points[outline.next(v)], outline.bulges[v]};
-    include(arc.start);
     if (arc.bulge != 0) include(apex(arc));  // at most a quarter circle from what is outermost
   }
   return box;
@@ -34,7 +35,7 @@ Box box_of(const Outline& outline) {
 
 }  // namespace
 
-Noding::Noding(const Outline& outline) : begin_(outline.begin) {
+Noding::Noding(const Outline& outline) : begin_(outline.begin), open_(outline.open) {
   const Box box = box_of(outline);
   frame_ = frame_of(box);
   tolerance_ = frame_.scale * tolerance_for(box, 0);
@@ -60,6 +61,7 @@ Vec2 Noding::to_input(Vec2 local) const {
 NodedOutline Noding::monotone() const {
   NodedOutline result;
   Outline& outline = result.outline;
+  outline.open = open_;
   const std::size_t expected = nodes_.size() + nodes_.size() / 4;
   for (auto* list : {&outline.points, &result.originals}) list->reserve(expected);
   for (auto* list : {&outline.sources, &result.sources}) list->reserve(expected);
@@ -80,6 +82,11 @@ NodedOutline Noding::monotone() const {
     outline.begin.push_back(static_cast<std::uint32_t>(outline.points.size()));
     for (std::uint32_t v = begin_[ring]; v < begin_[ring + 1]; ++v) {
       const Node& node = nodes_[v];
+      if (ends_chain(ring, v)) {
+        result.passing.push_back(false);
+        append(node, v, 0, ring);
+        continue;
+      }
       const BulgeArc arc{node.local, nodes_[next(ring, v)].local, node.bulge};
       auto upright = parallel_point(arc, {0, 1});
       // An arc that hangs over by less than the tolerance stays whole.
@@ -155,6 +162,12 @@ std::optional<Error> Noding::apply(const NodedOutline& noded, std::span<const Co
     const auto first = static_cast<std::uint32_t>(result.size());
     begin.push_back(first);
     for (std::uint32_t v = begin_[ring]; v < begin_[ring + 1]; ++v) {
+      if (ends_chain(ring, v)) {
+        result.push_back(nodes_[v]);
+        result.back().original = target(nodes_[v].original);
+        result.back().local = to_local(result.back().original);
+        continue;
+      }
       const BulgeArc arc{nodes_[v].local, nodes_[next(ring, v)].local, nodes_[v].bulge};
       const Vec2 end = target(nodes_[next(ring, v)].original);
       Node node = nodes_[v];
@@ -176,6 +189,7 @@ std::optional<Error> Noding::apply(const NodedOutline& noded, std::span<const Co
       result.push_back(node);
     }
     const std::size_t size = result.size() - first;
+    if (open_) continue;
     if (size < 2 || (size == 2 && result[first].bulge == -result[first + 1].bulge)) {
       return error_at(ErrorCode::no_area, "the ring encloses no area",
                       nodes_[begin_[ring]].edge_source, nodes_[begin_[ring]].original);

@@ -71,12 +71,16 @@ class Noding {
   std::uint32_t next(std::uint32_t ring, std::uint32_t node) const {
     return node + 1 == begin_[ring + 1] ? begin_[ring] : node + 1;
   }
+  bool ends_chain(std::uint32_t ring, std::uint32_t node) const {
+    return open_ && node + 1 == begin_[ring + 1];
+  }
 
   Frame frame_;
   double tolerance_ = 0;
   std::uint64_t split_edges_ = 0;
   std::vector<Node> nodes_;
   std::vector<std::uint32_t> begin_;
+  bool open_ = false;  ///< chains, see Outline
 };
 
 }  // namespace medial

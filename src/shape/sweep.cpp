@@ -134,9 +134,10 @@ class Sweeper {
   /// The common case: one edge ends where another begins, and nothing else is there. Replaces the
   /// one by the other; false, and nothing done, if the case is another.
   bool pass_through(std::uint32_t vertex, Vec2 point) {
-    const std::uint32_t previous = outline_.previous(vertex);
+    const std::uint32_t previous = outline_.previous(vertex), next = outline_.next(vertex);
+    if (previous == no_index || next == no_index) return false;
     const Vec2 a = outline_.points[previous];
-    const Vec2 b = outline_.points[outline_.next(vertex)];
+    const Vec2 b = outline_.points[next];
     const bool forward = lexicographic_less(a, point);
     if (forward == lexicographic_less(b, point)) return false;
 
@@ -165,9 +166,9 @@ class Sweeper {
       }
     };
     for (const std::uint32_t vertex : group) {
-      const std::uint32_t previous = outline_.previous(vertex);
-      visit(previous, outline_.points[previous]);
-      visit(vertex, outline_.points[outline_.next(vertex)]);
+      const std::uint32_t previous = outline_.previous(vertex), next = outline_.next(vertex);
+      if (previous != no_index) visit(previous, outline_.points[previous]);
+      if (next != no_index) visit(vertex, outline_.points[next]);
     }
 
     // The edges that end in or pass through the point are neighbours, if none has crossed another.

@@ -1,15 +1,12 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 #include "medial/error.h"
 #include "shape/clean.h"
 
 namespace medial {
-
-inline constexpr std::uint32_t no_index = std::numeric_limits<std::uint32_t>::max();
 
 /// A vertex in the inside of an edge.
 struct Split {

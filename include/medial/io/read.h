@@ -10,6 +10,7 @@
 #include "medial/error.h"
 #include "medial/io/image.h"
 #include "medial/shape.h"
+#include "medial/soup.h"
 
 namespace medial::io {
 
@@ -19,7 +20,8 @@ namespace medial::io {
 struct Feature {
   std::vector<Ring> rings;
   std::vector<Contour> contours;
-  std::int64_t id = 0;  ///< of the source, or its index
+  std::vector<Chain> chains;  ///< loose points and lines, with ReadOptions::loose
+  std::int64_t id = 0;        ///< of the source, or its index
   /// Name and value as text, in order.
   std::vector<std::pair<std::string, std::string>> attributes;
 };
@@ -47,7 +49,11 @@ struct ReadOptions {
   /// stays open is left out. Infinity closes whatever is open. Nothing: 1e-6 of the diagonal of the
   /// bounding box.
   std::optional<double> close;
-  ImageOptions image;           ///< of images: what is foreground
+  ImageOptions image;  ///< of images: what is foreground
+  /// For soups: points, lines and open curves are kept too, lines and points as chains, open curves
+  /// as contours that say so; of a drawing (SVG) also shapes that are not filled. A plain text of
+  /// one block is a list of points, one of several has a chain or a point in each.
+  bool loose = false;
   bool smooth_contour = false;  ///< of images: smooth_outline() instead of pixel_outline()
 };
 
@@ -58,6 +64,10 @@ struct ReadOptions {
 /// where the file says; all else by GDAL. Any may be compressed by gzip. Errors: unreadable,
 /// malformed, unsupported, empty, not_finite, no_area, too_large, invalid_option, out_of_memory.
 Result<Dataset> read_dataset(const std::string& path, const ReadOptions& options = {});
+
+/// All that a feature holds as chains, free-form curves approximated. Errors: those of
+/// approximate_by_arcs().
+Result<std::vector<Chain>> chains_of(const Feature& feature, const ArcOptions& options = {});
 
 /// The outlines of a text, set in one line with the font's advances and kerning: a feature for each
 /// character that has an outline, in font units, the baseline at y = 0. `text` is UTF-8, `font` a

@@ -24,9 +24,15 @@ constexpr double same_curvature = 1e-9;
 constexpr double polish_reach = 1e-3;
 
 /// Rounding may put a disk a little behind the one where a bisector begins; what is further behind
-/// is another solution.
-double slack(const Context& context, const Disk& from) {
-  return 4 * context.tolerance + 1e-9 * from.radius;
+/// is another solution. Next to the centre of the arc by whose foot positions are told, a disk's
+/// error counts for more, by the radius over the distance from there.
+double slack(const Context& context, const Bisector& bisector, const Disk& from) {
+  double factor = 4;
+  if (bisector.reference != nullptr) {
+    const double size = geometry::view_of_arc(*bisector.reference, from.center).size;
+    factor *= bisector.reference->is_arc() ? std::abs(bisector.scale) / std::min(1.0, size) : 1.0;
+  }
+  return factor * context.tolerance + 1e-9 * from.radius;
 }
 
 /// Whether a disk reaches over a closed site by more than `slack`.
@@ -75,7 +81,7 @@ std::optional<Disk> contact_with_carrier(Context& context, const Bisector& bisec
   const geometry::TangentDisks disks =
       geometry::tangent_disks(bisector.right, bisector.left, third);
   std::optional<Disk> best;
-  double best_violation = slack(context, from);
+  double best_violation = slack(context, bisector, from);
   for (std::size_t i = 0; i < disks.count; ++i) {
     const Disk& disk = disks.disk[i];
     if (disk.radius > context.radius_limit) continue;
@@ -297,7 +303,7 @@ std::optional<MaximalDisk> branching_disk(Context& context, const Subshape& subs
         disk_at_end(context, subshape, own, forward, context.site(subshape.elements[other]), disks);
     if (!at_end) return;
     const double there = bisector.position(at_end->disk.center);
-    if (there < low - slack(context, from) || !(there < position)) return;
+    if (there < low - slack(context, bisector, from) || !(there < position)) return;
     disk = there < low ? from : at_end->disk;
     position = std::max(there, low);
     third.reset();

@@ -114,7 +114,7 @@ Control::Stop Control::grow(int segment) {
     if (++points_ > most_points) return Stop::exhausted;
     const AxisPoint here = last(segment);
     const std::optional<AxisPoint> there = generator_.next(here);
-    const bool alone = at(segment).next == segment;
+    const bool alone = at(segment).next == segment || is_last_tip(at(segment).next, segment);
     // Feet that meet do so in the tip; next to it (14) may also end in its trivial zero, one foot
     // on the other.
     const bool closes =
@@ -123,12 +123,20 @@ Control::Stop Control::grow(int segment) {
       if (end_in_tip(segment, here)) return Stop::complete;
     }
     if (!there || closes) {
+      if (const int joined = join_tip(segment, here); joined >= 0) {
+        segment = joined;
+        continue;
+      }
       ++rules_.retreats;
       return Stop::retreat;
     }
     // A maximum that a foot steps over, and whose circle is smaller than the disk: (10) fails
     // there.
     if (steps_over_twist(here, *there)) {
+      if (const int joined = join_tip(segment, here); joined >= 0) {
+        segment = joined;
+        continue;
+      }
       ++rules_.retreats;
       return Stop::retreat;
     }
@@ -248,6 +256,64 @@ int Control::join(int segment, const Contact& contact, const Generator::Junction
   for (const int child : {first, second}) at(child).previous = at(child).next = -1;
   any_ = created;
   return created;
+}
+
+bool Control::is_last_tip(int tip, int segment) const {
+  return at(tip).next == segment && at(segment).next == tip && is_tip(tip);
+}
+
+bool Control::is_tip(int segment) const {
+  return at(segment).branch.size() == 1 && at(segment).first_child < 0;
+}
+
+int Control::join_tip(int segment, const AxisPoint& here) {
+  for (const bool on_right : {true, false}) {
+    const int neighbour = on_right ? at(segment).next : at(segment).previous;
+    if (neighbour == segment || !is_tip(neighbour)) continue;
+    const AxisPoint& tip = last(neighbour);
+    const std::optional<AxisPoint> first = generator_.next(tip);
+    if (!first) continue;
+    // The feet of the tip's first point, seen from this branch's.
+    const double tip_u = on_right ? boundary_.above(tip.left.u, here.right.u)
+                                  : -boundary_.above(-tip.right.u, -here.left.u);
+    const double shift = tip_u - tip.left.u;  // both of its feet are one
+    const double near = (on_right ? first->left.u : first->right.u) + shift;
+    const double far = (on_right ? first->right.u : first->left.u) + shift;
+    const double shared = 0.5 * (near + (on_right ? here.right.u : here.left.u));
+    const auto junction = on_right ? generator_.junction(here.left.u, shared, far)
+                                   : generator_.junction(far, shared, here.right.u);
+    if (!junction || !(junction->disk.radius > 0)) continue;
+    const bool in_order = junction->left < junction->middle && junction->middle < junction->right &&
+                          junction->right < junction->left + boundary_.period() &&
+                          (on_right ? junction->middle < tip_u && tip_u < junction->right
+                                    : junction->left < tip_u && tip_u < junction->middle);
+    // This branch may have gone on beyond it, by a step or so: join() takes that back.
+    const double reach =
+        std::max(junction_reach * step_, 2 * distance(tip.disk.center, first->disk.center));
+    if (!in_order || distance(junction->disk.center, here.disk.center) > junction_reach * step_ ||
+        distance(junction->disk.center, tip.disk.center) > reach ||
+        junction->disk.radius < tip.disk.radius)
+      continue;
+    // The way from the tip to it, in steps.
+    const double left = (on_right ? junction->middle : junction->left) - shift;
+    const double right = (on_right ? junction->right : junction->middle) - shift;
+    const double way = distance(junction->disk.center, tip.disk.center);
+    const int steps = static_cast<int>(std::ceil(way / step_));
+    const AxisPoint origin = tip;  // the branch grows
+    for (int i = 1; i < steps; ++i) {
+      // Feet part like the root of the way.
+      const double share = std::sqrt(static_cast<double>(i) / steps);
+      const auto point = generator_.stabilised(between(origin.left.u, left, share),
+                                               between(origin.right.u, right, share));
+      const AxisPoint& before = last(neighbour);
+      if (point && point->left.u < before.left.u && point->right.u > before.right.u &&
+          point->left.u > left && point->right.u < right)
+        at(neighbour).branch.push_back(*point);
+    }
+    ++rules_.junctions;
+    return join(segment, {neighbour, on_right, junction->middle, here}, *junction);
+  }
+  return -1;
 }
 
 void Control::shrink(int segment) {

@@ -51,6 +51,13 @@ class Control {
   std::optional<Contact> first_contact(int segment, const AxisPoint& from,
                                        const AxisPoint& to) const;
   int join(int segment, const Contact& contact, const Generator::Junction& at);
+  /// Whether a segment is the point of a maximum, and no more.
+  bool is_tip(int segment) const;
+  /// Whether the only other segment is the last maximum (Fig 8).
+  bool is_last_tip(int tip, int segment) const;
+  /// The junction of a branch that can go no further with a neighbour that is a tip only: it lies
+  /// on the tip's first step, which is longer than others. The joined segment, or -1.
+  int join_tip(int segment, const AxisPoint& here);
   void shrink(int segment);
   void unlink(int segment);
   void replace(int segment, int first, int last);

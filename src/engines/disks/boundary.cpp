@@ -1,7 +1,9 @@
 #include "engines/disks/boundary.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
 
 #include "base/arc.h"
@@ -120,6 +122,7 @@ void add_loop(const Loop& loop, const SiteNumbers& numbers, const Start& start,
                    Element::edge, number, joint);
     }
   };
+  if (loop.size() == 1) return add_vertex(start.point);
   constexpr std::size_t last_piece = 1;
   constexpr double to_end = std::numeric_limits<double>::infinity();
   if (start.inside)
@@ -140,9 +143,32 @@ void add_loop(const Loop& loop, const SiteNumbers& numbers, const Start& start,
 
 }  // namespace
 
-Boundary loops_boundary(const Shape& shape, const SiteNumbers& numbers, const Frame& frame) {
+double clockwise_turn(Vec2 from, Vec2 to) {
+  constexpr double none = 1e-9;  // a little to the left is rounding
+  const double angle = std::atan2(-cross(from, to), dot(from, to));
+  return angle >= -none ? std::max(angle, 0.0) : angle + 2 * std::numbers::pi;
+}
+
+bool faces_edge(const geometry::Site& edge, Vec2 c) {
+  constexpr double beyond =
+      0x1p-40;  // of the distance: what rounding may turn the foot's normal by
+  const double away = geometry::carrier_distance(edge, c);
+  if (!(away > 0)) return false;
+  const double s = geometry::carrier_parameter(edge, c), slack = beyond * away;
+  return s >= -slack && s <= edge.length + slack;
+}
+
+bool in_wedge(Vec2 first, Vec2 last, Vec2 to) {
+  constexpr double beyond = 1e-9;
+  const double angle = clockwise_turn(first, to), wedge = clockwise_turn(first, last);
+  return angle <= wedge + beyond || angle >= 2 * std::numbers::pi - beyond;
+}
+
+Boundary loops_boundary(const Shape& shape, const SiteNumbers& numbers, const Frame& frame,
+                        bool two_sided) {
   Boundary boundary;
   boundary.has_arcs = !shape.bulges.empty();
+  boundary.two_sided = two_sided;
   boundary.reserve(numbers.count);
   for (std::size_t l = 0; l < shape.loop_count(); ++l) {
     const Loop loop(shape, l, frame);

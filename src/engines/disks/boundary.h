@@ -47,6 +47,9 @@ struct Boundary {
   /// Of each cut, its two places in the order: before and after the hole.
   std::vector<std::array<std::uint32_t, 2>> cut_places;
   bool has_arcs = false;
+  /// Whether edges may stand there twice, once for each side: that of a soup. Then a disk that
+  /// touches one side is as near to the other, and where several edges meet, to all of them.
+  bool two_sided = false;
 
   void reserve(std::size_t count) {
     reserve_large(sites, count);
@@ -95,7 +98,18 @@ struct Boundary {
 /// The boundary before holes are connected: every loop a run of its own in the order of the shape's
 /// loops (so `runs` are per loop here). An outer loop begins at a convex corner if it has one, or
 /// else at the joint where its curvature is smallest; a hole at its furthest point in the direction
-/// `outreach`: a reflex vertex, or a place inside an arc, which is divided there.
-Boundary loops_boundary(const Shape& shape, const SiteNumbers& numbers, const Frame& frame);
+/// `outreach`: a reflex vertex, or a place inside an arc, which is divided there. A loop of one
+/// point is a vertex with the shape all around it, and without a neighbour.
+Boundary loops_boundary(const Shape& shape, const SiteNumbers& numbers, const Frame& frame,
+                        bool two_sided = false);
+
+/// The angle from one direction to another, clockwise, in [0, 2 pi).
+double clockwise_turn(Vec2 from, Vec2 to);
+
+/// Whether c lies on the left of an edge and over its inside, up to rounding.
+bool faces_edge(const geometry::Site& edge, Vec2 c);
+
+/// Whether a direction lies between two others, from the first one clockwise, up to rounding.
+bool in_wedge(Vec2 first, Vec2 last, Vec2 to);
 
 }  // namespace medial::disks

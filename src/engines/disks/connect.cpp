@@ -16,11 +16,20 @@ using geometry::Site;
 /// Cuts are kept where no query finds them.
 const Site far_away = geometry::make_vertex({1e30, 1e30});
 
-/// The run of the loop that a site belongs to.
+/// The run of the loop that a site belongs to. Loops that are neighbours in the plane mostly have
+/// about the same number of sites, so a guess saves most of the search.
 Boundary::Run run_of(const Boundary& loops, std::uint32_t site) {
-  const auto run =
-      std::upper_bound(loops.runs.begin(), loops.runs.end(), site,
-                       [](std::uint32_t s, const Boundary::Run& r) { return s < r.first; });
+  const auto count = static_cast<std::uint64_t>(loops.runs.size());
+  const auto guess = static_cast<std::size_t>(count * site / loops.sites.size());
+  constexpr std::size_t around = 32;
+  const auto begin = loops.runs.begin();
+  auto from = begin, to = loops.runs.end();
+  if (guess >= around && begin[static_cast<std::ptrdiff_t>(guess - around)].first <= site)
+    from = begin + static_cast<std::ptrdiff_t>(guess - around);
+  if (guess + around < count && site < begin[static_cast<std::ptrdiff_t>(guess + around)].first)
+    to = begin + static_cast<std::ptrdiff_t>(guess + around);
+  const auto run = std::upper_bound(
+      from, to, site, [](std::uint32_t s, const Boundary::Run& r) { return s < r.first; });
   return *std::prev(run);
 }
 
@@ -37,18 +46,56 @@ std::uint32_t owner_of_foot(const Boundary& loops, const Boundary::Run& run, std
   return site;
 }
 
+/// Of the sites that a disk touches in the same place as the given one, the one that it touches
+/// from inside: on its left, in its own range of directions.
+std::uint32_t facing_site(const Boundary& loops, const index::FirstTouch& first_touch,
+                          std::uint32_t group, std::uint32_t site, Vec2 center) {
+  const auto faces = [&](std::uint32_t i, const Boundary::Run& run) {
+    if (loops.elements[i] == Element::edge) return faces_edge(loops.sites[i], center);
+    if (run.first == run.last) return true;
+    const std::uint32_t before = i == run.first ? run.last : i - 1;
+    const std::uint32_t after = i == run.last ? run.first : i + 1;
+    return in_wedge(loops.sites[before].end_normal(), loops.sites[after].normal(),
+                    center - loops.sites[i].point);
+  };
+  if (loops.elements[site] == Element::edge && faces_edge(loops.sites[site], center)) return site;
+  const Vec2 foot = geometry::foot(loops.sites[site], center);
+  constexpr double same_place = 0x1p-46;
+  const auto is_it = [&](std::uint32_t i, const Boundary::Run& run) {
+    return geometry::squared_distance(loops.sites[i], foot) <= same_place * same_place &&
+           faces(i, run);
+  };
+  // A loose segment is a run of two ends and two sides.
+  constexpr std::uint32_t few = 4;
+  const Boundary::Run own = run_of(loops, site);
+  if (own.last - own.first < few)
+    for (std::uint32_t i = own.first; i <= own.last; ++i)
+      if (is_it(i, own)) return i;
+  std::uint32_t found = site;
+  first_touch.near(foot, same_place, group, [&](std::uint32_t i) {
+    const Boundary::Run run = run_of(loops, i);
+    // A vertex is the end of the edge before it.
+    for (const std::uint32_t candidate :
+         {i, i == run.last ? run.first : i + 1, i - (i > run.first ? 1 : 0)})
+      if (is_it(candidate, run)) found = candidate;
+  });
+  return found;
+}
+
 /// The disk meets its own component first. Other components can only have vertices in common with
 /// it, and are left out: a cut must not end there.
 Cut connecting_disk(const Shape& shape, const Boundary& loops, const index::FirstTouch& first_touch,
-                    std::uint32_t hole, double furthest, double tolerance) {
+                    std::uint32_t hole, double furthest, double typical, double tolerance) {
   const Boundary::Run own = loops.runs[hole];
   const Vec2 foot = loops.sites[own.first].point;
   // A disk that reaches beyond the furthest point of all crosses the boundary, however its centre
   // is rounded.
   const double largest = 0.5 * (furthest - dot(outreach, foot)) + tolerance;
   // Most holes have others at about the distance of their own detail.
-  const std::uint32_t edge = own.first + (loops.elements[own.first] == Element::vertex ? 1 : 0);
-  double radius = std::min(largest, loops.sites[edge].length);
+  const std::uint32_t edge =
+      std::min(own.last, own.first + (loops.elements[own.first] == Element::vertex ? 1 : 0));
+  const double detail = loops.sites[edge].length;
+  double radius = std::min(largest, detail > 0 ? detail : typical);
   const auto find = [&] {
     return first_touch.find(foot, outreach, radius, shape.component[hole], own.first, own.last);
   };
@@ -59,6 +106,8 @@ Cut connecting_disk(const Shape& shape, const Boundary& loops, const index::Firs
   }
   if (touch) radius = touch->radius;
   Cut cut{{foot + radius * outreach, radius}, hole, touch ? touch->site : own.first};
+  if (loops.two_sided && touch)
+    cut.site = facing_site(loops, first_touch, shape.component[hole], cut.site, cut.disk.center);
   cut.site = owner_of_foot(loops, run_of(loops, cut.site), cut.site, cut.disk.center);
   return cut;
 }
@@ -69,6 +118,7 @@ double place_on_site(const Boundary& loops, std::uint32_t site, std::uint32_t si
                      Vec2 center) {
   const Site& s = loops.sites[site];
   if (!s.is_vertex()) return geometry::foot_parameter(s, center);
+  if (site_before == site) return clockwise_turn(outreach, center - s.point);
   const Vec2 from = loops.sites[site_before].end_normal(), to = center - s.point;
   // It lies between 0 and half a turn; rounding may add a little on both sides.
   const double angle = std::atan2(-cross(from, to), dot(from, to));
@@ -87,8 +137,8 @@ class Splicer {
       double place = place_on_site(loops, cuts[i].site, before, cuts[i].disk.center);
       std::uint32_t site = cuts[i].site;
       // A hole's run starts in the middle of its first vertex: what is touched earlier on that
-      // vertex comes at the very end.
-      if (site == run.first && loops.elements[site] == Element::vertex &&
+      // vertex comes at the very end. A point's run starts and ends there.
+      if (site == run.first && run.first < run.last && loops.elements[site] == Element::vertex &&
           place < place_on_site(loops, site, before, loops.sites[site].point + outreach))
         site = run.last + 1;
       places_.push_back({run.first, site, place, i});
@@ -103,6 +153,7 @@ class Splicer {
   Boundary splice() {
     result_.cut_places.resize(cuts_.size());
     result_.has_arcs = loops_.has_arcs;
+    result_.two_sided = loops_.two_sided;
     result_.reserve(loops_.sites.size() + 4 * cuts_.size());
     for (std::uint32_t loop = 0; loop < loops_.runs.size(); ++loop) {
       if (shape_.hole[loop]) continue;
@@ -166,8 +217,9 @@ class Splicer {
         stack.push_back(begin(cuts_[place.cut].hole));
         continue;
       }
-      // A hole that began at a vertex ends with a second copy of it.
-      const bool closes = shape_.hole[at.loop] && loops_.elements[run.first] == Element::vertex;
+      // A hole that began at a vertex ends with a second copy of it; a point has nothing between.
+      const bool closes = shape_.hole[at.loop] && loops_.elements[run.first] == Element::vertex &&
+                          run.first < run.last;
       if (at.site <= run.last || closes)
         add_piece(at, at.site <= run.last ? loops_.sites[at.site].length : 0);
       at.from = 0;
@@ -212,17 +264,31 @@ std::vector<Cut> connecting_disks(const Shape& shape, const Boundary& loops, dou
   for (std::uint32_t loop = 0; loop < loops.runs.size(); ++loop)
     std::fill(components.begin() + loops.runs[loop].first,
               components.begin() + loops.runs[loop].last + 1, shape.component[loop]);
-  // A vertex ends an edge, so edges are enough.
+  // Between that many holes spread evenly over a square of side 1.
+  const double typical = 1 / std::sqrt(static_cast<double>(holes.size()));
+  // A vertex ends an edge, so edges are enough, but for vertices without any.
   std::vector<std::uint32_t> edges;
   edges.reserve(loops.sites.size());
-  for (std::uint32_t i = 0; i < loops.sites.size(); ++i)
-    if (loops.elements[i] == Element::edge) edges.push_back(i);
+  for (const Boundary::Run& run : loops.runs) {
+    // Of a loose segment or arc, one side is enough, too: a run of two ends and two sides.
+    const std::uint32_t side = run.first + 1, other = run.first + 3;
+    const bool is_loose = loops.two_sided && run.last == other &&
+                          loops.elements[run.first] == Element::vertex &&
+                          loops.elements[side + 1] == Element::vertex &&
+                          loops.sites[side].length == loops.sites[other].length &&
+                          loops.sites[side].curvature == -loops.sites[other].curvature;
+    for (std::uint32_t i = run.first; i <= run.last; ++i) {
+      if (loops.elements[i] != Element::edge && run.first < run.last) continue;
+      edges.push_back(i);
+      if (is_loose) break;
+    }
+  }
   const index::FirstTouch first_touch(loops.sites, edges, components);
 
   std::vector<Cut> cuts(holes.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, holes.size(), 16), [&](const auto& range) {
     for (std::size_t i = range.begin(); i < range.end(); ++i)
-      cuts[i] = connecting_disk(shape, loops, first_touch, holes[i], furthest, tolerance);
+      cuts[i] = connecting_disk(shape, loops, first_touch, holes[i], furthest, typical, tolerance);
   });
   queries += cuts.size();
   return cuts;

@@ -11,7 +11,33 @@ double turn(Vec2 from, Vec2 to) { return std::atan2(-cross(from, to), dot(from, 
 
 }  // namespace
 
+bool Contacts::faces(std::uint32_t i, Vec2 c) const {
+  if (element(i) == Element::edge) return faces_edge(site(i), c);
+  const auto bound = [&](std::uint32_t beside) {
+    if (element(beside) == Element::cut) return cut_direction(i, beside);
+    return beside < i ? site(beside).end_normal() : site(beside).normal();
+  };
+  const bool all_around = element(i - 1) == Element::cut && element(i + 1) == Element::cut &&
+                          boundary_.originals[i - 1] == boundary_.originals[i + 1];
+  return all_around || in_wedge(bound(i - 1), bound(i + 1), c - site(i).point);
+}
+
+std::uint32_t Contacts::facing(std::uint32_t i, Vec2 center, const Span& span) const {
+  if (faces(i, center)) return i;
+  const double reach = std::sqrt(geometry::squared_distance(site(i), center));
+  context_.tree.within(center, reach + 2 * context_.tolerance, span.right + 1, span.left - 1,
+                       together_);
+  const Vec2 foot = geometry::foot(site(i), center);
+  for (const std::uint32_t other : together_)
+    if (squared_norm(geometry::foot(site(other), center) - foot) <=
+            distinct_contacts * distinct_contacts * reach * reach &&
+        faces(other, center))
+      return other;
+  return i;
+}
+
 std::uint32_t Contacts::owner(std::uint32_t i, Vec2 center, const Span& span) const {
+  if (boundary_.two_sided) return facing(i, center, span);
   if (element(i) == Element::edge) {
     // At an end that is a vertex site or a smooth joint, what goes on from there is touched.
     const double s = geometry::foot_parameter(site(i), center);
@@ -110,7 +136,8 @@ void Contacts::split(const Span& span, const Disk& disk, std::uint32_t sure, boo
   std::uint32_t before = span.right;
   parts.clear();
   for (const std::uint32_t hit : touched_) {
-    const std::uint32_t i = owner(hit, disk.center, span);
+    if (boundary_.two_sided && !faces(hit, disk.center)) continue;
+    const std::uint32_t i = boundary_.two_sided ? hit : owner(hit, disk.center, span);
     if (i <= before || i >= span.left || !touches(i, disk, context_.tolerance)) continue;
     const double angle = angle_of(i, 0.5);
     if (angle - angle_before < distinct_contacts || end_angle - angle < distinct_contacts) continue;

@@ -46,6 +46,9 @@ class Contacts {
   /// The nearest site inside the span that the disk reaches over by more than the tolerance.
   Hit nearest(const Disk& disk, const Span& span) {
     ++statistics_.queries;
+    if (boundary_.two_sided)
+      return context_.tree.nearest_facing(disk.center, disk.radius - context_.tolerance,
+                                          span.right + 1, span.left - 1);
     return context_.tree.nearest(disk.center, disk.radius - context_.tolerance, span.right + 1,
                                  span.left - 1);
   }
@@ -54,6 +57,10 @@ class Contacts {
   /// end that is a vertex site of its own belongs to the vertex, and a vertex that cuts divide into
   /// several copies is touched by the copy in whose range of directions the centre lies.
   std::uint32_t owner(std::uint32_t i, Vec2 center, const Span& span) const;
+
+  /// Whether a site of a soup has c on its side and in its own range of directions: see
+  /// Boundary::two_sided.
+  bool faces(std::uint32_t i, Vec2 c) const;
 
   /// Whether a disk that reaches site i from inside touches it there: not in the end of an edge,
   /// where its neighbour would be nearer.
@@ -89,6 +96,7 @@ class Contacts {
   static constexpr double distinct_contacts = 1e-6;
 
  private:
+  std::uint32_t facing(std::uint32_t i, Vec2 center, const Span& span) const;
   Vec2 cut_direction(std::uint32_t vertex, std::uint32_t cut) const;
   std::uint32_t other_copy(std::uint32_t cut, std::uint32_t vertex) const;
 
@@ -99,6 +107,7 @@ class Contacts {
   const Boundary& boundary_;
   Statistics& statistics_;
   std::vector<std::uint32_t> touched_;
+  mutable std::vector<std::uint32_t> together_;  ///< sites in one place
 };
 
 }  // namespace medial::disks

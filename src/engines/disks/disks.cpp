@@ -14,8 +14,10 @@
 
 namespace medial::disks {
 
+namespace {
+
 /// The engine: sites, holes connected, tree, walk, graph. Cancelled, it stops where it is.
-MedialAxis run(const Shape& shape, const Options& options) {
+MedialAxis run(const Shape& shape, const Options& options, bool two_sided) {
   MedialAxis axis;
   axis.method = "disks";
   Statistics& statistics = axis.statistics;
@@ -31,7 +33,7 @@ MedialAxis run(const Shape& shape, const Options& options) {
   const double input_tolerance = frame.scale * axis.tolerance;
 
   SiteNumbers numbers = sites::number_sites(shape, frame, options.corner_angle);
-  Boundary boundary = loops_boundary(shape, numbers, frame);
+  Boundary boundary = loops_boundary(shape, numbers, frame, two_sided);
   statistics.seconds_sites = watch.lap();
 
   const auto cancelled = [&] { return options.cancel != nullptr && options.cancel->load(); };
@@ -67,6 +69,14 @@ MedialAxis run(const Shape& shape, const Options& options) {
   statistics.seconds_collect = watch.lap();
   statistics.seconds = all.lap();
   return axis;
+}
+
+}  // namespace
+
+MedialAxis run(const Shape& shape, const Options& options) { return run(shape, options, false); }
+
+MedialAxis run_two_sided(const Shape& shape, const Options& options) {
+  return run(shape, options, true);
 }
 
 }  // namespace medial::disks

@@ -10,4 +10,8 @@ namespace medial::disks {
 /// compute() has checked. Cut short, with any content, where the caller cancels.
 MedialAxis run(const Shape& shape, const Options& options);
 
+/// The same for what lies around a soup (shape/around.h): a shape whose edges may stand there
+/// twice, once for each side, and with loops of one point.
+MedialAxis run_two_sided(const Shape& shape, const Options& options);
+
 }  // namespace medial::disks

@@ -35,7 +35,7 @@ Event EventSearch::local_event(bool on_right) {
     if (!joint) return event;
     const double position = bisector_.position(joint->disk.center);
     // On a parabola the foot's normal may turn that far only on the way back.
-    if (position < low_ - slack()) return event;
+    if (is_behind(position)) return event;
     event = {on_right ? Event::Kind::pass_right : Event::Kind::pass_left, Hit::none, joint->disk,
              position};
     if (!joint->fits) event.kind = Event::Kind::far;
@@ -54,6 +54,11 @@ Event EventSearch::local_event(bool on_right) {
           Contacts::distinct_contacts * from_.radius)
         return event;
     const auto contact = contact_with(across, nowhere);
+    if (boundary_.two_sided) {
+      // What is across may face elsewhere, and a point may have another copy that was just left.
+      const bool faces = contact && contacts_.faces(across, contact->disk.center);
+      return faces && reaches(*contact) ? *contact : end_of_range(on_right);
+    }
     return contact && reaches(*contact) ? *contact : event;
   }
   // At a convex corner too, before the foot gets to the corner: the disk there is not empty,
@@ -80,8 +85,22 @@ Event EventSearch::local_event(bool on_right) {
   event.site = next;
   event.disk = {foot + radius * normal, radius};
   event.position = bisector_.position(event.disk.center);
-  if (event.position < low_ - slack()) return {};  // the foot turns that far on the way back only
+  if (is_behind(event.position)) return {};  // the foot turns that far on the way back only
   return event;
+}
+
+Event EventSearch::end_of_range(bool on_right) const {
+  const std::uint32_t own = on_right ? span_.right : span_.left;
+  const std::uint32_t next = on_right ? own + 1 : own - 1;
+  const Cut& cut = context_.cuts[boundary_.originals[next]];
+  const Vec2 foot = geometry::foot(site(own), cut.disk.center), to = cut.disk.center - foot;
+  const double radius = geometry::tangent_radius(foot, (1 / norm(to)) * to,
+                                                 site(on_right ? span_.left : span_.right));
+  if (!(radius <= context_.radius_limit)) return {};
+  Event event{Event::Kind::far, on_right ? own + 2 : own - 2,
+              Disk{foot + (radius / norm(to)) * to, radius}, 0};
+  event.position = bisector_.position(event.disk.center);
+  return event.position < low_ - slack() ? Event{} : event;
 }
 
 bool EventSearch::comes_later(bool on_right, const Event& event) const {
@@ -212,8 +231,7 @@ Event EventSearch::next() {
     event.disk = bisector_.disk_at(event.position, from_);
   }
   if (event.kind == Event::Kind::contact) {
-    if (from_.radius > 0 && contacts_.touches(event.site, from_, context_.tolerance))
-      return at_node(event.site);
+    if (is_at_node(event.site)) return at_node(event.site);
     // The only site in between is the one found; but a circle may be touched in the wrong place.
     const bool straight = bisector_.reference == nullptr && !site(event.site).is_arc();
     if (span_.left - span_.right == 2 && straight) return event;
@@ -236,6 +254,11 @@ std::optional<Event> EventSearch::pass_over_circle() const {
   return std::nullopt;
 }
 
+bool EventSearch::is_at_node(std::uint32_t touched) const {
+  return from_.radius > 0 && contacts_.touches(touched, from_, context_.tolerance) &&
+         (!boundary_.two_sided || contacts_.faces(touched, from_.center));
+}
+
 Event EventSearch::at_node(std::uint32_t touched) const {
   return {Event::Kind::at_node, touched, from_, low_};
 }
@@ -245,10 +268,13 @@ Event EventSearch::first_contact(Event event) {
   bool look_beyond = true;
   // Every round but one that looked beyond comes earlier; rounding could make rounds repeat.
   for (int round = 0; round < most_rounds; ++round) {
+    if (boundary_.two_sided) event = short_of_point(event);
     Event asked = event;
     if (event.kind == Event::Kind::contact && look_beyond) asked = beyond(event);
     const Hit hit = contacts_.nearest(asked.disk, span_);
     if (!hit) {
+      if (boundary_.two_sided && event.kind == Event::Kind::contact)
+        event.site = contacts_.owner(event.site, event.disk.center, span_);
       // Only the carrier was touched, short of the site.
       if (event.kind == Event::Kind::contact && !reaches(event))
         return bracket(event.disk, intruded);
@@ -264,8 +290,7 @@ Event EventSearch::first_contact(Event event) {
       return event;
     }
     const std::uint32_t intruder = contacts_.owner(hit.site, asked.disk.center, span_);
-    if (from_.radius > 0 && contacts_.touches(intruder, from_, context_.tolerance))
-      return at_node(intruder);
+    if (is_at_node(intruder)) return at_node(intruder);
     asked.site = intruder;
     intruded = asked;
     const std::optional<Event> earlier = contact_before(asked);
@@ -277,10 +302,30 @@ Event EventSearch::first_contact(Event event) {
       }
       return bracket(from_, asked);
     }
+    // A disk too far ahead may reach a point whose other copy was touched before.
+    if (boundary_.two_sided && element(earlier->site) == Element::vertex &&
+        earlier->position <= low_ + slack() &&
+        !contacts_.faces(earlier->site, earlier->disk.center))
+      return bracket(from_, asked);
     look_beyond = earlier->position < event.position;
     event = *earlier;
   }
   return bracket(from_, intruded);
+}
+
+Event EventSearch::short_of_point(Event event) {
+  const bool in_point = event.disk.radius <= 8 * context_.tolerance &&
+                        span_.left - span_.right > 2 && from_.radius > 0;
+  if (!in_point) return event;
+  double way = event.position - low_;
+  for (int step = 0; step < bracket_steps; ++step) {
+    way *= 0.5;
+    const double position = event.position - way;
+    if (!(low_ < position && position < event.position)) break;
+    const Disk disk = bisector_.disk_at(position, from_);
+    if (contacts_.nearest(disk, span_)) return {Event::Kind::far, Hit::none, disk, position};
+  }
+  return event;
 }
 
 Event EventSearch::beyond(const Event& contact) const {
@@ -309,6 +354,14 @@ std::optional<Event> EventSearch::contact_before(const Event& intruded) {
   if (const auto at_joint = contact_at_joint(i)) return at_joint;
   std::optional<Event> contact = contact_with(i, intruded.position);
   if (intruder.is_vertex() || (contact && reaches(*contact))) return contact;
+  // The disk reaches across an edge of a soup: its other side is touched first.
+  if (boundary_.two_sided) {
+    auto behind = contact_with(geometry::reversed(intruder), i, intruded.position);
+    if (behind && contacts_.reaches(i, behind->disk)) {
+      behind->site = contacts_.owner(i, behind->disk.center, span_);
+      if (contacts_.faces(behind->site, behind->disk.center)) return behind;
+    }
+  }
   // The carrier is touched short of the edge: one of its neighbours comes first.
   std::optional<Event> earliest;
   for (const std::uint32_t next : {i - 1, i + 1}) {

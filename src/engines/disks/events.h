@@ -60,9 +60,13 @@ class EventSearch {
   /// Rounding may put a disk a little behind the place where it should be; what is further behind
   /// is another solution.
   double slack() const { return 4 * context_.tolerance + 1e-12 * from_.radius; }
+  bool is_behind(double position) const { return position < low_ && position < low_ - slack(); }
 
   /// The event at which the foot leaves `right` or `left` for its neighbour, by the sites alone.
   Event local_event(bool on_right);
+  /// The disk whose foot on the right or left is where a cut ends the range of a site of a soup:
+  /// the walk gets no further, as the cut's disk reaches across.
+  Event end_of_range(bool on_right) const;
   /// Whether the foot on the right or left meets a convex corner only after this event. Of two
   /// disks of a bisector that keep clear of a site, so do all in between.
   bool comes_later(bool on_right, const Event& event) const;
@@ -86,10 +90,14 @@ class EventSearch {
   void polish(Event& event, const geometry::Site& third);
   /// Where the disk of the node is the circle of an arc, it touches all of it: the foot passes on.
   std::optional<Event> pass_over_circle() const;
+  bool is_at_node(std::uint32_t touched) const;
   Event at_node(std::uint32_t touched) const;
   /// Shortens the way to `event` until the disk there is empty: each intruder gives a disk
   /// that comes earlier.
   Event first_contact(Event event);
+  /// Where edges of a soup meet, a disk of no radius touches them all, and those between the two
+  /// sites reach into the disks before. Such an event becomes one of those disks.
+  Event short_of_point(Event event);
   /// The disk a little further, where the touched site intrudes by half of the tolerance. A flat
   /// contact leaves its position open: many neighbours on a circle are touched by one disk within
   /// the tolerance, although each three of them ask for another one. Looking from beyond finds the

@@ -130,6 +130,13 @@ class MergeCurve {
 
   /// What a stored disk touches: far less than ties.h allows, which then joins such disks.
   double tie() const { return 0.0625 * limits_.tolerance; }
+  /// Whether a stored disk touches an element, and not only the end of a segment, maybe from
+  /// behind.
+  bool is_tied(std::uint32_t i, const Disk& disk) const {
+    return std::abs(gap(i, disk)) <= tie() &&
+           std::abs(geometry::carrier_distance(site(i), disk.center) - disk.radius) <=
+               limits_.tolerance;
+  }
   double gap(std::uint32_t i, const Disk& disk) const {
     return std::sqrt(geometry::squared_distance(site(i), disk.center)) - disk.radius;
   }
@@ -143,7 +150,7 @@ class MergeCurve {
       const double position = bisector.position(disk.center);
       if (position > reached) return Crossing{disk, position, side};
       if (disk_.radius > 0 && distance(disk.center, disk_.center) <= vagueness())
-        return Crossing{std::abs(gap(third, disk_)) <= tie() ? disk_ : disk, reached, side};
+        return Crossing{is_tied(third, disk_) ? disk_ : disk, reached, side};
       return std::nullopt;
     };
     if (diagram_.is_spoke(edge)) {
@@ -157,9 +164,8 @@ class MergeCurve {
       if (!touches(other, disk)) return std::nullopt;
       return not_behind(disk);
     }
-    if (edge.inner.radius > 0 && std::abs(gap(other, edge.inner)) <= tie())
-      return not_behind(edge.inner);
-    if (disk_.radius > 0 && std::abs(gap(third, disk_)) <= tie()) return not_behind(disk_);
+    if (edge.inner.radius > 0 && is_tied(other, edge.inner)) return not_behind(edge.inner);
+    if (disk_.radius > 0 && is_tied(third, disk_)) return not_behind(disk_);
 
     ++statistics_.apollonius;
     const std::uint32_t own = current_[side];

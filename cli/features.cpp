@@ -1,0 +1,206 @@
+// medial features: end, normal and branching points, branches and their primitives.
+
+#include "medial/features.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <memory>
+
+#include "cli/common.h"
+#include "cli/pipeline.h"
+#include "cli/shape_verbs.h"
+#include "cli/stored_axes.h"
+#include "cli/terminal.h"
+#include "medial/io/features.h"
+
+namespace medial::cli {
+namespace {
+
+struct FeatureSwitches {
+  InputSwitches input;
+  CommonSwitches common;
+  std::string output;
+  std::string format;
+  io::FeatureWriteOptions write;
+  FeatureOptions options;
+};
+
+constexpr double most = 1e3;  // of a threshold
+
+/// What there is to tell of all items together.
+struct FeatureSummary {
+  std::uint64_t ends = 0, branchings = 0, branches = 0, closed = 0, runs = 0;
+  double length = 0;
+  std::array<double, primitive_count> primitive{};
+  std::array<double, variation_count> variation{};
+};
+
+FeatureSummary summarize(std::span<const AxisFeatures> features) {
+  FeatureSummary sum;
+  for (const AxisFeatures& item : features) {
+    sum.ends += item.ends;
+    sum.branchings += item.branchings;
+    sum.branches += item.branches.size();
+    sum.closed += item.closed_branches;
+    sum.runs += item.runs.size();
+    sum.length += item.length;
+    for (const PrimitiveRun& run : item.runs) {
+      sum.primitive[static_cast<std::size_t>(run.primitive)] += run.length;
+      sum.variation[static_cast<std::size_t>(run.variation)] += run.length;
+    }
+  }
+  return sum;
+}
+
+/// Shares by name, of those that are not 0.
+template <class Kind, std::size_t N>
+Json shares(const std::array<double, N>& lengths, double total) {
+  Json object = Json::object();
+  for (std::size_t i = 0; i < N; ++i)
+    if (lengths[i] > 0) object[name_of(static_cast<Kind>(i))] = lengths[i] / total;
+  return object;
+}
+
+Status tell(const AxisFile& file, std::span<const AxisFeatures> features,
+            const FeatureSwitches& switches, double seconds_features, double seconds_write) {
+  const auto& common = switches.common;
+  const bool terminal = !switches.output.empty() && error_is_terminal() && !common.quiet;
+  if (!common.json && !common.stats && !switches.output.empty() && !terminal) return success();
+  const FeatureSummary sum = summarize(features);
+  const Json costs = {{"seconds",
+                       {{"read", file.seconds_read},
+                        {"shape", file.seconds_shape},
+                        {"axis", file.seconds_axis},
+                        {"features", seconds_features},
+                        {"write", seconds_write}}},
+                      {"peak_bytes", peak_bytes()}};
+  if (common.json) {
+    Json object = {{"input", switches.input.path},
+                   {"features", features.size()},
+                   {"ends", sum.ends},
+                   {"branchings", sum.branchings},
+                   {"branches", sum.branches},
+                   {"closed_branches", sum.closed},
+                   {"runs", sum.runs},
+                   {"length", sum.length}};
+    object["primitives"] = shares<Primitive>(sum.primitive, sum.length);
+    object["variations"] = shares<Variation>(sum.variation, sum.length);
+    if (common.stats) object.update(costs);
+    return print(object);
+  }
+  std::string text = fmt::format(
+      "{}: {}, {}, {} ({} closed), {}\n", switches.input.path, counted(sum.ends, "end"),
+      counted(sum.branchings, "branching point"), counted(sum.branches, "branch", "branches"),
+      sum.closed, counted(sum.runs, "primitive"));
+  const auto rows = [&text, &sum]<class Kind, std::size_t N>(Kind,
+                                                             const std::array<double, N>& lengths) {
+    for (std::size_t i = 0; i < N; ++i)
+      if (lengths[i] > 0)
+        text += fmt::format("  {:<18}{:>6.1f} %\n", name_of(static_cast<Kind>(i)),
+                            100 * lengths[i] / sum.length);
+  };
+  rows(Primitive{}, sum.primitive);
+  rows(Variation{}, sum.variation);
+  if (common.stats) fmt::print(stderr, "{}", table(costs));
+  if (switches.output.empty()) return print(text);
+  if (terminal) fmt::print(stderr, "{}", text);
+  return success();
+}
+
+Result<int> run_features(const FeatureSwitches& switches) {
+  const InputSwitches& input = switches.input;
+  const CommonSwitches& common = switches.common;
+  const std::string &output = switches.output, &format = switches.format;
+  Status writable =
+      check_output(output, format, io::known_feature_formats(), input.path, common.json);
+  if (!writable) return std::move(writable).error();
+  auto axes = load_axes(input, common);
+  if (!axes) return std::move(axes).error();
+  const Stopwatch watch;
+  std::vector<AxisFeatures> features(axes->native.items.size());
+  std::vector<double> weights;
+  for (const io::NativeItem& item : axes->native.items)
+    weights.push_back(static_cast<double>(item.axis.edges.size()) + 1);
+  Status described = for_each_feature(weights, common.threads, [&](std::size_t i, int) {
+    features[i] = describe(axes->native.items[i].axis, switches.options);
+    return success();
+  });
+  if (!described) return std::move(described).error();
+  const double seconds = watch.seconds();
+  const Stopwatch writing;
+  if (!output.empty()) {
+    io::FeatureWriteOptions own = switches.write;
+    own.write.chord = common.chord;
+    Status written = io::write_features(output, format, axes->native, features, own);
+    if (!written) return std::move(written).error();
+  }
+  Status told = tell(*axes, features, switches, seconds, output.empty() ? 0 : writing.seconds());
+  if (!told) return std::move(told).error();
+  return exit_success;
+}
+
+void add_thresholds(CLI::App& verb, FeatureOptions& options) {
+  constexpr char group[] = "Thresholds (no unit)";
+  const auto add = [&](const char* name, double& value, const char* help) {
+    verb.add_option(name, value, fmt::format("{} (default: {}).", help, value))
+        ->check(in_range(0, most))
+        ->option_text("X")
+        ->group(group);
+  };
+  add("--parallel", options.parallel, "A worm's radius changes by at most this times its length,");
+  add("--even", options.even, "and by at most this times its mean radius");
+  add("--bend", options.bend, "A cup's or flare's rate of the radius changes by more");
+  add("--turn", options.turn, "A straight run turns by at most this, in radians");
+  add("--spiral", options.spiral, "A spiral's curvature changes by more, over its mean");
+  add("--shortest", options.shortest,
+      "Runs shorter than this times their radius are\njoined to a neighbour");
+}
+
+}  // namespace
+
+Verb make_features_verb(CLI::App& program) {
+  auto switches = std::make_shared<FeatureSwitches>();
+  CLI::App* verb = program.add_subcommand(
+      "features", "Describe shapes by their branches and what these are made of.");
+  add_input_switches(*verb, switches->input);
+  verb->add_option("-o,--output", switches->output,
+                   fmt::format("Where to write; the extension tells the format:\n{}\n"
+                               "- is standard output, see --format. Without -o, only a summary is\n"
+                               "printed.",
+                               io::known_feature_formats()))
+      ->check(a_name())
+      ->option_text("OUTPUT");
+  verb->add_option("--format", switches->format, "The format of -o -, for example csv.")
+      ->option_text("NAME");
+  verb->add_option_function<std::string>(
+          "--table",
+          [switches](const std::string& name) {
+            switches->write.table = name == "runs"       ? io::FeatureTable::runs
+                                    : name == "branches" ? io::FeatureTable::branches
+                                                         : io::FeatureTable::points;
+          },
+          "What .geojson .shp .fgb .csv hold: runs (default), branches or points;\n"
+          ".json and .gpkg hold all.")
+      ->check(CLI::IsMember({"runs", "branches", "points"}).description(""))
+      ->option_text("NAME");
+  verb->add_flag("!--no-names", switches->write.names, "Pictures without the names of primitives.")
+      ->group("Pictures");
+  add_thresholds(*verb, switches->options);
+  add_picture_switches(*verb, switches->write.write);
+  add_common_switches(*verb, switches->common);
+  verb->footer(
+      "INPUT may be shapes, whose axes are then computed, or medial's own .json. A branch\n"
+      "runs from its deeper end. It is cut into primitives by its radius: worm (even),\n"
+      "wedge (linear), cup (bulging sides), flare (hollow sides), opening or closing; in\n"
+      "seven variations by its curvature: straight, circular, spiral in, spiral out, left or\n"
+      "right (Blum and Nagel). Prune noisy outlines first.\n"
+      "\n"
+      "Examples:\n"
+      "  medial features leaf.svg -o leaf-features.svg\n"
+      "  medial axis plan.geojson -o - --format json | medial features - -o features.gpkg\n"
+      "  medial features gear.dxf -o - --format csv --table branches");
+  return {verb, [switches] { return run_features(*switches); }};
+}
+
+}  // namespace medial::cli

@@ -1,0 +1,269 @@
+// medial pack, medial unpack: axes as compact codes of shapes.
+
+#include "medial/io/pack.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <memory>
+
+#include "cli/common.h"
+#include "cli/pipeline.h"
+#include "cli/shape_verbs.h"
+#include "cli/stored_axes.h"
+#include "cli/terminal.h"
+
+namespace medial::cli {
+namespace {
+
+constexpr char pack_formats[] = ".mpk";
+constexpr char image_formats[] = ".png .tif .pbm";
+
+struct PackSwitches {
+  InputSwitches input;
+  CommonSwitches common;
+  std::string output;
+  double error = 1e-3;
+  bool units = false;
+  bool squares = false;
+  bool compare = false;
+};
+
+/// The diagonal of all shapes together.
+double extent_of(const io::NativeFile& file) {
+  bool first = true;
+  Box all;
+  for (const io::NativeItem& item : file.items) {
+    if (item.shape.points.empty()) continue;
+    const Box box = bounding_box(item.shape);
+    if (first) all = box;
+    first = false;
+    all.low = {std::min(all.low.x, box.low.x), std::min(all.low.y, box.low.y)};
+    all.high = {std::max(all.high.x, box.high.x), std::max(all.high.y, box.high.y)};
+  }
+  return first ? 0 : diagonal(all);
+}
+
+/// How the error is shared out: the shortest of these.
+constexpr std::array<std::pair<double, double>, 4> shares{
+    {{0.2, 0.6}, {0.3, 0.5}, {0.3, 0.75}, {0.4, 0.6}}};
+
+Status tell(const PackSwitches& switches, Json object, const std::string& line) {
+  if (switches.common.json) return print(object);
+  if (switches.output != "-") {
+    if (switches.common.quiet) return success();
+    std::string text = line + "\n";
+    if (switches.compare)
+      for (const auto& [name, value] : object["compare"].items())
+        text += fmt::format("  {:<28}{:>10}\n", name, value.dump());
+    return print(text);
+  }
+  return success();
+}
+
+/// The boundary, packed in the same way and as it was: to compare.
+Json compare_boundary(const io::NativeFile& file, double error) {
+  std::vector<Shape> shapes;
+  std::string text;
+  for (const io::NativeItem& item : file.items) {
+    shapes.push_back(item.shape);
+    for (const Vec2 p : item.shape.points) text += fmt::format("{:.17g} {:.17g},", p.x, p.y);
+  }
+  Json object = Json::object();
+  const auto code = encode_boundary(shapes, error);
+  if (code) object["boundary_within_error"] = io::compressed_size(*code);
+  object["boundary_text"] = text.size();
+  object["boundary_text_zstd"] =
+      io::compressed_size({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+  return object;
+}
+
+Result<int> pack_squares(const PackSwitches& switches) {
+  auto image = io::read_image(switches.input.path, switches.input.read.image);
+  if (!image) return std::move(image).error();
+  io::PackFile file;
+  file.kind = io::PackKind::squares;
+  file.y_down = true;
+  SquareReport report;
+  const double error = switches.units ? switches.error : 0;
+  if (!(error >= 0 && error <= 65535)) return invalid_option("--error is no number of pixels");
+  file.code = encode_squares(image->image, static_cast<std::uint32_t>(error), &report);
+  auto bytes = io::pack_bytes(file);
+  if (!bytes) return std::move(bytes).error();
+  if (Status written = io::write_pack(switches.output, *bytes); !written)
+    return std::move(written).error();
+  Json object = {{"input", switches.input.path},     {"output", switches.output},
+                 {"bytes", bytes->size()},           {"squares", report.squares},
+                 {"missing_pixels", report.missing}, {"pixels", image->image.count()}};
+  if (switches.compare) object["compare"] = Json::object();
+  Status told =
+      tell(switches, object,
+           fmt::format("{}: {} bytes, {}, {} missing", switches.input.path, bytes->size(),
+                       counted(report.squares, "square"), counted(report.missing, "pixel")));
+  if (!told) return std::move(told).error();
+  return exit_success;
+}
+
+Result<int> run_pack(const PackSwitches& switches) {
+  const auto& [input, common, output, error, units, squares, compare] = switches;
+  if (output.empty()) return invalid_option("-o needs the name of a pack");
+  Status writable =
+      check_output(output, output == "-" ? "mpk" : "", pack_formats, input.path, common.json);
+  if (!writable) return std::move(writable).error();
+  if (squares) return pack_squares(switches);
+  auto axes = load_axes(input, common);
+  if (!axes) return std::move(axes).error();
+  const Stopwatch watch;
+  const double size = extent_of(axes->native);
+  const double bound = units ? error : error * size;
+  std::vector<MedialAxis> all;
+  for (io::NativeItem& item : axes->native.items) all.push_back(std::move(item.axis));
+  std::vector<std::uint8_t> bytes;
+  PackReport report;
+  for (const auto& [quantum, prune] : shares) {
+    PackReport one;
+    auto code = encode_axes(all, {bound, quantum, prune}, &one);
+    if (!code) return std::move(code).error();
+    io::PackFile file;
+    file.code = std::move(code).value();
+    file.crs_wkt = axes->native.crs_wkt;
+    file.y_down = axes->native.y_down;
+    auto packed = io::pack_bytes(file);
+    if (!packed) return std::move(packed).error();
+    if (!bytes.empty() && bytes.size() <= packed->size()) continue;
+    bytes = std::move(packed).value();
+    report = one;
+  }
+  const double seconds = watch.seconds();
+  if (Status written = io::write_pack(output, bytes); !written) return std::move(written).error();
+  Json object = {{"input", input.path},       {"output", output},
+                 {"bytes", bytes.size()},     {"error", bound},
+                 {"disks", report.disks},     {"lines", report.lines},
+                 {"quantum", report.quantum}, {"features", all.size()}};
+  if (compare) object["compare"] = compare_boundary(axes->native, bound);
+  if (common.stats) object.update({{"seconds", seconds}, {"peak_bytes", peak_bytes()}});
+  Status told = tell(switches, object,
+                     fmt::format("{}: {} bytes, {} within {:.6g}", input.path, bytes.size(),
+                                 counted(report.disks, "disk"), bound));
+  if (!told) return std::move(told).error();
+  return exit_success;
+}
+
+struct UnpackSwitches {
+  InputSwitches input;
+  CommonSwitches common;
+  std::string output;
+  std::string format;
+  io::WriteOptions write;
+};
+
+Result<int> run_unpack(const UnpackSwitches& switches) {
+  const auto& [input, common, output, format, write] = switches;
+  const Stopwatch reading;
+  auto pack = io::read_pack(input.path);
+  if (!pack) return std::move(pack).error();
+  if (pack->kind == io::PackKind::squares) {
+    Status writable = check_output(output, format, image_formats, input.path, common.json);
+    if (!writable) return std::move(writable).error();
+    auto image = decode_squares(pack->code);
+    if (!image) {
+      Error error = std::move(image).error();
+      error.place.file = input.path;
+      return error;
+    }
+    if (!output.empty()) {
+      Status written = io::write_image(output, *image, {});
+      if (!written) return std::move(written).error();
+    }
+    if (common.json || output.empty()) {
+      Status printed = print(Json{{"input", input.path},
+                                  {"width", image->width()},
+                                  {"height", image->height()},
+                                  {"pixels", image->count()}});
+      if (!printed) return std::move(printed).error();
+    }
+    return exit_success;
+  }
+  Status writable =
+      check_output(output, format, io::known_output_formats(), input.path, common.json);
+  if (!writable) return std::move(writable).error();
+  std::vector<std::string> notes;
+  auto native = io::native_of(*pack, &notes);
+  if (!native) {
+    Error error = std::move(native).error();
+    error.place.file = input.path;
+    return error;
+  }
+  if (!common.quiet)
+    for (const std::string& note : notes)
+      fmt::print(stderr, "medial: {}: note: {}\n", input.path, note);
+  AxisFile file;
+  file.native = std::move(native).value();
+  file.statistics.threads = 1;
+  file.seconds_read = reading.seconds();
+  return write_and_tell(file, input, common, output, format, write);
+}
+
+}  // namespace
+
+Verb make_pack_verb(CLI::App& program) {
+  auto switches = std::make_shared<PackSwitches>();
+  CLI::App* verb = program.add_subcommand("pack", "Write axes as a compact code of their shapes.");
+  add_input_switches(*verb, switches->input);
+  verb->add_option("-o,--output", switches->output, "The pack: .mpk; - is standard output.")
+      ->required()
+      ->check(a_name())
+      ->option_text("PACK REQUIRED");
+  CLI::Option* error =
+      verb->add_option("--error", switches->error,
+                       "How far the shape may change, as a share of the diagonal (default: 0.001).")
+          ->check(in_range(0, 1e300))
+          ->option_text("E");
+  verb->add_flag("--units", switches->units,
+                 "--error is in units of the input; of --squares, in pixels.")
+      ->needs(error);
+  verb->add_flag("--squares", switches->squares,
+                 "Of an image: maximal squares of pixels instead; without loss, or with\n"
+                 "--error N --units at most N pixels away.");
+  verb->add_flag("--compare", switches->compare,
+                 "Tell what the boundary takes: within the same error, coded alike; and as\n"
+                 "text, through zstd.");
+  add_common_switches(*verb, switches->common);
+  verb->footer(
+      "A pack holds disks along the branches that matter, in whole numbers, compressed\n"
+      "by zstd. Unpacked, their union lies within the error of the shape, and the shape\n"
+      "within the error of it.\n"
+      "\n"
+      "Examples:\n"
+      "  medial pack leaf.svg -o leaf.mpk --error 0.002 --compare\n"
+      "  medial axis plan.wkt -o - --format json | medial pack - -o plan.mpk\n"
+      "  medial pack scan.png -o scan.mpk --squares");
+  return {verb, [switches] { return run_pack(*switches); }};
+}
+
+Verb make_unpack_verb(CLI::App& program) {
+  auto switches = std::make_shared<UnpackSwitches>();
+  CLI::App* verb = program.add_subcommand("unpack", "Read packs back: axes and shapes, or images.");
+  verb->add_option("PACK", switches->input.path, "A pack; - is standard input.")
+      ->required()
+      ->option_text("REQUIRED");
+  verb->add_option("-o,--output", switches->output,
+                   fmt::format("Where to write the axis and its shape: {};\n"
+                               "of a pack of squares the image: {}.",
+                               io::known_output_formats(), image_formats))
+      ->check(a_name())
+      ->option_text("OUTPUT");
+  verb->add_option("--format", switches->format, "The format of -o -, for example json.")
+      ->option_text("NAME");
+  add_picture_switches(*verb, switches->write);
+  add_common_switches(*verb, switches->common);
+  verb->footer(
+      "Examples:\n"
+      "  medial unpack leaf.mpk -o leaf.svg\n"
+      "  medial unpack plan.mpk -o - --format json | medial info -\n"
+      "  medial unpack scan.mpk -o scan.png");
+  return {verb, [switches] { return run_unpack(*switches); }};
+}
+
+}  // namespace medial::cli

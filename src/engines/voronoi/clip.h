@@ -1,0 +1,47 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "medial/axis.h"
+#include "medial/shape.h"
+
+namespace medial::voronoi {
+
+/// The part of an edge from parameter `from` to `to`.
+struct ClippedPart {
+  double from = 0, to = 1;
+};
+
+/// An edge as a curve: rational quadratic, end weights 1.
+struct ConicEdge {
+  Disk from, control, to;
+  double weight = 1;
+
+  Disk at(double t) const;
+  /// The part between two parameters as a curve of the same kind, exactly.
+  ConicEdge part(double begin, double end) const;
+};
+
+/// The parts of an edge strictly inside of a box, in order: none, all of it, or several.
+void clip(const ConicEdge& edge, const Box& box, std::vector<ClippedPart>& parts);
+
+/// Whether a point lies strictly inside of a box.
+inline bool is_inside(const Box& box, Vec2 p) {
+  return p.x > box.low.x && p.x < box.high.x && p.y > box.low.y && p.y < box.high.y;
+}
+
+/// A place on the border of a box, counter-clockwise from its low corner: side (0 below, 1 right,
+/// 2 above, 3 left) plus how much of it.
+double place_on_border(const Box& box, Vec2 p);
+
+/// The point of the border nearest to a point: moves it there exactly.
+Vec2 onto_border(const Box& box, Vec2 p);
+
+/// Corner k of a box, counter-clockwise from the low one.
+inline Vec2 corner_of(const Box& box, std::size_t k) {
+  return {k == 1 || k == 2 ? box.high.x : box.low.x, k >= 2 ? box.high.y : box.low.y};
+}
+
+}  // namespace medial::voronoi

@@ -1,0 +1,636 @@
+#include "engines/voronoi/soup_diagram.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <span>
+#include <stdexcept>
+#include <utility>
+
+#include "axis/sites.h"
+#include "base/arc.h"
+#include "base/frame.h"
+#include "base/memory.h"
+#include "engines/voronoi/clip.h"
+#include "geometry/bisector.h"
+#include "geometry/site.h"
+#include "geometry/tangent_disk.h"
+
+namespace medial::voronoi {
+namespace {
+
+constexpr std::uint32_t none = ~std::uint32_t{0};
+
+/// Puts an axis together by the sites of a soup: see diagram_of().
+///
+/// An engine's site is a soup's point in one wedge between edges, or one side of an edge: `own`
+/// sites here. The axis' edges along one own site make a chain, in the order of its feet. Where
+/// one own site follows another along the boundary, their chains meet in a corner, or in the node
+/// of the disk that touches where they join; there the spoke leads to.
+class Assembly {
+ public:
+  Assembly(const Soup& soup, const Shape& shape, MedialAxis& axis, const Box& frame)
+      : soup_(soup),
+        shape_(shape),
+        axis_(axis),
+        frame_(frame),
+        point_count_(static_cast<std::uint32_t>(soup.points.size())) {}
+
+  VoronoiDiagram run() {
+    split_long_edges();
+    make_chains();
+    find_ends();
+    make_spokes();
+    cut_off();
+    close_along_frame();
+    make_faces();
+    diagram_.method = std::move(axis_.method);
+    diagram_.tolerance = axis_.tolerance;
+    diagram_.statistics = axis_.statistics;
+    diagram_.frame = frame_;
+    set_kinds();
+    return std::move(diagram_);
+  }
+
+ private:
+  struct Step {
+    std::uint32_t edge, from, to;  ///< nodes of the axis
+  };
+  struct Spoke {
+    std::uint32_t point, node;
+    std::array<std::uint32_t, 2> site;  ///< of the diagram
+  };
+  /// Where an edge leaves the frame.
+  struct Crossing {
+    double place;
+    Disk disk;
+    std::uint32_t before, after;  ///< sites beside it, counter-clockwise along the frame
+    std::uint32_t edge, end;      ///< of the diagram: which end of it that is
+  };
+
+  bool is_frame(std::uint32_t own) const { return axis_.sites[own].ring == none; }
+  bool is_vertex(std::uint32_t own) const { return axis_.sites[own].kind == SiteKind::vertex; }
+  /// The site of the diagram.
+  std::uint32_t site_of(std::uint32_t own) const {
+    if (is_frame(own)) return no_site;
+    return is_vertex(own) ? axis_.sites[own].ring : point_count_ + axis_.sites[own].vertex / 2;
+  }
+
+  void make_chains() {
+    const std::size_t count = axis_.sites.size();
+    chain_begin_.assign(count + 1, 0);
+    for (const Edge& edge : axis_.edges)
+      for (const std::uint32_t own : edge.site) ++chain_begin_[own + 1];
+    for (std::size_t i = 0; i < count; ++i) chain_begin_[i + 1] += chain_begin_[i];
+    chains_.resize(2 * axis_.edges.size());
+    std::vector<std::uint32_t> filled(chain_begin_.begin(), chain_begin_.end() - 1);
+    for (std::uint32_t e = 0; e < axis_.edges.size(); ++e) {
+      const Edge& edge = axis_.edges[e];
+      chains_[filled[edge.site[1]]++] = {e, edge.node[0], edge.node[1]};
+      chains_[filled[edge.site[0]]++] = {e, edge.node[1], edge.node[0]};
+    }
+    first_.assign(count, none);
+    last_.assign(count, none);
+    for (std::uint32_t own = 0; own < count; ++own) {
+      if (is_frame(own)) continue;
+      const std::span<Step> steps = chain(own);
+      if (steps.empty()) continue;
+      put_in_order(steps);
+      first_[own] = steps.front().from;
+      last_[own] = steps.back().to;
+    }
+  }
+
+  std::span<Step> chain(std::uint32_t own) {
+    return std::span(chains_).subspan(chain_begin_[own], chain_begin_[own + 1] - chain_begin_[own]);
+  }
+
+  /// From the step that no other leads to, or where they make a cycle, any one.
+  void put_in_order(std::span<Step> steps) {
+    if (steps.size() == 1) return;
+    constexpr std::size_t few = 24;
+    if (steps.size() > few) return put_many_in_order(steps);
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+      const bool begins = std::none_of(
+          steps.begin(), steps.end(), [&](const Step& other) { return other.to == steps[i].from; });
+      if (begins) {
+        std::swap(steps[0], steps[i]);
+        break;
+      }
+    }
+    for (std::size_t i = 1; i < steps.size(); ++i) {
+      const auto next =
+          std::find_if(steps.begin() + static_cast<std::ptrdiff_t>(i), steps.end(),
+                       [&](const Step& other) { return other.from == steps[i - 1].to; });
+      if (next == steps.end()) throw std::runtime_error("a Voronoi face is not connected");
+      std::swap(steps[i], *next);
+    }
+  }
+  void put_many_in_order(std::span<Step> steps) {
+    std::vector<Step> sorted(steps.begin(), steps.end());
+    std::sort(sorted.begin(), sorted.end(),
+              [](const Step& a, const Step& b) { return a.from < b.from; });
+    std::vector<std::uint32_t> to;
+    for (const Step& step : sorted) to.push_back(step.to);
+    std::sort(to.begin(), to.end());
+    const auto begin = std::find_if(sorted.begin(), sorted.end(), [&](const Step& step) {
+      return !std::binary_search(to.begin(), to.end(), step.from);
+    });
+    Step at = begin == sorted.end() ? sorted.front() : *begin;
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+      steps[i] = at;
+      if (i + 1 == steps.size()) break;
+      const auto next =
+          std::lower_bound(sorted.begin(), sorted.end(), at.to,
+                           [](const Step& step, std::uint32_t node) { return step.from < node; });
+      if (next == sorted.end() || next->from != at.to)
+        throw std::runtime_error("a Voronoi face is not connected");
+      at = *next;
+    }
+  }
+
+  /// Calls visit(first, last) for the own sites of every loop of the soup: [first, last).
+  template <class Visit>
+  void for_each_loop(Visit&& visit) const {
+    std::uint32_t own = 0;
+    for (std::size_t l = 0; l < shape_.loop_count(); ++l) {
+      const std::uint32_t first = own;
+      const std::size_t size = shape_.loop_begin[l + 1] - shape_.loop_begin[l];
+      for (std::size_t i = 0; i < size; ++i) {
+        if (is_vertex(own)) ++own;
+        if (size > 1) ++own;
+      }
+      if (l > 0) visit(first, own, l);
+    }
+  }
+
+  /// Of own sites without edges, the node that they are touched in: that of the site before.
+  void find_ends() {
+    std::vector<std::uint32_t> lone(shape_.component_count(), none);
+    std::vector<bool> used(axis_.nodes.size());
+    for (const Edge& edge : axis_.edges) used[edge.node[0]] = used[edge.node[1]] = true;
+    for (std::uint32_t n = 0; n < axis_.nodes.size(); ++n)
+      if (!used[n]) lone[axis_.nodes[n].component] = n;
+    for_each_loop([&](std::uint32_t first, std::uint32_t last, std::size_t loop) {
+      std::uint32_t node = lone[shape_.component[loop]];
+      for (std::uint32_t own = first; own < last; ++own)
+        if (last_[own] != none) node = last_[own];
+      for (std::uint32_t own = first; own < last; ++own) {
+        if (first_[own] == none) first_[own] = last_[own] = node;
+        node = last_[own];
+        if (node == none) throw std::runtime_error("a Voronoi face has no edge");
+      }
+    });
+  }
+
+  bool is_empty_vertex(std::uint32_t own) const {
+    return is_vertex(own) && chain_begin_[own] == chain_begin_[own + 1];
+  }
+
+  /// Spokes wherever one own site follows another but in a corner, and the nodes of the soup's
+  /// points.
+  void make_spokes() {
+    spoke_before_.assign(axis_.sites.size(), none);
+    spoke_after_.assign(axis_.sites.size(), none);
+    corner_.assign(axis_.nodes.size(), none);
+    for_each_loop([&](std::uint32_t first, std::uint32_t last, std::size_t) {
+      if (last - first == 1) return;  // a lone point
+      std::uint32_t before = last - 1;
+      while (is_empty_vertex(before)) --before;
+      for (std::uint32_t own = first; own < last; ++own) {
+        if (is_empty_vertex(own)) continue;
+        const std::uint32_t node = first_[own];
+        if (last_[before] != node) throw std::runtime_error("a Voronoi face has a gap");
+        const Site& site = axis_.sites[own];
+        const std::uint32_t point = is_vertex(own) ? site.ring : soup_.start(site.vertex);
+        if (axis_.nodes[node].disk.radius == 0) {
+          corner_[node] = point;
+        } else {
+          spoke_before_[own] = spoke_after_[before] = static_cast<std::uint32_t>(spokes_.size());
+          spokes_.push_back({point, node, {site_of(before), site_of(own)}});
+        }
+        before = own;
+      }
+    });
+  }
+
+  ConicEdge curve_of(std::uint32_t e) const {
+    if (e < axis_.edges.size()) {
+      const Edge& edge = axis_.edges[e];
+      return {axis_.nodes[edge.node[0]].disk, edge.control, axis_.nodes[edge.node[1]].disk,
+              edge.weight};
+    }
+    const Spoke& spoke = spokes_[e - axis_.edges.size()];
+    const Disk from{soup_.points[spoke.point], 0}, to = axis_.nodes[spoke.node].disk;
+    return {from, {midpoint(from.center, to.center), 0.5 * to.radius}, to, 1};
+  }
+  std::array<std::uint32_t, 2> sites_of(std::uint32_t e) const {
+    if (e >= axis_.edges.size()) return spokes_[e - axis_.edges.size()].site;
+    const Edge& edge = axis_.edges[e];
+    return {site_of(edge.site[0]), site_of(edge.site[1])};
+  }
+  /// An end as a node of the diagram.
+  std::uint32_t node_at(std::uint32_t e, std::size_t end) {
+    if (e < axis_.edges.size()) return node_of(axis_.edges[e].node[end]);
+    const Spoke& spoke = spokes_[e - axis_.edges.size()];
+    return end == 0 ? node_of_point(spoke.point) : node_of(spoke.node);
+  }
+  std::uint32_t node_of_point(std::uint32_t point) {
+    std::uint32_t& node = node_of_point_[point];
+    if (node == none) node = add_node({soup_.points[point], 0}, 0);
+    return node;
+  }
+  std::uint32_t node_of(std::uint32_t n) {
+    if (corner_[n] != none) return node_of_point(corner_[n]);
+    std::uint32_t& node = node_of_axis_[n];
+    if (node == none) node = add_node(axis_.nodes[n].disk, axis_.nodes[n].component);
+    return node;
+  }
+  std::uint32_t add_node(const Disk& disk, std::uint32_t component) {
+    diagram_.nodes.push_back({disk, component, NodeKind::leaf});
+    return static_cast<std::uint32_t>(diagram_.nodes.size() - 1);
+  }
+
+  /// An own site seen from an origin; of an arc longer than a quarter of a circle, the half next to
+  /// a place.
+  geometry::Site seen_from(Vec2 origin, std::uint32_t own, Vec2 near) const {
+    const Site& site = axis_.sites[own];
+    if (site.kind == SiteKind::vertex) return geometry::make_vertex(site.start - origin);
+    const sites::Pieces pieces =
+        sites::pieces_of(site.start - origin, site.end - origin, site.bulge);
+    const bool first = pieces.count == 1 || geometry::squared_distance(pieces.first(), near) <=
+                                                geometry::squared_distance(pieces.last(), near);
+    return first ? pieces.first() : pieces.last();
+  }
+
+  /// The control point of an edge, or of a part of one, from its ends. (A part of a long curve
+  /// would have that one's rounding.)
+  void take_control(std::array<std::uint32_t, 2> own, ConicEdge& part) const {
+    const Vec2 origin = part.from.center, middle = midpoint({0, 0}, part.to.center - origin);
+    const geometry::Control control =
+        geometry::control_of(seen_from(origin, own[0], middle), seen_from(origin, own[1], middle),
+                             {{0, 0}, part.from.radius}, {part.to.center - origin, part.to.radius});
+    part.control = {control.point.center + origin, control.point.radius};
+    part.weight = control.weight;
+  }
+
+  /// An ellipse around a point next to an arc can be more than half of one, which no curve of our
+  /// kind is: pieces that turn by no more than a quarter around the point are.
+  void split_long_edges() {
+    if (shape_.bulges.empty()) return;
+    const std::size_t count = axis_.edges.size();
+    for (std::size_t e = 0; e < count; ++e) {
+      const Edge edge = axis_.edges[e];
+      const std::size_t side = is_vertex(edge.site[0]) ? 0 : 1;
+      if (!is_vertex(edge.site[side]) || axis_.sites[edge.site[1 - side]].kind != SiteKind::arc)
+        continue;
+      const Vec2 point = axis_.sites[edge.site[side]].start;
+      const Vec2 from = axis_.nodes[edge.node[0]].disk.center - point;
+      const Vec2 to = axis_.nodes[edge.node[1]].disk.center - point;
+      // The foot on the right goes forward, around a vertex clockwise; on the left it is the other
+      // way around.
+      const double sign = side == 1 ? -1 : 1;
+      double turn = sign * std::atan2(cross(from, to), dot(from, to));
+      constexpr double backward = 1e-6;  // by rounding
+      if (turn < -backward) turn += 2 * std::numbers::pi;
+      const double pieces = std::ceil(turn / (0.5 * std::numbers::pi));
+      std::uint32_t last = edge.node[0];
+      for (double k = 1; k < pieces; ++k) {
+        const double angle = sign * turn * k / pieces, size = norm(from);
+        const Vec2 direction = (1 / size) * turned(from, std::cos(angle), std::sin(angle));
+        const auto node = static_cast<std::uint32_t>(axis_.nodes.size());
+        axis_.nodes.push_back({disk_towards(point, direction, edge.site[1 - side]),
+                               axis_.nodes[edge.node[0]].component, NodeKind::site_change});
+        add_piece(e, k == 1, edge, last, node);
+        last = node;
+      }
+      if (pieces > 1) add_piece(e, false, edge, last, edge.node[1]);
+    }
+  }
+  void add_piece(std::size_t e, bool first, Edge edge, std::uint32_t from, std::uint32_t to) {
+    edge.node = {from, to};
+    ConicEdge curve{axis_.nodes[from].disk, {}, axis_.nodes[to].disk, 1};
+    take_control(edge.site, curve);
+    edge.control = curve.control;
+    edge.weight = curve.weight;
+    if (first)
+      axis_.edges[e] = edge;
+    else
+      axis_.edges.push_back(edge);
+  }
+  /// The disk through a point that grows in a direction until it touches an arc.
+  Disk disk_towards(Vec2 point, Vec2 direction, std::uint32_t own) const {
+    const Site& site = axis_.sites[own];
+    const sites::Pieces pieces = sites::pieces_of(site.start - point, site.end - point, site.bulge);
+    const double radius = geometry::tangent_radius({0, 0}, direction, pieces.first());
+    if (!std::isfinite(radius)) throw std::runtime_error("a Voronoi edge has no middle");
+    return {point + radius * direction, radius};
+  }
+
+  /// The edges inside of the frame, or the parts of them.
+  void cut_off() {
+    const std::size_t count = axis_.edges.size() + spokes_.size();
+    node_of_point_.assign(soup_.points.size(), none);
+    node_of_axis_.assign(axis_.nodes.size(), none);
+    reserve_large(diagram_.nodes, axis_.nodes.size() + soup_.points.size());
+    reserve_large(diagram_.edges, count + 64);
+    part_begin_.resize(count + 1);
+    std::vector<ClippedPart> parts;
+    for (std::uint32_t e = 0; e < count; ++e) {
+      part_begin_[e] = static_cast<std::uint32_t>(diagram_.edges.size());
+      const std::array<std::uint32_t, 2> site = sites_of(e);
+      if (site[0] == no_site || site[1] == no_site) continue;
+      const bool spoke = e >= axis_.edges.size();
+      const ConicEdge curve = curve_of(e);
+      clip(curve, frame_, parts);
+      // Whether a node is inside is decided for all of its edges alike; where it is so near to the
+      // frame that an edge saw it otherwise, a part without length makes up for that.
+      const bool begins = is_inside(frame_, curve.from.center);
+      const bool ends_inside = is_inside(frame_, curve.to.center);
+      if (begins && ends_inside && parts.empty()) parts.push_back({0, 1});
+      if (begins && (parts.empty() || parts.front().from > 0)) parts.insert(parts.begin(), {0, 0});
+      if (ends_inside && (parts.empty() || parts.back().to < 1)) parts.push_back({1, 1});
+      for (const ClippedPart& part : parts) {
+        const bool from_node = begins && part.from == 0, to_node = ends_inside && part.to == 1;
+        const bool whole = from_node && to_node && part.from < part.to;
+        if (whole) {
+          diagram_.edges.push_back(
+              {{{node_at(e, 0), node_at(e, 1)}, site, curve.control, curve.weight}, spoke, false});
+          continue;
+        }
+        ConicEdge cut = curve.part(part.from, part.to);
+        if (!spoke && part.from < part.to) take_control(axis_.edges[e].site, cut);
+        const auto number = static_cast<std::uint32_t>(diagram_.edges.size());
+        std::array<std::uint32_t, 2> ends{none, none};
+        const auto cross = [&](std::uint32_t end, const Disk& disk) {
+          // Outward, the edge has one site on its left, which comes after it along the frame.
+          Vec2 on_border = onto_border(frame_, disk.center);
+          const double place = place_on_border(frame_, on_border);
+          if (place == std::floor(place))  // to rounding in a corner
+            on_border = corner_of(frame_, static_cast<std::size_t>(place) % 4);
+          const std::uint32_t after = site[1 - end], before = site[end];
+          crossings_.push_back({place, {on_border, disk.radius}, before, after, number, end});
+        };
+        if (from_node)
+          ends[0] = node_at(e, 0);
+        else
+          cross(0, cut.from);
+        if (to_node)
+          ends[1] = node_at(e, 1);
+        else
+          cross(1, cut.to);
+        diagram_.edges.push_back({{ends, site, cut.control, cut.weight}, spoke, false});
+      }
+    }
+    part_begin_[count] = static_cast<std::uint32_t>(diagram_.edges.size());
+  }
+
+  /// The frame's own edges, from crossing to crossing and corner to corner.
+  void close_along_frame() {
+    std::sort(crossings_.begin(), crossings_.end(),
+              [](const Crossing& a, const Crossing& b) { return a.place < b.place; });
+    settle_ties();
+    first_crossing_ = static_cast<std::uint32_t>(diagram_.nodes.size());
+    for (const Crossing& crossing : crossings_) {
+      const std::uint32_t node = add_node(crossing.disk, 0);
+      diagram_.edges[crossing.edge].node[crossing.end] = node;
+    }
+    std::array<std::uint32_t, 4> corner{none, none, none, none};
+    const auto add_corner = [&](std::size_t k, std::uint32_t site) {
+      const Vec2 p = corner_of(frame_, k);
+      if (corner[k] == none) corner[k] = add_node({p, distance_to(site, p)}, 0);
+      return corner[k];
+    };
+    if (crossings_.empty()) {
+      whole_frame_ = nearest_to(corner_of(frame_, 0));
+      for (std::size_t k = 0; k < 4; ++k) add_corner(k, whole_frame_);
+      frame_begin_.push_back(static_cast<std::uint32_t>(diagram_.edges.size()));
+      for (std::size_t k = 0; k < 4; ++k)
+        add_frame_edge(corner[k], corner[(k + 1) % 4], whole_frame_);
+      return;
+    }
+    // The edges before each crossing, from the one before.
+    const std::size_t count = crossings_.size();
+    for (std::size_t i = 0; i < count; ++i) {
+      frame_begin_.push_back(static_cast<std::uint32_t>(diagram_.edges.size()));
+      const std::size_t previous = i == 0 ? count - 1 : i - 1;
+      const std::uint32_t site = crossings_[i].before;
+      if (crossings_[previous].after != site)
+        throw std::runtime_error("the frame's edges do not close a Voronoi face");
+      double from = crossings_[previous].place;
+      const double to = crossings_[i].place + (i == 0 ? 4 : 0);
+      std::uint32_t node = first_crossing_ + static_cast<std::uint32_t>(previous);
+      for (double k = std::floor(from) + 1; k < to; k += 1) {
+        const std::uint32_t next = add_corner(static_cast<std::size_t>(k) % 4, site);
+        add_frame_edge(node, next, site);
+        node = next;
+      }
+      add_frame_edge(node, first_crossing_ + static_cast<std::uint32_t>(i), site);
+    }
+    frame_begin_.push_back(static_cast<std::uint32_t>(diagram_.edges.size()));
+  }
+
+  /// Where several edges cross the frame in one place, puts them in an order in which each site
+  /// that ends there does so where it began.
+  void settle_ties() {
+    const double together =
+        8 * axis_.tolerance / std::min(frame_.high.x - frame_.low.x, frame_.high.y - frame_.low.y);
+    const std::size_t count = crossings_.size();
+    if (count < 2) return;
+    // A place where all is clear to begin at.
+    std::size_t start = 0;
+    while (start < count) {
+      const Crossing& before = crossings_[(start + count - 1) % count];
+      if (before.after == crossings_[start].before &&
+          crossings_[start].place - before.place > together)
+        break;
+      ++start;
+    }
+    if (start == count) start = 0;
+    for (std::size_t i = 1; i < count; ++i) {
+      Crossing& here = crossings_[(start + i) % count];
+      const Crossing& before = crossings_[(start + i - 1) % count];
+      if (before.after == here.before) continue;
+      for (std::size_t j = i + 1; j < count; ++j) {
+        Crossing& other = crossings_[(start + j) % count];
+        if (std::abs(other.place - here.place) > together) break;
+        if (other.before != before.after) continue;
+        std::swap(here, other);
+        std::swap(here.place, other.place);
+        break;
+      }
+    }
+  }
+
+  double distance_to(std::uint32_t site, Vec2 p) const {
+    if (site < point_count_) return distance(p, soup_.points[site]);
+    const SoupEdge& edge = soup_.edges[site - point_count_];
+    double nearest = std::numeric_limits<double>::infinity();
+    const sites::Pieces pieces =
+        sites::pieces_of(soup_.points[edge.from], soup_.points[edge.to], edge.bulge);
+    for (std::size_t i = 0; i < pieces.count; ++i)
+      nearest = std::min(nearest, std::sqrt(geometry::squared_distance(pieces.site[i], p)));
+    return nearest;
+  }
+  std::uint32_t nearest_to(Vec2 p) const {
+    std::uint32_t nearest = 0;
+    for (std::uint32_t s = 1; s < point_count_ + soup_.edges.size(); ++s)
+      if (distance_to(s, p) < distance_to(nearest, p)) nearest = s;
+    return nearest;
+  }
+
+  /// A straight edge whose radius is the distance to the site: the bisector of the site and its
+  /// mirror image in the frame.
+  void add_frame_edge(std::uint32_t from, std::uint32_t to, std::uint32_t site) {
+    const Disk &a = diagram_.nodes[from].disk, &b = diagram_.nodes[to].disk;
+    const bool upright = std::abs(b.center.x - a.center.x) < std::abs(b.center.y - a.center.y);
+    const Vec2 origin = a.center;
+    const auto mirrored = [&](Vec2 p) { return upright ? Vec2{-p.x, p.y} : Vec2{p.x, -p.y}; };
+    const Disk first{{0, 0}, a.radius}, last{b.center - origin, b.radius};
+    geometry::Control control{{midpoint(first.center, last.center), 0.5 * (a.radius + b.radius)},
+                              1};
+    if (a.center != b.center) {
+      if (site < point_count_) {
+        const Vec2 p = soup_.points[site] - origin;
+        control = geometry::control_of(geometry::make_vertex(p), geometry::make_vertex(mirrored(p)),
+                                       first, last);
+      } else if (const SoupEdge& edge = soup_.edges[site - point_count_]; edge.bulge != 0) {
+        control = control_over_arc(soup_.points[edge.from] - origin, soup_.points[edge.to] - origin,
+                                   edge.bulge, first, last, mirrored);
+      }
+    }
+    diagram_.edges.push_back({{{from, to},
+                               {site, no_site},
+                               {control.point.center + origin, control.point.radius},
+                               control.weight},
+                              false,
+                              true});
+  }
+  template <class Mirrored>
+  static geometry::Control control_over_arc(Vec2 from, Vec2 to, double bulge, const Disk& first,
+                                            const Disk& last, const Mirrored& mirrored) {
+    // The half of the arc that is touched, seen from the frame.
+    const Vec2 middle = midpoint(first.center, last.center);
+    const sites::Pieces pieces = sites::pieces_of(from, to, bulge);
+    geometry::Site arc = pieces.first();
+    if (pieces.count == 2 &&
+        geometry::squared_distance(pieces.last(), middle) < geometry::squared_distance(arc, middle))
+      arc = pieces.last();
+    if (geometry::carrier_distance(arc, middle) < 0) arc = geometry::reversed(arc);
+    const Vec2 direction = mirrored(arc.direction);
+    // A mirror image turns the other way: the same arc backward.
+    const geometry::Site image =
+        geometry::reversed({mirrored(arc.point), direction, arc.length, -arc.curvature});
+    return geometry::control_of(arc, image, first, last);
+  }
+
+  void make_faces() {
+    const auto count = point_count_ + static_cast<std::uint32_t>(soup_.edges.size());
+    // Own sites of each site, in the order in which they come around it.
+    std::vector<std::array<std::uint32_t, 2>> owns(count, {none, none});
+    for_each_loop([&](std::uint32_t first, std::uint32_t last, std::size_t) {
+      for (std::uint32_t own = first; own < last; ++own) {
+        if (is_empty_vertex(own)) continue;
+        auto& pair = owns[site_of(own)];
+        const std::size_t side =
+            is_vertex(own) ? (pair[0] == none ? 0 : 1) : axis_.sites[own].vertex % 2;
+        pair[side] = own;
+      }
+    });
+    diagram_.face_begin.reserve(count + 1);
+    reserve_large(diagram_.face_edges, 2 * diagram_.edges.size());
+    diagram_.sites.reserve(count);
+    for (std::uint32_t site = 0; site < count; ++site) {
+      diagram_.face_begin.push_back(static_cast<std::uint32_t>(diagram_.face_edges.size()));
+      diagram_.sites.push_back(result_site(site));
+      for (const std::uint32_t own : owns[site]) {
+        if (own == none) continue;
+        const auto axis_edges = static_cast<std::uint32_t>(axis_.edges.size());
+        if (spoke_before_[own] != none) add_to_face(axis_edges + spoke_before_[own], true);
+        for (const Step& step : chain(own))
+          add_to_face(step.edge, axis_.edges[step.edge].node[0] == step.from &&
+                                     axis_.edges[step.edge].site[1] == own);
+        if (spoke_after_[own] != none) add_to_face(axis_edges + spoke_after_[own], false);
+      }
+      if (crossings_.empty() && site == whole_frame_)
+        for (std::uint32_t e = 4; e-- > 0;) diagram_.face_edges.push_back(frame_begin_[0] + e);
+    }
+    diagram_.face_begin.push_back(static_cast<std::uint32_t>(diagram_.face_edges.size()));
+  }
+
+  Site result_site(std::uint32_t site) const {
+    if (site < point_count_) {
+      const Vec2 p = soup_.points[site];
+      const auto [ring, vertex] = soup_.point_sources[site];
+      return {p, p, ring, vertex, SiteKind::vertex};
+    }
+    const SoupEdge& edge = soup_.edges[site - point_count_];
+    return {soup_.points[edge.from],
+            soup_.points[edge.to],
+            edge.source.ring,
+            edge.source.vertex,
+            edge.bulge == 0 ? SiteKind::segment : SiteKind::arc,
+            edge.bulge};
+  }
+
+  /// Appends what is left of an edge, and where it leaves the frame the frame's edges up to where
+  /// the face comes back: clockwise, those before the crossing.
+  void add_to_face(std::uint32_t e, bool forward) {
+    const std::uint32_t begin = part_begin_[e], end = part_begin_[e + 1];
+    for (std::uint32_t i = 0; i < end - begin; ++i) {
+      const std::uint32_t part = forward ? begin + i : end - 1 - i;
+      diagram_.face_edges.push_back(part);
+      const std::uint32_t node = diagram_.edges[part].node[forward ? 1 : 0];
+      if (node < first_crossing_ || node >= first_crossing_ + crossings_.size()) continue;
+      const std::uint32_t crossing = node - first_crossing_;
+      for (std::uint32_t f = frame_begin_[crossing + 1]; f-- > frame_begin_[crossing];)
+        diagram_.face_edges.push_back(f);
+    }
+  }
+
+  void set_kinds() {
+    std::vector<std::uint8_t> degree(diagram_.nodes.size());
+    for (const VoronoiEdge& edge : diagram_.edges)
+      for (const std::uint32_t node : edge.node)
+        if (degree[node] < 3) ++degree[node];
+    for (std::size_t i = 0; i < degree.size(); ++i)
+      diagram_.nodes[i].kind = degree[i] <= 1   ? NodeKind::leaf
+                               : degree[i] == 2 ? NodeKind::site_change
+                                                : NodeKind::branching;
+  }
+
+  const Soup& soup_;
+  const Shape& shape_;
+  MedialAxis& axis_;
+  const Box frame_;
+  const std::uint32_t point_count_;
+  VoronoiDiagram diagram_;
+  std::vector<std::uint32_t> chain_begin_;  ///< of each own site
+  std::vector<Step> chains_;
+  std::vector<std::uint32_t> first_, last_;  ///< nodes of each own site's chain
+  std::vector<Spoke> spokes_;
+  std::vector<std::uint32_t> spoke_before_, spoke_after_;  ///< of each own site
+  std::vector<std::uint32_t> corner_;  ///< of each node: the point that it is, if it is one
+  std::vector<std::uint32_t> node_of_point_, node_of_axis_;
+  std::vector<std::uint32_t> part_begin_;  ///< of each edge and spoke: its parts in the diagram
+  std::vector<Crossing> crossings_;
+  std::uint32_t first_crossing_ = 0;        ///< node
+  std::vector<std::uint32_t> frame_begin_;  ///< of each crossing: the frame's edges before it
+  std::uint32_t whole_frame_ = none;
+};
+
+}  // namespace
+
+Box far_frame(const Box& frame) {
+  // Everything inside of the frame is nearer than its diagonal to the soup, which is inside.
+  const double away = 1.0625 * diagonal(frame);
+  return {frame.low - Vec2{away, away}, frame.high + Vec2{away, away}};
+}
+
+VoronoiDiagram diagram_of(const Soup& soup, const Shape& shape, MedialAxis axis, const Box& frame) {
+  return Assembly(soup, shape, axis, frame).run();
+}
+
+}  // namespace medial::voronoi

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "medial/axis.h"
+#include "medial/shape.h"
+#include "medial/soup.h"
+#include "medial/voronoi.h"
+
+namespace medial::voronoi {
+
+/// The frame that an engine walks in, for a diagram that is cut off at `frame`: so far away that
+/// inside of `frame` no place is nearer to it than to the soup.
+Box far_frame(const Box& frame);
+
+/// The Voronoi diagram of a soup within `frame`, of the axis of what lies around it in a farther
+/// frame: the axis with its spokes, by the faces of the soup's sites, cut off. `shape` is
+/// around(soup, far_frame(frame)). O(n) expected.
+VoronoiDiagram diagram_of(const Soup& soup, const Shape& shape, MedialAxis axis, const Box& frame);
+
+}  // namespace medial::voronoi

@@ -1,0 +1,512 @@
+#include "io/features_writer.h"
+
+#include <fmt/format.h>
+#include <gdal_priv.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <new>
+#include <string_view>
+
+#include "io/place.h"
+#include "io/table_writer.h"
+#include "medial/query.h"
+
+namespace medial::io {
+
+namespace {
+
+constexpr std::array<std::string_view, 10> known_formats{"json", "geojson", "gpkg", "shp", "fgb",
+                                                         "csv",  "svg",     "pdf",  "png", "ps"};
+
+constexpr std::array<TableColumn, 12> run_columns{{{"feature", ColumnType::whole},
+                                                   {"branch", ColumnType::whole},
+                                                   {"run", ColumnType::whole},
+                                                   {"primitive", ColumnType::text},
+                                                   {"variation", ColumnType::text},
+                                                   {"length", ColumnType::real},
+                                                   {"r_from", ColumnType::real},
+                                                   {"r_to", ColumnType::real},
+                                                   {"mean_width", ColumnType::real},
+                                                   {"slope", ColumnType::real},
+                                                   {"bend", ColumnType::real},
+                                                   {"turning", ColumnType::real}}};
+
+constexpr std::array<TableColumn, 23> branch_columns{
+    {{"feature", ColumnType::whole},    {"branch", ColumnType::whole},
+     {"from_kind", ColumnType::text},   {"to_kind", ColumnType::text},
+     {"closed", ColumnType::whole},     {"length", ColumnType::real},
+     {"r_min", ColumnType::real},       {"r_max", ColumnType::real},
+     {"mean_width", ColumnType::real},  {"turning", ColumnType::real},
+     {"abs_turn", ColumnType::real},    {"area", ColumnType::real},
+     {"signif", ColumnType::real},      {"runs", ColumnType::whole},
+     {"primitives", ColumnType::text},  {"left_ring", ColumnType::whole},
+     {"left_from", ColumnType::whole},  {"left_to", ColumnType::whole},
+     {"left_len", ColumnType::real},    {"right_ring", ColumnType::whole},
+     {"right_from", ColumnType::whole}, {"right_to", ColumnType::whole},
+     {"right_len", ColumnType::real}}};
+
+constexpr std::array<TableColumn, 5> point_columns{{{"feature", ColumnType::whole},
+                                                    {"node", ColumnType::whole},
+                                                    {"kind", ColumnType::text},
+                                                    {"degree", ColumnType::whole},
+                                                    {"r", ColumnType::real}}};
+
+Value whole(std::uint64_t number) { return static_cast<std::int64_t>(number); }
+Value whole_or_nothing(std::uint32_t number) { return number == no_site ? Value{} : whole(number); }
+Value real(double number) { return std::isfinite(number) ? Value{number} : Value{}; }
+Value text(const char* words) { return std::string(words); }
+
+std::vector<Value> values_of(std::size_t item, const BranchFeatures& branch, std::size_t index,
+                             const PrimitiveRun& run) {
+  return {whole(item),
+          whole(branch.branch),
+          whole(index),
+          text(name_of(run.primitive)),
+          text(name_of(run.variation)),
+          real(run.length),
+          real(run.from.disk.radius),
+          real(run.to.disk.radius),
+          real(2 * run.mean_radius),
+          real(run.slope),
+          real(run.bend),
+          real(run.turning)};
+}
+
+std::vector<Value> values_of(std::size_t item, const BranchFeatures& branch,
+                             const AxisFeatures& features) {
+  std::string primitives;
+  for (std::uint32_t k = 0; k < branch.run_count; ++k) {
+    const PrimitiveRun& run = features.runs[branch.first_run + k];
+    if (k > 0) primitives += "; ";
+    primitives += name_of(run.primitive);
+    if (run.variation == Variation::straight) continue;
+    primitives += ' ';
+    primitives += name_of(run.variation);
+  }
+  std::vector<Value> values{whole(item),
+                            whole(branch.branch),
+                            text(name_of(branch.from_kind)),
+                            text(name_of(branch.to_kind)),
+                            whole(branch.closed ? 1 : 0),
+                            real(branch.length),
+                            real(branch.smallest_radius),
+                            real(branch.largest_radius),
+                            real(branch.mean_width),
+                            real(branch.turning),
+                            real(branch.absolute_turning),
+                            real(branch.area),
+                            real(branch.significance),
+                            whole(branch.run_count),
+                            Value(std::move(primitives))};
+  for (const BoundarySection& section : branch.side) {
+    values.push_back(whole_or_nothing(section.ring));
+    values.push_back(whole_or_nothing(section.first_vertex));
+    values.push_back(whole_or_nothing(section.last_vertex));
+    values.push_back(real(section.length));
+  }
+  return values;
+}
+
+/// The part of an edge between two parameters, in this order, without its first disk.
+void append(const MedialAxis& axis, const Edge& edge, double from, double to, double chord,
+            std::vector<Disk>& samples, std::vector<Disk>& line) {
+  sample(axis, edge, chord, samples);
+  const bool whole_edge = (from == 0 && to == 1) || (from == 1 && to == 0);
+  if (line.empty()) line.push_back(disk_at(axis, edge, from));
+  if (whole_edge) {
+    if (from == 1) std::ranges::reverse(samples);
+    line.insert(line.end(), samples.begin() + 1, samples.end());
+    return;
+  }
+  const double pieces = std::ceil(std::fabs(to - from) * static_cast<double>(samples.size() - 1));
+  for (double i = 1; i <= pieces; ++i)
+    line.push_back(disk_at(axis, edge, from + (to - from) * (i / pieces)));
+}
+
+std::vector<Vec2> centers_of(const std::vector<Disk>& line) {
+  std::vector<Vec2> points;
+  points.reserve(line.size());
+  for (const Disk& disk : line) points.push_back(disk.center);
+  return points;
+}
+
+// ---- JSON.
+
+void put_value(OutputStream& out, double value) {
+  if (std::isfinite(value)) {
+    out.put(value);
+  } else {
+    out.put("null");
+  }
+}
+
+void put_member(OutputStream& out, std::string_view name, double value) {
+  out.put(",\"");
+  out.put(name);
+  out.put("\":");
+  put_value(out, value);
+}
+void put_member(OutputStream& out, std::string_view name, std::uint64_t value) {
+  out.put(",\"");
+  out.put(name);
+  out.put("\":");
+  out.put(value);
+}
+void put_text(OutputStream& out, std::string_view name, std::string_view value) {
+  out.put(",\"");
+  out.put(name);
+  out.put("\":\"");
+  out.put(value);
+  out.put('"');
+}
+
+void put_point(OutputStream& out, Vec2 p) {
+  out.put('[');
+  out.put(p.x);
+  out.put(',');
+  out.put(p.y);
+  out.put(']');
+}
+
+void put_place(OutputStream& out, std::string_view name, const AxisPlace& place) {
+  out.put(",\"");
+  out.put(name);
+  out.put("\":{\"edge\":");
+  out.put(place.edge);
+  put_member(out, "t", place.t);
+  put_member(out, "x", place.disk.center.x);
+  put_member(out, "y", place.disk.center.y);
+  put_member(out, "r", place.disk.radius);
+  out.put('}');
+}
+
+void put_section(OutputStream& out, std::string_view name, const BoundarySection& section) {
+  out.put(",\"");
+  out.put(name);
+  out.put("\":{\"from\":");
+  put_point(out, section.from);
+  out.put(",\"to\":");
+  put_point(out, section.to);
+  put_member(out, "length", section.length);
+  if (section.ring != no_site) {
+    put_member(out, "ring", std::uint64_t{section.ring});
+    put_member(out, "first_vertex", std::uint64_t{section.first_vertex});
+    put_member(out, "last_vertex", std::uint64_t{section.last_vertex});
+  }
+  out.put('}');
+}
+
+void put_run(OutputStream& out, const PrimitiveRun& run) {
+  out.put("{\"primitive\":\"");
+  out.put(name_of(run.primitive));
+  out.put('"');
+  put_text(out, "variation", name_of(run.variation));
+  put_member(out, "length", run.length);
+  put_member(out, "mean_width", 2 * run.mean_radius);
+  put_member(out, "slope", run.slope);
+  put_member(out, "bend", run.bend);
+  put_member(out, "turning", run.turning);
+  put_member(out, "spiral", run.spiral);
+  put_place(out, "from", run.from);
+  put_place(out, "to", run.to);
+  out.put('}');
+}
+
+void put_branch(OutputStream& out, const BranchFeatures& branch, const AxisFeatures& features) {
+  out.put("{\"branch\":");
+  out.put(branch.branch);
+  out.put(branch.reversed ? ",\"reversed\":true" : ",\"reversed\":false");
+  out.put(branch.closed ? ",\"closed\":true" : ",\"closed\":false");
+  put_member(out, "from", std::uint64_t{branch.from});
+  put_text(out, "from_kind", name_of(branch.from_kind));
+  put_member(out, "to", std::uint64_t{branch.to});
+  put_text(out, "to_kind", name_of(branch.to_kind));
+  put_member(out, "length", branch.length);
+  put_member(out, "smallest_radius", branch.smallest_radius);
+  put_member(out, "largest_radius", branch.largest_radius);
+  put_member(out, "mean_width", branch.mean_width);
+  put_member(out, "turning", branch.turning);
+  put_member(out, "absolute_turning", branch.absolute_turning);
+  put_member(out, "area", branch.area);
+  put_member(out, "significance", branch.significance);
+  put_section(out, "left", branch.side[0]);
+  put_section(out, "right", branch.side[1]);
+  out.put(",\"runs\":[");
+  for (std::uint32_t k = 0; k < branch.run_count; ++k) {
+    if (k > 0) out.put(',');
+    put_run(out, features.runs[branch.first_run + k]);
+  }
+  out.put("]}");
+}
+
+void write_json(OutputStream& out, const NativeFile& axes, std::span<const AxisFeatures> features) {
+  out.put("{\"medial_features\":1,\n\"items\":[");
+  for (std::size_t i = 0; i < features.size(); ++i) {
+    const AxisFeatures& item = features[i];
+    const MedialAxis& axis = axes.items[i].axis;
+    out.put(i == 0 ? "\n{\"feature\":" : ",\n{\"feature\":");
+    out.put(i);
+    put_member(out, "components", item.components);
+    put_member(out, "cycles", item.cycles);
+    put_member(out, "ends", item.ends);
+    put_member(out, "branchings", item.branchings);
+    put_member(out, "closed_branches", item.closed_branches);
+    put_member(out, "length", item.length);
+    put_member(out, "area", item.area);
+    put_member(out, "boundary", item.boundary);
+    put_member(out, "largest_radius", item.largest_radius);
+    put_member(out, "mean_width", item.mean_width);
+    out.put(",\n\"share\":{");
+    const char* separator = "\"";
+    for (std::size_t p = 0; p < item.share.size(); ++p)
+      for (std::size_t v = 0; v < item.share[p].size(); ++v) {
+        if (!(item.share[p][v] > 0)) continue;
+        out.put(separator);
+        separator = ",\"";
+        out.put(name_of(static_cast<Primitive>(p)));
+        out.put(' ');
+        out.put(name_of(static_cast<Variation>(v)));
+        out.put("\":");
+        out.put(item.share[p][v]);
+      }
+    out.put("},\n\"points\":[");
+    separator = "\n{\"node\":";
+    for (std::size_t k = 0; k < item.points.size(); ++k) {
+      if (item.points[k] == PointKind::normal) continue;
+      const Disk& disk = axis.nodes[k].disk;
+      out.put(separator);
+      separator = ",\n{\"node\":";
+      out.put(k);
+      put_text(out, "kind", name_of(item.points[k]));
+      put_member(out, "x", disk.center.x);
+      put_member(out, "y", disk.center.y);
+      put_member(out, "r", disk.radius);
+      out.put('}');
+    }
+    out.put("],\n\"branches\":[");
+    for (std::size_t k = 0; k < item.branches.size(); ++k) {
+      out.put(k == 0 ? "\n" : ",\n");
+      put_branch(out, item.branches[k], item);
+    }
+    out.put("]}");
+  }
+  out.put("\n]}\n");
+}
+
+// ---- CSV.
+
+void put_csv(OutputStream& out, const Value& value) {
+  if (const auto* number = std::get_if<std::int64_t>(&value)) {
+    out.put(*number);
+  } else if (const auto* decimal = std::get_if<double>(&value)) {
+    out.put(*decimal);
+  } else if (const auto* words = std::get_if<std::string>(&value)) {
+    out.put(*words);  // names: no comma, no quote
+  }
+}
+
+/// The table without lines: their ends, or the point.
+void write_table(OutputStream& out, const NativeFile& axes, std::span<const AxisFeatures> features,
+                 FeatureTable table) {
+  const char* comma = "";
+  for (const TableColumn& column : columns_of(table)) {
+    out.put(comma);
+    out.put(column.name);
+    comma = ",";
+  }
+  out.put(table == FeatureTable::points ? ",x,y\n" : ",x_from,y_from,x_to,y_to\n");
+  for (std::size_t i = 0; i < features.size(); ++i) {
+    // The ends are all that is wanted: any chord does.
+    const double chord = std::numeric_limits<double>::max();
+    for (const TableRow& row : rows_of(table, i, axes.items[i].axis, features[i], chord)) {
+      comma = "";
+      for (const Value& value : row.values) {
+        out.put(comma);
+        put_csv(out, value);
+        comma = ",";
+      }
+      const auto put = [&out](Vec2 p) {
+        out.put(',');
+        out.put(p.x);
+        out.put(',');
+        out.put(p.y);
+      };
+      put(row.points.front());
+      if (table != FeatureTable::points) put(row.points.back());
+      out.put('\n');
+    }
+  }
+}
+
+// ---- The way out.
+
+bool through_gdal(const std::string& format) {
+  return format == "geojson" || format == "gpkg" || format == "shp" || format == "fgb";
+}
+
+Status write_stream(OutputStream& out, const std::string& format, const NativeFile& axes,
+                    std::span<const AxisFeatures> features, const FeatureWriteOptions& options) {
+  Status status = success();
+  if (format == "json") {
+    write_json(out, axes, features);
+  } else if (format == "csv") {
+    write_table(out, axes, features, options.table);
+  } else if (through_gdal(format)) {
+    if (format == "shp")
+      return Error{
+          ErrorCode::unsupported, "a shapefile is several files and cannot go to a stream", {}};
+    const std::string folder = fmt::format("/vsimem/{}", static_cast<const void*>(&out));
+    const std::string name = fmt::format("{}/features.{}", folder, format);
+    status = write_features_gdal(name, format, axes, features, options);
+    if (status) {
+      vsi_l_offset size = 0;
+      const GByte* bytes = VSIGetMemFileBuffer(name.c_str(), &size, FALSE);
+      out.put(
+          std::string_view(reinterpret_cast<const char*>(bytes), static_cast<std::size_t>(size)));
+    }
+    VSIRmdirRecursive(folder.c_str());
+  } else {
+    status = write_features_picture(out, format, axes, features, options);
+  }
+  if (!status) return status;
+  return out.finish();
+}
+
+Status write_any(const std::string& path, const std::string& option, const NativeFile& axes,
+                 std::span<const AxisFeatures> features, const FeatureWriteOptions& options) {
+  std::string format = option;
+  if (format.empty())
+    format = path == "-" ? "json" : std::filesystem::path(path).extension().string();
+  if (format.starts_with('.')) format.erase(0, 1);
+  std::ranges::transform(format, format.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (std::ranges::find(known_formats, format) == known_formats.end())
+    return Error{ErrorCode::unsupported,
+                 fmt::format("'{}' is no format for features; known are {}", format,
+                             known_feature_formats()),
+                 in_file(path)};
+  if (is_stream(path)) {
+    Result<OutputStream> out = OutputStream::open(path);
+    if (!out) return out.error();
+    return write_stream(*out, format, axes, features, options);
+  }
+  Result<PendingFile> pending = PendingFile::create(path);
+  if (!pending) return pending.error();
+  if (format == "gpkg" || format == "shp") {
+    Status written = write_features_gdal(pending->path(), format, axes, features, options);
+    if (!written) return written;
+    return pending->commit();
+  }
+  Result<OutputStream> out = OutputStream::open(pending->path());
+  if (!out) return out.error();
+  Status written = write_stream(*out, format, axes, features, options);
+  if (!written) return written;
+  return pending->commit();
+}
+
+}  // namespace
+
+std::span<const TableColumn> columns_of(FeatureTable table) {
+  switch (table) {
+    case FeatureTable::runs:
+      return run_columns;
+    case FeatureTable::branches:
+      return branch_columns;
+    case FeatureTable::points:
+      break;
+  }
+  return point_columns;
+}
+
+const char* name_of(FeatureTable table) {
+  constexpr std::array<const char*, 3> names{"runs", "branches", "points"};
+  return names[static_cast<std::size_t>(table)];
+}
+
+std::vector<std::vector<Disk>> lines_of(const MedialAxis& axis, const AxisFeatures& features,
+                                        const BranchFeatures& branch, const Branch& chain,
+                                        double chord) {
+  std::vector<Step> way = chain.steps;
+  if (branch.reversed) {
+    std::ranges::reverse(way);
+    for (Step& step : way) step.forward = !step.forward;
+  }
+  std::vector<std::vector<Disk>> lines(branch.run_count);
+  std::vector<Disk> samples;
+  std::size_t at = 0;
+  for (std::uint32_t k = 0; k < branch.run_count; ++k) {
+    const PrimitiveRun& run = features.runs[branch.first_run + k];
+    std::size_t searched = 0;
+    while (way[at].edge != run.from.edge && ++searched < way.size()) at = (at + 1) % way.size();
+    double from = run.from.t;
+    for (std::size_t walked = 0; walked <= way.size(); ++walked) {
+      const Step& step = way[at];
+      const Edge& edge = axis.edges[step.edge];
+      const bool ahead = step.forward ? from < run.to.t : from > run.to.t;
+      // A closed run ends on the edge that it begins on, behind its start.
+      if (step.edge == run.to.edge && (ahead || walked > 0)) {
+        append(axis, edge, from, run.to.t, chord, samples, lines[k]);
+        break;
+      }
+      append(axis, edge, from, step.forward ? 1 : 0, chord, samples, lines[k]);
+      at = (at + 1) % way.size();
+      from = way[at].forward ? 0 : 1;
+    }
+  }
+  return lines;
+}
+
+std::vector<TableRow> rows_of(FeatureTable table, std::size_t item, const MedialAxis& axis,
+                              const AxisFeatures& features, double chord) {
+  std::vector<TableRow> rows;
+  if (table == FeatureTable::points) {
+    const Incidence incidence(axis);
+    for (std::uint32_t i = 0; i < features.points.size(); ++i) {
+      if (features.points[i] == PointKind::normal) continue;
+      const Disk& disk = axis.nodes[i].disk;
+      rows.push_back({{whole(item), whole(i), text(name_of(features.points[i])),
+                       whole(incidence.degree(i)), real(disk.radius)},
+                      {disk.center}});
+    }
+    return rows;
+  }
+  const std::vector<Branch> all = branches(axis);
+  for (const BranchFeatures& branch : features.branches) {
+    const Branch& chain = all[branch.branch];
+    if (table == FeatureTable::branches) {
+      std::vector<Disk> line = sample(axis, chain, chord);
+      if (branch.reversed) std::ranges::reverse(line);
+      rows.push_back({values_of(item, branch, features), centers_of(line)});
+      continue;
+    }
+    auto lines = lines_of(axis, features, branch, chain, chord);
+    for (std::size_t k = 0; k < lines.size(); ++k)
+      rows.push_back(
+          {values_of(item, branch, k, features.runs[branch.first_run + k]), centers_of(lines[k])});
+  }
+  return rows;
+}
+
+std::string known_feature_formats() { return fmt::format(".{}", fmt::join(known_formats, " .")); }
+
+Status write_features(const std::string& path, const std::string& format, const NativeFile& axes,
+                      std::span<const AxisFeatures> features, const FeatureWriteOptions& options) {
+  Error error;
+  try {
+    Status status = write_any(path, format, axes, features, options);
+    if (status) return status;
+    error = std::move(status.error());
+  } catch (const std::bad_alloc&) {
+    error = {ErrorCode::out_of_memory, "memory ran out", {}};
+  } catch (const std::exception& problem) {
+    error = {ErrorCode::internal, problem.what(), {}};
+  }
+  error.place.file = path;
+  return error;
+}
+
+}  // namespace medial::io

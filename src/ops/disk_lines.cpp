@@ -1,0 +1,292 @@
+#include "ops/disk_lines.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "axis/curve.h"
+#include "medial/query.h"
+#include "ops/burn.h"
+
+namespace medial::ops {
+namespace {
+
+/// A disk of a branch, how far along it, and how far what was dropped there reaches beyond it.
+struct Sample {
+  Disk disk;
+  double along = 0;
+  double beyond = 0;
+};
+
+class DiskLiner {
+ public:
+  DiskLiner(const MedialAxis& axis, double prune, double error)
+      : axis_(axis),
+        prune_(prune),
+        error_(error),
+        junction_of_(axis.nodes.size(), no_site),
+        beyond_(axis.nodes.size(), 0),
+        degree_(axis.nodes.size(), 0) {}
+
+  DiskGraph run() {
+    const std::vector<Branch> all = branches(axis_);
+    std::vector<Fuse> fuses;
+    for (const Branch& branch : all) {
+      double total = 0;
+      for (const Step& step : branch.steps) total += length(axis_, axis_.edges[step.edge]);
+      fuses.push_back({{branch.from, branch.to}, total});
+    }
+    const auto start = burn(axis_, fuses);
+    for (const Branch& branch : all)
+      for (const std::uint32_t node : {branch.from, branch.to}) ++degree_[node];
+    // What is dropped up to a node reaches beyond its disk; it must be known before lines are
+    // drawn.
+    std::vector<std::vector<Sample>> kept(all.size());
+    for (std::size_t i = 0; i < all.size(); ++i) kept[i] = kept_part(all[i], start[i]);
+    chain(all, kept);
+    for (std::uint32_t node = 0; node < axis_.nodes.size(); ++node)
+      if (degree_[node] == 0 && !inside_branch(node))
+        graph_.junctions.push_back(axis_.nodes[node].disk);
+    return std::move(graph_);
+  }
+
+ private:
+  bool inside_branch(std::uint32_t node) {
+    if (inside_.empty()) {
+      inside_.assign(axis_.nodes.size(), false);
+      for (const Edge& edge : axis_.edges)
+        for (const std::uint32_t end : edge.node) inside_[end] = true;
+    }
+    return inside_[node];
+  }
+
+  /// The samples of a branch: chords within a share of the error.
+  std::vector<Sample> samples_of(const Branch& branch) const {
+    constexpr double share = 1.0 / 16;
+    std::vector<Sample> samples;
+    double along = 0;
+    for (const Step& step : branch.steps) {
+      const Edge& edge = axis_.edges[step.edge];
+      std::vector<Disk> disks = sample_by_chord(axis_, edge, share * error_);
+      if (!step.forward) std::reverse(disks.begin(), disks.end());
+      const double total = length(axis_, edge);
+      double chords = 0;
+      for (std::size_t k = 1; k < disks.size(); ++k)
+        chords += distance(disks[k - 1].center, disks[k].center);
+      double way = 0;
+      if (samples.empty()) samples.push_back({disks[0], 0, 0});
+      for (std::size_t k = 1; k < disks.size(); ++k) {
+        way += distance(disks[k - 1].center, disks[k].center);
+        samples.push_back({disks[k], along + (chords > 0 ? total * (way / chords) : 0), 0});
+      }
+      along += total;
+    }
+    return samples;
+  }
+
+  /// By how much a fire that comes from the samples' front, started at `time`, is ahead of the
+  /// radius: by so much does what it left behind reach beyond the disk, wherever it is.
+  static double ahead(const Sample& s, double time) { return time + s.along - s.disk.radius; }
+
+  static Sample between(const Sample& a, const Sample& b, double t) {
+    return {{a.disk.center + t * (b.disk.center - a.disk.center),
+             a.disk.radius + t * (b.disk.radius - a.disk.radius)},
+            a.along + t * (b.along - a.along),
+            0};
+  }
+
+  /// How far along the fire from the front gets until it is `prune` ahead; it never falls back.
+  double reach(const std::vector<Sample>& samples, double time) const {
+    std::size_t i = 0;
+    while (i < samples.size() && ahead(samples[i], time) <= prune_) ++i;
+    if (i == samples.size()) return samples.back().along;
+    if (i == 0) return 0;
+    const double low = ahead(samples[i - 1], time), high = ahead(samples[i], time);
+    const double t = std::clamp((prune_ - low) / (high - low), 0.0, 1.0);
+    return between(samples[i - 1], samples[i], t).along;
+  }
+
+  static Sample sample_at(const std::vector<Sample>& samples, double along) {
+    const auto after = std::find_if(samples.begin(), samples.end(),
+                                    [along](const Sample& s) { return s.along >= along; });
+    if (after == samples.begin()) return samples.front();
+    if (after == samples.end()) return samples.back();
+    const Sample &a = *(after - 1), &b = *after;
+    return between(a, b, (along - a.along) / (b.along - a.along));
+  }
+
+  static void mirror(std::vector<Sample>& samples) {
+    const double total = samples.back().along;
+    std::reverse(samples.begin(), samples.end());
+    for (Sample& s : samples) s.along = total - s.along;
+  }
+
+  /// Drops the samples before a place, which becomes the first one.
+  void drop_front(std::vector<Sample>& samples, double along, double time) const {
+    if (!(along > 0)) return;
+    Sample cut = sample_at(samples, along);
+    cut.beyond = std::clamp(ahead(cut, time), 0.0, prune_);
+    const auto after = std::find_if(samples.begin(), samples.end(),
+                                    [along](const Sample& s) { return s.along > along; });
+    samples.erase(samples.begin(), after);
+    samples.insert(samples.begin(), cut);
+  }
+
+  /// The samples of a branch that stay; empty where all of it is dropped. Notes at its base what
+  /// was.
+  std::vector<Sample> kept_part(const Branch& branch, const std::array<double, 2>& start) {
+    std::vector<Sample> samples = samples_of(branch);
+    const double total = samples.back().along;
+    const bool from = start[0] < not_burnt, to = start[1] < not_burnt;
+    if (!from && !to) return samples;
+    const double front = from ? reach(samples, start[0]) : 0;
+    double back = 0;
+    if (to) {
+      mirror(samples);
+      back = reach(samples, start[1]);
+      mirror(samples);
+    }
+    if (front + back >= total) {
+      if (from && to) {
+        // The middle of a tree, all of which one disk stands for.
+        const double middle = 0.5 * (start[1] + total - start[0]);
+        const double low = std::min(total - back, front), high = std::max(total - back, front);
+        Sample only = sample_at(samples, std::clamp(middle, low, high));
+        only.along = 0;
+        return {only};
+      }
+      const std::uint32_t base = from ? branch.to : branch.from;
+      const double time = (from ? start[0] : start[1]) + total;
+      beyond_[base] = std::max(beyond_[base], time - axis_.nodes[base].disk.radius);
+      return {};
+    }
+    if (to) {
+      mirror(samples);
+      drop_front(samples, back, start[1]);
+      const double shift = samples.front().along;
+      for (Sample& s : samples) s.along -= shift;
+      mirror(samples);
+    }
+    if (from) drop_front(samples, front, start[0]);
+    return samples;
+  }
+
+  /// Joins what stays at nodes where two branches are left, and makes lines of the chains.
+  void chain(const std::vector<Branch>& all, const std::vector<std::vector<Sample>>& kept) {
+    // The ends of kept branches at nodes that they reach: 2 i + end.
+    std::vector<std::vector<std::uint32_t>> around(axis_.nodes.size());
+    const auto reaches = [&](std::size_t i, bool end) {
+      const Disk& node = axis_.nodes[end ? all[i].to : all[i].from].disk;
+      const Disk& disk = (end ? kept[i].back() : kept[i].front()).disk;
+      return node.center == disk.center && node.radius == disk.radius;
+    };
+    for (std::uint32_t i = 0; i < all.size(); ++i) {
+      if (kept[i].empty()) continue;
+      if (reaches(i, false)) around[all[i].from].push_back(2 * i);
+      if (reaches(i, true)) around[all[i].to].push_back(2 * i + 1);
+    }
+    std::vector<bool> done(all.size(), false);
+    const auto inner = [&](std::uint32_t node) { return around[node].size() == 2; };
+    const auto node_of = [&](std::uint32_t end) {
+      return end % 2 == 0 ? all[end / 2].from : all[end / 2].to;
+    };
+    const auto walk = [&](std::uint32_t start) {
+      // From the end `start` of a branch along the chain.
+      std::vector<Sample> samples;
+      std::uint32_t end = start;
+      const std::uint32_t first =
+          junction_at(start, kept, reaches(start / 2, start % 2 == 1) ? node_of(start) : no_site);
+      for (;;) {
+        const std::uint32_t i = end / 2;
+        done[i] = true;
+        const std::size_t skip = samples.empty() ? 0 : 1;
+        if (end % 2 == 0) {
+          samples.insert(samples.end(), kept[i].begin() + static_cast<std::ptrdiff_t>(skip),
+                         kept[i].end());
+        } else {
+          samples.insert(samples.end(), kept[i].rbegin() + static_cast<std::ptrdiff_t>(skip),
+                         kept[i].rend());
+        }
+        end ^= 1U;  // where it arrives
+        const bool at_node = reaches(i, end % 2 == 1);
+        const std::uint32_t node = at_node ? node_of(end) : no_site;
+        if (at_node) samples.back().beyond = std::max(samples.back().beyond, beyond_[node]);
+        if (!at_node || !inner(node)) {
+          add_line(first, junction_at(end, kept, node), samples);
+          return;
+        }
+        const std::uint32_t next = around[node][around[node][0] == end ? 1 : 0];
+        if (done[next / 2]) {  // around a cycle
+          add_line(first, junction_at(end, kept, node), samples);
+          return;
+        }
+        end = next;
+      }
+    };
+    for (std::uint32_t i = 0; i < all.size(); ++i) {
+      if (kept[i].empty()) continue;
+      for (const std::uint32_t end : {2 * i, 2 * i + 1}) {
+        if (done[i]) continue;
+        const bool at_node = reaches(i, end % 2 == 1);
+        if (!at_node || !inner(node_of(end))) walk(end);
+      }
+    }
+    for (std::uint32_t i = 0; i < all.size(); ++i)
+      if (!kept[i].empty() && !done[i]) walk(2 * i);
+  }
+
+  /// The junction of a node, or a new one at the end of a branch that was cut.
+  std::uint32_t junction_at(std::uint32_t end, const std::vector<std::vector<Sample>>& kept,
+                            std::uint32_t node) {
+    const auto added = static_cast<std::uint32_t>(graph_.junctions.size());
+    if (node == no_site) {
+      const std::vector<Sample>& samples = kept[end / 2];
+      graph_.junctions.push_back((end % 2 == 0 ? samples.front() : samples.back()).disk);
+      return added;
+    }
+    if (junction_of_[node] == no_site) {
+      junction_of_[node] = added;
+      graph_.junctions.push_back(axis_.nodes[node].disk);
+    }
+    return junction_of_[node];
+  }
+
+  void add_line(std::uint32_t from, std::uint32_t to, const std::vector<Sample>& samples) {
+    if (samples.size() == 1) {  // one disk: a junction without lines, `from`; `to` is the same
+      graph_.junctions.resize(
+          std::min<std::size_t>(graph_.junctions.size(), from + std::size_t{1}));
+      return;
+    }
+    // What the samples themselves may miss, and chords when disks become polygons.
+    constexpr double share = 2.0 / 16;
+    const auto excess = [&](std::uint32_t i, std::uint32_t first, std::uint32_t last) {
+      const Disk &a = samples[first].disk, &b = samples[last].disk, &p = samples[i].disk;
+      const Vec2 d = b.center - a.center, v = p.center - a.center;
+      const double rise = b.radius - a.radius, size = squared_norm(d) + rise * rise;
+      const double t =
+          size > 0 ? std::clamp((dot(d, v) + rise * (p.radius - a.radius)) / size, 0.0, 1.0) : 0;
+      const double off = norm(v - t * d) + std::abs(p.radius - a.radius - t * rise);
+      return off + samples[i].beyond - (1 - share) * error_;
+    };
+    DiskLine line{from, to, {}};
+    const auto n = static_cast<std::uint32_t>(samples.size());
+    // A closed line is cut at its farthest disk, so that no part begins where it ends.
+    for (const std::uint32_t i : simplified(n, excess)) line.disks.push_back(samples[i].disk);
+    graph_.lines.push_back(std::move(line));
+  }
+
+  const MedialAxis& axis_;
+  double prune_, error_;
+  DiskGraph graph_;
+  std::vector<std::uint32_t> junction_of_;
+  std::vector<double> beyond_;
+  std::vector<std::uint32_t> degree_;
+  std::vector<bool> inside_;
+};
+
+}  // namespace
+
+DiskGraph disk_lines(const MedialAxis& axis, double prune, double error) {
+  return DiskLiner(axis, prune, error).run();
+}
+
+}  // namespace medial::ops

@@ -1,0 +1,377 @@
+#include "medial/features.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "axis/curve.h"
+#include "base/arc.h"
+#include "base/disjoint_sets.h"
+#include "medial/query.h"
+#include "medial/sides.h"
+#include "ops/burn.h"
+#include "ops/runs.h"
+
+namespace medial {
+namespace {
+
+using ops::Fuse;
+using ops::Run;
+using ops::RunCutter;
+
+/// The points at which the disks at both ends of a step touch the boundary.
+struct Feet {
+  std::array<Vec2, 2> left;  ///< at the step's start and end
+  std::array<Vec2, 2> right;
+};
+
+std::uint32_t node_at(const MedialAxis& axis, const Step& step, bool end) {
+  return axis.edges[step.edge].node[step.forward == end ? 1 : 0];
+}
+
+/// The site on one side of a step, if the axis is exact and tells it.
+const Site* site_beside(const MedialAxis& axis, const Step& step, Side side) {
+  const Edge& edge = axis.edges[step.edge];
+  const std::uint32_t site = edge.site[(side == Side::left) == step.forward ? 0 : 1];
+  return axis.resolution == 0 && site < axis.sites.size() ? &axis.sites[site] : nullptr;
+}
+
+/// The frame at an end of a step, in its direction.
+AxisFrame frame_of(const MedialAxis& axis, const Step& step, bool end) {
+  AxisFrame frame = frame_at(axis, axis.edges[step.edge], step.forward == end ? 1 : 0);
+  if (!step.forward) {
+    frame.tangent = -frame.tangent;
+    frame.radius_rate = -frame.radius_rate;
+    frame.curvature = -frame.curvature;
+  }
+  return frame;
+}
+
+std::array<Vec2, 2> touches(const MedialAxis& axis, const Step& step, Side side) {
+  std::array<Vec2, 2> out;
+  const Site* site = site_beside(axis, step, side);
+  for (const bool end : {false, true}) {
+    out[end ? 1 : 0] = site != nullptr
+                           ? foot(*site, axis.nodes[node_at(axis, step, end)].disk.center)
+                           : boundary_at(frame_of(axis, step, end), side).point;
+  }
+  return out;
+}
+
+/// The way along the boundary between two feet on one site: length, and the area beside the chord.
+struct Way {
+  double length = 0;
+  double area = 0;
+};
+
+Way way_between(const Site* site, Vec2 from, Vec2 to) {
+  const double chord = distance(from, to);
+  if (site == nullptr || site->kind != SiteKind::arc || !(chord > 0)) return {chord, 0};
+  const BulgeArc whole{site->start, site->end, site->bulge};
+  const BulgeArc part{from, to, partial_bulge(whole, from, to)};
+  const double b = std::abs(part.bulge);
+  const double length = b > 0 ? chord * (1 + b * b) * std::atan(b) / b : chord;
+  return {length, area_beside_chord(part)};
+}
+
+/// A sector of a disk between two of its points, counter-clockwise by less than half a turn.
+double sector_angle(const Disk& disk, Vec2 from, Vec2 to) {
+  const Vec2 u = from - disk.center, v = to - disk.center;
+  return std::atan2(cross(u, v), dot(u, v));
+}
+
+class Describer {
+ public:
+  Describer(const MedialAxis& axis, const FeatureOptions& options)
+      : axis_(axis), cutter_(axis, options) {}
+
+  AxisFeatures run() {
+    find_points();
+    const std::vector<Branch> all = branches(axis_);
+    features_.branches.reserve(all.size());
+    for (std::uint32_t i = 0; i < all.size(); ++i) add_branch(i, all[i]);
+    add_significance(all);
+    add_whole();
+    return std::move(features_);
+  }
+
+ private:
+  void find_points() {
+    degree_.assign(axis_.nodes.size(), 0);
+    for (const Edge& edge : axis_.edges)
+      for (const std::uint32_t node : edge.node) ++degree_[node];
+    features_.points.reserve(degree_.size());
+    for (const std::uint32_t d : degree_) {
+      const PointKind kind = d < 2    ? PointKind::end
+                             : d == 2 ? PointKind::normal
+                                      : PointKind::branching;
+      features_.points.push_back(kind);
+      features_.ends += kind == PointKind::end ? 1 : 0;
+      features_.branchings += kind == PointKind::branching ? 1 : 0;
+    }
+    covered_.assign(axis_.nodes.size(), 0);
+  }
+
+  /// Whether a branch runs from its deeper end as it stands.
+  bool runs_backwards(const Branch& branch) const {
+    const double from = axis_.nodes[branch.from].disk.radius;
+    const double to = axis_.nodes[branch.to].disk.radius;
+    if (from != to) return from < to;
+    return features_.points[branch.from] == PointKind::end &&
+           features_.points[branch.to] == PointKind::branching;
+  }
+
+  void add_branch(std::uint32_t index, const Branch& branch) {
+    BranchFeatures out;
+    out.branch = index;
+    out.reversed = runs_backwards(branch);
+    way_.assign(branch.steps.begin(), branch.steps.end());
+    if (out.reversed) {
+      std::reverse(way_.begin(), way_.end());
+      for (Step& step : way_) step.forward = !step.forward;
+    }
+    out.from = out.reversed ? branch.to : branch.from;
+    out.to = out.reversed ? branch.from : branch.to;
+    out.from_kind = features_.points[out.from];
+    out.to_kind = features_.points[out.to];
+    out.closed = out.from == out.to && out.from_kind == PointKind::normal;
+    const std::span<const Run> runs = cutter_.cut(way_, out.closed);
+    if (out.closed && !runs.empty()) start_at(runs.front().from.edge, out);
+    out.length = cutter_.length();
+    out.smallest_radius = cutter_.smallest_radius();
+    for (const Step& step : way_)
+      for (const std::uint32_t node : axis_.edges[step.edge].node)
+        out.largest_radius = std::max(out.largest_radius, axis_.nodes[node].disk.radius);
+    out.mean_width = out.length > 0 ? 2 * cutter_.radius_integral() / out.length
+                                    : 2 * axis_.nodes[out.from].disk.radius;
+    out.turning = cutter_.turning();
+    out.absolute_turning = cutter_.bending();
+    out.first_run = static_cast<std::uint32_t>(features_.runs.size());
+    out.run_count = static_cast<std::uint32_t>(runs.size());
+    for (const Run& run : runs) add_run(run);
+    add_sides(out);
+    features_.closed_branches += out.closed ? 1 : 0;
+    radius_integral_ += cutter_.radius_integral();
+    features_.branches.push_back(out);
+  }
+
+  /// Lets a closed branch start with this edge.
+  void start_at(std::uint32_t edge, BranchFeatures& out) {
+    const auto first = std::find_if(way_.begin(), way_.end(),
+                                    [edge](const Step& step) { return step.edge == edge; });
+    std::rotate(way_.begin(), first, way_.end());
+    out.from = out.to = node_at(axis_, way_.front(), false);
+  }
+
+  AxisPlace place_of(const ops::Spot& spot) const {
+    return {spot.edge, spot.t, disk_at(axis_, axis_.edges[spot.edge], spot.t)};
+  }
+
+  void add_run(const Run& run) {
+    PrimitiveRun out;
+    out.primitive = run.primitive;
+    out.variation = run.variation;
+    out.from = place_of(run.from);
+    out.to = place_of(run.to);
+    out.length = run.length;
+    out.mean_radius = run.mean_radius();
+    const ops::Fit radius = ops::fit(run.radius, run.length);
+    const ops::Fit angle = ops::fit(run.direction, run.length);
+    out.slope = radius.slope / run.length;
+    out.bend = radius.bend / run.length;
+    out.turning = axis_.resolution > 0 ? angle.slope : run.direction_change;
+    if (run.variation != Variation::straight) out.spiral = angle.bend / angle.slope;
+    features_
+        .share[static_cast<std::size_t>(run.primitive)][static_cast<std::size_t>(run.variation)] +=
+        run.length;
+    features_.runs.push_back(out);
+  }
+
+  /// The boundary on both sides and the area between: with the spokes to their feet, the edges tile
+  /// the shape, but for sectors of disks that touch an arc all along.
+  void add_sides(BranchFeatures& out) {
+    Feet before, first;
+    for (std::size_t i = 0; i < way_.size(); ++i) {
+      const Step& step = way_[i];
+      const Feet feet{touches(axis_, step, Side::left), touches(axis_, step, Side::right)};
+      const Site* left = site_beside(axis_, step, Side::left);
+      const Site* right = site_beside(axis_, step, Side::right);
+      const Disk& from = axis_.nodes[node_at(axis_, step, false)].disk;
+      const Vec2 along = axis_.nodes[node_at(axis_, step, true)].disk.center - from.center;
+      const Vec2 r0 = feet.right[0] - from.center, r1 = feet.right[1] - from.center;
+      const Vec2 l0 = feet.left[0] - from.center, l1 = feet.left[1] - from.center;
+      const Way way_right = way_between(right, feet.right[0], feet.right[1]);
+      const Way way_left = way_between(left, feet.left[1], feet.left[0]);
+      out.area += 0.5 * (cross(r0, r1) + cross(r1, along) + cross(along, l1) + cross(l1, l0)) +
+                  way_right.area + way_left.area;
+      out.side[0].length += way_left.length;
+      out.side[1].length += way_right.length;
+      if (i == 0) {
+        first = feet;
+      } else {
+        add_gap(from, before.right[1], feet.right[0], out.side[1], out);
+        add_gap(from, feet.left[0], before.left[1], out.side[0], out);
+      }
+      before = feet;
+    }
+    const Step &start = way_.front(), &end = way_.back();
+    const auto set = [](BoundarySection& section, const Site* from, const Site* to, Vec2 a,
+                        Vec2 b) {
+      section.from = a;
+      section.to = b;
+      if (from == nullptr || to == nullptr) return;
+      section.ring = from->ring;
+      section.first_vertex = from->vertex;
+      section.last_vertex = to->vertex;
+    };
+    set(out.side[0], site_beside(axis_, end, Side::left), site_beside(axis_, start, Side::left),
+        before.left[1], first.left[0]);
+    set(out.side[1], site_beside(axis_, start, Side::right), site_beside(axis_, end, Side::right),
+        first.right[0], before.right[1]);
+    if (out.closed) {
+      const Disk& disk = axis_.nodes[out.from].disk;
+      add_gap(disk, before.right[1], first.right[0], out.side[1], out);
+      add_gap(disk, first.left[0], before.left[1], out.side[0], out);
+    }
+    cover(out.from, frame_of(axis_, start, false).tangent, first.right[0], first.left[0], out);
+    cover(out.to, -frame_of(axis_, end, true).tangent, before.left[1], before.right[1], out);
+    features_.boundary += out.side[0].length + out.side[1].length;
+    features_.area += out.area;
+  }
+
+  double slack(const Disk& disk) const {
+    constexpr double rounding = 1e-9;
+    return std::max(4 * axis_.tolerance, rounding * disk.radius);
+  }
+
+  /// Where a disk touches an arc from one foot to the next, counter-clockwise, inside a branch.
+  void add_gap(const Disk& disk, Vec2 from, Vec2 to, BoundarySection& section,
+               BranchFeatures& out) const {
+    if (from == to || distance(from, to) <= slack(disk)) return;
+    const double angle = sector_angle(disk, from, to);
+    section.length += std::max(angle, 0.0) * disk.radius;
+    out.area += 0.5 * angle * disk.radius * disk.radius;
+  }
+
+  /// Notes by how much of a disk at a branch's end the branch covers: from the right foot, as seen
+  /// from the disk, over the branch's direction to the left foot. What is left of an end's disk
+  /// belongs to the branch.
+  void cover(std::uint32_t node, Vec2 direction, Vec2 right, Vec2 left, BranchFeatures& out) {
+    const Disk& disk = axis_.nodes[node].disk;
+    const PointKind kind = features_.points[node];
+    if (kind == PointKind::normal || !(disk.radius > 0)) return;
+    const auto opening = [&](Vec2 point) {
+      const Vec2 u = point - disk.center;
+      return std::atan2(std::abs(cross(u, direction)), dot(u, direction));
+    };
+    double angle = opening(right) + opening(left);
+    if (direction == Vec2{0, 0}) {  // an edge without length
+      angle = sector_angle(disk, right, left);
+      if (angle < 0) angle += 2 * std::numbers::pi;
+    }
+    if (kind == PointKind::branching) {
+      covered_[node] += angle;
+      return;
+    }
+    angle = 2 * std::numbers::pi - angle;
+    if (angle * disk.radius <= slack(disk)) return;
+    out.area += 0.5 * angle * disk.radius * disk.radius;
+    features_.boundary += angle * disk.radius;
+  }
+
+  void add_significance(const std::vector<Branch>& all) {
+    std::vector<Fuse> fuses;
+    fuses.reserve(all.size());
+    for (const BranchFeatures& branch : features_.branches)
+      fuses.push_back({{branch.from, branch.to}, branch.length});
+    const auto start = ops::burn(axis_, fuses);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      BranchFeatures& branch = features_.branches[i];
+      branch.burn = start[i];
+      branch.significance = significance_of(branch, all[i]);
+    }
+  }
+
+  double significance_of(const BranchFeatures& branch, const Branch& chain) const {
+    const auto thickness = [](double time, const Disk& disk) {
+      return std::max(time - disk.radius, 0.0) / disk.radius;
+    };
+    const auto [from, to] = branch.burn;
+    if (from == ops::not_burnt && to == ops::not_burnt) return ops::not_burnt;
+    if (from == ops::not_burnt) return thickness(to + branch.length, axis_.nodes[branch.from].disk);
+    if (to == ops::not_burnt) return thickness(from + branch.length, axis_.nodes[branch.to].disk);
+    // Fires from both ends meet here, in the middle of the component.
+    const double way = std::clamp(0.5 * (to + branch.length - from), 0.0, branch.length);
+    double left = branch.reversed ? branch.length - way : way;
+    for (const Step& step : chain.steps) {
+      const Edge& edge = axis_.edges[step.edge];
+      const Curve curve = curve_of(axis_, edge);
+      const double length = curve.length();
+      if (left > length && &step != &chain.steps.back()) {
+        left -= length;
+        continue;
+      }
+      const double t = curve.at_length(step.forward ? left : length - left);
+      return thickness(from + way, curve.at(t));
+    }
+    return 0;
+  }
+
+  void add_whole() {
+    DisjointSets parts(axis_.nodes.size());
+    for (const Edge& edge : axis_.edges) parts.join(edge.node[0], edge.node[1]);
+    features_.components = 0;
+    for (std::uint32_t i = 0; i < axis_.nodes.size(); ++i)
+      features_.components += parts.find(i) == i ? 1 : 0;
+    features_.cycles = axis_.edges.size() + features_.components - axis_.nodes.size();
+    for (std::size_t i = 0; i < axis_.nodes.size(); ++i) {
+      const Disk& disk = axis_.nodes[i].disk;
+      features_.largest_radius = std::max(features_.largest_radius, disk.radius);
+      const double angle = 2 * std::numbers::pi - covered_[i];
+      // What is left of the disks at branching points, and shapes that are one disk.
+      if (degree_[i] == 1 || degree_[i] == 2) continue;
+      if (angle * disk.radius <= slack(disk)) continue;
+      features_.area += 0.5 * angle * disk.radius * disk.radius;
+      features_.boundary += angle * disk.radius;
+    }
+    for (const BranchFeatures& branch : features_.branches) features_.length += branch.length;
+    if (!(features_.length > 0)) {
+      features_.mean_width = 2 * features_.largest_radius;
+      return;
+    }
+    features_.mean_width = 2 * radius_integral_ / features_.length;
+    double total = 0;
+    for (const PrimitiveRun& run : features_.runs) total += run.length;
+    for (auto& row : features_.share)
+      for (double& share : row) share /= total;
+  }
+
+  const MedialAxis& axis_;
+  RunCutter cutter_;
+  AxisFeatures features_;
+  std::vector<Step> way_;
+  std::vector<std::uint32_t> degree_;  ///< of each node
+  std::vector<double> covered_;        ///< of each branching node: the angle that branches cover
+  double radius_integral_ = 0;
+};
+
+constexpr std::array<const char*, 3> point_names{"end", "normal", "branching"};
+constexpr std::array<const char*, primitive_count> primitives{
+    "worm",        "opening_wedge", "closing_wedge", "opening_cup",
+    "closing_cup", "opening_flare", "closing_flare"};
+constexpr std::array<const char*, variation_count> variations{
+    "spiral_in_left",   "left_circular",  "spiral_out_left", "straight",
+    "spiral_out_right", "right_circular", "spiral_in_right"};
+
+}  // namespace
+
+const char* name_of(PointKind kind) { return point_names[static_cast<std::size_t>(kind)]; }
+const char* name_of(Primitive primitive) { return primitives[static_cast<std::size_t>(primitive)]; }
+const char* name_of(Variation variation) { return variations[static_cast<std::size_t>(variation)]; }
+
+AxisFeatures describe(const MedialAxis& axis, const FeatureOptions& options) {
+  return Describer(axis, options).run();
+}
+
+}  // namespace medial

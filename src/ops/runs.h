@@ -1,0 +1,108 @@
+#pragma once
+
+// A branch as runs: pieces along which the signs of the derivatives stay, then longer ones of one
+// class. See medial/features.h for what decides.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "medial/features.h"
+#include "medial/query.h"
+
+namespace medial::ops {
+
+/// Integrals of f, f s, f s^2 and f^2 over a run, s its length from the start.
+struct Moments {
+  double zero = 0, first = 0, second = 0, square = 0;
+};
+
+/// A place on a branch before anything is rounded to a node.
+struct Spot {
+  std::uint32_t edge = 0;
+  double t = 0;
+};
+
+/// A part of a branch with what adds up along it.
+struct Run {
+  Spot from, to;
+  double length = 0;
+  Moments radius;
+  Moments direction;            ///< of the angle against the tangent at the start
+  double direction_change = 0;  ///< that angle at the end
+  double bending = 0;           ///< integral of the curvature's size, breaks included
+  Vec2 first_tangent, last_tangent;
+  std::uint32_t first_piece = 0;  ///< of the pieces that the branch was cut into at first
+  std::uint32_t piece_count = 1;
+  Primitive primitive = Primitive::worm;
+  Variation variation = Variation::straight;
+
+  double mean_radius() const { return radius.zero / length; }
+};
+
+/// The quadratic function of u in [0, 1] nearest to f: slope at the middle and second derivative,
+/// and the root of the mean square of what it misses.
+struct Fit {
+  double slope = 0;
+  double bend = 0;
+  double residual = 0;
+};
+Fit fit(const Moments& moments, double length);
+
+/// What a run is, by its fits.
+void classify(Run& run, const FeatureOptions& options);
+
+/// The union of a run and the one that follows it, not classified.
+Run joined(const Run& a, const Run& b);
+
+/// Cuts branches; one object for many of them, to spare allocations.
+class RunCutter {
+ public:
+  RunCutter(const MedialAxis& axis, const FeatureOptions& options)
+      : axis_(axis), options_(options) {}
+
+  /// The runs along `steps`, in that direction. A `cyclic` branch may be joined across its start;
+  /// its first run is then the longest one. Valid until the next call; empty without length.
+  /// O(n log n).
+  std::span<const Run> cut(std::span<const Step> steps, bool cyclic);
+
+  /// The pieces of the last call, before they were merged, added up: what holds of the whole.
+  double length() const { return length_; }
+  double radius_integral() const { return radius_integral_; }
+  double smallest_radius() const { return smallest_; }
+  double turning() const { return turning_; }
+  double bending() const { return bending_; }
+
+ private:
+  void add_pieces(const Step& step);
+  void link(bool cyclic);
+  void absorb_next(std::uint32_t i, const Run& both);
+  template <class Judge>
+  void agglomerate(bool cyclic, const Judge& judge);
+  void join_fitting(bool cyclic);
+  void merge_short(bool cyclic);
+  void join_equal(bool cyclic);
+  void split_level();
+  void compact();
+  double relative_length(std::uint32_t i) const;
+
+  struct Entry {
+    double key;
+    std::uint32_t run;
+    std::uint32_t version;
+    bool operator<(const Entry& other) const {
+      return key != other.key ? key > other.key : run > other.run;
+    }
+  };
+
+  const MedialAxis& axis_;
+  FeatureOptions options_;
+  std::vector<Run> runs_;
+  std::vector<Run> pieces_;  ///< of samples, before they were taken together
+  std::vector<std::uint32_t> next_, previous_, version_;
+  std::vector<Entry> heap_;
+  std::vector<double> cuts_;
+  double length_ = 0, radius_integral_ = 0, smallest_ = 0, turning_ = 0, bending_ = 0;
+};
+
+}  // namespace medial::ops

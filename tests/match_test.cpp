@@ -1,0 +1,89 @@
+// Likeness: nothing for images of a shape, and more for other shapes.
+#include "medial/match.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "medial/compute.h"
+#include "support/generate_arcs.h"
+
+namespace medial {
+namespace {
+
+using test::RandomShape;
+using test::Rings;
+
+std::uint64_t shape_count() {
+  const char* text = std::getenv("MEDIAL_PROPERTY_COUNT");
+  return text && *text ? std::strtoull(text, nullptr, 10) / 100 : 200;
+}
+
+ShapeSignature sign(const Rings& rings) {
+  const auto shape = build_shape(rings);
+  EXPECT_TRUE(shape.ok());
+  const auto axis = compute(*shape);
+  EXPECT_TRUE(axis.ok());
+  return signature_of(*axis, describe(*axis));
+}
+
+TEST(Match, ImagesOfAShapeAreTheSame) {
+  std::size_t checked = 0;
+  for (std::uint64_t seed = 0; seed < shape_count(); ++seed) {
+    const RandomShape random =
+        seed % 2 == 0 ? test::random_shape(seed) : test::random_arc_shape(seed);
+    if (!random.rigid) continue;  // contacts and needles are others once coordinates are rounded
+    const ShapeSignature one = sign(random.rings);
+    EXPECT_EQ(dissimilarity(one, one), 0);
+    for (const std::size_t i : {1U, 3U, 6U, 7U, 8U}) {  // turned, scaled, mirrored, written anew
+      SCOPED_TRACE(random.kind + " " + std::to_string(seed) + " " + test::symmetries()[i].name);
+      // The places of pairs are taken along the axis in the order of its edges.
+      EXPECT_LE(dissimilarity(one, sign(test::symmetric(random.rings, i))), 0.03);
+      ++checked;
+    }
+    if (testing::Test::HasFailure()) return;
+  }
+  EXPECT_GT(checked, 0U);
+}
+
+TEST(Match, SpecksAreLeftOut) {
+  Rings rings = test::rectangle(10, 10);
+  rings.push_back(test::circle({3, 3}, 0.2));
+  rings.push_back(test::circle({6, 6}, 2));
+  rings.push_back(test::circle({13, 3}, 0.2));
+  const auto shape = build_shape(rings);
+  ASSERT_TRUE(shape.ok());
+  ASSERT_EQ(shape->loop_count(), 4U);
+  const Shape kept = without_specks(*shape);
+  EXPECT_EQ(kept.loop_count(), 2U);
+  EXPECT_EQ(kept.component_count(), 1U);
+  EXPECT_EQ(kept.hole_count(), 1U);
+  const auto axis = compute(kept);
+  ASSERT_TRUE(axis.ok());
+  EXPECT_EQ(describe(*axis).cycles, 1U);
+}
+
+TEST(Match, TellsShapesApart) {
+  const ShapeSignature star = sign(test::blob(500));
+  const ShapeSignature bar = sign(test::rectangle(10, 1));
+  const ShapeSignature longer = sign(test::rectangle(11, 1));
+  const ShapeSignature cross = sign(test::cross_shape(1));
+  EXPECT_LT(dissimilarity(bar, longer), 0.3 * dissimilarity(bar, cross));
+  EXPECT_LT(dissimilarity(bar, longer), 0.3 * dissimilarity(bar, star));
+  EXPECT_EQ(dissimilarity(bar, cross), dissimilarity(cross, bar));
+}
+
+TEST(Match, NoiseHardlyCounts) {
+  // A bar with small teeth all along one side is nearer to the bar than a bar a third shorter.
+  Ring teeth;
+  teeth.points = {{0, 0}, {10, 0}, {10, 1}};
+  for (int i = 40; i > 0; --i) {
+    teeth.points.push_back({0.25 * i - 0.125, 1.03});
+    teeth.points.push_back({0.25 * (i - 1), 1});
+  }
+  const ShapeSignature bar = sign(test::rectangle(10, 1));
+  EXPECT_LT(dissimilarity(bar, sign({teeth})), dissimilarity(bar, sign(test::rectangle(6.7, 1))));
+}
+
+}  // namespace
+}  // namespace medial

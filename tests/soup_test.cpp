@@ -1,0 +1,326 @@
+// Soups and their Voronoi diagrams: closed forms, ties, errors, and random soups against distances
+// that are computed here, site by site.
+
+#include "medial/soup.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/random.h"
+#include "medial/medial.h"
+#include "medial/voronoi.h"
+
+namespace medial::test {
+namespace {
+
+using Chains = std::vector<Chain>;
+
+Soup soup_of(const Chains& chains, const SoupOptions& options = {}, SoupReport* report = nullptr) {
+  auto soup = build_soup(chains, options, report);
+  EXPECT_TRUE(soup.ok()) << (soup ? "" : to_string(soup.error()));
+  return soup ? std::move(soup).value() : Soup{};
+}
+
+VoronoiDiagram diagram_of(const Chains& chains, const std::optional<Box>& frame = {}) {
+  const Soup soup = soup_of(chains);
+  auto diagram = voronoi_diagram(soup, {.threads = 1}, frame);
+  EXPECT_TRUE(diagram.ok()) << (diagram ? "" : to_string(diagram.error()));
+  return diagram ? std::move(diagram).value() : VoronoiDiagram{};
+}
+
+/// In [0, 1).
+double uniform(Random& random) { return 0x1p-53 * static_cast<double>(random.next() >> 11U); }
+
+double distance_to(const Site& site, Vec2 p) { return distance(foot(site, p), p); }
+
+double area_of(const std::vector<Vec2>& outline) {
+  double doubled = 0;
+  for (std::size_t i = 0; i < outline.size(); ++i)
+    doubled += cross(outline[i] - outline[0], outline[(i + 1) % outline.size()] - outline[0]);
+  return doubled / 2;
+}
+
+/// What is wrong with a diagram, empty if nothing: every sample of every edge is at its radius from
+/// its sites and no nearer to any other; faces are closed, counter-clockwise, and fill the frame.
+std::string fault_of(const VoronoiDiagram& diagram) {
+  const Box frame = *diagram.frame;
+  const double size = diagonal(frame);
+  const double tolerance = std::max(1e-13 * size, 4 * diagram.tolerance);
+  for (std::size_t e = 0; e < diagram.edges.size(); ++e) {
+    const VoronoiEdge& edge = diagram.edges[e];
+    MedialAxis one;
+    one.nodes = {diagram.nodes[edge.node[0]], diagram.nodes[edge.node[1]]};
+    Edge own = edge;
+    own.node = {0, 1};
+    constexpr int samples = 8;
+    for (int k = 0; k <= samples; ++k) {
+      const Disk disk = disk_at(one, own, static_cast<double>(k) / samples);
+      double nearest = std::numeric_limits<double>::infinity();
+      for (const Site& site : diagram.sites)
+        nearest = std::min(nearest, distance_to(site, disk.center));
+      if (!(std::abs(nearest - disk.radius) <= tolerance))
+        return "edge " + std::to_string(e) + ": radius " + std::to_string(disk.radius) +
+               ", nearest site at " + std::to_string(nearest);
+      for (const std::uint32_t site : edge.site)
+        if (site != no_site &&
+            !(std::abs(distance_to(diagram.sites[site], disk.center) - disk.radius) <= tolerance))
+          return "edge " + std::to_string(e) + " strays from its site " + std::to_string(site);
+    }
+  }
+  double area = 0;
+  std::size_t uses = 0, sides = 0;
+  for (const VoronoiEdge& edge : diagram.edges) sides += edge.frame ? 1 : 2;
+  for (std::size_t site = 0; site < diagram.sites.size(); ++site) {
+    const auto face = diagram.face(site);
+    uses += face.size();
+    for (std::size_t i = 0; i < face.size(); ++i) {
+      const VoronoiEdge& edge = diagram.edges[face[i]];
+      const VoronoiEdge& next = diagram.edges[face[(i + 1) % face.size()]];
+      if (edge.site[0] != site && edge.site[1] != site) return "a face has an edge of others";
+      if (edge.node[edge.site[1] == site ? 1 : 0] != next.node[next.site[1] == site ? 0 : 1])
+        return "face " + std::to_string(site) + " is not closed";
+    }
+    const double own = area_of(face_outline(diagram, site, 1e-6 * size));
+    if (own < -1e-9 * size * size) return "face " + std::to_string(site) + " is the wrong way";
+    area += own;
+  }
+  if (uses != sides) return "an edge is not in two faces";
+  const Vec2 extent = frame.high - frame.low;
+  if (!(std::abs(area - extent.x * extent.y) <= 1e-5 * extent.x * extent.y))
+    return "the faces do not fill the frame";
+  return "";
+}
+
+std::size_t count_nodes(const VoronoiDiagram& diagram, Vec2 center, double radius) {
+  std::size_t count = 0;
+  for (const Node& node : diagram.nodes)
+    if (distance(node.disk.center, center) < 1e-12 && std::abs(node.disk.radius - radius) < 1e-12)
+      ++count;
+  return count;
+}
+
+constexpr Box whole_frame{{-4.5, -4.25}, {5.5, 5.75}};
+
+TEST(Soup, OnePointHasAllOfTheFrame) {
+  const auto diagram = diagram_of({{{{1, 2}}}}, whole_frame);
+  EXPECT_EQ(diagram.sites.size(), 1u);
+  EXPECT_EQ(diagram.edges.size(), 4u);
+  EXPECT_EQ(fault_of(diagram), "");
+}
+
+TEST(Soup, TwoPointsHaveOneBisector) {
+  const auto diagram = diagram_of({{{{0, 0}}}, {{{2, 0}}}}, whole_frame);
+  EXPECT_EQ(fault_of(diagram), "");
+  std::size_t inner = 0;
+  for (const VoronoiEdge& edge : diagram.edges) {
+    if (edge.frame) continue;
+    ++inner;
+    for (const std::uint32_t node : edge.node)
+      EXPECT_NEAR(diagram.nodes[node].disk.center.x, 1, 1e-14);
+  }
+  EXPECT_EQ(inner, 1u);
+}
+
+TEST(Soup, APointAndASegmentHaveAParabolaBetween) {
+  const auto diagram = diagram_of({{{{0, 2}}}, {{{-3, 0}, {3, 0}}}}, whole_frame);
+  EXPECT_EQ(fault_of(diagram), "");
+  // y = (x^2 + 4) / 4, cut off by the perpendiculars at x = -3 and 3.
+  EXPECT_EQ(count_nodes(diagram, {3, 3.25}, 3.25), 1u);
+  EXPECT_EQ(count_nodes(diagram, {-3, 3.25}, 3.25), 1u);
+  EXPECT_EQ(std::count_if(diagram.edges.begin(), diagram.edges.end(),
+                          [](const VoronoiEdge& edge) { return edge.spoke; }),
+            4);
+}
+
+TEST(Soup, ASquareHasItsDiagonalsInsideAndSpokesOutside) {
+  const auto diagram = diagram_of({{{{0, 0}, {2, 0}, {2, 2}, {0, 2}}, {}, true}}, whole_frame);
+  EXPECT_EQ(fault_of(diagram), "");
+  EXPECT_EQ(count_nodes(diagram, {1, 1}, 1), 1u);
+  EXPECT_EQ(diagram.sites.size(), 8u);
+  for (std::size_t site = 0; site < 8; ++site) EXPECT_FALSE(diagram.face(site).empty());
+}
+
+TEST(Soup, ACircleHasItsCentre) {
+  const auto diagram = diagram_of({{{{0, 0}, {2, 0}}, {1, 1}, true}}, whole_frame);
+  EXPECT_EQ(fault_of(diagram), "");
+  EXPECT_EQ(count_nodes(diagram, {1, 0}, 1), 1u);
+}
+
+TEST(Soup, AGridOfPointsHasOneNodeForEachCell) {
+  Chains chains;
+  constexpr int n = 7;
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) chains.push_back({{{1.0 * i, 1.0 * j}}});
+  const auto diagram = diagram_of(chains);
+  EXPECT_EQ(fault_of(diagram), "");
+  std::size_t centers = 0;
+  for (int i = 0; i + 1 < n; ++i)
+    for (int j = 0; j + 1 < n; ++j)
+      centers += count_nodes(diagram, {i + 0.5, j + 0.5}, std::sqrt(0.5));
+  EXPECT_EQ(centers, static_cast<std::size_t>((n - 1) * (n - 1)));
+  for (const Node& node : diagram.nodes)
+    EXPECT_TRUE(node.kind != NodeKind::leaf) << node.disk.center.x;
+}
+
+TEST(Soup, WhatIsThereTwiceIsThereOnce) {
+  SoupReport report;
+  const Soup soup = soup_of({{{{0, 0}, {1, 0}}},
+                             {{{1, 0}, {0, 0}}},
+                             {{{0, 0}}},
+                             {{{3, 3}}},
+                             {{{3, 3}}},
+                             {{{0, 0}, {1, 0}}}},
+                            {}, &report);
+  EXPECT_EQ(soup.points.size(), 3u);
+  EXPECT_EQ(soup.edges.size(), 1u);
+  EXPECT_EQ(soup.lone_points.size(), 1u);
+  EXPECT_EQ(report.repeated_edges, 2u);
+  EXPECT_EQ(report.repeated_points, 2u);
+}
+
+TEST(Soup, EndsMayTouchEdges) {
+  SoupReport report;
+  const Soup soup = soup_of({{{{0, 0}, {4, 0}}}, {{{2, 0}, {2, 3}}}, {{{1, 0}}}}, {}, &report);
+  EXPECT_EQ(soup.edges.size(), 4u);
+  EXPECT_EQ(report.split_edges, 2u);
+  EXPECT_TRUE(soup.lone_points.empty());
+  EXPECT_EQ(fault_of(diagram_of({{{{0, 0}, {4, 0}}}, {{{2, 0}, {2, 3}}}, {{{1, 0}}}})), "");
+}
+
+TEST(Soup, FacesAreNested) {
+  const Chain outer{{{0, 0}, {9, 0}, {9, 9}, {0, 9}}, {}, true};
+  const Chain inner{{{3, 3}, {6, 3}, {6, 6}, {3, 6}}, {}, true};
+  const Soup soup = soup_of({outer, inner, {{{4, 4}}}, {{{1, 1}}}, {{{20, 20}}}});
+  EXPECT_EQ(soup.face_count, 3u);
+  std::vector<std::uint32_t> faces;
+  for (const LonePoint& lone : soup.lone_points) faces.push_back(lone.face);
+  std::sort(faces.begin(), faces.end());
+  EXPECT_EQ(faces, (std::vector<std::uint32_t>{0, 1, 2}));
+  EXPECT_EQ(fault_of(diagram_of({outer, inner, {{{4, 4}}}, {{{1, 1}}}, {{{20, 20}}}})), "");
+}
+
+TEST(Soup, CrossingsAreRefusedWithTheirPlaceOrNoded) {
+  const Chains chains{{{{0, 0}, {2, 2}}}, {{{5, 5}}}, {{{0, 2}, {2, 0}}}};
+  const auto refused = build_soup(chains);
+  ASSERT_FALSE(refused.ok());
+  EXPECT_EQ(refused.error().code, ErrorCode::crossing);
+  EXPECT_EQ(refused.error().place.ring, 0u);
+  ASSERT_TRUE(refused.error().place.point.has_value());
+  EXPECT_EQ(*refused.error().place.point, (Vec2{1, 1}));
+  EXPECT_NE(refused.error().text.find("chain 2"), std::string::npos) << refused.error().text;
+  SoupReport report;
+  const Soup soup = soup_of(chains, {.node_crossings = true}, &report);
+  EXPECT_EQ(soup.edges.size(), 4u);
+  EXPECT_EQ(report.crossings, 1u);
+}
+
+TEST(Soup, ErrorsAreTyped) {
+  const auto code = [](const Chains& chains) {
+    const auto soup = build_soup(chains);
+    return soup ? ErrorCode::internal : soup.error().code;
+  };
+  EXPECT_EQ(code({}), ErrorCode::empty);
+  EXPECT_EQ(code({{{{std::nan(""), 0}}}}), ErrorCode::not_finite);
+  EXPECT_EQ(code({{{{0, 0}, {2, 0}}}, {{{1, 0}, {3, 0}}}}), ErrorCode::overlap);
+  const Soup soup = soup_of({{{{0, 0}}}, {{{1, 1}}}});
+  const auto cut = voronoi_diagram(soup, {}, Box{{0, 0}, {2, 2}});
+  ASSERT_FALSE(cut.ok());
+  EXPECT_EQ(cut.error().code, ErrorCode::invalid_option);
+  EXPECT_FALSE(voronoi_diagram(soup, {.margin = -1}).ok());
+  EXPECT_FALSE(voronoi_diagram(Soup{}).ok());
+}
+
+TEST(Soup, NearestSiteIsTheOneByDistance) {
+  const auto diagram = diagram_of(
+      {{{{0, 2}}}, {{{-3, 0}, {3, 0}}}, {{{1, 3}, {2, 3}}, {0.7}}, {{{-2, -2}, {-1, -3}}}},
+      whole_frame);
+  const SiteLocator locator(diagram.sites);
+  Random random(7);
+  for (int i = 0; i < 2000; ++i) {
+    const Vec2 p{20 * uniform(random) - 10, 20 * uniform(random) - 10};
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const Site& site : diagram.sites) nearest = std::min(nearest, distance_to(site, p));
+    const NearestSite found = locator.nearest(p);
+    ASSERT_NE(found.site, no_site);
+    EXPECT_NEAR(found.distance, nearest, 1e-14 * (1 + nearest));
+    EXPECT_NEAR(distance_to(diagram.sites[found.site], p), nearest, 1e-13 * (1 + nearest));
+  }
+  const NearestSite end = locator.nearest({3, 0});
+  ASSERT_NE(end.site, no_site);
+  EXPECT_EQ(diagram.sites[end.site].kind, SiteKind::vertex) << "of a tie, the point";
+  EXPECT_EQ(SiteLocator({}).nearest({0, 0}).site, no_site);
+}
+
+/// A random soup without crossings: what would cross is left out.
+Chains random_soup(std::uint64_t seed) {
+  Random random(seed);
+  const auto u = [&] { return uniform(random); };
+  const bool integer = seed % 4 == 1, arcs = seed % 4 >= 2, points_only = seed % 16 == 0;
+  const auto place = [&] {
+    const Vec2 p{u(), u()};
+    return integer ? Vec2{std::floor(12 * p.x), std::floor(12 * p.y)} : p;
+  };
+  Chains chains;
+  const int count = 1 + static_cast<int>(25 * u());
+  for (int i = 0; i < count; ++i) {
+    Chain chain;
+    chain.points.push_back(place());
+    const int more = points_only ? 0 : static_cast<int>(4 * u());
+    for (int k = 0; k < std::min(more, 2); ++k) {
+      const Vec2 last = chain.points.back(), next = place();
+      chain.points.push_back(integer ? next : last + 0.4 * (next - last));
+    }
+    if (arcs)
+      for (std::size_t k = 0; k < chain.points.size(); ++k)
+        chain.bulges.push_back(u() < 0.5 ? 0 : 2 * u() - 1);
+    chain.closed = more == 3 && u() < 0.5;
+    chains.push_back(chain);
+    if (!build_soup(chains)) chains.pop_back();
+  }
+  if (chains.empty()) chains.push_back({{place()}});
+  return chains;
+}
+
+class RandomSoups : public testing::TestWithParam<std::uint64_t> {};
+
+TEST_P(RandomSoups, HaveRightDiagrams) {
+  const char* text = std::getenv("MEDIAL_PROPERTY_COUNT");
+  const std::uint64_t count =
+      text != nullptr && *text != 0 ? std::strtoull(text, nullptr, 10) / 10 : 1600;
+  int failed = 0;
+  for (std::uint64_t seed = GetParam(); seed < count && failed < 3; seed += 4) {
+    const auto soup = build_soup(random_soup(seed));
+    ASSERT_TRUE(soup.ok());
+    const auto diagram = voronoi_diagram(*soup, {.threads = 1});
+    const std::string fault = diagram ? fault_of(*diagram) : to_string(diagram.error());
+    if (fault.empty()) continue;
+    ++failed;
+    ADD_FAILURE() << "random_soup(" << seed << "): " << fault;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Random, RandomSoups, testing::Range<std::uint64_t>(0, 4));
+
+TEST(Soup, ThreadsChangeNothing) {
+  const auto soup = build_soup(random_soup(3));
+  ASSERT_TRUE(soup.ok());
+  const auto one = voronoi_diagram(*soup, {.threads = 1});
+  const auto two = voronoi_diagram(*soup, {.threads = 2});
+  ASSERT_TRUE(one.ok() && two.ok());
+  ASSERT_EQ(one->nodes.size(), two->nodes.size());
+  for (std::size_t i = 0; i < one->nodes.size(); ++i) {
+    EXPECT_EQ(one->nodes[i].disk.center, two->nodes[i].disk.center);
+    EXPECT_EQ(one->nodes[i].disk.radius, two->nodes[i].disk.radius);
+  }
+}
+
+}  // namespace
+}  // namespace medial::test
