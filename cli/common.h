@@ -44,6 +44,7 @@ Verb make_field_verb(CLI::App& program);
 Verb make_compare_verb(CLI::App& program);
 Verb make_voronoi_verb(CLI::App& program);
 Verb make_offset_verb(CLI::App& program);
+Verb make_carve_verb(CLI::App& program);
 
 /// Where shapes come from.
 struct InputSwitches {

@@ -70,6 +70,7 @@ int run(int argc, char** argv, bool json) {
       make_offset_verb(program),      //
       make_centreline_verb(program),  //
       make_measure_verb(program),     //
+      make_carve_verb(program),       //
   };
   for (const Verb& verb : verbs) verb.app->group("Verbs");
 

@@ -1308,5 +1308,64 @@ class Offset(CommandLine):
         self.assertNotEqual(self.run_medial("offset", "l.wkt", "--distance", "1").returncode, 0)
 
 
+class Carve(CommandLine):
+    SQUARE = "POLYGON ((0 0, 10 0, 10 8, 0 8, 0 0))"
+
+    def moves(self, name):
+        """The places of the tool after each line of G-code, with the kind of move."""
+        at = {"X": 0.0, "Y": 0.0, "Z": 0.0}
+        out = []
+        for line in self.read(name).decode().splitlines():
+            words = {word[0]: float(word[1:]) for word in line.split() if not line.startswith("(")}
+            if words.get("G") not in (0, 1, 2, 3):
+                continue
+            before = dict(at)
+            at.update({axis: words[axis] for axis in "XYZ" if axis in words})
+            out.append((int(words["G"]), before, dict(at), words))
+        return out
+
+    def test_gcode_cuts_nothing_outside(self):
+        self.write("s.wkt", self.SQUARE)
+        self.succeed("carve", "s.wkt", "--angle", "60", "--tool", "5", "--tip", "0.5", "-o", "s.nc")
+        slope, tip = math.tan(math.pi / 6), 0.25
+        moves = self.moves("s.nc")
+        self.assertGreater(len(moves), 20)
+        for kind, before, after, _ in moves:
+            if kind == 0:  # fast moves are above the surface at both ends, or straight up
+                self.assertGreater(after["Z"], 0)
+                continue
+            room = min(after["X"], 10 - after["X"], after["Y"], 8 - after["Y"])
+            self.assertLessEqual(tip - after["Z"] * slope, room + 1e-5)
+        self.assertAlmostEqual(min(after["Z"] for _, _, after, _ in moves), -2.25 / slope, 5)
+        self.assertAlmostEqual(moves[-1][2]["Z"], 5)
+
+    def test_arcs_have_one_radius(self):
+        self.write("c.wkt", "CURVEPOLYGON (CIRCULARSTRING (-9 0, 9 0, -9 0))")
+        self.succeed("carve", "c.wkt", "--angle", "0", "--tool", "2", "--depth", "1", "-o", "c.gcode")
+        arcs = [move for move in self.moves("c.gcode") if move[0] in (2, 3)]
+        self.assertGreater(len(arcs), 8)
+        for _, before, after, words in arcs:
+            x, y = before["X"] + words["I"], before["Y"] + words["J"]
+            self.assertAlmostEqual(math.hypot(before["X"] - x, before["Y"] - y),
+                                   math.hypot(after["X"] - x, after["Y"] - y), 5)
+
+    def test_every_format(self):
+        self.write("s.wkt", self.SQUARE)
+        for name in ("c.nc", "c.ngc", "c.gcode", "c.csv", "c.dxf", "c.svg", "c.pdf", "c.png", "c.ps"):
+            self.succeed("carve", "s.wkt", "--angle", "90", "--depth", "2", "-o", name)
+            self.assertGreater(len(self.read(name)), 200)
+        self.assertTrue(self.read("c.csv").startswith(b"path,kind,x,y,z\n"))
+        told = json.loads(self.succeed("carve", "s.wkt", "--angle", "90", "--json").stdout)
+        self.assertAlmostEqual(told["deepest"], 4)
+
+    def test_what_cannot_be_done_is_refused(self):
+        self.write("s.wkt", self.SQUARE)
+        self.refuse("invalid_option", "carve", "s.wkt")
+        self.refuse("invalid_option", "carve", "s.wkt", "--angle", "0")
+        self.refuse("invalid_option", "carve", "s.wkt", "--angle", "175")
+        self.refuse("invalid_option", "carve", "s.wkt", "--angle", "90", "--tool", "1", "--tip", "2")
+        self.refuse("unsupported", "carve", "s.wkt", "--angle", "90", "-o", "c.stl")
+
+
 if __name__ == "__main__":
     unittest.main(verbosity=2)

@@ -58,15 +58,15 @@ void Canvas::edge_to(Vec2 from, Vec2 to, double bulge) {
   }
 }
 
-void Canvas::trace(const Ring& ring) {
+void Canvas::trace(const Ring& ring, bool closed) {
   const std::size_t count = ring.points.size();
   if (count == 0) return;
   const Vec2 start = place(ring.points[0]);
   cairo_move_to(context_, start.x, start.y);
-  for (std::size_t i = 0; i < count; ++i)
+  for (std::size_t i = 0; i + (closed ? 0 : 1) < count; ++i)
     edge_to(ring.points[i], ring.points[i + 1 == count ? 0 : i + 1],
             ring.bulges.empty() ? 0 : ring.bulges[i]);
-  cairo_close_path(context_);
+  if (closed) cairo_close_path(context_);
 }
 
 void Canvas::trace(const Shape& shape) {
@@ -92,6 +92,23 @@ void Canvas::circle(Vec2 center, double radius) {
   const Vec2 c = place(center);
   cairo_new_sub_path(context_);
   cairo_arc(context_, c.x, c.y, radius * scale_, 0, 2 * std::numbers::pi);
+}
+
+void Canvas::tapered(Vec2 a, double radius_a, Vec2 b, double radius_b) {
+  const double way = distance(a, b);
+  if (way <= std::abs(radius_a - radius_b)) {
+    circle(radius_a > radius_b ? a : b, std::max(radius_a, radius_b));
+    return;
+  }
+  // Both tangents touch at this angle from the way back.
+  const Vec2 from = place(a), to = place(b);
+  const double along = std::atan2(to.y - from.y, to.x - from.x);
+  const double aside = std::acos((radius_a - radius_b) / way);
+  cairo_new_sub_path(context_);
+  cairo_arc(context_, from.x, from.y, radius_a * scale_, along + aside,
+            along - aside + 2 * std::numbers::pi);
+  cairo_arc(context_, to.x, to.y, radius_b * scale_, along - aside, along + aside);
+  cairo_close_path(context_);
 }
 
 void Canvas::fill_even_odd() {

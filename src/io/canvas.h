@@ -35,11 +35,13 @@ class Canvas {
   double scale() const { return scale_; }
   void width_in_units(double units) { cairo_set_line_width(context_, units * scale_); }
 
-  /// Adds a closed ring to the path, or an open polyline.
-  void trace(const Ring& ring);
+  /// Adds a ring to the path, without its last edge if it is open; or a polyline.
+  void trace(const Ring& ring, bool closed = true);
   void trace(const Shape& shape);
   void trace(std::span<const Vec2> line);
   void circle(Vec2 center, double radius);
+  /// Adds the convex hull of two disks.
+  void tapered(Vec2 a, double radius_a, Vec2 b, double radius_b);
   void fill() { cairo_fill(context_); }
   void fill_even_odd();
   void stroke() { cairo_stroke(context_); }

@@ -91,10 +91,11 @@ void DxfDrawing::begin_entity(const std::string& layer, const char* name, const 
 }
 
 void DxfDrawing::polyline(const std::string& layer, const std::vector<Vec2>& points,
-                          const std::vector<double>& bulges, bool closed) {
+                          const std::vector<double>& bulges, bool closed, double elevation) {
   begin_entity(layer, "LWPOLYLINE", "AcDbPolyline");
   groups_.dxfInt(90, static_cast<int>(points.size()));
   groups_.dxfInt(70, closed ? 1 : 0);
+  if (elevation != 0) groups_.dxfReal(38, elevation);
   for (std::size_t i = 0; i < points.size(); ++i) {
     groups_.dxfReal(10, points[i].x);
     groups_.dxfReal(20, points[i].y);

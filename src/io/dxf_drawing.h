@@ -39,7 +39,7 @@ class DxfDrawing {
   void begin_entity(const std::string& layer, const char* name, const char* subclass);
   /// An LWPOLYLINE; `bulges` of the edges after each point, empty: all straight.
   void polyline(const std::string& layer, const std::vector<Vec2>& points,
-                const std::vector<double>& bulges, bool closed);
+                const std::vector<double>& bulges, bool closed, double elevation = 0);
   /// Errors: internal (a number is not finite).
   Status finish();
 

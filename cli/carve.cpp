@@ -1,0 +1,183 @@
+// medial carve: tool paths of a V-shaped tool along the medial axis.
+
+#include "medial/carve.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
+
+#include "cli/common.h"
+#include "cli/pipeline.h"
+#include "cli/terminal.h"
+#include "medial/io/carve.h"
+
+namespace medial::cli {
+namespace {
+
+struct CarveSwitches {
+  InputSwitches input;
+  CommonSwitches common;
+  std::string output;
+  std::string format;
+  io::WriteOptions write;
+  io::MachineOptions machine;
+  CarveOptions carve;
+};
+
+Status tell(const io::CarveFile& file, const CarveSwitches& switches, double seconds) {
+  std::uint64_t paths = 0, moves = 0;
+  double cut = 0, travel = 0, unordered = 0, deepest = 0;
+  for (const io::CarveItem& item : file.items) {
+    const Carving& c = item.carving;
+    paths += c.paths.size();
+    for (const ToolPath& path : c.paths) moves += path.points.size() - 1;
+    cut += c.cut_length;
+    travel += c.travel_length;
+    unordered += c.travel_unordered;
+    deepest = std::max(deepest, c.deepest);
+  }
+  if (switches.common.json) {
+    Json object{{"input", switches.input.path},
+                {"features", file.items.size()},
+                {"paths", paths},
+                {"moves", moves},
+                {"deepest", deepest},
+                {"cut_length", cut},
+                {"travel_length", travel},
+                {"travel_unordered", unordered}};
+    if (switches.common.stats)
+      object.update(Json{{"seconds", seconds}, {"peak_bytes", peak_bytes()}});
+    return print(object);
+  }
+  const std::string line = fmt::format(
+      "{}: {}, {} of {}, deepest {:.6g}; cut {:.6g}, travel {:.6g} (unordered {:.6g}); {:.3g} s\n",
+      switches.input.path, counted(file.items.size(), "feature"), counted(paths, "path"),
+      counted(moves, "move"), deepest, cut, travel, unordered, seconds);
+  if (switches.common.stats)
+    fmt::print(stderr, "{}", table(Json{{"seconds", seconds}, {"peak_bytes", peak_bytes()}}));
+  if (switches.output.empty()) return print(line);
+  if (error_is_terminal() && !switches.common.quiet) fmt::print(stderr, "{}", line);
+  return success();
+}
+
+Result<int> run_carve(const CarveSwitches& switches) {
+  const auto& input = switches.input;
+  const auto& common = switches.common;
+  Status writable = check_output(switches.output, switches.format, io::known_carve_formats(),
+                                 input.path, common.json);
+  if (!writable) return std::move(writable).error();
+  auto shapes = load_shapes(input, common.threads);
+  if (!shapes) return std::move(shapes).error();
+  print_notes(*shapes, input, common);
+  const Stopwatch watch;
+  io::CarveFile file;
+  file.y_down = shapes->y_down;
+  file.items.resize(shapes->shapes.size());
+  Status computed = for_each_feature(
+      weights_of(shapes->shapes), common.threads, [&](std::size_t i, int threads) -> Status {
+        Options options;
+        options.tolerance = common.tolerance;
+        options.corner_angle = common.corner_angle;
+        options.threads = threads;
+        const auto one = [&]() -> Result<Carving> {
+          auto axis = compute(shapes->shapes[i], options);
+          if (!axis) return std::move(axis).error();
+          return carve(*axis, switches.carve);
+        };
+        auto carving = one();
+        if (!carving) {
+          Error error = std::move(carving).error();
+          if (error.place.file.empty()) error.place.file = input.path;
+          error.place.feature = i;
+          return error;
+        }
+        file.items[i] = {std::move(shapes->shapes[i]), std::move(carving).value()};
+        return success();
+      });
+  if (!computed) return std::move(computed).error();
+  const double seconds = watch.seconds();
+  if (!switches.output.empty()) {
+    Status written =
+        io::write_carving(switches.output, switches.format, file, switches.machine, switches.write);
+    if (!written) return std::move(written).error();
+  }
+  Status told = tell(file, switches, seconds);
+  if (!told) return std::move(told).error();
+  return exit_success;
+}
+
+}  // namespace
+
+Verb make_carve_verb(CLI::App& program) {
+  auto switches = std::make_shared<CarveSwitches>();
+  CLI::App* verb = program.add_subcommand(
+      "carve", "Plan tool paths: V-carving along the axis, pockets along offsets.");
+  add_input_switches(*verb, switches->input);
+  const auto length = [&](const char* name, double& value, const char* help, const char* text) {
+    return verb->add_option(name, value, help)
+        ->check(CLI::PositiveNumber.description(""))
+        ->option_text(text);
+  };
+  verb->add_option("--angle", switches->carve.angle,
+                   "Between the sides of the V-shaped tool, in degrees, in [1, 170]; or 0 for an\n"
+                   "end mill, which clears pockets.")
+      ->required()
+      ->check(in_range(0, 170))
+      ->option_text("A REQUIRED");
+  length("--depth", switches->carve.depth,
+         "How deep at most: what is wider gets a flat bottom (default: as deep as the\n"
+         "tool reaches).",
+         "Z");
+  length("--tool", switches->carve.tool,
+         "The tool's diameter; of a V its largest, which limits the depth.", "D");
+  length("--tip", switches->carve.tip, "The diameter of a V's flat tip (default: a point).", "D");
+  length("--step", switches->carve.step,
+         "Between the passes that clear a flat bottom (default: half of the tip's\n"
+         "diameter, which leaves nothing; of a pointed tool a 20th of its radius at the\n"
+         "bottom, which leaves ridges).",
+         "S");
+  length("--path-tolerance", switches->carve.chord,
+         "How far straight moves may be off the axis's curves, always upwards (default:\n"
+         "1e-5 of the diagonal).",
+         "T");
+  constexpr char group[] = "G-code";
+  length("--feed", switches->machine.feed, "Of cutting moves, mm/min (default: 1000).", "F")
+      ->group(group);
+  length("--plunge", switches->machine.plunge, "Downwards, mm/min (default: 300).", "F")
+      ->group(group);
+  length("--safe", switches->machine.safe, "The height of other moves, mm (default: 5).", "Z")
+      ->group(group);
+  length("--spindle", switches->machine.spindle, "Turns a minute (default: not told).", "S")
+      ->group(group);
+  verb->add_option("-o,--output", switches->output,
+                   fmt::format("Where to write; the extension tells the format:\n{}\n"
+                               "- is standard output, see --format. Without -o, only a summary is\n"
+                               "printed.",
+                               io::known_carve_formats()))
+      ->check(a_name())
+      ->option_text("OUTPUT");
+  verb->add_option("--format", switches->format, "The format of -o -, for example nc.")
+      ->option_text("NAME");
+  verb->add_option("--width", switches->write.width,
+                   "Width of a picture, in pixels or points (default: 1024).")
+      ->check(in_range(16, 8000))
+      ->option_text("W")
+      ->group("Pictures");
+  add_common_switches(*verb, switches->common);
+  verb->footer(
+      "The tool's point follows the axis at the depth where the tool is as wide as the\n"
+      "disk: walls begin at the boundary, corners come out sharp. Nothing outside is\n"
+      "touched. Flat bottoms are cleared from the inside out without lifting where that is\n"
+      "safe. Units are millimetres to the machine; z is 0 on the surface. One pass at full\n"
+      "depth: for hard material run several programs, --depth by --depth.\n"
+      "\n"
+      "Examples:\n"
+      "  medial carve spanner.svg --angle 60 -o spanner.nc\n"
+      "  medial carve plate.dxf --angle 90 --depth 3 -o plate.svg\n"
+      "  medial carve plate.dxf --angle 0 --tool 4 --depth 2 --feed 800 -o pocket.gcode\n"
+      "  medial carve --text Axis --font serif.ttf --angle 60 --tool 20 -o - --format csv");
+  return {verb, [switches] { return run_carve(*switches); }};
+}
+
+}  // namespace medial::cli

@@ -1,0 +1,292 @@
+#include "medial/carve.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <new>
+#include <numbers>
+
+#include "base/arc.h"
+#include "medial/offset.h"
+#include "ops/groove.h"
+
+namespace medial {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+Error invalid(const char* text) { return {ErrorCode::invalid_option, text, {}}; }
+
+/// The nearest point of an edge to p, as a share of the way (of the angle, of an arc).
+double nearest_share(const BulgeArc& edge, Vec2 p) {
+  if (edge.bulge == 0) {
+    const double along = dot(p - edge.start, edge.chord()) / squared_norm(edge.chord());
+    return std::clamp(along, 0.0, 1.0);
+  }
+  const double round = curvature(edge);
+  const Vec2 center = edge.start + (1 / round) * left_of(start_tangent(edge));
+  const Vec2 u = edge.start - center, v = p - center;
+  const double whole = 4 * std::atan(edge.bulge), sign = edge.bulge > 0 ? 1 : -1;
+  double angle = sign * std::atan2(cross(u, v), dot(u, v));
+  if (angle < 0) angle += 2 * std::numbers::pi;
+  if (angle <= std::abs(whole)) return angle / std::abs(whole);
+  return squared_norm(p - edge.start) <= squared_norm(p - edge.end) ? 0 : 1;
+}
+Vec2 point_at(const BulgeArc& edge, double share) {
+  if (share <= 0) return edge.start;
+  if (share >= 1) return edge.end;
+  if (edge.bulge == 0) return edge.start + share * edge.chord();
+  const double half = 2 * share * std::atan(edge.bulge);
+  return edge.start + (2 * std::sin(half) / curvature(edge)) *
+                          turned(start_tangent(edge), std::cos(half), std::sin(half));
+}
+
+/// A ring as a closed path that starts at its point nearest to p.
+std::vector<ToolPoint> path_from(const Ring& ring, Vec2 p, double z) {
+  const std::size_t count = ring.points.size();
+  const auto edge_at = [&](std::size_t i) {
+    return BulgeArc{ring.points[i], ring.points[i + 1 == count ? 0 : i + 1],
+                    ring.bulges.empty() ? 0 : ring.bulges[i]};
+  };
+  std::size_t best = 0;
+  double share = 0, least = infinity;
+  for (std::size_t i = 0; i < count; ++i) {
+    const BulgeArc edge = edge_at(i);
+    const double s = nearest_share(edge, p);
+    const double d = squared_norm(point_at(edge, s) - p);
+    if (d < least) least = d, best = i, share = s;
+  }
+  const BulgeArc first = edge_at(best);
+  const auto bulge_of_share = [&](double part) { return std::tan(part * std::atan(first.bulge)); };
+  std::vector<ToolPoint> path;
+  path.reserve(count + 2);
+  const Vec2 start = point_at(first, share);
+  if (share < 1) path.push_back({start, z, bulge_of_share(1 - share)});
+  for (std::size_t k = 1; k < count + (share < 1 ? 0 : 1); ++k) {
+    const std::size_t i = (best + k) % count;
+    path.push_back({ring.points[i], z, edge_at(i).bulge});
+  }
+  if (share > 0 && share < 1) path.push_back({first.start, z, bulge_of_share(share)});
+  path.push_back({start, z, 0});
+  return path;
+}
+
+/// Puts paths one after the other, and joins those that are safely near.
+class Planner {
+ public:
+  explicit Planner(Carving& carving) : carving_(carving) {}
+
+  Vec2 at() const {
+    return carving_.paths.empty() ? Vec2{} : carving_.paths.back().points.back().point;
+  }
+  bool started() const { return !carving_.paths.empty(); }
+
+  /// `reach`: up to what length the straight way to the path is inside of what is or may be cut at
+  /// its depth; below 0: the tool is lifted.
+  void add(ToolPathKind kind, std::vector<ToolPoint> points, double reach) {
+    if (points.size() < 2) return;
+    for (std::size_t i = 0; i + 1 < points.size(); ++i)
+      carving_.cut_length += length(points[i], points[i + 1]);
+    if (started()) {
+      const double way = distance(at(), points.front().point);
+      if (way <= reach) {
+        auto& last = carving_.paths.back();
+        carving_.cut_length += way;
+        if (kind == last.kind) {
+          last.points.insert(last.points.end(), points.begin(), points.end());
+        } else {
+          points.insert(points.begin(), last.points.back());
+          points.front().bulge = 0;
+          carving_.paths.push_back({kind, std::move(points)});
+        }
+        return;
+      }
+      carving_.travel_length += way;
+    }
+    carving_.paths.push_back({kind, std::move(points)});
+  }
+
+ private:
+  static double length(const ToolPoint& a, const ToolPoint& b) {
+    const double chord = distance(a.point, b.point), bulge = std::abs(a.bulge);
+    return bulge > 0 ? chord * (1 + bulge * bulge) * std::atan(bulge) / bulge : chord;
+  }
+  Carving& carving_;
+};
+
+/// Flat bottoms: the rings of the offsets from `flat_from` on, inner ones first, the wall last.
+class Floors {
+ public:
+  Floors(const Offsets& offsets, double flat_from, double z, Planner& planner)
+      : offsets_(offsets),
+        flat_from_(flat_from),
+        z_(z),
+        planner_(planner),
+        children_(offsets.regions.size()) {
+    for (std::uint32_t i = 0; i < offsets.regions.size(); ++i)
+      if (offsets.regions[i].parent != no_region) children_[offsets.regions[i].parent].push_back(i);
+  }
+  void cut_all() {
+    std::vector<std::uint32_t> roots;
+    for (std::uint32_t i = 0; i < offsets_.regions.size(); ++i)
+      if (offsets_.regions[i].parent == no_region) roots.push_back(i);
+    cut_nearest(roots);
+  }
+
+ private:
+  /// Cuts trees of regions, always the one whose first ring is nearest.
+  void cut_nearest(std::vector<std::uint32_t> roots) {
+    while (!roots.empty()) {
+      auto next = roots.begin();
+      constexpr std::size_t most = 4096;  // this takes the square of it
+      if (planner_.started() && roots.size() > 1 && roots.size() <= most) {
+        next = std::min_element(roots.begin(), roots.end(), [&](std::uint32_t a, std::uint32_t b) {
+          return squared_norm(place(a) - planner_.at()) < squared_norm(place(b) - planner_.at());
+        });
+      }
+      const std::uint32_t root = *next;
+      roots.erase(next);
+      cut_tree(root);
+    }
+  }
+  Vec2 place(std::uint32_t region) const { return offsets_.regions[region].rings[0].points[0]; }
+
+  /// After its children. A chain of single children may be long: no recursion along it.
+  void cut_tree(std::uint32_t root) {
+    std::vector<std::uint32_t> chain{root};
+    while (children_[chain.back()].size() == 1) chain.push_back(children_[chain.back()][0]);
+    cut_nearest(children_[chain.back()]);
+    for (std::size_t k = chain.size(); k-- > 0;) cut_rings(chain[k]);
+  }
+  void cut_rings(std::uint32_t index) {
+    const OffsetRegion& region = offsets_.regions[index];
+    const bool wall = region.parent == no_region;
+    for (std::size_t k = 0; k < region.rings.size(); ++k) {
+      const Vec2 from = planner_.started() ? planner_.at() : region.rings[k].points[0];
+      // The tool may be where the clearance is at least flat_from: around a place of clearance c
+      // within c - flat_from.
+      const double reach = last_clearance_ < 0
+                               ? -1
+                               : (last_clearance_ - flat_from_) + (region.clearance - flat_from_);
+      constexpr double rounding = 1 + 1e-9;
+      planner_.add(wall ? ToolPathKind::wall : ToolPathKind::clearing,
+                   path_from(region.rings[k], from, z_), rounding * reach);
+      last_clearance_ = region.clearance;
+    }
+  }
+
+  const Offsets& offsets_;
+  double flat_from_, z_;
+  Planner& planner_;
+  std::vector<std::vector<std::uint32_t>> children_;
+  double last_clearance_ = -1;  ///< of the last ring
+};
+
+/// Travel where rings and branches are cut as they come.
+double unordered_travel(const Offsets& offsets, const ops::Grooves& grooves) {
+  double sum = 0;
+  bool started = false;
+  Vec2 at;
+  const auto visit = [&](Vec2 from, Vec2 to) {
+    if (started) sum += distance(at, from);
+    started = true;
+    at = to;
+  };
+  for (const OffsetRegion& region : offsets.regions)
+    for (const Ring& ring : region.rings) visit(ring.points[0], ring.points[0]);
+  for (const ops::Groove& part : grooves.parts)
+    visit(part.disks.front().center, part.disks.back().center);
+  return sum;
+}
+
+Result<Carving> plan(const MedialAxis& axis, const CarveOptions& options) {
+  const double radius = options.tool > 0 ? options.tool / 2 : infinity;
+  const bool mill = options.angle == 0;
+  Carving carving;
+  carving.slope = mill ? 0 : std::tan(options.angle * std::numbers::pi / 360);
+  carving.tip_radius = mill ? radius : options.tip / 2;
+  const double tip = carving.tip_radius, slope = carving.slope;
+  double depth = options.depth > 0 ? options.depth : infinity;
+  if (!mill) depth = std::min(depth, (radius - tip) / slope);
+  carving.flat_from = mill ? tip : tip + depth * slope;  // infinite where nothing limits the depth
+  const auto deepest_at = [&](double clearance) {
+    return mill ? depth : std::min((clearance - tip) / slope, depth);
+  };
+
+  Box box{axis.nodes[0].disk.center, axis.nodes[0].disk.center};
+  for (const Site& site : axis.sites) {
+    for (const Vec2 p : {site.start, site.end}) {
+      box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y)};
+      box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y)};
+    }
+  }
+  const double chord = options.chord > 0 ? options.chord : 1e-5 * diagonal(box);
+  if (std::isfinite(carving.flat_from))
+    carving.step = options.step > 0 ? options.step : tip > 0 ? tip : carving.flat_from / 20;
+
+  Offsets offsets;
+  if (std::isfinite(carving.flat_from)) {
+    auto passes = offset_passes(axis, carving.flat_from, carving.step);
+    if (!passes) return std::move(passes).error();
+    if (!passes->empty()) {
+      auto found = inward_offsets(axis, *passes);
+      if (!found) return std::move(found).error();
+      offsets = std::move(found).value();
+    }
+  }
+  Planner planner(carving);
+  if (!offsets.regions.empty()) {
+    carving.deepest = depth;
+    Floors(offsets, carving.flat_from, -depth, planner).cut_all();
+  }
+  // An end mill needs the axis only where it is just as wide.
+  const ops::Grooves grooves = ops::grooves_of(axis, tip, carving.flat_from, chord);
+  const Vec2 start =
+      planner.started() || grooves.parts.empty() ? planner.at() : grooves.parts[0].disks[0].center;
+  for (const auto& trail : ops::trails_of(grooves, start)) {
+    std::vector<ToolPoint> points;
+    for (const ops::GrooveStep& step : trail) {
+      const auto& disks = grooves.parts[step.part].disks;
+      for (std::size_t k = 0; k < disks.size(); ++k) {
+        const Disk& disk = disks[step.forward ? k : disks.size() - 1 - k];
+        const double deep = std::max(deepest_at(std::max(disk.radius, tip)), 0.0);
+        carving.deepest = std::max(carving.deepest, deep);
+        const ToolPoint point{disk.center, -deep, 0};
+        if (points.empty() || !(points.back().point == point.point) || points.back().z != point.z)
+          points.push_back(point);
+      }
+    }
+    planner.add(ToolPathKind::groove, std::move(points), -1);
+  }
+  carving.travel_unordered = unordered_travel(offsets, grooves);
+  return carving;
+}
+
+}  // namespace
+
+Result<Carving> carve(const MedialAxis& axis, const CarveOptions& options) {
+  if (axis.resolution > 0)
+    return Error{ErrorCode::unsupported, "carving follows exact axes only", {}};
+  if (axis.exterior > 0)
+    return Error{ErrorCode::unsupported, "the axis is one of the exterior", {}};
+  if (axis.nodes.empty()) return Error{ErrorCode::empty, "the axis is empty", {}};
+  if (!(options.angle >= 0 && options.angle <= 170))
+    return invalid("the angle must be in [0, 170]");
+  for (const double value : {options.depth, options.tool, options.tip, options.step, options.chord})
+    if (!(value >= 0) || !std::isfinite(value))
+      return invalid("depth, diameters, step and chord must be finite and not negative");
+  if (options.angle == 0 && !(options.depth > 0 && options.tool > 0))
+    return invalid("an end mill (angle 0) needs a depth and a diameter");
+  if (options.angle > 0 && options.angle < 1) return invalid("the angle must be 0 or in [1, 170]");
+  if (options.angle > 0 && options.tool > 0 && !(options.tip < options.tool))
+    return invalid("the tip must be smaller than the tool");
+  try {
+    return plan(axis, options);
+  } catch (const std::bad_alloc&) {
+    return Error{ErrorCode::out_of_memory, "memory ran out", {}};
+  } catch (const std::exception& exception) {
+    return Error{ErrorCode::internal, exception.what(), {}};
+  }
+}
+
+}  // namespace medial
