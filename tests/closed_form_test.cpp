@@ -304,10 +304,11 @@ TEST(ClosedForm, SquareWithASmallTriangularHole) {
   add_mirrored(expected.nodes, {{1 + q, q}, 3 - q, 2}, 0);
   add_mirrored(expected.nodes, {{4 - high, 4 - high}, high, 3}, 0);
   add_mirrored(expected.nodes, {{q, 1 + q}, 3 - q, 2}, 0);
-  expected.length = 2 + 2 * (parabola_length(4, 3 - low) + parabola_length(3, 4 - low) +
-                             parabola_length(3, q) + distance({1 + q, q}, {4 - high, 4 - high}) +
-                             distance({q, 1 + q}, {4 - high, 4 - high}) + (low + high) * root2 +
-                             parabola_length(3, q));
+  expected.length =
+      2 + 2 * (parabola_length(4, 3 - low) + parabola_length(3, 4 - low) + parabola_length(3, q) +
+               distance(Vec2{1 + q, q}, Vec2{4 - high, 4 - high}) +
+               distance(Vec2{q, 1 + q}, Vec2{4 - high, 4 - high}) + (low + high) * root2 +
+               parabola_length(3, q));
   check_everywhere(expected);
 }
 

@@ -17,10 +17,10 @@ namespace medial::io {
 
 namespace {
 
-constexpr char kFormats[] = ".nc .gcode .ngc .csv .dxf .svg .pdf .png .ps";
-constexpr std::array<const char*, 3> kKinds{"clearing", "wall", "groove"};
+constexpr char known_formats[] = ".nc .gcode .ngc .csv .dxf .svg .pdf .png .ps";
+constexpr std::array<const char*, 3> kind_names{"clearing", "wall", "groove"};
 
-const char* name_of(ToolPathKind kind) { return kKinds[static_cast<std::size_t>(kind)]; }
+const char* name_of(ToolPathKind kind) { return kind_names[static_cast<std::size_t>(kind)]; }
 
 /// Machines have y upwards.
 ToolPoint upright(ToolPoint point, bool y_down) {
@@ -289,11 +289,11 @@ Status write_picture(OutputStream& out, const std::string& format, const CarveFi
 
 }  // namespace
 
-std::string known_carve_formats() { return kFormats; }
+std::string known_carve_formats() { return known_formats; }
 
 Status write_carving(const std::string& path, const std::string& format, const CarveFile& file,
                      const MachineOptions& machine, const WriteOptions& options) {
-  const Result<std::string> known = output_format(path, format, "nc", kFormats);
+  const Result<std::string> known = output_format(path, format, "nc", known_formats);
   if (!known) return known.error();
   for (const double value : {machine.safe, machine.feed, machine.plunge, machine.chord})
     if (!(value > 0) || !std::isfinite(value))

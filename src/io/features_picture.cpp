@@ -110,7 +110,7 @@ class FeaturesPicture {
   void draw() {
     cairo_set_line_cap(context_, CAIRO_LINE_CAP_BUTT);
     cairo_set_line_join(context_, CAIRO_LINE_JOIN_ROUND);
-    color(paper);
+    color(paper_color);
     cairo_paint(context_);
     if (options_.write.shape)
       for (const NativeItem& item : axes_.items) draw_shape(item.shape);
@@ -217,7 +217,7 @@ class FeaturesPicture {
     cairo_set_line_width(context_, line_);
     for (const Vec2 cut : cuts_) {
       dot(cut, 3 * line_);
-      color(paper);
+      color(paper_color);
       cairo_fill_preserve(context_);
       color(text);
       cairo_stroke(context_);
@@ -255,7 +255,7 @@ class FeaturesPicture {
       cairo_move_to(context_, x, y);
       cairo_text_path(context_, label.words.c_str());
       cairo_set_line_width(context_, 4 * line_);
-      color(paper, 0.8);
+      color(paper_color, 0.8);
       cairo_stroke_preserve(context_);
       color(text);
       cairo_fill(context_);

@@ -178,7 +178,7 @@ Status add_of_wkt(const std::string& text, std::vector<Ring>& rings, std::vector
   constexpr std::ptrdiff_t deepest_bracket = 8;  // GDAL reads nested brackets by recursion
   std::ptrdiff_t depth = 0;
   for (const char c : text) {
-    if (c == '(' && ++depth > deepest) {
+    if (c == '(' && ++depth > deepest_bracket) {
       return Error{ErrorCode::unsupported, "brackets nested too deeply", {}};
     }
     if (c == ')') --depth;

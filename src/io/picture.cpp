@@ -382,7 +382,7 @@ class Picture {
 
   /// The sites of soups.
   void draw_sites() {
-    color(outline);
+    color(outline_color);
     cairo_set_line_width(context_, thickness(1.6));
     int batch = 0;
     const auto draw = [&](bool points) {

@@ -187,7 +187,7 @@ Status write_stream(OutputStream& out, const std::string& format, const VoronoiF
 Status write_any(const std::string& path, const std::string& option, const VoronoiFile& file,
                  const WriteOptions& options) {
   const std::string format = path == "-" && option.empty() ? "json" : format_name(path, option);
-  if (std::ranges::find(formats, format) == formats.end())
+  if (std::ranges::find(known_formats, format) == known_formats.end())
     return Error{ErrorCode::unsupported,
                  fmt::format("'{}' is no format for Voronoi diagrams; known are {}", format,
                              known_voronoi_formats()),
@@ -303,7 +303,7 @@ void write_voronoi_geojson(OutputStream& out, const VoronoiFile& file,
   features.finish();
 }
 
-std::string known_voronoi_formats() { return fmt::format(".{}", fmt::join(formats, " .")); }
+std::string known_voronoi_formats() { return fmt::format(".{}", fmt::join(known_formats, " .")); }
 
 Status write_voronoi(const std::string& path, const std::string& format, const VoronoiFile& file,
                      const WriteOptions& options) {
