@@ -256,7 +256,7 @@ class Axis(CommandLine):
         self.refuse("[a-z_]+", "voronoi", "teeth.wkt", "--method", "magic")
 
     def test_voronoi_of_loose_pieces(self):
-        soup = b"POINT(1 3);LINESTRING(0 0,2 0,2 2);POLYGON((5 0,7 0,7 2,5 2,5 0));MULTIPOINT(4 4,(5 5))"
+        soup = b"POINT(1 3);LINESTRING(0 0,2 0,2 2);POLYGON((5 0,7 0,7 2,5 2,5 0));MULTIPOINT((4 4),(5 5))"
         told = json.loads(self.succeed("voronoi", "-", "--json", given=soup).stdout)
         self.assertEqual((told["segments"], told["points"]), (6, 10))
         made = json.loads(self.succeed("voronoi", "-", "-o", "-", given=soup).stdout)
