@@ -189,7 +189,7 @@ Verb make_axis_verb(CLI::App& program) {
                        "printed.")
       ->check(a_name())
       ->option_text("OUTPUT");
-  verb->add_option("--format", switches->format, "The format of -o -, for example csv.")
+  verb->add_option("--format", switches->format, "The format of -o - (default: json).")
       ->option_text("NAME");
   verb->add_flag("--radius-as-z", switches->write.radius_as_z,
                  "Drawings (.dxf): splines in space, with the radius as z.");

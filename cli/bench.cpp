@@ -396,7 +396,11 @@ Verb make_bench_verb(CLI::App& program) {
   auto switches = std::make_shared<BenchSwitches>();
   CLI::App* verb = program.add_subcommand("bench", "Measure published experiments anew.");
   verb->require_subcommand(1);
-  verb->get_formatter()->label("SUBCOMMAND", "EXPERIMENT");
+  // Its own: the label of the one that it inherits is the program's, too.
+  auto formatter = std::make_shared<CLI::Formatter>();
+  formatter->column_width(27);
+  formatter->label("SUBCOMMAND", "EXPERIMENT");
+  verb->formatter(formatter);
   CLI::App* biarc = verb->add_subcommand(
       "biarc",
       "Shapes bounded by curves: the experiments of Aichholzer et al., Medial Axis\n"

@@ -144,11 +144,11 @@ Verb make_carve_verb(CLI::App& program) {
   constexpr char group[] = "G-code";
   length("--feed", switches->machine.feed, "Of cutting moves, mm/min (default: 1000).", "F")
       ->group(group);
-  length("--plunge", switches->machine.plunge, "Downwards, mm/min (default: 300).", "F")
+  length("--plunge", switches->machine.plunge, "Straight downwards, mm/min (default: 300).", "F")
       ->group(group);
   length("--safe", switches->machine.safe, "The height of other moves, mm (default: 5).", "Z")
       ->group(group);
-  length("--spindle", switches->machine.spindle, "Turns a minute (default: not told).", "S")
+  length("--spindle", switches->machine.spindle, "Turns a minute (default: not started).", "S")
       ->group(group);
   verb->add_option("-o,--output", switches->output,
                    fmt::format("Where to write; the extension tells the format:\n{}\n"
@@ -169,14 +169,15 @@ Verb make_carve_verb(CLI::App& program) {
       "The tool's point follows the axis at the depth where the tool is as wide as the\n"
       "disk: walls begin at the boundary, corners come out sharp. Nothing outside is\n"
       "touched. Flat bottoms are cleared from the inside out without lifting where that is\n"
-      "safe. Units are millimetres to the machine; z is 0 on the surface. One pass at full\n"
-      "depth: for hard material run several programs, --depth by --depth.\n"
+      "safe. Units of the input, pixels and font units as well, become millimetres; z is 0\n"
+      "on the surface. One pass at full depth: for hard material run several programs,\n"
+      "--depth by --depth.\n"
       "\n"
       "Examples:\n"
       "  medial carve spanner.svg --angle 60 -o spanner.nc\n"
       "  medial carve plate.dxf --angle 90 --depth 3 -o plate.svg\n"
       "  medial carve plate.dxf --angle 0 --tool 4 --depth 2 --feed 800 -o pocket.gcode\n"
-      "  medial carve --text Axis --font serif.ttf --angle 60 --tool 20 -o - --format csv");
+      "  medial carve --text Axis --font serif.ttf --angle 60 -o - --format csv");
   return {verb, [switches] { return run_carve(*switches); }};
 }
 

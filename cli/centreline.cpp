@@ -301,7 +301,7 @@ Verb make_centreline_verb(CLI::App& program) {
                        "printed.")
       ->check(a_name())
       ->option_text("OUTPUT");
-  verb->add_option("--format", switches->format, "The format of -o -, for example csv.")
+  verb->add_option("--format", switches->format, "The format of -o - (default: json).")
       ->option_text("NAME");
   add_path_switches(*verb, switches->path);
   verb->add_flag("--extend", switches->line.extend, "Extend both ends to the boundary.");

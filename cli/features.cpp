@@ -171,7 +171,7 @@ Verb make_features_verb(CLI::App& program) {
                                io::known_feature_formats()))
       ->check(a_name())
       ->option_text("OUTPUT");
-  verb->add_option("--format", switches->format, "The format of -o -, for example csv.")
+  verb->add_option("--format", switches->format, "The format of -o - (default: json).")
       ->option_text("NAME");
   verb->add_option_function<std::string>(
           "--table",

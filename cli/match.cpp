@@ -195,7 +195,7 @@ Verb make_match_verb(CLI::App& program) {
       ->option_text("N");
   add_common_switches(*verb, switches->common);
   verb->footer(
-      "The numbers are dissimilarities: 0 the same, about 1 nothing in common. They come\n"
+      "The numbers are dissimilarities: 0 the same, about 1 two shapes at random. They come\n"
       "from distributions over the axis (thickness, distances, erosion) that rotation,\n"
       "scale and reflection leave alone, and that noise of the outline hardly moves.\n"
       "\n"

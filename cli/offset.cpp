@@ -179,7 +179,7 @@ Verb make_offset_verb(CLI::App& program) {
                                io::known_offset_formats()))
       ->check(a_name())
       ->option_text("OUTPUT");
-  verb->add_option("--format", switches->format, "The format of -o -, for example wkt.")
+  verb->add_option("--format", switches->format, "The format of -o - (default: json).")
       ->option_text("NAME");
   verb->add_flag("--chords", switches->chords,
                  "Well-known text: polygons of chords (see --chord) instead of exact arcs.");

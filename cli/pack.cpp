@@ -254,7 +254,7 @@ Verb make_unpack_verb(CLI::App& program) {
                                io::known_output_formats(), image_formats))
       ->check(a_name())
       ->option_text("OUTPUT");
-  verb->add_option("--format", switches->format, "The format of -o -, for example json.")
+  verb->add_option("--format", switches->format, "The format of -o - (default: json).")
       ->option_text("NAME");
   add_picture_switches(*verb, switches->write);
   add_common_switches(*verb, switches->common);

@@ -233,7 +233,7 @@ Verb make_voronoi_verb(CLI::App& program) {
                                io::known_voronoi_formats()))
       ->check(a_name())
       ->option_text("OUTPUT");
-  verb->add_option("--format", switches->format, "The format of -o -, for example geojson.")
+  verb->add_option("--format", switches->format, "The format of -o - (default: json).")
       ->option_text("NAME");
   verb->add_option("--method", switches->method,
                    "How: disks (default), of everything in the file together, within a\n"
@@ -267,7 +267,7 @@ Verb make_voronoi_verb(CLI::App& program) {
       "Examples:\n"
       "  medial voronoi wells.csv -o wells.geojson\n"
       "  medial voronoi roads.gpkg --margin 500 --repair -o nearest.geojson\n"
-      "  medial voronoi plan.wkt --method lee -o plan.svg\n"
+      "  medial voronoi room.wkt --method lee -o room.svg\n"
       "  medial voronoi parcels.geojson --where \"area > 100\" -o faces.geojson\n"
       "  medial voronoi plan.wkt -o - --format json | jq '.items[0].edges | length'");
   return {verb, [switches] { return run_voronoi(*switches); }};
