@@ -9,6 +9,7 @@
 #include <mutex>
 #include <vector>
 
+#include "medial/verify.h"
 #include "support/generate.h"
 
 namespace medial::test {
@@ -93,6 +94,34 @@ TEST(Compute, RefusesHandMadeShapes) {
   broken = shape;
   broken.points[5] = broken.points[4];
   expect_malformed(broken);
+}
+
+/// Slots of 2e-10 of the size beside each other: the engine loses its way there. What it then has
+/// is no axis, and is not given out as one.
+TEST(Compute, NarrowSlotsBesideEachOtherAreRightOrRefused) {
+  const Shape shape = *build_shape(std::vector<Ring>{
+      {{{0.0, -0.0},
+        {0.4413905073457558, -0.12134809270866588},
+        {0.32004241463709, -0.5627386000544217},
+        {-0.12134809270866588, -0.4413905073457558}}},
+      {{{0.2750581678794278, -0.07561962386287054},
+        {0.3074792139147724, -0.173548855578783},
+        {0.22955263311367805, -0.24114106411752895},
+        {0.19713158707833345, -0.14321183240161653}}},
+      {{{-0.015168511407395793, -0.05517381346803195},
+        {0.04000530182963625, -0.07034232500680271},
+        {-0.005500232936113461, -0.23586376526146113},
+        {-0.0606740461731455, -0.2206952537226904}}},
+      {{{-0.06067404622295797, -0.22069525390387784},
+        {-0.005500232985925928, -0.23586376544264864},
+        {-0.03583725611327994, -0.34621139209790014},
+        {-0.09101106935031197, -0.3310428805591294}}},
+  });
+  const auto axis = compute(shape);
+  if (!axis)
+    EXPECT_EQ(axis.error().code, ErrorCode::internal);
+  else
+    EXPECT_TRUE(verify(shape, *axis).passed);
 }
 
 }  // namespace
