@@ -259,7 +259,7 @@ void add_switches(CLI::App& verb, Switches& switches, bool smooths) {
     verb.add_option("--points", switches.points,
                     "With --tangents: points on the axis, about (default: the samples, or\n"
                     "1000 of an exact axis).")
-        ->check(a_whole_number())
+        ->check(in_range(3, 10'000'000))
         ->option_text("N");
     verb.add_option("--pixels", switches.pixels,
                     fmt::format("The union of the disks as an image, its longer side so many\n"

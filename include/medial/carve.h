@@ -28,7 +28,7 @@ struct CarveOptions {
   /// ridges.
   double step = 0;
   /// How far the straight moves may be off the curved parts of the axis; 0: 1e-5 of the diagonal of
-  /// the axis's sites. They are always off upwards: see below.
+  /// the axis's sites, at least 1e-8 of it. They are always off upwards: see below.
   double chord = 0;
 };
 

@@ -199,6 +199,18 @@ double unordered_travel(const Offsets& offsets, const ops::Grooves& grooves) {
   return sum;
 }
 
+/// Of the axis's sites.
+Box box_of(const MedialAxis& axis) {
+  Box box{axis.nodes[0].disk.center, axis.nodes[0].disk.center};
+  for (const Site& site : axis.sites) {
+    for (const Vec2 p : {site.start, site.end}) {
+      box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y)};
+      box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y)};
+    }
+  }
+  return box;
+}
+
 Result<Carving> plan(const MedialAxis& axis, const CarveOptions& options) {
   const double radius = options.tool > 0 ? options.tool / 2 : infinity;
   const bool mill = options.angle == 0;
@@ -213,14 +225,7 @@ Result<Carving> plan(const MedialAxis& axis, const CarveOptions& options) {
     return mill ? depth : std::min((clearance - tip) / slope, depth);
   };
 
-  Box box{axis.nodes[0].disk.center, axis.nodes[0].disk.center};
-  for (const Site& site : axis.sites) {
-    for (const Vec2 p : {site.start, site.end}) {
-      box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y)};
-      box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y)};
-    }
-  }
-  const double chord = options.chord > 0 ? options.chord : 1e-5 * diagonal(box);
+  const double chord = options.chord > 0 ? options.chord : 1e-5 * diagonal(box_of(axis));
   if (std::isfinite(carving.flat_from))
     carving.step = options.step > 0 ? options.step : tip > 0 ? tip : carving.flat_from / 20;
 
@@ -280,6 +285,9 @@ Result<Carving> carve(const MedialAxis& axis, const CarveOptions& options) {
   if (options.angle > 0 && options.angle < 1) return invalid("the angle must be 0 or in [1, 170]");
   if (options.angle > 0 && options.tool > 0 && !(options.tip < options.tool))
     return invalid("the tip must be smaller than the tool");
+  constexpr double smallest_chord = 1e-8;  // the moves grow as the root of one over it
+  if (options.chord > 0 && options.chord < smallest_chord * diagonal(box_of(axis)))
+    return invalid("the chord must be at least 1e-8 of the diagonal of the axis's sites");
   try {
     return plan(axis, options);
   } catch (const std::bad_alloc&) {

@@ -265,6 +265,9 @@ class AxisDecoder {
 /// A disk's numbers are rounded by half a quantum each: its centre by 1 / sqrt 2 of it.
 constexpr double rounding = std::numbers::sqrt2 / 2 + 0.5;
 
+/// Of the axes' extent. The number of disks along a curve grows as the root of one over the error.
+constexpr double smallest_error = 1e-9;
+
 Error too_small() {
   return {ErrorCode::invalid_option, "the error is too small for the coordinates", {}};
 }
@@ -281,6 +284,15 @@ Result<ShapeCode> encode_axes(std::span<const MedialAxis> axes, const PackOption
   if (!(quantum >= std::numeric_limits<float>::min())) return too_small();
   // What rounding leaves for the polylines.
   const double left = options.error - rounding * static_cast<double>(quantum);
+  Vec2 low = axes.empty() || axes[0].nodes.empty() ? Vec2{} : axes[0].nodes[0].disk.center,
+       high = low;
+  for (const MedialAxis& axis : axes)
+    for (const Node& node : axis.nodes) {
+      const auto& [center, radius] = node.disk;
+      low = {std::min(low.x, center.x - radius), std::min(low.y, center.y - radius)};
+      high = {std::max(high.x, center.x + radius), std::max(high.y, center.y + radius)};
+    }
+  if (options.error < smallest_error * distance(low, high)) return too_small();
   ShapeCode code;
   ops::put_number(code[0], code_version);
   put_float(code[0], quantum);
