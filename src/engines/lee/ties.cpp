@@ -110,7 +110,9 @@ class Ties {
     std::vector<std::uint8_t> rank(points_.size());
     std::array<std::uint32_t, worst + 2> begin{};
     for (std::size_t i = 0; i < points_.size(); ++i) {
-      rank[i] = static_cast<std::uint8_t>(std::clamp(2 - std::ilogb(spread(points_[i])), 0, worst));
+      const double known = spread(points_[i]);
+      rank[i] = static_cast<std::uint8_t>(known > 0 ? std::clamp(2 - std::ilogb(known), 0, worst)
+                                                    : worst);
       ++begin[rank[i] + 1u];
     }
     for (std::size_t i = 1; i < begin.size(); ++i) begin[i] += begin[i - 1];
