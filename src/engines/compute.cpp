@@ -179,8 +179,12 @@ bool has_right_topology(const Shape& shape, const MedialAxis& axis) {
 /// wrong where features are closer than rounding can tell apart is off by far more.
 bool disks_touch_their_sites(const MedialAxis& axis, double slack) {
   const auto touches = [&](const Disk& disk, const Site& site) {
-    if (site.kind == SiteKind::vertex)
-      return std::abs(distance(disk.center, site.start) - disk.radius) <= slack;
+    if (site.bulge == 0) {  // a vertex is a segment without length
+      const Vec2 along = site.end - site.start, to = disk.center - site.start;
+      const double forward = dot(to, along), whole = squared_norm(along);
+      const double share = forward <= 0 ? 0 : forward >= whole ? 1 : forward / whole;
+      return std::abs(norm(to - share * along) - disk.radius) <= slack;
+    }
     const sites::Pieces pieces = sites::pieces_of(site.start, site.end, site.bulge);
     double squared = geometry::squared_distance(pieces.first(), disk.center);
     if (pieces.count > 1)
