@@ -1,16 +1,16 @@
 #include "io/features_writer.h"
 
 #include <fmt/format.h>
-#include <gdal_priv.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
 #include <limits>
-#include <new>
 #include <string_view>
 
+#include "io/format_name.h"
+#include "io/gdal_support.h"
+#include "io/guarded.h"
 #include "io/place.h"
 #include "io/table_writer.h"
 #include "medial/query.h"
@@ -356,19 +356,9 @@ Status write_stream(OutputStream& out, const std::string& format, const NativeFi
   } else if (format == "csv") {
     write_table(out, axes, features, options.table);
   } else if (through_gdal(format)) {
-    if (format == "shp")
-      return Error{
-          ErrorCode::unsupported, "a shapefile is several files and cannot go to a stream", {}};
-    const std::string folder = fmt::format("/vsimem/{}", static_cast<const void*>(&out));
-    const std::string name = fmt::format("{}/features.{}", folder, format);
-    status = write_features_gdal(name, format, axes, features, options);
-    if (status) {
-      vsi_l_offset size = 0;
-      const GByte* bytes = VSIGetMemFileBuffer(name.c_str(), &size, FALSE);
-      out.put(
-          std::string_view(reinterpret_cast<const char*>(bytes), static_cast<std::size_t>(size)));
-    }
-    VSIRmdirRecursive(folder.c_str());
+    status = put_gdal_file(out, "features", format, [&](const std::string& name) {
+      return write_features_gdal(name, format, axes, features, options);
+    });
   } else {
     status = write_features_picture(out, format, axes, features, options);
   }
@@ -378,12 +368,7 @@ Status write_stream(OutputStream& out, const std::string& format, const NativeFi
 
 Status write_any(const std::string& path, const std::string& option, const NativeFile& axes,
                  std::span<const AxisFeatures> features, const FeatureWriteOptions& options) {
-  std::string format = option;
-  if (format.empty())
-    format = path == "-" ? "json" : std::filesystem::path(path).extension().string();
-  if (format.starts_with('.')) format.erase(0, 1);
-  std::ranges::transform(format, format.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string format = path == "-" && option.empty() ? "json" : format_name(path, option);
   if (std::ranges::find(known_formats, format) == known_formats.end())
     return Error{ErrorCode::unsupported,
                  fmt::format("'{}' is no format for features; known are {}", format,
@@ -495,18 +480,7 @@ std::string known_feature_formats() { return fmt::format(".{}", fmt::join(known_
 
 Status write_features(const std::string& path, const std::string& format, const NativeFile& axes,
                       std::span<const AxisFeatures> features, const FeatureWriteOptions& options) {
-  Error error;
-  try {
-    Status status = write_any(path, format, axes, features, options);
-    if (status) return status;
-    error = std::move(status.error());
-  } catch (const std::bad_alloc&) {
-    error = {ErrorCode::out_of_memory, "memory ran out", {}};
-  } catch (const std::exception& problem) {
-    error = {ErrorCode::internal, problem.what(), {}};
-  }
-  error.place.file = path;
-  return error;
+  return guarded(path, [&] { return write_any(path, format, axes, features, options); });
 }
 
 }  // namespace medial::io

@@ -1,5 +1,6 @@
 #include "io/gdal_support.h"
 
+#include <cpl_vsi.h>
 #include <fmt/format.h>
 #include <gdal_priv.h>
 #include <ogr_geometry.h>
@@ -8,6 +9,9 @@
 #include <algorithm>
 #include <memory>
 #include <mutex>
+#include <string_view>
+
+#include "io/output.h"
 
 namespace medial::io {
 
@@ -241,6 +245,25 @@ void read_crs_of_wkt(const std::string& wkt, Dataset& dataset) {
   } else {
     dataset.notes.push_back("the reference system is not understood");
   }
+}
+
+Status put_gdal_file(OutputStream& out, const std::string& name, const std::string& format,
+                     const std::function<Status(const std::string& path)>& write) {
+  if (format == "shp") {
+    return Error{
+        ErrorCode::unsupported, "a shapefile is several files and cannot go to a stream", {}};
+  }
+  // The folder tells streams of this process apart.
+  const std::string folder = fmt::format("/vsimem/{}", static_cast<const void*>(&out));
+  const std::string path = fmt::format("{}/{}.{}", folder, name, format);
+  Status status = write(path);
+  if (status) {
+    vsi_l_offset size = 0;
+    const GByte* bytes = VSIGetMemFileBuffer(path.c_str(), &size, FALSE);
+    out.put(std::string_view(reinterpret_cast<const char*>(bytes), static_cast<std::size_t>(size)));
+  }
+  VSIRmdirRecursive(folder.c_str());
+  return status;
 }
 
 }  // namespace medial::io

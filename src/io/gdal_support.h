@@ -2,6 +2,7 @@
 
 #include <cpl_error.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,8 @@ class OGRGeometry;
 class OGRSpatialReference;
 
 namespace medial::io {
+
+class OutputStream;
 
 /// Registers GDAL's drivers, once.
 void register_gdal();
@@ -33,6 +36,13 @@ class GdalMessages {
   std::string failure_;
   std::vector<std::string> warnings_;
 };
+
+/// Lets `write` make a file of one format through GDAL in memory, and its bytes go on to the
+/// stream: because a stream cannot seek, or because some drivers of GDAL (GeoJSON) do not notice a
+/// full disk. The file is called `name`, which may stand in the bytes. Errors: unsupported (a
+/// shapefile is several files), and those of `write`.
+Status put_gdal_file(OutputStream& out, const std::string& name, const std::string& format,
+                     const std::function<Status(const std::string& path)>& write);
 
 /// What a geometry held besides polygons.
 struct GeometryCounts {

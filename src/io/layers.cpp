@@ -6,14 +6,14 @@
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
 #include <memory>
-#include <new>
 #include <optional>
 #include <string_view>
 
+#include "io/format_name.h"
 #include "io/gdal_columns.h"
 #include "io/gdal_support.h"
+#include "io/guarded.h"
 #include "io/output.h"
 #include "io/picture.h"
 #include "io/place.h"
@@ -193,17 +193,9 @@ Status write_stream(OutputStream& out, const std::string& format, const LayerFil
   if (format == "wkt") {
     status = LayerWriter(file).write_wkt(out);
   } else if (format == "geojson" || format == "fgb" || format == "gpkg") {
-    // GDAL writes to memory, and the bytes go on: some of its drivers do not notice a full disk.
-    const std::string folder = fmt::format("/vsimem/layers{}", static_cast<const void*>(&out));
-    const std::string name = fmt::format("{}/medial.{}", folder, format);
-    status = LayerWriter(file).write(name, format);
-    if (status) {
-      vsi_l_offset size = 0;
-      const GByte* bytes = VSIGetMemFileBuffer(name.c_str(), &size, FALSE);
-      out.put(
-          std::string_view(reinterpret_cast<const char*>(bytes), static_cast<std::size_t>(size)));
-    }
-    VSIRmdirRecursive(folder.c_str());
+    status = put_gdal_file(out, "medial", format, [&](const std::string& name) {
+      return LayerWriter(file).write(name, format);
+    });
   } else {
     status = write_layers_picture(out, format, file, background, options);
   }
@@ -213,12 +205,7 @@ Status write_stream(OutputStream& out, const std::string& format, const LayerFil
 
 Status write_any(const std::string& path, const std::string& option, const LayerFile& file,
                  const NativeFile& background, const WriteOptions& options) {
-  std::string format = option;
-  if (format.empty())
-    format = path == "-" ? "geojson" : std::filesystem::path(path).extension().string();
-  if (format.starts_with('.')) format.erase(0, 1);
-  std::ranges::transform(format, format.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string format = path == "-" && option.empty() ? "geojson" : format_name(path, option);
   if (std::ranges::find(formats, format) == formats.end()) {
     return Error{
         ErrorCode::unsupported,
@@ -260,18 +247,7 @@ std::string known_layer_formats() { return fmt::format(".{}", fmt::join(formats,
 
 Status write_layers(const std::string& path, const std::string& format, const LayerFile& file,
                     const NativeFile& background, const WriteOptions& options) {
-  Error error;
-  try {
-    Status status = write_any(path, format, file, background, options);
-    if (status) return status;
-    error = std::move(status.error());
-  } catch (const std::bad_alloc&) {
-    error = {ErrorCode::out_of_memory, "memory ran out", {}};
-  } catch (const std::exception& problem) {
-    error = {ErrorCode::internal, problem.what(), {}};
-  }
-  error.place.file = path;
-  return error;
+  return guarded(path, [&] { return write_any(path, format, file, background, options); });
 }
 
 }  // namespace medial::io

@@ -8,13 +8,13 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <new>
 #include <sstream>
 
+#include "io/format_name.h"
+#include "io/guarded.h"
 #include "io/place.h"
 #include "medial/io/write.h"
 
@@ -214,26 +214,12 @@ Status write_whole(const std::string& path, const std::function<Status(OutputStr
     if (!written) return written;
     return pending->commit();
   };
-  Error error;
-  try {
-    Status status = run();
-    if (status) return status;
-    error = std::move(status.error());
-  } catch (const std::bad_alloc&) {
-    error = {ErrorCode::out_of_memory, "memory ran out", {}};
-  } catch (const std::exception& problem) {
-    error = {ErrorCode::internal, problem.what(), {}};
-  }
-  error.place.file = path;
-  return error;
+  return guarded(path, run);
 }
 
 Result<std::string> output_format(const std::string& path, const std::string& name,
                                   const std::string& standard, const std::string& known) {
-  std::string format = name;
-  if (format.empty()) format = path == "-" ? standard : fs::path(path).extension().string();
-  if (format.starts_with('.')) format.erase(0, 1);
-  for (char& c : format) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string format = path == "-" && name.empty() ? standard : format_name(path, name);
   std::istringstream words(known);
   for (std::string word; words >> word;)
     if (word == "." + format) return format;

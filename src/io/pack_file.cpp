@@ -6,6 +6,7 @@
 #include <memory>
 #include <new>
 
+#include "io/guarded.h"
 #include "io/hulls.h"
 #include "io/output.h"
 #include "io/place.h"
@@ -112,22 +113,6 @@ Body body_of(const ShapeCode& code) {
     append(apart.bytes, frame);
   }
   return apart.bytes.size() < one.bytes.size() ? apart : one;
-}
-
-template <class Action>
-auto guarded(const std::string& path, const Action& action) -> decltype(action()) {
-  Error error;
-  try {
-    auto result = action();
-    if (result) return result;
-    error = std::move(result).error();
-  } catch (const std::bad_alloc&) {
-    error = {ErrorCode::out_of_memory, "memory ran out", {}};
-  } catch (const std::exception& problem) {
-    error = {ErrorCode::internal, problem.what(), {}};
-  }
-  if (error.place.file.empty()) error.place.file = path;
-  return error;
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 #include "medial/io/write.h"
 
 #include <fmt/format.h>
-#include <gdal_priv.h>
 
 #include <algorithm>
 #include <array>
@@ -10,6 +9,7 @@
 
 #include "io/dxf_writer.h"
 #include "io/format_name.h"
+#include "io/gdal_support.h"
 #include "io/gdal_writer.h"
 #include "io/guarded.h"
 #include "io/native.h"
@@ -63,26 +63,12 @@ Status write_stream(OutputStream& out, const std::string& format, const NativeFi
   return out.finish();
 }
 
-/// GDAL writes to memory, and the bytes go on to a stream: because the stream cannot seek, or
-/// because some drivers of GDAL (GeoJSON) do not notice a full disk.
 Status write_gdal_stream(OutputStream& out, const std::string& format, const NativeFile& file,
                          const WriteOptions& options) {
-  if (format == "shp") {
-    return Error{
-        ErrorCode::unsupported, "a shapefile is several files and cannot go to a stream", {}};
-  }
-  // The folder tells streams of this process apart; the name stands in the bytes.
-  const std::string folder = fmt::format("/vsimem/{}", static_cast<const void*>(&out));
-  const std::string name = fmt::format("{}/medial.{}", folder, format);
-  Status status = write_gdal(name, format, file, options);
-  if (status) {
-    vsi_l_offset size = 0;
-    const GByte* bytes = VSIGetMemFileBuffer(name.c_str(), &size, FALSE);
-    out.put(std::string_view(reinterpret_cast<const char*>(bytes), static_cast<std::size_t>(size)));
-    status = out.finish();
-  }
-  VSIRmdirRecursive(folder.c_str());
-  return status;
+  Status status = put_gdal_file(out, "medial", format, [&](const std::string& name) {
+    return write_gdal(name, format, file, options);
+  });
+  return status ? out.finish() : status;
 }
 
 Status write_any(const std::string& path, const std::string& option, const NativeFile& file,
