@@ -86,12 +86,7 @@ Result<int> run_carve(const CarveSwitches& switches) {
           return carve(*axis, switches.carve);
         };
         auto carving = one();
-        if (!carving) {
-          Error error = std::move(carving).error();
-          if (error.place.file.empty()) error.place.file = input.path;
-          error.place.feature = i;
-          return error;
-        }
+        if (!carving) return at_feature(std::move(carving).error(), input.path, i);
         file.items[i] = {std::move(shapes->shapes[i]), std::move(carving).value()};
         return success();
       });

@@ -181,12 +181,7 @@ Result<int> run_collapse(AxisFile axes, const CentrelineSwitches& switches) {
       for_each_feature(weights, switches.common.threads, [&](std::size_t i, int) -> Status {
         auto one =
             collapse_narrow(axes.native.items[i].axis, switches.collapse, switches.path.path.trim);
-        if (!one) {
-          Error error = std::move(one).error();
-          error.place.file = switches.input.path;
-          error.place.feature = i;
-          return error;
-        }
+        if (!one) return at_feature(std::move(one).error(), switches.input.path, i);
         collapsed[i] = std::move(one).value();
         return success();
       });

@@ -201,12 +201,7 @@ Result<int> run_compare(const CompareSwitches& switches) {
     reference.tolerance = common.tolerance;
     reference.corner_angle = common.corner_angle;
     const auto exact = compute(shape, reference);
-    if (!exact) {
-      Error error = exact.error();
-      error.place.file = input.path;
-      error.place.feature = i;
-      return error;
-    }
+    if (!exact) return at_feature(exact.error(), input.path, i);
     std::vector<Row> rows;
     for (const std::string& method : *methods)
       rows.push_back(measure(shape, i < file->contours.size() ? file->contours[i] : nothing, *exact,

@@ -189,12 +189,7 @@ Result<int> run_field(const FieldSwitches& switches) {
   Fields fields;
   for (std::size_t i = 0; i < file->shapes.size(); ++i) {
     auto field = PotentialField::make(file->shapes[i], switches.order);
-    if (!field) {
-      Error error = std::move(field).error();
-      error.place.file = switches.input.path;
-      error.place.feature = i;
-      return error;
-    }
+    if (!field) return at_feature(std::move(field).error(), switches.input.path, i);
     fields.push_back(std::move(field).value());
   }
   const View view = view_of(*file, switches.width);

@@ -363,12 +363,7 @@ Result<int> run_measure(MeasureSwitches switches) {
   const std::vector<double> weights(all.size(), 1.0);
   Status measured = for_each_feature(weights, common.threads, [&](std::size_t i, int) -> Status {
     auto one = measure(file.items[i], (*paths)[i], switches);
-    if (!one) {
-      Error error = std::move(one).error();
-      error.place.file = input.path;
-      error.place.feature = i;
-      return error;
-    }
+    if (!one) return at_feature(std::move(one).error(), input.path, i);
     all[i] = std::move(one).value();
     return success();
   });

@@ -118,12 +118,7 @@ Result<int> run_offset(const OffsetSwitches& switches) {
         options.corner_angle = common.corner_angle;
         options.threads = threads;
         auto offsets = offset_one(shapes->shapes[i], switches, options);
-        if (!offsets) {
-          Error error = std::move(offsets).error();
-          if (error.place.file.empty()) error.place.file = input.path;
-          error.place.feature = i;
-          return error;
-        }
+        if (!offsets) return at_feature(std::move(offsets).error(), input.path, i);
         file.items[i] = {std::move(shapes->shapes[i]), std::move(offsets).value(),
                          std::move(shapes->attributes[i])};
         return success();

@@ -19,12 +19,6 @@
 namespace medial::cli {
 namespace {
 
-Error at_feature(Error error, const std::string& path, std::size_t feature) {
-  if (error.place.file.empty()) error.place.file = path;
-  error.place.feature = feature;
-  return error;
-}
-
 /// The loops of a shape as rings, to be checked anew: a file may hold anything.
 std::vector<Ring> rings_of(const Shape& shape) {
   std::vector<Ring> rings;
@@ -172,6 +166,12 @@ Result<InputFile> read_input(const InputSwitches& input) {
 }
 
 }  // namespace
+
+Error at_feature(Error error, const std::string& path, std::size_t feature) {
+  if (error.place.file.empty()) error.place.file = path;
+  error.place.feature = feature;
+  return error;
+}
 
 bool holds_contours(const io::NativeFile& file) {
   return std::ranges::any_of(file.items,
@@ -511,12 +511,7 @@ Status smooth_boundaries(ShapeFile& file, double distance, const InputSwitches& 
       return build_shape(*rings);
     };
     auto shape = fit();
-    if (!shape) {
-      Error error = std::move(shape).error();
-      error.place.file = input.path;
-      error.place.feature = i;
-      return error;
-    }
+    if (!shape) return at_feature(std::move(shape).error(), input.path, i);
     file.shapes[i] = std::move(shape).value();
   }
   return success();

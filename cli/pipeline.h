@@ -14,6 +14,9 @@
 
 namespace medial::cli {
 
+/// The error, told to be in this feature of the file.
+Error at_feature(Error error, const std::string& path, std::size_t feature);
+
 using Attributes = std::vector<std::pair<std::string, std::string>>;
 
 /// The shapes of a file, one for each feature, in the file's order.

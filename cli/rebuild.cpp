@@ -43,12 +43,6 @@ struct Told {
   ShapeDistance distance;
 };
 
-Error at_feature(Error error, const std::string& path, std::size_t feature) {
-  if (error.place.file.empty()) error.place.file = path;
-  error.place.feature = feature;
-  return error;
-}
-
 Result<std::vector<Shape>> rebuild_all(const AxisFile& axes, const Switches& switches, Told& told) {
   const auto& items = axes.native.items;
   std::vector<Shape> shapes(items.size());

@@ -55,12 +55,7 @@ Result<io::VoronoiFile> compute_diagrams(ShapeFile shapes, const std::string& pa
       weights_of(shapes.shapes), common.threads, [&](std::size_t i, int threads) -> Status {
         auto diagram =
             voronoi_diagram(shapes.shapes[i], {.tolerance = common.tolerance, .threads = threads});
-        if (!diagram) {
-          Error error = std::move(diagram).error();
-          if (error.place.file.empty()) error.place.file = path;
-          error.place.feature = i;
-          return error;
-        }
+        if (!diagram) return at_feature(std::move(diagram).error(), path, i);
         file.items[i] = {std::move(shapes.shapes[i]), std::move(diagram).value(),
                          std::move(shapes.attributes[i])};
         return success();
@@ -91,12 +86,7 @@ Result<LooseFile> load_chains(const InputSwitches& input, int threads) {
   arcs.threads = threads;
   for (std::uint32_t i = 0; i < dataset->features.size(); ++i) {
     auto chains = io::chains_of(dataset->features[i], arcs);
-    if (!chains) {
-      Error error = std::move(chains).error();
-      error.place.file = input.path;
-      error.place.feature = i;
-      return error;
-    }
+    if (!chains) return at_feature(std::move(chains).error(), input.path, i);
     for (Chain& chain : *chains) {
       file.chains.push_back(std::move(chain));
       file.feature.push_back(i);
