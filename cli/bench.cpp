@@ -280,8 +280,8 @@ Status write_shapes(const std::string& directory) {
   std::filesystem::create_directories(directory, problem);
   if (problem) return error_at(ErrorCode::unwritable, directory, problem.message());
   for (const auto& [name, contours] : biarc_shapes()) {
-    Status written = write_text((std::filesystem::path(directory) / (name + ".svg")).string(),
-                                svg_document(contours));
+    Status written = io::write_text((std::filesystem::path(directory) / (name + ".svg")).string(),
+                                    svg_document(contours));
     if (!written) return written;
   }
   return success();
@@ -309,8 +309,8 @@ Result<int> run_biarc(const BenchSwitches& switches) {
     const std::string extension = std::filesystem::path(switches.output).extension().string();
     Status written = extension == ".svg" ? write_plots(switches.output, report_plots(report))
                      : extension == ".csv"
-                         ? write_text(switches.output, report_csv(report))
-                         : write_text(switches.output, to_json(report).dump(2) + "\n");
+                         ? io::write_text(switches.output, report_csv(report))
+                         : io::write_text(switches.output, to_json(report).dump(2) + "\n");
     if (!written) return std::move(written).error();
   }
   Status printed =
@@ -361,9 +361,9 @@ Result<int> run_accuracy(const AccuracySwitches& switches) {
     rows.push_back(std::move(row).value());
   }
   if (!switches.output.empty()) {
-    Status written = write_text(switches.output, switches.output.ends_with(".svg")
-                                                     ? accuracy_drawing(rows.front())
-                                                     : accuracy_csv(rows));
+    Status written = io::write_text(switches.output, switches.output.ends_with(".svg")
+                                                         ? accuracy_drawing(rows.front())
+                                                         : accuracy_csv(rows));
     if (!written) return std::move(written).error();
   }
   Status printed = print(accuracy_table(rows));

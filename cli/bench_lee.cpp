@@ -291,8 +291,8 @@ Result<int> run_lee(const LeeSwitches& switches) {
   if (!switches.output.empty()) {
     const std::string extension = std::filesystem::path(switches.output).extension().string();
     Status written = extension == ".svg"   ? write_plots(switches.output, plots(rows))
-                     : extension == ".csv" ? write_text(switches.output, csv)
-                                           : write_text(switches.output, all.dump(2) + "\n");
+                     : extension == ".csv" ? io::write_text(switches.output, csv)
+                                           : io::write_text(switches.output, all.dump(2) + "\n");
     if (!written) return std::move(written).error();
   }
   Status printed = switches.json ? print(all) : print(table(rows) + "\n" + fits(rows));

@@ -203,7 +203,7 @@ Result<int> run_ridge(const RidgeBenchSwitches& switches) {
   if (!switches.output.empty()) {
     Status written = std::filesystem::path(switches.output).extension() == ".svg"
                          ? write_plots(switches.output, report_plots(rows))
-                         : write_text(switches.output, report_csv(rows));
+                         : io::write_text(switches.output, report_csv(rows));
     if (!written) return std::move(written).error();
   }
   Status printed = print(report_text(rows, options));

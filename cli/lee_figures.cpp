@@ -72,7 +72,7 @@ class Figure {
   Status write(const std::filesystem::path& path) {
     cairo_.reset();
     cairo_surface_finish(surface_.get());
-    return write_text(path.string(), text_);
+    return io::write_text(path.string(), text_);
   }
   const Box& box() const { return box_; }
 

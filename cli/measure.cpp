@@ -322,7 +322,7 @@ Status write_output(io::NativeFile& file, const std::vector<Measured>& all,
   if (switches.output.empty()) return success();
   if (switches.format == "csv" || switches.output.ends_with(".csv")) {
     if (switches.output == "-") return print(profile_csv(all));
-    return write_text(switches.output, profile_csv(all));
+    return io::write_text(switches.output, profile_csv(all));
   }
   const io::LayerFile layers = layers_of(file, all, switches);
   for (std::size_t i = 0; i < all.size(); ++i) {

@@ -11,7 +11,7 @@
 #include <limits>
 #include <memory>
 
-#include "io/output.h"
+#include "medial/io/write.h"
 
 namespace medial::cli {
 namespace {
@@ -243,21 +243,7 @@ Status write_plots(const std::string& path, const std::vector<Plot>& plots) {
     error.place.file = path;
     return error;
   }
-  return write_text(path, document);
-}
-
-Status write_text(const std::string& path, const std::string& text) {
-  const auto put = [&text](const std::string& to) -> Status {
-    auto out = io::OutputStream::open(to);
-    if (!out) return std::move(out).error();
-    out->put(std::string_view(text));
-    return out->finish();
-  };
-  if (io::is_stream(path)) return put(path);
-  auto pending = io::PendingFile::create(path);
-  if (!pending) return std::move(pending).error();
-  if (Status written = put(pending->path()); !written) return written;
-  return pending->commit();
+  return io::write_text(path, document);
 }
 
 }  // namespace medial::cli

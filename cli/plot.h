@@ -30,7 +30,4 @@ struct Plot {
 /// unwritable.
 Status write_plots(const std::string& path, const std::vector<Plot>& plots);
 
-/// Writes a text to a new file that appears all at once. Errors: unwritable.
-Status write_text(const std::string& path, const std::string& text);
-
 }  // namespace medial::cli

@@ -827,6 +827,17 @@ class Costs(CommandLine):
             self.assertIn(b"peak bytes", self.succeed(verb, "elbow.wkt", *switches, "--stats").stderr)
         self.assertTrue(self.read("field.PNG").startswith(b"\x89PNG"))
 
+    def test_a_field_is_drawn_in_every_format(self):
+        self.write("elbow.wkt", "POLYGON ((0 0, 8 0, 8 3, 3 3, 3 8, 0 8))")
+        for suffix, begin in (("svg", b"<?xml"), ("pdf", b"%PDF"), ("ps", b"%!PS"), ("png", b"\x89PNG")):
+            self.succeed("field", "elbow.wkt", "-o", "field." + suffix, "--width", "60", "--lines", "2")
+            self.assertTrue(self.read("field." + suffix).startswith(begin))
+        # Lines only: no image of pixels inside; without either, the outline alone.
+        self.succeed("field", "elbow.wkt", "-o", "lines.svg", "--lines", "4", "--no-brightness")
+        self.assertNotIn(b"<image", self.read("lines.svg"))
+        self.succeed("field", "elbow.wkt", "-o", "bare.svg", "--lines", "0", "--no-brightness")
+        self.assertLess(self.read("bare.svg").count(b"<path"), self.read("lines.svg").count(b"<path"))
+
 
 class Info(CommandLine):
     def test_polygons(self):

@@ -117,6 +117,20 @@ void Canvas::fill_even_odd() {
   cairo_set_fill_rule(context_, CAIRO_FILL_RULE_WINDING);
 }
 
+void Canvas::image(std::vector<std::uint32_t> pixels) {
+  const int columns = static_cast<int>(width_), rows = static_cast<int>(height_);
+  cairo_surface_t* surface =
+      cairo_image_surface_create_for_data(reinterpret_cast<unsigned char*>(pixels.data()),
+                                          CAIRO_FORMAT_RGB24, columns, rows, 4 * columns);
+  cairo_set_source_surface(context_, surface, 0, 0);
+  cairo_paint(context_);
+  // A vector picture keeps the image until it is finished, and then copies the pixels.
+  cairo_set_source_rgb(context_, 0, 0, 0);
+  cairo_surface_flush(cairo_get_target(context_));
+  cairo_surface_finish(surface);
+  cairo_surface_destroy(surface);
+}
+
 void Canvas::text(Vec2 at, double thousandths, const std::string& words) {
   const Vec2 p = place(at);
   cairo_select_font_face(context_, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);

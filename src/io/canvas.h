@@ -2,10 +2,13 @@
 
 #include <cairo.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "io/color.h"
 #include "io/output.h"
@@ -33,6 +36,13 @@ class Canvas {
     cairo_set_line_width(context_, 1e-3 * thousandths * std::max(width_, height_));
   }
   double scale() const { return scale_; }
+  double width() const { return width_; }
+  double height() const { return height_; }
+  /// The point of the plane that lies at this place of the picture, in pixels.
+  Vec2 plane_at(Vec2 pixel) const {
+    return {center_.x + (pixel.x - 0.5 * width_) / scale_,
+            center_.y - (pixel.y - 0.5 * height_) / (up_ * scale_)};
+  }
   void width_in_units(double units) { cairo_set_line_width(context_, units * scale_); }
 
   /// Adds a ring to the path, without its last edge if it is open; or a polyline.
@@ -45,6 +55,8 @@ class Canvas {
   void fill() { cairo_fill(context_); }
   void fill_even_odd();
   void stroke() { cairo_stroke(context_); }
+  /// Covers all of the picture with pixels 0xRRGGBB, width() in a row.
+  void image(std::vector<std::uint32_t> pixels);
   void text(Vec2 at, double thousandths, const std::string& words);
 
  private:

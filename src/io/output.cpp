@@ -217,6 +217,13 @@ Status write_whole(const std::string& path, const std::function<Status(OutputStr
   return guarded(path, run);
 }
 
+Status write_text(const std::string& path, const std::string& text) {
+  return write_whole(path, [&text](OutputStream& out) -> Status {
+    out.put(std::string_view(text));
+    return success();
+  });
+}
+
 Result<std::string> output_format(const std::string& path, const std::string& name,
                                   const std::string& standard, const std::string& known) {
   const std::string format = path == "-" && name.empty() ? standard : format_name(path, name);

@@ -51,6 +51,10 @@ Status write_voronoi(const std::string& path, const std::string& format, const V
 /// The extensions write_voronoi() takes, for help texts.
 std::string known_voronoi_formats();
 
+/// Writes a text to a new file that appears all at once, or to `-` or a device as it is. Errors:
+/// unwritable, out_of_memory.
+Status write_text(const std::string& path, const std::string& text);
+
 /// Removes temporary files of writes under way; safe to call from a signal handler.
 void remove_partial_files() noexcept;
 

@@ -1,0 +1,103 @@
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "io/canvas.h"
+#include "io/output.h"
+#include "medial/io/field.h"
+
+namespace medial::io {
+
+namespace {
+
+constexpr char formats[] = ".svg .pdf .png .ps";
+constexpr int most_lines = 1000;
+
+/// The brighter the lower the potential, by its logarithm; white outside. One a pixel, in rows.
+std::vector<std::uint32_t> brightness(std::span<const PotentialField> fields,
+                                      const Canvas& canvas) {
+  const auto columns = static_cast<std::size_t>(canvas.width());
+  const auto rows = static_cast<std::size_t>(canvas.height());
+  std::vector<double> values(columns * rows, std::numeric_limits<double>::quiet_NaN());
+  tbb::parallel_for(std::size_t{0}, rows, [&](std::size_t row) {
+    for (std::size_t column = 0; column < columns; ++column) {
+      const Vec2 p =
+          canvas.plane_at({static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5});
+      for (const PotentialField& field : fields) {
+        const auto found = field.at(p);
+        if (!found) continue;
+        values[row * columns + column] = found->log_potential;
+        break;
+      }
+    }
+  });
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const double value : values) {
+    if (std::isnan(value)) continue;
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+  std::vector<std::uint32_t> pixels(values.size(), 0xFFFFFFU);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (std::isnan(values[i])) continue;
+    const double share = high > low ? (high - values[i]) / (high - low) : 0.5;
+    const auto level = static_cast<std::uint32_t>(std::lround(40 + 215 * share * share));
+    pixels[i] = level << 16U | level << 8U | level;
+  }
+  return pixels;
+}
+
+void draw_lines(Canvas& canvas, std::span<const PotentialField> fields, const Box& box, int count) {
+  const Vec2 size = box.high - box.low;
+  const double gap = std::max(size.x, size.y) / count;
+  constexpr std::size_t most_steps = 400;
+  for (double y = box.low.y + 0.5 * gap; y < box.high.y; y += gap) {
+    for (double x = box.low.x + 0.5 * gap; x < box.high.x; x += gap) {
+      for (const PotentialField& field : fields) {
+        canvas.trace(std::span<const Vec2>(field.streamline({x, y}, 0.25 * gap, most_steps)));
+        canvas.stroke();
+      }
+    }
+  }
+}
+
+}  // namespace
+
+Status write_field(const std::string& path, const std::string& format,
+                   std::span<const Shape> shapes, std::span<const PotentialField> fields,
+                   const FieldPictureOptions& options) {
+  const Result<std::string> known = output_format(path, format, "svg", formats);
+  if (!known) return known.error();
+  if (options.lines < 0 || options.lines > most_lines)
+    return Error{
+        ErrorCode::invalid_option, "the number of force lines lies between 0 and 1000", {}};
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  Box box{{infinity, infinity}, {-infinity, -infinity}};
+  for (const Shape& shape : shapes) {
+    const Box own = bounding_box(shape);
+    box.low = {std::min(box.low.x, own.low.x), std::min(box.low.y, own.low.y)};
+    box.high = {std::max(box.high.x, own.high.x), std::max(box.high.y, own.high.y)};
+  }
+  return write_whole(path, [&](OutputStream& out) -> Status {
+    return write_canvas(out, *known, box, options.width, options.y_down, [&](Canvas& canvas) {
+      if (options.brightness) canvas.image(brightness(fields, canvas));
+      canvas.color({0.15, 0.35, 0.65});
+      canvas.line_width(0.8);
+      if (options.lines > 0) draw_lines(canvas, fields, box, options.lines);
+      canvas.color({0.2, 0.2, 0.2});
+      canvas.line_width(1.6);
+      for (const Shape& shape : shapes) {
+        canvas.trace(shape);
+        canvas.stroke();
+      }
+    });
+  });
+}
+
+std::string known_field_formats() { return formats; }
+
+}  // namespace medial::io
