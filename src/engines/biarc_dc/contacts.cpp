@@ -52,7 +52,9 @@ std::vector<Touch> touched_elements(const Context& context, const Subshape& subs
       const auto on_circle = [&](double s) {
         return std::abs(distance(site.at(s), disk.center) - disk.radius) <= context.tolerance;
       };
-      touch.on_circle = on_circle(element.from) && on_circle(element.to);
+      // A disk through both ends only ends beside the centre of the arc.
+      touch.on_circle = on_circle(element.from) && on_circle(element.to) &&
+                        on_circle(0.5 * (element.from + element.to));
     }
     touches.push_back(touch);
   }
