@@ -65,13 +65,24 @@ std::vector<Touch> touched_elements(const Context& context, const Subshape& subs
 /// sure: in a reflex vertex or inside the nearest element, or else at a joint.
 Cut contact_in_run(const Context& context, const Subshape& subshape,
                    const std::vector<const Touch*>& run) {
+  const auto is_vertex = [&](const Touch& touch) {
+    return context.site(subshape.elements[touch.element]).is_vertex();
+  };
+  const auto is_inside = [&](const Touch& touch) {
+    const Element& element = subshape.elements[touch.element];
+    return !is_vertex(touch) && touch.parameter > element.from && touch.parameter < element.to;
+  };
   const Touch* nearest = nullptr;
   for (std::size_t j = 0; j < run.size(); ++j) {
     const Touch& touch = *run[j];
     const Element& element = subshape.elements[touch.element];
-    const bool is_vertex = context.site(element).is_vertex();
-    const bool at_joint = !is_vertex && ((touch.parameter <= element.from && j > 0) ||
-                                         (touch.parameter >= element.to && j + 1 < run.size()));
+    const bool has_before = j > 0, has_after = j + 1 < run.size();
+    // A vertex is not nearer than a neighbour that is touched inside, but for rounding.
+    const bool at_joint =
+        is_vertex(touch)
+            ? (has_before && is_inside(*run[j - 1])) || (has_after && is_inside(*run[j + 1]))
+            : (has_before && touch.parameter <= element.from) ||
+                  (has_after && touch.parameter >= element.to);
     if (!at_joint && (nearest == nullptr || touch.distance < nearest->distance)) nearest = &touch;
   }
   if (nearest != nullptr) return cut_at(subshape, {nearest->element, false, nearest->parameter});
