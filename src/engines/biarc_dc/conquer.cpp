@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
+#include <unordered_map>
+#include <vector>
 
 #include "geometry/bisector.h"
 #include "geometry/tangent_disk.h"
@@ -140,6 +143,85 @@ void contract(const Context& context, const Division& division, Skeleton& skelet
     if (nodes.find(i) != i) skeleton.component[i] = none;
 }
 
+/// Nodes no further apart than so many tolerances may be one that many sites touch.
+constexpr double tie_reach = 64;
+/// A disk as large as an arc's own circle, but for this, has its foot on the arc anywhere.
+constexpr double same_circle = 1e-7;
+
+/// The disk nearest to touching all of some sites, by least squares: moving the centre by (x, y)
+/// and the radius by z makes the gap to a site larger by outward.x x + outward.y y - z. None if it
+/// misses one by more than `tolerance`.
+std::optional<Disk> disk_touching(const Context& context, const std::vector<std::uint32_t>& sites,
+                                  const Disk& near, double tolerance) {
+  const auto gap_of = [&](std::uint32_t site, const Disk& disk) {
+    return std::sqrt(geometry::squared_distance(context.outline.sites[site], disk.center)) -
+           disk.radius;
+  };
+  std::array<std::array<double, 4>, 3> sum{};
+  for (const std::uint32_t i : sites) {
+    const Site& site = context.outline.sites[i];
+    if (std::abs(site.curvature * near.radius - 1) <= same_circle) return std::nullopt;
+    const Vec2 outward = geometry::outward(site, near.center);
+    const std::array<double, 4> term{outward.x, outward.y, -1, -gap_of(i, near)};
+    for (std::size_t row = 0; row < 3; ++row)
+      for (std::size_t column = 0; column < 4; ++column)
+        sum[row][column] += term[row] * term[column];
+  }
+  const auto determinant = [&](std::size_t a, std::size_t b, std::size_t c) {
+    return sum[0][a] * (sum[1][b] * sum[2][c] - sum[1][c] * sum[2][b]) -
+           sum[0][b] * (sum[1][a] * sum[2][c] - sum[1][c] * sum[2][a]) +
+           sum[0][c] * (sum[1][a] * sum[2][b] - sum[1][b] * sum[2][a]);
+  };
+  const double all = determinant(0, 1, 2);
+  if (!(all > 0)) return std::nullopt;
+  const Disk disk{near.center + (1 / all) * Vec2{determinant(3, 1, 2), determinant(0, 3, 2)},
+                  near.radius + determinant(0, 1, 3) / all};
+  const bool touches_all = std::all_of(sites.begin(), sites.end(), [&](std::uint32_t site) {
+    return std::abs(gap_of(site, disk)) <= tolerance;
+  });
+  return touches_all ? std::optional(disk) : std::nullopt;
+}
+
+/// Makes one node of several that are some tolerances apart where one disk touches all their sites
+/// (regular polygons): each of them saw the sites of its sub-shape only.
+void join_ties(const Context& context, Skeleton& skeleton) {
+  const double reach = tie_reach * context.tolerance;
+  const auto is_short = [&](const Bone& edge) {
+    const Disk &a = skeleton.nodes[edge.from], &b = skeleton.nodes[edge.to];
+    return a.radius > 0 && b.radius > 0 && distance(a.center, b.center) <= reach &&
+           std::abs(a.radius - b.radius) <= reach;
+  };
+  Nodes nodes(skeleton.nodes.size());
+  std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> sites_of;
+  for (const Bone& edge : skeleton.edges)
+    if (is_short(edge)) nodes.join(edge.from, edge.to);
+  for (const Bone& edge : skeleton.edges)
+    if (is_short(edge)) sites_of[nodes.find(edge.from)];
+  if (sites_of.empty()) return;
+  for (const Bone& edge : skeleton.edges)
+    for (const std::uint32_t node : {edge.from, edge.to}) {
+      const auto tie = sites_of.find(nodes.find(node));
+      if (tie != sites_of.end()) tie->second.insert(tie->second.end(), {edge.right, edge.left});
+    }
+  for (auto tie = sites_of.begin(); tie != sites_of.end();) {
+    std::sort(tie->second.begin(), tie->second.end());
+    tie->second.erase(std::unique(tie->second.begin(), tie->second.end()), tie->second.end());
+    Disk& own = skeleton.nodes[tie->first];
+    const auto disk = disk_touching(context, tie->second, own, context.tolerance);
+    if (disk) own = *disk;
+    tie = disk ? std::next(tie) : sites_of.erase(tie);
+  }
+  std::erase_if(skeleton.edges, [&](Bone& edge) {
+    const std::uint32_t one = nodes.find(edge.from);
+    return one == nodes.find(edge.to) && sites_of.contains(one);
+  });
+  for (std::uint32_t i = 0; i < skeleton.nodes.size(); ++i)
+    if (nodes.find(i) != i && sites_of.contains(nodes.find(i))) skeleton.component[i] = none;
+  for (Bone& edge : skeleton.edges)
+    for (std::uint32_t* const node : {&edge.from, &edge.to})
+      if (skeleton.component[*node] == none) *node = nodes.find(*node);
+}
+
 /// Takes out the nodes that only divide an edge: both edges become one.
 void dissolve(Skeleton& skeleton) {
   struct Ends {
@@ -194,6 +276,7 @@ Skeleton conquer(Context& context, const Division& division) {
   for (const BaseShape& base : division.base_shapes) evaluator.evaluate(base);
   Skeleton& skeleton = evaluator.skeleton;
   contract(context, division, skeleton);
+  join_ties(context, skeleton);
   dissolve(skeleton);
   compact(skeleton);
   return std::move(skeleton);

@@ -78,11 +78,10 @@ Cut contact_in_run(const Context& context, const Subshape& subshape,
     const Element& element = subshape.elements[touch.element];
     const bool has_before = j > 0, has_after = j + 1 < run.size();
     // A vertex is not nearer than a neighbour that is touched inside, but for rounding.
-    const bool at_joint =
-        is_vertex(touch)
-            ? (has_before && is_inside(*run[j - 1])) || (has_after && is_inside(*run[j + 1]))
-            : (has_before && touch.parameter <= element.from) ||
-                  (has_after && touch.parameter >= element.to);
+    const bool at_joint = is_vertex(touch) ? (has_before && is_inside(*run[j - 1])) ||
+                                                 (has_after && is_inside(*run[j + 1]))
+                                           : (has_before && touch.parameter <= element.from) ||
+                                                 (has_after && touch.parameter >= element.to);
     if (!at_joint && (nearest == nullptr || touch.distance < nearest->distance)) nearest = &touch;
   }
   if (nearest != nullptr) return cut_at(subshape, {nearest->element, false, nearest->parameter});

@@ -172,8 +172,8 @@ std::optional<EndDisk> disk_at_end(const Context& context, const Subshape& subsh
     const double end = forward ? element.to : element.from;
     foot = own.at(end);
     normal = own.normal_at(end);
-    // The directions of an arc whose length is some roundings are known to little: at a smooth joint
-    // the longer edge tells.
+    // The directions of an arc whose length is some roundings are known to little: at a smooth
+    // joint the longer edge tells.
     if (passes && next.length > own.length) normal = forward ? next.normal() : next.end_normal();
   } else if (passes) {
     normal = forward ? next.normal() : next.end_normal();
