@@ -136,6 +136,19 @@ void compare_all(RandomShape (*make)(std::uint64_t), std::uint64_t count, double
 TEST(BiarcDc, AgreesWithDisksOnPolygons) { compare_all(random_shape, 1500, 1e-7, 1000); }
 TEST(BiarcDc, AgreesWithDisksOnArcShapes) { compare_all(random_arc_shape, 900, 1e-6, 500); }
 
+/// Reflex vertices beside slight arcs; joints of arcs of some roundings' length; regular polygons
+/// of bulged sides, whose centre every sub-shape puts elsewhere by some tolerances.
+TEST(BiarcDc, AgreesWhereRoundingDecides) {
+  for (const std::uint64_t seed : {175, 785, 1295, 1649, 1756, 3627, 8991})
+    for (const std::uint64_t choice : {1, 2, 3}) {
+      const RandomShape random = random_arc_shape(seed);
+      const auto shape = build_shape(random.rings);
+      ASSERT_TRUE(shape.ok());
+      EXPECT_EQ(compare(*shape, seed + choice, 1e-6), std::vector<std::string>{})
+          << random.kind << ", seed " << seed;
+    }
+}
+
 /// The sum of the reports over random shapes without holes.
 Report reports_of(RandomShape (*make)(std::uint64_t), std::uint64_t count) {
   Report sum;
@@ -229,6 +242,23 @@ TEST(BiarcDc, AgreesOnATreeOfFineArcs) {
   ASSERT_TRUE(shape.ok());
   for (const std::uint64_t seed : {1, 2})
     EXPECT_EQ(compare(*shape, seed, 1e-9), std::vector<std::string>{}) << "seed " << seed;
+}
+
+/// A disk that touches both ends of the arc of largest curvature, but not its middle, is no leaf.
+TEST(BiarcDc, EndsInTheCentreOfTheArcOfLargestCurvature) {
+  const auto rings = approximate_by_arcs(cli::border(10), {.tolerance = 1e-3});
+  ASSERT_TRUE(rings.ok());
+  const auto shape = build_shape(*rings);
+  ASSERT_TRUE(shape.ok());
+  const auto other = compute(*shape, options_for(Method::disks));
+  ASSERT_TRUE(other.ok());
+  for (const std::uint64_t seed : {1, 3}) {
+    const auto axis = compute(*shape, options_for(Method::biarc_dc, seed));
+    ASSERT_TRUE(axis.ok());
+    EXPECT_EQ(verify(*shape, *axis, {.threads = 1}).failures, std::vector<std::string>{})
+        << "seed " << seed;
+    EXPECT_EQ(leaf_count(*axis, 0), leaf_count(*other, 0)) << "seed " << seed;
+  }
 }
 #endif
 
