@@ -180,6 +180,7 @@ Control control_with_arc(const Site& a, const Site& b, const Disk& from, const D
 }  // namespace
 
 Vec2 Bisector::tangent(Vec2 center) const {
+  if (is_straight) return direction;
   if (!right.is_vertex() && !left.is_vertex() && reference == nullptr) return direction;
   const Vec2 along = left_of(outward(left, center) - outward(right, center));
   const double size = norm(along);
@@ -187,6 +188,10 @@ Vec2 Bisector::tangent(Vec2 center) const {
 }
 
 Disk Bisector::disk_at(double position, const Disk& near) const {
+  if (is_straight) {
+    const double way = position - dot(direction, near.center);
+    return {near.center + way * direction, near.radius + way};
+  }
   if (reference != nullptr) {
     const double s = position / scale;
     const Vec2 foot = reference->at(s), normal = reference->normal_at(s);
@@ -207,6 +212,7 @@ Disk Bisector::disk_at(double position, const Disk& near) const {
 }
 
 double Bisector::last_position(const Disk& near, double limit) const {
+  if (is_straight) return position(near.center) + std::max(0.0, limit - near.radius);
   if (reference != nullptr) {
     const double end = reference == &right ? scale * right.length : 0;
     double low = position(near.center), high = end;
@@ -260,18 +266,16 @@ Control control_of(const Site& a, const Site& b, const Disk& from, const Disk& t
   const Site& segment = a.is_vertex() ? b : a;
   const Vec2 vertex = a.is_vertex() ? a.point : b.point;
   const double y = cross(segment.direction, vertex - segment.point);
-  double s = dot(segment.direction, from.center - vertex);
-  double t = dot(segment.direction, to.center - vertex);
+  const double s = dot(segment.direction, from.center - vertex);
+  const double t = dot(segment.direction, to.center - vertex);
   if (!(y > 0)) return {middle, 1};
   // Far from a vertex that is next to the segment, the radius knows better how far, as (s - x)^2 +
-  // y^2 = 2 y r: what is lost in y then cancels.
+  // y^2 = 2 y r: what is lost in y then cancels. The feet stay between those of the ends.
   constexpr double next_to = 0x1p-4;
   const auto by_radius = [&](double way, double radius) {
     return y < next_to * std::abs(way) ? std::copysign(std::sqrt(y * (2 * radius - y)), way) : way;
   };
-  s = by_radius(s, from.radius);
-  t = by_radius(t, to.radius);
-  const double r = (s * t + y * y) / (2 * y);
+  const double r = (by_radius(s, from.radius) * by_radius(t, to.radius) + y * y) / (2 * y);
   // Centres lie at height r over the line; the vertex at height y.
   const Vec2 center = vertex + (0.5 * (s + t)) * segment.direction + (r - y) * segment.normal();
   return {{center, r}, 1};

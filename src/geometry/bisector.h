@@ -13,12 +13,14 @@ namespace medial::geometry {
 inline Vec2 direction_along(const Site& right, const Site& left) {
   if (right.is_vertex() && left.is_vertex()) return -left_of(left.point - right.point);
   // Two segments that run almost the same way: the sum of the normals is parallel to the
-  // difference of the directions, and keeps its digits. Where they share a corner the walk
-  // leaves it or ends in it; otherwise it goes where the two lines open.
+  // difference of the directions, and keeps its digits. The walk leaves a gap or corner behind it
+  // if the left one comes first, and ends in one if it comes last. Where each reaches beside the
+  // other it goes where the two lines open.
   if (!(dot(right.direction, left.direction) > 0)) return right.direction - left.direction;
-  const Vec2 sum = right.normal() + left.normal();
-  const bool leaves =
-      meets(left, right) || (!meets(right, left) && cross(right.direction, left.direction) < 0);
+  const Vec2 sum = right.normal() + left.normal(), along = right.direction + left.direction;
+  bool leaves = meets(left, right) || dot(along, right.point - left.end()) >= 0;
+  if (!leaves && !meets(right, left) && !(dot(along, left.point - right.end()) >= 0))
+    leaves = cross(right.direction, left.direction) < 0;
   return leaves ? sum : -sum;
 }
 
@@ -39,6 +41,7 @@ struct Bisector {
   Vec2 direction;
   const Site* reference = nullptr;  ///< of a bisector with an arc
   double scale = 0;                 ///< from the reference's parameter to the position
+  bool is_straight = false;         ///< see straighten()
 
   Bisector(const Site& right_site, const Site& left_site) : right(right_site), left(left_site) {
     if (right.is_arc() || left.is_arc()) {
@@ -54,6 +57,13 @@ struct Bisector {
     direction = direction_along(right, left);
     const double size = norm(direction);
     if (size > 0) direction = (1 / size) * direction;
+  }
+
+  /// Of two sites in one line but for rounding, which alone would tell where their feet move: takes
+  /// the disks over one place, with this unit normal, instead.
+  void straighten(Vec2 normal) {
+    is_straight = true;
+    direction = normal;
   }
 
   double position(Vec2 center) const {

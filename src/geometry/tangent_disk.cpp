@@ -389,6 +389,8 @@ bool fits_into(double radius, const Site& site) {
 
 double tangent_radius(Vec2 foot, Vec2 normal, const Site& site) {
   constexpr double none = std::numeric_limits<double>::infinity();
+  // Rounding turns unit normals by up to so much: of those that differ by less nothing is known.
+  constexpr double parallel = 0x1p-51;
   if (site.is_vertex()) {
     const Vec2 d = site.point - foot;
     const double ahead = 2 * medial::dot(normal, d);
@@ -401,7 +403,7 @@ double tangent_radius(Vec2 foot, Vec2 normal, const Site& site) {
     height -= 0.5 * site.curvature * squared_norm(d);
     closing += site.curvature * medial::dot(normal, d);
   }
-  if (!(height >= 0 && closing > 0)) return none;
+  if (!(height >= 0 && closing > 0.5 * parallel * parallel)) return none;
   double radius = height / closing;
   // Where the disk is nearly the arc's own circle, the contact equation is its residual times
   // 1 - radius * curvature: Newton's method on the distance itself wins the digits back, in a step

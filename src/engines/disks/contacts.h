@@ -66,6 +66,14 @@ class Contacts {
   /// where its neighbour would be nearer.
   bool touches(std::uint32_t i, const Disk& disk, double slack) const;
 
+  /// Whether a disk touches both the site and its carrier: as touches(), but where the foot is next
+  /// to an end, on either side, as far as the disk can tell.
+  bool touches_carrier(std::uint32_t i, const Disk& disk, double slack) const {
+    return std::abs(std::sqrt(geometry::squared_distance(site(i), disk.center)) - disk.radius) <=
+               slack &&
+           std::abs(geometry::carrier_distance(site(i), disk.center) - disk.radius) <= slack;
+  }
+
   /// Whether a disk touches all of an arc: it is the arc's circle, as far as the arc can tell.
   bool touches_all(std::uint32_t i, const Disk& disk) const;
 

@@ -31,6 +31,7 @@ Event EventSearch::local_event(bool on_right) {
   const std::uint32_t other = on_right ? span_.left : span_.right;
   Event event;
   if (boundary_.is_smooth(on_right ? own : next)) {
+    if (bisector_.is_straight) return event;
     const auto joint = disk_at_joint(on_right);
     if (!joint) return event;
     const double position = bisector_.position(joint->disk.center);
@@ -80,7 +81,7 @@ Event EventSearch::local_event(bool on_right) {
     if (!contact) contact = contact_with(next, nowhere);
     if (contact && reaches(*contact)) return *contact;
   }
-  if (!in_reach) return event;
+  if (!in_reach || bisector_.is_straight) return event;
   event.kind = flat ? Event::Kind::contact : Event::Kind::far;
   event.site = next;
   event.disk = {foot + radius * normal, radius};
@@ -153,6 +154,7 @@ std::optional<Event> EventSearch::contact_at_joint(std::uint32_t third) const {
 std::optional<Event> EventSearch::contact_with(const Site& touched, std::uint32_t third,
                                                double high) {
   ++statistics_.apollonius;
+  if (bisector_.is_straight) return contact_over_gap(touched, third, high);
   const geometry::TangentDisks disks =
       geometry::tangent_disks(bisector_.right, bisector_.left, touched);
   Event best;
@@ -179,6 +181,57 @@ std::optional<Event> EventSearch::contact_with(const Site& touched, std::uint32_
   polish(best, touched);
   best.position = bisector_.position(best.disk.center);
   return not_behind(best);
+}
+
+bool EventSearch::in_line(Vec2 gap) const {
+  const Site &right = site(span_.right), &left = site(span_.left);
+  if (right.is_arc() || left.is_arc() || (right.is_vertex() && left.is_vertex())) return false;
+  const double width = squared_norm(gap);
+  if (!(width > 0 && width <= context_.tolerance * from_.radius)) return false;
+  if (right.is_vertex() || left.is_vertex()) {
+    const Site& segment = right.is_vertex() ? left : right;
+    const Vec2 vertex = right.is_vertex() ? right.point : left.point;
+    return std::abs(geometry::carrier_distance(segment, vertex)) <= 0.5 * context_.tolerance;
+  }
+  const double turn = cross(right.direction, left.direction);
+  return dot(right.direction, left.direction) > 0 &&
+         turn * turn * context_.radius_limit <= context_.tolerance;
+}
+
+geometry::Bisector EventSearch::bisector() const {
+  geometry::Bisector result(site(span_.right), site(span_.left));
+  const Site &right = result.right, &left = result.left;
+  if (in_line(right.point - left.end()))
+    result.straighten(right.is_vertex()  ? left.normal()
+                      : left.is_vertex() ? right.normal()
+                                         : result.direction);
+  return result;
+}
+
+std::optional<Event> EventSearch::pass_into_gap() const {
+  const Site &right = site(span_.right), &left = site(span_.left);
+  if (!in_line(left.point - right.end())) return std::nullopt;
+  for (const bool on_right : {true, false}) {
+    const Site& own = on_right ? right : left;
+    if (own.is_vertex() || !boundary_.is_smooth(on_right ? span_.right : span_.left - 1)) continue;
+    const Vec2 end = on_right ? right.end() : left.point;
+    const double along = dot(own.direction, from_.center - end);
+    if (along * along <= context_.tolerance * from_.radius)
+      return Event{on_right ? Event::Kind::pass_right : Event::Kind::pass_left, Hit::none, from_,
+                   low_};
+  }
+  return std::nullopt;
+}
+
+std::optional<Event> EventSearch::contact_over_gap(const Site& touched, std::uint32_t third,
+                                                   double high) const {
+  const Vec2 normal = bisector_.direction, foot = from_.center - from_.radius * normal;
+  const double radius = geometry::tangent_radius(foot, normal, touched);
+  if (!(radius <= context_.radius_limit)) return std::nullopt;
+  const Disk disk{foot + radius * normal, radius};
+  const double position = bisector_.position(disk.center);
+  if (std::max(low_ - position, position - high) > slack()) return std::nullopt;
+  return not_behind({Event::Kind::contact, third, disk, position});
 }
 
 Event EventSearch::not_behind(Event event) const {
@@ -216,6 +269,7 @@ void EventSearch::polish(Event& event, const Site& third) {
 
 Event EventSearch::next() {
   if (const auto passed = pass_over_circle()) return *passed;
+  if (const auto passed = pass_into_gap()) return *passed;
   // A foot that passes on smoothly is found at little cost, and makes most corners' events
   // needless.
   const bool right_first = boundary_.is_smooth(span_.right) || !boundary_.is_smooth(span_.left - 1);
@@ -387,7 +441,21 @@ std::uint32_t EventSearch::obstacle(const Disk& disk) {
   return Hit::none;
 }
 
+std::optional<Event> EventSearch::pass_at_node() const {
+  if (!(from_.radius > 0)) return std::nullopt;
+  for (const bool on_right : {true, false}) {
+    const std::uint32_t own = on_right ? span_.right : span_.left;
+    const std::uint32_t next = on_right ? own + 1 : own - 1;
+    if (boundary_.is_smooth(std::min(own, next)) &&
+        contacts_.touches_carrier(next, from_, context_.tolerance))
+      return Event{on_right ? Event::Kind::pass_right : Event::Kind::pass_left, Hit::none, from_,
+                   low_};
+  }
+  return std::nullopt;
+}
+
 Event EventSearch::bracket(const Disk& start, const Event& event) {
+  if (const auto passed = pass_at_node()) return *passed;
   ++statistics_.brackets;
   Event found{Event::Kind::contact, event.site, start, bisector_.position(start.center)};
   if (found.site == Hit::none || found.site <= span_.right || found.site >= span_.left)

@@ -36,7 +36,7 @@ class EventSearch {
         statistics_(statistics),
         span_(span),
         from_(from),
-        bisector_(site(span.right), site(span.left)),
+        bisector_(bisector()),
         low_(bisector_.position(from.center)) {}
 
   /// The event; never `none` or `far`.
@@ -83,6 +83,18 @@ class EventSearch {
   /// the first one ahead of `from`.
   std::optional<Event> contact_with(const geometry::Site& touched, std::uint32_t third,
                                     double high);
+  /// Whether the two sites lie in one line, as far as a disk can tell, with this gap between them,
+  /// so narrow that the node's disk does not reach into it by the tolerance.
+  bool in_line(Vec2 gap) const;
+  /// The bisector of the two sites; a straightened one where the walk comes out of a gap between
+  /// sites in line.
+  geometry::Bisector bisector() const;
+  /// Where the walk goes into a gap between sites in line: when the foot passes on to the vertex
+  /// there is left to rounding, so it does at once.
+  std::optional<Event> pass_into_gap() const;
+  /// contact_with() on a straightened bisector.
+  std::optional<Event> contact_over_gap(const geometry::Site& touched, std::uint32_t third,
+                                        double high) const;
   /// An event that rounding put behind the node happens at the node.
   Event not_behind(Event event) const;
   /// Brings a disk's residual below the tolerance: by Newton's method, and where that fails in
@@ -90,6 +102,9 @@ class EventSearch {
   void polish(Event& event, const geometry::Site& third);
   /// Where the disk of the node is the circle of an arc, it touches all of it: the foot passes on.
   std::optional<Event> pass_over_circle() const;
+  /// Where the node's disk touches the smooth neighbour of one of the two sites as well, within the
+  /// tolerance: the foot may pass on to it at once.
+  std::optional<Event> pass_at_node() const;
   bool is_at_node(std::uint32_t touched) const;
   Event at_node(std::uint32_t touched) const;
   /// Shortens the way to `event` until the disk there is empty: each intruder gives a disk
