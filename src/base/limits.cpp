@@ -1,33 +1,51 @@
 #include "base/limits.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <span>
 
 namespace medial {
 
-std::optional<Error> beyond_limits(const Shape& shape) {
-  double largest = 0;
-  for (const Vec2 p : shape.points) largest = std::max({largest, std::abs(p.x), std::abs(p.y)});
+namespace {
+
+std::optional<Error> beyond_limits(std::span<const Vec2> points, double largest,
+                                   std::span<const VertexSource> sources) {
+  for (const Vec2 p : points) largest = std::max({largest, std::abs(p.x), std::abs(p.y)});
   const double smallest = smallest_coordinate * std::max(1.0, largest);
   const auto within = [smallest](double c) {
     return c == 0 || (std::abs(c) >= smallest && std::abs(c) <= largest_coordinate);
   };
-  for (std::size_t i = 0; i < shape.points.size(); ++i) {
-    const Vec2 p = shape.points[i];
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Vec2 p = points[i];
     if (within(p.x) && within(p.y)) continue;
     Error error{ErrorCode::unsupported,
                 "a coordinate is larger than 1e100, or smaller than 1e-100 (or than that share of "
                 "the largest) without being 0",
                 {}};
     error.place.point = p;
-    if (i < shape.sources.size()) {
-      error.place.ring = shape.sources[i].ring;
-      error.place.vertex = shape.sources[i].vertex;
+    if (i < sources.size()) {
+      error.place.ring = sources[i].ring;
+      error.place.vertex = sources[i].vertex;
     }
     return error;
   }
   return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Error> beyond_limits(const Shape& shape) {
+  return beyond_limits(shape.points, 0, shape.sources);
+}
+
+std::optional<Error> beyond_limits(const Soup& soup, const Box& box) {
+  const std::array<Vec2, 2> corners{box.low, box.high};
+  if (auto error = beyond_limits(corners, 0, {})) return error;
+  const double largest = std::max(
+      {std::abs(box.low.x), std::abs(box.low.y), std::abs(box.high.x), std::abs(box.high.y)});
+  return beyond_limits(soup.points, largest, soup.point_sources);
 }
 
 }  // namespace medial

@@ -6,6 +6,7 @@
 
 #include "medial/error.h"
 #include "medial/shape.h"
+#include "medial/soup.h"
 
 namespace medial {
 
@@ -22,5 +23,8 @@ constexpr double smallest_coordinate = 1e-100;
 /// The first coordinate of a shape that is beyond the limits, as an error `unsupported` with its
 /// place; none where all are within them. O(n).
 std::optional<Error> beyond_limits(const Shape& shape);
+
+/// The same of a soup and a box around it.
+std::optional<Error> beyond_limits(const Soup& soup, const Box& box);
 
 }  // namespace medial

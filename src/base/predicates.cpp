@@ -1,5 +1,6 @@
 #include "base/predicates.h"
 
+#include <algorithm>
 #include <array>
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cstdint>
@@ -88,7 +89,80 @@ int orientation_in_integers(Vec2 a, Vec2 b, Vec2 c) {
   return left.compare(right);
 }
 
+/// value * 2^-exponent. Requires an integer.
+template <class Number>
+Number scaled_to_integer_by(double value, int exponent) {
+  if (value == 0) return Number(0);
+  int own = 0;
+  const double fraction = std::frexp(value, &own);
+  auto mantissa = static_cast<std::int64_t>(std::ldexp(fraction, 53));
+  int shift = own - 53 - exponent;
+  for (; shift < 0; ++shift) mantissa /= 2;
+  return Number(mantissa) << static_cast<unsigned>(shift);
+}
+
+template <class Number>
+int in_circle_of(const std::array<Number, 6>& d) {
+  const Number &ux = d[0], &uy = d[1], &vx = d[2], &vy = d[3], &wx = d[4], &wy = d[5];
+  const Number sum = (ux * ux + uy * uy) * (vx * wy - wx * vy) +
+                     (vx * vx + vy * vy) * (wx * uy - ux * wy) +
+                     (wx * wx + wy * wy) * (ux * vy - vx * uy);
+  return (sum > 0) - (sum < 0);
+}
+
+template <class Number>
+int in_circle_in_integers(const std::array<double, 8>& coordinates, int exponent) {
+  std::array<Number, 6> d;
+  for (std::size_t i = 0; i < 6; ++i)
+    d[i] = scaled_to_integer_by<Number>(coordinates[i], exponent) -
+           scaled_to_integer_by<Number>(coordinates[6 + i % 2], exponent);
+  return in_circle_of(d);
+}
+
 }  // namespace
+
+int exact_in_circle(Vec2 a, Vec2 b, Vec2 c, Vec2 p) {
+  const std::array<double, 8> coordinates{a.x, a.y, b.x, b.y, c.x, c.y, p.x, p.y};
+  // On grids the differences are exact, and multiples of a unit that they have a few bits of.
+  std::array<double, 6> differences;
+  bool exact = true;
+  double largest = 0;
+  for (std::size_t i = 0; i < 6; ++i) {
+    const Expansion2 difference = exact_sum(coordinates[i], -coordinates[6 + i % 2]);
+    exact = exact && difference.error == 0;
+    differences[i] = difference.value;
+    largest = std::max(largest, std::abs(difference.value));
+  }
+  if (exact && largest > 0x1p-900 && largest < 0x1p900) {
+    // With 30 bits each, the sum has at most 2 + 3 * 61 bits less one: below 2^124.
+    int exponent = 0;
+    std::frexp(largest, &exponent);
+    const double scale = std::ldexp(1.0, 30 - exponent);
+    __extension__ using Wide = __int128;
+    std::array<Wide, 6> units;
+    bool whole = true;
+    for (std::size_t i = 0; i < 6; ++i) {
+      const double value = scale * differences[i];
+      const auto integer = static_cast<std::int64_t>(value);
+      whole = whole && static_cast<double>(integer) == value;
+      units[i] = integer;
+    }
+    if (whole) return in_circle_of(units);
+  }
+  // In units of the lowest bit of all coordinates: of n bits each, the sum has at most 4 n + 8.
+  int lowest = 2000, highest = -2000;
+  for (const double value : coordinates) {
+    if (value == 0) continue;
+    int exponent = 0;
+    const auto mantissa = static_cast<std::int64_t>(std::ldexp(std::frexp(value, &exponent), 53));
+    const int trailing = __builtin_ctzll(static_cast<unsigned long long>(mantissa));
+    lowest = std::min(lowest, exponent - 53 + trailing);
+    highest = std::max(highest, exponent);
+  }
+  if (highest - lowest <= 120)
+    return in_circle_in_integers<boost::multiprecision::int512_t>(coordinates, lowest);
+  return in_circle_in_integers<Integer>(coordinates, lowest);
+}
 
 int exact_orientation(Vec2 a, Vec2 b, Vec2 c) {
   // Both products are zero, the common case of points on a vertical or horizontal line.

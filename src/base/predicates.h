@@ -40,4 +40,29 @@ inline int orientation(Vec2 a, Vec2 b, Vec2 c) {
   return exact_orientation(a, b, c);
 }
 
+/// The part of in_circle() that rounding errors cannot be excluded from. Same result.
+int exact_in_circle(Vec2 a, Vec2 b, Vec2 c, Vec2 p);
+
+/// Where p lies to the circle through a, b and c, which come counter-clockwise: +1 inside, -1
+/// outside, 0 on it. Exact for all finite coordinates.
+inline int in_circle(Vec2 a, Vec2 b, Vec2 c, Vec2 p) {
+  const Vec2 u = a - p, v = b - p, w = c - p;
+  const double vw = v.x * w.y, wv = w.x * v.y, wu = w.x * u.y, uw = u.x * w.y, uv = u.x * v.y,
+               vu = v.x * u.y;
+  const double uu = squared_norm(u), vv = squared_norm(v), ww = squared_norm(w);
+  const double sum = uu * (vw - wv) + vv * (wu - uw) + ww * (uv - vu);
+  const double sizes = uu * (std::abs(vw) + std::abs(wv)) + vv * (std::abs(wu) + std::abs(uw)) +
+                       ww * (std::abs(uv) + std::abs(vu));
+  // Each term has a difference rounded in each of four factors, two roundings in the square, two in
+  // the minor, one product and at most two sums: 11 units. An underflow is at most as large as the
+  // smallest normal number times what it is multiplied by; an overflow makes the comparison false.
+  constexpr double unit = std::numeric_limits<double>::epsilon() / 2;
+  constexpr double relative = (12 + 128 * unit) * unit;
+  constexpr double underflow = std::numeric_limits<double>::min();
+  const double error = relative * sizes + 8 * underflow * (1 + uu + vv + ww);
+  if (sum > error) return 1;
+  if (sum < -error) return -1;
+  return exact_in_circle(a, b, c, p);
+}
+
 }  // namespace medial

@@ -25,6 +25,7 @@
 #include "engines/potential/force.h"
 #include "engines/potential/potential.h"
 #include "engines/ridge/ridge.h"
+#include "engines/voronoi/points_diagram.h"
 #include "engines/voronoi/soup_diagram.h"
 #include "medial/voronoi.h"
 #include "shape/around.h"
@@ -349,12 +350,19 @@ Result<VoronoiDiagram> voronoi_diagram(const Soup& soup, const Options& options,
     if (auto error = refuse(soup, options)) return std::move(*error);
     auto box = frame_for(soup, options, frame);
     if (!box) return std::move(box).error();
-    const Shape shape = around(soup, voronoi::far_frame(*box));
-    if (auto error = beyond_limits(shape)) return std::move(*error);
+    const Box far = voronoi::far_frame(*box);
+    if (auto error = beyond_limits(soup, far)) return std::move(*error);
+    const auto cancelled = [&] { return options.cancel != nullptr && options.cancel->load(); };
     Result<VoronoiDiagram> diagram = on_threads(options.threads, [&]() -> Result<VoronoiDiagram> {
+      const Error stopped{ErrorCode::cancelled, "cancelled", {}};
+      if (soup.edges.empty()) {
+        VoronoiDiagram of_points = voronoi::diagram_of_points(soup, options, *box);
+        if (cancelled()) return stopped;
+        return of_points;
+      }
+      const Shape shape = around(soup, far);
       MedialAxis axis = disks::run_two_sided(shape, options);
-      if (options.cancel != nullptr && options.cancel->load())
-        return Error{ErrorCode::cancelled, "cancelled", {}};
+      if (cancelled()) return stopped;
       if (!has_right_topology(shape, axis))
         return Error{ErrorCode::internal,
                      "the diagram is not connected as it should be: please report this input",

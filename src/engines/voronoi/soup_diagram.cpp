@@ -14,6 +14,7 @@
 #include "base/frame.h"
 #include "base/memory.h"
 #include "engines/voronoi/clip.h"
+#include "engines/voronoi/frame_cut.h"
 #include "geometry/bisector.h"
 #include "geometry/site.h"
 #include "geometry/tangent_disk.h"
@@ -36,7 +37,8 @@ class Assembly {
         shape_(shape),
         axis_(axis),
         frame_(frame),
-        point_count_(static_cast<std::uint32_t>(soup.points.size())) {}
+        point_count_(static_cast<std::uint32_t>(soup.points.size())),
+        cut_(soup, frame, axis.tolerance, diagram_) {}
 
   VoronoiDiagram run() {
     split_long_edges();
@@ -44,13 +46,13 @@ class Assembly {
     find_ends();
     make_spokes();
     cut_off();
-    close_along_frame();
+    cut_.close();
     make_faces();
     diagram_.method = std::move(axis_.method);
     diagram_.tolerance = axis_.tolerance;
     diagram_.statistics = axis_.statistics;
     diagram_.frame = frame_;
-    set_kinds();
+    set_kinds(diagram_);
     return std::move(diagram_);
   }
 
@@ -62,14 +64,6 @@ class Assembly {
     std::uint32_t point, node;
     std::array<std::uint32_t, 2> site;  ///< of the diagram
   };
-  /// Where an edge leaves the frame.
-  struct Crossing {
-    double place;
-    Disk disk;
-    std::uint32_t before, after;  ///< sites beside it, counter-clockwise along the frame
-    std::uint32_t edge, end;      ///< of the diagram: which end of it that is
-  };
-
   bool is_frame(std::uint32_t own) const { return axis_.sites[own].ring == none; }
   bool is_vertex(std::uint32_t own) const { return axis_.sites[own].kind == SiteKind::vertex; }
   /// The site of the diagram.
@@ -337,193 +331,18 @@ class Assembly {
     reserve_large(diagram_.nodes, axis_.nodes.size() + soup_.points.size());
     reserve_large(diagram_.edges, count + 64);
     part_begin_.resize(count + 1);
-    std::vector<ClippedPart> parts;
     for (std::uint32_t e = 0; e < count; ++e) {
       part_begin_[e] = static_cast<std::uint32_t>(diagram_.edges.size());
       const std::array<std::uint32_t, 2> site = sites_of(e);
       if (site[0] == no_site || site[1] == no_site) continue;
       const bool spoke = e >= axis_.edges.size();
-      const ConicEdge curve = curve_of(e);
-      clip(curve, frame_, parts);
-      // Whether a node is inside is decided for all of its edges alike; where it is so near to the
-      // frame that an edge saw it otherwise, a part without length makes up for that.
-      const bool begins = is_inside(frame_, curve.from.center);
-      const bool ends_inside = is_inside(frame_, curve.to.center);
-      if (begins && ends_inside && parts.empty()) parts.push_back({0, 1});
-      if (begins && (parts.empty() || parts.front().from > 0)) parts.insert(parts.begin(), {0, 0});
-      if (ends_inside && (parts.empty() || parts.back().to < 1)) parts.push_back({1, 1});
-      for (const ClippedPart& part : parts) {
-        const bool from_node = begins && part.from == 0, to_node = ends_inside && part.to == 1;
-        const bool whole = from_node && to_node && part.from < part.to;
-        if (whole) {
-          diagram_.edges.push_back(
-              {{{node_at(e, 0), node_at(e, 1)}, site, curve.control, curve.weight}, spoke, false});
-          continue;
-        }
-        ConicEdge cut = curve.part(part.from, part.to);
-        if (!spoke && part.from < part.to) take_control(axis_.edges[e].site, cut);
-        const auto number = static_cast<std::uint32_t>(diagram_.edges.size());
-        std::array<std::uint32_t, 2> ends{none, none};
-        const auto cross = [&](std::uint32_t end, const Disk& disk) {
-          // Outward, the edge has one site on its left, which comes after it along the frame.
-          Vec2 on_border = onto_border(frame_, disk.center);
-          const double place = place_on_border(frame_, on_border);
-          if (place == std::floor(place))  // to rounding in a corner
-            on_border = corner_of(frame_, static_cast<std::size_t>(place) % 4);
-          const std::uint32_t after = site[1 - end], before = site[end];
-          crossings_.push_back({place, {on_border, disk.radius}, before, after, number, end});
-        };
-        if (from_node)
-          ends[0] = node_at(e, 0);
-        else
-          cross(0, cut.from);
-        if (to_node)
-          ends[1] = node_at(e, 1);
-        else
-          cross(1, cut.to);
-        diagram_.edges.push_back({{ends, site, cut.control, cut.weight}, spoke, false});
-      }
+      cut_.add(
+          curve_of(e), site, spoke, [&](std::size_t end) { return node_at(e, end); },
+          [&](ConicEdge& part) {
+            if (!spoke) take_control(axis_.edges[e].site, part);
+          });
     }
     part_begin_[count] = static_cast<std::uint32_t>(diagram_.edges.size());
-  }
-
-  /// The frame's own edges, from crossing to crossing and corner to corner.
-  void close_along_frame() {
-    std::sort(crossings_.begin(), crossings_.end(),
-              [](const Crossing& a, const Crossing& b) { return a.place < b.place; });
-    settle_ties();
-    first_crossing_ = static_cast<std::uint32_t>(diagram_.nodes.size());
-    for (const Crossing& crossing : crossings_) {
-      const std::uint32_t node = add_node(crossing.disk, 0);
-      diagram_.edges[crossing.edge].node[crossing.end] = node;
-    }
-    std::array<std::uint32_t, 4> corner{none, none, none, none};
-    const auto add_corner = [&](std::size_t k, std::uint32_t site) {
-      const Vec2 p = corner_of(frame_, k);
-      if (corner[k] == none) corner[k] = add_node({p, distance_to(site, p)}, 0);
-      return corner[k];
-    };
-    if (crossings_.empty()) {
-      whole_frame_ = nearest_to(corner_of(frame_, 0));
-      for (std::size_t k = 0; k < 4; ++k) add_corner(k, whole_frame_);
-      frame_begin_.push_back(static_cast<std::uint32_t>(diagram_.edges.size()));
-      for (std::size_t k = 0; k < 4; ++k)
-        add_frame_edge(corner[k], corner[(k + 1) % 4], whole_frame_);
-      return;
-    }
-    // The edges before each crossing, from the one before.
-    const std::size_t count = crossings_.size();
-    for (std::size_t i = 0; i < count; ++i) {
-      frame_begin_.push_back(static_cast<std::uint32_t>(diagram_.edges.size()));
-      const std::size_t previous = i == 0 ? count - 1 : i - 1;
-      const std::uint32_t site = crossings_[i].before;
-      if (crossings_[previous].after != site)
-        throw std::runtime_error("the frame's edges do not close a Voronoi face");
-      double from = crossings_[previous].place;
-      const double to = crossings_[i].place + (i == 0 ? 4 : 0);
-      std::uint32_t node = first_crossing_ + static_cast<std::uint32_t>(previous);
-      for (double k = std::floor(from) + 1; k < to; k += 1) {
-        const std::uint32_t next = add_corner(static_cast<std::size_t>(k) % 4, site);
-        add_frame_edge(node, next, site);
-        node = next;
-      }
-      add_frame_edge(node, first_crossing_ + static_cast<std::uint32_t>(i), site);
-    }
-    frame_begin_.push_back(static_cast<std::uint32_t>(diagram_.edges.size()));
-  }
-
-  /// Where several edges cross the frame in one place, puts them in an order in which each site
-  /// that ends there does so where it began.
-  void settle_ties() {
-    const double together =
-        8 * axis_.tolerance / std::min(frame_.high.x - frame_.low.x, frame_.high.y - frame_.low.y);
-    const std::size_t count = crossings_.size();
-    if (count < 2) return;
-    // A place where all is clear to begin at.
-    std::size_t start = 0;
-    while (start < count) {
-      const Crossing& before = crossings_[(start + count - 1) % count];
-      if (before.after == crossings_[start].before &&
-          crossings_[start].place - before.place > together)
-        break;
-      ++start;
-    }
-    if (start == count) start = 0;
-    for (std::size_t i = 1; i < count; ++i) {
-      Crossing& here = crossings_[(start + i) % count];
-      const Crossing& before = crossings_[(start + i - 1) % count];
-      if (before.after == here.before) continue;
-      for (std::size_t j = i + 1; j < count; ++j) {
-        Crossing& other = crossings_[(start + j) % count];
-        if (std::abs(other.place - here.place) > together) break;
-        if (other.before != before.after) continue;
-        std::swap(here, other);
-        std::swap(here.place, other.place);
-        break;
-      }
-    }
-  }
-
-  double distance_to(std::uint32_t site, Vec2 p) const {
-    if (site < point_count_) return distance(p, soup_.points[site]);
-    const SoupEdge& edge = soup_.edges[site - point_count_];
-    double nearest = std::numeric_limits<double>::infinity();
-    const sites::Pieces pieces =
-        sites::pieces_of(soup_.points[edge.from], soup_.points[edge.to], edge.bulge);
-    for (std::size_t i = 0; i < pieces.count; ++i)
-      nearest = std::min(nearest, std::sqrt(geometry::squared_distance(pieces.site[i], p)));
-    return nearest;
-  }
-  std::uint32_t nearest_to(Vec2 p) const {
-    std::uint32_t nearest = 0;
-    for (std::uint32_t s = 1; s < point_count_ + soup_.edges.size(); ++s)
-      if (distance_to(s, p) < distance_to(nearest, p)) nearest = s;
-    return nearest;
-  }
-
-  /// A straight edge whose radius is the distance to the site: the bisector of the site and its
-  /// mirror image in the frame.
-  void add_frame_edge(std::uint32_t from, std::uint32_t to, std::uint32_t site) {
-    const Disk &a = diagram_.nodes[from].disk, &b = diagram_.nodes[to].disk;
-    const bool upright = std::abs(b.center.x - a.center.x) < std::abs(b.center.y - a.center.y);
-    const Vec2 origin = a.center;
-    const auto mirrored = [&](Vec2 p) { return upright ? Vec2{-p.x, p.y} : Vec2{p.x, -p.y}; };
-    const Disk first{{0, 0}, a.radius}, last{b.center - origin, b.radius};
-    geometry::Control control{{midpoint(first.center, last.center), 0.5 * (a.radius + b.radius)},
-                              1};
-    if (a.center != b.center) {
-      if (site < point_count_) {
-        const Vec2 p = soup_.points[site] - origin;
-        control = geometry::control_of(geometry::make_vertex(p), geometry::make_vertex(mirrored(p)),
-                                       first, last);
-      } else if (const SoupEdge& edge = soup_.edges[site - point_count_]; edge.bulge != 0) {
-        control = control_over_arc(soup_.points[edge.from] - origin, soup_.points[edge.to] - origin,
-                                   edge.bulge, first, last, mirrored);
-      }
-    }
-    diagram_.edges.push_back({{{from, to},
-                               {site, no_site},
-                               {control.point.center + origin, control.point.radius},
-                               control.weight},
-                              false,
-                              true});
-  }
-  template <class Mirrored>
-  static geometry::Control control_over_arc(Vec2 from, Vec2 to, double bulge, const Disk& first,
-                                            const Disk& last, const Mirrored& mirrored) {
-    // The half of the arc that is touched, seen from the frame.
-    const Vec2 middle = midpoint(first.center, last.center);
-    const sites::Pieces pieces = sites::pieces_of(from, to, bulge);
-    geometry::Site arc = pieces.first();
-    if (pieces.count == 2 &&
-        geometry::squared_distance(pieces.last(), middle) < geometry::squared_distance(arc, middle))
-      arc = pieces.last();
-    if (geometry::carrier_distance(arc, middle) < 0) arc = geometry::reversed(arc);
-    const Vec2 direction = mirrored(arc.direction);
-    // A mirror image turns the other way: the same arc backward.
-    const geometry::Site image =
-        geometry::reversed({mirrored(arc.point), direction, arc.length, -arc.curvature});
-    return geometry::control_of(arc, image, first, last);
   }
 
   void make_faces() {
@@ -544,7 +363,7 @@ class Assembly {
     diagram_.sites.reserve(count);
     for (std::uint32_t site = 0; site < count; ++site) {
       diagram_.face_begin.push_back(static_cast<std::uint32_t>(diagram_.face_edges.size()));
-      diagram_.sites.push_back(result_site(site));
+      diagram_.sites.push_back(site_of_soup(soup_, site));
       for (const std::uint32_t own : owns[site]) {
         if (own == none) continue;
         const auto axis_edges = static_cast<std::uint32_t>(axis_.edges.size());
@@ -554,51 +373,16 @@ class Assembly {
                                      axis_.edges[step.edge].site[1] == own);
         if (spoke_after_[own] != none) add_to_face(axis_edges + spoke_after_[own], false);
       }
-      if (crossings_.empty() && site == whole_frame_)
-        for (std::uint32_t e = 4; e-- > 0;) diagram_.face_edges.push_back(frame_begin_[0] + e);
+      cut_.end_face(site);
     }
     diagram_.face_begin.push_back(static_cast<std::uint32_t>(diagram_.face_edges.size()));
   }
 
-  Site result_site(std::uint32_t site) const {
-    if (site < point_count_) {
-      const Vec2 p = soup_.points[site];
-      const auto [ring, vertex] = soup_.point_sources[site];
-      return {p, p, ring, vertex, SiteKind::vertex};
-    }
-    const SoupEdge& edge = soup_.edges[site - point_count_];
-    return {soup_.points[edge.from],
-            soup_.points[edge.to],
-            edge.source.ring,
-            edge.source.vertex,
-            edge.bulge == 0 ? SiteKind::segment : SiteKind::arc,
-            edge.bulge};
-  }
-
-  /// Appends what is left of an edge, and where it leaves the frame the frame's edges up to where
-  /// the face comes back: clockwise, those before the crossing.
+  /// Appends what is left of an edge.
   void add_to_face(std::uint32_t e, bool forward) {
     const std::uint32_t begin = part_begin_[e], end = part_begin_[e + 1];
-    for (std::uint32_t i = 0; i < end - begin; ++i) {
-      const std::uint32_t part = forward ? begin + i : end - 1 - i;
-      diagram_.face_edges.push_back(part);
-      const std::uint32_t node = diagram_.edges[part].node[forward ? 1 : 0];
-      if (node < first_crossing_ || node >= first_crossing_ + crossings_.size()) continue;
-      const std::uint32_t crossing = node - first_crossing_;
-      for (std::uint32_t f = frame_begin_[crossing + 1]; f-- > frame_begin_[crossing];)
-        diagram_.face_edges.push_back(f);
-    }
-  }
-
-  void set_kinds() {
-    std::vector<std::uint8_t> degree(diagram_.nodes.size());
-    for (const VoronoiEdge& edge : diagram_.edges)
-      for (const std::uint32_t node : edge.node)
-        if (degree[node] < 3) ++degree[node];
-    for (std::size_t i = 0; i < degree.size(); ++i)
-      diagram_.nodes[i].kind = degree[i] <= 1   ? NodeKind::leaf
-                               : degree[i] == 2 ? NodeKind::site_change
-                                                : NodeKind::branching;
+    for (std::uint32_t i = 0; i < end - begin; ++i)
+      cut_.add_to_face(forward ? begin + i : end - 1 - i, forward);
   }
 
   const Soup& soup_;
@@ -607,6 +391,7 @@ class Assembly {
   const Box frame_;
   const std::uint32_t point_count_;
   VoronoiDiagram diagram_;
+  FrameCut cut_;
   std::vector<std::uint32_t> chain_begin_;  ///< of each own site
   std::vector<Step> chains_;
   std::vector<std::uint32_t> first_, last_;  ///< nodes of each own site's chain
@@ -615,13 +400,35 @@ class Assembly {
   std::vector<std::uint32_t> corner_;  ///< of each node: the point that it is, if it is one
   std::vector<std::uint32_t> node_of_point_, node_of_axis_;
   std::vector<std::uint32_t> part_begin_;  ///< of each edge and spoke: its parts in the diagram
-  std::vector<Crossing> crossings_;
-  std::uint32_t first_crossing_ = 0;        ///< node
-  std::vector<std::uint32_t> frame_begin_;  ///< of each crossing: the frame's edges before it
-  std::uint32_t whole_frame_ = none;
 };
 
 }  // namespace
+
+Site site_of_soup(const Soup& soup, std::uint32_t site) {
+  if (site < soup.points.size()) {
+    const Vec2 p = soup.points[site];
+    const auto [ring, vertex] = soup.point_sources[site];
+    return {p, p, ring, vertex, SiteKind::vertex};
+  }
+  const SoupEdge& edge = soup.edges[site - soup.points.size()];
+  return {soup.points[edge.from],
+          soup.points[edge.to],
+          edge.source.ring,
+          edge.source.vertex,
+          edge.bulge == 0 ? SiteKind::segment : SiteKind::arc,
+          edge.bulge};
+}
+
+void set_kinds(VoronoiDiagram& diagram) {
+  std::vector<std::uint8_t> degree(diagram.nodes.size());
+  for (const VoronoiEdge& edge : diagram.edges)
+    for (const std::uint32_t node : edge.node)
+      if (degree[node] < 3) ++degree[node];
+  for (std::size_t i = 0; i < degree.size(); ++i)
+    diagram.nodes[i].kind = degree[i] <= 1   ? NodeKind::leaf
+                            : degree[i] == 2 ? NodeKind::site_change
+                                             : NodeKind::branching;
+}
 
 Box far_frame(const Box& frame) {
   // Everything inside of the frame is nearer than its diagonal to the soup, which is inside.

@@ -11,6 +11,12 @@ namespace medial::voronoi {
 /// inside of `frame` no place is nearer to it than to the soup.
 Box far_frame(const Box& frame);
 
+/// A site of the diagram: a point of the soup, or after all of them an edge.
+Site site_of_soup(const Soup& soup, std::uint32_t site);
+
+/// Sets the kind of each node by its number of edges.
+void set_kinds(VoronoiDiagram& diagram);
+
 /// The Voronoi diagram of a soup within `frame`, of the axis of what lies around it in a farther
 /// frame: the axis with its spokes, by the faces of the soup's sites, cut off. `shape` is
 /// around(soup, far_frame(frame)). O(n) expected.

@@ -1,0 +1,186 @@
+#include "engines/voronoi/frame_cut.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "axis/sites.h"
+#include "geometry/bisector.h"
+#include "geometry/site.h"
+
+namespace medial::voronoi {
+namespace {
+
+constexpr std::uint32_t none = ~std::uint32_t{0};
+
+template <class Mirrored>
+geometry::Control control_over_arc(Vec2 from, Vec2 to, double bulge, const Disk& first,
+                                   const Disk& last, const Mirrored& mirrored) {
+  // The half of the arc that is touched, seen from the frame.
+  const Vec2 middle = midpoint(first.center, last.center);
+  const sites::Pieces pieces = sites::pieces_of(from, to, bulge);
+  geometry::Site arc = pieces.first();
+  if (pieces.count == 2 &&
+      geometry::squared_distance(pieces.last(), middle) < geometry::squared_distance(arc, middle))
+    arc = pieces.last();
+  if (geometry::carrier_distance(arc, middle) < 0) arc = geometry::reversed(arc);
+  const Vec2 direction = mirrored(arc.direction);
+  // A mirror image turns the other way: the same arc backward.
+  const geometry::Site image =
+      geometry::reversed({mirrored(arc.point), direction, arc.length, -arc.curvature});
+  return geometry::control_of(arc, image, first, last);
+}
+
+}  // namespace
+
+void FrameCut::add_crossing(const Disk& disk, std::array<std::uint32_t, 2> site, std::uint32_t edge,
+                            std::uint32_t end) {
+  // Outward, the edge has one site on its left, which comes after it along the frame.
+  Vec2 on_border = onto_border(frame_, disk.center);
+  const double place = place_on_border(frame_, on_border);
+  if (place == std::floor(place))  // to rounding in a corner
+    on_border = corner_of(frame_, static_cast<std::size_t>(place) % 4);
+  crossings_.push_back({place, {on_border, disk.radius}, site[end], site[1 - end], edge, end});
+}
+
+std::uint32_t FrameCut::add_node(const Disk& disk) {
+  diagram_.nodes.push_back({disk, 0, NodeKind::leaf});
+  return static_cast<std::uint32_t>(diagram_.nodes.size() - 1);
+}
+
+void FrameCut::close() {
+  std::sort(crossings_.begin(), crossings_.end(),
+            [](const Crossing& a, const Crossing& b) { return a.place < b.place; });
+  settle_ties();
+  first_crossing_ = static_cast<std::uint32_t>(diagram_.nodes.size());
+  for (const Crossing& crossing : crossings_) {
+    const std::uint32_t node = add_node(crossing.disk);
+    diagram_.edges[crossing.edge].node[crossing.end] = node;
+  }
+  std::array<std::uint32_t, 4> corner{none, none, none, none};
+  const auto add_corner = [&](std::size_t k, std::uint32_t site) {
+    const Vec2 p = corner_of(frame_, k);
+    if (corner[k] == none) corner[k] = add_node({p, distance_to(site, p)});
+    return corner[k];
+  };
+  if (crossings_.empty()) {
+    whole_frame_ = nearest_to(corner_of(frame_, 0));
+    for (std::size_t k = 0; k < 4; ++k) add_corner(k, whole_frame_);
+    frame_begin_.push_back(static_cast<std::uint32_t>(diagram_.edges.size()));
+    for (std::size_t k = 0; k < 4; ++k)
+      add_frame_edge(corner[k], corner[(k + 1) % 4], whole_frame_);
+    return;
+  }
+  // The edges before each crossing, from the one before.
+  const std::size_t count = crossings_.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    frame_begin_.push_back(static_cast<std::uint32_t>(diagram_.edges.size()));
+    const std::size_t previous = i == 0 ? count - 1 : i - 1;
+    const std::uint32_t site = crossings_[i].before;
+    if (crossings_[previous].after != site)
+      throw std::runtime_error("the frame's edges do not close a Voronoi face");
+    double from = crossings_[previous].place;
+    const double to = crossings_[i].place + (i == 0 ? 4 : 0);
+    std::uint32_t node = first_crossing_ + static_cast<std::uint32_t>(previous);
+    for (double k = std::floor(from) + 1; k < to; k += 1) {
+      const std::uint32_t next = add_corner(static_cast<std::size_t>(k) % 4, site);
+      add_frame_edge(node, next, site);
+      node = next;
+    }
+    add_frame_edge(node, first_crossing_ + static_cast<std::uint32_t>(i), site);
+  }
+  frame_begin_.push_back(static_cast<std::uint32_t>(diagram_.edges.size()));
+}
+
+/// Where several edges cross the frame in one place, puts them in an order in which each site
+/// that ends there does so where it began.
+void FrameCut::settle_ties() {
+  const double together =
+      8 * tolerance_ / std::min(frame_.high.x - frame_.low.x, frame_.high.y - frame_.low.y);
+  const std::size_t count = crossings_.size();
+  if (count < 2) return;
+  // A place where all is clear to begin at.
+  std::size_t start = 0;
+  while (start < count) {
+    const Crossing& before = crossings_[(start + count - 1) % count];
+    if (before.after == crossings_[start].before &&
+        crossings_[start].place - before.place > together)
+      break;
+    ++start;
+  }
+  if (start == count) start = 0;
+  for (std::size_t i = 1; i < count; ++i) {
+    Crossing& here = crossings_[(start + i) % count];
+    const Crossing& before = crossings_[(start + i - 1) % count];
+    if (before.after == here.before) continue;
+    for (std::size_t j = i + 1; j < count; ++j) {
+      Crossing& other = crossings_[(start + j) % count];
+      if (std::abs(other.place - here.place) > together) break;
+      if (other.before != before.after) continue;
+      std::swap(here, other);
+      std::swap(here.place, other.place);
+      break;
+    }
+  }
+}
+
+double FrameCut::distance_to(std::uint32_t site, Vec2 p) const {
+  if (site < point_count_) return distance(p, soup_.points[site]);
+  const SoupEdge& edge = soup_.edges[site - point_count_];
+  double nearest = std::numeric_limits<double>::infinity();
+  const sites::Pieces pieces =
+      sites::pieces_of(soup_.points[edge.from], soup_.points[edge.to], edge.bulge);
+  for (std::size_t i = 0; i < pieces.count; ++i)
+    nearest = std::min(nearest, std::sqrt(geometry::squared_distance(pieces.site[i], p)));
+  return nearest;
+}
+std::uint32_t FrameCut::nearest_to(Vec2 p) const {
+  std::uint32_t nearest = 0;
+  for (std::uint32_t s = 1; s < point_count_ + soup_.edges.size(); ++s)
+    if (distance_to(s, p) < distance_to(nearest, p)) nearest = s;
+  return nearest;
+}
+
+/// A straight edge whose radius is the distance to the site: the bisector of the site and its
+/// mirror image in the frame.
+void FrameCut::add_frame_edge(std::uint32_t from, std::uint32_t to, std::uint32_t site) {
+  const Disk &a = diagram_.nodes[from].disk, &b = diagram_.nodes[to].disk;
+  const bool upright = std::abs(b.center.x - a.center.x) < std::abs(b.center.y - a.center.y);
+  const Vec2 origin = a.center;
+  const auto mirrored = [&](Vec2 p) { return upright ? Vec2{-p.x, p.y} : Vec2{p.x, -p.y}; };
+  const Disk first{{0, 0}, a.radius}, last{b.center - origin, b.radius};
+  geometry::Control control{{midpoint(first.center, last.center), 0.5 * (a.radius + b.radius)}, 1};
+  if (a.center != b.center) {
+    if (site < point_count_) {
+      const Vec2 p = soup_.points[site] - origin;
+      control = geometry::control_of(geometry::make_vertex(p), geometry::make_vertex(mirrored(p)),
+                                     first, last);
+    } else if (const SoupEdge& edge = soup_.edges[site - point_count_]; edge.bulge != 0) {
+      control = control_over_arc(soup_.points[edge.from] - origin, soup_.points[edge.to] - origin,
+                                 edge.bulge, first, last, mirrored);
+    }
+  }
+  diagram_.edges.push_back({{{from, to},
+                             {site, no_site},
+                             {control.point.center + origin, control.point.radius},
+                             control.weight},
+                            false,
+                            true});
+}
+
+void FrameCut::add_to_face(std::uint32_t edge, bool forward) {
+  diagram_.face_edges.push_back(edge);
+  const std::uint32_t node = diagram_.edges[edge].node[forward ? 1 : 0];
+  if (node < first_crossing_ || node >= first_crossing_ + crossings_.size()) return;
+  const std::uint32_t crossing = node - first_crossing_;
+  for (std::uint32_t f = frame_begin_[crossing + 1]; f-- > frame_begin_[crossing];)
+    diagram_.face_edges.push_back(f);
+}
+
+void FrameCut::end_face(std::uint32_t site) {
+  if (!crossings_.empty() || site != whole_frame_) return;
+  for (std::uint32_t e = 4; e-- > 0;) diagram_.face_edges.push_back(frame_begin_[0] + e);
+}
+
+}  // namespace medial::voronoi

@@ -1,0 +1,106 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "engines/voronoi/clip.h"
+#include "medial/soup.h"
+#include "medial/voronoi.h"
+
+namespace medial::voronoi {
+
+/// Cuts the edges of a soup's diagram off at its frame, and closes the faces along it.
+///
+/// First add() for every edge, then close(), then add_to_face() for the edges around each site.
+class FrameCut {
+ public:
+  FrameCut(const Soup& soup, const Box& frame, double tolerance, VoronoiDiagram& diagram)
+      : soup_(soup),
+        frame_(frame),
+        tolerance_(tolerance),
+        point_count_(static_cast<std::uint32_t>(soup.points.size())),
+        diagram_(diagram) {}
+
+  /// Appends the edge, or the parts of it inside of the frame, to the diagram. `node_at(end)` gives
+  /// the node of an end, and is asked for ends inside of the frame only; `take_control(part)` sets
+  /// control point and weight of a part from its ends.
+  template <class NodeAt, class TakeControl>
+  void add(const ConicEdge& curve, std::array<std::uint32_t, 2> site, bool spoke, NodeAt&& node_at,
+           TakeControl&& take_control);
+
+  /// Adds the frame's own edges, from crossing to crossing and corner to corner. Throws
+  /// std::runtime_error where what was added does not go around the frame.
+  void close();
+
+  /// Appends an edge of the diagram to the face that is being made, and where it leaves the frame
+  /// the frame's edges up to where the face comes back: clockwise, those before the crossing.
+  void add_to_face(std::uint32_t edge, bool forward);
+  /// Ends the face of a site: that of the only site in the frame goes all around.
+  void end_face(std::uint32_t site);
+
+ private:
+  /// Where an edge leaves the frame.
+  struct Crossing {
+    double place;
+    Disk disk;
+    std::uint32_t before, after;  ///< sites beside it, counter-clockwise along the frame
+    std::uint32_t edge, end;      ///< of the diagram: which end of it that is
+  };
+
+  void add_crossing(const Disk& disk, std::array<std::uint32_t, 2> site, std::uint32_t edge,
+                    std::uint32_t end);
+  void settle_ties();
+  double distance_to(std::uint32_t site, Vec2 p) const;
+  std::uint32_t nearest_to(Vec2 p) const;
+  std::uint32_t add_node(const Disk& disk);
+  void add_frame_edge(std::uint32_t from, std::uint32_t to, std::uint32_t site);
+
+  const Soup& soup_;
+  const Box frame_;
+  const double tolerance_;
+  const std::uint32_t point_count_;
+  VoronoiDiagram& diagram_;
+  std::vector<ClippedPart> parts_;
+  std::vector<Crossing> crossings_;
+  std::uint32_t first_crossing_ = 0;        ///< node
+  std::vector<std::uint32_t> frame_begin_;  ///< of each crossing: the frame's edges before it
+  std::uint32_t whole_frame_ = no_site;
+};
+
+template <class NodeAt, class TakeControl>
+void FrameCut::add(const ConicEdge& curve, std::array<std::uint32_t, 2> site, bool spoke,
+                   NodeAt&& node_at, TakeControl&& take_control) {
+  clip(curve, frame_, parts_);
+  // Whether a node is inside is decided for all of its edges alike; where it is so near to the
+  // frame that an edge saw it otherwise, a part without length makes up for that.
+  const bool begins = is_inside(frame_, curve.from.center);
+  const bool ends_inside = is_inside(frame_, curve.to.center);
+  if (begins && ends_inside && parts_.empty()) parts_.push_back({0, 1});
+  if (begins && (parts_.empty() || parts_.front().from > 0)) parts_.insert(parts_.begin(), {0, 0});
+  if (ends_inside && (parts_.empty() || parts_.back().to < 1)) parts_.push_back({1, 1});
+  for (const ClippedPart& part : parts_) {
+    const bool from_node = begins && part.from == 0, to_node = ends_inside && part.to == 1;
+    const bool whole = from_node && to_node && part.from < part.to;
+    if (whole) {
+      diagram_.edges.push_back(
+          {{{node_at(0), node_at(1)}, site, curve.control, curve.weight}, spoke, false});
+      continue;
+    }
+    ConicEdge cut = curve.part(part.from, part.to);
+    if (part.from < part.to) take_control(cut);
+    const auto number = static_cast<std::uint32_t>(diagram_.edges.size());
+    std::array<std::uint32_t, 2> ends{no_site, no_site};
+    if (from_node)
+      ends[0] = node_at(0);
+    else
+      add_crossing(cut.from, site, number, 0);
+    if (to_node)
+      ends[1] = node_at(1);
+    else
+      add_crossing(cut.to, site, number, 1);
+    diagram_.edges.push_back({{ends, site, cut.control, cut.weight}, spoke, false});
+  }
+}
+
+}  // namespace medial::voronoi

@@ -1,0 +1,346 @@
+#include "engines/voronoi/points_diagram.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "base/disjoint_sets.h"
+#include "base/frame.h"
+#include "base/memory.h"
+#include "base/predicates.h"
+#include "base/stopwatch.h"
+#include "base/tolerance.h"
+#include "engines/voronoi/frame_cut.h"
+#include "engines/voronoi/soup_diagram.h"
+#include "geometry/delaunay.h"
+
+namespace medial::voronoi {
+namespace {
+
+using geometry::Delaunay;
+using geometry::outside;
+
+constexpr std::uint32_t none = ~std::uint32_t{0};
+
+/// a - b, and what rounding has taken away from it.
+struct Difference {
+  double value, rest;
+  Difference(double a, double b) : value(a - b) {
+    const double b_part = a - value, a_part = value + b_part;
+    rest = (a - a_part) + (b_part - b);
+  }
+};
+
+/// twice the area of the triangle from the origin to u and v, to a few roundings of itself as long
+/// as it is above 2^-100 of the sides' product: by errors that are computed.
+double careful_area(Vec2 a, Vec2 b, Vec2 c) {
+  const Difference ux(b.x, a.x), uy(b.y, a.y), vx(c.x, a.x), vy(c.y, a.y);
+  const double left = ux.value * vy.value, right = uy.value * vx.value;
+  const double off = std::fma(ux.value, vy.value, -left) - std::fma(uy.value, vx.value, -right);
+  return (left - right) + (off + (ux.value * vy.rest + ux.rest * vy.value) -
+                           (uy.value * vx.rest + uy.rest * vx.value));
+}
+
+/// Twice the area of a triangle: its error is some 2^-40 of it at most, where products do not
+/// cancel, and else as above.
+double area_of(Vec2 a, Vec2 b, Vec2 c) {
+  const Vec2 u = b - a, v = c - a;
+  const double left = u.x * v.y, right = u.y * v.x, area = left - right;
+  constexpr double cancelled = 0x1p-6;
+  return std::abs(area) >= cancelled * (std::abs(left) + std::abs(right)) ? area
+                                                                          : careful_area(a, b, c);
+}
+
+class Dual {
+ public:
+  Dual(const Soup& soup, const Options& options, const Box& frame)
+      : soup_(soup),
+        options_(options),
+        frame_(frame),
+        local_(frame_of(bounding_box(soup))),
+        tolerance_(tolerance_for(bounding_box(soup), options.tolerance)),
+        reach_(2 * local_.scale * diagonal(frame)),
+        cut_(soup, frame, tolerance_, diagram_) {}
+
+  VoronoiDiagram run() {
+    Stopwatch all, watch;
+    triangulate();
+    diagram_.statistics.seconds_walk = watch.lap();
+    if (options_.cancel != nullptr && options_.cancel->load()) return std::move(diagram_);
+    if (triangulation_.triangles.empty()) {
+      add_edges_of_line();
+    } else {
+      make_nodes();
+      join_nodes();
+      make_edges();
+    }
+    cut_.close();
+    if (triangulation_.triangles.empty())
+      make_faces_of_line();
+    else
+      make_faces();
+    diagram_.method = "delaunay";
+    diagram_.tolerance = tolerance_;
+    diagram_.frame = frame_;
+    set_kinds(diagram_);
+    diagram_.statistics.seconds_collect = watch.lap();
+    diagram_.statistics.seconds = all.lap();
+    return std::move(diagram_);
+  }
+
+ private:
+  void triangulate() {
+    // Going to the local frame is exact, and there nothing overflows.
+    std::vector<Vec2> points;
+    points.reserve(soup_.points.size());
+    for (const Vec2 p : soup_.points) points.push_back(local_.to_local(p));
+    triangulation_ = geometry::triangulate(points, options_.cancel);
+  }
+  std::uint32_t site_of(std::uint32_t vertex) const { return triangulation_.input[vertex]; }
+  Vec2 local_point(std::uint32_t vertex) const { return triangulation_.points[vertex]; }
+
+  /// The circle around a triangle, in units of the input.
+  Disk circle_of(const Delaunay::Triangle& t) const {
+    const Vec2 a = local_point(t.vertex[0]);
+    const Vec2 b = local_point(t.vertex[1]), c = local_point(t.vertex[2]);
+    const Vec2 u = b - a, v = c - a;
+    const double factor = 0.5 / area_of(a, b, c);
+    const double uu = squared_norm(u), vv = squared_norm(v);
+    const Vec2 center{factor * (uu * v.y - vv * u.y), factor * (vv * u.x - uu * v.x)};
+    return {local_.to_input(a + center), local_.inverse * norm(center)};
+  }
+
+  /// A node for each triangle whose circle has its centre inside of the frame; the same for
+  /// neighbours whose centres are one.
+  void make_nodes() {
+    const auto& triangles = triangulation_.triangles;
+    node_.resize(triangles.size());
+    reserve_large(diagram_.nodes, triangles.size() + 64);
+    for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+      const Delaunay::Triangle& triangle = triangles[t];
+      node_[t] = none;
+      if (triangle.is_ghost()) continue;
+      const Disk disk = circle_of(triangle);
+      if (!is_inside(frame_, disk.center)) continue;
+      for (const std::uint32_t twin : triangle.twin) {
+        const std::uint32_t other = twin >> 2U;
+        if (other >= t || node_[other] == none) continue;
+        if (!are_one(disk, diagram_.nodes[node_[other]].disk)) continue;
+        if (node_[t] == none)
+          node_[t] = node_[other];
+        else if (node_[t] != node_[other])
+          to_join_.emplace_back(node_[t], node_[other]);
+      }
+      if (node_[t] != none) continue;
+      node_[t] = static_cast<std::uint32_t>(diagram_.nodes.size());
+      diagram_.nodes.push_back({disk, 0, NodeKind::branching});
+    }
+  }
+  bool are_one(const Disk& a, const Disk& b) const {
+    return std::abs(a.center.x - b.center.x) <= tolerance_ &&
+           std::abs(a.center.y - b.center.y) <= tolerance_;
+  }
+  /// Nodes found to be one only after they were made. Each set stays within the tolerance of its
+  /// first node.
+  void join_nodes() {
+    if (to_join_.empty()) return;
+    const auto count = static_cast<std::uint32_t>(diagram_.nodes.size());
+    DisjointSets sets(count);
+    for (const auto& [a, b] : to_join_)
+      if (are_one(diagram_.nodes[sets.find(a)].disk, diagram_.nodes[sets.find(b)].disk))
+        sets.join(a, b);
+    std::vector<std::uint32_t> number(count);
+    std::uint32_t kept = 0;
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const std::uint32_t first = sets.find(i);
+      number[i] = first == i ? kept : number[first];
+      if (first == i) diagram_.nodes[kept++] = diagram_.nodes[i];
+    }
+    diagram_.nodes.resize(kept);
+    for (std::uint32_t& node : node_)
+      if (node != none) node = number[node];
+  }
+
+  /// How far along the bisector of a half-edge's ends, seen to its left, the centre of the circle
+  /// around its triangle lies, at most `reach_` away, in local units; which is beyond the frame.
+  double place_on_bisector(std::uint32_t h) const {
+    const Delaunay::Triangle& t = triangulation_.triangles[h >> 2U];
+    if (t.is_ghost()) return reach_;
+    const Vec2 a = local_point(triangulation_.start(h));
+    const Vec2 b = local_point(triangulation_.start(Delaunay::next(h)));
+    const Vec2 c = local_point(triangulation_.start(Delaunay::before(h)));
+    const double cosine = dot(a - c, b - c), area = area_of(c, a, b);
+    const double place = 0.5 * norm(b - a) * cosine / area;
+    // An area that vanishes is that of a triangle without an end.
+    if (std::isnan(place)) return cosine >= 0 ? reach_ : -reach_;
+    return std::clamp(place, -reach_, reach_);
+  }
+
+  /// Control point and weight of the bisector of two points, half of whose distance is `half`. The
+  /// radius over the place s is half cosh u, s being half sinh u: with e = r + s, which is half
+  /// exp(u), at both ends all is in closed form.
+  static void take_control(Vec2 first, Vec2 second, ConicEdge& edge) {
+    const Vec2 apart = second - first;
+    const double squared = 0.25 * squared_norm(apart);
+    const Vec2 middle = midpoint(first, second);
+    const Vec2 across = left_of(apart);
+    const double scale = 1 / norm(across);
+    const auto grown = [&](const Disk& disk) {
+      const double s = scale * dot(disk.center - middle, across);
+      return s >= 0 ? disk.radius + s : squared / (disk.radius - s);
+    };
+    const double e0 = grown(edge.from), e1 = grown(edge.to);
+    const double r0 = edge.from.radius, r1 = edge.to.radius;
+    const double share = r0 / (r0 + r1);
+    edge.control.center = edge.from.center + share * (edge.to.center - edge.from.center);
+    edge.control.radius = (e0 * e1 + squared) / (e0 + e1);
+    edge.weight = std::max(1.0, 0.5 * (e0 + e1) / std::sqrt(e0 * e1));
+  }
+
+  /// The edge between the faces of two sites, the first one on its left.
+  std::uint32_t add_edge(std::array<std::uint32_t, 2> site, ConicEdge& curve,
+                         std::array<std::uint32_t, 2> node) {
+    const auto number = static_cast<std::uint32_t>(diagram_.edges.size());
+    const Vec2 first = soup_.points[site[0]], second = soup_.points[site[1]];
+    if (node[0] != none && node[1] != none) {
+      take_control(first, second, curve);
+      diagram_.edges.push_back({{node, site, curve.control, curve.weight}, false, false});
+      return number;
+    }
+    curve.control = {midpoint(curve.from.center, curve.to.center), 0};
+    curve.weight = 1;
+    cut_.add(
+        curve, site, false, [&](std::size_t end) { return node[end]; },
+        [&](ConicEdge& part) {
+          part.from.radius = distance(part.from.center, first);
+          part.to.radius = distance(part.to.center, first);
+          take_control(first, second, part);
+        });
+    return number < diagram_.edges.size() ? number : none;
+  }
+
+  void make_edges() {
+    const auto& triangles = triangulation_.triangles;
+    edge_.resize(4 * triangles.size());
+    reserve_large(diagram_.edges, 3 * soup_.points.size() + 64);
+    for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+      for (std::uint32_t i = 0; i < 3; ++i) {
+        const std::uint32_t h = 4 * t + i, twin = triangles[t].twin[i];
+        if (twin < h) continue;
+        edge_[h] = edge_[twin] = none;
+        const std::uint32_t a = triangulation_.start(h), b = triangulation_.start(twin);
+        if (a == outside || b == outside) continue;
+        // From the triangle on the right to the one on the left.
+        const std::array<std::uint32_t, 2> node{node_[twin >> 2U], node_[t]};
+        if (node[0] == node[1] && node[0] != none) continue;
+        ConicEdge curve;
+        const Vec2 from = local_point(a), to = local_point(b);
+        const auto end_of = [&](std::uint32_t own, std::uint32_t half, double sign) -> Disk {
+          if (own != none) return diagram_.nodes[own].disk;
+          const double place = sign * place_on_bisector(half);
+          const Vec2 left = (1 / distance(from, to)) * left_of(to - from);
+          return {local_.to_input(midpoint(from, to) + place * left), 0};
+        };
+        curve.from = end_of(node[0], twin, -1);
+        curve.to = end_of(node[1], h, 1);
+        edge_[h] = edge_[twin] = add_edge({site_of(a), site_of(b)}, curve, node);
+      }
+    }
+  }
+
+  /// Clockwise around each site. The triangulation has its points in an order in which neighbours
+  /// are close, so the walks go along that.
+  void make_faces() {
+    const auto count = static_cast<std::uint32_t>(soup_.points.size());
+    const auto& triangles = triangulation_.triangles;
+    std::vector<std::uint32_t> leaving(count);  // of each vertex a half-edge
+    for (std::uint32_t t = 0; t < triangles.size(); ++t)
+      for (std::uint32_t i = 0; i < 3; ++i)
+        if (triangles[t].vertex[i] != outside) leaving[triangles[t].vertex[i]] = 4 * t + i;
+    make_sites();
+    // Faces in the order of the triangulation first, then in that of the sites.
+    std::vector<std::uint32_t> begin(count + 1), order(count);
+    reserve_large(diagram_.face_edges, 2 * diagram_.edges.size());
+    for (std::uint32_t v = 0; v < count; ++v) {
+      begin[v] = static_cast<std::uint32_t>(diagram_.face_edges.size());
+      order[site_of(v)] = v;
+      std::uint32_t h = leaving[v];
+      do {
+        const std::uint32_t twin = triangulation_.twin(h), edge = edge_[h];
+        // The half-edge with the smaller number has its start on the edge's left.
+        if (edge != none) cut_.add_to_face(edge, twin < h);
+        h = Delaunay::next(twin);
+      } while (h != leaving[v]);
+    }
+    begin[count] = static_cast<std::uint32_t>(diagram_.face_edges.size());
+    std::vector<std::uint32_t> sorted;
+    reserve_large(sorted, diagram_.face_edges.size());
+    diagram_.face_begin.reserve(count + 1);
+    for (const std::uint32_t v : order) {
+      diagram_.face_begin.push_back(static_cast<std::uint32_t>(sorted.size()));
+      sorted.insert(sorted.end(), diagram_.face_edges.begin() + begin[v],
+                    diagram_.face_edges.begin() + begin[v + 1]);
+    }
+    diagram_.face_begin.push_back(static_cast<std::uint32_t>(sorted.size()));
+    diagram_.face_edges = std::move(sorted);
+  }
+  void make_sites() {
+    const auto count = static_cast<std::uint32_t>(soup_.points.size());
+    reserve_large(diagram_.sites, count);
+    for (std::uint32_t i = 0; i < count; ++i) diagram_.sites.push_back(site_of_soup(soup_, i));
+  }
+
+  /// Of points on one line, the bisectors of neighbours.
+  void add_edges_of_line() {
+    line_.resize(soup_.points.size());
+    std::iota(line_.begin(), line_.end(), 0U);
+    std::sort(line_.begin(), line_.end(), [&](std::uint32_t a, std::uint32_t b) {
+      return lexicographic_less(soup_.points[a], soup_.points[b]);
+    });
+    for (std::size_t i = 0; i + 1 < line_.size(); ++i) {
+      const Vec2 a = local_.to_local(soup_.points[line_[i]]);
+      const Vec2 b = local_.to_local(soup_.points[line_[i + 1]]);
+      const Vec2 left = (reach_ / distance(a, b)) * left_of(b - a);
+      ConicEdge curve;
+      curve.from = {local_.to_input(midpoint(a, b) - left), 0};
+      curve.to = {local_.to_input(midpoint(a, b) + left), 0};
+      edge_.push_back(add_edge({line_[i], line_[i + 1]}, curve, {none, none}));
+    }
+  }
+  void make_faces_of_line() {
+    make_sites();
+    std::vector<std::uint32_t> place(line_.size());
+    for (std::uint32_t i = 0; i < line_.size(); ++i) place[line_[i]] = i;
+    for (std::uint32_t site = 0; site < line_.size(); ++site) {
+      diagram_.face_begin.push_back(static_cast<std::uint32_t>(diagram_.face_edges.size()));
+      const std::uint32_t i = place[site];
+      if (i > 0) cut_.add_to_face(edge_[i - 1], true);
+      if (i + 1 < line_.size()) cut_.add_to_face(edge_[i], false);
+      cut_.end_face(site);
+    }
+    diagram_.face_begin.push_back(static_cast<std::uint32_t>(diagram_.face_edges.size()));
+  }
+
+  const Soup& soup_;
+  const Options& options_;
+  const Box frame_;
+  const Frame local_;
+  const double tolerance_;
+  const double reach_;  ///< local: further than that from a site is outside of the frame
+  Delaunay triangulation_;
+  std::vector<std::uint32_t> node_;  ///< of each triangle; none outside of the frame
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> to_join_;
+  std::vector<std::uint32_t> edge_;  ///< of the diagram: of each half-edge, or pair along a line
+  std::vector<std::uint32_t> line_;  ///< sites, where all lie on one
+  VoronoiDiagram diagram_;
+  FrameCut cut_;
+};
+
+}  // namespace
+
+VoronoiDiagram diagram_of_points(const Soup& soup, const Options& options, const Box& frame) {
+  return Dual(soup, options, frame).run();
+}
+
+}  // namespace medial::voronoi

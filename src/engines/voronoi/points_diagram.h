@@ -1,0 +1,16 @@
+#pragma once
+
+#include "medial/compute.h"
+#include "medial/shape.h"
+#include "medial/soup.h"
+#include "medial/voronoi.h"
+
+namespace medial::voronoi {
+
+/// The Voronoi diagram of a soup without edges within `frame`, as the dual of its Delaunay
+/// triangulation. Which edges there are is exact; nodes closer together than the tolerance are one.
+/// Centres are off by a few roundings of their distance from their sites, and of their own
+/// coordinates. O(n log n) expected, some 3 n edges. Cancelled, it is incomplete.
+VoronoiDiagram diagram_of_points(const Soup& soup, const Options& options, const Box& frame);
+
+}  // namespace medial::voronoi
