@@ -1,6 +1,6 @@
 #include "base/spatial_order.h"
 
-#include <boost/sort/spreadsort/integer_sort.hpp>
+#include <array>
 
 namespace medial {
 namespace {
@@ -23,6 +23,34 @@ struct Cell {
   }
 };
 
+/// Distributes by the highest bits of the keys, so many that points spread evenly are alone there,
+/// and compares what has them in common.
+void sort(std::vector<Cell>& cells) {
+  constexpr unsigned digit = 11, key_bits = 64;
+  unsigned digits = 1;
+  while ((cells.size() >> (digits * digit)) > 0) ++digits;
+  if (cells.size() < (1U << digit)) {
+    std::sort(cells.begin(), cells.end());
+    return;
+  }
+  std::vector<Cell> other(cells.size());
+  const unsigned lowest = key_bits - digits * digit;
+  for (unsigned shift = lowest; shift < key_bits; shift += digit) {
+    constexpr std::uint64_t mask = (1U << digit) - 1;
+    std::array<std::uint32_t, (1U << digit) + 1> begin{};
+    for (const Cell& cell : cells) ++begin[((cell.key >> shift) & mask) + 1];
+    for (std::size_t i = 0; i + 1 < begin.size(); ++i) begin[i + 1] += begin[i];
+    for (const Cell& cell : cells) other[begin[(cell.key >> shift) & mask]++] = cell;
+    cells.swap(other);
+  }
+  for (auto run = cells.begin(); run != cells.end();) {
+    auto end = run + 1;
+    while (end != cells.end() && (end->key >> lowest) == (run->key >> lowest)) ++end;
+    if (end - run > 1) std::sort(run, end);
+    run = end;
+  }
+}
+
 }  // namespace
 
 std::vector<std::uint32_t> z_order(std::span<const Vec2> points) {
@@ -41,9 +69,7 @@ std::vector<std::uint32_t> z_order(std::span<const Vec2> points) {
     const auto y = static_cast<std::uint32_t>(cells * (points[i].y - low.y));
     order[i] = {spread(x) | (spread(y) << 1), i};
   }
-  boost::sort::spreadsort::integer_sort(
-      order.begin(), order.end(),
-      [](const Cell& cell, unsigned offset) { return cell.key >> offset; });
+  sort(order);
   std::vector<std::uint32_t> result(points.size());
   std::transform(order.begin(), order.end(), result.begin(),
                  [](const Cell& cell) { return cell.point; });

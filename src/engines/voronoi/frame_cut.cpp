@@ -169,18 +169,16 @@ void FrameCut::add_frame_edge(std::uint32_t from, std::uint32_t to, std::uint32_
                             true});
 }
 
-void FrameCut::add_to_face(std::uint32_t edge, bool forward) {
-  diagram_.face_edges.push_back(edge);
-  const std::uint32_t node = diagram_.edges[edge].node[forward ? 1 : 0];
-  if (node < first_crossing_ || node >= first_crossing_ + crossings_.size()) return;
+void FrameCut::add_frame_edges(std::uint32_t node, std::vector<std::uint32_t>& face) const {
+  if (node >= first_crossing_ + crossings_.size()) return;
   const std::uint32_t crossing = node - first_crossing_;
   for (std::uint32_t f = frame_begin_[crossing + 1]; f-- > frame_begin_[crossing];)
-    diagram_.face_edges.push_back(f);
+    face.push_back(f);
 }
 
-void FrameCut::end_face(std::uint32_t site) {
+void FrameCut::end_face(std::uint32_t site, std::vector<std::uint32_t>& face) const {
   if (!crossings_.empty() || site != whole_frame_) return;
-  for (std::uint32_t e = 4; e-- > 0;) diagram_.face_edges.push_back(frame_begin_[0] + e);
+  for (std::uint32_t e = 4; e-- > 0;) face.push_back(frame_begin_[0] + e);
 }
 
 }  // namespace medial::voronoi

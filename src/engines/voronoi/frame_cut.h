@@ -33,11 +33,15 @@ class FrameCut {
   /// std::runtime_error where what was added does not go around the frame.
   void close();
 
-  /// Appends an edge of the diagram to the face that is being made, and where it leaves the frame
+  /// Appends an edge of the diagram to a face, and where it leaves the frame
   /// the frame's edges up to where the face comes back: clockwise, those before the crossing.
-  void add_to_face(std::uint32_t edge, bool forward);
+  void add_to_face(std::uint32_t edge, bool forward, std::vector<std::uint32_t>& face) const {
+    face.push_back(edge);
+    const std::uint32_t node = diagram_.edges[edge].node[forward ? 1 : 0];
+    if (node >= first_crossing_) add_frame_edges(node, face);
+  }
   /// Ends the face of a site: that of the only site in the frame goes all around.
-  void end_face(std::uint32_t site);
+  void end_face(std::uint32_t site, std::vector<std::uint32_t>& face) const;
 
  private:
   /// Where an edge leaves the frame.
@@ -50,6 +54,7 @@ class FrameCut {
 
   void add_crossing(const Disk& disk, std::array<std::uint32_t, 2> site, std::uint32_t edge,
                     std::uint32_t end);
+  void add_frame_edges(std::uint32_t node, std::vector<std::uint32_t>& face) const;
   void settle_ties();
   double distance_to(std::uint32_t site, Vec2 p) const;
   std::uint32_t nearest_to(Vec2 p) const;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numeric>
 #include <utility>
 
@@ -99,6 +100,8 @@ class Dual {
   }
   std::uint32_t site_of(std::uint32_t vertex) const { return triangulation_.input[vertex]; }
   Vec2 local_point(std::uint32_t vertex) const { return triangulation_.points[vertex]; }
+  /// Exact, and close to those of neighbours in memory, as the soup's points are not.
+  Vec2 point(std::uint32_t vertex) const { return local_.to_input(local_point(vertex)); }
 
   /// The circle around a triangle, in units of the input.
   Disk circle_of(const Delaunay::Triangle& t) const {
@@ -115,6 +118,7 @@ class Dual {
   /// neighbours whose centres are one.
   void make_nodes() {
     const auto& triangles = triangulation_.triangles;
+    reserve_large(node_, triangles.size());
     node_.resize(triangles.size());
     reserve_large(diagram_.nodes, triangles.size() + 64);
     for (std::uint32_t t = 0; t < triangles.size(); ++t) {
@@ -181,33 +185,27 @@ class Dual {
   /// radius over the place s is half cosh u, s being half sinh u: with e = r + s, which is half
   /// exp(u), at both ends all is in closed form.
   static void take_control(Vec2 first, Vec2 second, ConicEdge& edge) {
-    const Vec2 apart = second - first;
-    const double squared = 0.25 * squared_norm(apart);
+    const Vec2 across = left_of(second - first);
+    const double size = norm(across), squared = 0.25 * size * size, scale = 1 / size;
     const Vec2 middle = midpoint(first, second);
-    const Vec2 across = left_of(apart);
-    const double scale = 1 / norm(across);
     const auto grown = [&](const Disk& disk) {
       const double s = scale * dot(disk.center - middle, across);
-      return s >= 0 ? disk.radius + s : squared / (disk.radius - s);
+      const double e = disk.radius + std::abs(s), other = squared / e;
+      return s >= 0 ? e : other;
     };
-    const double e0 = grown(edge.from), e1 = grown(edge.to);
-    const double r0 = edge.from.radius, r1 = edge.to.radius;
-    const double share = r0 / (r0 + r1);
+    const double e0 = grown(edge.from), e1 = grown(edge.to), sum = e0 + e1, product = e0 * e1;
+    const double share = edge.from.radius / (edge.from.radius + edge.to.radius);
     edge.control.center = edge.from.center + share * (edge.to.center - edge.from.center);
-    edge.control.radius = (e0 * e1 + squared) / (e0 + e1);
-    edge.weight = std::max(1.0, 0.5 * (e0 + e1) / std::sqrt(e0 * e1));
+    edge.control.radius = (product + squared) / sum;
+    edge.weight = std::max(1.0, 0.5 * sum / std::sqrt(product));
   }
 
-  /// The edge between the faces of two sites, the first one on its left.
-  std::uint32_t add_edge(std::array<std::uint32_t, 2> site, ConicEdge& curve,
-                         std::array<std::uint32_t, 2> node) {
+  /// The part inside of the frame of the edge between two sites, the first one on its left; or
+  /// none.
+  std::uint32_t add_cut_edge(std::array<std::uint32_t, 2> site, ConicEdge& curve,
+                             std::array<std::uint32_t, 2> node) {
     const auto number = static_cast<std::uint32_t>(diagram_.edges.size());
     const Vec2 first = soup_.points[site[0]], second = soup_.points[site[1]];
-    if (node[0] != none && node[1] != none) {
-      take_control(first, second, curve);
-      diagram_.edges.push_back({{node, site, curve.control, curve.weight}, false, false});
-      return number;
-    }
     curve.control = {midpoint(curve.from.center, curve.to.center), 0};
     curve.weight = 1;
     cut_.add(
@@ -222,7 +220,8 @@ class Dual {
 
   void make_edges() {
     const auto& triangles = triangulation_.triangles;
-    edge_.resize(4 * triangles.size());
+    edge_ = std::make_unique_for_overwrite<std::uint32_t[]>(4 * triangles.size());
+    prefer_large_pages(edge_.get(), 16 * triangles.size());
     reserve_large(diagram_.edges, 3 * soup_.points.size() + 64);
     for (std::uint32_t t = 0; t < triangles.size(); ++t) {
       for (std::uint32_t i = 0; i < 3; ++i) {
@@ -234,19 +233,33 @@ class Dual {
         // From the triangle on the right to the one on the left.
         const std::array<std::uint32_t, 2> node{node_[twin >> 2U], node_[t]};
         if (node[0] == node[1] && node[0] != none) continue;
-        ConicEdge curve;
-        const Vec2 from = local_point(a), to = local_point(b);
-        const auto end_of = [&](std::uint32_t own, std::uint32_t half, double sign) -> Disk {
-          if (own != none) return diagram_.nodes[own].disk;
-          const double place = sign * place_on_bisector(half);
-          const Vec2 left = (1 / distance(from, to)) * left_of(to - from);
-          return {local_.to_input(midpoint(from, to) + place * left), 0};
-        };
-        curve.from = end_of(node[0], twin, -1);
-        curve.to = end_of(node[1], h, 1);
-        edge_[h] = edge_[twin] = add_edge({site_of(a), site_of(b)}, curve, node);
+        edge_[h] = edge_[twin] = add_edge(h, {a, b}, node);
       }
     }
+  }
+
+  /// The edge dual to a half-edge, whose ends are `vertex`.
+  std::uint32_t add_edge(std::uint32_t h, std::array<std::uint32_t, 2> vertex,
+                         std::array<std::uint32_t, 2> node) {
+    const std::array<std::uint32_t, 2> site{site_of(vertex[0]), site_of(vertex[1])};
+    ConicEdge curve;
+    if (node[0] != none && node[1] != none) {
+      curve.from = diagram_.nodes[node[0]].disk;
+      curve.to = diagram_.nodes[node[1]].disk;
+      take_control(point(vertex[0]), point(vertex[1]), curve);
+      diagram_.edges.push_back({{node, site, curve.control, curve.weight}, false, false});
+      return static_cast<std::uint32_t>(diagram_.edges.size() - 1);
+    }
+    const Vec2 from = local_point(vertex[0]), to = local_point(vertex[1]);
+    const auto end_of = [&](std::uint32_t own, std::uint32_t half, double sign) -> Disk {
+      if (own != none) return diagram_.nodes[own].disk;
+      const double place = sign * place_on_bisector(half);
+      const Vec2 left = (1 / distance(from, to)) * left_of(to - from);
+      return {local_.to_input(midpoint(from, to) + place * left), 0};
+    };
+    curve.from = end_of(node[0], triangulation_.twin(h), -1);
+    curve.to = end_of(node[1], h, 1);
+    return add_cut_edge(site, curve, node);
   }
 
   /// Clockwise around each site. The triangulation has its points in an order in which neighbours
@@ -259,31 +272,26 @@ class Dual {
       for (std::uint32_t i = 0; i < 3; ++i)
         if (triangles[t].vertex[i] != outside) leaving[triangles[t].vertex[i]] = 4 * t + i;
     make_sites();
-    // Faces in the order of the triangulation first, then in that of the sites.
-    std::vector<std::uint32_t> begin(count + 1), order(count);
-    reserve_large(diagram_.face_edges, 2 * diagram_.edges.size());
+    std::vector<std::uint32_t>& begin = diagram_.face_begin;
+    begin.assign(count + 1, 0);
+    for (const VoronoiEdge& edge : diagram_.edges)
+      for (const std::uint32_t site : edge.site)
+        if (site != no_site) ++begin[site + 1];
+    for (std::uint32_t i = 0; i < count; ++i) begin[i + 1] += begin[i];
+    reserve_large(diagram_.face_edges, begin[count]);
+    diagram_.face_edges.resize(begin[count]);
+    std::vector<std::uint32_t> face;
     for (std::uint32_t v = 0; v < count; ++v) {
-      begin[v] = static_cast<std::uint32_t>(diagram_.face_edges.size());
-      order[site_of(v)] = v;
+      face.clear();
       std::uint32_t h = leaving[v];
       do {
         const std::uint32_t twin = triangulation_.twin(h), edge = edge_[h];
         // The half-edge with the smaller number has its start on the edge's left.
-        if (edge != none) cut_.add_to_face(edge, twin < h);
+        if (edge != none) cut_.add_to_face(edge, twin < h, face);
         h = Delaunay::next(twin);
       } while (h != leaving[v]);
+      std::ranges::copy(face, diagram_.face_edges.begin() + begin[site_of(v)]);
     }
-    begin[count] = static_cast<std::uint32_t>(diagram_.face_edges.size());
-    std::vector<std::uint32_t> sorted;
-    reserve_large(sorted, diagram_.face_edges.size());
-    diagram_.face_begin.reserve(count + 1);
-    for (const std::uint32_t v : order) {
-      diagram_.face_begin.push_back(static_cast<std::uint32_t>(sorted.size()));
-      sorted.insert(sorted.end(), diagram_.face_edges.begin() + begin[v],
-                    diagram_.face_edges.begin() + begin[v + 1]);
-    }
-    diagram_.face_begin.push_back(static_cast<std::uint32_t>(sorted.size()));
-    diagram_.face_edges = std::move(sorted);
   }
   void make_sites() {
     const auto count = static_cast<std::uint32_t>(soup_.points.size());
@@ -305,7 +313,7 @@ class Dual {
       ConicEdge curve;
       curve.from = {local_.to_input(midpoint(a, b) - left), 0};
       curve.to = {local_.to_input(midpoint(a, b) + left), 0};
-      edge_.push_back(add_edge({line_[i], line_[i + 1]}, curve, {none, none}));
+      line_edges_.push_back(add_cut_edge({line_[i], line_[i + 1]}, curve, {none, none}));
     }
   }
   void make_faces_of_line() {
@@ -315,9 +323,9 @@ class Dual {
     for (std::uint32_t site = 0; site < line_.size(); ++site) {
       diagram_.face_begin.push_back(static_cast<std::uint32_t>(diagram_.face_edges.size()));
       const std::uint32_t i = place[site];
-      if (i > 0) cut_.add_to_face(edge_[i - 1], true);
-      if (i + 1 < line_.size()) cut_.add_to_face(edge_[i], false);
-      cut_.end_face(site);
+      if (i > 0) cut_.add_to_face(line_edges_[i - 1], true, diagram_.face_edges);
+      if (i + 1 < line_.size()) cut_.add_to_face(line_edges_[i], false, diagram_.face_edges);
+      cut_.end_face(site, diagram_.face_edges);
     }
     diagram_.face_begin.push_back(static_cast<std::uint32_t>(diagram_.face_edges.size()));
   }
@@ -331,8 +339,9 @@ class Dual {
   Delaunay triangulation_;
   std::vector<std::uint32_t> node_;  ///< of each triangle; none outside of the frame
   std::vector<std::pair<std::uint32_t, std::uint32_t>> to_join_;
-  std::vector<std::uint32_t> edge_;  ///< of the diagram: of each half-edge, or pair along a line
-  std::vector<std::uint32_t> line_;  ///< sites, where all lie on one
+  std::unique_ptr<std::uint32_t[]> edge_;  ///< of the diagram: of each half-edge
+  std::vector<std::uint32_t> line_edges_;  ///< where all points lie on one: between neighbours
+  std::vector<std::uint32_t> line_;        ///< sites, where all lie on one
   VoronoiDiagram diagram_;
   FrameCut cut_;
 };

@@ -373,7 +373,7 @@ class Assembly {
                                      axis_.edges[step.edge].site[1] == own);
         if (spoke_after_[own] != none) add_to_face(axis_edges + spoke_after_[own], false);
       }
-      cut_.end_face(site);
+      cut_.end_face(site, diagram_.face_edges);
     }
     diagram_.face_begin.push_back(static_cast<std::uint32_t>(diagram_.face_edges.size()));
   }
@@ -382,7 +382,7 @@ class Assembly {
   void add_to_face(std::uint32_t e, bool forward) {
     const std::uint32_t begin = part_begin_[e], end = part_begin_[e + 1];
     for (std::uint32_t i = 0; i < end - begin; ++i)
-      cut_.add_to_face(forward ? begin + i : end - 1 - i, forward);
+      cut_.add_to_face(forward ? begin + i : end - 1 - i, forward, diagram_.face_edges);
   }
 
   const Soup& soup_;
