@@ -44,8 +44,8 @@ void FrameCut::add_crossing(const Disk& disk, std::array<std::uint32_t, 2> site,
   crossings_.push_back({place, {on_border, disk.radius}, site[end], site[1 - end], edge, end});
 }
 
-std::uint32_t FrameCut::add_node(const Disk& disk) {
-  diagram_.nodes.push_back({disk, 0, NodeKind::leaf});
+std::uint32_t FrameCut::add_node(const Disk& disk, NodeKind kind) {
+  diagram_.nodes.push_back({disk, 0, kind});
   return static_cast<std::uint32_t>(diagram_.nodes.size() - 1);
 }
 
@@ -55,13 +55,13 @@ void FrameCut::close() {
   settle_ties();
   first_crossing_ = static_cast<std::uint32_t>(diagram_.nodes.size());
   for (const Crossing& crossing : crossings_) {
-    const std::uint32_t node = add_node(crossing.disk);
+    const std::uint32_t node = add_node(crossing.disk, NodeKind::branching);
     diagram_.edges[crossing.edge].node[crossing.end] = node;
   }
   std::array<std::uint32_t, 4> corner{none, none, none, none};
   const auto add_corner = [&](std::size_t k, std::uint32_t site) {
     const Vec2 p = corner_of(frame_, k);
-    if (corner[k] == none) corner[k] = add_node({p, distance_to(site, p)});
+    if (corner[k] == none) corner[k] = add_node({p, distance_to(site, p)}, NodeKind::site_change);
     return corner[k];
   };
   if (crossings_.empty()) {

@@ -58,7 +58,7 @@ class FrameCut {
   void settle_ties();
   double distance_to(std::uint32_t site, Vec2 p) const;
   std::uint32_t nearest_to(Vec2 p) const;
-  std::uint32_t add_node(const Disk& disk);
+  std::uint32_t add_node(const Disk& disk, NodeKind kind);
   void add_frame_edge(std::uint32_t from, std::uint32_t to, std::uint32_t site);
 
   const Soup& soup_;

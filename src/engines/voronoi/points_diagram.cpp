@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <numeric>
 #include <utility>
 
@@ -23,6 +22,8 @@ using geometry::Delaunay;
 using geometry::outside;
 
 constexpr std::uint32_t none = ~std::uint32_t{0};
+/// Marks the number of an edge that the frame cuts off. There are fewer than 2^31 edges.
+constexpr std::uint32_t is_cut = 0x80000000;
 
 /// a - b, and what rounding has taken away from it.
 struct Difference {
@@ -76,6 +77,7 @@ class Dual {
       join_nodes();
       make_edges();
     }
+    frame_edges_ = diagram_.edges.size();
     cut_.close();
     if (triangulation_.triangles.empty())
       make_faces_of_line();
@@ -84,7 +86,7 @@ class Dual {
     diagram_.method = "delaunay";
     diagram_.tolerance = tolerance_;
     diagram_.frame = frame_;
-    set_kinds(diagram_);
+    if (has_ties_) set_kinds(diagram_);  // otherwise each was made with its own
     diagram_.statistics.seconds_collect = watch.lap();
     diagram_.statistics.seconds = all.lap();
     return std::move(diagram_);
@@ -131,6 +133,7 @@ class Dual {
         const std::uint32_t other = twin >> 2U;
         if (other >= t || node_[other] == none) continue;
         if (!are_one(disk, diagram_.nodes[node_[other]].disk)) continue;
+        has_ties_ = true;
         if (node_[t] == none)
           node_[t] = node_[other];
         else if (node_[t] != node_[other])
@@ -218,23 +221,35 @@ class Dual {
     return number < diagram_.edges.size() ? number : none;
   }
 
+  /// The edges triangle by triangle. Those of a triangle that is done take the place of its
+  /// vertices, which nobody asks for again.
   void make_edges() {
-    const auto& triangles = triangulation_.triangles;
-    edge_ = std::make_unique_for_overwrite<std::uint32_t[]>(4 * triangles.size());
-    prefer_large_pages(edge_.get(), 16 * triangles.size());
+    auto& triangles = triangulation_.triangles;
+    const auto count = static_cast<std::uint32_t>(soup_.points.size());
+    leaving_.resize(count);
+    degree_.assign(count, 0);
     reserve_large(diagram_.edges, 3 * soup_.points.size() + 64);
     for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+      std::array<std::uint32_t, 3> edge{none, none, none};
       for (std::uint32_t i = 0; i < 3; ++i) {
         const std::uint32_t h = 4 * t + i, twin = triangles[t].twin[i];
-        if (twin < h) continue;
-        edge_[h] = edge_[twin] = none;
-        const std::uint32_t a = triangulation_.start(h), b = triangulation_.start(twin);
+        const std::uint32_t a = triangles[t].vertex[i];
+        if (a != outside) leaving_[a] = h;
+        if (twin < h) {
+          edge[i] = triangles[twin >> 2U].vertex[twin & 3U];
+          continue;
+        }
+        const std::uint32_t b = triangles[t].vertex[i == 2 ? 0 : i + 1];
         if (a == outside || b == outside) continue;
         // From the triangle on the right to the one on the left.
         const std::array<std::uint32_t, 2> node{node_[twin >> 2U], node_[t]};
         if (node[0] == node[1] && node[0] != none) continue;
-        edge_[h] = edge_[twin] = add_edge(h, {a, b}, node);
+        edge[i] = add_edge(h, {a, b}, node);
+        if (edge[i] == none) continue;
+        ++degree_[a];
+        ++degree_[b];
       }
+      triangles[t].vertex = edge;
     }
   }
 
@@ -259,37 +274,36 @@ class Dual {
     };
     curve.from = end_of(node[0], triangulation_.twin(h), -1);
     curve.to = end_of(node[1], h, 1);
-    return add_cut_edge(site, curve, node);
+    const std::uint32_t edge = add_cut_edge(site, curve, node);
+    return edge == none ? none : edge | is_cut;
   }
 
   /// Clockwise around each site. The triangulation has its points in an order in which neighbours
   /// are close, so the walks go along that.
   void make_faces() {
     const auto count = static_cast<std::uint32_t>(soup_.points.size());
-    const auto& triangles = triangulation_.triangles;
-    std::vector<std::uint32_t> leaving(count);  // of each vertex a half-edge
-    for (std::uint32_t t = 0; t < triangles.size(); ++t)
-      for (std::uint32_t i = 0; i < 3; ++i)
-        if (triangles[t].vertex[i] != outside) leaving[triangles[t].vertex[i]] = 4 * t + i;
     make_sites();
     std::vector<std::uint32_t>& begin = diagram_.face_begin;
     begin.assign(count + 1, 0);
-    for (const VoronoiEdge& edge : diagram_.edges)
-      for (const std::uint32_t site : edge.site)
-        if (site != no_site) ++begin[site + 1];
+    for (std::uint32_t v = 0; v < count; ++v) begin[site_of(v) + 1] = degree_[v];
+    for (std::size_t e = frame_edges_; e < diagram_.edges.size(); ++e)
+      ++begin[diagram_.edges[e].site[0] + 1];
     for (std::uint32_t i = 0; i < count; ++i) begin[i + 1] += begin[i];
     reserve_large(diagram_.face_edges, begin[count]);
     diagram_.face_edges.resize(begin[count]);
     std::vector<std::uint32_t> face;
     for (std::uint32_t v = 0; v < count; ++v) {
       face.clear();
-      std::uint32_t h = leaving[v];
+      std::uint32_t h = leaving_[v];
       do {
-        const std::uint32_t twin = triangulation_.twin(h), edge = edge_[h];
+        const std::uint32_t twin = triangulation_.twin(h), edge = triangulation_.start(h);
         // The half-edge with the smaller number has its start on the edge's left.
-        if (edge != none) cut_.add_to_face(edge, twin < h, face);
+        if ((edge & is_cut) == 0)
+          face.push_back(edge);
+        else if (edge != none)
+          cut_.add_to_face(edge & ~is_cut, twin < h, face);
         h = Delaunay::next(twin);
-      } while (h != leaving[v]);
+      } while (h != leaving_[v]);
       std::ranges::copy(face, diagram_.face_edges.begin() + begin[site_of(v)]);
     }
   }
@@ -337,9 +351,11 @@ class Dual {
   const double tolerance_;
   const double reach_;  ///< local: further than that from a site is outside of the frame
   Delaunay triangulation_;
+  bool has_ties_ = false;
   std::vector<std::uint32_t> node_;  ///< of each triangle; none outside of the frame
   std::vector<std::pair<std::uint32_t, std::uint32_t>> to_join_;
-  std::unique_ptr<std::uint32_t[]> edge_;  ///< of the diagram: of each half-edge
+  std::vector<std::uint32_t> leaving_, degree_;  ///< of each vertex: a half-edge, number of edges
+  std::size_t frame_edges_ = 0;                  ///< number of the first one
   std::vector<std::uint32_t> line_edges_;  ///< where all points lie on one: between neighbours
   std::vector<std::uint32_t> line_;        ///< sites, where all lie on one
   VoronoiDiagram diagram_;
