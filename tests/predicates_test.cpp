@@ -97,5 +97,65 @@ TEST(StrictlyBetween, ExcludesTheEnds) {
   EXPECT_FALSE(strictly_between({0, 0}, {4, 4}, {3, 3}));
 }
 
+int in_circle_by_rationals(Vec2 a, Vec2 b, Vec2 c, Vec2 p) {
+  const Rational ux = Rational(a.x) - Rational(p.x), uy = Rational(a.y) - Rational(p.y);
+  const Rational vx = Rational(b.x) - Rational(p.x), vy = Rational(b.y) - Rational(p.y);
+  const Rational wx = Rational(c.x) - Rational(p.x), wy = Rational(c.y) - Rational(p.y);
+  const Rational sum = (ux * ux + uy * uy) * (vx * wy - wx * vy) +
+                       (vx * vx + vy * vy) * (wx * uy - ux * wy) +
+                       (wx * wx + wy * wy) * (ux * vy - vx * uy);
+  return sum.sign();
+}
+
+/// In all orders that keep the orientation, and in one that turns it.
+void expect_exact(Vec2 a, Vec2 b, Vec2 c, Vec2 p) {
+  const int expected = in_circle_by_rationals(a, b, c, p);
+  const auto where = testing::Message()
+                     << std::hexfloat << a.x << ' ' << a.y << ", " << b.x << ' ' << b.y << ", "
+                     << c.x << ' ' << c.y << ", " << p.x << ' ' << p.y;
+  EXPECT_EQ(in_circle(a, b, c, p), expected) << where;
+  EXPECT_EQ(in_circle(b, c, a, p), expected) << where;
+  EXPECT_EQ(in_circle(c, a, b, p), expected) << where;
+  EXPECT_EQ(in_circle(b, a, c, p), -expected) << where;
+}
+
+TEST(InCircle, GridsAndCircles) {
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  int zeros = 0;
+  const auto check = [&](Vec2 a, Vec2 b, Vec2 c, Vec2 p) {
+    zeros += in_circle_by_rationals(a, b, c, p) == 0;
+    expect_exact(a, b, c, p);
+  };
+  for (int i = 0; i < 1500; ++i) {
+    const auto grid = [&] { return Vec2{double(random() % 5), double(random() % 5)}; };
+    check(grid(), grid(), grid(), grid());
+    const auto on_circle = [&] {
+      const double angle = 4 * uniform(random);
+      return Vec2{1e3 + std::cos(angle), std::sin(angle)};
+    };
+    check(on_circle(), on_circle(), on_circle(), on_circle());
+    // Rectangles turned are not quite ones, but for some.
+    const Vec2 corner{uniform(random), uniform(random)};
+    const Vec2 u{uniform(random), uniform(random)}, v{-u.y, u.x};
+    check(corner, corner + u, corner + u + v, corner + v);
+    const double x = 0.25 * static_cast<double>(random() % 8), y = uniform(random);
+    check({-x, -y}, {x, -y}, {x, y}, {-x, y});
+  }
+  EXPECT_GT(zeros, 1000);
+}
+
+TEST(InCircle, AllMagnitudes) {
+  constexpr double tiny = std::numeric_limits<double>::denorm_min();
+  constexpr double huge = std::numeric_limits<double>::max();
+  const std::vector<double> values = {0,     tiny, -tiny, 3 * tiny, 1e-200,   -1e-160, 1,
+                                      -1,    0.1,  1e-9,  1e12,     1e200,    -1e200,  huge,
+                                      -huge, 2,    1e100, -1e100,   0x1p-481, huge / 2};
+  std::mt19937_64 random(4);
+  const auto pick = [&] { return values[random() % values.size()]; };
+  for (int i = 0; i < 300; ++i)
+    expect_exact({pick(), pick()}, {pick(), pick()}, {pick(), pick()}, {pick(), pick()});
+}
+
 }  // namespace
 }  // namespace medial

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -38,6 +39,12 @@ VoronoiDiagram diagram_of(const Chains& chains, const std::optional<Box>& frame 
 
 /// In [0, 1).
 double uniform(Random& random) { return 0x1p-53 * static_cast<double>(random.next() >> 11U); }
+
+/// A tenth of MEDIAL_PROPERTY_COUNT where that is set.
+std::uint64_t property_count(std::uint64_t otherwise) {
+  const char* text = std::getenv("MEDIAL_PROPERTY_COUNT");
+  return text != nullptr && *text != 0 ? std::strtoull(text, nullptr, 10) / 10 : otherwise;
+}
 
 double distance_to(const Site& site, Vec2 p) { return distance(foot(site, p), p); }
 
@@ -170,6 +177,86 @@ TEST(Soup, AGridOfPointsHasOneNodeForEachCell) {
     EXPECT_TRUE(node.kind != NodeKind::leaf) << node.disk.center.x;
 }
 
+/// Points of many kinds: scattered, on grids straight and turned, on circles and lines, in clusters
+/// closer together than the tolerance, far from the origin, very large and very small.
+Chains random_points(std::uint64_t seed) {
+  Random random(seed);
+  const auto u = [&] { return uniform(random); };
+  const auto count = 2 + static_cast<int>(60 * u());
+  const double scale = seed % 5 == 1 ? 1e90 : seed % 5 == 2 ? 1e-9 : 1;
+  const Vec2 away = seed % 5 == 3 ? Vec2{3e6, -7e6} : Vec2{0, 0};
+  Chains chains;
+  for (int i = 0; i < count; ++i) {
+    const double angle = 2 * std::numbers::pi * u(), along = std::floor(9 * u());
+    const double across = std::floor(9 * u());
+    Vec2 p{u(), u()};
+    switch (seed % 9) {
+      case 1:
+        p = {along, across};
+        break;
+      case 2:
+        p = {0.8 * along - 0.6 * across, 0.6 * along + 0.8 * across};
+        break;
+      case 3:
+        p = {std::cos(angle), std::sin(angle)};
+        break;
+      case 4:
+        p = {0.1 * i, 0.3 * i};
+        break;
+      case 5:
+        p = {p.x, 0.5};
+        break;
+      case 6:
+        p = i % 3 == 0 ? p : Vec2{1e-17 * p.x, 1e-17 * p.y};
+        break;
+      case 7:
+        p = {p.x, p.x * p.x};
+        break;
+      case 8:
+        p = {0.25 + 1e-13 * (p.x - 0.5), 0.75 * p.y};
+        break;
+      default:
+        break;
+    }
+    chains.push_back({{scale * (p + away)}});
+  }
+  return chains;
+}
+
+TEST(Soup, PointsOfAllKindsHaveRightDiagrams) {
+  int failed = 0;
+  for (std::uint64_t seed = 0; seed < property_count(720) && failed < 3; ++seed) {
+    const auto soup = build_soup(random_points(seed));
+    ASSERT_TRUE(soup.ok()) << seed << to_string(soup.error());
+    const auto diagram = voronoi_diagram(*soup, {.threads = 1});
+    const std::string fault = diagram ? fault_of(*diagram) : to_string(diagram.error());
+    if (fault.empty()) continue;
+    ++failed;
+    ADD_FAILURE() << "random_points(" << seed << "): " << fault;
+  }
+}
+
+TEST(Soup, ManyPointsHaveAsManyEdgesAsATriangulation) {
+  Random random(11);
+  Chains chains;
+  constexpr std::size_t count = 20000;
+  for (std::size_t i = 0; i < count; ++i) chains.push_back({{{uniform(random), uniform(random)}}});
+  const auto diagram = diagram_of(chains, Box{{-1e5, -1e5}, {1e5, 1e5}});
+  // By Euler's formula, with h neighbours outside: 3 n - 3 - h edges, and 2 n - 2 - h nodes inside.
+  std::size_t inner = 0, crossings = 0, corners = 0;
+  for (const VoronoiEdge& edge : diagram.edges) inner += edge.frame ? 0 : 1;
+  for (const Node& node : diagram.nodes) {
+    const Vec2 p = node.disk.center;
+    const bool on_x = std::abs(p.x) == 1e5, on_y = std::abs(p.y) == 1e5;
+    corners += on_x && on_y ? 1 : 0;
+    crossings += on_x != on_y ? 1 : 0;
+    EXPECT_EQ(node.kind, on_x && on_y ? NodeKind::site_change : NodeKind::branching);
+  }
+  EXPECT_EQ(corners, 4u);
+  EXPECT_EQ(inner, 3 * count - 3 - crossings);
+  EXPECT_EQ(diagram.nodes.size() - corners - crossings, 2 * count - 2 - crossings);
+}
+
 TEST(Soup, WhatIsThereTwiceIsThereOnce) {
   SoupReport report;
   const Soup soup = soup_of({{{{0, 0}, {1, 0}}},
@@ -292,9 +379,7 @@ Chains random_soup(std::uint64_t seed) {
 class RandomSoups : public testing::TestWithParam<std::uint64_t> {};
 
 TEST_P(RandomSoups, HaveRightDiagrams) {
-  const char* text = std::getenv("MEDIAL_PROPERTY_COUNT");
-  const std::uint64_t count =
-      text != nullptr && *text != 0 ? std::strtoull(text, nullptr, 10) / 10 : 1600;
+  const std::uint64_t count = property_count(1600);
   int failed = 0;
   for (std::uint64_t seed = GetParam(); seed < count && failed < 3; seed += 4) {
     const auto soup = build_soup(random_soup(seed));

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -19,8 +21,14 @@ class FrameCut {
       : soup_(soup),
         frame_(frame),
         tolerance_(tolerance),
+        inside_{frame.low + Vec2{4 * tolerance, 4 * tolerance},
+                frame.high - Vec2{4 * tolerance, 4 * tolerance}},
         point_count_(static_cast<std::uint32_t>(soup.points.size())),
         diagram_(diagram) {}
+
+  /// Whether a place is clearly inside of the frame: nodes that are not are cut off, so that nodes
+  /// that are one but for rounding are cut off together.
+  bool holds(Vec2 p) const { return is_inside(inside_, p); }
 
   /// Appends the edge, or the parts of it inside of the frame, to the diagram. `node_at(end)` gives
   /// the node of an end, and is asked for ends inside of the frame only; `take_control(part)` sets
@@ -64,6 +72,7 @@ class FrameCut {
   const Soup& soup_;
   const Box frame_;
   const double tolerance_;
+  const Box inside_;
   const std::uint32_t point_count_;
   VoronoiDiagram& diagram_;
   std::vector<ClippedPart> parts_;
@@ -79,8 +88,7 @@ void FrameCut::add(const ConicEdge& curve, std::array<std::uint32_t, 2> site, bo
   clip(curve, frame_, parts_);
   // Whether a node is inside is decided for all of its edges alike; where it is so near to the
   // frame that an edge saw it otherwise, a part without length makes up for that.
-  const bool begins = is_inside(frame_, curve.from.center);
-  const bool ends_inside = is_inside(frame_, curve.to.center);
+  const bool begins = holds(curve.from.center), ends_inside = holds(curve.to.center);
   if (begins && ends_inside && parts_.empty()) parts_.push_back({0, 1});
   if (begins && (parts_.empty() || parts_.front().from > 0)) parts_.insert(parts_.begin(), {0, 0});
   if (ends_inside && (parts_.empty() || parts_.back().to < 1)) parts_.push_back({1, 1});
@@ -93,6 +101,11 @@ void FrameCut::add(const ConicEdge& curve, std::array<std::uint32_t, 2> site, bo
       continue;
     }
     ConicEdge cut = curve.part(part.from, part.to);
+    // Rounding alone, between nodes at the frame.
+    if (!from_node && !to_node &&
+        std::max(std::abs(cut.to.center.x - cut.from.center.x),
+                 std::abs(cut.to.center.y - cut.from.center.y)) <= 8 * tolerance_)
+      continue;
     if (part.from < part.to) take_control(cut);
     const auto number = static_cast<std::uint32_t>(diagram_.edges.size());
     std::array<std::uint32_t, 2> ends{no_site, no_site};

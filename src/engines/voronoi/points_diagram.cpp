@@ -22,6 +22,8 @@ using geometry::Delaunay;
 using geometry::outside;
 
 constexpr std::uint32_t none = ~std::uint32_t{0};
+/// How many turns ahead of its use memory is asked for.
+constexpr std::uint32_t ahead = 8;
 /// Marks the number of an edge that the frame cuts off. There are fewer than 2^31 edges.
 constexpr std::uint32_t is_cut = 0x80000000;
 
@@ -34,8 +36,8 @@ struct Difference {
   }
 };
 
-/// twice the area of the triangle from the origin to u and v, to a few roundings of itself as long
-/// as it is above 2^-100 of the sides' product: by errors that are computed.
+/// Twice the area of a triangle, to a few roundings of itself as long as it is above 2^-100 of the
+/// sides' product: what rounding takes away is computed, too.
 double careful_area(Vec2 a, Vec2 b, Vec2 c) {
   const Difference ux(b.x, a.x), uy(b.y, a.y), vx(c.x, a.x), vy(c.y, a.y);
   const double left = ux.value * vy.value, right = uy.value * vx.value;
@@ -44,8 +46,7 @@ double careful_area(Vec2 a, Vec2 b, Vec2 c) {
                            (uy.value * vx.rest + uy.rest * vx.value));
 }
 
-/// Twice the area of a triangle: its error is some 2^-40 of it at most, where products do not
-/// cancel, and else as above.
+/// Twice the area of a triangle, to some hundred roundings of itself.
 double area_of(Vec2 a, Vec2 b, Vec2 c) {
   const Vec2 u = b - a, v = c - a;
   const double left = u.x * v.y, right = u.y * v.x, area = left - right;
@@ -107,8 +108,14 @@ class Dual {
 
   /// The circle around a triangle, in units of the input.
   Disk circle_of(const Delaunay::Triangle& t) const {
-    const Vec2 a = local_point(t.vertex[0]);
-    const Vec2 b = local_point(t.vertex[1]), c = local_point(t.vertex[2]);
+    Vec2 a = local_point(t.vertex[0]), b = local_point(t.vertex[1]), c = local_point(t.vertex[2]);
+    // Seen from an end of the shortest side, the centre keeps its digits.
+    constexpr double much_shorter = 0x1p-6;
+    const double opposite = squared_norm(c - b);
+    if (opposite < much_shorter * std::min(squared_norm(b - a), squared_norm(c - a))) {
+      std::swap(a, b);
+      std::swap(b, c);
+    }
     const Vec2 u = b - a, v = c - a;
     const double factor = 0.5 / area_of(a, b, c);
     const double uu = squared_norm(u), vv = squared_norm(v);
@@ -128,7 +135,7 @@ class Dual {
       node_[t] = none;
       if (triangle.is_ghost()) continue;
       const Disk disk = circle_of(triangle);
-      if (!is_inside(frame_, disk.center)) continue;
+      if (!cut_.holds(disk.center)) continue;
       for (const std::uint32_t twin : triangle.twin) {
         const std::uint32_t other = twin >> 2U;
         if (other >= t || node_[other] == none) continue;
@@ -230,6 +237,11 @@ class Dual {
     degree_.assign(count, 0);
     reserve_large(diagram_.edges, 3 * soup_.points.size() + 64);
     for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+      if (t + ahead < triangles.size())
+        for (const std::uint32_t twin : triangles[t + ahead].twin) {
+          __builtin_prefetch(&node_[twin >> 2U]);
+          __builtin_prefetch(&triangles[twin >> 2U]);
+        }
       std::array<std::uint32_t, 3> edge{none, none, none};
       for (std::uint32_t i = 0; i < 3; ++i) {
         const std::uint32_t h = 4 * t + i, twin = triangles[t].twin[i];
@@ -293,6 +305,8 @@ class Dual {
     diagram_.face_edges.resize(begin[count]);
     std::vector<std::uint32_t> face;
     for (std::uint32_t v = 0; v < count; ++v) {
+      if (v + ahead < count)
+        __builtin_prefetch(&triangulation_.triangles[leaving_[v + ahead] >> 2U]);
       face.clear();
       std::uint32_t h = leaving_[v];
       do {
