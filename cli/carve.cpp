@@ -23,6 +23,7 @@ struct CarveSwitches {
   io::WriteOptions write;
   io::MachineOptions machine;
   CarveOptions carve;
+  double scale = 1;
 };
 
 Status tell(const io::CarveFile& file, const CarveSwitches& switches, double seconds) {
@@ -83,18 +84,23 @@ Result<int> run_carve(const CarveSwitches& switches) {
         const auto one = [&]() -> Result<Carving> {
           auto axis = compute(shapes->shapes[i], options);
           if (!axis) return std::move(axis).error();
-          return carve(*axis, switches.carve);
+          auto carving = carve(*axis, scaled(switches.carve, 1 / switches.scale));
+          if (!carving) return carving;
+          return scaled(std::move(carving).value(), switches.scale);
         };
         auto carving = one();
         if (!carving) return at_feature(std::move(carving).error(), input.path, i);
+        for (Vec2& point : shapes->shapes[i].points) point = switches.scale * point;
         file.items[i] = {std::move(shapes->shapes[i]), std::move(carving).value()};
         return success();
       });
   if (!computed) return std::move(computed).error();
   const double seconds = watch.seconds();
   if (!switches.output.empty()) {
+    io::MachineOptions machine = switches.machine;
+    machine.chord = switches.carve.chord;
     Status written =
-        io::write_carving(switches.output, switches.format, file, switches.machine, switches.write);
+        io::write_carving(switches.output, switches.format, file, machine, switches.write);
     if (!written) return std::move(written).error();
   }
   Status told = tell(file, switches, seconds);
@@ -127,6 +133,8 @@ Verb make_carve_verb(CLI::App& program) {
   length("--tool", switches->carve.tool,
          "The tool's diameter; of a V its largest, which limits the depth.", "D");
   length("--tip", switches->carve.tip, "The diameter of a V's flat tip (default: a point).", "D");
+  length("--pass-depth", switches->carve.pass_depth,
+         "How deep one pass goes: several, from the surface down (default: all in one).", "Z");
   length("--step", switches->carve.step,
          "Between the passes that clear a flat bottom (default: half of the tip's\n"
          "diameter, which leaves nothing; of a pointed tool a 20th of its radius at the\n"
@@ -134,8 +142,14 @@ Verb make_carve_verb(CLI::App& program) {
          "S");
   length("--path-tolerance", switches->carve.chord,
          "How far straight moves may be off the axis's curves, always upwards (default:\n"
-         "1e-5 of the diagonal).",
+         "1e-5 of the diagonal), and in .csv off arcs, always inwards (default: 1e-6 of\n"
+         "the tool's radius at the bottom).",
          "T");
+  verb->add_option("--scale", switches->scale,
+                   "Millimetres to a unit of the input (default: 1); all switches are in\n"
+                   "millimetres.")
+      ->check(in_range(1e-6, 1e6))
+      ->option_text("S");
   constexpr char group[] = "G-code";
   length("--feed", switches->machine.feed, "Of cutting moves, mm/min (default: 1000).", "F")
       ->group(group);
@@ -164,14 +178,14 @@ Verb make_carve_verb(CLI::App& program) {
       "The tool's point follows the axis at the depth where the tool is as wide as the\n"
       "disk: walls begin at the boundary, corners come out sharp. Nothing outside is\n"
       "touched. Flat bottoms are cleared from the inside out without lifting where that is\n"
-      "safe. Units of the input, pixels and font units as well, become millimetres; z is 0\n"
-      "on the surface. One pass at full depth: for hard material run several programs,\n"
-      "--depth by --depth.\n"
+      "safe. Units of the input, pixels and font units as well, become millimetres, or what\n"
+      "--scale tells; z is 0 on the surface.\n"
       "\n"
       "Examples:\n"
       "  medial carve spanner.svg --angle 60 -o spanner.nc\n"
       "  medial carve plate.dxf --angle 90 --depth 3 -o plate.svg\n"
       "  medial carve plate.dxf --angle 0 --tool 4 --depth 2 --feed 800 -o pocket.gcode\n"
+      "  medial carve spanner.svg --angle 60 --scale 0.2646 --pass-depth 1 -o spanner.nc\n"
       "  medial carve --text Axis --font serif.ttf --angle 60 -o - --format csv");
   return {verb, [switches] { return run_carve(*switches); }};
 }

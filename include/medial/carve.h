@@ -23,6 +23,9 @@ struct CarveOptions {
   double tool = 0;
   /// The diameter of the cone's flat tip, below `tool`. An end mill's is `tool`.
   double tip = 0;
+  /// How deep one pass goes at most; 0: all in one. Passes are cut one after another from the
+  /// surface down, each to its own flat bottom.
+  double pass_depth = 0;
   /// Between the passes that clear a flat bottom; 0: half of the tip's diameter, which leaves
   /// nothing; where the tip is a point a 20th of the cone's radius at that depth, which leaves
   /// ridges.
@@ -49,6 +52,7 @@ enum class ToolPathKind : std::uint8_t {
 struct ToolPath {
   ToolPathKind kind = ToolPathKind::groove;
   std::vector<ToolPoint> points;
+  std::uint32_t pass = 0;  ///< from the surface down: see CarveOptions::pass_depth
 };
 
 struct Carving {
@@ -71,9 +75,20 @@ struct Carving {
 /// - leave nothing that the tool could reach, but (1) 3 chords / m along curved edges of the axis,
 ///   and (2) where the tip is a point, ridges of step / m on flat bottoms; (2) also where `step`
 ///   exceeds the tip's radius.
+/// With a pass depth, pass k cuts as if that were k pass depths deep at most, but for what the
+/// passes before it have cut: it takes off one pass depth at most, and ridges (2).
 /// Axis parts narrower than the tip are left out. O(n log n + size of the result).
 /// Errors: invalid_option, unsupported (an axis that is sampled or of the exterior), too_large
-/// (more than 1e6 clearing passes).
+/// (more than 1e6 clearing passes, or 1e4 in depth).
 Result<Carving> carve(const MedialAxis& axis, const CarveOptions& options);
+
+/// Options and carvings in other units: every length times `factor`, which must be positive.
+CarveOptions scaled(CarveOptions options, double factor);
+Carving scaled(Carving carving, double factor);
+
+/// The points of a path with its arcs as chords, at most `chord` away from them, and never nearer
+/// to the shape's boundary than they are: inside of arcs that turn left, and outside, along their
+/// tangents, of those that turn right. Requires chord > 0.
+std::vector<ToolPoint> without_arcs(const ToolPath& path, double chord);
 
 }  // namespace medial

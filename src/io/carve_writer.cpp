@@ -109,27 +109,6 @@ class GCode {
   double feed_ = 0;
 };
 
-/// The points of a path, and points on its arcs, so that chords stay within `chord`.
-std::vector<ToolPoint> chords_of(const ToolPath& path, double chord) {
-  std::vector<ToolPoint> out;
-  for (std::size_t i = 0; i < path.points.size(); ++i) {
-    const ToolPoint& from = path.points[i];
-    out.push_back({from.point, from.z, 0});
-    if (from.bulge == 0 || i + 1 == path.points.size()) continue;
-    const BulgeArc arc{from.point, path.points[i + 1].point, from.bulge};
-    const double angle = 4 * std::atan(arc.bulge), radius = 1 / std::abs(curvature(arc));
-    const double widest = 2 * std::acos(std::max(1 - chord / radius, 0.0));
-    const int pieces = static_cast<int>(std::clamp(std::ceil(std::abs(angle) / widest), 1.0, 1e5));
-    for (int k = 1; k < pieces; ++k) {
-      const double half = angle * k / (2 * pieces);
-      out.push_back({arc.start + (2 * std::sin(half) / curvature(arc)) *
-                                     turned(start_tangent(arc), std::cos(half), std::sin(half)),
-                     from.z, 0});
-    }
-  }
-  return out;
-}
-
 void write_gcode(OutputStream& out, const CarveFile& file, const MachineOptions& machine) {
   GCode program(out, machine);
   program.begin();
@@ -142,8 +121,15 @@ void write_csv(OutputStream& out, const CarveFile& file, const MachineOptions& m
   out.put("path,kind,x,y,z\n");
   std::uint64_t id = 0;
   for (const CarveItem& item : file.items) {
+    // Next to where offsets of two sides meet, a tangent may come nearer to the other side than its
+    // arc does, by as much as it is away from that.
+    constexpr double fine = 1e-6;
+    const Carving& carving = item.carving;
+    const double chord = machine.chord > 0
+                             ? machine.chord
+                             : fine * std::max(carving.tip_radius, carving.slope * carving.deepest);
     for (const ToolPath& path : item.carving.paths) {
-      for (const ToolPoint& point : chords_of(path, machine.chord)) {
+      for (const ToolPoint& point : without_arcs(path, chord)) {
         out.put(id);
         out.put(',');
         out.put(std::string_view(name_of(path.kind)));
@@ -227,9 +213,12 @@ Status write_picture(OutputStream& out, const std::string& format, const CarveFi
     const int levels = format == "png" ? 32 : 12;
     for (const CarveItem& item : file.items) {
       const Carving& carving = item.carving;
-      std::vector<Ring> walls;
-      for (const ToolPath& path : carving.paths)
-        if (path.kind == ToolPathKind::wall) walls.push_back(line_of(path));
+      std::vector<std::vector<const ToolPath*>> walls;  // of each pass
+      for (const ToolPath& path : carving.paths) {
+        if (path.kind != ToolPathKind::wall) continue;
+        walls.resize(std::max<std::size_t>(walls.size(), path.pass + 1));
+        walls[path.pass].push_back(&path);
+      }
       // What is deeper than a level: flat bottoms within their walls, and around each path as much
       // as the cone is wide there.
       for (int level = 0; level < levels; ++level) {
@@ -237,8 +226,11 @@ Status write_picture(OutputStream& out, const std::string& format, const CarveFi
         canvas.color({wood.red + t * (bottom.red - wood.red),
                       wood.green + t * (bottom.green - wood.green),
                       wood.blue + t * (bottom.blue - wood.blue)});
-        for (const Ring& wall : walls) canvas.trace(wall);
-        canvas.fill_even_odd();
+        for (const auto& of_pass : walls) {
+          for (const ToolPath* wall : of_pass)
+            if (-wall->points.front().z > depth) canvas.trace(line_of(*wall));
+          canvas.fill_even_odd();
+        }
         for (const ToolPath& path : carving.paths) {
           const double over = -path.points.front().z - depth;
           if (path.kind != ToolPathKind::wall || !(over > 0)) continue;
@@ -295,8 +287,8 @@ Status write_carving(const std::string& path, const std::string& format, const C
                      const MachineOptions& machine, const WriteOptions& options) {
   const Result<std::string> known = output_format(path, format, "nc", known_formats);
   if (!known) return known.error();
-  for (const double value : {machine.safe, machine.feed, machine.plunge, machine.chord})
-    if (!(value > 0) || !std::isfinite(value))
+  for (const double value : {machine.safe, machine.feed, machine.plunge})
+    if (!(value > 0) || !std::isfinite(value) || !(machine.chord >= 0))
       return Error{ErrorCode::invalid_option, "heights, feeds and chords must be positive", {}};
   return write_whole(path, [&](OutputStream& out) -> Status {
     if (*known == "dxf") {

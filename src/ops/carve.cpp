@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "base/arc.h"
+#include "medial/measure.h"
 #include "medial/offset.h"
 #include "ops/groove.h"
 
@@ -76,6 +77,8 @@ class Planner {
  public:
   explicit Planner(Carving& carving) : carving_(carving) {}
 
+  void begin_pass(std::uint32_t pass) { pass_ = pass; }
+
   Vec2 at() const {
     return carving_.paths.empty() ? Vec2{} : carving_.paths.back().points.back().point;
   }
@@ -97,13 +100,13 @@ class Planner {
         } else {
           points.insert(points.begin(), last.points.back());
           points.front().bulge = 0;
-          carving_.paths.push_back({kind, std::move(points)});
+          carving_.paths.push_back({kind, std::move(points), pass_});
         }
         return;
       }
       carving_.travel_length += way;
     }
-    carving_.paths.push_back({kind, std::move(points)});
+    carving_.paths.push_back({kind, std::move(points), pass_});
   }
 
  private:
@@ -112,6 +115,7 @@ class Planner {
     return bulge > 0 ? chord * (1 + bulge * bulge) * std::atan(bulge) / bulge : chord;
   }
   Carving& carving_;
+  std::uint32_t pass_ = 0;
 };
 
 /// Flat bottoms: the rings of the offsets from `flat_from` on, inner ones first, the wall last.
@@ -211,6 +215,11 @@ Box box_of(const MedialAxis& axis) {
   return box;
 }
 
+/// Between the passes that clear a flat bottom of clearances above `flat_from`.
+double step_at(const CarveOptions& options, double tip, double flat_from) {
+  return options.step > 0 ? options.step : tip > 0 ? tip : flat_from / 20;
+}
+
 Result<Carving> plan(const MedialAxis& axis, const CarveOptions& options) {
   const double radius = options.tool > 0 ? options.tool / 2 : infinity;
   const bool mill = options.angle == 0;
@@ -221,49 +230,65 @@ Result<Carving> plan(const MedialAxis& axis, const CarveOptions& options) {
   double depth = options.depth > 0 ? options.depth : infinity;
   if (!mill) depth = std::min(depth, (radius - tip) / slope);
   carving.flat_from = mill ? tip : tip + depth * slope;  // infinite where nothing limits the depth
-  const auto deepest_at = [&](double clearance) {
-    return mill ? depth : std::min((clearance - tip) / slope, depth);
-  };
-
   const double chord = options.chord > 0 ? options.chord : 1e-5 * diagonal(box_of(axis));
-  if (std::isfinite(carving.flat_from))
-    carving.step = options.step > 0 ? options.step : tip > 0 ? tip : carving.flat_from / 20;
+  if (std::isfinite(carving.flat_from)) carving.step = step_at(options, tip, carving.flat_from);
 
-  Offsets offsets;
-  if (std::isfinite(carving.flat_from)) {
-    auto passes = offset_passes(axis, carving.flat_from, carving.step);
-    if (!passes) return std::move(passes).error();
-    if (!passes->empty()) {
-      auto found = inward_offsets(axis, *passes);
-      if (!found) return std::move(found).error();
-      offsets = std::move(found).value();
-    }
+  // As deep as the widest place lets the tool go.
+  double lowest = depth;
+  if (!mill) {
+    lowest = std::min(depth, std::max(deepest_disk(axis).radius - tip, 0.0) / slope);
   }
+  constexpr double most_passes = 1e4, rounding = 1e-9;
+  const double passes =
+      options.pass_depth > 0 ? std::max(1.0, std::ceil(lowest / options.pass_depth - rounding)) : 1;
+  if (!(passes <= most_passes))
+    return Error{ErrorCode::too_large, "there would be more than 1e4 passes in depth", {}};
+
   Planner planner(carving);
-  if (!offsets.regions.empty()) {
-    carving.deepest = depth;
-    Floors(offsets, carving.flat_from, -depth, planner).cut_all();
-  }
-  // An end mill needs the axis only where it is just as wide.
-  const ops::Grooves grooves = ops::grooves_of(axis, tip, carving.flat_from, chord);
-  const Vec2 start =
-      planner.started() || grooves.parts.empty() ? planner.at() : grooves.parts[0].disks[0].center;
-  for (const auto& trail : ops::trails_of(grooves, start)) {
-    std::vector<ToolPoint> points;
-    for (const ops::GrooveStep& step : trail) {
-      const auto& disks = grooves.parts[step.part].disks;
-      for (std::size_t k = 0; k < disks.size(); ++k) {
-        const Disk& disk = disks[step.forward ? k : disks.size() - 1 - k];
-        const double deep = std::max(deepest_at(std::max(disk.radius, tip)), 0.0);
-        carving.deepest = std::max(carving.deepest, deep);
-        const ToolPoint point{disk.center, -deep, 0};
-        if (points.empty() || !(points.back().point == point.point) || points.back().z != point.z)
-          points.push_back(point);
+  double cleared = tip;  // the clearance up to which grooves are cut
+  for (std::uint32_t pass = 0; pass < static_cast<std::uint32_t>(passes); ++pass) {
+    const bool last = pass + 1 == static_cast<std::uint32_t>(passes);
+    const double floor = last ? depth : (pass + 1) * options.pass_depth;
+    const double flat_from = last ? carving.flat_from : mill ? tip : tip + floor * slope;
+    planner.begin_pass(pass);
+    Offsets offsets;
+    if (std::isfinite(flat_from)) {
+      auto rings = offset_passes(axis, flat_from, step_at(options, tip, flat_from));
+      if (!rings) return std::move(rings).error();
+      if (!rings->empty()) {
+        auto found = inward_offsets(axis, *rings);
+        if (!found) return std::move(found).error();
+        offsets = std::move(found).value();
       }
     }
-    planner.add(ToolPathKind::groove, std::move(points), -1);
+    if (!offsets.regions.empty()) {
+      carving.deepest = std::max(carving.deepest, floor);
+      Floors(offsets, flat_from, -floor, planner).cut_all();
+    }
+    // An end mill needs the axis only where it is just as wide.
+    const ops::Grooves grooves = ops::grooves_of(axis, cleared, flat_from, chord);
+    const Vec2 start = planner.started() || grooves.parts.empty()
+                           ? planner.at()
+                           : grooves.parts[0].disks[0].center;
+    for (const auto& trail : ops::trails_of(grooves, start)) {
+      std::vector<ToolPoint> points;
+      for (const ops::GrooveStep& step : trail) {
+        const auto& disks = grooves.parts[step.part].disks;
+        for (std::size_t k = 0; k < disks.size(); ++k) {
+          const Disk& disk = disks[step.forward ? k : disks.size() - 1 - k];
+          const double room = std::max(disk.radius, tip);
+          const double deep = std::max(mill ? floor : std::min((room - tip) / slope, floor), 0.0);
+          carving.deepest = std::max(carving.deepest, deep);
+          const ToolPoint point{disk.center, -deep, 0};
+          if (points.empty() || !(points.back().point == point.point) || points.back().z != point.z)
+            points.push_back(point);
+        }
+      }
+      planner.add(ToolPathKind::groove, std::move(points), -1);
+    }
+    carving.travel_unordered += unordered_travel(offsets, grooves);
+    if (!mill) cleared = flat_from;
   }
-  carving.travel_unordered = unordered_travel(offsets, grooves);
   return carving;
 }
 
@@ -277,9 +302,10 @@ Result<Carving> carve(const MedialAxis& axis, const CarveOptions& options) {
   if (axis.nodes.empty()) return Error{ErrorCode::empty, "the axis is empty", {}};
   if (!(options.angle >= 0 && options.angle <= 170))
     return invalid("the angle must be in [0, 170]");
-  for (const double value : {options.depth, options.tool, options.tip, options.step, options.chord})
+  for (const double value :
+       {options.depth, options.tool, options.tip, options.pass_depth, options.step, options.chord})
     if (!(value >= 0) || !std::isfinite(value))
-      return invalid("depth, diameters, step and chord must be finite and not negative");
+      return invalid("depths, diameters, step and chord must be finite and not negative");
   if (options.angle == 0 && !(options.depth > 0 && options.tool > 0))
     return invalid("an end mill (angle 0) needs a depth and a diameter");
   if (options.angle > 0 && options.angle < 1) return invalid("the angle must be 0 or in [1, 170]");
@@ -295,6 +321,59 @@ Result<Carving> carve(const MedialAxis& axis, const CarveOptions& options) {
   } catch (const std::exception& exception) {
     return Error{ErrorCode::internal, exception.what(), {}};
   }
+}
+
+CarveOptions scaled(CarveOptions options, double factor) {
+  for (double* length : {&options.depth, &options.tool, &options.tip, &options.pass_depth,
+                         &options.step, &options.chord})
+    *length *= factor;
+  return options;
+}
+
+Carving scaled(Carving carving, double factor) {
+  for (ToolPath& path : carving.paths) {
+    for (ToolPoint& point : path.points) {
+      point.point = factor * point.point;
+      point.z *= factor;
+    }
+  }
+  for (double* length : {&carving.deepest, &carving.flat_from, &carving.tip_radius, &carving.step,
+                         &carving.cut_length, &carving.travel_length, &carving.travel_unordered})
+    *length *= factor;
+  return carving;
+}
+
+std::vector<ToolPoint> without_arcs(const ToolPath& path, double chord) {
+  std::vector<ToolPoint> out;
+  for (std::size_t i = 0; i < path.points.size(); ++i) {
+    const ToolPoint& from = path.points[i];
+    out.push_back({from.point, from.z, 0});
+    if (from.bulge == 0 || i + 1 == path.points.size()) continue;
+    const BulgeArc arc{from.point, path.points[i + 1].point, from.bulge};
+    if (arc.start == arc.end) continue;
+    // Half of the angle of a piece whose chord, or the meeting point of whose tangents, is as far
+    // away as may be.
+    const double quarter = std::atan(std::abs(arc.bulge));
+    const double share = std::min(chord * std::abs(curvature(arc)), 1.0);
+    const double half = std::acos(arc.bulge > 0 ? 1 - share : 1 / (1 + share));
+    constexpr double most = 1e6;
+    const double pieces = std::clamp(std::ceil(2 * quarter / half), 1.0, most);
+    const bool tangents = arc.bulge < 0;
+    const double apart = 2 * quarter / pieces;  // half of the angle of each piece
+    for (double k = tangents ? 0.5 : 1; k < pieces; k += 1) {
+      // In the direction of the chord up to there; a meeting of tangents is further out.
+      const double turn = apart * k;
+      const Vec2 on_arc = point_at(arc, k / pieces);
+      if (!tangents) {
+        out.push_back({on_arc, from.z, 0});
+        continue;
+      }
+      const Vec2 along = turned(start_tangent(arc), std::cos(2 * turn), -std::sin(2 * turn));
+      const double out_by = (1 / std::cos(apart) - 1) / std::abs(curvature(arc));
+      out.push_back({on_arc + out_by * left_of(along), from.z, 0});
+    }
+  }
+  return out;
 }
 
 }  // namespace medial

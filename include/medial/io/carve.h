@@ -28,7 +28,9 @@ struct MachineOptions {
   double feed = 1000;   ///< of cutting moves, mm/min
   double plunge = 300;  ///< downwards, mm/min
   double spindle = 0;   ///< turns a minute; 0: the program says nothing of it
-  double chord = 1e-3;  ///< of arcs where a format has none (.csv)
+  /// How far chords may be off arcs where a format has none (.csv), see without_arcs(); 0: 1e-6 of
+  /// the tool's radius at the bottom.
+  double chord = 0;
 };
 
 /// Writes paths by the extension of `path`: .nc .gcode .ngc (plain G-code: G0 G1 G2 G3, absolute,
