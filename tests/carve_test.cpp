@@ -114,6 +114,123 @@ TEST(Carve, RefusesWhatNoToolIs) {
             ErrorCode::too_large);
 }
 
+/// How deep the tool, along straight moves, cuts beyond the boundary; of an end mill, how far.
+double gouge_of(const Shape& shape, const Carving& carving, double chord) {
+  std::vector<std::vector<ToolPoint>> paths;
+  std::size_t moves = 0;
+  for (const ToolPath& path : carving.paths) {
+    paths.push_back(without_arcs(path, chord));
+    moves += paths.back().size();
+  }
+  constexpr std::size_t most = 400;  // moves looked at, or one in so many
+  const std::size_t stride = 1 + moves / most;
+  double worst = 0;
+  std::size_t count = 0;
+  for (const std::vector<ToolPoint>& points : paths) {
+    for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+      if (count++ % stride != 0) continue;
+      for (const double share : {0.0, 0.25, 0.5, 0.75}) {
+        const Vec2 p = points[i].point + share * (points[i + 1].point - points[i].point);
+        const double z = points[i].z + share * (points[i + 1].z - points[i].z);
+        const double over = carving.tip_radius - carving.slope * z - clearance(shape, p);
+        worst = std::max(worst, carving.slope > 0 ? std::min(-z, over / carving.slope) : over);
+      }
+    }
+  }
+  return worst;
+}
+
+TEST(Carve, ChordsOfRoundWallsDoNotGouge) {
+  // A slot around a post: arcs that turn right around its corners, and left in the round ends.
+  Ring outer{.points = {{0, 0}, {20, 0}, {20, 10}, {0, 10}}, .bulges = {0, 1, 0, 1}};
+  Ring post{.points = {{8, 4}, {12, 4}, {12, 6}, {8, 6}}};
+  const Shape shape = shape_of({outer, post});
+  for (const double chord : {1e-4, 1e-2, 0.1}) {
+    for (const CarveOptions& options :
+         {CarveOptions{.angle = 90, .depth = 1}, CarveOptions{.angle = 0, .depth = 1, .tool = 2}}) {
+      const Carving carving = carving_of(shape, options);
+      EXPECT_LE(gouge_of(shape, carving, chord), 1e-12) << chord;
+      // And within the chord of the arcs: what is cut is as wide as that, less the chord.
+      const test::Cutter cutter{carving.tip_radius, carving.slope};
+      Carving chords = carving;
+      for (ToolPath& path : chords.paths) path.points = without_arcs(path, chord);
+      for (double angle = 0; angle < 1.5; angle += 0.1) {
+        const Vec2 p = Vec2{12, 6} + (0.1 + chord) * Vec2{std::cos(angle), std::sin(angle)};
+        EXPECT_GE(cutter.depth_at(p, chords.paths), std::min(1.0, 0.1) - 1e-9) << angle;
+      }
+    }
+  }
+}
+
+TEST(Carve, PassesInDepthTakeOffNoMoreThanAsked) {
+  std::size_t several = 0;
+  for (std::uint64_t seed = 0; seed < shape_count() / 8; ++seed) {
+    const RandomShape random =
+        seed % 2 == 0 ? test::random_shape(seed) : test::random_arc_shape(seed);
+    SCOPED_TRACE(random.kind + " " + std::to_string(seed));
+    const Shape shape = shape_of(random.rings);
+    if (shape.points.size() > 60) continue;
+    const Box box = bounding_box(shape);
+    const auto axis = compute(shape);
+    ASSERT_TRUE(axis.ok());
+    const double deepest = axis->nodes[deepest_node(*axis)].disk.radius;
+    if (deepest < 1e-2 * diagonal(box)) continue;
+    CarveOptions options{.angle = seed % 4 == 3 ? 0.0 : 60.0, .chord = 1e-4 * deepest};
+    if (seed % 4 != 0) options.tool = deepest;
+    if (seed % 4 == 2) options.tip = 0.4 * deepest;
+    if (seed % 4 == 3) options.depth = deepest;
+    const auto at_once = carve(*axis, options);
+    options.pass_depth = 0.3 * deepest;
+    const auto in_passes = carve(*axis, options);
+    ASSERT_TRUE(at_once.ok() && in_passes.ok());
+    EXPECT_NEAR(in_passes->deepest, at_once->deepest, 1e-9 * deepest);
+    EXPECT_LE(gouge_of(shape, *in_passes, 1e-5 * deepest), 1e-6 * deepest);
+    const double slope = in_passes->slope, tip = in_passes->tip_radius;
+    // Chords, and the ridges of the widest bottom where the tip is a point.
+    const double left =
+        slope > 0 ? (3 * options.chord + (tip > 0 ? 0 : deepest / 20)) / slope : 0.0;
+    const test::Cutter cutter{tip, slope};
+    const std::uint32_t passes = in_passes->paths.back().pass + 1;
+    several += passes > 1 ? 1 : 0;
+    test::Random numbers(seed);
+    for (int i = 0; i < 10; ++i) {
+      const Vec2 p{numbers.between(box.low.x, box.high.x), numbers.between(box.low.y, box.high.y)};
+      double before = 0;
+      std::vector<ToolPath> so_far;
+      auto next = in_passes->paths.begin();
+      for (std::uint32_t pass = 0; pass < passes; ++pass) {
+        for (; next != in_passes->paths.end() && next->pass == pass; ++next)
+          so_far.push_back(*next);
+        const double cut = cutter.depth_at(p, so_far);
+        EXPECT_LE(cut - before, options.pass_depth + left + 1e-9 * deepest) << pass;
+        before = cut;
+      }
+      // In the end as much is cut as at once.
+      EXPECT_NEAR(before, cutter.depth_at(p, at_once->paths), left + 1e-9 * deepest) << p.x;
+    }
+    if (HasFailure()) return;
+  }
+  EXPECT_GT(several, shape_count() / 50);
+}
+
+TEST(Carve, OtherUnitsChangeTheScaleOnly) {
+  const auto axis = compute(shape_of(test::rectangle(10, 6)));
+  ASSERT_TRUE(axis.ok());
+  const CarveOptions options{.angle = 60, .depth = 2, .tip = 0.25, .pass_depth = 1};
+  const auto plain = carve(*axis, options);
+  const auto other = carve(*axis, scaled(options, 0.25));
+  ASSERT_TRUE(plain.ok() && other.ok());
+  const Carving back = scaled(*other, 4);
+  EXPECT_NEAR(back.deepest, 2, 1e-12);
+  EXPECT_EQ(scaled(scaled(options, 0.25), 4).depth, options.depth);
+  const auto axis4 = compute(shape_of(test::rectangle(40, 24)));
+  ASSERT_TRUE(axis4.ok());
+  const auto large = carve(*axis4, options);
+  ASSERT_TRUE(large.ok());
+  EXPECT_NEAR(back.cut_length, large->cut_length, 1e-9 * large->cut_length);
+  ASSERT_EQ(back.paths.size(), large->paths.size());
+}
+
 TEST(Carve, NeitherGougesNorLeavesAnything) {
   std::size_t probes = 0;
   for (std::uint64_t seed = 0; seed < shape_count(); ++seed) {
@@ -158,6 +275,7 @@ TEST(Carve, NeitherGougesNorLeavesAnything) {
                                                               (options.tool > 0 ? 0.0 : 1e300));
     // What may remain: see carve().
     const double left = slope > 0 ? (3 * options.chord + (tip > 0 ? 0 : carving->step)) / slope : 0;
+    EXPECT_LE(gouge_of(shape, *carving, 1e-6 * (tip + slope * carving->deepest)), 1e-6 * deepest);
     for (int i = 0; i < 60; ++i) {
       const Vec2 p{numbers.between(box.low.x, box.high.x), numbers.between(box.low.y, box.high.y)};
       const double room = clearance(shape, p);

@@ -35,7 +35,8 @@ struct CarveOptions {
   double chord = 0;
 };
 
-/// Where the tool's tip is: z is 0 on the surface and negative below it.
+/// Where the tool's tip is: z is 0 on the surface and negative below it. (Chords of curves may
+/// begin a little above it: they are lifted as a whole.)
 struct ToolPoint {
   Vec2 point;
   double z = 0;

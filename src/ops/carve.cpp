@@ -276,8 +276,8 @@ Result<Carving> plan(const MedialAxis& axis, const CarveOptions& options) {
         const auto& disks = grooves.parts[step.part].disks;
         for (std::size_t k = 0; k < disks.size(); ++k) {
           const Disk& disk = disks[step.forward ? k : disks.size() - 1 - k];
-          const double room = std::max(disk.radius, tip);
-          const double deep = std::max(mill ? floor : std::min((room - tip) / slope, floor), 0.0);
+          // Chords are lifted, in narrow places above the surface.
+          const double deep = mill ? floor : std::min((disk.radius - tip) / slope, floor);
           carving.deepest = std::max(carving.deepest, deep);
           const ToolPoint point{disk.center, -deep, 0};
           if (points.empty() || !(points.back().point == point.point) || points.back().z != point.z)
@@ -355,7 +355,8 @@ std::vector<ToolPoint> without_arcs(const ToolPath& path, double chord) {
     // away as may be.
     const double quarter = std::atan(std::abs(arc.bulge));
     const double share = std::min(chord * std::abs(curvature(arc)), 1.0);
-    const double half = std::acos(arc.bulge > 0 ? 1 - share : 1 / (1 + share));
+    const double half = arc.bulge > 0 ? 2 * std::asin(std::sqrt(0.5 * share))
+                                      : std::atan(std::sqrt(share * (2 + share)));
     constexpr double most = 1e6;
     const double pieces = std::clamp(std::ceil(2 * quarter / half), 1.0, most);
     const bool tangents = arc.bulge < 0;

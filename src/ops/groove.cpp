@@ -130,8 +130,7 @@ Grooves grooves_of(const MedialAxis& axis, double least, double most, double cho
       Groove& groove = grooves.parts.emplace_back();
       groove.from = from;
       groove.to = junction;
-      for (const Point& p : points)
-        groove.disks.push_back({origin + p.p, std::max(p.r - lower, 0.0)});
+      for (const Point& p : points) groove.disks.push_back({origin + p.p, p.r - lower});
     }
   }
   return grooves;

@@ -12,7 +12,9 @@ namespace medial::ops {
 
 /// A part of an edge: a chain of disks from one junction to another.
 struct Groove {
-  std::vector<Disk> disks;  ///< at least two; every disk lies inside the shape
+  /// At least two; every disk lies inside the shape. A radius below 0 stands for a tool above the
+  /// surface.
+  std::vector<Disk> disks;
   std::uint32_t from = 0, to = 0;
 };
 
