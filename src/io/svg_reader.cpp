@@ -10,6 +10,14 @@
 #include <memory>
 #include <numbers>
 
+// The grammars of attributes are compiled in svg_grammars.cpp: both files need half the memory then.
+#define SVGPP_USE_EXTERNAL_PATH_DATA_PARSER
+#define SVGPP_USE_EXTERNAL_TRANSFORM_PARSER
+#define SVGPP_USE_EXTERNAL_PAINT_PARSER
+#define SVGPP_USE_EXTERNAL_LENGTH_PARSER
+#define SVGPP_USE_EXTERNAL_MISC_PARSER
+#define SVGPP_USE_EXTERNAL_COLOR_PARSER
+#define SVGPP_USE_EXTERNAL_PRESERVE_ASPECT_RATIO_PARSER
 // libxml2 comes before svgpp's policy for it.
 #include <svgpp/policy/xml/libxml2.hpp>
 #include <svgpp/svgpp.hpp>
