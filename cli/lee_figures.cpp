@@ -188,8 +188,7 @@ Box with_room(const Shape& shape, double room) {
 class Halves {
  public:
   explicit Halves(const Shape& shape)
-      : shape_(shape),
-        frame_{},
+      : frame_{},
         elements_(lee::elements_of(shape, sites::number_sites(shape, frame_, 0.01), frame_)),
         diagram_(elements_),
         limits_{tolerance_for(bounding_box(shape), 0), 4 * diagonal(bounding_box(shape))} {
@@ -270,7 +269,6 @@ class Halves {
     figure.line(line);
   }
 
-  const Shape& shape_;
   Frame frame_;
   lee::Elements elements_;
   lee::Diagram diagram_;

@@ -170,6 +170,18 @@ Status tell(const io::VoronoiFile& file, const VoronoiSwitches& switches, double
   return success();
 }
 
+Result<io::VoronoiFile> compute_by_lee(const VoronoiSwitches& switches, Phases& seconds) {
+  auto shapes = load_shapes(switches.input, switches.common.threads);
+  if (!shapes) return std::move(shapes).error();
+  print_notes(*shapes, switches.input, switches.common);
+  seconds.read = shapes->seconds_read;
+  seconds.shape = shapes->seconds_shape;
+  const Stopwatch watch;
+  auto computed = compute_diagrams(std::move(shapes).value(), switches.input.path, switches.common);
+  seconds.voronoi = watch.seconds();
+  return computed;
+}
+
 Result<int> run_voronoi(const VoronoiSwitches& switches) {
   const auto& [input, common, method, frame, margin, output, format, pictures] = switches;
   Status writable =
@@ -179,18 +191,7 @@ Result<int> run_voronoi(const VoronoiSwitches& switches) {
   if (by_lee && !(frame.empty() && margin == 0))
     return invalid_option("the method lee has no frame: polygons are it");
   Phases seconds;
-  const auto compute_by_lee = [&]() -> Result<io::VoronoiFile> {
-    auto shapes = load_shapes(input, common.threads);
-    if (!shapes) return std::move(shapes).error();
-    print_notes(*shapes, input, common);
-    seconds.read = shapes->seconds_read;
-    seconds.shape = shapes->seconds_shape;
-    const Stopwatch watch;
-    auto computed = compute_diagrams(std::move(shapes).value(), input.path, common);
-    seconds.voronoi = watch.seconds();
-    return computed;
-  };
-  auto diagrams = by_lee ? compute_by_lee() : compute_soup(switches, seconds);
+  auto diagrams = by_lee ? compute_by_lee(switches, seconds) : compute_soup(switches, seconds);
   if (!diagrams) return std::move(diagrams).error();
   const Stopwatch writing;
   if (!output.empty()) {

@@ -17,7 +17,6 @@ Disk disk_over(const Site& s, double at, Vec2 vertex) {
 struct Vector {
   Vec2 c;
   double r;
-  friend Vector operator-(const Vector& u, const Vector& v) { return {u.c - v.c, u.r - v.r}; }
 };
 double product(const Vector& u, const Vector& v) { return dot(u.c, v.c) - u.r * v.r; }
 

@@ -10,7 +10,8 @@
 #include <memory>
 #include <numbers>
 
-// The grammars of attributes are compiled in svg_grammars.cpp: both files need half the memory then.
+// The grammars of attributes are compiled in svg_grammars.cpp: both files need half the memory
+// then.
 #define SVGPP_USE_EXTERNAL_PATH_DATA_PARSER
 #define SVGPP_USE_EXTERNAL_TRANSFORM_PARSER
 #define SVGPP_USE_EXTERNAL_PAINT_PARSER
