@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engines/potential/force.h"
+#include "engines/potential/integral.h"
 #include "support/generate.h"
 
 namespace medial::test {
@@ -102,6 +103,41 @@ TEST(PotentialField, IntegralsMatchQuadratureAtAnyRealOrder) {
   }
 }
 
+TEST(PotentialField, IntegralsOfHighOrderMatchQuadrature) {
+  Random random(2);
+  for (int i = 0; i < 1000; ++i) {
+    const double order = i % 2 == 0 ? std::exp2(5 + i % 8) : random.between(32, 4096);
+    // No nearer than 1, and not much further: beyond the foot, around it, or steeply aside.
+    double y = random.between(1, 1.2), x1 = -random.power_of_ten(-4, 1);
+    double x2 = random.power_of_ten(-4, 1);
+    if (i % 3 > 0) {
+      y = i % 3 == 1 ? random.between(0.7, 1) : random.power_of_ten(-8, -0.01);
+      x1 = std::sqrt(1 - y * y) + random.power_of_ten(-8, -1);
+      x2 = x1 + random.power_of_ten(-4, 1);
+    }
+    if (random.chance(0.3)) {
+      std::swap(x1, x2);
+      x1 = -x1;
+      x2 = -x2;
+    }
+    const auto f = [&](double x) { return std::pow(x * x + y * y, -0.5 * order - 1); };
+    double expected = 0;
+    const double nearest = std::clamp(0.0, x1, x2);
+    std::vector<double> cuts = {x1, x2, nearest};
+    for (double w = 0.1 / order; w < 20; w *= 2) {
+      cuts.push_back(std::clamp(nearest + w, x1, x2));
+      cuts.push_back(std::clamp(nearest - w, x1, x2));
+    }
+    std::sort(cuts.begin(), cuts.end());
+    for (std::size_t k = 0; k + 1 < cuts.size(); ++k)
+      if (cuts[k] < cuts[k + 1]) expected += integrate(f, cuts[k], cuts[k + 1]);
+    const potential::HighOrder high(order);
+    const double p1 = high.power(x1 * x1 + y * y), p2 = high.power(x2 * x2 + y * y);
+    EXPECT_NEAR(high.integral(x1, x2, y, p1, p2), expected, 1e-10)
+        << order << " " << x1 << " " << x2 << " " << y;
+  }
+}
+
 TEST(PotentialField, ForcesMatchTheirDefinition) {
   Random random(7);
   const std::vector<Rings> shapes = {rectangle(4, 2), l_shape(1), jagged_star(9), comb(3)};
@@ -122,7 +158,7 @@ TEST(PotentialField, ForcesMatchTheirDefinition) {
       const double distance = evaluator.place(p).distance;
       if (!(distance > 1e-7)) continue;
       ++places;
-      for (const double order : {1.0, 2.0, 3.0, 4.0, 8.0, 17.0, 64.0, 2.5}) {
+      for (const double order : {1.0, 2.0, 3.0, 4.0, 8.0, 17.0, 33.5, 64.0, 300.0, 2.5}) {
         SCOPED_TRACE(testing::Message() << "order " << order << " at " << p.x << " " << p.y);
         expect_near(evaluator.force(order), by_definition(pieces, p, order, distance), 1e-6);
       }

@@ -72,6 +72,18 @@ std::uint32_t Charges::build(std::uint32_t begin, std::uint32_t end) {
   return index;
 }
 
+void Charges::squared_distances(Vec2 p, std::uint32_t begin, std::uint32_t end,
+                                std::span<double, leaf_size> squares) const {
+  for (std::uint32_t k = 0; k < end - begin; ++k) {
+    const std::uint32_t i = begin + k;
+    const double x = p.x - start_x[i], y = p.y - start_y[i];
+    const double along = x * tangent_x[i] + y * tangent_y[i];
+    const double aside = y * tangent_x[i] - x * tangent_y[i];
+    const double beyond = std::max(std::max(-along, along - lengths[i]), 0.0);
+    squares[k] = beyond * beyond + aside * aside;
+  }
+}
+
 Charges::Nearest Charges::nearest(Vec2 p) const {
   Nearest best{std::numeric_limits<double>::infinity(), 0};  // squared until the end
   std::array<std::uint32_t, 64> stack{};
@@ -89,16 +101,8 @@ Charges::Nearest Charges::nearest(Vec2 p) const {
       continue;
     }
     std::array<double, leaf_size> square;
-    const std::uint32_t count = node.end - node.begin;
-    for (std::uint32_t k = 0; k < count; ++k) {
-      const std::uint32_t i = node.begin + k;
-      const double x = p.x - start_x[i], y = p.y - start_y[i];
-      const double along = x * tangent_x[i] + y * tangent_y[i];
-      const double aside = y * tangent_x[i] - x * tangent_y[i];
-      const double beyond = std::max(std::max(-along, along - lengths[i]), 0.0);
-      square[k] = beyond * beyond + aside * aside;
-    }
-    for (std::uint32_t k = 0; k < count; ++k) {
+    squared_distances(p, node.begin, node.end, square);
+    for (std::uint32_t k = 0; k < node.end - node.begin; ++k) {
       if (square[k] < best.distance) best = {square[k], node.begin + k};
     }
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "medial/shape.h"
@@ -40,6 +41,11 @@ class Charges {
   /// The piece nearest to p; the lowest among equals. O(log n) for sensible borders.
   Nearest nearest(Vec2 p) const;
 
+  static constexpr std::uint32_t leaf_size = 16;
+  /// From p to each of the pieces begin .. end - 1, of which there are no more than leaf_size.
+  void squared_distances(Vec2 p, std::uint32_t begin, std::uint32_t end,
+                         std::span<double, leaf_size> squares) const;
+
   std::size_t size() const { return site.size(); }
   double length() const { return nodes.front().length; }
   Vec2 start(std::size_t i) const { return {start_x[i], start_y[i]}; }
@@ -50,8 +56,6 @@ class Charges {
   std::vector<double> lengths;               ///< its length
   std::vector<std::uint32_t> site;
   std::vector<Node> nodes;  ///< the root is the first
-
-  static constexpr std::uint32_t leaf_size = 16;
 
  private:
   std::uint32_t build(std::uint32_t begin, std::uint32_t end);

@@ -4,118 +4,27 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
+
+#include "engines/potential/integral.h"
 
 namespace medial::potential {
 namespace {
 
-/// The potential of order 1, (3): log((r1 + r2 + L) / (r1 + r2 - L)), and r1 + r2 - L without
-/// cancellation, for a segment of length L seen from the origin.
-struct Ends {
-  double r1, r2, excess;
-
-  Ends(double x1, double x2, double y) {
-    const double square = y * y;
-    r1 = std::sqrt(x1 * x1 + square);
-    r2 = std::sqrt(x2 * x2 + square);
-    // r + x where x is negative is y^2 / (r - x).
-    const double before = x1 < 0 ? square / (r1 - x1) : r1 + x1;
-    const double behind = x2 > 0 ? square / (r2 + x2) : r2 - x2;
-    excess = before + behind;
-  }
-};
-
-double first_potential(double x1, double x2, double y) {
-  return std::log1p(2 * (x2 - x1) / Ends(x1, x2, y).excess);
-}
-
-/// J(0): the angle under which the segment is seen, over |y|.
-double integral_0(double x1, double x2, double y) {
-  const double length = x2 - x1, scalar = y * y + x1 * x2, area = length * std::abs(y);
-  if (scalar > 0 && area < 1e-5 * scalar) {
-    const double z = area / scalar;
-    return length / scalar * (1 - z * z / 3);
-  }
-  return std::atan2(area, scalar) / std::abs(y);
-}
-
-/// J(1), from (6); the sines' difference without cancellation.
-double integral_1(double x1, double x2, double y) {
-  const Ends ends(x1, x2, y);
-  const double length = x2 - x1;
-  return 2 * length * (1 / ends.r1 + 1 / ends.r2) / (ends.excess * (ends.excess + 2 * length));
-}
-
-/// The integral of cos^order from `angle` to a right angle, for an angle in [pi / 4, pi / 2], over
-/// cos^(order + 1): a series of positive terms in z = cos^2.
-double tail_factor(double order, double z) {
-  double term = 1, sum = 1;
-  for (int k = 0; term > 1e-17 * sum; ++k) {
-    term *= z * (0.5 * order + 1 + k) / (0.5 * (order + 3) + k);
-    sum += term;
-  }
-  return std::sqrt(1 - z) / (order + 1) * sum;
-}
-
-/// The integral of cos^order from 0 to the angle with this sine and cosine, both positive.
-double cosine_power(double order, double sine, double cosine) {
-  if (sine > cosine) {
-    const double whole = 0.5 * std::sqrt(std::numbers::pi) *
-                         std::exp(std::lgamma(0.5 * (order + 1)) - std::lgamma(0.5 * order + 1));
-    return whole - std::pow(cosine, order + 1) * tail_factor(order, cosine * cosine);
-  }
-  // sin F(1/2, order / 2 + 1; 3/2; -tan^2), transformed so that all terms are positive:
-  // sin cos^(order + 1) F(1, order / 2 + 1; 3/2; sin^2).
-  const double z = sine * sine;
-  double term = 1, sum = 1;
-  for (int k = 0; term > 1e-17 * sum; ++k) {
-    term *= z * (0.5 * order + 1 + k) / (1.5 + k);
-    sum += term;
-  }
-  return sine * std::pow(cosine, order + 1) * sum;
-}
-
-/// By Gauss's rule of eight points, for a segment that is short against its distance.
-double short_integral(double order, double x1, double x2, double y) {
-  constexpr std::array<double, 4> nodes = {0.1834346424956498, 0.5255324099163290,
-                                           0.7966664774136267, 0.9602898564975363};
-  constexpr std::array<double, 4> weights = {0.3626837833783620, 0.3137066458778873,
-                                             0.2223810344533745, 0.1012285362903763};
-  const double middle = 0.5 * (x1 + x2), half = 0.5 * (x2 - x1);
-  double sum = 0;
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    for (const double x : {middle - half * nodes[i], middle + half * nodes[i]})
-      sum += weights[i] * std::pow(x * x + y * y, -0.5 * order - 1);
-  }
-  return half * sum;
+/// The force of one piece and its derivatives, from its integral J and its ends' r^-order.
+void add_piece(double order, Vec2 t, double x1, double x2, double y, double integral, double p1,
+               double p2, Force& sum) {
+  const double s1 = p1 / (x1 * x1 + y * y), s2 = p2 / (x2 * x2 + y * y);
+  const double along = (p2 - p1) / order, across = y * integral;
+  const double a = x2 * s2 - x1 * s1, b = -y * (s2 - s1), c = -order * integral - a;
+  // (a, b; b, c) turned into the frame of the plane.
+  const double xx = t.x * t.x, xy = t.x * t.y, yy = t.y * t.y;
+  sum.force = sum.force + along * t + across * left_of(t);
+  sum.xx += a * xx - 2 * b * xy + c * yy;
+  sum.yy += a * yy + 2 * b * xy + c * xx;
+  sum.xy += (a - c) * xy + b * (xx - yy);
 }
 
 }  // namespace
-
-double segment_integral(double order, double x1, double x2, double y) {
-  if (order == 0) return integral_0(x1, x2, y);
-  if (order == 1) return integral_1(x1, x2, y);
-  if (x2 <= 0) return segment_integral(order, -x2, -x1, y);
-  y = std::abs(y);
-  const double r1 = std::hypot(x1, y), r2 = std::hypot(x2, y);
-  if (x1 <= 0) {
-    return (cosine_power(order, -x1 / r1, y / r1) + cosine_power(order, x2 / r2, y / r2)) *
-           std::pow(y, -order - 1);
-  }
-  if ((x2 - x1) * (order + 4) < r1) return short_integral(order, x1, x2, y);
-  // Beyond the foot: a difference of tails, or of integrals from the foot.
-  if (y >= x2)
-    return (cosine_power(order, x2 / r2, y / r2) - cosine_power(order, x1 / r1, y / r1)) *
-           std::pow(y, -order - 1);
-  if (y > x1) {
-    const double middle = y;
-    return segment_integral(order, x1, middle, y) +
-           (middle < x2 ? segment_integral(order, middle, x2, y) : 0);
-  }
-  const double z1 = (y / r1) * (y / r1), z2 = (y / r2) * (y / r2);
-  return std::pow(r1, -order - 1) * tail_factor(order, z1) -
-         std::pow(r2, -order - 1) * tail_factor(order, z2);
-}
 
 Charges::Nearest Evaluator::place(Vec2 p) {
   place_ = p;
@@ -127,7 +36,8 @@ Charges::Nearest Evaluator::place(Vec2 p) {
 void Evaluator::gather(double low, double high) {
   near_.clear();
   far_.clear();
-  const double share = far_field / (charges_.length() * inverse_);  // a unit of charge
+  // The logarithm of what a unit of charge may be off.
+  const double logarithm_share = std::log(far_field / (charges_.length() * inverse_));
   std::array<std::uint32_t, 64> stack{};
   std::size_t depth = 1;
   while (depth > 0) {
@@ -137,9 +47,8 @@ void Evaluator::gather(double low, double high) {
     const double radius = node.radius * inverse_;
     // No charge of the node is nearer than this.
     const double gap = distance - radius;
-    if (gap > 1.25) {
+    if (gap > 1) {
       const double logarithm = std::log(gap);
-      const double logarithm_share = std::log(share);
       if (-(low + 1) * logarithm < logarithm_share) continue;
       // The remainder of Taylor's expansion to the second order, where it is largest.
       const double order = std::clamp(3 / logarithm - 2, low, high);
@@ -293,23 +202,41 @@ void Evaluator::sum_steep(std::uint32_t piece, double start, double low,
     p2 *= r2 * r2;
     const double order = n - 2;
     if (order > last_order + 0.5 || order < low - 0.5 || order <= 0) continue;
-    const double s1 = p1 / (r1 * r1), s2 = p2 / (r2 * r2);
-    const double sign = ahead ? 1 : -1;
-    const double along = sign * (p2 - p1) / order, across = y * j;
-    const double a = x2 * s2 - x1 * s1, b = -sign * y * (s2 - s1), c = -order * j - a;
-    const double xx = t.x * t.x, xy = t.x * t.y, yy = t.y * t.y;
-    Force& sum = forces[static_cast<std::size_t>(std::lround(order - low))];
-    sum.force = sum.force + along * t + across * left_of(t);
-    sum.xx += a * xx - 2 * b * xy + c * yy;
-    sum.yy += a * yy + 2 * b * xy + c * xx;
-    sum.xy += (a - c) * xy + b * (xx - yy);
+    // Mirrored where the piece lies behind.
+    const Vec2 forward = ahead ? t : -t;
+    add_piece(order, forward, x1, x2, ahead ? y : -y, j, p1, p2,
+              forces[static_cast<std::size_t>(std::lround(order - low))]);
+  }
+}
+
+void Evaluator::sum_high(double order, Force& total) const {
+  const HighOrder high(order);
+  // What lies further away than the square root of this adds less than the far field may.
+  const double nothing =
+      std::pow(charges_.length() * inverse_ / far_field, 2 / (order + 1)) / (inverse_ * inverse_);
+  for (const Range& range : near_) {
+    std::array<double, Charges::leaf_size> squares;
+    charges_.squared_distances(place_, range.begin, range.end, squares);
+    for (std::uint32_t i = range.begin; i < range.end; ++i) {
+      if (squares[i - range.begin] > nothing) continue;
+      const Vec2 t = charges_.tangent(i), d = place_ - charges_.start(i);
+      const double x1 = -dot(d, t) * inverse_, x2 = x1 + charges_.lengths[i] * inverse_;
+      const double y = cross(t, d) * inverse_;
+      const double square1 = x1 * x1 + y * y, square2 = x2 * x2 + y * y;
+      const double p1 = high.power(square1), p2 = high.power(square2);
+      add_piece(order, t, x1, x2, y, high.integral(x1, x2, y, p1, p2), p1, p2, total);
+    }
   }
 }
 
 Force Evaluator::force(double order) {
   Force result;
   gather(order, order);
-  sum(std::fmod(order, 2), order, std::span(&result, 1));
+  if (order >= HighOrder::least_order) {
+    sum_high(order, result);
+  } else {
+    sum(std::fmod(order, 2), order, std::span(&result, 1));
+  }
   add_far(order, result);
   return result;
 }
@@ -338,7 +265,7 @@ double Evaluator::log_potential(double order) {
     if (order == 1) {
       total += first_potential(x1, x2, y);
     } else if (order == 2) {
-      total += integral_0(x1, x2, y);
+      total += segment_integral(0, x1, x2, y);
     } else {
       // (n - 1) J(n - 2) is what (9) leaves of the next order.
       const double r1 = std::hypot(x1, y), r2 = std::hypot(x2, y);

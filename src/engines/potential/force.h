@@ -7,7 +7,7 @@
 
 namespace medial::potential {
 
-constexpr int largest_order = 256;
+constexpr int largest_order = 4096;
 
 /// The n-force at a point and its derivatives by the point's coordinates, in units in which the
 /// distance d to the nearest charge is 1: the force itself is `force` / d^n, its derivatives are
@@ -22,16 +22,12 @@ struct Force {
   Vec2 derivative(Vec2 v) const { return {xx * v.x + xy * v.y, xy * v.x + yy * v.y}; }
 };
 
-/// The integral of dx / (x^2 + y^2)^(order / 2 + 1) over [x1, x2], relative error about 1e-13.
-/// Requires order >= 0 and a segment that does not pass through the origin. Closed forms for
-/// order 0 and 1; else from the series of the incomplete beta function, for any real order.
-double segment_integral(double order, double x1, double x2, double y);
-
 /// Forces of all charges together ([ahuja1997], (5), (6), (8), (9)).
 ///
 /// Each piece adds, with x along it, y across it, r^2 = x^2 + y^2 and n the order,
 /// ([r^-n] / n, y J(n)), where J(n), the integral of dx / r^(n + 2), follows from J(n - 2) by the
-/// recurrence (9). That is stable upward while |y| is not small against the distance to the nearest
+/// recurrence (9), or at one high order alone from HighOrder, in the same time for any. The recurrence
+/// is stable upward while |y| is not small against the distance to the nearest
 /// charge; other pieces are passed sideways (they lie on the point's own line, nearly), and take
 /// the recurrence downward. Pieces far away add as moments (charge and quadrupole about its centre)
 /// or not at all, as their bounds allow: what that changes is below `far_field` in the units of
@@ -59,6 +55,8 @@ class Evaluator {
   /// Adds the near pieces' forces of the orders start, start + 2, ... from `low` on; forces[i]
   /// takes that of order low + i.
   void sum(double start, double low, std::span<Force> forces) const;
+  /// The near pieces' forces of one high order, from the integral itself.
+  void sum_high(double order, Force& sum) const;
   void sum_steep(std::uint32_t piece, double start, double low, std::span<Force> forces) const;
 
   struct Range {
