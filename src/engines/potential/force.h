@@ -18,6 +18,8 @@ struct Force {
   Vec2 force;
   double xx = 0, xy = 0, yy = 0;
 
+  /// The potential of order + 2, in the same units; about the force beside one side alone.
+  double potential(double order) const { return -(xx + yy) / order; }
   double determinant() const { return xx * yy - xy * xy; }
   Vec2 derivative(Vec2 v) const { return {xx * v.x + xy * v.y, xy * v.x + yy * v.y}; }
 };
@@ -26,12 +28,12 @@ struct Force {
 ///
 /// Each piece adds, with x along it, y across it, r^2 = x^2 + y^2 and n the order,
 /// ([r^-n] / n, y J(n)), where J(n), the integral of dx / r^(n + 2), follows from J(n - 2) by the
-/// recurrence (9), or at one high order alone from HighOrder, in the same time for any. The recurrence
-/// is stable upward while |y| is not small against the distance to the nearest
-/// charge; other pieces are passed sideways (they lie on the point's own line, nearly), and take
-/// the recurrence downward. Pieces far away add as moments (charge and quadrupole about its centre)
-/// or not at all, as their bounds allow: what that changes is below `far_field` in the units of
-/// Force. Keeps a reference to the charges and scratch memory of its own: one evaluator a thread.
+/// recurrence (9), or at one high order alone from HighOrder, in the same time for any. The
+/// recurrence is stable upward while |y| is not small against the distance to the nearest charge;
+/// other pieces are passed sideways (they lie on the point's own line, nearly), and take the
+/// recurrence downward. Pieces far away add as moments (charge and quadrupole about its centre) or
+/// not at all, as their bounds allow: what that changes is below `far_field` in the units of Force.
+/// Keeps a reference to the charges and scratch memory of its own: one evaluator a thread.
 class Evaluator {
  public:
   explicit Evaluator(const Charges& charges) : charges_(charges) {}

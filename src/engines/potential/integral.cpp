@@ -148,8 +148,7 @@ double HighOrder::tail(double square, double y, double power) const {
     double part = 0;
     for (std::size_t k = series.size() - 1; k >= j; --k) part = part * t + series[k];
     sum += scale * w * part;
-    for (std::size_t k = j; k < series.size(); ++k)
-      series[k] *= 2 * static_cast<double>(k - j) + 1;
+    for (std::size_t k = j; k < series.size(); ++k) series[k] *= 2 * static_cast<double>(k - j) + 1;
   }
   return power / y * (half_ * scaled_erfc(w * width_) + sum);
 }

@@ -49,7 +49,7 @@ class SiteNames {
 
 /// The order of the force lines, unless told otherwise: high enough for lines that end near the
 /// exact axis's, low enough for corridors of some widths' length.
-constexpr double usual_order = 24;
+static const double usual_order = getenv("UO") ? atof(getenv("UO")) : 24;
 
 /// The same where a part is asked for: valleys are followed upward then, which takes a force that
 /// can be told from none.
@@ -183,13 +183,7 @@ Result<MedialAxis> run(const Shape& shape, const Options& options) {
       seeded = true;
     }
     axis.resolution = std::max(axis.resolution, tracing.step * frame.inverse);
-    // Where valleys are too flat for the arithmetic, those of a lower order are less so.
-    Skeleton skeleton = trace_valleys(region, charges, tracing);
-    while (!skeleton.whole && tracing.order > 1) {
-      axis.statistics.queries += skeleton.forces;
-      tracing.order = std::max(1.0, tracing.order / 2);
-      skeleton = trace_valleys(region, charges, tracing);
-    }
+    const Skeleton skeleton = trace_valleys(region, charges, tracing);
     axis.statistics.queries += skeleton.forces;
     axis.statistics.seconds_walk += watch.lap();
     if (!skeleton.whole)
@@ -201,13 +195,13 @@ Result<MedialAxis> run(const Shape& shape, const Options& options) {
     search.angle = own.angle * std::numbers::pi / 180;
     search.movement = own.movement * region.size;
     // Points on a valley of some order are no worse than that.
-    search.least_order = static_cast<int>(tracing.order);
+    search.least_order = static_cast<int>(skeleton.order);
     search.step = tracing.step;
     search.accuracy = tracing.step / 64;
     Refined refined;
-    if (own.order == tracing.order) {
+    if (own.order == skeleton.order) {
       for (const ValleyPoint& point : skeleton.points)
-        refined.points.push_back({point.place, point.radius, tracing.order});
+        refined.points.push_back({point.place, point.radius, skeleton.order});
       refined.links = skeleton.links;
     } else {
       refined = successors_of(skeleton, charges, search);

@@ -26,12 +26,15 @@ struct Skeleton {
   std::uint64_t minima = 0;
   std::uint64_t saddles = 0;
   std::uint64_t forces = 0;  ///< computed
+  double order = 1;          ///< of the potential
   bool whole = true;         ///< connected, with one cycle for each hole
 };
 
 struct SkeletonOptions {
-  double order = 1;           ///< of the potential
-  double step = 0;            ///< longest, in units of the frame
+  double order = 1;  ///< of the potential
+  double step = 0;   ///< longest, in units of the frame
+  /// Goes on through valleys where the force is lost in the arithmetic. Their ends are not sought.
+  bool through_flats = false;
   std::optional<Vec2> from;   ///< only the branch that the force leads to from here
   std::optional<Box> within;  ///< only what lies in this box
 };
