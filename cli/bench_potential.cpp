@@ -77,16 +77,14 @@ std::string orders_along_rectangle() {
   potential::SkeletonOptions tracing;
   tracing.step = 0.01 * regions[0].size;
   const auto skeleton = potential::trace_valleys(regions[0], charges, tracing);
-  potential::SuccessorOptions search;
-  search.angle = std::acos(0.999);
-  search.most_order = 64;
   potential::Evaluator evaluator(charges);
   std::vector<std::pair<double, int>> along;
   for (const auto& point : skeleton.points) {
     const Vec2 p = frame.to_input(point.place);
     if (point.radius == 0 || p.x > 10 || p.y > 5.001) continue;
     evaluator.place(point.place);
-    along.emplace_back(p.x, potential::adaptive_order(evaluator, search));
+    along.emplace_back(p.x, potential::adaptive_order(evaluator, std::acos(0.999),
+                                                      potential::most_searched_order));
   }
   std::sort(along.begin(), along.end());
   std::string text = "| x | N | p = (N + 2) / 2 |\n| ---: | ---: | ---: |\n";

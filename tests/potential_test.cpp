@@ -175,7 +175,7 @@ TEST(Potential, APartIsAPartOfTheWhole) {
 TEST(Potential, RefusesOptionsOutOfRange) {
   const Shape shape = *build_shape(rectangle(2, 1));
   for (const PotentialOptions& wrong :
-       {PotentialOptions{.order = 0.5}, PotentialOptions{.order = 300},
+       {PotentialOptions{.order = 0.5}, PotentialOptions{.order = 5000},
         PotentialOptions{.base_order = -1}, PotentialOptions{.step = 0},
         PotentialOptions{.angle = 100}, PotentialOptions{.movement = 1}}) {
     const auto axis = compute(shape, {.method = Method::potential, .potential = wrong});

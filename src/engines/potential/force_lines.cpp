@@ -6,11 +6,15 @@
 namespace medial::potential {
 namespace {
 
-/// The unit direction of the valley at a minimum or a saddle: the eigenvector of the derivatives'
-/// larger eigenvalue. The other one, across the valley, is negative.
-Vec2 valley_direction(const Force& force) {
-  const double half = 0.5 * (force.xx - force.yy);
-  const double angle = 0.5 * std::atan2(force.xy, half);
+/// The unit direction of the valley at a place near its floor: the eigenvector of the derivatives'
+/// larger eigenvalue, after what is but growth along the force. The other one, across the valley,
+/// is negative.
+Vec2 valley_direction(const Force& force, double order) {
+  // The Hessian of V^(-1/n), nearly a distance, is that of the potential and this.
+  const double growth = (order + 1) / force.potential(order);
+  const Vec2 f = force.force;
+  const double half = 0.5 * (force.xx - force.yy + growth * (f.x * f.x - f.y * f.y));
+  const double angle = 0.5 * std::atan2(force.xy + growth * f.x * f.y, half);
   return {std::cos(angle), std::sin(angle)};
 }
 
@@ -82,7 +86,7 @@ std::optional<ValleyPoint> ForceLines::critical_point(Vec2 p, bool minimum) {
     if (i > 30) move = 0.5 * move;
     if (size <= 1e-8 * radius || (i == 59 && size <= 0.01 * radius)) {
       if (minimum ? determinant > 0 : determinant < 0)
-        return ValleyPoint{p, radius, valley_direction(force),
+        return ValleyPoint{p, radius, valley_direction(force, options_.order),
                            minimum ? ValleyPoint::Kind::minimum : ValleyPoint::Kind::saddle};
       return std::nullopt;
     }
@@ -105,9 +109,12 @@ Trail ForceLines::follow(Vec2 p, Vec2 direction, double share, Start start) {
   bool climbing = start == Start::either;
   for (int count = 0; count < most_steps && !exhausted(); ++count) {
     if (options_.within && !contains(*options_.within, p) && count > 0) return trail;
+    const Vec2 before = direction;
     if (scale < 0.15 && !settled && settle(p, radius, force, direction)) {
       // Steps of this size would zigzag across the valley.
       settled = true;
+      if ((climbing || (options_.through_flats && lost(force))) && dot(direction, before) < 0)
+        direction = -direction;
       trail.points.push_back({p, radius, direction, ValleyPoint::Kind::valley});
       scale = 0.4;
       continue;
@@ -138,7 +145,10 @@ Trail ForceLines::follow(Vec2 p, Vec2 direction, double share, Start start) {
     }
     // Where the force along a valley is lost, the line goes on as it went.
     const bool flat = options_.through_flats && lost(next);
-    if (climbing && !flat && dot(next.force, moved) > 0) climbing = false;
+    if (climbing && !flat && dot(next.force, moved) > 0) {
+      climbing = false;
+      if (!trail.points.empty()) trail.points.back().kind = ValleyPoint::Kind::saddle;
+    }
     if (climbing && radius < 0.1 * reach(radius)) return trail;
     if (dot(next.force, moved) < 0 && !flat && !climbing) {
       // The force has turned: a minimum or a saddle lies near, or the step was too long.
@@ -199,7 +209,7 @@ Trail ForceLines::follow(Vec2 p, Vec2 direction, double share, Start start) {
 
 bool ForceLines::settle(Vec2& p, double& radius, Force& force, Vec2& direction) {
   for (int i = 0; i < 8; ++i) {
-    const Vec2 along = valley_direction(force), across = left_of(along);
+    const Vec2 along = valley_direction(force, options_.order), across = left_of(along);
     const double gentle = dot(along, force.derivative(along));
     const double steep = dot(across, force.derivative(across));
     if (!(steep < 0 && std::abs(gentle) < 0.4 * -steep)) return false;
@@ -208,7 +218,7 @@ bool ForceLines::settle(Vec2& p, double& radius, Force& force, Vec2& direction) 
     p = p + move * across;
     force = force_at(p, radius);
     if (std::abs(move) > 0.01 * reach(radius)) continue;
-    const Vec2 floor = valley_direction(force);
+    const Vec2 floor = valley_direction(force, options_.order);
     direction = dot(floor, force.force) < 0 ? -floor : floor;
     return true;
   }

@@ -47,9 +47,9 @@ class SiteNames {
   const sites::SiteNumbers& numbers_;
 };
 
-/// The order of the force lines, unless told otherwise: high enough for lines that end near the
-/// exact axis's, low enough for corridors of some widths' length.
-static const double usual_order = getenv("UO") ? atof(getenv("UO")) : 24;
+/// The order of the force lines, unless told otherwise: valleys of lower ones join where branches
+/// of nearly flat corners are not near the axis.
+constexpr double usual_order = 512;
 
 /// The same where a part is asked for: valleys are followed upward then, which takes a force that
 /// can be told from none.
@@ -195,7 +195,7 @@ Result<MedialAxis> run(const Shape& shape, const Options& options) {
     search.angle = own.angle * std::numbers::pi / 180;
     search.movement = own.movement * region.size;
     // Points on a valley of some order are no worse than that.
-    search.least_order = static_cast<int>(skeleton.order);
+    search.least_order = skeleton.order;
     search.step = tracing.step;
     search.accuracy = tracing.step / 64;
     Refined refined;

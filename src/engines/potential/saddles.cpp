@@ -5,6 +5,20 @@
 #include <numbers>
 
 namespace medial::potential {
+namespace {
+
+/// Whether p lies inside of a polygon.
+bool encloses(const std::vector<Vec2>& polygon, Vec2 p) {
+  bool inside = false;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vec2 a = polygon[i], b = polygon[(i + 1) % polygon.size()];
+    if ((a.y > p.y) == (b.y > p.y)) continue;
+    if (a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x) > p.x) inside = !inside;
+  }
+  return inside;
+}
+
+}  // namespace
 
 Label SaddleSearch::probe(std::uint32_t piece, double share, Trail& trail) {
   const Charge& charge = region_.pieces[piece];
@@ -29,9 +43,25 @@ const SaddleSearch::Pass& SaddleSearch::pass_at(const ValleyPoint& saddle) {
   return saddles_.back();
 }
 
-bool SaddleSearch::wanted(std::uint32_t one, std::uint32_t two) {
-  if (one == no_point || two == no_point || one == two) return false;
-  return !graph_.connected(one, two) || graph_.cycles() < region_.holes();
+bool SaddleSearch::wanted(std::uint32_t from, std::span<const ValleyPoint> between,
+                          std::uint32_t to) {
+  if (from == no_point || to == no_point || from == to) return false;
+  if (!graph_.connected(from, to)) return true;
+  if (graph_.cycles() >= region_.holes()) return false;
+  std::vector<Vec2> cycle = graph_.way(to, from);
+  for (const ValleyPoint& point : between) cycle.push_back(point.place);
+  std::vector<bool> around(region_.holes());
+  for (std::size_t i = 0; i < around.size(); ++i)
+    around[i] = encloses(cycle, region_.loops[i + 1].inside);
+  // Less the cycles that are known, as sets: what is left must be a new one.
+  for (const std::vector<bool>& known : cycles_) {
+    const auto pivot = std::find(known.begin(), known.end(), true) - known.begin();
+    if (!around[static_cast<std::size_t>(pivot)]) continue;
+    for (std::size_t i = 0; i < around.size(); ++i) around[i] = around[i] != known[i];
+  }
+  if (std::find(around.begin(), around.end(), true) == around.end()) return false;
+  cycles_.push_back(std::move(around));
+  return true;
 }
 
 void SaddleSearch::traverse() {
@@ -73,9 +103,8 @@ void SaddleSearch::traverse() {
         if (!graph_.connected(m, known)) graph_.add_link(m, known);
         continue;
       }
-      Trail trail =
-          lines_.follow(p, direction, ForceLines::merge_share, ForceLines::Start::either);
-      if (!wanted(m, trail.end)) continue;
+      Trail trail = lines_.follow(p, direction, ForceLines::merge_share, ForceLines::Start::either);
+      if (!wanted(m, trail.points, trail.end)) continue;
       trail.points.insert(trail.points.begin(), {p, radius, direction, ValleyPoint::Kind::valley});
       lines_.keep(m, trail);
     }
@@ -86,7 +115,10 @@ void SaddleSearch::pass(const ValleyPoint& point, ForceLines::Start start) {
   const Trail one = lines_.follow(point.place, point.tangent, ForceLines::merge_share, start);
   const Trail two = lines_.follow(point.place, -point.tangent, ForceLines::merge_share, start);
   saddles_.push_back({point.place, lines_.label_of(one), lines_.label_of(two)});
-  if (!wanted(one.end, two.end)) return;
+  std::vector<ValleyPoint> between(one.points.rbegin(), one.points.rend());
+  between.push_back(point);
+  between.insert(between.end(), two.points.begin(), two.points.end());
+  if (!wanted(one.end, between, two.end)) return;
   const std::uint32_t index = graph_.add_point(point);
   ++graph_.skeleton.saddles;
   graph_.labels[index] = lines_.keep(index, one);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "engines/potential/force_lines.h"
@@ -31,8 +32,9 @@ class SaddleSearch {
   Label probe(std::uint32_t piece, double share, Trail& trail);
 
  private:
-  /// Whether a line between two points of the skeleton is worth keeping.
-  bool wanted(std::uint32_t one, std::uint32_t two);
+  /// Whether a line between two points of the skeleton connects what was not, or closes a cycle
+  /// around a hole, or some, that no others make up. Requires that it is kept if so.
+  bool wanted(std::uint32_t from, std::span<const ValleyPoint> between, std::uint32_t to);
   /// A saddle, and to what its two lines lead.
   struct Pass {
     Vec2 place;
@@ -56,6 +58,7 @@ class SaddleSearch {
   ValleyGraph& graph_;
   ForceLines& lines_;
   std::vector<Pass> saddles_;
+  std::vector<std::vector<bool>> cycles_;  ///< around which holes; in echelon form
 };
 
 }  // namespace medial::potential

@@ -62,10 +62,6 @@ class Tracer {
     trace_box(*options_.within);
   }
 
-  void dbg() {
-    fprintf(stderr, "fine %d parts %zu cycles %zu forces %zu\n", complete(), graph_.parts(), graph_.cycles(), size_t(graph_.skeleton.forces));
-    for (std::uint32_t i = 0; i < graph_.skeleton.points.size(); ++i) { auto& p = graph_.skeleton.points[i]; int d=0; for(auto&l:graph_.skeleton.links) d+=(l[0]==i)+(l[1]==i); if (p.kind == ValleyPoint::Kind::minimum|| (d<2&&p.kind!=ValleyPoint::Kind::corner)) fprintf(stderr, "kind %d %.6f %.6f r %.5f deg %d with0 %d\n", int(p.kind), p.place.x, p.place.y, p.radius,d, graph_.connected(i,0)); }
-  }
   bool complete() const { return saddles_.complete(); }
 
   Skeleton take() {
@@ -240,11 +236,8 @@ Skeleton trace_valleys(const Region& region, const Charges& charges,
     return tracer.take();
   }
   tracer.trace_lines();
-  if (own.through_flats) {
-    tracer.traverse();
-  } else {
-    tracer.connect();
-  }
+  tracer.traverse();
+  if (!own.through_flats) tracer.connect();
   if (tracer.complete() || own.order <= 1) {
     const bool whole = tracer.complete();
     Skeleton skeleton = tracer.take();
@@ -256,7 +249,6 @@ Skeleton trace_valleys(const Region& region, const Charges& charges,
   if (own.through_flats) {
     tracer.connect_as(coarse);
     tracer.traverse();
-    if (getenv("DBG")) tracer.dbg();
     if (tracer.complete()) {
       Skeleton skeleton = tracer.take();
       skeleton.forces += coarse.forces;

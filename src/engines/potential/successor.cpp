@@ -13,29 +13,36 @@ constexpr double widest_move = 0.25;
 /// The angle between two forces.
 double angle_between(Vec2 a, Vec2 b) { return std::atan2(std::abs(cross(a, b)), dot(a, b)); }
 
+/// Of the force at a point of a valley; the valley's where that is weak or aside.
+Vec2 direction_of(Evaluator& evaluator, const ValleyPoint& point, double order) {
+  evaluator.place(point.place);
+  const Force force = evaluator.force(order);
+  const double size = norm(force.force), forward = dot(force.force, point.tangent);
+  if (!(std::abs(forward) > std::max(0.5 * size, 1e-3 * force.potential(order))))
+    return point.tangent;
+  return ((forward > 0 ? 1 : -1) / size) * force.force;
+}
+
 }  // namespace
 
-int adaptive_order(Evaluator& evaluator, const SuccessorOptions& options) {
+int adaptive_order(Evaluator& evaluator, double angle, int most) {
   // Orders come in ever larger blocks, since most points need but a few.
   constexpr int first_block = 6;
-  std::array<Force, largest_order + 2> forces;
-  int order = std::clamp(options.least_order, 2, options.most_order);
-  int known = order - 2;
-  const auto know = [&](int wanted) {
-    if (wanted <= known) return;
-    const int last = std::clamp(known + std::max(first_block, known / 2), wanted, largest_order);
-    evaluator.forces(known + 1, std::span(forces).subspan(static_cast<std::size_t>(known) + 1,
-                                                          static_cast<std::size_t>(last - known)));
-    known = last;
-  };
+  std::array<Force, most_searched_order + 2> forces;
+  int known = 0;
   const auto turn = [&](int n) {
-    know(n);
+    if (n > known) {
+      const int last = std::clamp(known + std::max(first_block, known / 2), n, most + 1);
+      const auto begin = static_cast<std::size_t>(known) + 1;
+      evaluator.forces(known + 1,
+                       std::span(forces).subspan(begin, static_cast<std::size_t>(last - known)));
+      known = last;
+    }
     const auto i = static_cast<std::size_t>(n);
     return angle_between(forces[i].force, forces[i - 1].force);
   };
-  while (order < options.most_order &&
-         (turn(order) > options.angle || turn(order + 1) > options.angle))
-    ++order;
+  int order = 2;
+  while (order < most && (turn(order) > angle || turn(order + 1) > angle)) ++order;
   return order;
 }
 
@@ -128,10 +135,13 @@ Successor generalized_successor(Evaluator& evaluator, const ValleyPoint& point,
     result.order = options.order;
     result.place = successor(evaluator, here, options.order, options);
   } else {
-    evaluator.place(here.place);
-    int order = adaptive_order(evaluator, options);
     // The valley's own order says nothing of what a higher one would change.
-    if (options.least_order > 1) order = std::max(order, 2 * options.least_order);
+    double order = 2 * options.least_order;
+    if (order < most_searched_order) {
+      evaluator.place(here.place);
+      order =
+          std::max<double>(order, adaptive_order(evaluator, options.angle, most_searched_order));
+    }
     order = std::min(order, options.most_order);
     for (;;) {
       result.place = successor(evaluator, here, order, options);
@@ -139,6 +149,7 @@ Successor generalized_successor(Evaluator& evaluator, const ValleyPoint& point,
       const bool still = distance(result.place, here.place) <= options.movement;
       here.place = result.place;
       if (order >= options.most_order || still) break;
+      here.tangent = direction_of(evaluator, here, order);
       order = std::min(2 * order, options.most_order);
     }
   }

@@ -51,6 +51,7 @@ void LinkIndex::near(Vec2 p, double reach, double scale, const Take& take) const
 std::uint32_t ValleyGraph::add_point(const ValleyPoint& point, Label label) {
   skeleton.points.push_back(point);
   labels.push_back(label);
+  first_.push_back(no_point);
   parent_.push_back(static_cast<std::uint32_t>(parent_.size()));
   ++parts_;
   return static_cast<std::uint32_t>(skeleton.points.size() - 1);
@@ -61,6 +62,10 @@ void ValleyGraph::add_link(std::uint32_t from, std::uint32_t to) {
   const ValleyPoint &a = skeleton.points[from], &b = skeleton.points[to];
   links_.add(static_cast<std::uint32_t>(skeleton.links.size()), a.place, b.place,
              reach(std::max(a.radius, b.radius)));
+  for (const std::uint32_t end : {from, to}) {
+    next_.push_back(first_[end]);
+    first_[end] = static_cast<std::uint32_t>(next_.size() - 1);
+  }
   skeleton.links.push_back({from, to});
   const std::uint32_t a_part = find(from), b_part = find(to);
   if (a_part == b_part) return;
@@ -71,6 +76,26 @@ void ValleyGraph::add_link(std::uint32_t from, std::uint32_t to) {
 std::uint32_t ValleyGraph::find(std::uint32_t i) {
   while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
   return i;
+}
+
+std::vector<Vec2> ValleyGraph::way(std::uint32_t from, std::uint32_t to) const {
+  // Breadth first, from the far end, so that the way comes out in order.
+  std::vector<std::uint32_t> after(skeleton.points.size(), no_point);
+  std::vector<std::uint32_t> queue = {to};
+  after[to] = to;
+  for (std::size_t i = 0; i < queue.size() && after[from] == no_point; ++i)
+    for (std::uint32_t end = first_[queue[i]]; end != no_point; end = next_[end]) {
+      const std::uint32_t other = skeleton.links[end / 2][1 - end % 2];
+      if (after[other] != no_point) continue;
+      after[other] = queue[i];
+      queue.push_back(other);
+    }
+  std::vector<Vec2> places = {skeleton.points[from].place};
+  while (from != to && after[from] != no_point) {
+    from = after[from];
+    places.push_back(skeleton.points[from].place);
+  }
+  return places;
 }
 
 std::uint32_t ValleyGraph::minimum_at(const ValleyPoint& point) {

@@ -52,6 +52,8 @@ class ValleyGraph {
   /// point downward. Only one that leads the same way, unless `any_way`.
   std::uint32_t joined(Vec2 q, double radius, Vec2 direction, double share, bool any_way) const;
 
+  /// The places along a way between two connected points, both ends included. O(points).
+  std::vector<Vec2> way(std::uint32_t from, std::uint32_t to) const;
   bool connected(std::uint32_t a, std::uint32_t b) { return find(a) == find(b); }
   std::size_t parts() const { return parts_; }
   std::size_t cycles() const { return skeleton.links.size() + parts_ - skeleton.points.size(); }
@@ -64,6 +66,8 @@ class ValleyGraph {
 
   double limit_;
   LinkIndex links_;
+  std::vector<std::uint32_t> first_;   ///< of each point, an end of a link: 2 link + side
+  std::vector<std::uint32_t> next_;    ///< of each end of a link, the next one at its point
   std::vector<std::uint32_t> parent_;  ///< of each point, in the forest of connected parts
   std::size_t parts_ = 0;
   std::vector<std::uint32_t> minima_;
