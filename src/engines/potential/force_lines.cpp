@@ -103,9 +103,10 @@ Trail ForceLines::follow(Vec2 p, Vec2 direction, double share, Start start) {
   double scale = 0.8;
   constexpr double least_scale = 0.8 / 64;
   constexpr int most_steps = 10000;
-  constexpr int most_stalls = 40;
+  const int most_stalls = options_.through_flats ? 3 : 40;
   int stalls = 0;
   bool settled = false;  // since the last good step
+  std::uint32_t flat_since = no_point;
   bool climbing = start == Start::either;
   for (int count = 0; count < most_steps && !exhausted(); ++count) {
     if (options_.within && !contains(*options_.within, p) && count > 0) return trail;
@@ -201,6 +202,15 @@ Trail ForceLines::follow(Vec2 p, Vec2 direction, double share, Start start) {
       trail.end = graph_.joined(p, radius, direction, share, flat || climbing);
       if (trail.end != no_point) return trail;
     }
+    if (!flat) {
+      flat_since = no_point;
+    } else if (flat_since == no_point) {
+      flat_since = static_cast<std::uint32_t>(trail.points.size() - 1);
+    } else if (trail.points.size() > flat_since + 8 &&
+               distance(trail.points[flat_since].place, p) < 0.8 * reach(radius)) {
+      trail.closes = flat_since;
+      return trail;
+    }
     if (turn > 0.98) scale = std::min(0.8, scale * 1.6);
   }
   trail.end = graph_.minimum_at({p, radius, direction, ValleyPoint::Kind::minimum});
@@ -235,6 +245,7 @@ Label ForceLines::label_of(const Trail& trail) const {
 
 Label ForceLines::keep(std::uint32_t from, const Trail& trail) {
   const Label label = label_of(trail);
+  const auto first = static_cast<std::uint32_t>(graph_.skeleton.points.size());
   std::uint32_t last = from;
   for (const ValleyPoint& point : trail.points) {
     const std::uint32_t index = graph_.add_point(point, label);
@@ -242,6 +253,7 @@ Label ForceLines::keep(std::uint32_t from, const Trail& trail) {
     last = index;
   }
   if (trail.end != no_point) graph_.add_link(last, trail.end);
+  if (trail.closes != no_point) graph_.add_link(last, first + trail.closes);
   return label;
 }
 

@@ -13,8 +13,9 @@ namespace medial::potential {
 /// A force line, from its start to where it ends: at a minimum, or in a valley that is known.
 struct Trail {
   std::vector<ValleyPoint> points;
-  std::uint32_t end = no_point;  ///< a point of the skeleton; none: it left the box
-  Vec2 place;                    ///< of a possible saddle: where the force was weakest on a ridge
+  std::uint32_t end = no_point;     ///< a point of the skeleton; none: it left the box
+  std::uint32_t closes = no_point;  ///< the point of its own that it comes round to
+  Vec2 place;  ///< of a possible saddle: where the force was weakest on a ridge
   double weakest = std::numeric_limits<double>::infinity();
 };
 

@@ -27,6 +27,11 @@ Vec2 point_at(const BulgeArc& arc, double t) {
 
 }  // namespace
 
+std::size_t Region::edges() const {
+  return static_cast<std::size_t>(
+      std::count_if(pieces.begin(), pieces.end(), [](const Charge& piece) { return piece.first; }));
+}
+
 std::uint32_t Region::before(std::uint32_t piece) const {
   for (const Loop& loop : loops)
     if (piece >= loop.begin && piece < loop.end)

@@ -22,6 +22,8 @@ struct Region {
   std::vector<std::uint32_t> corners;  ///< pieces that begin at a convex corner, ascending
   std::vector<Disk> bends;             ///< the circles of smooth arcs of locally largest curvature
   double size = 0;                     ///< the larger side of its bounding box
+  /// How many edges the pieces are of.
+  std::size_t edges() const;
   std::size_t holes() const { return loops.size() - 1; }
   /// The piece before or after another around its loop.
   std::uint32_t before(std::uint32_t piece) const;

@@ -21,8 +21,7 @@ class Tracer {
         charges_(charges),
         options_(options),
         graph_(options.step),
-        lines_(charges, options_, graph_,
-               20000 + 200 * region.pieces.size() + 5000 * region.holes()),
+        lines_(charges, options_, graph_, 20000 + 200 * region.edges() + 2000 * region.holes()),
         saddles_(region, graph_, lines_) {}
 
   /// Force lines from all corners and bends.
@@ -32,6 +31,14 @@ class Tracer {
     if (!graph_.skeleton.points.empty()) return;
     Trail trail;
     saddles_.probe(0, 0.5, trail);
+    if (trail.closes == no_point) return;
+    // Around a ring of one width, which has no minimum: any point of it stands for one.
+    ValleyPoint start = trail.points[trail.closes];
+    start.kind = ValleyPoint::Kind::minimum;
+    trail.points.erase(trail.points.begin(), trail.points.begin() + trail.closes + 1);
+    trail.closes = no_point;
+    trail.end = graph_.minimum_at(start);
+    lines_.keep(trail.end, trail);
   }
 
   void connect() { saddles_.connect(corner_labels_); }
@@ -105,6 +112,7 @@ class Tracer {
       Trail trail = lines_.follow(p, direction, ForceLines::merge_share);
       double radius = lines_.distance_at(p);
       trail.points.insert(trail.points.begin(), {p, radius, direction, ValleyPoint::Kind::valley});
+      if (trail.closes != no_point) ++trail.closes;
       const std::uint32_t leaf = graph_.add_point({corner, 0, {}, ValleyPoint::Kind::corner});
       corner_labels_[i] = lines_.keep(leaf, trail);
       graph_.labels[leaf] = corner_labels_[i];

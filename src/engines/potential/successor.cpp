@@ -10,6 +10,9 @@ namespace {
 /// How far a point moves at most, as a share of its radius.
 constexpr double widest_move = 0.25;
 
+/// Valleys of an order from here on are sharp enough that the next order can be doubled at once.
+constexpr double searched_below = 32;
+
 /// The angle between two forces.
 double angle_between(Vec2 a, Vec2 b) { return std::atan2(std::abs(cross(a, b)), dot(a, b)); }
 
@@ -137,7 +140,7 @@ Successor generalized_successor(Evaluator& evaluator, const ValleyPoint& point,
   } else {
     // The valley's own order says nothing of what a higher one would change.
     double order = 2 * options.least_order;
-    if (order < most_searched_order) {
+    if (order < searched_below) {
       evaluator.place(here.place);
       order =
           std::max<double>(order, adaptive_order(evaluator, options.angle, most_searched_order));
