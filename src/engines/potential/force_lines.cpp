@@ -213,7 +213,8 @@ Trail ForceLines::follow(Vec2 p, Vec2 direction, double share, Start start) {
     }
     if (turn > 0.98) scale = std::min(0.8, scale * 1.6);
   }
-  trail.end = graph_.minimum_at({p, radius, direction, ValleyPoint::Kind::minimum});
+  if (!exhausted())
+    trail.end = graph_.minimum_at({p, radius, direction, ValleyPoint::Kind::minimum});
   return trail;
 }
 

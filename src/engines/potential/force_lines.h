@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -42,9 +43,10 @@ class ForceLines {
   bool exhausted() const { return graph_.skeleton.forces > budget_; }
 
   /// Whether the force cannot be told from none: between parallel sides it falls below the
-  /// arithmetic's noise as the order grows.
+  /// arithmetic's noise as the order grows, or below what the chords of arcs add.
   bool lost(const Force& force) const {
-    return norm(force.force) < least_force * force.potential(options_.order);
+    return norm(force.force) <
+           std::max(least_force, options_.bend) * force.potential(options_.order);
   }
 
   /// One step along the force line, from p to a point q at the distance `step` about: the force at

@@ -82,6 +82,8 @@ std::vector<Region> regions_of(const Shape& shape, const Frame& frame, double co
           }
         }
         const int chords = chords_of(arc, chord);
+        if (chords > 1)
+          region.bend = std::max(region.bend, 2 * std::atan(std::abs(arc.bulge)) / chords);
         Vec2 from = arc.start;
         for (int k = 1; k <= chords; ++k) {
           const Vec2 to = k == chords ? arc.end : point_at(arc, static_cast<double>(k) / chords);

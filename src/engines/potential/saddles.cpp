@@ -67,8 +67,9 @@ bool SaddleSearch::wanted(std::uint32_t from, std::span<const ValleyPoint> betwe
 void SaddleSearch::traverse() {
   constexpr int directions = 48;
   constexpr int halvings = 5;
+  const auto done = [&] { return complete() || lines_.exhausted(); };
   // Minima that are found on the way come after these.
-  for (std::uint32_t m = 0; m < graph_.skeleton.points.size() && !complete(); ++m) {
+  for (std::uint32_t m = 0; m < graph_.skeleton.points.size() && !done(); ++m) {
     const ValleyPoint minimum = graph_.skeleton.points[m];
     if (minimum.kind != ValleyPoint::Kind::minimum) continue;
     const double around = lines_.reach(minimum.radius);
@@ -83,7 +84,7 @@ void SaddleSearch::traverse() {
       return Vec2{std::cos(angle), std::sin(angle)};
     };
     double before = along(towards(-1));
-    for (int i = 0; i < directions && !complete(); ++i) {
+    for (int i = 0; i < directions && !done(); ++i) {
       const double here = along(towards(i));
       const bool valley = before > 0 && here < 0;
       before = here;

@@ -21,7 +21,7 @@ class Tracer {
         charges_(charges),
         options_(options),
         graph_(options.step),
-        lines_(charges, options_, graph_, 20000 + 200 * region.edges() + 2000 * region.holes()),
+        lines_(charges, options_, graph_, 10000 + 100 * region.edges() + 1000 * region.holes()),
         saddles_(region, graph_, lines_) {}
 
   /// Force lines from all corners and bends.
@@ -238,6 +238,7 @@ Skeleton trace_valleys(const Region& region, const Charges& charges,
                        const SkeletonOptions& options) {
   SkeletonOptions own = options;
   own.through_flats = own.order > connecting_order;
+  own.bend = region.bend;
   Tracer tracer(region, charges, own);
   if (own.from || own.within) {
     tracer.trace_part();

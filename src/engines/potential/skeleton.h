@@ -35,6 +35,7 @@ struct SkeletonOptions {
   double step = 0;   ///< longest, in units of the frame
   /// Goes on through valleys where the force is lost in the arithmetic. Their ends are not sought.
   bool through_flats = false;
+  double bend = 0;            ///< the slope of a valley's floor that chords of arcs may make
   std::optional<Vec2> from;   ///< only the branch that the force leads to from here
   std::optional<Box> within;  ///< only what lies in this box
 };
