@@ -57,8 +57,8 @@ struct PotentialOptions {
   /// n of the force that the points are found with, in [1, 4096], any real number; 0: chosen for
   /// each point (the algorithm MAT-Generalized-Polygonal).
   double order = 0;
-  /// The order of the force lines that are followed first, in [1, 4096]; 0: `order`, at most 512, or
-  /// 512 where that is 0. Less, down to 1, where the arithmetic cannot connect these valleys.
+  /// The order of the force lines that are followed first, in [1, 4096]; 0: `order`, at most 512,
+  /// or 512 where that is 0. Less, down to 1, where the arithmetic cannot connect these valleys.
   double base_order = 0;
   /// The longest step, as a share of the larger side of the bounding box, in [1e-4, 0.1].
   double step = 0.01;

@@ -14,8 +14,8 @@ namespace medial {
 /// has the potential of its own border, the integral of 1 / r^order along it.
 class PotentialField {
  public:
-  /// Errors: invalid_option (order outside of [1, 4096]), empty, unsupported (coordinates beyond the
-  /// limits of compute()). Arcs become chords within 1e-5 of the shape's larger side.
+  /// Errors: invalid_option (order outside of [1, 4096]), empty, unsupported (coordinates beyond
+  /// the limits of compute()). Arcs become chords within 1e-5 of the shape's larger side.
   static Result<PotentialField> make(const Shape& shape, double order);
   ~PotentialField();
   PotentialField(PotentialField&&) noexcept;
