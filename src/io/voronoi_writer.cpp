@@ -211,7 +211,8 @@ Status write_any(const std::string& path, const std::string& option, const Voron
 void write_voronoi_json(OutputStream& out, const VoronoiFile& file) {
   out.put("{\"medial_voronoi\":1,\n\"items\":[");
   for (std::size_t i = 0; i < file.items.size(); ++i) {
-    const auto& [shape, diagram, attributes] = file.items[i];
+    const auto& diagram = file.items[i].diagram;
+    const auto& attributes = file.items[i].attributes;
     out.put(i == 0 ? "\n" : ",\n");
     out.put("{\"method\":");
     out.put(quoted(diagram.method));
