@@ -10,6 +10,7 @@
 
 #include "medial/compute.h"
 #include "medial/query.h"
+#include "medial/rebuild.h"
 #include "support/generate_arcs.h"
 
 namespace medial {
@@ -105,6 +106,17 @@ TEST(Pack, ComesBackWithinTheBound) {
     const std::vector<Vec2> points = boundary_points(back);
     for (std::size_t k = 0; k < points.size(); k += 1 + points.size() / 25)
       EXPECT_GE(clearance(*shape, points[k]), -bound);
+    // The shape that is rebuilt from it keeps the bound, too.
+    const auto rebuilt = rebuild(back);
+    ASSERT_TRUE(rebuilt.ok()) << rebuilt.error().text;
+    for (std::size_t k = 0; k < rebuilt->points.size(); k += 1 + rebuilt->points.size() / 50)
+      EXPECT_LE(std::abs(clearance(*shape, rebuilt->points[k])), bound);
+    for (std::size_t k = 0; k < shape->points.size(); k += 1 + shape->points.size() / 25)
+      EXPECT_GE(clearance(*rebuilt, shape->points[k]), -bound);
+    for (std::size_t k = 0; k < axis->nodes.size(); k += 1 + axis->nodes.size() / 25) {
+      const Disk& disk = axis->nodes[k].disk;
+      EXPECT_GE(clearance(*rebuilt, disk.center), disk.radius - bound);
+    }
     ++checked;
     if (testing::Test::HasFailure()) return;
   }

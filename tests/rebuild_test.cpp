@@ -178,6 +178,59 @@ TEST(Rebuild, TangentsOfAnyShapeGiveOne) {
   }
 }
 
+/// A circle of arcs that rounding tells apart: its axis is as long as rounding.
+TEST(Rebuild, TangentsOfANearCircle) {
+  for (const double off : {1e-13, 1e-11, 1e-9, 1e-6}) {
+    SCOPED_TRACE(off);
+    test::Random random(9);
+    Ring ring;
+    for (int i = 0; i < 24; ++i) {
+      const double angle = i * std::numbers::pi / 12, r = 1 + off * random.between(-1, 1);
+      ring.points.push_back({r * std::cos(angle), r * std::sin(angle)});
+      ring.bulges.push_back(std::tan(std::numbers::pi / 48) * (1 + off * random.between(-1, 1)));
+    }
+    const auto shape = build_shape({&ring, 1});
+    ASSERT_TRUE(shape.ok());
+    const auto axis = compute(*shape);
+    ASSERT_TRUE(axis.ok());
+    for (const std::uint64_t points : {0U, 100U, 10000U}) {
+      const auto again = rebuild(*axis, {.by = RebuildBy::tangents, .points = points});
+      ASSERT_TRUE(again.ok()) << to_string(again.error());
+      const ShapeDistance apart = shape_distance(*again, *shape);
+      EXPECT_LE(apart.hausdorff(), 0.05);
+    }
+  }
+}
+
+/// The hull of two disks, and what more disks add to it.
+TEST(Rebuild, HullsOfAFewDisks) {
+  MedialAxis axis;
+  axis.nodes = {{{{0, 0}, 2}}, {{{10, 0}, 1}}};
+  const auto connect = [&](std::uint32_t a, std::uint32_t b) {
+    const Disk &from = axis.nodes[a].disk, &to = axis.nodes[b].disk;
+    axis.edges.push_back({{a, b},
+                          {no_site, no_site},
+                          {midpoint(from.center, to.center), (from.radius + to.radius) / 2}});
+  };
+  connect(0, 1);
+  // Two disks around centres 10 apart: two trapezoids and two sectors.
+  const double angle = std::acos(0.1), side = std::sqrt(99.0);
+  const double hull = 3 * side + 4 * (std::numbers::pi - angle) + angle;
+  const RebuildOptions hulls{.by = RebuildBy::hulls};
+  const auto two = rebuild(axis, hulls);
+  ASSERT_TRUE(two.ok()) << to_string(two.error());
+  EXPECT_NEAR(area(*two), hull, 1e-3);
+  // A disk within another adds nothing; a bar goes on 10 further, 2 wide.
+  axis.nodes.push_back({{{0, 0.5}, 1}});
+  connect(0, 2);
+  axis.nodes.push_back({{{20, 0}, 1}});
+  connect(1, 3);
+  const auto three = rebuild(axis, hulls);
+  ASSERT_TRUE(three.ok()) << to_string(three.error());
+  EXPECT_NEAR(area(*three), hull + 20, 0.01);
+  EXPECT_EQ(three->component_count(), 1U);
+}
+
 TEST(Rebuild, SampledAxesGivePolygons) {
   const Case one =
       case_of({{0, 0}, {9, 0}, {9, 3}, {6, 3}, {6, 7}, {4, 7}, {4, 3}, {2, 4}, {0, 3}});

@@ -15,21 +15,27 @@ enum class RebuildBy : std::uint8_t {
   outline,   ///< boundary_of(): segments and arcs of an exact axis, each ended by its disks' arcs
   tangents,  ///< a polygon from points on the axis and tangents of their disks (Volkmann and St.
              ///< Clair, Section II.C)
+  hulls,     ///< a polygon around the convex hulls of the disks at both ends of each edge: what
+             ///< packs stand for
 };
 
 struct RebuildOptions {
-  /// Samples have no exact outline: theirs is always by tangents.
+  /// Samples have no exact outline: theirs is by hulls where a pack was unpacked (the axis's method
+  /// is "pack"), or else by tangents.
   RebuildBy by = RebuildBy::outline;
   /// Of tangents: how many points on the axis, about, besides ends and branching points; spread
   /// evenly over its length. 0: the nodes of samples, 1000 of an exact axis.
   std::uint64_t points = 0;
-  /// Arcs become chords within this distance, in units of the input; 0: they stay arcs.
+  /// Arcs become chords within this distance, in units of the input; 0: they stay arcs. Of hulls,
+  /// those around disks are chords in any case: within a sixteenth of the axis's resolution, or
+  /// else 1e-6 of its extent.
   double chord = 0;
 };
 
 struct RebuildReport {
-  std::uint64_t medial_points = 0;  ///< of tangents: the points on the axis that were used
-  std::uint64_t crossings = 0;      ///< where the new boundary crossed itself, and was split
+  std::uint64_t medial_points =
+      0;                        ///< of tangents and hulls: the points on the axis that were used
+  std::uint64_t crossings = 0;  ///< where the new boundary crossed itself, and was split
 };
 
 /// The shape of an axis, whole or pruned. An exact axis gives back the shape that it was computed

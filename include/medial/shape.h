@@ -52,8 +52,8 @@ struct ShapeReport {
 struct ShapeOptions {
   /// Edges that cross are no error: they are split where they do, and what is interior follows from
   /// the rings' roles: the non-zero rule for RingRole::winding, the even-odd rule for others.
-  /// Decided to the tolerance, as for arcs, also where all edges are straight. Takes time in the
-  /// square of the number of edges above each other at worst.
+  /// Decided to the tolerance, as for arcs, also where all edges are straight. O(n log n + p) for p
+  /// pairs of edges whose bounding boxes meet.
   bool node_crossings = false;
 };
 

@@ -7,10 +7,10 @@
 #include <new>
 
 #include "io/guarded.h"
-#include "io/hulls.h"
 #include "io/output.h"
 #include "io/place.h"
 #include "medial/io/pack.h"
+#include "medial/rebuild.h"
 #include "ops/code_bytes.h"
 
 namespace medial::io {
@@ -29,9 +29,6 @@ constexpr int level = 19;
 
 /// No frame may grow by more: what does is stored as it is.
 constexpr std::size_t most_ratio = 256, always = 65536;
-
-/// What chords of disks may take of a pack's error: the polylines leave as much.
-constexpr double chord = 1.0 / 16;
 
 Error malformed(const char* text) { return {ErrorCode::malformed, text, {}}; }
 
@@ -243,8 +240,7 @@ Result<NativeFile> native_of(const PackFile& file, std::vector<std::string>* not
   native.y_down = file.y_down;
   for (MedialAxis& axis : *axes) {
     NativeItem& item = native.items.emplace_back();
-    const auto rings = union_of_hulls(axis, chord * axis.resolution);
-    auto shape = rings ? build_shape(*rings) : Result<Shape>(rings.error());
+    auto shape = rebuild(axis);
     if (shape) {
       item.shape = std::move(shape).value();
     } else if (notes != nullptr) {

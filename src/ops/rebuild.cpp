@@ -12,6 +12,7 @@
 #include "medial/query.h"
 #include "medial/sides.h"
 #include "ops/half_edges.h"
+#include "ops/hull_outline.h"
 
 namespace medial {
 namespace {
@@ -60,7 +61,11 @@ MedialAxis sampled(const MedialAxis& axis, double step) {
       while (k + 1 < lengths.size() && walked + lengths[k] < at) walked += lengths[k++];
       const Curve curve = curve_of(axis, axis.edges[branch.steps[k].edge]);
       const double along = std::clamp(at - walked, 0.0, lengths[k]);
-      const double t = curve.at_length(branch.steps[k].forward ? along : lengths[k] - along);
+      const double from_start = branch.steps[k].forward ? along : lengths[k] - along;
+      // One of Newton's steps: places need not be exact.
+      double t = lengths[k] > 0 ? from_start / lengths[k] : 0;
+      const double speed = norm(curve.derivatives(t).first);
+      if (speed > 0) t = std::clamp(t + (from_start - curve.length(t)) / speed, 0.0, 1.0);
       const std::uint32_t here = add(curve.at(t));
       connect(last, here);
       last = here;
@@ -70,6 +75,55 @@ MedialAxis sampled(const MedialAxis& axis, double step) {
   const Incidence incidence(axis);
   for (std::uint32_t i = 0; i < axis.nodes.size(); ++i)
     if (incidence.degree(i) == 0) node(i);
+  return out;
+}
+
+/// How far the disks reach, about.
+double extent_of(const MedialAxis& axis) {
+  double size = 0;
+  for (const Node& node : axis.nodes)
+    size = std::max(
+        {size, node.disk.radius, distance(node.disk.center, axis.nodes.front().disk.center)});
+  return size;
+}
+
+/// The axis with one node for all that are joined by disks within `slack` of it: shorter ways have
+/// no direction but that of rounding.
+MedialAxis contracted(const MedialAxis& axis, double slack) {
+  const Incidence incidence(axis);
+  std::vector<std::uint32_t> order(axis.nodes.size()), waiting;
+  std::iota(order.begin(), order.end(), 0U);
+  std::ranges::stable_sort(order, std::ranges::greater{},
+                           [&](std::uint32_t i) { return axis.nodes[i].disk.radius; });
+  MedialAxis out;
+  out.tolerance = axis.tolerance;
+  out.resolution = axis.resolution;
+  std::vector<std::uint32_t> index(axis.nodes.size(), no_site);
+  for (const std::uint32_t first : order) {
+    if (index[first] != no_site) continue;
+    const auto here = static_cast<std::uint32_t>(out.nodes.size());
+    const Disk& disk = out.nodes.emplace_back(axis.nodes[first]).disk;
+    index[first] = here;
+    waiting.assign(1, first);
+    while (!waiting.empty()) {
+      const std::uint32_t at = waiting.back();
+      waiting.pop_back();
+      for (const std::uint32_t e : incidence.edges(at)) {
+        const auto& ends = axis.edges[e].node;
+        const std::uint32_t other = ends[0] == at ? ends[1] : ends[0];
+        const Disk& next = axis.nodes[other].disk;
+        if (index[other] != no_site || distance(next.center, disk.center) > slack ||
+            std::abs(next.radius - disk.radius) > slack)
+          continue;
+        index[other] = here;
+        waiting.push_back(other);
+      }
+    }
+  }
+  for (Edge edge : axis.edges) {
+    for (std::uint32_t& node : edge.node) node = index[node];
+    if (edge.node[0] != edge.node[1]) out.edges.push_back(edge);
+  }
   return out;
 }
 
@@ -219,6 +273,36 @@ std::vector<std::uint32_t> uncovered(const MedialAxis& axis, double slack) {
   return kept;
 }
 
+/// The shape that rings stand for by the non-zero rule, split where they cross.
+Result<Shape> shape_of_crossing(std::vector<Ring>& rings, ShapeReport& report) {
+  for (Ring& ring : rings) ring.role = RingRole::winding;
+  return build_shape(rings, {.node_crossings = true}, &report);
+}
+
+Result<Shape> shape_of_hulls(const MedialAxis& axis, double resolution,
+                             const RebuildOptions& options, RebuildReport& report) {
+  const double size = extent_of(axis);
+  // A pack leaves a sixteenth of its error for chords.
+  constexpr double of_error = 1.0 / 16, of_size = 1e-6, least = 5e-11;
+  double chord = of_size * size;
+  if (resolution > 0) chord = of_error * resolution;
+  if (options.chord > 0) chord = std::min(chord, options.chord);
+  chord = std::max(chord, least * size);
+  if (!(chord > 0)) return Error{ErrorCode::no_area, "the disks are points", {}};
+  report.medial_points = axis.nodes.size();
+  // What is nearer than disks are moved by is one.
+  const double near = chord / 16;
+  const MedialAxis disks = contracted(axis, near);
+  constexpr std::uint64_t tries = 8;
+  for (std::uint64_t seed = 0;; ++seed) {
+    std::vector<Ring> rings = ops::outline_of_hulls(disks, chord - near, seed);
+    ShapeReport shaping;
+    auto shape = shape_of_crossing(rings, shaping);
+    report.crossings = shaping.crossings;
+    if (shape || seed + 1 == tries) return shape;
+  }
+}
+
 }  // namespace
 
 Result<Shape> rebuild(const MedialAxis& axis, const RebuildOptions& options,
@@ -228,38 +312,58 @@ Result<Shape> rebuild(const MedialAxis& axis, const RebuildOptions& options,
     return Error{ErrorCode::invalid_option, "chord is not a number from 0 up", {}};
   std::vector<Ring> rings;
   RebuildReport own;
+  const bool unpacked = axis.method == "pack" && options.by == RebuildBy::outline;
+  if (options.by == RebuildBy::hulls || unpacked) {
+    auto shape = shape_of_hulls(axis, axis.resolution, options, own);
+    if (report != nullptr) *report = own;
+    return shape;
+  }
   const bool by_tangents = options.by == RebuildBy::tangents || axis.resolution > 0;
   if (by_tangents) {
     constexpr std::uint64_t usual = 1000;
     const std::uint64_t points = options.points > 0 ? options.points : usual;
     const double step = total_length(axis) / static_cast<double>(points);
     const bool as_it_is = axis.resolution > 0 && options.points == 0;
-    const MedialAxis samples = as_it_is || !(step > 0) ? axis : sampled(axis, step);
+    constexpr double hardly = 1e-9;  // of the size
+    const double slack = hardly * extent_of(axis);
+    const MedialAxis all = as_it_is || !(step > 0) ? axis : sampled(axis, step);
+    const MedialAxis samples = contracted(all, slack);
+    if (2 * samples.nodes.size() < all.nodes.size()) {
+      // Tangents of what rounding has left tell nothing; the disks are nearly one.
+      auto shape = shape_of_hulls(samples, 0, options, own);
+      if (report != nullptr) *report = own;
+      return shape;
+    }
     own.medial_points = samples.nodes.size();
     rings = rings_by_tangents(samples);
+    // Around a reflex vertex all tangents end in one place to rounding.
+    constexpr double one_place = 1e-8;
+    for (Ring& ring : rings) ring = calmed(ring, one_place * extent_of(axis));
+    std::erase_if(rings, [](const Ring& ring) { return ring.points.size() < 3; });
   } else {
     for (const Contour& contour : boundary_of(axis)) rings.push_back(ring_of(contour));
   }
   if (options.chord > 0)
     for (Ring& ring : rings) ring = polygon_of(ring, options.chord);
   ShapeReport shaping;
-  ShapeOptions noded;
-  noded.node_crossings = true;
   // The outline of an exact axis crosses itself by rounding only; polygons of few points may.
   auto shape = by_tangents ? Result<Shape>(Error{}) : build_shape(rings, &shaping);
-  if (!shape) {
-    for (Ring& ring : rings) ring.role = RingRole::winding;
-    shape = build_shape(rings, noded, &shaping);
-  }
+  if (!shape) shape = shape_of_crossing(rings, shaping);
   if (!shape && by_tangents) {
-    // Where the boundary is nearly straight, corners of samples may run back over each other.
+    // Where the boundary is nearly straight, corners of samples may run back over each other: off
+    // by nearly nothing they do not.
     constexpr double calm = 1e-6;
-    double size = 0;
-    for (const Node& node : axis.nodes)
-      size = std::max(size, distance(node.disk.center, axis.nodes[0].disk.center));
-    for (Ring& ring : rings) ring = calmed(ring, calm * size);
-    std::erase_if(rings, [](const Ring& ring) { return ring.points.size() < 3; });
-    shape = build_shape(rings, noded, &shaping);
+    const double step = calm * extent_of(axis);
+    ops::Random random;
+    for (int tries = 0; !shape && tries < 4; ++tries) {
+      for (Ring& ring : rings) {
+        ring = calmed(ring, step);
+        for (Vec2& p : ring.points)
+          p = p + step / 8 * Vec2{random.next() - 0.5, random.next() - 0.5};
+      }
+      std::erase_if(rings, [](const Ring& ring) { return ring.points.size() < 3; });
+      shape = shape_of_crossing(rings, shaping);
+    }
   }
   own.crossings = shaping.crossings;
   if (report != nullptr) *report = own;

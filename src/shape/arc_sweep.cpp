@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "base/box_tree.h"
 #include "shape/errors.h"
 #include "shape/monotone_arc.h"
 
@@ -99,18 +100,17 @@ class CrossingFinder {
   }
 
   std::vector<Contact> find() {
-    std::vector<std::size_t> above;  // the sweep line meets them
-    for (std::size_t i = 0; i < pieces_.size(); ++i) {
+    std::vector<Box> boxes;
+    boxes.reserve(pieces_.size());
+    for (const Piece& piece : pieces_)
+      boxes.push_back(
+          {{piece.arc.left.x - tolerance_, piece.low}, {piece.arc.right.x, piece.high}});
+    const BoxTree tree(boxes);
+    for (std::uint32_t i = 0; i < pieces_.size(); ++i) {
       const Piece& piece = pieces_[i];
-      std::erase_if(above, [&](std::size_t j) {
-        return pieces_[j].arc.right.x < piece.arc.left.x - tolerance_;
+      tree.find(boxes[i], [&](std::uint32_t j) {
+        if (j < i && pieces_[j].edge != piece.edge) meet(pieces_[j], piece);
       });
-      for (const std::size_t j : above) {
-        const Piece& other = pieces_[j];
-        if (other.edge != piece.edge && other.low <= piece.high && piece.low <= other.high)
-          meet(other, piece);
-      }
-      above.push_back(i);
     }
     return std::move(contacts_);
   }

@@ -6,6 +6,7 @@
 #include <tuple>
 #include <unordered_map>
 
+#include "base/box_tree.h"
 #include "base/predicates.h"
 #include "shape/errors.h"
 #include "shape/monotone_arc.h"
@@ -81,26 +82,57 @@ std::optional<Error> check_roles(std::span<const Ring> rings, const Arrangement&
 
 namespace {
 
-/// The highest edge that stays strictly below a vertex and begins further left; no_index if there
-/// is none. O(n).
-std::uint32_t edge_below(const Arrangement& arrangement, std::uint32_t vertex) {
-  const Vec2 p = arrangement.points[vertex];
-  std::uint32_t highest = no_index;
-  double height = -std::numeric_limits<double>::infinity();
-  for (std::uint32_t e = 0; e < arrangement.points.size(); ++e) {
-    if (arrangement.is_dropped(e)) continue;
-    const Vec2 from = arrangement.points[e], to = arrangement.points[arrangement.next[e]];
-    const bool rightward = lexicographic_less(from, to);
-    const Vec2 left = rightward ? from : to, right = rightward ? to : from;
-    if (!(left.x < p.x && p.x <= right.x) || right == p) continue;
-    const double bulge = arrangement.bulges.empty() ? 0 : arrangement.bulges[e];
-    const double y = monotone_arc(left, right, rightward ? bulge : -bulge).y_at(p.x);
-    if (!(y < p.y && y > height)) continue;
-    height = y;
-    highest = e;
+/// Finds the edges that stay and lie below vertices.
+class EdgesBelow {
+ public:
+  /// O(n log n).
+  explicit EdgesBelow(const Arrangement& arrangement)
+      : arrangement_(arrangement), edges_(kept(arrangement)), tree_(boxes()) {}
+
+  /// The highest edge that stays strictly below a vertex and begins further left; no_index if there
+  /// is none.
+  std::uint32_t of(std::uint32_t vertex) const {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    const Vec2 p = arrangement_.points[vertex];
+    std::uint32_t highest = no_index;
+    Box below{{p.x, -infinity}, p};
+    tree_.find(below, [&](std::uint32_t i) {
+      const MonotoneArc arc = piece(edges_[i]);
+      if (!(arc.left.x < p.x && p.x <= arc.right.x) || arc.right == p) return;
+      const double y = arc.y_at(p.x);
+      if (!(y < p.y && y > below.low.y)) return;
+      below.low.y = y;
+      highest = edges_[i];
+    });
+    return highest;
   }
-  return highest;
-}
+
+ private:
+  static std::vector<std::uint32_t> kept(const Arrangement& arrangement) {
+    std::vector<std::uint32_t> edges;
+    for (std::uint32_t e = 0; e < arrangement.points.size(); ++e)
+      if (!arrangement.is_dropped(e)) edges.push_back(e);
+    return edges;
+  }
+  MonotoneArc piece(std::uint32_t edge) const {
+    const Vec2 from = arrangement_.points[edge], to = arrangement_.points[arrangement_.next[edge]];
+    const double bulge = arrangement_.bulges.empty() ? 0 : arrangement_.bulges[edge];
+    return lexicographic_less(from, to) ? monotone_arc(from, to, bulge)
+                                        : monotone_arc(to, from, -bulge);
+  }
+  std::vector<Box> boxes() const {
+    std::vector<Box> boxes;
+    for (const std::uint32_t edge : edges_) {
+      const MonotoneArc arc = piece(edge);
+      boxes.push_back({{arc.left.x, arc.low()}, {arc.right.x, arc.high()}});
+    }
+    return boxes;
+  }
+
+  const Arrangement& arrangement_;
+  std::vector<std::uint32_t> edges_;
+  BoxTree tree_;
+};
 
 }  // namespace
 
@@ -140,8 +172,10 @@ std::optional<Error> nest(const Arrangement& arrangement, Loops& loops) {
     return lexicographic_less(arrangement.points[loops.loops[a].leftmost],
                               arrangement.points[loops.loops[b].leftmost]);
   });
+  if (lost.empty()) return std::nullopt;
+  const EdgesBelow edges(arrangement);
   for (const std::uint32_t i : lost) {
-    const std::uint32_t below = edge_below(arrangement, loops.loops[i].leftmost);
+    const std::uint32_t below = edges.of(loops.loops[i].leftmost);
     if (below != no_index) loops.loops[i].component = loops.loops[loops.loop_of[below]].component;
   }
   for (const Loop& loop : loops.loops) {

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/spatial_order.h"
+#include "medial/shape.h"
+
+namespace medial {
+
+/// Boxes in a tree, for the search of those that meet another one.
+class BoxTree {
+ public:
+  /// O(n log n).
+  explicit BoxTree(std::span<const Box> boxes) {
+    std::vector<Vec2> places;
+    places.reserve(boxes.size());
+    for (const Box& box : boxes) places.push_back(midpoint(box.low, box.high));
+    order_ = spatial_order(places, fan_out);
+    std::vector<Box>& leaves = levels_.emplace_back();
+    leaves.reserve(boxes.size());
+    for (const std::uint32_t i : order_) leaves.push_back(boxes[i]);
+    while (levels_.back().size() > 1) {
+      const std::vector<Box>& below = levels_.back();
+      std::vector<Box> above;
+      for (std::size_t i = 0; i < below.size(); i += fan_out) {
+        Box all = below[i];
+        for (std::size_t k = i + 1; k < std::min(i + fan_out, below.size()); ++k) {
+          all.low = {std::min(all.low.x, below[k].low.x), std::min(all.low.y, below[k].low.y)};
+          all.high = {std::max(all.high.x, below[k].high.x), std::max(all.high.y, below[k].high.y)};
+        }
+        above.push_back(all);
+      }
+      levels_.push_back(std::move(above));
+    }
+  }
+
+  /// Calls visit(i) for each box i that meets `query`, which `visit` may shrink. O(log n) for each
+  /// box that is found, of boxes that are small or do not overlap much.
+  template <class Visit>
+  void find(const Box& query, const Visit& visit) const {
+    if (!order_.empty()) find_below(levels_.size() - 1, 0, query, visit);
+  }
+
+ private:
+  static constexpr std::size_t fan_out = 8;
+
+  static bool meet(const Box& a, const Box& b) {
+    return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y;
+  }
+
+  template <class Visit>
+  void find_below(std::size_t level, std::size_t i, const Box& query, const Visit& visit) const {
+    if (!meet(levels_[level][i], query)) return;
+    if (level == 0) return visit(order_[i]);
+    const std::size_t end = std::min((i + 1) * fan_out, levels_[level - 1].size());
+    for (std::size_t k = i * fan_out; k < end; ++k) find_below(level - 1, k, query, visit);
+  }
+
+  std::vector<std::uint32_t> order_;
+  std::vector<std::vector<Box>> levels_;  ///< from the boxes themselves up to one
+};
+
+}  // namespace medial
