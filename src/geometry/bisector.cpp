@@ -249,12 +249,18 @@ Control control_of(const Site& a, const Site& b, const Disk& from, const Disk& t
   if (a.is_vertex() && b.is_vertex()) {
     // Along the line of centres the radius is a hyperbola: with h measured from the middle of the
     // vertices, r = d cosh u and h = d sinh u, and the shoulder point lies at the mean u. Its
-    // weight is cosh of half the difference of u; written with differences to spare cancellation.
-    const Vec2 foot = midpoint(a.point, b.point);
-    const double squared = 0.25 * squared_norm(b.point - a.point);
-    const double dh = distance(from.center, to.center), dr = to.radius - from.radius;
-    const double weight_squared =
-        squared > 0 ? 1 + std::max(0.0, (dh - dr) * (dh + dr)) / (4 * squared) : 1;
+    // weight is cosh of half the difference of u, which the two e^u = (r + h) / d = d / (r - h) tell
+    // without cancellation.
+    const Vec2 foot = midpoint(a.point, b.point), across = 0.5 * (b.point - a.point);
+    const double squared = squared_norm(across);
+    if (!(squared > 0)) return {middle, 1};
+    const Vec2 along = (1 / std::sqrt(squared)) * left_of(across);
+    const auto exponential = [&](const Disk& disk) {  // times d
+      const double h = dot(along, disk.center - foot);
+      return h >= 0 ? disk.radius + h : squared / (disk.radius - h);
+    };
+    const double growth = exponential(to) / exponential(from);
+    const double weight_squared = 0.25 * (growth + 1) * (1 / growth + 1);
     return {{foot + (1 / weight_squared) * (middle.center - foot), middle.radius / weight_squared},
             std::sqrt(weight_squared)};
   }

@@ -113,11 +113,22 @@ bool Contacts::is_reflex_chain(const Span& span) const {
   return turned < almost_half;
 }
 
-void Contacts::split(const Span& span, const Disk& disk, std::uint32_t sure, bool all_around,
-                     std::vector<Span>& parts) {
+bool Contacts::are_distinct(std::uint32_t first, std::uint32_t second, double angle,
+                            const Disk& disk) const {
+  if (angle >= distinct_contacts) return true;
+  if (!(angle > 0) || boundary_.two_sided || site(first).is_arc() || site(second).is_arc())
+    return false;
+  const double apart = distinct_feet * context_.tolerance;
+  return squared_norm(geometry::foot(site(second), disk.center) -
+                      geometry::foot(site(first), disk.center)) > apart * apart;
+}
+
+const std::vector<std::uint32_t>& Contacts::touched_between(const Span& span, const Disk& disk,
+                                                            bool all_around) {
   ++statistics_.queries;
   context_.tree.within(disk.center, disk.radius + context_.tolerance, span.right + 1, span.left - 1,
                        touched_);
+  if (touched_.empty()) return touched_;
   // Along the boundary the contacts go around the disk counter-clockwise. What comes out of order
   // is another copy of a vertex that was touched before.
   // An arc touched all along counts from the first of its points to the last.
@@ -134,16 +145,29 @@ void Contacts::split(const Span& span, const Disk& disk, std::uint32_t sure, boo
   const double end_angle = all_around ? 2 * std::numbers::pi : angle_of(span.left, 1);
   double angle_before = 0;
   std::uint32_t before = span.right;
-  parts.clear();
+  std::size_t kept = 0;
   for (const std::uint32_t hit : touched_) {
     if (boundary_.two_sided && !faces(hit, disk.center)) continue;
     const std::uint32_t i = boundary_.two_sided ? hit : owner(hit, disk.center, span);
     if (i <= before || i >= span.left || !touches(i, disk, context_.tolerance)) continue;
     const double angle = angle_of(i, 0.5);
-    if (angle - angle_before < distinct_contacts || end_angle - angle < distinct_contacts) continue;
+    if (!are_distinct(before, i, angle - angle_before, disk) ||
+        !are_distinct(i, span.left, end_angle - angle, disk))
+      continue;
+    touched_[kept++] = before = i;
+    angle_before = angle;
+  }
+  touched_.resize(kept);
+  return touched_;
+}
+
+void Contacts::split(const Span& span, const Disk& disk, std::uint32_t sure, bool all_around,
+                     std::vector<Span>& parts) {
+  parts.clear();
+  std::uint32_t before = span.right;
+  for (const std::uint32_t i : touched_between(span, disk, all_around)) {
     parts.push_back({before, i, span.node});
     before = i;
-    angle_before = angle;
   }
   if (parts.empty()) {
     if (sure > span.right && sure < span.left) {

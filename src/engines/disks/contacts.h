@@ -94,9 +94,13 @@ class Contacts {
   /// chain is flat.
   bool is_reflex_chain(const Span& span) const;
 
+  /// The sites strictly inside the span that a disk touches in places of their own, in order; until
+  /// the next call. `all_around`: both ends of the span are touched in one point.
+  const std::vector<std::uint32_t>& touched_between(const Span& span, const Disk& disk,
+                                                    bool all_around = false);
+
   /// Splits the span at its node's own disk, at all sites that the disk touches, `sure` if no other
-  /// (none: not at all): a node of high degree is found with one query. `all_around`: both ends of
-  /// the span are touched in one point.
+  /// (none: not at all): a node of high degree is found with one query. `all_around` as above.
   void split(const Span& span, const Disk& disk, std::uint32_t sure, bool all_around,
              std::vector<Span>& parts);
 
@@ -104,10 +108,16 @@ class Contacts {
   static constexpr double distinct_contacts = 1e-6;
 
  private:
+  /// Whether a disk touches two sites in two places, that of the second one by this angle further
+  /// around it: narrow slots have walls that a large disk touches next to each other.
+  bool are_distinct(std::uint32_t first, std::uint32_t second, double angle,
+                    const Disk& disk) const;
   std::uint32_t facing(std::uint32_t i, Vec2 center, const Span& span) const;
   Vec2 cut_direction(std::uint32_t vertex, std::uint32_t cut) const;
   std::uint32_t other_copy(std::uint32_t cut, std::uint32_t vertex) const;
 
+  /// Feet further apart than so many tolerances are not two copies of one place.
+  static constexpr double distinct_feet = 16;
   /// Longer chains are not looked at: their ends are told apart well enough.
   static constexpr std::uint32_t longest_flat_chain = 8;
 

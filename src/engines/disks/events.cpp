@@ -22,6 +22,13 @@ constexpr double polish_reach = 1e-3;
 constexpr int most_rounds = 200;
 /// How far beyond() may look, against the radius: there the bisector is still straight.
 constexpr double widest_window = 1e-7;
+/// A disk of radius r reaches by t into a gap of width sqrt(8 r t). Gaps are narrow in this unit,
+/// sqrt(r tolerance): the gap itself up to 1, a foot next to its end up to `past_end`, as the disk
+/// may have come there by a contact within the tolerance, and both together up to `widest_gap`.
+constexpr double past_end = 2, widest_gap = 1 + past_end;
+/// A disk further beside the bisector of two vertices, against their distance, is not on it but for
+/// the tolerance.
+constexpr double off_bisector = 0x1p-10;
 
 }  // namespace
 
@@ -31,9 +38,13 @@ Event EventSearch::local_event(bool on_right) {
   const std::uint32_t other = on_right ? span_.left : span_.right;
   Event event;
   if (boundary_.is_smooth(on_right ? own : next)) {
-    if (bisector_.is_straight) return event;
-    const auto joint = disk_at_joint(on_right);
+    auto joint = disk_at_joint(on_right);
     if (!joint) return event;
+    if (bisector_.is_straight) {
+      // On an edge in line the feet stay where they are.
+      if (!site(span_.right).is_vertex() || !site(span_.left).is_vertex()) return event;
+      joint->disk = bisector_.disk_at(bisector_.position(joint->disk.center), from_);
+    }
     const double position = bisector_.position(joint->disk.center);
     // On a parabola the foot's normal may turn that far only on the way back.
     if (is_behind(position)) return event;
@@ -183,11 +194,20 @@ std::optional<Event> EventSearch::contact_with(const Site& touched, std::uint32_
   return not_behind(best);
 }
 
+bool EventSearch::at_narrow_gap() const {
+  const Vec2 between = geometry::foot(site(span_.left), from_.center) -
+                       geometry::foot(site(span_.right), from_.center);
+  return from_.radius > 0 &&
+         squared_norm(between) <= widest_gap * widest_gap * context_.tolerance * from_.radius;
+}
+
 bool EventSearch::in_line(Vec2 gap) const {
   const Site &right = site(span_.right), &left = site(span_.left);
   if (right.is_arc() || left.is_arc() || (right.is_vertex() && left.is_vertex())) return false;
   const double width = squared_norm(gap);
-  if (!(width > 0 && width <= context_.tolerance * from_.radius)) return false;
+  if (!(width <= context_.tolerance * from_.radius &&
+        dot(gap, right.direction + left.direction) > 0))
+    return false;
   if (right.is_vertex() || left.is_vertex()) {
     const Site& segment = right.is_vertex() ? left : right;
     const Vec2 vertex = right.is_vertex() ? right.point : left.point;
@@ -200,23 +220,35 @@ bool EventSearch::in_line(Vec2 gap) const {
 
 geometry::Bisector EventSearch::bisector() const {
   geometry::Bisector result(site(span_.right), site(span_.left));
+  if (!at_narrow_gap_) return result;
   const Site &right = result.right, &left = result.left;
-  if (in_line(right.point - left.end()))
+  if (right.is_vertex() && left.is_vertex()) {
+    const Vec2 chord = left.point - right.point,
+               to = from_.center - midpoint(right.point, left.point);
+    const bool leaves = dot(result.direction, to) > 0;
+    if (leaves && std::abs(dot(chord, to)) > off_bisector * squared_norm(chord))
+      result.straighten(result.direction);
+  } else if (in_line(right.point - left.end())) {
     result.straighten(right.is_vertex()  ? left.normal()
                       : left.is_vertex() ? right.normal()
                                          : result.direction);
+  }
   return result;
 }
 
-std::optional<Event> EventSearch::pass_into_gap() const {
+std::optional<Event> EventSearch::pass_into_gap() {
   const Site &right = site(span_.right), &left = site(span_.left);
+  if (span_.left - span_.right > 2 && !boundary_.two_sided) {
+    const auto& touched = contacts_.touched_between(span_, from_);
+    if (!touched.empty()) return at_node(touched.front());
+  }
   if (!in_line(left.point - right.end())) return std::nullopt;
   for (const bool on_right : {true, false}) {
     const Site& own = on_right ? right : left;
     if (own.is_vertex() || !boundary_.is_smooth(on_right ? span_.right : span_.left - 1)) continue;
     const Vec2 end = on_right ? right.end() : left.point;
     const double along = dot(own.direction, from_.center - end);
-    if (along * along <= context_.tolerance * from_.radius)
+    if (along * along <= past_end * past_end * context_.tolerance * from_.radius)
       return Event{on_right ? Event::Kind::pass_right : Event::Kind::pass_left, Hit::none, from_,
                    low_};
   }
@@ -269,7 +301,8 @@ void EventSearch::polish(Event& event, const Site& third) {
 
 Event EventSearch::next() {
   if (const auto passed = pass_over_circle()) return *passed;
-  if (const auto passed = pass_into_gap()) return *passed;
+  if (at_narrow_gap_)
+    if (const auto passed = pass_into_gap()) return *passed;
   // A foot that passes on smoothly is found at little cost, and makes most corners' events
   // needless.
   const bool right_first = boundary_.is_smooth(span_.right) || !boundary_.is_smooth(span_.left - 1);

@@ -36,6 +36,7 @@ class EventSearch {
         statistics_(statistics),
         span_(span),
         from_(from),
+        at_narrow_gap_(at_narrow_gap()),
         bisector_(bisector()),
         low_(bisector_.position(from.center)) {}
 
@@ -83,15 +84,19 @@ class EventSearch {
   /// the first one ahead of `from`.
   std::optional<Event> contact_with(const geometry::Site& touched, std::uint32_t third,
                                     double high);
+  /// Whether the node's disk touches its two sites so near to each other that it reaches into a gap
+  /// between them by some tolerances at most.
+  bool at_narrow_gap() const;
   /// Whether the two sites lie in one line, as far as a disk can tell, with this gap between them,
   /// so narrow that the node's disk does not reach into it by the tolerance.
   bool in_line(Vec2 gap) const;
   /// The bisector of the two sites; a straightened one where the walk comes out of a gap between
-  /// sites in line.
+  /// sites in line, or between two vertices but not where their bisector is.
   geometry::Bisector bisector() const;
-  /// Where the walk goes into a gap between sites in line: when the foot passes on to the vertex
-  /// there is left to rounding, so it does at once.
-  std::optional<Event> pass_into_gap() const;
+  /// At a narrow gap: what else the node's disk touches there. Where the walk goes into a gap
+  /// between sites in line: when the foot passes on to the vertex there is left to rounding, so it
+  /// does at once.
+  std::optional<Event> pass_into_gap();
   /// contact_with() on a straightened bisector.
   std::optional<Event> contact_over_gap(const geometry::Site& touched, std::uint32_t third,
                                         double high) const;
@@ -139,6 +144,7 @@ class EventSearch {
   Statistics& statistics_;
   const Span span_;
   const Disk from_;
+  const bool at_narrow_gap_;
   const geometry::Bisector bisector_;
   const double low_;  ///< position of `from`
 };
