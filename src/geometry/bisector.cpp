@@ -249,8 +249,8 @@ Control control_of(const Site& a, const Site& b, const Disk& from, const Disk& t
   if (a.is_vertex() && b.is_vertex()) {
     // Along the line of centres the radius is a hyperbola: with h measured from the middle of the
     // vertices, r = d cosh u and h = d sinh u, and the shoulder point lies at the mean u. Its
-    // weight is cosh of half the difference of u, which the two e^u = (r + h) / d = d / (r - h) tell
-    // without cancellation.
+    // weight is cosh of half the difference of u, which the two e^u = (r + h) / d = d / (r - h)
+    // tell without cancellation.
     const Vec2 foot = midpoint(a.point, b.point), across = 0.5 * (b.point - a.point);
     const double squared = squared_norm(across);
     if (!(squared > 0)) return {middle, 1};
