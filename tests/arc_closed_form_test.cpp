@@ -336,7 +336,7 @@ TEST(ArcClosedForm, RoundedStarsAreTruncated) {
 /// One disk touches every tooth or side, and the rest of the axis consists of as many branches:
 /// where two contacts enclose a small angle, the rounding of their coordinates must not move it.
 TEST(ArcClosedForm, ManyArcsAroundOneNode) {
-  for (const std::size_t n : {3, 30, 300, 2000}) {
+  for (const std::size_t n : {3U, 30U, 300U, 2000U}) {
     std::vector<ArcCase> cases;
     cases.push_back({"gear of " + std::to_string(n), {gear(n, 0.8)}, {}});
     cases.push_back({"lobes, " + std::to_string(n), {bulged_polygon(n, 0.5)}, {}});

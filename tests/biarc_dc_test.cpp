@@ -139,8 +139,8 @@ TEST(BiarcDc, AgreesWithDisksOnArcShapes) { compare_all(random_arc_shape, 900, 1
 /// Reflex vertices beside slight arcs; joints of arcs of some roundings' length; regular polygons
 /// of bulged sides, whose centre every sub-shape puts elsewhere by some tolerances.
 TEST(BiarcDc, AgreesWhereRoundingDecides) {
-  for (const std::uint64_t seed : {175, 785, 1295, 1649, 1756, 3627, 8991})
-    for (const std::uint64_t choice : {1, 2, 3}) {
+  for (const std::uint64_t seed : {175U, 785U, 1295U, 1649U, 1756U, 3627U, 8991U})
+    for (const std::uint64_t choice : {1U, 2U, 3U}) {
       const RandomShape random = random_arc_shape(seed);
       const auto shape = build_shape(random.rings);
       ASSERT_TRUE(shape.ok());
@@ -240,7 +240,7 @@ TEST(BiarcDc, AgreesOnATreeOfFineArcs) {
   ASSERT_TRUE(rings.ok());
   const auto shape = build_shape(*rings);
   ASSERT_TRUE(shape.ok());
-  for (const std::uint64_t seed : {1, 2})
+  for (const std::uint64_t seed : {1U, 2U})
     EXPECT_EQ(compare(*shape, seed, 1e-9), std::vector<std::string>{}) << "seed " << seed;
 }
 
@@ -252,7 +252,7 @@ TEST(BiarcDc, EndsInTheCentreOfTheArcOfLargestCurvature) {
   ASSERT_TRUE(shape.ok());
   const auto other = compute(*shape, options_for(Method::disks));
   ASSERT_TRUE(other.ok());
-  for (const std::uint64_t seed : {1, 3}) {
+  for (const std::uint64_t seed : {1U, 3U}) {
     const auto axis = compute(*shape, options_for(Method::biarc_dc, seed));
     ASSERT_TRUE(axis.ok());
     EXPECT_EQ(verify(*shape, *axis, {.threads = 1}).failures, std::vector<std::string>{})

@@ -231,7 +231,7 @@ TEST(ExactAxis, OfRandomArcs) { check_random(count_from_environment(800), random
 /// Gears whose arcs have one circle but for rounding: a disk near the centre may touch such a
 /// circle where its arc is not.
 TEST(ExactAxis, OfGearsAroundTheirHub) {
-  for (const std::uint64_t seed : {184, 1522}) {
+  for (const std::uint64_t seed : {184U, 1522U}) {
     const auto shape = build_shape(random_arc_shape(seed).rings);
     ASSERT_TRUE(shape);
     const auto axis = compute(*shape, {.exact = true});

@@ -235,11 +235,11 @@ INSTANTIATE_TEST_SUITE_P(
 
 /// All sides touch one disk: one node, however the merges broke the tie.
 TEST(LeeTies, OfRegularPolygonsAreOneNode) {
-  for (const int n : {5, 12, 100, 1000, 10000, 100000}) {
+  for (const std::size_t n : {5U, 12U, 100U, 1000U, 10000U, 100000U}) {
     const auto axis = compute(built(regular_polygon(n)), by_lee());
     ASSERT_TRUE(axis.ok());
-    EXPECT_EQ(axis->nodes.size(), static_cast<std::size_t>(n) + 1);
-    EXPECT_EQ(axis->edges.size(), static_cast<std::size_t>(n));
+    EXPECT_EQ(axis->nodes.size(), n + 1);
+    EXPECT_EQ(axis->edges.size(), n);
   }
 }
 

@@ -104,7 +104,7 @@ std::uint64_t looked_up(const Image& image, std::int64_t x, std::int64_t y,
   std::uint64_t nearest = std::numeric_limits<std::uint64_t>::max();
   if (!image.at(x, y)) return 0;
   const bool cracks = options.to == DistanceTo::cracks;
-  const int border = options.frame || cracks ? 1 : 0;
+  const std::int64_t border = options.frame || cracks ? 1 : 0;
   for (std::int64_t v = -border; v < image.height() + border; ++v) {
     for (std::int64_t u = -border; u < image.width() + border; ++u) {
       if (image.at(u, v)) continue;
@@ -400,7 +400,7 @@ Image swept(Image image, Brushfire family) {
         if (p[0] && p[2] && p[4] && p[6]) border.set(x, y, false);
       });
       for (const auto& [column, row] : {std::pair{0U, 0U}, {1U, 1U}, {1U, 0U}, {0U, 1U}}) {
-        each([&](auto x, auto y) {
+        each([&, column = column, row = row](auto x, auto y) {
           if (x % 2 != column || y % 2 != row || !border.at(x, y)) return;
           if (!is_simple(image, x, y) || neighbors_of(image, x, y) < 2) return;
           image.set(x, y, false);
