@@ -1,11 +1,7 @@
 #include "medial/compute.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
 #include <exception>
 #include <limits>
@@ -13,7 +9,6 @@
 #include <optional>
 #include <utility>
 
-#include "axis/sites.h"
 #include "base/arc.h"
 #include "base/limits.h"
 #include "base/threads.h"
@@ -176,33 +171,6 @@ bool has_right_topology(const Shape& shape, const MedialAxis& axis) {
          signed_size(shape.component_count()) - signed_size(shape.hole_count());
 }
 
-/// Whether both ends of every edge touch the edge's two sites, give or take `slack`: what goes
-/// wrong where features are closer than rounding can tell apart is off by far more.
-bool disks_touch_their_sites(const MedialAxis& axis, double slack) {
-  const auto touches = [&](const Disk& disk, const Site& site) {
-    if (site.bulge == 0) {  // a vertex is a segment without length
-      const Vec2 along = site.end - site.start, to = disk.center - site.start;
-      const double forward = dot(to, along), whole = squared_norm(along);
-      const double share = forward <= 0 ? 0 : forward >= whole ? 1 : forward / whole;
-      return std::abs(norm(to - share * along) - disk.radius) <= slack;
-    }
-    const sites::Pieces pieces = sites::pieces_of(site.start, site.end, site.bulge);
-    double squared = geometry::squared_distance(pieces.first(), disk.center);
-    if (pieces.count > 1)
-      squared = std::min(squared, geometry::squared_distance(pieces.last(), disk.center));
-    return std::abs(std::sqrt(squared) - disk.radius) <= slack;
-  };
-  std::atomic<bool> all{true};
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, axis.edges.size(), 1024),
-                    [&](const tbb::blocked_range<std::size_t>& range) {
-                      for (std::size_t i = range.begin(); i < range.end() && all; ++i)
-                        for (const std::uint32_t node : axis.edges[i].node)
-                          for (const std::uint32_t site : axis.edges[i].site)
-                            if (!touches(axis.nodes[node].disk, axis.sites[site])) all = false;
-                    });
-  return all;
-}
-
 Result<MedialAxis> run(const Shape& shape, const Options& options) {
   switch (options.method) {
     case Method::potential:
@@ -261,15 +229,6 @@ Result<MedialAxis> compute(const Shape& shape, const Options& options) {
       return Error{ErrorCode::internal,
                    "the axis does not have one cycle for each hole: please report this shape",
                    {}};
-    constexpr double loose = 0x1p-20;  // of the size: no near tie is that far off
-    if (options.method == Method::disks && !on_threads(options.threads, [&] {
-          const double size = diagonal(bounding_box(shape));
-          return disks_touch_their_sites(axis, std::max(loose * size, 4 * axis.tolerance));
-        }))
-      return Error{
-          ErrorCode::internal,
-          "a disk of the axis misses a site that it should touch: please report this shape",
-          {}};
 #ifdef MEDIAL_HAS_EXACT
     if (options.exact) {
       Status certain =

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
+#include "axis/sites.h"
 #include "base/memory.h"
 #include "geometry/bisector.h"
 
@@ -131,16 +133,27 @@ void collect(std::vector<std::unique_ptr<Chunk>>& chunks, std::size_t cut_count,
   chunks.clear();
 }
 
-void complete(const Boundary& boundary, const Frame& frame, MedialAxis& axis) {
+tbb::concurrent_vector<std::uint32_t> complete(const Boundary& boundary, const Frame& frame,
+                                               double slack, MedialAxis& axis) {
   axis.statistics.largest_residual *= frame.inverse;
+  const auto touches = [&](const Disk& disk, const geometry::Site& site) {
+    const double least = std::max(0.0, disk.radius - slack), most = disk.radius + slack;
+    const double squared = geometry::squared_distance(site, disk.center);
+    return squared >= least * least && squared <= most * most;  // false for no number, too
+  };
+  tbb::concurrent_vector<std::uint32_t> doubtful;
   const auto control = [&] {
     tbb::parallel_for(
         tbb::blocked_range<std::size_t>(0, axis.edges.size(), 4096), [&](const auto& range) {
           for (std::size_t i = range.begin(); i < range.end(); ++i) {
             Edge& edge = axis.edges[i];
-            const geometry::Control found =
-                geometry::control_of(boundary.sites[edge.site[0]], boundary.sites[edge.site[1]],
-                                     axis.nodes[edge.node[0]].disk, axis.nodes[edge.node[1]].disk);
+            const geometry::Site &left = boundary.sites[edge.site[0]],
+                                 &right = boundary.sites[edge.site[1]];
+            const Disk &from = axis.nodes[edge.node[0]].disk, &to = axis.nodes[edge.node[1]].disk;
+            if (!(touches(from, left) && touches(from, right) && touches(to, left) &&
+                  touches(to, right)))
+              doubtful.push_back(static_cast<std::uint32_t>(i));
+            const geometry::Control found = geometry::control_of(left, right, from, to);
             edge.control = {frame.to_input(found.point.center), frame.inverse * found.point.radius};
             edge.weight = found.weight;
             for (std::uint32_t& site : edge.site) site = boundary.originals[site];
@@ -164,6 +177,24 @@ void complete(const Boundary& boundary, const Frame& frame, MedialAxis& axis) {
                                        : NodeKind::branching;
         }
       });
+  return doubtful;
+}
+
+bool touches_its_sites(const MedialAxis& axis, const Edge& edge, double slack) {
+  const auto squared_distance = [](const Site& site, Vec2 c) {
+    if (site.start == site.end) return squared_norm(c - site.start);
+    const sites::Pieces pieces = sites::pieces_of(site.start, site.end, site.bulge);
+    const double first = geometry::squared_distance(pieces.first(), c);
+    return pieces.count == 1 ? first
+                             : std::min(first, geometry::squared_distance(pieces.last(), c));
+  };
+  const auto touches = [&](const Disk& disk, const Site& site) {
+    return std::abs(std::sqrt(squared_distance(site, disk.center)) - disk.radius) <= slack;
+  };
+  for (const std::uint32_t node : edge.node)
+    for (const std::uint32_t site : edge.site)
+      if (!touches(axis.nodes[node].disk, axis.sites[site])) return false;
+  return true;
 }
 
 }  // namespace medial::disks

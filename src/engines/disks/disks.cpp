@@ -1,5 +1,6 @@
 #include "engines/disks/disks.h"
 
+#include <algorithm>
 #include <atomic>
 
 #include "base/frame.h"
@@ -17,7 +18,7 @@ namespace medial::disks {
 namespace {
 
 /// The engine: sites, holes connected, tree, walk, graph. Cancelled, it stops where it is.
-MedialAxis run(const Shape& shape, const Options& options, bool two_sided) {
+Result<MedialAxis> run(const Shape& shape, const Options& options, bool two_sided) {
   MedialAxis axis;
   axis.method = "disks";
   Statistics& statistics = axis.statistics;
@@ -63,20 +64,31 @@ MedialAxis run(const Shape& shape, const Options& options, bool two_sided) {
   collect(chunks, cuts.size(), axis);
   merge_ties(boundary, *tree, input_tolerance, axis);
   tree.reset();
-  complete(boundary, frame, axis);
+  constexpr double loose = 0x1p-20;  // of the size: no near tie is that far off
+  const double slack = std::max(loose * diagonal(box), 4 * axis.tolerance);
+  const auto doubtful = complete(boundary, frame, frame.scale * slack, axis);
   boundary = {};
   axis.sites = sites::result_sites(shape, numbers);
   statistics.seconds_collect = watch.lap();
   statistics.seconds = all.lap();
+  const bool holds = std::all_of(doubtful.begin(), doubtful.end(), [&](std::uint32_t edge) {
+    return touches_its_sites(axis, axis.edges[edge], slack);
+  });
+  if (!holds && !two_sided)
+    return Error{ErrorCode::internal,
+                 "a disk of the axis misses a site that it should touch: please report this shape",
+                 {}};
   return axis;
 }
 
 }  // namespace
 
-MedialAxis run(const Shape& shape, const Options& options) { return run(shape, options, false); }
+Result<MedialAxis> run(const Shape& shape, const Options& options) {
+  return run(shape, options, false);
+}
 
 MedialAxis run_two_sided(const Shape& shape, const Options& options) {
-  return run(shape, options, true);
+  return *run(shape, options, true);
 }
 
 }  // namespace medial::disks

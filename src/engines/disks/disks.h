@@ -7,8 +7,10 @@
 namespace medial::disks {
 
 /// The engine `disks` (docs/disks.md): sites, holes connected, tree, walk, graph. Requires what
-/// compute() has checked. Cut short, with any content, where the caller cancels.
-MedialAxis run(const Shape& shape, const Options& options);
+/// compute() has checked. Cut short, with any content, where the caller cancels. An internal error
+/// where a disk misses one of its sites by far more than rounding explains: no such axis is given
+/// out.
+Result<MedialAxis> run(const Shape& shape, const Options& options);
 
 /// The same for what lies around a soup (shape/around.h): a shape whose edges may stand there
 /// twice, once for each side, and with loops of one point.
