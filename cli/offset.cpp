@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "cli/common.h"
+#include "cli/loose.h"
 #include "cli/pipeline.h"
 #include "cli/terminal.h"
 #include "medial/io/offsets.h"
@@ -28,6 +29,7 @@ struct OffsetSwitches {
   std::string until = "empty";
   double last = std::numeric_limits<double>::infinity();  ///< of the passes, as `until` tells
   bool exterior = false;
+  bool loose = false;
   bool chords = false;
 };
 
@@ -93,20 +95,33 @@ Status tell(const io::OffsetFile& file, const OffsetSwitches& switches, double s
   return success();
 }
 
-Result<int> run_offset(const OffsetSwitches& switches) {
+/// Buffers of all points and lines of the file together.
+Result<io::OffsetFile> buffer_all(const OffsetSwitches& switches) {
+  const auto& input = switches.input;
+  auto loose = load_chains(input, switches.common.threads);
+  if (!loose) return std::move(loose).error();
+  print_notes(*loose, input, switches.common);
+  auto soup =
+      build_soup(loose->chains, {.node_crossings = input.read.repair != io::RepairRule::none});
+  if (!soup) return in_terms_of(*loose, std::move(soup).error(), input.path);
+  auto offsets =
+      offset_curves(*soup, switches.distances,
+                    {.tolerance = switches.common.tolerance, .threads = switches.common.threads});
+  if (!offsets) return in_terms_of(*loose, std::move(offsets).error(), input.path);
+  io::OffsetFile file;
+  file.crs_wkt = loose->crs_wkt;
+  file.y_down = loose->y_down;
+  file.items.push_back({{}, std::move(offsets).value(), {}, std::move(soup).value()});
+  return file;
+}
+
+/// The offset curves of each shape of the file.
+Result<io::OffsetFile> offset_each(const OffsetSwitches& switches) {
   const auto& input = switches.input;
   const auto& common = switches.common;
-  if (switches.distances.empty() == (switches.step == 0))
-    return invalid_option("give --distance or --step, one of the two");
-  if (switches.exterior && switches.step > 0 && !std::isfinite(switches.last))
-    return invalid_option("outwards nothing gets empty: give a distance to --until");
-  Status writable = check_output(switches.output, switches.format, io::known_offset_formats(),
-                                 input.path, common.json);
-  if (!writable) return std::move(writable).error();
   auto shapes = load_shapes(input, common.threads);
   if (!shapes) return std::move(shapes).error();
   print_notes(*shapes, input, common);
-  const Stopwatch watch;
   io::OffsetFile file;
   file.crs_wkt = shapes->crs_wkt;
   file.y_down = shapes->y_down;
@@ -124,6 +139,25 @@ Result<int> run_offset(const OffsetSwitches& switches) {
         return success();
       });
   if (!computed) return std::move(computed).error();
+  return file;
+}
+
+Result<int> run_offset(const OffsetSwitches& switches) {
+  const auto& input = switches.input;
+  const auto& common = switches.common;
+  if (switches.distances.empty() == (switches.step == 0))
+    return invalid_option("give --distance or --step, one of the two");
+  if (switches.exterior && switches.step > 0 && !std::isfinite(switches.last))
+    return invalid_option("outwards nothing gets empty: give a distance to --until");
+  if (switches.loose && (switches.step > 0 || switches.exterior))
+    return invalid_option("--loose goes with --distance only");
+  Status writable = check_output(switches.output, switches.format, io::known_offset_formats(),
+                                 input.path, common.json);
+  if (!writable) return std::move(writable).error();
+  const Stopwatch watch;
+  auto computed = switches.loose ? buffer_all(switches) : offset_each(switches);
+  if (!computed) return std::move(computed).error();
+  const io::OffsetFile file = std::move(computed).value();
   const double seconds = watch.seconds();
   if (!switches.output.empty()) {
     io::WriteOptions write = switches.write;
@@ -167,6 +201,9 @@ Verb make_offset_verb(CLI::App& program) {
       ->option_text("D");
   verb->add_flag("--exterior", switches->exterior,
                  "Positive distances are outside, around the shape and in its holes.");
+  verb->add_flag("--loose", switches->loose,
+                 "Buffers: all places within each distance of the file's points, lines and\n"
+                 "boundaries, taken together; --repair splits them where they cross.");
   verb->add_option("-o,--output", switches->output,
                    fmt::format("Where to write; the extension tells the format:\n{}\n"
                                "- is standard output, see --format. Without -o, only a summary is\n"
@@ -196,7 +233,8 @@ Verb make_offset_verb(CLI::App& program) {
       "  medial offset plan.wkt --distance 0.5,1,2 -o plan.svg\n"
       "  medial offset plate.dxf --distance=-3 -o grown.dxf\n"
       "  medial offset plate.dxf --step 2 --first 1 --until empty -o passes.dxf\n"
-      "  medial offset plan.wkt --distance 1 -o - --format wkt");
+      "  medial offset plan.wkt --distance 1 -o - --format wkt\n"
+      "  medial offset roads.geojson --loose --distance 5,10 -o buffers.geojson");
   return {verb, [switches] { return run_offset(*switches); }};
 }
 

@@ -9,6 +9,7 @@
 
 #include "cli/common.h"
 #include "cli/costs.h"
+#include "cli/loose.h"
 #include "cli/pipeline.h"
 #include "cli/terminal.h"
 
@@ -64,37 +65,6 @@ Result<io::VoronoiFile> compute_diagrams(ShapeFile shapes, const std::string& pa
   return file;
 }
 
-/// All that a file holds, and the feature that each chain is of.
-struct LooseFile {
-  std::vector<Chain> chains;
-  std::vector<std::uint32_t> feature;
-  bool y_down = false;
-  std::vector<std::string> notes;
-};
-
-Result<LooseFile> load_chains(const InputSwitches& input, int threads) {
-  io::ReadOptions read = input.read;
-  read.loose = true;
-  read.repair = io::RepairRule::none;
-  auto dataset = input.text.empty() ? io::read_dataset(input.path, read)
-                                    : io::read_text(input.text, input.path);
-  if (!dataset) return std::move(dataset).error();
-  LooseFile file;
-  file.y_down = dataset->y_down;
-  file.notes = std::move(dataset->notes);
-  ArcOptions arcs = input.arcs;
-  arcs.threads = threads;
-  for (std::uint32_t i = 0; i < dataset->features.size(); ++i) {
-    auto chains = io::chains_of(dataset->features[i], arcs);
-    if (!chains) return at_feature(std::move(chains).error(), input.path, i);
-    for (Chain& chain : *chains) {
-      file.chains.push_back(std::move(chain));
-      file.feature.push_back(i);
-    }
-  }
-  return file;
-}
-
 /// Seconds by phase.
 struct Phases {
   double read = 0;
@@ -108,26 +78,13 @@ Result<io::VoronoiFile> compute_soup(const VoronoiSwitches& switches, Phases& se
   const Stopwatch reading;
   auto loose = load_chains(input, switches.common.threads);
   if (!loose) return std::move(loose).error();
-  if (!switches.common.quiet)
-    for (const std::string& note : loose->notes)
-      fmt::print(stderr, "medial: {}: {}\n", input.path, note);
-  const auto named = [&](Error error) {
-    if (error.place.file.empty()) error.place.file = input.path;
-    if (error.place.ring && *error.place.ring < loose->feature.size()) {
-      const std::uint64_t chain = *error.place.ring;
-      error.place.feature = loose->feature[chain];
-      std::uint64_t first = chain;
-      while (first > 0 && loose->feature[first - 1] == loose->feature[chain]) --first;
-      error.place.ring = chain - first;
-    }
-    return error;
-  };
+  print_notes(*loose, input, switches.common);
   seconds.read = reading.seconds();
   const Stopwatch shaping;
   SoupReport report;
   auto soup = build_soup(loose->chains,
                          {.node_crossings = input.read.repair != io::RepairRule::none}, &report);
-  if (!soup) return named(std::move(soup).error());
+  if (!soup) return in_terms_of(*loose, std::move(soup).error(), input.path);
   seconds.shape = shaping.seconds();
   const Stopwatch watch;
   std::optional<Box> frame;
@@ -138,7 +95,7 @@ Result<io::VoronoiFile> compute_soup(const VoronoiSwitches& switches, Phases& se
                                   .threads = switches.common.threads,
                                   .margin = switches.margin},
                                  frame);
-  if (!diagram) return named(std::move(diagram).error());
+  if (!diagram) return in_terms_of(*loose, std::move(diagram).error(), input.path);
   seconds.voronoi = watch.seconds();
   io::VoronoiFile file;
   file.y_down = loose->y_down;

@@ -13,6 +13,7 @@
 #include "medial/compute.h"
 #include "medial/error.h"
 #include "medial/shape.h"
+#include "medial/soup.h"
 
 namespace medial {
 
@@ -59,6 +60,14 @@ Result<Offsets> inward_offsets(const MedialAxis& axis, std::span<const double> c
 /// exterior and margin have no effect. Errors: those of compute(); invalid_option (a clearance that
 /// is 0 or not finite, or below -1e5 of the shape's diagonal).
 Result<Offsets> offset_curves(const Shape& shape, std::span<const double> clearances,
+                              const Options& options = {});
+
+/// Buffers of loose points, lines and arcs: the regions of all places nearer than each of
+/// `distances` to the soup, as above; their clearance is the distance negated. Faces that lines
+/// enclose become holes where they are wider. Curves as exact as those of shapes.
+/// O(n log n) expected. Errors: those of voronoi_diagram(); invalid_option (a distance that is not
+/// positive and finite, or above 1e5 of the soup's diagonal where that is not 0).
+Result<Offsets> offset_curves(const Soup& soup, std::span<const double> distances,
                               const Options& options = {});
 
 /// The clearances first, first + step, ... up to the last one with a region inside: passes of a

@@ -12,6 +12,7 @@
 #include "base/arc.h"
 #include "base/limits.h"
 #include "base/threads.h"
+#include "engines/axis_around.h"
 #include "engines/biarc_dc/biarc_dc.h"
 #include "engines/brushfire/brushfire.h"
 #include "engines/disks/disks.h"
@@ -20,6 +21,7 @@
 #include "engines/potential/force.h"
 #include "engines/potential/potential.h"
 #include "engines/ridge/ridge.h"
+#include "engines/voronoi/long_edges.h"
 #include "engines/voronoi/points_diagram.h"
 #include "engines/voronoi/soup_diagram.h"
 #include "medial/voronoi.h"
@@ -301,7 +303,36 @@ std::optional<Error> refuse(const Soup& soup, const Options& options) {
   return std::nullopt;
 }
 
+bool is_cancelled(const Options& options) {
+  return options.cancel != nullptr && options.cancel->load();
+}
+
+Result<MedialAxis> run_around(const Shape& surroundings, const Options& options,
+                              bool divide_parabolas) {
+  MedialAxis axis = disks::run_two_sided(surroundings, options);
+  if (is_cancelled(options)) return Error{ErrorCode::cancelled, "cancelled", {}};
+  if (!has_right_topology(surroundings, axis))
+    return Error{ErrorCode::internal,
+                 "the diagram is not connected as it should be: please report this input",
+                 {}};
+  voronoi::split_long_edges(axis, divide_parabolas);
+  return axis;
+}
+
 }  // namespace
+
+Result<MedialAxis> axis_around(const Soup& soup, const Shape& surroundings,
+                               const Options& options) {
+  try {
+    if (auto error = refuse(soup, options)) return std::move(*error);
+    if (auto error = beyond_limits(surroundings)) return std::move(*error);
+    return on_threads(options.threads, [&] { return run_around(surroundings, options, true); });
+  } catch (const std::bad_alloc&) {
+    return Error{ErrorCode::out_of_memory, "memory ran out", {}};
+  } catch (const std::exception& exception) {
+    return Error{ErrorCode::internal, exception.what(), {}};
+  }
+}
 
 Result<VoronoiDiagram> voronoi_diagram(const Soup& soup, const Options& options,
                                        const std::optional<Box>& frame) {
@@ -311,22 +342,16 @@ Result<VoronoiDiagram> voronoi_diagram(const Soup& soup, const Options& options,
     if (!box) return std::move(box).error();
     const Box far = voronoi::far_frame(*box);
     if (auto error = beyond_limits(soup, far)) return std::move(*error);
-    const auto cancelled = [&] { return options.cancel != nullptr && options.cancel->load(); };
     Result<VoronoiDiagram> diagram = on_threads(options.threads, [&]() -> Result<VoronoiDiagram> {
-      const Error stopped{ErrorCode::cancelled, "cancelled", {}};
       if (soup.edges.empty()) {
         VoronoiDiagram of_points = voronoi::diagram_of_points(soup, options, *box);
-        if (cancelled()) return stopped;
+        if (is_cancelled(options)) return Error{ErrorCode::cancelled, "cancelled", {}};
         return of_points;
       }
       const Shape shape = around(soup, far);
-      MedialAxis axis = disks::run_two_sided(shape, options);
-      if (cancelled()) return stopped;
-      if (!has_right_topology(shape, axis))
-        return Error{ErrorCode::internal,
-                     "the diagram is not connected as it should be: please report this input",
-                     {}};
-      return voronoi::diagram_of(soup, shape, std::move(axis), *box);
+      auto axis = run_around(shape, options, false);
+      if (!axis) return std::move(axis).error();
+      return voronoi::diagram_of(soup, shape, std::move(axis).value(), *box);
     });
     if (!diagram) return diagram;
     diagram->statistics.threads = effective_threads(options.threads);

@@ -59,10 +59,15 @@ std::vector<Vec2> chords_of(const Ring& ring, double chord) {
   return out;
 }
 
+Box box_of(const OffsetItem& item) {
+  if (!item.shape.points.empty() || item.soup.points.empty()) return bounding_box(item.shape);
+  return bounding_box(item.soup);
+}
+
 double chord_of(const OffsetItem& item, const WriteOptions& options) {
-  double reach = diagonal(bounding_box(item.shape));
+  double reach = diagonal(box_of(item));
   for (const OffsetRegion& region : item.offsets.regions)
-    reach = std::max(reach, diagonal(bounding_box(item.shape)) - 2 * region.clearance);
+    reach = std::max(reach, diagonal(box_of(item)) - 2 * region.clearance);
   return options.chord * reach;
 }
 
@@ -248,7 +253,7 @@ Status write_picture(OutputStream& out, const std::string& format, const OffsetF
   Box box{{infinity, infinity}, {-infinity, -infinity}};
   double deepest = 0;
   for (const OffsetItem& item : file.items) {
-    Box own = bounding_box(item.shape);
+    Box own = box_of(item);
     double reach = 0;
     for (const OffsetRegion& region : item.offsets.regions) {
       reach = std::max(reach, -region.clearance);
@@ -269,7 +274,17 @@ Status write_picture(OutputStream& out, const std::string& format, const OffsetF
       canvas.color(outline);
       canvas.line_width(1.2);
       canvas.trace(item.shape);
+      for (const SoupEdge& edge : item.soup.edges)
+        canvas.trace(Ring{{item.soup.points[edge.from], item.soup.points[edge.to]},
+                          RingRole::any,
+                          {edge.bulge, 0}},
+                     false);
       canvas.stroke();
+      const double dot = 2e-3 * diagonal(box);
+      for (const LonePoint& lone : item.soup.lone_points) {
+        canvas.circle(item.soup.points[lone.point], dot);
+        canvas.fill();
+      }
     }
     canvas.line_width(1);
     for (const OffsetItem& item : file.items) {

@@ -9,8 +9,11 @@
 #include "base/arc.h"
 #include "base/disjoint_sets.h"
 #include "base/stopwatch.h"
+#include "engines/axis_around.h"
 #include "ops/level_walk.h"
 #include "ops/summits.h"
+#include "shape/around.h"
+#include "shape/clean.h"
 #include "shape/exterior.h"
 
 namespace medial {
@@ -191,6 +194,24 @@ void add_outward(const MedialAxis& axis, const Surroundings& around, std::span<c
   }
 }
 
+/// The same for a soup: what its points and edges connect is a component.
+Surroundings surroundings_of(const Soup& soup, const Shape& surroundings, const MedialAxis& axis) {
+  DisjointSets sets(soup.points.size());
+  for (const SoupEdge& edge : soup.edges) sets.join(edge.from, edge.to);
+  Surroundings around;
+  around.components = soup.points.size();
+  const auto component_of = [&](std::uint32_t point) {
+    return point == no_index ? Surroundings::frame : sets.find(point);
+  };
+  around.of_site.reserve(axis.sites.size());
+  for (const Site& site : axis.sites) around.of_site.push_back(component_of(site.ring));
+  around.of_part.resize(surroundings.component_count());
+  for (std::size_t i = 0; i < surroundings.loop_count(); ++i)
+    around.of_part[surroundings.component[i]] =
+        component_of(surroundings.sources[surroundings.loop_begin[i]].ring);
+  return around;
+}
+
 /// By increasing clearance; parents named anew; rings with their roles.
 void finish(Offsets& offsets) {
   auto& regions = offsets.regions;
@@ -209,11 +230,16 @@ std::vector<double> increasing(std::vector<double> values) {
   return values;
 }
 
+/// No distance is larger than that, in diagonals.
+constexpr double farthest = 1e5;
+/// How many times the largest distance the frame is away: more than twice, so that no curve is
+/// nearer to it.
+constexpr double reach = 2.5;
+
 Error invalid(const char* text) { return {ErrorCode::invalid_option, text, {}}; }
 
 Result<Offsets> offset_both_sides(const Shape& shape, std::span<const double> clearances,
                                   const Options& options) {
-  constexpr double farthest = 1e5;  // diagonals
   std::vector<double> inside, outside;
   if (shape.points.empty()) return Error{ErrorCode::empty, "the shape is empty", {}};
   const Box box = bounding_box(shape);
@@ -243,8 +269,6 @@ Result<Offsets> offset_both_sides(const Shape& shape, std::span<const double> cl
     offsets.seconds_curves += walking.lap();
   }
   if (!outside.empty()) {
-    // The frame must be farther away than twice the distance: then no curve is nearer to it.
-    constexpr double reach = 2.5;
     Stopwatch computing;
     const double margin = std::max(reach * outside.back(), 0.1 * margin_for(box, 0));
     auto exterior = exterior_of(shape, margin);
@@ -261,6 +285,36 @@ Result<Offsets> offset_both_sides(const Shape& shape, std::span<const double> cl
     offsets.seconds_curves += walking.lap();
   }
   finish(offsets);
+  return offsets;
+}
+
+Result<Offsets> buffers_of(const Soup& soup, std::span<const double> given,
+                           const Options& options) {
+  if (soup.points.empty()) return Error{ErrorCode::empty, "there is no point", {}};
+  const Box box = bounding_box(soup);
+  const double size = diagonal(box);
+  for (const double d : given) {
+    if (!(d > 0) || !std::isfinite(d)) return invalid("a distance must be positive and finite");
+    if (size > 0 && d > farthest * size) return invalid("a distance is above 1e5 diagonals");
+  }
+  Offsets offsets;
+  if (given.empty()) return offsets;
+  const std::vector<double> distances = increasing({given.begin(), given.end()});
+  Stopwatch computing;
+  const double margin = std::max(reach * distances.back(), 0.1 * size);
+  const Shape surroundings =
+      around(soup, {box.low - Vec2{margin, margin}, box.high + Vec2{margin, margin}});
+  auto axis = axis_around(soup, surroundings, options);
+  if (!axis) return std::move(axis).error();
+  offsets.seconds_axis = computing.lap();
+  Stopwatch walking;
+  offsets.tolerance = axis->tolerance;
+  ops::divide_at_summits(*axis);
+  Regions regions(soup.points.size());
+  add_outward(*axis, surroundings_of(soup, surroundings, *axis), distances, regions,
+              offsets.regions);
+  finish(offsets);
+  offsets.seconds_curves = walking.lap();
   return offsets;
 }
 
@@ -305,6 +359,11 @@ Result<Offsets> inward_offsets(const MedialAxis& axis, std::span<const double> c
 Result<Offsets> offset_curves(const Shape& shape, std::span<const double> clearances,
                               const Options& options) {
   return guarded([&] { return offset_both_sides(shape, clearances, options); });
+}
+
+Result<Offsets> offset_curves(const Soup& soup, std::span<const double> distances,
+                              const Options& options) {
+  return guarded([&] { return buffers_of(soup, distances, options); });
 }
 
 Result<std::vector<double>> offset_passes(const MedialAxis& axis, double first, double step) {

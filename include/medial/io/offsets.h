@@ -10,11 +10,12 @@
 
 namespace medial::io {
 
-/// A shape and its offset curves.
+/// A shape, or a soup, and its offset curves.
 struct OffsetItem {
   Shape shape;
   Offsets offsets;
-  std::vector<std::pair<std::string, std::string>> attributes;
+  std::vector<std::pair<std::string, std::string>> attributes = {};
+  Soup soup = {};  ///< what buffers are of, where there is no shape
 };
 
 struct OffsetFile {

@@ -15,6 +15,7 @@
 #include "base/memory.h"
 #include "engines/voronoi/clip.h"
 #include "engines/voronoi/frame_cut.h"
+#include "engines/voronoi/long_edges.h"
 #include "geometry/bisector.h"
 #include "geometry/site.h"
 #include "geometry/tangent_disk.h"
@@ -41,7 +42,6 @@ class Assembly {
         cut_(soup, frame, axis.tolerance, diagram_) {}
 
   VoronoiDiagram run() {
-    split_long_edges();
     make_chains();
     find_ends();
     make_spokes();
@@ -247,82 +247,6 @@ class Assembly {
     return static_cast<std::uint32_t>(diagram_.nodes.size() - 1);
   }
 
-  /// An own site seen from an origin; of an arc longer than a quarter of a circle, the half next to
-  /// a place.
-  geometry::Site seen_from(Vec2 origin, std::uint32_t own, Vec2 near) const {
-    const Site& site = axis_.sites[own];
-    if (site.kind == SiteKind::vertex) return geometry::make_vertex(site.start - origin);
-    const sites::Pieces pieces =
-        sites::pieces_of(site.start - origin, site.end - origin, site.bulge);
-    const bool first = pieces.count == 1 || geometry::squared_distance(pieces.first(), near) <=
-                                                geometry::squared_distance(pieces.last(), near);
-    return first ? pieces.first() : pieces.last();
-  }
-
-  /// The control point of an edge, or of a part of one, from its ends. (A part of a long curve
-  /// would have that one's rounding.)
-  void take_control(std::array<std::uint32_t, 2> own, ConicEdge& part) const {
-    const Vec2 origin = part.from.center, middle = midpoint({0, 0}, part.to.center - origin);
-    const geometry::Control control =
-        geometry::control_of(seen_from(origin, own[0], middle), seen_from(origin, own[1], middle),
-                             {{0, 0}, part.from.radius}, {part.to.center - origin, part.to.radius});
-    part.control = {control.point.center + origin, control.point.radius};
-    part.weight = control.weight;
-  }
-
-  /// An ellipse around a point next to an arc can be more than half of one, which no curve of our
-  /// kind is: pieces that turn by no more than a quarter around the point are.
-  void split_long_edges() {
-    if (shape_.bulges.empty()) return;
-    const std::size_t count = axis_.edges.size();
-    for (std::size_t e = 0; e < count; ++e) {
-      const Edge edge = axis_.edges[e];
-      const std::size_t side = is_vertex(edge.site[0]) ? 0 : 1;
-      if (!is_vertex(edge.site[side]) || axis_.sites[edge.site[1 - side]].kind != SiteKind::arc)
-        continue;
-      const Vec2 point = axis_.sites[edge.site[side]].start;
-      const Vec2 from = axis_.nodes[edge.node[0]].disk.center - point;
-      const Vec2 to = axis_.nodes[edge.node[1]].disk.center - point;
-      // The foot on the right goes forward, around a vertex clockwise; on the left it is the other
-      // way around.
-      const double sign = side == 1 ? -1 : 1;
-      double turn = sign * std::atan2(cross(from, to), dot(from, to));
-      constexpr double backward = 1e-6;  // by rounding
-      if (turn < -backward) turn += 2 * std::numbers::pi;
-      const double pieces = std::ceil(turn / (0.5 * std::numbers::pi));
-      std::uint32_t last = edge.node[0];
-      for (double k = 1; k < pieces; ++k) {
-        const double angle = sign * turn * k / pieces, size = norm(from);
-        const Vec2 direction = (1 / size) * turned(from, std::cos(angle), std::sin(angle));
-        const auto node = static_cast<std::uint32_t>(axis_.nodes.size());
-        axis_.nodes.push_back({disk_towards(point, direction, edge.site[1 - side]),
-                               axis_.nodes[edge.node[0]].component, NodeKind::site_change});
-        add_piece(e, k == 1, edge, last, node);
-        last = node;
-      }
-      if (pieces > 1) add_piece(e, false, edge, last, edge.node[1]);
-    }
-  }
-  void add_piece(std::size_t e, bool first, Edge edge, std::uint32_t from, std::uint32_t to) {
-    edge.node = {from, to};
-    ConicEdge curve{axis_.nodes[from].disk, {}, axis_.nodes[to].disk, 1};
-    take_control(edge.site, curve);
-    edge.control = curve.control;
-    edge.weight = curve.weight;
-    if (first)
-      axis_.edges[e] = edge;
-    else
-      axis_.edges.push_back(edge);
-  }
-  /// The disk through a point that grows in a direction until it touches an arc.
-  Disk disk_towards(Vec2 point, Vec2 direction, std::uint32_t own) const {
-    const Site& site = axis_.sites[own];
-    const sites::Pieces pieces = sites::pieces_of(site.start - point, site.end - point, site.bulge);
-    const double radius = geometry::tangent_radius({0, 0}, direction, pieces.first());
-    if (!std::isfinite(radius)) throw std::runtime_error("a Voronoi edge has no middle");
-    return {point + radius * direction, radius};
-  }
-
   /// The edges inside of the frame, or the parts of them.
   void cut_off() {
     const std::size_t count = axis_.edges.size() + spokes_.size();
@@ -339,7 +263,7 @@ class Assembly {
       cut_.add(
           curve_of(e), site, spoke, [&](std::size_t end) { return node_at(e, end); },
           [&](ConicEdge& part) {
-            if (!spoke) take_control(axis_.edges[e].site, part);
+            if (!spoke) take_control(axis_, axis_.edges[e].site, part);
           });
     }
     part_begin_[count] = static_cast<std::uint32_t>(diagram_.edges.size());

@@ -1,0 +1,52 @@
+#include "cli/loose.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "medial/io/read.h"
+
+namespace medial::cli {
+
+Result<LooseFile> load_chains(const InputSwitches& input, int threads) {
+  io::ReadOptions read = input.read;
+  read.loose = true;
+  read.repair = io::RepairRule::none;
+  auto dataset = input.text.empty() ? io::read_dataset(input.path, read)
+                                    : io::read_text(input.text, input.path);
+  if (!dataset) return std::move(dataset).error();
+  LooseFile file;
+  file.crs_wkt = dataset->crs_wkt;
+  file.y_down = dataset->y_down;
+  file.notes = std::move(dataset->notes);
+  ArcOptions arcs = input.arcs;
+  arcs.threads = threads;
+  for (std::uint32_t i = 0; i < dataset->features.size(); ++i) {
+    auto chains = io::chains_of(dataset->features[i], arcs);
+    if (!chains) return at_feature(std::move(chains).error(), input.path, i);
+    for (Chain& chain : *chains) {
+      file.chains.push_back(std::move(chain));
+      file.feature.push_back(i);
+    }
+  }
+  return file;
+}
+
+void print_notes(const LooseFile& file, const InputSwitches& input, const CommonSwitches& common) {
+  if (common.quiet) return;
+  for (const std::string& note : file.notes)
+    fmt::print(stderr, "medial: {}: {}\n", input.path, note);
+}
+
+Error in_terms_of(const LooseFile& file, Error error, const std::string& path) {
+  if (error.place.file.empty()) error.place.file = path;
+  if (!error.place.ring || *error.place.ring >= file.feature.size()) return error;
+  const std::uint64_t chain = *error.place.ring;
+  error.place.feature = file.feature[chain];
+  std::uint64_t first = chain;
+  while (first > 0 && file.feature[first - 1] == file.feature[chain]) --first;
+  error.place.ring = chain - first;
+  return error;
+}
+
+}  // namespace medial::cli
