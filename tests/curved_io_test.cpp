@@ -180,6 +180,52 @@ TEST_F(CurvedIo, SvgTransformsViewBoxAndUse) {
   expect_circle(data.features[5].contours[0], {10, 10}, 10, true);
 }
 
+TEST_F(CurvedIo, SvgStyleSheets) {
+  const Dataset data = svg(
+      "<style type='text/css'><![CDATA[ /* a } */ @import url('x;y.css'); @media print "
+      "{.a{fill:red}}"
+      " .hole, .other { fill-rule: evenodd; stroke: 'a;b' }"
+      " .none{fill:none} rect.none.shown{fill:blue} #i5 {fill:none}"
+      " g > .child {display:none} g.far rect {visibility:hidden}"
+      " .strong{fill:none!important} .weak{fill:none} rect:hover{fill:none} [x]{stroke:red} ]]>"
+      "</style><style type='text/less'>rect{fill:none}</style>"
+      "<style media='print'>rect{fill:none}</style>"
+      "<rect class='hole' width='1' height='1'/><rect class='none' width='2' height='2'/>"
+      "<rect class='none shown' width='3' height='3'/><rect class='nonesuch' width='4' height='4'/>"
+      "<rect id='i5' width='5' height='5' fill='red'/>"
+      "<g class='far'><g><rect width='6' height='6'/></g></g>"
+      "<g><rect class='child' width='7' height='7'/><a><rect class='child' width='8' "
+      "height='8'/></a>"
+      "</g><rect class='strong' style='fill:red' width='9' height='9'/>"
+      "<rect class='weak' style='fill:red' width='10' height='10'/>"
+      "<defs><rect id='d' class='other' width='11' height='11'/></defs><use href='#d'/>"
+      "<rect style='display:none' width='12' height='12'/>");
+  std::vector<double> widths;
+  for (const Feature& feature : data.features) widths.push_back(feature.contours[0].points[1].x);
+  EXPECT_EQ(widths, (std::vector<double>{1, 3, 4, 8, 10, 11}));
+  EXPECT_EQ(data.features[0].contours[0].role, RingRole::any);
+  EXPECT_EQ(data.features[5].contours[0].role, RingRole::any);
+  ASSERT_EQ(data.notes.size(), 2U);
+  EXPECT_NE(data.notes[1].find("1 selectors"), std::string::npos) << data.notes[1];
+}
+
+TEST_F(CurvedIo, SvgStyleSheetsEnd) {
+  for (const char* sheet :
+       {"rect{", "}rect{fill:none}", "rect{fill:none", "/* rect{", "{", "a > ", "\\"})
+    svg(std::string("<style>") + sheet + "</style><rect width='1' height='1'/><circle r='1'/>");
+  std::string text = "<svg><style>";
+  for (int i = 0; i < 40; ++i) text += "g ";
+  text += "b rect{fill:none}</style>";
+  for (int i = 0; i < 300; ++i) text += "<g>";
+  text += "<rect width='1' height='1'/>";
+  for (int i = 0; i < 300; ++i) text += "</g>";
+  read("deep.svg", text + "</svg>");  // no g is in a b, which the nearest b tells
+  std::string hard = text;
+  hard.replace(hard.find("g g "), 4, "b g ");
+  hard.replace(hard.find(" b rect"), 7, " rect");
+  EXPECT_EQ(refused("hard.svg", hard + "</svg>").code, ErrorCode::too_large);
+}
+
 TEST_F(CurvedIo, SvgSizesThatAViewBoxTells) {
   const std::string circle = "<circle cx='4' cy='3' r='2'/>";
   expect_circle(svg(circle, "viewBox='0 0 24 12'").features[0].contours[0], {4, 3}, 2, true);

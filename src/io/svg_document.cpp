@@ -9,6 +9,8 @@
 #include <optional>
 #include <string_view>
 
+#include "io/svg_style.h"
+
 namespace medial::io {
 
 namespace {
@@ -150,6 +152,9 @@ Result<SvgDocument> SvgDocument::read(TextSource& source) {
                  line_of(result.root()));
   }
   result.prepare();
+  if (!result.apply_styles()) {
+    return error(ErrorCode::too_large, "there are too many rules of style for so many elements", 0);
+  }
   return result;
 }
 
@@ -183,6 +188,31 @@ void SvgDocument::prepare() {
     if (xlink != nullptr) xmlSetNsProp(node, xlink, as_xml("href"), as_xml(href.c_str()));
   }
   prepare_root();
+}
+
+bool SvgDocument::apply_styles() {
+  SvgStyleSheet sheet;
+  xmlNode* const top = root();
+  const auto is_element = [](const xmlNode* node) { return node->type == XML_ELEMENT_NODE; };
+  for (xmlNode* node = top; node != nullptr; node = next_node(node, top, true)) {
+    if (!is_element(node) || as_text(node->name) != "style") continue;
+    const std::string type = attribute(node, "type"), media = attribute(node, "media");
+    const bool for_screens = media.empty() || media.find("all") != std::string::npos ||
+                             media.find("screen") != std::string::npos;
+    if (!for_screens || !(type.empty() || type == "text/css")) continue;
+    const XmlText text(xmlNodeGetContent(node), xmlFree);
+    sheet.add(as_text(text.get()));
+  }
+  selectors_left_out_ = sheet.left_out();
+  if (sheet.empty()) return true;
+  std::size_t tried = 0;
+  for (xmlNode* node = top; node != nullptr; node = next_node(node, top, true)) {
+    if (!is_element(node)) continue;
+    const std::string style = sheet.style_of(node, tried);
+    if (tried > SvgStyleSheet::most_tries) return false;
+    if (!style.empty()) xmlSetProp(node, as_xml("style"), as_xml(style.c_str()));
+  }
+  return true;
 }
 
 void SvgDocument::prepare_root() {

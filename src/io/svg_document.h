@@ -2,6 +2,7 @@
 
 #include <libxml/tree.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -13,29 +14,36 @@
 namespace medial::io {
 
 /// A parsed document of SVG, made ready for svgpp: elements without a namespace are SVG's, `href`
-/// is `xlink:href`, shapes without extent (which paint nothing) are gone, and the outermost width
-/// and height are told where a viewBox tells them.
+/// is `xlink:href`, shapes without extent (which paint nothing) are gone, what style sheets say
+/// stands in `style` attributes (SvgStyleSheet), and the outermost width and height are told where
+/// a viewBox tells them.
 ///
 /// Entities are short texts without references, so that a document unfolds to a constant times its
 /// size at most; nothing outside of the document is ever read.
 class SvgDocument {
  public:
-  /// Errors: unreadable, malformed, too_large (2 GiB or more).
+  /// Errors: unreadable, malformed, too_large (2 GiB or more, or rules of style for too many
+  /// elements).
   static Result<SvgDocument> read(TextSource& source);
 
   xmlNode* root() const { return xmlDocGetRootElement(document_.get()); }
   /// The element with an `id`; null if there is none.
   xmlNode* find(const std::string& id) const;
+  /// How many selectors of style sheets were of kinds that are not looked at.
+  std::size_t selectors_left_out() const { return selectors_left_out_; }
 
  private:
   struct Free {
     void operator()(xmlDoc* document) const { xmlFreeDoc(document); }
   };
   void prepare();
+  /// False where it would take too long.
+  bool apply_styles();
   void prepare_root();
 
   std::unique_ptr<xmlDoc, Free> document_;
   std::unordered_map<std::string, xmlNode*> by_id_;
+  std::size_t selectors_left_out_ = 0;
 };
 
 /// The value of an attribute without a namespace; empty if it is missing.

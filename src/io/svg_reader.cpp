@@ -446,6 +446,11 @@ Result<Dataset> read_svg(TextSource& source, bool loose) {
     dataset.notes.push_back(
         fmt::format("{} shapes are not filled and were left out", drawing.unfilled));
   }
+  if (document->selectors_left_out() > 0) {
+    dataset.notes.push_back(
+        fmt::format("{} selectors of style sheets were not understood and left out",
+                    document->selectors_left_out()));
+  }
   return std::move(dataset);
 }
 
