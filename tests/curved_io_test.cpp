@@ -1,4 +1,5 @@
 // Curved inputs and outputs: SVG, DXF, fonts, curve geometries, medial's own contours and arcs.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,8 +13,11 @@
 #include <random>
 #include <sstream>
 
+#include "medial/compute.h"
 #include "medial/io/read.h"
 #include "medial/io/write.h"
+#include "medial/verify.h"
+#include "support/curve_check.h"
 #include "support/scratch_folder.h"
 
 namespace medial::io {
@@ -601,10 +605,54 @@ TEST_F(CurvedIo, CurveGeometriesAreArcs) {
   EXPECT_EQ(data.features[2].rings[0].points[1], (Vec2{6, 8}));
   EXPECT_EQ(data.features[3].rings[0].bulges[0], 0);  // three points in a row
   EXPECT_TRUE(data.notes.empty());
-  ReadOptions options;
-  options.project = true;
-  EXPECT_EQ(refused("a.wkt", "CURVEPOLYGON(CIRCULARSTRING(0 0,6 8,0 0))", options).code,
-            ErrorCode::unsupported);
+}
+
+/// Arcs of degrees become curves of metres, as far from each point's own image as the tolerance
+/// says.
+TEST_F(CurvedIo, ProjectsCurves) {
+  for (const double radius : {0.001, 0.3, 5.0}) {
+    std::string points;
+    const Vec2 center{11, 48};
+    const Contour circle = [&] {
+      Contour contour;
+      contour.start_at(center + Vec2{radius, 0});
+      contour.arc_to(center - Vec2{radius, 0}, 1);
+      contour.arc_to(center + Vec2{radius, 0}, 1);
+      return contour;
+    }();
+    for (int i = 0; i <= 64; ++i) {
+      const Vec2 point =
+          test::point_of(circle, circle.pieces[i < 32 ? 0 : 1], i < 32 ? i / 32.0 : i / 32.0 - 1);
+      points += fmt::format("{}{:.17g} {:.17g}", i > 0 ? "," : "", point.x, point.y);
+    }
+    const std::string text =
+        fmt::format("CURVEPOLYGON(CIRCULARSTRING({:.17g} 48,{:.17g} 48,{:.17g} 48))\nPOLYGON(({}))",
+                    center.x + radius, center.x - radius, center.x + radius, points);
+    ReadOptions options;
+    options.project = true;
+    const Dataset data = read("round.wkt", text, options);
+    ASSERT_EQ(data.features.size(), 2U);
+    ASSERT_EQ(data.features[0].contours.size(), 1U);
+    ASSERT_EQ(data.features[1].rings.size(), 1U);
+    ArcReport report;
+    const auto rings = approximate_by_arcs(data.features[0].contours, {.tolerance = 1e-9}, &report);
+    ASSERT_TRUE(rings.ok());
+    double furthest = 0;
+    for (const Vec2 point : data.features[1].rings[0].points) {
+      double nearest = 1e300;
+      for (const auto& edge : test::edges_of((*rings)[0]))
+        nearest = std::min(nearest, edge.distance_to(point));
+      furthest = std::max(furthest, nearest);
+    }
+    EXPECT_LE(furthest, report.tolerance + 3e-8) << radius;
+    const auto shape = build_shape(*rings);
+    ASSERT_TRUE(shape.ok());
+    const auto axis = compute(*shape);
+    ASSERT_TRUE(axis.ok());
+    EXPECT_TRUE(verify(*shape, *axis).passed);
+    EXPECT_EQ(std::ranges::count(axis->nodes, NodeKind::leaf, &Node::kind), 2)
+        << radius;  // an oval
+  }
 }
 
 // --- medial's own format -------------------------------------------------------------------------

@@ -169,6 +169,27 @@ TEST(VerifyArcsFinds, ACircleInsideOfTheCircle) {
   EXPECT_NE(joined(verify(m.shape, m.axis)).find("touched by no disk"), std::string::npos);
 }
 
+/// A circle's one disk touches all reflex joints of a circle of lobes, so that those count as
+/// touched; what it leaves of the lobes is found however little that is.
+TEST(VerifyArcsFinds, LobesThatOneDiskLeavesOut) {
+  for (const int count : {3, 5, 12})
+    for (const double excess : {1e-2, 1e-5, 1e-8, 1e-10}) {
+      std::vector<Vec2> points;
+      const double turn = 2 * std::numbers::pi / count;
+      for (int i = 0; i < count; ++i) points.push_back({std::cos(i * turn), std::sin(i * turn)});
+      const std::vector<double> bulges(points.size(), std::tan(turn / 4) * (1 + excess));
+      HandMadeArcs lobes(points, bulges);
+      lobes.node({0, 0}, 1, NodeKind::leaf);
+      const Certificate certificate = verify(lobes.shape, lobes.axis);
+      EXPECT_EQ(certificate.reflex_vertices, points.size());
+      EXPECT_EQ(certificate.reflex_without_contact, 0U);
+      EXPECT_FALSE(certificate.passed) << count << " lobes, " << excess;
+      const auto axis = compute(lobes.shape);
+      ASSERT_TRUE(axis.ok());
+      EXPECT_TRUE(verify(lobes.shape, *axis).passed) << count << " lobes, " << excess;
+    }
+}
+
 TEST(VerifyArcsFinds, TwoNodesOfACircle) {
   HandMadeArcs m = round_disk();
   m.node({0, 0}, 1, NodeKind::leaf);

@@ -8,7 +8,9 @@
 #include <numbers>
 
 #include "io/gdal_support.h"
+#include "io/path_builder.h"
 #include "io/place.h"
+#include "io/project_curves.h"
 
 namespace medial::io {
 
@@ -50,6 +52,32 @@ bool transform_points(OGRCoordinateTransformation& transformation, std::vector<V
   return true;
 }
 
+/// The image of a feature; false where a point has none. Edges stay straight between the images of
+/// their ends; arcs and curves become curves within `tolerance` of their image.
+bool transform_feature(OGRCoordinateTransformation& transformation, double tolerance,
+                       Feature& feature) {
+  const auto map = [&](std::vector<Vec2>& points) {
+    return transform_points(transformation, points);
+  };
+  const auto has_bulges = [](const auto& line) { return !line.bulges.empty(); };
+  for (const Ring& ring : feature.rings) {
+    if (!has_bulges(ring)) continue;
+    feature.contours.push_back(contour_of(ring.points, ring.bulges, true));
+    feature.contours.back().role = ring.role;
+  }
+  for (const Chain& chain : feature.chains)
+    if (has_bulges(chain))
+      feature.contours.push_back(contour_of(chain.points, chain.bulges, chain.closed));
+  std::erase_if(feature.rings, has_bulges);
+  std::erase_if(feature.chains, has_bulges);
+  const auto map_points = [&](auto& line) { return map(line.points); };
+  return std::ranges::all_of(feature.rings, map_points) &&
+         std::ranges::all_of(feature.chains, map_points) &&
+         std::ranges::all_of(feature.contours, [&](Contour& contour) {
+           return project_contour(map, tolerance, contour);
+         });
+}
+
 struct Direction {
   double x = 0, y = 0, z = 0;
 };
@@ -69,6 +97,12 @@ void for_each_point(const Dataset& dataset, Action action) {
   for (const Feature& feature : dataset.features) {
     for (const Ring& ring : feature.rings) {
       for (const Vec2 point : ring.points) action(point);
+    }
+    for (const Contour& contour : feature.contours) {
+      for (const Vec2 point : contour.points) action(point);
+    }
+    for (const Chain& chain : feature.chains) {
+      for (const Vec2 point : chain.points) action(point);
     }
   }
 }
@@ -143,14 +177,17 @@ Status project_to_local(Dataset& dataset) {
   const Transformer transformation = transformer(geographic, local);
   const auto failed = [&messages](std::size_t feature) {
     return Error{ErrorCode::unsupported,
-                 fmt::format("a point cannot be projected: {}", messages.failure()),
+                 fmt::format("a point or a curve cannot be projected: {}", messages.failure()),
                  in_feature(feature)};
   };
   if (!transformation) return failed(0);
+  // Curves' images are fitted to this share of the extent, in metres, or to what the rounding of
+  // degrees and of the projection leaves.
+  constexpr double relative_tolerance = 1e-12, least_tolerance = 2e-8, earth_radius = 6.371e6;
+  const double tolerance =
+      std::max(relative_tolerance * 2 * radians(extent.reach) * earth_radius, least_tolerance);
   for (std::size_t i = 0; i < dataset.features.size(); ++i) {
-    for (Ring& ring : dataset.features[i].rings) {
-      if (!transform_points(*transformation, ring.points)) return failed(i);
-    }
+    if (!transform_feature(*transformation, tolerance, dataset.features[i])) return failed(i);
   }
   set_crs(local, dataset);
   dataset.notes.push_back(fmt::format("projected to metres by the {} projection at {:.4f}, {:.4f}",

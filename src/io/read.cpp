@@ -247,11 +247,6 @@ Result<Dataset> finish(Dataset dataset, const ReadOptions& options) {
   if (dataset.features.empty())
     return Error{ErrorCode::empty, options.loose ? "there is nothing" : "there is no polygon", {}};
   if (options.project) {
-    const auto curved = std::ranges::find_if(dataset.features, has_curves);
-    if (curved != dataset.features.end()) {
-      return Error{ErrorCode::unsupported, "arcs and curves cannot be projected",
-                   in_feature(static_cast<std::uint64_t>(curved - dataset.features.begin()))};
-    }
     if (Status status = project_to_local(dataset); !status) return status.error();
   }
   if (options.repair != RepairRule::none) {
