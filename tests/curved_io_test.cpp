@@ -1,5 +1,4 @@
 // Curved inputs and outputs: SVG, DXF, fonts, curve geometries, medial's own contours and arcs.
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -611,7 +610,9 @@ TEST_F(CurvedIo, CurveGeometriesAreArcs) {
 /// says.
 TEST_F(CurvedIo, ProjectsCurves) {
   for (const double radius : {0.001, 0.3, 5.0}) {
-    std::string points;
+    std::ostringstream points, text;
+    points.precision(17);
+    text.precision(17);
     const Vec2 center{11, 48};
     const Contour circle = [&] {
       Contour contour;
@@ -623,14 +624,13 @@ TEST_F(CurvedIo, ProjectsCurves) {
     for (int i = 0; i <= 64; ++i) {
       const Vec2 point =
           test::point_of(circle, circle.pieces[i < 32 ? 0 : 1], i < 32 ? i / 32.0 : i / 32.0 - 1);
-      points += fmt::format("{}{:.17g} {:.17g}", i > 0 ? "," : "", point.x, point.y);
+      points << (i > 0 ? "," : "") << point.x << " " << point.y;
     }
-    const std::string text =
-        fmt::format("CURVEPOLYGON(CIRCULARSTRING({:.17g} 48,{:.17g} 48,{:.17g} 48))\nPOLYGON(({}))",
-                    center.x + radius, center.x - radius, center.x + radius, points);
+    text << "CURVEPOLYGON(CIRCULARSTRING(" << center.x + radius << " 48," << center.x - radius
+         << " 48," << center.x + radius << " 48))\nPOLYGON((" << points.str() << "))";
     ReadOptions options;
     options.project = true;
-    const Dataset data = read("round.wkt", text, options);
+    const Dataset data = read("round.wkt", text.str(), options);
     ASSERT_EQ(data.features.size(), 2U);
     ASSERT_EQ(data.features[0].contours.size(), 1U);
     ASSERT_EQ(data.features[1].rings.size(), 1U);
