@@ -82,13 +82,13 @@ void add_grid_switches(CLI::App& verb, Options& options) {
   constexpr char group[] = "Grids of pixels (--method ridge, brushfire)";
   CLI::Option* resolution = verb.add_option("--resolution", options.resolution,
                                             "The side of a pixel, in units of the input.")
-                                ->check(CLI::PositiveNumber.description(""))
+                                ->check(a_positive_number())
                                 ->option_text("H")
                                 ->group(group);
   verb.add_option("--pixels", options.pixels,
                   "Pixels along the longer side of the bounding box (default: 1024; of an\n"
                   "image its own pixels).")
-      ->check(CLI::PositiveNumber.description(""))
+      ->check(a_positive_number())
       ->excludes(resolution)
       ->option_text("N")
       ->group(group);
@@ -139,26 +139,26 @@ void add_potential_switches(CLI::App& verb, PotentialOptions& options) {
                   "Of the force lines that potential follows first (default: the order, at most\n"
                   "24). 1 is the paper's.")
       ->option_text("N");
-  verb.add_option_function<std::vector<double>>(
-          "--from",
-          [&options](const std::vector<double>& xy) {
-            options.from = Vec2{xy[0], xy[1]};
-          },
-          "Potential: only the branch that the force leads to from here.")
-      ->delimiter(',')
-      ->expected(2)
+  add_list_switch(
+      verb, "--from", 2,
+      [&options](const std::vector<double>& xy) {
+        options.from = Vec2{xy[0], xy[1]};
+      },
+      "Potential: only the branch that the force leads to from this place, in units\n"
+      "of the input.")
       ->option_text("X,Y");
-  verb.add_option_function<std::vector<double>>(
-          "--within",
-          [&options](const std::vector<double>& box) {
-            options.within = Box{{box[0], box[1]}, {box[2], box[3]}};
-          },
-          "Potential: only what lies in this box.")
-      ->delimiter(',')
-      ->expected(4)
+  add_list_switch(
+      verb, "--within", 4,
+      [&options](const std::vector<double>& box) {
+        options.within = Box{{box[0], box[1]}, {box[2], box[3]}};
+      },
+      "Potential: only what lies in this box: low x, low y, high x, high y, in units\n"
+      "of the input.")
       ->option_text("X,Y,X,Y");
-  verb.add_option("--step", options.step,
-                  "Of potential, as a share of the shape's size (default: 0.01).")
+  verb.add_option(
+          "--step", options.step,
+          "Of potential: from point to point, as a share of the longer side of the bounding\n"
+          "box (default: 0.01).")
       ->option_text("SHARE");
 }
 
@@ -172,7 +172,7 @@ void add_curve_switches(CLI::App& verb, AxisSwitches& switches) {
   verb.add_option("--fit", switches.fit,
                   "For curve-axis: a smooth curve through the corners of the boundary, within\n"
                   "this distance of it, in units of the input.")
-      ->check(CLI::PositiveNumber.description(""))
+      ->check(a_positive_number())
       ->option_text("D");
 }
 
@@ -199,7 +199,7 @@ Verb make_axis_verb(CLI::App& program) {
   verb->add_option("--margin", switches->options.margin,
                    "How far that frame is away from the shape's bounding box, in units of the\n"
                    "input (default: half of the box's longer side).")
-      ->check(CLI::PositiveNumber.description(""))
+      ->check(a_positive_number())
       ->option_text("D");
   add_grid_switches(*verb, switches->options);
   add_potential_switches(*verb, switches->options.potential);

@@ -413,12 +413,12 @@ Verb make_bench_verb(CLI::App& program) {
   biarc
       ->add_option("--rounds", switches->biarc.rounds,
                    "The least time of so many rounds counts (default: 5).")
-      ->check(CLI::Range(1, 1000).description(""))
+      ->check(in_range(1, 1000, true))
       ->option_text("N");
   biarc
       ->add_option("--tolerances", switches->biarc.finest,
                    "How many tolerances, from 1e-3 down (default: 9).")
-      ->check(CLI::Range(1, 9).description(""))
+      ->check(in_range(1, 9, true))
       ->option_text("N");
   biarc
       ->add_option("--published-limit", switches->biarc.published_limit,

@@ -328,11 +328,11 @@ Verb add_lee_bench(CLI::App& bench) {
       ->check(a_name())
       ->option_text("FILE");
   lee->add_option("--largest", switches->largest, "Shapes of 1e2 to 10^N vertices (default: 6).")
-      ->check(CLI::Range(2, 7).description(""))
+      ->check(in_range(2, 7, true))
       ->option_text("N");
   lee->add_option("--rounds", switches->rounds,
                   "The least time of so many rounds counts (default: 3).")
-      ->check(CLI::Range(1, 1000).description(""))
+      ->check(in_range(1, 1000, true))
       ->option_text("N");
   lee->add_option("--figures", switches->figures,
                   "Only write the paper's figures into this directory, as SVG.")

@@ -226,13 +226,13 @@ Verb add_ridge_bench(CLI::App& bench) {
   ridge
       ->add_option("--rounds", switches->options.rounds,
                    "The least time of so many rounds counts (default: 5).")
-      ->check(CLI::Range(1, 1000).description(""))
+      ->check(in_range(1, 1000, true))
       ->option_text("N");
   ridge
       ->add_option("--per-unit", switches->options.per_unit,
                    "Pixels along a unit of length (default: 20); most shapes are about six\n"
                    "units wide.")
-      ->check(CLI::Range(2.0, 1000.0).description(""))
+      ->check(in_range(2.0, 1000.0, true))
       ->option_text("N");
   ridge->add_flag("--quick", switches->options.quick, "One round of few shapes.");
   ridge->add_flag("--quiet,-q", switches->quiet, "No progress on standard error.");

@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "cli/common.h"
+#include "cli/costs.h"
 #include "cli/pipeline.h"
 #include "cli/terminal.h"
 #include "medial/io/carve.h"
@@ -38,28 +39,20 @@ Status tell(const io::CarveFile& file, const CarveSwitches& switches, double sec
     unordered += c.travel_unordered;
     deepest = std::max(deepest, c.deepest);
   }
-  if (switches.common.json) {
-    Json object{{"input", switches.input.path},
-                {"features", file.items.size()},
-                {"paths", paths},
-                {"moves", moves},
-                {"deepest", deepest},
-                {"cut_length", cut},
-                {"travel_length", travel},
-                {"travel_unordered", unordered}};
-    if (switches.common.stats)
-      object.update(Json{{"seconds", seconds}, {"peak_bytes", peak_bytes()}});
-    return print(object);
-  }
+  const Json object{{"input", switches.input.path},
+                    {"features", file.items.size()},
+                    {"paths", paths},
+                    {"moves", moves},
+                    {"deepest", deepest},
+                    {"cut_length", cut},
+                    {"travel_length", travel},
+                    {"travel_unordered", unordered}};
   const std::string line = fmt::format(
       "{}: {}, {} of {}, deepest {:.6g}; cut {:.6g}, travel {:.6g} (unordered {:.6g}); {:.3g} s\n",
       switches.input.path, counted(file.items.size(), "feature"), counted(paths, "path"),
       counted(moves, "move"), deepest, cut, travel, unordered, seconds);
-  if (switches.common.stats)
-    fmt::print(stderr, "{}", table(Json{{"seconds", seconds}, {"peak_bytes", peak_bytes()}}));
-  if (switches.output.empty()) return print(line);
-  if (error_is_terminal() && !switches.common.quiet) fmt::print(stderr, "{}", line);
-  return success();
+  return tell(switches.common, switches.output, object,
+              Json{{"seconds", seconds}, {"peak_bytes", peak_bytes()}}, line);
 }
 
 Result<int> run_carve(const CarveSwitches& switches) {
@@ -75,23 +68,15 @@ Result<int> run_carve(const CarveSwitches& switches) {
   io::CarveFile file;
   file.y_down = shapes->y_down;
   file.items.resize(shapes->shapes.size());
-  Status computed = for_each_feature(
-      weights_of(shapes->shapes), common.threads, [&](std::size_t i, int threads) -> Status {
-        Options options;
-        options.tolerance = common.tolerance;
-        options.corner_angle = common.corner_angle;
-        options.threads = threads;
-        const auto one = [&]() -> Result<Carving> {
-          auto axis = compute(shapes->shapes[i], options);
-          if (!axis) return std::move(axis).error();
-          auto carving = carve(*axis, scaled(switches.carve, 1 / switches.scale));
-          if (!carving) return carving;
-          return scaled(std::move(carving).value(), switches.scale);
-        };
-        auto carving = one();
-        if (!carving) return at_feature(std::move(carving).error(), input.path, i);
+  Status computed = for_each_shape(
+      shapes->shapes, input.path, common, [&](std::size_t i, const Options& options) -> Status {
+        auto axis = compute(shapes->shapes[i], options);
+        if (!axis) return std::move(axis).error();
+        auto carving = carve(*axis, scaled(switches.carve, 1 / switches.scale));
+        if (!carving) return std::move(carving).error();
         for (Vec2& point : shapes->shapes[i].points) point = switches.scale * point;
-        file.items[i] = {std::move(shapes->shapes[i]), std::move(carving).value()};
+        file.items[i] = {std::move(shapes->shapes[i]),
+                         scaled(std::move(carving).value(), switches.scale)};
         return success();
       });
   if (!computed) return std::move(computed).error();
@@ -99,6 +84,7 @@ Result<int> run_carve(const CarveSwitches& switches) {
   if (!switches.output.empty()) {
     io::MachineOptions machine = switches.machine;
     machine.chord = switches.carve.chord;
+    const Activity shown("writing", switches.output);
     Status written =
         io::write_carving(switches.output, switches.format, file, machine, switches.write);
     if (!written) return std::move(written).error();
@@ -116,9 +102,7 @@ Verb make_carve_verb(CLI::App& program) {
       "carve", "Plan tool paths: V-carving along the axis, pockets along offsets.");
   add_input_switches(*verb, switches->input);
   const auto length = [&](const char* name, double& value, const char* help, const char* text) {
-    return verb->add_option(name, value, help)
-        ->check(CLI::PositiveNumber.description(""))
-        ->option_text(text);
+    return verb->add_option(name, value, help)->check(a_positive_number())->option_text(text);
   };
   verb->add_option("--angle", switches->carve.angle,
                    "Between the sides of the V-shaped tool, in degrees, in [1, 170]; or 0 for an\n"
@@ -168,11 +152,7 @@ Verb make_carve_verb(CLI::App& program) {
       ->option_text("OUTPUT");
   verb->add_option("--format", switches->format, "The format of -o -, for example nc.")
       ->option_text("NAME");
-  verb->add_option("--width", switches->write.width,
-                   "Width of a picture, in pixels or points (default: 1024).")
-      ->check(in_range(16, 8000))
-      ->option_text("W")
-      ->group("Pictures");
+  add_width_switch(*verb, switches->write.width);
   add_common_switches(*verb, switches->common);
   verb->footer(
       "The tool's point follows the axis at the depth where the tool is as wide as the\n"

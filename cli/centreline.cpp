@@ -271,6 +271,7 @@ Result<int> run_centreline(const CentrelineSwitches& switches) {
   if (!switches.output.empty()) {
     io::WriteOptions write = switches.write;
     write.chord = common.chord;
+    const Activity shown("writing", switches.output);
     Status written = io::write_axes(switches.output, switches.format, axes->native, write);
     if (!written) return std::move(written).error();
   }
@@ -307,7 +308,7 @@ Verb make_centreline_verb(CLI::App& program) {
       ->option_text("RADII");
   verb->add_option("--clearance", switches->clearance,
                    "Instead of a line: all of the axis where a disk of this radius has room.")
-      ->check(CLI::PositiveNumber.description(""))
+      ->check(a_positive_number())
       ->excludes("--from")
       ->excludes("--to")
       ->excludes("--widest")
@@ -316,7 +317,7 @@ Verb make_centreline_verb(CLI::App& program) {
                    "Instead: parts narrower than this become lines, the rest stays polygons;\n"
                    "as layers, or as shapes with lines in .json. Formats:\n" +
                        std::string(collapse_formats))
-      ->check(CLI::PositiveNumber.description(""))
+      ->check(a_positive_number())
       ->excludes("--from")
       ->excludes("--to")
       ->excludes("--widest")
@@ -328,7 +329,7 @@ Verb make_centreline_verb(CLI::App& program) {
   verb->add_option("--margin", switches->options.margin,
                    "How far that frame is away from the shape's bounding box, in units of the\n"
                    "input (default: half of the box's longer side).")
-      ->check(CLI::PositiveNumber.description(""))
+      ->check(a_positive_number())
       ->option_text("D");
   add_picture_switches(*verb, switches->write);
   add_common_switches(*verb, switches->common);

@@ -12,6 +12,7 @@
 #include <cstring>
 #include <filesystem>
 #include <limits>
+#include <optional>
 #include <system_error>
 
 namespace medial::cli {
@@ -102,7 +103,7 @@ void add_shape_switches(CLI::App& verb, InputSwitches& input) {
             input.arcs.relative = false;
           },
           "The same in units of the input.")
-      ->check(CLI::PositiveNumber.description(""))
+      ->check(a_positive_number())
       ->excludes("--arc-tolerance")
       ->option_text("T")
       ->group(group);
@@ -155,7 +156,8 @@ void add_input_switches(CLI::App& verb, InputSwitches& input) {
       ->each([&input](const std::string& rule) { input.read.repair = rules.at(rule); });
   verb.add_flag("--project", input.read.project,
                 "Longitudes and latitudes: compute in a fitting local projection, in\n"
-                "metres.");
+                "metres. Formats of GIS, .wkt and .csv get longitudes and latitudes again;\n"
+                "radii and lengths stay in metres.");
   add_image_switches(verb, input.read.image);
   verb.add_flag("--smooth-contour", input.read.smooth_contour,
                 "Of images: a smooth curve within half a pixel instead of the pixels'\n"
@@ -209,15 +211,90 @@ void add_common_switches(CLI::App& verb, CommonSwitches& common) {
       ->group(group);
 }
 
-CLI::Validator in_range(double low, double high) {
+CLI::Validator in_range(double low, double high, bool quiet) {
   const std::string range = fmt::format("[{:g} - {:g}]", low, high);
   return CLI::Validator(
       [=](const std::string& text) {
         double value = 0;
-        const bool inside = CLI::detail::lexical_cast(text, value) && value >= low && value <= high;
-        return inside ? std::string() : fmt::format("{} is not in {}", text, range);
+        if (!CLI::detail::lexical_cast(text, value)) return fmt::format("'{}' is no number", text);
+        return value >= low && value <= high ? std::string()
+                                             : fmt::format("{} is not in {}", text, range);
       },
-      range);
+      quiet ? std::string() : range);
+}
+
+CLI::Validator a_positive_number() {
+  return CLI::Validator(
+      [](const std::string& text) {
+        double value = 0;
+        if (!CLI::detail::lexical_cast(text, value)) return fmt::format("'{}' is no number", text);
+        return value > 0 && std::isfinite(value)
+                   ? std::string()
+                   : fmt::format("{} is no finite number above 0", text);
+      },
+      "");
+}
+
+namespace {
+
+/// Numbers with commas between them; nothing where there is an empty one, or what is no number.
+std::optional<std::vector<double>> numbers_of(const std::string& text) {
+  std::vector<double> numbers;
+  for (std::size_t at = 0;;) {
+    const std::size_t comma = std::min(text.find(',', at), text.size());
+    double value = 0;
+    const std::string word = CLI::detail::trim_copy(text.substr(at, comma - at));
+    if (word.empty() || !CLI::detail::lexical_cast(word, value)) return std::nullopt;
+    numbers.push_back(value);
+    if (comma == text.size()) return numbers;
+    at = comma + 1;
+  }
+}
+
+}  // namespace
+
+CLI::Option* add_list_switch(CLI::App& verb, const std::string& name, std::size_t count,
+                             const std::function<void(const std::vector<double>&)>& take,
+                             const std::string& help) {
+  const auto check = [count](const std::string& text) {
+    const auto numbers = numbers_of(text);
+    const std::string wanted =
+        count == 0 ? std::string("numbers") : fmt::format("{} numbers", count);
+    if (!numbers || (count > 0 && numbers->size() != count))
+      return fmt::format("'{}' is not {} with commas between them", text, wanted);
+    return std::string();
+  };
+  return verb
+      .add_option_function<std::string>(
+          name, [take](const std::string& text) { take(*numbers_of(text)); }, help)
+      ->check(CLI::Validator(check, ""));
+}
+
+std::string explain(const CLI::ParseError& error, const CLI::App& verb) {
+  const std::string text = error.what();
+  const std::string name = text.substr(0, text.find(':'));
+  if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
+    std::vector<std::string> extra = verb.remaining(true);
+    // Those without a dash are told in the reverse order.
+    const auto unknown = std::ranges::find_if(
+        extra, [](const std::string& word) { return word.size() > 1 && word[0] == '-'; });
+    if (unknown != extra.end()) return "no such switch: " + *unknown;
+    return extra.empty() ? text : "one word too many: " + extra.back();
+  }
+  if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr &&
+      text.find(" required ") != std::string::npos)
+    return name + " needs a value";
+  if (dynamic_cast<const CLI::ConversionError*>(&error) != nullptr) {
+    const std::size_t equals = text.find(" = ");
+    const std::size_t begin = text.find(": ");
+    if (equals == std::string::npos || begin == std::string::npos) return text;
+    const std::string option = text.substr(begin + 2, equals - begin - 2);
+    const CLI::Option* found = verb.get_option_no_throw(option);
+    const bool whole = found != nullptr && found->get_type_name().find("INT") != std::string::npos;
+    return fmt::format("{}: '{}' is no {}", option, text.substr(equals + 3),
+                       whole ? "whole number that fits" : "number");
+  }
+  return text;
 }
 
 CLI::Validator a_name() {
@@ -239,13 +316,18 @@ CLI::Validator a_whole_number() {
       "");
 }
 
-void add_picture_switches(CLI::App& verb, io::WriteOptions& write) {
-  verb.add_option("--width", write.width,
-                  "Width of a picture, in pixels (.png) or points of 1/72 inch\n"
-                  "(.svg .pdf .ps) (default: 1024).")
+void add_width_switch(CLI::App& verb, double& width) {
+  verb.add_option("--width", width,
+                  fmt::format("Width of a picture, in pixels (.png) or points of 1/72 inch\n"
+                              "(.svg .pdf .ps) (default: {:g}).",
+                              width))
       ->check(in_range(narrowest_picture, widest_picture))
       ->option_text("W")
       ->group("Pictures");
+}
+
+void add_picture_switches(CLI::App& verb, io::WriteOptions& write) {
+  add_width_switch(verb, write.width);
   verb.add_option("--disks", write.disks,
                   "Draw about N maximal disks, spread over the axis (default: 0).")
       ->check(in_range(0, most_disks))

@@ -77,9 +77,19 @@ void add_common_switches(CLI::App& verb, CommonSwitches& common);
 /// --threshold and --invert.
 void add_image_switches(CLI::App& verb, io::ImageOptions& options);
 void add_picture_switches(CLI::App& verb, io::WriteOptions& write);
+/// --width alone. Its help tells the default, which is what `width` holds.
+void add_width_switch(CLI::App& verb, double& width);
 
-/// A number in [low, high]; NaN is in no range.
-CLI::Validator in_range(double low, double high);
+/// A number in [low, high]; NaN is in no range. Help texts show the range unless `quiet`.
+CLI::Validator in_range(double low, double high, bool quiet = false);
+/// A finite number above 0.
+CLI::Validator a_positive_number();
+/// Adds a switch for numbers with commas between them: `count` of them, or for 0 one or more.
+CLI::Option* add_list_switch(CLI::App& verb, const std::string& name, std::size_t count,
+                             const std::function<void(const std::vector<double>&)>& take,
+                             const std::string& help);
+/// What is wrong with a command line, in words for who typed it.
+std::string explain(const CLI::ParseError& error, const CLI::App& verb);
 /// What the name of an output must be: not empty.
 CLI::Validator a_name();
 /// Digits that make a 64-bit number; CLI11 by itself takes -1 for the largest.

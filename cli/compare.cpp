@@ -37,6 +37,7 @@ struct CompareSwitches {
 struct Row {
   std::string method;
   std::string refused;  ///< why there is nothing else
+  bool failed = false;  ///< no axis of an input that the method takes, or one that is not verified
   double seconds = 0;
   std::uint64_t nodes = 0, branches = 0, parts = 0, cycles = 0;
   AxisDistance distance;
@@ -73,8 +74,9 @@ Result<MedialAxis> compute_by(const std::string& method, const Shape& shape,
   return compute(shape, options);
 }
 
+/// One method's axis beside the exact one. With `lenient` it may refuse the kind of input.
 Row measure(const Shape& shape, const std::vector<Contour>& contours, const MedialAxis& exact,
-            const std::string& method, const CommonSwitches& common) {
+            const std::string& method, const CommonSwitches& common, bool lenient) {
   Row row;
   row.method = method;
   const Stopwatch watch;
@@ -82,6 +84,7 @@ Row measure(const Shape& shape, const std::vector<Contour>& contours, const Medi
   row.seconds = watch.seconds();
   if (!axis) {
     row.refused = axis.error().text;
+    row.failed = axis.error().code != ErrorCode::unsupported || !lenient;
     return row;
   }
   row.axis = std::move(axis).value();
@@ -96,6 +99,7 @@ Row measure(const Shape& shape, const std::vector<Contour>& contours, const Medi
   row.parts = certificate.graph_parts;
   row.cycles = certificate.cycles;
   row.passed = certificate.passed;
+  row.failed = !row.passed;
   if (!certificate.failures.empty()) row.failure = certificate.failures.front();
   return row;
 }
@@ -191,6 +195,7 @@ Result<int> run_compare(const CompareSwitches& switches) {
   if (fit > 0)
     if (Status done = smooth_boundaries(*file, fit, input); !done) return std::move(done).error();
   const std::vector<Contour> nothing;
+  bool failed = false;
   print_notes(*file, input, common);
   const Stopwatch comparing;
   Json features = Json::array();
@@ -205,9 +210,10 @@ Result<int> run_compare(const CompareSwitches& switches) {
     std::vector<Row> rows;
     for (const std::string& method : *methods)
       rows.push_back(measure(shape, i < file->contours.size() ? file->contours[i] : nothing, *exact,
-                             method, common));
+                             method, common, names == "all"));
     if (file->shapes.size() > 1) text += fmt::format("feature {}\n", i);
     text += table_of(rows);
+    for (const Row& row : rows) failed = failed || row.failed;
     Json list = Json::array();
     for (const Row& row : rows) list.push_back(to_json(row));
     features.push_back(std::move(list));
@@ -224,7 +230,7 @@ Result<int> run_compare(const CompareSwitches& switches) {
   Status printed = common.json ? print(object) : print(text);
   if (!printed) return std::move(printed).error();
   print_costs(common, costs);
-  return exit_success;
+  return failed ? exit_failed_verdict : exit_success;
 }
 
 }  // namespace
@@ -245,13 +251,14 @@ Verb make_compare_verb(CLI::App& program) {
           "--fit", switches->fit,
           "First replace every boundary by a smooth curve through its corners and within D\n"
           "of it, as curve-axis wants it.")
-      ->check(CLI::PositiveNumber.description(""))
+      ->check(a_positive_number())
       ->option_text("D");
   add_common_switches(*verb, switches->common);
   verb->footer(
       "Each method runs on one thread. Distances are to the axis of the method disks, by\n"
       "samples; Hausdorff is the larger of both directions. A method that does not take\n"
-      "the input says why.\n"
+      "the input says why. Exit status 1: an axis is not verified, a method failed, or\n"
+      "one that --methods names does not take the input.\n"
       "\n"
       "Examples:\n"
       "  medial compare plan.wkt\n"

@@ -19,4 +19,16 @@ void print_costs(const CommonSwitches& common, const Json& costs) {
   if (common.stats && !common.json) fmt::print(stderr, "{}", table(costs));
 }
 
+Status tell(const CommonSwitches& common, const std::string& output, Json object, const Json& costs,
+            const std::string& line) {
+  print_costs(common, costs);
+  if (common.json) {
+    if (common.stats) object.update(costs);
+    return print(object);
+  }
+  if (output.empty()) return print(line);
+  if (error_is_terminal() && !common.quiet) fmt::print(stderr, "{}", line);
+  return success();
+}
+
 }  // namespace medial::cli

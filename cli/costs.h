@@ -11,4 +11,10 @@ Json costs_of(const CommonSwitches& common, Json seconds);
 /// they are members of its object.
 void print_costs(const CommonSwitches& common, const Json& costs);
 
+/// The end of a run of a verb that writes one file: tells what it made, as the switches ask. With
+/// --json that is `object`, with the costs; otherwise `line`, on standard output where nothing else
+/// was written, or for who sits at a terminal.
+Status tell(const CommonSwitches& common, const std::string& output, Json object, const Json& costs,
+            const std::string& line);
+
 }  // namespace medial::cli

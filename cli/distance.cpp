@@ -112,14 +112,14 @@ Verb make_distance_verb(CLI::App& program) {
   verb->add_option("--scale", switches->format.scale,
                    "Write so many times the distance, in formats of 16 bits rounded to the\n"
                    "nearest whole number (default: 1).")
-      ->check(CLI::Range(1e-6, 1e6).description(""))
+      ->check(in_range(1e-6, 1e6, true))
       ->option_text("S");
   verb->add_flag("--cracks", switches->cracks,
                  "Measure to the boundary of the pixels' squares, not to the centre of\n"
                  "the nearest background pixel.");
   verb->add_flag("--open", switches->open, "What lies outside of the image is no background.");
   verb->add_option("--threads", switches->threads, "Threads to use (default: 0, all).")
-      ->check(CLI::Range(0, 1024).description(""))
+      ->check(in_range(0, 1024, true))
       ->option_text("N");
   verb->add_flag("--stats", switches->stats, "Tell times, counts and memory.");
   verb->add_flag("--json", switches->json, "Print one JSON object on standard output.");

@@ -132,6 +132,7 @@ Result<int> run_features(const FeatureSwitches& switches) {
   if (!output.empty()) {
     io::FeatureWriteOptions own = switches.write;
     own.write.chord = common.chord;
+    const Activity shown("writing", output);
     Status written = io::write_features(output, format, axes->native, features, own);
     if (!written) return std::move(written).error();
   }

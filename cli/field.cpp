@@ -66,15 +66,13 @@ Verb make_field_verb(CLI::App& program) {
       ->check(a_name())
       ->option_text("PICTURE REQUIRED");
   verb->add_option("--order", switches->order, "The n of the potential 1 / r^n (default: 1).")
-      ->check(CLI::Range(1.0, 256.0).description(""))
+      ->check(in_range(1.0, 256.0, true))
       ->option_text("N");
   verb->add_option("--lines", switches->picture.lines,
                    "Force lines begin on a grid, so many along the longer side (default: 40).")
-      ->check(CLI::Range(0, 1000).description(""))
+      ->check(in_range(0, 1000, true))
       ->option_text("N");
-  verb->add_option("--width", switches->picture.width, "Of the picture, in pixels (default: 800).")
-      ->check(CLI::Range(16, 8000).description(""))
-      ->option_text("PIXELS");
+  add_width_switch(*verb, switches->picture.width);
   verb->add_flag("!--no-brightness", switches->picture.brightness, "Draw the lines only.");
   add_common_switches(*verb, switches->common);
   verb->footer(

@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "cli/terminal.h"
 #include "medial/io/read.h"
 
 namespace medial::cli {
@@ -12,6 +13,7 @@ Result<LooseFile> load_chains(const InputSwitches& input, int threads) {
   io::ReadOptions read = input.read;
   read.loose = true;
   read.repair = io::RepairRule::none;
+  const Activity shown("reading", input.path);
   auto dataset = input.text.empty() ? io::read_dataset(input.path, read)
                                     : io::read_text(input.text, input.path);
   if (!dataset) return std::move(dataset).error();

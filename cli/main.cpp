@@ -44,8 +44,9 @@ int run(int argc, char** argv, bool json) {
   program.footer(
       "`medial VERB --help` tells each verb's switches, with examples.\n"
       "\n"
-      "Exit status: 0 done; 1 `verify` or `legal` refused the axis; 2 an error, told in one line\n"
-      "on standard error as `medial: FILE: feature F, ring R, vertex V at (X, Y): what\n"
+      "Exit status: 0 done; 1 `verify`, `legal` or `compare` refused an axis; 2 an error, told\n"
+      "in one line on standard error as `medial: FILE: feature F, ring R, vertex V at (X, Y): "
+      "what\n"
       "is wrong [code]`. Features, rings and vertices count from 0. Nothing is written\n"
       "then, and an interrupted run leaves no partial file.");
   const std::array verbs = {
@@ -86,7 +87,7 @@ int run(int argc, char** argv, bool json) {
           json, "; see medial --help");
     }
     const std::string hint = "; see medial " + chosen.back()->get_name() + " --help";
-    return report_error(invalid_option(parse_error.what()), json, hint);
+    return report_error(invalid_option(explain(parse_error, *chosen.back())), json, hint);
   }
   const auto verb = std::find_if(verbs.begin(), verbs.end(),
                                  [](const Verb& candidate) { return candidate.app->parsed(); });
@@ -103,6 +104,10 @@ int main(int argc, char** argv) {
   const bool json =
       std::any_of(argv, argv + argc, [](const char* word) { return !std::strcmp(word, "--json"); });
   cli::install_signal_handlers();
+  if (std::any_of(argv, argv + argc, [](const char* word) {
+        return !std::strcmp(word, "--quiet") || !std::strcmp(word, "-q");
+      }))
+    cli::be_quiet();
   Error error{ErrorCode::internal, "something unexpected happened", {}};
   try {
     return cli::run(argc, argv, json);

@@ -16,6 +16,7 @@
 #include "cli/plot.h"
 #include "cli/terminal.h"
 #include "medial/io/layers.h"
+#include "medial/io/projection.h"
 #include "medial/query.h"
 
 namespace medial::cli {
@@ -70,8 +71,7 @@ std::vector<double> even_lengths(double whole, std::uint64_t count) {
 std::vector<double> transect_lengths(double whole, const MeasureSwitches& switches) {
   std::vector<double> at;
   if (switches.spacing > 0) {
-    const double count =
-        std::min(std::floor(whole / switches.spacing), static_cast<double>(most_samples));
+    const double count = std::floor(whole / switches.spacing);
     const double first = 0.5 * (whole - count * switches.spacing);
     for (double i = 0; i <= count; ++i) at.push_back(first + i * switches.spacing);
   } else {
@@ -101,6 +101,11 @@ Result<Measured> measure(const io::NativeItem& item, const std::vector<AxisPath>
   Measured out;
   AxisPath all;
   for (const AxisPath& path : paths) {
+    if (switches.spacing > 0 && path.length / switches.spacing > static_cast<double>(most_samples))
+      return Error{
+          ErrorCode::too_large,
+          fmt::format("more than {} transects on a line: the spacing is too small", most_samples),
+          {}};
     Line& line = out.lines.emplace_back();
     line.path = path;
     line.profile = widths_along(item.axis, path, even_lengths(path.length, switches.samples));
@@ -238,15 +243,24 @@ std::string describe(const std::vector<Measured>& all) {
 }
 
 /// feature,line,along,x,y,width,span and both feet.
-std::string profile_csv(const std::vector<Measured>& all) {
+/// Places of a local projection become longitudes and latitudes again; widths stay in metres.
+Result<std::string> profile_csv(const std::vector<Measured>& all, const std::string& crs_wkt) {
+  std::optional<io::BackToGeographic> back;
+  if (io::is_local_projection(crs_wkt)) {
+    auto made = io::BackToGeographic::make(crs_wkt);
+    if (!made) return std::move(made).error();
+    back = std::move(made).value();
+  }
   std::string text = "feature,line,along,x,y,width,span,left_x,left_y,right_x,right_y\n";
   for (std::size_t i = 0; i < all.size(); ++i) {
     for (std::size_t k = 0; k < all[i].lines.size(); ++k) {
       for (const LocalWidth& width : all[i].lines[k].profile) {
+        std::vector<Vec2> places{width.disk.center, width.feet[0], width.feet[1]};
+        if (back)
+          if (Status placed = back->transform(places); !placed) return std::move(placed).error();
         fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{},{},{},{}\n", i, k,
-                       width.along, width.disk.center.x, width.disk.center.y, width.width(),
-                       width.span(), width.feet[0].x, width.feet[0].y, width.feet[1].x,
-                       width.feet[1].y);
+                       width.along, places[0].x, places[0].y, width.width(), width.span(),
+                       places[1].x, places[1].y, places[2].x, places[2].y);
       }
     }
   }
@@ -321,8 +335,9 @@ Status write_output(io::NativeFile& file, const std::vector<Measured>& all,
                     const MeasureSwitches& switches) {
   if (switches.output.empty()) return success();
   if (switches.format == "csv" || switches.output.ends_with(".csv")) {
-    if (switches.output == "-") return print(profile_csv(all));
-    return io::write_text(switches.output, profile_csv(all));
+    const auto text = profile_csv(all, file.crs_wkt);
+    if (!text) return text.error();
+    return switches.output == "-" ? print(*text) : io::write_text(switches.output, *text);
   }
   const io::LayerFile layers = layers_of(file, all, switches);
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -420,36 +435,32 @@ Verb make_measure_verb(CLI::App& program) {
       ->option_text("FILE");
   verb->add_option("--samples", switches->samples,
                    "Steps of a width profile (default: 200), from end to end of the line.")
-      ->check(CLI::Range(std::uint64_t{1}, most_samples).description(""))
+      ->check(in_range(1, most_samples, true))
       ->option_text("N");
   CLI::Option* transects = verb->add_option("--transects", switches->transects,
                                             "So many transects along each line, from foot to foot.")
-                               ->check(CLI::Range(std::uint64_t{1}, most_samples).description(""))
+                               ->check(in_range(1, most_samples, true))
                                ->option_text("N");
   verb->add_option("--spacing", switches->spacing,
                    "Transects at this distance from each other, in units of the input.")
-      ->check(CLI::PositiveNumber.description(""))
+      ->check(a_positive_number())
       ->excludes(transects)
       ->option_text("D");
   verb->add_option("--necks", switches->necks,
                    "So many necks, those first that open most on both sides.")
-      ->check(CLI::Range(std::uint64_t{1}, most_samples).description(""))
+      ->check(in_range(1, most_samples, true))
       ->option_text("K");
   verb->add_option("--widening", switches->widening,
                    "A neck opens on both sides to so many times its width (default: 1.1).")
       ->check(in_range(1 + 1e-9, 1e9))
       ->option_text("FACTOR");
   verb->add_option("--disks", switches->disks,
-                   "The so many largest disks inside the shape that do not overlap, one after\n"
-                   "another.")
-      ->check(CLI::Range(std::uint64_t{1}, most_disks).description(""))
+                   "So many disks, the largest inside the shape that do not overlap, one after\n"
+                   "another: they are measured, not only drawn.")
+      ->check(in_range(1, most_disks, true))
       ->option_text("K");
   add_path_switches(*verb, switches->path);
-  verb->add_option("--width", switches->write.width,
-                   "Width of a picture in pixels or points (default: 1024).")
-      ->check(CLI::Range(16.0, 8000.0).description(""))
-      ->option_text("W")
-      ->group("Pictures");
+  add_width_switch(*verb, switches->write.width);
   add_common_switches(*verb, switches->common);
   verb->footer(
       "Widths are diameters of maximal disks along the centre line (medial centreline).\n"

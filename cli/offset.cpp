@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "cli/common.h"
+#include "cli/costs.h"
 #include "cli/loose.h"
 #include "cli/pipeline.h"
 #include "cli/terminal.h"
@@ -57,7 +58,7 @@ Result<Offsets> offset_one(const Shape& shape, const OffsetSwitches& switches,
 
 Status tell(const io::OffsetFile& file, const OffsetSwitches& switches, double seconds) {
   std::uint64_t regions = 0, rings = 0, edges = 0;
-  double seconds_axis = 0, seconds_curves = 0, total = 0, deepest = 0;
+  double seconds_axis = 0, seconds_curves = 0, total = 0;
   for (const io::OffsetItem& item : file.items) {
     seconds_axis += item.offsets.seconds_axis;
     seconds_curves += item.offsets.seconds_curves;
@@ -65,34 +66,23 @@ Status tell(const io::OffsetFile& file, const OffsetSwitches& switches, double s
     for (const OffsetRegion& region : item.offsets.regions) {
       rings += region.rings.size();
       total += length(region);
-      deepest = std::max(deepest, region.clearance);
       for (const Ring& ring : region.rings) edges += ring.points.size();
     }
   }
-  if (switches.common.json) {
-    Json object{{"input", switches.input.path},
-                {"features", file.items.size()},
-                {"regions", regions},
-                {"rings", rings},
-                {"edges", edges},
-                {"length", total}};
-    if (switches.common.stats)
-      object.update(
-          Json{{"seconds", {{"axis", seconds_axis}, {"curves", seconds_curves}, {"all", seconds}}},
-               {"peak_bytes", peak_bytes()}});
-    return print(object);
-  }
+  const Json object{{"input", switches.input.path},
+                    {"features", file.items.size()},
+                    {"regions", regions},
+                    {"rings", rings},
+                    {"edges", edges},
+                    {"length", total}};
+  const Json costs{
+      {"seconds", {{"axis", seconds_axis}, {"curves", seconds_curves}, {"all", seconds}}},
+      {"peak_bytes", peak_bytes()}};
   const std::string line =
       fmt::format("{}: {}, {}, {} of {}, length {:.6g}; {:.3g} s\n", switches.input.path,
                   counted(file.items.size(), "feature"), counted(regions, "region"),
                   counted(rings, "ring"), counted(edges, "edge"), total, seconds);
-  if (switches.common.stats)
-    fmt::print(stderr, "{}",
-               table(Json{{"seconds", {{"axis", seconds_axis}, {"curves", seconds_curves}}},
-                          {"peak_bytes", peak_bytes()}}));
-  if (switches.output.empty()) return print(line);
-  if (error_is_terminal() && !switches.common.quiet) fmt::print(stderr, "{}", line);
-  return success();
+  return tell(switches.common, switches.output, object, costs, line);
 }
 
 /// Buffers of all points and lines of the file together.
@@ -126,14 +116,10 @@ Result<io::OffsetFile> offset_each(const OffsetSwitches& switches) {
   file.crs_wkt = shapes->crs_wkt;
   file.y_down = shapes->y_down;
   file.items.resize(shapes->shapes.size());
-  Status computed = for_each_feature(
-      weights_of(shapes->shapes), common.threads, [&](std::size_t i, int threads) -> Status {
-        Options options;
-        options.tolerance = common.tolerance;
-        options.corner_angle = common.corner_angle;
-        options.threads = threads;
+  Status computed = for_each_shape(
+      shapes->shapes, input.path, common, [&](std::size_t i, const Options& options) -> Status {
         auto offsets = offset_one(shapes->shapes[i], switches, options);
-        if (!offsets) return at_feature(std::move(offsets).error(), input.path, i);
+        if (!offsets) return std::move(offsets).error();
         file.items[i] = {std::move(shapes->shapes[i]), std::move(offsets).value(),
                          std::move(shapes->attributes[i])};
         return success();
@@ -162,6 +148,7 @@ Result<int> run_offset(const OffsetSwitches& switches) {
   if (!switches.output.empty()) {
     io::WriteOptions write = switches.write;
     write.chord = common.chord;
+    const Activity shown("writing", switches.output);
     Status written =
         io::write_offsets(switches.output, switches.format, file, write, switches.chords);
     if (!written) return std::move(written).error();
@@ -178,18 +165,18 @@ Verb make_offset_verb(CLI::App& program) {
   CLI::App* verb = program.add_subcommand(
       "offset", "Compute offset curves, inwards and outwards, with true arcs.");
   add_input_switches(*verb, switches->input);
-  verb->add_option("--distance", switches->distances,
-                   "Distances from the boundary, in units of the input: inside of the shape\n"
-                   "where they are positive, outside where they are negative.")
-      ->delimiter(',')
-      ->allow_extra_args(false)
+  add_list_switch(
+      *verb, "--distance", 0,
+      [switches](const std::vector<double>& distances) { switches->distances = distances; },
+      "Distances from the boundary, in units of the input: inside of the shape\n"
+      "where they are positive, outside where they are negative.")
       ->option_text("D[,D...]");
   verb->add_option("--step", switches->step,
-                   "Instead: nested passes, one every S, from --first on.")
-      ->check(CLI::PositiveNumber.description(""))
+                   "Instead: nested passes, one every S units of the input, from --first on.")
+      ->check(a_positive_number())
       ->option_text("S");
   verb->add_option("--first", switches->first, "The first pass (default: S).")
-      ->check(CLI::PositiveNumber.description(""))
+      ->check(a_positive_number())
       ->option_text("D");
   verb->add_option("--until", switches->until,
                    "The last pass: empty (default), when nothing is left inside; or a distance.")
@@ -215,11 +202,7 @@ Verb make_offset_verb(CLI::App& program) {
       ->option_text("NAME");
   verb->add_flag("--chords", switches->chords,
                  "Well-known text: polygons of chords (see --chord) instead of exact arcs.");
-  verb->add_option("--width", switches->write.width,
-                   "Width of a picture, in pixels or points (default: 1024).")
-      ->check(in_range(16, 8000))
-      ->option_text("W")
-      ->group("Pictures");
+  add_width_switch(*verb, switches->write.width);
   add_common_switches(*verb, switches->common);
   verb->footer(
       "A region is a connected part of all points farther than D from the boundary\n"

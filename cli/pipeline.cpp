@@ -277,7 +277,10 @@ Result<ShapeFile> load_shapes(const InputSwitches& input, int threads, bool keep
   ShapeFile file;
   const Stopwatch reading;
   double processor = processor_seconds();
-  auto source = read_input(input);
+  auto source = [&input] {
+    const Activity shown("reading", input.path);
+    return read_input(input);
+  }();
   if (!source) {
     Error error = std::move(source).error();
     if (error.place.file.empty()) error.place.file = input.path;
@@ -399,6 +402,25 @@ Result<AxisFile> compute_axes(ShapeFile shapes, const std::string& path,
   return file;
 }
 
+Options engine_options(const CommonSwitches& common, int threads) {
+  Options options;
+  options.tolerance = common.tolerance;
+  options.corner_angle = common.corner_angle;
+  options.threads = threads;
+  return options;
+}
+
+Status for_each_shape(std::span<const Shape> shapes, const std::string& path,
+                      const CommonSwitches& common,
+                      const std::function<Status(std::size_t i, const Options& options)>& work) {
+  return for_each_feature(weights_of(shapes), common.threads,
+                          [&](std::size_t i, int threads) -> Status {
+                            Status done = work(i, engine_options(common, threads));
+                            if (!done) return at_feature(std::move(done).error(), path, i);
+                            return success();
+                          });
+}
+
 AxisSummary summarize(const io::NativeFile& file) {
   AxisSummary summary;
   summary.features = file.items.size();
@@ -466,6 +488,7 @@ Result<int> write_and_tell(const AxisFile& file, const InputSwitches& input,
   if (!output.empty()) {
     io::WriteOptions write = pictures;
     write.chord = common.chord;
+    const Activity shown("writing", output);
     Status written = io::write_axes(output, format, file.native, write);
     if (!written) return std::move(written).error();
   }

@@ -105,6 +105,15 @@ Result<AxisFile> compute_axes(ShapeFile shapes, const std::string& path,
                               const CommonSwitches& common, Options options = {},
                               const Engine& engine = {});
 
+/// What the common switches tell the engines.
+Options engine_options(const CommonSwitches& common, int threads);
+
+/// Runs work(i, options) for every shape of a file, as for_each_feature() does. Errors are told to
+/// be in feature i of the input.
+Status for_each_shape(std::span<const Shape> shapes, const std::string& path,
+                      const CommonSwitches& common,
+                      const std::function<Status(std::size_t i, const Options& options)>& work);
+
 AxisSummary summarize(const io::NativeFile& file);
 /// "1 feature, 12 sites, 20 nodes, 19 edges, 7 branches; deepest disk: radius 3 at (1, 2)"
 std::string describe(const AxisSummary& summary);

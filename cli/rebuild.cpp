@@ -239,9 +239,7 @@ void add_switches(CLI::App& verb, Switches& switches, bool smooths) {
       ->option_text("NAME");
   verb.add_flag("--polygon", switches.polygon,
                 "Straight edges only: arcs become chords within --chord.");
-  verb.add_option("--width", switches.width, "Width of pictures in pixels or points.")
-      ->check(in_range(16, 8000))
-      ->option_text("W");
+  add_width_switch(verb, switches.width);
   verb.add_option("--against", switches.against,
                   "Measure area and Hausdorff distance against these shapes.")
       ->check(a_name())
@@ -259,7 +257,7 @@ void add_switches(CLI::App& verb, Switches& switches, bool smooths) {
                     fmt::format("The union of the disks as an image, its longer side so many\n"
                                 "pixels: {}",
                                 image_formats))
-        ->check(CLI::Range(1, 32768))
+        ->check(in_range(1, 32768))
         ->option_text("N")
         ->excludes(tangents);
   }

@@ -9,7 +9,10 @@ namespace medial::cli {
 Result<AxisFile> load_axes(const InputSwitches& input, const CommonSwitches& common) {
   if (input.text.empty() && io::is_native(input.path)) {
     const Stopwatch reading;
-    auto native = io::read_native(input.path);
+    auto native = [&input] {
+      const Activity shown("reading", input.path);
+      return io::read_native(input.path);
+    }();
     if (!native) return std::move(native).error();
     // A file may hold shapes alone.
     const bool has_axes = std::ranges::any_of(

@@ -21,6 +21,7 @@ constexpr int bar_width = 30;
 
 // Whether a bar stands on the terminal that a signal has to wipe.
 std::atomic<bool> bar_visible = false;
+bool quiet = false;
 static_assert(std::atomic<bool>::is_always_lock_free, "read in a signal handler");
 
 extern "C" void end_quietly(int signal_number) {
@@ -50,6 +51,8 @@ void install_signal_handlers() {
 }
 
 bool error_is_terminal() { return isatty(STDERR_FILENO) == 1; }
+
+void be_quiet() { quiet = true; }
 
 std::uint64_t peak_bytes() {
   struct rusage usage {};
@@ -95,6 +98,36 @@ void Progress::redraw() {
   bar_visible.store(true);
   fmt::print(stderr, "\r{} [{:#<{}}{:.<{}}] {:3.0f} %", label_, "", filled, "", bar_width - filled,
              100 * share);
+  std::fflush(stderr);
+}
+
+Activity::Activity(const std::string& doing, const std::string& path) {
+  if (quiet || path.empty() || !error_is_terminal()) return;
+  const std::string name =
+      path == "-" ? "standard " + std::string(doing == "reading" ? "input" : "output") : path;
+  clock_ = std::thread([this, text = fmt::format("medial: {} {}", doing, name)] {
+    const Stopwatch watch;
+    std::unique_lock lock(mutex_);
+    for (double next = 1; !end_; next += 1) {
+      const std::chrono::duration<double> left(next - watch.seconds());
+      if (ended_.wait_for(lock, left, [this] { return end_; })) break;
+      bar_visible.store(true);
+      fmt::print(stderr, "\r{} ... {:.0f} s", text, next);
+      std::fflush(stderr);
+    }
+  });
+}
+
+Activity::~Activity() {
+  if (!clock_.joinable()) return;
+  {
+    const std::lock_guard lock(mutex_);
+    end_ = true;
+  }
+  ended_.notify_one();
+  clock_.join();
+  if (!bar_visible.exchange(false)) return;
+  std::fputs(wipe_line, stderr);
   std::fflush(stderr);
 }
 

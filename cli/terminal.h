@@ -4,11 +4,13 @@
 
 #include <atomic>
 #include <chrono>
+#include <condition_variable>
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <mutex>
 #include <string>
+#include <thread>
 
 namespace medial::cli {
 
@@ -17,6 +19,9 @@ namespace medial::cli {
 void install_signal_handlers();
 
 bool error_is_terminal();
+
+/// From here on no Activity shows itself.
+void be_quiet();
 
 /// The largest memory this process has held, in bytes.
 std::uint64_t peak_bytes();
@@ -59,6 +64,23 @@ class Progress {
   std::atomic<double> done_ = 0;
   std::mutex drawing_;
   double next_draw_ = 1.0;  ///< in seconds; guarded by drawing_
+};
+
+/// A line on standard error while a file is read or written: it shows itself once that has lasted a
+/// second, and is wiped when destroyed. How long it will take nobody knows: it tells the seconds.
+class Activity {
+ public:
+  /// "reading", "writing". Costs nothing where standard error is no terminal, and after be_quiet().
+  Activity(const std::string& doing, const std::string& path);
+  ~Activity();
+  Activity(const Activity&) = delete;
+  Activity& operator=(const Activity&) = delete;
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable ended_;
+  bool end_ = false;  ///< guarded by mutex_
+  std::thread clock_;
 };
 
 }  // namespace medial::cli

@@ -146,7 +146,10 @@ Result<int> run_verify(const VerifySwitches& switches) {
     return invalid_option("INPUT and AXIS cannot both be standard input");
   }
   const Stopwatch reading;
-  auto stored = io::read_native(axis_path);
+  auto stored = [&] {
+    const Activity shown("reading", axis_path);
+    return io::read_native(axis_path);
+  }();
   if (!stored) return std::move(stored).error();
   auto shapes = load_shapes(input, common.threads);
   if (!shapes) return std::move(shapes).error();
@@ -211,7 +214,7 @@ Verb make_verify_verb(CLI::App& program) {
   verb->add_option(
           "--samples", switches->samples,
           fmt::format("Points to check inside every edge (default: {}).", switches->samples))
-      ->check(CLI::Range(0, most_samples))
+      ->check(in_range(0, most_samples))
       ->option_text("N");
   add_common_switches(*verb, switches->common);
   verb->footer(

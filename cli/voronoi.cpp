@@ -50,6 +50,7 @@ Summary summarize(const io::VoronoiFile& file) {
 Result<io::VoronoiFile> compute_diagrams(ShapeFile shapes, const std::string& path,
                                          const CommonSwitches& common) {
   io::VoronoiFile file;
+  file.crs_wkt = shapes.crs_wkt;
   file.y_down = shapes.y_down;
   file.items.resize(shapes.shapes.size());
   Status computed = for_each_feature(
@@ -98,6 +99,7 @@ Result<io::VoronoiFile> compute_soup(const VoronoiSwitches& switches, Phases& se
   if (!diagram) return in_terms_of(*loose, std::move(diagram).error(), input.path);
   seconds.voronoi = watch.seconds();
   io::VoronoiFile file;
+  file.crs_wkt = loose->crs_wkt;
   file.y_down = loose->y_down;
   file.items.push_back({{}, std::move(diagram).value(), {}});
   return file;
@@ -154,6 +156,7 @@ Result<int> run_voronoi(const VoronoiSwitches& switches) {
   if (!output.empty()) {
     io::WriteOptions write = pictures;
     write.chord = common.chord;
+    const Activity shown("writing", output);
     Status written = io::write_voronoi(output, format, *diagrams, write);
     if (!written) return std::move(written).error();
   }
@@ -189,15 +192,17 @@ Verb make_voronoi_verb(CLI::App& program) {
       ->check(CLI::IsMember({"disks", "lee"}).description(""))
       ->option_text("NAME");
   verb->add_option("--margin", switches->margin,
-                   "How far the frame is away from the input's bounding box (default: half of\n"
-                   "its longer side).")
-      ->check(CLI::PositiveNumber.description(""))
+                   "How far the frame is away from the input's bounding box, in units of the\n"
+                   "input (default: half of its longer side).")
+      ->check(a_positive_number())
       ->option_text("M");
-  verb->add_option("--frame", switches->frame,
-                   "The frame itself: low x, low y, high x, high y. It must hold the input.")
-      ->expected(4)
+  add_list_switch(
+      *verb, "--frame", 4,
+      [switches](const std::vector<double>& frame) { switches->frame = frame; },
+      "The frame itself: low x, low y, high x, high y, in units of the input. It must\n"
+      "hold the input.")
       ->excludes("--margin")
-      ->option_text("X Y X Y");
+      ->option_text("X,Y,X,Y");
   add_picture_switches(*verb, switches->write);
   add_common_switches(*verb, switches->common);
   verb->footer(

@@ -199,18 +199,18 @@ void add_own_switches(CLI::App& verb, VoxelSwitches& switches) {
   VoxelOptions& options = switches.options;
   verb.add_option("--voxels", options.voxels,
                   "Voxels along the longest side of the mesh (default: 128).")
-      ->check(CLI::Range(4, 4096).description(""))
+      ->check(in_range(4, 4096, true))
       ->option_text("N");
   verb.add_option("--resolution", options.resolution,
                   "Instead of that: the edge of a voxel, in units of the input.")
-      ->check(CLI::PositiveNumber.description(""))
+      ->check(a_positive_number())
       ->excludes("--voxels")
       ->option_text("H");
   verb.add_option("--angle", options.angle,
-                  "Two feet of a voxel count as two if they lie so many degrees apart as\n"
+                  "In degrees: two feet of a voxel count as two if they lie so far apart as\n"
                   "seen from it, 1 to 120 (default: 30). Smaller angles give the axis of\n"
                   "the faces as they are; meshes of curved surfaces need larger ones.")
-      ->check(CLI::Range(1.0, 120.0).description(""))
+      ->check(in_range(1.0, 120.0, true))
       ->option_text("A");
   verb.add_option("--thin", switches.thinning,
                   "What the axis is thinned to: sheets, one voxel thick (default);\n"
@@ -224,10 +224,11 @@ void add_own_switches(CLI::App& verb, VoxelSwitches& switches) {
       ->option_text("NAME");
   verb.add_option("--memory", switches.memory,
                   "Give up before more than about G gibibytes are held (default: 4).")
-      ->check(CLI::Range(0.001, 1e6).description(""))
+      ->check(in_range(0.001, 1e6, true))
       ->option_text("G");
-  verb.add_option("--width", switches.width, "Width of a picture, in pixels (default: 1536).")
-      ->check(CLI::Range(48.0, 8000.0).description(""))
+  verb.add_option("--width", switches.width,
+                  "Width of a picture of three views, in pixels (default: 1536).")
+      ->check(in_range(48.0, 8000.0, true))
       ->option_text("W");
 }
 
@@ -236,7 +237,7 @@ void add_common_part(CLI::App& verb, CommonSwitches& common) {
   verb.add_option("--threads", common.threads,
                   "Threads to use (default: 0, all of the machine). The result is the\n"
                   "same, byte for byte.")
-      ->check(CLI::Range(0, 1024).description(""))
+      ->check(in_range(0, 1024, true))
       ->option_text("N")
       ->group(group);
   verb.add_flag("--stats", common.stats,

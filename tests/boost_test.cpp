@@ -31,7 +31,7 @@
 
 #include "base/random.h"
 #include "medial/medial.h"
-#include "support/generate.h"
+#include "support/random_shapes.h"
 
 namespace medial::test {
 namespace {
@@ -211,10 +211,8 @@ TEST(Boost, HasTheSameGraphOnFixedShapes) {
 class Integers : public testing::TestWithParam<std::uint64_t> {};
 
 TEST_P(Integers, HaveTheSameGraph) {
-  const char* text = std::getenv("MEDIAL_PROPERTY_COUNT");
-  const std::uint64_t count = text && *text ? std::strtoull(text, nullptr, 10) / 10 : 2000;
-  const char* seed = std::getenv("MEDIAL_PROPERTY_SEED");
-  const std::uint64_t base = seed && *seed ? std::strtoull(seed, nullptr, 10) << 32 : 0;
+  const std::uint64_t count = shape_count(10);
+  const std::uint64_t base = first_seed();
   int failed = 0;
   for (std::uint64_t i = GetParam(); i < count && failed < 3; i += 4) {
     const RandomShape shape = random_integer_shape(base + i);
@@ -298,8 +296,7 @@ std::string compare_soups(const std::vector<Chain>& chains) {
 }
 
 TEST(Boost, HasTheSameNodesOnSoups) {
-  const char* text = std::getenv("MEDIAL_PROPERTY_COUNT");
-  const std::uint64_t count = text && *text ? std::strtoull(text, nullptr, 10) / 10 : 1500;
+  const std::uint64_t count = shape_count(13);
   int failed = 0;
   for (std::uint64_t seed = 0; seed < count && failed < 3; ++seed) {
     medial::Random random(seed);

@@ -6,29 +6,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <numbers>
 
 #include "medial/compute.h"
 #include "medial/query.h"
+#include "support/computed.h"
 #include "support/cut.h"
-#include "support/generate_arcs.h"
+#include "support/random_shapes.h"
 
 namespace medial {
 namespace {
 
+const std::uint64_t shape_count = test::shape_count(60);
+
 using test::RandomShape;
-
-std::uint64_t shape_count() {
-  const char* text = std::getenv("MEDIAL_PROPERTY_COUNT");
-  return text && *text ? std::strtoull(text, nullptr, 10) / 50 : 300;
-}
-
-Shape shape_of(const test::Rings& rings) {
-  auto shape = build_shape(rings);
-  EXPECT_TRUE(shape.ok());
-  return std::move(shape).value();
-}
+using test::shape_of;
 
 Carving carving_of(const Shape& shape, const CarveOptions& options) {
   const auto axis = compute(shape);
@@ -233,9 +225,8 @@ TEST(Carve, OtherUnitsChangeTheScaleOnly) {
 
 TEST(Carve, NeitherGougesNorLeavesAnything) {
   std::size_t probes = 0;
-  for (std::uint64_t seed = 0; seed < shape_count(); ++seed) {
-    const RandomShape random =
-        seed % 2 == 0 ? test::random_shape(seed) : test::random_arc_shape(seed);
+  for (std::uint64_t seed = 0; seed < shape_count; ++seed) {
+    const RandomShape random = test::random_any(seed);
     SCOPED_TRACE(random.kind + " " + std::to_string(seed));
     const Shape shape = shape_of(random.rings);
     if (shape.points.size() > 150) continue;
@@ -299,7 +290,7 @@ TEST(Carve, NeitherGougesNorLeavesAnything) {
     }
     if (HasFailure()) return;
   }
-  EXPECT_GT(probes, 20 * shape_count());
+  EXPECT_GT(probes, 20 * shape_count);
 }
 
 }  // namespace

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <functional>
 #include <limits>
 #include <numbers>
@@ -13,39 +12,19 @@
 #include "medial/compute.h"
 #include "medial/measure.h"
 #include "medial/query.h"
-#include "support/generate_arcs.h"
+#include "support/computed.h"
+#include "support/random_shapes.h"
 
 namespace medial {
 namespace {
 
+using test::Computed;
+using test::computed;
+using test::random_any;
 using test::RandomShape;
 using test::Rings;
 
 constexpr double pi = std::numbers::pi;
-
-std::uint64_t shape_count(std::uint64_t share) {
-  const char* text = std::getenv("MEDIAL_PROPERTY_COUNT");
-  const std::uint64_t all = text && *text ? std::strtoull(text, nullptr, 10) : 20000;
-  return std::max<std::uint64_t>(all / share, 24);
-}
-
-struct Computed {
-  Shape shape;
-  MedialAxis axis;
-};
-
-Computed computed(const Rings& rings) {
-  auto shape = build_shape(rings);
-  EXPECT_TRUE(shape.ok());
-  auto axis = compute(*shape);
-  EXPECT_TRUE(axis.ok());
-  return {std::move(shape).value(), std::move(axis).value()};
-}
-
-/// Random shapes, straight and curved by turns.
-RandomShape random_any(std::uint64_t seed) {
-  return seed % 2 == 0 ? test::random_shape(seed) : test::random_arc_shape(seed);
-}
 
 Disk begin_of(const MedialAxis& axis, const AxisPath& path) {
   const PathPiece& piece = path.pieces.front();
@@ -188,7 +167,7 @@ double reach_by_all_pairs(const MedialAxis& axis) {
 
 TEST(MainPath, ReachesAsFarAsAnyShortestWay) {
   std::size_t with_holes = 0;
-  for (std::uint64_t seed = 0; seed < shape_count(100); ++seed) {
+  for (std::uint64_t seed = 0; seed < test::shape_count(100, 24); ++seed) {
     const RandomShape random = random_any(seed);
     const auto [shape, axis] = computed(random.rings);
     if (axis.nodes.size() > 150) continue;
@@ -212,7 +191,7 @@ TEST(MainPath, ReachesAsFarAsAnyShortestWay) {
 
 TEST(MainPath, IsTheSameUnderSymmetries) {
   std::size_t compared = 0;
-  for (std::uint64_t seed = 0; seed < shape_count(200); ++seed) {
+  for (std::uint64_t seed = 0; seed < test::shape_count(200, 24); ++seed) {
     const RandomShape random = test::random_shape(seed);
     if (!random.rigid) continue;
     const auto [shape, axis] = computed(random.rings);
@@ -265,7 +244,7 @@ void every_path(const MedialAxis& axis, std::uint32_t from, std::uint32_t to,
 
 TEST(WidestPath, AgreesWithEveryPath) {
   std::size_t compared = 0, choices = 0;
-  for (std::uint64_t seed = 0; seed < shape_count(50); ++seed) {
+  for (std::uint64_t seed = 0; seed < test::shape_count(50, 24); ++seed) {
     test::Random random(seed);
     const Rings rings = test::star_with_holes(random, 6 + seed % 5, 2);
     const auto [shape, axis] = computed(rings);
@@ -334,7 +313,7 @@ TEST(PlaceOnAxis, OfASideIsTheDiskThatTouchesItsMiddle) {
 
 TEST(PlaceOnAxis, LiesBeyondThePointSeenFromItsFoot) {
   std::size_t checked = 0;
-  for (std::uint64_t seed = 0; seed < shape_count(40); ++seed) {
+  for (std::uint64_t seed = 0; seed < test::shape_count(40, 24); ++seed) {
     const RandomShape random_shape = random_any(seed);
     const auto [shape, axis] = computed(random_shape.rings);
     const Box box = bounding_box(shape);
@@ -357,7 +336,7 @@ TEST(PlaceOnAxis, LiesBeyondThePointSeenFromItsFoot) {
 }
 
 TEST(PartOf, IsTheSameCurve) {
-  for (std::uint64_t seed = 0; seed < shape_count(200); ++seed) {
+  for (std::uint64_t seed = 0; seed < test::shape_count(200, 24); ++seed) {
     const RandomShape random = random_any(seed);
     const auto [shape, axis] = computed(random.rings);
     const double size = diagonal(bounding_box(shape));
@@ -376,7 +355,7 @@ TEST(PartOf, IsTheSameCurve) {
 }
 
 TEST(ClearancePart, EndsWhereTheDiskJustFits) {
-  for (std::uint64_t seed = 0; seed < shape_count(100); ++seed) {
+  for (std::uint64_t seed = 0; seed < test::shape_count(100, 24); ++seed) {
     const RandomShape random = random_any(seed);
     const auto [shape, axis] = computed(random.rings);
     if (axis.nodes.empty()) continue;
@@ -401,7 +380,7 @@ TEST(ClearancePart, EndsWhereTheDiskJustFits) {
 }
 
 TEST(CentreLine, SmoothedStaysInsideWithItsEndsInPlace) {
-  for (std::uint64_t seed = 0; seed < shape_count(400); ++seed) {
+  for (std::uint64_t seed = 0; seed < test::shape_count(400, 24); ++seed) {
     const RandomShape random = random_any(seed);
     const auto [shape, axis] = computed(random.rings);
     const double size = diagonal(bounding_box(shape));

@@ -263,7 +263,7 @@ class Axis(CommandLine):
         item = made["items"][0]
         self.assertEqual(len(item["faces"]), 16)
         self.assertEqual(item["frame"], [-3.5, -3.5, 10.5, 8.5])
-        framed = self.succeed("voronoi", "-", "--frame", "-1", "-1", "9", "9", "-o", "-", "--format", "geojson", given=soup)
+        framed = self.succeed("voronoi", "-", "--frame", "-1,-1,9,9", "-o", "-", "--format", "geojson", given=soup)
         faces = [f for f in json.loads(framed.stdout)["features"] if f["properties"]["part"] == "face"]
         area = 0
         for face in faces:
@@ -465,6 +465,14 @@ class Axis(CommandLine):
         self.assertTrue(self.read("both.svg").startswith(b"<?xml"))
         self.refuse("invalid_option", "compare", "island.wkt", "--methods", "magic")
 
+    def test_compare_tells_failures_by_its_status(self):
+        """A method that does not take the input fails only where it was asked for by name."""
+        self.write("frame.wkt", FRAME)
+        told = json.loads(self.succeed("compare", "frame.wkt", "--json").stdout)["features"][0]
+        self.assertIn("refused", next(row for row in told if row["method"] == "lee"))
+        self.assertEqual(self.run_medial("compare", "frame.wkt", "--methods", "disks,lee").returncode, 1)
+        self.assertEqual(self.run_medial("compare", "frame.wkt", "--methods", "disks").returncode, 0)
+
     def test_legal(self):
         """The axis of a shape is legal; a radius that grows faster than the way is not, and is named."""
         self.write("frame.wkt", FRAME)
@@ -557,6 +565,38 @@ class Axis(CommandLine):
         self.assertNotIn("warning", projected.stderr.decode())
         # 0.05 degrees of latitude are 5.56 km: half of it is the largest radius.
         self.assertAlmostEqual(json.loads(projected.stdout)["deepest"]["radius"], 2780, delta=10)
+        # Back in longitudes and latitudes, in text as well; radii stay in metres.
+        self.succeed("axis", "places.geojson", "-o", "p.csv", "--project")
+        rows = list(csv.DictReader(self.read("p.csv").decode().splitlines()))
+        for row in rows:
+            self.assertTrue(8.99 < float(row["x"]) < 9.41 and 46.99 < float(row["y"]) < 47.06, row)
+        self.assertAlmostEqual(max(float(row["r"]) for row in rows), 2780, delta=10)
+        self.succeed("axis", "places.geojson", "-o", "p.json", "--project")
+        self.write("wells.geojson", json.dumps({"type": "MultiPoint", "coordinates": [[9, 47], [9.1, 47.1]]}))
+        for verb, source, output in (
+                ("axis", "places.geojson", "q.wkt"), ("rebuild", "p.json", "r.geojson"),
+                ("rebuild", "p.json", "r.wkt"), ("voronoi", "wells.geojson", "v.geojson"),
+                ("voronoi", "places.geojson", "v.wkt"), ("voronoi", "places.geojson", "v.csv"),
+                ("features", "p.json", "f.csv"), ("measure", "places.geojson", "m.csv"),
+                ("offset", "places.geojson", "o.wkt"), ("offset", "places.geojson", "o.geojson")):
+            more = [] if source == "p.json" else ["--project"]
+            more += ["--distance", "100"] if verb == "offset" else []
+            more += ["--margin", "50"] if verb == "voronoi" else []
+            self.succeed(verb, source, "-o", output, *more)
+            text = self.read(output).decode()
+            if output.endswith(".csv"):
+                rows = list(csv.DictReader(text.splitlines()))
+                names = [name for name in rows[0] if name[0] in "xy" or name.endswith(("_x", "_y"))]
+                places = [(float(row[x]), float(row[y])) for row in rows
+                          for x, y in zip(names[::2], names[1::2])]
+            else:
+                number = r"(-?[0-9][-+.0-9e]*)"
+                between = r"\[%s,%s\]" if output.endswith(".geojson") else "%s %s"
+                places = [(float(x), float(y))
+                          for x, y in re.findall(between % (number, number), text)]
+            self.assertGreater(len(places), 3, output)
+            for x, y in places:
+                self.assertTrue(8.9 < x < 9.5 and 46.9 < y < 47.2, (output, x, y))
         # Back in longitudes and latitudes.
         for feature in json.loads(self.read("p.geojson"))["features"]:
             if feature["geometry"]["type"] == "LineString":
@@ -1248,7 +1288,92 @@ class Images(CommandLine):
         self.succeed("bench", "brushfire", "-o", "figure.csv")
 
 
+class Words(CommandLine):
+    """What is told of command lines and files that are not right."""
+
+    def test_switches(self):
+        self.write("r.wkt", RECTANGLE)
+        for words, *line in (
+                ("no such switch: --foo", "axis", "r.wkt", "--foo"),
+                ("--chord needs a value", "axis", "r.wkt", "--chord"),
+                ("one word too many: more", "axis", "r.wkt", "more"),
+                ("--threads: '1.5' is no whole number", "axis", "r.wkt", "--threads", "1.5"),
+                ("--threshold: 'abc' is no number", "axis", "r.wkt", "--threshold", "abc"),
+                ("--chord: 'x' is no number", "axis", "r.wkt", "--chord", "x"),
+                ("-1 is no finite number above 0", "offset", "r.wkt", "--step", "-1"),
+                ("inf is no finite number above 0", "carve", "r.wkt", "--angle", "60", "--depth", "inf"),
+                ("'1,,2' is not numbers with commas", "offset", "r.wkt", "--distance", "1,,2"),
+                ("'0.5,' is not numbers with commas", "offset", "r.wkt", "--distance", "0.5,"),
+                ("'x' is not numbers with commas", "offset", "r.wkt", "--distance", "x"),
+                ("'1,2' is not 4 numbers with commas", "axis", "r.wkt", "--within", "1,2"),
+                ("'1,2' is not 4 numbers with commas", "voronoi", "r.wkt", "--frame", "1,2"),
+                ("0 is not in [1 - 1e+06]", "measure", "r.wkt", "--samples", "0")):
+            told = self.refuse("invalid_option", *line)
+            self.assertIn(words, told)
+            self.assertLess(len(told), 160, told)
+        told = json.loads(self.succeed("offset", "r.wkt", "--distance", "0.25,0.5,-1", "--json").stdout)
+        self.assertEqual(told["regions"], 3)
+        self.refuse("too_large", "measure", "r.wkt", "--spacing", "1e-300")
+
+    def test_coordinates(self):
+        """The place of a coordinate that nobody can compute with is told, whatever reads it."""
+        for name, text, verb, words in (
+                ("far.wkt", "POLYGON ((0 0, 1e308 0, 1 1))", "voronoi", "ring 0, vertex 1 at (1e+308, 0)"),
+                ("far.txt", "0 0\n-1e308 1e308\n", "voronoi", "at (-1e+308, 1e+308)")):
+            self.write(name, text)
+            told = self.refuse("unsupported", verb, name)
+            self.assertIn(words, told)
+            self.assertNotIn("4294967295", told)
+        for verb in ("axis", "voronoi"):
+            self.write("arc.wkt", "CURVEPOLYGON (CIRCULARSTRING (0 0, 1e400 0, 2 2, 3 3, 0 0))")
+            self.refuse("not_finite", verb, "arc.wkt")
+            self.write("line.wkt", "POLYGON ((0 0, 1e400 0, 2 2, 0 0))")
+            self.assertIn("vertex 1", self.refuse("not_finite", verb, "line.wkt"))
+        self.write("line.geojson", json.dumps({"type": "LineString", "coordinates": [[0, 0], [1, 1]]})
+                   .replace("[1, 1]", "[1e400, 1]"))
+        self.refuse("not_finite", "voronoi", "line.geojson")
+
+    def test_tables(self):
+        """Two columns are vertices, with names above them or without; other columns are GDAL's."""
+        corners = "0,0\n4,0\n4,2\n0,2\n"
+        for name, text in (("a.csv", corners), ("b.csv", "x,y\n" + corners), ("c.txt", "x y\n" + corners),
+                           ("d.csv", "easting;northing\r\n" + corners.replace(",", ";").replace("\n", "\r\n"))):
+            self.write(name, text)
+            self.assertEqual(json.loads(self.succeed("axis", name, "--json").stdout)["sites"], 4)
+            self.assertEqual(json.loads(self.succeed("voronoi", name, "--json").stdout)["points"], 4)
+        given = ("x,y\n" + corners).encode()
+        self.assertEqual(json.loads(self.succeed("axis", "-", "--json", given=given).stdout)["sites"], 4)
+        self.write("wells.csv", "id,x,y,name\n1,0,0,a\n2,4,0,b\n3,4,2,c\n")
+        self.assertEqual(json.loads(self.succeed("voronoi", "wells.csv", "--json").stdout)["points"], 3)
+        self.assertIn("no polygons", self.refuse("unsupported", "axis", "wells.csv"))
+        self.write("names.txt", "x y\nwords only\n")
+        self.refuse("malformed", "axis", "names.txt")
+
+
 class Interruption(CommandLine):
+    def test_reading_shows_itself_on_a_terminal(self):
+        """After a second, and is wiped; never with --quiet."""
+        for quiet in ([], ["--quiet"]):
+            terminal, end = os.openpty()
+            process = subprocess.Popen([PROGRAM, "axis", "-", "-o", "out.json", *quiet], cwd=self.folder.name,
+                                       stdin=subprocess.PIPE, stderr=end)
+            os.close(end)
+            time.sleep(1.5)
+            process.communicate(RECTANGLE.encode(), timeout=60)
+            self.assertEqual(process.returncode, 0)
+            shown = b""
+            try:
+                while part := os.read(terminal, 4096):
+                    shown += part
+            except OSError:  # the other end is closed
+                pass
+            os.close(terminal)
+            if quiet:
+                self.assertEqual(shown, b"")
+            else:
+                self.assertIn(b"reading standard input ... 1 s", shown)
+                self.assertIn(b"\r\x1b[K", shown)
+
     def interrupt(self, signal_number, output, after):
         process = subprocess.Popen(
             [PROGRAM, "axis", "comb.wkt", "-o", output, "--chord", "1e-7"], cwd=self.folder.name,

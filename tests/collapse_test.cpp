@@ -3,36 +3,23 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <numbers>
 
 #include "medial/centreline.h"
 #include "medial/compute.h"
 #include "medial/measure.h"
 #include "medial/query.h"
-#include "support/generate_arcs.h"
+#include "support/computed.h"
+#include "support/random_shapes.h"
 
 namespace medial {
 namespace {
 
+using test::axis_of;
 using test::RandomShape;
 using test::Rings;
 
 constexpr double pi = std::numbers::pi;
-
-std::uint64_t shape_count(std::uint64_t share) {
-  const char* text = std::getenv("MEDIAL_PROPERTY_COUNT");
-  const std::uint64_t all = text && *text ? std::strtoull(text, nullptr, 10) : 20000;
-  return std::max<std::uint64_t>(all / share, 24);
-}
-
-MedialAxis axis_of(const Rings& rings) {
-  const auto shape = build_shape(rings);
-  EXPECT_TRUE(shape.ok());
-  auto axis = compute(*shape);
-  EXPECT_TRUE(axis.ok());
-  return std::move(axis).value();
-}
 
 CollapsedShape collapsed(const Rings& rings, double width) {
   auto result = collapse_narrow(axis_of(rings), width);
@@ -109,9 +96,8 @@ TEST(Collapse, RefusesNoWidth) {
 
 TEST(Collapse, OfRandomShapes) {
   std::size_t with_both = 0;
-  for (std::uint64_t seed = 0; seed < shape_count(120); ++seed) {
-    const RandomShape random =
-        seed % 2 == 0 ? test::random_shape(seed) : test::random_arc_shape(seed);
+  for (std::uint64_t seed = 0; seed < test::shape_count(120, 24); ++seed) {
+    const RandomShape random = test::random_any(seed);
     const auto shape = build_shape(random.rings);
     ASSERT_TRUE(shape.ok());
     const auto axis = compute(*shape);

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <filesystem>
 #include <numbers>
 #include <string>
@@ -16,8 +15,7 @@
 #include "exact/numbers.h"
 #include "medial/compute.h"
 #include "medial/verify.h"
-#include "support/generate.h"
-#include "support/generate_arcs.h"
+#include "support/random_shapes.h"
 #include "support/same_graph.h"
 
 namespace medial::test {
@@ -205,11 +203,6 @@ TEST(ExactAxis, KeepsTrueTiesAndDividesOthers) {
   EXPECT_EQ(counts.exact_changes, 1u);
 }
 
-std::uint64_t count_from_environment(std::uint64_t otherwise) {
-  const char* text = std::getenv("MEDIAL_PROPERTY_COUNT");
-  return text && *text ? std::strtoull(text, nullptr, 10) / 10 : otherwise;
-}
-
 template <class Generate>
 void check_random(std::uint64_t count, const Generate& generate) {
   int failed = 0;
@@ -222,11 +215,9 @@ void check_random(std::uint64_t count, const Generate& generate) {
   }
 }
 
-TEST(ExactAxis, OfRandomPolygons) { check_random(count_from_environment(600), random_shape); }
-TEST(ExactAxis, OfRandomPolygonsOnGrids) {
-  check_random(count_from_environment(2000), random_integer_shape);
-}
-TEST(ExactAxis, OfRandomArcs) { check_random(count_from_environment(800), random_arc_shape); }
+TEST(ExactAxis, OfRandomPolygons) { check_random(shape_count(33), random_shape); }
+TEST(ExactAxis, OfRandomPolygonsOnGrids) { check_random(shape_count(10), random_integer_shape); }
+TEST(ExactAxis, OfRandomArcs) { check_random(shape_count(25), random_arc_shape); }
 
 /// Gears whose arcs have one circle but for rounding: a disk near the centre may touch such a
 /// circle where its arc is not.

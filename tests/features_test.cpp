@@ -5,33 +5,23 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <numbers>
 
 #include "medial/compute.h"
 #include "medial/query.h"
-#include "support/generate_arcs.h"
+#include "support/computed.h"
+#include "support/random_shapes.h"
 
 namespace medial {
 namespace {
 
+const std::uint64_t shape_count = test::shape_count(20);
+
 using std::numbers::pi;
+using test::axis_of;
 using test::RandomShape;
 using test::Rings;
-
-std::uint64_t shape_count() {
-  const char* text = std::getenv("MEDIAL_PROPERTY_COUNT");
-  return text && *text ? std::strtoull(text, nullptr, 10) / 20 : 1000;
-}
-
-MedialAxis axis_of(const Rings& rings) {
-  const auto shape = build_shape(rings);
-  EXPECT_TRUE(shape.ok());
-  auto axis = compute(*shape);
-  EXPECT_TRUE(axis.ok());
-  return std::move(axis).value();
-}
 
 /// The runs of the branch of the largest mean width times length.
 std::vector<PrimitiveRun> main_runs(const AxisFeatures& features) {
@@ -342,9 +332,8 @@ Folded folded(const AxisFeatures& features) {
 }
 
 TEST(Features, OfRandomShapesAddUp) {
-  for (std::uint64_t seed = 0; seed < shape_count(); ++seed) {
-    const RandomShape random =
-        seed % 2 == 0 ? test::random_shape(seed) : test::random_arc_shape(seed);
+  for (std::uint64_t seed = 0; seed < shape_count; ++seed) {
+    const RandomShape random = test::random_any(seed);
     SCOPED_TRACE(random.kind + " " + std::to_string(seed));
     const auto shape = build_shape(random.rings);
     ASSERT_TRUE(shape.ok());
@@ -378,9 +367,8 @@ TEST(Features, OfRandomShapesAddUp) {
 
 TEST(Features, KeepUnderSymmetries) {
   std::size_t checked = 0;
-  for (std::uint64_t seed = 0; seed < shape_count() / 2; ++seed) {
-    const RandomShape random =
-        seed % 2 == 0 ? test::random_shape(seed) : test::random_arc_shape(seed);
+  for (std::uint64_t seed = 0; seed < shape_count / 2; ++seed) {
+    const RandomShape random = test::random_any(seed);
     if (!random.rigid) continue;
     const AxisFeatures before = describe(axis_of(random.rings));
     for (std::size_t i = 1; i < test::symmetries().size(); ++i) {

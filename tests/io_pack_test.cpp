@@ -2,21 +2,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 
 #include "medial/compute.h"
 #include "medial/io/pack.h"
-#include "support/generate_arcs.h"
+#include "support/random_shapes.h"
 
 namespace medial {
 namespace {
 
 using test::Random;
-
-std::uint64_t round_count() {
-  const char* text = std::getenv("MEDIAL_PROPERTY_COUNT");
-  return text && *text ? std::strtoull(text, nullptr, 10) : 20000;
-}
 
 io::PackFile pack_of(const test::Rings& rings, double share) {
   const auto shape = build_shape(rings);
@@ -49,7 +43,7 @@ TEST(PackFiles, GoThereAndBack) {
 
 TEST(PackFiles, HoldTheirShapes) {
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
-    const auto random = seed % 2 == 0 ? test::random_shape(seed) : test::random_arc_shape(seed);
+    const auto random = test::random_any(seed);
     const auto shape = build_shape(random.rings);
     ASSERT_TRUE(shape.ok());
     SCOPED_TRACE(random.kind + " " + std::to_string(seed));
@@ -79,7 +73,7 @@ TEST(PackFiles, DamageIsTold) {
     const auto cut = io::unpack_bytes(std::span(*bytes).first(length));
     ASSERT_FALSE(cut.ok()) << length;
   }
-  for (std::uint64_t i = 0; i < round_count(); ++i) {
+  for (std::uint64_t i = 0; i < test::shape_count(1); ++i) {
     std::vector<std::uint8_t> damaged = *bytes;
     const std::uint64_t changes = 1 + random.next() % 3;
     for (std::uint64_t k = 0; k < changes; ++k)

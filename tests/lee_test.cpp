@@ -5,14 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <numbers>
 #include <ostream>
 #include <string>
 
 #include "medial/medial.h"
-#include "support/generate.h"
 #include "support/property.h"
+#include "support/random_shapes.h"
 
 namespace medial::test {
 namespace {
@@ -121,11 +120,8 @@ class Lee : public testing::TestWithParam<std::uint64_t> {
   /// Calls `check` with this share of about `count` polygons without holes.
   template <class Check>
   static void for_polygons(double share_of_all, const Check& check) {
-    const char* text = std::getenv("MEDIAL_PROPERTY_COUNT");
-    const double all = text && *text ? std::strtod(text, nullptr) : 20000;
-    const char* seed_text = std::getenv("MEDIAL_PROPERTY_SEED");
-    const std::uint64_t base =
-        seed_text && *seed_text ? std::strtoull(seed_text, nullptr, 10) << 32 : 0;
+    const auto all = static_cast<double>(shape_count(1));
+    const std::uint64_t base = first_seed();
     const auto wanted = static_cast<std::uint64_t>(share_of_all * all / shares) + 1;
     std::uint64_t checked = 0;
     int failed = 0;

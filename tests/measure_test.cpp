@@ -5,44 +5,24 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <numbers>
 #include <numeric>
 
 #include "medial/compute.h"
 #include "medial/query.h"
-#include "support/generate_arcs.h"
+#include "support/computed.h"
+#include "support/random_shapes.h"
 
 namespace medial {
 namespace {
 
+using test::Computed;
+using test::computed;
+using test::random_any;
 using test::RandomShape;
 using test::Rings;
 
 constexpr double pi = std::numbers::pi;
-
-std::uint64_t shape_count(std::uint64_t share) {
-  const char* text = std::getenv("MEDIAL_PROPERTY_COUNT");
-  const std::uint64_t all = text && *text ? std::strtoull(text, nullptr, 10) : 20000;
-  return std::max<std::uint64_t>(all / share, 24);
-}
-
-struct Computed {
-  Shape shape;
-  MedialAxis axis;
-};
-
-Computed computed(const Rings& rings) {
-  auto shape = build_shape(rings);
-  EXPECT_TRUE(shape.ok());
-  auto axis = compute(*shape);
-  EXPECT_TRUE(axis.ok());
-  return {std::move(shape).value(), std::move(axis).value()};
-}
-
-RandomShape random_any(std::uint64_t seed) {
-  return seed % 2 == 0 ? test::random_shape(seed) : test::random_arc_shape(seed);
-}
 
 /// Two chambers of 4 x 4 with a neck between them, 2 long and `width` wide.
 Rings bottle(double width) {
@@ -83,7 +63,7 @@ TEST(WidthsAlong, OfAWedgeAreLinear) {
 }
 
 TEST(WidthsAlong, HaveFeetOnBothSides) {
-  for (std::uint64_t seed = 0; seed < shape_count(200); ++seed) {
+  for (std::uint64_t seed = 0; seed < test::shape_count(200, 24); ++seed) {
     const RandomShape random = random_any(seed);
     const auto [shape, axis] = computed(random.rings);
     const double size = diagonal(bounding_box(shape));
@@ -134,7 +114,7 @@ TEST(Necks, AroundAHole) {
 
 TEST(Necks, AreLocalMinima) {
   std::size_t count = 0;
-  for (std::uint64_t seed = 0; seed < shape_count(100); ++seed) {
+  for (std::uint64_t seed = 0; seed < test::shape_count(100, 24); ++seed) {
     const RandomShape random = random_any(seed);
     const auto [shape, axis] = computed(random.rings);
     const Incidence incidence(axis);
@@ -190,7 +170,7 @@ TEST(MeanWidth, OfADiskAndAStadium) {
 }
 
 TEST(MeanWidth, KnowsTheArea) {
-  for (std::uint64_t seed = 0; seed < shape_count(80); ++seed) {
+  for (std::uint64_t seed = 0; seed < test::shape_count(80, 24); ++seed) {
     const RandomShape random = random_any(seed);
     const auto [shape, axis] = computed(random.rings);
     const double expected = area(shape), size = diagonal(bounding_box(shape));
@@ -204,7 +184,7 @@ TEST(MeanWidth, KnowsTheArea) {
 
 TEST(MeanWidth, AndNecksAreTheSameUnderSymmetries) {
   std::size_t compared = 0;
-  for (std::uint64_t seed = 0; seed < shape_count(250); ++seed) {
+  for (std::uint64_t seed = 0; seed < test::shape_count(250, 24); ++seed) {
     const RandomShape random = test::random_shape(seed);
     if (!random.rigid) continue;
     const auto [shape, axis] = computed(random.rings);
@@ -244,7 +224,7 @@ TEST(LargestDisjointDisks, OfASquare) {
 
 TEST(LargestDisjointDisks, AgreeWithADenseGrid) {
   std::size_t compared = 0;
-  for (std::uint64_t seed = 0; seed < shape_count(1000) + 4; ++seed) {
+  for (std::uint64_t seed = 0; seed < test::shape_count(1000, 24) + 4; ++seed) {
     const RandomShape random = random_any(seed);
     const auto [shape, axis] = computed(random.rings);
     if (shape.points.size() > 60) continue;

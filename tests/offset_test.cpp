@@ -5,32 +5,24 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <numbers>
 
 #include "base/arc.h"
 #include "medial/compute.h"
 #include "medial/query.h"
 #include "medial/verify.h"
-#include "support/generate_arcs.h"
+#include "support/computed.h"
 #include "support/offset_check.h"
+#include "support/random_shapes.h"
 
 namespace medial {
 namespace {
 
+const std::uint64_t shape_count = test::shape_count(33);
+
 using test::RandomShape;
+using test::shape_of;
 constexpr double pi = std::numbers::pi;
-
-std::uint64_t shape_count() {
-  const char* text = std::getenv("MEDIAL_PROPERTY_COUNT");
-  return text && *text ? std::strtoull(text, nullptr, 10) / 20 : 600;
-}
-
-Shape shape_of(const test::Rings& rings) {
-  auto shape = build_shape(rings);
-  EXPECT_TRUE(shape.ok());
-  return std::move(shape).value();
-}
 
 Offsets offsets_of(const test::Rings& rings, std::vector<double> clearances) {
   auto offsets = offset_curves(shape_of(rings), clearances);
@@ -178,9 +170,8 @@ std::vector<double> interesting(const MedialAxis& axis, double size, test::Rando
 
 TEST(Offset, EveryPointHasItsDistance) {
   std::size_t points = 0, regions = 0;
-  for (std::uint64_t seed = 0; seed < shape_count(); ++seed) {
-    const RandomShape random =
-        seed % 2 == 0 ? test::random_shape(seed) : test::random_arc_shape(seed);
+  for (std::uint64_t seed = 0; seed < shape_count; ++seed) {
+    const RandomShape random = test::random_any(seed);
     SCOPED_TRACE(random.kind + " " + std::to_string(seed));
     const Shape shape = shape_of(random.rings);
     const double size = diagonal(bounding_box(shape));
@@ -197,8 +188,8 @@ TEST(Offset, EveryPointHasItsDistance) {
     regions += offsets->regions.size();
     if (HasFailure()) return;
   }
-  EXPECT_GT(points, 20 * shape_count());
-  EXPECT_GT(regions, shape_count());
+  EXPECT_GT(points, 20 * shape_count);
+  EXPECT_GT(regions, shape_count);
 }
 
 /// Sorted clearances, ring counts, areas and lengths of all regions.
@@ -229,9 +220,8 @@ Measures measures_of(const Offsets& offsets, double scale) {
 TEST(Offset, MovesWithTheShape) {
   // Rotation, scale, another start, the other direction: the same but for rounding.
   std::size_t compared = 0;
-  for (std::uint64_t seed = 0; seed < shape_count() / 5; ++seed) {
-    const RandomShape random =
-        seed % 2 == 0 ? test::random_shape(seed) : test::random_arc_shape(seed);
+  for (std::uint64_t seed = 0; seed < shape_count / 5; ++seed) {
+    const RandomShape random = test::random_any(seed);
     SCOPED_TRACE(random.kind + " " + std::to_string(seed));
     const Shape shape = shape_of(random.rings);
     const double size = diagonal(bounding_box(shape));
@@ -279,14 +269,13 @@ TEST(Offset, MovesWithTheShape) {
     ++compared;
     if (HasFailure()) return;
   }
-  EXPECT_GT(compared, shape_count() / 12);
+  EXPECT_GT(compared, shape_count / 12);
 }
 
 TEST(Offset, CountsRingsAsPixelsDo) {
   std::size_t compared = 0;
-  for (std::uint64_t seed = 0; seed < std::min<std::uint64_t>(shape_count() / 10, 60); ++seed) {
-    const RandomShape random =
-        seed % 2 == 0 ? test::random_shape(seed) : test::random_arc_shape(seed);
+  for (std::uint64_t seed = 0; seed < std::min<std::uint64_t>(shape_count / 10, 60); ++seed) {
+    const RandomShape random = test::random_any(seed);
     SCOPED_TRACE(random.kind + " " + std::to_string(seed));
     const Shape shape = shape_of(random.rings);
     const Box box = bounding_box(shape);
@@ -308,7 +297,7 @@ TEST(Offset, CountsRingsAsPixelsDo) {
       ++compared;
     }
   }
-  EXPECT_GT(compared, std::min<std::uint64_t>(shape_count() / 20, 30));
+  EXPECT_GT(compared, std::min<std::uint64_t>(shape_count / 20, 30));
 }
 
 }  // namespace

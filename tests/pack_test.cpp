@@ -5,24 +5,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 
 #include "medial/compute.h"
 #include "medial/query.h"
 #include "medial/rebuild.h"
-#include "support/generate_arcs.h"
+#include "support/random_shapes.h"
 
 namespace medial {
 namespace {
 
+const std::uint64_t shape_count = test::shape_count(100);
+
 using test::Random;
 using test::RandomShape;
-
-std::uint64_t shape_count() {
-  const char* text = std::getenv("MEDIAL_PROPERTY_COUNT");
-  return text && *text ? std::strtoull(text, nullptr, 10) / 100 : 200;
-}
 
 /// How far a point lies outside of the hulls of an axis of straight edges; 0 or less inside.
 double outside(const MedialAxis& axis, Vec2 p) {
@@ -73,9 +69,8 @@ std::vector<Vec2> boundary_points(const MedialAxis& axis) {
 
 TEST(Pack, ComesBackWithinTheBound) {
   std::uint64_t checked = 0;
-  for (std::uint64_t seed = 0; seed < shape_count(); ++seed) {
-    const RandomShape random =
-        seed % 2 == 0 ? test::random_shape(seed) : test::random_arc_shape(seed);
+  for (std::uint64_t seed = 0; seed < shape_count; ++seed) {
+    const RandomShape random = test::random_any(seed);
     SCOPED_TRACE(random.kind + " " + std::to_string(seed));
     const auto shape = build_shape(random.rings);
     ASSERT_TRUE(shape.ok());
@@ -120,7 +115,7 @@ TEST(Pack, ComesBackWithinTheBound) {
     ++checked;
     if (testing::Test::HasFailure()) return;
   }
-  EXPECT_GT(checked, shape_count() / 2);
+  EXPECT_GT(checked, shape_count / 2);
 }
 
 TEST(Pack, OfARectangleIsSixDisks) {
@@ -160,7 +155,7 @@ TEST(Pack, DamagedCodesAreRefused) {
   const std::array<MedialAxis, 1> axes{*axis};
   const auto code = encode_axes(axes, {1e-3 * diagonal(bounding_box(*shape))});
   ASSERT_TRUE(code.ok());
-  const std::uint64_t rounds = 40 * shape_count();
+  const std::uint64_t rounds = 40 * shape_count;
   std::uint64_t refused = 0;
   for (std::uint64_t i = 0; i < rounds; ++i) {
     ShapeCode damaged = *code;
@@ -212,7 +207,7 @@ Image random_image(Random& random) {
 
 TEST(Squares, KeepImages) {
   Random random(3);
-  for (std::uint64_t i = 0; i < shape_count() / 2; ++i) {
+  for (std::uint64_t i = 0; i < shape_count / 2; ++i) {
     const Image image = random_image(random);
     SquareReport report;
     const auto back = decode_squares(encode_squares(image, 0, &report));
@@ -224,7 +219,7 @@ TEST(Squares, KeepImages) {
 
 TEST(Squares, MissAtMostTheError) {
   Random random(4);
-  for (std::uint64_t i = 0; i < shape_count() / 10; ++i) {
+  for (std::uint64_t i = 0; i < shape_count / 10; ++i) {
     const Image image = random_image(random);
     const std::uint32_t error = 1 + static_cast<std::uint32_t>(random.next() % 3);
     SquareReport report;
@@ -258,7 +253,7 @@ TEST(Squares, OfASquareAreOne) {
 TEST(Squares, DamagedCodesAreRefused) {
   Random random(5);
   const ShapeCode code = encode_squares(random_image(random));
-  for (std::uint64_t i = 0; i < 10 * shape_count(); ++i) {
+  for (std::uint64_t i = 0; i < 10 * shape_count; ++i) {
     ShapeCode damaged = code;
     auto& stream = damaged[random.next() % damaged.size()];
     if (stream.empty()) continue;

@@ -7,21 +7,15 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cstdlib>
 #include <functional>
 #include <ostream>
 #include <string>
 #include <vector>
 
-#include "support/generate.h"
+#include "support/random_shapes.h"
 
 namespace medial::test {
 namespace {
-
-std::uint64_t number_from(const char* variable, std::uint64_t otherwise) {
-  const char* text = std::getenv(variable);
-  return text && *text ? std::strtoull(text, nullptr, 10) : otherwise;
-}
 
 /// The polygons are dealt out to several tests, which can run side by side.
 constexpr std::uint64_t shares = 8;
@@ -32,7 +26,7 @@ class Polygons : public testing::TestWithParam<std::uint64_t> {
   /// how to reproduce each.
   static void for_all(std::uint64_t count,
                       const std::function<std::vector<std::string>(const RandomShape&)>& check) {
-    const std::uint64_t base = number_from("MEDIAL_PROPERTY_SEED", 0) << 32;
+    const std::uint64_t base = first_seed();
     int failed = 0;
     for (std::uint64_t i = GetParam(); i < count && failed < 3; i += shares) {
       const RandomShape shape = random_shape(base + i);
@@ -48,17 +42,15 @@ class Polygons : public testing::TestWithParam<std::uint64_t> {
 };
 
 TEST_P(Polygons, AreVerified) {
-  for_all(number_from("MEDIAL_PROPERTY_COUNT", 20000),
-          [](const RandomShape& shape) { return check_axis(shape.rings); });
+  for_all(shape_count(1), [](const RandomShape& shape) { return check_axis(shape.rings); });
 }
 
 TEST_P(Polygons, KeepTheirAxisUnderSymmetries) {
-  for_all(std::max<std::uint64_t>(number_from("MEDIAL_PROPERTY_COUNT", 20000) / 10, shares),
-          check_symmetries);
+  for_all(shape_count(10, shares), check_symmetries);
 }
 
 TEST_P(Polygons, HaveOneAxisForAnyNumberOfThreads) {
-  for_all(std::max<std::uint64_t>(number_from("MEDIAL_PROPERTY_COUNT", 20000) / 20, shares),
+  for_all(shape_count(20, shares),
           [](const RandomShape& shape) { return check_threads(shape.rings); });
 }
 

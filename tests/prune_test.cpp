@@ -6,33 +6,23 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <numbers>
 
 #include "medial/compute.h"
 #include "medial/query.h"
-#include "support/generate_arcs.h"
+#include "support/computed.h"
+#include "support/random_shapes.h"
 
 namespace medial {
 namespace {
 
-using test::RandomShape;
+const std::uint64_t shape_count = test::shape_count(40);
 
-std::uint64_t shape_count() {
-  const char* text = std::getenv("MEDIAL_PROPERTY_COUNT");
-  return text && *text ? std::strtoull(text, nullptr, 10) / 40 : 400;
-}
+using test::axis_of;
+using test::RandomShape;
 
 RandomShape shape_of(std::uint64_t seed) {
   return seed % 3 != 0 ? test::random_shape(seed) : test::random_arc_shape(seed);
-}
-
-MedialAxis axis_of(const test::Rings& rings) {
-  const auto shape = build_shape(rings);
-  EXPECT_TRUE(shape.ok());
-  auto axis = compute(*shape);
-  EXPECT_TRUE(axis.ok());
-  return std::move(axis).value();
 }
 
 MedialAxis axis_of(std::vector<Vec2> points) { return axis_of(test::Rings{{std::move(points)}}); }
@@ -77,7 +67,7 @@ std::vector<double> thresholds_of(const PruneOrder& order, const MedialAxis& axi
 
 TEST(Prune, KeepsTheHomotopyTypeAndIsNested) {
   std::size_t cuts = 0, removed = 0;
-  for (std::uint64_t seed = 0; seed < shape_count(); ++seed) {
+  for (std::uint64_t seed = 0; seed < shape_count; ++seed) {
     const RandomShape random = shape_of(seed);
     SCOPED_TRACE(random.kind + " " + std::to_string(seed));
     const MedialAxis axis = axis_of(random.rings);
@@ -122,7 +112,7 @@ TEST(Prune, KeepsTheHomotopyTypeAndIsNested) {
 /// What is kept is the axis it was: the same curves, and disks that touch the boundary.
 TEST(Prune, CutsEdgesExactly) {
   std::size_t cuts = 0;
-  for (std::uint64_t seed = 0; seed < shape_count() / 4; ++seed) {
+  for (std::uint64_t seed = 0; seed < shape_count / 4; ++seed) {
     const RandomShape random = shape_of(seed);
     SCOPED_TRACE(random.kind + " " + std::to_string(seed));
     const auto shape = build_shape(random.rings);
@@ -155,7 +145,7 @@ TEST(Prune, CutsEdgesExactly) {
 /// Rotated, scaled, mirrored, reversed and re-started, the same part of the axis is kept.
 TEST(Prune, DoesNotDependOnHowTheShapeIsWritten) {
   std::size_t compared = 0;
-  for (std::uint64_t seed = 0; seed < shape_count() / 8; ++seed) {
+  for (std::uint64_t seed = 0; seed < shape_count / 8; ++seed) {
     const RandomShape random = test::random_shape(seed);
     if (!random.rigid) continue;
     SCOPED_TRACE(random.kind + " " + std::to_string(seed));
@@ -247,7 +237,7 @@ TEST(Prune, TheDeepestDiskMayLieInsideAnEdge) {
 }
 
 TEST(Prune, KeepsSoManyBranches) {
-  for (std::uint64_t seed = 0; seed < shape_count() / 8; ++seed) {
+  for (std::uint64_t seed = 0; seed < shape_count / 8; ++seed) {
     const MedialAxis axis = axis_of(shape_of(seed).rings);
     for (const PruneMeasure measure : {PruneMeasure::significance, PruneMeasure::residual}) {
       const std::size_t fewest = PruneOrder(axis, measure).branches_at(1e300);

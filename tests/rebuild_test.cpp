@@ -5,24 +5,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <numbers>
 
 #include "medial/compute.h"
 #include "medial/prune.h"
 #include "medial/query.h"
 #include "medial/shape_distance.h"
-#include "support/generate_arcs.h"
+#include "support/random_shapes.h"
 
 namespace medial {
 namespace {
 
-using test::RandomShape;
+const std::uint64_t shape_count = test::shape_count(40);
 
-std::uint64_t shape_count() {
-  const char* text = std::getenv("MEDIAL_PROPERTY_COUNT");
-  return text && *text ? std::strtoull(text, nullptr, 10) / 40 : 400;
-}
+using test::RandomShape;
 
 struct Case {
   std::string name;
@@ -32,8 +28,7 @@ struct Case {
 };
 
 Case case_of(std::uint64_t seed) {
-  const RandomShape random =
-      seed % 2 == 0 ? test::random_shape(seed) : test::random_arc_shape(seed);
+  const RandomShape random = test::random_any(seed);
   auto shape = build_shape(random.rings);
   EXPECT_TRUE(shape.ok());
   auto axis = compute(*shape);
@@ -58,7 +53,7 @@ std::vector<Vec2> sorted(std::vector<Vec2> points) {
 
 TEST(Rebuild, TheAxisOfAShapeGivesItBack) {
   std::size_t same_points = 0, polygons = 0;
-  for (std::uint64_t seed = 0; seed < shape_count(); ++seed) {
+  for (std::uint64_t seed = 0; seed < shape_count; ++seed) {
     const Case one = case_of(seed);
     SCOPED_TRACE(one.name);
     RebuildReport report;
@@ -81,7 +76,7 @@ TEST(Rebuild, TheAxisOfAShapeGivesItBack) {
 /// threshold; the disks of the pruned axis are as large in it as they were.
 TEST(Rebuild, OfAPrunedAxisIsTheUnionOfItsDisks) {
   std::size_t smaller = 0;
-  for (std::uint64_t seed = 0; seed < shape_count() / 2; ++seed) {
+  for (std::uint64_t seed = 0; seed < shape_count / 2; ++seed) {
     const Case one = case_of(seed);
     SCOPED_TRACE(one.name);
     const PruneMeasure measure = prune_measures()[seed / 2 % prune_measures().size()];
@@ -107,7 +102,7 @@ TEST(Rebuild, OfAPrunedAxisIsTheUnionOfItsDisks) {
       }
     }
   }
-  EXPECT_GT(smaller, shape_count() / 8);
+  EXPECT_GT(smaller, shape_count / 8);
 }
 
 /// The measure `area` tells what is lost.
@@ -170,7 +165,7 @@ TEST(Rebuild, TangentsOfMorePointsComeNearer) {
 }
 
 TEST(Rebuild, TangentsOfAnyShapeGiveOne) {
-  for (std::uint64_t seed = 0; seed < shape_count() / 4; ++seed) {
+  for (std::uint64_t seed = 0; seed < shape_count / 4; ++seed) {
     const Case one = case_of(seed);
     SCOPED_TRACE(one.name);
     const auto shape = rebuild(one.axis, {.by = RebuildBy::tangents, .points = 200});

@@ -5,28 +5,23 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <numbers>
 
 #include "medial/compute.h"
-#include "support/generate_arcs.h"
+#include "support/random_shapes.h"
 
 namespace medial {
 namespace {
 
-using test::RandomShape;
+const std::uint64_t shape_count = test::shape_count(40);
 
-std::uint64_t shape_count() {
-  const char* text = std::getenv("MEDIAL_PROPERTY_COUNT");
-  return text && *text ? std::strtoull(text, nullptr, 10) / 40 : 500;
-}
+using test::RandomShape;
 
 /// Calls `check` with random shapes, straight and curved by turns, their axis and their diagonal.
 template <class Check>
 void for_shapes(const Check& check) {
-  for (std::uint64_t seed = 0; seed < shape_count(); ++seed) {
-    const RandomShape random =
-        seed % 2 == 0 ? test::random_shape(seed) : test::random_arc_shape(seed);
+  for (std::uint64_t seed = 0; seed < shape_count; ++seed) {
+    const RandomShape random = test::random_any(seed);
     const auto shape = build_shape(random.rings);
     ASSERT_TRUE(shape.ok()) << seed;
     const auto axis = compute(*shape);

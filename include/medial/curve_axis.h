@@ -62,9 +62,9 @@ struct CurveAxis {
 /// The contour may run either way; its pieces have to join with one direction and, to a hundredth,
 /// one curvature. Time grows with the number of points, and with the square of the number of
 /// maxima of curvature. Errors: not_finite, invalid_option, cancelled, too_large (20,000 pieces,
-/// 2^21 points), unsupported (not smooth: the place is named; more than one contour; no maximum of
-/// curvature, as for a circle), crossing and what else build_shape() refuses, internal (boundary is
-/// left that no branch reaches).
+/// 2^21 points, some seconds of work), unsupported (not smooth: the place
+/// is named; more than one contour; no maximum of curvature, as for a circle), crossing and what
+/// else build_shape() refuses, internal (boundary is left that no branch reaches).
 Result<CurveAxis> compute_curve_axis(std::span<const Contour> contours,
                                      const CurveAxisOptions& options = {});
 

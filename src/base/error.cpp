@@ -2,6 +2,10 @@
 
 #include <array>
 #include <charconv>
+#include <exception>
+#include <new>
+
+#include "base/in_flight.h"
 
 namespace medial {
 namespace {
@@ -22,6 +26,18 @@ void append(std::string& list, const char* noun, const std::optional<std::uint64
 }
 
 }  // namespace
+
+Error error_in_flight() {
+  try {
+    throw;
+  } catch (const std::bad_alloc&) {
+    return {ErrorCode::out_of_memory, "memory ran out", {}};
+  } catch (const std::exception& exception) {
+    return {ErrorCode::internal, exception.what(), {}};
+  } catch (...) {
+    return {ErrorCode::internal, "something unexpected happened", {}};
+  }
+}
 
 const char* name_of(ErrorCode code) {
   switch (code) {

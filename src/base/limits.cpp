@@ -17,21 +17,26 @@ std::optional<Error> beyond_limits(std::span<const Vec2> points, double largest,
   const auto within = [smallest](double c) {
     return c == 0 || (std::abs(c) >= smallest && std::abs(c) <= largest_coordinate);
   };
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const Vec2 p = points[i];
-    if (within(p.x) && within(p.y)) continue;
-    Error error{ErrorCode::unsupported,
-                "a coordinate is larger than 1e100, or smaller than 1e-100 (or than that share of "
-                "the largest) without being 0",
-                {}};
-    error.place.point = p;
-    if (i < sources.size()) {
-      error.place.ring = sources[i].ring;
-      error.place.vertex = sources[i].vertex;
-    }
-    return error;
+  const auto bad =
+      std::ranges::find_if_not(points, [&within](Vec2 p) { return within(p.x) && within(p.y); });
+  if (bad == points.end()) return std::nullopt;
+  // Others may be too small because one is too large: that one is named.
+  const auto too_large = std::ranges::find_if_not(points, [](Vec2 p) {
+    return std::abs(p.x) <= largest_coordinate && std::abs(p.y) <= largest_coordinate;
+  });
+  const auto i =
+      static_cast<std::size_t>((too_large == points.end() ? bad : too_large) - points.begin());
+  const Vec2 p = points[i];
+  Error error{ErrorCode::unsupported,
+              "a coordinate is larger than 1e100, or smaller than 1e-100 (or than that share of "
+              "the largest) without being 0",
+              {}};
+  error.place.point = p;
+  if (i < sources.size()) {
+    error.place.ring = sources[i].ring;
+    error.place.vertex = sources[i].vertex;
   }
-  return std::nullopt;
+  return error;
 }
 
 }  // namespace
@@ -42,10 +47,11 @@ std::optional<Error> beyond_limits(const Shape& shape) {
 
 std::optional<Error> beyond_limits(const Soup& soup, const Box& box) {
   const std::array<Vec2, 2> corners{box.low, box.high};
-  if (auto error = beyond_limits(corners, 0, {})) return error;
   const double largest = std::max(
       {std::abs(box.low.x), std::abs(box.low.y), std::abs(box.high.x), std::abs(box.high.y)});
-  return beyond_limits(soup.points, largest, soup.point_sources);
+  // A point of the input tells more than the box that lies around it.
+  if (auto error = beyond_limits(soup.points, largest, soup.point_sources)) return error;
+  return beyond_limits(corners, 0, {});
 }
 
 }  // namespace medial

@@ -1,9 +1,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <exception>
-#include <new>
 
+#include "base/in_flight.h"
 #include "medial/image.h"
 
 // A smooth curve between the pixels. Between the centres of a foreground and a background pixel
@@ -167,10 +166,8 @@ Result<std::vector<Contour>> smooth_outline(const Image& image) {
       contours.push_back(contour_of(cracks));
     }
     return contours;
-  } catch (const std::bad_alloc&) {
-    return Error{ErrorCode::out_of_memory, "memory ran out", {}};
-  } catch (const std::exception& exception) {
-    return Error{ErrorCode::internal, exception.what(), {}};
+  } catch (...) {
+    return error_in_flight();
   }
 }
 

@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <exception>
 #include <limits>
-#include <new>
 #include <optional>
 #include <utility>
 
 #include "base/arc.h"
+#include "base/in_flight.h"
 #include "base/limits.h"
 #include "base/threads.h"
 #include "engines/axis_around.h"
@@ -240,10 +239,8 @@ Result<MedialAxis> compute(const Shape& shape, const Options& options) {
 #endif
     if (options.progress) options.progress(1);
     return result;
-  } catch (const std::bad_alloc&) {
-    return Error{ErrorCode::out_of_memory, "memory ran out", {}};
-  } catch (const std::exception& exception) {
-    return Error{ErrorCode::internal, exception.what(), {}};
+  } catch (...) {
+    return error_in_flight();
   }
 }
 
@@ -259,10 +256,8 @@ Result<VoronoiDiagram> voronoi_diagram(const Shape& shape, const Options& option
       return Error{ErrorCode::cancelled, "cancelled", {}};
     if (own.progress) own.progress(1);
     return diagram;
-  } catch (const std::bad_alloc&) {
-    return Error{ErrorCode::out_of_memory, "memory ran out", {}};
-  } catch (const std::exception& exception) {
-    return Error{ErrorCode::internal, exception.what(), {}};
+  } catch (...) {
+    return error_in_flight();
   }
 }
 
@@ -357,10 +352,8 @@ Result<VoronoiDiagram> voronoi_diagram(const Soup& soup, const Options& options,
     diagram->statistics.threads = effective_threads(options.threads);
     if (options.progress) options.progress(1);
     return diagram;
-  } catch (const std::bad_alloc&) {
-    return Error{ErrorCode::out_of_memory, "memory ran out", {}};
-  } catch (const std::exception& exception) {
-    return Error{ErrorCode::internal, exception.what(), {}};
+  } catch (...) {
+    return error_in_flight();
   }
 }
 

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cairo.h>
-
 #include <algorithm>
 #include <cstdint>
 #include <functional>
@@ -11,7 +9,7 @@
 #include <vector>
 
 #include "io/color.h"
-#include "io/output.h"
+#include "io/picture_frame.h"
 #include "medial/shape.h"
 
 namespace medial::io {
@@ -20,30 +18,21 @@ namespace medial::io {
 /// kept. Line widths are in thousandths of the picture's longer side.
 class Canvas {
  public:
-  /// `write_canvas` makes it. `scale` is in pixels by units of the input.
-  Canvas(cairo_t* context, const Box& box, double width, double height, double scale, bool y_down)
-      : context_(context),
-        center_(midpoint(box.low, box.high)),
-        width_(width),
-        height_(height),
-        scale_(scale),
-        up_(y_down ? -1 : 1) {}
+  /// write_canvas() makes it.
+  Canvas(cairo_t* context, const PictureFrame& frame) : context_(context), frame_(frame) {}
 
   void color(const Color& c, double alpha = 1) {
     cairo_set_source_rgba(context_, c.red, c.green, c.blue, alpha);
   }
   void line_width(double thousandths) {
-    cairo_set_line_width(context_, 1e-3 * thousandths * std::max(width_, height_));
+    cairo_set_line_width(context_, 1e-3 * thousandths * std::max(frame_.width, frame_.height));
   }
-  double scale() const { return scale_; }
-  double width() const { return width_; }
-  double height() const { return height_; }
+  double scale() const { return frame_.scale; }
+  double width() const { return frame_.width; }
+  double height() const { return frame_.height; }
   /// The point of the plane that lies at this place of the picture, in pixels.
-  Vec2 plane_at(Vec2 pixel) const {
-    return {center_.x + (pixel.x - 0.5 * width_) / scale_,
-            center_.y - (pixel.y - 0.5 * height_) / (up_ * scale_)};
-  }
-  void width_in_units(double units) { cairo_set_line_width(context_, units * scale_); }
+  Vec2 plane_at(Vec2 pixel) const { return frame_.plane_at(pixel); }
+  void width_in_units(double units) { cairo_set_line_width(context_, units * frame_.scale); }
 
   /// Adds a ring to the path, without its last edge if it is open; or a polyline.
   void trace(const Ring& ring, bool closed = true);
@@ -60,16 +49,10 @@ class Canvas {
   void text(Vec2 at, double thousandths, const std::string& words);
 
  private:
-  Vec2 place(Vec2 p) const {
-    return {0.5 * width_ + (p.x - center_.x) * scale_,
-            0.5 * height_ - (p.y - center_.y) * (up_ * scale_)};
-  }
   void edge_to(Vec2 from, Vec2 to, double bulge);
-  void arc_to(Vec2 from, Vec2 to, double bulge);
 
   cairo_t* context_;
-  Vec2 center_;
-  double width_, height_, scale_, up_;
+  PictureFrame frame_;
 };
 
 /// Draws a picture of a box of the plane as svg, pdf, ps or png. Errors: invalid_option (width),

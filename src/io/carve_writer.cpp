@@ -198,17 +198,13 @@ Ring line_of(const ToolPath& path) {
 /// the air.
 Status write_picture(OutputStream& out, const std::string& format, const CarveFile& file,
                      const WriteOptions& options) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  Box box{{infinity, infinity}, {-infinity, -infinity}};
+  Extent extent;
   double deepest = 0;
   for (const CarveItem& item : file.items) {
-    const Box own = bounding_box(item.shape);
-    box.low = {std::min(box.low.x, own.low.x), std::min(box.low.y, own.low.y)};
-    box.high = {std::max(box.high.x, own.high.x), std::max(box.high.y, own.high.y)};
+    extent.add(item.shape);
     deepest = std::max(deepest, item.carving.deepest);
   }
-  if (!(box.low.x <= box.high.x)) box = {{0, 0}, {1, 1}};
-  return write_canvas(out, format, box, options.width, file.y_down, [&](Canvas& canvas) {
+  return write_canvas(out, format, extent.box(), options.width, file.y_down, [&](Canvas& canvas) {
     constexpr Color wood{0.93, 0.86, 0.74}, bottom{0.36, 0.22, 0.12}, outline{0.25, 0.25, 0.3};
     const int levels = format == "png" ? 32 : 12;
     for (const CarveItem& item : file.items) {

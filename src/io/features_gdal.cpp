@@ -1,26 +1,16 @@
-#include <fmt/format.h>
 #include <gdal_priv.h>
 #include <ogrsf_frmts.h>
 
 #include <memory>
-#include <optional>
 
 #include "io/features_writer.h"
 #include "io/gdal_support.h"
-#include "io/place.h"
+#include "io/gdal_target.h"
 #include "io/table_writer.h"
-#include "medial/io/projection.h"
 
 namespace medial::io {
 
 namespace {
-
-const char* driver_of(const std::string& format) {
-  if (format == "geojson") return "GeoJSON";
-  if (format == "gpkg") return "GPKG";
-  if (format == "shp") return "ESRI Shapefile";
-  return "FlatGeobuf";
-}
 
 OGRFieldType type_of(ColumnType type) {
   switch (type) {
@@ -37,66 +27,18 @@ OGRFieldType type_of(ColumnType type) {
 class FeaturesGdalWriter {
  public:
   FeaturesGdalWriter(const NativeFile& axes, std::span<const AxisFeatures> features,
-                     const FeatureWriteOptions& options, std::string shown)
-      : axes_(axes), features_(features), options_(options), shown_(std::move(shown)) {}
-
-  Status write(const std::string& path, const std::string& format) {
-    register_gdal();
-    GDALDriver* driver = GetGDALDriverManager()->GetDriverByName(driver_of(format));
-    if (driver == nullptr)
-      return Error{ErrorCode::unsupported, fmt::format("this GDAL cannot write {}", format), {}};
-    if (Status status = prepare_crs(); !status) return status;
-    const GdalMessages messages;
-    GDALDatasetUniquePtr target(driver->Create(path.c_str(), 0, 0, 0, GDT_Unknown, nullptr));
-    if (!target) return failed(messages);
-    const bool transactions = target->TestCapability(ODsCTransactions) != 0;
-    if (transactions) target->StartTransaction();
-    if (format == "gpkg") {
-      for (const FeatureTable table :
-           {FeatureTable::runs, FeatureTable::branches, FeatureTable::points})
-        if (Status status = write_layer(*target, table, name_of(table), messages); !status)
-          return status;
-    } else {
-      // The only layer of a file that holds one is named after the file.
-      const std::string name = CPLGetBasename(target->GetDescription());
-      if (Status status = write_layer(*target, options_.table, name, messages); !status)
-        return status;
-    }
-    if (transactions && target->CommitTransaction() != OGRERR_NONE) return failed(messages);
-    target.reset();  // closing writes, too
-    return messages.failure().empty() ? success() : failed(messages);
-  }
-
- private:
-  Status failed(const GdalMessages& messages) const {
-    return Error{ErrorCode::unwritable, "cannot write: " + messages.failure(), in_file(shown_)};
-  }
-
-  Status prepare_crs() {
-    std::string wkt = axes_.crs_wkt;
-    if (is_local_projection(wkt)) {
-      Result<BackToGeographic> back = BackToGeographic::make(wkt);
-      if (!back) return back.error();
-      back_ = std::move(*back);
-      wkt = back_->crs_wkt();
-    }
-    const GdalMessages messages;
-    if (!wkt.empty() && crs_.importFromWkt(wkt.c_str()) == OGRERR_NONE) {
-      crs_.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
-      has_crs_ = true;
-    }
-    return success();
-  }
+                     const FeatureWriteOptions& options, const OutputCrs& crs)
+      : axes_(axes), features_(features), options_(options), crs_(crs) {}
 
   Status write_layer(GDALDataset& target, FeatureTable table, const std::string& name,
                      const GdalMessages& messages) {
     const bool points = table == FeatureTable::points;
-    OGRLayer* layer = target.CreateLayer(name.c_str(), has_crs_ ? &crs_ : nullptr,
+    OGRLayer* layer = target.CreateLayer(name.c_str(), crs_.reference(),
                                          points ? wkbPoint : wkbLineString, nullptr);
-    if (layer == nullptr) return failed(messages);
+    if (layer == nullptr) return cannot_write(messages);
     for (const TableColumn& column : columns_of(table)) {
       OGRFieldDefn field(column.name, type_of(column.type));
-      if (layer->CreateField(&field) != OGRERR_NONE) return failed(messages);
+      if (layer->CreateField(&field) != OGRERR_NONE) return cannot_write(messages);
     }
     for (std::size_t i = 0; i < features_.size(); ++i) {
       const NativeItem& item = axes_.items[i];
@@ -108,10 +50,9 @@ class FeaturesGdalWriter {
     return success();
   }
 
+ private:
   Status write_row(OGRLayer& layer, TableRow& row, bool point, const GdalMessages& messages) {
-    if (back_) {
-      if (Status status = back_->transform(row.points); !status) return status;
-    }
+    if (Status status = crs_.transform(row.points); !status) return status;
     OGRFeature feature(layer.GetLayerDefn());
     for (int k = 0; k < static_cast<int>(row.values.size()); ++k) {
       const Value& value = row.values[static_cast<std::size_t>(k)];
@@ -129,22 +70,17 @@ class FeaturesGdalWriter {
       feature.SetGeometryDirectly(new OGRPoint(row.points[0].x, row.points[0].y));
     } else {
       auto line = std::make_unique<OGRLineString>();
-      line->setNumPoints(static_cast<int>(row.points.size()), FALSE);
-      for (std::size_t k = 0; k < row.points.size(); ++k)
-        line->setPoint(static_cast<int>(k), row.points[k].x, row.points[k].y);
+      set_points(*line, row.points);
       feature.SetGeometryDirectly(line.release());
     }
-    if (layer.CreateFeature(&feature) != OGRERR_NONE) return failed(messages);
+    if (layer.CreateFeature(&feature) != OGRERR_NONE) return cannot_write(messages);
     return success();
   }
 
   const NativeFile& axes_;
   std::span<const AxisFeatures> features_;
   const FeatureWriteOptions& options_;
-  std::string shown_;
-  OGRSpatialReference crs_;
-  bool has_crs_ = false;
-  std::optional<BackToGeographic> back_;
+  const OutputCrs& crs_;
 };
 
 }  // namespace
@@ -152,7 +88,20 @@ class FeaturesGdalWriter {
 Status write_features_gdal(const std::string& path, const std::string& format,
                            const NativeFile& axes, std::span<const AxisFeatures> features,
                            const FeatureWriteOptions& options) {
-  return FeaturesGdalWriter(axes, features, options, path).write(path, format);
+  const Result<OutputCrs> crs = OutputCrs::make(axes.crs_wkt);
+  if (!crs) return crs.error();
+  FeaturesGdalWriter writer(axes, features, options, *crs);
+  return write_dataset(path, format, [&](GDALDataset& target, const GdalMessages& messages) {
+    if (format != "gpkg") {
+      // The only layer of a file that holds one is named after the file.
+      return writer.write_layer(target, options.table, CPLGetBasename(path.c_str()), messages);
+    }
+    for (const FeatureTable table :
+         {FeatureTable::runs, FeatureTable::branches, FeatureTable::points})
+      if (Status status = writer.write_layer(target, table, name_of(table), messages); !status)
+        return status;
+    return success();
+  });
 }
 
 }  // namespace medial::io

@@ -1,19 +1,12 @@
-#include <cairo-pdf.h>
-#include <cairo-ps.h>
-#include <cairo-svg.h>
 #include <cairo.h>
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
-#include <memory>
-#include <numbers>
 
-#include "base/arc.h"
 #include "io/color.h"
 #include "io/features_writer.h"
+#include "io/picture_frame.h"
 #include "medial/query.h"
 
 namespace medial::io {
@@ -39,52 +32,6 @@ constexpr double legend = 0.025;      // height of the legend below, of the pict
 constexpr double width_share = 1e-3;  // line widths, of the picture's larger side
 constexpr int most_names = 60;
 
-cairo_status_t write_bytes(void* out, const unsigned char* bytes, unsigned count) {
-  auto* stream = static_cast<OutputStream*>(out);
-  stream->put(std::string_view(reinterpret_cast<const char*>(bytes), count));
-  return stream->failed() ? CAIRO_STATUS_WRITE_ERROR : CAIRO_STATUS_SUCCESS;
-}
-
-/// How the plane lies in the picture.
-struct Placing {
-  double width = 0, height = 0, scale = 1, up = 1;
-  Vec2 center;
-
-  Vec2 operator()(Vec2 p) const {
-    return {0.5 * width + (p.x - center.x) * scale, 0.5 * height - (p.y - center.y) * (up * scale)};
-  }
-};
-
-Placing placing_of(const NativeFile& file, double width) {
-  constexpr double endless = std::numeric_limits<double>::infinity();
-  Box box{{endless, endless}, {-endless, -endless}};
-  const auto include = [&box](Vec2 p) {
-    box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y)};
-    box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y)};
-  };
-  for (const NativeItem& item : file.items) {
-    if (!item.shape.points.empty()) {
-      const Box extent = bounding_box(item.shape);
-      include(extent.low);
-      include(extent.high);
-    }
-    for (const Node& node : item.axis.nodes) include(node.disk.center);
-  }
-  if (!(box.low.x <= box.high.x)) box = {{0, 0}, {1, 1}};
-  const Vec2 size = box.high - box.low;
-  const double margin = 0.03 * width;
-  Placing placing;
-  placing.up = file.y_down ? -1 : 1;
-  placing.width = width;
-  placing.center = midpoint(box.low, box.high);
-  placing.scale = size.x > 0 ? (width - 2 * margin) / size.x : 1;
-  const double height = size.x > 0 ? size.y * placing.scale : 4 * width;
-  placing.height = std::ceil(std::clamp(height + 2 * margin, width / 8, 4 * width));
-  if (size.y > 0 && size.y * placing.scale + 2 * margin > placing.height)
-    placing.scale = (placing.height - 2 * margin) / size.y;
-  return placing;
-}
-
 /// The words for a run: "closing wedge", "worm, left circular".
 std::string words_for(const PrimitiveRun& run) {
   std::string words = name_of(run.primitive);
@@ -98,20 +45,17 @@ std::string words_for(const PrimitiveRun& run) {
 
 class FeaturesPicture {
  public:
-  FeaturesPicture(cairo_t* context, const Placing& placing, const NativeFile& axes,
+  FeaturesPicture(cairo_t* context, const PictureFrame& frame, const NativeFile& axes,
                   std::span<const AxisFeatures> features, const FeatureWriteOptions& options)
       : context_(context),
-        placing_(placing),
+        frame_(frame),
         axes_(axes),
         features_(features),
         options_(options),
-        line_(width_share * placing.width) {}
+        line_(width_share * frame.width) {}
 
   void draw() {
     cairo_set_line_cap(context_, CAIRO_LINE_CAP_BUTT);
-    cairo_set_line_join(context_, CAIRO_LINE_JOIN_ROUND);
-    color(paper_color);
-    cairo_paint(context_);
     if (options_.write.shape)
       for (const NativeItem& item : axes_.items) draw_shape(item.shape);
     for (std::size_t i = 0; i < features_.size(); ++i) draw_runs(axes_.items[i].axis, features_[i]);
@@ -133,24 +77,18 @@ class FeaturesPicture {
   }
   void line_to(Vec2 p) { cairo_line_to(context_, p.x, p.y); }
 
-  void arc_to(const BulgeArc& arc) {
-    constexpr double flat = 0.01;  // tangent of a quarter of the angle: chords do from there on
-    if (std::fabs(arc.bulge) > flat) {
-      const Vec2 middle = apex(arc);
-      arc_to({arc.start, middle, half_bulge(arc.bulge)});
-      arc_to({middle, arc.end, half_bulge(arc.bulge)});
-      return;
-    }
-    line_to(placing_(arc.end));
+  void edge_to(Vec2 from, Vec2 to, double bulge) {
+    if (bulge == 0) return line_to(frame_(to));
+    arc_to(context_, {frame_(from), frame_(to), frame_.bulge(bulge)});
   }
 
   void draw_shape(const Shape& shape) {
     for (std::size_t i = 0; i < shape.loop_count(); ++i) {
       const std::size_t begin = shape.loop_begin[i], end = shape.loop_begin[i + 1];
-      const Vec2 first = placing_(shape.points[begin]);
+      const Vec2 first = frame_(shape.points[begin]);
       cairo_move_to(context_, first.x, first.y);
       for (std::size_t k = begin; k < end; ++k)
-        arc_to({shape.points[k], shape.points[k + 1 == end ? begin : k + 1], shape.bulge(k)});
+        edge_to(shape.points[k], shape.points[k + 1 == end ? begin : k + 1], shape.bulge(k));
       cairo_close_path(context_);
     }
     cairo_set_fill_rule(context_, CAIRO_FILL_RULE_EVEN_ODD);
@@ -163,7 +101,7 @@ class FeaturesPicture {
 
   void draw_runs(const MedialAxis& axis, const AxisFeatures& features) {
     const std::vector<Branch> all = branches(axis);
-    const double chord = 0.1 / placing_.scale;  // a tenth of a pixel
+    const double chord = 0.1 / frame_.scale;  // a tenth of a pixel
     cairo_set_line_width(context_, 2.6 * line_);
     for (const BranchFeatures& branch : features.branches) {
       const auto lines = lines_of(axis, features, branch, all[branch.branch], chord);
@@ -172,17 +110,17 @@ class FeaturesPicture {
         used_[static_cast<std::size_t>(run.primitive)] = true;
         color(primitive_colors[static_cast<std::size_t>(run.primitive)]);
         cairo_new_path(context_);
-        for (const Disk& disk : lines[k]) line_to(placing_(disk.center));
+        for (const Disk& disk : lines[k]) line_to(frame_(disk.center));
         cairo_stroke(context_);
         if (options_.names) add_label(run, lines[k]);
-        if (k > 0) cuts_.push_back(placing_(lines[k].front().center));
+        if (k > 0) cuts_.push_back(frame_(lines[k].front().center));
       }
     }
   }
 
   /// A label at the middle of a run, if the run is longer in the picture than the words are high.
   void add_label(const PrimitiveRun& run, const std::vector<Disk>& line) {
-    const double length = run.length * placing_.scale;
+    const double length = run.length * frame_.scale;
     if (length < 2 * font_size()) return;
     double left = 0.5 * run.length;
     for (std::size_t i = 0; i + 1 < line.size(); ++i) {
@@ -192,17 +130,13 @@ class FeaturesPicture {
         continue;
       }
       const double t = step > 0 ? std::min(left / step, 1.0) : 0;
-      labels_.push_back({length,
-                         placing_(line[i].center + t * (line[i + 1].center - line[i].center)),
+      labels_.push_back({length, frame_(line[i].center + t * (line[i + 1].center - line[i].center)),
                          words_for(run)});
       return;
     }
   }
 
-  void dot(Vec2 at, double radius) {
-    cairo_new_sub_path(context_);
-    cairo_arc(context_, at.x, at.y, radius, 0, 2 * std::numbers::pi);
-  }
+  void dot(Vec2 at, double radius) { add_circle(context_, at, radius); }
 
   void draw_points(const MedialAxis& axis, const AxisFeatures& features) {
     cairo_set_fill_rule(context_, CAIRO_FILL_RULE_WINDING);
@@ -210,7 +144,7 @@ class FeaturesPicture {
       const PointKind kind = features.points[i];
       if (kind == PointKind::normal) continue;
       color(kind == PointKind::end ? end_color : branching);
-      dot(placing_(axis.nodes[i].disk.center), 3.2 * line_);
+      dot(frame_(axis.nodes[i].disk.center), 3.2 * line_);
       cairo_fill(context_);
     }
     // Cuts inside of branches: rings.
@@ -243,7 +177,7 @@ class FeaturesPicture {
       cairo_text_extents_t extents;
       cairo_text_extents(context_, label.words.c_str(), &extents);
       const double wide = extents.width, high = font_size();
-      const double x = std::clamp(label.at.x - 0.5 * wide, line_, placing_.width - wide - line_);
+      const double x = std::clamp(label.at.x - 0.5 * wide, line_, frame_.width - wide - line_);
       const double y = label.at.y - 0.5 * high;
       const Box box{{x, y - 0.6 * high}, {x + wide, y + 0.4 * high}};
       const bool covered = std::ranges::any_of(taken, [&box](const Box& other) {
@@ -266,7 +200,7 @@ class FeaturesPicture {
   void draw_legend() {
     use_font();
     double x = font_size();
-    const double y = placing_.height + font_size();
+    const double y = frame_.height + font_size();
     for (std::size_t i = 0; i < used_.size(); ++i) {
       if (!used_[i]) continue;
       std::string words = name_of(static_cast<Primitive>(i));
@@ -284,7 +218,7 @@ class FeaturesPicture {
   }
 
   cairo_t* context_;
-  const Placing& placing_;
+  const PictureFrame& frame_;
   const NativeFile& axes_;
   std::span<const AxisFeatures> features_;
   const FeatureWriteOptions& options_;
@@ -299,38 +233,12 @@ class FeaturesPicture {
 Status write_features_picture(OutputStream& out, const std::string& format, const NativeFile& axes,
                               std::span<const AxisFeatures> features,
                               const FeatureWriteOptions& options) {
-  constexpr double smallest = 16;
-  constexpr double largest = 8000;  // four times as high stays below Cairo's 32767
-  const double width = std::floor(options.write.width);
-  if (!(width >= smallest && width <= largest))
-    return Error{ErrorCode::invalid_option,
-                 fmt::format("the width of a picture lies between {} and {}", smallest, largest),
-                 {}};
-  const Placing placing = placing_of(axes, width);
-  const double height = placing.height + std::ceil(legend * width);
-  const auto create = [&]() -> cairo_surface_t* {
-    if (format == "svg")
-      return cairo_svg_surface_create_for_stream(write_bytes, &out, width, height);
-    if (format == "pdf")
-      return cairo_pdf_surface_create_for_stream(write_bytes, &out, width, height);
-    if (format == "ps") return cairo_ps_surface_create_for_stream(write_bytes, &out, width, height);
-    return cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(width),
-                                      static_cast<int>(height));
-  };
-  const std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)> surface(
-      create(), &cairo_surface_destroy);
-  const std::unique_ptr<cairo_t, decltype(&cairo_destroy)> context(cairo_create(surface.get()),
-                                                                   &cairo_destroy);
-  FeaturesPicture(context.get(), placing, axes, features, options).draw();
-  cairo_status_t status = cairo_status(context.get());
-  if (status == CAIRO_STATUS_SUCCESS && format == "png")
-    status = cairo_surface_write_to_png_stream(surface.get(), write_bytes, &out);
-  cairo_surface_finish(surface.get());
-  if (status == CAIRO_STATUS_SUCCESS) status = cairo_surface_status(surface.get());
-  if (status != CAIRO_STATUS_SUCCESS && !out.failed())
-    return Error{
-        ErrorCode::unwritable, fmt::format("cannot draw: {}", cairo_status_to_string(status)), {}};
-  return success();
+  const Result<PictureFrame> frame = frame_for(box_of(axes), options.write.width, axes.y_down);
+  if (!frame) return frame.error();
+  const double height = frame->height + std::ceil(legend * frame->width);
+  return write_surface(out, format, frame->width, height, [&](cairo_t* context) {
+    FeaturesPicture(context, *frame, axes, features, options).draw();
+  });
 }
 
 }  // namespace medial::io

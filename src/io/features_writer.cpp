@@ -8,10 +8,7 @@
 #include <limits>
 #include <string_view>
 
-#include "io/format_name.h"
-#include "io/gdal_support.h"
-#include "io/guarded.h"
-#include "io/place.h"
+#include "io/gdal_target.h"
 #include "io/table_writer.h"
 #include "medial/query.h"
 
@@ -19,8 +16,7 @@ namespace medial::io {
 
 namespace {
 
-constexpr std::array<std::string_view, 10> known_formats{"json", "geojson", "gpkg", "shp", "fgb",
-                                                         "csv",  "svg",     "pdf",  "png", "ps"};
+constexpr char known_formats[] = ".json .geojson .gpkg .shp .fgb .csv .svg .pdf .png .ps";
 
 constexpr std::array<TableColumn, 12> run_columns{{{"feature", ColumnType::whole},
                                                    {"branch", ColumnType::whole},
@@ -310,8 +306,10 @@ void put_csv(OutputStream& out, const Value& value) {
 }
 
 /// The table without lines: their ends, or the point.
-void write_table(OutputStream& out, const NativeFile& axes, std::span<const AxisFeatures> features,
-                 FeatureTable table) {
+Status write_table(OutputStream& out, const NativeFile& axes,
+                   std::span<const AxisFeatures> features, FeatureTable table) {
+  const Result<OutputCrs> crs = OutputCrs::make(axes.crs_wkt);
+  if (!crs) return crs.error();
   const char* comma = "";
   for (const TableColumn& column : columns_of(table)) {
     out.put(comma);
@@ -335,62 +333,14 @@ void write_table(OutputStream& out, const NativeFile& axes, std::span<const Axis
         out.put(',');
         out.put(p.y);
       };
-      put(row.points.front());
-      if (table != FeatureTable::points) put(row.points.back());
+      std::vector<Vec2> places{row.points.front()};
+      if (table != FeatureTable::points) places.push_back(row.points.back());
+      if (Status placed = crs->transform(places); !placed) return placed;
+      for (const Vec2 p : places) put(p);
       out.put('\n');
     }
   }
-}
-
-// ---- The way out.
-
-bool through_gdal(const std::string& format) {
-  return format == "geojson" || format == "gpkg" || format == "shp" || format == "fgb";
-}
-
-Status write_stream(OutputStream& out, const std::string& format, const NativeFile& axes,
-                    std::span<const AxisFeatures> features, const FeatureWriteOptions& options) {
-  Status status = success();
-  if (format == "json") {
-    write_json(out, axes, features);
-  } else if (format == "csv") {
-    write_table(out, axes, features, options.table);
-  } else if (through_gdal(format)) {
-    status = put_gdal_file(out, "features", format, [&](const std::string& name) {
-      return write_features_gdal(name, format, axes, features, options);
-    });
-  } else {
-    status = write_features_picture(out, format, axes, features, options);
-  }
-  if (!status) return status;
-  return out.finish();
-}
-
-Status write_any(const std::string& path, const std::string& option, const NativeFile& axes,
-                 std::span<const AxisFeatures> features, const FeatureWriteOptions& options) {
-  const std::string format = path == "-" && option.empty() ? "json" : format_name(path, option);
-  if (std::ranges::find(known_formats, format) == known_formats.end())
-    return Error{ErrorCode::unsupported,
-                 fmt::format("'{}' is no format for features; known are {}", format,
-                             known_feature_formats()),
-                 in_file(path)};
-  if (is_stream(path)) {
-    Result<OutputStream> out = OutputStream::open(path);
-    if (!out) return out.error();
-    return write_stream(*out, format, axes, features, options);
-  }
-  Result<PendingFile> pending = PendingFile::create(path);
-  if (!pending) return pending.error();
-  if (format == "gpkg" || format == "shp") {
-    Status written = write_features_gdal(pending->path(), format, axes, features, options);
-    if (!written) return written;
-    return pending->commit();
-  }
-  Result<OutputStream> out = OutputStream::open(pending->path());
-  if (!out) return out.error();
-  Status written = write_stream(*out, format, axes, features, options);
-  if (!written) return written;
-  return pending->commit();
+  return success();
 }
 
 }  // namespace
@@ -476,11 +426,25 @@ std::vector<TableRow> rows_of(FeatureTable table, std::size_t item, const Medial
   return rows;
 }
 
-std::string known_feature_formats() { return fmt::format(".{}", fmt::join(known_formats, " .")); }
+std::string known_feature_formats() { return known_formats; }
 
 Status write_features(const std::string& path, const std::string& format, const NativeFile& axes,
                       std::span<const AxisFeatures> features, const FeatureWriteOptions& options) {
-  return guarded(path, [&] { return write_any(path, format, axes, features, options); });
+  const Result<std::string> known = output_format(path, format, "json", known_formats);
+  if (!known) return known.error();
+  return write_file(
+      path, *known, "features",
+      [&](const std::string& name) {
+        return write_features_gdal(name, *known, axes, features, options);
+      },
+      [&](OutputStream& out) -> Status {
+        if (*known == "json") {
+          write_json(out, axes, features);
+          return success();
+        }
+        if (*known == "csv") return write_table(out, axes, features, options.table);
+        return write_features_picture(out, *known, axes, features, options);
+      });
 }
 
 }  // namespace medial::io

@@ -75,13 +75,9 @@ Status write_field(const std::string& path, const std::string& format,
   if (options.lines < 0 || options.lines > most_lines)
     return Error{
         ErrorCode::invalid_option, "the number of force lines lies between 0 and 1000", {}};
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  Box box{{infinity, infinity}, {-infinity, -infinity}};
-  for (const Shape& shape : shapes) {
-    const Box own = bounding_box(shape);
-    box.low = {std::min(box.low.x, own.low.x), std::min(box.low.y, own.low.y)};
-    box.high = {std::max(box.high.x, own.high.x), std::max(box.high.y, own.high.y)};
-  }
+  Extent extent;
+  for (const Shape& shape : shapes) extent.add(shape);
+  const Box box = extent.box();
   return write_whole(path, [&](OutputStream& out) -> Status {
     return write_canvas(out, *known, box, options.width, options.y_down, [&](Canvas& canvas) {
       if (options.brightness) canvas.image(brightness(fields, canvas));

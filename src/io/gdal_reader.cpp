@@ -7,6 +7,7 @@
 #include <array>
 #include <charconv>
 
+#include "io/format_name.h"
 #include "io/gdal_support.h"
 #include "io/place.h"
 
@@ -65,7 +66,13 @@ class GdalReader {
     register_gdal();
     const GdalMessages messages;
     const unsigned flags = GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR;
-    const GDALDatasetUniquePtr source(GDALDataset::Open(name.c_str(), flags));
+    // Tables: points by columns of these names, where there is no column of geometries.
+    constexpr std::array<const char*, 3> columns{"X_POSSIBLE_NAMES=x,lon,long,longitude,easting",
+                                                 "Y_POSSIBLE_NAMES=y,lat,latitude,northing",
+                                                 nullptr};
+    const bool table = lower_case(name).ends_with(".csv");
+    const GDALDatasetUniquePtr source(
+        GDALDataset::Open(name.c_str(), flags, nullptr, table ? columns.data() : nullptr));
     if (!source) return cannot_open(name, messages.failure());
     Result<OGRLayer*> layer = choose_layer(*source);
     if (!layer) return layer.error();

@@ -7,6 +7,8 @@
 #include <ogr_spatialref.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <string_view>
@@ -18,11 +20,12 @@ namespace medial::io {
 namespace {
 
 /// The bulge of the arc from a through m to b: tangent of half the angle by which its chords turn
-/// at m, which is half of the arc's angle.
+/// at m, which is half of the arc's angle. Not a number where a coordinate is none, or overflows.
 double bulge_of(Vec2 a, Vec2 m, Vec2 b) {
   const Vec2 u = m - a;
   const Vec2 v = b - m;
   const double scale = norm(u) * norm(v) + dot(u, v);
+  if (!std::isfinite(scale)) return std::numeric_limits<double>::quiet_NaN();
   return scale > 0 ? cross(u, v) / scale : 0;
 }
 

@@ -1,10 +1,9 @@
 #pragma once
 
-#include <exception>
-#include <new>
 #include <string>
 #include <utility>
 
+#include "base/in_flight.h"
 #include "medial/error.h"
 
 namespace medial::io {
@@ -19,10 +18,8 @@ auto guarded(const std::string& path, const Work& work) -> decltype(work()) {
     auto result = work();
     if (result) return result;
     error = std::move(result).error();
-  } catch (const std::bad_alloc&) {
-    error = {ErrorCode::out_of_memory, "memory ran out", {}};
-  } catch (const std::exception& problem) {
-    error = {ErrorCode::internal, problem.what(), {}};
+  } catch (...) {
+    error = error_in_flight();
   }
   error.place.file = path;
   return error;

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <numeric>
 #include <optional>
 
@@ -9,12 +8,6 @@
 namespace medial::io {
 
 namespace {
-
-using Json = nlohmann::json;
-
-std::string quoted(const std::string& text) {
-  return Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
-}
 
 /// Finds which vertex of the shape a site comes from, so that a file need not repeat coordinates.
 /// Sites mostly follow the shape's own order: the next vertex is tried before searching.

@@ -3,15 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
-#include <optional>
 #include <set>
 
-#include "base/arc.h"
 #include "io/canvas.h"
+#include "io/gdal_target.h"
 #include "io/output.h"
+#include "io/ring_text.h"
 #include "medial/io/offsets.h"
-#include "medial/io/projection.h"
 #ifdef MEDIAL_DXF
 #include "io/dxf_drawing.h"
 #endif
@@ -22,43 +20,9 @@ namespace {
 
 constexpr char formats[] = ".json .geojson .wkt .dxf .svg .pdf .png .ps";
 
-std::string quoted(const std::string& text) {
-  using Json = nlohmann::json;
-  return Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
-}
-
 double bulge_after(const Ring& ring, std::size_t i) {
   return ring.bulges.empty() ? 0 : ring.bulges[i];
 }
-Vec2 next_point(const Ring& ring, std::size_t i) {
-  return ring.points[i + 1 == ring.points.size() ? 0 : i + 1];
-}
-
-/// The ring's points, and points on its arcs, so that chords stay within `chord`; closed.
-std::vector<Vec2> chords_of(const Ring& ring, double chord) {
-  std::vector<Vec2> out;
-  for (std::size_t i = 0; i < ring.points.size(); ++i) {
-    const Vec2 from = ring.points[i], to = next_point(ring, i);
-    out.push_back(from);
-    const double bulge = bulge_after(ring, i);
-    if (bulge == 0) continue;
-    // A piece of the angle a has the sagitta r (1 - cos(a / 2)).
-    constexpr double most = 100000;
-    const double angle = 4 * std::atan(bulge);
-    const double radius = distance(from, to) / (2 * std::sin(std::abs(angle) / 2));
-    const double widest = 2 * std::acos(std::max(1 - chord / radius, 0.0));
-    const int pieces = static_cast<int>(std::clamp(std::ceil(std::abs(angle) / widest), 1.0, most));
-    const Vec2 tangent = start_tangent({from, to, bulge});
-    for (int k = 1; k < pieces; ++k) {
-      const double half = angle * k / (2 * pieces);
-      out.push_back(from + (2 * radius * std::sin(std::abs(half))) *
-                               turned(tangent, std::cos(half), std::sin(half)));
-    }
-  }
-  out.push_back(ring.points[0]);
-  return out;
-}
-
 Box box_of(const OffsetItem& item) {
   if (!item.shape.points.empty() || item.soup.points.empty()) return bounding_box(item.shape);
   return bounding_box(item.soup);
@@ -69,12 +33,6 @@ double chord_of(const OffsetItem& item, const WriteOptions& options) {
   for (const OffsetRegion& region : item.offsets.regions)
     reach = std::max(reach, diagonal(box_of(item)) - 2 * region.clearance);
   return options.chord * reach;
-}
-
-void put_point(OutputStream& out, Vec2 p, char separator) {
-  out.put(p.x);
-  out.put(separator);
-  out.put(p.y);
 }
 
 void write_json(OutputStream& out, const OffsetFile& file) {
@@ -120,31 +78,6 @@ void write_json(OutputStream& out, const OffsetFile& file) {
   out.put("\n]}\n");
 }
 
-/// A ring as a compound curve: runs of straight edges, and runs of arcs with a point in the middle
-/// of each.
-void put_curve(OutputStream& out, const Ring& ring) {
-  const std::size_t count = ring.points.size();
-  const bool straight =
-      std::all_of(ring.bulges.begin(), ring.bulges.end(), [](double bulge) { return bulge == 0; });
-  if (!straight) out.put("COMPOUNDCURVE (");
-  for (std::size_t i = 0; i < count;) {
-    const bool arcs = bulge_after(ring, i) != 0;
-    if (i > 0) out.put(", ");
-    out.put(arcs ? "CIRCULARSTRING (" : "(");
-    put_point(out, ring.points[i], ' ');
-    for (; i < count && (bulge_after(ring, i) != 0) == arcs; ++i) {
-      if (arcs) {
-        out.put(", ");
-        put_point(out, apex({ring.points[i], next_point(ring, i), ring.bulges[i]}), ' ');
-      }
-      out.put(", ");
-      put_point(out, next_point(ring, i), ' ');
-    }
-    out.put(')');
-  }
-  if (!straight) out.put(')');
-}
-
 /// Calls each(begin, end) for the regions of each clearance.
 template <class Each>
 void for_levels(const std::vector<OffsetRegion>& regions, const Each& each) {
@@ -154,8 +87,13 @@ void for_levels(const std::vector<OffsetRegion>& regions, const Each& each) {
   }
 }
 
-void write_wkt(OutputStream& out, const OffsetFile& file, const WriteOptions& options,
-               bool chords) {
+/// Circular strings do not survive a projection: of longitudes and latitudes there are chords.
+Status write_wkt(OutputStream& out, const OffsetFile& file, const WriteOptions& options,
+                 bool chords) {
+  const Result<OutputCrs> crs = OutputCrs::make(file.crs_wkt);
+  if (!crs) return crs.error();
+  chords = chords || crs->changes_points();
+  Status status = success();
   for (const OffsetItem& item : file.items) {
     const auto& regions = item.offsets.regions;
     const double chord = chord_of(item, options);
@@ -167,30 +105,24 @@ void write_wkt(OutputStream& out, const OffsetFile& file, const WriteOptions& op
         for (std::size_t r = 0; r < regions[k].rings.size(); ++r) {
           if (r > 0) out.put(", ");
           if (!chords) {
-            put_curve(out, regions[k].rings[r]);
+            put_wkt_curve(out, regions[k].rings[r]);
             continue;
           }
-          const std::vector<Vec2> points = chords_of(regions[k].rings[r], chord);
-          for (std::size_t p = 0; p < points.size(); ++p) {
-            out.put(p == 0 ? "(" : ", ");
-            put_point(out, points[p], ' ');
-          }
-          out.put(')');
+          std::vector<Vec2> points = chords_of(regions[k].rings[r], chord);
+          if (Status placed = crs->transform(points); !placed) status = std::move(placed);
+          put_wkt_points(out, points);
         }
         out.put(')');
       }
       out.put(")\n");
     });
   }
+  return status;
 }
 
 Status write_geojson(OutputStream& out, const OffsetFile& file, const WriteOptions& options) {
-  std::optional<BackToGeographic> back;
-  if (is_local_projection(file.crs_wkt)) {
-    Result<BackToGeographic> made = BackToGeographic::make(file.crs_wkt);
-    if (!made) return std::move(made).error();
-    back = std::move(*made);
-  }
+  const Result<OutputCrs> crs = OutputCrs::make(file.crs_wkt);
+  if (!crs) return crs.error();
   out.put("{\"type\":\"FeatureCollection\",\"features\":[");
   bool first = true;
   for (std::size_t i = 0; i < file.items.size(); ++i) {
@@ -203,16 +135,9 @@ Status write_geojson(OutputStream& out, const OffsetFile& file, const WriteOptio
       out.put("{\"type\":\"Feature\",\"geometry\":{\"type\":\"Polygon\",\"coordinates\":[");
       for (std::size_t r = 0; r < region.rings.size(); ++r) {
         std::vector<Vec2> points = chords_of(region.rings[r], chord);
-        if (back) {
-          if (Status status = back->transform(points); !status) return status;
-        }
-        out.put(r == 0 ? "[" : ",[");
-        for (std::size_t p = 0; p < points.size(); ++p) {
-          out.put(p == 0 ? "[" : ",[");
-          put_point(out, points[p], ',');
-          out.put(']');
-        }
-        out.put(']');
+        if (Status placed = crs->transform(points); !placed) return placed;
+        out.put(r == 0 ? "" : ",");
+        put_geojson_points(out, points);
       }
       out.put(
           fmt::format("]}},\"properties\":{{\"feature\":{},\"region\":{},\"clearance\":{},"
@@ -249,8 +174,7 @@ Status write_dxf(OutputStream& out, const OffsetFile& file) {
 
 Status write_picture(OutputStream& out, const std::string& format, const OffsetFile& file,
                      const WriteOptions& options) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  Box box{{infinity, infinity}, {-infinity, -infinity}};
+  Extent extent;
   double deepest = 0;
   for (const OffsetItem& item : file.items) {
     Box own = box_of(item);
@@ -260,10 +184,9 @@ Status write_picture(OutputStream& out, const std::string& format, const OffsetF
       deepest = std::max(deepest, std::abs(region.clearance));
     }
     own = {own.low - Vec2{reach, reach}, own.high + Vec2{reach, reach}};
-    box.low = {std::min(box.low.x, own.low.x), std::min(box.low.y, own.low.y)};
-    box.high = {std::max(box.high.x, own.high.x), std::max(box.high.y, own.high.y)};
+    extent.add(own);
   }
-  if (!(box.low.x <= box.high.x)) box = {{0, 0}, {1, 1}};
+  const Box box = extent.box();
   return write_canvas(out, format, box, options.width, file.y_down, [&](Canvas& canvas) {
     constexpr Color inside{0.93, 0.93, 0.95}, outline{0.25, 0.25, 0.3};
     for (const OffsetItem& item : file.items) {
@@ -322,7 +245,7 @@ Status write_offsets(const std::string& path, const std::string& format, const O
     if (*known == "json") {
       write_json(out, file);
     } else if (*known == "wkt") {
-      write_wkt(out, file, options, chords);
+      return write_wkt(out, file, options, chords);
     } else {
       return write_picture(out, *known, file, options);
     }

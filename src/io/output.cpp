@@ -11,6 +11,7 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "io/format_name.h"
@@ -196,6 +197,11 @@ Status OutputStream::finish() {
   }
   if (problem_ != 0) return unwritable(path_, problem_);
   return success();
+}
+
+std::string quoted(const std::string& text) {
+  using Json = nlohmann::json;
+  return Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 Status write_whole(const std::string& path, const std::function<Status(OutputStream&)>& write) {

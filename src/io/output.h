@@ -90,6 +90,9 @@ class OutputStream {
   std::size_t used_ = 0;
 };
 
+/// A text as a JSON string; bytes that are no UTF-8 are replaced.
+std::string quoted(const std::string& text);
+
 /// Writes a file all at once, or to a stream: `write` puts the bytes. Exceptions become errors, and
 /// errors name the file.
 Status write_whole(const std::string& path, const std::function<Status(OutputStream&)>& write);

@@ -23,14 +23,9 @@ struct Layout {
 
   Layout(std::span<const Shape> shapes, std::size_t panels, double up) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    box = {{infinity, infinity}, {-infinity, -infinity}};
-    for (const Shape& shape : shapes) {
-      if (shape.points.empty()) continue;
-      const Box own = bounding_box(shape);
-      box.low = {std::min(box.low.x, own.low.x), std::min(box.low.y, own.low.y)};
-      box.high = {std::max(box.high.x, own.high.x), std::max(box.high.y, own.high.y)};
-    }
-    if (!(box.low.x <= box.high.x)) box = {{0, 0}, {1, 1}};
+    Extent extent;
+    for (const Shape& shape : shapes) extent.add(shape);
+    box = extent.box();
     const Vec2 size = box.high - box.low;
     const double longer = std::max(size.x, size.y);
     pitch = {size.x + 0.08 * longer, up * (size.y + 0.16 * longer)};

@@ -29,7 +29,7 @@ namespace {
 constexpr std::size_t sniffed = 4096;
 constexpr std::size_t longest_stream = std::size_t{1} << 32U;  // what GDAL gets through memory
 
-enum class Format : std::uint8_t { wkt, xy, svg, dxf, native, json, gdal };
+enum class Format : std::uint8_t { wkt, xy, csv, svg, dxf, native, json, gdal };
 
 Format format_of_name(std::string name) {
   name = lower_case(std::move(name));
@@ -38,6 +38,7 @@ Format format_of_name(std::string name) {
   if (name.ends_with(".svg") || name.ends_with(".svgz")) return Format::svg;
   if (name.ends_with(".dxf")) return Format::dxf;
   if (name.ends_with(".txt") || name.ends_with(".xy")) return Format::xy;
+  if (name.ends_with(".csv")) return Format::csv;
   if (name.ends_with(".json") || name.ends_with(".geojson")) return Format::json;
   return Format::gdal;
 }
@@ -148,7 +149,15 @@ Result<Dataset> read_any(const std::string& path, const ReadOptions& options) {
     if (bytes.empty()) return Error{ErrorCode::empty, "there is nothing to read", in_file(path)};
     return read_gdal_bytes(bytes, path, options);
   }
-  const Format format = format_of_name(path);
+  Format format = format_of_name(path);
+  if (format == Format::csv) {
+    // Places and no more: blocks of vertices. What has other columns is GDAL's.
+    Result<std::shared_ptr<TextSource>> source = TextSource::open(path);
+    if (!source) return source.error();
+    const bool plain = has_two_columns((*source)->lookahead(sniffed));
+    if ((*source)->failure()) return *(*source)->failure();
+    format = plain && options.layer.empty() && options.where.empty() ? Format::xy : Format::gdal;
+  }
   if (options.close && (format == Format::gdal || format == Format::json)) {
     return nothing_to_close(path);
   }
@@ -202,6 +211,12 @@ std::optional<Error> find_not_finite(const Dataset& dataset) {
       if (auto at = not_finite(ring.bulges)) {
         return error(i, k, *at, "a bulge is not a finite number");
       }
+    }
+    for (std::size_t k = 0; k < feature.chains.size(); ++k) {
+      if (auto at = not_finite(feature.chains[k].points))
+        return error(i, k, *at, "a coordinate is not a finite number");
+      if (auto at = not_finite(feature.chains[k].bulges))
+        return error(i, k, *at, "a bulge is not a finite number");
     }
     for (std::size_t k = 0; k < feature.contours.size(); ++k) {
       const Contour& contour = feature.contours[k];

@@ -2,14 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <numbers>
-#include <string_view>
 
 #include "base/arc.h"
+#include "io/gdal_target.h"
 #include "io/native.h"
 #include "io/output.h"
 #include "io/picture.h"
+#include "io/ring_text.h"
+#include "medial/io/read.h"
 #include "medial/io/shapes.h"
 #include "medial/io/write.h"
 #ifdef MEDIAL_DXF
@@ -21,11 +22,6 @@ namespace medial::io {
 namespace {
 
 constexpr char formats[] = ".json .svg .wkt .geojson .dxf .pdf .png .ps";
-
-std::string quoted(const std::string& text) {
-  using Json = nlohmann::json;
-  return Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
-}
 
 /// The loops of a shape, part by part: the outer loop first, then its holes.
 std::vector<std::vector<std::size_t>> parts_of(const Shape& shape) {
@@ -47,33 +43,6 @@ void for_each_edge(const Shape& shape, std::size_t loop, const Visit& visit) {
 
 bool has_arcs(const Shape& shape) {
   return std::ranges::any_of(shape.bulges, [](double bulge) { return bulge != 0; });
-}
-
-void put_point(OutputStream& out, Vec2 p, char between) {
-  out.put(p.x);
-  out.put(between);
-  out.put(p.y);
-}
-
-/// The points of a loop, arcs cut so that chords stay within a distance; the first one again.
-std::vector<Vec2> points_of(const Shape& shape, std::size_t loop, double chord) {
-  std::vector<Vec2> points;
-  for_each_edge(shape, loop, [&](const BulgeArc& arc) {
-    points.push_back(arc.start);
-    if (arc.bulge == 0) return;
-    const double angle = 4 * std::atan(arc.bulge);
-    const double radius = 1 / std::abs(curvature(arc));
-    const double longest = 2 * std::acos(std::max(1 - chord / radius, 0.0));
-    const double count = std::min(std::ceil(std::abs(angle) / longest), 1e5);
-    const Vec2 tangent = start_tangent(arc);
-    for (double k = 1; k < count; ++k) {
-      const double half = angle * k / count / 2;
-      const Vec2 direction = turned(tangent, std::cos(half), std::sin(half));
-      points.push_back(arc.start + 2 * radius * std::abs(std::sin(half)) * direction);
-    }
-  });
-  points.push_back(points.front());
-  return points;
 }
 
 void write_svg(OutputStream& out, const ShapesFile& file) {
@@ -127,40 +96,17 @@ void write_svg(OutputStream& out, const ShapesFile& file) {
   out.put("</g>\n</svg>\n");
 }
 
-/// A loop in well-known text: plain, or a curve of lines and arcs through three points each.
-void put_wkt_loop(OutputStream& out, const Shape& shape, std::size_t loop, bool curved) {
-  if (!curved) {
-    const char* separator = "(";
-    for (const Vec2 p : points_of(shape, loop, 1)) {
-      out.put(std::string_view(separator));
-      put_point(out, p, ' ');
-      separator = ", ";
-    }
-    out.put(')');
-    return;
-  }
-  out.put("COMPOUNDCURVE (");
-  bool first = true;
-  for_each_edge(shape, loop, [&](const BulgeArc& arc) {
-    if (!first) out.put(", ");
-    first = false;
-    out.put(arc.bulge == 0 ? "(" : "CIRCULARSTRING (");
-    put_point(out, arc.start, ' ');
-    if (arc.bulge != 0) {
-      out.put(", ");
-      put_point(out, apex(arc), ' ');
-    }
-    out.put(", ");
-    put_point(out, arc.end, ' ');
-    out.put(')');
-  });
-  out.put(')');
+double chord_of(const ShapesFile& file, const Shape& shape) {
+  return shape.points.empty() ? 1 : file.chord * diagonal(bounding_box(shape));
 }
 
-void write_wkt(OutputStream& out, const ShapesFile& file) {
+/// Circular strings do not survive a projection: of longitudes and latitudes there are chords.
+Status write_wkt(OutputStream& out, const ShapesFile& file) {
+  const Result<OutputCrs> crs = OutputCrs::make(file.crs_wkt);
+  if (!crs) return crs.error();
   for (const ShapeItem& item : file.items) {
     const Shape& shape = item.shape;
-    const bool curved = has_arcs(shape);
+    const bool curved = has_arcs(shape) && !crs->changes_points();
     const auto parts = parts_of(shape);
     const bool one = parts.size() == 1;
     if (parts.empty()) {
@@ -174,15 +120,25 @@ void write_wkt(OutputStream& out, const ShapesFile& file) {
       out.put(curved ? "CURVEPOLYGON (" : "(");
       for (std::size_t i = 0; i < parts[k].size(); ++i) {
         if (i > 0) out.put(", ");
-        put_wkt_loop(out, shape, parts[k][i], curved);
+        const Ring ring = ring_of(shape, parts[k][i]);
+        if (curved) {
+          put_wkt_curve(out, ring);
+          continue;
+        }
+        std::vector<Vec2> points = chords_of(ring, chord_of(file, shape));
+        if (Status placed = crs->transform(points); !placed) return placed;
+        put_wkt_points(out, points);
       }
       out.put(')');
     }
     out.put(one ? "\n" : ")\n");
   }
+  return success();
 }
 
-void write_geojson(OutputStream& out, const ShapesFile& file) {
+Status write_geojson(OutputStream& out, const ShapesFile& file) {
+  const Result<OutputCrs> crs = OutputCrs::make(file.crs_wkt);
+  if (!crs) return crs.error();
   out.put("{\"type\":\"FeatureCollection\",\"features\":[");
   bool first = true;
   for (const ShapeItem& item : file.items) {
@@ -194,26 +150,21 @@ void write_geojson(OutputStream& out, const ShapesFile& file) {
       out.put(fmt::format("{}{}:{}", i > 0 ? "," : "", quoted(item.attributes[i].first),
                           quoted(item.attributes[i].second)));
     out.put("},\"geometry\":{\"type\":\"MultiPolygon\",\"coordinates\":[");
-    const double chord = shape.points.empty() ? 1 : file.chord * diagonal(bounding_box(shape));
     const auto parts = parts_of(shape);
     for (std::size_t k = 0; k < parts.size(); ++k) {
       out.put(k > 0 ? ",[" : "[");
       for (std::size_t i = 0; i < parts[k].size(); ++i) {
-        out.put(i > 0 ? ",[" : "[");
-        const char* separator = "[";
-        for (const Vec2 p : points_of(shape, parts[k][i], chord)) {
-          out.put(std::string_view(separator));
-          put_point(out, p, ',');
-          out.put(']');
-          separator = ",[";
-        }
-        out.put(']');
+        std::vector<Vec2> points = chords_of(ring_of(shape, parts[k][i]), chord_of(file, shape));
+        if (Status placed = crs->transform(points); !placed) return placed;
+        if (i > 0) out.put(',');
+        put_geojson_points(out, points);
       }
       out.put(']');
     }
     out.put("]}}");
   }
   out.put("\n]}\n");
+  return success();
 }
 
 /// Every loop as a closed polyline with bulges: nothing is lost.
@@ -243,9 +194,9 @@ Status write_stream(OutputStream& out, const std::string& format, const ShapesFi
   if (format == "svg") {
     write_svg(out, file);
   } else if (format == "wkt") {
-    write_wkt(out, file);
+    status = write_wkt(out, file);
   } else if (format == "geojson") {
-    write_geojson(out, file);
+    status = write_geojson(out, file);
   } else if (format == "dxf") {
     status = write_dxf(out, file);
   } else {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "io/gdal_target.h"
+
 namespace medial::io {
 
 namespace {
@@ -45,7 +47,9 @@ std::vector<Disk> sample(const MedialAxis& axis, const Branch& branch, double ch
   return result;
 }
 
-void write_csv(OutputStream& out, const NativeFile& file, const WriteOptions& options) {
+Status write_csv(OutputStream& out, const NativeFile& file, const WriteOptions& options) {
+  const Result<OutputCrs> crs = OutputCrs::make(file.crs_wkt);
+  if (!crs) return crs.error();
   out.put("edge,x,y,r\n");
   std::uint64_t id = 0;
   std::vector<Disk> samples;
@@ -53,6 +57,7 @@ void write_csv(OutputStream& out, const NativeFile& file, const WriteOptions& op
     const double chord = chord_of(item, options);
     for (const Edge& edge : item.axis.edges) {
       sample(item.axis, edge, chord, samples);
+      if (Status placed = crs->transform(samples); !placed) return placed;
       for (const Disk& disk : samples) {
         out.put(id);
         for (const double value : {disk.center.x, disk.center.y, disk.radius}) {
@@ -64,17 +69,22 @@ void write_csv(OutputStream& out, const NativeFile& file, const WriteOptions& op
       ++id;
     }
   }
+  return success();
 }
 
-void write_wkt(OutputStream& out, const NativeFile& file, const WriteOptions& options) {
+Status write_wkt(OutputStream& out, const NativeFile& file, const WriteOptions& options) {
+  const Result<OutputCrs> crs = OutputCrs::make(file.crs_wkt);
+  if (!crs) return crs.error();
   for (const NativeItem& item : file.items) {
     const double chord = chord_of(item, options);
     out.put("MULTILINESTRING ");
     const char* separator = "(";
     for (const Branch& branch : branches(item.axis)) {
+      std::vector<Disk> samples = sample(item.axis, branch, chord);
+      if (Status placed = crs->transform(samples); !placed) return placed;
       out.put(separator);
       const char* comma = "(";
-      for (const Disk& disk : sample(item.axis, branch, chord)) {
+      for (const Disk& disk : samples) {
         out.put(comma);
         out.put(disk.center.x);
         out.put(' ');
@@ -86,6 +96,7 @@ void write_wkt(OutputStream& out, const NativeFile& file, const WriteOptions& op
     }
     out.put(*separator == '(' ? "EMPTY\n" : ")\n");
   }
+  return success();
 }
 
 }  // namespace medial::io

@@ -8,10 +8,13 @@ namespace medial::io {
 
 /// Writes `edge,x,y,r`, a row a sample; edges count through all items. Samples of an edge follow
 /// each other, the nodes first and last; chords stay within options.chord of each item's diagonal.
-void write_csv(OutputStream& out, const NativeFile& file, const WriteOptions& options);
+/// Places of a local projection become longitudes and latitudes again; radii stay. Errors:
+/// unsupported (a projection that cannot be undone).
+Status write_csv(OutputStream& out, const NativeFile& file, const WriteOptions& options);
 
-/// Writes a line of text for each item: a MULTILINESTRING of its branches.
-void write_wkt(OutputStream& out, const NativeFile& file, const WriteOptions& options);
+/// Writes a line of text for each item: a MULTILINESTRING of its branches. The
+/// projection and errors as in write_csv().
+Status write_wkt(OutputStream& out, const NativeFile& file, const WriteOptions& options);
 
 /// The allowed deviation of chords for an item, in units of the input.
 double chord_of(const NativeItem& item, const WriteOptions& options);

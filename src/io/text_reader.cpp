@@ -358,6 +358,33 @@ Result<double> read_coordinate(TextSource& source) {
   return source.error(ErrorCode::malformed, fmt::format("expected a number but found {}", found));
 }
 
+bool is_number_begin(char c) {
+  return std::string_view("0123456789+-.").find(c) != std::string_view::npos;
+}
+
+/// The words of a line, between blanks, commas and semicolons.
+std::vector<std::string_view> words_of(std::string_view line) {
+  constexpr std::string_view between = " \t\r,;\"";
+  std::vector<std::string_view> words;
+  for (std::size_t at = line.find_first_not_of(between); at != std::string_view::npos;) {
+    const std::size_t end = std::min(line.find_first_of(between, at), line.size());
+    words.push_back(line.substr(at, end - at));
+    at = line.find_first_not_of(between, end);
+  }
+  return words;
+}
+
+/// The length of a first line that names two columns ("x,y") of numbers, with its end; 0 where
+/// there is none.
+std::size_t length_of_names(std::string_view text) {
+  const std::size_t end = text.find('\n');
+  if (end == std::string_view::npos) return 0;
+  const std::vector<std::string_view> words = words_of(text.substr(0, end));
+  const bool named = words.size() == 2 && is_letter(words[0][0]) && is_letter(words[1][0]);
+  const std::size_t next = text.find_first_not_of(" \t\r\n", end);
+  return named && next != std::string_view::npos && is_number_begin(text[next]) ? end + 1 : 0;
+}
+
 /// Reads a line, but not its end. Requires that the text has not ended.
 Result<Line> read_line(TextSource& source, Vec2& vertex) {
   skip_blanks(source);
@@ -402,6 +429,9 @@ Result<Dataset> read_xy(TextSource& source, bool loose) {
   Dataset dataset;
   Feature feature;
   bool in_ring = false;
+  constexpr std::size_t longest_header = 4096;
+  for (std::size_t left = length_of_names(source.lookahead(longest_header)); left > 0; --left)
+    source.skip();
   while (source.peek() >= 0) {
     Vec2 vertex;
     Result<Line> line = read_line(source, vertex);
@@ -449,9 +479,16 @@ bool begins_like_wkt(std::string_view text) {
 }
 
 bool begins_like_xy(std::string_view text) {
+  if (length_of_names(text) > 0) return true;
   const std::size_t start = text.find_first_not_of(" \t\r\n");
-  if (start == std::string_view::npos) return false;
-  return std::string_view("0123456789+-.#").find(text[start]) != std::string_view::npos;
+  return start != std::string_view::npos && (is_number_begin(text[start]) || text[start] == '#');
+}
+
+bool has_two_columns(std::string_view text) {
+  if (length_of_names(text) > 0) return true;
+  const std::string_view line = text.substr(0, text.find('\n'));
+  const auto words = words_of(line);
+  return words.size() == 2 && is_number_begin(words[0][0]) && is_number_begin(words[1][0]);
 }
 
 }  // namespace medial::io

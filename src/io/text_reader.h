@@ -12,14 +12,18 @@ namespace medial::io {
 Result<Dataset> read_wkt(TextSource& source, bool loose = false);
 
 /// Reads plain text: two numbers a line, apart by blanks, a comma or a semicolon. A blank line, or
-/// a line that begins with `#`, ends a ring. All rings are one feature, by the even-odd rule.
-/// Errors: malformed, not_finite, unreadable.
+/// a line that begins with `#`, ends a ring. A first line of two names ("x,y") is passed over. All
+/// rings are one feature, by the even-odd rule. Errors: malformed, not_finite, unreadable.
 Result<Dataset> read_xy(TextSource& source, bool loose = false);
 
 /// Whether a text begins like well-known text: with the name of a geometry, or with `SRID=`.
 bool begins_like_wkt(std::string_view text);
 
-/// Whether a text begins like plain coordinates: with a number or a comment.
+/// Whether a text begins like plain coordinates: with a number, a comment, or two names above
+/// numbers.
 bool begins_like_xy(std::string_view text);
+
+/// Whether the first line of a table holds two names or two numbers, and no more.
+bool has_two_columns(std::string_view text);
 
 }  // namespace medial::io

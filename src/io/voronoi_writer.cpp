@@ -1,29 +1,19 @@
-#include "io/voronoi_writer.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "io/format_name.h"
-#include "io/guarded.h"
+#include "io/gdal_target.h"
 #include "io/picture.h"
-#include "io/place.h"
+#include "io/ring_text.h"
+#include "medial/io/write.h"
 #include "medial/query.h"
 
 namespace medial::io {
 
 namespace {
 
-constexpr std::array<std::string_view, 8> known_formats{"json", "geojson", "csv", "wkt",
-                                                        "svg",  "pdf",     "png", "ps"};
-
-std::string quoted(const std::string& text) {
-  using Json = nlohmann::json;
-  return Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
-}
+constexpr char known_formats[] = ".json .geojson .csv .wkt .svg .pdf .png .ps";
 
 const char* name_of(SiteKind kind) {
   return kind == SiteKind::vertex ? "vertex" : kind == SiteKind::arc ? "arc" : "segment";
@@ -103,13 +93,16 @@ std::vector<Vec2> ring_of_face(const VoronoiDiagram& diagram, std::uint32_t k, d
 }
 
 /// A row for each sample of an edge.
-void write_voronoi_csv(OutputStream& out, const VoronoiFile& file, const WriteOptions& options) {
+Status write_voronoi_csv(OutputStream& out, const VoronoiFile& file, const WriteOptions& options,
+                         const OutputCrs& crs) {
   out.put("edge,part,left,right,x,y,r\n");
   std::uint64_t number = 0;
   for (const VoronoiItem& item : file.items) {
     const double chord = chord_of(item, options);
     for (const VoronoiEdge& edge : item.diagram.edges) {
-      for (const Disk& disk : line_of(item.diagram, edge, chord, true)) {
+      std::vector<Disk> line = line_of(item.diagram, edge, chord, true);
+      if (Status placed = crs.transform(line); !placed) return placed;
+      for (const Disk& disk : line) {
         out.put(fmt::format("{},{},{},{},", number, name_of(edge), number_of(edge.site[0]),
                             number_of(edge.site[1])));
         out.put(disk.center.x);
@@ -122,27 +115,24 @@ void write_voronoi_csv(OutputStream& out, const VoronoiFile& file, const WriteOp
       ++number;
     }
   }
+  return success();
 }
 
 /// A polygon for each face, a line of text each, in the order of the sites.
-void write_voronoi_wkt(OutputStream& out, const VoronoiFile& file, const WriteOptions& options) {
+Status write_voronoi_wkt(OutputStream& out, const VoronoiFile& file, const WriteOptions& options,
+                         const OutputCrs& crs) {
   for (const VoronoiItem& item : file.items) {
     const double chord = chord_of(item, options);
     for (std::uint32_t k = 0; k < item.diagram.sites.size(); ++k) {
-      const std::vector<Vec2> ring = ring_of_face(item.diagram, k, chord);
+      std::vector<Vec2> ring = ring_of_face(item.diagram, k, chord);
       out.put(ring.empty() ? "POLYGON EMPTY\n" : "POLYGON (");
       if (ring.empty()) continue;
-      char separator = '(';
-      for (const Vec2 p : ring) {
-        out.put(separator);
-        separator = ',';
-        out.put(p.x);
-        out.put(' ');
-        out.put(p.y);
-      }
-      out.put("))\n");
+      if (Status placed = crs.transform(ring); !placed) return placed;
+      put_wkt_points(out, ring);
+      out.put(")\n");
     }
   }
+  return success();
 }
 
 /// Features of a GeoJSON collection, one by one.
@@ -166,47 +156,6 @@ class Features {
   OutputStream& out_;
   bool first_ = true;
 };
-
-Status write_stream(OutputStream& out, const std::string& format, const VoronoiFile& file,
-                    const WriteOptions& options) {
-  if (format == "json") {
-    write_voronoi_json(out, file);
-  } else if (format == "geojson") {
-    write_voronoi_geojson(out, file, options);
-  } else if (format == "csv") {
-    write_voronoi_csv(out, file, options);
-  } else if (format == "wkt") {
-    write_voronoi_wkt(out, file, options);
-  } else {
-    Status drawn = write_voronoi_picture(out, format, file, options);
-    if (!drawn) return drawn;
-  }
-  return out.finish();
-}
-
-Status write_any(const std::string& path, const std::string& option, const VoronoiFile& file,
-                 const WriteOptions& options) {
-  const std::string format = path == "-" && option.empty() ? "json" : format_name(path, option);
-  if (std::ranges::find(known_formats, format) == known_formats.end())
-    return Error{ErrorCode::unsupported,
-                 fmt::format("'{}' is no format for Voronoi diagrams; known are {}", format,
-                             known_voronoi_formats()),
-                 in_file(path)};
-  if (is_stream(path)) {
-    Result<OutputStream> out = OutputStream::open(path);
-    if (!out) return out.error();
-    return write_stream(*out, format, file, options);
-  }
-  Result<PendingFile> pending = PendingFile::create(path);
-  if (!pending) return pending.error();
-  Result<OutputStream> out = OutputStream::open(pending->path());
-  if (!out) return out.error();
-  Status written = write_stream(*out, format, file, options);
-  if (!written) return written;
-  return pending->commit();
-}
-
-}  // namespace
 
 void write_voronoi_json(OutputStream& out, const VoronoiFile& file) {
   out.put("{\"medial_voronoi\":1,\n\"items\":[");
@@ -261,25 +210,21 @@ void write_voronoi_json(OutputStream& out, const VoronoiFile& file) {
   out.put("\n]}\n");
 }
 
-void write_voronoi_geojson(OutputStream& out, const VoronoiFile& file,
-                           const WriteOptions& options) {
+Status write_voronoi_geojson(OutputStream& out, const VoronoiFile& file,
+                             const WriteOptions& options, const OutputCrs& crs) {
   Features features(out);
   for (std::size_t i = 0; i < file.items.size(); ++i) {
     const VoronoiDiagram& diagram = file.items[i].diagram;
     const double chord = chord_of(file.items[i], options);
     for (std::uint32_t k = 0; k < diagram.sites.size(); ++k) {
       const Site& site = diagram.sites[k];
-      const std::vector<Vec2> ring = ring_of_face(diagram, k, chord);
+      std::vector<Vec2> ring = ring_of_face(diagram, k, chord);
       if (ring.empty()) continue;
+      if (Status placed = crs.transform(ring); !placed) return placed;
       features.start("Polygon");
       out.put('[');
-      char separator = '[';
-      for (const Vec2 p : ring) {
-        out.put(separator);
-        separator = ',';
-        row(out, p.x, p.y);
-      }
-      out.put("]]");
+      put_geojson_points(out, ring);
+      out.put(']');
       features.properties(
           fmt::format("\"feature\":{},\"part\":\"face\",\"site\":{},\"kind\":\"{}\",\"ring\":{},"
                       "\"vertex\":{}",
@@ -287,13 +232,10 @@ void write_voronoi_geojson(OutputStream& out, const VoronoiFile& file,
     }
     for (const VoronoiEdge& edge : diagram.edges) {
       features.start("LineString");
-      char separator = '[';
-      for (const Disk& disk : line_of(diagram, edge, chord, true)) {
-        out.put(separator);
-        row(out, disk.center.x, disk.center.y);
-        separator = ',';
-      }
-      out.put(']');
+      std::vector<Vec2> line;
+      for (const Disk& disk : line_of(diagram, edge, chord, true)) line.push_back(disk.center);
+      if (Status placed = crs.transform(line); !placed) return placed;
+      put_geojson_points(out, line);
       features.properties(fmt::format(
           "\"feature\":{},\"part\":\"{}\",\"left\":{},\"right\":{},\"radius_from\":{},"
           "\"radius_to\":{}",
@@ -302,13 +244,33 @@ void write_voronoi_geojson(OutputStream& out, const VoronoiFile& file,
     }
   }
   features.finish();
+  return success();
 }
 
-std::string known_voronoi_formats() { return fmt::format(".{}", fmt::join(known_formats, " .")); }
+Status put_voronoi(OutputStream& out, const std::string& format, const VoronoiFile& file,
+                   const WriteOptions& options) {
+  if (format == "json") {
+    write_voronoi_json(out, file);
+    return success();
+  }
+  const Result<OutputCrs> crs = OutputCrs::make(file.crs_wkt);
+  if (!crs) return crs.error();
+  if (format == "geojson") return write_voronoi_geojson(out, file, options, *crs);
+  if (format == "csv") return write_voronoi_csv(out, file, options, *crs);
+  if (format == "wkt") return write_voronoi_wkt(out, file, options, *crs);
+  return write_voronoi_picture(out, format, file, options);
+}
+
+}  // namespace
+
+std::string known_voronoi_formats() { return known_formats; }
 
 Status write_voronoi(const std::string& path, const std::string& format, const VoronoiFile& file,
                      const WriteOptions& options) {
-  return guarded(path, [&] { return write_any(path, format, file, options); });
+  const Result<std::string> known = output_format(path, format, "json", known_formats);
+  if (!known) return known.error();
+  return write_whole(
+      path, [&](OutputStream& out) -> Status { return put_voronoi(out, *known, file, options); });
 }
 
 }  // namespace medial::io

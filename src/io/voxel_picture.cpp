@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "io/color.h"
+#include "io/picture_frame.h"
 
 namespace medial::io {
 
@@ -194,12 +195,6 @@ class Scene {
   const Solid& solid_;
   double largest_ = 0;  ///< radius
 };
-
-cairo_status_t write_bytes(void* out, const unsigned char* bytes, unsigned count) {
-  auto* stream = static_cast<OutputStream*>(out);
-  stream->put(std::string_view(reinterpret_cast<const char*>(bytes), count));
-  return stream->failed() ? CAIRO_STATUS_WRITE_ERROR : CAIRO_STATUS_SUCCESS;
-}
 
 std::uint32_t packed(const Color& color) {
   const auto byte = [](double value) {

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <new>
 #include <numbers>
 
 #include "base/arc.h"
+#include "base/in_flight.h"
 #include "medial/measure.h"
 #include "medial/offset.h"
 #include "ops/groove.h"
@@ -316,10 +316,8 @@ Result<Carving> carve(const MedialAxis& axis, const CarveOptions& options) {
     return invalid("the chord must be at least 1e-8 of the diagonal of the axis's sites");
   try {
     return plan(axis, options);
-  } catch (const std::bad_alloc&) {
-    return Error{ErrorCode::out_of_memory, "memory ran out", {}};
-  } catch (const std::exception& exception) {
-    return Error{ErrorCode::internal, exception.what(), {}};
+  } catch (...) {
+    return error_in_flight();
   }
 }
 

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <new>
 #include <utility>
 
 #include "base/arc.h"
 #include "base/disjoint_sets.h"
+#include "base/in_flight.h"
 #include "base/stopwatch.h"
 #include "engines/axis_around.h"
 #include "ops/level_walk.h"
@@ -322,10 +322,8 @@ template <class Work>
 auto guarded(const Work& work) -> decltype(work()) {
   try {
     return work();
-  } catch (const std::bad_alloc&) {
-    return Error{ErrorCode::out_of_memory, "memory ran out", {}};
-  } catch (const std::exception& exception) {
-    return Error{ErrorCode::internal, exception.what(), {}};
+  } catch (...) {
+    return error_in_flight();
   }
 }
 

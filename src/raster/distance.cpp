@@ -4,10 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <exception>
 #include <memory>
-#include <new>
 
+#include "base/in_flight.h"
 #include "base/threads.h"
 #include "medial/image.h"
 #include "raster/runs.h"
@@ -204,10 +203,8 @@ Result<DistanceMap> distance_transform(const Image& image, const DistanceOptions
     return Error{ErrorCode::too_large, "the diagonal of the image is above 2^16 pixels", {}};
   try {
     return on_threads(options.threads, [&] { return transform(image, options); });
-  } catch (const std::bad_alloc&) {
-    return Error{ErrorCode::out_of_memory, "memory ran out", {}};
-  } catch (const std::exception& exception) {
-    return Error{ErrorCode::internal, exception.what(), {}};
+  } catch (...) {
+    return error_in_flight();
   }
 }
 

@@ -1,7 +1,6 @@
 #include <array>
-#include <exception>
-#include <new>
 
+#include "base/in_flight.h"
 #include "medial/image.h"
 
 namespace medial {
@@ -82,10 +81,8 @@ Result<std::vector<Ring>> pixel_outline(const Image& image, double neck) {
     return Error{ErrorCode::too_large, "the diagonal of the image is above 2^16 pixels", {}};
   try {
     return Tracer(image, neck).trace();
-  } catch (const std::bad_alloc&) {
-    return Error{ErrorCode::out_of_memory, "memory ran out", {}};
-  } catch (const std::exception& exception) {
-    return Error{ErrorCode::internal, exception.what(), {}};
+  } catch (...) {
+    return error_in_flight();
   }
 }
 

@@ -1,7 +1,6 @@
-#include <exception>
-#include <new>
 #include <utility>
 
+#include "base/in_flight.h"
 #include "medial/shape.h"
 #include "shape/clean.h"
 #include "shape/nest.h"
@@ -69,10 +68,8 @@ Result<Shape> build_shape(std::span<const Ring> rings, const ShapeOptions& optio
     Result<Shape> shape = build(rings, options, counted);
     if (report) *report = counted;
     return shape;
-  } catch (const std::bad_alloc&) {
-    return Error{ErrorCode::out_of_memory, "memory ran out", {}};
-  } catch (const std::exception& exception) {
-    return Error{ErrorCode::internal, exception.what(), {}};
+  } catch (...) {
+    return error_in_flight();
   }
 }
 

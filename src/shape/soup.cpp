@@ -3,15 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <exception>
 #include <limits>
-#include <new>
 #include <optional>
 #include <tuple>
 #include <utility>
 
 #include "base/arc.h"
 #include "base/disjoint_sets.h"
+#include "base/in_flight.h"
 #include "base/predicates.h"
 #include "shape/arc_sweep.h"
 #include "shape/clean.h"
@@ -451,10 +450,8 @@ Result<Soup> build_soup(std::span<const Chain> chains, const SoupOptions& option
     Result<Soup> soup = build(chains, options, counted);
     if (report != nullptr) *report = counted;
     return soup;
-  } catch (const std::bad_alloc&) {
-    return Error{ErrorCode::out_of_memory, "memory ran out", {}};
-  } catch (const std::exception& exception) {
-    return Error{ErrorCode::internal, exception.what(), {}};
+  } catch (...) {
+    return error_in_flight();
   }
 }
 

@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
 #include <limits>
-#include <new>
 #include <numeric>
 #include <optional>
 #include <utility>
 
+#include "base/in_flight.h"
 #include "base/limits.h"
 #include "base/predicates.h"
 #include "medial/volume.h"
@@ -418,10 +417,8 @@ Result<Solid> make_solid(TriangleMesh mesh) {
 Result<Solid> build_solid(TriangleMesh mesh) {
   try {
     return make_solid(std::move(mesh));
-  } catch (const std::bad_alloc&) {
-    return Error{ErrorCode::out_of_memory, "memory ran out", {}};
-  } catch (const std::exception& exception) {
-    return Error{ErrorCode::internal, exception.what(), {}};
+  } catch (...) {
+    return error_in_flight();
   }
 }
 

@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <exception>
-#include <new>
 #include <optional>
 #include <utility>
 
+#include "base/in_flight.h"
 #include "base/stopwatch.h"
 #include "base/threads.h"
 #include "medial/volume.h"
@@ -204,10 +203,8 @@ Result<VoxelAxis> compute_voxels(const Solid& solid, const VoxelOptions& options
     return on_threads(options.threads, [&] { return run(solid, options); });
   } catch (const Interrupted& interrupted) {
     return interrupted.error;
-  } catch (const std::bad_alloc&) {
-    return Error{ErrorCode::out_of_memory, "memory ran out", {}};
-  } catch (const std::exception& exception) {
-    return Error{ErrorCode::internal, exception.what(), {}};
+  } catch (...) {
+    return error_in_flight();
   }
 }
 

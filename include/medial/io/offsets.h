@@ -27,8 +27,10 @@ struct OffsetFile {
 /// Writes offset curves by the extension of `path`, as write_axes() does: .json (lossless;
 /// docs/format.md); .wkt (a multi-surface with exact circular strings for each clearance of a
 /// feature, or a multi-polygon of chords with `chords`); .geojson (a polygon of chords for each
-/// region); .dxf (closed polylines with bulges, a layer for each clearance); .svg .pdf .png .ps.
-/// Chords stay within options.chord. Errors: unsupported, unwritable, invalid_option.
+/// region; both in longitudes and latitudes again where the reference system is a local projection,
+/// .wkt then with chords); .dxf (closed polylines with bulges, a layer for each clearance); .svg
+/// .pdf .png .ps. Chords stay within options.chord. Errors: unsupported, unwritable,
+/// invalid_option.
 Status write_offsets(const std::string& path, const std::string& format, const OffsetFile& file,
                      const WriteOptions& options = {}, bool chords = false);
 

@@ -22,8 +22,10 @@ struct WriteOptions {
 
 /// Writes axes by the extension of `path`: .json (native) .geojson .gpkg .shp .fgb .wkt .csv
 /// .dxf .svg .pdf .png .ps; `-` is standard output and takes `format` (an extension without its
-/// dot). Writes to a temporary name beside the target and renames: never a partial file. Errors:
-/// unsupported, unwritable, invalid_option (chord, width), out_of_memory.
+/// dot). Formats of GIS, .wkt and .csv get longitudes and latitudes again where the reference
+/// system is a local projection (medial/io/projection.h). Writes to a temporary name beside the
+/// target and renames: never a partial file. Errors: unsupported, unwritable, invalid_option
+/// (chord, width), out_of_memory.
 Status write_axes(const std::string& path, const std::string& format, const NativeFile& file,
                   const WriteOptions& options = {});
 
@@ -39,6 +41,7 @@ struct VoronoiItem {
 
 struct VoronoiFile {
   std::vector<VoronoiItem> items;
+  std::string crs_wkt;  ///< as in NativeFile
   bool y_down = false;  ///< the y axis points down; for pictures
 };
 

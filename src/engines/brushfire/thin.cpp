@@ -1,8 +1,7 @@
 #include <algorithm>
 #include <array>
-#include <exception>
-#include <new>
 
+#include "base/in_flight.h"
 #include "engines/brushfire/front.h"
 #include "engines/brushfire/rules.h"
 #include "engines/brushfire/tiles.h"
@@ -141,10 +140,8 @@ Result<Image> thin(const Image& image, const BrushfireOptions& options) {
     Tiles tiles(image);
     if (Status burnt = burn(tiles, options); !burnt) return std::move(burnt).error();
     return tiles.image(image.width(), image.height());
-  } catch (const std::bad_alloc&) {
-    return Error{ErrorCode::out_of_memory, "memory ran out", {}};
-  } catch (const std::exception& exception) {
-    return Error{ErrorCode::internal, exception.what(), {}};
+  } catch (...) {
+    return error_in_flight();
   }
 }
 

@@ -16,6 +16,9 @@ constexpr double same_parameter = 1e-7;
 /// Points that all generations together may find before the axis is given up: some 200 bytes each.
 constexpr std::size_t most_points = std::size_t{1} << 21;
 /// Times that generations are taken up again before the rest of the boundary is given up.
+// The most evaluations of the boundary, and those more for each of its pieces: some seconds. A
+// boundary of 300 maxima takes a tenth.
+constexpr double most_evaluations = 2e7, most_evaluations_a_piece = 2e3;
 constexpr int most_resumptions = 16;
 
 double between(double a, double b, double share) { return a + share * (b - a); }
@@ -65,6 +68,11 @@ Status Control::run() {
     for (const double u : maxima)
       if (!is_scanned(u) && grow(start(u)) == Stop::complete) return success();
   }
+  if (is_exhausted())
+    return Error{ErrorCode::too_large,
+                 "the boundary is too uneven for the method curve-axis: after a few seconds of "
+                 "work there is no axis; fit it less closely, or take longer steps",
+                 {}};
   if (points_ > most_points)
     return Error{ErrorCode::too_large,
                  "the axis has more points than fit the memory: take longer steps",
@@ -73,6 +81,11 @@ Status Control::run() {
   if (any_ >= 0) place.point = last(any_).right.point;
   return Error{ErrorCode::internal,
                "no branch reaches a part of the boundary: please report this shape", place};
+}
+
+bool Control::is_exhausted() const {
+  return static_cast<double>(boundary_.evaluations()) >
+         most_evaluations + most_evaluations_a_piece * boundary_.period();
 }
 
 bool Control::is_scanned(double u) const {
@@ -111,7 +124,7 @@ int Control::start(double maximum) {
 
 Control::Stop Control::grow(int segment) {
   while (true) {
-    if (++points_ > most_points) return Stop::exhausted;
+    if (++points_ > most_points || is_exhausted()) return Stop::exhausted;
     const AxisPoint here = last(segment);
     const std::optional<AxisPoint> there = generator_.next(here);
     const bool alone = at(segment).next == segment || is_last_tip(at(segment).next, segment);

@@ -45,6 +45,7 @@ class Control {
     AxisPoint active;  ///< the active axis point with that foot
   };
 
+  bool is_exhausted() const;
   bool is_scanned(double u) const;
   int start(double maximum);
   Stop grow(int segment);

@@ -1,8 +1,8 @@
 #include "medial/curve_axis.h"
 
 #include <cmath>
-#include <new>
 
+#include "base/in_flight.h"
 #include "engines/curve_axis/control.h"
 #include "medial/shape.h"
 
@@ -186,8 +186,8 @@ Result<CurveAxis> compute_curve_axis(std::span<const Contour> contours,
     Control control(boundary, options, step);
     if (Status done = control.run(); !done) return std::move(done).error();
     return Assembly(boundary, control).take(step);
-  } catch (const std::bad_alloc&) {
-    return Error{ErrorCode::out_of_memory, "memory ran out", {}};
+  } catch (...) {
+    return error_in_flight();
   }
 }
 

@@ -164,6 +164,7 @@ BoundaryPoint SmoothBoundary::at(double u) const {
   double wrapped = u - n * std::floor(u / n);
   if (wrapped >= n) wrapped = 0;
   const auto piece = static_cast<std::size_t>(wrapped);
+  ++evaluations_;
   const curves::Jet jet = curves::evaluate(pieces_[piece], wrapped - static_cast<double>(piece));
   BoundaryPoint out;
   out.u = u;
@@ -184,6 +185,7 @@ double SmoothBoundary::advanced(double u, double length) const {
     if (at_u != joint) return at(at_u).speed;
     const double index = forward ? joint : joint - 1;
     const auto piece = static_cast<std::size_t>(index - n * std::floor(index / n));
+    ++evaluations_;
     return norm(curves::evaluate(pieces_[piece], forward ? 0 : 1).first);
   };
   double left = std::abs(length);

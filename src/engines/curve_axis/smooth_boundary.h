@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "curves/bezier.h"
@@ -37,6 +38,9 @@ class SmoothBoundary {
   Vec2 high() const { return high_; }
   double size() const { return distance(low_, high_); }
 
+  /// How often a piece was evaluated so far: the work done.
+  std::uint64_t evaluations() const { return evaluations_; }
+
   /// The value congruent to u in [base, base + period).
   double above(double u, double base) const;
 
@@ -46,6 +50,7 @@ class SmoothBoundary {
 
   std::vector<curves::Bezier> pieces_;
   std::vector<double> maxima_;
+  mutable std::uint64_t evaluations_ = 0;  ///< one thread at a time has a boundary
   Vec2 low_, high_;
 };
 

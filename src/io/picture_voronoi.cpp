@@ -1,0 +1,100 @@
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "io/picture_parts.h"
+#include "medial/voronoi.h"
+
+namespace medial::io {
+
+namespace {
+
+constexpr double hue_step = 0.618033988749895;  // the golden section: neighbours differ
+
+/// A light colour of this hue in [0, 1).
+Color pastel(double hue) {
+  constexpr double darkest = 0.72;
+  const auto part = [&](double shift) {
+    const double wave = 0.5 + 0.5 * std::cos(2 * std::numbers::pi * (hue - shift));
+    return darkest + (1 - darkest) * wave;
+  };
+  return {part(0), part(1.0 / 3), part(2.0 / 3)};
+}
+
+bool runs_straight(const VoronoiDiagram& diagram, const VoronoiEdge& edge) {
+  if (edge.spoke || edge.frame) return true;
+  const SiteKind kind = diagram.sites[edge.site[0]].kind;
+  return kind == diagram.sites[edge.site[1]].kind && kind != SiteKind::arc;
+}
+
+/// Goes along an edge of a diagram, from its node[0] or from its node[1].
+void trace_edge(Pen& pen, const VoronoiDiagram& diagram, const VoronoiEdge& edge, bool forward) {
+  const auto place = [&](std::uint32_t node) {
+    return pen.frame()(diagram.nodes[node].disk.center);
+  };
+  Piece piece{place(edge.node[0]), pen.frame()(edge.control.center), place(edge.node[1]),
+              edge.weight, runs_straight(diagram, edge)};
+  if (!forward) std::swap(piece.from, piece.to);
+  pen.piece_to(piece);
+}
+
+}  // namespace
+
+void draw_faces(Pen& pen, const VoronoiFile& file) {
+  const PictureFrame& frame = pen.frame();
+  for (const VoronoiItem& item : file.items) {
+    const VoronoiDiagram& diagram = item.diagram;
+    for (std::uint32_t site = 0; site < diagram.sites.size(); ++site) {
+      const bool vertex = diagram.sites[site].kind == SiteKind::vertex;
+      constexpr Color grey{0.82, 0.82, 0.84};
+      pen.color(vertex ? grey : pastel(std::fmod(hue_step * site, 1.0)));
+      if (diagram.face(site).empty()) continue;
+      const VoronoiEdge& first = diagram.edges[diagram.face(site).front()];
+      pen.move_to(frame(diagram.frame
+                            ? diagram.nodes[first.node[first.site[1] == site ? 0 : 1]].disk.center
+                            : diagram.sites[site].start));
+      for (const std::uint32_t e : diagram.face(site))
+        trace_edge(pen, diagram, diagram.edges[e], diagram.edges[e].site[1] == site);
+      pen.close();
+      pen.fill_even_odd();
+    }
+  }
+  pen.color(outline_color, 0.5);
+  pen.line_width(0.5);
+  for (const VoronoiItem& item : file.items) {
+    for (const VoronoiEdge& edge : item.diagram.edges) {
+      if (!edge.spoke) continue;
+      pen.move_to(frame(item.diagram.nodes[edge.node[0]].disk.center));
+      pen.line_to(frame(item.diagram.nodes[edge.node[1]].disk.center));
+      pen.count_piece(false);
+    }
+  }
+  pen.stroke();
+}
+
+void draw_sites(Pen& pen, const VoronoiFile& file) {
+  const PictureFrame& frame = pen.frame();
+  pen.color(outline_color);
+  pen.line_width(1.6);
+  for (const bool points : {false, true}) {
+    for (const VoronoiItem& item : file.items) {
+      if (!item.diagram.frame) continue;
+      for (const Site& site : item.diagram.sites) {
+        if ((site.kind == SiteKind::vertex) != points) continue;
+        if (points) {
+          pen.circle(frame(site.start), pen.thickness(2));
+        } else {
+          pen.move_to(frame(site.start));
+          if (site.bulge == 0)
+            pen.line_to(frame(site.end));
+          else
+            pen.arc_to({frame(site.start), frame(site.end), frame.bulge(site.bulge)});
+        }
+        pen.count_piece(points);
+      }
+    }
+    points ? pen.fill() : pen.stroke();
+  }
+}
+
+}  // namespace medial::io

@@ -1,0 +1,95 @@
+#include "io/ring_text.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/arc.h"
+
+namespace medial::io {
+
+namespace {
+
+double bulge_after(const Ring& ring, std::size_t i) {
+  return ring.bulges.empty() ? 0 : ring.bulges[i];
+}
+Vec2 next_point(const Ring& ring, std::size_t i) {
+  return ring.points[i + 1 == ring.points.size() ? 0 : i + 1];
+}
+
+}  // namespace
+
+void put_point(OutputStream& out, Vec2 p, char separator) {
+  out.put(p.x);
+  out.put(separator);
+  out.put(p.y);
+}
+
+std::vector<Vec2> chords_of(const Ring& ring, double chord) {
+  std::vector<Vec2> out;
+  for (std::size_t i = 0; i < ring.points.size(); ++i) {
+    const Vec2 from = ring.points[i], to = next_point(ring, i);
+    out.push_back(from);
+    const double bulge = bulge_after(ring, i);
+    if (bulge == 0) continue;
+    // A piece of the angle a has the sagitta r (1 - cos(a / 2)).
+    constexpr double most = 100000;
+    const double angle = 4 * std::atan(bulge);
+    const double radius = distance(from, to) / (2 * std::sin(std::abs(angle) / 2));
+    const double widest = 2 * std::acos(std::max(1 - chord / radius, 0.0));
+    const int pieces = static_cast<int>(std::clamp(std::ceil(std::abs(angle) / widest), 1.0, most));
+    const Vec2 tangent = start_tangent({from, to, bulge});
+    for (int k = 1; k < pieces; ++k) {
+      const double half = angle * k / (2 * pieces);
+      out.push_back(from + (2 * radius * std::sin(std::abs(half))) *
+                               turned(tangent, std::cos(half), std::sin(half)));
+    }
+  }
+  out.push_back(ring.points[0]);
+  return out;
+}
+
+void put_wkt_points(OutputStream& out, const std::vector<Vec2>& points) {
+  const char* separator = "(";
+  for (const Vec2 p : points) {
+    out.put(separator);
+    put_point(out, p, ' ');
+    separator = ", ";
+  }
+  out.put(')');
+}
+
+void put_geojson_points(OutputStream& out, const std::vector<Vec2>& points) {
+  const char* separator = "[[";
+  for (const Vec2 p : points) {
+    out.put(separator);
+    put_point(out, p, ',');
+    out.put(']');
+    separator = ",[";
+  }
+  out.put(']');
+}
+
+void put_wkt_curve(OutputStream& out, const Ring& ring) {
+  const std::size_t count = ring.points.size();
+  const bool straight =
+      std::all_of(ring.bulges.begin(), ring.bulges.end(), [](double bulge) { return bulge == 0; });
+  if (!straight) out.put("COMPOUNDCURVE (");
+  for (std::size_t i = 0; i < count;) {
+    const bool arcs = bulge_after(ring, i) != 0;
+    if (i > 0) out.put(", ");
+    out.put(arcs ? "CIRCULARSTRING (" : "(");
+    put_point(out, ring.points[i], ' ');
+    for (; i < count && (bulge_after(ring, i) != 0) == arcs; ++i) {
+      if (arcs) {
+        out.put(", ");
+        put_point(out, apex({ring.points[i], next_point(ring, i), ring.bulges[i]}), ' ');
+      }
+      out.put(", ");
+      put_point(out, next_point(ring, i), ' ');
+    }
+    out.put(')');
+  }
+  if (!straight) out.put(')');
+}
+
+}  // namespace medial::io
