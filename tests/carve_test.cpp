@@ -156,7 +156,7 @@ TEST(Carve, ChordsOfRoundWallsDoNotGouge) {
 
 TEST(Carve, PassesInDepthTakeOffNoMoreThanAsked) {
   std::size_t several = 0;
-  for (std::uint64_t seed = 0; seed < shape_count() / 8; ++seed) {
+  for (std::uint64_t seed = 0; seed < shape_count / 8; ++seed) {
     const RandomShape random =
         seed % 2 == 0 ? test::random_shape(seed) : test::random_arc_shape(seed);
     SCOPED_TRACE(random.kind + " " + std::to_string(seed));
@@ -202,7 +202,7 @@ TEST(Carve, PassesInDepthTakeOffNoMoreThanAsked) {
     }
     if (HasFailure()) return;
   }
-  EXPECT_GT(several, shape_count() / 50);
+  EXPECT_GT(several, shape_count / 50);
 }
 
 TEST(Carve, OtherUnitsChangeTheScaleOnly) {

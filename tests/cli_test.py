@@ -1314,6 +1314,9 @@ class Words(CommandLine):
         told = json.loads(self.succeed("offset", "r.wkt", "--distance", "0.25,0.5,-1", "--json").stdout)
         self.assertEqual(told["regions"], 3)
         self.refuse("too_large", "measure", "r.wkt", "--spacing", "1e-300")
+        # Curvatures so unlike that the method would go on for hours: it gives up.
+        self.write("island.wkt", "POLYGON((0 0,10 0,14 5,10 9,4 8,0 6))")
+        self.refuse("too_large", "axis", "island.wkt", "--method", "curve-axis", "--fit", "1e-7")
 
     def test_coordinates(self):
         """The place of a coordinate that nobody can compute with is told, whatever reads it."""
