@@ -395,6 +395,16 @@ class Axis(CommandLine):
         for table, count in (("runs", 5), ("branches", 5), ("points", 6)):
             text = self.succeed("features", "long.wkt", "-o", "-", "--format", "csv", "--table", table).stdout
             self.assertEqual(len(text.decode().splitlines()), count + 1, table)
+        # The attributes of each place come along.
+        self.write("places.geojson", GEOGRAPHIC)
+        for table in ("runs", "branches", "points"):
+            self.succeed("features", "places.geojson", "--table", table, "-o", "p.geojson")
+            names = [f["properties"]["name"] for f in json.loads(self.read("p.geojson"))["features"]]
+            self.assertEqual(sorted(set(names)), ["east", "west"], table)
+            self.assertEqual(names, sorted(names, reverse=True), table)
+        self.succeed("features", "places.geojson", "-o", "p.json")
+        items = json.loads(self.read("p.json"))["items"]
+        self.assertEqual([dict(item["attributes"])["name"] for item in items], ["west", "east"])
         self.refuse("invalid_option", "features", "long.wkt", "--bend", "nan")
         self.refuse("unsupported", "features", "long.wkt", "-o", "f.dxf")
 
@@ -537,6 +547,35 @@ class Axis(CommandLine):
                                       stderr=subprocess.PIPE, timeout=60)
             self.assertEqual(done.returncode, 2)
             self.assertIn(b"[unwritable]", done.stderr)
+
+    def test_pipe_from_axis_to_shape(self):
+        """medial axis x.svg -o - | medial prune - --angle 60 -o - | medial rebuild - -o y.svg"""
+        self.write("x.svg", '<svg xmlns="http://www.w3.org/2000/svg" width="90" height="50">'
+                            '<path d="M 10 10 H 80 V 30 L 60 31 L 40 30 H 10 Z"/></svg>')
+        axis = self.succeed("axis", "x.svg", "-o", "-").stdout
+        pruned = self.succeed("prune", "-", "--angle", "60", "-o", "-", given=axis).stdout
+        self.succeed("rebuild", "-", "-o", "y.svg", given=pruned)
+        told = json.loads(self.succeed("rebuild", "-", "--json", given=pruned).stdout)
+        again = json.loads(self.succeed("rebuild", "y.svg", "--json").stdout)
+        self.assertAlmostEqual(told["area"], again["area"], delta=1e-6 * told["area"])
+        self.assertEqual(told["vertices"], again["vertices"])
+        # What 60 degrees keep: the corners, but not the vertex of nearly 180 that bulges out.
+        area = json.loads(self.succeed("rebuild", "x.svg", "--json").stdout)["area"]
+        self.assertLess(told["area"], area)
+        self.assertGreater(told["area"], 0.99 * area)
+        self.assertLess(len(json.loads(pruned)["items"][0]["axis"]["edges"]),
+                        len(json.loads(axis)["items"][0]["axis"]["edges"]))
+
+    def test_unpacked_axes_keep_the_error(self):
+        self.write("plan.wkt", "POLYGON ((0 0, 30 0, 30 12, 22 12, 22 20, 14 20, 14 12, 0 9, 0 0),"
+                               "(4 3, 4 6, 9 6, 9 3, 4 3))")
+        for error in ("0.03", "0.003", "0.0001"):
+            told = json.loads(self.succeed("pack", "plan.wkt", "-o", "p.mpk", "--error", error,
+                                           "--json").stdout)
+            self.succeed("unpack", "p.mpk", "-o", "u.json")
+            again = json.loads(self.succeed("rebuild", "u.json", "--against", "plan.wkt",
+                                            "--json").stdout)
+            self.assertLessEqual(again["against"]["hausdorff"], told["error"])
 
     def test_many_features_keep_order_and_attributes(self):
         self.write("places.geojson", GEOGRAPHIC)

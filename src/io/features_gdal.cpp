@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "io/features_writer.h"
+#include "io/gdal_columns.h"
 #include "io/gdal_support.h"
 #include "io/gdal_target.h"
 #include "io/table_writer.h"
@@ -24,11 +25,26 @@ OGRFieldType type_of(ColumnType type) {
   return OFTString;
 }
 
+/// The input's attributes, named apart from the columns of every table.
+AttributeColumns attribute_columns(const NativeFile& axes) {
+  std::vector<const Attributes*> items;
+  for (const NativeItem& item : axes.items) items.push_back(&item.attributes);
+  std::vector<std::string> own;
+  for (const FeatureTable table :
+       {FeatureTable::runs, FeatureTable::branches, FeatureTable::points})
+    for (const TableColumn& column : columns_of(table)) own.emplace_back(column.name);
+  return {items, own};
+}
+
 class FeaturesGdalWriter {
  public:
   FeaturesGdalWriter(const NativeFile& axes, std::span<const AxisFeatures> features,
                      const FeatureWriteOptions& options, const OutputCrs& crs)
-      : axes_(axes), features_(features), options_(options), crs_(crs) {}
+      : axes_(axes),
+        features_(features),
+        options_(options),
+        crs_(crs),
+        attributes_(attribute_columns(axes)) {}
 
   Status write_layer(GDALDataset& target, FeatureTable table, const std::string& name,
                      const GdalMessages& messages) {
@@ -40,18 +56,21 @@ class FeaturesGdalWriter {
       OGRFieldDefn field(column.name, type_of(column.type));
       if (layer->CreateField(&field) != OGRERR_NONE) return cannot_write(messages);
     }
+    if (!attributes_.create_in(*layer)) return cannot_write(messages);
     for (std::size_t i = 0; i < features_.size(); ++i) {
       const NativeItem& item = axes_.items[i];
       for (TableRow& row :
            rows_of(table, i, item.axis, features_[i], chord_of(item, options_.write))) {
-        if (Status status = write_row(*layer, row, points, messages); !status) return status;
+        if (Status status = write_row(*layer, row, item.attributes, points, messages); !status)
+          return status;
       }
     }
     return success();
   }
 
  private:
-  Status write_row(OGRLayer& layer, TableRow& row, bool point, const GdalMessages& messages) {
+  Status write_row(OGRLayer& layer, TableRow& row, const Attributes& attributes, bool point,
+                   const GdalMessages& messages) {
     if (Status status = crs_.transform(row.points); !status) return status;
     OGRFeature feature(layer.GetLayerDefn());
     for (int k = 0; k < static_cast<int>(row.values.size()); ++k) {
@@ -66,6 +85,7 @@ class FeaturesGdalWriter {
         feature.SetFieldNull(k);
       }
     }
+    attributes_.set(feature, static_cast<int>(row.values.size()), attributes);
     if (point) {
       feature.SetGeometryDirectly(new OGRPoint(row.points[0].x, row.points[0].y));
     } else {
@@ -81,6 +101,7 @@ class FeaturesGdalWriter {
   std::span<const AxisFeatures> features_;
   const FeatureWriteOptions& options_;
   const OutputCrs& crs_;
+  AttributeColumns attributes_;
 };
 
 }  // namespace

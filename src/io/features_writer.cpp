@@ -246,6 +246,12 @@ void write_json(OutputStream& out, const NativeFile& axes, std::span<const AxisF
     const MedialAxis& axis = axes.items[i].axis;
     out.put(i == 0 ? "\n{\"feature\":" : ",\n{\"feature\":");
     out.put(i);
+    out.put(",\"attributes\":[");
+    const auto& attributes = axes.items[i].attributes;
+    for (std::size_t k = 0; k < attributes.size(); ++k)
+      out.put(fmt::format("{}[{},{}]", k == 0 ? "" : ",", quoted(attributes[k].first),
+                          quoted(attributes[k].second)));
+    out.put(']');
     put_member(out, "components", item.components);
     put_member(out, "cycles", item.cycles);
     put_member(out, "ends", item.ends);

@@ -26,7 +26,8 @@ struct FeatureWriteOptions {
 /// Writes features, one of `features` for each item of `axes`, by the extension of `path` as
 /// write_axes() does: .json (all of AxisFeatures), .gpkg (layers runs, branches, points), .geojson
 /// .shp .fgb .csv (one table, see docs/features.md for its columns), .svg .pdf .png .ps (the shapes
-/// with their runs coloured by primitive, and their names). Errors: unsupported, unwritable,
+/// with their runs coloured by primitive, and their names). Tables through GDAL and .json have the
+/// attributes of the items, too. Errors: unsupported, unwritable,
 /// invalid_option.
 Status write_features(const std::string& path, const std::string& format, const NativeFile& axes,
                       std::span<const AxisFeatures> features,
