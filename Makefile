@@ -65,9 +65,10 @@ fuzz: setup     ## random polygons and mutated files with new seeds: make fuzz S
 
 corpus: setup   ## every data file below DATA, every glyph below FONTS, verified or refused: tables
 	@cmake --preset release
-	@cmake --build $(RELEASE) -j $(JOBS) --target medial_corpus medial_glyphs
+	@cmake --build $(RELEASE) -j $(JOBS) --target medial_corpus medial_glyphs medial_roundtrips
 	@$(RELEASE)/tests/medial_corpus $(DATA); corpus=$$?; \
-	  $(RELEASE)/tests/medial_glyphs $(DATA) $(FONTS) && exit $$corpus
+	  $(RELEASE)/tests/medial_roundtrips $(DATA) $(FONTS); back=$$?; \
+	  $(RELEASE)/tests/medial_glyphs $(DATA) $(FONTS) && exit $$((corpus + back))
 
 tsan: setup     ## the engine's tests under the thread sanitizer
 	@tools/tsan.sh $(TSAN) $(JOBS)

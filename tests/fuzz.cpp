@@ -4,7 +4,8 @@
 //   medial_fuzz [--from SEED] [--count N] [--seconds N] [--threads N]
 //
 // Each seed is one random_shape(seed), which must be verified, and one small file with random
-// mutations, which must be read or refused; what is read must be verified or refused. One line for
+// mutations, which must be read or refused; what is read must be verified or refused, and packs
+// must unpack or be refused, their shapes be built or be told of. One line for
 // each failure: `shape SEED KIND: reason: WKT`, where the WKT is a small part of the shape that
 // still fails, or `file SEED NAME: reason: "bytes"`. --from SEED --count 1 repeats one. Exit
 // status: 0; 1 where something failed, crashed or hung; 2 for a wrong call.
@@ -29,6 +30,7 @@
 #include <thread>
 #include <vector>
 
+#include "medial/io/pack.h"
 #include "medial/io/read.h"
 #include "medial/io/write.h"
 #include "medial/medial.h"
@@ -120,6 +122,11 @@ std::string content(const fs::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
+void add_pack(const std::string& name, const io::PackFile& pack, std::vector<Sample>& samples) {
+  const auto bytes = io::pack_bytes(pack);
+  if (bytes) samples.push_back({name, {bytes->begin(), bytes->end()}});
+}
+
 /// Small valid files of every text format, made in `folder` where only a writer can make them.
 std::vector<Sample> samples(const fs::path& folder) {
   const std::string polygon = "POLYGON ((0 0, 9 0, 9 6.5, 0 6, 0 0), (3 2, 3 4e0, 6 4, 6 2, 3 2))";
@@ -145,6 +152,19 @@ std::vector<Sample> samples(const fs::path& folder) {
   file.items.push_back({*shape, *axis, {{"name", "frame"}}});
   const fs::path native = folder / "native.json";
   if (io::write_axes(native.string(), "", file).ok()) result.push_back({"f.json", content(native)});
+  const std::vector<MedialAxis> axes{*axis};
+  io::PackFile pack;
+  for (const double error : {1.0, 0.01}) {
+    auto code = encode_axes(axes, {error});
+    if (code) pack.code = std::move(*code);
+    add_pack("g.mpk", pack, result);
+  }
+  Image image(40, 30);
+  for (std::uint32_t y = 3; y < 25; ++y)
+    for (std::uint32_t x = y / 2; x < 35; ++x) image.set(x, y);
+  pack.kind = io::PackKind::squares;
+  pack.code = encode_squares(image);
+  add_pack("h.mpk", pack, result);
   return result;
 }
 
@@ -253,8 +273,42 @@ std::string mutated(const std::vector<Sample>& all, std::string bytes, Random& r
   return bytes;
 }
 
+/// A pack whose streams are mutated behind the checksum.
+std::string repacked(const std::vector<Sample>& all, const std::string& bytes, Random& random) {
+  const auto* data = reinterpret_cast<const std::uint8_t*>(bytes.data());
+  auto pack = io::unpack_bytes({data, bytes.size()});
+  if (!pack) return bytes;
+  for (std::vector<std::uint8_t>& stream : pack->code) {
+    if (random.chance(0.5)) continue;
+    const std::string other = mutated(all, {stream.begin(), stream.end()}, random);
+    stream.assign(other.begin(), other.end());
+  }
+  const auto again = io::pack_bytes(*pack);
+  return again ? std::string(again->begin(), again->end()) : bytes;
+}
+
+std::optional<std::string> fault_of_pack(const std::string& path) {
+  const auto pack = io::read_pack(path);
+  if (!pack)
+    return is_refusal(pack.error().code) ? std::nullopt : std::optional(to_string(pack.error()));
+  if (pack->kind == io::PackKind::squares) {
+    const auto image = decode_squares(pack->code);
+    return image || is_refusal(image.error().code) ? std::nullopt
+                                                   : std::optional(to_string(image.error()));
+  }
+  std::vector<std::string> notes;
+  const auto native = io::native_of(*pack, &notes);
+  if (!native)
+    return is_refusal(native.error().code) ? std::nullopt
+                                           : std::optional(to_string(native.error()));
+  for (const io::NativeItem& item : native->items)
+    if (item.shape.points.empty() && notes.empty()) return "no shape, and nothing told";
+  return std::nullopt;
+}
+
 /// What is wrong about how a file is taken, if anything.
 std::optional<std::string> fault_of_file(const std::string& path) {
+  if (path.ends_with(".mpk")) return fault_of_pack(path);
   const auto dataset = io::read_dataset(path);
   if (!dataset && !is_refusal(dataset.error().code)) return to_string(dataset.error());
   if (dataset) {
@@ -281,6 +335,8 @@ Sample random_file(std::uint64_t seed, const std::vector<Sample>& all) {
   Random random(seed);
   const auto last = static_cast<std::int64_t>(all.size()) - 1;
   const Sample& sample = all[static_cast<std::size_t>(random.integer(0, last))];
+  if (sample.name.ends_with(".mpk") && random.chance(0.8))
+    return {sample.name, repacked(all, sample.bytes, random)};
   return {sample.name, mutated(all, sample.bytes, random)};
 }
 

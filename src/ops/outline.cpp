@@ -2,6 +2,7 @@
 #include <optional>
 
 #include "base/arc.h"
+#include "medial/compute.h"
 #include "medial/sides.h"
 #include "ops/half_edges.h"
 
@@ -67,13 +68,16 @@ class Outliner {
   void add_gap(HalfEdge half) {
     const double angle = halves_.gap(half);
     if (angle == 0) return;
-    // Where the disk touches the joint of the two sites as well, the boundary is known better.
+    // Where the disk touches the joint of the two sites as well, the boundary is known better; and
+    // where the joint counts as smooth, so that it has no branch although it lies beyond the disk.
+    const bool smooth = angle <= Options{}.corner_angle;
     const HalfEdge next = halves_.next(half);
     if (halves_.exact(half) && halves_.exact(next)) {
       const Vec2 joint = axis_.sites[halves_.right_site(half)].end;
       const Disk& disk = halves_.disk(half, true);
       if (joint == axis_.sites[halves_.right_site(next)].start &&
-          std::abs(distance(joint, disk.center) - disk.radius) <= 4 * axis_.tolerance) {
+          (smooth ||
+           std::abs(distance(joint, disk.center) - disk.radius) <= 4 * axis_.tolerance)) {
         pieces_.back().end = joint;
         joint_ = joint;
         return;
