@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <numbers>
 
 #include "medial/compute.h"
@@ -65,9 +66,12 @@ std::vector<double> thresholds_of(const PruneOrder& order, const MedialAxis& axi
   return thresholds;
 }
 
+/// Every measure on 10,000 shapes, on the first 400 of them at all thresholds.
 TEST(Prune, KeepsTheHomotopyTypeAndIsNested) {
   std::size_t cuts = 0, removed = 0;
-  for (std::uint64_t seed = 0; seed < shape_count; ++seed) {
+  const std::uint64_t thorough = shape_count;
+  const std::uint64_t count = std::getenv("MEDIAL_PROPERTY_COUNT") != nullptr ? 4 * thorough : 10'000;
+  for (std::uint64_t seed = 0; seed < count; ++seed) {
     const RandomShape random = shape_of(seed);
     SCOPED_TRACE(random.kind + " " + std::to_string(seed));
     const MedialAxis axis = axis_of(random.rings);
@@ -77,11 +81,17 @@ TEST(Prune, KeepsTheHomotopyTypeAndIsNested) {
       const bool tips = (seed + static_cast<std::uint64_t>(measure)) % 3 == 0;
       const PruneOrder order(axis, measure, tips);
       std::vector<EdgePart> before;
-      for (const double threshold : thresholds_of(order, axis, measure)) {
+      std::vector<double> thresholds = thresholds_of(order, axis, measure);
+      if (seed >= thorough) {
+        const std::size_t half = thresholds.size() / 2;
+        thresholds = {thresholds[seed % half], thresholds[half + seed / 4 % half]};
+      }
+      bool first = true;
+      for (const double threshold : thresholds) {
         const std::vector<EdgePart> parts = order.parts(threshold);
         if (threshold == 0) {
           ASSERT_EQ(parts.size(), axis.edges.size());
-        } else {  // nested
+        } else if (!first) {  // nested
           auto larger = before.begin();
           for (const EdgePart& part : parts) {
             while (larger != before.end() && larger->edge < part.edge) ++larger;
@@ -91,6 +101,7 @@ TEST(Prune, KeepsTheHomotopyTypeAndIsNested) {
           }
         }
         before = parts;
+        first = false;
         for (const EdgePart& part : parts) {
           ASSERT_LE(0, part.t0);
           ASSERT_LE(part.t0, part.t1);
