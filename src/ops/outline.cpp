@@ -76,8 +76,7 @@ class Outliner {
       const Vec2 joint = axis_.sites[halves_.right_site(half)].end;
       const Disk& disk = halves_.disk(half, true);
       if (joint == axis_.sites[halves_.right_site(next)].start &&
-          (smooth ||
-           std::abs(distance(joint, disk.center) - disk.radius) <= 4 * axis_.tolerance)) {
+          (smooth || std::abs(distance(joint, disk.center) - disk.radius) <= 4 * axis_.tolerance)) {
         pieces_.back().end = joint;
         joint_ = joint;
         return;
