@@ -70,7 +70,8 @@ std::vector<double> thresholds_of(const PruneOrder& order, const MedialAxis& axi
 TEST(Prune, KeepsTheHomotopyTypeAndIsNested) {
   std::size_t cuts = 0, removed = 0;
   const std::uint64_t thorough = shape_count;
-  const std::uint64_t count = std::getenv("MEDIAL_PROPERTY_COUNT") != nullptr ? 4 * thorough : 10'000;
+  const std::uint64_t count =
+      std::getenv("MEDIAL_PROPERTY_COUNT") != nullptr ? 4 * thorough : 10'000;
   for (std::uint64_t seed = 0; seed < count; ++seed) {
     const RandomShape random = shape_of(seed);
     SCOPED_TRACE(random.kind + " " + std::to_string(seed));
