@@ -213,12 +213,12 @@ class Halves {
         figure.thin();
       figure.line({site.point, site.end()});
     }
-    for (std::uint32_t i = 0; i < elements_.size(); ++i) {
-      if (half != 2 && (i < middle) != (half == 0)) continue;
-      for (std::uint32_t place = diagram_.top[i][0]; place != lee::none;
-           place = diagram_.edges[place].inward[0])
-        draw_edge(figure, diagram_.edges[place], middle);
-    }
+    const std::vector<std::uint32_t> outer = outer_edges();
+    for (std::uint32_t i = 0; i < elements_.size(); ++i)
+      if (half == 2 || (i < middle) == (half == 0))
+        for (std::uint32_t place = diagram_.top[i][0]; place != lee::none;
+             place = diagram_.edges[place].inward[0])
+          draw_edge(figure, diagram_.edges[place], outer[place], middle);
   }
 
  private:
@@ -235,7 +235,21 @@ class Halves {
     }
   }
 
-  void draw_edge(Figure& figure, const lee::ListEdge& edge, std::uint32_t middle) const {
+  /// Of each edge: the one that begins where it ends, if one does.
+  std::vector<std::uint32_t> outer_edges() const {
+    std::vector<std::uint32_t> outer(diagram_.edges.size(), lee::none);
+    for (std::uint32_t i = 0; i < elements_.size(); ++i)
+      for (const std::size_t k : {0u, 1u})
+        for (std::uint32_t place = diagram_.top[i][k]; place != lee::none;
+             place = diagram_.edges[place].inward[k])
+          if (const std::uint32_t inner = diagram_.edges[place].inward[k]; inner != lee::none)
+            outer[inner] = place;
+    return outer;
+  }
+
+  /// `outer`: the edge that begins where this one ends.
+  void draw_edge(Figure& figure, const lee::ListEdge& edge, std::uint32_t outer,
+                 std::uint32_t middle) const {
     const auto [i, j] = edge.element;
     const geometry::Site &left = elements_.sites[i], &right = elements_.sites[j];
     const bool on_curve = i < middle && j >= middle;
@@ -246,18 +260,18 @@ class Halves {
     else
       figure.pen(0.15, 0.45, 0.75, 1.6);
     const Vec2 start = edge.inner.center;
-    const Vec2 end = edge.outer != lee::none ? diagram_.edges[edge.outer].inner.center : start;
+    const Vec2 end = outer != lee::none ? diagram_.edges[outer].inner.center : start;
     if (diagram_.is_spoke(edge)) {
       const Vec2 normal = left.is_vertex() ? right.normal() : left.normal();
-      figure.line({start, edge.outer != lee::none ? end : start + 60 * normal});
+      figure.line({start, outer != lee::none ? end : start + 60 * normal});
       return;
     }
     const geometry::Bisector bisector(right, left);
     const double from = bisector.position(start);
     const bool last = i == 0 && j + 1 == elements_.size();
     double to = from + 60;
-    if (edge.outer != lee::none) to = bisector.position(end);
-    if (edge.outer == lee::none && last) to = bisector.position(elements_.sites[0].point);
+    if (outer != lee::none) to = bisector.position(end);
+    if (outer == lee::none && last) to = bisector.position(elements_.sites[0].point);
     constexpr int pieces = 64;
     std::vector<Vec2> line;
     for (int k = 0; k <= pieces; ++k) {

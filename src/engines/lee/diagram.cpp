@@ -9,26 +9,17 @@ namespace medial::lee {
 Diagram::Diagram(const Elements& all)
     : elements(all), top(all.size(), {none, none}), free(all.chains.size() - 1) {
   reserve_large(edges, 2 * std::size_t{all.size()});
-  edges.resize(2 * std::size_t{all.size()});
   for (std::size_t chain = 0; chain < free.size(); ++chain) {
-    const std::uint32_t begin = all.chains[chain], end = all.chains[chain + 1];
-    std::uint32_t next_free = none;
-    const auto add_free = [&](std::uint32_t place) {
-      if (next_free == none) free[chain].last = place;
-      edges[place].inward[0] = next_free;
-      next_free = place;
-    };
-    for (std::uint32_t i = end; i-- > begin;) {
-      add_free(2 * i + 1);
-      if (i + 1 == end) {
-        add_free(2 * i);
-        continue;
-      }
+    const std::uint32_t begin = all.chains[chain], last = all.chains[chain + 1] - 1;
+    for (std::uint32_t i = begin; i < last; ++i) {
       const Vec2 vertex = all.sites[all.is_vertex(i) ? i : i + 1].point;
-      edges[2 * i] = {{i, i + 1}, {none, none}, none, {vertex, 0}};
+      edges.push_back({{i, i + 1}, {none, none}, {vertex, 0}});
       top[i][0] = top[i + 1][1] = 2 * i;
+      edges.push_back({{}, {i + 1 == last ? 2 * last : 2 * i + 3, none}, {}});
     }
-    free[chain].first = next_free;
+    edges.push_back({{}, {2 * last + 1, none}, {}});
+    edges.push_back({{}, {none, none}, {}});
+    free[chain] = {begin == last ? 2 * begin : 2 * begin + 1, 2 * last + 1};
   }
 }
 

@@ -16,10 +16,9 @@ constexpr std::uint32_t none = ~std::uint32_t{0};
 /// on e_i moves backward, the one on e_j forward.
 struct ListEdge {
   std::array<std::uint32_t, 2> element;  ///< i < j
-  /// The next edge inward in the two stacks that hold this one: see Diagram.
+  /// The next edge inward in the two stacks that hold this one, see Diagram: those that end where
+  /// this one begins. Each Voronoi point is the inner end of one edge.
   std::array<std::uint32_t, 2> inward;
-  /// The edge that begins where this one ends. Each Voronoi point is the inner end of one edge.
-  std::uint32_t outer = none;
   Disk inner;
 };
 

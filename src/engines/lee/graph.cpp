@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <stdexcept>
 
 #include "base/memory.h"
@@ -11,50 +10,18 @@
 namespace medial::lee {
 namespace {
 
-/// Numbers the nodes: each is the inner end of one edge, but for the two spokes of a reflex vertex,
-/// which are the first edges of the vertex's chain for ever.
-class Numbering {
- public:
-  Numbering(const Diagram& diagram, Graph& graph)
-      : diagram_(diagram), graph_(graph), number_(diagram.edges.size(), none) {}
-
-  void add(std::uint32_t place, std::uint32_t component) {
-    const ListEdge& edge = diagram_.edges[place];
-    const bool second_spoke =
-        diagram_.is_spoke(edge) && diagram_.elements.is_vertex(edge.element[0]);
-    if (second_spoke) {
-      number_[place] = number_[2 * (edge.element[0] - 1)];
-    } else {
-      number_[place] = add_node(edge.inner, edge.element, component);
-    }
-  }
-  std::uint32_t add_node(const Disk& disk, const std::array<std::uint32_t, 2>& element,
-                         std::uint32_t component) {
-    graph_.nodes.push_back(disk);
-    graph_.touched.push_back({element[0], element[1], element[1]});
-    graph_.component.push_back(component);
-    return static_cast<std::uint32_t>(graph_.nodes.size() - 1);
-  }
-  std::uint32_t operator[](std::uint32_t place) const { return number_[place]; }
-
- private:
-  const Diagram& diagram_;
-  Graph& graph_;
-  std::vector<std::uint32_t> number_;
-};
-
-geometry::Control curve(const Graph& graph, const Elements& elements, const Graph::Edge& edge) {
-  const Disk &from = graph.nodes[edge.from], &to = graph.nodes[edge.to];
-  if (edge.spoke) return {{midpoint(from.center, to.center), 0.5 * (from.radius + to.radius)}, 1};
-  return geometry::control_of(elements.sites[edge.element[0]], elements.sites[edge.element[1]],
-                              from, to);
-}
-
-Edge result_edge(const Graph& graph, const Elements& elements, const Frame& frame,
-                 const Graph::Edge& edge) {
-  const geometry::Control control = curve(graph, elements, edge);
-  return {{edge.from, edge.to},
-          {elements.originals[edge.element[0]], elements.originals[edge.element[1]]},
+/// The curve of an edge from `from` to `to`, its ends, in units of the input.
+Edge result_edge(const Graph& graph, const Frame& frame, std::uint32_t edge, const Disk& from,
+                 const Disk& to) {
+  const auto& [i, j] = graph[edge].element;
+  const Elements& elements = graph.elements();
+  const geometry::Control control =
+      graph.is_spoke(edge)
+          ? geometry::Control{{midpoint(from.center, to.center), 0.5 * (from.radius + to.radius)},
+                              1}
+          : geometry::control_of(elements.sites[i], elements.sites[j], from, to);
+  return {{},
+          {elements.originals[i], elements.originals[j]},
           {frame.to_input(control.point.center), frame.inverse * control.point.radius},
           control.weight};
 }
@@ -63,149 +30,168 @@ Disk to_input(const Frame& frame, const Disk& disk) {
   return {frame.to_input(disk.center), frame.inverse * disk.radius};
 }
 
-/// Nodes that turned out to be one.
-class Nodes {
+/// One more edge at a node.
+void add_edge(NodeKind& kind, bool is_first) {
+  kind = is_first                 ? NodeKind::leaf
+         : kind == NodeKind::leaf ? NodeKind::site_change
+                                  : NodeKind::branching;
+}
+
+/// Numbers a result's nodes in the order in which they are asked for.
+class Numbers {
  public:
-  explicit Nodes(std::size_t count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), 0u);
+  Numbers(const Graph& graph, const Frame& frame, std::vector<Node>& nodes)
+      : graph_(graph), frame_(frame), nodes_(nodes), number_(graph.places(), none) {}
+
+  /// The number of an edge's end.
+  std::uint32_t of_end(std::uint32_t node, std::uint32_t component) {
+    std::uint32_t& number = number_[node];
+    const bool is_first = number == none;
+    if (is_first) {
+      number = static_cast<std::uint32_t>(nodes_.size());
+      nodes_.push_back({to_input(frame_, graph_.disk(node)), component});
+    }
+    add_edge(nodes_[number].kind, is_first);
+    return number;
   }
-  std::uint32_t find(std::uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(std::uint32_t i, std::uint32_t j) { parent_[find(j)] = find(i); }
+
+  /// Makes the inner end of an edge its outer end.
+  void join(std::uint32_t edge) { number_[edge] = joined; }
+  bool is_joined(std::uint32_t edge) const { return number_[edge] == joined; }
 
  private:
-  std::vector<std::uint32_t> parent_;
+  static constexpr std::uint32_t joined = none - 1;
+  const Graph& graph_;
+  const Frame& frame_;
+  std::vector<Node>& nodes_;
+  std::vector<std::uint32_t> number_;
 };
 
 }  // namespace
 
-Graph graph_of(const Diagram& diagram, const std::vector<std::uint32_t>& last_edges) {
-  const Elements& elements = diagram.elements;
-  Graph graph;
-  reserve_large(graph.nodes, diagram.edges.size());
-  reserve_large(graph.touched, diagram.edges.size());
-  reserve_large(graph.component, diagram.edges.size());
-  reserve_large(graph.edges, diagram.edges.size());
-  Numbering number(diagram, graph);
-  for (std::size_t l = 0; l < elements.loops.size(); ++l) {
-    const Elements::Loop& loop = elements.loops[l];
-    const std::uint32_t begin = elements.chains[loop.first_chain],
-                        end = elements.chains[loop.end_chain];
-    const auto for_all = [&](const auto& work) {
-      for (std::uint32_t i = begin; i < end; ++i)
-        for (std::uint32_t place = diagram.top[i][0]; place != none;
-             place = diagram.edges[place].inward[0])
-          work(place);
-    };
-    for_all([&](std::uint32_t place) { number.add(place, loop.component); });
-    const std::uint32_t last_corner =
-        number.add_node({elements.sites[begin].point, 0}, {begin, end - 1}, loop.component);
-    const std::size_t edges_before = graph.edges.size();
-    for_all([&](std::uint32_t place) {
-      const ListEdge& edge = diagram.edges[place];
-      const bool terminating = place == last_edges[l];
-      if ((edge.outer == none) != terminating || (!terminating && number[edge.outer] == none))
-        throw std::runtime_error("a Voronoi edge has no end");
-      const std::uint32_t to = terminating ? last_corner : number[edge.outer];
-      graph.edges.push_back({number[place], to, edge.element, diagram.is_spoke(edge)});
-      if (terminating) return;
-      std::array<std::uint32_t, 3>& touched = graph.touched[to];
-      const bool shares_first = edge.element[0] == touched[0] || edge.element[0] == touched[1];
-      touched[2] = edge.element[shares_first ? 1 : 0];
-    });
-    if (graph.edges.size() - edges_before != 2 * std::size_t{end - begin} - 3)
-      throw std::runtime_error("a Voronoi diagram has too few edges");
-  }
-  return graph;
+Graph::Graph(Diagram& diagram, const std::vector<std::uint32_t>& last_edges, double tolerance)
+    : diagram_(diagram), tolerance_(tolerance) {
+  for (std::size_t l = 0; l < last_edges.size(); ++l) close(elements().loops[l], last_edges[l]);
 }
 
-void complete(const Graph& graph, const Elements& elements, const Frame& frame,
-              VoronoiDiagram& diagram) {
-  std::vector<std::uint8_t> degree(graph.nodes.size(), 0);
-  diagram.edges.reserve(graph.edges.size());
-  for (const Graph::Edge& edge : graph.edges) {
-    diagram.edges.push_back({result_edge(graph, elements, frame, edge), edge.spoke});
-    for (const std::uint32_t node : {edge.from, edge.to}) ++degree[node];
+/// An edge is below the one that begins at its outer end in one of its two stacks, and on top of
+/// the other. So stacks of earlier elements are turned over, those of later ones only walked down;
+/// element by element backward, so that an edge is met in the former first.
+void Graph::close(const Elements::Loop& loop, std::uint32_t last_edge) {
+  const std::uint32_t begin = begin_of(loop), end = end_of(loop);
+  const std::uint32_t last_corner = diagram_.free[loop.first_chain].first;
+  if (last_corner == none) throw std::runtime_error("a Voronoi diagram has too many edges");
+  diagram_.edges[last_corner] = {
+      {begin, end - 1}, {none, none}, {elements().sites[begin].point, 0}};
+  std::size_t count = 0;
+  for (std::uint32_t i = end; i-- > begin;) {
+    std::uint32_t outer = none;
+    for (std::uint32_t edge = diagram_.top[i][0]; edge != none;
+         edge = diagram_.edges[edge].inward[0]) {
+      std::uint32_t& to = diagram_.edges[edge].inward[1];
+      if (edge == last_edge && to == none && outer == none)
+        to = last_corner;
+      else if ((to == none) == (outer == none))
+        throw std::runtime_error("a Voronoi edge has no end");
+      else if (outer != none)
+        to = outer;
+      outer = edge;
+      ++count;
+      find_short_edge(edge);
+    }
+    outer = none;
+    for (std::uint32_t edge = diagram_.top[i][1]; edge != none;) {
+      std::uint32_t& inward = diagram_.edges[edge].inward[1];
+      const std::uint32_t next = inward;
+      inward = outer;
+      outer = edge;
+      edge = next;
+    }
   }
-  diagram.nodes.reserve(graph.nodes.size());
-  for (std::size_t i = 0; i < graph.nodes.size(); ++i)
-    diagram.nodes.push_back({to_input(frame, graph.nodes[i]), graph.component[i],
-                             degree[i] == 1   ? NodeKind::leaf
-                             : degree[i] == 2 ? NodeKind::site_change
-                                              : NodeKind::branching});
-  // Of an element's edges with earlier ones, the inner come first; with later ones, the outer.
+  if (count != 2 * std::size_t{end - begin} - 3)
+    throw std::runtime_error("a Voronoi diagram has too few edges");
+}
+
+void Graph::find_short_edge(std::uint32_t edge) {
+  const Disk &inner = disk(edge), &outer = disk(to(edge));
+  const double limit = std::max(furthest * inner.radius, tolerance_);
+  if (squared_norm(inner.center - outer.center) <= limit * limit && inner.radius > 0 &&
+      outer.radius > 0)
+    short_edges_.push_back(edge);
+}
+
+void complete(const Graph& graph, const Frame& frame, VoronoiDiagram& diagram) {
+  const Elements& elements = graph.elements();
   const std::size_t count = elements.size();
+  diagram.edges.reserve(2 * count);
+  diagram.nodes.reserve(2 * count);
   std::vector<std::uint32_t>& begin = diagram.face_begin;
   begin.assign(count + 1, 0);
-  for (const Graph::Edge& edge : graph.edges)
-    for (const std::uint32_t element : edge.element) ++begin[elements.originals[element] + 1];
+  Numbers numbers(graph, frame, diagram.nodes);
+  for (const Elements::Loop& loop : elements.loops)
+    graph.for_edges(loop, [&](std::uint32_t edge) {
+      const std::uint32_t from = graph.from(edge), to = graph.to(edge);
+      Edge made = result_edge(graph, frame, edge, graph.disk(from), graph.disk(to));
+      made.node = {numbers.of_end(from, loop.component), numbers.of_end(to, loop.component)};
+      for (const std::uint32_t site : made.site) ++begin[site + 1];
+      diagram.edges.push_back({made, graph.is_spoke(edge)});
+    });
+  // Of an element's edges with earlier ones, the inner come first; with later ones, the outer.
   for (std::size_t i = 0; i < count; ++i) begin[i + 1] += begin[i];
-  diagram.face_edges.resize(2 * graph.edges.size());
+  diagram.face_edges.resize(2 * diagram.edges.size());
   std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
   // Edges with a later first element come from further inward: the earlier partners by descending
   // index, then the later ones as they stand.
-  for (std::size_t e = graph.edges.size(); e-- > 0;)
-    diagram.face_edges[next[elements.originals[graph.edges[e].element[1]]]++] =
-        static_cast<std::uint32_t>(e);
-  for (std::size_t e = 0; e < graph.edges.size(); ++e)
-    diagram.face_edges[next[elements.originals[graph.edges[e].element[0]]]++] =
-        static_cast<std::uint32_t>(e);
+  for (std::size_t e = diagram.edges.size(); e-- > 0;)
+    diagram.face_edges[next[diagram.edges[e].site[1]]++] = static_cast<std::uint32_t>(e);
+  for (std::size_t e = 0; e < diagram.edges.size(); ++e)
+    diagram.face_edges[next[diagram.edges[e].site[0]]++] = static_cast<std::uint32_t>(e);
 }
 
-void complete(const Graph& graph, const Elements& elements, const Frame& frame, double tolerance,
-              MedialAxis& axis) {
-  Nodes nodes(graph.nodes.size());
-  const auto coincide = [&](const Disk& a, const Disk& b) {
-    // A corner stays a leaf, however thin the shape is there.
-    return a.radius > 0 && b.radius > 0 &&
-           squared_norm(a.center - b.center) <= tolerance * tolerance &&
-           std::abs(a.radius - b.radius) <= tolerance;
+void complete(Graph& graph, const Frame& frame, double tolerance, MedialAxis& axis) {
+  const Elements& elements = graph.elements();
+  Numbers numbers(graph, frame, axis.nodes);
+  // Where an edge ends, if those without length are left out; found again at once next time.
+  const auto end_of = [&](std::uint32_t edge) {
+    std::uint32_t end = graph.to(edge);
+    while (numbers.is_joined(end)) end = graph.to(end);
+    for (std::uint32_t at = edge; graph.to(at) != end;) {
+      const std::uint32_t next = graph.to(at);
+      graph.set_to(at, end);
+      at = next;
+    }
+    return end;
   };
-  constexpr std::uint32_t unused = none;
-  std::vector<std::uint32_t> number(graph.nodes.size(), unused);
   std::size_t kept = 0;
-  for (const Graph::Edge& edge : graph.edges) {
-    if (edge.spoke) continue;
-    const std::uint32_t from = nodes.find(edge.from), to = nodes.find(edge.to);
-    if (coincide(graph.nodes[from], graph.nodes[to]))
-      nodes.join(from, to);
-    else
-      ++kept;
+  for (const Elements::Loop& loop : elements.loops)
+    kept +=
+        2 * std::size_t{elements.chains[loop.end_chain] - elements.chains[loop.first_chain]} - 3;
+  for (const geometry::Site& site : elements.sites) kept -= site.is_vertex() ? 2 : 0;
+  for (const std::uint32_t edge : graph.short_edges()) {
+    const Disk &from = graph.disk(edge), &to = graph.disk(end_of(edge));
+    if (squared_norm(from.center - to.center) > tolerance * tolerance ||
+        std::abs(from.radius - to.radius) > tolerance)
+      continue;
+    numbers.join(edge);
+    --kept;
   }
-  std::vector<std::uint8_t> degree;
   double largest_residual = 0;
   reserve_large(axis.edges, kept);
   reserve_large(axis.nodes, kept + elements.loops.size());  // one tree a loop
-  degree.reserve(kept + elements.loops.size());
-  const auto number_of = [&](std::uint32_t node) {
-    if (number[node] == unused) {
-      number[node] = static_cast<std::uint32_t>(axis.nodes.size());
-      axis.nodes.push_back({to_input(frame, graph.nodes[node]), graph.component[node]});
-      degree.push_back(0);
-    }
-    if (degree[number[node]] < 3) ++degree[number[node]];
-    return number[node];
-  };
-  for (Graph::Edge edge : graph.edges) {
-    edge.from = nodes.find(edge.from);
-    edge.to = nodes.find(edge.to);
-    if (edge.spoke || edge.from == edge.to) continue;
-    Edge made = result_edge(graph, elements, frame, edge);
-    made.node = {number_of(edge.from), number_of(edge.to)};
-    axis.edges.push_back(made);
-    for (const std::uint32_t element : edge.element)
-      for (const std::uint32_t node : {edge.from, edge.to})
+  for (const Elements::Loop& loop : elements.loops)
+    graph.for_edges(loop, [&](std::uint32_t edge) {
+      if (graph.is_spoke(edge) || numbers.is_joined(edge)) return;
+      const std::uint32_t end = end_of(edge);
+      const Disk& to = graph.disk(end);
+      Edge made = result_edge(graph, frame, edge, graph.disk(edge), to);
+      made.node = {numbers.of_end(edge, loop.component), numbers.of_end(end, loop.component)};
+      axis.edges.push_back(made);
+      // Of the three elements of a Voronoi point, all are of edges that end there.
+      for (const std::uint32_t element : graph[edge].element)
         largest_residual = std::max(
             largest_residual,
-            std::abs(geometry::carrier_distance(elements.sites[element], graph.nodes[node].center) -
-                     graph.nodes[node].radius));
-  }
-  for (std::size_t i = 0; i < degree.size(); ++i)
-    axis.nodes[i].kind = degree[i] <= 1   ? NodeKind::leaf
-                         : degree[i] == 2 ? NodeKind::site_change
-                                          : NodeKind::branching;
+            std::abs(geometry::carrier_distance(elements.sites[element], to.center) - to.radius));
+    });
   axis.statistics.largest_residual = frame.inverse * largest_residual;
 }
 

@@ -11,66 +11,72 @@ namespace medial::lee {
 namespace {
 
 /// A shape's diagram, and what its results are completed from.
-struct Solution {
+class Solution {
+ public:
+  /// Lee, Section II: the list of elements, the diagrams of the chains, merges.
+  Solution(const Shape& shape, const Options& options, std::vector<Level>* levels) {
+    Stopwatch watch;
+    const Box box = bounding_box(shape);
+    frame = frame_of(box);
+    tolerance = tolerance_for(box, options.tolerance);
+    const Box local{frame.to_local(box.low), frame.to_local(box.high)};
+
+    numbers = sites::number_sites(shape, frame, options.corner_angle);
+    elements_ = elements_of(shape, numbers, frame);
+    statistics.seconds_sites = watch.lap();
+
+    diagram_.emplace(elements_);
+    const ConquerContext context{
+        {tolerance_for(local, options.tolerance), radius_limit(box, frame)},
+        options.cancel,
+        options.progress};
+    const std::vector<std::uint32_t> last_edges = conquer(*diagram_, context, statistics, levels);
+    statistics.seconds_walk = watch.lap();
+
+    if (options.cancel != nullptr && options.cancel->load()) return;
+    graph.emplace(*diagram_, last_edges, local_tolerance());
+    join_ties(*graph, local_tolerance());
+    statistics.seconds_collect = watch.lap();
+  }
+  Solution(const Solution&) = delete;  // its members refer to each other
+  Solution& operator=(const Solution&) = delete;
+
+  /// Where the shape lies far from the origin, its own coordinates are no better known.
+  double local_tolerance() const { return frame.scale * tolerance; }
+
+  /// Leaves the numbers of the sites only.
+  void free_graph() {
+    graph.reset();
+    diagram_.reset();
+    elements_ = {};
+  }
+
   Frame frame;
   double tolerance = 0;  ///< in units of the input
   sites::SiteNumbers numbers;
-  Elements elements;
-  Graph graph;
   Statistics statistics;
-  bool cancelled = false;
+
+ private:
+  Elements elements_;
+  std::optional<Diagram> diagram_;
+
+ public:
+  std::optional<Graph> graph;  ///< none where the caller cancelled
 };
-
-/// Lee, Section II: the list of elements, the diagrams of the chains, merges.
-Solution solve(const Shape& shape, const Options& options, std::vector<Level>* levels) {
-  Solution solution;
-  Statistics& statistics = solution.statistics;
-  Stopwatch watch;
-
-  const Box box = bounding_box(shape);
-  const Frame& frame = solution.frame = frame_of(box);
-  solution.tolerance = tolerance_for(box, options.tolerance);
-  const Box local{frame.to_local(box.low), frame.to_local(box.high)};
-
-  solution.numbers = sites::number_sites(shape, frame, options.corner_angle);
-  solution.elements = elements_of(shape, solution.numbers, frame);
-  statistics.seconds_sites = watch.lap();
-
-  std::optional<Diagram> diagram(std::in_place, solution.elements);
-  const ConquerContext context{{tolerance_for(local, options.tolerance), radius_limit(box, frame)},
-                               options.cancel,
-                               options.progress};
-  const std::vector<std::uint32_t> last_edges = conquer(*diagram, context, statistics, levels);
-  statistics.seconds_walk = watch.lap();
-
-  solution.cancelled = options.cancel != nullptr && options.cancel->load();
-  if (!solution.cancelled) {
-    solution.graph = graph_of(*diagram, last_edges);
-    diagram.reset();
-    // Where the shape lies far from the origin, its own coordinates are no better known.
-    join_ties(solution.graph, solution.elements, frame.scale * solution.tolerance);
-    solution.graph.touched = {};
-  }
-  statistics.seconds_collect = watch.lap();
-  return solution;
-}
 
 }  // namespace
 
 MedialAxis run(const Shape& shape, const Options& options, std::vector<Level>* levels) {
   Stopwatch all;
-  Stopwatch watch;
-  Solution solution = solve(shape, options, levels);
+  Solution solution(shape, options, levels);
   MedialAxis axis;
   axis.method = name_of(Method::lee);
   axis.tolerance = solution.tolerance;
-  if (solution.cancelled) return axis;
+  if (!solution.graph) return axis;
   axis.statistics = solution.statistics;
-  watch.lap();
-  complete(solution.graph, solution.elements, solution.frame,
-           solution.frame.scale * solution.tolerance, axis);
-  solution.graph = {};  // or there would be three of everything
-  solution.elements = {};
+  Stopwatch watch;
+  complete(*solution.graph, solution.frame, solution.local_tolerance(), axis);
+  solution.free_graph();
   axis.sites = sites::result_sites(shape, solution.numbers);
   axis.statistics.seconds_collect += watch.lap();
   axis.statistics.seconds = all.lap();
@@ -79,13 +85,13 @@ MedialAxis run(const Shape& shape, const Options& options, std::vector<Level>* l
 
 VoronoiDiagram voronoi_diagram(const Shape& shape, const Options& options) {
   Stopwatch all;
-  const Solution solution = solve(shape, options, nullptr);
+  const Solution solution(shape, options, nullptr);
   VoronoiDiagram diagram;
   diagram.method = name_of(Method::lee);
   diagram.tolerance = solution.tolerance;
-  if (solution.cancelled) return diagram;
+  if (!solution.graph) return diagram;
   diagram.statistics = solution.statistics;
-  complete(solution.graph, solution.elements, solution.frame, diagram);
+  complete(*solution.graph, solution.frame, diagram);
   diagram.sites = sites::result_sites(shape, solution.numbers);
   diagram.statistics.seconds = all.lap();
   return diagram;

@@ -55,9 +55,7 @@ class MergeCurve {
       current_[side] = diagram_.edges[crossed].element[side];
       if (diagram_.top[current_[side]][side] != crossed)
         throw std::runtime_error("two Voronoi edges cross");
-      const std::uint32_t next = add_edge();
-      diagram_.edges[edge].outer = diagram_.edges[crossed].outer = next;
-      edge = next;
+      edge = add_edge();
     }
   }
 
@@ -71,7 +69,7 @@ class MergeCurve {
     if (place == none) throw std::runtime_error("a Voronoi diagram has too many edges");
     ListEdge& edge = diagram_.edges[place];
     free_.first = edge.inward[0];
-    edge = {current_, {}, none, disk_};
+    edge = {current_, {}, disk_};
     for (const std::size_t k : {0u, 1u}) {
       std::uint32_t& outermost = diagram_.top[current_[k]][k];
       edge.inward[k] = outermost;

@@ -14,16 +14,14 @@ namespace {
 /// Voronoi points that may be one, with what tells how well each is known.
 class Ties {
  public:
-  Ties(Graph& graph, const Elements& elements, double slack)
-      : graph_(graph), elements_(elements), slack_(slack) {
-    for (const Graph::Edge& edge : graph.edges) {
-      const Disk &from = graph.nodes[edge.from], &to = graph.nodes[edge.to];
-      if (edge.spoke || from.radius == 0 || to.radius == 0) continue;
+  Ties(Graph& graph, double slack) : graph_(graph), elements_(graph.elements()), slack_(slack) {
+    for (const std::uint32_t edge : graph.short_edges()) {
+      const std::uint32_t end = graph.to(edge);
+      const Disk &from = graph.disk(edge), &to = graph.disk(end);
       // Points that are further apart are known well enough.
-      constexpr double furthest = 1e-4;
-      const double limit = furthest * from.radius;
+      const double limit = Graph::furthest * from.radius;
       if (squared_norm(from.center - to.center) > limit * limit) continue;
-      if (touches(edge.to, from) || touches(edge.from, to)) edges_.push_back(&edge);
+      if (touches(end, from) || touches(edge, to)) edges_.push_back(edge);
     }
   }
 
@@ -38,7 +36,7 @@ class Ties {
     for (const std::uint32_t start : order) {
       if (is_joined[start]) continue;
       is_joined[start] = true;
-      const Disk disk = graph_.nodes[points_[start]];
+      const Disk disk = graph_.disk(points_[start]);
       open.assign(1, start);
       while (!open.empty()) {
         const std::uint32_t point = open.back();
@@ -47,7 +45,7 @@ class Ties {
           const std::uint32_t next = neighbours_[i];
           if (is_joined[next] || !touches(points_[next], disk)) continue;
           is_joined[next] = true;
-          graph_.nodes[points_[next]] = disk;
+          graph_.set_disk(points_[next], disk);
           open.push_back(next);
         }
       }
@@ -62,17 +60,19 @@ class Ties {
     bool is_straight = false;
     for (int round = 0; round < most_rounds && !is_straight; ++round) {
       is_straight = true;
-      for (const Graph::Edge* edge : edges_) {
-        Disk &from = graph_.nodes[edge->from], &to = graph_.nodes[edge->to];
+      for (const std::uint32_t edge : edges_) {
+        const std::uint32_t end = graph_.to(edge);
+        const Disk &from = graph_.disk(edge), &to = graph_.disk(end);
         if (from.center == to.center) continue;
-        const Vec2 along = geometry::direction_along(elements_.sites[edge->element[1]],
-                                                     elements_.sites[edge->element[0]]);
+        const auto& [first, second] = graph_[edge].element;
+        const Vec2 along =
+            geometry::direction_along(elements_.sites[second], elements_.sites[first]);
         if (dot(along, from.center) <= dot(along, to.center)) continue;
         is_straight = false;
-        if (touches(edge->from, to))
-          from = to;
-        else if (touches(edge->to, from))
-          to = from;
+        if (touches(edge, to))
+          graph_.set_disk(edge, to);
+        else if (touches(end, from))
+          graph_.set_disk(end, from);
       }
     }
   }
@@ -81,11 +81,11 @@ class Ties {
   /// Numbers the ends of the edges, and lists the neighbours of each.
   void number_points() {
     constexpr std::uint32_t unused = ~std::uint32_t{0};
-    std::vector<std::uint32_t> number(graph_.nodes.size(), unused);
+    std::vector<std::uint32_t> number(graph_.places(), unused);
     const auto for_ends = [&](const auto& work) {
-      for (const Graph::Edge* edge : edges_) {
-        work(edge->from, edge->to);
-        work(edge->to, edge->from);
+      for (const std::uint32_t edge : edges_) {
+        work(edge, graph_.to(edge));
+        work(graph_.to(edge), edge);
       }
     };
     first_.assign(2, 0);
@@ -124,7 +124,7 @@ class Ties {
   /// Whether a disk could stand for a Voronoi point: it touches the elements, and their carriers,
   /// so that no edge is bent.
   bool touches(std::uint32_t node, const Disk& disk) const {
-    const auto& touched = graph_.touched[node];
+    const auto touched = graph_.touched(node);
     return std::all_of(touched.rbegin(), touched.rend(), [&](std::uint32_t element) {
       const geometry::Site& site = elements_.sites[element];
       const double squared = geometry::squared_distance(site, disk.center);
@@ -137,23 +137,24 @@ class Ties {
   /// of its equations.
   double spread(std::uint32_t node) const {
     std::array<Vec2, 3> g;
+    const auto touched = graph_.touched(node);
     for (std::size_t k = 0; k < 3; ++k)
-      g[k] = geometry::outward(elements_.sites[graph_.touched[node][k]], graph_.nodes[node].center);
+      g[k] = geometry::outward(elements_.sites[touched[k]], graph_.disk(node).center);
     return std::abs(cross(g[1] - g[0], g[2] - g[0]));
   }
 
   Graph& graph_;
   const Elements& elements_;
   double slack_;
-  std::vector<const Graph::Edge*> edges_;  ///< that may have no length
-  std::vector<std::uint32_t> points_;      ///< their ends, numbered
+  std::vector<std::uint32_t> edges_;   ///< that may have no length
+  std::vector<std::uint32_t> points_;  ///< their ends, numbered
   std::vector<std::uint32_t> first_, neighbours_;
 };
 
 }  // namespace
 
-void join_ties(Graph& graph, const Elements& elements, double tolerance) {
-  Ties ties(graph, elements, 0.5 * tolerance);
+void join_ties(Graph& graph, double tolerance) {
+  Ties ties(graph, 0.5 * tolerance);
   if (ties.empty()) return;
   ties.join();
   ties.straighten();

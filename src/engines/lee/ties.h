@@ -7,8 +7,8 @@ namespace medial::lee {
 /// Where more than three elements touch one disk but for rounding, a tie, the merges broke it some
 /// way: a few Voronoi points lie close together, some of them far less exactly known than the disk
 /// that touches all. Such points all become that disk, and the edges between them have no length,
-/// wherever one disk touches all their elements within half of the tolerance. O(nodes + edges), and
-/// sorting what is tied.
-void join_ties(Graph& graph, const Elements& elements, double tolerance);
+/// wherever one disk touches all their elements within half of the tolerance. O(short edges), or
+/// O(nodes) where there is a tie.
+void join_ties(Graph& graph, double tolerance);
 
 }  // namespace medial::lee
