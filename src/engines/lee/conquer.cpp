@@ -8,6 +8,7 @@
 #include <mutex>
 
 #include "base/stopwatch.h"
+#include "engines/lee/fan.h"
 
 namespace medial::lee {
 namespace {
@@ -125,8 +126,13 @@ std::vector<std::uint32_t> conquer(Diagram& diagram, const ConquerContext& conte
   Conquest conquest(diagram, context, statistics);
   for (const Elements::Loop& loop : diagram.elements.loops) {
     const Halving halving{loop.first_chain, loop.end_chain - loop.first_chain};
-    last_edges.push_back(levels != nullptr ? conquest.merge_measured(halving, *levels)
-                                           : conquest.merge_all(halving));
+    const std::uint32_t edge =
+        fan_of(diagram, loop.first_chain, loop.end_chain, 0.5 * context.tie_tolerance);
+    if (edge != none)
+      last_edges.push_back(edge);
+    else
+      last_edges.push_back(levels != nullptr ? conquest.merge_measured(halving, *levels)
+                                             : conquest.merge_all(halving));
   }
   return last_edges;
 }

@@ -28,6 +28,7 @@ class Solution {
     diagram_.emplace(elements_);
     const ConquerContext context{
         {tolerance_for(local, options.tolerance), radius_limit(box, frame)},
+        local_tolerance(),
         options.cancel,
         options.progress};
     const std::vector<std::uint32_t> last_edges = conquer(*diagram_, context, statistics, levels);

@@ -15,7 +15,13 @@ namespace {
 class Ties {
  public:
   Ties(Graph& graph, double slack) : graph_(graph), elements_(graph.elements()), slack_(slack) {
-    for (const std::uint32_t edge : graph.short_edges()) {
+    const auto& all = graph.short_edges();
+    const auto has_length = [&](std::uint32_t edge) {
+      const Disk &from = graph.disk(edge), &to = graph.disk(graph.to(edge));
+      return from.center != to.center || from.radius != to.radius;
+    };
+    if (std::none_of(all.begin(), all.end(), has_length)) return;
+    for (const std::uint32_t edge : all) {
       const std::uint32_t end = graph.to(edge);
       const Disk &from = graph.disk(edge), &to = graph.disk(end);
       // Points that are further apart are known well enough.

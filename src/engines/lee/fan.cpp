@@ -1,0 +1,56 @@
+#include "engines/lee/fan.h"
+
+#include <cmath>
+#include <optional>
+
+#include "geometry/tangent_disk.h"
+
+namespace medial::lee {
+namespace {
+
+/// The disk that touches all segments in [begin, end), if there is one.
+std::optional<Disk> common_disk(const Elements& elements, std::uint32_t begin, std::uint32_t end,
+                                double slack) {
+  const auto touches = [&](std::uint32_t i, const Disk& disk) {
+    const geometry::Site& site = elements.sites[i];
+    const Vec2 d = disk.center - site.point;
+    const double foot = dot(site.direction, d);
+    return std::abs(cross(site.direction, d) - disk.radius) <= slack && foot >= 0 &&
+           foot <= site.length;
+  };
+  const std::uint32_t third = (end - begin) / 3;
+  const geometry::TangentDisks disks = geometry::tangent_disks(
+      elements.sites[begin], elements.sites[begin + third], elements.sites[begin + 2 * third]);
+  if (disks.count != 1) return std::nullopt;
+  for (std::uint32_t i = begin; i < end; ++i)
+    if (!touches(i, disks.disk[0])) return std::nullopt;
+  return disks.disk[0];
+}
+
+}  // namespace
+
+std::uint32_t fan_of(Diagram& diagram, std::uint32_t first, std::uint32_t end, double slack) {
+  const Elements& elements = diagram.elements;
+  const std::uint32_t begin = elements.chains[first], last = elements.chains[end] - 1;
+  if (last - begin + 1 != end - first) return none;
+  const std::optional<Disk> disk = common_disk(elements, begin, last + 1, slack);
+  if (!disk) return none;
+  // Places 2 i for B(e_i, e_i+1), 2 i + 1 for B(e_begin, e_i+1).
+  diagram.edges[2 * begin] = {
+      {begin, begin + 1}, {none, none}, {elements.sites[begin + 1].point, 0}};
+  diagram.top[begin + 1][1] = 2 * begin;
+  std::uint32_t outermost = 2 * begin;
+  for (std::uint32_t i = begin + 1; i < last; ++i) {
+    const std::uint32_t side = 2 * i, across = 2 * i + 1;
+    diagram.edges[side] = {{i, i + 1}, {none, none}, {elements.sites[i + 1].point, 0}};
+    diagram.edges[across] = {{begin, i + 1}, {outermost, side}, *disk};
+    diagram.top[i][0] = side;
+    diagram.top[i + 1][1] = outermost = across;
+  }
+  diagram.top[begin][0] = outermost;
+  diagram.free[first] = {2 * begin + 1, 2 * last + 1};
+  diagram.edges[2 * begin + 1].inward[0] = 2 * last;
+  return outermost;
+}
+
+}  // namespace medial::lee
