@@ -15,6 +15,8 @@ namespace {
 
 /// Lists of about so many chains are merged by one task, all their levels: they stay in its cache.
 constexpr std::uint32_t block_size = 1024;
+/// Lists of 2 to the power of so many chains at most are merged level by level.
+constexpr int levels_at_bottom = 4;
 
 /// The halving of one loop's chains.
 struct Halving {
@@ -52,13 +54,20 @@ class Conquest {
     if (level == 0) last_edge_ = edge;
   }
 
-  /// All merges below one list, smallest lists first.
+  /// All merges below one list: of two lists, both as soon as they are there, and so in the cache.
   void merge_below(const Halving& halving, int level, std::uint64_t i) {
     Statistics own;
-    for (int k = halving.deepest() - 1; k >= level; --k) {
-      if (cancelled()) break;
-      const std::uint64_t begin = i << (k - level), end = (i + 1) << (k - level);
-      for (std::uint64_t j = begin; j < end; ++j) merge_halves(halving, k, j, own);
+    const int bottom = std::max(level, halving.deepest() - levels_at_bottom);
+    for (std::uint64_t j = i << (bottom - level);
+         j < (i + 1) << (bottom - level) && !cancelled();) {
+      // The list that is solved next, and its level: as large as it can be in closed form.
+      int k = std::max(level, bottom - std::countr_zero(j));
+      while (k < bottom && !is_fan(halving, k, j >> (bottom - k))) ++k;
+      if (k == bottom) merge_bottom(halving, bottom, j, own);
+      std::uint64_t list = j >> (bottom - k);
+      j = (list + 1) << (bottom - k);
+      for (; k > level && list % 2 == 1; list /= 2, --k)
+        merge_halves(halving, k - 1, list / 2, own);
     }
     add(own);
     report(halving.work(level, halving.deepest()) >> level);
@@ -97,6 +106,19 @@ class Conquest {
   }
 
  private:
+  /// All merges below one short list, level by level.
+  void merge_bottom(const Halving& halving, int level, std::uint64_t i, Statistics& statistics) {
+    for (int k = halving.deepest() - 1; k >= level; --k)
+      for (std::uint64_t j = i << (k - level); j < (i + 1) << (k - level); ++j)
+        merge_halves(halving, k, j, statistics);
+  }
+
+  bool is_fan(const Halving& halving, int level, std::uint64_t i) {
+    constexpr double slack = 0.0625;  // see merge.cpp
+    return fan_of(diagram_, halving.boundary(level, i), halving.boundary(level, i + 1),
+                  context_.limits.radius_limit, slack * context_.limits.tolerance) != none;
+  }
+
   void report(std::uint64_t work) {
     if (!context_.progress) return;
     const auto done = static_cast<double>(done_ += work);
@@ -126,8 +148,8 @@ std::vector<std::uint32_t> conquer(Diagram& diagram, const ConquerContext& conte
   Conquest conquest(diagram, context, statistics);
   for (const Elements::Loop& loop : diagram.elements.loops) {
     const Halving halving{loop.first_chain, loop.end_chain - loop.first_chain};
-    const std::uint32_t edge =
-        fan_of(diagram, loop.first_chain, loop.end_chain, 0.5 * context.tie_tolerance);
+    const std::uint32_t edge = fan_of(diagram, loop.first_chain, loop.end_chain,
+                                      context.limits.radius_limit, 0.5 * context.tie_tolerance);
     if (edge != none)
       last_edges.push_back(edge);
     else

@@ -1,6 +1,7 @@
 #include "engines/lee/fan.h"
 
 #include <cmath>
+#include <numeric>
 #include <optional>
 
 #include "geometry/tangent_disk.h"
@@ -10,30 +11,37 @@ namespace {
 
 /// The disk that touches all segments in [begin, end), if there is one.
 std::optional<Disk> common_disk(const Elements& elements, std::uint32_t begin, std::uint32_t end,
-                                double slack) {
-  const auto touches = [&](std::uint32_t i, const Disk& disk) {
-    const geometry::Site& site = elements.sites[i];
+                                double radius_limit, double slack) {
+  // Three segments that are far from parallel: a third of the way around a polygon, or else the
+  // first, the last and the one in the middle.
+  constexpr double nearly_parallel = 0.999;
+  const bool is_closed = geometry::meets(elements.sites[end - 1], elements.sites[begin]);
+  const std::uint32_t last = is_closed ? begin + 2 * ((end - begin) / 3) : end - 1;
+  const geometry::Site &a = elements.sites[begin], &b = elements.sites[std::midpoint(begin, last)],
+                       &c = elements.sites[last];
+  if (dot(a.direction, c.direction) > nearly_parallel) return std::nullopt;
+  const geometry::TangentDisks disks = geometry::tangent_disks(a, b, c);
+  if (disks.count != 1 || !(disks.disk[0].radius <= radius_limit)) return std::nullopt;
+  const Disk& disk = disks.disk[0];
+  const auto touches = [&](const geometry::Site& site) {
     const Vec2 d = disk.center - site.point;
     const double foot = dot(site.direction, d);
     return std::abs(cross(site.direction, d) - disk.radius) <= slack && foot >= 0 &&
            foot <= site.length;
   };
-  const std::uint32_t third = (end - begin) / 3;
-  const geometry::TangentDisks disks = geometry::tangent_disks(
-      elements.sites[begin], elements.sites[begin + third], elements.sites[begin + 2 * third]);
-  if (disks.count != 1) return std::nullopt;
   for (std::uint32_t i = begin; i < end; ++i)
-    if (!touches(i, disks.disk[0])) return std::nullopt;
-  return disks.disk[0];
+    if (!touches(elements.sites[i])) return std::nullopt;
+  return disk;
 }
 
 }  // namespace
 
-std::uint32_t fan_of(Diagram& diagram, std::uint32_t first, std::uint32_t end, double slack) {
+std::uint32_t fan_of(Diagram& diagram, std::uint32_t first, std::uint32_t end, double radius_limit,
+                     double slack) {
   const Elements& elements = diagram.elements;
   const std::uint32_t begin = elements.chains[first], last = elements.chains[end] - 1;
   if (last - begin + 1 != end - first) return none;
-  const std::optional<Disk> disk = common_disk(elements, begin, last + 1, slack);
+  const std::optional<Disk> disk = common_disk(elements, begin, last + 1, radius_limit, slack);
   if (!disk) return none;
   // Places 2 i for B(e_i, e_i+1), 2 i + 1 for B(e_begin, e_i+1).
   diagram.edges[2 * begin] = {

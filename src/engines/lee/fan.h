@@ -6,10 +6,14 @@
 
 namespace medial::lee {
 
-/// The diagram of a whole loop, the chains [first, end), in closed form where it is convex and one
-/// disk touches all of its segments but for `slack`, as that of a regular polygon: every bisector
-/// of neighbours ends in that disk, and the others have no length. Returns the terminating
-/// bisector's edge, or `none`, then mostly at once, and the diagram is as it was. O(chains).
-std::uint32_t fan_of(Diagram& diagram, std::uint32_t first, std::uint32_t end, double slack);
+/// The diagram of a list of chains, [first, end), in closed form where its boundary is convex and
+/// one disk, not larger than `radius_limit`, touches all of its segments but for `slack`, as in a
+/// regular polygon: every bisector of neighbours ends in that disk, and all others but that of the
+/// first and the last element have no length. Only where the list turns enough to determine the
+/// disk well. Returns the edge between the first and the last element, or `none`, then mostly at
+/// once, and the diagram is as it was. Requires at least two chains, and that none of them has been
+/// merged. O(chains).
+std::uint32_t fan_of(Diagram& diagram, std::uint32_t first, std::uint32_t end, double radius_limit,
+                     double slack);
 
 }  // namespace medial::lee
