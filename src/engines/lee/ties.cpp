@@ -16,18 +16,17 @@ class Ties {
  public:
   Ties(Graph& graph, double slack) : graph_(graph), elements_(graph.elements()), slack_(slack) {
     const auto& all = graph.short_edges();
-    const auto has_length = [&](std::uint32_t edge) {
-      const Disk &from = graph.disk(edge), &to = graph.disk(graph.to(edge));
-      return from.center != to.center || from.radius != to.radius;
+    const auto is_empty = [&](std::uint32_t edge) {
+      return is_same(graph.disk(edge), graph.disk(graph.to(edge)));
     };
-    if (std::none_of(all.begin(), all.end(), has_length)) return;
+    if (std::all_of(all.begin(), all.end(), is_empty)) return;
     for (const std::uint32_t edge : all) {
       const std::uint32_t end = graph.to(edge);
       const Disk &from = graph.disk(edge), &to = graph.disk(end);
       // Points that are further apart are known well enough.
       const double limit = Graph::furthest * from.radius;
       if (squared_norm(from.center - to.center) > limit * limit) continue;
-      if (touches(end, from) || touches(edge, to)) edges_.push_back(edge);
+      if (is_same(from, to) || touches(end, from) || touches(edge, to)) edges_.push_back(edge);
     }
   }
 
@@ -49,9 +48,12 @@ class Ties {
         open.pop_back();
         for (std::uint32_t i = first_[point]; i < first_[point + 1]; ++i) {
           const std::uint32_t next = neighbours_[i];
-          if (is_joined[next] || !touches(points_[next], disk)) continue;
+          if (is_joined[next]) continue;
+          if (!is_same(graph_.disk(points_[next]), disk)) {
+            if (!touches(points_[next], disk)) continue;
+            graph_.set_disk(points_[next], disk);
+          }
           is_joined[next] = true;
-          graph_.set_disk(points_[next], disk);
           open.push_back(next);
         }
       }
@@ -84,6 +86,10 @@ class Ties {
   }
 
  private:
+  static bool is_same(const Disk& a, const Disk& b) {
+    return a.center == b.center && a.radius == b.radius;
+  }
+
   /// Numbers the ends of the edges, and lists the neighbours of each.
   void number_points() {
     constexpr std::uint32_t unused = ~std::uint32_t{0};
