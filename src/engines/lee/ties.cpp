@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <vector>
 
 #include "geometry/bisector.h"
@@ -15,19 +16,13 @@ namespace {
 class Ties {
  public:
   Ties(Graph& graph, double slack) : graph_(graph), elements_(graph.elements()), slack_(slack) {
-    const auto& all = graph.short_edges();
-    const auto is_empty = [&](std::uint32_t edge) {
-      return is_same(graph.disk(edge), graph.disk(graph.to(edge)));
-    };
-    if (std::all_of(all.begin(), all.end(), is_empty)) return;
-    for (const std::uint32_t edge : all) {
+    const auto could_be_empty = [&](std::uint32_t edge) {
       const std::uint32_t end = graph.to(edge);
       const Disk &from = graph.disk(edge), &to = graph.disk(end);
-      // Points that are further apart are known well enough.
-      const double limit = Graph::furthest * from.radius;
-      if (squared_norm(from.center - to.center) > limit * limit) continue;
-      if (is_same(from, to) || touches(end, from) || touches(edge, to)) edges_.push_back(edge);
-    }
+      return !is_same(from, to) && (touches(end, from) || touches(edge, to));
+    };
+    const auto& all = graph.short_edges();
+    if (std::any_of(all.begin(), all.end(), could_be_empty)) edges_ = all;
   }
 
   bool empty() const { return edges_.empty(); }
@@ -60,27 +55,30 @@ class Ties {
     }
   }
 
-  /// Where the borders of such sets have changed places, their ends move on one by one, with a
-  /// little more slack.
-  void straighten() {
-    slack_ *= 2;
-    constexpr int most_rounds = 16;
-    bool is_straight = false;
-    for (int round = 0; round < most_rounds && !is_straight; ++round) {
-      is_straight = true;
-      for (const std::uint32_t edge : edges_) {
-        const std::uint32_t end = graph_.to(edge);
-        const Disk &from = graph_.disk(edge), &to = graph_.disk(end);
-        if (from.center == to.center) continue;
-        const auto& [first, second] = graph_[edge].element;
-        const Vec2 along =
-            geometry::direction_along(elements_.sites[second], elements_.sites[first]);
-        if (dot(along, from.center) <= dot(along, to.center)) continue;
-        is_straight = false;
-        if (touches(edge, to))
-          graph_.set_disk(edge, to);
-        else if (touches(end, from))
-          graph_.set_disk(end, from);
+  /// Where the borders of such sets have changed places, so that an edge runs backward, its inner
+  /// end moves to its outer one, or else the other way, with a little more slack; and then the
+  /// edges around it are looked at again. O(edges).
+  void straighten(double more_slack) {
+    slack_ = more_slack;
+    constexpr std::size_t most_moves = 16;  // of an edge, on average
+    std::vector<std::uint32_t> open(points_.size());
+    std::iota(open.begin(), open.end(), 0u);
+    for (std::size_t moves = 0; !open.empty() && moves < most_moves * edges_.size();) {
+      const std::uint32_t point = open.back();
+      open.pop_back();
+      for (std::uint32_t i = first_[point]; i < first_[point + 1]; ++i) {
+        const std::uint32_t next = neighbours_[i];
+        const bool is_inner = graph_.to(points_[point]) == points_[next];
+        const std::uint32_t inner = is_inner ? point : next, outer = is_inner ? next : point;
+        if (!runs_backward(points_[inner])) continue;
+        const Disk from = graph_.disk(points_[inner]), to = graph_.disk(points_[outer]);
+        const bool inner_moves = touches(points_[inner], to);
+        if (!inner_moves && !touches(points_[outer], from)) continue;
+        const std::uint32_t moved = inner_moves ? inner : outer;
+        graph_.set_disk(points_[moved], inner_moves ? to : from);
+        open.push_back(moved);
+        ++moves;
+        if (moved == point) break;
       }
     }
   }
@@ -88,6 +86,14 @@ class Ties {
  private:
   static bool is_same(const Disk& a, const Disk& b) {
     return a.center == b.center && a.radius == b.radius;
+  }
+
+  bool runs_backward(std::uint32_t edge) const {
+    const Disk &from = graph_.disk(edge), &to = graph_.disk(graph_.to(edge));
+    if (from.center == to.center) return false;
+    const auto& [first, second] = graph_[edge].element;
+    const Vec2 along = geometry::direction_along(elements_.sites[second], elements_.sites[first]);
+    return dot(along, from.center) > dot(along, to.center);
   }
 
   /// Numbers the ends of the edges, and lists the neighbours of each.
@@ -169,7 +175,7 @@ void join_ties(Graph& graph, double tolerance) {
   Ties ties(graph, 0.5 * tolerance);
   if (ties.empty()) return;
   ties.join();
-  ties.straighten();
+  ties.straighten(tolerance);
 }
 
 }  // namespace medial::lee
