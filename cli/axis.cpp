@@ -4,6 +4,7 @@
 
 #include "cli/common.h"
 #include "cli/pipeline.h"
+#include "engines/choose.h"
 #include "medial/curve_axis.h"
 
 namespace medial::cli {
@@ -16,6 +17,7 @@ struct AxisSwitches {
   std::string format;
   io::WriteOptions write;
   Options options;
+  bool automatic = false;   ///< each shape by the faster one of disks and lee
   bool curve_axis = false;  ///< the method, which takes contours instead of a shape
   CurveAxisOptions curve;
   double fit = 0;  ///< for curve-axis: polygons become smooth within this distance; 0: they do not
@@ -45,6 +47,13 @@ Result<int> run_axis(const AxisSwitches& switches) {
       return std::move(axis->axis);
     };
   }
+  if (switches.automatic) {
+    engine = [](std::size_t, const Shape& shape, const Options& options) {
+      Options own = options;
+      own.method = choose_method(shape, options);
+      return compute(shape, own);
+    };
+  }
   auto axes = compute_axes(std::move(shapes).value(), input.path, common, switches.options, engine);
   if (!axes) return std::move(axes).error();
 
@@ -57,17 +66,19 @@ void add_method_switches(CLI::App& verb, AxisSwitches& switches) {
           "--method",
           [&switches](const std::string& name) {
             switches.curve_axis = name == "curve-axis";
-            if (!switches.curve_axis) switches.options.method = *method_from(name);
+            switches.automatic = name == "auto";
+            switches.options.method = method_from(name).value_or(Method::disks);
           },
           "How the axes are computed: disks (default); biarc-dc, the published\n"
           "randomised divide and conquer, for shapes without holes; lee, the merging\n"
-          "of Voronoi diagrams, for polygons without holes: all the same axes; or\n"
+          "of Voronoi diagrams, for polygons without holes: all the same axes; auto,\n"
+          "for each shape the faster one of disks and lee; or\n"
           "ridge, ridge following on a grid of pixels, or brushfire, thinning of pixels:\n"
           "sampled axes; or potential, the valleys of a potential field: a sampled axis\n"
           "too, smooth; or curve-axis, for one smooth boundary: sampled from its\n"
           "curvature's maxima on.")
-      ->check(CLI::IsMember(
-                  {"disks", "biarc-dc", "lee", "ridge", "brushfire", "potential", "curve-axis"})
+      ->check(CLI::IsMember({"disks", "biarc-dc", "lee", "auto", "ridge", "brushfire", "potential",
+                             "curve-axis"})
                   .description(""))
       ->option_text("NAME");
   verb.add_option("--seed", switches.options.seed,

@@ -162,6 +162,8 @@ LeeRow measure(const std::string& name, const Ring& ring, int rounds) {
     return row;
   }
   row.vertices = shape->points.size();
+  // The first time loads code, too.
+  if (!compute(*shape, {.method = Method::lee, .threads = 1})) row.failure = "not computed";
   const PeakMemory memory;
   const auto axis = compute(*shape, {.method = Method::lee, .threads = 1});
   if (!axis) {
@@ -206,6 +208,7 @@ std::string table(const std::vector<LeeRow>& rows) {
     std::string shares;
     for (std::size_t i = 0; i < std::min<std::size_t>(4, row.levels.size()); ++i)
       shares += fmt::format("{}{:.0f} %", i == 0 ? "" : ", ", 100 * row.levels[i] / all);
+    if (row.levels.empty()) shares = "no merge";
     text += fmt::format(
         "| {} | {} | {} | {:.4f} | {:.4f} | {:.2f} | {:.3f} | {:.4f} | {:.2f} | {:.0f} | {} | {} "
         "|\n",

@@ -230,6 +230,12 @@ class Axis(CommandLine):
         self.assertEqual(by_lee["method"], "lee")
         self.assertEqual(by_lee["nodes"], by_disks["nodes"])
         self.assertAlmostEqual(by_lee["length"] / by_disks["length"], 1, places=12)
+        self.write("convex.wkt", "POLYGON((0 0,10 0,14 5,10 9,4 8,0 6))")
+        for shape, method in (("convex.wkt", "lee"), ("teeth.wkt", "disks"), ("ring.wkt", "disks"), ("half.svg", "disks")):
+            self.succeed("axis", shape, "--method", "auto", "-o", "auto.json")
+            self.assertEqual(json.loads(self.succeed("info", "auto.json", "--json").stdout)["method"], method)
+        self.succeed("axis", "convex.wkt", "--method", "auto", "--exact", "-o", "auto.json")
+        self.assertEqual(json.loads(self.succeed("info", "auto.json", "--json").stdout)["method"], "disks")
         for shape in ("ring.wkt", "half.svg"):
             text = self.refuse("unsupported", "axis", shape, "--method", "lee", "-o", "x.json")
             self.assertIn("disks", text)

@@ -196,6 +196,37 @@ Rings ellipse(std::size_t n) {
   return {ring};
 }
 
+/// Half circles, of `n` sides each, and two straight sides: many segments around one disk, but not
+/// all.
+Rings stadium(std::size_t n, double length) {
+  Ring ring;
+  for (const double side : {1.0, -1.0})
+    for (std::size_t i = 0; i <= n; ++i) {
+      const double angle = std::numbers::pi * (static_cast<double>(i) / static_cast<double>(n) -
+                                               (side > 0 ? 0.5 : -0.5));
+      ring.points.push_back({std::cos(angle) + side * length, std::sin(angle)});
+    }
+  return {ring};
+}
+
+/// Tangents of the unit circle, at angles of all kinds.
+Rings tangential(std::size_t n) {
+  Ring ring;
+  Random random(1982);
+  std::vector<double> angles;
+  for (std::size_t i = 0; i < n; ++i)
+    angles.push_back(
+        (2 * std::numbers::pi / static_cast<double>(n)) *
+        (static_cast<double>(i) + 0.8 * 0x1p-53 * static_cast<double>(random.next() >> 11)));
+  for (std::size_t i = 0; i < n; ++i) {
+    const double first = angles[i],
+                 second = i + 1 < n ? angles[i + 1] : angles[0] + 2 * std::numbers::pi;
+    const double middle = 0.5 * (first + second), far = 1 / std::cos(0.5 * (second - first));
+    ring.points.push_back({far * std::cos(middle), far * std::sin(middle)});
+  }
+  return {ring};
+}
+
 struct Degenerate {
   const char* name;
   Rings (*rings)();
@@ -220,6 +251,10 @@ INSTANTIATE_TEST_SUITE_P(
                     Degenerate{"Regular1000", [] { return regular_polygon(1000); }, false},
                     Degenerate{"Regular10000", [] { return regular_polygon(10000); }, false},
                     Degenerate{"Ellipse100000", [] { return ellipse(100000); }, false},
+                    Degenerate{"Stadium", [] { return stadium(50, 2); }},
+                    Degenerate{"Stadium10000", [] { return stadium(10000, 0.1); }, false},
+                    Degenerate{"Tangential5", [] { return tangential(5); }},
+                    Degenerate{"Tangential300", [] { return tangential(300); }, false},
                     Degenerate{"Blob", [] { return blob(3000); }, false},
                     Degenerate{"Maze", [] { return maze(3000); }},
                     Degenerate{"Comb", [] { return comb(300); }},
@@ -236,6 +271,17 @@ TEST(LeeTies, OfRegularPolygonsAreOneNode) {
     ASSERT_TRUE(axis.ok());
     EXPECT_EQ(axis->nodes.size(), n + 1);
     EXPECT_EQ(axis->edges.size(), n);
+  }
+}
+
+/// In closed form, as the diagram of a list or of the whole polygon.
+TEST(LeeTies, OfSegmentsAroundOneDiskHaveTheDiagramOfTheLemmas) {
+  for (const Rings& rings : {regular_polygon(3), regular_polygon(4), regular_polygon(100),
+                             tangential(40), stadium(40, 1), stadium(1000, 1e-3)}) {
+    const Shape shape = built(rings);
+    const auto diagram = voronoi_diagram(shape, {.threads = 1});
+    ASSERT_TRUE(diagram.ok());
+    EXPECT_EQ(check_diagram(shape, *diagram), "");
   }
 }
 
