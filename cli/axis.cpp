@@ -4,7 +4,7 @@
 
 #include "cli/common.h"
 #include "cli/pipeline.h"
-#include "engines/choose.h"
+#include "medial/choose.h"
 #include "medial/curve_axis.h"
 
 namespace medial::cli {

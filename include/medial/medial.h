@@ -4,6 +4,7 @@
 #include "medial/axis.h"
 #include "medial/brushfire.h"
 #include "medial/centreline.h"
+#include "medial/choose.h"
 #include "medial/compute.h"
 #include "medial/contour.h"
 #include "medial/curve_axis.h"

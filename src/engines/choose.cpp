@@ -1,4 +1,4 @@
-#include "engines/choose.h"
+#include "medial/choose.h"
 
 #include <algorithm>
 #include <cstddef>
