@@ -51,6 +51,10 @@ Result<int> run_axis(const AxisSwitches& switches) {
     engine = [](std::size_t, const Shape& shape, const Options& options) {
       Options own = options;
       own.method = choose_method(shape, options);
+      auto axis = compute(shape, own);
+      if (axis || own.method == Method::disks || axis.error().code != ErrorCode::internal)
+        return axis;
+      own.method = Method::disks;
       return compute(shape, own);
     };
   }
