@@ -251,6 +251,27 @@ TEST(Soup, ManyPointsHaveAsManyEdgesAsATriangulation) {
   EXPECT_EQ(diagram.nodes.size() - corners - crossings, 2 * count - 2 - crossings);
 }
 
+/// Among points alone any distance will do; beside edges a disk cannot tell them apart.
+TEST(Soup, PointsTooNearToEachOtherBesideEdgesAreRefused) {
+  for (const double near : {1e-17, 1e-90}) {
+    const Chains points{{{{0, 0}}}, {{{near, 0}}}, {{{0, near}}}, {{{1, 1}}}};
+    const auto of_points = build_soup(points);
+    ASSERT_TRUE(of_points);
+    EXPECT_TRUE(voronoi_diagram(*of_points, {.threads = 1}));
+    Chains with_edges = points;
+    with_edges.push_back({{{0.5, 0.25}, {0.25, 0.75}}});
+    const auto soup = build_soup(with_edges);
+    ASSERT_TRUE(soup);
+    const auto diagram = voronoi_diagram(*soup, {.threads = 1});
+    if (diagram) {
+      EXPECT_EQ(fault_of(*diagram), "");
+    } else {
+      EXPECT_EQ(diagram.error().code, ErrorCode::unsupported);
+      EXPECT_TRUE(diagram.error().place.point.has_value());
+    }
+  }
+}
+
 TEST(Soup, WhatIsThereTwiceIsThereOnce) {
   SoupReport report;
   const Soup soup = soup_of({{{{0, 0}, {1, 0}}},

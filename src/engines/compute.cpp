@@ -4,13 +4,17 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <optional>
+#include <stdexcept>
 #include <utility>
+#include <vector>
 
 #include "base/arc.h"
 #include "base/in_flight.h"
 #include "base/limits.h"
 #include "base/threads.h"
+#include "base/tolerance.h"
 #include "engines/axis_around.h"
 #include "engines/biarc_dc/biarc_dc.h"
 #include "engines/brushfire/brushfire.h"
@@ -314,6 +318,38 @@ Result<MedialAxis> run_around(const Shape& surroundings, const Options& options,
   return axis;
 }
 
+/// Two points of a soup nearer to each other than `least`, as an error that says so; of several the
+/// first ones from the left. O(n log n) where points are not all of one place in x.
+std::optional<Error> too_close(const Soup& soup, double least) {
+  std::vector<std::uint32_t> order(soup.points.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    const Vec2 p = soup.points[a], q = soup.points[b];
+    return p.x != q.x ? p.x < q.x : p.y < q.y;
+  });
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const Vec2 p = soup.points[order[i]];
+    for (std::size_t j = i + 1; j < order.size(); ++j) {
+      const Vec2 q = soup.points[order[j]];
+      if (!(q.x - p.x < least)) break;
+      if (!(distance(p, q) < least)) {
+        if (q.x == p.x) break;  // further up on the same vertical line
+        continue;
+      }
+      const VertexSource source = soup.point_sources[order[j]];
+      Error error{
+          ErrorCode::unsupported,
+          "two points of a soup with edges are nearer to each other than rounding tells apart",
+          {}};
+      error.place.ring = source.ring;
+      error.place.vertex = source.vertex;
+      error.place.point = q;
+      return error;
+    }
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 Result<MedialAxis> axis_around(const Soup& soup, const Shape& surroundings,
@@ -336,6 +372,7 @@ Result<VoronoiDiagram> voronoi_diagram(const Soup& soup, const Options& options,
     auto box = frame_for(soup, options, frame);
     if (!box) return std::move(box).error();
     const Box far = voronoi::far_frame(*box);
+    constexpr double told_apart = 16;  // tolerances: nearer points may be one for some disks
     if (auto error = beyond_limits(soup, far)) return std::move(*error);
     Result<VoronoiDiagram> diagram = on_threads(options.threads, [&]() -> Result<VoronoiDiagram> {
       if (soup.edges.empty()) {
@@ -346,8 +383,15 @@ Result<VoronoiDiagram> voronoi_diagram(const Soup& soup, const Options& options,
       const Shape shape = around(soup, far);
       auto axis = run_around(shape, options, false);
       if (!axis) return std::move(axis).error();
-      return voronoi::diagram_of(soup, shape, std::move(axis).value(), *box);
+      try {
+        return voronoi::diagram_of(soup, shape, std::move(axis).value(), *box);
+      } catch (const std::runtime_error& error) {
+        return Error{ErrorCode::internal, error.what(), {}};
+      }
     });
+    if (!diagram && diagram.error().code == ErrorCode::internal)
+      if (auto reason = too_close(soup, told_apart * tolerance_for(far, options.tolerance)))
+        return std::move(*reason);
     if (!diagram) return diagram;
     diagram->statistics.threads = effective_threads(options.threads);
     if (options.progress) options.progress(1);
