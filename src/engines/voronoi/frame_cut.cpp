@@ -99,28 +99,32 @@ void FrameCut::settle_ties() {
   const double together =
       8 * tolerance_ / std::min(frame_.high.x - frame_.low.x, frame_.high.y - frame_.low.y);
   const std::size_t count = crossings_.size();
-  if (count < 2) return;
-  // A place where all is clear to begin at.
+  const auto crossing = [&](std::size_t i) -> Crossing& { return crossings_[i % count]; };
+  const auto begins_place = [&](std::size_t i) {
+    return i % count == 0 ? crossing(0).place + 4 - crossing(count - 1).place > together
+                          : crossing(i).place - crossing(i - 1).place > together;
+  };
   std::size_t start = 0;
-  while (start < count) {
-    const Crossing& before = crossings_[(start + count - 1) % count];
-    if (before.after == crossings_[start].before &&
-        crossings_[start].place - before.place > together)
-      break;
-    ++start;
-  }
-  if (start == count) start = 0;
-  for (std::size_t i = 1; i < count; ++i) {
-    Crossing& here = crossings_[(start + i) % count];
-    const Crossing& before = crossings_[(start + i - 1) % count];
-    if (before.after == here.before) continue;
-    for (std::size_t j = i + 1; j < count; ++j) {
-      Crossing& other = crossings_[(start + j) % count];
-      if (std::abs(other.place - here.place) > together) break;
-      if (other.before != before.after) continue;
-      std::swap(here, other);
-      std::swap(here.place, other.place);
-      break;
+  while (start < count && !begins_place(start)) ++start;
+  for (std::size_t begin = start, end; begin < start + count; begin = end) {
+    end = begin + 1;
+    while (end < start + count && !begins_place(end)) ++end;
+    // The first is the one whose site does not end at this place.
+    std::size_t first = begin;
+    const auto ends_here = [&](std::uint32_t site) {
+      for (std::size_t i = begin; i < end; ++i)
+        if (crossing(i).after == site) return true;
+      return false;
+    };
+    while (first < end && ends_here(crossing(first).before)) ++first;
+    std::uint32_t site = crossing(first < end ? first : begin).before;
+    for (std::size_t i = begin; i < end; ++i) {
+      std::size_t next = i;
+      while (next < end && crossing(next).before != site) ++next;
+      if (next == end) break;
+      std::swap(crossing(i), crossing(next));
+      std::swap(crossing(i).place, crossing(next).place);
+      site = crossing(i).after;
     }
   }
 }
