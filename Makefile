@@ -15,7 +15,7 @@ BENCH := build/bench
 BENCH_BOOST := build/boost-1.81
 SOURCES = $(shell git ls-files '*.h' '*.cpp')
 
-.PHONY: help setup build demo test bench bench-flo-mat bench-images fuzz corpus tsan format lint clean install
+.PHONY: help setup build demo test bench bench-flo-mat bench-images fuzz corpus offsets tsan format lint clean install
 .DEFAULT_GOAL := help
 
 help:     ## this list
@@ -69,6 +69,11 @@ corpus: setup   ## every data file below DATA, every glyph below FONTS, verified
 	@$(RELEASE)/tests/medial_corpus $(DATA); corpus=$$?; \
 	  $(RELEASE)/tests/medial_roundtrips $(DATA) $(FONTS); back=$$?; \
 	  $(RELEASE)/tests/medial_glyphs $(DATA) $(FONTS) && exit $$((corpus + back))
+
+offsets: setup  ## eight offsets of every polygon below DATA, measured, rings counted by pixels: a table
+	@cmake --preset release >/dev/null
+	@cmake --build $(RELEASE) -j $(JOBS) --target medial_offsets
+	@$(RELEASE)/tests/medial_offsets $(DATA)
 
 tsan: setup     ## the engine's tests under the thread sanitizer
 	@tools/tsan.sh $(TSAN) $(JOBS)

@@ -118,7 +118,7 @@ Result<Measured> measure(const io::NativeItem& item, const std::vector<AxisPath>
   if (!item.axis.nodes.empty()) out.widest = deepest_disk(item.axis);
   out.necks = necks(item.axis, switches.widening);
   if (switches.disks > 0) {
-    auto disks = largest_disjoint_disks(item.shape, switches.disks);
+    auto disks = largest_disjoint_disks(item.shape, switches.disks, 0, &item.axis);
     if (!disks) return std::move(disks).error();
     out.disks = std::move(disks).value();
   }

@@ -2,7 +2,9 @@
 // of their points from the boundary, random points on both sides, nesting, and the number of rings
 // against pixels.
 //
-//   medial_offsets FOLDER...
+//   medial_offsets [--every N] FOLDER...
+//
+// With --every, each N-th feature of all files.
 //
 // Exit status: 0; 1 where a check failed; 2 for a wrong call; 77 (what ctest takes for a skipped
 // test) where a folder does not exist.
@@ -10,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -72,7 +75,8 @@ void examine(const Shape& shape, const std::string& name, bool count, Row& row) 
   }
 }
 
-int run(const std::vector<fs::path>& folders) {
+int run(const std::vector<fs::path>& folders, std::size_t every) {
+  std::size_t number = 0;
   std::printf("%-58s %8s %7s %9s %10s %7s %9s %6s\n", "file", "features", "curves", "rings",
               "points", "counted", "error", "FAULTS");
   std::size_t faults = 0;
@@ -89,6 +93,7 @@ int run(const std::vector<fs::path>& folders) {
       if (!dataset) continue;  // not for this test
       Row row;
       for (std::size_t i = 0; i < dataset->features.size(); ++i) {
+        if (number++ % every != 0) continue;
         const auto& feature = dataset->features[i];
         std::vector<Ring> rings = feature.rings;
         if (!feature.contours.empty()) {
@@ -117,8 +122,13 @@ int run(const std::vector<fs::path>& folders) {
 
 int main(int count, char** arguments) {
   std::vector<std::filesystem::path> folders(arguments + 1, arguments + count);
-  if (folders.empty()) {
-    std::fprintf(stderr, "usage: medial_offsets FOLDER...\n");
+  std::size_t every = 1;
+  if (folders.size() > 1 && folders[0] == "--every") {
+    every = std::strtoull(folders[1].c_str(), nullptr, 10);
+    folders.erase(folders.begin(), folders.begin() + 2);
+  }
+  if (folders.empty() || every == 0) {
+    std::fprintf(stderr, "usage: medial_offsets [--every N] FOLDER...\n");
     return 2;
   }
   for (const auto& folder : folders) {
@@ -126,5 +136,5 @@ int main(int count, char** arguments) {
     std::printf("%s: no such folder: skipped\n", folder.c_str());
     return 77;
   }
-  return medial::test::run(folders);
+  return medial::test::run(folders, every);
 }

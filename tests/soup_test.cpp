@@ -409,6 +409,34 @@ TEST_P(RandomSoups, HaveRightDiagrams) {
 
 INSTANTIATE_TEST_SUITE_P(Random, RandomSoups, testing::Range<std::uint64_t>(0, 4));
 
+/// Chains of arcs all over each other, split where they cross. (Of 418 and 772 two neighbours cross
+/// within some tolerances of their common end.)
+TEST(Soup, NodedArcsHaveRightDiagrams) {
+  std::vector<std::uint64_t> seeds{418, 772};
+  for (std::uint64_t seed = 0; seed < property_count(150); ++seed) seeds.push_back(seed);
+  for (const std::uint64_t seed : seeds) {
+    Random random(seed);
+    const auto u = [&] { return uniform(random); };
+    Chains chains;
+    const int count = 2 + static_cast<int>(8 * u());
+    for (int i = 0; i < count; ++i) {
+      Chain& chain = chains.emplace_back();
+      const int points = 2 + static_cast<int>(2 * u());
+      for (int k = 0; k < points; ++k) {
+        const double x = u();
+        chain.points.push_back({x, u()});
+        chain.bulges.push_back(u() < 0.2 ? 0 : 2 * u() - 1);
+      }
+    }
+    const auto soup = build_soup(chains, {.node_crossings = true});
+    ASSERT_TRUE(soup.ok()) << seed << ": " << to_string(soup.error());
+    const auto diagram = voronoi_diagram(*soup, {.threads = 1});
+    ASSERT_TRUE(diagram.ok()) << seed << ": " << to_string(diagram.error());
+    EXPECT_EQ(fault_of(*diagram), "") << seed;
+    if (HasFailure()) return;
+  }
+}
+
 TEST(Soup, ThreadsChangeNothing) {
   const auto soup = build_soup(random_soup(3));
   ASSERT_TRUE(soup.ok());

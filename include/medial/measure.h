@@ -74,8 +74,10 @@ MeanWidth mean_width(const MedialAxis& axis, const AxisPath& path);
 /// `count` of them, by decreasing radius, without overlap. Each is the deepest disk of the axis of
 /// the shape less the disks before it, so it touches whatever it can: the boundary and disks.
 /// Disks smaller than `smallest` are left out. Errors: those of compute(); invalid_option.
-/// One computation of the axis of what the disk before has cut for each disk.
+/// One computation of the axis of what the disk before has cut for each disk but the first, and one
+/// of the shape unless its axis, by an exact method, is given.
 Result<std::vector<Disk>> largest_disjoint_disks(const Shape& shape, std::size_t count,
-                                                 double smallest = 0);
+                                                 double smallest = 0,
+                                                 const MedialAxis* axis = nullptr);
 
 }  // namespace medial

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 
 namespace medial {
@@ -32,7 +33,8 @@ std::optional<Error> beyond_limits(std::span<const Vec2> points, double largest,
               "the largest) without being 0",
               {}};
   error.place.point = p;
-  if (i < sources.size()) {
+  constexpr std::uint32_t of_frame = 0xFFFFFFFF;
+  if (i < sources.size() && sources[i].ring != of_frame) {
     error.place.ring = sources[i].ring;
     error.place.vertex = sources[i].vertex;
   }

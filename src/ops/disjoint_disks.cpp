@@ -23,9 +23,38 @@ Ring circle(const Disk& disk) {
   return {{disk.center + east, disk.center - east}, RingRole::any, {1, 1}};
 }
 
-/// The parts of a region and their deepest disks.
-Status add_parts(const std::vector<Ring>& rings, double smallest,
-                 std::priority_queue<Part>& parts) {
+/// The parts of a shape and their deepest disks.
+void add_parts(const Shape& shape, const MedialAxis& axis, double smallest,
+               std::priority_queue<Part>& parts) {
+  std::vector<Part> found(shape.component_count());
+  const auto consider = [&found](const Disk& disk, std::uint32_t component) {
+    Part& part = found[component];
+    if (disk.radius > part.deepest.radius) part.deepest = disk;
+  };
+  for (const Node& node : axis.nodes) consider(node.disk, node.component);
+  for (std::uint32_t i = 0; i < axis.edges.size(); ++i) {
+    const Edge& edge = axis.edges[i];
+    consider(disk_at(axis, edge, widest_place(axis, i).t), axis.nodes[edge.node[0]].component);
+  }
+  for (std::size_t i = 0; i < shape.loop_count(); ++i) {
+    Part& part = found[shape.component[i]];
+    if (part.deepest.radius < smallest) continue;
+    Ring ring;
+    const auto loop = shape.loop(i);
+    ring.points.assign(loop.begin(), loop.end());
+    if (!shape.bulges.empty()) {
+      const auto begin = shape.bulges.begin() + shape.loop_begin[i];
+      ring.bulges.assign(begin, begin + static_cast<std::ptrdiff_t>(loop.size()));
+    }
+    part.rings.push_back(std::move(ring));
+  }
+  for (Part& part : found)
+    if (part.deepest.radius >= smallest && !part.rings.empty()) parts.push(std::move(part));
+}
+
+/// The same of a region that may have nothing inside.
+Status add_parts_of(const std::vector<Ring>& rings, double smallest,
+                    std::priority_queue<Part>& parts) {
   auto shape = build_shape(rings);
   if (!shape) {
     if (shape.error().code == ErrorCode::no_area || shape.error().code == ErrorCode::empty)
@@ -34,49 +63,26 @@ Status add_parts(const std::vector<Ring>& rings, double smallest,
   }
   const auto axis = compute(*shape);
   if (!axis) return axis.error();
-  std::vector<Part> found(shape->component_count());
-  const auto consider = [&found](const Disk& disk, std::uint32_t component) {
-    Part& part = found[component];
-    if (disk.radius > part.deepest.radius) part.deepest = disk;
-  };
-  for (const Node& node : axis->nodes) consider(node.disk, node.component);
-  for (std::uint32_t i = 0; i < axis->edges.size(); ++i) {
-    const Edge& edge = axis->edges[i];
-    consider(disk_at(*axis, edge, widest_place(*axis, i).t), axis->nodes[edge.node[0]].component);
-  }
-  for (std::size_t i = 0; i < shape->loop_count(); ++i) {
-    Part& part = found[shape->component[i]];
-    if (part.deepest.radius < smallest) continue;
-    Ring ring;
-    const auto loop = shape->loop(i);
-    ring.points.assign(loop.begin(), loop.end());
-    if (!shape->bulges.empty()) {
-      const auto begin = shape->bulges.begin() + shape->loop_begin[i];
-      ring.bulges.assign(begin, begin + static_cast<std::ptrdiff_t>(loop.size()));
-    }
-    part.rings.push_back(std::move(ring));
-  }
-  for (Part& part : found)
-    if (part.deepest.radius >= smallest && !part.rings.empty()) parts.push(std::move(part));
+  add_parts(*shape, *axis, smallest, parts);
   return success();
 }
 
 }  // namespace
 
 Result<std::vector<Disk>> largest_disjoint_disks(const Shape& shape, std::size_t count,
-                                                 double smallest) {
-  std::vector<Ring> rings;
-  for (std::size_t i = 0; i < shape.loop_count(); ++i) {
-    Ring& ring = rings.emplace_back();
-    const auto loop = shape.loop(i);
-    ring.points.assign(loop.begin(), loop.end());
-    if (!shape.bulges.empty()) {
-      const auto begin = shape.bulges.begin() + shape.loop_begin[i];
-      ring.bulges.assign(begin, begin + static_cast<std::ptrdiff_t>(loop.size()));
-    }
-  }
+                                                 double smallest, const MedialAxis* axis) {
   std::priority_queue<Part> parts;
-  if (Status added = add_parts(rings, smallest, parts); !added) return std::move(added).error();
+  const auto is_of_shape = [&](const Node& node) {
+    return node.component < shape.component_count();
+  };
+  if (axis != nullptr && axis->resolution == 0 && axis->exterior == 0 &&
+      std::ranges::all_of(axis->nodes, is_of_shape)) {
+    add_parts(shape, *axis, smallest, parts);
+  } else {
+    const auto own = compute(shape);
+    if (!own) return own.error();
+    add_parts(shape, *own, smallest, parts);
+  }
   std::vector<Disk> disks;
   while (disks.size() < count && !parts.empty()) {
     Part part = parts.top();
@@ -84,7 +90,7 @@ Result<std::vector<Disk>> largest_disjoint_disks(const Shape& shape, std::size_t
     disks.push_back(part.deepest);
     part.rings.push_back(circle(part.deepest));
     if (disks.size() == count) break;
-    if (Status added = add_parts(part.rings, smallest, parts); !added)
+    if (Status added = add_parts_of(part.rings, smallest, parts); !added)
       return std::move(added).error();
   }
   return disks;

@@ -139,6 +139,7 @@ class CrossingFinder {
         continue;
       const std::uint32_t end_of_a = end_at(a, *point), end_of_b = end_at(b, *point);
       if (end_of_a != no_index && end_of_b != no_index) continue;
+      if (is_beside_common_end(a, b, *point)) continue;
       if (end_of_a != no_index) {
         add_end(a, end_of_a, b);
       } else if (end_of_b != no_index) {
@@ -149,6 +150,20 @@ class CrossingFinder {
         ++crossings_;
       }
     }
+  }
+
+  /// Whether two pieces have an end in common and stay within the tolerance of each other from
+  /// there to the point: as good as tangent there, they meet in the end alone. (The order of pieces
+  /// at an end is told by where they part, too.)
+  bool is_beside_common_end(const Piece& a, const Piece& b, Vec2 point) const {
+    for (const std::uint32_t end : a.ends) {
+      const Vec2 p = noded_.outline.points[end];
+      if (end_at(b, p) == no_index || p == point) continue;
+      const bool left = lexicographic_less(p, point);
+      const Vec2 between = a.arc.halfway(left ? p : point, left ? point : p);
+      if (std::abs(b.arc.above(between)) <= tolerance_) return true;
+    }
+    return false;
   }
 
   /// One piece ends in the inside of the other.
