@@ -132,6 +132,29 @@ TEST(Offset, IslandsJoinOutwards) {
   }
 }
 
+TEST(Offset, OfAKeyholeWhoseCircleIsTwoArcs) {
+  // The disk in the circle touches both arcs all along: no foot of it tells where they are left.
+  for (int k = 0; k < 60; ++k) {
+    const double angle = 0.1 * k + 1e-3;
+    const auto at = [&](double x, double y) {
+      return Vec2{2925, 3187} + turned({0.25 * x, 0.25 * y}, std::cos(angle), std::sin(angle));
+    };
+    const auto on_circle = [&](double degrees) {
+      return at(std::cos(degrees * pi / 180), std::sin(degrees * pi / 180));
+    };
+    const double bulge = std::tan(140 * pi / 180 / 4);
+    const Ring ring{{on_circle(50), at(0.65, 1.4), at(-0.65, 1.4), on_circle(130), on_circle(270)},
+                    RingRole::any,
+                    {0, 0, 0, bulge, bulge}};
+    const Shape shape = shape_of({ring});
+    const auto offsets = offset_curves(shape, std::vector{-0.1, 0.01, 0.05, 0.1, 0.2});
+    ASSERT_TRUE(offsets.ok());
+    const test::OffsetCheck check = test::check_offsets(shape, *offsets);
+    EXPECT_LE(check.largest_error, 1e-11) << k;
+    EXPECT_EQ(check.fault, "") << k;
+  }
+}
+
 TEST(Offset, PassesUntilNothingIsLeft) {
   const auto axis = compute(shape_of(test::rectangle(4, 3)));
   ASSERT_TRUE(axis.ok());

@@ -25,6 +25,15 @@ double lowest_radius(const MedialAxis& axis, const Edge& edge) {
   return std::min(least, low);
 }
 
+/// Whether a disk lies in the circle of an arc, to `slack`.
+bool touches_all_of(const Site& site, const Disk& disk, double slack) {
+  if (site.kind != SiteKind::arc || !(site.bulge > 0)) return false;
+  const BulgeArc arc{site.start, site.end, site.bulge};
+  const double radius = 1 / curvature(arc);
+  const Vec2 center = arc.start + radius * left_of(start_tangent(arc));
+  return std::abs(radius - disk.radius) <= slack && distance(center, disk.center) <= slack;
+}
+
 /// The angle from u to v, of a walk that goes clockwise: what is not so is rounding.
 double clockwise(Vec2 u, Vec2 v) {
   const double angle = std::atan2(cross(u, v), dot(u, v));
@@ -290,15 +299,22 @@ LevelLoop LevelWalk::loop_from(HalfEdge first, double level, bool crossed) {
   loop.node = to(first);
   loop.site = right_site(first);
   RingBuilder builder(axis_, level, loop.ring);
-  const auto offset_at = [&](std::uint32_t site, const Disk& disk) {
-    const Vec2 touch = foot(axis_.sites[site], disk.center);
-    return touch + (level / disk.radius) * (disk.center - touch);
-  };
   // Where feet of one disk are apart by no more than this, they are one.
   const auto slack = [&](const Disk& disk) {
     return std::max(4 * axis_.tolerance, 1e-9 * disk.radius);
   };
-  const Vec2 start = crossed ? rise_[first] : offset_at(loop.site, axis_.nodes[from(first)].disk);
+  // A disk that touches an arc all along has no foot of its own there: what comes before the arc
+  // goes on at its start, what comes after it at its end.
+  enum class Part : std::uint8_t { start, end };
+  const auto offset_at = [&](std::uint32_t index, const Disk& disk, Part part) {
+    const Site& site = axis_.sites[index];
+    const Vec2 touch = touches_all_of(site, disk, slack(disk))
+                           ? (part == Part::start ? site.start : site.end)
+                           : foot(site, disk.center);
+    return touch + (level / disk.radius) * (disk.center - touch);
+  };
+  const Vec2 start =
+      crossed ? rise_[first] : offset_at(loop.site, axis_.nodes[from(first)].disk, Part::start);
   builder.begin(loop.site, start);
   HalfEdge half = first;
   bool risen = crossed;  // the walk goes on from where the half edge rises, not from its start
@@ -321,7 +337,7 @@ LevelLoop LevelWalk::loop_from(HalfEdge first, double level, bool crossed) {
     if (site == before) {
       builder.pass(disk.center);
     } else {
-      const Vec2 p = offset_at(before, disk), q = offset_at(site, disk);
+      const Vec2 p = offset_at(before, disk, Part::end), q = offset_at(site, disk, Part::start);
       builder.end(p);
       builder.close_gap(disk.center, p, q, twin(half) == after, slack(disk));
       builder.begin(site, q);

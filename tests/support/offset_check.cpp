@@ -82,6 +82,9 @@ std::string fault_of(const Offsets& offsets, std::size_t i) {
     const bool outer = k == 0;
     if (region.rings[k].role != (outer ? RingRole::outer : RingRole::hole)) return "a wrong role";
     double around = 0;
+    constexpr double half_circle = 1 + 1e-9;
+    for (const double bulge : region.rings[k].bulges)
+      if (!(std::abs(bulge) <= half_circle)) return "an edge of more than a half circle";
     for_edges(region.rings[k], [&](const BoundaryEdge& edge) {
       around += distance(edge.start, edge.end) * (1 + std::abs(edge.bulge));
     });
