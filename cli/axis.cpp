@@ -152,7 +152,7 @@ void add_potential_switches(CLI::App& verb, PotentialOptions& options) {
       ->option_text("N");
   verb.add_option("--base-order", options.base_order,
                   "Of the force lines that potential follows first (default: the order, at most\n"
-                  "24). 1 is the paper's.")
+                  "512). 1 is the paper's.")
       ->option_text("N");
   add_list_switch(
       verb, "--from", 2,
@@ -174,6 +174,10 @@ void add_potential_switches(CLI::App& verb, PotentialOptions& options) {
           "--step", options.step,
           "Of potential: from point to point, as a share of the longer side of the bounding\n"
           "box (default: 0.01).")
+      ->option_text("SHARE");
+  verb.add_option("--coarse", options.coarse,
+                  "Potential: first the axis of a polygon within this share of the size of the\n"
+                  "boundary, then refined on finer ones: without the branches of small teeth.")
       ->option_text("SHARE");
 }
 

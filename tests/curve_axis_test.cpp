@@ -205,7 +205,9 @@ TEST(CurveAxis, TellsTheCurvaturesOfSplines) {
   }
   ASSERT_GT(checked, 300U);
   std::sort(errors.begin(), errors.end());
-  EXPECT_LE(errors[errors.size() * 9 / 10], 1e-6);
+  // The rest lies between knots less than seven nodes apart, where any seven see a jump.
+  EXPECT_LE(errors[errors.size() * 98 / 100], 1e-6);
+  EXPECT_LE(errors[errors.size() * 9 / 10], 1e-8);
 }
 
 TEST(CurveAxis, RefusesWhatItCannotFollow) {

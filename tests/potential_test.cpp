@@ -172,6 +172,33 @@ Rings slotted_disk(int slots) {
   return rings;
 }
 
+/// Coarse to fine leaves the teeth of a border out, and what it keeps is on the axis of the border.
+TEST(Potential, CoarseToFineLeavesSmallTeethOut) {
+  Ring ring;
+  Random random(3);
+  constexpr int teeth = 50;
+  for (int i = 0; i <= 2 * teeth + 1; ++i) {
+    const bool above = i > teeth;
+    const double x = 10.0 * (above ? 2 * teeth + 1 - i : i) / teeth;
+    ring.points.push_back({x, (above ? 1 : -1) + random.between(-0.05, 0.05)});
+  }
+  Ring hole;
+  hole.points = {{4, -0.3}, {4, 0.3}, {6, 0.3}, {6, -0.3}};
+  const Shape shape = *build_shape(Rings{ring, hole});
+  const auto all = compute(shape, {.method = Method::potential});
+  const auto coarse = compute(shape, {.method = Method::potential, .potential = {.coarse = 0.02}});
+  ASSERT_TRUE(all.ok() && coarse.ok());
+  const auto count = [](const MedialAxis& axis) {
+    return std::count_if(axis.nodes.begin(), axis.nodes.end(),
+                         [](const Node& node) { return node.kind == NodeKind::leaf; });
+  };
+  EXPECT_GT(count(*all), 20);
+  EXPECT_LE(count(*coarse), 8);
+  EXPECT_EQ(parts(*coarse), 1U);
+  EXPECT_EQ(coarse->edges.size() + 1 - coarse->nodes.size(), 1U);
+  EXPECT_LT(distances(shape, *coarse).mean, 0.002 * size_of(shape));
+}
+
 TEST(Potential, RingsOfOneWidthAreConnectedWithoutLongSearches) {
   for (const int slots : {1, 3}) {
     SCOPED_TRACE(slots);
@@ -254,7 +281,8 @@ TEST(Potential, RefusesOptionsOutOfRange) {
   for (const PotentialOptions& wrong :
        {PotentialOptions{.order = 0.5}, PotentialOptions{.order = 5000},
         PotentialOptions{.base_order = -1}, PotentialOptions{.step = 0},
-        PotentialOptions{.angle = 100}, PotentialOptions{.movement = 1}}) {
+        PotentialOptions{.coarse = 0.3}, PotentialOptions{.angle = 100},
+        PotentialOptions{.movement = 1}}) {
     const auto axis = compute(shape, {.method = Method::potential, .potential = wrong});
     ASSERT_FALSE(axis.ok());
     EXPECT_EQ(axis.error().code, ErrorCode::invalid_option);

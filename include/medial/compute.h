@@ -62,6 +62,10 @@ struct PotentialOptions {
   double base_order = 0;
   /// The longest step, as a share of the larger side of the bounding box, in [1e-4, 0.1].
   double step = 0.01;
+  /// Coarse to fine: the skeleton of a polygon within this of the border, as a share of the larger
+  /// side of the bounding box, refined on ever nearer polygons: without the branches of what that
+  /// one leaves out. In [0, 0.2]; 0: all branches. Of a whole axis only.
+  double coarse = 0;
   /// theta_min in degrees: how much the force may still turn with the order. In (0, 90].
   double angle = 2.56;
   /// e_min, as a share of the larger side of the bounding box: how far a point may still move with

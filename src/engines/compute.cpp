@@ -87,6 +87,8 @@ std::optional<Error> refuse(const PotentialOptions& options) {
     return invalid("the order of the potential must be in [1, 4096]");
   if (!(options.step >= 1e-4 && options.step <= 0.1))
     return invalid("the step must be in [1e-4, 0.1]");
+  if (!(options.coarse >= 0 && options.coarse <= 0.2))
+    return invalid("the coarse polygon's distance must be in [0, 0.2]");
   if (!(options.angle > 0 && options.angle <= 90))
     return invalid("the angle must be in (0, 90] degrees");
   if (!(options.movement > 0 && options.movement <= 0.1))

@@ -1,6 +1,7 @@
 #include "medial/sides.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -74,8 +75,29 @@ Curve::Derivatives through(std::span<const Disk* const> disks, std::size_t at) {
   return sum;
 }
 
+/// How rough a run of disks is: the size of its highest divided difference over chords. Large where
+/// a derivative of the branch jumps, as the third does where the boundary's curvature has a corner.
+double roughness(std::span<const Disk* const> disks) {
+  std::array<double, 8> t{};
+  std::array<std::array<double, 3>, 8> values{};
+  const std::size_t count = std::min(disks.size(), t.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    if (i > 0) t[i] = t[i - 1] + distance(disks[i - 1]->center, disks[i]->center);
+    const Vec2 d = disks[i]->center - disks[0]->center;
+    values[i] = {d.x, d.y, disks[i]->radius - disks[0]->radius};
+  }
+  for (std::size_t order = 1; order < count; ++order)
+    for (std::size_t i = 0; i + order < count; ++i)
+      for (double& value : values[i]) {
+        const auto which = static_cast<std::size_t>(&value - values[i].data());
+        value = (values[i + 1][which] - value) / (t[i + order] - t[i]);
+      }
+  return std::hypot(values[0][0], values[0][1], values[0][2]);
+}
+
 /// The frames at the inner nodes of a branch whose nodes are exact, from seven nodes each: the
-/// three on both sides, or as many as there are before the branch ends.
+/// three on both sides; before its ends, and where others are smoother by far, as many on one side
+/// as that takes: differences across a jump of the third derivative are off by the step times it.
 std::vector<AxisFrame> frames_of_exact_nodes(const MedialAxis& axis, const Branch& branch) {
   std::vector<const Disk*> disks = {&axis.nodes[branch.from].disk};
   for (const Step& step : branch.steps) {
@@ -85,8 +107,18 @@ std::vector<AxisFrame> frames_of_exact_nodes(const MedialAxis& axis, const Branc
   std::vector<AxisFrame> frames;
   constexpr std::size_t window = 7, aside = window / 2;
   const std::size_t count = disks.size(), width = std::min(window, count);
+  std::vector<double> rough(count - width + 1);
+  for (std::size_t first = 0; first < rough.size(); ++first)
+    rough[first] = roughness(std::span(disks.data() + first, width));
+  constexpr double far_smoother = 0.01;
   for (std::size_t i = 1; i + 1 < count; ++i) {
-    const std::size_t first = std::min(i > aside ? i - aside : 0, count - width);
+    std::size_t first = std::min(i > aside ? i - aside : 0, count - width);
+    const std::size_t lowest = i + 1 > width ? i + 1 - width : 0;
+    const auto smoothest = std::min_element(
+        rough.begin() + static_cast<std::ptrdiff_t>(lowest),
+        rough.begin() + static_cast<std::ptrdiff_t>(std::min(i + 1, rough.size())));
+    if (*smoothest < far_smoother * rough[first])
+      first = static_cast<std::size_t>(smoothest - rough.begin());
     const std::span<const Disk* const> near(disks.data() + first, width);
     frames.push_back(frame_of(*disks[i], through(near, i - first), 0));
   }

@@ -150,7 +150,9 @@ Trail ForceLines::follow(Vec2 p, Vec2 direction, double share, Start start) {
       climbing = false;
       if (!trail.points.empty()) trail.points.back().kind = ValleyPoint::Kind::saddle;
     }
-    if (climbing && radius < 0.1 * reach(radius)) return trail;
+    // Up to the border: no saddle is ahead. Necks wider than this are passed.
+    constexpr double narrowest = 1e-4;
+    if (climbing && radius < narrowest * options_.step) return trail;
     if (dot(next.force, moved) < 0 && !flat && !climbing) {
       // The force has turned: a minimum or a saddle lies near, or the step was too long.
       if (next.determinant() > 0 || force.determinant() > 0) {

@@ -12,6 +12,7 @@
 #include "base/stopwatch.h"
 #include "base/tolerance.h"
 #include "engines/potential/charges.h"
+#include "engines/potential/coarse_to_fine.h"
 #include "engines/potential/region.h"
 #include "engines/potential/skeleton.h"
 #include "engines/potential/successor.h"
@@ -183,7 +184,10 @@ Result<MedialAxis> run(const Shape& shape, const Options& options) {
       seeded = true;
     }
     axis.resolution = std::max(axis.resolution, tracing.step * frame.inverse);
-    const Skeleton skeleton = trace_valleys(region, charges, tracing);
+    const Skeleton skeleton =
+        own.coarse > 0 && own.whole()
+            ? trace_coarse_to_fine(region, charges, tracing, own.coarse * region.size)
+            : trace_valleys(region, charges, tracing);
     axis.statistics.queries += skeleton.forces;
     axis.statistics.seconds_walk += watch.lap();
     if (!skeleton.whole)
