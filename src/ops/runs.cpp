@@ -77,13 +77,14 @@ Signs signs_at(const Curve& curve, double t) {
 }
 
 /// The places in (0, 1) where the radius is level: roots of the quadratic Bernstein polynomial with
-/// coefficients w (r1 - r0), (r2 - r0) / 2, w (r2 - r1), which has the derivative's sign.
+/// coefficients w (r1 - r0), (r2 - r0) / 2, w (r2 - r1), which has the derivative's sign. One
+/// beside an end is that end, to rounding: a piece between them would have no direction.
 void add_level_places(const Curve& curve, std::vector<double>& out) {
   const double a = curve.weight * (curve.r1 - curve.r0);
   const double b = 0.5 * (curve.r2 - curve.r0);
   const double c = curve.weight * (curve.r2 - curve.r1);
   const auto add = [&out](double t) {
-    if (t > 0 && t < 1) out.push_back(t);
+    if (t > zero_share && t < 1 - zero_share) out.push_back(t);
   };
   const double discriminant = b * b - a * c;
   if (!(discriminant > 0) || (a > 0 && b > 0 && c > 0) || (a < 0 && b < 0 && c < 0)) return;
