@@ -93,6 +93,7 @@ Json stats(const AxisFile& file, const AxisSummary& summary, double seconds_writ
                  {"apollonius", counted_by_engine.apollonius},
                  {"brackets", counted_by_engine.brackets},
                  {"cuts", counted_by_engine.cuts},
+                 {"unresolved", file.unresolved},
                  {"largest_residual", counted_by_engine.largest_residual},
                  {"threads", counted_by_engine.threads},
                  {"peak_bytes", peak_bytes()},
@@ -351,6 +352,20 @@ void print_notes(const ShapeFile& file, const InputSwitches& input, const Common
   }
 }
 
+namespace {
+
+/// How far a sampled axis of an interior is from one part for each component and one cycle for each
+/// hole of its shape, by the Euler characteristic.
+std::uint64_t unresolved_in(const Shape& shape, const MedialAxis& axis) {
+  if (axis.resolution == 0 || axis.exterior > 0) return 0;
+  const auto count = [](std::size_t n) { return static_cast<std::int64_t>(n); };
+  return static_cast<std::uint64_t>(std::abs(count(axis.nodes.size()) - count(axis.edges.size()) -
+                                             count(shape.component_count()) +
+                                             count(shape.hole_count())));
+}
+
+}  // namespace
+
 Result<AxisFile> compute_axes(ShapeFile shapes, const std::string& path,
                               const CommonSwitches& common, Options options, const Engine& engine) {
   const Stopwatch watch;
@@ -390,6 +405,13 @@ Result<AxisFile> compute_axes(ShapeFile shapes, const std::string& path,
     part.seconds_sites = part.seconds_tree = part.seconds_connect = 0;
     part.seconds_walk = part.seconds_collect = part.seconds_exact = part.seconds = 0;
   }
+  for (const io::NativeItem& item : file.native.items)
+    file.unresolved += unresolved_in(item.shape, item.axis);
+  if (file.unresolved > 0 && !common.quiet)
+    fmt::print(stderr,
+               "medial: {}: note: the grid does not tell apart {} of the shape's parts or holes; a "
+               "smaller --resolution may\n",
+               path, file.unresolved);
   file.statistics.threads = effective_threads(common.threads);
   file.cleaned = shapes.report;
   file.arcs = shapes.arcs;

@@ -50,6 +50,8 @@ struct AxisFile {
   double processor_read = 0;  ///< seconds of processor time of the same phases
   double processor_shape = 0;
   double processor_axis = 0;
+  /// Components and holes of the shapes that axes of pixels do not tell apart.
+  std::uint64_t unresolved = 0;
 };
 
 /// What axes look like, summed over the features of a file.

@@ -90,12 +90,12 @@ struct Statistics {
 /// Sampled methods say so by a `resolution` above 0. That of `potential` is the longest step along
 /// the axis, about: nodes have their exact distance to the boundary as radius, edges run straight
 /// and name sites that are nearest on both sides. That of methods on a grid of square pixels is the
-/// side of a pixel, and of their axis this holds: every node is the centre of a medial pixel, in
-/// the order of increasing x within increasing y; its radius is within half a pixel's diagonal of
-/// its distance to the boundary. Every edge runs straight between two neighbouring pixels (of
-/// eight), its control point in the middle and its weight 1. Its sites are two that the disk of its
-/// first node touches, within a few pixels, or both no_site. Which pixels are linked: see
-/// axis/pixel_graph.h.
+/// side of a pixel: every node is the centre of a medial pixel (of `ridge`, where there is no room
+/// for pixels, a point between), in the order of increasing x within increasing y; its radius is
+/// within half a pixel's diagonal of its distance to the boundary. Every edge runs straight to one
+/// of eight neighbours, its control point in the middle and its weight 1. Its sites are two that
+/// the disk of its first node touches, within a few pixels, or both no_site. Which pixels are
+/// linked: see axis/pixel_graph.h.
 struct MedialAxis {
   std::string method;     ///< the engine's name: see name_of(Method)
   double tolerance = 0;   ///< in units of the input: what |distance - radius| stays below

@@ -7,14 +7,14 @@
 namespace medial {
 namespace {
 
-/// The sites of a pixel in the order in which they lie beside the way from it to another.
-std::array<std::uint32_t, 2> sites_beside(const MedialAxis& axis, const MedialPixel& pixel,
+/// Two sites in the order in which they lie beside the way from a point to another.
+std::array<std::uint32_t, 2> sites_beside(const MedialAxis& axis, std::array<std::uint32_t, 2> site,
                                           Vec2 from, Vec2 to) {
-  if (pixel.site[0] == no_site || pixel.site[1] == no_site) return {no_site, no_site};
+  if (site[0] == no_site || site[1] == no_site) return {no_site, no_site};
   const Vec2 way = to - from;
-  const double first = cross(way, foot(axis.sites[pixel.site[0]], from) - from);
-  const double second = cross(way, foot(axis.sites[pixel.site[1]], from) - from);
-  return first >= second ? pixel.site : std::array{pixel.site[1], pixel.site[0]};
+  const double first = cross(way, foot(axis.sites[site[0]], from) - from);
+  const double second = cross(way, foot(axis.sites[site[1]], from) - from);
+  return first >= second ? site : std::array{site[1], site[0]};
 }
 
 /// The pixels of one row, with a place that only moves forward.
@@ -38,6 +38,16 @@ class Row {
 
 }  // namespace
 
+void add_link(MedialAxis& axis, std::uint32_t from, std::uint32_t to,
+              std::array<std::uint32_t, 2> sites) {
+  const Disk &a = axis.nodes[from].disk, &b = axis.nodes[to].disk;
+  Edge edge;
+  edge.node = {from, to};
+  edge.site = sites_beside(axis, sites, a.center, b.center);
+  edge.control = {midpoint(a.center, b.center), a.radius + 0.5 * (b.radius - a.radius)};
+  axis.edges.push_back(edge);
+}
+
 void link_pixels(const raster::Grid& grid, std::span<const MedialPixel> pixels,
                  const raster::BitMap* barrier, MedialAxis& axis) {
   axis.resolution = grid.step;
@@ -47,15 +57,8 @@ void link_pixels(const raster::Grid& grid, std::span<const MedialPixel> pixels,
     axis.nodes.push_back(
         {{grid.center(pixel.pixel), pixel.radius}, pixel.component, NodeKind::leaf});
   const auto link = [&](std::size_t i, std::size_t j) {
-    const Node& from = axis.nodes[first_node + i];
-    const Node& to = axis.nodes[first_node + j];
-    Edge edge;
-    edge.node = {first_node + static_cast<std::uint32_t>(i),
-                 first_node + static_cast<std::uint32_t>(j)};
-    edge.site = sites_beside(axis, pixels[i], from.disk.center, to.disk.center);
-    edge.control = {midpoint(from.disk.center, to.disk.center),
-                    from.disk.radius + 0.5 * (to.disk.radius - from.disk.radius)};
-    axis.edges.push_back(edge);
+    add_link(axis, first_node + static_cast<std::uint32_t>(i),
+             first_node + static_cast<std::uint32_t>(j), pixels[i].site);
   };
   const auto blocked = [&](std::int64_t column, std::int64_t row) {
     return barrier != nullptr && barrier->contains(column, row) &&

@@ -37,6 +37,11 @@ struct MedialPixel {
 void link_pixels(const raster::Grid& grid, std::span<const MedialPixel> pixels,
                  const raster::BitMap* barrier, MedialAxis& axis);
 
+/// Appends the straight edge between two nodes of a sampled axis, beside it two sites that the disk
+/// of the first touches, in any order, or none.
+void add_link(MedialAxis& axis, std::uint32_t from, std::uint32_t to,
+              std::array<std::uint32_t, 2> sites);
+
 /// Sets the kind of every node from the number of its edges. O(nodes + edges).
 void set_node_kinds(MedialAxis& axis);
 

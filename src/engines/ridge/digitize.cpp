@@ -76,7 +76,8 @@ void draw_edge(Vec2 a, Vec2 b, BitMap& map) {
   }
 }
 
-/// Sets the bits first..last of a row.
+}  // namespace
+
 void set_bits(std::uint64_t* words, std::uint32_t first, std::uint32_t last) {
   const std::uint64_t from = ~std::uint64_t{0} << (first & 63);
   const std::uint64_t to = ~std::uint64_t{0} >> (63 - (last & 63));
@@ -88,8 +89,6 @@ void set_bits(std::uint64_t* words, std::uint32_t first, std::uint32_t last) {
   for (std::uint32_t w = (first >> 6) + 1; w < last >> 6; ++w) words[w] = ~std::uint64_t{0};
   words[last >> 6] |= to;
 }
-
-}  // namespace
 
 BitMap boundary_map(const Outline& outline, const LocalGrid& local) {
   BitMap map(local.grid.columns, local.grid.rows);

@@ -29,6 +29,9 @@ struct LocalGrid {
   }
 };
 
+/// Sets the bits first..last of a row of a bit map.
+void set_bits(std::uint64_t* words, std::uint32_t first, std::uint32_t last);
+
 /// The boundary map (A.1.a, step 2 of A.3): along each edge one pixel for each column or row of
 /// centres that it passes, whichever are more, as Bresenham draws lines; and each vertex's own.
 ///

@@ -41,6 +41,8 @@ constexpr double a_little = 1e-9;
 /// between, and at least 1/2 along the row or column, as that pixel is not drawn: 1 / (2 sqrt 2).
 /// The difference of the distances is at most 3/2 - 1 / (2 sqrt 2).
 constexpr double beside_boundary = 1.1465;
+/// How far from the axis such a pixel may be, in pixels.
+constexpr double farthest = 1;
 
 }  // namespace
 
@@ -62,11 +64,11 @@ std::uint32_t Follower::label(Pixel p, std::uint32_t hint) {
   return known;
 }
 
-bool Follower::by_difference(Pixel p, double tolerance, Found& found) {
+bool Follower::by_difference(Pixel p, double tolerance, double away, Found& found) {
   const Vec2 c = local_.grid.center(p);
   found.radius = search_.distance_to(found.first, c);
   const Near second =
-      search_.second(c, {found.first, found.radius}, found.radius + tolerance, rule_);
+      search_.second(c, {found.first, found.radius}, found.radius + tolerance, rule_, away);
   if (second.edge == no_edge) return false;
   found.second = second.edge;
   found.quality = second.distance - found.radius;
@@ -100,7 +102,9 @@ bool Follower::by_crossing(Pixel p, Found& found) {
     }
   }
   if (found.second != no_edge) return true;
-  if (!beside || !by_difference(p, beside_boundary * local_.grid.step, found)) return false;
+  if (!beside ||
+      !by_difference(p, beside_boundary * local_.grid.step, farthest * local_.grid.step, found))
+    return false;
   found.quality += local_.grid.step;
   return true;
 }
@@ -112,7 +116,8 @@ bool Follower::check(Pixel p) {
   hint_ = found.first;
   const bool medial = rule_ == RidgeRule::crossing
                           ? by_crossing(p, found)
-                          : by_difference(p, (1 + a_little) * local_.grid.step, found);
+                          : by_difference(p, (1 + a_little) * local_.grid.step,
+                                          std::numeric_limits<double>::infinity(), found);
   if (!medial) return false;
   map_.add(found);
   waiting_.push_back(static_cast<std::uint32_t>(map_.found.size() - 1));

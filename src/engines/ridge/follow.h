@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "engines/ridge/digitize.h"
@@ -20,6 +21,7 @@ struct Found {
   double quality = 0;
   double radius = 0;                                ///< distance to the nearest edge
   std::uint32_t first = no_edge, second = no_edge;  ///< the nearest edge, and the other
+  bool is_pinned() const { return quality == -std::numeric_limits<double>::infinity(); }
 };
 
 /// All medial pixels found, in the order in which they were found, and by place.
@@ -36,6 +38,10 @@ struct MedialMap {
     medial.set(pixel.pixel);
   }
   const Found& at(raster::Pixel p) const { return found[place.at(p) - 1]; }
+  /// Keeps a medial pixel from going: better than all others.
+  void pin(raster::Pixel p) {
+    found[place.at(p) - 1].quality = -std::numeric_limits<double>::infinity();
+  }
   /// The places in `found` of all medial pixels, by increasing x within increasing y.
   std::vector<std::uint32_t> in_rows() const;
 };
@@ -69,7 +75,7 @@ class Follower {
  private:
   /// The pixel's nearest edge, found once.
   std::uint32_t label(raster::Pixel p, std::uint32_t hint);
-  bool by_difference(raster::Pixel p, double tolerance, Found& found);
+  bool by_difference(raster::Pixel p, double tolerance, double away, Found& found);
   bool by_crossing(raster::Pixel p, Found& found);
 
   const Outline& outline_;

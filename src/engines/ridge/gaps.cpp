@@ -85,7 +85,7 @@ void open_gaps(const InteriorSets& sets, const BitMap& boundary, MedialMap& map)
     return false;
   };
   for (const Found& found : map.found)
-    if (map.medial.at(found.pixel) && is_gap_beside(found.pixel))
+    if (!found.is_pinned() && map.medial.at(found.pixel) && is_gap_beside(found.pixel))
       walls.push_back({found.quality, found.pixel});
   std::sort(walls.begin(), walls.end(), [](const Wall& a, const Wall& b) {
     if (a.quality != b.quality) return a.quality > b.quality;

@@ -25,6 +25,15 @@ bool NearestEdges::is_another(Near first, std::uint32_t edge, RidgeRule rule) co
          !outline_.are_one(first.edge, edge, first.distance);
 }
 
+bool NearestEdges::is_seen(Vec2 c, Near first, Near other, double away) const {
+  if (away == std::numeric_limits<double>::infinity()) return true;
+  // |c + t u - x| = r + t for the unit vector u from the nearest foot to c.
+  const double r = first.distance, s = other.distance;
+  const Vec2 u = (1 / r) * (c - foot(outline_.edges[first.edge], c));
+  const Vec2 to = foot(outline_.edges[other.edge], c) - c;
+  return s * s - r * r <= 2 * away * (r + dot(u, to));
+}
+
 namespace {
 
 /// The report's search (A.6): all edges with lower bounds of their distances, kept sorted from
@@ -50,14 +59,15 @@ class SortedList final : public NearestEdges {
     return best;
   }
 
-  Near second(Vec2 c, Near first, double reach, RidgeRule rule) override {
+  Near second(Vec2 c, Near first, double reach, RidgeRule rule, double away) override {
     sort_for(c);
     Near best{no_edge, reach};
     for (const Bound& bound : list_) {
       if (exceeds(bound, best.distance)) break;
       if (!is_another(first, bound.edge, rule)) continue;
       ++distances;
-      take({bound.edge, distance_to(bound.edge, c)}, best);
+      const Near candidate{bound.edge, distance_to(bound.edge, c)};
+      if (is_seen(c, first, candidate, away)) take(candidate, best);
     }
     return best;
   }
@@ -130,14 +140,16 @@ class Tree final : public NearestEdges {
     return {hit.site, std::sqrt(hit.squared_distance)};
   }
 
-  Near second(Vec2 c, Near first, double reach, RidgeRule rule) override {
+  Near second(Vec2 c, Near first, double reach, RidgeRule rule, double away) override {
     constexpr double a_little_more = 1 + 0x1p-40;
     tree_.within(c, a_little_more * reach, 0, static_cast<std::uint32_t>(outline_.edges.size() - 1),
                  found_);
     Near best{no_edge, reach};
     for (const std::uint32_t edge : found_) {
       const double distance = distance_to(edge, c);
-      if (distance < best.distance && is_another(first, edge, rule)) best = {edge, distance};
+      if (distance < best.distance && is_another(first, edge, rule) &&
+          is_seen(c, first, {edge, distance}, away))
+        best = {edge, distance};
     }
     return best;
   }

@@ -26,8 +26,9 @@ class NearestEdges {
   /// The nearest edge; `hint` is any edge, better one that is near, or no_edge.
   virtual Near nearest(Vec2 c, std::uint32_t hint) = 0;
   /// The nearest among the edges nearer than `reach` that, after `first`, are another place of the
-  /// boundary by the given rule; no_edge where there is none.
-  virtual Near second(Vec2 c, Near first, double reach, RidgeRule rule) = 0;
+  /// boundary by the given rule, and with whose foot a disk that touches the nearest one too, on
+  /// the same ray, has its centre no farther from c than `away`; no_edge where there is none.
+  virtual Near second(Vec2 c, Near first, double reach, RidgeRule rule, double away) = 0;
 
   double distance_to(std::uint32_t edge, Vec2 c) const;
   std::uint64_t queries = 0;
@@ -35,6 +36,10 @@ class NearestEdges {
 
  protected:
   bool is_another(Near first, std::uint32_t edge, RidgeRule rule) const;
+  /// Whether the disk that touches both feet, the nearest one where c's disk does, has its centre
+  /// within `away` of c: then some point of the axis is. Feet behind the nearest one have no such
+  /// disk.
+  bool is_seen(Vec2 c, Near first, Near other, double away) const;
   const Outline& outline_;
 };
 

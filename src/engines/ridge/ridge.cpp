@@ -1,16 +1,20 @@
 #include "engines/ridge/ridge.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 
 #include "axis/pixel_graph.h"
 #include "base/frame.h"
 #include "base/stopwatch.h"
 #include "base/tolerance.h"
+#include "engines/ridge/bridges.h"
 #include "engines/ridge/digitize.h"
 #include "engines/ridge/follow.h"
 #include "engines/ridge/gaps.h"
 #include "engines/ridge/nearest.h"
+#include "engines/ridge/necks.h"
 #include "engines/ridge/outline.h"
 #include "engines/ridge/thin.h"
 
@@ -64,6 +68,13 @@ std::uint64_t find_first_pixels(const std::vector<Pixel>& seeds, const InteriorS
   return count;
 }
 
+/// The two sites on the sides of an edge of the axis, if they are two.
+std::array<std::uint32_t, 2> sites_of(const Outline& outline, std::uint32_t first,
+                                      std::uint32_t second) {
+  if (second == no_edge || outline.site[first] == outline.site[second]) return {no_site, no_site};
+  return {outline.site[first], outline.site[second]};
+}
+
 /// The pixels that are left, in the order of increasing x within increasing y.
 std::vector<MedialPixel> result_pixels(const Outline& outline, const Frame& frame,
                                        const MedialMap& map) {
@@ -72,12 +83,56 @@ std::vector<MedialPixel> result_pixels(const Outline& outline, const Frame& fram
   pixels.reserve(order.size());
   for (const std::uint32_t place : order) {
     const Found& found = map.found[place];
-    MedialPixel pixel{found.pixel, frame.inverse * found.radius, outline.component[found.first]};
-    if (found.second != no_edge && outline.site[found.first] != outline.site[found.second])
-      pixel.site = {outline.site[found.first], outline.site[found.second]};
-    pixels.push_back(pixel);
+    pixels.push_back({found.pixel, frame.inverse * found.radius, outline.component[found.first],
+                      sites_of(outline, found.first, found.second)});
   }
   return pixels;
+}
+
+/// Adds the axis in necks to that of pixels, and sorts all nodes by increasing x within increasing
+/// y.
+void add_bridges(const Bridges& bridges, const Outline& outline, const Frame& frame,
+                 const std::vector<MedialPixel>& pixels, MedialAxis& axis) {
+  if (bridges.points.empty() && bridges.links.empty()) return;
+  const auto first_point = static_cast<std::uint32_t>(axis.nodes.size());
+  for (const Bridges::Point& point : bridges.points)
+    axis.nodes.push_back({{frame.to_input(point.center), frame.inverse * point.radius},
+                          outline.component[point.first],
+                          NodeKind::leaf});
+  const auto node_of = [&](const Bridges::End& end) {
+    if (end.point != Bridges::End::none) return first_point + end.point;
+    const auto pixel = std::lower_bound(
+        pixels.begin(), pixels.end(), end.pixel, [](const MedialPixel& a, Pixel b) {
+          return a.pixel.row != b.row ? a.pixel.row < b.row : a.pixel.column < b.column;
+        });
+    return static_cast<std::uint32_t>(pixel - pixels.begin());
+  };
+  for (const auto& link : bridges.links) {
+    const Bridges::End& from = link[0].point != Bridges::End::none ? link[0] : link[1];
+    const Bridges::End& to = &from == &link[0] ? link[1] : link[0];
+    const bool is_point = from.point != Bridges::End::none;
+    const auto sites = is_point ? sites_of(outline, bridges.points[from.point].first,
+                                           bridges.points[from.point].second)
+                                : std::array{no_site, no_site};
+    add_link(axis, node_of(from), node_of(to), sites);
+  }
+  std::vector<std::uint32_t> order(axis.nodes.size()), place(axis.nodes.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t j) {
+    const Vec2 a = axis.nodes[i].disk.center, b = axis.nodes[j].disk.center;
+    if (a.y != b.y) return a.y < b.y;
+    return a.x != b.x ? a.x < b.x : i < j;
+  });
+  std::vector<Node> nodes;
+  nodes.reserve(order.size());
+  for (const std::uint32_t i : order) {
+    place[i] = static_cast<std::uint32_t>(nodes.size());
+    nodes.push_back(axis.nodes[i]);
+  }
+  axis.nodes = std::move(nodes);
+  for (Edge& edge : axis.edges)
+    for (std::uint32_t& node : edge.node) node = place[node];
+  set_node_kinds(axis);
 }
 
 }  // namespace
@@ -103,18 +158,25 @@ MedialAxis run(const Shape& shape, const Options& options, Report* report) {
   const raster::Grid grid = grid_for(box, options).value();
   const LocalGrid local(grid, frame);
   const Outline outline = outline_of(shape, frame, local.grid.step, options);
-  const raster::BitMap boundary = boundary_map(outline, local);
+  raster::BitMap boundary = boundary_map(outline, local);
   statistics.seconds_sites = watch.lap();
   const auto search = make_search(outline, options.ridge_search);
   statistics.seconds_tree = watch.lap();
 
-  const InteriorSets sets = interior_sets(outline, local, boundary);
+  InteriorSets sets = interior_sets(outline, local, boundary);
+  Necks necks = find_necks(outline, local, boundary, sets);
+  while (!necks.undrawn.empty()) {
+    for (const Pixel p : necks.undrawn) boundary.clear(p);
+    sets = interior_sets(outline, local, boundary);
+    necks = find_necks(outline, local, boundary, sets);
+  }
   Follower follower(outline, local, boundary, *search, options.ridge_rule, options.cancel);
   const std::uint64_t empty = find_first_pixels(seeds_of(outline, local, sets), sets, follower);
   statistics.seconds_connect = watch.lap();
   if (cancelled()) return axis;
 
   follower.follow();
+  const Bridges bridges = bridge_necks(necks, outline, local, sets, *search, follower);
   fill_gaps(sets, boundary, follower);
   statistics.seconds_walk = watch.lap();
   if (cancelled()) return axis;
@@ -124,13 +186,14 @@ MedialAxis run(const Shape& shape, const Options& options, Report* report) {
   if (options.ridge_rule == RidgeRule::difference)
     thin_by_report(boundary, map);
   else
-    thin_to_lines(boundary, map);
+    thin_to_lines(boundary, local.grid.step, map);
   open_gaps(sets, boundary, map);
   const double seconds_thin = watch.lap();
 
   axis.sites = result_sites(shape, frame, options);
   const std::vector<MedialPixel> pixels = result_pixels(outline, frame, map);
   link_pixels(grid, pixels, &boundary, axis);
+  add_bridges(bridges, outline, frame, pixels, axis);
   statistics.seconds_collect = seconds_thin + watch.lap();
   statistics.queries = search->queries;
   statistics.seconds = all.lap();
@@ -143,6 +206,9 @@ MedialAxis run(const Shape& shape, const Options& options, Report* report) {
                grid.rows,
                sets.count,
                empty,
+               necks.gates.size(),
+               necks.hidden,
+               necks.torn,
                found,
                pixels.size(),
                search->queries,

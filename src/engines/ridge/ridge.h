@@ -16,12 +16,14 @@ struct Report {
   double seconds_follow = 0;  ///< the rest of them
   double seconds_thin = 0;
   std::uint64_t columns = 0, rows = 0;
-  std::uint64_t sets = 0;        ///< bounded sets of interior pixels
-  std::uint64_t empty_sets = 0;  ///< without a medial pixel
-  std::uint64_t found = 0;       ///< medial pixels before thinning
-  std::uint64_t kept = 0;        ///< and after
-  std::uint64_t queries = 0;     ///< pixels whose nearest edge was sought
-  std::uint64_t distances = 0;   ///< computed by the sorted list
+  std::uint64_t sets = 0;              ///< bounded sets of interior pixels
+  std::uint64_t empty_sets = 0;        ///< without a medial pixel
+  std::uint64_t gates = 0;             ///< that the axis passes; see Necks
+  std::uint64_t hidden = 0, torn = 0;  ///< see Necks
+  std::uint64_t found = 0;             ///< medial pixels before thinning
+  std::uint64_t kept = 0;              ///< and after
+  std::uint64_t queries = 0;           ///< pixels whose nearest edge was sought
+  std::uint64_t distances = 0;         ///< computed by the sorted list
 };
 
 /// What the method cannot take of the options, if anything.

@@ -21,8 +21,10 @@ std::array<bool, 8> closed_neighbours(const raster::BitMap& medial, const raster
 /// later pixel counts as the worse.
 void thin_by_report(const raster::BitMap& boundary, MedialMap& map);
 
-/// All simple pixels go, the worst first, as often as it changes anything: lines of one pixel
-/// remain.
-void thin_to_lines(const raster::BitMap& boundary, MedialMap& map);
+/// All simple pixels go, the worst first, as often as it changes anything, as long as every pixel
+/// that the axis passes (its quality at most `step`, a pixel's side) stays or has a neighbour that
+/// stays: lines of one pixel remain, and of branches closer to each other than the grid tells apart
+/// as many as it takes.
+void thin_to_lines(const raster::BitMap& boundary, double step, MedialMap& map);
 
 }  // namespace medial::ridge
