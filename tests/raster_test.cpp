@@ -332,6 +332,21 @@ TEST(SmoothOutline, StaysSimpleAndNear) {
     expect_smooth_outline(random_image(30 + seed, 25, static_cast<int>(seed % 4), seed));
 }
 
+TEST(SmoothOutline, CoordinatesAreZeroOrNoMuchSmallerThanAPixel) {
+  // Along the image's own border offsets tend to 0, the further from the ends the more.
+  Image image(6, 600);
+  for (std::uint32_t y = 0; y < 600; ++y)
+    for (std::uint32_t x = 0; x < 6; ++x) image.set(x, y, x < 4 || (y > 20 && y < 30));
+  const auto contours = smooth_outline(image);
+  ASSERT_TRUE(contours.ok());
+  for (const Contour& contour : *contours)
+    for (const Vec2 p : contour.points) {
+      EXPECT_TRUE(p.x == 0 || std::abs(p.x) > 0x1p-42) << p.x;
+      EXPECT_TRUE(p.y == 0 || std::abs(p.y) > 0x1p-42) << p.y;
+    }
+  EXPECT_TRUE(build_shape(*approximate_by_arcs(*contours)).ok());
+}
+
 TEST(SmoothOutline, MakesStairsStraight) {
   // A long stripe of slope 1/7: away from its ends the curve has nearly no bend.
   Image image(240, 60);

@@ -67,7 +67,6 @@ int main(int count, char** words) {
       if (!axis) return 2;
       const double seconds = seconds_since(start);
       thinning = round == 0 ? seconds : std::min(thinning, seconds);
-      if (round == 0 && count > 4 && !medial::io::write_image(words[4], *axis, *file)) return 2;
     }
     const auto start = std::clock();
     if (!medial::distance_transform(file->image, distances)) return 2;
@@ -75,4 +74,8 @@ int main(int count, char** words) {
     measuring = round == 0 ? seconds : std::min(measuring, seconds);
   }
   std::printf("%.9g %.9g %ld\n", thinning, measuring, peak_bytes() - before);
+  if (what != "distance" && count > 4) {
+    const auto axis = medial::thin(file->image, fire);
+    if (!axis || !medial::io::write_image(words[4], *axis, *file)) return 2;
+  }
 }

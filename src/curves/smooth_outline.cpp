@@ -134,6 +134,12 @@ void keep_corners(std::vector<Crack>& cracks) {
   }
 }
 
+/// Cuts offsets to multiples of 2^-40 pixels: those that tend to 0 would end as numbers far too
+/// small for coordinates.
+void cut_digits(std::vector<Crack>& cracks) {
+  for (Crack& crack : cracks) crack.offset = std::trunc(0x1p40 * crack.offset) * 0x1p-40;
+}
+
 Contour contour_of(const std::vector<Crack>& cracks) {
   const std::size_t n = cracks.size();
   Contour contour;
@@ -163,6 +169,7 @@ Result<std::vector<Contour>> smooth_outline(const Image& image) {
       std::vector<Crack> cracks = cracks_of(image, ring);
       relax(cracks);
       keep_corners(cracks);
+      cut_digits(cracks);
       contours.push_back(contour_of(cracks));
     }
     return contours;

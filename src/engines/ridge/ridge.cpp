@@ -1,5 +1,7 @@
 #include "engines/ridge/ridge.h"
 
+#include <time.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -22,6 +24,24 @@ namespace medial::ridge {
 namespace {
 
 using raster::Pixel;
+
+/// Seconds of the thread's processor time since the last call.
+class ProcessorWatch {
+ public:
+  double lap() {
+    const double now = seconds(), passed = now - last_;
+    last_ = now;
+    return passed;
+  }
+
+ private:
+  static double seconds() {
+    timespec now{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+  }
+  double last_ = seconds();
+};
 
 /// For each set a pixel inside it: the report's own inner point where it lies in the set, otherwise
 /// the middle of the set's first run.
@@ -150,6 +170,8 @@ MedialAxis run(const Shape& shape, const Options& options, Report* report) {
   axis.method = "ridge";
   Statistics& statistics = axis.statistics;
   Stopwatch all, watch;
+  ProcessorWatch processor;
+  Report measured;
   const auto cancelled = [&] { return options.cancel != nullptr && options.cancel->load(); };
 
   const Box box = bounding_box(shape);
@@ -162,23 +184,28 @@ MedialAxis run(const Shape& shape, const Options& options, Report* report) {
   statistics.seconds_sites = watch.lap();
   const auto search = make_search(outline, options.ridge_search);
   statistics.seconds_tree = watch.lap();
+  measured.seconds_start = processor.lap();
 
   InteriorSets sets = interior_sets(outline, local, boundary);
+  measured.seconds_first = processor.lap();
   Necks necks = find_necks(outline, local, boundary, sets);
   while (!necks.undrawn.empty()) {
     for (const Pixel p : necks.undrawn) boundary.clear(p);
     sets = interior_sets(outline, local, boundary);
     necks = find_necks(outline, local, boundary, sets);
   }
+  measured.seconds_necks = processor.lap();
   Follower follower(outline, local, boundary, *search, options.ridge_rule, options.cancel);
   const std::uint64_t empty = find_first_pixels(seeds_of(outline, local, sets), sets, follower);
   statistics.seconds_connect = watch.lap();
+  measured.seconds_first += processor.lap();
   if (cancelled()) return axis;
 
   follower.follow();
   const Bridges bridges = bridge_necks(necks, outline, local, sets, *search, follower);
   fill_gaps(sets, boundary, follower);
   statistics.seconds_walk = watch.lap();
+  measured.seconds_follow = processor.lap();
   if (cancelled()) return axis;
 
   MedialMap& map = follower.map();
@@ -189,6 +216,7 @@ MedialAxis run(const Shape& shape, const Options& options, Report* report) {
     thin_to_lines(boundary, local.grid.step, map);
   open_gaps(sets, boundary, map);
   const double seconds_thin = watch.lap();
+  measured.seconds_thin = processor.lap();
 
   axis.sites = result_sites(shape, frame, options);
   const std::vector<MedialPixel> pixels = result_pixels(outline, frame, map);
@@ -197,22 +225,20 @@ MedialAxis run(const Shape& shape, const Options& options, Report* report) {
   statistics.seconds_collect = seconds_thin + watch.lap();
   statistics.queries = search->queries;
   statistics.seconds = all.lap();
-  if (report != nullptr)
-    *report = {statistics.seconds_sites + statistics.seconds_tree,
-               statistics.seconds_connect,
-               statistics.seconds_walk,
-               seconds_thin,
-               grid.columns,
-               grid.rows,
-               sets.count,
-               empty,
-               necks.gates.size(),
-               necks.hidden,
-               necks.torn,
-               found,
-               pixels.size(),
-               search->queries,
-               search->distances};
+  if (report != nullptr) {
+    measured.columns = grid.columns;
+    measured.rows = grid.rows;
+    measured.sets = sets.count;
+    measured.empty_sets = empty;
+    measured.gates = necks.gates.size();
+    measured.hidden = necks.hidden;
+    measured.torn = necks.torn;
+    measured.found = found;
+    measured.kept = pixels.size();
+    measured.queries = search->queries;
+    measured.distances = search->distances;
+    *report = measured;
+  }
   return axis;
 }
 

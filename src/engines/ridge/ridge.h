@@ -9,12 +9,14 @@
 
 namespace medial::ridge {
 
-/// What the report's experiments measure: the four phases of Section IV, and sizes.
+/// What the report's experiments measure: the four phases of Section IV, in seconds of the thread's
+/// processor time, and sizes.
 struct Report {
   double seconds_start = 0;   ///< digitising, vertex types, combining edges, lines
   double seconds_first = 0;   ///< inner points and first medial pixels
   double seconds_follow = 0;  ///< the rest of them
   double seconds_thin = 0;
+  double seconds_necks = 0;  ///< finding them, which is no part of the report's phases
   std::uint64_t columns = 0, rows = 0;
   std::uint64_t sets = 0;              ///< bounded sets of interior pixels
   std::uint64_t empty_sets = 0;        ///< without a medial pixel
