@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 
@@ -156,7 +157,10 @@ std::vector<Plot> report_plots(const std::vector<RidgeRow>& rows) {
   const auto positive = [](Points points, double shift) {
     std::erase_if(points, [](const auto& p) { return !(p.second > 0); });
     for (auto& p : points) p.first += shift;
-    std::erase_if(points, [](const auto& p) { return !(p.first > 0); });
+    // Above 20 every other one is enough on a logarithmic axis.
+    std::erase_if(points, [](const auto& p) {
+      return !(p.first > 0) || (p.first > 20 && std::fmod(p.first, 2) == 1);
+    });
     return points;
   };
   for (const Claim& claim : claims) {

@@ -177,6 +177,7 @@ class Painter {
       return;
     // Dots, as lines without length that have round ends: one short path for all.
     constexpr double diameter = 4.8;
+    cairo_save(cairo_);
     cairo_set_line_cap(cairo_, CAIRO_LINE_CAP_ROUND);
     cairo_set_line_width(cairo_, diameter);
     for (const auto& [x, y] : series.points) {
@@ -185,11 +186,11 @@ class Painter {
       cairo_line_to(cairo_, at_x, at_y);
     }
     cairo_stroke(cairo_);
-    cairo_set_line_cap(cairo_, CAIRO_LINE_CAP_BUTT);
+    cairo_restore(cairo_);
   }
 
-  /// A coordinate with few digits, for short files: to an eighth of a point.
-  static double shortened(double v) { return std::round(8 * v) / 8; }
+  /// A coordinate with few digits, for short files: to a quarter of a point.
+  static double shortened(double v) { return std::round(4 * v) / 4; }
 
   /// On the side of the plot where rising or falling curves leave room.
   void draw_legend(const Series& series, double y) {
