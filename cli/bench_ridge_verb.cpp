@@ -172,7 +172,7 @@ std::vector<Plot> report_plots(const std::vector<RidgeRow>& rows) {
         {}};
     for (const Way& way : ways)
       plot.series.push_back(
-          {way.name,
+          {plots.empty() ? way.name : "",  // the same in all plots
            positive(points_of(rows, claim.series, way, phases[claim.phase]), holes ? 1 : 0)});
     plots.push_back(std::move(plot));
   }

@@ -106,6 +106,7 @@ class Painter {
     for (const Series& series : plot_.series) {
       set(series.reference ? gray : colors[color++ % colors.size()]);
       draw_series(series);
+      if (series.name.empty()) continue;
       draw_legend(series, legend);
       legend += 1.4 * text_size;
     }
