@@ -354,10 +354,12 @@ void print_notes(const ShapeFile& file, const InputSwitches& input, const Common
 
 namespace {
 
-/// How far a sampled axis of an interior is from one part for each component and one cycle for each
-/// hole of its shape, by the Euler characteristic.
+/// How far an axis of pixels of an interior is from one part for each component and one cycle for
+/// each hole of its shape, by the Euler characteristic.
 std::uint64_t unresolved_in(const Shape& shape, const MedialAxis& axis) {
-  if (axis.resolution == 0 || axis.exterior > 0) return 0;
+  const bool pixels =
+      axis.method == name_of(Method::ridge) || axis.method == name_of(Method::brushfire);
+  if (!pixels || axis.exterior > 0) return 0;
   const auto count = [](std::size_t n) { return static_cast<std::int64_t>(n); };
   return static_cast<std::uint64_t>(std::abs(count(axis.nodes.size()) - count(axis.edges.size()) -
                                              count(shape.component_count()) +
