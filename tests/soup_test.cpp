@@ -295,6 +295,11 @@ TEST(Soup, EndsMayTouchEdges) {
   EXPECT_EQ(report.split_edges, 2u);
   EXPECT_TRUE(soup.lone_points.empty());
   EXPECT_EQ(fault_of(diagram_of({{{{0, 0}, {4, 0}}}, {{{2, 0}, {2, 3}}}, {{{1, 0}}}})), "");
+  // A point alone, too, where edges are noded.
+  const Soup noded =
+      soup_of({{{{0.35, 0.25}, {0.5, 0.25}}}, {{{0.46, 0.25}}}}, {.node_crossings = true});
+  EXPECT_EQ(noded.edges.size(), 2u);
+  EXPECT_TRUE(noded.lone_points.empty());
 }
 
 TEST(Soup, FacesAreNested) {

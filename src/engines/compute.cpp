@@ -320,6 +320,9 @@ Result<MedialAxis> run_around(const Shape& surroundings, const Options& options,
   return axis;
 }
 
+/// In tolerances: nearer points may be one for some disks.
+constexpr double told_apart = 16;
+
 /// Two points of a soup nearer to each other than `least`, as an error that says so; of several the
 /// first ones from the left. O(n log n) where points are not all of one place in x.
 std::optional<Error> too_close(const Soup& soup, double least) {
@@ -329,20 +332,24 @@ std::optional<Error> too_close(const Soup& soup, double least) {
     const Vec2 p = soup.points[a], q = soup.points[b];
     return p.x != q.x ? p.x < q.x : p.y < q.y;
   });
+  std::vector<std::size_t> column_end(order.size(), order.size());
+  for (std::size_t i = order.size(); i-- > 1;) {
+    const bool same = soup.points[order[i - 1]].x == soup.points[order[i]].x;
+    column_end[i - 1] = same ? column_end[i] : i;
+  }
   for (std::size_t i = 0; i < order.size(); ++i) {
     const Vec2 p = soup.points[order[i]];
     for (std::size_t j = i + 1; j < order.size(); ++j) {
       const Vec2 q = soup.points[order[j]];
       if (!(q.x - p.x < least)) break;
       if (!(distance(p, q) < least)) {
-        if (q.x == p.x) break;  // further up on the same vertical line
+        if (q.x == p.x) j = column_end[i] - 1;  // further up on the same vertical line
         continue;
       }
       const VertexSource source = soup.point_sources[order[j]];
-      Error error{
-          ErrorCode::unsupported,
-          "two points of a soup with edges are nearer to each other than rounding tells apart",
-          {}};
+      Error error{ErrorCode::unsupported,
+                  "two of the points are nearer to each other than rounding tells apart",
+                  {}};
       error.place.ring = source.ring;
       error.place.vertex = source.vertex;
       error.place.point = q;
@@ -359,7 +366,13 @@ Result<MedialAxis> axis_around(const Soup& soup, const Shape& surroundings,
   try {
     if (auto error = refuse(soup, options)) return std::move(*error);
     if (auto error = beyond_limits(surroundings)) return std::move(*error);
-    return on_threads(options.threads, [&] { return run_around(surroundings, options, true); });
+    auto axis =
+        on_threads(options.threads, [&] { return run_around(surroundings, options, true); });
+    if (!axis && axis.error().code == ErrorCode::internal)
+      if (auto reason = too_close(
+              soup, told_apart * tolerance_for(bounding_box(surroundings), options.tolerance)))
+        return std::move(*reason);
+    return axis;
   } catch (const std::bad_alloc&) {
     return Error{ErrorCode::out_of_memory, "memory ran out", {}};
   } catch (const std::exception& exception) {
@@ -374,7 +387,6 @@ Result<VoronoiDiagram> voronoi_diagram(const Soup& soup, const Options& options,
     auto box = frame_for(soup, options, frame);
     if (!box) return std::move(box).error();
     const Box far = voronoi::far_frame(*box);
-    constexpr double told_apart = 16;  // tolerances: nearer points may be one for some disks
     if (auto error = beyond_limits(soup, far)) return std::move(*error);
     Result<VoronoiDiagram> diagram = on_threads(options.threads, [&]() -> Result<VoronoiDiagram> {
       if (soup.edges.empty()) {

@@ -319,6 +319,13 @@ class ArcSweeper {
       status_.erase(status_.iterator_to(*block_[i]));
       unused_.push_back(block_[i]);
     }
+    if (starts_.empty() && block_.empty()) {
+      // Points alone have no piece that is compared with its neighbours.
+      for (const std::uint32_t vertex : group) {
+        if (lower) touch(*lower, vertex);
+        if (above != status_.end()) touch(*above, vertex);
+      }
+    }
     if (lower && above != status_.end()) return compare(*lower, *above);
     return std::nullopt;
   }
