@@ -222,6 +222,22 @@ TEST(LargestDisjointDisks, OfASquare) {
   for (std::size_t i = 5; i < 9; ++i) EXPECT_NEAR((*disks)[i].radius, root * root, 1e-11);
 }
 
+/// Strips so thin that what their first disk leaves is below the tolerance.
+TEST(LargestDisjointDisks, OfThinStripsAreRightOrRefused) {
+  for (const double width : {1e-3, 1e-5, 1e-6, 1e-8}) {
+    const std::vector<Ring> rings{{{{0, 0}, {10, 0}, {10, width}, {0, width}}}};
+    const auto shape = build_shape(rings);
+    ASSERT_TRUE(shape.ok());
+    const auto disks = largest_disjoint_disks(*shape, 3);
+    if (!disks) {
+      EXPECT_EQ(disks.error().code, ErrorCode::unsupported);
+      EXPECT_TRUE(disks.error().place.point.has_value());
+      continue;
+    }
+    for (const Disk& disk : *disks) EXPECT_NEAR(disk.radius, width / 2, 1e-9 * width);
+  }
+}
+
 TEST(LargestDisjointDisks, AgreeWithADenseGrid) {
   std::size_t compared = 0;
   for (std::uint64_t seed = 0; seed < test::shape_count(1000, 24) + 4; ++seed) {

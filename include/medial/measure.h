@@ -73,7 +73,9 @@ MeanWidth mean_width(const MedialAxis& axis, const AxisPath& path);
 /// The largest disk in the shape, the largest one in what is left besides it, and so on: at most
 /// `count` of them, by decreasing radius, without overlap. Each is the deepest disk of the axis of
 /// the shape less the disks before it, so it touches whatever it can: the boundary and disks.
-/// Disks smaller than `smallest` are left out. Errors: those of compute(); invalid_option.
+/// Disks smaller than `smallest` are left out. Errors: those of compute(); invalid_option; and
+/// unsupported, with the last disk's centre, where what a disk leaves of a shape some 1e5 times as
+/// long as wide is too thin for the tolerance.
 /// One computation of the axis of what the disk before has cut for each disk but the first, and one
 /// of the shape unless its axis, by an exact method, is given.
 Result<std::vector<Disk>> largest_disjoint_disks(const Shape& shape, std::size_t count,

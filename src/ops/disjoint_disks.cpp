@@ -90,8 +90,15 @@ Result<std::vector<Disk>> largest_disjoint_disks(const Shape& shape, std::size_t
     disks.push_back(part.deepest);
     part.rings.push_back(circle(part.deepest));
     if (disks.size() == count) break;
-    if (Status added = add_parts_of(part.rings, smallest, parts); !added)
-      return std::move(added).error();
+    if (Status added = add_parts_of(part.rings, smallest, parts); !added) {
+      // The shape itself was fine: what the disk leaves is at fault, which touches its sides.
+      Error error{ErrorCode::unsupported,
+                  "this disk leaves a region too thin for its next disk to be told from rounding",
+                  {}};
+      if (added.error().code == ErrorCode::out_of_memory) return std::move(added).error();
+      error.place.point = part.deepest.center;
+      return error;
+    }
   }
   return disks;
 }
