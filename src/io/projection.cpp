@@ -177,7 +177,8 @@ Status project_to_local(Dataset& dataset) {
   const Transformer transformation = transformer(geographic, local);
   const auto failed = [&messages](std::size_t feature) {
     return Error{ErrorCode::unsupported,
-                 fmt::format("a point or a curve cannot be projected: {}", messages.failure()),
+                 fmt::format("a point or a curve cannot be projected{}{}",
+                             messages.failure().empty() ? "" : ": ", messages.failure()),
                  in_feature(feature)};
   };
   if (!transformation) return failed(0);
