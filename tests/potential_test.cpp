@@ -219,8 +219,8 @@ TEST(Potential, AlwaysEndsWithAnAxisOrATypedError) {
   const int rounds = std::clamp(text == nullptr ? 80 : std::atoi(text) / 250, 8, 80);
   for (int i = 0; i < rounds; ++i) {
     const auto size = static_cast<std::int64_t>(random.power_of_ten(1, 5));
-    Rings rings = untangled(random, 4 + static_cast<int>(random.next() % 40), size);
-    if (i % 3 == 1) rings = jagged_star(5 + i % 30);
+    Rings rings = untangled(random, 4 + random.next() % 40, size);
+    if (i % 3 == 1) rings = jagged_star(static_cast<std::size_t>(5 + i % 30));
     if (i % 7 == 2) rings = needle(random.power_of_ten(-6, -1));
     if (i % 20 == 4) rings = slotted_disk(1);
     const auto shape = build_shape(rings);
