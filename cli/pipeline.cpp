@@ -402,13 +402,12 @@ Result<AxisFile> compute_axes(ShapeFile shapes, const std::string& path,
   for (io::NativeItem& item : file.native.items) {
     Statistics& part = item.axis.statistics;
     file.statistics += part;
+    file.unresolved += unresolved_in(item.shape, item.axis);
     // What differs from run to run is told by --stats and is no part of the file.
     part.threads = 1;
     part.seconds_sites = part.seconds_tree = part.seconds_connect = 0;
     part.seconds_walk = part.seconds_collect = part.seconds_exact = part.seconds = 0;
   }
-  for (const io::NativeItem& item : file.native.items)
-    file.unresolved += unresolved_in(item.shape, item.axis);
   if (file.unresolved > 0 && !common.quiet)
     fmt::print(stderr,
                "medial: {}: note: the grid does not tell apart {} of the shape's parts or holes; a "

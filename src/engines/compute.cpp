@@ -4,13 +4,13 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <optional>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
 #include "base/arc.h"
+#include "base/box_tree.h"
 #include "base/in_flight.h"
 #include "base/limits.h"
 #include "base/threads.h"
@@ -323,40 +323,32 @@ Result<MedialAxis> run_around(const Shape& surroundings, const Options& options,
 /// In tolerances: nearer points may be one for some disks.
 constexpr double told_apart = 16;
 
-/// Two points of a soup nearer to each other than `least`, as an error that says so; of several the
-/// first ones from the left. O(n log n) where points are not all of one place in x.
-std::optional<Error> too_close(const Soup& soup, double least) {
-  std::vector<std::uint32_t> order(soup.points.size());
-  std::iota(order.begin(), order.end(), 0U);
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    const Vec2 p = soup.points[a], q = soup.points[b];
-    return p.x != q.x ? p.x < q.x : p.y < q.y;
-  });
-  std::vector<std::size_t> column_end(order.size(), order.size());
-  for (std::size_t i = order.size(); i-- > 1;) {
-    const bool same = soup.points[order[i - 1]].x == soup.points[order[i]].x;
-    column_end[i - 1] = same ? column_end[i] : i;
+/// An internal error, if two points of the soup are nearer to each other than rounding tells apart,
+/// as an error that says so and names the first such point of the input. O(n log n).
+Error explained(Error error, const Soup& soup, double tolerance) {
+  if (error.code != ErrorCode::internal) return error;
+  const double least = told_apart * tolerance;
+  std::vector<Box> boxes;
+  boxes.reserve(soup.points.size());
+  for (const Vec2 p : soup.points) boxes.push_back({p, p + Vec2{least, least}});
+  const BoxTree tree(boxes);
+  for (std::uint32_t i = 0; i < soup.points.size(); ++i) {
+    const Vec2 p = soup.points[i];
+    bool too_close = false;
+    tree.find(boxes[i], [&](std::uint32_t j) {
+      too_close = too_close || (j < i && distance(p, soup.points[j]) < least);
+    });
+    if (!too_close) continue;
+    const VertexSource source = soup.point_sources[i];
+    error = {ErrorCode::unsupported,
+             "two of the points are nearer to each other than rounding tells apart",
+             {}};
+    error.place.ring = source.ring;
+    error.place.vertex = source.vertex;
+    error.place.point = p;
+    return error;
   }
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const Vec2 p = soup.points[order[i]];
-    for (std::size_t j = i + 1; j < order.size(); ++j) {
-      const Vec2 q = soup.points[order[j]];
-      if (!(q.x - p.x < least)) break;
-      if (!(distance(p, q) < least)) {
-        if (q.x == p.x) j = column_end[i] - 1;  // further up on the same vertical line
-        continue;
-      }
-      const VertexSource source = soup.point_sources[order[j]];
-      Error error{ErrorCode::unsupported,
-                  "two of the points are nearer to each other than rounding tells apart",
-                  {}};
-      error.place.ring = source.ring;
-      error.place.vertex = source.vertex;
-      error.place.point = q;
-      return error;
-    }
-  }
-  return std::nullopt;
+  return error;
 }
 
 }  // namespace
@@ -368,15 +360,12 @@ Result<MedialAxis> axis_around(const Soup& soup, const Shape& surroundings,
     if (auto error = beyond_limits(surroundings)) return std::move(*error);
     auto axis =
         on_threads(options.threads, [&] { return run_around(surroundings, options, true); });
-    if (!axis && axis.error().code == ErrorCode::internal)
-      if (auto reason = too_close(
-              soup, told_apart * tolerance_for(bounding_box(surroundings), options.tolerance)))
-        return std::move(*reason);
+    if (!axis)
+      return explained(std::move(axis).error(), soup,
+                       tolerance_for(bounding_box(surroundings), options.tolerance));
     return axis;
-  } catch (const std::bad_alloc&) {
-    return Error{ErrorCode::out_of_memory, "memory ran out", {}};
-  } catch (const std::exception& exception) {
-    return Error{ErrorCode::internal, exception.what(), {}};
+  } catch (...) {
+    return error_in_flight();
   }
 }
 
@@ -403,10 +392,8 @@ Result<VoronoiDiagram> voronoi_diagram(const Soup& soup, const Options& options,
         return Error{ErrorCode::internal, error.what(), {}};
       }
     });
-    if (!diagram && diagram.error().code == ErrorCode::internal)
-      if (auto reason = too_close(soup, told_apart * tolerance_for(far, options.tolerance)))
-        return std::move(*reason);
-    if (!diagram) return diagram;
+    if (!diagram)
+      return explained(std::move(diagram).error(), soup, tolerance_for(far, options.tolerance));
     diagram->statistics.threads = effective_threads(options.threads);
     if (options.progress) options.progress(1);
     return diagram;
