@@ -9,6 +9,7 @@
 
 #include "cli/bench_biarc.h"
 #include "cli/bench_brushfire.h"
+#include "cli/bench_curve_axis.h"
 #include "cli/bench_lee.h"
 #include "cli/bench_potential.h"
 #include "cli/bench_ridge.h"
@@ -320,7 +321,13 @@ Result<int> run_biarc(const BenchSwitches& switches) {
 }
 
 /// Files of shapes and the paper's regions; of each file the feature with the most vertices.
-Result<int> run_potential(const std::vector<std::string>& files, bool quiet) {
+Result<int> run_potential(const std::vector<std::string>& files, const std::string& figures,
+                          bool quiet) {
+  if (!figures.empty()) {
+    if (Status written = write_potential_figures(figures); !written)
+      return std::move(written).error();
+    return exit_success;
+  }
   std::vector<std::pair<std::string, Shape>> shapes = potential_regions();
   for (const std::string& path : files) {
     InputSwitches input;
@@ -445,18 +452,23 @@ Verb make_bench_verb(CLI::App& program) {
   auto files = std::make_shared<std::vector<std::string>>();
   potential->add_option("INPUT", *files, "Further shapes; of each file, the largest one.")
       ->option_text("");
+  auto figures = std::make_shared<std::string>();
+  potential->add_option("--figures", *figures, "Only write Fig. 13 into this directory, as SVG.")
+      ->option_text("DIRECTORY");
   potential->add_flag("--quiet,-q", switches->quiet, "No progress on standard error.");
   potential->footer("Example:\n  medial bench potential data/plan.wkt data/gear.wkt");
   const Verb ridge = add_ridge_bench(*verb);
   const Verb lee = add_lee_bench(*verb);
+  const Verb curve_axis = add_curve_axis_bench(*verb);
   auto accuracy = std::make_shared<AccuracySwitches>();
   const CLI::App* brushfire = add_accuracy(*verb, accuracy);
-  return {verb, [switches, files, potential, ridge, lee, accuracy, brushfire] {
+  return {verb, [switches, files, figures, potential, ridge, lee, curve_axis, accuracy, brushfire] {
             if (brushfire->parsed()) return run_accuracy(*accuracy);
-            return potential->parsed()   ? run_potential(*files, switches->quiet)
-                   : ridge.app->parsed() ? ridge.run()
-                   : lee.app->parsed()   ? lee.run()
-                                         : run_biarc(*switches);
+            return potential->parsed()        ? run_potential(*files, *figures, switches->quiet)
+                   : ridge.app->parsed()      ? ridge.run()
+                   : lee.app->parsed()        ? lee.run()
+                   : curve_axis.app->parsed() ? curve_axis.run()
+                                              : run_biarc(*switches);
           }};
 }
 

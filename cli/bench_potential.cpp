@@ -9,6 +9,7 @@
 
 #include "base/frame.h"
 #include "cli/axis_distance.h"
+#include "cli/figure.h"
 #include "cli/terminal.h"
 #include "engines/potential/region.h"
 #include "engines/potential/skeleton.h"
@@ -69,7 +70,9 @@ double crookedness(const MedialAxis& axis, double size) {
   return turns * 180 / std::numbers::pi / (total_length(axis) / size);
 }
 
-std::string orders_along_rectangle() {
+/// The adaptive order at each point of the rectangle's Newtonian skeleton but its corners, for the
+/// paper's theta_min of 2.56 degrees.
+std::vector<std::pair<Vec2, int>> orders_in_rectangle() {
   const Shape shape = potential_regions()[0].second;
   const Frame frame = frame_of(bounding_box(shape));
   const auto regions = potential::regions_of(shape, frame, 0.01, 1e-3);
@@ -78,20 +81,29 @@ std::string orders_along_rectangle() {
   tracing.step = 0.01 * regions[0].size;
   const auto skeleton = potential::trace_valleys(regions[0], charges, tracing);
   potential::Evaluator evaluator(charges);
-  std::vector<std::pair<double, int>> along;
+  std::vector<std::pair<Vec2, int>> orders_there;
   for (const auto& point : skeleton.points) {
-    const Vec2 p = frame.to_input(point.place);
-    if (point.radius == 0 || p.x > 10 || p.y > 5.001) continue;
+    if (point.radius == 0) continue;
     evaluator.place(point.place);
-    along.emplace_back(p.x, potential::adaptive_order(evaluator, std::acos(0.999),
-                                                      potential::most_searched_order));
+    orders_there.emplace_back(
+        frame.to_input(point.place),
+        potential::adaptive_order(evaluator, std::acos(0.999), potential::most_searched_order));
   }
+  return orders_there;
+}
+
+double exponent_of(int order) { return 0.5 * (order + 2); }
+
+std::string orders_along_rectangle() {
+  std::vector<std::pair<double, int>> along;
+  for (const auto& [p, order] : orders_in_rectangle())
+    if (p.x <= 10 && p.y <= 5.001) along.emplace_back(p.x, order);
   std::sort(along.begin(), along.end());
   std::string text = "| x | N | p = (N + 2) / 2 |\n| ---: | ---: | ---: |\n";
   double next = 0;
   for (const auto& [x, order] : along) {
     if (x < next) continue;
-    text += fmt::format("| {:.2f} | {} | {} |\n", x, order, 0.5 * (order + 2));
+    text += fmt::format("| {:.2f} | {} | {} |\n", x, order, exponent_of(order));
     next = x + 0.5;
   }
   return text;
@@ -117,6 +129,28 @@ std::vector<std::pair<std::string, Shape>> potential_regions() {
                              {-1, 15},
                              {-3, 12},
                              {3, 8}})}};
+}
+
+Status write_potential_figures(const std::string& directory) {
+  const auto to = make_directory(directory);
+  if (!to) return to.error();
+  const Shape shape = potential_regions()[0].second;
+  Figure figure(bounding_box(shape));
+  figure.ink();
+  figure.line(shape.points);
+  figure.line({shape.points.back(), shape.points.front()});
+  // As dense as the numbers can be read.
+  constexpr double apart = 0.75, largest_shown = 9;
+  std::vector<Vec2> shown = shape.points;
+  for (const auto& [p, order] : orders_in_rectangle()) {
+    if (std::any_of(shown.begin(), shown.end(),
+                    [&, q = p](Vec2 other) { return distance(q, other) < apart; }))
+      continue;
+    shown.push_back(p);
+    const double exponent = exponent_of(order);
+    figure.mark(p, exponent > largest_shown ? "x" : fmt::format("{:g}", exponent).c_str());
+  }
+  return figure.write(*to / "potential-fig13.svg");
 }
 
 PotentialReport run_potential_experiments(const std::vector<std::pair<std::string, Shape>>& shapes,

@@ -21,6 +21,9 @@ struct PotentialReport {
 PotentialReport run_potential_experiments(const std::vector<std::pair<std::string, Shape>>& shapes,
                                           const std::function<void(const std::string&)>& progress);
 
+/// Fig. 13 as an SVG file in a directory. Errors: unwritable.
+Status write_potential_figures(const std::string& directory);
+
 /// The paper's regions of Fig. 3: a rectangle, an L, and a shape like that of [20], Fig. 19.
 std::vector<std::pair<std::string, Shape>> potential_regions();
 

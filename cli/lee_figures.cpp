@@ -1,16 +1,13 @@
 // The figures of Lee's paper, drawn anew.
 
-#include <cairo-svg.h>
-
 #include <array>
 #include <cmath>
 #include <filesystem>
 #include <functional>
-#include <memory>
 
 #include "base/tolerance.h"
 #include "cli/bench_lee.h"
-#include "cli/plot.h"
+#include "cli/figure.h"
 #include "engines/lee/diagram.h"
 #include "engines/lee/merge.h"
 #include "geometry/bisector.h"
@@ -18,80 +15,6 @@
 
 namespace medial::cli {
 namespace {
-
-constexpr double width = 480, margin = 20;
-
-/// One figure: a part of the plane, drawn by Cairo.
-class Figure {
- public:
-  Figure(Box box) : box_(box) {
-    scale_ = (width - 2 * margin) / (box.high.x - box.low.x);
-    height_ = std::ceil((box.high.y - box.low.y) * scale_ + 2 * margin);
-    surface_.reset(cairo_svg_surface_create_for_stream(append, &text_, width, height_));
-    cairo_.reset(cairo_create(surface_.get()));
-    cairo_set_source_rgb(cairo_.get(), 1, 1, 1);
-    cairo_paint(cairo_.get());
-    cairo_set_line_cap(cairo_.get(), CAIRO_LINE_CAP_ROUND);
-    cairo_set_line_join(cairo_.get(), CAIRO_LINE_JOIN_ROUND);
-    cairo_rectangle(cairo_.get(), 1, 1, width - 2, height_ - 2);
-    cairo_clip(cairo_.get());
-  }
-
-  void pen(double red, double green, double blue, double line_width) {
-    cairo_set_source_rgb(cairo_.get(), red, green, blue);
-    cairo_set_line_width(cairo_.get(), line_width);
-  }
-  void ink() { pen(0.15, 0.15, 0.17, 1.2); }
-  void thin() { pen(0.6, 0.6, 0.63, 0.8); }
-  void line(const std::vector<Vec2>& points) {
-    cairo_new_path(cairo_.get());
-    for (const Vec2 p : points) {
-      const Vec2 at = place(p);
-      cairo_line_to(cairo_.get(), at.x, at.y);
-    }
-    cairo_stroke(cairo_.get());
-  }
-  void dot(Vec2 p) {
-    const Vec2 at = place(p);
-    cairo_new_path(cairo_.get());
-    cairo_arc(cairo_.get(), at.x, at.y, 2.8, 0, 4 * std::acos(0.0));
-    cairo_fill(cairo_.get());
-  }
-  void circle(const Disk& disk) {
-    const Vec2 at = place(disk.center);
-    cairo_new_path(cairo_.get());
-    cairo_arc(cairo_.get(), at.x, at.y, disk.radius * scale_, 0, 4 * std::acos(0.0));
-    cairo_stroke(cairo_.get());
-  }
-  void label(Vec2 p, const char* text) {
-    const Vec2 at = place(p);
-    cairo_set_font_size(cairo_.get(), 13);
-    cairo_move_to(cairo_.get(), at.x + 5, at.y - 5);
-    cairo_show_text(cairo_.get(), text);
-  }
-  Status write(const std::filesystem::path& path) {
-    cairo_.reset();
-    cairo_surface_finish(surface_.get());
-    return io::write_text(path.string(), text_);
-  }
-  const Box& box() const { return box_; }
-
- private:
-  static cairo_status_t append(void* text, const unsigned char* data, unsigned int size) {
-    static_cast<std::string*>(text)->append(reinterpret_cast<const char*>(data), size);
-    return CAIRO_STATUS_SUCCESS;
-  }
-  Vec2 place(Vec2 p) const {
-    return {margin + (p.x - box_.low.x) * scale_, height_ - margin - (p.y - box_.low.y) * scale_};
-  }
-
-  Box box_;
-  double scale_ = 1, height_ = 1;
-  std::string text_;
-  std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)> surface_{
-      nullptr, cairo_surface_destroy};
-  std::unique_ptr<cairo_t, decltype(&cairo_destroy)> cairo_{nullptr, cairo_destroy};
-};
 
 /// The components of a bisector in turn.
 void component_pen(Figure& figure, int which) {
@@ -379,10 +302,9 @@ Status figures_of_merge(const std::filesystem::path& directory) {
 }  // namespace
 
 Status write_lee_figures(const std::string& directory) {
-  std::error_code problem;
-  std::filesystem::create_directories(directory, problem);
-  if (problem) return error_at(ErrorCode::unwritable, directory, problem.message());
-  const std::filesystem::path to(directory);
+  const auto made = make_directory(directory);
+  if (!made) return made.error();
+  const std::filesystem::path& to = *made;
   using Draw = std::function<Status()>;
   for (const Draw& draw : {Draw([&] { return figure_of_point_and_segment(to / "lee-fig1.svg"); }),
                            Draw([&] { return figure_of_two_segments(to / "lee-fig2.svg"); }),

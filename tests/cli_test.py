@@ -1266,6 +1266,14 @@ class Bench(CommandLine):
         self.succeed("bench", "lee", "--figures", "figures")
         self.assertGreaterEqual(len(os.listdir(self.path("figures"))), 6)
 
+    def test_figures_of_axes(self):
+        for experiment, names in (
+            ("curve-axis", {f"curve-axis-fig{i}.svg" for i in "1 2 3 4 5a 5b 6 7a 7b 8 9a 9b".split()}),
+            ("potential", {"potential-fig13.svg"}),
+        ):
+            self.succeed("bench", experiment, "--figures", experiment)
+            self.assertEqual(set(os.listdir(self.path(experiment))), names)
+
     def test_outputs(self):
         quick = ("bench", "biarc", "--quick", "--tolerances", "1", "-q", "-o")
         for name, start in (("plots.svg", b"<?xml"), ("rows.csv", b"series,"), ("all.json", b"{")):

@@ -25,8 +25,13 @@ double between(double a, double b, double share) { return a + share * (b - a); }
 
 }  // namespace
 
-Control::Control(const SmoothBoundary& boundary, const CurveAxisOptions& options, double step)
-    : boundary_(boundary), options_(options), generator_(boundary, step), step_(step) {
+Control::Control(const SmoothBoundary& boundary, const CurveAxisOptions& options, double step,
+                 Observer observer)
+    : boundary_(boundary),
+      options_(options),
+      observer_(std::move(observer)),
+      generator_(boundary, step),
+      step_(step) {
   rules_.maxima = boundary.maxima().size();
 }
 
@@ -51,15 +56,7 @@ Status Control::run() {
   }
   // A branch that stopped before one that was taken back later may go on now.
   for (int round = 0; round < most_resumptions; ++round) {
-    std::vector<int> waiting;
-    if (any_ >= 0) {
-      int segment = any_;
-      do {
-        waiting.push_back(segment);
-        segment = at(segment).next;
-      } while (segment != any_);
-    }
-    for (const int segment : waiting) {
+    for (const int segment : in_use()) {
       if (cancelled()) return Error{ErrorCode::cancelled, "cancelled", {}};
       if (at(segment).next < 0) continue;  // merged or abandoned meanwhile
       ++rules_.resumed;
@@ -81,6 +78,17 @@ Status Control::run() {
   if (any_ >= 0) place.point = last(any_).right.point;
   return Error{ErrorCode::internal,
                "no branch reaches a part of the boundary: please report this shape", place};
+}
+
+std::vector<int> Control::in_use() const {
+  std::vector<int> all;
+  if (any_ < 0) return all;
+  int segment = any_;
+  do {
+    all.push_back(segment);
+    segment = at(segment).next;
+  } while (segment != any_);
+  return all;
 }
 
 bool Control::is_exhausted() const {
@@ -141,6 +149,7 @@ Control::Stop Control::grow(int segment) {
         continue;
       }
       ++rules_.retreats;
+      tell({Decision::Rule::retreat, segment, there.value_or(here), -1});
       return Stop::retreat;
     }
     // A maximum that a foot steps over, and whose circle is smaller than the disk: (10) fails
@@ -151,12 +160,14 @@ Control::Stop Control::grow(int segment) {
         continue;
       }
       ++rules_.retreats;
+      tell({Decision::Rule::retreat, segment, there.value_or(here), -1});
       return Stop::retreat;
     }
     const Vec2 c = there->disk.center;
     if (!(c.x >= boundary_.low().x && c.x <= boundary_.high().x && c.y >= boundary_.low().y &&
           c.y <= boundary_.high().y)) {
       ++rules_.outside_frame;
+      tell({Decision::Rule::outside_frame, segment, *there, -1});
       return Stop::frame;
     }
     bool joined = false;
@@ -173,6 +184,7 @@ Control::Stop Control::grow(int segment) {
       }
       if (active.disk.radius < old.disk.radius) {
         ++rules_.smaller;
+        tell({Decision::Rule::smaller, segment, active, contact->neighbour});
         shrink(contact->neighbour);
         continue;
       }
@@ -202,9 +214,16 @@ Control::Stop Control::grow(int segment) {
           distance(junction->disk.center, old.disk.center) <= reach(old, outer);
       if (!here_it_is) {
         ++rules_.larger;
+        tell({Decision::Rule::larger, segment, active, contact->neighbour});
         return Stop::conflict;
       }
       ++rules_.junctions;
+      if (observer_) {
+        AxisPoint third =
+            generator_.point_of(boundary_.at(junction->left), boundary_.at(junction->right));
+        third.disk = junction->disk;
+        tell({Decision::Rule::junction, segment, third, contact->neighbour});
+      }
       segment = join(segment, *contact, *junction);
       joined = true;
       break;
@@ -402,6 +421,7 @@ bool Control::end_in_tip(int segment, const AxisPoint& from) {
     const AxisPoint tip = generator_.at_maximum(u);
     if (distance(tip.disk.center, from.disk.center) > junction_reach * step_) continue;
     ++rules_.ends;
+    tell({Decision::Rule::end, segment, tip, -1});
     last_tip_ = tip;
     roots_ = {segment};
     return true;

@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 #include "engines/curve_axis/generate.h"
@@ -20,15 +21,30 @@ struct Segment {
   int next = -1;
 };
 
+class Control;
+
+/// A rule of the control process that is about to be carried out, for pictures of it.
+struct Decision {
+  enum class Rule { larger, smaller, junction, retreat, outside_frame, end };
+  Rule rule;
+  int active;          ///< the segment that grows
+  AxisPoint point;     ///< its next point; of a junction: the third branch's first one
+  int neighbour = -1;  ///< the older segment of a conflict
+};
+using Observer = std::function<void(const Control&, const Decision&)>;
+
 /// Section 5.2: decides where generations start, who wins a conflict, and when all is done.
 class Control {
  public:
-  Control(const SmoothBoundary& boundary, const CurveAxisOptions& options, double step);
+  Control(const SmoothBoundary& boundary, const CurveAxisOptions& options, double step,
+          Observer observer = {});
 
   /// Scans the whole boundary. Errors: cancelled, internal, too_large, unsupported (no maximum).
   Status run();
 
   const std::vector<Segment>& segments() const { return segments_; }
+  /// The segments in use, by increasing place along the boundary.
+  std::vector<int> in_use() const;
   /// After run(): the segments in which the axis came to its end, the last two of a meeting.
   const std::vector<int>& roots() const { return roots_; }
   /// The maximum in which the last branch ends; not for a meeting.
@@ -60,6 +76,9 @@ class Control {
   /// on the tip's first step, which is longer than others. The joined segment, or -1.
   int join_tip(int segment, const AxisPoint& here);
   void shrink(int segment);
+  void tell(const Decision& decision) const {
+    if (observer_) observer_(*this, decision);
+  }
   void unlink(int segment);
   void replace(int segment, int first, int last);
   bool steps_over_twist(const AxisPoint& from, const AxisPoint& to) const;
@@ -73,6 +92,7 @@ class Control {
 
   const SmoothBoundary& boundary_;
   const CurveAxisOptions& options_;
+  Observer observer_;
   Generator generator_;
   double step_;
   std::size_t points_ = 0;
