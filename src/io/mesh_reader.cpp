@@ -1,4 +1,4 @@
-// Triangle meshes, through Assimp.
+// Triangle meshes: OBJ and STL through Assimp, PLY and OFF by readers of their own.
 
 #include <fmt/format.h>
 
@@ -9,6 +9,8 @@
 #include <string_view>
 
 #include "io/format_name.h"
+#include "io/guarded.h"
+#include "io/mesh_tables.h"
 #include "io/place.h"
 #include "medial/io/mesh.h"
 
@@ -82,7 +84,8 @@ Result<TriangleMesh> read_by_assimp(const std::string& path) {
 #else
 
 Result<TriangleMesh> read_by_assimp(const std::string& path) {
-  return Error{ErrorCode::unsupported, "this program was built without meshes (MEDIAL_MESH)",
+  return Error{ErrorCode::unsupported,
+               "this program was built without Assimp (MEDIAL_MESH), which reads .obj and .stl",
                in_file(path)};
 }
 
@@ -104,13 +107,12 @@ Result<TriangleMesh> read_mesh(const std::string& path) {
   if (std::filesystem::is_directory(path, ignored) || !std::ifstream(path).good()) {
     return Error{ErrorCode::unreadable, "cannot be opened", in_file(path)};
   }
-  try {
-    return read_by_assimp(path);
-  } catch (const std::bad_alloc&) {
-    return Error{ErrorCode::out_of_memory, "memory ran out", in_file(path)};
-  } catch (const std::exception& problem) {
-    return Error{ErrorCode::malformed, problem.what(), in_file(path)};
-  }
+  return guarded(path, [&]() -> Result<TriangleMesh> {
+    if (extension != "ply" && extension != "off") return read_by_assimp(path);
+    auto source = TextSource::open(path);
+    if (!source) return std::move(source).error();
+    return extension == "ply" ? read_ply(**source) : read_off(**source);
+  });
 }
 
 }  // namespace medial::io

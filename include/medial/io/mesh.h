@@ -7,9 +7,10 @@
 
 namespace medial::io {
 
-/// Reads the triangles of a mesh through Assimp, by the extension of `path`: .obj .stl .ply .off.
-/// Polygons are cut into triangles. Assimp holds coordinates in single precision.
-/// Errors: unreadable, malformed, empty, unsupported (another format, or a build without Assimp).
+/// Reads the triangles of a mesh by the extension of `path`: .obj and .stl through Assimp, which
+/// holds coordinates in single precision; .ply and .off, also compressed by gzip inside, in double
+/// precision. Polygons are cut into triangles. Errors: unreadable, malformed, not_finite, empty,
+/// unsupported (another format, faces of more than 1,024 corners, or a build without Assimp).
 Result<TriangleMesh> read_mesh(const std::string& path);
 
 /// The extensions read_mesh() takes, for help texts.
