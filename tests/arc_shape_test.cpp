@@ -530,5 +530,31 @@ TEST(ArcCrossings, RandomDisksAreVerified) {
   }
 }
 
+// Shapes of few spacings of their coordinates.
+
+TEST(ArcShape, SoSmallFarAwayIsAShapeOrATypedError) {
+  constexpr double spacing = 0.125;  // of the coordinates
+  int shapes = 0;
+  for (std::uint64_t seed = 0; seed < 2000; ++seed) {
+    test::Random random(seed);
+    const double size = spacing * random.power_of_ten(0, 5);
+    const Vec2 far{random.between(-1e15, 1e15), 1e15};
+    Rings rings = test::bent(random, {test::regular_polygon(5, size)});
+    rings.push_back(circle({0, 0}, size * random.between(0.1, 0.8)));
+    for (Ring& ring : rings)
+      for (Vec2& p : ring.points) p = p + far;
+    const auto shape = build_shape(rings);
+    shapes += shape ? 1 : 0;
+    if (!shape) {
+      EXPECT_NE(shape.error().code, ErrorCode::internal) << seed;
+    }
+    if (size < 16 * spacing) {
+      ASSERT_FALSE(shape) << seed;
+      EXPECT_TRUE(shape.error().place.ring.has_value()) << seed;
+    }
+  }
+  EXPECT_GT(shapes, 200);
+}
+
 }  // namespace
 }  // namespace medial

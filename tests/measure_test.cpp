@@ -238,6 +238,20 @@ TEST(LargestDisjointDisks, OfThinStripsAreRightOrRefused) {
   }
 }
 
+/// A triangle of some sixty spacings of its coordinates: its axis is right, its disks are too
+/// coarse.
+TEST(LargestDisjointDisks, OfSmallShapesFarAwayAreRightOrRefused) {
+  constexpr double far = 1e15;
+  const std::vector<Ring> rings{{{{far, far}, {far + 8, far}, {far + 3, far + 8}}}};
+  const auto shape = build_shape(rings);
+  ASSERT_TRUE(shape.ok());
+  ASSERT_TRUE(largest_disjoint_disks(*shape, 1).ok());
+  const auto disks = largest_disjoint_disks(*shape, 5);
+  ASSERT_FALSE(disks.ok());
+  EXPECT_EQ(disks.error().code, ErrorCode::unsupported);
+  EXPECT_TRUE(disks.error().place.point.has_value());
+}
+
 TEST(LargestDisjointDisks, AgreeWithADenseGrid) {
   std::size_t compared = 0;
   for (std::uint64_t seed = 0; seed < test::shape_count(1000, 24) + 4; ++seed) {

@@ -107,9 +107,9 @@ double area(const Shape& shape);
 /// Without arcs, every decision is exact for the coordinates given. With arcs, no vertex lies
 /// exactly on one: then what comes within the tolerance (4e-15 of the diagonal, or two spacings of
 /// the largest coordinate) touches, vertices there become one, and edges touch inside too (tangent
-/// circles): both are split there. Joints that are smooth to rounding are nothing special.
-/// Errors: not_finite, too_few_points, no_area, crossing, overlap (the place names ring, vertex and
-/// the point), hole_outside, nested_outer, empty, too_large (2^30 points), out_of_memory.
+/// circles): both are split there. Unsupported: outlines with arcs below 1,024 tolerances in size.
+/// Errors: not_finite, too_few_points, no_area, crossing, overlap, unsupported (with ring, vertex
+/// and point), hole_outside, nested_outer, empty, too_large (2^30 points), out_of_memory.
 Result<Shape> build_shape(std::span<const Ring> rings, ShapeReport* report = nullptr);
 Result<Shape> build_shape(std::span<const Ring> rings, const ShapeOptions& options,
                           ShapeReport* report = nullptr);

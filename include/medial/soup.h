@@ -81,7 +81,7 @@ struct SoupReport {
 /// inside of an edge, which is split there. Without arcs every decision is exact for the
 /// coordinates given; with arcs, what comes within the tolerance touches, as in build_shape().
 /// Longer arcs than half circles are split; arcs that are straight to rounding become so. Errors:
-/// not_finite, crossing, overlap (the place names chain, vertex and the point), empty, too_large.
+/// not_finite, crossing, overlap, unsupported (with chain, vertex and point), empty, too_large.
 Result<Soup> build_soup(std::span<const Chain> chains, const SoupOptions& options = {},
                         SoupReport* report = nullptr);
 

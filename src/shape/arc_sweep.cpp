@@ -286,7 +286,7 @@ class ArcSweeper {
     auto above = first;
     for (; above != status_.end() && above->arc.right == point; ++above) block_.push_back(&*above);
     ActivePiece* below = first == status_.begin() ? nullptr : &*std::prev(first);
-    if (block_.size() != ends) return out_of_order(first, ends, point);
+    if (block_.size() != ends) return out_of_order(first, ends, group.front());
 
     if (block_.empty()) {
       for (const std::uint32_t vertex : group) {
@@ -350,13 +350,18 @@ class ArcSweeper {
 
   /// Other pieces lie between those that end here. With contacts that are still to be noded this is
   /// no wonder.
-  std::optional<Error> out_of_order(Status::iterator first, std::size_t ends, Vec2 point) {
+  std::optional<Error> out_of_order(Status::iterator first, std::size_t ends,
+                                    std::uint32_t vertex) {
+    const Vec2 point = outline_.points[vertex];
     if (!contacts_.empty() || !merges_.empty()) return pending();
     const ActivePiece& end = *first;
     for (auto other = first; ends > 0 && other != status_.end(); ++other) {
       if (other->arc.right != point) return crossing(end, *other, point);
     }
-    return error_without_place(ErrorCode::internal, "the sweep lost its order");
+    return error_at(
+        ErrorCode::unsupported,
+        "edges are too near to each other here for their order to be told from rounding",
+        noding_.edge_source(noded_.edges[vertex]), noding_.to_input(point));
   }
 
   /// Notes where two neighbours touch behind their common left end. Error if they cross or overlap.
@@ -514,6 +519,7 @@ Result<SweptArcs> sweep_arcs(const Outline& outline, bool node_crossings) {
   // Nearly always one round more than there are layers of contacts that hide each other.
   constexpr int most_rounds = 64;
   Noding noding(outline);
+  if (auto error = noding.too_small()) return std::move(*error);
   std::uint64_t crossings = 0;
   for (int round = 0; round < most_rounds; ++round) {
     NodedOutline noded = noding.monotone();

@@ -14,6 +14,10 @@
 namespace medial {
 namespace {
 
+/// In tolerances: outlines with arcs have to be larger. A tangency is known to the square root of
+/// the tolerance times the size, and has to be far smaller than that size.
+constexpr double least_size = 1 << 10;
+
 /// An angle of no meaning: edges and tangents of drawings are hardly ever upright after a turn by
 /// it.
 constexpr double turn = 0.5931;
@@ -38,12 +42,22 @@ Box box_of(const Outline& outline) {
 Noding::Noding(const Outline& outline) : begin_(outline.begin), open_(outline.open) {
   const Box box = box_of(outline);
   frame_ = frame_of(box);
+  size_ = frame_.scale * diagonal(box);
   tolerance_ = frame_.scale * tolerance_for(box, 0);
   nodes_.resize(outline.points.size());
   for (std::size_t v = 0; v < nodes_.size(); ++v) {
     const Vec2 point = outline.points[v];
     nodes_[v] = {point, to_local(point), outline.bulges[v], outline.sources[v], outline.sources[v]};
   }
+}
+
+std::optional<Error> Noding::too_small() const {
+  if (nodes_.empty() || size_ >= least_size * tolerance_) return std::nullopt;
+  return error_at(
+      ErrorCode::unsupported,
+      "the edges are too small against their coordinates to be told from rounding: move "
+      "them nearer to the origin",
+      nodes_[0].source, nodes_[0].original);
 }
 
 Vec2 Noding::to_local(Vec2 input) const {

@@ -43,6 +43,10 @@ class Noding {
  public:
   explicit Noding(const Outline& outline);
 
+  /// An error `unsupported` where all of the outline is so small against its coordinates that the
+  /// tolerance cannot tell its edges apart.
+  std::optional<Error> too_small() const;
+
   /// In local units.
   double tolerance() const { return tolerance_; }
   std::uint64_t split_edges() const { return split_edges_; }
@@ -76,7 +80,8 @@ class Noding {
   }
 
   Frame frame_;
-  double tolerance_ = 0;
+  double size_ = 0;       ///< the diagonal, in local units
+  double tolerance_ = 0;  ///< in local units
   std::uint64_t split_edges_ = 0;
   std::vector<Node> nodes_;
   std::vector<std::uint32_t> begin_;
