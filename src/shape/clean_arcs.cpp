@@ -33,7 +33,7 @@ class Cleaner {
     const double largest = std::max(
         {std::abs(box.low.x), std::abs(box.low.y), std::abs(box.high.x), std::abs(box.high.y)});
     rounding_ = largest * std::numeric_limits<double>::epsilon();
-    play_ = std::max(4 * rounding_, tolerance_for(box, 0) / 2);
+    play_ = std::max(4 * rounding_, tolerance_for(box, 0));
   }
 
   void run() {
@@ -155,11 +155,9 @@ class Cleaner {
     const std::size_t last = end < edges_.size() ? end : 0;
     const Vec2 start = edges_[begin].point;
     const Vec2 stop = edges_[last].point;
-    double angle = 0;
-    for (std::size_t i = begin; i < end; ++i) angle += 4 * std::atan(edges_[i].bulge);
     constexpr double pi = std::numbers::pi;
-    const double sign = angle > 0 ? 1 : -1;
-    angle = std::abs(angle);
+    const double sign = edges_[begin].bulge > 0 ? 1 : -1;
+    const double angle = angle_of_run(begin, end);
     if (end - begin == 1 || angle > 2 * pi * (1 + slack)) return keep();
     if (angle <= pi * (1 + slack) && start != stop) {
       const double bulge = sign * bulge_of_angle(angle);
@@ -209,6 +207,22 @@ class Cleaner {
     result.push_back(second);
   }
 
+  /// The angle that a run of arcs turns by: twice that between the chords to and from a vertex in
+  /// its inside. The arcs' own angles add up to it, too, but so do their errors; they say how many
+  /// times the run goes around.
+  double angle_of_run(std::size_t begin, std::size_t end) const {
+    constexpr double once_around = 2 * std::numbers::pi, same = 1e-6;
+    double sum = 0;
+    for (std::size_t i = begin; i < end; ++i) sum += 4 * std::atan(std::abs(edges_[i].bulge));
+    if (end - begin == 1) return sum;
+    const Vec2 start = edges_[begin].point, stop = edges_[end < edges_.size() ? end : 0].point;
+    const Vec2 inside = edges_[begin + (end - begin) / 2].point;
+    const Vec2 to = inside - start, from = stop - inside;
+    const double angle =
+        start == stop ? once_around : 2 * std::abs(std::atan2(cross(to, from), dot(to, from)));
+    return std::abs(angle - sum) <= same ? angle : sum;
+  }
+
   /// Whether all edges of a run lie on the arc, within the play: their ends and their middles.
   bool follows(const BulgeArc& whole, std::size_t begin, std::size_t end) const {
     const Vec2 normal = left_of(start_tangent(whole));
@@ -225,8 +239,7 @@ class Cleaner {
   std::vector<RingEdge>& edges_;
   ShapeReport& report_;
   double rounding_ = 0;  ///< the spacing of doubles at the largest coordinate, about
-  /// How far arcs may be off one circle and still become one: what half of the engine's tolerance
-  /// cannot tell apart.
+  /// How far arcs may be off one circle and still become one: what the tolerance cannot tell apart.
   double play_ = 0;
 };
 

@@ -103,6 +103,10 @@ struct Boundary {
 Boundary loops_boundary(const Shape& shape, const SiteNumbers& numbers, const Frame& frame,
                         bool two_sided = false);
 
+/// Whether all of the boundary is one loop of arcs that lie within `slack` of one circle. `box` is
+/// the boundary's. O(n), and mostly O(1) where it is not so.
+bool is_near_circle(const Boundary& boundary, const Box& box, double slack);
+
 /// The angle from one direction to another, clockwise, in [0, 2 pi).
 double clockwise_turn(Vec2 from, Vec2 to);
 

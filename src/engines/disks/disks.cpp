@@ -17,6 +17,11 @@ namespace medial::disks {
 
 namespace {
 
+/// Of a near-circle, whose arcs are within so many tolerances of one circle, the whole axis is some
+/// tolerances long: contacts are told apart to a share of the tolerance, which is still some
+/// roundings, and what that leaves of a tie is merged at the end.
+constexpr double near_circle = 1 << 12, share_in_near_circle = 0.25;
+
 /// The engine: sites, holes connected, tree, walk, graph. Cancelled, it stops where it is.
 Result<MedialAxis> run(const Shape& shape, const Options& options, bool two_sided) {
   MedialAxis axis;
@@ -30,11 +35,13 @@ Result<MedialAxis> run(const Shape& shape, const Options& options, bool two_side
   // Where the shape lies far from the origin, only going back there rounds: the walk knows its
   // coordinates better than the input's own spacing, to which ties are decided.
   const Box local{frame.to_local(box.low), frame.to_local(box.high)};
-  const double walk_tolerance = tolerance_for(local, options.tolerance);
+  double walk_tolerance = tolerance_for(local, options.tolerance);
   const double input_tolerance = frame.scale * axis.tolerance;
 
   SiteNumbers numbers = sites::number_sites(shape, frame, options.corner_angle);
   Boundary boundary = loops_boundary(shape, numbers, frame, two_sided);
+  if (is_near_circle(boundary, local, near_circle * walk_tolerance))
+    walk_tolerance *= share_in_near_circle;
   statistics.seconds_sites = watch.lap();
 
   const auto cancelled = [&] { return options.cancel != nullptr && options.cancel->load(); };
