@@ -73,18 +73,31 @@ TEST(CurveAxis, OfAnEllipseIsExact) {
   EXPECT_NEAR(farthest, 1.5, 1e-9);
 }
 
-/// Forty smooth shapes, and two that end with two maxima within a step of each other: the same
-/// leaves and branching nodes as the exact engine, both ways within 1e-6 of the size at a step of
-/// 1e-3, junctions within 1e-7; and every rule is applied.
+/// An island with a branch of one step, from a tip to a junction (Lake Huron, of size 100).
+Contour island() {
+  const std::vector<Vec2> corners{
+      {43.32046905, 80.40670922}, {21.63054772, 83.46445005}, {0, 73.15941814},
+      {1.02048389, 52.54935431},  {7.25100193, 34.03221018},  {4.13388749, 10.30874276},
+      {27.86106576, 0},           {53.62550096, 1.02048389},  {81.42719311, 8.26777497},
+      {100, 20.61377468},         {90.71174113, 38.11043491}, {76.27282173, 52.54935431},
+      {53.62550096, 63.93053288}};
+  auto contour = fit_smooth_contour(corners, 1);
+  EXPECT_TRUE(contour.ok());
+  return *contour;
+}
+
+/// Forty smooth shapes, two that end with two maxima within a step of each other, and an island:
+/// the same leaves and branching nodes as the exact engine, both ways within 1e-7 of the size at a
+/// step of 1e-3, junctions within 1e-7; and every rule is applied. The exact axes are of arcs
+/// within 1e-10: with 1e-9 they are up to 2.2e-7 off themselves, next to flat tips.
 TEST(CurveAxis, AgreesWithTheExactEngine) {
   CurveAxisRules applied;
   std::size_t compared = 0;
-  std::vector<std::uint64_t> seeds = {139, 293};
-  for (std::uint64_t seed = 0; seed < 40; ++seed) seeds.push_back(seed);
-  for (const std::uint64_t seed : seeds) {
-    SCOPED_TRACE(seed);
-    const Contour contour = smooth_star(seed);
-    const auto rings = approximate_by_arcs({&contour, 1}, {.tolerance = 1e-9});
+  std::vector<Contour> contours{island(), smooth_star(139), smooth_star(293)};
+  for (std::uint64_t seed = 0; seed < 40; ++seed) contours.push_back(smooth_star(seed));
+  for (const Contour& contour : contours) {
+    SCOPED_TRACE(&contour - contours.data());
+    const auto rings = approximate_by_arcs({&contour, 1}, {.tolerance = 1e-10});
     ASSERT_TRUE(rings.ok());
     const auto shape = build_shape(*rings);
     if (!shape) continue;  // it crosses itself
@@ -99,8 +112,8 @@ TEST(CurveAxis, AgreesWithTheExactEngine) {
     const AxisLocator on_exact(*exact), on_curve(result->axis);
     for (const Node& node : result->axis.nodes) {
       const AxisPoint nearest = on_exact.nearest(node.disk.center);
-      EXPECT_LE(nearest.distance, 2e-7 * size);
-      EXPECT_NEAR(nearest.disk.radius, node.disk.radius, 2e-6 * size);
+      EXPECT_LE(nearest.distance, 1e-7 * size);
+      EXPECT_NEAR(nearest.disk.radius, node.disk.radius, 1e-9 * size);
       if (node.kind != NodeKind::branching) continue;
       double junction = size;
       for (const Node& other : exact->nodes)
@@ -109,7 +122,9 @@ TEST(CurveAxis, AgreesWithTheExactEngine) {
       EXPECT_LE(junction, 1e-7 * size);
     }
     for (const Edge& edge : exact->edges)
-      EXPECT_LE(on_curve.nearest(disk_at(*exact, edge, 0.5).center).distance, 1e-6 * size);
+      EXPECT_LE(on_curve.nearest(disk_at(*exact, edge, 0.5).center).distance, 1e-7 * size);
+    for (const Edge& edge : result->axis.edges)
+      EXPECT_LE(on_exact.nearest(disk_at(result->axis, edge, 0.5).center).distance, 1e-7 * size);
   }
   EXPECT_GE(compared, 30U);
   EXPECT_GT(applied.skipped, 0U);
@@ -161,11 +176,12 @@ TEST(CurveAxis, TellsTheCurvaturesOfItsBoundary) {
   EXPECT_GT(checked, 100U);
 }
 
-/// The same of both sides of a spline, whose curvature is known at the feet.
-TEST(CurveAxis, TellsTheCurvaturesOfSplines) {
-  const Contour contour = smooth_star(8);
+/// The errors of (7), on both sides along a spline's axis, whose curvature is known at the feet.
+std::vector<double> curvature_errors(const Contour& contour) {
+  std::vector<double> errors;
   const auto result = compute_curve_axis({&contour, 1});
-  ASSERT_TRUE(result.ok());
+  EXPECT_TRUE(result.ok());
+  if (!result) return errors;
   // The foot as the axis tells it, and as index and parameter of the contour's piece.
   const auto curvature_at = [&](double u) {
     const auto whole = std::min(static_cast<std::size_t>(u), contour.pieces.size() - 1);
@@ -176,8 +192,6 @@ TEST(CurveAxis, TellsTheCurvaturesOfSplines) {
     const Vec2 second = 6 * (s * (p[2] - 2 * p[1] + p[0]) + t * (p[3] - 2 * p[2] + p[1]));
     return cross(first, second) / std::pow(norm(first), 3);
   };
-  std::size_t checked = 0;
-  std::vector<double> errors;
   for (const auto& points : result->branches) {
     MedialAxis one;
     one.method = "curve-axis";
@@ -191,8 +205,8 @@ TEST(CurveAxis, TellsTheCurvaturesOfSplines) {
       branch.steps.push_back({to - 1, true});
     }
     const std::vector<AxisFrame> frames = frames_along(one, branch);
-    ASSERT_EQ(frames.size() + 2, points.size());
-    for (std::size_t i = 8; i + 8 < frames.size(); ++i) {
+    EXPECT_EQ(frames.size() + 2, points.size());
+    for (std::size_t i = 0; i < frames.size(); ++i) {
       if (std::abs(frames[i].radius_rate) > 0.95) continue;  // the feet are nearly one
       for (const Side side : {Side::left, Side::right}) {
         const double wanted =
@@ -200,12 +214,20 @@ TEST(CurveAxis, TellsTheCurvaturesOfSplines) {
         const double found = boundary_at(frames[i], side).curvature;
         errors.push_back(std::abs(found - wanted) / std::max(1.0, std::abs(wanted)));
       }
-      ++checked;
     }
   }
-  ASSERT_GT(checked, 300U);
+  return errors;
+}
+
+TEST(CurveAxis, TellsTheCurvaturesOfSplines) {
+  std::vector<double> errors;
+  for (const std::uint64_t seed : {2U, 3U, 4U, 6U, 7U, 8U}) {
+    const std::vector<double> some = curvature_errors(smooth_star(seed));
+    errors.insert(errors.end(), some.begin(), some.end());
+  }
+  ASSERT_GT(errors.size(), 20000U);
   std::sort(errors.begin(), errors.end());
-  // The rest lies between knots less than seven nodes apart, where any seven see a jump.
+  // The rest lies where a foot is nearly in its centre of curvature, see docs/curve-axis.md.
   EXPECT_LE(errors[errors.size() * 98 / 100], 1e-6);
   EXPECT_LE(errors[errors.size() * 9 / 10], 1e-8);
 }

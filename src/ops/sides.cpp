@@ -95,9 +95,18 @@ double roughness(std::span<const Disk* const> disks) {
   return std::hypot(values[0][0], values[0][1], values[0][2]);
 }
 
-/// The frames at the inner nodes of a branch whose nodes are exact, from seven nodes each: the
-/// three on both sides; before its ends, and where others are smoother by far, as many on one side
-/// as that takes: differences across a jump of the third derivative are off by the step times it.
+/// How much a run's roughness weighs at its disk `at`: the product of the ways from there to the
+/// others, the factor of the error of polynomials, least in the middle.
+double weight_at(std::span<const Disk* const> disks, std::size_t at) {
+  double product = 1;
+  for (std::size_t k = 0; k < disks.size(); ++k)
+    if (k != at) product *= distance(disks[k]->center, disks[at]->center);
+  return product;
+}
+
+/// The frames at the inner nodes of a branch whose nodes are exact, from seven nodes each: those
+/// around it whose roughness weighs least, for differences across a jump of the third derivative
+/// are off by the step times it.
 std::vector<AxisFrame> frames_of_exact_nodes(const MedialAxis& axis, const Branch& branch) {
   std::vector<const Disk*> disks = {&axis.nodes[branch.from].disk};
   for (const Step& step : branch.steps) {
@@ -110,15 +119,21 @@ std::vector<AxisFrame> frames_of_exact_nodes(const MedialAxis& axis, const Branc
   std::vector<double> rough(count - width + 1);
   for (std::size_t first = 0; first < rough.size(); ++first)
     rough[first] = roughness(std::span(disks.data() + first, width));
-  constexpr double far_smoother = 0.01;
+  // Roughness tells of errors by their size only.
+  constexpr double far_less = 0.3;
   for (std::size_t i = 1; i + 1 < count; ++i) {
-    std::size_t first = std::min(i > aside ? i - aside : 0, count - width);
-    const std::size_t lowest = i + 1 > width ? i + 1 - width : 0;
-    const auto smoothest = std::min_element(
-        rough.begin() + static_cast<std::ptrdiff_t>(lowest),
-        rough.begin() + static_cast<std::ptrdiff_t>(std::min(i + 1, rough.size())));
-    if (*smoothest < far_smoother * rough[first])
-      first = static_cast<std::size_t>(smoothest - rough.begin());
+    const std::size_t middle = std::min(i > aside ? i - aside : 0, count - width);
+    const auto error_of = [&](std::size_t from) {
+      return rough[from] * weight_at(std::span(disks.data() + from, width), i - from);
+    };
+    std::size_t first = middle;
+    double least = far_less * error_of(middle);
+    for (std::size_t from = i + 1 > width ? i + 1 - width : 0; from < std::min(i + 1, rough.size());
+         ++from) {
+      const double error = error_of(from);
+      if (error < least) first = from;
+      least = std::min(least, error);
+    }
     const std::span<const Disk* const> near(disks.data() + first, width);
     frames.push_back(frame_of(*disks[i], through(near, i - first), 0));
   }

@@ -109,7 +109,7 @@ bool Control::is_scanned(double u) const {
 
 int Control::start(double maximum) {
   const int created = static_cast<int>(segments_.size());
-  segments_.push_back({{generator_.at_maximum(maximum)}, -1, -1, created, created});
+  segments_.push_back({{generator_.at_maximum(maximum)}, -1, -1, 0, created, created});
   if (any_ < 0) {
     any_ = created;
     return created;
@@ -278,7 +278,7 @@ int Control::join(int segment, const Contact& contact, const Generator::Junction
   const int first = contact.on_right ? segment : contact.neighbour;
   const int second = contact.on_right ? contact.neighbour : segment;
   const int before = at(first).previous, after = at(second).next;
-  segments_.push_back({{point}, first, second, before, after});
+  segments_.push_back({{point}, first, second, junction.middle, before, after});
   if (before == second) {  // there were only these two
     at(created).previous = at(created).next = created;
   } else {

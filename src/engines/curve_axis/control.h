@@ -17,6 +17,7 @@ struct Segment {
   std::vector<AxisPoint> branch;  ///< the first one is the maximum's or the junction's
   int first_child = -1;           ///< of a junction: the segment whose boundary comes first
   int second_child = -1;
+  double middle = 0;  ///< of a junction: the foot that its children share
   int previous = -1;  ///< neighbours along the boundary, among the segments in use
   int next = -1;
 };

@@ -1,6 +1,8 @@
 #include "medial/curve_axis.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "base/in_flight.h"
 #include "engines/curve_axis/control.h"
@@ -24,13 +26,45 @@ Disk control_between(const AxisPoint& a, const AxisPoint& b) {
   return {a.disk.center + ahead * a.tangent, radius};
 }
 
+/// Between two points the graph's quadratic is off by less than this share of the size.
+constexpr double between_points = 1e-8;
+/// Points farther apart than so many steps get others in between.
+constexpr double longest_step = 1.5;
+/// So do points between which the boundary turns by more, in radians: next to tips the axis's own
+/// scale is the way to the tip.
+constexpr double largest_turn = 0.0125;
+/// Points much nearer to each other than their neighbours add rounding to differences, little else.
+constexpr double shortest_step = 0.25;
+/// The least number of ways between points on a smooth run: frames_along() takes seven points.
+constexpr std::size_t smooth_run = 6;
+/// How often the way between two points of the generation is halved at most.
+constexpr int most_halvings = 12;
+/// What first points after a tip are sought with: see Generator::first_after().
+constexpr double largest_tip_turn = 0.05, least_tip_turn = 1e-4;
+
+/// How far a point of the axis between a and b lies from the quadratic that joins them, in the
+/// plane or in its radius.
+double distance_to_quadratic(const AxisPoint& a, const AxisPoint& b, const Disk& between) {
+  const Disk control = control_between(a, b);
+  const Vec2 chord = b.disk.center - a.disk.center;
+  const double length = norm(chord);
+  const auto along = [&](Vec2 p) { return dot(p - a.disk.center, chord) / length; };
+  // 2 t (1 - t) c + t^2 length = p
+  const double c = along(control.center), p = along(between.center);
+  const double t = p / (c + std::sqrt(std::max(0.0, c * c + (length - 2 * c) * p)));
+  const double u = 1 - t, two = 2 * t * u;
+  const Vec2 center = u * u * a.disk.center + two * control.center + t * t * b.disk.center;
+  const double radius = u * u * a.disk.radius + two * control.radius + t * t * b.disk.radius;
+  return std::max(distance(center, between.center), std::abs(radius - between.radius));
+}
+
 /// The segments' branches as a graph and as lists of points.
 class Assembly {
  public:
-  Assembly(const SmoothBoundary& boundary, const Control& control)
-      : boundary_(boundary), control_(control) {}
+  Assembly(const SmoothBoundary& boundary, const Control& control, double step)
+      : boundary_(boundary), control_(control), generator_(boundary, step), step_(step) {}
 
-  CurveAxis take(double step) {
+  CurveAxis take() {
     const std::vector<int>& roots = control_.roots();
     if (control_.last_tip()) {
       add(roots[0], node_of(*control_.last_tip()), *control_.last_tip());
@@ -40,9 +74,7 @@ class Assembly {
       const std::uint32_t node = node_of(meeting);
       add(roots[0], node, meeting);
       AxisPoint backwards = meeting;
-      backwards.tangent = -meeting.tangent;
-      backwards.radius_rate = -meeting.radius_rate;
-      std::swap(backwards.left, backwards.right);
+      turn_round(backwards, 0);
       add(roots[1], node, backwards);
     }
     while (!waiting_.empty()) {
@@ -51,7 +83,7 @@ class Assembly {
       add(next.segment, next.node, next.end);
     }
     result_.rules = control_.rules();
-    finish(step);
+    finish();
     return std::move(result_);
   }
 
@@ -71,71 +103,177 @@ class Assembly {
   /// A segment's branch from its first point to a node that is there already.
   void add(int index, std::uint32_t end_node, const AxisPoint& end) {
     const Segment& from = segment(index);
+    std::vector<AxisPoint> points;
+    for (const AxisPoint& point : from.branch)
+      if (!(point.disk.center == end.disk.center)) points.push_back(point);
+    points.push_back(end);
+    points = refined(points);
     std::vector<CurveAxisPoint> list;
-    std::uint32_t before = 0;
-    const AxisPoint* previous = nullptr;
-    const auto append = [&](const AxisPoint& point, std::uint32_t node) {
+    std::uint32_t before = 0, first = end_node;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const AxisPoint& point = points[i];
+      const std::uint32_t node = i + 1 == points.size() ? end_node : node_of(point);
       double length = 0;
-      if (previous != nullptr) {
-        length = list.back().length + distance(previous->disk.center, point.disk.center);
+      if (i == 0) {
+        first = node;
+      } else {
+        length = list.back().length + distance(points[i - 1].disk.center, point.disk.center);
         result_.axis.edges.push_back(
-            {{before, node}, {no_site, no_site}, control_between(*previous, point), 1});
+            {{before, node}, {no_site, no_site}, control_between(points[i - 1], point), 1});
       }
       list.push_back({length, point.disk, boundary_.above(point.left.u, 0),
                       boundary_.above(point.right.u, 0)});
       before = node;
-      previous = &point;
-    };
-    for (const AxisPoint& point : from.branch)
-      if (!(point.disk.center == end.disk.center)) append(point, node_of(point));
-    const std::uint32_t first =
-        list.empty() ? end_node : before - static_cast<std::uint32_t>(list.size() - 1);
-    append(end, end_node);
+    }
     if (list.size() > 1) result_.branches.push_back(std::move(list));
     if (from.first_child < 0) return;
     const AxisPoint& junction = from.branch.front();
-    for (const int child : {from.first_child, from.second_child})
-      waiting_.push_back({child, first, seen_from(child, junction)});
+    waiting_.push_back({from.first_child, first, seen_between(junction, false, from.middle)});
+    waiting_.push_back({from.second_child, first, seen_between(junction, true, from.middle)});
   }
 
-  /// A junction as the end of one of its two older branches: with that branch's feet and direction.
-  AxisPoint seen_from(int child, const AxisPoint& junction) const {
-    const AxisPoint& last = segment(child).branch.back();
-    // It shares one foot with the third branch; the other one is the middle foot.
-    AxisPoint out = junction;
-    const double n = boundary_.period();
-    const auto apart = [&](double a, double b) {
-      return std::abs(a - b - n * std::round((a - b) / n));
+  /// A branch with more points, where the generation's are too few for quadratics between them, and
+  /// one where a foot passes from one piece of the boundary to the next: there the axis's third
+  /// derivative jumps. Between two of those are enough for differences that cross none.
+  std::vector<AxisPoint> refined(const std::vector<AxisPoint>& points) const {
+    std::vector<AxisPoint> out{points.front()};
+    std::vector<AxisPoint> run{points.front()};
+    const auto end_run = [&] {
+      int halvings = 0;
+      while ((run.size() - 1) << halvings < smooth_run) ++halvings;
+      for (std::size_t i = 0; i + 1 < run.size(); ++i) {
+        halve(run[i], run[i + 1], 0, halvings, out);
+        out.push_back(run[i + 1]);
+      }
+      run = {run.back()};
     };
-    const bool keeps_left =
-        apart(last.left.u, junction.left.u) <= apart(last.right.u, junction.right.u);
-    if (keeps_left) {
-      out.right = foot_beside(last.right.u, junction.disk);
-    } else {
-      out.left = foot_beside(last.left.u, junction.disk);
+    for (std::size_t i = 1; i < points.size(); ++i) {
+      const AxisPoint& next = points[i];
+      const double near = shortest_step * distance(points[i - 1].disk.center, next.disk.center);
+      const auto is_near = [&](const AxisPoint& a, const AxisPoint& b) {
+        return distance(a.disk.center, b.disk.center) < near;
+      };
+      AxisPoint here = points[i - 1];
+      while (const auto joint = next_joint(here, next)) {
+        here = *joint;
+        if (run.size() > 1 && is_near(run.back(), here)) run.pop_back();
+        if (is_near(run.back(), here) || is_near(here, points.back())) continue;
+        run.push_back(here);
+        end_run();
+      }
+      if (i + 1 < points.size() && run.size() == 1 && is_near(run.back(), next)) continue;
+      run.push_back(next);
     }
-    const Vec2 chord = out.left.point - out.right.point;
-    out.tangent = (1 / norm(chord)) * -left_of(chord);
-    out.radius_rate =
-        dot(junction.disk.center - midpoint(out.left.point, out.right.point), out.tangent) /
-        junction.disk.radius;
+    end_run();
     return out;
   }
 
-  /// Where a disk touches the boundary next to u: a few of Newton's steps.
-  BoundaryPoint foot_beside(double u, const Disk& disk) const {
-    for (int round = 0; round < 8; ++round) {
-      const BoundaryPoint p = boundary_.at(u);
-      const Vec2 d = disk.center - p.point;
-      u += dot(d, p.tangent) / ((1 - p.curvature * dot(d, p.normal())) * p.speed);
+  /// The first point after a and before b with a foot where two pieces join.
+  std::optional<AxisPoint> next_joint(const AxisPoint& a, const AxisPoint& b) const {
+    const double left = left_of_end(a, b), right = right_of_end(a, b);
+    const double left_joint = std::ceil(a.left.u) - 1, right_joint = std::floor(a.right.u) + 1;
+    std::optional<AxisPoint> by_left, by_right;
+    if (left_joint > left) {
+      const double share = (a.left.u - left_joint) / (a.left.u - left);
+      by_left = generator_.with_left(left_joint, a.right.u + share * (right - a.right.u));
+      if (!is_between(by_left, a, b)) by_left = {};
     }
-    return boundary_.at(u);
+    if (right_joint < right) {
+      const double share = (right_joint - a.right.u) / (right - a.right.u);
+      by_right = generator_.with_right(a.left.u + share * (left - a.left.u), right_joint);
+      if (!is_between(by_right, a, b)) by_right = {};
+    }
+    return by_left && by_right ? (by_left->right.u < by_right->right.u ? by_left : by_right)
+           : by_left           ? by_left
+                               : by_right;
   }
 
-  void finish(double step) {
+  /// The feet of b in the turn of the boundary that leads there from a.
+  double left_of_end(const AxisPoint& a, const AxisPoint& b) const {
+    return -boundary_.above(-b.left.u, -a.left.u);
+  }
+  double right_of_end(const AxisPoint& a, const AxisPoint& b) const {
+    return boundary_.above(b.right.u, a.right.u);
+  }
+
+  /// Whether a point lies on the way from a to b.
+  bool is_between(const std::optional<AxisPoint>& p, const AxisPoint& a, const AxisPoint& b) const {
+    const double most = longest_step * distance(a.disk.center, b.disk.center);
+    return p && p->left.u < a.left.u && p->left.u > left_of_end(a, b) && p->right.u > a.right.u &&
+           p->right.u < right_of_end(a, b) && p->disk.radius > 0 &&
+           distance(p->disk.center, a.disk.center) <= most &&
+           distance(p->disk.center, b.disk.center) <= most;
+  }
+
+  /// Appends points between a and b until the quadratics are as near to the axis as told, but at
+  /// least so many times halved. Where none is found the way stays as it is.
+  void halve(const AxisPoint& a, const AxisPoint& b, int done, int wanted,
+             std::vector<AxisPoint>& out) const {
+    if (done == most_halvings) return;
+    const auto middle = point_between(a, b);
+    if (!middle) return;
+    const bool is_short = distance(a.disk.center, b.disk.center) <= longest_step * step_ &&
+                          std::abs(cross(a.left.tangent, b.left.tangent)) <= largest_turn &&
+                          std::abs(cross(a.right.tangent, b.right.tangent)) <= largest_turn;
+    if (done >= wanted && is_short &&
+        distance_to_quadratic(a, b, middle->disk) <= between_points * boundary_.size())
+      return;
+    halve(a, *middle, done + 1, wanted, out);
+    out.push_back(*middle);
+    halve(*middle, b, done + 1, wanted, out);
+  }
+
+  /// A point of the axis about half way from a to b.
+  std::optional<AxisPoint> point_between(const AxisPoint& a, const AxisPoint& b) const {
+    const double left = left_of_end(a, b), right = right_of_end(a, b);
+    // Feet at a tip part like the root of the way.
+    const bool from_tip = a.left.u == a.right.u, to_tip = b.left.u == b.right.u;
+    const double share = from_tip ? std::numbers::sqrt2 / 2
+                         : to_tip ? 1 - std::numbers::sqrt2 / 2
+                                  : 0.5;
+    auto middle = generator_.stabilised(a.left.u + share * (left - a.left.u),
+                                        a.right.u + share * (right - a.right.u));
+    if (is_between(middle, a, b)) return middle;
+    // The feet's ways differ too much for that: a step from one end.
+    if (!from_tip && !to_tip)
+      middle = Generator(boundary_, distance(a.disk.center, b.disk.center) / 2).next(a);
+    if (from_tip)
+      for (double turn = largest_tip_turn; turn > least_tip_turn && !is_between(middle, a, b);
+           turn /= 2)
+        middle = generator_.first_after(a, turn);
+    if (to_tip)
+      for (double turn = largest_tip_turn; turn > least_tip_turn && !is_between(middle, a, b);
+           turn /= 2) {
+        AxisPoint tip = b;
+        tip.left.u = tip.right.u = right;
+        middle = generator_.first_after(tip, turn);
+        if (middle) turn_round(*middle, left - right);
+      }
+    return is_between(middle, a, b) ? middle : std::nullopt;
+  }
+
+  /// The same point, seen along the axis in the other direction; its left foot's parameter is moved
+  /// by some turns of the boundary.
+  static void turn_round(AxisPoint& point, double turns) {
+    std::swap(point.left, point.right);
+    point.left.u += turns;
+    point.tangent = -point.tangent;
+    point.radius_rate = -point.radius_rate;
+  }
+
+  /// A junction as the end of one of its two older branches: with that branch's feet, of which the
+  /// middle one is the right or the left one, and with its direction.
+  AxisPoint seen_between(const AxisPoint& junction, bool is_second, double middle) const {
+    AxisPoint out = generator_.point_of(is_second ? boundary_.at(middle) : junction.left,
+                                        is_second ? junction.right : boundary_.at(middle));
+    out.disk = junction.disk;
+    return out;
+  }
+
+  void finish() {
     MedialAxis& axis = result_.axis;
     axis.method = "curve-axis";
-    axis.resolution = step;
+    axis.resolution = step_;
     axis.tolerance = 0;
     std::vector<int> degree(axis.nodes.size(), 0);
     for (const Edge& edge : axis.edges)
@@ -148,6 +286,8 @@ class Assembly {
 
   const SmoothBoundary& boundary_;
   const Control& control_;
+  const Generator generator_;
+  double step_;
   CurveAxis result_;
   std::vector<Waiting> waiting_;
 };
@@ -185,7 +325,7 @@ Result<CurveAxis> compute_curve_axis(std::span<const Contour> contours,
     const double step = options.step * boundary.size();
     Control control(boundary, options, step);
     if (Status done = control.run(); !done) return std::move(done).error();
-    return Assembly(boundary, control).take(step);
+    return Assembly(boundary, control, step).take();
   } catch (...) {
     return error_in_flight();
   }
