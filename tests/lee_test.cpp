@@ -158,6 +158,12 @@ INSTANTIATE_TEST_SUITE_P(Random, Lee, testing::Range<std::uint64_t>(0, shares));
 
 Shape built(const Rings& rings) { return build_shape(rings).value(); }
 
+/// A merge curve that had left the shape for good dropped edges that lay behind its disk, before it
+/// saw by the first edge that did not that the disk was not inside.
+TEST(LeeDiagram, KeepsWhatADiskOutsideWouldCover) {
+  EXPECT_EQ(check_axis_of(built(random_shape(47244732905).rings), true), "");
+}
+
 /// In general position no edge is without length: Lemma 3 holds with equality in the plane, too.
 TEST(LeeDiagram, HasNoEmptyEdgesInGeneralPosition) {
   Random random(7);

@@ -80,20 +80,18 @@ class MergeCurve {
 
   /// Drops the outermost edges of one side of which no disk is inside the shape: those where the
   /// disk at the inner end reaches over the element on the other side, and those that lie behind,
-  /// in the part that the current disk cuts off. Returns false where it is the current disk that
-  /// is not inside the shape.
+  /// in the part that the current disk cuts off. Returns false, and drops nothing, where it is the
+  /// current disk that is not inside the shape: the first edge that does not lie behind tells.
   bool drop_covered(std::size_t side) {
-    for (std::uint32_t place = top(side); place != none; place = top(side)) {
-      const ListEdge& edge = diagram_.edges[place];
-      const bool reaches_over =
-          edge.inner.radius > 0 && gap(current_[1 - side], edge.inner) < -tie();
-      if (!reaches_over) {
-        const double distance_to_third = gap(edge.element[side], disk_);
-        if (distance_to_third < -vagueness()) return false;
-        if (distance_to_third <= vagueness() || !is_behind(side, edge)) return true;
-      }
-      drop(place);
+    std::uint32_t kept = top(side);
+    for (; kept != none; kept = diagram_.edges[kept].inward[1 - side]) {
+      const ListEdge& edge = diagram_.edges[kept];
+      if (edge.inner.radius > 0 && gap(current_[1 - side], edge.inner) < -tie()) continue;
+      const double distance_to_third = gap(edge.element[side], disk_);
+      if (distance_to_third < -vagueness()) return false;
+      if (distance_to_third <= vagueness() || !is_behind(side, edge)) break;
     }
+    while (top(side) != kept) drop(top(side));
     return true;
   }
 
