@@ -36,22 +36,32 @@ class MergeCurve {
              Statistics& statistics)
       : diagram_(diagram), free_(free), limits_(limits), statistics_(statistics) {}
 
-  std::uint32_t follow(std::uint32_t a, std::uint32_t b) {
-    current_ = {a, b};
-    disk_ = {site(b).point, 0};
+  std::uint32_t follow(std::uint32_t first, std::uint32_t middle, std::uint32_t end) {
+    current_ = {middle - 1, middle};
+    middle_ = middle;
+    may_undo_ = end - first;
+    disk_ = {site(middle).point, 0};
     std::uint32_t edge = add_edge();
     for (;;) {
       const Along bisector(site(current_[1]), site(current_[0]));
       const double reached = bisector.position(disk_.center);
-      if (!drop_covered(0) || !drop_covered(1)) return edge;
+      State state = drop_covered(0);
+      if (state == State::inside) state = drop_covered(1);
+      if (state == State::outside) return edge;
+      if (state == State::tied_wrongly) {
+        edge = go_back(edge);
+        continue;
+      }
       const auto crossing = first_crossing(bisector, reached);
       if (!crossing) return edge;
       ++statistics_.queries;
       const std::size_t side = crossing->side;
+      const std::uint32_t crossed = top(side);
+      if (!is_same(disk_, crossing->disk))
+        is_stored_ = is_same(diagram_.edges[crossed].inner, crossing->disk);
       disk_ = crossing->disk;
       // The curve runs below an edge or crosses it, as long as its disks are inside the shape.
       if (top(1 - side) != none && is_behind(1 - side, diagram_.edges[top(1 - side)])) return edge;
-      const std::uint32_t crossed = top(side);
       current_[side] = diagram_.edges[crossed].element[side];
       if (diagram_.top[current_[side]][side] != crossed)
         throw std::runtime_error("two Voronoi edges cross");
@@ -60,8 +70,18 @@ class MergeCurve {
   }
 
  private:
+  /// What the other edges tell of the current disk.
+  enum class State {
+    inside,
+    tied_wrongly,  ///< a stored disk, taken for a tie, that reaches over the boundary
+    outside        ///< not inside the shape: the merge curve ends
+  };
+
   const Site& site(std::uint32_t i) const { return diagram_.elements.sites[i]; }
   std::uint32_t& top(std::size_t side) { return diagram_.top[current_[side]][1 - side]; }
+  static bool is_same(const Disk& a, const Disk& b) {
+    return a.center == b.center && a.radius == b.radius;
+  }
 
   /// Begins the edge between the current elements.
   std::uint32_t add_edge() {
@@ -80,19 +100,44 @@ class MergeCurve {
 
   /// Drops the outermost edges of one side of which no disk is inside the shape: those where the
   /// disk at the inner end reaches over the element on the other side, and those that lie behind,
-  /// in the part that the current disk cuts off. Returns false, and drops nothing, where it is the
-  /// current disk that is not inside the shape: the first edge that does not lie behind tells.
-  bool drop_covered(std::size_t side) {
+  /// in the part that the current disk cuts off. Drops nothing where it is the current disk that is
+  /// not inside the shape: the first edge that does not lie behind tells.
+  State drop_covered(std::size_t side) {
     std::uint32_t kept = top(side);
     for (; kept != none; kept = diagram_.edges[kept].inward[1 - side]) {
       const ListEdge& edge = diagram_.edges[kept];
-      if (edge.inner.radius > 0 && gap(current_[1 - side], edge.inner) < -tie()) continue;
       const double distance_to_third = gap(edge.element[side], disk_);
-      if (distance_to_third < -vagueness()) return false;
+      if (is_stored_ && may_undo_ > 0 && distance_to_third < -tie() &&
+          distance_to_third >= -vagueness())
+        return State::tied_wrongly;
+      if (edge.inner.radius > 0 && gap(current_[1 - side], edge.inner) < -tie()) continue;
+      if (distance_to_third < -vagueness()) return State::outside;
       if (distance_to_third <= vagueness() || !is_behind(side, edge)) break;
     }
     while (top(side) != kept) drop(top(side));
-    return true;
+    return State::inside;
+  }
+
+  /// Takes the merge curve back, from its last edge, to before it came to a stored disk, and drops
+  /// the edges that begin in that. Returns the edge that is the last one then. Of O(1) for every
+  /// edge that goes, and they are no more than the elements of both lists.
+  std::uint32_t go_back(std::uint32_t last) {
+    const Disk wrong = disk_;
+    is_stored_ = false;
+    for (;;) {
+      // An edge of the merge curve begins where another one crosses an edge of one list.
+      const ListEdge& edge = diagram_.edges[last];
+      const std::size_t side = diagram_.edges[edge.inward[0]].element[1] < middle_ ? 0 : 1;
+      const std::uint32_t crossed = edge.inward[side], before = edge.inward[1 - side];
+      drop(last);
+      may_undo_ -= may_undo_ > 0 ? 1 : 0;
+      current_ = diagram_.edges[before].element;
+      disk_ = diagram_.edges[before].inner;
+      last = before;
+      if (!is_same(diagram_.edges[crossed].inner, wrong)) continue;
+      while (top(side) != none && is_same(diagram_.edges[top(side)].inner, wrong)) drop(top(side));
+      return last;
+    }
   }
 
   void drop(std::uint32_t place) {
@@ -252,20 +297,24 @@ class MergeCurve {
   const MergeLimits& limits_;
   Statistics& statistics_;
   std::array<std::uint32_t, 2> current_{};
+  std::uint32_t middle_ = 0;  ///< the first element of the later list
   Disk disk_;
+  bool is_stored_ = false;      ///< whether the current disk is one of an edge that was crossed
+  std::uint32_t may_undo_ = 0;  ///< so many edges yet
 };
 
 }  // namespace
 
-std::uint32_t merge(Diagram& diagram, std::uint32_t first, std::uint32_t middle, std::uint32_t,
+std::uint32_t merge(Diagram& diagram, std::uint32_t first, std::uint32_t middle, std::uint32_t end,
                     const MergeLimits& limits, Statistics& statistics) {
   Diagram::FreePlaces& free = diagram.free[first];
   const Diagram::FreePlaces& more = diagram.free[middle];
   // A chain of k elements has k - 1 edges and k + 1 free places: there are always some.
   diagram.edges[free.last].inward[0] = more.first;
   free.last = more.last;
-  const std::uint32_t corner = diagram.elements.chains[middle];
-  return MergeCurve(diagram, free, limits, statistics).follow(corner - 1, corner);
+  const auto& chains = diagram.elements.chains;
+  return MergeCurve(diagram, free, limits, statistics)
+      .follow(chains[first], chains[middle], chains[end]);
 }
 
 }  // namespace medial::lee
