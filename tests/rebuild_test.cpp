@@ -72,6 +72,57 @@ TEST(Rebuild, TheAxisOfAShapeGivesItBack) {
   EXPECT_GE(same_points, polygons - polygons / 50);
 }
 
+/// An arc whose joints are a hundredth of a degree off smooth: its disk is a leaf, and touches
+/// neither of the neighbours where they begin. The arc comes back all the same.
+TEST(Rebuild, AnArcBetweenBluntJointsComesBack) {
+  const auto ring = [](double angle) {
+    // A cap on a box: an arc of a quarter turn of radius 2 between arcs of radius 3 and 4.
+    const auto leaving = [](Vec2 from, double direction, double radius, double turn) {
+      const double chord = 2 * radius * std::sin(turn / 2);
+      return from + chord * Vec2{std::cos(direction + turn / 2), std::sin(direction + turn / 2)};
+    };
+    const double right = std::numbers::pi / 2, small = right / 4;
+    const Vec2 a{10, 5};
+    const Vec2 b = leaving(a, right, 3, small);
+    const Vec2 c = leaving(b, right + small + angle, 2, right);
+    const Vec2 d = leaving(c, 2 * right + small + 2 * angle, 4, small);
+    const auto bulge = [](double turn) { return std::tan(turn / 4); };
+    return Ring{{{0, 0}, {10, 0}, a, b, c, d, {0, 6}},
+                RingRole::any,
+                {0, 0, bulge(small), bulge(right), bulge(small), 0, 0}};
+  };
+  for (const double angle : {-1e-5, -1e-7, 0.0, 1e-9, 1e-6, 1e-5, 1e-4, 1.7e-4, 1e-3}) {
+    SCOPED_TRACE(angle);
+    const Ring one = ring(angle);
+    const auto shape = build_shape({&one, 1});
+    ASSERT_TRUE(shape.ok()) << to_string(shape.error());
+    const auto axis = compute(*shape);
+    ASSERT_TRUE(axis.ok());
+    const auto again = rebuild(*axis);
+    ASSERT_TRUE(again.ok());
+    EXPECT_EQ(sorted(again->points), sorted(shape->points));
+    EXPECT_LE(shape_distance(*again, *shape).hausdorff(), 1e-12);
+  }
+}
+
+/// An edge as short as rounding keeps both its ends, and so the arc beside it its bulge.
+TEST(Rebuild, EdgesAsShortAsRoundingComeBack) {
+  const double hardly = 3e-13;
+  const Ring one{
+      {{0, 0}, {20, 0}, {20, hardly}, {10, 15}, {0, 12}}, RingRole::any, {0, 0, -0.25, 0, 0.3}};
+  const auto shape = build_shape({&one, 1});
+  ASSERT_TRUE(shape.ok()) << to_string(shape.error());
+  const auto axis = compute(*shape);
+  ASSERT_TRUE(axis.ok());
+  const auto again = rebuild(*axis);
+  ASSERT_TRUE(again.ok());
+  ASSERT_EQ(sorted(again->points), sorted(shape->points));
+  std::vector<double> bulges = shape->bulges, other = again->bulges;
+  std::ranges::sort(bulges);
+  std::ranges::sort(other);
+  EXPECT_EQ(bulges, other);
+}
+
 /// What is left of a shape lies in it, has the same parts and holes, and is less for a larger
 /// threshold; the disks of the pruned axis are as large in it as they were.
 TEST(Rebuild, OfAPrunedAxisIsTheUnionOfItsDisks) {

@@ -1,7 +1,10 @@
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 #include "base/arc.h"
+#include "geometry/joint.h"
 #include "medial/compute.h"
 #include "medial/sides.h"
 #include "ops/half_edges.h"
@@ -67,23 +70,72 @@ class Outliner {
   /// The arc of the disk between a half edge and the next, counter-clockwise: the gap in (3).
   void add_gap(HalfEdge half) {
     const double angle = halves_.gap(half);
-    if (angle == 0) return;
     // Where the disk touches the joint of the two sites as well, the boundary is known better; and
     // where the joint counts as smooth, so that it has no branch although it lies beyond the disk.
-    const bool smooth = angle <= Options{}.corner_angle;
     const HalfEdge next = halves_.next(half);
     if (halves_.exact(half) && halves_.exact(next)) {
-      const Vec2 joint = axis_.sites[halves_.right_site(half)].end;
+      const std::uint32_t before = halves_.right_site(half), after = halves_.right_site(next);
+      const Vec2 joint = axis_.sites[before].end;
       const Disk& disk = halves_.disk(half, true);
-      if (joint == axis_.sites[halves_.right_site(next)].start &&
-          (smooth || std::abs(distance(joint, disk.center) - disk.radius) <= 4 * axis_.tolerance)) {
+      if (joint == axis_.sites[after].start &&
+          (goes_on(before, after) || (angle > 0 && std::abs(distance(joint, disk.center) -
+                                                            disk.radius) <= 4 * axis_.tolerance))) {
         pieces_.back().end = joint;
         joint_ = joint;
         return;
       }
+      const auto apex = angle > 0 ? apex_between(disk, before, after) : std::nullopt;
+      if (apex) {
+        const Site& site = axis_.sites[*apex];
+        pieces_.back().end = site.start;
+        pieces_.push_back({site.start, site.end, *apex, 0, {}});
+        joint_ = site.end;
+        return;
+      }
     }
-    pieces_.push_back({halves_.touch(half, true), halves_.touch(halves_.next(half), false), no_site,
-                       angle, halves_.disk(half, true)});
+    if (angle == 0) return;
+    pieces_.push_back({halves_.touch(half, true), halves_.touch(next, false), no_site, angle,
+                       halves_.disk(half, true)});
+  }
+
+  /// Whether the boundary goes from one site on to the other without a convex corner, so that no
+  /// branch of the axis leads there.
+  bool goes_on(std::uint32_t before, std::uint32_t after) const {
+    const Site &a = axis_.sites[before], &b = axis_.sites[after];
+    if (!(a.end == b.start)) return false;
+    if (a.kind == SiteKind::vertex || b.kind == SiteKind::vertex) return true;
+    if (a.kind != SiteKind::arc && b.kind != SiteKind::arc) return false;
+    const geometry::Joint joint = geometry::joint_of(
+        {a.start, a.end, a.bulge}, {b.start, b.end, b.bulge}, axis_.tolerance, corner_angle_);
+    return joint == geometry::Joint::smooth || joint == geometry::Joint::blunt;
+  }
+
+  /// Where the disk is that of the leaf at an arc between two sites, which it touches all along but
+  /// for the angles at the joints: that arc. Reflex vertices may lie between.
+  std::optional<std::uint32_t> apex_between(const Disk& disk, std::uint32_t before,
+                                            std::uint32_t after) const {
+    const auto joined = [&](std::uint32_t a, std::uint32_t b) {
+      return std::max(a, b) < axis_.sites.size() && goes_on(a, b);
+    };
+    // The loop's sites may begin anywhere in between: the arc follows the one site or is followed
+    // by the other, next to it or behind a vertex.
+    std::uint32_t from = before, to = after;
+    const auto is_vertex = [&](std::uint32_t site) {
+      return site < axis_.sites.size() && axis_.sites[site].kind == SiteKind::vertex;
+    };
+    if (is_vertex(before + 1) && joined(before, before + 1)) ++from;
+    if (is_vertex(after - 1) && joined(after - 1, after)) --to;
+    for (const std::uint32_t site : {from + 1, to - 1}) {
+      if (!joined(from, site) || !joined(site, to)) continue;
+      const Site& arc = axis_.sites[site];
+      if (!(arc.bulge > 0)) continue;
+      const double slack = corner_angle_ * distance(arc.start, arc.end);
+      const auto touches = [&](Vec2 p) {
+        return std::abs(distance(p, disk.center) - disk.radius) <= slack;
+      };
+      if (touches(arc.start) && touches(arc.end)) return site;
+    }
+    return std::nullopt;
   }
 
   /// The walk may have begun in the middle of a site.
@@ -94,13 +146,15 @@ class Outliner {
     pieces_.pop_back();
   }
 
-  /// What is an end of a site to rounding is that end.
-  Vec2 snapped(Vec2 p, const Piece& piece) const {
+  /// What is an end of a site to rounding is that end; of a site as short as rounding, the one that
+  /// it would be.
+  Vec2 snapped(Vec2 p, const Piece& piece, bool at_end) const {
     if (piece.site == no_site) return p;
     const double slack = 64 * axis_.tolerance;
-    for (const Vec2 end : {axis_.sites[piece.site].start, axis_.sites[piece.site].end})
-      if (distance(p, end) <= slack) return end;
-    return p;
+    const Site& site = axis_.sites[piece.site];
+    const Vec2 likely = at_end ? site.end : site.start, other = at_end ? site.start : site.end;
+    if (distance(p, likely) <= slack) return likely;
+    return distance(p, other) <= slack ? other : p;
   }
 
   Contour contour_of_pieces() {
@@ -116,7 +170,7 @@ class Outliner {
     for (std::size_t i = 0; i < pieces_.size(); ++i) {
       Piece &piece = pieces_[i], &next = pieces_[i + 1 < pieces_.size() ? i + 1 : 0];
       const bool sides = piece.site != no_site && next.site != no_site;
-      const Vec2 end = snapped(piece.end, piece), begin = snapped(next.begin, next);
+      const Vec2 end = snapped(piece.end, piece, true), begin = snapped(next.begin, next, false);
       if (!sides && distance(end, begin) > slack) continue;
       const bool by_next = end == piece.end && !(begin == next.begin);
       piece.end = next.begin = by_next || piece.site == no_site ? begin : end;
@@ -153,6 +207,7 @@ class Outliner {
 
   const MedialAxis& axis_;
   const ops::HalfEdges halves_;
+  const double corner_angle_ = Options{}.corner_angle * std::numbers::pi / 180;
   std::vector<Piece> pieces_;  ///< of the contour under way
   std::optional<Vec2> joint_;  ///< where its next piece begins
 };
