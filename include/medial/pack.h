@@ -27,9 +27,10 @@ struct PackOptions {
   /// this distance of the original, and the original within this distance of it; and what lies
   /// deeper than this inside of the original is in it.
   double error = 0;
-  /// Of `error`: what quantisation takes, and what of the rest dropping branches may take.
-  double quantum_share = 0.2;
-  double prune_share = 0.6;
+  /// Of `error`: what quantisation takes (below 15/16), and what of the rest dropping branches may
+  /// take (in (0, 15/16]).
+  double quantum_share = 0.3;
+  double prune_share = 0.9;
 };
 
 struct PackReport {

@@ -61,12 +61,11 @@ class DiskLiner {
 
   /// The samples of a branch: chords within a share of the error.
   std::vector<Sample> samples_of(const Branch& branch) const {
-    constexpr double share = 1.0 / 16;
     std::vector<Sample> samples;
     double along = 0;
     for (const Step& step : branch.steps) {
       const Edge& edge = axis_.edges[step.edge];
-      std::vector<Disk> disks = sample_by_chord(axis_, edge, share * error_);
+      std::vector<Disk> disks = sample_by_chord(axis_, edge, sample_share * error_);
       if (!step.forward) std::reverse(disks.begin(), disks.end());
       const double total = length(axis_, edge);
       double chords = 0;
@@ -256,8 +255,6 @@ class DiskLiner {
           std::min<std::size_t>(graph_.junctions.size(), from + std::size_t{1}));
       return;
     }
-    // What the samples themselves may miss, and chords when disks become polygons.
-    constexpr double share = 2.0 / 16;
     const auto excess = [&](std::uint32_t i, std::uint32_t first, std::uint32_t last) {
       const Disk &a = samples[first].disk, &b = samples[last].disk, &p = samples[i].disk;
       const Vec2 d = b.center - a.center, v = p.center - a.center;
@@ -265,7 +262,7 @@ class DiskLiner {
       const double t =
           size > 0 ? std::clamp((dot(d, v) + rise * (p.radius - a.radius)) / size, 0.0, 1.0) : 0;
       const double off = norm(v - t * d) + std::abs(p.radius - a.radius - t * rise);
-      return off + samples[i].beyond - (1 - share) * error_;
+      return off + samples[i].beyond - (1 - sample_share) * error_;
     };
     DiskLine line{from, to, {}};
     const auto n = static_cast<std::uint32_t>(samples.size());

@@ -20,10 +20,14 @@ struct DiskGraph {
   std::vector<DiskLine> lines;
 };
 
+/// Of the error of disk_lines(): what samples may miss between them.
+constexpr double sample_share = 1.0 / 16;
+
 /// The axis without what disks grown by `prune` cover at their base, as polylines: every disk of
 /// the axis lies in a disk of the polylines, grown by `prune` at most; and grown by `error` at most
 /// even where something was dropped. Conversely every disk of the polylines lies in one of the
-/// axis, grown by `error`. Requires 0 <= prune <= error, error > 0.
+/// axis, grown by `error`. Requires error > 0,
+/// 0 <= prune <= (1 - sample_share) * error.
 DiskGraph disk_lines(const MedialAxis& axis, double prune, double error);
 
 /// Which of the points 0 .. n - 1 to keep, first and last included, so that `excess(i, first,

@@ -83,13 +83,16 @@ class DiskTree {
     bound.high = {std::max(bound.high.x, other.high.x), std::max(bound.high.y, other.high.y)};
     bound.radius = std::max(bound.radius, other.radius);
   }
-  /// Below this no disk of the bound lets `disk` vanish.
-  static double least(const Bound& bound, const Disk& disk) {
-    if (!(bound.radius > disk.radius)) return std::numeric_limits<double>::infinity();
+  /// Below the root of this no disk of the bound lets `disk` vanish; infinite from `limit` on.
+  static double least_squared(const Bound& bound, const Disk& disk, double limit) {
+    const double more = bound.radius - disk.radius;
+    if (!(more > 0)) return std::numeric_limits<double>::infinity();
     const Vec2 p = disk.center;
-    const double dx = std::max({bound.low.x - p.x, 0.0, p.x - bound.high.x});
-    const double dy = std::max({bound.low.y - p.y, 0.0, p.y - bound.high.y});
-    return norm({dx, dy}) / (bound.radius - disk.radius);
+    const double dx = std::max(std::max(bound.low.x - p.x, p.x - bound.high.x), 0.0);
+    const double dy = std::max(std::max(bound.low.y - p.y, p.y - bound.high.y), 0.0);
+    const double far = dx * dx + dy * dy, square = more * more;
+    // Most are far too far away: that is told without a division.
+    return far < limit * square ? far / square : std::numeric_limits<double>::infinity();
   }
   static double factor(const Disk& disk, const Disk& other) {
     const double more = other.radius - disk.radius;
@@ -106,10 +109,14 @@ class DiskTree {
       const std::size_t first = i * fan_out;
       if (level == 0) {
         for (std::size_t k = first; k < std::min(first + fan_out, tree.disks.size()); ++k) {
-          const double here = factor(disk, tree.disks[k]);
+          const Disk& next = tree.disks[k];
+          const double more = next.radius - disk.radius;
+          if (!(more > 0 && squared_norm(next.center - disk.center) < best * best * more * more))
+            continue;
+          const double here = factor(disk, next);
           if (!(here < best)) continue;
           best = here;
-          other = tree.disks[k];
+          other = next;
         }
         return;
       }
@@ -118,14 +125,14 @@ class DiskTree {
       std::size_t count = 0;
       const std::vector<Bound>& below = tree.levels[level - 1];
       for (std::size_t k = first; k < std::min(first + fan_out, below.size()); ++k) {
-        const double bound = least(below[k], disk);
-        if (!(bound < best)) continue;
+        const double bound = least_squared(below[k], disk, best * best);
+        if (!(bound < best * best)) continue;
         std::size_t place = count++;
         for (; place > 0 && children[place - 1].first > bound; --place)
           children[place] = children[place - 1];
         children[place] = {bound, k};
       }
-      for (std::size_t k = 0; k < count && children[k].first < best; ++k)
+      for (std::size_t k = 0; k < count && children[k].first < best * best; ++k)
         run(level - 1, children[k].second);
     }
   };

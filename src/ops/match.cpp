@@ -131,6 +131,8 @@ class Signer {
     double along = branch.reversed ? branch.length : 0;
     const double sign = branch.reversed ? -1 : 1;
     const bool burns = last(branch) > 0;
+    // Most branches of a rough outline are noise all along.
+    if (burns && last(branch) - branch.smallest_radius <= noise_weight * unit_) return;
     double largest = 0;
     for (const Step& step : chain.steps) {
       const Curve curve = curve_of(axis_, axis_.edges[step.edge]);

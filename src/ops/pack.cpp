@@ -265,6 +265,9 @@ class AxisDecoder {
 /// A disk's numbers are rounded by half a quantum each: its centre by 1 / sqrt 2 of it.
 constexpr double rounding = std::numbers::sqrt2 / 2 + 0.5;
 
+/// Of the error: rebuild() makes chords of the hulls' arcs within so much.
+constexpr double chord_share = 1.0 / 16;
+
 /// Of the axes' extent. The number of disks along a curve grows as the root of one over the error.
 constexpr double smallest_error = 1e-9;
 
@@ -276,14 +279,15 @@ Error too_small() {
 
 Result<ShapeCode> encode_axes(std::span<const MedialAxis> axes, const PackOptions& options,
                               PackReport* report) {
-  const auto is_share = [](double share) { return share > 0 && share < 1; };
-  if (!(options.error > 0) || !std::isfinite(options.error) || !is_share(options.quantum_share) ||
-      !is_share(options.prune_share))
+  if (!(options.error > 0) || !std::isfinite(options.error))
     return Error{ErrorCode::invalid_option, "the error is not a positive number", {}};
+  if (!(options.quantum_share > 0 && options.quantum_share < 1 - chord_share) ||
+      !(options.prune_share > 0 && options.prune_share <= 1 - ops::sample_share))
+    return Error{ErrorCode::invalid_option, "a share of the error is out of range", {}};
   const float quantum = float_below(options.quantum_share * options.error / rounding);
   if (!(quantum >= std::numeric_limits<float>::min())) return too_small();
-  // What rounding leaves for the polylines.
-  const double left = options.error - rounding * static_cast<double>(quantum);
+  // What rounding, and chords when disks become polygons, leave for the polylines.
+  const double left = (1 - chord_share) * options.error - rounding * static_cast<double>(quantum);
   Vec2 low = axes.empty() || axes[0].nodes.empty() ? Vec2{} : axes[0].nodes[0].disk.center,
        high = low;
   for (const MedialAxis& axis : axes)
