@@ -6,7 +6,7 @@
 
 #include "io/color.h"
 #include "io/features_writer.h"
-#include "io/picture_frame.h"
+#include "io/picture_pen.h"
 #include "medial/query.h"
 
 namespace medial::io {
@@ -58,7 +58,9 @@ class FeaturesPicture {
     cairo_set_line_cap(context_, CAIRO_LINE_CAP_BUTT);
     if (options_.write.shape)
       for (const NativeItem& item : axes_.items) draw_shape(item.shape);
-    for (std::size_t i = 0; i < features_.size(); ++i) draw_runs(axes_.items[i].axis, features_[i]);
+    for (std::size_t i = 0; i < features_.size(); ++i)
+      collect_runs(axes_.items[i].axis, features_[i]);
+    draw_runs();
     for (std::size_t i = 0; i < features_.size(); ++i)
       draw_points(axes_.items[i].axis, features_[i]);
     if (options_.names) draw_names();
@@ -99,22 +101,42 @@ class FeaturesPicture {
     cairo_stroke(context_);
   }
 
-  void draw_runs(const MedialAxis& axis, const AxisFeatures& features) {
+  /// What runs look like, and where their labels and cuts are.
+  void collect_runs(const MedialAxis& axis, const AxisFeatures& features) {
     const std::vector<Branch> all = branches(axis);
     const double chord = 0.1 / frame_.scale;  // a tenth of a pixel
-    cairo_set_line_width(context_, 2.6 * line_);
     for (const BranchFeatures& branch : features.branches) {
       const auto lines = lines_of(axis, features, branch, all[branch.branch], chord);
       for (std::size_t k = 0; k < lines.size(); ++k) {
         const PrimitiveRun& run = features.runs[branch.first_run + k];
-        used_[static_cast<std::size_t>(run.primitive)] = true;
-        color(primitive_colors[static_cast<std::size_t>(run.primitive)]);
-        cairo_new_path(context_);
-        for (const Disk& disk : lines[k]) line_to(frame_(disk.center));
-        cairo_stroke(context_);
-        if (options_.names) add_label(run, lines[k]);
+        const auto primitive = static_cast<std::size_t>(run.primitive);
+        used_[primitive] = true;
         if (k > 0) cuts_.push_back(frame_(lines[k].front().center));
+        const Vec2 from = frame_(lines[k].front().center), to = frame_(lines[k].back().center);
+        // Lines are ten times as wide as a cell.
+        if (lines[k].size() == 2 && !drawn_[primitive].add({from, from, to})) continue;
+        std::vector<Vec2>& path = paths_[primitive].emplace_back();
+        for (const Disk& disk : lines[k]) path.push_back(frame_(disk.center));
+        if (options_.names) add_label(run, lines[k]);
       }
+    }
+  }
+
+  void draw_runs() {
+    cairo_set_line_width(context_, 2.6 * line_);
+    for (std::size_t i = 0; i < paths_.size(); ++i) {
+      color(primitive_colors[i]);
+      cairo_new_path(context_);
+      int pieces = 0;
+      for (const std::vector<Vec2>& path : paths_[i]) {
+        cairo_move_to(context_, path[0].x, path[0].y);
+        for (std::size_t k = 1; k < path.size(); ++k) line_to(path[k]);
+        pieces += static_cast<int>(path.size());
+        if (pieces < pieces_per_stroke) continue;
+        cairo_stroke(context_);
+        pieces = 0;
+      }
+      cairo_stroke(context_);
     }
   }
 
@@ -136,26 +158,38 @@ class FeaturesPicture {
     }
   }
 
-  void dot(Vec2 at, double radius) { add_circle(context_, at, radius); }
+  /// Dots: ends of lines without length.
+  void draw_dots(const std::vector<Vec2>& places, double radius, const Color& dot_color) {
+    color(dot_color);
+    cairo_set_line_cap(context_, CAIRO_LINE_CAP_ROUND);
+    cairo_set_line_width(context_, 2 * radius * line_);
+    int pieces = 0;
+    for (const Vec2 at : places) {
+      cairo_move_to(context_, at.x, at.y);
+      line_to(at);
+      if (++pieces % pieces_per_stroke == 0) cairo_stroke(context_);
+    }
+    cairo_stroke(context_);
+    cairo_set_line_cap(context_, CAIRO_LINE_CAP_BUTT);
+  }
 
   void draw_points(const MedialAxis& axis, const AxisFeatures& features) {
-    cairo_set_fill_rule(context_, CAIRO_FILL_RULE_WINDING);
-    for (std::size_t i = 0; i < features.points.size(); ++i) {
-      const PointKind kind = features.points[i];
-      if (kind == PointKind::normal) continue;
-      color(kind == PointKind::end ? end_color : branching);
-      dot(frame_(axis.nodes[i].disk.center), 3.2 * line_);
-      cairo_fill(context_);
+    // Nobody sees two dots in one cell.
+    const auto once = [](std::vector<Vec2>& places) {
+      Cells cells;
+      std::erase_if(places, [&cells](Vec2 at) { return !cells.add({at, at, at}); });
+    };
+    for (const PointKind drawn : {PointKind::end, PointKind::branching}) {
+      std::vector<Vec2> places;
+      for (std::size_t i = 0; i < features.points.size(); ++i)
+        if (features.points[i] == drawn) places.push_back(frame_(axis.nodes[i].disk.center));
+      once(places);
+      draw_dots(places, 3.2, drawn == PointKind::end ? end_color : branching);
     }
     // Cuts inside of branches: rings.
-    cairo_set_line_width(context_, line_);
-    for (const Vec2 cut : cuts_) {
-      dot(cut, 3 * line_);
-      color(paper_color);
-      cairo_fill_preserve(context_);
-      color(text);
-      cairo_stroke(context_);
-    }
+    once(cuts_);
+    draw_dots(cuts_, 3.5, text);
+    draw_dots(cuts_, 2.5, paper_color);
     cuts_.clear();
   }
 
@@ -224,6 +258,8 @@ class FeaturesPicture {
   const FeatureWriteOptions& options_;
   double line_;
   std::array<bool, primitive_count> used_{};
+  std::array<std::vector<std::vector<Vec2>>, primitive_count> paths_;  ///< in the picture
+  std::array<Cells, primitive_count> drawn_;
   std::vector<Label> labels_;
   std::vector<Vec2> cuts_;
 };
