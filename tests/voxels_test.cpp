@@ -503,6 +503,72 @@ TEST(Voxels, FollowingMissesNoMedialVoxel) {
   }
 }
 
+TEST(Voxels, FindWhatTheAngleParts) {
+  // A knob of 2 x 2 x 3 on a cube of 12: on the axis between them the feet, on the knob's edges,
+  // lie at less than 20 degrees in the end.
+  const Solid solid = solid_of(test::cubes_mesh(12, 12, 15, [](int x, int y, int z) {
+    return z < 12 || (x >= 5 && x < 7 && y >= 5 && y < 7);
+  }));
+  const VoxelAxis axis = axis_of(solid, with(60));
+  EXPECT_EQ(axis.topology, (VoxelTopology{1, 0, 0}));
+  double best = 1e9;
+  std::size_t in_knob = 0;
+  for (const Voxel& v : axis.voxels) {
+    if (std::isinf(v.quality)) continue;
+    in_knob += v.center.z > 12;
+    best = std::min(best, distance(v.center, {6, 6, 14}));
+  }
+  EXPECT_LE(best, axis.resolution);
+  EXPECT_GT(in_knob, 100U);
+}
+
+TEST(Voxels, OfRandomSolidsKeepPartsTunnelsAndCavities) {
+  std::mt19937_64 random(12);
+  const auto between = [&](double a, double b) {
+    return std::uniform_real_distribution<double>(a, b)(random);
+  };
+  int as_the_solid = 0, total = 0;
+  for (int i = 0; i < 30; ++i) {
+    TriangleMesh mesh;
+    const double shift = between(-0.2, 0.2);
+    switch (i % 5) {
+      case 0:  // two linked rings
+        mesh = test::torus_mesh(2, between(0.3, 0.7), 30, 12) +
+               test::mapped(test::torus_mesh(2, between(0.3, 0.7), 24, 10), [=](Vec3 p) {
+                 return Vec3{p.x + 2 + shift, p.z, p.y};
+               });
+        break;
+      case 1:  // shells in shells
+        mesh = test::sphere_mesh({}, 2, 3) + test::sphere_mesh({shift, 0, 0}, 1.5, 3) +
+               test::sphere_mesh({0, shift, 0}, between(0.5, 1), 2);
+        break;
+      case 2:  // a potato
+        mesh = test::mapped(test::sphere_mesh({}, 1, 3), [=](Vec3 p) {
+          return (1 + shift * std::sin(5 * p.x) * std::cos(4 * p.y + 1)) * p;
+        });
+        break;
+      case 3:  // a thin plate
+        mesh = test::mapped(test::sphere_mesh({}, 1, 3), [=](Vec3 p) {
+          return Vec3{p.x, p.y, p.z * (0.25 + shift)};
+        });
+        break;
+      default:  // a ring with a spike
+        mesh = test::torus_mesh(2, 0.5, 20, 8);
+        mesh.vertices[7] = (2 + shift) * mesh.vertices[7];
+    }
+    const Solid solid = solid_of(test::turned(mesh));
+    VoxelOptions options =
+        with(16 + static_cast<int>(random() % 40), static_cast<Thinning>(random() % 3));
+    options.angle = between(3, 80);
+    const VoxelAxis axis = axis_of(solid, options);
+    EXPECT_EQ(axis.topology, axis.interior) << i;
+    EXPECT_EQ(volume::topology_of(set_of(axis.voxels, axis.cells)), axis.interior) << i;
+    ++total;
+    as_the_solid += axis.interior == solid.topology;
+  }
+  EXPECT_GE(as_the_solid, total / 2);  // the other grids are too coarse
+}
+
 TEST(Voxels, BothSearchesAndAnyNumberOfThreadsAgree) {
   for (const Known& known : known_solids()) {
     const Solid solid = solid_of(known.mesh);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 namespace medial::volume {
@@ -19,6 +20,7 @@ FeetFinder::FeetFinder(const Grid& grid, const FaceTree& tree, FaceSearch search
       search_(search),
       cosine_(std::cos(angle * std::numbers::pi / 180)),
       sine_(std::sin(angle * std::numbers::pi / 180)),
+      strong_(std::cos(std::min(1.5 * angle, 0.5 * (angle + 180)) * std::numbers::pi / 180)),
       tolerance_(tolerance),
       reach_(tolerance / (2 * std::sin(angle * std::numbers::pi / 360))) {
   triangles_.reserve(grid.faces.size());
@@ -100,29 +102,24 @@ void FeetFinder::sort_list(Vec3 p, Scratch& scratch) const {
   }
 }
 
-Feet FeetFinder::feet(Vec3 p, std::uint32_t hint, Scratch& scratch) const {
-  // First foot: the lowest (squared distance, face).
+FeetFinder::Foot FeetFinder::nearest(Vec3 p, std::uint32_t start, bool by_tree,
+                                     Scratch& scratch) const {
   struct Nearest {
     const FeetFinder& finder;
     Vec3 p;
     Scratch& scratch;
-    std::uint32_t at;
-    Closest best;
+    Foot best;
 
     bool node(const Box3&, double bound) const {
-      return bound * (1 - rounding) <= best.squared_distance;
+      return bound * (1 - rounding) <= best.at.squared_distance;
     }
     void face(std::uint32_t index) {
       const Closest there = finder.closest(p, index, scratch);
-      if (there.squared_distance < best.squared_distance ||
-          (there.squared_distance == best.squared_distance && index < at)) {
-        best = there;
-        at = index;
-      }
+      const double squared = there.squared_distance, least = best.at.squared_distance;
+      if (squared < least || (squared == least && index < best.face)) best = {index, there};
     }
   };
-  Nearest first{*this, p, scratch, hint, closest(p, hint, scratch)};
-  const bool by_tree = search_ == FaceSearch::tree;
+  Nearest first{*this, p, scratch, {start, closest(p, start, scratch)}};
   if (by_tree) {
     visit_tree<Nearest&>(p, scratch, first);
   } else {
@@ -132,11 +129,16 @@ Feet FeetFinder::feet(Vec3 p, std::uint32_t hint, Scratch& scratch) const {
       first.face(face);
     }
   }
+  return first.best;
+}
 
+Feet FeetFinder::feet(Vec3 p, std::uint32_t hint, Scratch& scratch) const {
+  const bool by_tree = search_ == FaceSearch::tree;
+  const Foot first = nearest(p, hint, by_tree, scratch);
   Feet result;
-  result.radius = std::sqrt(first.best.squared_distance);
-  result.foot[0] = first.best.point;
-  result.face[0] = first.at;
+  result.radius = std::sqrt(first.at.squared_distance);
+  result.foot[0] = first.at.point;
+  result.face[0] = first.face;
 
   // Second foot, nearer than the tolerance allows.
   struct Second {
@@ -186,6 +188,37 @@ Feet FeetFinder::feet(Vec3 p, std::uint32_t hint, Scratch& scratch) const {
     result.face[1] = second.at;
   }
   return result;
+}
+
+FeetFinder::Ray FeetFinder::ray(Vec3 p, std::uint32_t hint, Scratch& scratch) const {
+  const Foot foot = nearest(p, hint, true, scratch);
+  const double length = std::sqrt(foot.at.squared_distance);
+  return {foot.at.point, 1 / length * (p - foot.at.point), length, foot.face};
+}
+
+std::optional<Vec3> FeetFinder::axis_point(const Ray& ray, double largest, Scratch& scratch) const {
+  const auto& [foot, up, least, first] = ray;
+  double radius = largest;
+  std::uint32_t face = first;
+  // Each ball touches a face that the one before reaches into; the ball around p is empty.
+  constexpr int most_steps = 64;
+  double cosine = 1;
+  for (int step = 0; step < most_steps; ++step) {
+    const Vec3 center = foot + radius * up;
+    const Foot other = nearest(center, face, true, scratch);
+    const double distance = std::sqrt(other.at.squared_distance);
+    if (!(distance < radius * (1 - rounding))) {
+      if (step == 0 || cosine > strong_) return std::nullopt;
+      return center;
+    }
+    const Vec3 across = other.at.point - foot;
+    const double smaller = squared_norm(across) / (2 * dot(up, across));
+    if (!(smaller >= least && smaller < radius)) return std::nullopt;
+    radius = smaller;
+    face = other.face;
+    cosine = 1 - 0.5 * squared_norm(across) / (radius * radius);
+  }
+  return std::nullopt;
 }
 
 }  // namespace medial::volume

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "volume/closest.h"
@@ -72,11 +73,32 @@ class FeetFinder {
   /// best a near one; the answer does not depend on it.
   Feet feet(Vec3 p, std::uint32_t hint, Scratch& scratch) const;
 
+  /// The nearest point of the surface, and the way from there to p.
+  struct Ray {
+    Vec3 foot;
+    Vec3 up;            ///< of length 1
+    double length = 0;  ///< the distance of p
+    std::uint32_t face = 0;
+  };
+  /// Requires p as feet() does; by the tree, whatever the search.
+  Ray ray(Vec3 p, std::uint32_t hint, Scratch& scratch) const;
+  /// The point of the exact axis on a ray: the centre of the largest ball inside that touches the
+  /// surface in its foot. Nothing if that is larger than `largest`, or if the two feet of the ball
+  /// lie less than the angle and a half apart, as seen from it. By a ball that shrinks until it is
+  /// empty (Ma, Bae and Choi 2012).
+  std::optional<Vec3> axis_point(const Ray& ray, double largest, Scratch& scratch) const;
+
  private:
   Closest closest(Vec3 p, std::uint32_t face, Scratch& scratch) const {
     ++scratch.distances;
     return closest_point(p, triangles_[face]);
   }
+  struct Foot {
+    std::uint32_t face = 0;
+    Closest at;
+  };
+  /// The nearest face, of several at one distance the lowest; `start` is some face.
+  Foot nearest(Vec3 p, std::uint32_t start, bool by_tree, Scratch& scratch) const;
   bool in_cone(Vec3 p, Vec3 direction, const Box3& box) const;
   template <class Take>
   void visit_tree(Vec3 p, Scratch& scratch, Take take) const;
@@ -85,6 +107,7 @@ class FeetFinder {
   const FaceTree& tree_;
   FaceSearch search_;
   double cosine_, sine_;
+  double strong_;  ///< the cosine of what axis_point() asks for
   double tolerance_, reach_;
   std::vector<Triangle> triangles_;
 };

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 
 namespace medial::volume {
 namespace {
@@ -92,6 +93,67 @@ void RidgeFollower::find_first(const BoundedSet& set) {
         keep(batch_[i], feet[i]);
       }
       if (found) return;
+    }
+  }
+}
+
+std::optional<Cell> RidgeFollower::missed(Cell outer, std::uint32_t& hint,
+                                          FeetFinder::Scratch& scratch) const {
+  const FeetFinder::Ray ray = finder_.ray(center_of(outer), hint, scratch);
+  hint = ray.face;
+  const auto cell_at = [](Vec3 p) {
+    return Cell{static_cast<std::uint32_t>(p.x), static_cast<std::uint32_t>(p.y),
+                static_cast<std::uint32_t>(p.z)};
+  };
+  // A ball inside that touches the foot is no wider than the way to the other side.
+  double length = ray.length;
+  for (;; ++length) {
+    const Cell cell = cell_at(ray.foot + length * ray.up);
+    if (medial_.contains(cell)) return std::nullopt;
+    if (!interior_.contains(cell)) break;
+  }
+  const auto point = finder_.axis_point(ray, 0.5 * length + 2, scratch);
+  if (!point || !interior_.contains(cell_at(*point))) return std::nullopt;
+  return cell_at(*point);
+}
+
+void RidgeFollower::find_islands() {
+  // A quarter of the outermost layer. In a layer along any plane the sum takes all values.
+  std::vector<Cell> outer;
+  each_voxel(interior_, [&](Cell cell) {
+    if ((cell.x + 2 * cell.y + 3 * cell.z) % 4 == 0 && interior_.around(cell) != all_bits)
+      outer.push_back(cell);
+  });
+  constexpr std::size_t grain = 64;
+  constexpr std::uint64_t none = std::numeric_limits<std::uint64_t>::max();
+  std::vector<std::uint64_t> found;
+  std::vector<std::uint64_t> ranks;
+  for (std::size_t first = 0; first < outer.size(); first += batch_size) {
+    control_.check(bytes() + outer.capacity() * sizeof(Cell));
+    const std::size_t count = std::min(batch_size, outer.size() - first);
+    found.assign(count, none);
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, grain),
+                      [&](const tbb::blocked_range<std::size_t>& range) {
+                        FeetFinder::Scratch& scratch = scratch_.local();
+                        std::uint32_t hint = 0;
+                        for (std::size_t i = range.begin(); i < range.end(); ++i) {
+                          const auto cell = missed(outer[first + i], hint, scratch);
+                          if (cell) found[i] = rank_of(*cell, grid_.size);
+                        }
+                      });
+    for (const std::uint64_t rank : found)
+      if (rank != none) ranks.push_back(rank);
+  }
+  std::sort(ranks.begin(), ranks.end());
+  ranks.erase(std::unique(ranks.begin(), ranks.end()), ranks.end());
+  // A sheet may pass between the voxel and one next to it.
+  for (const std::uint64_t rank : ranks) {
+    const Cell cell = cell_of(rank, grid_.size);
+    Neighbourhood fresh = interior_.around(cell) & ~checked_.around(cell);
+    for (; fresh != 0; fresh &= fresh - 1) {
+      const Cell next = neighbour(cell, std::countr_zero(fresh));
+      checked_.insert(next);
+      stack_.push_back({rank_of(next, grid_.size), 0});
     }
   }
 }

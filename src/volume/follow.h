@@ -6,6 +6,7 @@
 #include <oneapi/tbb/enumerable_thread_specific.h>
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "volume/control.h"
@@ -36,6 +37,10 @@ class RidgeFollower {
   /// The report searches one plane and trusts that the axis meets it, which does not hold: the axis
   /// of a ball is a point. A set may have no medial voxel at all; peel() leaves one of it.
   void find_first(const BoundedSet& set);
+  /// Finds what else of the axis has voxels: starts where the largest balls that touch the surface
+  /// below the outermost interior voxels have their centres. What the report trusts in, that the
+  /// axis is connected, does not hold for the part of it where feet lie at the angle or more.
+  void find_islands();
   /// Finds the rest, by a stack.
   void follow();
   /// Tests voxels that may be medial: those that are not count as bridges. Whether some are medial;
@@ -56,6 +61,9 @@ class RidgeFollower {
     std::uint32_t hint = 0;  ///< a face that is near
   };
 
+  /// Where the axis meets the ray from the surface through an outer voxel, if nothing of it is
+  /// found on the way there.
+  std::optional<Cell> missed(Cell outer, std::uint32_t& hint, FeetFinder::Scratch& scratch) const;
   /// The feet of voxels, in their order; in parallel.
   const std::vector<Feet>& test(const std::vector<Candidate>& batch);
   void keep(const Candidate& candidate, const Feet& feet);

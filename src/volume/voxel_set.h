@@ -31,6 +31,7 @@ inline Cell cell_of(std::uint64_t rank, const GridSize& size) {
 /// A voxel and its 26 neighbours as bits: bit (dx + 1) + 3 (dy + 1) + 9 (dz + 1).
 using Neighbourhood = std::uint32_t;
 constexpr Neighbourhood center_bit = 1U << 13U;
+constexpr Neighbourhood all_bits = (1U << 27U) - 1;
 constexpr int bit_of(int dx, int dy, int dz) { return (dx + 1) + 3 * (dy + 1) + 9 * (dz + 1); }
 
 /// The neighbour that a bit of a Neighbourhood stands for. Requires one inside of the grid.
