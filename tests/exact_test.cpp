@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
@@ -11,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "exact/divide.h"
 #include "exact/in_disk.h"
 #include "exact/numbers.h"
 #include "medial/compute.h"
@@ -135,6 +137,69 @@ TEST(InDisk, DecidesTiesOfEveryKind) {
   }
 }
 
+/// Tips of a tree's and of a snowflake's branch: arcs around an apex of which two are as good as of
+/// one circle, and joints that are off by rounding.
+/// x, y, bulge.
+const std::vector<std::array<double, 3>> tip_of_tree = {
+    {-0.12956863570877175, 1.149687310151162, 0.0297192819529369},
+    {-0.12967040923045578, 1.1497188380083372, 0.029100084166277181},
+    {-0.1296969024363292, 1.1497237357564365, 0.065044879358430535},
+    {-0.12974329034617388, 1.1497234905337455, 0.047481544528033978},
+    {-0.12975763158282441, 1.1497201313443164, 0.098171332253182308},
+    {-0.12977807193911922, 1.1497084091810417, 0.24104188154956807},
+    {-0.12978959647427049, 1.1496796664177249, 0.098171334890407469},
+    {-0.12978291624539257, 1.1496570701383548, 0.047481542776925338},
+    {-0.12977486817503389, 1.1496447338602391, 0.065044881113014777},
+    {-0.12974149900652809, 1.1496125096923784, 0.030618963789629874},
+    {-0.12971773950133159, 1.149597051033856, 0}};
+const std::vector<std::array<double, 3>> tip_of_snowflake = {
+    {-1.026693619401996, 0.88625682889180801, 0.032594892013821833},
+    {-1.0264735687725155, 0.88624637651791627, 0.0247715409281518},
+    {-1.0263832756037272, 0.8862524565871357, 0.054427897904066297},
+    {-1.0262195241026142, 0.88629002436494864, 0.047368719203141188},
+    {-1.0261274005486967, 0.88633215515061237, 0.047368718511556621},
+    {-1.0260448524424783, 0.88639087109458792, 0.054427898596116485},
+    {-1.0259304420405655, 0.88651390016672527, 0.024771540843309774},
+    {-1.0258800299620139, 0.8865890563096841, 0.032594892098687961},
+    {-1.0257790566683505, 0.88678485193226908, 0}};
+
+/// A tip less `cut` arcs on both sides.
+Ring part_of(const std::vector<std::array<double, 3>>& tip, std::size_t cut) {
+  Ring ring;
+  for (std::size_t i = cut; i + cut < tip.size(); ++i) {
+    ring.points.push_back({tip[i][0], tip[i][1]});
+    ring.bulges.push_back(i + cut + 1 < tip.size() ? tip[i][2] : 0);
+  }
+  return ring;
+}
+
+TEST(Divide, IsTheSameFromWhereverItBegins) {
+  // The sites around the apices, in the order around the axis: nearly one disk touches them.
+  struct Case {
+    const std::vector<std::array<double, 3>>& tip;
+    std::vector<std::uint32_t> sites;
+    std::vector<std::vector<std::uint32_t>> nodes;
+  };
+  for (const Case& one : {Case{tip_of_tree, {3, 4, 5, 6, 7}, {{3, 4, 7}, {4, 5, 6}, {4, 6, 7}}},
+                          Case{tip_of_snowflake, {2, 3, 4, 5}, {{2, 3, 5}, {3, 4, 5}}}}) {
+    const auto shape = build_shape(Rings{part_of(one.tip, 0)});
+    ASSERT_TRUE(shape);
+    const exact::Outline outline = outline_of(*shape);
+    std::vector<std::uint32_t> sites = one.sites;
+    for (std::size_t turn = 0; turn < sites.size(); ++turn) {
+      exact::Decisions decisions;
+      auto nodes = exact::divide(outline, sites, decisions);
+      for (auto& node : nodes) {
+        for (std::uint32_t& place : node) place = sites[place];
+        std::sort(node.begin(), node.end());
+      }
+      std::sort(nodes.begin(), nodes.end());
+      EXPECT_EQ(nodes, one.nodes) << "from " << sites[0];
+      std::rotate(sites.begin(), sites.begin() + 1, sites.end());
+    }
+  }
+}
+
 // ---- Axes.
 
 std::vector<std::string> compare_exact(const Rings& rings, Statistics* counts = nullptr) {
@@ -229,6 +294,15 @@ TEST(ExactAxis, OfGearsAroundTheirHub) {
     ASSERT_TRUE(axis) << to_string(axis.error());
     const Certificate certificate = verify(*shape, *axis);
     EXPECT_TRUE(certificate.passed) << seed << ": " << certificate.failures[0];
+  }
+}
+
+TEST(ExactAxis, OfTips) {
+  for (const auto& tip : {tip_of_tree, tip_of_snowflake}) {
+    for (const std::size_t cut : {0U, 1U, 2U}) {
+      const Ring part = part_of(tip, cut);
+      EXPECT_EQ(compare_exact({part}), no_failures) << part.points.size() << " points";
+    }
   }
 }
 

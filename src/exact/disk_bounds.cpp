@@ -80,7 +80,16 @@ std::optional<DiskBounds<Real>> disk_bounds(const Outline& outline,
     if (!outline.joined(a, b) || !outline.joined(b, c)) continue;
     const ExactSite& arc = outline.sites[b];
     if (!(arc.bulge > 0)) continue;
-    return disk_on(spoke_of<Number>(arc, false, roots), Number(1.0) / Number(4 * arc.bulge));
+    const auto own = spoke_of<Number>(arc, false, roots);
+    // Its own circle is clear of the neighbours where these bend no more.
+    for (const std::uint32_t neighbor : {a, c}) {
+      const ExactSite& site = outline.sites[neighbor];
+      if (!(site.bulge > 0)) continue;
+      const auto other = spoke_of<Number>(site, false, roots);
+      if ((Number(site.bulge) * own.size - Number(arc.bulge) * other.size).positive())
+        return std::nullopt;
+    }
+    return disk_on(own, Number(1.0) / Number(4 * arc.bulge));
   }
   for (std::size_t i = 0; i < 3; ++i) {
     const std::uint32_t a = sites[i], b = sites[(i + 1) % 3], c = sites[(i + 2) % 3];
@@ -88,16 +97,23 @@ std::optional<DiskBounds<Real>> disk_bounds(const Outline& outline,
     if (outline.joined(b, c) || outline.joined(c, a)) return std::nullopt;
     const auto spoke = outline.template spoke_after<Number>(a, roots);
     const auto form = form_of<Number>(outline.sites[c], spoke.foot, roots);
-    const Number closing = form.size * spoke.size - dot(form.slope, spoke.normal);
+    const auto closing_on = [&](const Spoke<Number>& at) {
+      return form.size * at.size - dot(form.slope, at.normal);
+    };
+    const Number closing = closing_on(spoke);
     if (!closing.positive()) return std::nullopt;
     const auto disk = disk_on(spoke, form.height / closing);
     if (!disk) return std::nullopt;
-    // It is smaller than the circles of all three.
-    for (const std::uint32_t site : sites) {
+    // It is smaller than the circles of all three: those of the joined ones on their own normals.
+    for (const std::uint32_t site : {a, b}) {
+      const Number four_bulges(4 * outline.sites[site].bulge);
       if (!(outline.sites[site].bulge > 0)) continue;
-      const auto own = spoke_of<Number>(outline.sites[site], false, roots);
-      if (!(own.size - Number(4 * outline.sites[site].bulge) * disk->radius).positive())
-        return std::nullopt;
+      const auto own = spoke_of<Number>(outline.sites[site], site == a, roots);
+      if (!(closing_on(own) - four_bulges * form.height).positive()) return std::nullopt;
+    }
+    if (const double bulge = outline.sites[c].bulge; bulge > 0) {
+      const auto own = spoke_of<Number>(outline.sites[c], false, roots);
+      if (!(own.size - Number(4 * bulge) * disk->radius).positive()) return std::nullopt;
     }
     return disk;
   }

@@ -7,6 +7,23 @@
 #include "exact/disk_bounds.h"
 
 namespace medial::exact {
+namespace {
+
+/// Whether one disk may touch three sites in this counter-clockwise order, on convex arcs between
+/// their ends. Of joined sites it touches the joint.
+bool may_touch(const Outline& outline, const std::array<std::uint32_t, 3>& sites) {
+  const auto disk = disk_bounds<Precise>(outline, sites, {});
+  if (!disk) return false;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::uint32_t site = sites[k];
+    if (outline.joined(site, sites[(k + 1) % 3]) || outline.joined(sites[(k + 2) % 3], site))
+      continue;
+    if (!may_reach(outline.sites[site], *disk)) return false;
+  }
+  return true;
+}
+
+}  // namespace
 
 std::vector<std::vector<std::uint32_t>> divide(const Outline& outline,
                                                std::span<const std::uint32_t> sites,
@@ -25,12 +42,7 @@ std::vector<std::vector<std::uint32_t>> divide(const Outline& outline,
     std::vector<std::uint32_t> first;  // those met first, all by one disk
     for (std::uint32_t i = low + 1; i < high; ++i) {
       if (some_fit_into_circles && high > low + 2) {
-        const auto disk = disk_bounds<Precise>(outline, {sites[low], sites[i], sites[high]}, {});
-        if (!disk) continue;
-        const bool reaches = std::ranges::all_of(std::array{low, i, high}, [&](std::uint32_t k) {
-          return may_reach(outline.sites[sites[k]], *disk);
-        });
-        if (!reaches) continue;
+        if (!may_touch(outline, {sites[low], sites[i], sites[high]})) continue;
       }
       if (first.empty()) {
         first.push_back(i);

@@ -101,10 +101,10 @@ class Kernel {
   Sign at_joint(std::uint32_t a, std::uint32_t third, std::uint32_t fourth) {
     const Spoke<Number> spoke = outline_.template spoke_after<Number>(a, roots_);
     const Reach c = reach(spoke, third), d = reach(spoke, fourth);
-    const Sign meets_c = meets(a, spoke, c);
+    const Sign meets_c = meets(a, c, third);
     if (meets_c == Sign::open) return meets_c;
     if (meets_c != Sign::positive) {
-      const Sign meets_d = meets(a, spoke, d);
+      const Sign meets_d = meets(a, d, fourth);
       return meets_d == Sign::positive ? Sign::negative
              : meets_d == Sign::open   ? Sign::open
                                        : Sign::none;
@@ -119,7 +119,7 @@ class Kernel {
     const Spoke<Number> spoke = outline_.template spoke_after<Number>(a, roots_);
     const Spoke<Number> end = outline_.template spoke_after<Number>(third, roots_);
     const Reach c = reach(spoke, third);
-    const Sign met = meets(a, spoke, c);
+    const Sign met = meets(a, c, third);
     if (met == Sign::open) return met;
     if (met != Sign::positive) return Sign::none;
     const Vector<Number> forward = end.tangent();
@@ -179,14 +179,14 @@ class Kernel {
   }
 
   /// Whether the disk that grows at the joint after `a` meets a site before it is as large as the
-  /// own circle of an arc that begins or ends there.
-  Sign meets(std::uint32_t a, const Spoke<Number>& spoke, const Reach& c) {
+  /// own circle of an arc that begins or ends there, on that arc's own normal.
+  Sign meets(std::uint32_t a, const Reach& c, std::uint32_t third) {
     Sign sign = sign_of(c.closing);
     for (const std::uint32_t edge : {a, outline_.next[a]}) {
       const ExactSite& site = outline_.sites[edge];
       if (!(site.bulge > 0) || sign != Sign::positive) continue;
-      const Number size = spoke_of<Number>(site, false, roots_).size;
-      sign = sign_of(c.closing * size - Number(4 * site.bulge) * c.height * spoke.size);
+      const Reach own = edge == a ? c : reach(spoke_of<Number>(site, false, roots_), third);
+      sign = sign_of(own.closing - Number(4 * site.bulge) * own.height);
     }
     return sign;
   }
