@@ -46,6 +46,17 @@ class CurvedIo : public test::ScratchFolder {
   }
 };
 
+/// What needs DXF: skipped where medial::io is built without.
+class CurvedDxf : public CurvedIo {
+ protected:
+  void SetUp() override {
+    CurvedIo::SetUp();
+    const Result<Dataset> data = read_dataset(write("empty.dxf", ""));
+    if (!data && to_string(data.error()).find("without DXF") != std::string::npos)
+      GTEST_SKIP() << "built without DXF";
+  }
+};
+
 struct Counts {
   std::size_t contours = 0, lines = 0, arcs = 0, quadratics = 0, cubics = 0, rationals = 0;
   bool operator==(const Counts&) const = default;
@@ -377,7 +388,7 @@ std::string dxf_line(double x0, double y0, double x1, double y1, const std::stri
   return out.str();
 }
 
-TEST_F(CurvedIo, DxfJoinsLooseCurves) {
+TEST_F(CurvedDxf, JoinsLooseCurves) {
   // A stadium: lines and half circles in any order and direction.
   const Dataset data =
       read("a.dxf", dxf(dxf_line(0, 0, 4, 0) + "0 ARC\n8 A\n10 0\n20 1\n40 1\n50 90\n51 270\n" +
@@ -393,7 +404,7 @@ TEST_F(CurvedIo, DxfJoinsLooseCurves) {
   EXPECT_NEAR(std::fabs(turn), 2 * std::numbers::pi, 1e-14);
 }
 
-TEST_F(CurvedIo, DxfReadsClosedEntities) {
+TEST_F(CurvedDxf, ReadsClosedEntities) {
   const Dataset data = read(
       "a.dxf",
       dxf("0 CIRCLE\n8 A\n10 1\n20 2\n40 3\n"
@@ -419,7 +430,7 @@ TEST_F(CurvedIo, DxfReadsClosedEntities) {
   EXPECT_NE(data.notes[0].find("1 HATCH, 1 TEXT"), std::string::npos);
 }
 
-TEST_F(CurvedIo, DxfBlocksAndMirrors) {
+TEST_F(CurvedDxf, BlocksAndMirrors) {
   const std::string block =
       "0 BLOCK\n8 0\n2 B\n70 0\n10 1\n20 0\n0 CIRCLE\n8 0\n10 1\n20 0\n40 1\n0 ENDBLK\n8 0\n";
   const Dataset data = read(
@@ -437,7 +448,7 @@ TEST_F(CurvedIo, DxfBlocksAndMirrors) {
   EXPECT_FALSE(data.features[2].contours[0].weights.empty());  // stretched to an ellipse
 }
 
-TEST_F(CurvedIo, DxfGapsAndOpenCurves) {
+TEST_F(CurvedDxf, GapsAndOpenCurves) {
   const std::string open = dxf_line(0, 0, 4, 0) + dxf_line(4, 0, 4, 3) + dxf_line(4, 3, 0.01, 0);
   const Error error = refused("a.dxf", dxf(open));
   EXPECT_EQ(error.code, ErrorCode::empty);
@@ -463,7 +474,7 @@ TEST_F(CurvedIo, DxfGapsAndOpenCurves) {
   EXPECT_TRUE(touching.notes.empty());
 }
 
-TEST_F(CurvedIo, DxfLayers) {
+TEST_F(CurvedDxf, Layers) {
   const std::string two = "0 CIRCLE\n8 A\n10 0\n20 0\n40 1\n0 CIRCLE\n8 B\n10 9\n20 0\n40 2\n";
   EXPECT_EQ(read("a.dxf", dxf(two)).features.size(), 2U);
   ReadOptions options;
@@ -475,7 +486,7 @@ TEST_F(CurvedIo, DxfLayers) {
   EXPECT_EQ(refused("a.dxf", dxf(two), options).code, ErrorCode::invalid_option);
 }
 
-TEST_F(CurvedIo, DxfRefusesWhatIsBroken) {
+TEST_F(CurvedDxf, RefusesWhatIsBroken) {
   const auto code = [this](const std::string& text) { return refused("bad.dxf", text).code; };
   const std::string circle = "0 CIRCLE\n8 A\n10 0\n20 0\n40 1\n";
   const std::string whole = dxf(circle);
@@ -498,7 +509,7 @@ TEST_F(CurvedIo, DxfRefusesWhatIsBroken) {
   EXPECT_EQ(error.place.line, 18U);
 }
 
-TEST_F(CurvedIo, DxfBombsAreBounded) {
+TEST_F(CurvedDxf, BombsAreBounded) {
   std::string blocks =
       "0 BLOCK\n8 0\n2 B0\n10 0\n20 0\n0 CIRCLE\n8 0\n10 0\n20 0\n40 1\n0 ENDBLK\n";
   for (int i = 1; i < 10; ++i) {
@@ -513,7 +524,7 @@ TEST_F(CurvedIo, DxfBombsAreBounded) {
             ErrorCode::unsupported);
 }
 
-TEST_F(CurvedIo, DxfOfTheDataFolder) {
+TEST_F(CurvedDxf, OfTheDataFolder) {
   const fs::path data = fs::path(MEDIAL_SOURCE_DIR) / "../shared/data";
   if (!fs::exists(data)) GTEST_SKIP() << data << " is not here";
   // Drawings of open curves or of polygons in tilted planes: there is nothing with an inside.
@@ -747,7 +758,7 @@ std::vector<double> values(const std::string& drawing, const std::string& entity
   return result;
 }
 
-TEST_F(CurvedIo, DrawingsHoldExactEdges) {
+TEST_F(CurvedDxf, DrawingsHoldExactEdges) {
   NativeFile file = lens();
   ASSERT_TRUE(write_axes(path("a.dxf"), "", file).ok());
   const std::string flat = content("a.dxf");

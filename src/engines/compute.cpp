@@ -111,13 +111,13 @@ std::optional<Error> refuse(const Shape& shape, const Options& options) {
   if (auto error = beyond_limits(shape)) return error;
   if (!is_consistent(shape))
     return Error{ErrorCode::malformed, "the shape was not made by build_shape()", {}};
-#ifndef MEDIAL_HAS_EXACT
-  if (options.exact) return Error{ErrorCode::unsupported, "this build has no exact decisions", {}};
-#endif
   const bool sampled = options.method == Method::ridge || options.method == Method::potential ||
                        options.method == Method::brushfire;
   if (options.exact && sampled)
     return Error{ErrorCode::invalid_option, "exact decisions are for exact methods only", {}};
+#ifndef MEDIAL_HAS_EXACT
+  if (options.exact) return Error{ErrorCode::unsupported, "this build has no exact decisions", {}};
+#endif
   if (options.method == Method::biarc_dc && shape.hole_count() > 0)
     return Error{ErrorCode::unsupported,
                  "the method biarc-dc takes shapes without holes only: use the method disks",
