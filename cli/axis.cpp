@@ -52,8 +52,9 @@ Result<int> run_axis(const AxisSwitches& switches) {
       Options own = options;
       own.method = choose_method(shape, options);
       auto axis = compute(shape, own);
-      if (axis || own.method == Method::disks || axis.error().code != ErrorCode::internal)
-        return axis;
+      const bool failed = !axis && (axis.error().code == ErrorCode::internal ||
+                                    axis.error().code == ErrorCode::unsupported);
+      if (!failed || own.method == Method::disks) return axis;
       own.method = Method::disks;
       return compute(shape, own);
     };

@@ -1,5 +1,5 @@
 // Narrow slots, slits, wedges and rings: random shapes whose loops, or parts of one loop, come as
-// near to each other as 1e-13 to 1e-6 of the size. Walls that gaps have cut out of one line stay in
+// near to each other as 1e-14 to 1e-6 of the size. Walls that gaps have cut out of one line stay in
 // one line but for rounding. MEDIAL_PROPERTY_COUNT: half as many shapes (10,000 without it).
 
 #include <gtest/gtest.h>
@@ -34,7 +34,7 @@ class Gaps {
   double one() const { return one_; }
 
  private:
-  static constexpr double smallest = -13, largest = -6;  // exponents of ten
+  static constexpr double smallest = -14, largest = -6;  // exponents of ten
   Random& random_;
   double one_;
   bool alike_;
@@ -222,16 +222,22 @@ class NarrowGaps : public testing::TestWithParam<std::uint64_t> {};
 TEST_P(NarrowGaps, AreVerified) {
   const char* text = std::getenv("MEDIAL_PROPERTY_COUNT");
   const std::uint64_t count = text && *text ? std::strtoull(text, nullptr, 10) / 2 : 10000;
-  std::uint64_t valid = 0;
+  std::uint64_t valid = 0, unsupported = 0;
   for (std::uint64_t seed = GetParam(); seed < count; seed += shares) {
     const Rings rings = narrow_shape(seed);
     const std::vector<std::string> failures = check_axis(rings);
     // Gaps so narrow that rounding has closed them.
     if (!failures.empty() && failures[0].starts_with("refused")) continue;
     ++valid;
+    // Some tolerances wide, and named: not wrong. Counted below.
+    if (!failures.empty() && failures[0].ends_with("[unsupported]")) {
+      ++unsupported;
+      continue;
+    }
     EXPECT_EQ(failures, std::vector<std::string>{}) << "seed " << seed << ":\n" << to_wkt(rings);
   }
   EXPECT_GT(2 * valid, count / shares);
+  EXPECT_LE(unsupported, 1 + valid / 1000);
 }
 
 INSTANTIATE_TEST_SUITE_P(Random, NarrowGaps, testing::Range<std::uint64_t>(0, shares));

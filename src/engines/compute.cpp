@@ -233,9 +233,8 @@ Result<MedialAxis> compute(const Shape& shape, const Options& options) {
     const bool whole =
         axis.resolution == 0 || (options.method == Method::potential && options.potential.whole());
     if (whole && !has_right_topology(shape, axis))
-      return Error{ErrorCode::internal,
-                   "the axis does not have one cycle for each hole: please report this shape",
-                   {}};
+      return disks::error_of_wrong_axis(
+          axis, "the axis does not have one cycle for each hole: please report this shape");
 #ifdef MEDIAL_HAS_EXACT
     if (options.exact) {
       Status certain =

@@ -17,13 +17,19 @@ namespace medial::disks {
 
 namespace {
 
-/// Of a near-circle, whose arcs are within so many tolerances of one circle, the whole axis is some
-/// tolerances long: contacts are told apart to a share of the tolerance, which is still some
-/// roundings, and what that leaves of a tie is merged at the end.
-constexpr double near_circle = 1 << 12, share_in_near_circle = 0.25;
+/// The walk tells contacts apart to a share of the tolerance, which is still some roundings: what
+/// narrow gaps leave between two contacts may be some tolerances only, and so is all of the axis of
+/// a near-circle, whose arcs are within so many tolerances of one circle. What that leaves of a tie
+/// is merged at the end. Among other arcs ties are known to the tolerance only, as their bulges
+/// round, too.
+constexpr double fine_share = 0.25, near_circle = 1 << 12;
 
-/// The engine: sites, holes connected, tree, walk, graph. Cancelled, it stops where it is.
-Result<MedialAxis> run(const Shape& shape, const Options& options, bool two_sided) {
+/// In tolerances: disks that are smaller cannot always be told from rounding.
+constexpr double narrow = 16;
+
+/// The engine: sites, holes connected, tree, walk, graph. Cancelled, it stops where it is. `fine`:
+/// contacts are told apart to a share of the tolerance where the shape allows it.
+Result<MedialAxis> run(const Shape& shape, const Options& options, bool two_sided, bool fine) {
   MedialAxis axis;
   axis.method = "disks";
   Statistics& statistics = axis.statistics;
@@ -40,8 +46,8 @@ Result<MedialAxis> run(const Shape& shape, const Options& options, bool two_side
 
   SiteNumbers numbers = sites::number_sites(shape, frame, options.corner_angle);
   Boundary boundary = loops_boundary(shape, numbers, frame, two_sided);
-  if (is_near_circle(boundary, local, near_circle * walk_tolerance))
-    walk_tolerance *= share_in_near_circle;
+  if (fine && (!boundary.has_arcs || is_near_circle(boundary, local, near_circle * walk_tolerance)))
+    walk_tolerance *= fine_share;
   statistics.seconds_sites = watch.lap();
 
   const auto cancelled = [&] { return options.cancel != nullptr && options.cancel->load(); };
@@ -82,20 +88,38 @@ Result<MedialAxis> run(const Shape& shape, const Options& options, bool two_side
     return touches_its_sites(axis, axis.edges[edge], slack);
   });
   if (!holds && !two_sided)
-    return Error{ErrorCode::internal,
-                 "a disk of the axis misses a site that it should touch: please report this shape",
-                 {}};
+    return error_of_wrong_axis(
+        axis, "a disk of the axis misses a site that it should touch: please report this shape");
   return axis;
 }
 
 }  // namespace
 
 Result<MedialAxis> run(const Shape& shape, const Options& options) {
-  return run(shape, options, false);
+  Result<MedialAxis> axis = run(shape, options, false, true);
+  if (axis) return axis;
+  // To the whole tolerance, what misled the walk may be one contact.
+  Result<MedialAxis> coarse = run(shape, options, false, false);
+  return coarse ? std::move(coarse) : std::move(axis);
+}
+
+Error error_of_wrong_axis(const MedialAxis& axis, const char* text) {
+  const Node* narrowest = nullptr;
+  for (const Node& node : axis.nodes)
+    if (node.kind != NodeKind::leaf &&
+        (narrowest == nullptr || node.disk.radius < narrowest->disk.radius))
+      narrowest = &node;
+  if (narrowest == nullptr || narrowest->disk.radius > narrow * axis.tolerance)
+    return {ErrorCode::internal, text, {}};
+  Error error{ErrorCode::unsupported,
+              "the shape is too narrow here for its sides to be told from rounding",
+              {}};
+  error.place.point = narrowest->disk.center;
+  return error;
 }
 
 MedialAxis run_two_sided(const Shape& shape, const Options& options) {
-  return *run(shape, options, true);
+  return *run(shape, options, true, true);
 }
 
 }  // namespace medial::disks

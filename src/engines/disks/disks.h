@@ -7,12 +7,16 @@
 namespace medial::disks {
 
 /// The engine `disks` (docs/disks.md): sites, holes connected, tree, walk, graph. Requires what
-/// compute() has checked. Cut short, with any content, where the caller cancels. An internal error
-/// where a disk misses one of its sites by far more than rounding explains: no such axis is given
-/// out.
+/// compute() has checked. Cut short, with any content, where the caller cancels. An error
+/// (error_of_wrong_axis) where a disk misses one of its sites by far more than rounding explains:
+/// no such axis is given out.
 Result<MedialAxis> run(const Shape& shape, const Options& options);
 
-/// The same for what lies around a soup (shape/around.h): a shape whose edges may stand there
+/// The error instead of an axis that has come out wrong: unsupported, with the place, where it has
+/// disks of so few tolerances that rounding is the cause; internal, with the text, else. O(n).
+Error error_of_wrong_axis(const MedialAxis& axis, const char* text);
+
+/// run() for what lies around a soup (shape/around.h): a shape whose edges may stand there
 /// twice, once for each side, and with loops of one point.
 MedialAxis run_two_sided(const Shape& shape, const Options& options);
 
