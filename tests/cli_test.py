@@ -879,6 +879,15 @@ class Verify(CommandLine):
         self.write("shapes.wkt", FRAME + "\n" + SQUARES)
         self.succeed("axis", "shapes.wkt", "-o", "axes.json")
 
+    def test_exact_axes(self):
+        self.skip_without("exact decisions")
+        self.write("shapes.wkt", FRAME + "\n" + RECTANGLE)
+        self.write("round.svg", '<svg><ellipse rx="4" ry="2"/><rect width="6" height="2" rx="1"/></svg>')
+        for shapes in ("shapes.wkt", "round.svg"):
+            self.succeed("axis", "--exact", shapes, "-o", "exact.json")
+            told = json.loads(self.succeed("verify", shapes, "exact.json", "--json").stdout)
+            self.assertTrue(told["passed"])
+
     def test_a_computed_axis_passes(self):
         done = self.succeed("verify", "shapes.wkt", "axes.json")
         self.assertIn("passed", done.stdout.decode())

@@ -10,7 +10,7 @@
 
 #include "curves/biarc.h"
 #include "curves/spirals.h"
-#include "medial/contour.h"
+#include "medial/medial.h"
 #include "support/curve_check.h"
 
 namespace medial {
@@ -354,7 +354,8 @@ TEST(Biarc, TheThreeErrorsAgree) {
   const std::array<Vec2, 3> points = {{{0, 0}, {0.3, 0}, {0.5, 0.1}}};
   const Bezier curve = curve_of(points);
   ASSERT_EQ(find_splits(curve).count, 0);
-  const Station a = station_at(curve, 0, Side::after), b = station_at(curve, 1, Side::before);
+  const Station a = station_at(curve, 0, curves::Side::after),
+                b = station_at(curve, 1, curves::Side::before);
   const Biarc biarc = make_biarc(a, spiral_joint(a, b), b);
   const double high = std::max(std::abs(a.curvature), std::abs(b.curvature));
   const double low = std::min(std::abs(a.curvature), std::abs(b.curvature));
@@ -383,8 +384,8 @@ TEST(Biarc, JointsSettleOnTheJointCircle) {
   PieceFrame frame;
   double rounded = 0, settled = 0;
   for (int i = 0; i < 1000; ++i) {
-    Station a = station_at(curve, i / 1000.0, Side::after);
-    Station b = station_at(curve, (i + 1) / 1000.0, Side::before);
+    Station a = station_at(curve, i / 1000.0, curves::Side::after);
+    Station b = station_at(curve, (i + 1) / 1000.0, curves::Side::before);
     const Vec2 joint = frame.snap(spiral_joint(a, b));
     const auto angle_at = [&](Vec2 p) {
       const Biarc biarc = make_biarc(a, p, b);
@@ -405,7 +406,8 @@ TEST(Biarc, JointsSettleOnTheJointCircle) {
 TEST(Biarc, NoBoundWhereTheCurveLeavesTheSector) {
   const std::array<Vec2, 4> loop = {{{0, 0}, {3, 2}, {-2, 2}, {1, 0}}};
   const Bezier curve = curve_of(loop);
-  const Station a = station_at(curve, 0, Side::after), b = station_at(curve, 1, Side::before);
+  const Station a = station_at(curve, 0, curves::Side::after),
+                b = station_at(curve, 1, curves::Side::before);
   const Biarc biarc = make_biarc(a, spiral_joint(a, b), b);
   EXPECT_TRUE(std::isinf(certified_error(curve, biarc, 1e-15)));
 }
@@ -428,6 +430,49 @@ TEST(Arcs, ToleranceHoldsAndLeavesStay) {
       EXPECT_EQ(locally_most_curved(ring), leaves) << shape.name << " " << tolerance;
       // Neighbouring arcs have one tangent, however short they are.
       EXPECT_LT(largest_turn(ring), 1e-13) << shape.name << " " << tolerance;
+    }
+  }
+}
+
+/// The largest distance of points of one axis to another one, as a part of 4 error / (1 - cos(angle
+/// / 2)) with the angle at which the disk touches both sides: what [aichholzer2009] prove for what
+/// is away from leaves, where the disk stays the larger part of itself.
+double largest_move(const MedialAxis& from, const MedialAxis& to, double error, int& points) {
+  const AxisLocator locator(to);
+  double largest = 0;
+  for (const medial::Edge& edge : from.edges) {
+    for (const double t : {0.0, 0.3, 0.6, 0.9}) {
+      const Disk disk = disk_at(from, edge, t);
+      const Vec2 a = foot(from.sites[edge.site[0]], disk.center) - disk.center;
+      const Vec2 b = foot(from.sites[edge.site[1]], disk.center) - disk.center;
+      const double half = 0.5 * std::atan2(std::abs(cross(a, b)), dot(a, b));
+      const double bound = 4 * error / (1 - std::cos(half));
+      if (!(bound < 0.1 * disk.radius)) continue;
+      ++points;
+      largest = std::max(largest, locator.nearest(disk.center).distance / bound);
+    }
+  }
+  return largest;
+}
+
+TEST(Arcs, AwayFromLeavesTheAxisMovesAsLittleAsProved) {
+  for (const Named& shape : six_shapes()) {
+    const auto axis_at = [&](double tolerance, double& error) {
+      ArcReport report;
+      const auto built = build_shape(std::vector<Ring>{ring_of(shape.contour, tolerance, &report)});
+      EXPECT_TRUE(built.ok());
+      error += report.largest_error;
+      return *compute(*built, {.threads = 1});
+    };
+    double fine_error = 0;
+    const MedialAxis fine = axis_at(1e-9, fine_error);
+    for (const double tolerance : {1e-3, 1e-4, 1e-6}) {
+      double error = fine_error;
+      const MedialAxis coarse = axis_at(tolerance, error);
+      int points = 0;
+      EXPECT_LT(largest_move(coarse, fine, error, points), 1) << shape.name << " " << tolerance;
+      EXPECT_LT(largest_move(fine, coarse, error, points), 1) << shape.name << " " << tolerance;
+      EXPECT_GT(points, 1000) << shape.name;
     }
   }
 }
@@ -461,7 +506,7 @@ TEST(Arcs, CurvatureIsMonotoneAlongSpirals) {
     int turns = 0, sign_changes = 0;
     double before = 0, direction = 0;
     for (std::size_t i = 0; i + 1 < ring.points.size(); ++i) {
-      const double k = Edge{ring.points[i], ring.points[i + 1], ring.bulges[i]}.curvature();
+      const double k = test::Edge{ring.points[i], ring.points[i + 1], ring.bulges[i]}.curvature();
       if (i > 0) {
         sign_changes += (k > 0) != (before > 0);
         const double step = k - before;
@@ -483,7 +528,7 @@ TEST(Arcs, AnApexOfLargestCurvatureIsOneArc) {
   const Contour contour = ellipse(2, 1, 0.4);  // its apices are inside its pieces
   const Ring ring = ring_of(contour, 1e-6);
   int at_apex = 0;
-  for (const Edge& edge : edges_of(ring)) {
+  for (const test::Edge& edge : edges_of(ring)) {
     if (std::abs(edge.curvature() - 2) < 1e-9) {
       ++at_apex;
       EXPECT_NEAR(edge.distance_to({std::copysign(2, edge.begin.x), 0}), 0, 1e-15);
@@ -514,7 +559,7 @@ TEST(Arcs, CurvatureThatJumpsUpIsALeafAtEveryTolerance) {
 TEST(Arcs, CirclesAreExact) {
   const Ring circle = ring_of(ellipse(1, 1), 1e-3);
   ASSERT_EQ(circle.points.size(), 4u);
-  for (const Edge& edge : edges_of(circle)) {
+  for (const test::Edge& edge : edges_of(circle)) {
     EXPECT_NEAR(edge.bulge, std::tan(pi / 8), 1e-15);
     EXPECT_NEAR(norm(edge.begin), 1, 1e-16);
   }
@@ -527,7 +572,7 @@ TEST(Arcs, CirclesAreExact) {
       std::vector<double>{1, s, 1, s, 1, s, 1, s, 1}));
   const Ring nurbs = ring_of(contour, 1e-3);
   ASSERT_EQ(nurbs.points.size(), 4u);
-  for (const Edge& edge : edges_of(nurbs)) EXPECT_NEAR(edge.curvature(), 0.5, 1e-15);
+  for (const test::Edge& edge : edges_of(nurbs)) EXPECT_NEAR(edge.curvature(), 0.5, 1e-15);
 }
 
 TEST(Arcs, RationalCurvesMeetTheTolerance) {
