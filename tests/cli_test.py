@@ -511,6 +511,13 @@ class Axis(CommandLine):
         self.assertIn("refused", next(row for row in told if row["method"] == "lee"))
         self.assertEqual(self.run_medial("compare", "frame.wkt", "--methods", "disks,lee").returncode, 1)
         self.assertEqual(self.run_medial("compare", "frame.wkt", "--methods", "disks").returncode, 0)
+        # Holes closer to each other than pixels are one to brushfire: a note, no failure.
+        self.write("near.wkt", "POLYGON((0 0,100 0,100 60,0 60),(50 20,70 20,70 40,50 40),"
+                               "(70.01 20,90 20,90 40,70.01 40))")
+        told = json.loads(self.succeed("compare", "near.wkt", "--methods", "disks,ridge,brushfire",
+                                       "--json").stdout)["features"][0]
+        self.assertEqual([row["passed"] for row in told], [True, True, False])
+        self.assertEqual([row["unresolved"] for row in told], [False, False, True])
 
     def test_legal(self):
         """The axis of a shape is legal; a radius that grows faster than the way is not, and is named."""

@@ -36,6 +36,9 @@ struct Certificate {
   double worst_y = 0;
   bool passed = false;                ///< all demands hold
   std::vector<std::string> failures;  ///< one sentence for each demand that does not hold
+  /// How many of them tell no more than that a sampled axis has other parts or cycles than the
+  /// shape, which what is narrower than a pixel brings about.
+  std::uint64_t unresolved = 0;
 };
 
 struct VerifyOptions {

@@ -368,6 +368,7 @@ void check_graph(const Problem& problem, Certificate& certificate) {
   const std::string sampled =
       axis.resolution > 0 ? sentence("At the resolution %.6g, ", axis.resolution) : std::string();
   const std::string beginning = axis.resolution > 0 ? sampled + "t" : "T";
+  const std::size_t before = failures.size();
   if (torn.count > 0 && axis.exterior == 0)
     failures.push_back(sentence(
         "%she graph has %llu connected parts for %llu components; component %zu has %llu of them.",
@@ -383,6 +384,7 @@ void check_graph(const Problem& problem, Certificate& certificate) {
         static_cast<unsigned long long>(count.cycles()),
         static_cast<unsigned long long>(count.holes)));
   }
+  if (axis.resolution > 0) certificate.unresolved = failures.size() - before;
   if (strangers.count > 0)
     failures.push_back(
         sentence("%zu nodes are connected with nodes of another component; the first is node %zu.",
