@@ -40,7 +40,10 @@ class ForceLines {
   }
   double distance_at(Vec2 p) { return evaluator_.place(p).distance; }
   double reach(double radius) const { return graph_.reach(radius); }
-  bool exhausted() const { return graph_.skeleton.forces > budget_; }
+  bool exhausted() const {
+    return graph_.skeleton.forces > budget_ ||
+           (options_.cancel != nullptr && options_.cancel->load(std::memory_order_relaxed));
+  }
 
   /// Whether the force cannot be told from none: between parallel sides it falls below the
   /// arithmetic's noise as the order grows, or below what the chords of arcs add.

@@ -175,6 +175,7 @@ Result<MedialAxis> run(const Shape& shape, const Options& options) {
                     : own.order > 0    ? std::min(own.order, usual_order)
                                        : usual_order;
     tracing.step = own.step * region.size;
+    tracing.cancel = options.cancel;
     if (own.within)
       tracing.within = Box{frame.to_local(own.within->low), frame.to_local(own.within->high)};
     if (!own.whole() && own.base_order == 0) tracing.order = std::min(tracing.order, partial_order);
@@ -190,6 +191,7 @@ Result<MedialAxis> run(const Shape& shape, const Options& options) {
             : trace_valleys(region, charges, tracing);
     axis.statistics.queries += skeleton.forces;
     axis.statistics.seconds_walk += watch.lap();
+    if (options.cancel != nullptr && options.cancel->load()) break;
     if (!skeleton.whole)
       return Error{ErrorCode::unsupported,
                    "the potential's valleys are too flat to be connected: use the method disks",

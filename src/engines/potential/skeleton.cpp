@@ -14,6 +14,16 @@ namespace {
 /// some widths long, and few enough minima.
 constexpr double connecting_order = 24;
 
+/// Where these do not connect either, the next lower order is this share.
+constexpr double lower_order = 0.25;
+
+/// How many forces one order may take, and how often that all orders together: mazes take most of
+/// it three times, pixel noise all of it.
+std::uint64_t forces_of_an_order(const Region& region) {
+  return 30000 + 50 * std::uint64_t{region.edges()} + 1000 * std::uint64_t{region.holes()};
+}
+constexpr std::uint64_t most_orders = 3;
+
 class Tracer {
  public:
   Tracer(const Region& region, const Charges& charges, const SkeletonOptions& options)
@@ -21,7 +31,7 @@ class Tracer {
         charges_(charges),
         options_(options),
         graph_(options.step),
-        lines_(charges, options_, graph_, 10000 + 100 * region.edges() + 1000 * region.holes()),
+        lines_(charges, options_, graph_, forces_left(region, options)),
         saddles_(region, graph_, lines_) {}
 
   /// Force lines from all corners and bends.
@@ -70,6 +80,7 @@ class Tracer {
   }
 
   bool complete() const { return saddles_.complete(); }
+  std::uint64_t forces() const { return graph_.skeleton.forces; }
 
   Skeleton take() {
     graph_.skeleton.order = options_.order;
@@ -77,6 +88,11 @@ class Tracer {
   }
 
  private:
+  static std::uint64_t forces_left(const Region& region, const SkeletonOptions& options) {
+    const std::uint64_t one = forces_of_an_order(region), all = most_orders * one;
+    return options.spent < all ? std::min(one, all - options.spent) : 0;
+  }
+
   // ---- Where lines begin.
 
   bool wanted(Vec2 p) const { return !options_.within || contains(*options_.within, p); }
@@ -136,12 +152,12 @@ class Tracer {
   // ---- A part only.
 
   /// Step 1 of the algorithm: from a seed to the floor of a valley, as the force leads. False where
-  /// it leads to a minimum without one.
+  /// it leads to a minimum without one, or out of the box.
   bool reach_valley(Vec2 p, ValleyPoint& contact) {
     double radius = 0;
     Force force = lines_.force_at(p, radius);
     constexpr int most_steps = 1000;
-    for (int i = 0; i < most_steps && radius > 0; ++i) {
+    for (int i = 0; i < most_steps && radius > 0 && wanted(p); ++i) {
       Vec2 direction = unit(force.force);
       if (lines_.settle(p, radius, force, direction)) {
         contact = {p, radius, direction, ValleyPoint::Kind::valley};
@@ -253,7 +269,14 @@ Skeleton trace_valleys(const Region& region, const Charges& charges,
     skeleton.whole = whole;
     return skeleton;
   }
-  own.order = own.through_flats ? connecting_order : std::max(1.0, own.order / 2);
+  own.spent += tracer.forces();
+  const bool stopped = own.cancel != nullptr && own.cancel->load();
+  if (stopped || own.spent >= most_orders * forces_of_an_order(region)) {
+    Skeleton parts = tracer.take();
+    parts.whole = false;
+    return parts;
+  }
+  own.order = own.through_flats ? connecting_order : std::max(1.0, lower_order * own.order);
   Skeleton coarse = trace_valleys(region, charges, own);
   if (own.through_flats) {
     tracer.connect_as(coarse);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -38,6 +39,8 @@ struct SkeletonOptions {
   double bend = 0;            ///< the slope of a valley's floor that chords of arcs may make
   std::optional<Vec2> from;   ///< only the branch that the force leads to from here
   std::optional<Box> within;  ///< only what lies in this box
+  std::uint64_t spent = 0;    ///< forces that orders before this one have taken
+  const std::atomic<bool>* cancel = nullptr;  ///< ends the work early: the skeleton is not whole
 };
 
 /// MAT-Newtonian-Polygon ([ahuja1997], Section 4.1.3): force lines from the convex corners down to
