@@ -255,14 +255,19 @@ class ArcSweeper {
     }
   }
 
-  std::optional<Error> meet(std::span<const std::uint32_t> group, Vec2 point) {
+  /// Of the pieces that end at an event, any (null: none do) and how many.
+  struct Ends {
+    ActivePiece* any = nullptr;
+    std::size_t count = 0;
+  };
+
+  /// Finds the pieces that end in a group of vertices, and those that begin: `starts_`.
+  Ends pieces_at(std::span<const std::uint32_t> group, Vec2 point) {
+    Ends ends;
     starts_.clear();
-    std::size_t ends = 0;
-    ActivePiece* any_end = nullptr;
     const auto visit = [&](std::uint32_t piece, std::uint32_t here, std::uint32_t other) {
       if (lexicographic_less(outline_.points[other], point)) {
-        ++ends;
-        any_end = active_[piece];
+        ends = {active_[piece], ends.count + 1};
         return;
       }
       const double bulge = outline_.bulges[piece];
@@ -275,18 +280,22 @@ class ArcSweeper {
       if (previous != no_index) visit(previous, vertex, previous);
       if (next != no_index) visit(vertex, vertex, next);
     }
+    return ends;
+  }
 
+  std::optional<Error> meet(std::span<const std::uint32_t> group, Vec2 point) {
+    const Ends ends = pieces_at(group, point);
     // The pieces that end here are neighbours, if none has crossed another.
-    auto first = any_end ? status_.iterator_to(*any_end)
-                         : status_.lower_bound(point, [](const ActivePiece& piece, Vec2 p) {
-                             return piece.arc.above(p) > 0;
-                           });
+    auto first = ends.any ? status_.iterator_to(*ends.any)
+                          : status_.lower_bound(point, [](const ActivePiece& piece, Vec2 p) {
+                              return piece.arc.above(p) > 0;
+                            });
     while (first != status_.begin() && std::prev(first)->arc.right == point) --first;
     block_.clear();
     auto above = first;
     for (; above != status_.end() && above->arc.right == point; ++above) block_.push_back(&*above);
     ActivePiece* below = first == status_.begin() ? nullptr : &*std::prev(first);
-    if (block_.size() != ends) return out_of_order(first, ends, group.front());
+    if (block_.size() != ends.count) return out_of_order(first, ends.count, group.front());
 
     if (block_.empty()) {
       for (const std::uint32_t vertex : group) {

@@ -27,6 +27,15 @@ constexpr double fine_share = 0.25, near_circle = 1 << 12;
 /// In tolerances: disks that are smaller cannot always be told from rounding.
 constexpr double narrow = 16;
 
+/// Tells the caller how much of the walk is done, if he wants to know.
+std::function<void(std::uint64_t)> reporter(const Options& options, const Boundary& boundary,
+                                            std::atomic<std::uint64_t>& finished) {
+  if (!options.progress) return {};
+  return [&, all = static_cast<double>(boundary.sites.size())](std::uint64_t sites) {
+    options.progress(std::min(1.0, static_cast<double>(finished += sites) / all));
+  };
+}
+
 /// The engine: sites, holes connected, tree, walk, graph. Cancelled, it stops where it is. `fine`:
 /// contacts are told apart to a share of the tolerance where the shape allows it.
 Result<MedialAxis> run(const Shape& shape, const Options& options, bool two_sided, bool fine) {
@@ -62,15 +71,8 @@ Result<MedialAxis> run(const Shape& shape, const Options& options, bool two_side
   statistics.seconds_tree = watch.lap();
 
   std::atomic<std::uint64_t> finished = 0;
-  std::function<void(std::uint64_t)> report;
-  if (options.progress) {
-    report = [&](std::uint64_t sites) {
-      options.progress(std::min(1.0, static_cast<double>(finished += sites) /
-                                         static_cast<double>(boundary.sites.size())));
-    };
-  }
   auto chunks = walk({boundary, cuts, *tree, walk_tolerance, radius_limit(box, frame),
-                      options.cancel, std::move(report)});
+                      options.cancel, reporter(options, boundary, finished)});
   statistics.seconds_walk = watch.lap();
   if (cancelled()) return axis;
 

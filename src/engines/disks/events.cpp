@@ -29,50 +29,64 @@ constexpr double past_end = 2, widest_gap = 1 + past_end;
 /// A disk further beside the bisector of two vertices, against their distance, is not on it but for
 /// the tolerance.
 constexpr double off_bisector = 0x1p-10;
+/// In tolerances: the radius of a disk that is as good as a point of a soup.
+constexpr double as_good_as_point = 8;
 
 }  // namespace
 
 Event EventSearch::local_event(bool on_right) {
   const std::uint32_t own = on_right ? span_.right : span_.left;
   const std::uint32_t next = on_right ? own + 1 : own - 1;
+  if (boundary_.is_smooth(on_right ? own : next)) return event_at_smooth_joint(on_right);
+  return element(next) == Element::cut ? event_across_cut(on_right) : event_at_corner(on_right);
+}
+
+Event EventSearch::event_at_smooth_joint(bool on_right) {
+  Event event;
+  auto joint = disk_at_joint(on_right);
+  if (!joint) return event;
+  if (bisector_.is_straight) {
+    // On an edge in line the feet stay where they are.
+    if (!site(span_.right).is_vertex() || !site(span_.left).is_vertex()) return event;
+    joint->disk = bisector_.disk_at(bisector_.position(joint->disk.center), from_);
+  }
+  const double position = bisector_.position(joint->disk.center);
+  // On a parabola the foot's normal may turn that far only on the way back.
+  if (is_behind(position)) return event;
+  event = {on_right ? Event::Kind::pass_right : Event::Kind::pass_left, Hit::none, joint->disk,
+           position};
+  if (!joint->fits) event.kind = Event::Kind::far;
+  return not_behind(event);
+}
+
+Event EventSearch::event_across_cut(bool on_right) {
+  const std::uint32_t own = on_right ? span_.right : span_.left;
   const std::uint32_t other = on_right ? span_.left : span_.right;
   Event event;
-  if (boundary_.is_smooth(on_right ? own : next)) {
-    auto joint = disk_at_joint(on_right);
-    if (!joint) return event;
-    if (bisector_.is_straight) {
-      // On an edge in line the feet stay where they are.
-      if (!site(span_.right).is_vertex() || !site(span_.left).is_vertex()) return event;
-      joint->disk = bisector_.disk_at(bisector_.position(joint->disk.center), from_);
-    }
-    const double position = bisector_.position(joint->disk.center);
-    // On a parabola the foot's normal may turn that far only on the way back.
-    if (is_behind(position)) return event;
-    event = {on_right ? Event::Kind::pass_right : Event::Kind::pass_left, Hit::none, joint->disk,
-             position};
-    if (!joint->fits) event.kind = Event::Kind::far;
-    return not_behind(event);
+  const std::uint32_t across = on_right ? own + 2 : own - 2;
+  const bool continues_other =
+      (on_right ? across + 1 : across - 1) == other && boundary_.is_smooth(std::min(across, other));
+  if (continues_other) return event;  // the other foot's own event
+  // Another copy of what is touched already is no third site.
+  const Vec2 foot = geometry::foot(site(across), from_.center);
+  for (const std::uint32_t touched : {span_.right, span_.left})
+    if (distance(foot, geometry::foot(site(touched), from_.center)) <
+        Contacts::distinct_contacts * from_.radius)
+      return event;
+  const auto contact = contact_with(across, nowhere);
+  if (boundary_.two_sided) {
+    // What is across may face elsewhere, and a point may have another copy that was just left.
+    const bool faces = contact && contacts_.faces(across, contact->disk.center);
+    return faces && reaches(*contact) ? *contact : end_of_range(on_right);
   }
-  // Across a cut, the neighbour is touched as a third site.
-  if (element(next) == Element::cut) {
-    const std::uint32_t across = on_right ? own + 2 : own - 2;
-    const bool continues_other = (on_right ? across + 1 : across - 1) == other &&
-                                 boundary_.is_smooth(std::min(across, other));
-    if (continues_other) return event;  // the other foot's own event
-    // Another copy of what is touched already is no third site.
-    const Vec2 foot = geometry::foot(site(across), from_.center);
-    for (const std::uint32_t touched : {span_.right, span_.left})
-      if (distance(foot, geometry::foot(site(touched), from_.center)) <
-          Contacts::distinct_contacts * from_.radius)
-        return event;
-    const auto contact = contact_with(across, nowhere);
-    if (boundary_.two_sided) {
-      // What is across may face elsewhere, and a point may have another copy that was just left.
-      const bool faces = contact && contacts_.faces(across, contact->disk.center);
-      return faces && reaches(*contact) ? *contact : end_of_range(on_right);
-    }
-    return contact && reaches(*contact) ? *contact : event;
-  }
+  return contact && reaches(*contact) ? *contact : event;
+}
+
+Event EventSearch::event_at_corner(bool on_right) {
+  const std::uint32_t own = on_right ? span_.right : span_.left;
+  const std::uint32_t next = on_right ? own + 1 : own - 1;
+  const std::uint32_t other = on_right ? span_.left : span_.right;
+  Event event;
   // At a convex corner too, before the foot gets to the corner: the disk there is not empty,
   // unless the corner is so flat that it touches both sides within the tolerance.
   const Vec2 foot = on_right ? site(next).point : site(own).point;
@@ -401,7 +415,7 @@ Event EventSearch::first_contact(Event event) {
 }
 
 Event EventSearch::short_of_point(Event event) {
-  const bool in_point = event.disk.radius <= 8 * context_.tolerance &&
+  const bool in_point = event.disk.radius <= as_good_as_point * context_.tolerance &&
                         span_.left - span_.right > 2 && from_.radius > 0;
   if (!in_point) return event;
   double way = event.position - low_;

@@ -60,11 +60,18 @@ class EventSearch {
   }
   /// Rounding may put a disk a little behind the place where it should be; what is further behind
   /// is another solution.
-  double slack() const { return 4 * context_.tolerance + 1e-12 * from_.radius; }
+  double slack() const {
+    constexpr double tolerances = 4, of_radius = 1e-12;
+    return tolerances * context_.tolerance + of_radius * from_.radius;
+  }
   bool is_behind(double position) const { return position < low_ && position < low_ - slack(); }
 
   /// The event at which the foot leaves `right` or `left` for its neighbour, by the sites alone.
   Event local_event(bool on_right);
+  Event event_at_smooth_joint(bool on_right);
+  /// Across a cut, the neighbour is touched as a third site.
+  Event event_across_cut(bool on_right);
+  Event event_at_corner(bool on_right);
   /// The disk whose foot on the right or left is where a cut ends the range of a site of a soup:
   /// the walk gets no further, as the cut's disk reaches across.
   Event end_of_range(bool on_right) const;
