@@ -97,7 +97,9 @@ Result<int> run_legal(const LegalSwitches& switches) {
       text += fmt::format("{:<16}{}\n", name, value);
     };
     row("branches", fmt::format("{}", count));
-    row("judged", fmt::format("{}{}", told, told < count ? " (the others are too short)" : ""));
+    row("judged",
+        fmt::format("{}{}", told,
+                    told < count ? " (the others are too short or too rough to tell)" : ""));
     row("legal", fmt::format("{}", legal));
     row("strictly legal", fmt::format("{}", strict));
     for (std::size_t i = 0; i < std::min(offences.size(), most_branches_told); ++i) {
@@ -106,7 +108,12 @@ Result<int> run_legal(const LegalSwitches& switches) {
     if (offences.size() > most_branches_told) {
       row("illegal", fmt::format("and {} more", offences.size() - most_branches_told));
     }
-    row("verdict", offences.empty() ? "legal" : "ILLEGAL");
+    for (const io::NativeItem& item : file->items)
+      if (item.axis.method == "pack")
+        row("within", fmt::format("{:.6g}, the error of the pack", item.axis.resolution));
+    row("verdict", !offences.empty() ? "ILLEGAL"
+                   : told > 0        ? "legal"
+                                     : "legal, as far as is known");
     printed = print(text);
   }
   if (!printed) return std::move(printed).error();
@@ -139,7 +146,8 @@ Verb make_legal_verb(CLI::App& program) {
       "the radius changes faster than the way, |R'| <= 1, nor the curve bends too\n"
       "sharply, 1 - R'^2 - R R'' >= |K| R sqrt(1 - R'^2) (Shaked and Bruckstein 1996,\n"
       "(9) and (10)); where both hold strictly it is one locally. No shape is needed.\n"
-      "Branches count as in the native format's edges: by their lowest edge.\n"
+      "Branches count as in the native format's edges: by their lowest edge. Of an\n"
+      "unpacked axis only what its error does not explain is illegal.\n"
       "\n"
       "Exit status: 0 legal, 1 illegal, 2 an error.\n"
       "\n"

@@ -175,6 +175,28 @@ TEST(Sides, WhatIsTooSteepOrTooSharpIsIllegal) {
   EXPECT_FALSE(edge.strictly_legal(1e-12));
 }
 
+/// A pack's disks are off by its error: what that explains is not illegal, and more is.
+TEST(Sides, WhatAPacksErrorExplainsIsNotIllegal) {
+  MedialAxis axis;
+  axis.method = "pack";
+  for (std::uint32_t i = 0; i < 5; ++i) {
+    const double x = i;
+    axis.nodes.push_back({{{x, 0.0}, 1}, 0, NodeKind::site_change});
+    if (i > 0) axis.edges.push_back({{i - 1, i}, {no_site, no_site}, {{x - 0.5, 0.0}, 1}, 1});
+  }
+  const auto judge = [&](double kink, double error) {
+    axis.nodes[2].disk.center.y = kink;
+    axis.resolution = error;
+    const auto found = legality(axis);
+    EXPECT_EQ(found.size(), 1U);
+    return found.front();
+  };
+  EXPECT_GT(judge(0.6, 1e-6).bend, 0.1);  // K R = 1.2: no axis
+  EXPECT_EQ(judge(0.6, 0.3).frames, 0U);
+  EXPECT_EQ(judge(0.02, 1e-6).frames, 3U);
+  EXPECT_TRUE(judge(0.02, 1e-6).legal(1e-9));
+}
+
 /// A branch of points has the frames of the curve that they lie on, to the second order.
 TEST(Sides, SampledBranchesHaveFramesToo) {
   const MedialAxis exact = axis_of({{0, 0}, 1}, {{2, 1}, 1.3}, {{5, 1}, 1.1}, 0.8);

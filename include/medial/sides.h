@@ -23,8 +23,8 @@ struct AxisFrame {
   double radius_rate = 0;  ///< R_a, no unit; beyond [-1, 1] no shape has such an axis
   double radius_bend = 0;  ///< R_aa, 1 / length
   double curvature = 0;    ///< K_A, 1 / length, positive where the axis turns left
-  /// What rounding leaves open: of R_a, and of R_aa and K_A; 0 on samples, which are taken as
-  /// given.
+  /// What rounding leaves open, or the error of a pack (method "pack"): of R_a, and of R_aa and
+  /// K_A; 0 on other samples, which are taken as given.
   double rate_error = 0;
   double bend_error = 0;
 };

@@ -45,6 +45,13 @@ Curve::Derivatives through(const Disk& before, const Disk& here, const Disk& aft
           2 * (rate1 - rate0) / (h0 + h1)};
 }
 
+/// What disks that are off by `error`, as a pack's are, leave open of the differences across two
+/// steps: 2 error / h of each first one, 4 error / (h0 h1) of the second.
+void leave_open(AxisFrame& frame, double h0, double h1, double error) {
+  frame.rate_error = 4 * error / std::min(h0, h1);
+  frame.bend_error = 8 * error / (h0 * h1);
+}
+
 /// The derivatives of the polynomial through some disks, by the length of the chords between them,
 /// at the one of index `at`: Lagrange's weights. Requires different centres one after another.
 Curve::Derivatives through(std::span<const Disk* const> disks, std::size_t at) {
@@ -226,8 +233,12 @@ std::vector<AxisFrame> frames_along(const MedialAxis& axis, const Branch& branch
     for (std::size_t i = 0; i + 1 < branch.steps.size(); ++i) {
       const Disk& here = end_of(branch.steps[i]);
       const Disk& after = end_of(branch.steps[i + 1]);
-      if (!(before->center == here.center) && !(here.center == after.center))
+      if (!(before->center == here.center) && !(here.center == after.center)) {
         frames.push_back(frame_of(here, through(*before, here, after), 0));
+        if (axis.method == "pack")
+          leave_open(frames.back(), distance(before->center, here.center),
+                     distance(here.center, after.center), axis.resolution);
+      }
       before = &here;
     }
     return frames;
