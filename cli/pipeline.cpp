@@ -232,20 +232,8 @@ namespace {
 /// The boundary of a feature as contours, whatever it was read as.
 std::vector<Contour> contours_of(const io::Feature& feature) {
   std::vector<Contour> contours = feature.contours;
-  for (const Ring& ring : feature.rings) {
-    if (ring.points.empty()) continue;
-    Contour& contour = contours.emplace_back();
-    contour.start_at(ring.points.front());
-    for (std::size_t i = 0; i < ring.points.size(); ++i) {
-      const Vec2 end = ring.points[(i + 1) % ring.points.size()];
-      if (end == ring.points[i]) continue;
-      if (ring.bulges.empty() || ring.bulges[i] == 0) {
-        contour.line_to(end);
-      } else {
-        contour.arc_to(end, ring.bulges[i]);
-      }
-    }
-  }
+  for (const Ring& ring : feature.rings)
+    if (!ring.points.empty()) contours.push_back(contour_of(ring.points, ring.bulges, true));
   return contours;
 }
 

@@ -45,6 +45,10 @@ struct Contour {
                    std::span<const Vec2> control, std::span<const double> control_weights = {});
 };
 
+/// The edges of a ring (closed) or of an open chain as pieces; those without length are left out.
+/// `bulges` of the edges, as of a Ring; empty: all are straight.
+Contour contour_of(std::span<const Vec2> points, std::span<const double> bulges, bool closed);
+
 struct ArcOptions {
   /// Largest distance between a contour and its arcs; relative to the diagonal of the bounding box,
   /// or in units of the input. Above 0.

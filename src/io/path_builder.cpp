@@ -117,18 +117,6 @@ Contour transformed(const Affine& map, const Contour& contour) {
   return rebuilt;
 }
 
-Contour contour_of(std::span<const Vec2> points, std::span<const double> bulges, bool closed) {
-  Contour contour;
-  if (points.empty()) return contour;
-  contour.start_at(points.front());
-  for (std::size_t i = 0; i < points.size() - (closed ? 0 : 1); ++i) {
-    const Vec2 end = points[i + 1 == points.size() ? 0 : i + 1];
-    if (!(end == points[i])) contour.arc_to(end, bulges.empty() ? 0 : bulges[i]);
-  }
-  contour.open = !closed;
-  return contour;
-}
-
 Contour reversed(const Contour& contour) {
   Contour result;
   result.role = contour.role;

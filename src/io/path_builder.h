@@ -49,9 +49,6 @@ Contour closed_ellipse(Vec2 center, Vec2 u, Vec2 v);
 /// A contour under a map. Arcs stay arcs under similarities; else they become rational quadratics.
 Contour transformed(const Affine& map, const Contour& contour);
 
-/// The edges of a ring (closed) or of a chain as pieces; those without length are left out.
-Contour contour_of(std::span<const Vec2> points, std::span<const double> bulges, bool closed);
-
 /// The same points the other way round.
 Contour reversed(const Contour& contour);
 
