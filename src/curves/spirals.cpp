@@ -80,6 +80,7 @@ class Converter {
   bool try_single_arc(const Bezier& part, const Station& a, const Station& b);
   bool try_singular_end(const Bezier& part, const Station& a, const Station& b,
                         CurvatureLimits limits);
+  double fraction_to_split(const Station& a, const Station& b) const;
   bool try_biarc(const Bezier& part, const Station& a, const Station& b, CurvatureLimits limits);
   bool is_spiral(const Biarc& biarc, const Station& a, const Station& b,
                  CurvatureLimits limits) const;
@@ -99,6 +100,7 @@ class Converter {
   const SpiralOptions& options_;
   ArcChain& chain_;
   double error_ = 0;
+  double failed_error_ = 0;  ///< of the last part's biarc; 0: none was measured
   int parts_ = 0;
   bool ends_osculating_ = false;  ///< the last arc is the osculating circle where it ends
   bool merge_ = false;            ///< and the next one may go on along it
@@ -141,6 +143,7 @@ void Converter::convert(const Bezier& part, const Station& a, const Station& b,
                         CurvatureLimits limits, int depth) {
   const bool singular = is_singular(a) || is_singular(b);
   const Vec2 chord = b.point - a.point;
+  failed_error_ = 0;
   if (!(a.point == b.point)) {
     if (singular) {
       if (try_singular_end(part, a, b, limits)) return;
@@ -159,13 +162,25 @@ void Converter::convert(const Bezier& part, const Station& a, const Station& b,
     error_ = std::max(error_, size);
     return;
   }
-  const double t = 0.5 * (a.t + b.t);
+  const double fraction = fraction_to_split(a, b);
+  const double t = a.t + fraction * (b.t - a.t);
   const Station middle = snapped(station_at(curve_, t, Side::before));
   Bezier left, right;
-  split(part, 0.5, left, right);
+  split(part, fraction, left, right);
   convert(left, a, middle, {limits.begin, infinite}, depth + 1);
   const Station from = is_singular(middle) ? snapped(station_at(curve_, t, Side::after)) : middle;
   convert(right, from, b, {infinite, limits.end}, depth + 1);
+}
+
+/// The error falls with the third power of the number of parts, so the one of the biarc that failed
+/// tells how many there will be: an odd number is not split in the middle. There are fewer parts on
+/// the side of the larger curvature, so a curve is split alike from both ends.
+double Converter::fraction_to_split(const Station& a, const Station& b) const {
+  constexpr double most = 63;  // more are told better by the halves
+  const double parts = std::ceil(std::cbrt(failed_error_ / options_.tolerance));
+  if (!(parts > 1 && parts <= most)) return 0.5;
+  const double fraction = std::floor(0.5 * parts) / parts;
+  return std::abs(a.curvature) >= std::abs(b.curvature) ? fraction : 1 - fraction;
 }
 
 /// Where curvature is constant but for rounding: one arc, between the directions at both ends.
@@ -221,7 +236,10 @@ bool Converter::try_biarc(const Bezier& part, const Station& a, const Station& b
   const Biarc biarc = make_biarc(a, settled(spiral_joint(a, b), a, b), b);
   if (!is_spiral(biarc, a, b, limits)) return false;
   const double error = certified_error(part, biarc, options_.rounding);
-  if (!(error <= options_.tolerance)) return false;
+  if (!(error <= options_.tolerance)) {
+    failed_error_ = error;
+    return false;
+  }
 
   const bool forward = std::abs(a.curvature) >= std::abs(b.curvature);
   if (merge_ && ends_osculating_ && forward) {
