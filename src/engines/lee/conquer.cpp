@@ -57,13 +57,14 @@ class Conquest {
   /// All merges below one list: of two lists, both as soon as they are there, and so in the cache.
   void merge_below(const Halving& halving, int level, std::uint64_t i) {
     Statistics own;
+    std::optional<Disk> known;
     const int bottom = std::max(level, halving.deepest() - levels_at_bottom);
     for (std::uint64_t j = i << (bottom - level);
          j < (i + 1) << (bottom - level) && !cancelled();) {
       // The list that is solved next, and its level: as large as it can be in closed form.
       int k = std::max(level, bottom - std::countr_zero(j));
-      while (k < bottom && !is_fan(halving, k, j >> (bottom - k))) ++k;
-      if (k == bottom) merge_bottom(halving, bottom, j, own);
+      while (k < bottom && !is_fan(halving, k, j >> (bottom - k), known)) ++k;
+      if (k == bottom) merge_bottom(halving, bottom, j, known, own);
       std::uint64_t list = j >> (bottom - k);
       j = (list + 1) << (bottom - k);
       for (; k > level && list % 2 == 1; list /= 2, --k)
@@ -107,16 +108,18 @@ class Conquest {
 
  private:
   /// All merges below one short list, level by level.
-  void merge_bottom(const Halving& halving, int level, std::uint64_t i, Statistics& statistics) {
+  void merge_bottom(const Halving& halving, int level, std::uint64_t i, std::optional<Disk>& known,
+                    Statistics& statistics) {
+    if (known && is_fan(halving, level, i, known)) return;
     for (int k = halving.deepest() - 1; k >= level; --k)
       for (std::uint64_t j = i << (k - level); j < (i + 1) << (k - level); ++j)
         merge_halves(halving, k, j, statistics);
   }
 
-  bool is_fan(const Halving& halving, int level, std::uint64_t i) {
+  bool is_fan(const Halving& halving, int level, std::uint64_t i, std::optional<Disk>& known) {
     constexpr double slack = 0.0625;  // see merge.cpp
     return fan_of(diagram_, halving.boundary(level, i), halving.boundary(level, i + 1),
-                  context_.limits.radius_limit, slack * context_.limits.tolerance) != none;
+                  context_.limits.radius_limit, slack * context_.limits.tolerance, known) != none;
   }
 
   void report(std::uint64_t work) {
@@ -148,8 +151,10 @@ std::vector<std::uint32_t> conquer(Diagram& diagram, const ConquerContext& conte
   Conquest conquest(diagram, context, statistics);
   for (const Elements::Loop& loop : diagram.elements.loops) {
     const Halving halving{loop.first_chain, loop.end_chain - loop.first_chain};
-    const std::uint32_t edge = fan_of(diagram, loop.first_chain, loop.end_chain,
-                                      context.limits.radius_limit, 0.5 * context.tie_tolerance);
+    std::optional<Disk> known;
+    const std::uint32_t edge =
+        fan_of(diagram, loop.first_chain, loop.end_chain, context.limits.radius_limit,
+               0.5 * context.tie_tolerance, known);
     if (edge != none)
       last_edges.push_back(edge);
     else
