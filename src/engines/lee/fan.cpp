@@ -2,41 +2,60 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <span>
 
 #include "geometry/tangent_disk.h"
 
 namespace medial::lee {
 namespace {
 
-/// Whether a disk touches all segments in [begin, end).
-bool touches_all(const Elements& elements, std::uint32_t begin, std::uint32_t end, const Disk& disk,
-                 double slack) {
-  const auto touches = [&](const geometry::Site& site) {
-    const Vec2 d = disk.center - site.point;
-    const double foot = dot(site.direction, d);
-    return std::abs(cross(site.direction, d) - disk.radius) <= slack && foot >= 0 &&
-           foot <= site.length;
-  };
-  const auto first = elements.sites.begin();
-  return std::all_of(first + begin, first + end, touches);
+bool touches(const geometry::Site& segment, const Disk& disk, double slack) {
+  const Vec2 d = disk.center - segment.point;
+  const double foot = dot(segment.direction, d);
+  return std::abs(cross(segment.direction, d) - disk.radius) <= slack && foot >= 0 &&
+         foot <= segment.length;
 }
 
-/// The disk that touches all segments in [begin, end), if there is one.
-std::optional<Disk> common_disk(const Elements& elements, std::uint32_t begin, std::uint32_t end,
-                                double radius_limit, double slack) {
-  // Three segments that are far from parallel: a third of the way around a polygon, or else the
-  // first, the last and the one in the middle.
+/// Segments of a list, one after another.
+using Segments = std::span<const geometry::Site>;
+
+bool touches_all(const Segments& segments, const Disk& disk, double slack) {
+  return std::all_of(segments.begin(), segments.end(),
+                     [&](const geometry::Site& s) { return touches(s, disk, slack); });
+}
+
+/// The disk that touches the first segment, the last and the one in the middle; a third of the way
+/// around a polygon, that of each third.
+std::optional<Disk> disk_of_three(const Segments& segments, double radius_limit) {
   constexpr double nearly_parallel = 0.999;
-  const bool is_closed = geometry::meets(elements.sites[end - 1], elements.sites[begin]);
-  const std::uint32_t last = is_closed ? begin + 2 * ((end - begin) / 3) : end - 1;
-  const geometry::Site &a = elements.sites[begin], &b = elements.sites[std::midpoint(begin, last)],
-                       &c = elements.sites[last];
+  const bool is_closed = geometry::meets(segments.back(), segments.front());
+  const std::size_t last = is_closed ? 2 * (segments.size() / 3) : segments.size() - 1;
+  const geometry::Site &a = segments[0], &b = segments[last / 2], &c = segments[last];
   if (dot(a.direction, c.direction) > nearly_parallel) return std::nullopt;
   const geometry::TangentDisks disks = geometry::tangent_disks(a, b, c);
   if (disks.count != 1 || !(disks.disk[0].radius <= radius_limit)) return std::nullopt;
-  if (!touches_all(elements, begin, end, disks.disk[0], slack)) return std::nullopt;
   return disks.disk[0];
+}
+
+/// The disk that touches all segments of [begin, end), if there is one: best that of three far
+/// apart that it touches, beyond the list as well, so that it fits to the lists beside it.
+std::optional<Disk> common_disk(const Elements& elements, std::uint32_t begin, std::uint32_t end,
+                                double radius_limit, double slack) {
+  const Segments all(elements.sites);
+  const Segments list = all.subspan(begin, end - begin);
+  const std::optional<Disk> disk = disk_of_three(list, radius_limit);
+  if (!disk || !touches_all(list, *disk, slack)) return std::nullopt;
+  std::uint32_t far_begin = begin, far_end = end;
+  for (std::uint32_t step = end - begin;
+       far_begin >= step && touches(all[far_begin - step], *disk, slack); step *= 2)
+    far_begin -= step;
+  for (std::uint32_t step = end - begin;
+       all.size() - far_end >= step && touches(all[far_end + step - 1], *disk, slack); step *= 2)
+    far_end += step;
+  if (far_end - far_begin == end - begin) return disk;
+  const std::optional<Disk> better =
+      disk_of_three(all.subspan(far_begin, far_end - far_begin), radius_limit);
+  return better && touches_all(list, *better, slack) ? better : disk;
 }
 
 }  // namespace
@@ -46,7 +65,7 @@ std::uint32_t fan_of(Diagram& diagram, std::uint32_t first, std::uint32_t end, d
   const Elements& elements = diagram.elements;
   const std::uint32_t begin = elements.chains[first], last = elements.chains[end] - 1;
   if (last - begin + 1 != end - first) return none;
-  if (!known || !touches_all(elements, begin, last + 1, *known, slack)) {
+  if (!known || !touches_all(Segments(elements.sites).subspan(begin, end - first), *known, slack)) {
     const auto disk = common_disk(elements, begin, last + 1, radius_limit, slack);
     if (!disk) return none;
     known = disk;
