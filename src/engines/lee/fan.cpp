@@ -37,25 +37,41 @@ std::optional<Disk> disk_of_three(const Segments& segments, double radius_limit)
   return disks.disk[0];
 }
 
+/// How many of the segments beside a list are in reach, found in steps that grow and then shrink.
+template <class IsTouched>
+std::uint32_t reach(std::uint32_t step, std::uint32_t limit, const IsTouched& is_touched) {
+  std::uint32_t far = 0;
+  const auto fits = [&] { return limit - far >= step && is_touched(far + step - 1); };
+  for (; fits(); step *= 2) far += step;
+  for (; step > 0; step /= 2)
+    if (fits()) far += step;
+  return far;
+}
+
 /// The disk that touches all segments of [begin, end), if there is one: best that of three far
 /// apart that it touches, beyond the list as well, so that it fits to the lists beside it.
 std::optional<Disk> common_disk(const Elements& elements, std::uint32_t begin, std::uint32_t end,
                                 double radius_limit, double slack) {
   const Segments all(elements.sites);
   const Segments list = all.subspan(begin, end - begin);
-  const std::optional<Disk> disk = disk_of_three(list, radius_limit);
+  std::optional<Disk> disk = disk_of_three(list, radius_limit);
   if (!disk || !touches_all(list, *disk, slack)) return std::nullopt;
-  std::uint32_t far_begin = begin, far_end = end;
-  for (std::uint32_t step = end - begin;
-       far_begin >= step && touches(all[far_begin - step], *disk, slack); step *= 2)
-    far_begin -= step;
-  for (std::uint32_t step = end - begin;
-       all.size() - far_end >= step && touches(all[far_end + step - 1], *disk, slack); step *= 2)
-    far_end += step;
-  if (far_end - far_begin == end - begin) return disk;
-  const std::optional<Disk> better =
-      disk_of_three(all.subspan(far_begin, far_end - far_begin), radius_limit);
-  return better && touches_all(list, *better, slack) ? better : disk;
+  // The further apart, the better known, and the more it touches.
+  for (std::uint32_t low = begin, high = end;;) {
+    const std::uint32_t size = high - low;
+    const std::uint32_t before =
+        reach(size, low, [&](std::uint32_t i) { return touches(all[low - 1 - i], *disk, slack); });
+    const std::uint32_t after = reach(size, elements.size() - high, [&](std::uint32_t i) {
+      return touches(all[high + i], *disk, slack);
+    });
+    if (before + after == 0) return disk;
+    low -= before;
+    high += after;
+    const std::optional<Disk> better = disk_of_three(all.subspan(low, high - low), radius_limit);
+    if (!better || !touches_all(list, *better, slack)) return disk;
+    disk = better;
+    if (before + after < size) return disk;
+  }
 }
 
 }  // namespace
