@@ -122,12 +122,35 @@ std::uint32_t FirstTouch::beside(const Slabs& slabs, float x, float y, float rea
 #endif
 }
 
+/// Shrinks the disk until it keeps clear of the sites of a block.
+void FirstTouch::search_block(std::uint32_t block, Search& search) const {
+  const auto look_at = [&](const Entry& entry) {
+    if (entry.index >= search.first && entry.index <= search.last) return;
+    if (groups_[entry.index] != search.group) return;
+    const double smaller = geometry::touching_radius(search.foot, search.direction, entry.site);
+    if (!(smaller < search.radius)) return;
+    search.radius = smaller;
+    search.center = search.foot + smaller * search.direction;
+    search.found = {entry.index, smaller};
+  };
+  std::size_t i = block * block_size;
+  const std::size_t end = std::min(i + block_size, entries_.size());
+  const auto limit = [&] { return (search.radius + rounding) * (search.radius + rounding); };
+  if (!has_arcs_) {
+    for (; i + 1 < end; i += 2) {
+      if (!one_is_nearer(entries_[i].site, entries_[i + 1].site, search.center, limit())) continue;
+      look_at(entries_[i]);
+      look_at(entries_[i + 1]);
+    }
+  }
+  for (; i < end; ++i)
+    if (geometry::squared_distance(entries_[i].site, search.center) < limit()) look_at(entries_[i]);
+}
+
 std::optional<FirstTouch::Touch> FirstTouch::find(Vec2 foot, Vec2 direction, double largest,
                                                   std::uint32_t group, std::uint32_t first,
                                                   std::uint32_t last) const {
-  std::optional<Touch> found;
-  double radius = largest;
-  Vec2 center = foot + radius * direction;
+  Search search{foot, direction, group, first, last, largest, foot + largest * direction};
   const auto foot_x = static_cast<float>(foot.x), foot_y = static_cast<float>(foot.y);
   struct Waiting {
     std::uint32_t level, index;
@@ -138,35 +161,15 @@ std::optional<FirstTouch::Touch> FirstTouch::find(Vec2 foot, Vec2 direction, dou
   std::size_t size = 0;
   stack[size++] = {static_cast<std::uint32_t>(levels_.size()), 0, 0};
 
-  const auto look_at = [&](const Entry& entry) {
-    if (entry.index >= first && entry.index <= last) return;
-    if (groups_[entry.index] != group) return;
-    const double smaller = geometry::touching_radius(foot, direction, entry.site);
-    if (!(smaller < radius)) return;
-    radius = smaller;
-    center = foot + radius * direction;
-    found = {entry.index, radius};
-  };
   while (size > 0) {
     const Waiting top = stack[--size];
     if (top.level == 0) {
-      std::size_t i = top.index * block_size;
-      const std::size_t end = std::min(i + block_size, entries_.size());
-      const auto limit = [&] { return (radius + rounding) * (radius + rounding); };
-      if (!has_arcs_) {
-        for (; i + 1 < end; i += 2) {
-          if (!one_is_nearer(entries_[i].site, entries_[i + 1].site, center, limit())) continue;
-          look_at(entries_[i]);
-          look_at(entries_[i + 1]);
-        }
-      }
-      for (; i < end; ++i)
-        if (geometry::squared_distance(entries_[i].site, center) < limit()) look_at(entries_[i]);
+      search_block(top.index, search);
       continue;
     }
     const Bounds& bounds = levels_[top.level - 1][top.index];
-    const auto x = static_cast<float>(center.x), y = static_cast<float>(center.y);
-    const auto reach = static_cast<float>(radius + single_precision_slack);
+    const auto x = static_cast<float>(search.center.x), y = static_cast<float>(search.center.y);
+    const auto reach = static_cast<float>(search.radius + single_precision_slack);
     Lanes from_foot, from_center;
     nearer(bounds.boxes, foot_x, foot_y, 0, from_foot);
     std::uint32_t mask =
@@ -183,7 +186,71 @@ std::optional<FirstTouch::Touch> FirstTouch::find(Vec2 foot, Vec2 direction, dou
       stack[at] = waiting;
     }
   }
-  return found;
+  return search.found;
+}
+
+void FirstTouch::look_around(const Extent& box, Region& region) const {
+  constexpr std::size_t most = 64;
+  region.box_ = box;
+  region.nodes_.clear();
+  const float low_x = rounded_down(box.low.x - single_precision_slack),
+              low_y = rounded_down(box.low.y - single_precision_slack),
+              high_x = rounded_up(box.high.x + single_precision_slack),
+              high_y = rounded_up(box.high.y + single_precision_slack);
+  struct Waiting {
+    std::uint32_t level, index;
+  };
+  std::array<Waiting, 3 * 16 + fan> stack;
+  std::size_t size = 0;
+  stack[size++] = {static_cast<std::uint32_t>(levels_.size()) - 1, 0};
+  while (size > 0) {
+    const Waiting top = stack[--size];
+    if (top.level == 0) {
+      region.nodes_.push_back(top.index);
+      if (region.nodes_.size() <= most) continue;
+      region.box_ = {};
+      return;
+    }
+    const Boxes& boxes = levels_[top.level][top.index].boxes;
+    for (std::uint32_t lane = 0; lane < fan; ++lane)
+      if (boxes.low_x[lane] <= high_x && boxes.high_x[lane] >= low_x &&
+          boxes.low_y[lane] <= high_y && boxes.high_y[lane] >= low_y)
+        stack[size++] = {top.level - 1, top.index * static_cast<std::uint32_t>(fan) + lane};
+  }
+}
+
+std::optional<FirstTouch::Touch> FirstTouch::find(Vec2 foot, Vec2 direction, double largest,
+                                                  std::uint32_t group, std::uint32_t first,
+                                                  std::uint32_t last, Region& region) const {
+  Search search{foot, direction, group, first, last, largest, foot + largest * direction};
+  const auto foot_x = static_cast<float>(foot.x), foot_y = static_cast<float>(foot.y);
+  const std::vector<Bounds>& lowest = levels_.front();
+  auto& waiting = region.waiting_;
+  waiting.clear();
+  const auto lanes_near = [&](const Bounds& bounds, Lanes& squared) {
+    const auto x = static_cast<float>(search.center.x), y = static_cast<float>(search.center.y);
+    const auto reach = static_cast<float>(search.radius + single_precision_slack);
+    return nearer(bounds.boxes, x, y, reach * reach, squared) & ~beside(bounds.slabs, x, y, reach);
+  };
+  for (const std::uint32_t node : region.nodes_) {
+    Lanes from_foot, from_center;
+    std::uint32_t mask = lanes_near(lowest[node], from_center);
+    if (mask == 0) continue;
+    nearer(lowest[node].boxes, foot_x, foot_y, 0, from_foot);
+    for (; mask != 0; mask &= mask - 1) {
+      const auto lane = static_cast<std::uint32_t>(std::countr_zero(mask));
+      waiting.push_back({node * static_cast<std::uint32_t>(fan) + lane, from_foot[lane]});
+    }
+  }
+  // Nearest to the foot first: there the disk shrinks most.
+  std::sort(waiting.begin(), waiting.end(),
+            [](const Region::Block& a, const Region::Block& b) { return a.from_foot < b.from_foot; });
+  for (const Region::Block& block : waiting) {
+    Lanes from_center;
+    if ((lanes_near(lowest[block.index / fan], from_center) >> block.index % fan & 1U) != 0)
+      search_block(block.index, search);
+  }
+  return search.found;
 }
 
 }  // namespace medial::index

@@ -35,6 +35,31 @@ class FirstTouch {
   std::optional<Touch> find(Vec2 foot, Vec2 direction, double largest, std::uint32_t group,
                             std::uint32_t first, std::uint32_t last) const;
 
+  /// The lowest nodes of the tree whose boxes meet a region: one descent for many searches in it.
+  /// Of a region with very many of them, none.
+  class Region {
+   public:
+    /// Whether all of a disk lies in the region, so that a search may begin here.
+    bool holds(Vec2 center, double radius) const {
+      return center.x - radius >= box_.low.x && center.y - radius >= box_.low.y &&
+             center.x + radius <= box_.high.x && center.y + radius <= box_.high.y;
+    }
+
+   private:
+    friend FirstTouch;
+    struct Block {
+      std::uint32_t index;
+      float from_foot;
+    };
+    Extent box_;  ///< of nothing where there are too many nodes
+    std::vector<std::uint32_t> nodes_;
+    std::vector<Block> waiting_;  ///< of the search under way
+  };
+  void look_around(const Extent& box, Region& region) const;
+  /// find() of a disk that the region holds.
+  std::optional<Touch> find(Vec2 foot, Vec2 direction, double largest, std::uint32_t group,
+                            std::uint32_t first, std::uint32_t last, Region& region) const;
+
   /// Calls visit(site) for all sites of the group within `reach` of a point of the local frame.
   template <class Visit>
   void near(Vec2 point, double reach, std::uint32_t group, Visit&& visit) const;
@@ -59,7 +84,17 @@ class FirstTouch {
     Slabs slabs;
   };
 
+  /// A search under way: the disk so far, and the site that it touches.
+  struct Search {
+    Vec2 foot, direction;
+    std::uint32_t group, first, last;
+    double radius;
+    Vec2 center;
+    std::optional<Touch> found = {};
+  };
+
   void build_level(std::size_t run);
+  void search_block(std::uint32_t block, Search& search) const;
 
   static std::uint32_t beside(const Slabs& slabs, float x, float y, float reach);
 

@@ -82,35 +82,86 @@ std::uint32_t facing_site(const Boundary& loops, const index::FirstTouch& first_
   return found;
 }
 
-/// The disk meets its own component first. Other components can only have vertices in common with
-/// it, and are left out: a cut must not end there.
-Cut connecting_disk(const Shape& shape, const Boundary& loops, const index::FirstTouch& first_touch,
-                    std::uint32_t hole, double furthest, double typical, double tolerance) {
-  const Boundary::Run own = loops.runs[hole];
-  const Vec2 foot = loops.sites[own.first].point;
-  // A disk that reaches beyond the furthest point of all crosses the boundary, however its centre
-  // is rounded.
-  const double largest = 0.5 * (furthest - dot(outreach, foot)) + tolerance;
-  // Most holes have others at about the distance of their own detail.
-  const std::uint32_t edge =
-      std::min(own.last, own.first + (loops.elements[own.first] == Element::vertex ? 1 : 0));
-  const double detail = loops.sites[edge].length;
-  double radius = std::min(largest, detail > 0 ? detail : typical);
-  const auto find = [&] {
-    return first_touch.find(foot, outreach, radius, shape.component[hole], own.first, own.last);
-  };
-  auto touch = find();
-  while (!touch && radius < largest) {
-    radius = std::min(largest, 8 * radius);
-    touch = find();
+/// Finds the disks that connect holes to others, for a run of holes that lie near to each other.
+class Connector {
+ public:
+  Connector(const Shape& shape, const Boundary& loops, const index::FirstTouch& first_touch,
+            double furthest, double typical, double tolerance)
+      : shape_(shape),
+        loops_(loops),
+        first_touch_(first_touch),
+        furthest_(furthest),
+        typical_(typical),
+        tolerance_(tolerance) {}
+
+  /// Prepares for these holes.
+  void begin(std::span<const std::uint32_t> holes) {
+    if (!found_.empty()) {
+      const auto middle = found_.begin() + static_cast<std::ptrdiff_t>(found_.size() / 2);
+      std::nth_element(found_.begin(), middle, found_.end());
+      expected_ = 2 * *middle;
+    }
+    found_.clear();
+    index::Extent around;
+    for (const std::uint32_t hole : holes) {
+      const Vec2 foot = loops_.sites[loops_.runs[hole].first].point;
+      const double radius = first_radius(hole);
+      const Vec2 center = foot + radius * outreach;
+      around.add(center - Vec2{radius, radius});
+      around.add(center + Vec2{radius, radius});
+    }
+    first_touch_.look_around(around, region_);
   }
-  if (touch) radius = touch->radius;
-  Cut cut{{foot + radius * outreach, radius}, hole, touch ? touch->site : own.first};
-  if (loops.two_sided && touch)
-    cut.site = facing_site(loops, first_touch, shape.component[hole], cut.site, cut.disk.center);
-  cut.site = owner_of_foot(loops, run_of(loops, cut.site), cut.site, cut.disk.center);
-  return cut;
-}
+
+  /// The disk meets its own component first. Other components can only have vertices in common with
+  /// it, and are left out: a cut must not end there.
+  Cut connecting_disk(std::uint32_t hole) {
+    const Boundary::Run own = loops_.runs[hole];
+    const std::uint32_t component = shape_.component[hole];
+    const Vec2 foot = loops_.sites[own.first].point;
+    const double largest = largest_radius(foot);
+    double radius = first_radius(hole);
+    auto touch =
+        region_.holds(foot + radius * outreach, radius)
+            ? first_touch_.find(foot, outreach, radius, component, own.first, own.last, region_)
+            : first_touch_.find(foot, outreach, radius, component, own.first, own.last);
+    while (!touch && radius < largest) {
+      radius = std::min(largest, 8 * radius);
+      touch = first_touch_.find(foot, outreach, radius, component, own.first, own.last);
+    }
+    if (touch) radius = touch->radius;
+    found_.push_back(radius);
+    Cut cut{{foot + radius * outreach, radius}, hole, touch ? touch->site : own.first};
+    if (loops_.two_sided && touch)
+      cut.site = facing_site(loops_, first_touch_, component, cut.site, cut.disk.center);
+    cut.site = owner_of_foot(loops_, run_of(loops_, cut.site), cut.site, cut.disk.center);
+    return cut;
+  }
+
+ private:
+  /// A disk that reaches beyond the furthest point of all crosses the boundary, however its centre
+  /// is rounded.
+  double largest_radius(Vec2 foot) const {
+    return 0.5 * (furthest_ - dot(outreach, foot)) + tolerance_;
+  }
+  /// Most holes have others at about the distance at which those before had some, or at first of
+  /// their own detail.
+  double first_radius(std::uint32_t hole) const {
+    const Boundary::Run own = loops_.runs[hole];
+    const std::uint32_t edge =
+        std::min(own.last, own.first + (loops_.elements[own.first] == Element::vertex ? 1 : 0));
+    const double detail = loops_.sites[edge].length;
+    return std::min(largest_radius(loops_.sites[own.first].point), expected_ > 0 ? expected_ : detail > 0 ? detail : typical_);
+  }
+
+  const Shape& shape_;
+  const Boundary& loops_;
+  const index::FirstTouch& first_touch_;
+  const double furthest_, typical_, tolerance_;
+  index::FirstTouch::Region region_;
+  double expected_ = 0;        ///< radius: twice the middle one of the last run; 0 before the first
+  std::vector<double> found_;  ///< radii of the run under way
+};
 
 /// Where along its site a cut touches: the parameter on a segment; on a vertex, the angle by which
 /// the boundary's normal has turned to the right since the site before.
@@ -286,9 +337,14 @@ std::vector<Cut> connecting_disks(const Shape& shape, const Boundary& loops, dou
   const index::FirstTouch first_touch(loops.sites, edges, components);
 
   std::vector<Cut> cuts(holes.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, holes.size(), 16), [&](const auto& range) {
-    for (std::size_t i = range.begin(); i < range.end(); ++i)
-      cuts[i] = connecting_disk(shape, loops, first_touch, holes[i], furthest, typical, tolerance);
+  constexpr std::size_t together = 16;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, holes.size(), 4 * together), [&](const auto& range) {
+    Connector connector(shape, loops, first_touch, furthest, typical, tolerance);
+    for (std::size_t begin = range.begin(); begin < range.end(); begin += together) {
+      const std::size_t end = std::min(begin + together, range.end());
+      connector.begin(std::span(holes).subspan(begin, end - begin));
+      for (std::size_t i = begin; i < end; ++i) cuts[i] = connector.connecting_disk(holes[i]);
+    }
   });
   queries += cuts.size();
   return cuts;
