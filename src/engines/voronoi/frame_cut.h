@@ -32,9 +32,9 @@ class FrameCut {
 
   /// Appends the edge, or the parts of it inside of the frame, to the diagram. `node_at(end)` gives
   /// the node of an end, and is asked for ends inside of the frame only; `take_control(part)` sets
-  /// control point and weight of a part from its ends.
+  /// control point and weight of a part from its ends. Returns whether it is all of the edge.
   template <class NodeAt, class TakeControl>
-  void add(const ConicEdge& curve, std::array<std::uint32_t, 2> site, bool spoke, NodeAt&& node_at,
+  bool add(const ConicEdge& curve, std::array<std::uint32_t, 2> site, bool spoke, NodeAt&& node_at,
            TakeControl&& take_control);
 
   /// Adds the frame's own edges, from crossing to crossing and corner to corner. Throws
@@ -83,8 +83,14 @@ class FrameCut {
 };
 
 template <class NodeAt, class TakeControl>
-void FrameCut::add(const ConicEdge& curve, std::array<std::uint32_t, 2> site, bool spoke,
+bool FrameCut::add(const ConicEdge& curve, std::array<std::uint32_t, 2> site, bool spoke,
                    NodeAt&& node_at, TakeControl&& take_control) {
+  // A curve lies in the triangle of its control points.
+  if (holds(curve.from.center) && holds(curve.to.center) && holds(curve.control.center)) {
+    diagram_.edges.push_back(
+        {{{node_at(0), node_at(1)}, site, curve.control, curve.weight}, spoke, false});
+    return true;
+  }
   clip(curve, frame_, parts_);
   // Whether a node is inside is decided for all of its edges alike; where it is so near to the
   // frame that an edge saw it otherwise, a part without length makes up for that.
@@ -119,6 +125,7 @@ void FrameCut::add(const ConicEdge& curve, std::array<std::uint32_t, 2> site, bo
       add_crossing(cut.to, site, number, 1);
     diagram_.edges.push_back({{ends, site, cut.control, cut.weight}, spoke, false});
   }
+  return false;
 }
 
 }  // namespace medial::voronoi

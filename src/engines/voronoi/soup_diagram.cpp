@@ -24,6 +24,8 @@ namespace medial::voronoi {
 namespace {
 
 constexpr std::uint32_t none = ~std::uint32_t{0};
+/// Numbers of edges leave a bit for a flag: a soup has less than 2^28 points and sides of edges.
+constexpr std::uint32_t largest_edge = none >> 1U;
 
 /// Puts an axis together by the sites of a soup: see diagram_of().
 ///
@@ -58,7 +60,9 @@ class Assembly {
 
  private:
   struct Step {
-    std::uint32_t edge, from, to;  ///< nodes of the axis
+    std::uint32_t edge : 31;
+    std::uint32_t forward : 1;  ///< along the edge
+    std::uint32_t from, to;     ///< nodes of the axis
   };
   struct Spoke {
     std::uint32_t point, node;
@@ -82,8 +86,8 @@ class Assembly {
     std::vector<std::uint32_t> filled(chain_begin_.begin(), chain_begin_.end() - 1);
     for (std::uint32_t e = 0; e < axis_.edges.size(); ++e) {
       const Edge& edge = axis_.edges[e];
-      chains_[filled[edge.site[1]]++] = {e, edge.node[0], edge.node[1]};
-      chains_[filled[edge.site[0]]++] = {e, edge.node[1], edge.node[0]};
+      chains_[filled[edge.site[1]]++] = {e & largest_edge, 1, edge.node[0], edge.node[1]};
+      chains_[filled[edge.site[0]]++] = {e & largest_edge, 0, edge.node[1], edge.node[0]};
     }
     first_.assign(count, none);
     last_.assign(count, none);
@@ -256,15 +260,16 @@ class Assembly {
     reserve_large(diagram_.edges, count + 64);
     part_begin_.resize(count + 1);
     for (std::uint32_t e = 0; e < count; ++e) {
-      part_begin_[e] = static_cast<std::uint32_t>(diagram_.edges.size());
+      part_begin_[e] = is_cut | static_cast<std::uint32_t>(diagram_.edges.size());
       const std::array<std::uint32_t, 2> site = sites_of(e);
       if (site[0] == no_site || site[1] == no_site) continue;
       const bool spoke = e >= axis_.edges.size();
-      cut_.add(
+      const bool whole = cut_.add(
           curve_of(e), site, spoke, [&](std::size_t end) { return node_at(e, end); },
           [&](ConicEdge& part) {
             if (!spoke) take_control(axis_, axis_.edges[e].site, part);
           });
+      if (whole) part_begin_[e] &= ~is_cut;
     }
     part_begin_[count] = static_cast<std::uint32_t>(diagram_.edges.size());
   }
@@ -293,8 +298,7 @@ class Assembly {
         const auto axis_edges = static_cast<std::uint32_t>(axis_.edges.size());
         if (spoke_before_[own] != none) add_to_face(axis_edges + spoke_before_[own], true);
         for (const Step& step : chain(own))
-          add_to_face(step.edge, axis_.edges[step.edge].node[0] == step.from &&
-                                     axis_.edges[step.edge].site[1] == own);
+          add_to_face(step.edge, step.forward != 0);
         if (spoke_after_[own] != none) add_to_face(axis_edges + spoke_after_[own], false);
       }
       cut_.end_face(site, diagram_.face_edges);
@@ -304,10 +308,14 @@ class Assembly {
 
   /// Appends what is left of an edge.
   void add_to_face(std::uint32_t e, bool forward) {
-    const std::uint32_t begin = part_begin_[e], end = part_begin_[e + 1];
+    if ((part_begin_[e] & is_cut) == 0) return diagram_.face_edges.push_back(part_begin_[e]);
+    const std::uint32_t begin = part_begin_[e] & ~is_cut, end = part_begin_[e + 1] & ~is_cut;
     for (std::uint32_t i = 0; i < end - begin; ++i)
       cut_.add_to_face(forward ? begin + i : end - 1 - i, forward, diagram_.face_edges);
   }
+
+  /// Of an edge, that it is not all in the frame.
+  static constexpr std::uint32_t is_cut = none - largest_edge;
 
   const Soup& soup_;
   const Shape& shape_;
@@ -323,7 +331,7 @@ class Assembly {
   std::vector<std::uint32_t> spoke_before_, spoke_after_;  ///< of each own site
   std::vector<std::uint32_t> corner_;  ///< of each node: the point that it is, if it is one
   std::vector<std::uint32_t> node_of_point_, node_of_axis_;
-  std::vector<std::uint32_t> part_begin_;  ///< of each edge and spoke: its parts in the diagram
+  std::vector<std::uint32_t> part_begin_;  ///< of each edge and spoke: its parts in the diagram, and `is_cut`
 };
 
 }  // namespace
