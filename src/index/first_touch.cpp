@@ -243,8 +243,9 @@ std::optional<FirstTouch::Touch> FirstTouch::find(Vec2 foot, Vec2 direction, dou
     }
   }
   // Nearest to the foot first: there the disk shrinks most.
-  std::sort(waiting.begin(), waiting.end(),
-            [](const Region::Block& a, const Region::Block& b) { return a.from_foot < b.from_foot; });
+  std::sort(waiting.begin(), waiting.end(), [](const Region::Block& a, const Region::Block& b) {
+    return a.from_foot < b.from_foot;
+  });
   for (const Region::Block& block : waiting) {
     Lanes from_center;
     if ((lanes_near(lowest[block.index / fan], from_center) >> block.index % fan & 1U) != 0)

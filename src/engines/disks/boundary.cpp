@@ -176,8 +176,8 @@ bool in_wedge(Vec2 first, Vec2 last, Vec2 to) {
   const double whole = cross(first, last), begun = cross(first, to), left = cross(to, last);
   const double sizes[] = {squared_norm(first), squared_norm(last), squared_norm(to)};
   constexpr double squared = clear * clear;
-  if (whole * whole > squared * sizes[0] * sizes[1] && begun * begun > squared * sizes[0] * sizes[2] &&
-      left * left > squared * sizes[1] * sizes[2])
+  if (whole * whole > squared * sizes[0] * sizes[1] &&
+      begun * begun > squared * sizes[0] * sizes[2] && left * left > squared * sizes[1] * sizes[2])
     return whole < 0 ? begun < 0 && left < 0 : begun < 0 || left < 0;
   const double angle = clockwise_turn(first, to), wedge = clockwise_turn(first, last);
   return angle <= wedge + beyond || angle >= 2 * std::numbers::pi - beyond;

@@ -150,8 +150,8 @@ tbb::concurrent_vector<std::uint32_t> complete(const Boundary& boundary, const F
             const geometry::Site &left = boundary.sites[edge.site[0]],
                                  &right = boundary.sites[edge.site[1]];
             const Disk &from = axis.nodes[edge.node[0]].disk, &to = axis.nodes[edge.node[1]].disk;
-            if (!(touches(from, left) && touches(from, right) && touches(to, left) &&
-                  touches(to, right)))
+            if (!boundary.two_sided && !(touches(from, left) && touches(from, right) &&
+                                         touches(to, left) && touches(to, right)))
               doubtful.push_back(static_cast<std::uint32_t>(i));
             const geometry::Control found = geometry::control_of(left, right, from, to);
             edge.control = {frame.to_input(found.point.center), frame.inverse * found.point.radius};

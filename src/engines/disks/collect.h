@@ -20,7 +20,7 @@ void collect(std::vector<std::unique_ptr<Chunk>>& chunks, std::size_t cut_count,
 /// Works out the edges' curves and the nodes' kinds, and goes back to the result's numbers of sites
 /// and to the input's units. Returns the edges, in any order, with an end that does not touch one
 /// of the edge's two sites, give or take `slack` in local units: where cuts divide a site, the
-/// piece of it that the edge names.
+/// piece of it that the edge names. Of soups none are looked for.
 tbb::concurrent_vector<std::uint32_t> complete(const Boundary& boundary, const Frame& frame,
                                                double slack, MedialAxis& axis);
 

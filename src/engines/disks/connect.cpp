@@ -151,7 +151,9 @@ class Connector {
     const std::uint32_t edge =
         std::min(own.last, own.first + (loops_.elements[own.first] == Element::vertex ? 1 : 0));
     const double detail = loops_.sites[edge].length;
-    return std::min(largest_radius(loops_.sites[own.first].point), expected_ > 0 ? expected_ : detail > 0 ? detail : typical_);
+    return std::min(largest_radius(loops_.sites[own.first].point), expected_ > 0 ? expected_
+                                                                   : detail > 0  ? detail
+                                                                                 : typical_);
   }
 
   const Shape& shape_;
@@ -338,14 +340,15 @@ std::vector<Cut> connecting_disks(const Shape& shape, const Boundary& loops, dou
 
   std::vector<Cut> cuts(holes.size());
   constexpr std::size_t together = 16;
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, holes.size(), 4 * together), [&](const auto& range) {
-    Connector connector(shape, loops, first_touch, furthest, typical, tolerance);
-    for (std::size_t begin = range.begin(); begin < range.end(); begin += together) {
-      const std::size_t end = std::min(begin + together, range.end());
-      connector.begin(std::span(holes).subspan(begin, end - begin));
-      for (std::size_t i = begin; i < end; ++i) cuts[i] = connector.connecting_disk(holes[i]);
-    }
-  });
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, holes.size(), 4 * together), [&](const auto& range) {
+        Connector connector(shape, loops, first_touch, furthest, typical, tolerance);
+        for (std::size_t begin = range.begin(); begin < range.end(); begin += together) {
+          const std::size_t end = std::min(begin + together, range.end());
+          connector.begin(std::span(holes).subspan(begin, end - begin));
+          for (std::size_t i = begin; i < end; ++i) cuts[i] = connector.connecting_disk(holes[i]);
+        }
+      });
   queries += cuts.size();
   return cuts;
 }

@@ -89,7 +89,7 @@ Result<MedialAxis> run(const Shape& shape, const Options& options, bool two_side
   const bool holds = std::all_of(doubtful.begin(), doubtful.end(), [&](std::uint32_t edge) {
     return touches_its_sites(axis, axis.edges[edge], slack);
   });
-  if (!holds && !two_sided)
+  if (!holds)
     return error_of_wrong_axis(
         axis, "a disk of the axis misses a site that it should touch: please report this shape");
   return axis;

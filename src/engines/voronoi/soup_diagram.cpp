@@ -44,9 +44,11 @@ class Assembly {
         cut_(soup, frame, axis.tolerance, diagram_) {}
 
   VoronoiDiagram run() {
+    make_own_sites();
     make_chains();
     find_ends();
     make_spokes();
+    make_nodes();
     cut_off();
     cut_.close();
     make_faces();
@@ -68,12 +70,21 @@ class Assembly {
     std::uint32_t point, node;
     std::array<std::uint32_t, 2> site;  ///< of the diagram
   };
-  bool is_frame(std::uint32_t own) const { return axis_.sites[own].ring == none; }
-  bool is_vertex(std::uint32_t own) const { return axis_.sites[own].kind == SiteKind::vertex; }
+  bool is_frame(std::uint32_t own) const { return own_[own] == none; }
+  bool is_vertex(std::uint32_t own) const { return !is_frame(own) && (own_[own] & edge_side) == 0; }
+  std::uint32_t half_edge(std::uint32_t own) const { return own_[own] & ~edge_side; }
   /// The site of the diagram.
   std::uint32_t site_of(std::uint32_t own) const {
     if (is_frame(own)) return no_site;
-    return is_vertex(own) ? axis_.sites[own].ring : point_count_ + axis_.sites[own].vertex / 2;
+    return is_vertex(own) ? own_[own] : point_count_ + half_edge(own) / 2;
+  }
+
+  void make_own_sites() {
+    own_.reserve(axis_.sites.size());
+    for (const Site& site : axis_.sites)
+      own_.push_back(site.ring == none               ? none
+                     : site.kind == SiteKind::vertex ? site.ring
+                                                     : edge_side | site.vertex);
   }
 
   void make_chains() {
@@ -201,8 +212,7 @@ class Assembly {
         if (is_empty_vertex(own)) continue;
         const std::uint32_t node = first_[own];
         if (last_[before] != node) throw std::runtime_error("a Voronoi face has a gap");
-        const Site& site = axis_.sites[own];
-        const std::uint32_t point = is_vertex(own) ? site.ring : soup_.start(site.vertex);
+        const std::uint32_t point = is_vertex(own) ? own_[own] : soup_.start(half_edge(own));
         if (axis_.nodes[node].disk.radius == 0) {
           corner_[node] = point;
         } else {
@@ -229,21 +239,28 @@ class Assembly {
     const Edge& edge = axis_.edges[e];
     return {site_of(edge.site[0]), site_of(edge.site[1])};
   }
-  /// An end as a node of the diagram.
+  /// The nodes inside of the frame; the soup's points among them once they are asked for.
+  void make_nodes() {
+    node_of_point_.assign(soup_.points.size(), none);
+    node_of_axis_.assign(axis_.nodes.size(), none);
+    reserve_large(diagram_.nodes, axis_.nodes.size() + soup_.points.size());
+    for (std::uint32_t n = 0; n < axis_.nodes.size(); ++n) {
+      const Node& node = axis_.nodes[n];
+      if (corner_[n] != none)
+        node_of_axis_[n] = node_of_point(corner_[n]);
+      else if (cut_.holds(node.disk.center))
+        node_of_axis_[n] = add_node(node.disk, node.component);
+    }
+  }
+  /// An end as a node of the diagram, inside of the frame.
   std::uint32_t node_at(std::uint32_t e, std::size_t end) {
-    if (e < axis_.edges.size()) return node_of(axis_.edges[e].node[end]);
+    if (e < axis_.edges.size()) return node_of_axis_[axis_.edges[e].node[end]];
     const Spoke& spoke = spokes_[e - axis_.edges.size()];
-    return end == 0 ? node_of_point(spoke.point) : node_of(spoke.node);
+    return end == 0 ? node_of_point(spoke.point) : node_of_axis_[spoke.node];
   }
   std::uint32_t node_of_point(std::uint32_t point) {
     std::uint32_t& node = node_of_point_[point];
     if (node == none) node = add_node({soup_.points[point], 0}, 0);
-    return node;
-  }
-  std::uint32_t node_of(std::uint32_t n) {
-    if (corner_[n] != none) return node_of_point(corner_[n]);
-    std::uint32_t& node = node_of_axis_[n];
-    if (node == none) node = add_node(axis_.nodes[n].disk, axis_.nodes[n].component);
     return node;
   }
   std::uint32_t add_node(const Disk& disk, std::uint32_t component) {
@@ -253,25 +270,38 @@ class Assembly {
 
   /// The edges inside of the frame, or the parts of them.
   void cut_off() {
-    const std::size_t count = axis_.edges.size() + spokes_.size();
-    node_of_point_.assign(soup_.points.size(), none);
-    node_of_axis_.assign(axis_.nodes.size(), none);
-    reserve_large(diagram_.nodes, axis_.nodes.size() + soup_.points.size());
+    const auto edges = static_cast<std::uint32_t>(axis_.edges.size());
+    const std::size_t count = edges + spokes_.size();
     reserve_large(diagram_.edges, count + 64);
-    part_begin_.resize(count + 1);
+    reserve_large(part_begin_, count + 1);
     for (std::uint32_t e = 0; e < count; ++e) {
-      part_begin_[e] = is_cut | static_cast<std::uint32_t>(diagram_.edges.size());
+      const auto begin = static_cast<std::uint32_t>(diagram_.edges.size());
       const std::array<std::uint32_t, 2> site = sites_of(e);
+      if (e < edges && add_whole(axis_.edges[e], site)) {
+        part_begin_.push_back(begin);
+        continue;
+      }
+      part_begin_.push_back(is_cut | begin);
       if (site[0] == no_site || site[1] == no_site) continue;
-      const bool spoke = e >= axis_.edges.size();
+      const bool spoke = e >= edges;
       const bool whole = cut_.add(
           curve_of(e), site, spoke, [&](std::size_t end) { return node_at(e, end); },
           [&](ConicEdge& part) {
             if (!spoke) take_control(axis_, axis_.edges[e].site, part);
           });
-      if (whole) part_begin_[e] &= ~is_cut;
+      if (whole) part_begin_.back() = begin;
     }
-    part_begin_[count] = static_cast<std::uint32_t>(diagram_.edges.size());
+    part_begin_.push_back(static_cast<std::uint32_t>(diagram_.edges.size()));
+  }
+  /// Adds an edge of the axis that is clearly all in the frame: as its triangle of control points
+  /// is. False where it is not.
+  bool add_whole(const Edge& edge, std::array<std::uint32_t, 2> site) {
+    const std::uint32_t from = node_of_axis_[edge.node[0]], to = node_of_axis_[edge.node[1]];
+    if (from == none || to == none || site[0] == no_site || site[1] == no_site ||
+        !cut_.holds(edge.control.center))
+      return false;
+    diagram_.edges.push_back({{{from, to}, site, edge.control, edge.weight}, false, false});
+    return true;
   }
 
   void make_faces() {
@@ -282,8 +312,7 @@ class Assembly {
       for (std::uint32_t own = first; own < last; ++own) {
         if (is_empty_vertex(own)) continue;
         auto& pair = owns[site_of(own)];
-        const std::size_t side =
-            is_vertex(own) ? (pair[0] == none ? 0 : 1) : axis_.sites[own].vertex % 2;
+        const std::size_t side = is_vertex(own) ? (pair[0] == none ? 0 : 1) : half_edge(own) % 2;
         pair[side] = own;
       }
     });
@@ -297,8 +326,7 @@ class Assembly {
         if (own == none) continue;
         const auto axis_edges = static_cast<std::uint32_t>(axis_.edges.size());
         if (spoke_before_[own] != none) add_to_face(axis_edges + spoke_before_[own], true);
-        for (const Step& step : chain(own))
-          add_to_face(step.edge, step.forward != 0);
+        for (const Step& step : chain(own)) add_to_face(step.edge, step.forward != 0);
         if (spoke_after_[own] != none) add_to_face(axis_edges + spoke_after_[own], false);
       }
       cut_.end_face(site, diagram_.face_edges);
@@ -316,6 +344,8 @@ class Assembly {
 
   /// Of an edge, that it is not all in the frame.
   static constexpr std::uint32_t is_cut = none - largest_edge;
+  /// Of an own site, that it is a side of an edge: a half-edge's number follows, else a point's.
+  static constexpr std::uint32_t edge_side = none - largest_edge;
 
   const Soup& soup_;
   const Shape& shape_;
@@ -324,6 +354,7 @@ class Assembly {
   const std::uint32_t point_count_;
   VoronoiDiagram diagram_;
   FrameCut cut_;
+  std::vector<std::uint32_t> own_;          ///< what each own site is
   std::vector<std::uint32_t> chain_begin_;  ///< of each own site
   std::vector<Step> chains_;
   std::vector<std::uint32_t> first_, last_;  ///< nodes of each own site's chain
@@ -331,7 +362,8 @@ class Assembly {
   std::vector<std::uint32_t> spoke_before_, spoke_after_;  ///< of each own site
   std::vector<std::uint32_t> corner_;  ///< of each node: the point that it is, if it is one
   std::vector<std::uint32_t> node_of_point_, node_of_axis_;
-  std::vector<std::uint32_t> part_begin_;  ///< of each edge and spoke: its parts in the diagram, and `is_cut`
+  std::vector<std::uint32_t>
+      part_begin_;  ///< of each edge and spoke: its parts in the diagram, and `is_cut`
 };
 
 }  // namespace
