@@ -49,59 +49,69 @@ std::vector<Placed> place(const std::vector<std::unique_ptr<Chunk>>& chunks, std
   return placed;
 }
 
-/// Joins the two ends of the axis that meet at each cut: two edges become one, or a node takes the
-/// other's place. Removes what is then left over.
-void glue_cuts(const std::vector<Placed>& placed, std::size_t cut_count, MedialAxis& axis) {
+/// How the two ends of the axis that meet at each cut are joined: two edges become one, or a node
+/// takes the other's place.
+struct Gluing {
+  std::vector<std::uint32_t> number;  ///< of each node: which one of the axis it becomes
+  std::vector<bool> node_stays;       ///< of those that become one, one
+  std::vector<bool> edge_stays;
+  std::size_t nodes = 0, edges = 0;  ///< that stay
+};
+
+Gluing glue(const std::vector<Placed>& placed, std::size_t cut_count, std::uint32_t node_count,
+            std::uint32_t edge_count) {
   struct End {
     std::uint32_t node = none, edge = none;
+    std::uint32_t before = none;  ///< the node that the edge comes from
   };
   std::vector<std::array<End, 2>> ends(cut_count);
   for (const Placed& p : placed) {
     for (const CutEnd& end : p.chunk->cut_ends) {
       auto& pair = ends[end.cut];
       End& slot = pair[0].node == none ? pair[0] : pair[1];
-      slot = {p.node(end.node), end.edge == CutEnd::no_edge ? none : p.first_edge + end.edge};
+      slot.node = p.node(end.node);
+      if (end.edge == CutEnd::no_edge) continue;
+      slot.edge = p.first_edge + end.edge;
+      slot.before = p.node(p.chunk->edges[end.edge].from);
     }
   }
-  std::vector<std::uint32_t> moved(axis.nodes.size());
-  for (std::uint32_t i = 0; i < moved.size(); ++i) moved[i] = i;
+  Gluing result;
+  std::vector<std::uint32_t>& moved = result.number;
+  moved.resize(node_count);
+  for (std::uint32_t i = 0; i < node_count; ++i) moved[i] = i;
   const auto target = [&](std::uint32_t node) {
     while (moved[node] != node) node = moved[node] = moved[moved[node]];
     return node;
   };
-  std::vector<bool> node_gone(axis.nodes.size()), edge_gone(axis.edges.size());
+  result.edge_stays.assign(edge_count, true);
+  result.edges = edge_count;
+  // The node at the end of an edge has no other.
   for (const auto& [a, b] : ends) {
     if (a.node == none || b.node == none) continue;
     if (a.edge != none && b.edge != none) {
-      axis.edges[a.edge].node[1] = axis.edges[b.edge].node[0];
-      edge_gone[b.edge] = node_gone[a.node] = node_gone[b.node] = true;
+      moved[a.node] = moved[b.node] = b.before;
+      result.edge_stays[b.edge] = false;
+      --result.edges;
     } else if (a.edge != none) {
-      axis.edges[a.edge].node[1] = b.node;
-      node_gone[a.node] = true;
+      moved[a.node] = b.node;
     } else if (b.edge != none) {
-      axis.edges[b.edge].node[1] = a.node;
-      node_gone[b.node] = true;
-    } else if (target(a.node) != target(b.node)) {
-      node_gone[target(b.node)] = true;
+      moved[b.node] = a.node;
+    } else {
       moved[target(b.node)] = target(a.node);
     }
   }
-  std::vector<std::uint32_t> number(axis.nodes.size());
+  for (std::uint32_t i = 0; i < node_count; ++i) moved[i] = target(i);
+  result.node_stays.resize(node_count);
+  std::vector<std::uint32_t> number(node_count);
   std::uint32_t kept = 0;
-  for (std::uint32_t i = 0; i < axis.nodes.size(); ++i) {
-    if (node_gone[i]) continue;
-    number[i] = kept;
-    axis.nodes[kept++] = axis.nodes[i];
+  for (std::uint32_t i = 0; i < node_count; ++i) {
+    if (moved[i] != i) continue;
+    result.node_stays[i] = true;
+    number[i] = kept++;
   }
-  axis.nodes.resize(kept);
-  std::size_t edges = 0;
-  for (std::size_t i = 0; i < axis.edges.size(); ++i) {
-    if (edge_gone[i]) continue;
-    Edge edge = axis.edges[i];
-    for (std::uint32_t& node : edge.node) node = number[target(node)];
-    axis.edges[edges++] = edge;
-  }
-  axis.edges.resize(edges);
+  result.nodes = kept;
+  for (std::uint32_t& node : moved) node = number[node];
+  return result;
 }
 
 }  // namespace
@@ -109,27 +119,34 @@ void glue_cuts(const std::vector<Placed>& placed, std::size_t cut_count, MedialA
 void collect(std::vector<std::unique_ptr<Chunk>>& chunks, std::size_t cut_count, MedialAxis& axis) {
   std::uint32_t node_count = 0, edge_count = 0;
   const std::vector<Placed> placed = place(chunks, node_count, edge_count);
+  const bool glued = cut_count > 0;
+  const Gluing gluing = glued ? glue(placed, cut_count, node_count, edge_count) : Gluing{};
 
   // One after the other: what takes the time is memory that is touched for the first time.
   const auto collect_nodes = [&] {
-    reserve_large(axis.nodes, node_count);
+    reserve_large(axis.nodes, glued ? gluing.nodes : node_count);
     for (const Placed& p : placed) {
       p.chunk->nodes.drain([&](std::size_t i, const Disk& disk) {
-        if (i > 0) axis.nodes.push_back({disk, p.chunk->component, NodeKind::leaf});
+        if (i > 0 && (!glued || gluing.node_stays[p.first_node + i - 1]))
+          axis.nodes.push_back({disk, p.chunk->component, NodeKind::leaf});
       });
     }
   };
   const auto collect_edges = [&] {
-    reserve_large(axis.edges, edge_count);
+    reserve_large(axis.edges, glued ? gluing.edges : edge_count);
+    const auto number = [&](std::uint32_t node) { return glued ? gluing.number[node] : node; };
     for (const Placed& p : placed) {
-      p.chunk->edges.drain([&](std::size_t, const RawEdge& raw) {
-        axis.edges.push_back({{p.node(raw.from), p.node(raw.to)}, {raw.left, raw.right}, {}, 1});
+      p.chunk->edges.drain([&](std::size_t i, const RawEdge& raw) {
+        if (!glued || gluing.edge_stays[p.first_edge + i])
+          axis.edges.push_back({{number(p.node(raw.from)), number(p.node(raw.to))},
+                                {raw.left, raw.right},
+                                {},
+                                1});
       });
     }
   };
   tbb::parallel_invoke(collect_nodes, collect_edges);
   for (const Placed& p : placed) axis.statistics += p.chunk->statistics;
-  if (cut_count > 0) glue_cuts(placed, cut_count, axis);
   chunks.clear();
 }
 
