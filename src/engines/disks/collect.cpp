@@ -138,10 +138,8 @@ void collect(std::vector<std::unique_ptr<Chunk>>& chunks, std::size_t cut_count,
     for (const Placed& p : placed) {
       p.chunk->edges.drain([&](std::size_t i, const RawEdge& raw) {
         if (!glued || gluing.edge_stays[p.first_edge + i])
-          axis.edges.push_back({{number(p.node(raw.from)), number(p.node(raw.to))},
-                                {raw.left, raw.right},
-                                {},
-                                1});
+          axis.edges.push_back(
+              {{number(p.node(raw.from)), number(p.node(raw.to))}, {raw.left, raw.right}, {}, 1});
       });
     }
   };
