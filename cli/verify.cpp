@@ -9,6 +9,7 @@
 
 #include "cli/common.h"
 #include "cli/costs.h"
+#include "cli/loose.h"
 #include "cli/pipeline.h"
 #include "cli/terminal.h"
 
@@ -138,6 +139,80 @@ std::string verdict_table(const Certificate& c, std::size_t features) {
   return text;
 }
 
+Json to_json(const VoronoiCertificate& c) {
+  return {{"passed", c.passed},
+          {"failures", c.failures},
+          {"tolerance", c.tolerance},
+          {"largest_residual", c.largest_residual},
+          {"largest_contact_gap", c.largest_contact_gap},
+          {"worst", {{"x", c.worst_x}, {"y", c.worst_y}}},
+          {"disks_checked", c.disks_checked},
+          {"sites", c.sites},
+          {"faces", c.faces},
+          {"broken_faces", c.broken_faces},
+          {"faces_area", c.faces_area},
+          {"frame_area", c.frame_area}};
+}
+
+std::string verdict_table(const VoronoiCertificate& c) {
+  std::string text;
+  const auto row = [&text](const char* name, const std::string& value) {
+    text += fmt::format("{:<24}{}\n", name, value);
+  };
+  row("sites", fmt::format("{}", c.sites));
+  row("disks checked", fmt::format("{}", c.disks_checked));
+  row("tolerance", fmt::format("{:.3g}", c.tolerance));
+  row("largest |distance - r|",
+      fmt::format("{:.3g} at ({:.10g}, {:.10g})", c.largest_residual, c.worst_x, c.worst_y));
+  row("largest contact gap", fmt::format("{:.3g}", c.largest_contact_gap));
+  row("faces", fmt::format("{}, {} broken", c.faces, c.broken_faces));
+  row("area",
+      fmt::format("{:.10g} of the faces, {:.10g} of the frame", c.faces_area, c.frame_area));
+  for (const std::string& failure : c.failures) row("failed", failure);
+  row("verdict", c.passed ? "passed" : "FAILED");
+  return text;
+}
+
+/// A Voronoi diagram against what is loose in the input.
+Result<int> verify_voronoi(const VerifySwitches& switches) {
+  const InputSwitches& input = switches.input;
+  const CommonSwitches& common = switches.common;
+  const Stopwatch reading;
+  auto stored = [&] {
+    const Activity shown("reading", switches.axis_path);
+    return io::read_voronoi(switches.axis_path);
+  }();
+  if (!stored) return std::move(stored).error();
+  if (stored->items.size() != 1 || !stored->items.front().diagram.frame)
+    return error_at(ErrorCode::unsupported, switches.axis_path,
+                    "is of polygons alone (--method lee); diagrams within a frame are verified");
+  auto loose = load_chains(input, common.threads);
+  if (!loose) return std::move(loose).error();
+  print_notes(*loose, input, common);
+  auto soup =
+      build_soup(loose->chains, {.node_crossings = input.read.repair != io::RepairRule::none});
+  if (!soup) return in_terms_of(*loose, std::move(soup).error(), input.path);
+  const double seconds_read = reading.seconds();
+  const Stopwatch checking;
+  const VoronoiCertificate certificate = verify(*soup, stored->items.front().diagram,
+                                                {.tolerance = common.tolerance,
+                                                 .samples_per_edge = switches.samples,
+                                                 .threads = common.threads});
+  const Json costs = costs_of(common, {{"read", seconds_read}, {"verify", checking.seconds()}});
+  Status printed = success();
+  if (common.json) {
+    Json object = {{"input", input.path}, {"voronoi", switches.axis_path}};
+    if (common.stats) object.update(costs);
+    object.update(to_json(certificate));
+    printed = print(object);
+  } else if (!common.quiet) {
+    printed = print(verdict_table(certificate));
+  }
+  if (!printed) return std::move(printed).error();
+  print_costs(common, costs);
+  return certificate.passed ? exit_success : exit_failed_verdict;
+}
+
 Result<int> run_verify(const VerifySwitches& switches) {
   const InputSwitches& input = switches.input;
   const CommonSwitches& common = switches.common;
@@ -145,6 +220,7 @@ Result<int> run_verify(const VerifySwitches& switches) {
   if (input.path == "-" && axis_path == "-") {
     return invalid_option("INPUT and AXIS cannot both be standard input");
   }
+  if (io::is_voronoi(axis_path)) return verify_voronoi(switches);
   const Stopwatch reading;
   auto stored = [&] {
     const Activity shown("reading", axis_path);
@@ -209,7 +285,8 @@ Result<int> run_verify(const VerifySwitches& switches) {
 Verb make_verify_verb(CLI::App& program) {
   auto switches = std::make_shared<VerifySwitches>();
   CLI::App* verb = program.add_subcommand("verify", "Check a stored axis against its shapes.");
-  add_input_switches(*verb, switches->input, "AXIS", "Axes in medial's own .json format.",
+  add_input_switches(*verb, switches->input, "AXIS",
+                     "Axes, or a Voronoi diagram of loose pieces, in medial's own .json format.",
                      switches->axis_path);
   verb->add_option(
           "--samples", switches->samples,
@@ -224,6 +301,8 @@ Verb make_verify_verb(CLI::App& program) {
       "intrusion of the boundary into a disk, whether the graph is connected with one\n"
       "cycle a hole, whether every convex corner has its leaf and every boundary point\n"
       "its disk, and both areas. Lengths are in the units of the input.\n"
+      "Of a diagram of `medial voronoi`: samples of every edge against the nearest of all\n"
+      "sites, faces closed and the right way around, and their areas against the frame's.\n"
       "Give the --layer, --where, --repair, --project and switches of curves that the\n"
       "axis was made with.\n"
       "\n"
@@ -231,6 +310,7 @@ Verb make_verify_verb(CLI::App& program) {
       "\n"
       "Examples:\n"
       "  medial axis plan.geojson -o plan.json && medial verify plan.geojson plan.json\n"
+      "  medial voronoi roads.geojson -o v.json && medial verify roads.geojson v.json\n"
       "  medial verify --json --quiet maze.wkt.gz maze.json");
   return {verb, [switches] { return run_verify(*switches); }};
 }

@@ -6,6 +6,8 @@
 
 #include "medial/axis.h"
 #include "medial/shape.h"
+#include "medial/soup.h"
+#include "medial/voronoi.h"
 
 namespace medial {
 
@@ -67,5 +69,33 @@ struct VerifyOptions {
 /// A blunt joint has no leaf, so the disks leave a little of the boundary there untouched: at most
 /// the radius times the joint's angle, which is allowed for.
 Certificate verify(const Shape& shape, const MedialAxis& axis, const VerifyOptions& options = {});
+
+/// What verify() measured of a Voronoi diagram. Lengths and areas in units of the input.
+struct VoronoiCertificate {
+  double tolerance = 0;            ///< what the residuals are judged against
+  double largest_residual = 0;     ///< max |distance to the nearest site - r|, samples of all edges
+  double largest_contact_gap = 0;  ///< max |distance to an edge's own sites - r|
+  double worst_x = 0;              ///< where the largest residual is
+  double worst_y = 0;
+  std::uint64_t disks_checked = 0;
+  std::uint64_t sites = 0;
+  std::uint64_t faces = 0;         ///< that are not empty
+  std::uint64_t broken_faces = 0;  ///< not closed, not counter-clockwise, or of other sites' edges
+  double frame_area = 0;
+  double faces_area = 0;  ///< the sum of all
+  bool passed = false;
+  std::vector<std::string> failures;
+};
+
+/// Checks a soup's diagram against the soup, by the distance search of the certificate above, which
+/// the engines do not share: its sites are the soup's; every sample of an edge is at its radius
+/// from the edge's sites and no nearer to any other; edges of the frame lie on it; every face is
+/// one closed walk along edges of its site, counter-clockwise; every edge is in the faces of both
+/// of its sites; the graph is connected; and the areas of the faces add up to the frame's. So the
+/// faces fill the frame without overlap and each holds what is nearest to its site. O(n log n)
+/// expected. Of the options tolerance, samples_per_edge and threads count. A diagram without a
+/// frame (of a polygon alone) does not pass.
+VoronoiCertificate verify(const Soup& soup, const VoronoiDiagram& diagram,
+                          const VerifyOptions& options = {});
 
 }  // namespace medial

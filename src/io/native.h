@@ -14,10 +14,15 @@ inline constexpr int native_version = 2;
 
 /// Whether a text begins like medial's own JSON: an object whose first member is "medial".
 bool begins_like_native(std::string_view text);
+/// The same of a Voronoi diagram: the first member is "medial_voronoi".
+bool begins_like_voronoi(std::string_view text);
 
 /// Reads and checks: every index is in its range, every number finite.
 /// Errors: unreadable, malformed, unsupported (a newer version), too_large (4 GiB or more).
 Result<NativeFile> read_native(TextSource& source);
+
+/// Reads and checks Voronoi diagrams. Errors as read_native().
+Result<VoronoiFile> read_voronoi(TextSource& source);
 
 /// Writes without loss. Errors: internal (a number is not finite; the stream may hold a part then).
 Status write_native(OutputStream& out, const NativeFile& file);

@@ -1,91 +1,12 @@
-#include <fmt/format.h>
-#include <simdjson.h>
-
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
+#include "io/json_rows.h"
 #include "io/native.h"
 
 namespace medial::io {
 
 namespace {
-
-namespace json = simdjson::ondemand;
-
-/// Thrown inside this file only, and caught in read_native().
-struct Malformed {
-  std::string text;
-};
-
-void demand(bool condition, const char* text) {
-  if (!condition) throw Malformed{text};
-}
-
-template <class Integer>
-Integer integer(json::value value) {
-  const std::uint64_t number = value.get_uint64();
-  demand(number <= static_cast<std::uint64_t>(std::numeric_limits<Integer>::max()),
-         "a whole number is too large");
-  return static_cast<Integer>(number);
-}
-
-double number(json::value value) {
-  const double result = value.get_double();
-  demand(std::isfinite(result), "a number is not finite");
-  return result;
-}
-
-std::string text(json::value value) { return std::string(std::string_view(value.get_string())); }
-
-/// Walks along a row of numbers.
-class Row {
- public:
-  explicit Row(json::value value)
-      : array_(value.get_array()), next_(array_.begin()), end_(array_.end()) {}
-
-  bool more() { return next_ != end_; }
-  template <class Integer>
-  Integer index() {
-    const auto result = integer<Integer>(value());
-    ++next_;
-    return result;
-  }
-  double real() {
-    const double result = number(value());
-    ++next_;
-    return result;
-  }
-  Vec2 point() {
-    const double x = real();
-    return {x, real()};
-  }
-  void end() { demand(!more(), "a row is too long"); }
-
- private:
-  json::value value() {
-    demand(more(), "a row is too short");
-    return *next_;
-  }
-  json::array array_;
-  simdjson::simdjson_result<json::array_iterator> next_;
-  simdjson::simdjson_result<json::array_iterator> end_;
-};
-
-template <class Read>
-void for_each(json::value array, Read read) {
-  for (json::value element : array.get_array()) read(element);
-}
-
-SiteKind site_kind(std::uint32_t code) {
-  demand(code <= static_cast<std::uint32_t>(SiteKind::arc), "an unknown kind of site");
-  return static_cast<SiteKind>(code);
-}
-
-NodeKind node_kind(std::uint32_t code) {
-  demand(code <= static_cast<std::uint32_t>(NodeKind::branching), "an unknown kind of node");
-  return static_cast<NodeKind>(code);
-}
 
 void read_shape(json::value value, Shape& shape) {
   for (json::field field : value.get_object()) {
@@ -391,11 +312,7 @@ NativeItem read_item(json::value value) {
   return item;
 }
 
-struct TooNew {
-  std::uint64_t version;
-};
-
-NativeFile read_document(json::document& document) {
+NativeFile read_file(json::document& document) {
   NativeFile file;
   bool versioned = false;
   bool itemized = false;
@@ -423,61 +340,26 @@ NativeFile read_document(json::document& document) {
   return file;
 }
 
-}  // namespace
-
-bool begins_like_native(std::string_view text) {
+/// Whether a text begins like an object whose first member has this name, in quotes.
+bool begins_with_member(std::string_view text, std::string_view name) {
   const auto accept = [&text](std::string_view word) {
     text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
     if (!text.starts_with(word)) return false;
     text.remove_prefix(word.size());
     return true;
   };
-  return accept("{") && accept("\"medial\"") && accept(":");
+  return accept("{") && accept(name) && accept(":");
+}
+
+}  // namespace
+
+bool begins_like_native(std::string_view text) { return begins_with_member(text, "\"medial\""); }
+bool begins_like_voronoi(std::string_view text) {
+  return begins_with_member(text, "\"medial_voronoi\"");
 }
 
 Result<NativeFile> read_native(TextSource& source) {
-  constexpr std::size_t longest = simdjson::SIMDJSON_MAXSIZE_BYTES - simdjson::SIMDJSON_PADDING - 1;
-  std::string bytes;
-  bytes.reserve(std::min(source.length_hint(), longest) + simdjson::SIMDJSON_PADDING);
-  source.read_all(bytes, longest);
-  if (source.failure()) return *source.failure();
-  if (bytes.size() > longest) {
-    return source.error(ErrorCode::too_large, "the file has 4 GiB or more");
-  }
-  bytes.reserve(bytes.size() + simdjson::SIMDJSON_PADDING);
-
-  const json::document* open = nullptr;
-  const auto malformed = [&](const std::string& what) {
-    Error error = source.error(ErrorCode::malformed, what);
-    const char* at = nullptr;
-    if (open != nullptr) {
-      auto location = const_cast<json::document*>(open)->current_location();
-      if (location.error() == simdjson::SUCCESS) at = location.value_unsafe();
-    }
-    error.place.line.reset();
-    if (at >= bytes.data() && at <= bytes.data() + bytes.size()) {
-      error.place.line = 1 + std::count(static_cast<const char*>(bytes.data()), at, '\n');
-    }
-    return error;
-  };
-  json::parser parser;
-  json::document document;
-  try {
-    const simdjson::padded_string_view view(bytes.data(), bytes.size(), bytes.capacity());
-    if (const auto code = parser.iterate(view).get(document); code != simdjson::SUCCESS) {
-      return malformed(simdjson::error_message(code));
-    }
-    open = &document;
-    return read_document(document);
-  } catch (const Malformed& problem) {
-    return malformed(problem.text);
-  } catch (const TooNew& found) {
-    return source.error(ErrorCode::unsupported,
-                        fmt::format("version {} of the format; this program reads up to {}",
-                                    found.version, native_version));
-  } catch (const simdjson::simdjson_error& problem) {
-    return malformed(problem.what());
-  }
+  return read_document(source, native_version, read_file);
 }
 
 Ring ring_of(const Shape& shape, std::size_t loop) {

@@ -302,4 +302,17 @@ Result<NativeFile> read_native(const std::string& path) {
   return guarded(path, [&] { return read_native_path(path); });
 }
 
+bool is_voronoi(const std::string& path) {
+  const Result<std::shared_ptr<TextSource>> source = TextSource::open(path);
+  return source && begins_like_voronoi((*source)->lookahead(sniffed));
+}
+
+Result<VoronoiFile> read_voronoi(const std::string& path) {
+  return guarded(path, [&]() -> Result<VoronoiFile> {
+    Result<std::shared_ptr<TextSource>> source = TextSource::open(path);
+    if (!source) return source.error();
+    return read_voronoi(**source);
+  });
+}
+
 }  // namespace medial::io

@@ -197,11 +197,11 @@ void write_voronoi_json(OutputStream& out, const VoronoiFile& file) {
           edge.control.center.x, edge.control.center.y, edge.control.radius, edge.weight);
     });
     table(out, "faces", diagram.sites.size(), [&](std::size_t k) {
-      char separator = '[';
-      for (const std::uint32_t edge : diagram.face(k)) {
-        out.put(separator);
-        out.put(edge);
-        separator = ',';
+      out.put('[');
+      const auto face = diagram.face(k);
+      for (std::size_t j = 0; j < face.size(); ++j) {
+        if (j > 0) out.put(',');
+        out.put(face[j]);
       }
       out.put(']');
     });

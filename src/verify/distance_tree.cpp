@@ -57,43 +57,50 @@ void for_each_piece(const BoundaryEdge& edge, const Visitor& visit) {
   }
 }
 
+std::vector<BoundaryEdge> edges_of(const Shape& shape) {
+  std::vector<BoundaryEdge> edges;
+  edges.reserve(shape.points.size());
+  for (std::size_t i = 0; i < shape.loop_count(); ++i) {
+    const auto loop = shape.loop(i);
+    for (std::size_t j = 0; j < loop.size(); ++j)
+      edges.push_back(
+          {loop[j], loop[j + 1 < loop.size() ? j + 1 : 0], shape.bulge(shape.loop_begin[i] + j)});
+  }
+  return edges;
+}
+
 }  // namespace
 
-DistanceTree::DistanceTree(const Shape& shape) {
+DistanceTree::DistanceTree(const Shape& shape)
+    : DistanceTree(edges_of(shape), bounding_box(shape), !shape.bulges.empty()) {}
+
+DistanceTree::DistanceTree(std::span<const BoundaryEdge> edges, const Box& box, bool arcs) {
+  if (edges.size() <= brute_force) {
+    edges_.assign(edges.begin(), edges.end());
+    return;
+  }
   // Where there are arcs: the edge of each piece.
   std::vector<BoundaryEdge> pieces, wholes;
   std::vector<Vec2> middle;
-  pieces.reserve(shape.points.size());
-  middle.reserve(shape.points.size());
-  const bool arcs = !shape.bulges.empty();
-  for (std::size_t i = 0; i < shape.loop_count(); ++i) {
-    const auto loop = shape.loop(i);
-    for (std::size_t j = 0; j < loop.size(); ++j) {
-      const BoundaryEdge edge{loop[j], loop[j + 1 < loop.size() ? j + 1 : 0],
-                              shape.bulge(shape.loop_begin[i] + j)};
-      if (shape.points.size() <= brute_force) {
-        edges_.push_back(edge);
-        continue;
-      }
-      for_each_piece(edge, [&](const BoundaryEdge& piece) {
-        pieces.push_back(piece);
-        if (arcs) wholes.push_back(edge);
-        middle.push_back(midpoint(piece.start, piece.end));
-      });
-    }
+  pieces.reserve(edges.size());
+  middle.reserve(edges.size());
+  for (const BoundaryEdge& edge : edges) {
+    for_each_piece(edge, [&](const BoundaryEdge& piece) {
+      pieces.push_back(piece);
+      if (arcs) wholes.push_back(edge);
+      middle.push_back(midpoint(piece.start, piece.end));
+    });
   }
-  if (pieces.empty()) return;
   const std::vector<std::uint32_t> order = spatial_order(middle, fan_out);
-  const auto in_order = [&](const std::vector<BoundaryEdge>& edges) {
+  const auto in_order = [&](const std::vector<BoundaryEdge>& unordered) {
     std::vector<BoundaryEdge> ordered;
-    ordered.reserve(edges.size());
-    for (const std::uint32_t i : order) ordered.push_back(edges[i]);
+    ordered.reserve(unordered.size());
+    for (const std::uint32_t i : order) ordered.push_back(unordered[i]);
     return ordered;
   };
   pieces = in_order(pieces);
   if (arcs) edges_ = in_order(wholes);
 
-  const Box box = bounding_box(shape);
   origin_ = box.low;
   slack_ = 16 * machine_epsilon * diagonal(box);
   // The ends of an arc's pieces are rounded.

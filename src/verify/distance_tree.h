@@ -14,6 +14,8 @@ namespace medial::verify_detail {
 class DistanceTree {
  public:
   explicit DistanceTree(const Shape& shape);
+  /// Of edges anywhere; those without length are points. `arcs`: whether any edge is not straight.
+  DistanceTree(std::span<const BoundaryEdge> edges, const Box& box, bool arcs);
 
   /// Distance from p to the nearest edge. `expected` is a guess at it: a query is fast where the
   /// guess is not much too large and not too small. O(log n) expected then.

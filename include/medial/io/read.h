@@ -11,6 +11,7 @@
 #include "medial/io/image.h"
 #include "medial/shape.h"
 #include "medial/soup.h"
+#include "medial/voronoi.h"
 
 namespace medial::io {
 
@@ -91,11 +92,30 @@ struct NativeFile {
   bool y_down = false;  ///< the y axis points down; for pictures
 };
 
+/// A shape and its Voronoi diagram.
+struct VoronoiItem {
+  Shape shape;
+  VoronoiDiagram diagram;
+  std::vector<std::pair<std::string, std::string>> attributes;
+};
+
+struct VoronoiFile {
+  std::vector<VoronoiItem> items;
+  std::string crs_wkt;  ///< as in NativeFile
+  bool y_down = false;  ///< the y axis points down; for pictures
+};
+
 /// A loop of a shape as a ring.
 Ring ring_of(const Shape& shape, std::size_t loop);
 
 /// Whether the file begins like medial's own JSON; and its content. Errors: as read_dataset().
 bool is_native(const std::string& path);
 Result<NativeFile> read_native(const std::string& path);
+
+/// Whether the file is a .json of Voronoi diagrams as write_voronoi() makes it; and its diagrams,
+/// without shapes and reference system. Errors: unreadable, malformed, unsupported (a newer
+/// version), too_large (4 GiB or more), out_of_memory.
+bool is_voronoi(const std::string& path);
+Result<VoronoiFile> read_voronoi(const std::string& path);
 
 }  // namespace medial::io

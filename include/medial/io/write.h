@@ -5,7 +5,6 @@
 
 #include "medial/error.h"
 #include "medial/io/read.h"
-#include "medial/voronoi.h"
 
 namespace medial::io {
 
@@ -31,19 +30,6 @@ Status write_axes(const std::string& path, const std::string& format, const Nati
 
 /// The extensions write_axes() takes, for help texts.
 std::string known_output_formats();
-
-/// A shape and its Voronoi diagram.
-struct VoronoiItem {
-  Shape shape;
-  VoronoiDiagram diagram;
-  std::vector<std::pair<std::string, std::string>> attributes;
-};
-
-struct VoronoiFile {
-  std::vector<VoronoiItem> items;
-  std::string crs_wkt;  ///< as in NativeFile
-  bool y_down = false;  ///< the y axis points down; for pictures
-};
 
 /// Writes Voronoi diagrams by the extension of `path`, as write_axes() does: .json (lossless;
 /// docs/format.md) .geojson (faces as polygons and edges as lines) .svg .pdf .png .ps. Errors:

@@ -1,0 +1,301 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <exception>
+#include <numeric>
+#include <utility>
+
+#include "base/threads.h"
+#include "medial/query.h"
+#include "verify/checks.h"
+#include "verify/distance_tree.h"
+
+namespace medial {
+namespace verify_detail {
+namespace {
+
+/// The largest of something, and where; what cannot even be computed is as large as can be.
+struct Largest {
+  double value = 0;
+  Vec2 where;
+  std::uint64_t over = 0;  ///< how many are over the tolerance
+
+  void add(double amount, double tolerance, Vec2 point) {
+    if (std::isnan(amount)) amount = std::numeric_limits<double>::infinity();
+    if (amount > tolerance) ++over;
+    if (amount > value) {
+      value = amount;
+      where = point;
+    }
+  }
+  void add(const Largest& other) {
+    over += other.over;
+    if (other.value > value) {
+      value = other.value;
+      where = other.where;
+    }
+  }
+};
+
+class VoronoiCheck {
+ public:
+  VoronoiCheck(const Soup& soup, const VoronoiDiagram& diagram, const VerifyOptions& options,
+               VoronoiCertificate& certificate)
+      : soup_(soup), diagram_(diagram), options_(options), certificate_(certificate) {}
+
+  void run() {
+    certificate_.sites = diagram_.sites.size();
+    if (!check_values() || !check_sites()) return;
+    frame_ = *diagram_.frame;
+    constexpr double default_relative = 1e-13;
+    const double relative = options_.tolerance > 0 ? options_.tolerance : default_relative;
+    tolerance_ =
+        std::max({relative * diagonal(frame_), 4 * spacing_in(frame_), 4 * diagram_.tolerance});
+    certificate_.tolerance = tolerance_;
+    check_disks();
+    check_faces();
+    check_connected();
+  }
+
+ private:
+  void fail(std::string failure) { certificate_.failures.push_back(std::move(failure)); }
+
+  /// Whether the diagram can be worked with at all.
+  bool check_values() {
+    const auto finite = [](const Disk& disk) {
+      return std::isfinite(disk.center.x) && std::isfinite(disk.center.y) &&
+             std::isfinite(disk.radius);
+    };
+    const std::size_t sites = diagram_.sites.size(), nodes = diagram_.nodes.size();
+    bool sound = diagram_.frame.has_value() && diagram_.face_begin.size() == sites + 1;
+    if (!diagram_.frame) fail("The diagram has no frame: it is none of a soup.");
+    for (const Node& node : diagram_.nodes)
+      sound = sound && finite(node.disk) && node.disk.radius >= 0;
+    for (const VoronoiEdge& edge : diagram_.edges) {
+      sound = sound && edge.node[0] < nodes && edge.node[1] < nodes && edge.site[0] < sites &&
+              (edge.frame ? edge.site[1] == no_site : edge.site[1] < sites) &&
+              finite(edge.control) && std::isfinite(edge.weight) && edge.weight > 0;
+    }
+    for (std::size_t i = 0; sound && i < sites; ++i)
+      sound = diagram_.face_begin[i] <= diagram_.face_begin[i + 1];
+    sound = sound && diagram_.face_begin.front() == 0 &&
+            diagram_.face_begin.back() == diagram_.face_edges.size();
+    for (const std::uint32_t edge : diagram_.face_edges)
+      sound = sound && edge < diagram_.edges.size();
+    if (!sound) fail("The diagram is malformed.");
+    return sound;
+  }
+
+  /// Whether the sites are the soup's points, then its edges, in their order.
+  bool check_sites() {
+    const std::size_t points = soup_.points.size();
+    bool same = diagram_.sites.size() == points + soup_.edges.size();
+    for (std::size_t i = 0; same && i < diagram_.sites.size(); ++i) {
+      const Site& site = diagram_.sites[i];
+      if (i < points) {
+        same = site.kind == SiteKind::vertex && site.start == soup_.points[i] &&
+               site.end == soup_.points[i];
+        continue;
+      }
+      const SoupEdge& edge = soup_.edges[i - points];
+      same = site.kind == (edge.bulge == 0 ? SiteKind::segment : SiteKind::arc) &&
+             site.start == soup_.points[edge.from] && site.end == soup_.points[edge.to] &&
+             site.bulge == edge.bulge;
+    }
+    if (!same) fail("The sites are not those of the input.");
+    return same;
+  }
+
+  /// Samples of every edge against the nearest site of all and the edge's own.
+  void check_disks() {
+    std::vector<BoundaryEdge> edges;
+    edges.reserve(diagram_.sites.size());
+    bool arcs = false;
+    std::vector<bool> ends_edge(soup_.points.size());
+    for (const SoupEdge& edge : soup_.edges) ends_edge[edge.from] = ends_edge[edge.to] = true;
+    for (std::size_t i = 0; i < diagram_.sites.size(); ++i) {
+      if (i < soup_.points.size() && ends_edge[i]) continue;
+      edges.push_back(edge_of(diagram_.sites[i]));
+      arcs = arcs || edges.back().bulge != 0;
+    }
+    const DistanceTree tree(edges, frame_, arcs);
+    struct Findings {
+      Largest residual, contact, off_frame;
+      std::uint64_t disks = 0;
+    };
+    const int parts = 1 + std::clamp(options_.samples_per_edge, 0, 1 << 20);
+    const auto findings =
+        in_runs<Findings>(diagram_.edges.size(), [&](std::size_t e, Findings& found) {
+          const VoronoiEdge& edge = diagram_.edges[e];
+          for (int k = 0; k <= parts; ++k) {
+            const Disk disk = disk_on(edge, static_cast<double>(k) / parts);
+            const double nearest = tree.distance(disk.center, disk.radius);
+            found.residual.add(std::abs(nearest - disk.radius), tolerance_, disk.center);
+            for (const std::uint32_t site : edge.site) {
+              if (site == no_site) continue;
+              const double own = distance_to_edge(disk.center, edge_of(diagram_.sites[site]));
+              found.contact.add(std::abs(own - disk.radius), tolerance_, disk.center);
+            }
+            if (edge.frame) found.off_frame.add(off_frame(disk.center), tolerance_, disk.center);
+            ++found.disks;
+          }
+        });
+    Findings all;
+    for (const Findings& found : findings) {
+      all.residual.add(found.residual);
+      all.contact.add(found.contact);
+      all.off_frame.add(found.off_frame);
+      all.disks += found.disks;
+    }
+    certificate_.largest_residual = all.residual.value;
+    certificate_.largest_contact_gap = all.contact.value;
+    certificate_.worst_x = all.residual.where.x;
+    certificate_.worst_y = all.residual.where.y;
+    certificate_.disks_checked = all.disks;
+    const auto tell = [&](const Largest& largest, const char* what) {
+      if (largest.over > 0)
+        fail(sentence("%llu disks %s, the worst by %.3g at (%.10g, %.10g).",
+                      static_cast<unsigned long long>(largest.over), what, largest.value,
+                      largest.where.x, largest.where.y));
+    };
+    tell(all.residual, "have a radius that is not the distance to the nearest site");
+    tell(all.contact, "do not touch a site of their edge");
+    tell(all.off_frame, "of the frame's edges are off the frame");
+  }
+
+  Disk disk_on(const VoronoiEdge& edge, double t) const {
+    const Disk &from = diagram_.nodes[edge.node[0]].disk, &to = diagram_.nodes[edge.node[1]].disk;
+    const double a = (1 - t) * (1 - t), b = 2 * edge.weight * t * (1 - t), c = t * t;
+    const double scale = 1 / (a + b + c);
+    return {scale * (a * from.center + b * edge.control.center + c * to.center),
+            scale * (a * from.radius + b * edge.control.radius + c * to.radius)};
+  }
+
+  double off_frame(Vec2 p) const {
+    const double inside = std::min(
+        {p.x - frame_.low.x, frame_.high.x - p.x, p.y - frame_.low.y, frame_.high.y - p.y});
+    return std::abs(inside);
+  }
+
+  /// Twice the area that an edge sweeps as seen from a point: Gauss's rule of five points on
+  /// sixteen parts, whose error is far below what is asked for here.
+  double swept(const VoronoiEdge& edge, Vec2 from) const {
+    constexpr std::array<std::pair<double, double>, 5> rule{
+        {{-0.9061798459386640, 0.2369268850561891},
+         {-0.5384693101056831, 0.4786286704993665},
+         {0, 0.5688888888888889},
+         {0.5384693101056831, 0.4786286704993665},
+         {0.9061798459386640, 0.2369268850561891}}};
+    const Vec2 p = diagram_.nodes[edge.node[0]].disk.center - from, q = edge.control.center - from,
+               r = diagram_.nodes[edge.node[1]].disk.center - from;
+    // With weights a, b, c the curve is (a p + b q + c r) / w: x dy - y dx has no derivative of w.
+    const double pq = cross(p, q), pr = cross(p, r), qr = cross(q, r);
+    constexpr int parts = 16;
+    double sum = 0;
+    for (int k = 0; k < parts; ++k) {
+      for (const auto& [place, weight] : rule) {
+        const double t = (k + 0.5 + 0.5 * place) / parts, s = 1 - t;
+        const double a = s * s, b = 2 * edge.weight * s * t, c = t * t;
+        const double da = -2 * s, db = 2 * edge.weight * (s - t), dc = 2 * t;
+        const double w = a + b + c;
+        sum += weight * (pq * (a * db - b * da) + pr * (a * dc - c * da) + qr * (b * dc - c * db)) /
+               (w * w);
+      }
+    }
+    return sum / (2 * parts);
+  }
+
+  /// Closed walks, the right way around, that fill the frame; every edge in both of its faces.
+  void check_faces() {
+    struct Findings {
+      std::uint64_t faces = 0, broken = 0;
+      double area = 0;
+    };
+    std::vector<std::uint8_t> used(2 * diagram_.edges.size());
+    const double whole = (frame_.high.x - frame_.low.x) * (frame_.high.y - frame_.low.y);
+    constexpr double relative = 1e-9;
+    const auto findings =
+        in_runs<Findings>(diagram_.sites.size(), [&](std::size_t site, Findings& found) {
+          const auto face = diagram_.face(site);
+          if (face.empty()) return;
+          ++found.faces;
+          const Vec2 middle = diagram_.sites[site].start;
+          double doubled = 0;
+          bool sound = true;
+          for (std::size_t i = 0; i < face.size(); ++i) {
+            const VoronoiEdge& edge = diagram_.edges[face[i]];
+            const VoronoiEdge& next = diagram_.edges[face[(i + 1) % face.size()]];
+            const bool forward = edge.site[1] == site;
+            sound = sound && (forward || edge.site[0] == site) &&
+                    edge.node[forward ? 1 : 0] == next.node[next.site[1] == site ? 0 : 1];
+            // Each side belongs to one site, and a site's face is looked at once.
+            if (sound && used[2 * face[i] + (forward ? 1 : 0)] < 2)
+              ++used[2 * face[i] + (forward ? 1 : 0)];
+            // The face is on the right of its walk.
+            doubled += (forward ? -1 : 1) * swept(edge, middle);
+          }
+          sound = sound && doubled >= -2 * relative * whole;
+          if (!sound) ++found.broken;
+          found.area += 0.5 * doubled;
+        });
+    for (const Findings& found : findings) {
+      certificate_.faces += found.faces;
+      certificate_.broken_faces += found.broken;
+      certificate_.faces_area += found.area;
+    }
+    certificate_.frame_area = whole;
+    if (certificate_.broken_faces > 0)
+      fail(sentence("%llu faces are no closed walks around their sites.",
+                    static_cast<unsigned long long>(certificate_.broken_faces)));
+    std::uint64_t missing = 0;
+    for (std::size_t e = 0; e < diagram_.edges.size(); ++e)
+      for (const std::size_t side : {0U, 1U})
+        if (used[2 * e + side] != (diagram_.edges[e].site[side] == no_site ? 0 : 1)) ++missing;
+    if (missing > 0)
+      fail(sentence("%llu sides of edges are not in one face.",
+                    static_cast<unsigned long long>(missing)));
+    if (!(std::abs(certificate_.faces_area - whole) <= relative * whole))
+      fail(sentence("The faces have an area of %.10g in a frame of %.10g.", certificate_.faces_area,
+                    whole));
+  }
+
+  void check_connected() {
+    std::vector<std::uint32_t> parent(diagram_.nodes.size());
+    std::iota(parent.begin(), parent.end(), 0U);
+    const auto root = [&](std::uint32_t node) {
+      while (parent[node] != node) node = parent[node] = parent[parent[node]];
+      return node;
+    };
+    for (const VoronoiEdge& edge : diagram_.edges) parent[root(edge.node[0])] = root(edge.node[1]);
+    std::uint64_t parts = 0;
+    for (std::uint32_t node = 0; node < parent.size(); ++node) parts += parent[node] == node;
+    if (parts != 1)
+      fail(sentence("The graph has %llu parts.", static_cast<unsigned long long>(parts)));
+  }
+
+  const Soup& soup_;
+  const VoronoiDiagram& diagram_;
+  const VerifyOptions& options_;
+  VoronoiCertificate& certificate_;
+  Box frame_;
+  double tolerance_ = 0;
+};
+
+}  // namespace
+}  // namespace verify_detail
+
+VoronoiCertificate verify(const Soup& soup, const VoronoiDiagram& diagram,
+                          const VerifyOptions& options) {
+  VoronoiCertificate certificate;
+  try {
+    on_threads(options.threads,
+               [&] { verify_detail::VoronoiCheck(soup, diagram, options, certificate).run(); });
+  } catch (const std::exception& failure) {
+    certificate.failures.push_back(
+        verify_detail::sentence("The check could not be finished: %s.", failure.what()));
+  }
+  certificate.passed = certificate.failures.empty();
+  return certificate;
+}
+
+}  // namespace medial
