@@ -30,6 +30,7 @@ Result<LooseFile> load_chains(const InputSwitches& input, int threads) {
       file.chains.push_back(std::move(chain));
       file.feature.push_back(i);
     }
+    file.attributes.push_back(std::move(dataset->features[i].attributes));
   }
   return file;
 }

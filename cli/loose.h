@@ -3,6 +3,7 @@
 // Files as loose points and lines, for verbs that do not need shapes.
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cli/pipeline.h"
@@ -14,6 +15,7 @@ namespace medial::cli {
 struct LooseFile {
   std::vector<Chain> chains;
   std::vector<std::uint32_t> feature;
+  std::vector<std::vector<std::pair<std::string, std::string>>> attributes;  ///< of each feature
   std::string crs_wkt;
   bool y_down = false;
   std::vector<std::string> notes;

@@ -4,9 +4,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <numeric>
 
 #include "cli/common.h"
 #include "cli/costs.h"
@@ -85,6 +87,46 @@ Status tell(const io::OffsetFile& file, const OffsetSwitches& switches, double s
   return tell(switches.common, switches.output, object, costs, line);
 }
 
+/// Keeps of a region's attributes those that more features of it have as well.
+void keep_common(io::BufferSource& of, const io::BufferSource& more) {
+  if (of.features.empty())
+    of.attributes = more.attributes;
+  else
+    std::erase_if(of.attributes, [&](const auto& own) {
+      return std::ranges::find(more.attributes, own) == more.attributes.end();
+    });
+  of.features.insert(of.features.end(), more.features.begin(), more.features.end());
+}
+
+/// The features in each region of buffers. A chain lies in one region as a whole: where its first
+/// point does. O(n log n).
+std::vector<io::BufferSource> sources_of(const LooseFile& file, const Soup& soup,
+                                         const Offsets& offsets) {
+  const auto before = [](Vec2 a, Vec2 b) { return a.x != b.x ? a.x < b.x : a.y < b.y; };
+  std::vector<std::uint32_t> order(soup.points.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::ranges::sort(order, before, [&](std::uint32_t i) { return soup.points[i]; });
+  std::vector<io::BufferSource> sources(offsets.regions.size());
+  for (std::size_t i = 0; i < file.chains.size(); ++i) {
+    if (file.chains[i].points.empty()) continue;
+    const Vec2 point = file.chains[i].points.front();
+    const auto at = std::ranges::lower_bound(order, point, before,
+                                             [&](std::uint32_t k) { return soup.points[k]; });
+    if (at == order.end() || soup.points[*at] != point) continue;
+    const std::uint32_t region = offsets.region_of_point[*at], feature = file.feature[i];
+    if (region != no_region) keep_common(sources[region], {{feature}, file.attributes[feature]});
+  }
+  // Parents come before their children.
+  for (std::size_t region = sources.size(); region-- > 0;) {
+    auto& features = sources[region].features;
+    std::ranges::sort(features);
+    features.erase(std::unique(features.begin(), features.end()), features.end());
+    const std::uint32_t parent = offsets.regions[region].parent;
+    if (parent != no_region && !features.empty()) keep_common(sources[parent], sources[region]);
+  }
+  return sources;
+}
+
 /// Buffers of all points and lines of the file together.
 Result<io::OffsetFile> buffer_all(const OffsetSwitches& switches) {
   const auto& input = switches.input;
@@ -101,7 +143,9 @@ Result<io::OffsetFile> buffer_all(const OffsetSwitches& switches) {
   io::OffsetFile file;
   file.crs_wkt = loose->crs_wkt;
   file.y_down = loose->y_down;
-  file.items.push_back({{}, std::move(offsets).value(), {}, std::move(soup).value()});
+  auto sources = sources_of(*loose, *soup, *offsets);
+  file.items.push_back(
+      {{}, std::move(offsets).value(), {}, std::move(soup).value(), std::move(sources)});
   return file;
 }
 
@@ -210,7 +254,8 @@ Verb make_offset_verb(CLI::App& program) {
       "are lines and arcs; all distances are found in one walk along the axis. Regions of\n"
       "successive distances nest: .json and .geojson tell each one's parent. .dxf has\n"
       "closed polylines with bulges, a layer for each distance; .wkt exact circular\n"
-      "strings; .geojson chords.\n"
+      "strings; .geojson chords. Buffers (--loose) tell in .json and .geojson which features\n"
+      "are in each region, and those attributes on which all of them agree.\n"
       "\n"
       "Examples:\n"
       "  medial offset plan.wkt --distance 0.5,1,2 -o plan.svg\n"

@@ -305,6 +305,26 @@ class Axis(CommandLine):
         self.assertEqual((told["segments"], told["points"]), (4, 5))
         points = json.loads(self.succeed("voronoi", "-", "--json", given=b"0 0\n1 0\n0 1\n").stdout)
         self.assertEqual((points["segments"], points["points"]), (0, 3))
+        # Verified as stored; with a face without edges, where lines cross; and not once it is spoilt.
+        self.write("soup.wkt", soup.decode())
+        self.write("outline.wkt", comb(3))
+        self.write("crossing.wkt", crossing.decode())
+        for name, repair in (("soup.wkt", []), ("crossing.wkt", ["--repair"])):
+            self.succeed("voronoi", name, *repair, "-o", "v.json")
+            verdict = json.loads(self.succeed("verify", name, "v.json", "--json", *repair).stdout)
+            self.assertTrue(verdict["passed"])
+            self.assertLess(verdict["largest_residual"], verdict["tolerance"])
+        stored = json.loads(self.read("v.json"))
+        self.assertIn([], stored["items"][0]["faces"])
+        stored["items"][0]["nodes"][0][2] += 1e-6
+        self.write("spoilt.json", json.dumps(stored))
+        done = self.run_medial("verify", "crossing.wkt", "spoilt.json", "--repair")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn(b"FAILED", done.stdout)
+        self.succeed("voronoi", "outline.wkt", "--method", "lee", "-o", "lee.json")
+        self.refuse("unsupported", "verify", "outline.wkt", "lee.json")
+        self.write("cut.json", json.dumps(stored)[:-9])
+        self.refuse("malformed", "verify", "crossing.wkt", "cut.json", "--repair")
 
     def test_ridge_and_exterior(self):
         """Ridge following and the exterior, with their switches, and what verify says of them."""
@@ -1538,6 +1558,24 @@ class Offset(CommandLine):
                      "--format", "wkt")
         self.refuse("invalid_option", "offset", "s.wkt", "--step", "0.5", "--exterior")
         self.refuse("too_large", "offset", "s.wkt", "--step", "1e-9")
+
+    def test_buffers_carry_attributes(self):
+        """Of the features in a region, what they agree on; regions grow together."""
+        def road(x, **properties):
+            return {"type": "Feature", "properties": properties,
+                    "geometry": {"type": "LineString", "coordinates": [[x, 0], [x, 10]]}}
+        self.write("roads.geojson", json.dumps({"type": "FeatureCollection", "features": [
+            road(0, kind="road", name="a"), road(4, kind="road", name="b"), road(100, kind="path", name="c")]}))
+        self.succeed("offset", "roads.geojson", "--loose", "--distance", "1,3", "-o", "b.json")
+        regions = json.loads(self.read("b.json"))["items"][0]["regions"]
+        told = {(r["clearance"], tuple(r["features"])): dict(r["attributes"]) for r in regions}
+        self.assertEqual(told, {(-1, (0,)): {"kind": "road", "name": "a"}, (-1, (1,)): {"kind": "road", "name": "b"},
+                                (-1, (2,)): {"kind": "path", "name": "c"}, (-3, (0, 1)): {"kind": "road"},
+                                (-3, (2,)): {"kind": "path", "name": "c"}})
+        self.succeed("offset", "roads.geojson", "--loose", "--distance", "3", "-o", "b.geojson")
+        told = [f["properties"] for f in json.loads(self.read("b.geojson"))["features"]]
+        self.assertEqual(sorted((p["features"], p["kind"], p.get("name")) for p in told),
+                         [([0, 1], "road", None), ([2], "path", "c")])
 
     def test_what_cannot_be_done_is_refused(self):
         self.write("s.wkt", self.SQUARE)

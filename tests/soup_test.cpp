@@ -100,6 +100,12 @@ std::string fault_of(const VoronoiDiagram& diagram) {
   return "";
 }
 
+/// What is wrong by both certificates: the one above and the library's own.
+std::string fault_of(const Soup& soup, const VoronoiDiagram& diagram) {
+  const VoronoiCertificate certificate = verify(soup, diagram, {.threads = 1});
+  return certificate.passed ? fault_of(diagram) : "not verified: " + certificate.failures.front();
+}
+
 std::size_t count_nodes(const VoronoiDiagram& diagram, Vec2 center, double radius) {
   std::size_t count = 0;
   for (const Node& node : diagram.nodes)
@@ -223,7 +229,7 @@ TEST(Soup, PointsOfAllKindsHaveRightDiagrams) {
     const auto soup = build_soup(random_points(seed));
     ASSERT_TRUE(soup.ok()) << seed << to_string(soup.error());
     const auto diagram = voronoi_diagram(*soup, {.threads = 1});
-    const std::string fault = diagram ? fault_of(*diagram) : to_string(diagram.error());
+    const std::string fault = diagram ? fault_of(*soup, *diagram) : to_string(diagram.error());
     if (fault.empty()) continue;
     ++failed;
     ADD_FAILURE() << "random_points(" << seed << "): " << fault;
@@ -396,6 +402,48 @@ Chains random_soup(std::uint64_t seed) {
   return chains;
 }
 
+/// Whatever is spoilt in a diagram, its certificate does not pass.
+TEST(Soup, SpoiltDiagramsAreNotVerified) {
+  for (std::uint64_t seed = 1; seed < 40; ++seed) {
+    const auto soup = build_soup(random_soup(seed));
+    ASSERT_TRUE(soup.ok());
+    const auto made = voronoi_diagram(*soup, {.threads = 1});
+    ASSERT_TRUE(made.ok());
+    ASSERT_TRUE(verify(*soup, *made).passed) << seed;
+    Random random(seed);
+    const auto one_of = [&](const auto& elements) {
+      return static_cast<std::size_t>(uniform(random) * static_cast<double>(elements.size()));
+    };
+    const double size = diagonal(*made->frame);
+    const auto refused = [&](const auto& spoil) {
+      VoronoiDiagram diagram = *made;
+      spoil(diagram);
+      return !verify(*soup, diagram).passed;
+    };
+    EXPECT_TRUE(refused([&](auto& d) { d.nodes[one_of(d.nodes)].disk.center.x += 1e-9 * size; }));
+    EXPECT_TRUE(refused([&](auto& d) { d.nodes[one_of(d.nodes)].disk.radius += 1e-9 * size; }));
+    EXPECT_TRUE(refused([&](auto& d) { d.edges[one_of(d.edges)].control.radius += 1e-6 * size; }));
+    EXPECT_TRUE(refused([&](auto& d) { d.edges[one_of(d.edges)].weight = -1; }));
+    EXPECT_TRUE(refused([&](auto& d) { d.sites[one_of(d.sites)].start.y += 1e-3 * size; }));
+    EXPECT_TRUE(refused([&](auto& d) { d.face_edges.pop_back(); }));
+    EXPECT_TRUE(refused([&](auto& d) {
+      auto& edge = d.edges[one_of(d.edges)];
+      std::swap(edge.node[0], edge.node[1]);
+    }));
+    EXPECT_TRUE(refused([&](auto& d) {
+      d.face_edges[one_of(d.face_edges)] = static_cast<std::uint32_t>(d.edges.size());
+    }));
+    EXPECT_TRUE(refused([&](auto& d) { d.frame->high.x += 1e-3 * size; }));
+    EXPECT_TRUE(refused([&](auto& d) { d.frame.reset(); }));
+    if (made->sites.size() > 1) {
+      EXPECT_TRUE(refused([&](auto& d) {
+        for (auto& edge : d.edges)
+          if (!edge.frame) return static_cast<void>(edge.site[0] = edge.site[1]);
+      }));
+    }
+  }
+}
+
 class RandomSoups : public testing::TestWithParam<std::uint64_t> {};
 
 TEST_P(RandomSoups, HaveRightDiagrams) {
@@ -405,7 +453,7 @@ TEST_P(RandomSoups, HaveRightDiagrams) {
     const auto soup = build_soup(random_soup(seed));
     ASSERT_TRUE(soup.ok());
     const auto diagram = voronoi_diagram(*soup, {.threads = 1});
-    const std::string fault = diagram ? fault_of(*diagram) : to_string(diagram.error());
+    const std::string fault = diagram ? fault_of(*soup, *diagram) : to_string(diagram.error());
     if (fault.empty()) continue;
     ++failed;
     ADD_FAILURE() << "random_soup(" << seed << "): " << fault;

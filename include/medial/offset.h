@@ -36,7 +36,10 @@ struct Offsets {
   /// By increasing clearance, so that a parent comes before its children; those of one clearance
   /// have no point in common, but touching points within rounding.
   std::vector<OffsetRegion> regions;
-  double tolerance = 0;       ///< of the axes: what a curve's clearance is off by, about
+  double tolerance = 0;  ///< of the axes: what a curve's clearance is off by, about
+  /// Of buffers: of each of the soup's points, the region of the smallest distance that it lies in;
+  /// those of larger distances are its ancestors. Else empty.
+  std::vector<std::uint32_t> region_of_point = {};
   double seconds_axis = 0;    ///< to compute axes
   double seconds_curves = 0;  ///< to walk along them
 };

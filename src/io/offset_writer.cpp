@@ -35,6 +35,13 @@ double chord_of(const OffsetItem& item, const WriteOptions& options) {
   return options.chord * reach;
 }
 
+void put_attributes(OutputStream& out,
+                    const std::vector<std::pair<std::string, std::string>>& attributes) {
+  for (std::size_t k = 0; k < attributes.size(); ++k)
+    out.put(fmt::format("{}[{},{}]", k == 0 ? "" : ",", quoted(attributes[k].first),
+                        quoted(attributes[k].second)));
+}
+
 void write_json(OutputStream& out, const OffsetFile& file) {
   out.put("{\"medial_offsets\":1,\n\"items\":[");
   for (std::size_t i = 0; i < file.items.size(); ++i) {
@@ -42,9 +49,7 @@ void write_json(OutputStream& out, const OffsetFile& file) {
     out.put(i == 0 ? "\n{\"tolerance\":" : ",\n{\"tolerance\":");
     out.put(item.offsets.tolerance);
     out.put(",\"attributes\":[");
-    for (std::size_t k = 0; k < item.attributes.size(); ++k)
-      out.put(fmt::format("{}[{},{}]", k == 0 ? "" : ",", quoted(item.attributes[k].first),
-                          quoted(item.attributes[k].second)));
+    put_attributes(out, item.attributes);
     out.put("],\"regions\":[");
     for (std::size_t k = 0; k < item.offsets.regions.size(); ++k) {
       const OffsetRegion& region = item.offsets.regions[k];
@@ -55,6 +60,14 @@ void write_json(OutputStream& out, const OffsetFile& file) {
         out.put("null");
       } else {
         out.put(region.parent);
+      }
+      if (!item.sources.empty()) {
+        const BufferSource& source = item.sources[k];
+        out.put(",\"features\":[");
+        out.put(fmt::format("{}", fmt::join(source.features, ",")));
+        out.put("],\"attributes\":[");
+        put_attributes(out, source.attributes);
+        out.put(']');
       }
       out.put(",\"rings\":[");
       for (std::size_t r = 0; r < region.rings.size(); ++r) {
@@ -145,7 +158,10 @@ Status write_geojson(OutputStream& out, const OffsetFile& file, const WriteOptio
                       i, k, region.clearance,
                       region.parent == no_region ? "null" : std::to_string(region.parent),
                       area(region), length(region)));
-      for (const auto& [name, value] : item.attributes)
+      if (!item.sources.empty())
+        out.put(fmt::format(",\"features\":[{}]", fmt::join(item.sources[k].features, ",")));
+      for (const auto& [name, value] :
+           item.sources.empty() ? item.attributes : item.sources[k].attributes)
         out.put(fmt::format(",{}:{}", quoted(name), quoted(value)));
       out.put("}}");
     }

@@ -81,6 +81,9 @@ class Regions {
       upper_.push_back({static_cast<std::uint32_t>(begin + i), keys[i]});
   }
 
+  /// The last region of a key, if it had any.
+  std::uint32_t region_of(std::uint32_t key) const { return region_of_[key]; }
+
   /// Replaces the keys of the last level's regions by others.
   template <class Rename>
   void rename(std::size_t keys, const Rename& rename_key) {
@@ -131,7 +134,8 @@ struct Surroundings {
   std::vector<std::uint32_t> of_part;  ///< of each component of the exterior: one that it touches
   /// Components of the shape that touch: neighbours along the boundary of the exterior.
   std::vector<std::pair<std::uint32_t, std::uint32_t>> touching;
-  std::size_t components = 0;  ///< of the shape
+  std::size_t components = 0;                ///< of the shape
+  std::vector<std::uint32_t> of_point = {};  ///< of a soup's points: their components
 };
 
 /// Sites are numbered in the order of the points, a vertex before the edge that starts there.
@@ -161,9 +165,11 @@ Surroundings surroundings_of(const Shape& shape, const Exterior& exterior, const
 }
 
 /// Appends the regions of the shape grown by each level, first level first: its components, which
-/// are connected where the exterior's axis between two of them is below the level.
-void add_outward(const MedialAxis& axis, const Surroundings& around, std::span<const double> levels,
-                 Regions& regions, std::vector<OffsetRegion>& out) {
+/// are connected where the exterior's axis between two of them is below the level. Returns, of each
+/// of `around.of_point`, the region of the first level that it lies in.
+std::vector<std::uint32_t> add_outward(const MedialAxis& axis, const Surroundings& around,
+                                       std::span<const double> levels, Regions& regions,
+                                       std::vector<OffsetRegion>& out) {
   const auto component_of = [&](const LevelLoop& loop) {
     return loop.site != no_site ? around.of_site[loop.site]
                                 : around.of_part[axis.nodes[loop.node].component];
@@ -175,6 +181,7 @@ void add_outward(const MedialAxis& axis, const Surroundings& around, std::span<c
   const auto bins = bins_of(walk, axis.edges.size(), levels, false);
   DisjointSets sets(around.components);
   for (const auto& [one, other] : around.touching) sets.join(one, other);
+  std::vector<std::uint32_t> region_of_point;
   for (std::size_t k = 0; k < levels.size(); ++k) {
     for (const std::uint32_t e : bins[k]) {
       const std::uint32_t left = around.of_site[axis.edges[e].site[0]];
@@ -191,7 +198,11 @@ void add_outward(const MedialAxis& axis, const Surroundings& around, std::span<c
         -levels[k], std::move(own),
         [&](const LevelLoop& loop) { return sets.find(component_of(loop)); },
         [&](std::uint32_t component) { return sets.find(component); }, out);
+    if (k > 0) continue;
+    for (const std::uint32_t component : around.of_point)
+      region_of_point.push_back(regions.region_of(sets.find(component)));
   }
+  return region_of_point;
 }
 
 /// The same for a soup: what its points and edges connect is a component.
@@ -203,6 +214,8 @@ Surroundings surroundings_of(const Soup& soup, const Shape& surroundings, const 
   const auto component_of = [&](std::uint32_t point) {
     return point == no_index ? Surroundings::frame : sets.find(point);
   };
+  for (std::uint32_t point = 0; point < soup.points.size(); ++point)
+    around.of_point.push_back(sets.find(point));
   around.of_site.reserve(axis.sites.size());
   for (const Site& site : axis.sites) around.of_site.push_back(component_of(site.ring));
   around.of_part.resize(surroundings.component_count());
@@ -216,6 +229,8 @@ Surroundings surroundings_of(const Soup& soup, const Shape& surroundings, const 
 void finish(Offsets& offsets) {
   auto& regions = offsets.regions;
   std::reverse(regions.begin(), regions.end());
+  for (std::uint32_t& region : offsets.region_of_point)
+    if (region != no_region) region = static_cast<std::uint32_t>(regions.size() - 1) - region;
   for (OffsetRegion& region : regions) {
     if (region.parent != no_region)
       region.parent = static_cast<std::uint32_t>(regions.size() - 1) - region.parent;
@@ -281,7 +296,8 @@ Result<Offsets> offset_both_sides(const Shape& shape, std::span<const double> cl
     offsets.tolerance = std::max(offsets.tolerance, axis->tolerance);
     ops::divide_at_summits(*axis);
     regions.rename(shape.component_count(), [](std::uint32_t component) { return component; });
-    add_outward(*axis, surroundings_of(shape, *exterior, *axis), outside, regions, offsets.regions);
+    static_cast<void>(add_outward(*axis, surroundings_of(shape, *exterior, *axis), outside, regions,
+                                  offsets.regions));
     offsets.seconds_curves += walking.lap();
   }
   finish(offsets);
@@ -311,8 +327,8 @@ Result<Offsets> buffers_of(const Soup& soup, std::span<const double> given,
   offsets.tolerance = axis->tolerance;
   ops::divide_at_summits(*axis);
   Regions regions(soup.points.size());
-  add_outward(*axis, surroundings_of(soup, surroundings, *axis), distances, regions,
-              offsets.regions);
+  offsets.region_of_point = add_outward(*axis, surroundings_of(soup, surroundings, *axis),
+                                        distances, regions, offsets.regions);
   finish(offsets);
   offsets.seconds_curves = walking.lap();
   return offsets;

@@ -10,12 +10,20 @@
 
 namespace medial::io {
 
+/// What the features that lie in one region of a buffer have in common.
+struct BufferSource {
+  std::vector<std::uint32_t> features;  ///< in their order in the input
+  /// Name and value, in the order of the first feature: those on which all of them agree.
+  std::vector<std::pair<std::string, std::string>> attributes;
+};
+
 /// A shape, or a soup, and its offset curves.
 struct OffsetItem {
   Shape shape;
   Offsets offsets;
   std::vector<std::pair<std::string, std::string>> attributes = {};
-  Soup soup = {};  ///< what buffers are of, where there is no shape
+  Soup soup = {};                          ///< what buffers are of, where there is no shape
+  std::vector<BufferSource> sources = {};  ///< of each region of a buffer; or empty
 };
 
 struct OffsetFile {
