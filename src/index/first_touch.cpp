@@ -25,7 +25,7 @@ constexpr double rounding = 0x1p-48;
 /// difference to a box by 8 u: for both axes together 17 u. The squares, their sum and the limit
 /// add 3 u of a distance below 4: 12 u. A slab's normal is what its bounds were computed with;
 /// centre, products, sum and difference add less than 6 u + 16 u + 8 u. This is 64 u.
-constexpr double single_precision_slack = 0x1p-18;
+constexpr double single_precision_reach = 0x1p-18;
 
 /// Sets of more sites get no slab: it would be about as wide as the box.
 constexpr std::size_t largest_slab = 512;
@@ -166,7 +166,7 @@ std::optional<FirstTouch::Touch> FirstTouch::find(Vec2 foot, Vec2 direction, dou
     }
     const Bounds& bounds = levels_[top.level - 1][top.index];
     const auto x = static_cast<float>(center.x), y = static_cast<float>(center.y);
-    const auto reach = static_cast<float>(radius + single_precision_slack);
+    const auto reach = static_cast<float>(radius + single_precision_reach);
     Lanes from_foot, from_center;
     nearer(bounds.boxes, foot_x, foot_y, 0, from_foot);
     std::uint32_t mask =

@@ -13,6 +13,7 @@
 #include "base/arc.h"
 #include "base/frame.h"
 #include "base/memory.h"
+#include "base/numbers.h"
 #include "engines/voronoi/clip.h"
 #include "engines/voronoi/frame_cut.h"
 #include "engines/voronoi/long_edges.h"
@@ -22,8 +23,6 @@
 
 namespace medial::voronoi {
 namespace {
-
-constexpr std::uint32_t none = ~std::uint32_t{0};
 
 /// Puts an axis together by the sites of a soup: see diagram_of().
 ///
