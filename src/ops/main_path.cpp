@@ -17,7 +17,6 @@
 namespace medial {
 namespace {
 
-using none;
 using ops::head_of;
 using ops::other_end;
 using ops::tail_of;
