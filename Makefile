@@ -5,9 +5,12 @@ PREFIX ?= /usr/local
 DATA ?= $(wildcard ../shared/data) data
 # Fonts, or folders of them, whose glyphs `make corpus` runs.
 FONTS ?= $(wildcard /usr/share/fonts/truetype)
+# ON compiles sources some at a time: sooner from scratch, later after each change.
+UNITY ?= ON
 SECONDS ?= 60
 FROM ?= $(shell date +%s)000000
 RELEASE := build/release
+DEBUG := build/debug
 ASAN := build/asan
 TSAN := build/tsan
 BENCH := build/bench
@@ -26,16 +29,16 @@ setup:    ## install what is missing from Debian's packages
 	@tools/setup.sh build test
 
 build: setup    ## build the library and the command line
-	@cmake --preset release
+	@cmake --preset release -DMEDIAL_UNITY=$(UNITY)
 	@cmake --build $(RELEASE) -j $(JOBS) --target medial medial_io medial_cli
 
 demo: build     ## medial axes of maps, a plan, a maze, drawings: out/demo
 	@tools/demo.py $(RELEASE)/cli/medial out/demo
 
 test: setup     ## all tests, in release and under the address and undefined-behaviour sanitizers
-	@cmake --preset release
+	@cmake --preset release -DMEDIAL_UNITY=$(UNITY)
 	@cmake --build $(RELEASE) -j $(JOBS)
-	@cmake --preset asan
+	@cmake --preset asan -DMEDIAL_UNITY=$(UNITY)
 	@cmake --build $(ASAN) -j $(JOBS)
 	@tools/test.sh $(JOBS) $(CURDIR)/$(ASAN) $(CURDIR)/$(RELEASE)
 
@@ -84,8 +87,8 @@ format: setup   ## rewrite the sources in the house's format
 lint: setup     ## check the layers, run clang-tidy
 	@tools/setup.sh lint
 	@tools/check_layers.py
-	@cmake --preset release > /dev/null
-	@tools/lint.sh $(RELEASE) $(JOBS)
+	@cmake --preset debug > /dev/null
+	@tools/lint.sh $(DEBUG) $(JOBS)
 
 install: build  ## install below PREFIX (/usr/local)
 	@cmake --install $(RELEASE) --prefix $(PREFIX)

@@ -37,7 +37,7 @@ struct AccuracySwitches {
   std::string output;
 };
 
-constexpr char formats[] = ".svg .csv .json";
+constexpr char plot_formats[] = ".svg .csv .json";
 
 /// The rows of each shape, in order.
 std::vector<std::vector<BiarcRow>> by_shape(const std::vector<BiarcRow>& rows) {
@@ -173,20 +173,20 @@ std::string report_text(const BiarcReport& report, int rounds) {
       polygons_table(report.polygons));
 }
 
-Json to_json(const Timing& timing) {
+Json json_of(const Timing& timing) {
   return {{"processor", timing.processor}, {"wall", timing.wall}};
 }
 
-Json to_json(const BiarcRow& row) {
+Json json_of(const BiarcRow& row) {
   Json object = {{"shape", row.shape},
                  {"tolerance", row.tolerance},
                  {"edges", row.edges},
                  {"straight", row.straight},
                  {"error", row.error},
                  {"seconds",
-                  {{"conversion", to_json(row.conversion)},
-                   {"build", to_json(row.building)},
-                   {"axis", to_json(row.axis)}}},
+                  {{"conversion", json_of(row.conversion)},
+                   {"build", json_of(row.building)},
+                   {"axis", json_of(row.axis)}}},
                  {"leaves", row.leaves},
                  {"branchings", row.branchings},
                  {"passed", row.failure.empty()},
@@ -195,21 +195,21 @@ Json to_json(const BiarcRow& row) {
                  {"base_cases", row.base_cases},
                  {"exact_note", row.exact_note},
                  {"exact_changes", row.exact_changes}};
-  if (row.exact) object["seconds"]["exact"] = to_json(*row.exact);
+  if (row.exact) object["seconds"]["exact"] = json_of(*row.exact);
   if (row.published) {
-    object["seconds"]["biarc_dc"] = to_json(*row.published);
+    object["seconds"]["biarc_dc"] = json_of(*row.published);
     object["seconds"]["biarc_dc_conquer"] = row.published_conquer;
   }
   return object;
 }
 
-Json to_json(const BiarcReport& report) {
+Json json_of(const BiarcReport& report) {
   Json object = {{"passed", report.passed()},
                  {"by_tolerance", Json::array()},
                  {"by_size", Json::array()},
                  {"polygons", Json::array()}};
-  for (const BiarcRow& row : report.by_tolerance) object["by_tolerance"].push_back(to_json(row));
-  for (const BiarcRow& row : report.by_size) object["by_size"].push_back(to_json(row));
+  for (const BiarcRow& row : report.by_tolerance) object["by_tolerance"].push_back(json_of(row));
+  for (const BiarcRow& row : report.by_size) object["by_size"].push_back(json_of(row));
   for (const PolygonComparison& row : report.polygons) {
     object["polygons"].push_back({{"shape", row.shape},
                                   {"edges", row.edges},
@@ -289,7 +289,7 @@ Status write_shapes(const std::string& directory) {
 }
 
 Result<int> run_biarc(const BenchSwitches& switches) {
-  Status writable = check_output(switches.output, {}, formats, {}, false);
+  Status writable = check_output(switches.output, {}, plot_formats, {}, false);
   if (!writable) return std::move(writable).error();
   if (!switches.shapes.empty()) {
     Status written = write_shapes(switches.shapes);
@@ -311,11 +311,11 @@ Result<int> run_biarc(const BenchSwitches& switches) {
     Status written = extension == ".svg" ? write_plots(switches.output, report_plots(report))
                      : extension == ".csv"
                          ? io::write_text(switches.output, report_csv(report))
-                         : io::write_text(switches.output, to_json(report).dump(2) + "\n");
+                         : io::write_text(switches.output, json_of(report).dump(2) + "\n");
     if (!written) return std::move(written).error();
   }
   Status printed =
-      switches.json ? print(to_json(report)) : print(report_text(report, options.rounds));
+      switches.json ? print(json_of(report)) : print(report_text(report, options.rounds));
   if (!printed) return std::move(printed).error();
   return report.passed() ? exit_success : exit_failed_verdict;
 }
@@ -414,7 +414,7 @@ Verb make_bench_verb(CLI::App& program) {
       "Computation for Planar Free-Form Shapes (2009), Section 5.");
   biarc
       ->add_option("-o,--output", switches->output,
-                   fmt::format("Plots (.svg) or all numbers: {}", formats))
+                   fmt::format("Plots (.svg) or all numbers: {}", plot_formats))
       ->check(a_name())
       ->option_text("FILE");
   biarc

@@ -27,7 +27,7 @@
 namespace medial::cli {
 namespace {
 
-constexpr char formats[] = ".svg .csv .json";
+constexpr char lee_formats[] = ".svg .csv .json";
 constexpr double two_pi = 2 * std::numbers::pi;
 
 Ring around_origin(std::size_t n, const std::function<Vec2(double, std::size_t)>& point) {
@@ -140,8 +140,6 @@ class PeakMemory {
   double before_ = 0;
 };
 
-double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
-
 template <class Work>
 double least_time(int rounds, const Work& work) {
   double least = std::numeric_limits<double>::infinity();
@@ -197,7 +195,7 @@ double per_element_and_level(const LeeRow& row) {
   return row.elements < 2 ? 0 : 1e6 * row.lee / (n * std::log2(n));
 }
 
-std::string table(const std::vector<LeeRow>& rows) {
+std::string lee_table(const std::vector<LeeRow>& rows) {
   std::string text =
       "| shape | n | N | lee s | disks s | lee / disks | lee us/n | us/(N log2 N) | crossings/N | "
       "bytes/N | "
@@ -253,7 +251,7 @@ std::vector<Plot> plots(const std::vector<LeeRow>& rows) {
   return {lee, disks};
 }
 
-Json to_json(const LeeRow& row) {
+Json json_of(const LeeRow& row) {
   return {{"shape", row.shape},    {"vertices", row.vertices}, {"elements", row.elements},
           {"lee", row.lee},        {"disks", row.disks},       {"crossings", row.crossings},
           {"levels", row.levels},  {"bytes", row.bytes},       {"passed", row.failure.empty()},
@@ -269,7 +267,7 @@ struct LeeSwitches {
 };
 
 Result<int> run_lee(const LeeSwitches& switches) {
-  Status writable = check_output(switches.output, {}, formats, {}, false);
+  Status writable = check_output(switches.output, {}, lee_formats, {}, false);
   if (!writable) return std::move(writable).error();
   if (!switches.figures.empty()) {
     Status written = write_lee_figures(switches.figures);
@@ -286,7 +284,7 @@ Result<int> run_lee(const LeeSwitches& switches) {
   bool passed = true;
   std::string csv = "shape,vertices,elements,lee,disks,crossings,passed\n";
   for (const LeeRow& row : rows) {
-    all.push_back(to_json(row));
+    all.push_back(json_of(row));
     passed = passed && row.failure.empty();
     csv += fmt::format("{},{},{},{},{},{},{}\n", row.shape, row.vertices, row.elements, row.lee,
                        row.disks, row.crossings, row.failure.empty());
@@ -298,7 +296,7 @@ Result<int> run_lee(const LeeSwitches& switches) {
                                            : io::write_text(switches.output, all.dump(2) + "\n");
     if (!written) return std::move(written).error();
   }
-  Status printed = switches.json ? print(all) : print(table(rows) + "\n" + fits(rows));
+  Status printed = switches.json ? print(all) : print(lee_table(rows) + "\n" + fits(rows));
   if (!printed) return std::move(printed).error();
   return passed ? exit_success : exit_failed_verdict;
 }
@@ -327,7 +325,7 @@ Verb add_lee_bench(CLI::App& bench) {
       "Polygons by divide and conquer: Lee, Medial Axis Transformation of a Planar\n"
       "Shape (1982), against the number of vertices, beside the method disks.");
   lee->add_option("-o,--output", switches->output,
-                  fmt::format("Plots (.svg) or all numbers: {}", formats))
+                  fmt::format("Plots (.svg) or all numbers: {}", lee_formats))
       ->check(a_name())
       ->option_text("FILE");
   lee->add_option("--largest", switches->largest, "Shapes of 1e2 to 10^N vertices (default: 6).")

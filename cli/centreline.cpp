@@ -67,7 +67,7 @@ Status make_lines(io::NativeFile& file, const Paths& paths, const CentrelineSwit
   });
 }
 
-Json to_json(const Paths& paths, const io::NativeFile& file) {
+Json json_of(const Paths& paths, const io::NativeFile& file) {
   Json features = Json::array();
   for (std::size_t i = 0; i < paths.size(); ++i) {
     Json list = Json::array();
@@ -99,7 +99,7 @@ Result<int> tell(const Paths& paths, const io::NativeFile& file, const Centrelin
   if (switches.common.json) {
     Json object = {{"input", switches.input.path}};
     if (!switches.output.empty()) object["output"] = switches.output;
-    object["features"] = to_json(paths, file);
+    object["features"] = json_of(paths, file);
     if (switches.common.stats) object["seconds"] = seconds;
     printed = print(object);
   } else if (!switches.common.quiet && (switches.output.empty() || error_is_terminal())) {

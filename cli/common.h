@@ -105,6 +105,9 @@ Status check_output(const std::string& path, const std::string& format,
 /// An error of a file as a whole.
 Error error_at(ErrorCode code, const std::string& file, std::string text);
 
+/// The formats of images in black and white.
+inline constexpr char image_formats[] = ".png .tif .pbm";
+
 /// The error of a command line that asks for something impossible.
 Error invalid_option(std::string text);
 

@@ -108,7 +108,7 @@ Row measure(const Shape& shape, const std::vector<Contour>& contours, const Medi
   return row;
 }
 
-Json to_json(const Row& row) {
+Json json_of(const Row& row) {
   if (!row.refused.empty()) return {{"method", row.method}, {"refused", row.refused}};
   return {{"method", row.method},
           {"seconds", row.seconds},
@@ -221,7 +221,7 @@ Result<int> run_compare(const CompareSwitches& switches) {
     text += table_of(rows);
     for (const Row& row : rows) failed = failed || row.failed;
     Json list = Json::array();
-    for (const Row& row : rows) list.push_back(to_json(row));
+    for (const Row& row : rows) list.push_back(json_of(row));
     features.push_back(std::move(list));
     if (i == 0 && !output.empty()) {
       Status written = write_comparison(output, shape, rows, *file);

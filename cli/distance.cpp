@@ -14,7 +14,7 @@
 namespace medial::cli {
 namespace {
 
-constexpr char formats[] = ".tif .png .pgm";
+constexpr char grid_formats[] = ".tif .png .pgm";
 
 struct DistanceSwitches {
   std::string input;
@@ -29,7 +29,7 @@ struct DistanceSwitches {
 };
 
 Result<int> run_distance(const DistanceSwitches& switches) {
-  Status writable = check_output(switches.output, {}, formats, switches.input, false);
+  Status writable = check_output(switches.output, {}, grid_formats, switches.input, false);
   if (!writable) return std::move(writable).error();
   const Stopwatch reading;
   auto file = io::read_image(switches.input, switches.image);
@@ -103,7 +103,7 @@ Verb make_distance_verb(CLI::App& program) {
   verb->add_option("-o,--output", switches->output,
                    fmt::format("Where to write; the extension tells the format:\n{}\n"
                                ".tif has 32 bits a pixel, the others 16.",
-                               formats))
+                               grid_formats))
       ->check(a_name())
       ->option_text("IMAGE");
   add_image_switches(*verb, switches->image);

@@ -36,7 +36,7 @@ struct FeatureSummary {
   std::array<double, variation_count> variation{};
 };
 
-FeatureSummary summarize(std::span<const AxisFeatures> features) {
+FeatureSummary sum_of(std::span<const AxisFeatures> features) {
   FeatureSummary sum;
   for (const AxisFeatures& item : features) {
     sum.ends += item.ends;
@@ -67,7 +67,7 @@ Status tell(const AxisFile& file, std::span<const AxisFeatures> features,
   const auto& common = switches.common;
   const bool terminal = !switches.output.empty() && error_is_terminal() && !common.quiet;
   if (!common.json && !common.stats && !switches.output.empty() && !terminal) return success();
-  const FeatureSummary sum = summarize(features);
+  const FeatureSummary sum = sum_of(features);
   const Json costs = {{"seconds",
                        {{"read", file.seconds_read},
                         {"shape", file.seconds_shape},

@@ -25,7 +25,7 @@ Json place_of(const AxisFrame& frame) {
   return {{"x", frame.disk.center.x}, {"y", frame.disk.center.y}, {"r", frame.disk.radius}};
 }
 
-Json to_json(const Legality& one, std::size_t branch, double slack) {
+Json json_of(const Legality& one, std::size_t branch, double slack) {
   Json object = {{"branch", branch}, {"frames", one.frames}};
   if (one.frames == 0) return object;
   object["legal"] = one.legal(slack);
@@ -68,7 +68,7 @@ Result<int> run_legal(const LegalSwitches& switches) {
     for (std::size_t k = 0; k < judged[i].size(); ++k) {
       const Legality& one = judged[i][k];
       ++count;
-      if (switches.common.json) list.push_back(to_json(one, k, switches.slack));
+      if (switches.common.json) list.push_back(json_of(one, k, switches.slack));
       if (one.frames == 0) continue;
       ++told;
       strict += one.strictly_legal(switches.slack) ? 1 : 0;

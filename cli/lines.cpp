@@ -14,12 +14,12 @@ namespace medial::cli {
 namespace {
 
 /// Where a line is to begin or end: a point, or the middle of the side that begins at a vertex.
-struct Named {
+struct NamedPlace {
   std::optional<Vec2> point;
   VertexSource side;
 };
 
-std::optional<Named> named(const std::string& text) {
+std::optional<NamedPlace> named(const std::string& text) {
   const std::size_t at = text.find_first_of(",/");
   if (at == std::string::npos) return std::nullopt;
   const char *begin = text.data(), *middle = begin + at, *end = begin + text.size();
@@ -27,7 +27,7 @@ std::optional<Named> named(const std::string& text) {
     const auto [stop, problem] = std::from_chars(first, last, value);
     return problem == std::errc() && stop == last;
   };
-  Named place;
+  NamedPlace place;
   if (*middle == '/') {
     const bool read =
         all(begin, middle, place.side.ring) && all(middle + 1, end, place.side.vertex);
@@ -61,15 +61,15 @@ std::optional<Vec2> middle_of(const Shape& shape, VertexSource side) {
   return std::nullopt;
 }
 
-std::optional<Vec2> point_in(const Shape& shape, const Named& place) {
+std::optional<Vec2> point_in(const Shape& shape, const NamedPlace& place) {
   return place.point ? place.point : middle_of(shape, place.side);
 }
 
 /// The path between the two named places in one feature.
-Result<AxisPath> path_between_named(const io::NativeItem& item, const Named& from, const Named& to,
-                                    const PathSwitches& switches) {
+Result<AxisPath> path_between_named(const io::NativeItem& item, const NamedPlace& from,
+                                    const NamedPlace& to, const PathSwitches& switches) {
   std::optional<EdgePlace> ends[2];
-  const Named* names[2] = {&from, &to};
+  const NamedPlace* names[2] = {&from, &to};
   for (std::size_t i = 0; i < 2; ++i) {
     const auto point = point_in(item.shape, *names[i]);
     if (!point) {
@@ -84,7 +84,7 @@ Result<AxisPath> path_between_named(const io::NativeItem& item, const Named& fro
 }
 
 /// In which feature a place lies, or nearest to which.
-std::size_t feature_of(const io::NativeFile& file, const Named& place) {
+std::size_t feature_of(const io::NativeFile& file, const NamedPlace& place) {
   std::size_t best = 0;
   double deepest = -std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < file.items.size(); ++i) {
@@ -139,7 +139,7 @@ Result<std::vector<std::vector<AxisPath>>> choose_paths(const io::NativeFile& fi
   const std::string& to = widest ? switches.widest[1] : switches.to;
   if (from.empty() != to.empty()) return invalid_option("--from and --to go together");
   if (!from.empty()) {
-    const Named begin = *named(from), end = *named(to);
+    const NamedPlace begin = *named(from), end = *named(to);
     const std::size_t chosen = feature_of(file, begin);
     auto path = path_between_named(file.items[chosen], begin, end, switches);
     if (!path) {

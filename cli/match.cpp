@@ -29,7 +29,7 @@ struct MatchSwitches {
 };
 
 /// A shape with its name: the file, or the file and the feature.
-struct Named {
+struct NamedSignature {
   std::string name;
   ShapeSignature signature;
 };
@@ -71,12 +71,12 @@ void join_items(std::vector<io::NativeItem>& items) {
 }
 
 /// The signatures of a file's features, or of all of it as one shape.
-Result<std::vector<Named>> signatures_of(const InputSwitches& input, const CommonSwitches& common,
-                                         bool each) {
+Result<std::vector<NamedSignature>> signatures_of(const InputSwitches& input,
+                                                  const CommonSwitches& common, bool each) {
   auto axes = load_axes(input, common);
   if (!axes) return std::move(axes).error();
   std::vector<io::NativeItem>& items = axes->native.items;
-  std::vector<Named> out(each ? items.size() : std::min<std::size_t>(items.size(), 1));
+  std::vector<NamedSignature> out(each ? items.size() : std::min<std::size_t>(items.size(), 1));
   if (!each) join_items(items);
   std::vector<double> weights;
   for (std::size_t i = 0; i < out.size(); ++i)
@@ -126,7 +126,7 @@ Result<int> run_match(const MatchSwitches& switches) {
     if (!files) return std::move(files).error();
     paths = std::move(files).value();
   }
-  std::vector<Named> candidates;
+  std::vector<NamedSignature> candidates;
   std::uint64_t refused = 0;
   for (const std::string& path : paths) {
     InputSwitches own = input;
@@ -146,10 +146,10 @@ Result<int> run_match(const MatchSwitches& switches) {
 
   struct Ranked {
     double value;
-    const Named* named;
+    const NamedSignature* named;
   };
   std::vector<Ranked> ranked;
-  for (const Named& named : candidates)
+  for (const NamedSignature& named : candidates)
     ranked.push_back({dissimilarity(asked->front().signature, named.signature), &named});
   std::ranges::stable_sort(ranked, {}, &Ranked::value);
   const std::size_t shown = best == 0 ? ranked.size() : std::min<std::size_t>(best, ranked.size());

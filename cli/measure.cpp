@@ -22,8 +22,8 @@
 namespace medial::cli {
 namespace {
 
-constexpr std::uint64_t most_samples = 1'000'000;
-constexpr std::uint64_t most_disks = 10'000;
+constexpr std::uint64_t most_transects = 1'000'000;
+constexpr std::uint64_t most_disks_told = 10'000;
 constexpr std::size_t necks_told = 5;
 
 struct MeasureSwitches {
@@ -101,10 +101,11 @@ Result<Measured> measure(const io::NativeItem& item, const std::vector<AxisPath>
   Measured out;
   AxisPath all;
   for (const AxisPath& path : paths) {
-    if (switches.spacing > 0 && path.length / switches.spacing > static_cast<double>(most_samples))
+    if (switches.spacing > 0 &&
+        path.length / switches.spacing > static_cast<double>(most_transects))
       return Error{
           ErrorCode::too_large,
-          fmt::format("more than {} transects on a line: the spacing is too small", most_samples),
+          fmt::format("more than {} transects on a line: the spacing is too small", most_transects),
           {}};
     Line& line = out.lines.emplace_back();
     line.path = path;
@@ -143,11 +144,11 @@ double narrowest_of(const Measured& measured) {
 
 Json point(Vec2 p) { return {{"x", p.x}, {"y", p.y}}; }
 
-Json to_json(const Disk& disk) {
+Json json_of(const Disk& disk) {
   return {{"x", disk.center.x}, {"y", disk.center.y}, {"r", disk.radius}};
 }
 
-Json to_json(const Neck& neck, bool on_line) {
+Json json_of(const Neck& neck, bool on_line) {
   Json object = {{"x", neck.width.disk.center.x},     {"y", neck.width.disk.center.y},
                  {"width", neck.width.width()},       {"opens_to", 2 * neck.opens_to},
                  {"left", point(neck.width.feet[0])}, {"right", point(neck.width.feet[1])}};
@@ -156,11 +157,11 @@ Json to_json(const Neck& neck, bool on_line) {
   return object;
 }
 
-Json to_json(const Measured& measured, std::size_t necks_wanted) {
+Json json_of(const Measured& measured, std::size_t necks_wanted) {
   Json lines = Json::array();
   for (const Line& line : measured.lines) {
     Json necks = Json::array();
-    for (const Neck& neck : line.necks) necks.push_back(to_json(neck, true));
+    for (const Neck& neck : line.necks) necks.push_back(json_of(neck, true));
     lines.push_back({{"length", line.path.length},
                      {"narrowest_width", 2 * line.path.narrowest},
                      {"closed", line.path.closed},
@@ -172,14 +173,14 @@ Json to_json(const Measured& measured, std::size_t necks_wanted) {
                   {{"by_length", measured.mean.by_length},
                    {"by_area", measured.mean.by_area},
                    {"area_by_length", measured.mean.area_by_length}}},
-                 {"widest", to_json(measured.widest)},
+                 {"widest", json_of(measured.widest)},
                  {"lines", std::move(lines)}};
   object["necks"] = Json::array();
   for (std::size_t i = 0; i < std::min(necks_wanted, measured.necks.size()); ++i)
-    object["necks"].push_back(to_json(measured.necks[i], false));
+    object["necks"].push_back(json_of(measured.necks[i], false));
   if (!measured.disks.empty()) {
     object["disks"] = Json::array();
-    for (const Disk& disk : measured.disks) object["disks"].push_back(to_json(disk));
+    for (const Disk& disk : measured.disks) object["disks"].push_back(json_of(disk));
   }
   return object;
 }
@@ -187,7 +188,7 @@ Json to_json(const Measured& measured, std::size_t necks_wanted) {
 std::string place(Vec2 p) { return fmt::format("({:.10g}, {:.10g})", p.x, p.y); }
 
 /// One feature as lines of a name and a value.
-std::string describe(const Measured& measured, const MeasureSwitches& switches) {
+std::string summary_of(const Measured& measured, const MeasureSwitches& switches) {
   std::string text;
   const auto row = [&text](const char* name, const std::string& value) {
     text += fmt::format("{:<24}{}\n", name, value);
@@ -223,7 +224,7 @@ std::string describe(const Measured& measured, const MeasureSwitches& switches) 
 }
 
 /// Several features, a line each.
-std::string describe(const std::vector<Measured>& all) {
+std::string summary_of(const std::vector<Measured>& all) {
   std::string text =
       fmt::format("{:>7} {:>12} {:>12} {:>12} {:>12} {:>12} {:>12} {:>12}\n", "feature", "area",
                   "length", "narrowest", "by length", "by area", "widest", "neck");
@@ -400,7 +401,7 @@ Result<int> run_measure(MeasureSwitches switches) {
   if (common.json) {
     Json object = {{"input", input.path}, {"features", Json::array()}};
     for (std::size_t i = 0; i < all.size(); ++i) {
-      Json one = to_json(all[i], switches.necks > 0 ? switches.necks : necks_told);
+      Json one = json_of(all[i], switches.necks > 0 ? switches.necks : necks_told);
       one["attributes"] = Json::object();
       for (const auto& [name, value] : file.items[i].attributes) one["attributes"][name] = value;
       object["features"].push_back(std::move(one));
@@ -408,7 +409,7 @@ Result<int> run_measure(MeasureSwitches switches) {
     if (common.stats) object.update(costs);
     printed = print(object);
   } else if (!common.quiet && switches.output != "-") {
-    printed = print(all.size() == 1 ? describe(all[0], switches) : describe(all));
+    printed = print(all.size() == 1 ? summary_of(all[0], switches) : summary_of(all));
   }
   if (!printed) return std::move(printed).error();
   if (common.stats && !common.json) fmt::print(stderr, "{}", table(costs));
@@ -435,11 +436,11 @@ Verb make_measure_verb(CLI::App& program) {
       ->option_text("FILE");
   verb->add_option("--samples", switches->samples,
                    "Steps of a width profile (default: 200), from end to end of the line.")
-      ->check(in_range(1, most_samples, true))
+      ->check(in_range(1, most_transects, true))
       ->option_text("N");
   CLI::Option* transects = verb->add_option("--transects", switches->transects,
                                             "So many transects along each line, from foot to foot.")
-                               ->check(in_range(1, most_samples, true))
+                               ->check(in_range(1, most_transects, true))
                                ->option_text("N");
   verb->add_option("--spacing", switches->spacing,
                    "Transects at this distance from each other, in units of the input.")
@@ -448,7 +449,7 @@ Verb make_measure_verb(CLI::App& program) {
       ->option_text("D");
   verb->add_option("--necks", switches->necks,
                    "So many necks, those first that open most on both sides.")
-      ->check(in_range(1, most_samples, true))
+      ->check(in_range(1, most_transects, true))
       ->option_text("K");
   verb->add_option("--widening", switches->widening,
                    "A neck opens on both sides to so many times its width (default: 1.1).")
@@ -457,7 +458,7 @@ Verb make_measure_verb(CLI::App& program) {
   verb->add_option("--disks", switches->disks,
                    "So many disks, the largest inside the shape that do not overlap, one after\n"
                    "another: they are measured, not only drawn.")
-      ->check(in_range(1, most_disks, true))
+      ->check(in_range(1, most_disks_told, true))
       ->option_text("K");
   add_path_switches(*verb, switches->path);
   add_width_switch(*verb, switches->write.width);

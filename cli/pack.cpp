@@ -18,7 +18,6 @@ namespace medial::cli {
 namespace {
 
 constexpr char pack_formats[] = ".mpk";
-constexpr char image_formats[] = ".png .tif .pbm";
 
 struct PackSwitches {
   InputSwitches input;
@@ -47,7 +46,7 @@ double extent_of(const io::NativeFile& file) {
 
 /// How the error is shared out: the shortest of these, or the first one where that is large: of
 /// large packs the others make a difference of some hundredths.
-constexpr std::array<std::pair<double, double>, 3> shares{{{0.3, 0.9}, {0.2, 0.9}, {0.4, 0.85}}};
+constexpr std::array<std::pair<double, double>, 3> settings{{{0.3, 0.9}, {0.2, 0.9}, {0.4, 0.85}}};
 constexpr std::size_t large_pack = 32768;  // bytes
 
 Status tell(const PackSwitches& switches, Json object, const std::string& line) {
@@ -122,7 +121,7 @@ Result<int> run_pack(const PackSwitches& switches) {
   for (io::NativeItem& item : axes->native.items) all.push_back(std::move(item.axis));
   std::vector<std::uint8_t> bytes;
   PackReport report;
-  for (const auto& [quantum, prune] : shares) {
+  for (const auto& [quantum, prune] : settings) {
     PackReport one;
     auto code = encode_axes(all, {bound, quantum, prune}, &one);
     if (!code) return std::move(code).error();

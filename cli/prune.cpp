@@ -133,7 +133,7 @@ Result<PruneReport> prune_all(AxisFile& file, const PruneOptions& options, int t
 
 namespace {
 
-struct Switches {
+struct PruneVerbSwitches {
   InputSwitches input;
   CommonSwitches common;
   PruneSwitches prune;
@@ -144,7 +144,8 @@ struct Switches {
 };
 
 /// The axes at thresholds around the chosen one, side by side.
-Status write_previews(const AxisFile& file, const PruneOptions& options, const Switches& switches) {
+Status write_previews(const AxisFile& file, const PruneOptions& options,
+                      const PruneVerbSwitches& switches) {
   const double chosen = options.threshold.value_or(default_threshold(options.measure));
   std::vector<double> thresholds;
   for (const double factor : {0.0, 0.25, 0.5, 1.0, 2.0, 4.0}) {
@@ -171,7 +172,7 @@ Status write_previews(const AxisFile& file, const PruneOptions& options, const S
                            file.native.y_down);
 }
 
-Result<int> run_prune(const Switches& switches) {
+Result<int> run_prune(const PruneVerbSwitches& switches) {
   const auto& [input, common, how, output, format, pictures, preview] = switches;
   if (preview && (output.empty() || how.keep))
     return invalid_option("--preview needs -o with the name of a picture, and no --keep");
@@ -207,7 +208,7 @@ Result<int> run_prune(const Switches& switches) {
 }  // namespace
 
 Verb make_prune_verb(CLI::App& program) {
-  auto switches = std::make_shared<Switches>();
+  auto switches = std::make_shared<PruneVerbSwitches>();
   CLI::App* verb = program.add_subcommand("prune", "Remove the branches that do not matter.");
   add_input_switches(*verb, switches->input);
   verb->add_option("-o,--output", switches->output,

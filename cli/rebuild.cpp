@@ -19,9 +19,7 @@
 namespace medial::cli {
 namespace {
 
-constexpr char image_formats[] = ".png .tif .pbm";
-
-struct Switches {
+struct RebuildSwitches {
   InputSwitches input;
   CommonSwitches common;
   PruneSwitches prune;  ///< of smooth
@@ -43,7 +41,8 @@ struct Told {
   ShapeDistance distance;
 };
 
-Result<std::vector<Shape>> rebuild_all(const AxisFile& axes, const Switches& switches, Told& told) {
+Result<std::vector<Shape>> rebuild_all(const AxisFile& axes, const RebuildSwitches& switches,
+                                       Told& told) {
   const auto& items = axes.native.items;
   std::vector<Shape> shapes(items.size());
   std::vector<RebuildReport> reports(items.size());
@@ -104,7 +103,7 @@ Status compare(const std::vector<Shape>& shapes, const std::vector<Shape>& other
   return success();
 }
 
-Status write_pixels(const AxisFile& axes, const Switches& switches, Json& object) {
+Status write_pixels(const AxisFile& axes, const RebuildSwitches& switches, Json& object) {
   if (axes.native.items.size() != 1) {
     return error_at(ErrorCode::unsupported, switches.input.path, "--pixels takes one feature only");
   }
@@ -124,7 +123,7 @@ Status write_pixels(const AxisFile& axes, const Switches& switches, Json& object
   return io::write_image(switches.output, image->image, placed);
 }
 
-Status tell(const Told& told, const Switches& switches, Json object, const Json& seconds) {
+Status tell(const Told& told, const RebuildSwitches& switches, Json object, const Json& seconds) {
   const CommonSwitches& common = switches.common;
   if (switches.pixels == 0) {
     object["vertices"] = told.vertices;
@@ -152,7 +151,7 @@ Status tell(const Told& told, const Switches& switches, Json object, const Json&
   return print(table(object));
 }
 
-Result<int> run(const Switches& switches, bool smooths) {
+Result<int> run(const RebuildSwitches& switches, bool smooths) {
   const auto& [input, common, how, output, format, tangents, points, polygon, pixels, against,
                width] = switches;
   if (pixels > 0 && (output.empty() || output == "-"))
@@ -227,7 +226,7 @@ Result<int> run(const Switches& switches, bool smooths) {
   return exit_success;
 }
 
-void add_switches(CLI::App& verb, Switches& switches, bool smooths) {
+void add_switches(CLI::App& verb, RebuildSwitches& switches, bool smooths) {
   add_input_switches(verb, switches.input);
   verb.add_option("-o,--output", switches.output,
                   fmt::format("Where to write; the extension tells the format: {}\n"
@@ -268,7 +267,7 @@ void add_switches(CLI::App& verb, Switches& switches, bool smooths) {
 }  // namespace
 
 Verb make_rebuild_verb(CLI::App& program) {
-  auto switches = std::make_shared<Switches>();
+  auto switches = std::make_shared<RebuildSwitches>();
   CLI::App* verb = program.add_subcommand("rebuild", "The shape that an axis stands for.");
   add_switches(*verb, *switches, false);
   verb->footer(
@@ -286,7 +285,7 @@ Verb make_rebuild_verb(CLI::App& program) {
 }
 
 Verb make_smooth_verb(CLI::App& program) {
-  auto switches = std::make_shared<Switches>();
+  auto switches = std::make_shared<RebuildSwitches>();
   CLI::App* verb = program.add_subcommand("smooth", "Remove what does not matter from shapes.");
   add_switches(*verb, *switches, true);
   verb->footer(

@@ -66,7 +66,7 @@ Certificate merge(const std::vector<Certificate>& certificates) {
   return all;
 }
 
-Json to_json(const Certificate& c) {
+Json json_of(const Certificate& c) {
   return {{"passed", c.passed},
           {"failures", c.failures},
           {"tolerance", c.tolerance},
@@ -268,9 +268,9 @@ Result<int> run_verify(const VerifySwitches& switches) {
   if (common.json) {
     Json object = {{"input", input.path}, {"axis", axis_path}, {"features", count}};
     if (common.stats) object.update(costs);
-    object.update(to_json(all));
+    object.update(json_of(all));
     object["certificates"] = Json::array();
-    for (const Certificate& one : certificates) object["certificates"].push_back(to_json(one));
+    for (const Certificate& one : certificates) object["certificates"].push_back(json_of(one));
     printed = print(object);
   } else if (!common.quiet) {
     printed = print(verdict_table(all, count));

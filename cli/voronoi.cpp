@@ -33,7 +33,7 @@ struct Summary {
   bool soup = false;
 };
 
-Summary summarize(const io::VoronoiFile& file) {
+Summary sum_of(const io::VoronoiFile& file) {
   Summary sum;
   for (const io::VoronoiItem& item : file.items) {
     const VoronoiDiagram& diagram = item.diagram;
@@ -107,7 +107,7 @@ Result<io::VoronoiFile> compute_soup(const VoronoiSwitches& switches, Phases& se
 
 Status tell(const io::VoronoiFile& file, const VoronoiSwitches& switches, double seconds,
             const Json& costs) {
-  const Summary sum = summarize(file);
+  const Summary sum = sum_of(file);
   if (switches.common.json) {
     Json object = {
         {"input", switches.input.path}, {"features", file.items.size()},

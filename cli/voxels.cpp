@@ -34,13 +34,13 @@ struct Outcome {
   double seconds_write = 0;
 };
 
-Json to_json(const VoxelTopology& topology) {
+Json json_of(const VoxelTopology& topology) {
   return {{"components", topology.components},
           {"tunnels", topology.tunnels},
           {"cavities", topology.cavities}};
 }
 
-Json to_json(const MeshReport& report) {
+Json json_of(const MeshReport& report) {
   return {{"input_vertices", report.input_vertices},   {"input_faces", report.input_faces},
           {"joined_vertices", report.joined_vertices}, {"unused_vertices", report.unused_vertices},
           {"dropped_faces", report.dropped_faces},     {"reversed_faces", report.reversed_faces},
@@ -55,9 +55,9 @@ Json summary(const Outcome& outcome) {
                  {"cells", {axis.cells[0], axis.cells[1], axis.cells[2]}},
                  {"voxels", axis.voxels.size()},
                  {"links", axis.links.size()}};
-  object["topology"] = {{"solid", to_json(solid.topology)},
-                        {"interior_voxels", to_json(axis.interior)},
-                        {"axis", to_json(axis.topology)}};
+  object["topology"] = {{"solid", json_of(solid.topology)},
+                        {"interior_voxels", json_of(axis.interior)},
+                        {"axis", json_of(axis.topology)}};
   const Voxel* deepest = nullptr;
   for (const Voxel& voxel : axis.voxels)
     if (deepest == nullptr || voxel.radius > deepest->radius) deepest = &voxel;
@@ -72,7 +72,7 @@ Json summary(const Outcome& outcome) {
 Json stats(const Outcome& outcome) {
   const VoxelStatistics& s = outcome.axis.statistics;
   return {{"threads", s.threads},
-          {"mesh", to_json(outcome.solid.report)},
+          {"mesh", json_of(outcome.solid.report)},
           {"surface_voxels", s.surface_voxels},
           {"interior_voxels", s.interior_voxels},
           {"bounded_sets", s.bounded_sets},
@@ -94,7 +94,7 @@ Json stats(const Outcome& outcome) {
           {"peak_bytes", peak_bytes()}};
 }
 
-std::string describe(const VoxelTopology& topology) {
+std::string counts_of(const VoxelTopology& topology) {
   return fmt::format("{}, {}, {}", counted(topology.components, "part"),
                      counted(static_cast<std::uint64_t>(topology.tunnels), "tunnel"),
                      counted(topology.cavities, "cavity", "cavities"));
@@ -116,7 +116,7 @@ void print_notes(const VoxelSwitches& switches, const Outcome& outcome) {
     fmt::print(stderr,
                "medial: {}: the grid is too coarse for its topology: the mesh has {}; the interior "
                "voxels have {}\n",
-               switches.input, describe(outcome.solid.topology), describe(outcome.axis.interior));
+               switches.input, counts_of(outcome.solid.topology), counts_of(outcome.axis.interior));
 }
 
 Result<int> tell(const VoxelSwitches& switches, const Outcome& outcome) {
@@ -135,7 +135,7 @@ Result<int> tell(const VoxelSwitches& switches, const Outcome& outcome) {
       fmt::format("{}: {}, {} x {} x {} cells, {}, {}; {}; {:.3g} s", switches.input,
                   counted(outcome.solid.surface.faces.size(), "face"), axis.cells[0], axis.cells[1],
                   axis.cells[2], counted(axis.voxels.size(), "voxel"),
-                  counted(axis.links.size(), "link"), describe(axis.topology),
+                  counted(axis.links.size(), "link"), counts_of(axis.topology),
                   outcome.seconds_read + outcome.seconds_solid + axis.statistics.seconds +
                       outcome.seconds_write);
   if (switches.output.empty()) {

@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "base/frame.h"
+#include "base/numbers.h"
 #include "curves/biarc.h"
 #include "curves/spirals.h"
 #include "medial/contour.h"
@@ -18,8 +19,6 @@ namespace medial {
 namespace {
 
 using namespace curves;
-
-constexpr double infinite = std::numeric_limits<double>::infinity();
 
 /// Pieces that one task converts.
 constexpr std::size_t curves_per_task = 64;
@@ -165,7 +164,7 @@ double curvature_limit(double own, double neighbour, Vec2 own_tangent, Vec2 neig
                       std::abs(cross(own_tangent, neighbour_tangent)) < smooth_joint;
   const bool jumps = std::abs(neighbour) > (1 + jump) * std::abs(own) && own * neighbour > 0 &&
                      std::isfinite(neighbour);
-  return smooth && jumps ? 0.5 * (std::abs(own) + std::abs(neighbour)) : infinite;
+  return smooth && jumps ? 0.5 * (std::abs(own) + std::abs(neighbour)) : infinity;
 }
 
 /// What one task makes of some neighbouring pieces of one contour.
@@ -309,7 +308,7 @@ std::optional<Error> fault_of(const Contour& contour, std::size_t index) {
 
 /// Half of the bounding box' diagonal: the whole may be too large for a double.
 double half_diagonal_of(std::span<const Contour> contours) {
-  double low_x = infinite, low_y = infinite, high_x = -infinite, high_y = -infinite;
+  double low_x = infinity, low_y = infinity, high_x = -infinity, high_y = -infinity;
   for (const Contour& contour : contours) {
     for (Vec2 p : contour.points) {
       low_x = std::min(low_x, p.x);

@@ -4,12 +4,11 @@
 #include <cmath>
 #include <limits>
 
+#include "base/numbers.h"
 #include "curves/binomials.h"
 
 namespace medial::curves {
 namespace {
-
-constexpr double infinite = std::numeric_limits<double>::infinity();
 
 /// The direction `v` turned as a mirror along `axis` turns it.
 Vec2 mirror(Vec2 v, Vec2 axis) { return (2 * dot(v, axis) / squared_norm(axis)) * axis - v; }
@@ -17,7 +16,7 @@ Vec2 mirror(Vec2 v, Vec2 axis) { return (2 * dot(v, axis) / squared_norm(axis)) 
 /// The distance from the circle of curvature k to a point with F = k |c|^2 - 2 (v x c).
 double distance_of(double f, double k) {
   const double root = 1 + k * f;
-  return root > 0 ? std::abs(f) / (1 + std::sqrt(root)) : infinite;
+  return root > 0 ? std::abs(f) / (1 + std::sqrt(root)) : infinity;
 }
 
 double circle_function(const Arc& arc, Vec2 tangent, double k, Vec2 point) {
@@ -183,19 +182,19 @@ std::optional<double> projected_joint(const Bezier& curve, const Biarc& biarc) {
 
 double certified_error(const Bezier& curve, const Arc& arc, double rounding) {
   const Vec2 begin = tangent_at_begin(arc), end = tangent_at_end(arc);
-  if (!in_sector(curve, arc.begin, begin, arc.end, end, rounding)) return infinite;
+  if (!in_sector(curve, arc.begin, begin, arc.end, end, rounding)) return infinity;
   return circle_error(curve, arc.begin, begin, curvature(arc));
 }
 
 double certified_error(const Bezier& curve, const Biarc& biarc, double rounding) {
   const std::optional<double> t = projected_joint(curve, biarc);
-  if (!t) return infinite;
+  if (!t) return infinity;
   Bezier before, after;
   split(curve, *t, before, after);
   // Each circle through the end where it touches the curve.
   const Vec2 begin = tangent_at_begin(biarc.first), end = tangent_at_end(biarc.second);
   if (!in_sector(curve, biarc.first.begin, begin, biarc.second.end, end, rounding)) {
-    return infinite;
+    return infinity;
   }
   return std::max(circle_error(before, biarc.first.begin, begin, curvature(biarc.first)),
                   circle_error(after, biarc.second.end, end, curvature(biarc.second)));
@@ -203,7 +202,7 @@ double certified_error(const Bezier& curve, const Biarc& biarc, double rounding)
 
 double sampled_error(const Bezier& curve, const Biarc& biarc, int samples) {
   const std::optional<double> t = projected_joint(curve, biarc);
-  if (!t) return infinite;
+  if (!t) return infinity;
   double largest = 0;
   const auto sample = [&](const Arc& arc, double from, double to) {
     const Vec2 tangent = tangent_at_begin(arc);
@@ -221,7 +220,7 @@ double sampled_error(const Bezier& curve, const Biarc& biarc, int samples) {
 
 double extremal_error(const Bezier& curve, const Biarc& biarc) {
   const std::optional<double> t = projected_joint(curve, biarc);
-  if (!t) return infinite;
+  if (!t) return infinity;
   Bezier parts[2];
   split(curve, *t, parts[0], parts[1]);
   double largest = 0;

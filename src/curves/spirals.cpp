@@ -4,12 +4,11 @@
 #include <cmath>
 #include <limits>
 
+#include "base/numbers.h"
 #include "curves/biarc.h"
 
 namespace medial::curves {
 namespace {
-
-constexpr double infinite = std::numeric_limits<double>::infinity();
 
 /// Arcs turn by at most a quarter turn, so that two of them make at most a half circle: tan(pi /
 /// 8).
@@ -127,8 +126,8 @@ double Converter::run() {
     } else {
       split(rest, (next.t - a.t) / (1 - a.t), part, rest);
     }
-    const CurvatureLimits limits{i == 0 ? options_.limits.begin : infinite,
-                                 last ? options_.limits.end : infinite};
+    const CurvatureLimits limits{i == 0 ? options_.limits.begin : infinity,
+                                 last ? options_.limits.end : infinity};
     merge_ = i > 0 && !is_singular(a) && std::abs(before_a.curvature) < std::abs(a.curvature) &&
              std::abs(b.curvature) < std::abs(a.curvature);
     ++chain_.spirals;
@@ -167,9 +166,9 @@ void Converter::convert(const Bezier& part, const Station& a, const Station& b,
   const Station middle = snapped(station_at(curve_, t, Side::before));
   Bezier left, right;
   split(part, fraction, left, right);
-  convert(left, a, middle, {limits.begin, infinite}, depth + 1);
+  convert(left, a, middle, {limits.begin, infinity}, depth + 1);
   const Station from = is_singular(middle) ? snapped(station_at(curve_, t, Side::after)) : middle;
-  convert(right, from, b, {infinite, limits.end}, depth + 1);
+  convert(right, from, b, {infinity, limits.end}, depth + 1);
 }
 
 /// The error falls with the third power of the number of parts, so the one of the biarc that failed
@@ -332,7 +331,7 @@ Splits find_splits(const Bezier& curve) {
 
   // Roots that rounding has doubled: nothing happens to the curvature between them.
   int kept = 0;
-  double last_curvature = infinite, last_t = 0;
+  double last_curvature = infinity, last_t = 0;
   for (const Split* split = begin; split != end; ++split) {
     const double k =
         split->kind == Split::Kind::inflection ? 0 : curvature(evaluate(curve, split->t));

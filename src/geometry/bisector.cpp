@@ -14,11 +14,11 @@ Disk disk_over(const Site& s, double at, Vec2 vertex) {
 }
 
 /// A difference of disks, and the product that contact equations are made of.
-struct Vector {
+struct DiskVector {
   Vec2 c;
   double r;
 };
-double product(const Vector& u, const Vector& v) { return dot(u.c, v.c) - u.r * v.r; }
+double product(const DiskVector& u, const DiskVector& v) { return dot(u.c, v.c) - u.r * v.r; }
 
 /// The control point of an edge with an arc. With P(u, v) = u.v - u_r v_r, a contact equation is
 /// round P(d, d) = 2 flat (n.d - r) for the disk seen from the site's point, and its polar form at
@@ -52,13 +52,13 @@ Control pole_of_chord(const Site& a, const Site& b, const Disk& from, const Disk
   const Vec2 g =
       round_of(other) * (q - p) + flat_of(other) * other.normal() - (ratio * flat) * site.normal();
   const double s = ratio * flat - flat_of(other);
-  const Vector chord{to.center - from.center, to.radius - from.radius};
+  const DiskVector chord{to.center - from.center, to.radius - from.radius};
   // In the plane, and P-perpendicular to the chord.
-  const Vector across{{-g.y * chord.r - s * chord.c.y, s * chord.c.x + g.x * chord.r},
-                      cross(g, chord.c)};
+  const DiskVector across{{-g.y * chord.r - s * chord.c.y, s * chord.c.x + g.x * chord.r},
+                          cross(g, chord.c)};
   // The gradient of the site's contact equation, the mean of both ends.
-  const Vector gradient{round * (middle.center - site.point) - flat * site.normal(),
-                        round * middle.radius - flat};
+  const DiskVector gradient{round * (middle.center - site.point) - flat * site.normal(),
+                            round * middle.radius - flat};
   const double squared = product(chord, chord);
   const double height = round * squared / (4 * product(across, gradient));
   const double weight_squared = squared / (squared + 4 * height * height * product(across, across));
@@ -102,7 +102,7 @@ double focal_distance(const Site& a, const Site& b, const Disk& disk) {
 
 /// The unit tangent (x, y) at a disk of the bisector of a and b, with the growth of the radius
 /// along it; in either direction.
-Vector tangent_at(const Site& a, const Site& b, const Disk& disk) {
+DiskVector tangent_at(const Site& a, const Site& b, const Disk& disk) {
   const Vec2 to_a = outward(a, disk.center), to_b = outward(b, disk.center);
   const Vec2 sum = to_a + to_b, difference = left_of(to_a - to_b);
   const Vec2 along = squared_norm(sum) > squared_norm(difference) ? sum : difference;
@@ -117,25 +117,27 @@ Vector tangent_at(const Site& a, const Site& b, const Disk& disk) {
 /// parallel.
 std::optional<Control> meeting_of_tangents(const Site& a, const Site& b, const Disk& from,
                                            const Disk& to) {
-  const Vector first = tangent_at(a, b, from), last = tangent_at(a, b, to);
-  const Vector chord{to.center - from.center, to.radius - from.radius};
+  const DiskVector first = tangent_at(a, b, from), last = tangent_at(a, b, to);
+  const DiskVector chord{to.center - from.center, to.radius - from.radius};
   // The common perpendicular of the two tangents is short: least squares, in each case without the
   // part along the other tangent, which is where digits would cancel.
-  const auto inner = [](const Vector& u, const Vector& v) { return dot(u.c, v.c) + u.r * v.r; };
-  const auto without = [](const Vector& u, double share, const Vector& v) {
-    return Vector{u.c - share * v.c, u.r - share * v.r};
+  const auto inner = [](const DiskVector& u, const DiskVector& v) {
+    return dot(u.c, v.c) + u.r * v.r;
+  };
+  const auto without = [](const DiskVector& u, double share, const DiskVector& v) {
+    return DiskVector{u.c - share * v.c, u.r - share * v.r};
   };
   const double aa = inner(first, first), ab = inner(first, last), bb = inner(last, last);
   const double ca = inner(chord, first), cb = inner(chord, last);
-  const Vector first_across = without(first, ab / bb, last);
-  const Vector last_across = without(last, ab / aa, first);
+  const DiskVector first_across = without(first, ab / bb, last);
+  const DiskVector last_across = without(last, ab / aa, first);
   const double s =
       inner(without(chord, cb / bb, last), first_across) / inner(first_across, first_across);
   const double t =
       -inner(without(chord, ca / aa, first), last_across) / inner(last_across, last_across);
   const bool from_first = std::abs(s) * std::sqrt(aa) < std::abs(t) * std::sqrt(bb);
   const Disk& end = from_first ? from : to;
-  const Vector& along = from_first ? first : last;
+  const DiskVector& along = from_first ? first : last;
   const double way = from_first ? s : t;
   const double weight_squared =
       product(chord, chord) / (4 * way * way * ((1 - along.r) * (1 + along.r)));

@@ -25,7 +25,7 @@ constexpr double rounding = 0x1p-48;
 /// difference to a box by 8 u: for both axes together 17 u. The squares, their sum and the limit
 /// add 3 u of a distance below 4: 12 u. A slab's normal is what its bounds were computed with;
 /// centre, products, sum and difference add less than 6 u + 16 u + 8 u. This is 64 u.
-constexpr double single_precision_slack = 0x1p-18;
+constexpr double single_precision_reach = 0x1p-18;
 
 /// Sets of more sites get no slab: it would be about as wide as the box.
 constexpr std::size_t largest_slab = 512;
@@ -169,7 +169,7 @@ std::optional<FirstTouch::Touch> FirstTouch::find(Vec2 foot, Vec2 direction, dou
     }
     const Bounds& bounds = levels_[top.level - 1][top.index];
     const auto x = static_cast<float>(search.center.x), y = static_cast<float>(search.center.y);
-    const auto reach = static_cast<float>(search.radius + single_precision_slack);
+    const auto reach = static_cast<float>(search.radius + single_precision_reach);
     Lanes from_foot, from_center;
     nearer(bounds.boxes, foot_x, foot_y, 0, from_foot);
     std::uint32_t mask =
@@ -193,10 +193,10 @@ void FirstTouch::look_around(const Extent& box, Region& region) const {
   constexpr std::size_t most = 64;
   region.box_ = box;
   region.nodes_.clear();
-  const float low_x = rounded_down(box.low.x - single_precision_slack),
-              low_y = rounded_down(box.low.y - single_precision_slack),
-              high_x = rounded_up(box.high.x + single_precision_slack),
-              high_y = rounded_up(box.high.y + single_precision_slack);
+  const float low_x = rounded_down(box.low.x - single_precision_reach),
+              low_y = rounded_down(box.low.y - single_precision_reach),
+              high_x = rounded_up(box.high.x + single_precision_reach),
+              high_y = rounded_up(box.high.y + single_precision_reach);
   struct Waiting {
     std::uint32_t level, index;
   };
@@ -229,7 +229,7 @@ std::optional<FirstTouch::Touch> FirstTouch::find(Vec2 foot, Vec2 direction, dou
   waiting.clear();
   const auto lanes_near = [&](const Bounds& bounds, Lanes& squared) {
     const auto x = static_cast<float>(search.center.x), y = static_cast<float>(search.center.y);
-    const auto reach = static_cast<float>(search.radius + single_precision_slack);
+    const auto reach = static_cast<float>(search.radius + single_precision_reach);
     return nearer(bounds.boxes, x, y, reach * reach, squared) & ~beside(bounds.slabs, x, y, reach);
   };
   for (const std::uint32_t node : region.nodes_) {

@@ -17,7 +17,7 @@ namespace medial::io {
 
 namespace {
 
-constexpr char known_formats[] = ".nc .gcode .ngc .csv .dxf .svg .pdf .png .ps";
+constexpr char carve_formats[] = ".nc .gcode .ngc .csv .dxf .svg .pdf .png .ps";
 constexpr std::array<const char*, 3> kind_names{"clearing", "wall", "groove"};
 
 const char* name_of(ToolPathKind kind) { return kind_names[static_cast<std::size_t>(kind)]; }
@@ -277,11 +277,11 @@ Status write_picture(OutputStream& out, const std::string& format, const CarveFi
 
 }  // namespace
 
-std::string known_carve_formats() { return known_formats; }
+std::string known_carve_formats() { return carve_formats; }
 
 Status write_carving(const std::string& path, const std::string& format, const CarveFile& file,
                      const MachineOptions& machine, const WriteOptions& options) {
-  const Result<std::string> known = output_format(path, format, "nc", known_formats);
+  const Result<std::string> known = output_format(path, format, "nc", carve_formats);
   if (!known) return known.error();
   for (const double value : {machine.safe, machine.feed, machine.plunge})
     if (!(value > 0) || !std::isfinite(value) || !(machine.chord >= 0))

@@ -23,7 +23,7 @@ namespace {
 // in a kilobyte.
 constexpr std::uint64_t most_copied = 10'000'000;  // control points
 constexpr std::uint64_t most_inserts = 1'000'000;
-constexpr int deepest = 64;  // blocks inside blocks
+constexpr int deepest_block = 64;  // blocks inside blocks
 
 /// Thrown inside this file only, and caught in read_dxf().
 struct Refused {
@@ -45,7 +45,7 @@ struct Insert {
   Vec2 row_step;
 };
 
-struct Curve {
+struct DxfCurve {
   std::string layer;
   Contour contour;
   bool closed = false;
@@ -53,7 +53,7 @@ struct Curve {
 
 struct Block {
   Vec2 base;
-  std::vector<Curve> curves;
+  std::vector<DxfCurve> curves;
   std::vector<Insert> inserts;
 };
 
@@ -302,14 +302,15 @@ class Unfolded {
   void add(const std::string& block, const Affine& map, const std::string& layer, int depth) {
     const auto found = found_.blocks.find(block);
     if (found == found_.blocks.end()) return;
-    if (depth > deepest) {
-      refuse(ErrorCode::unsupported, fmt::format("blocks are nested more than {} deep", deepest));
+    if (depth > deepest_block) {
+      refuse(ErrorCode::unsupported,
+             fmt::format("blocks are nested more than {} deep", deepest_block));
     }
     const Affine placed = map * Affine{{1, 0}, {0, 1}, -found->second.base};
     const auto own = [&layer, depth](const std::string& name) {
       return depth > 0 && name == "0" ? layer : name;
     };
-    for (const Curve& curve : found->second.curves) {
+    for (const DxfCurve& curve : found->second.curves) {
       if (depth > 0) {
         copied_ += curve.contour.points.size();
         if (copied_ > most_copied) {

@@ -15,7 +15,7 @@ namespace medial::io {
 
 namespace {
 
-constexpr std::size_t longest = std::size_t{1} << 32U;  // bytes
+constexpr std::size_t longest_drawing = std::size_t{1} << 32U;  // bytes
 constexpr std::size_t longest_line = 256;  // what is kept of a text; dxflib stops at 1,024
 constexpr std::array<std::string_view, 9> structure{
     "SECTION", "ENDSEC", "TABLE", "ENDTAB", "LAYER", "BLOCK", "ENDBLK", "SEQEND", "VERTEX"};
@@ -28,7 +28,7 @@ bool lists(const List& list, std::string_view word) {
   return std::ranges::find(list, word) != list.end();
 }
 
-std::string_view trimmed(std::string_view text) {
+std::string_view trimmed_line(std::string_view text) {
   const auto space = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
   while (!text.empty() && space(text.front())) text.remove_prefix(1);
   while (!text.empty() && space(text.back())) text.remove_suffix(1);
@@ -45,7 +45,7 @@ class Lines {
     const std::size_t end = std::min(rest_.find('\n'), rest_.size());
     const std::string_view line = rest_.substr(0, end);
     rest_.remove_prefix(std::min(end + 1, rest_.size()));
-    return trimmed(line);
+    return trimmed_line(line);
   }
   std::uint64_t line() const { return line_; }
 
@@ -178,9 +178,9 @@ bool begins_like_dxf(std::string_view text) {
 
 Result<DxfText> read_dxf_text(TextSource& source) {
   std::string text;
-  source.read_all(text, longest);
+  source.read_all(text, longest_drawing);
   if (source.failure()) return *source.failure();
-  if (text.size() >= longest) {
+  if (text.size() >= longest_drawing) {
     return source.error(ErrorCode::too_large, "the drawing has 4 GiB or more");
   }
   if (text.starts_with("AutoCAD Binary DXF")) {

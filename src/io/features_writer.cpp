@@ -16,7 +16,7 @@ namespace medial::io {
 
 namespace {
 
-constexpr char known_formats[] = ".json .geojson .gpkg .shp .fgb .csv .svg .pdf .png .ps";
+constexpr char feature_formats[] = ".json .geojson .gpkg .shp .fgb .csv .svg .pdf .png .ps";
 
 constexpr std::array<TableColumn, 12> run_columns{{{"feature", ColumnType::whole},
                                                    {"branch", ColumnType::whole},
@@ -54,15 +54,15 @@ constexpr std::array<TableColumn, 5> point_columns{{{"feature", ColumnType::whol
 Value whole(std::uint64_t number) { return static_cast<std::int64_t>(number); }
 Value whole_or_nothing(std::uint32_t number) { return number == no_site ? Value{} : whole(number); }
 Value real(double number) { return std::isfinite(number) ? Value{number} : Value{}; }
-Value text(const char* words) { return std::string(words); }
+Value text_value(const char* words) { return std::string(words); }
 
 std::vector<Value> values_of(std::size_t item, const BranchFeatures& branch, std::size_t index,
                              const PrimitiveRun& run) {
   return {whole(item),
           whole(branch.branch),
           whole(index),
-          text(name_of(run.primitive)),
-          text(name_of(run.variation)),
+          text_value(name_of(run.primitive)),
+          text_value(name_of(run.variation)),
           real(run.length),
           real(run.from.disk.radius),
           real(run.to.disk.radius),
@@ -85,8 +85,8 @@ std::vector<Value> values_of(std::size_t item, const BranchFeatures& branch,
   }
   std::vector<Value> values{whole(item),
                             whole(branch.branch),
-                            text(name_of(branch.from_kind)),
-                            text(name_of(branch.to_kind)),
+                            text_value(name_of(branch.from_kind)),
+                            text_value(name_of(branch.to_kind)),
                             whole(branch.closed ? 1 : 0),
                             real(branch.length),
                             real(branch.smallest_radius),
@@ -409,7 +409,7 @@ std::vector<TableRow> rows_of(FeatureTable table, std::size_t item, const Medial
     for (std::uint32_t i = 0; i < features.points.size(); ++i) {
       if (features.points[i] == PointKind::normal) continue;
       const Disk& disk = axis.nodes[i].disk;
-      rows.push_back({{whole(item), whole(i), text(name_of(features.points[i])),
+      rows.push_back({{whole(item), whole(i), text_value(name_of(features.points[i])),
                        whole(incidence.degree(i)), real(disk.radius)},
                       {disk.center}});
     }
@@ -432,11 +432,11 @@ std::vector<TableRow> rows_of(FeatureTable table, std::size_t item, const Medial
   return rows;
 }
 
-std::string known_feature_formats() { return known_formats; }
+std::string known_feature_formats() { return feature_formats; }
 
 Status write_features(const std::string& path, const std::string& format, const NativeFile& axes,
                       std::span<const AxisFeatures> features, const FeatureWriteOptions& options) {
-  const Result<std::string> known = output_format(path, format, "json", known_formats);
+  const Result<std::string> known = output_format(path, format, "json", feature_formats);
   if (!known) return known.error();
   return write_file(
       path, *known, "features",

@@ -14,7 +14,7 @@ namespace medial::io {
 
 namespace {
 
-constexpr char formats[] = ".svg .pdf .png .ps";
+constexpr char field_formats[] = ".svg .pdf .png .ps";
 constexpr int most_lines = 1000;
 
 /// The brighter the lower the potential, by its logarithm; white outside. One a pixel, in rows.
@@ -70,7 +70,7 @@ void draw_lines(Canvas& canvas, std::span<const PotentialField> fields, const Bo
 Status write_field(const std::string& path, const std::string& format,
                    std::span<const Shape> shapes, std::span<const PotentialField> fields,
                    const FieldPictureOptions& options) {
-  const Result<std::string> known = output_format(path, format, "svg", formats);
+  const Result<std::string> known = output_format(path, format, "svg", field_formats);
   if (!known) return known.error();
   if (options.lines < 0 || options.lines > most_lines)
     return Error{
@@ -94,6 +94,6 @@ Status write_field(const std::string& path, const std::string& format,
   });
 }
 
-std::string known_field_formats() { return formats; }
+std::string known_field_formats() { return field_formats; }
 
 }  // namespace medial::io

@@ -46,7 +46,7 @@ Result<std::vector<Character>> characters_of(const std::string& text) {
 }
 
 /// Contours in the making. A glyph's outline is closed by definition.
-struct Pen {
+struct GlyphPen {
   std::vector<Contour> contours;
   RingRole role = RingRole::winding;
   Vec2 origin;
@@ -54,26 +54,26 @@ struct Pen {
   Vec2 at(const FT_Vector* point) const {
     return origin + Vec2{static_cast<double>(point->x), static_cast<double>(point->y)};
   }
-  static Pen& of(void* user) { return *static_cast<Pen*>(user); }
+  static GlyphPen& of(void* user) { return *static_cast<GlyphPen*>(user); }
 
   static int move_to(const FT_Vector* to, void* user) {
-    Pen& pen = of(user);
+    GlyphPen& pen = of(user);
     pen.contours.emplace_back().role = pen.role;
     pen.contours.back().start_at(pen.at(to));
     return 0;
   }
   static int line_to(const FT_Vector* to, void* user) {
-    Pen& pen = of(user);
+    GlyphPen& pen = of(user);
     pen.contours.back().line_to(pen.at(to));
     return 0;
   }
   static int conic_to(const FT_Vector* a, const FT_Vector* to, void* user) {
-    Pen& pen = of(user);
+    GlyphPen& pen = of(user);
     pen.contours.back().bezier_to(std::array{pen.at(a), pen.at(to)});
     return 0;
   }
   static int cubic_to(const FT_Vector* a, const FT_Vector* b, const FT_Vector* to, void* user) {
-    Pen& pen = of(user);
+    GlyphPen& pen = of(user);
     pen.contours.back().bezier_to(std::array{pen.at(a), pen.at(b), pen.at(to)});
     return 0;
   }
@@ -106,7 +106,7 @@ Result<Face> open_face(FT_Library library, const std::string& path) {
 
 Result<Dataset> set_text(const std::vector<Character>& characters, FT_Face face) {
   static const FT_Outline_Funcs functions{
-      &Pen::move_to, &Pen::line_to, &Pen::conic_to, &Pen::cubic_to, 0, 0};
+      &GlyphPen::move_to, &GlyphPen::line_to, &GlyphPen::conic_to, &GlyphPen::cubic_to, 0, 0};
   Dataset dataset;
   std::set<std::string> missing;
   double x = 0;
@@ -126,7 +126,7 @@ Result<Dataset> set_text(const std::vector<Character>& characters, FT_Face face)
     }
     FT_GlyphSlot slot = face->glyph;
     if (slot->format == FT_GLYPH_FORMAT_OUTLINE && slot->outline.n_contours > 0) {
-      Pen pen;
+      GlyphPen pen;
       pen.origin = {x, 0};
       if ((slot->outline.flags & FT_OUTLINE_EVEN_ODD_FILL) != 0) pen.role = RingRole::any;
       if (FT_Outline_Decompose(&slot->outline, &functions, &pen) != 0) {

@@ -16,8 +16,8 @@ namespace medial::io {
 
 namespace {
 
-constexpr std::size_t sniffed = 8;
-constexpr std::size_t longest_stream = std::size_t{1} << 32U;
+constexpr std::size_t image_sniffed = 8;
+constexpr std::size_t longest_image = std::size_t{1} << 32U;
 
 bool begins_like_pnm(std::string_view text) {
   return text.size() > 2 && text[0] == 'P' &&
@@ -276,7 +276,7 @@ Result<ImageFile> read_raster(const std::string& name, const ImageOptions& optio
 Result<ImageFile> read_any(const std::string& path, const ImageOptions& options) {
   Result<std::shared_ptr<TextSource>> source = TextSource::open(path);
   if (!source) return source.error();
-  const std::string_view beginning = (*source)->lookahead(sniffed);
+  const std::string_view beginning = (*source)->lookahead(image_sniffed);
   if ((*source)->failure()) return *(*source)->failure();
   if (begins_like_pnm(beginning)) {
     Result<Image> image = PnmReader(**source, options).read();
@@ -290,8 +290,8 @@ Result<ImageFile> read_any(const std::string& path, const ImageOptions& options)
     return Error{ErrorCode::unsupported, "this is no PNG, TIFF, PBM or PGM", {}};
   if (path != "-") return read_raster(path, options);
   std::string bytes;
-  (*source)->read_all(bytes, longest_stream);
-  if (bytes.size() > longest_stream)
+  (*source)->read_all(bytes, longest_image);
+  if (bytes.size() > longest_image)
     return Error{ErrorCode::too_large, "more than 4 GiB on standard input", {}};
   const std::string name = fmt::format("/vsimem/medial_{}", static_cast<const void*>(&bytes));
   VSILFILE* file = VSIFileFromMemBuffer(name.c_str(), reinterpret_cast<GByte*>(bytes.data()),
@@ -308,7 +308,7 @@ Result<ImageFile> read_any(const std::string& path, const ImageOptions& options)
 bool is_image(const std::string& path) {
   Result<std::shared_ptr<TextSource>> source = TextSource::open(path);
   if (!source) return false;
-  const std::string_view beginning = (*source)->lookahead(sniffed);
+  const std::string_view beginning = (*source)->lookahead(image_sniffed);
   return begins_like_pnm(beginning) || begins_like_raster(beginning);
 }
 

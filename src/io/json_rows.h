@@ -44,7 +44,7 @@ inline double number(json::value value) {
   return result;
 }
 
-inline std::string text(json::value value) {
+inline std::string text_of(json::value value) {
   return std::string(std::string_view(value.get_string()));
 }
 

@@ -18,7 +18,7 @@
 namespace medial::io {
 namespace {
 
-constexpr char formats[] = ".geojson .gpkg .shp .fgb .wkt .svg .pdf .png .ps";
+constexpr char layer_formats[] = ".geojson .gpkg .shp .fgb .wkt .svg .pdf .png .ps";
 
 OGRwkbGeometryType type_of(LayerKind kind) {
   if (kind == LayerKind::disks) return wkbPoint;
@@ -142,7 +142,7 @@ class LayerWriter {
 
 }  // namespace
 
-std::string known_layer_formats() { return formats; }
+std::string known_layer_formats() { return layer_formats; }
 
 Status write_layers(const std::string& path, const std::string& format, const LayerFile& file,
                     const NativeFile& background, const WriteOptions& options) {

@@ -95,7 +95,7 @@ void read_axis(json::value value, MedialAxis& axis, Unresolved& unresolved) {
     const std::string_view key = field.unescaped_key();
     json::value content = field.value();
     if (key == "method") {
-      axis.method = text(content);
+      axis.method = text_of(content);
     } else if (key == "tolerance") {
       axis.tolerance = number(content);
     } else if (key == "resolution") {
@@ -225,7 +225,7 @@ void read_piece(json::value element, Contour& contour) {
   std::vector<double> numbers;
   for (json::value value : element.get_array()) {
     if (kind.empty()) {
-      kind = text(value);
+      kind = text_of(value);
       demand(!kind.empty(), "a piece has no kind");
     } else {
       numbers.push_back(number(value));
@@ -267,7 +267,7 @@ Contour read_contour(json::value value) {
     const std::string_view key = field.unescaped_key();
     json::value content = field.value();
     if (key == "role") {
-      contour.role = ring_role(text(content));
+      contour.role = ring_role(text_of(content));
     } else if (key == "start") {
       Row row(content);
       contour.start_at(row.point());
@@ -292,7 +292,7 @@ NativeItem read_item(json::value value) {
       for_each(content, [&item](json::value element) {
         json::array pair = element.get_array();
         std::vector<std::string> words;
-        for (json::value word : pair) words.push_back(text(word));
+        for (json::value word : pair) words.push_back(text_of(word));
         demand(words.size() == 2, "an attribute is no pair of texts");
         item.attributes.emplace_back(std::move(words[0]), std::move(words[1]));
       });
@@ -325,7 +325,7 @@ NativeFile read_file(json::document& document) {
       demand(version > 0, "there is no version 0");
       versioned = true;
     } else if (key == "crs") {
-      file.crs_wkt = text(content);
+      file.crs_wkt = text_of(content);
     } else if (key == "y_down") {
       file.y_down = content.get_bool();
     } else if (key == "items") {

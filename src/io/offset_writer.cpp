@@ -18,11 +18,8 @@ namespace medial::io {
 
 namespace {
 
-constexpr char formats[] = ".json .geojson .wkt .dxf .svg .pdf .png .ps";
+constexpr char offset_formats[] = ".json .geojson .wkt .dxf .svg .pdf .png .ps";
 
-double bulge_after(const Ring& ring, std::size_t i) {
-  return ring.bulges.empty() ? 0 : ring.bulges[i];
-}
 Box box_of(const OffsetItem& item) {
   if (!item.shape.points.empty() || item.soup.points.empty()) return bounding_box(item.shape);
   return bounding_box(item.soup);
@@ -241,11 +238,11 @@ Status write_picture(OutputStream& out, const std::string& format, const OffsetF
 
 }  // namespace
 
-std::string known_offset_formats() { return formats; }
+std::string known_offset_formats() { return offset_formats; }
 
 Status write_offsets(const std::string& path, const std::string& format, const OffsetFile& file,
                      const WriteOptions& options, bool chords) {
-  const Result<std::string> known = output_format(path, format, "json", formats);
+  const Result<std::string> known = output_format(path, format, "json", offset_formats);
   if (!known) return known.error();
   if (!(options.chord > 0) || !std::isfinite(options.chord))
     return Error{ErrorCode::invalid_option, "chord is not a positive number", {}};

@@ -12,7 +12,7 @@ namespace medial::io {
 
 namespace {
 
-constexpr char formats[] = ".svg .pdf .png .ps";
+constexpr char preview_formats[] = ".svg .pdf .png .ps";
 
 /// Where the panels lie: in as many columns as make the whole about four by three.
 struct Layout {
@@ -81,7 +81,7 @@ void draw_panel(Canvas& canvas, std::span<const Shape> shapes, const PreviewPane
 Status write_preview(const std::string& path, const std::string& format,
                      std::span<const Shape> shapes, std::span<const PreviewPanel> panels,
                      double width, bool y_down) {
-  Result<std::string> own = output_format(path, format, "svg", formats);
+  Result<std::string> own = output_format(path, format, "svg", preview_formats);
   if (!own) return std::move(own).error();
   const double up = y_down ? -1 : 1;
   const Layout layout(shapes, panels.size(), up);
@@ -107,6 +107,6 @@ Status write_preview(const std::string& path, const std::string& format,
   });
 }
 
-std::string known_preview_formats() { return formats; }
+std::string known_preview_formats() { return preview_formats; }
 
 }  // namespace medial::io

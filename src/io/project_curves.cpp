@@ -18,10 +18,10 @@ constexpr int most_halvings = 20;
 
 /// The parameters at which curves are taken to their images (Chebyshev's, both ends among them),
 /// and those at which the result is compared, between them.
-struct Places {
+struct ChebyshevPlaces {
   std::array<double, degree + 1> fitted{};
   std::array<double, degree> compared{};
-  Places() {
+  ChebyshevPlaces() {
     for (std::size_t i = 0; i <= degree; ++i)
       fitted[i] = 0.5 - 0.5 * std::cos(std::numbers::pi * static_cast<double>(i) / degree);
     for (std::size_t i = 0; i < degree; ++i) compared[i] = 0.5 * (fitted[i] + fitted[i + 1]);
@@ -44,7 +44,7 @@ using Matrix = std::array<Basis, degree + 1>;
 
 /// From a polynomial's values at the fitted places to its control points: the inverse of the matrix
 /// of Bernstein's polynomials there, by elimination. Its condition is below 100.
-Matrix control_of_values(const Places& places) {
+Matrix control_of_values(const ChebyshevPlaces& places) {
   Matrix matrix{}, inverse{};
   for (std::size_t i = 0; i <= degree; ++i) {
     matrix[i] = basis_at(places.fitted[i]);
@@ -124,7 +124,7 @@ class Projector {
  private:
   const PointMap& map_;
   double tolerance_;
-  Places places_;
+  ChebyshevPlaces places_;
   Matrix inverse_;
 };
 

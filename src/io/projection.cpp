@@ -109,13 +109,13 @@ void for_each_point(const Dataset& dataset, Action action) {
 
 /// The middle of all vertices on the globe (so the date line does no harm), and the angle to the
 /// farthest vertex.
-struct Extent {
+struct GlobeExtent {
   double longitude = 0;
   double latitude = 0;
   double reach = 0;
 };
 
-Extent extent_of(const Dataset& dataset) {
+GlobeExtent extent_of(const Dataset& dataset) {
   Direction sum;
   for_each_point(dataset, [&sum](Vec2 point) {
     const Direction d = direction_of(point);
@@ -162,7 +162,7 @@ Status project_to_local(Dataset& dataset) {
                  {}};
   }
 
-  const Extent extent = extent_of(dataset);
+  const GlobeExtent extent = extent_of(dataset);
   const bool conformal = extent.reach <= conformal_reach;
   OGRSpatialReference local;
   local.SetProjCS(local_name);

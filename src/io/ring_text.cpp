@@ -9,14 +9,15 @@ namespace medial::io {
 
 namespace {
 
-double bulge_after(const Ring& ring, std::size_t i) {
-  return ring.bulges.empty() ? 0 : ring.bulges[i];
-}
 Vec2 next_point(const Ring& ring, std::size_t i) {
   return ring.points[i + 1 == ring.points.size() ? 0 : i + 1];
 }
 
 }  // namespace
+
+double bulge_after(const Ring& ring, std::size_t i) {
+  return ring.bulges.empty() ? 0 : ring.bulges[i];
+}
 
 void put_point(OutputStream& out, Vec2 p, char separator) {
   out.put(p.x);

@@ -9,6 +9,9 @@
 
 namespace medial::io {
 
+/// The bulge of the edge that begins at point i; 0: it is straight.
+double bulge_after(const Ring& ring, std::size_t i);
+
 /// "x y" or "x,y".
 void put_point(OutputStream& out, Vec2 p, char separator);
 

@@ -21,7 +21,7 @@ namespace medial::io {
 
 namespace {
 
-constexpr char formats[] = ".json .svg .wkt .geojson .dxf .pdf .png .ps";
+constexpr char shape_formats[] = ".json .svg .wkt .geojson .dxf .pdf .png .ps";
 
 /// The loops of a shape, part by part: the outer loop first, then its holes.
 std::vector<std::vector<std::size_t>> parts_of(const Shape& shape) {
@@ -218,10 +218,10 @@ Status write_stream(OutputStream& out, const std::string& format, const ShapesFi
 
 }  // namespace
 
-std::string known_shape_formats() { return formats; }
+std::string known_shape_formats() { return shape_formats; }
 
 Status write_shapes(const std::string& path, const std::string& format, const ShapesFile& file) {
-  Result<std::string> own = output_format(path, format, "json", formats);
+  Result<std::string> own = output_format(path, format, "json", shape_formats);
   if (!own) return std::move(own).error();
   return write_whole(path,
                      [&](OutputStream& out) -> Status { return write_stream(out, *own, file); });

@@ -15,12 +15,13 @@ namespace medial::io {
 
 namespace {
 
-constexpr std::size_t longest = (std::size_t{1} << 31U) - 1;  // what libxml2 takes
+constexpr std::size_t longest_document = (std::size_t{1} << 31U) - 1;  // what libxml2 takes
 constexpr std::size_t longest_entity = 256;
-constexpr int deepest = 1000;  // open elements; the reader allows fewer, but tells that better
+constexpr int deepest_element =
+    1000;  // open elements; the reader allows fewer, but tells that better
 constexpr char svg_namespace[] = "http://www.w3.org/2000/svg";
 constexpr char xlink_namespace[] = "http://www.w3.org/1999/xlink";
-constexpr char white_space[] = " \t\r\n";
+constexpr char xml_space[] = " \t\r\n";
 
 const xmlChar* as_xml(const char* text) { return reinterpret_cast<const xmlChar*>(text); }
 
@@ -45,7 +46,7 @@ void start_element(void* context, const xmlChar* name, const xmlChar* prefix, co
                    int namespaces, const xmlChar** namespace_names, int attributes, int defaulted,
                    const xmlChar** attribute_values) {
   const auto parser = static_cast<xmlParserCtxtPtr>(context);
-  if (parser->nodeNr >= deepest) {
+  if (parser->nodeNr >= deepest_element) {
     xmlStopParser(parser);
     return;
   }
@@ -74,7 +75,7 @@ bool paints_nothing(const xmlNode* node) {
     for (const char* wanted : required.attributes) {
       if (wanted == nullptr) continue;
       const std::string value = attribute(node, wanted);
-      if (value == "none" || value.find_first_not_of(white_space) == std::string::npos) return true;
+      if (value == "none" || value.find_first_not_of(xml_space) == std::string::npos) return true;
     }
   }
   return false;
@@ -112,7 +113,7 @@ std::uint64_t line_of(const xmlNode* node) {
 
 Result<SvgDocument> SvgDocument::read(TextSource& source) {
   std::string bytes;
-  source.read_all(bytes, longest);
+  source.read_all(bytes, longest_document);
   if (source.failure()) return *source.failure();
   const auto error = [&source](ErrorCode code, std::string text, std::uint64_t line) {
     Error result = source.error(code, std::move(text));
@@ -120,7 +121,7 @@ Result<SvgDocument> SvgDocument::read(TextSource& source) {
     if (line > 0) result.place.line = line;
     return result;
   };
-  if (bytes.size() >= longest) return error(ErrorCode::too_large, "2 GiB or more", 0);
+  if (bytes.size() >= longest_document) return error(ErrorCode::too_large, "2 GiB or more", 0);
 
   const std::unique_ptr<xmlParserCtxt, decltype(&xmlFreeParserCtxt)> context(xmlNewParserCtxt(),
                                                                              &xmlFreeParserCtxt);
@@ -136,7 +137,8 @@ Result<SvgDocument> SvgDocument::read(TextSource& source) {
   if (!result.document_ || result.root() == nullptr) {
     const xmlError* problem = xmlCtxtGetLastError(context.get());
     if (problem != nullptr && problem->code == XML_ERR_USER_STOP) {
-      return error(ErrorCode::malformed, fmt::format("elements are more than {} deep", deepest), 0);
+      return error(ErrorCode::malformed,
+                   fmt::format("elements are more than {} deep", deepest_element), 0);
     }
     if (problem != nullptr && problem->code == XML_ERR_NO_MEMORY) {
       return error(ErrorCode::out_of_memory, "there is not enough memory", 0);

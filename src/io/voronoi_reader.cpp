@@ -69,7 +69,7 @@ VoronoiItem read_item(json::value value) {
     const std::string_view key = field.unescaped_key();
     json::value content = field.value();
     if (key == "method") {
-      diagram.method = text(content);
+      diagram.method = text_of(content);
     } else if (key == "tolerance") {
       diagram.tolerance = number(content);
       demand(diagram.tolerance >= 0, "the tolerance is negative");
@@ -81,7 +81,7 @@ VoronoiItem read_item(json::value value) {
     } else if (key == "attributes") {
       for_each(content, [&](json::value pair) {
         std::vector<std::string> texts;
-        for_each(pair, [&](json::value one) { texts.push_back(text(one)); });
+        for_each(pair, [&](json::value one) { texts.push_back(text_of(one)); });
         demand(texts.size() == 2, "an attribute is a name and a value");
         item.attributes.emplace_back(std::move(texts[0]), std::move(texts[1]));
       });

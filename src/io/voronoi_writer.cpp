@@ -13,7 +13,7 @@ namespace medial::io {
 
 namespace {
 
-constexpr char known_formats[] = ".json .geojson .csv .wkt .svg .pdf .png .ps";
+constexpr char diagram_formats[] = ".json .geojson .csv .wkt .svg .pdf .png .ps";
 
 const char* name_of(SiteKind kind) {
   return kind == SiteKind::vertex ? "vertex" : kind == SiteKind::arc ? "arc" : "segment";
@@ -263,11 +263,11 @@ Status put_voronoi(OutputStream& out, const std::string& format, const VoronoiFi
 
 }  // namespace
 
-std::string known_voronoi_formats() { return known_formats; }
+std::string known_voronoi_formats() { return diagram_formats; }
 
 Status write_voronoi(const std::string& path, const std::string& format, const VoronoiFile& file,
                      const WriteOptions& options) {
-  const Result<std::string> known = output_format(path, format, "json", known_formats);
+  const Result<std::string> known = output_format(path, format, "json", diagram_formats);
   if (!known) return known.error();
   return write_whole(
       path, [&](OutputStream& out) -> Status { return put_voronoi(out, *known, file, options); });

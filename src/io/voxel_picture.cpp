@@ -41,9 +41,9 @@ View view_along(int axis) {
 }
 
 /// An image of pixels with depths.
-class Canvas {
+class DepthCanvas {
  public:
-  Canvas(int width, int height)
+  DepthCanvas(int width, int height)
       : width_(width),
         height_(height),
         color_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), paper_color),
@@ -90,7 +90,7 @@ struct Point {
 };
 
 /// Paints a triangle in one colour.
-void paint_triangle(Canvas& canvas, const std::array<Point, 3>& p, const Color& color) {
+void paint_triangle(DepthCanvas& canvas, const std::array<Point, 3>& p, const Color& color) {
   const double area = (p[1].x - p[0].x) * (p[2].y - p[0].y) - (p[1].y - p[0].y) * (p[2].x - p[0].x);
   if (area == 0 || !std::isfinite(area)) return;
   const auto pixel = [](double value, int most) {
@@ -135,7 +135,7 @@ class Scene {
   }
 
   /// Paints the scene as seen in one view, `scale` pixels for each unit.
-  void paint(Canvas& canvas, const View& view, double scale) const {
+  void paint(DepthCanvas& canvas, const View& view, double scale) const {
     const auto [low, high] = extent(view);
     const double x = 0.5 * (low.x + high.x), y = 0.5 * (low.y + high.y);
     const auto place = [&](Vec3 p) {
@@ -151,7 +151,7 @@ class Scene {
  private:
   /// The far side of the surface, as a light shell in which the axis stands.
   template <class Place>
-  void paint_solid(Canvas& canvas, const View& view, Place place) const {
+  void paint_solid(DepthCanvas& canvas, const View& view, Place place) const {
     const auto& vertices = solid_.surface.vertices;
     for (const auto& face : solid_.surface.faces) {
       const Vec3 a = vertices[face[0]], b = vertices[face[1]], c = vertices[face[2]];
@@ -168,7 +168,7 @@ class Scene {
 
   /// Each voxel as the three faces of its cube that can be seen.
   template <class Place>
-  void paint_voxels(Canvas& canvas, const View& view, Place place) const {
+  void paint_voxels(DepthCanvas& canvas, const View& view, Place place) const {
     const double half = 0.5 * axis_.resolution;
     for (const Voxel& voxel : axis_.voxels) {
       const double at = largest_ > 0 ? voxel.radius / largest_ : 0;
@@ -232,7 +232,7 @@ Status write_voxel_picture(OutputStream& out, const VoxelAxis& axis, const Solid
     }
     const double scale = largest > 0 ? 0.94 * side * factor / largest : 1;
     for (int k = 0; k < 3; ++k) {
-      Canvas canvas(side * factor, side * factor);
+      DepthCanvas canvas(side * factor, side * factor);
       scene.paint(canvas, view_along(k), scale);
       for (int y = 0; y < side; ++y) {
         auto* row =

@@ -15,9 +15,9 @@ namespace medial::io {
 namespace {
 
 #ifdef MEDIAL_DXF
-constexpr char formats[] = ".json .geojson .gpkg .shp .fgb .wkt .csv .dxf .svg .pdf .png .ps";
+constexpr char axis_formats[] = ".json .geojson .gpkg .shp .fgb .wkt .csv .dxf .svg .pdf .png .ps";
 #else
-constexpr char formats[] = ".json .geojson .gpkg .shp .fgb .wkt .csv .svg .pdf .png .ps";
+constexpr char axis_formats[] = ".json .geojson .gpkg .shp .fgb .wkt .csv .svg .pdf .png .ps";
 #endif
 
 Status put_axes(OutputStream& out, const std::string& format, const NativeFile& file,
@@ -33,11 +33,11 @@ Status put_axes(OutputStream& out, const std::string& format, const NativeFile& 
 
 }  // namespace
 
-std::string known_output_formats() { return formats; }
+std::string known_output_formats() { return axis_formats; }
 
 Status write_axes(const std::string& path, const std::string& format, const NativeFile& file,
                   const WriteOptions& options) {
-  const Result<std::string> known = output_format(path, format, "json", formats);
+  const Result<std::string> known = output_format(path, format, "json", axis_formats);
   if (!known) return known.error();
   if (!(options.chord > 0) || !std::isfinite(options.chord))
     return Error{ErrorCode::invalid_option, "chord is not a positive number", in_file(path)};

@@ -7,6 +7,7 @@
 
 #include "base/arc.h"
 #include "base/in_flight.h"
+#include "base/numbers.h"
 #include "medial/measure.h"
 #include "medial/offset.h"
 #include "ops/groove.h"
@@ -14,9 +15,7 @@
 namespace medial {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-Error invalid(const char* text) { return {ErrorCode::invalid_option, text, {}}; }
+Error invalid_carving(const char* text) { return {ErrorCode::invalid_option, text, {}}; }
 
 /// The nearest point of an edge to p, as a share of the way (of the angle, of an arc).
 double nearest_share(const BulgeArc& edge, Vec2 p) {
@@ -301,19 +300,20 @@ Result<Carving> carve(const MedialAxis& axis, const CarveOptions& options) {
     return Error{ErrorCode::unsupported, "the axis is one of the exterior", {}};
   if (axis.nodes.empty()) return Error{ErrorCode::empty, "the axis is empty", {}};
   if (!(options.angle >= 0 && options.angle <= 170))
-    return invalid("the angle must be in [0, 170]");
+    return invalid_carving("the angle must be in [0, 170]");
   for (const double value :
        {options.depth, options.tool, options.tip, options.pass_depth, options.step, options.chord})
     if (!(value >= 0) || !std::isfinite(value))
-      return invalid("depths, diameters, step and chord must be finite and not negative");
+      return invalid_carving("depths, diameters, step and chord must be finite and not negative");
   if (options.angle == 0 && !(options.depth > 0 && options.tool > 0))
-    return invalid("an end mill (angle 0) needs a depth and a diameter");
-  if (options.angle > 0 && options.angle < 1) return invalid("the angle must be 0 or in [1, 170]");
+    return invalid_carving("an end mill (angle 0) needs a depth and a diameter");
+  if (options.angle > 0 && options.angle < 1)
+    return invalid_carving("the angle must be 0 or in [1, 170]");
   if (options.angle > 0 && options.tool > 0 && !(options.tip < options.tool))
-    return invalid("the tip must be smaller than the tool");
+    return invalid_carving("the tip must be smaller than the tool");
   constexpr double smallest_chord = 1e-8;  // the moves grow as the root of one over it
   if (options.chord > 0 && options.chord < smallest_chord * diagonal(box_of(axis)))
-    return invalid("the chord must be at least 1e-8 of the diagonal of the axis's sites");
+    return invalid_carving("the chord must be at least 1e-8 of the diagonal of the axis's sites");
   try {
     return plan(axis, options);
   } catch (...) {

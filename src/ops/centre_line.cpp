@@ -8,14 +8,13 @@
 #include "axis/curve.h"
 #include "axis/sites.h"
 #include "base/arc.h"
+#include "base/numbers.h"
 #include "index/boundary_tree.h"
 #include "medial/centreline.h"
 #include "medial/query.h"
 
 namespace medial {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Answers how far the boundary is.
 class Boundary {

@@ -99,11 +99,11 @@ class Collapse {
       for (const std::uint32_t edge : edges) sets.join(edges[0], edge);
     }
     std::vector<std::vector<std::uint32_t>> parts;
-    std::vector<std::uint32_t> part_of_set(axis_.edges.size(), ops::no_edge);
+    std::vector<std::uint32_t> part_of_set(axis_.edges.size(), none);
     for (std::uint32_t i = 0; i < axis_.edges.size(); ++i) {
       if (!is_narrow(i)) continue;
       std::uint32_t& part = part_of_set[sets.find(i)];
-      if (part == ops::no_edge) {
+      if (part == none) {
         part = static_cast<std::uint32_t>(parts.size());
         parts.emplace_back();
       }
@@ -143,7 +143,7 @@ class Collapse {
   void add_lines(const std::vector<std::uint32_t>& edges) {
     const std::vector<std::uint32_t> nodes = nodes_of(edges);
     // Where nothing is wide, the search ends in the widest node.
-    std::uint32_t root = ops::no_edge;
+    std::uint32_t root = none;
     if (std::ranges::none_of(nodes, [this](std::uint32_t node) { return at_cut_[node]; })) {
       root = *std::ranges::max_element(nodes, {},
                                        [this](std::uint32_t node) { return radius_at(node); });

@@ -12,10 +12,10 @@ namespace medial {
 namespace {
 
 /// A connected part of what is left, and its deepest disk.
-struct Part {
+struct LeftPart {
   std::vector<Ring> rings;
   Disk deepest;
-  bool operator<(const Part& other) const { return deepest.radius < other.deepest.radius; }
+  bool operator<(const LeftPart& other) const { return deepest.radius < other.deepest.radius; }
 };
 
 Ring circle(const Disk& disk) {
@@ -25,10 +25,10 @@ Ring circle(const Disk& disk) {
 
 /// The parts of a shape and their deepest disks.
 void add_parts(const Shape& shape, const MedialAxis& axis, double smallest,
-               std::priority_queue<Part>& parts) {
-  std::vector<Part> found(shape.component_count());
+               std::priority_queue<LeftPart>& parts) {
+  std::vector<LeftPart> found(shape.component_count());
   const auto consider = [&found](const Disk& disk, std::uint32_t component) {
-    Part& part = found[component];
+    LeftPart& part = found[component];
     if (disk.radius > part.deepest.radius) part.deepest = disk;
   };
   for (const Node& node : axis.nodes) consider(node.disk, node.component);
@@ -37,7 +37,7 @@ void add_parts(const Shape& shape, const MedialAxis& axis, double smallest,
     consider(disk_at(axis, edge, widest_place(axis, i).t), axis.nodes[edge.node[0]].component);
   }
   for (std::size_t i = 0; i < shape.loop_count(); ++i) {
-    Part& part = found[shape.component[i]];
+    LeftPart& part = found[shape.component[i]];
     if (part.deepest.radius < smallest) continue;
     Ring ring;
     const auto loop = shape.loop(i);
@@ -48,13 +48,13 @@ void add_parts(const Shape& shape, const MedialAxis& axis, double smallest,
     }
     part.rings.push_back(std::move(ring));
   }
-  for (Part& part : found)
+  for (LeftPart& part : found)
     if (part.deepest.radius >= smallest && !part.rings.empty()) parts.push(std::move(part));
 }
 
 /// The same of a region that may have nothing inside.
 Status add_parts_of(const std::vector<Ring>& rings, double smallest,
-                    std::priority_queue<Part>& parts) {
+                    std::priority_queue<LeftPart>& parts) {
   auto shape = build_shape(rings);
   if (!shape) {
     if (shape.error().code == ErrorCode::no_area || shape.error().code == ErrorCode::empty)
@@ -71,7 +71,7 @@ Status add_parts_of(const std::vector<Ring>& rings, double smallest,
 
 Result<std::vector<Disk>> largest_disjoint_disks(const Shape& shape, std::size_t count,
                                                  double smallest, const MedialAxis* axis) {
-  std::priority_queue<Part> parts;
+  std::priority_queue<LeftPart> parts;
   const auto is_of_shape = [&](const Node& node) {
     return node.component < shape.component_count();
   };
@@ -85,7 +85,7 @@ Result<std::vector<Disk>> largest_disjoint_disks(const Shape& shape, std::size_t
   }
   std::vector<Disk> disks;
   while (disks.size() < count && !parts.empty()) {
-    Part part = parts.top();
+    LeftPart part = parts.top();
     parts.pop();
     disks.push_back(part.deepest);
     part.rings.push_back(circle(part.deepest));

@@ -10,12 +10,12 @@
 namespace medial::ops {
 namespace {
 
-constexpr double turn = 2 * std::numbers::pi;
+constexpr double full_turn = 2 * std::numbers::pi;
 
 /// The angle from u to v counter-clockwise, in [0, 2 pi).
 double angle_between(Vec2 u, Vec2 v) {
   const double angle = std::atan2(cross(u, v), dot(u, v));
-  return angle < 0 ? angle + turn : angle;
+  return angle < 0 ? angle + full_turn : angle;
 }
 
 }  // namespace
@@ -64,7 +64,8 @@ double HalfEdges::direction(HalfEdge half) const {
   if (exact(half) && exact(half ^ 1U)) {
     const Vec2 right = touch(half, false) - at.center, left = touch(half ^ 1U, true) - at.center;
     if (distance(left, right) > apart * at.radius)
-      return std::remainder(std::atan2(right.y, right.x) + angle_between(right, left) / 2, turn);
+      return std::remainder(std::atan2(right.y, right.x) + angle_between(right, left) / 2,
+                            full_turn);
     // Both feet in one place: straight towards it where the radius shrinks, or away from it.
     const Disk& other = disk(half, true);
     if (distance(other.center, at.center) <= apart * at.radius) {
@@ -92,10 +93,10 @@ double HalfEdges::gap(HalfEdge half) const {
     // open; or behind, where it grows.
     if (!(disk(after, true).radius < at.radius))
       return distance(begin, end) <= slack || angle > std::numbers::pi ? 0 : angle;
-    return angle > std::numbers::pi ? angle : turn;
+    return angle > std::numbers::pi ? angle : full_turn;
   }
   // A disk that touches all around but for one point is a step backwards by rounding.
-  if (distance(begin, end) <= slack || turn - angle < hardly) return 0;
+  if (distance(begin, end) <= slack || full_turn - angle < hardly) return 0;
   if (angle <= std::numbers::pi || exact(half) || around_an_end) return angle;
   // Samples: a step backwards, or more than a half circle? The tangents and rates decide: a foot
   // is acos(-R_a) away from the direction in which the axis leaves.

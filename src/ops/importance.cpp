@@ -52,7 +52,7 @@ void Importance::find_vanishing() {
   };
   // From the core outwards: neighbours vanish in the same disk, mostly.
   for (std::uint32_t i = 0; i < axis_.nodes.size(); ++i)
-    if (trees_.inwards[i] == no_edge) find(i, axis_.nodes[trees_.deepest[trees_.part[i]]].disk);
+    if (trees_.inwards[i] == none) find(i, axis_.nodes[trees_.deepest[trees_.part[i]]].disk);
   for (auto e = trees_.order.rbegin(); e != trees_.order.rend(); ++e) {
     const auto& node = axis_.edges[*e].node;
     const bool outer_first = trees_.outer_end(axis_, *e) == 0;
@@ -85,7 +85,7 @@ void Importance::sum_up() {
   // Of each part: what hangs on the core, and the core's own sides.
   std::fill(size_.begin(), size_.end(), 0.0);
   for (std::uint32_t i = 0; i < axis_.nodes.size(); ++i)
-    if (trees_.inwards[i] == no_edge) size_[trees_.part[i]] += beyond_[i].area;
+    if (trees_.inwards[i] == none) size_[trees_.part[i]] += beyond_[i].area;
   for (std::uint32_t e = 0; e < axis_.edges.size(); ++e) {
     if (trees_.in_tree(axis_, e)) continue;
     Beyond sides;

@@ -11,23 +11,21 @@
 #include <cmath>
 #include <limits>
 
+#include "base/numbers.h"
 #include "ops/routes.h"
 
 namespace medial {
 namespace {
 
 using ops::head_of;
-using ops::no_edge;
 using ops::other_end;
 using ops::tail_of;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 /// The two best ways that hang from a node: how far they reach, and the edges they begin with;
-/// no_edge: the way ends at the node.
+/// none: the way ends at the node.
 struct Hanging {
   std::array<double, 2> reach;
-  std::array<std::uint32_t, 2> via{no_edge, no_edge};
+  std::array<std::uint32_t, 2> via{none, none};
 
   void add(double other, std::uint32_t edge) {
     if (other > reach[0]) {
@@ -141,7 +139,7 @@ class MainPaths {
   AxisPath cycle() const {
     std::vector<Step> steps;
     const std::uint32_t start = core_.front();
-    std::uint32_t node = start, before = no_edge;
+    std::uint32_t node = start, before = none;
     do {
       for (const std::uint32_t edge : incidence_.edges(node)) {
         if (taken_[edge] || edge == before) continue;
@@ -160,7 +158,7 @@ class MainPaths {
   /// The way down from a node, along its best hanging way or the second best.
   std::vector<Step> hanging_way(std::uint32_t node, std::size_t rank) const {
     std::vector<Step> steps;
-    while (hanging_[node].via[rank] != no_edge) {
+    while (hanging_[node].via[rank] != none) {
       const std::uint32_t edge = hanging_[node].via[rank];
       steps.push_back({edge, axis_.edges[edge].node[0] == node});
       node = head_of(axis_, steps.back());

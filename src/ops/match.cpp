@@ -12,7 +12,7 @@ namespace medial {
 namespace {
 
 /// A piece of the axis.
-struct Piece {
+struct WeightedPiece {
   double weight = 0;
   Vec2 at;
   double radius = 0;
@@ -78,7 +78,7 @@ class Signer {
     }
     double total = 0, mean_radius = 0;
     Vec2 center;
-    for (const Piece& p : pieces_) {
+    for (const WeightedPiece& p : pieces_) {
       total += p.weight;
       center = center + p.weight * p.at;
       mean_radius += p.weight * p.radius;
@@ -88,7 +88,7 @@ class Signer {
     mean_radius /= total;
     // Inertia of the axis, each place as thick as its disk.
     double xx = 0, xy = 0, yy = 0;
-    for (const Piece& p : pieces_) {
+    for (const WeightedPiece& p : pieces_) {
       const Vec2 d = p.at - center;
       const double own = p.radius * p.radius / 4;
       xx += p.weight * (d.x * d.x + own);
@@ -99,7 +99,7 @@ class Signer {
     const double size = std::sqrt(2 * mean / total);
     out.elongation = 0.5 * std::log((mean + half) / (mean - half));
     std::vector<Weighted> centers, depths, radii;
-    for (const Piece& p : pieces_) {
+    for (const WeightedPiece& p : pieces_) {
       centers.push_back({distance(p.at, center) / size, p.weight});
       depths.push_back({p.depth / size, p.weight});
       radii.push_back({p.radius / mean_radius, p.weight});
@@ -165,7 +165,7 @@ class Signer {
     std::vector<Vec2> chosen;
     const double step = total / places;
     double next = 0.5 * step, sum = 0;
-    for (const Piece& p : pieces_) {
+    for (const WeightedPiece& p : pieces_) {
       sum += p.weight;
       for (; next <= sum && chosen.size() < places; next += step) chosen.push_back(p.at);
     }
@@ -180,7 +180,7 @@ class Signer {
   const MedialAxis& axis_;
   const AxisFeatures& features_;
   double unit_;
-  std::vector<Piece> pieces_;
+  std::vector<WeightedPiece> pieces_;
   double ends_ = 0;
 };
 

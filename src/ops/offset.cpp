@@ -251,7 +251,7 @@ constexpr double farthest = 1e5;
 /// nearer to it.
 constexpr double reach = 2.5;
 
-Error invalid(const char* text) { return {ErrorCode::invalid_option, text, {}}; }
+Error invalid_offset(const char* text) { return {ErrorCode::invalid_option, text, {}}; }
 
 Result<Offsets> offset_both_sides(const Shape& shape, std::span<const double> clearances,
                                   const Options& options) {
@@ -259,8 +259,9 @@ Result<Offsets> offset_both_sides(const Shape& shape, std::span<const double> cl
   if (shape.points.empty()) return Error{ErrorCode::empty, "the shape is empty", {}};
   const Box box = bounding_box(shape);
   for (const double c : clearances) {
-    if (!std::isfinite(c) || c == 0) return invalid("a distance must be finite and not 0");
-    if (-c > farthest * diagonal(box)) return invalid("a distance outwards is above 1e5 diagonals");
+    if (!std::isfinite(c) || c == 0) return invalid_offset("a distance must be finite and not 0");
+    if (-c > farthest * diagonal(box))
+      return invalid_offset("a distance outwards is above 1e5 diagonals");
     (c > 0 ? inside : outside).push_back(std::abs(c));
   }
   inside = increasing(std::move(inside));
@@ -310,8 +311,9 @@ Result<Offsets> buffers_of(const Soup& soup, std::span<const double> given,
   const Box box = bounding_box(soup);
   const double size = diagonal(box);
   for (const double d : given) {
-    if (!(d > 0) || !std::isfinite(d)) return invalid("a distance must be positive and finite");
-    if (size > 0 && d > farthest * size) return invalid("a distance is above 1e5 diagonals");
+    if (!(d > 0) || !std::isfinite(d))
+      return invalid_offset("a distance must be positive and finite");
+    if (size > 0 && d > farthest * size) return invalid_offset("a distance is above 1e5 diagonals");
   }
   Offsets offsets;
   if (given.empty()) return offsets;
@@ -351,7 +353,8 @@ Result<Offsets> inward_offsets(const MedialAxis& axis, std::span<const double> c
   if (axis.exterior > 0)
     return Error{ErrorCode::unsupported, "the axis is one of the exterior", {}};
   for (const double c : clearances)
-    if (!(c > 0) || !std::isfinite(c)) return invalid("a distance must be positive and finite");
+    if (!(c > 0) || !std::isfinite(c))
+      return invalid_offset("a distance must be positive and finite");
   return guarded([&]() -> Result<Offsets> {
     Stopwatch walking;
     MedialAxis divided;
@@ -383,7 +386,7 @@ Result<Offsets> offset_curves(const Soup& soup, std::span<const double> distance
 Result<std::vector<double>> offset_passes(const MedialAxis& axis, double first, double step) {
   constexpr double most = 1e6;
   if (!(first > 0 && step > 0 && std::isfinite(first) && std::isfinite(step)))
-    return invalid("a step must be positive and finite");
+    return invalid_offset("a step must be positive and finite");
   std::vector<double> passes;
   const double deepest = ops::largest_radius(axis) - axis.tolerance;
   if ((deepest - first) / step > most)

@@ -15,7 +15,7 @@ namespace {
 using ops::HalfEdge;
 
 /// A piece of the outline: along a site, along an arc of a disk, or straight between samples.
-struct Piece {
+struct OutlinePiece {
   Vec2 begin, end;
   std::uint32_t site = no_site;  ///< or no_site
   double angle = 0;              ///< of an arc of a disk
@@ -56,7 +56,7 @@ class Outliner {
  private:
   /// One piece for all edges that run along the same site.
   void add_side(HalfEdge half) {
-    Piece piece{halves_.touch(half, false), halves_.touch(half, true), no_site, 0, {}};
+    OutlinePiece piece{halves_.touch(half, false), halves_.touch(half, true), no_site, 0, {}};
     if (halves_.exact(half)) piece.site = halves_.right_site(half);
     if (joint_) piece.begin = *joint_;
     joint_.reset();
@@ -148,7 +148,7 @@ class Outliner {
 
   /// What is an end of a site to rounding is that end; of a site as short as rounding, the one that
   /// it would be.
-  Vec2 snapped(Vec2 p, const Piece& piece, bool at_end) const {
+  Vec2 snapped(Vec2 p, const OutlinePiece& piece, bool at_end) const {
     if (piece.site == no_site) return p;
     const double slack = 64 * axis_.tolerance;
     const Site& site = axis_.sites[piece.site];
@@ -159,7 +159,7 @@ class Outliner {
 
   Contour contour_of_pieces() {
     // Along a site the boundary goes forward; a step backwards is rounding.
-    for (Piece& piece : pieces_) {
+    for (OutlinePiece& piece : pieces_) {
       if (piece.site == no_site) continue;
       const Site& site = axis_.sites[piece.site];
       if (dot(piece.end - piece.begin, site.end - site.start) < 0) piece.end = piece.begin;
@@ -168,7 +168,7 @@ class Outliner {
     // axis without an arc of a disk in between, they are apart by rounding.
     const double slack = 64 * axis_.tolerance;
     for (std::size_t i = 0; i < pieces_.size(); ++i) {
-      Piece &piece = pieces_[i], &next = pieces_[i + 1 < pieces_.size() ? i + 1 : 0];
+      OutlinePiece &piece = pieces_[i], &next = pieces_[i + 1 < pieces_.size() ? i + 1 : 0];
       const bool sides = piece.site != no_site && next.site != no_site;
       const Vec2 end = snapped(piece.end, piece, true), begin = snapped(next.begin, next, false);
       if (!sides && distance(end, begin) > slack) continue;
@@ -176,7 +176,7 @@ class Outliner {
       piece.end = next.begin = by_next || piece.site == no_site ? begin : end;
     }
     Contour contour;
-    for (const Piece& piece : pieces_) {
+    for (const OutlinePiece& piece : pieces_) {
       if (contour.points.empty()) contour.start_at(piece.begin);
       if (!(contour.points.back() == piece.begin)) contour.line_to(piece.begin);
       constexpr double half_turn = 3;  // about: no such arc ends where it begins, but a circle
@@ -208,8 +208,8 @@ class Outliner {
   const MedialAxis& axis_;
   const ops::HalfEdges halves_;
   const double corner_angle_ = Options{}.corner_angle * std::numbers::pi / 180;
-  std::vector<Piece> pieces_;  ///< of the contour under way
-  std::optional<Vec2> joint_;  ///< where its next piece begins
+  std::vector<OutlinePiece> pieces_;  ///< of the contour under way
+  std::optional<Vec2> joint_;         ///< where its next piece begins
 };
 
 }  // namespace

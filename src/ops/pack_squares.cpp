@@ -8,7 +8,7 @@
 namespace medial {
 namespace {
 
-constexpr std::uint64_t code_version = 1;
+constexpr std::uint64_t squares_version = 1;
 constexpr std::uint32_t word_bits = 64;
 
 struct Square {
@@ -141,7 +141,7 @@ ShapeCode encode_squares(const Image& image, std::uint32_t error, SquareReport* 
 
   ShapeCode code;
   for (const std::uint64_t number :
-       {code_version, std::uint64_t{image.width()}, std::uint64_t{image.height()},
+       {squares_version, std::uint64_t{image.width()}, std::uint64_t{image.height()},
         static_cast<std::uint64_t>(chosen.size())})
     ops::put_number(code[0], number);
   Square last;
@@ -164,7 +164,7 @@ Result<Image> decode_squares(const ShapeCode& code) {
   const auto version = header.number(), width = header.number(), height = header.number(),
              count = header.number();
   if (!version || !width || !height || !count) return malformed("the code ends early");
-  if (*version != code_version)
+  if (*version != squares_version)
     return Error{ErrorCode::unsupported, "the code is of another version", {}};
   if (!fits_image(*width, *height))
     return Error{ErrorCode::too_large, "the image is too large", {}};

@@ -9,13 +9,12 @@
 
 #include "axis/curve.h"
 #include "base/arc.h"
+#include "base/numbers.h"
 #include "medial/centreline.h"
 #include "medial/query.h"
 
 namespace medial {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// The rational function of an edge's radius less `clearance`, times its denominator:
 /// a (1-t)^2 + 2 b t (1-t) + c t^2.
@@ -105,7 +104,6 @@ MedialAxis part_of(const MedialAxis& axis, std::span<const PathPiece> pieces) {
   part.resolution = axis.resolution;
   part.exterior = axis.exterior;
   part.sites = axis.sites;
-  constexpr std::uint32_t none = 0xFFFFFFFF;
   std::vector<std::uint32_t> node_of(axis.nodes.size(), none);
   std::map<std::pair<std::uint32_t, double>, std::uint32_t> inner_node_of;
   std::vector<std::uint32_t> degree;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "axis/curve.h"
+#include "base/numbers.h"
 #include "medial/query.h"
 #include "ops/importance.h"
 #include "ops/trees.h"
@@ -14,28 +15,28 @@
 namespace medial {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 struct Named {
   PruneMeasure measure;
   const char* name;
   double threshold;
 };
-using enum PruneMeasure;
-constexpr std::array<Named, 12> measures{{
-    {prominence, "prominence", 0.25},
-    {significance, "significance", 0.3},
-    {length, "length", 1.5},
-    {ratio, "ratio", 1.5},
-    {radius, "radius", 0.1},
-    {angle, "angle", 100},
-    {erosion, "erosion", 0.1},
-    {potential, "potential", 0.1},
-    {residual, "residual", 0.1},
-    {area, "area", 0.005},
-    {lambda, "lambda", 0.1},
-    {scale, "scale", 1.3},
-}};
+constexpr std::array<Named, 12> measures = [] {
+  using enum PruneMeasure;
+  return std::array<Named, 12>{{
+      {prominence, "prominence", 0.25},
+      {significance, "significance", 0.3},
+      {length, "length", 1.5},
+      {ratio, "ratio", 1.5},
+      {radius, "radius", 0.1},
+      {angle, "angle", 100},
+      {erosion, "erosion", 0.1},
+      {potential, "potential", 0.1},
+      {residual, "residual", 0.1},
+      {area, "area", 0.005},
+      {lambda, "lambda", 0.1},
+      {scale, "scale", 1.3},
+  }};
+}();
 
 const Named& named(PruneMeasure measure) { return measures[static_cast<std::size_t>(measure)]; }
 
@@ -116,7 +117,7 @@ struct PruneOrder::Parts {
     for (const Edge& edge : axis.edges)
       for (const std::uint32_t node : edge.node) ++edges_at[node];
     if (tips) {
-      farthest.assign(axis.nodes.size(), ops::no_edge);
+      farthest.assign(axis.nodes.size(), none);
       std::vector<double> most(axis.nodes.size(), -1);
       for (const std::uint32_t e : trees.order) {
         const std::uint32_t node = end_of(e, false);
@@ -128,13 +129,12 @@ struct PruneOrder::Parts {
     }
     for (auto e = trees.order.rbegin(); e != trees.order.rend(); ++e) {
       const std::uint32_t node = end_of(*e, false), before = trees.inwards[node];
-      const bool goes_on =
-          before != ops::no_edge && (tips ? farthest[node] == *e : edges_at[node] == 2);
+      const bool goes_on = before != none && (tips ? farthest[node] == *e : edges_at[node] == 2);
       if (goes_on) {
         inner[*e] = inner[before];
       } else if (importance.of_branches()) {
         inner[*e] = importance.at(*e, 1);
-        if (before != ops::no_edge) inner[*e] = std::min(inner[*e], inner[before]);
+        if (before != none) inner[*e] = std::min(inner[*e], inner[before]);
       }
     }
     outer = inner;
@@ -191,7 +191,7 @@ MedialAxis PruneOrder::at(double threshold) const {
   std::vector<std::uint32_t> index(axis.nodes.size(), gone);
   for (std::uint32_t i = 0; i < axis.nodes.size(); ++i) {
     const std::uint32_t e = p.trees.inwards[i];
-    if (e != ops::no_edge && !(p.inner[e] >= threshold)) continue;
+    if (e != none && !(p.inner[e] >= threshold)) continue;
     index[i] = static_cast<std::uint32_t>(out.nodes.size());
     out.nodes.push_back(axis.nodes[i]);
   }

@@ -9,6 +9,7 @@
 
 #include "axis/curve.h"
 #include "base/arc.h"
+#include "base/numbers.h"
 #include "medial/query.h"
 #include "medial/sides.h"
 #include "ops/half_edges.h"
@@ -26,7 +27,6 @@ MedialAxis sampled(const MedialAxis& axis, double step) {
   MedialAxis out;
   out.tolerance = axis.tolerance;
   out.resolution = step;
-  constexpr std::uint32_t none = 0xFFFFFFFF;
   std::vector<std::uint32_t> index(axis.nodes.size(), none);
   const auto add = [&](const Disk& disk) {
     out.nodes.push_back({disk, 0, NodeKind::site_change});
@@ -375,7 +375,6 @@ Result<DiskImage> rebuild_image(const MedialAxis& axis, std::uint32_t pixels, bo
   if (pixels == 0 || pixels > most)
     return Error{ErrorCode::invalid_option, "the number of pixels is not in 1 to 32768", {}};
   if (axis.nodes.empty()) return Error{ErrorCode::empty, "an axis without nodes", {}};
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   Vec2 low{infinity, infinity}, high = -low;
   for (const Node& node : axis.nodes) {
     const auto [c, r] = node.disk;

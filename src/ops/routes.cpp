@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "axis/curve.h"
+#include "base/numbers.h"
 
 namespace medial {
 namespace ops {
@@ -37,7 +38,7 @@ double cost_of(const MedialAxis& axis, const PathPiece& piece, Route route) {
 void Search::run(std::span<const Start> starts) {
   for (const std::uint32_t node : reached_) {
     cost_[node] = std::numeric_limits<double>::infinity();
-    via_[node] = no_edge;
+    via_[node] = none;
   }
   reached_.clear();
   heap_.clear();
@@ -69,7 +70,7 @@ void Search::run(std::span<const Start> starts) {
 
 std::vector<Step> Search::way_to(std::uint32_t node) const {
   std::vector<Step> steps;
-  while (via_[node] != no_edge) {
+  while (via_[node] != none) {
     const Edge& edge = axis_.edges[via_[node]];
     steps.push_back({via_[node], edge.node[1] == node});
     node = other_end(edge, node);
@@ -108,8 +109,6 @@ namespace {
 
 using ops::Search;
 using ops::Start;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 bool is_place(const MedialAxis& axis, EdgePlace place) {
   return place.edge < axis.edges.size() && place.t >= 0 && place.t <= 1;

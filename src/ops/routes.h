@@ -8,13 +8,12 @@
 #include <span>
 #include <vector>
 
+#include "base/numbers.h"
 #include "medial/axis.h"
 #include "medial/centreline.h"
 #include "medial/query.h"
 
 namespace medial::ops {
-
-constexpr std::uint32_t no_edge = 0xFFFFFFFF;
 
 /// What the part of an edge from one parameter to another costs; never negative.
 double cost_of(const MedialAxis& axis, const PathPiece& piece, Route route);
@@ -34,7 +33,7 @@ class Search {
         incidence_(incidence),
         edge_costs_(costs),
         cost_(axis.nodes.size(), std::numeric_limits<double>::infinity()),
-        via_(axis.nodes.size(), no_edge) {}
+        via_(axis.nodes.size(), none) {}
 
   void run(std::span<const Start> starts);
   /// Infinite where no way leads.

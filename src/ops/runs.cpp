@@ -23,7 +23,7 @@ constexpr int probes = 16;
 /// A derivative below this times its own scale is zero: rounding of control points far below it.
 constexpr double zero_share = 1e-7;
 
-double angle_between(Vec2 a, Vec2 b) { return std::atan2(cross(a, b), dot(a, b)); }
+double signed_angle(Vec2 a, Vec2 b) { return std::atan2(cross(a, b), dot(a, b)); }
 
 /// Whether radius and direction are linear along an edge: two segments, or samples.
 bool is_linear(const MedialAxis& axis, const Edge& edge) {
@@ -169,7 +169,7 @@ Run smooth_run(const Curve& curve, bool straight) {
     const double ds = factor[i] * norm(velocity);
     const double s = straight ? norm(curve.offset(t)) : curve.length(t);
     const double radius = curve.at(t).radius;
-    const double angle = straight ? 0 : angle_between(run.first_tangent, velocity);
+    const double angle = straight ? 0 : signed_angle(run.first_tangent, velocity);
     for (auto [moments, value] :
          {std::pair(&run.radius, radius), std::pair(&run.direction, angle)}) {
       moments->zero += ds * value;
@@ -178,7 +178,7 @@ Run smooth_run(const Curve& curve, bool straight) {
       moments->square += ds * value * value;
     }
   }
-  run.direction_change = straight ? 0 : angle_between(run.first_tangent, run.last_tangent);
+  run.direction_change = straight ? 0 : signed_angle(run.first_tangent, run.last_tangent);
   run.bending = std::abs(run.direction_change);
   return run;
 }
@@ -286,7 +286,7 @@ void classify(Run& run, const FeatureOptions& options) {
 
 Run joined(const Run& a, const Run& b) {
   Run run = a;
-  const double turn = angle_between(a.last_tangent, b.first_tangent);
+  const double turn = signed_angle(a.last_tangent, b.first_tangent);
   const double start = a.direction_change + turn;
   run.to = b.to;
   run.length = a.length + b.length;
@@ -522,7 +522,7 @@ std::span<const Run> RunCutter::cut(std::span<const Step> steps, bool cyclic) {
     radius_integral_ += run.radius.zero;
     double turn = run.direction_change, bending = run.bending;
     if (before != nullptr) {
-      const double jump = angle_between(before->last_tangent, run.first_tangent);
+      const double jump = signed_angle(before->last_tangent, run.first_tangent);
       turn += jump;
       bending += std::abs(jump);
     }

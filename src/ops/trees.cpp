@@ -26,8 +26,7 @@ double largest_inside(const MedialAxis& axis, const Edge& edge) {
 
 }  // namespace
 
-Trees::Trees(const MedialAxis& axis)
-    : inwards(axis.nodes.size(), no_edge), part(axis.nodes.size()) {
+Trees::Trees(const MedialAxis& axis) : inwards(axis.nodes.size(), none), part(axis.nodes.size()) {
   const std::size_t n = axis.nodes.size();
   DisjointSets sets(n);
   std::vector<std::uint32_t> degree(n, 0);
@@ -49,7 +48,7 @@ Trees::Trees(const MedialAxis& axis)
     if (axis.nodes[i].disk.radius > axis.nodes[deep].disk.radius) deep = i;
   }
   for (const std::uint32_t deep : deepest) radius.push_back(axis.nodes[deep].disk.radius);
-  deepest_edge.assign(deepest.size(), no_edge);
+  deepest_edge.assign(deepest.size(), none);
   std::vector<std::uint32_t> edges(deepest.size(), 0), nodes(deepest.size(), 0);
   for (const std::uint32_t p : part) ++nodes[p];
   for (std::uint32_t e = 0; e < axis.edges.size(); ++e) {
@@ -64,7 +63,7 @@ Trees::Trees(const MedialAxis& axis)
   std::vector<bool> stays(n, false);
   for (std::uint32_t p = 0; p < deepest.size(); ++p) {
     if (edges[p] + 1 != nodes[p]) continue;
-    if (deepest_edge[p] == no_edge) {
+    if (deepest_edge[p] == none) {
       stays[deepest[p]] = true;
     } else {
       for (const std::uint32_t node : axis.edges[deepest_edge[p]].node) stays[node] = true;

@@ -6,22 +6,21 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/numbers.h"
 #include "medial/axis.h"
 #include "ops/half_edges.h"
 
 namespace medial::ops {
 
-constexpr std::uint32_t no_edge = 0xFFFFFFFF;
-
 struct Trees {
   /// The edges of all trees, each after all that are farther out.
   std::vector<std::uint32_t> order;
-  /// Of each node: the edge that leads to the core, or no_edge in the core.
+  /// Of each node: the edge that leads to the core, or none in the core.
   std::vector<std::uint32_t> inwards;
   /// Of each node: its connected part, counted from 0.
   std::vector<std::uint32_t> part;
   /// Of each connected part: its deepest node, and the radius of its deepest disk. That disk may
-  /// lie inside an edge, between two arcs; then `deepest_edge` is that edge, or else no_edge.
+  /// lie inside an edge, between two arcs; then `deepest_edge` is that edge, or else none.
   std::vector<std::uint32_t> deepest, deepest_edge;
   std::vector<double> radius;
 

@@ -22,7 +22,7 @@ namespace medial {
 namespace {
 
 /// Every edge becomes four half-edges of pieces at most, and several sites.
-constexpr std::uint64_t most_points = std::numeric_limits<std::uint32_t>::max() / 32;
+constexpr std::uint64_t most_soup_points = std::numeric_limits<std::uint32_t>::max() / 32;
 
 struct InputEdge {
   Vec2 from, to;
@@ -47,7 +47,7 @@ Result<Input> input_of(std::span<const Chain> chains, SoupReport& report) {
     report.input_points += chain.points.size();
     for (const Vec2 p : chain.points) largest = std::max({largest, std::abs(p.x), std::abs(p.y)});
   }
-  if (report.input_points > most_points || chains.size() > most_points)
+  if (report.input_points > most_soup_points || chains.size() > most_soup_points)
     return error_without_place(ErrorCode::too_large, "there are too many points");
   if (report.input_points == 0) return error_without_place(ErrorCode::empty, "there is no point");
   const double rounding = largest * std::numeric_limits<double>::epsilon();

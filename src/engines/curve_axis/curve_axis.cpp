@@ -32,7 +32,7 @@ constexpr double between_points = 1e-8;
 constexpr double longest_step = 1.5;
 /// So do points between which the boundary turns by more, in radians: next to tips the axis's own
 /// scale is the way to the tip.
-constexpr double largest_turn = 0.0125;
+constexpr double largest_turn_between = 0.0125;
 /// Points much nearer to each other than their neighbours add rounding to differences, little else.
 constexpr double shortest_step = 0.25;
 /// The least number of ways between points on a smooth run: frames_along() takes seven points.
@@ -213,8 +213,8 @@ class Assembly {
     const auto middle = point_between(a, b);
     if (!middle) return;
     const bool is_short = distance(a.disk.center, b.disk.center) <= longest_step * step_ &&
-                          std::abs(cross(a.left.tangent, b.left.tangent)) <= largest_turn &&
-                          std::abs(cross(a.right.tangent, b.right.tangent)) <= largest_turn;
+                          std::abs(cross(a.left.tangent, b.left.tangent)) <= largest_turn_between &&
+                          std::abs(cross(a.right.tangent, b.right.tangent)) <= largest_turn_between;
     if (done >= wanted && is_short &&
         distance_to_quadratic(a, b, middle->disk) <= between_points * boundary_.size())
       return;

@@ -9,12 +9,11 @@
 
 #include "axis/sites.h"
 #include "base/memory.h"
+#include "base/numbers.h"
 #include "geometry/bisector.h"
 
 namespace medial::disks {
 namespace {
-
-constexpr std::uint32_t none = ~std::uint32_t{0};
 
 /// A chunk in its final place: its node i > 0 is node `first_node + i - 1` of the axis, and its
 /// node 0 is node `parent`.

@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "base/numbers.h"
 #include "engines/disks/tie_fit.h"
 #include "geometry/bisector.h"
 
@@ -16,8 +17,6 @@ namespace medial::disks {
 namespace {
 
 using geometry::Site;
-
-constexpr std::uint32_t none = ~std::uint32_t{0};
 
 /// Only edges shorter than this, against the radius, are looked at, and no disk moves further: a
 /// tie's nodes are off by rounding over an angle, and distances are nearly linear so far.

@@ -6,13 +6,12 @@
 #include <stdexcept>
 
 #include "axis/sites.h"
+#include "base/numbers.h"
 #include "geometry/bisector.h"
 #include "geometry/site.h"
 
 namespace medial::voronoi {
 namespace {
-
-constexpr std::uint32_t none = ~std::uint32_t{0};
 
 template <class Mirrored>
 geometry::Control control_over_arc(Vec2 from, Vec2 to, double bulge, const Disk& first,

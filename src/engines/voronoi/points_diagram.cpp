@@ -8,6 +8,7 @@
 #include "base/disjoint_sets.h"
 #include "base/frame.h"
 #include "base/memory.h"
+#include "base/numbers.h"
 #include "base/predicates.h"
 #include "base/stopwatch.h"
 #include "base/tolerance.h"
@@ -21,7 +22,6 @@ namespace {
 using geometry::Delaunay;
 using geometry::outside;
 
-constexpr std::uint32_t none = ~std::uint32_t{0};
 /// How many turns ahead of its use memory is asked for.
 constexpr std::uint32_t ahead = 8;
 /// Marks the number of an edge that the frame cuts off. There are fewer than 2^31 edges.

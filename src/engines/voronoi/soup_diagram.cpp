@@ -13,6 +13,7 @@
 #include "base/arc.h"
 #include "base/frame.h"
 #include "base/memory.h"
+#include "base/numbers.h"
 #include "engines/voronoi/clip.h"
 #include "engines/voronoi/frame_cut.h"
 #include "engines/voronoi/long_edges.h"
@@ -23,7 +24,6 @@
 namespace medial::voronoi {
 namespace {
 
-constexpr std::uint32_t none = ~std::uint32_t{0};
 /// Numbers of edges leave a bit for a flag: a soup has less than 2^28 points and sides of edges.
 constexpr std::uint32_t largest_edge = none >> 1U;
 
