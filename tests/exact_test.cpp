@@ -323,5 +323,29 @@ TEST(ExactAxis, OfNearCircles) {
   }
 }
 
+/// Of some joints of such circles no disk touches both arcs and a third: no crash, no wrong axis.
+TEST(ExactAxis, OfCirclesButForRoundingIsCertainOrUnsupported) {
+  for (int n = 23; n <= 32; ++n) {
+    Random random(static_cast<std::uint64_t>(n * 1000 + 28));
+    Ring ring;
+    for (int i = 0; i < n; ++i) {
+      const double angle = 2 * std::numbers::pi * i / n + 0.1;
+      ring.points.push_back({std::cos(angle), std::sin(angle)});
+      ring.bulges.push_back(std::tan(std::numbers::pi / (2 * n)) *
+                            (1 + random.between(-1e-12, 1e-12)));
+    }
+    const auto shape = build_shape(Rings{ring});
+    ASSERT_TRUE(shape);
+    const auto axis = compute(*shape, {.exact = true});
+    if (axis) {
+      EXPECT_GT(axis->nodes.size(), 0u);
+      EXPECT_EQ(axis->nodes.size(), axis->edges.size() + 1) << n << " arcs";
+      continue;
+    }
+    EXPECT_EQ(axis.error().code, ErrorCode::unsupported) << to_string(axis.error());
+    EXPECT_TRUE(axis.error().place.point) << n << " arcs";
+  }
+}
+
 }  // namespace
 }  // namespace medial::test

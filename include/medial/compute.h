@@ -135,9 +135,9 @@ struct Options {
 /// brushfire: a diagonal of 2^16 pixels); unsupported (a coordinate above 1e100, or not 0 but below
 /// 1e-100 in size or as a share of the largest; holes, for biarc_dc and lee; arcs, for lee;
 /// pixels as fine as the coordinates, for ridge and brushfire; no pixel's centre inside, and the
-/// exterior, for brushfire; Options::exact, where the build lacks it; a place too narrow for its
-/// sides to be told from rounding); malformed (not by build_shape(), as far as its arrays tell:
-/// whether edges cross is not looked at); out_of_memory; internal.
+/// exterior, for brushfire; Options::exact, where the build lacks it or arcs are of one circle but
+/// for rounding; a place too narrow for its sides to be told from rounding); malformed (not by
+/// build_shape(), as far as arrays tell: not whether edges cross); out_of_memory; internal.
 Result<MedialAxis> compute(const Shape& shape, const Options& options = {});
 
 }  // namespace medial

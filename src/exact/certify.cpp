@@ -502,10 +502,19 @@ Status certify(const Shape& shape, const Options& options, MedialAxis& axis) {
   const Outline outline =
       outline_of(shape, frame, sites::number_sites(shape, frame, options.corner_angle));
   ContactGraph graph;
-  const auto failure = [](Vec2 place) {
+  // Arcs that join smoothly only to within the tolerance, on one circle but for that, may have no
+  // disk that touches all around them (docs/exact.md, Limits). Between segments nothing is rounded.
+  const bool has_arcs = !shape.bulges.empty();
+  const auto failure = [has_arcs](Vec2 place) {
     Error error{ErrorCode::internal,
                 "the axis could not be made certain here: please report this shape",
                 {}};
+    if (has_arcs)
+      error = {
+          ErrorCode::unsupported,
+          "the axis could not be made certain here, as it happens where arcs are of one circle "
+          "but for rounding; it can be computed without `exact`",
+          {}};
     error.place.point = place;
     return error;
   };
