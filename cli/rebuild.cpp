@@ -246,7 +246,7 @@ void add_switches(CLI::App& verb, RebuildSwitches& switches, bool smooths) {
   if (!smooths) {
     CLI::Option* tangents =
         verb.add_flag("--tangents", switches.tangents,
-                      "Polygons by tangents of disks instead, as of sampled axes.");
+                      "Polygons by tangents of disks instead, as of smooth sampled axes.");
     verb.add_option("--points", switches.points,
                     "With --tangents: points on the axis, about (default: the samples, or\n"
                     "1000 of an exact axis).")

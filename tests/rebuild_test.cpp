@@ -289,6 +289,27 @@ TEST(Rebuild, SampledAxesGivePolygons) {
   EXPECT_NEAR(area(*shape), area(one.shape), 0.02 * area(one.shape));
 }
 
+/// Pixels have directions of 45 degrees and radii off by half a pixel's diagonal: their tangents
+/// miss by a share of the radius, the hulls of their disks by some pixels. (Those of brushfire end
+/// far before corners do.)
+TEST(Rebuild, RidgesComeWithinPixels) {
+  const Case one = case_of(
+      {{0, 0}, {90, 0}, {90, 30}, {60, 30}, {60, 70}, {40, 70}, {40, 30}, {20, 40}, {0, 30}});
+  for (const double pixel : {0.5, 0.125}) {
+    SCOPED_TRACE(pixel);
+    Options options;
+    options.method = Method::ridge;
+    options.resolution = pixel;
+    const auto axis = compute(one.shape, options);
+    ASSERT_TRUE(axis.ok()) << to_string(axis.error());
+    RebuildReport report;
+    const auto shape = rebuild(*axis, {}, &report);
+    ASSERT_TRUE(shape.ok()) << to_string(shape.error());
+    EXPECT_LT(report.medial_points, axis->nodes.size() / 2);
+    EXPECT_LE(shape_distance(*shape, one.shape).hausdorff(), 4 * pixel);
+  }
+}
+
 TEST(Rebuild, AsPixels) {
   const Case one = case_of({{1, 1}, {9, 1}, {9, 4}, {4, 4}, {4, 6}, {1, 6}});
   const auto up = rebuild_image(one.axis, 400), down = rebuild_image(one.axis, 400, true);

@@ -21,7 +21,8 @@ enum class RebuildBy : std::uint8_t {
 
 struct RebuildOptions {
   /// Samples have no exact outline: theirs is by hulls where a pack was unpacked (the axis's method
-  /// is "pack"), or else by tangents.
+  /// is "pack") and, without `points`, of pixels ("ridge" and "brushfire", hulls of pixels so far
+  /// apart that half a pixel is missed or added), or else by tangents.
   RebuildBy by = RebuildBy::outline;
   /// Of tangents: how many points on the axis, about, besides ends and branching points; spread
   /// evenly over its length. 0: the nodes of samples, 1000 of an exact axis.

@@ -10,6 +10,7 @@
 #include "axis/curve.h"
 #include "base/arc.h"
 #include "base/numbers.h"
+#include "medial/compute.h"
 #include "medial/query.h"
 #include "medial/sides.h"
 #include "ops/half_edges.h"
@@ -71,6 +72,52 @@ MedialAxis sampled(const MedialAxis& axis, double step) {
       last = here;
     }
     connect(last, node(branch.to));
+  }
+  const Incidence incidence(axis);
+  for (std::uint32_t i = 0; i < axis.nodes.size(); ++i)
+    if (incidence.degree(i) == 0) node(i);
+  return out;
+}
+
+/// The axis of pixels with fewer of them along its branches; ends and branching points stay. The
+/// disks of two that are h apart and touch one reflex vertex have a hull that reaches past it by
+/// h^2 / 8 r, and between two that touch a boundary curved by 1 / R, R > r, as much is missed: half
+/// a pixel.
+MedialAxis spaced(const MedialAxis& axis) {
+  MedialAxis out;
+  out.tolerance = axis.tolerance;
+  out.resolution = axis.resolution;
+  out.method = axis.method;
+  std::vector<std::uint32_t> index(axis.nodes.size(), no_site);
+  const auto node = [&](std::uint32_t i) {
+    if (index[i] == no_site) {
+      index[i] = static_cast<std::uint32_t>(out.nodes.size());
+      out.nodes.push_back(axis.nodes[i]);
+    }
+    return index[i];
+  };
+  const auto connect = [&](std::uint32_t a, std::uint32_t b) {
+    const Disk &from = axis.nodes[a].disk, &to = axis.nodes[b].disk;
+    out.edges.push_back({{node(a), node(b)},
+                         {no_site, no_site},
+                         {midpoint(from.center, to.center), (from.radius + to.radius) / 2},
+                         1});
+  };
+  for (const Branch& branch : branches(axis)) {
+    std::uint32_t last = branch.from;
+    bool alone = branch.from == branch.to;  // a closed branch needs points to be more than one
+    for (std::size_t k = 0; k + 1 < branch.steps.size(); ++k) {
+      const Step& step = branch.steps[k];
+      const std::uint32_t here = axis.edges[step.edge].node[step.forward ? 1 : 0];
+      const Disk &from = axis.nodes[last].disk, &to = axis.nodes[here].disk;
+      const double apart = distance(from.center, to.center);
+      if (!alone && apart * apart < 4 * axis.resolution * std::min(from.radius, to.radius))
+        continue;
+      connect(last, here);
+      last = here;
+      alone = false;
+    }
+    connect(last, branch.to);
   }
   const Incidence incidence(axis);
   for (std::uint32_t i = 0; i < axis.nodes.size(); ++i)
@@ -313,8 +360,12 @@ Result<Shape> rebuild(const MedialAxis& axis, const RebuildOptions& options,
   std::vector<Ring> rings;
   RebuildReport own;
   const bool unpacked = axis.method == "pack" && options.by == RebuildBy::outline;
-  if (options.by == RebuildBy::hulls || unpacked) {
-    auto shape = shape_of_hulls(axis, axis.resolution, options, own);
+  const bool of_pixels =
+      (axis.method == name_of(Method::ridge) || axis.method == name_of(Method::brushfire)) &&
+      axis.resolution > 0 && options.by == RebuildBy::outline && options.points == 0;
+  if (options.by == RebuildBy::hulls || unpacked || of_pixels) {
+    auto shape = of_pixels ? shape_of_hulls(spaced(axis), axis.resolution, options, own)
+                           : shape_of_hulls(axis, axis.resolution, options, own);
     if (report != nullptr) *report = own;
     return shape;
   }
