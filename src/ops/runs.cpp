@@ -22,6 +22,8 @@ constexpr std::array<double, 4> factor{0.1739274225687269, 0.3260725774312731, 0
 constexpr int probes = 16;
 /// A derivative below this times its own scale is zero: rounding of control points far below it.
 constexpr double zero_share = 1e-7;
+/// In tolerances: the direction of a piece of so little length is rounding's.
+constexpr double rounding = 64;
 
 double signed_angle(Vec2 a, Vec2 b) { return std::atan2(cross(a, b), dot(a, b)); }
 
@@ -305,7 +307,7 @@ void RunCutter::add_pieces(const Step& step) {
   const Disk &from = axis_.nodes[edge.node[0]].disk, &to = axis_.nodes[edge.node[1]].disk;
   smallest_ = std::min({smallest_, from.radius, to.radius});
   const auto add = [&](Run run, double t0, double t1) {
-    if (!(run.length > 0)) return;
+    if (!(run.length > rounding * axis_.tolerance)) return;
     run.from = {step.edge, t0};
     run.to = {step.edge, t1};
     runs_.push_back(step.forward ? run : reversed(run));
