@@ -16,7 +16,8 @@
 namespace medial::cli {
 namespace {
 
-/// CLI11's help, with `--repair[=RULE]` and `--close[=GAP]` for flags that may carry a value.
+/// CLI11's help, with `--repair[=RULE]`, `--close[=GAP]` and `--specks[=SHARE]` for flags that may
+/// carry a value.
 class HelpFormatter : public CLI::Formatter {
  public:
   HelpFormatter() { column_width(27); }
@@ -27,7 +28,8 @@ class HelpFormatter : public CLI::Formatter {
     if (brace == std::string::npos) return name;
     const bool negative = name.find("{false}") == brace;
     name.resize(brace);
-    return negative ? name : name + (name == "--close" ? "[=GAP]" : "[=RULE]");
+    if (negative) return name;
+    return name + (name == "--close" ? "[=GAP]" : name == "--specks" ? "[=SHARE]" : "[=RULE]");
   }
 };
 

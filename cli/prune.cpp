@@ -10,6 +10,7 @@
 #include "cli/stored_axes.h"
 #include "cli/terminal.h"
 #include "medial/io/preview.h"
+#include "medial/match.h"
 #include "medial/query.h"
 
 namespace medial::cli {
@@ -82,6 +83,18 @@ void add_prune_switches(CLI::App& verb, PruneSwitches& switches) {
   }
   verb.add_flag("--tips", switches.tips,
                 "What is kept runs on to its tips, along the ways that reach farthest.")
+      ->group(group);
+  // A flag that carries a value, as --repair is one.
+  verb.add_flag(
+          fmt::format("--specks{{{}}}", speck_share), switches.speck_share,
+          fmt::format("Leave out specks before: holes and parts with a bounding box whose\n"
+                      "diagonal is below this share of the square root of the feature's area\n"
+                      "(without a value: {}). Stored axes are computed anew.",
+                      speck_share))
+      ->check(in_range(0, 1, true))
+      ->each([&switches](const std::string& share) {
+        CLI::detail::lexical_cast(share, switches.specks);
+      })
       ->group(group);
 }
 
@@ -182,7 +195,7 @@ Result<int> run_prune(const PruneVerbSwitches& switches) {
                                  preview ? io::known_preview_formats() : io::known_output_formats(),
                                  input.path, common.json);
   if (!writable) return std::move(writable).error();
-  auto axes = load_axes(input, common);
+  auto axes = load_axes(input, common, how.specks);
   if (!axes) return std::move(axes).error();
   if (preview) {
     Status written = write_previews(*axes, *options, switches);

@@ -16,9 +16,11 @@ struct PruneSwitches {
   std::string by;
   std::optional<std::uint64_t> keep;
   bool tips = false;
+  std::string speck_share;  ///< as given
+  double specks = 0;        ///< share of without_specks(); 0: they stay
 };
 
-/// A switch for every measure, --by, --keep and --tips.
+/// A switch for every measure, --by, --keep, --tips and --specks.
 void add_prune_switches(CLI::App& verb, PruneSwitches& switches);
 /// Errors: invalid_option.
 Result<PruneOptions> prune_options(const PruneSwitches& switches);

@@ -163,7 +163,7 @@ Result<int> run(const RebuildSwitches& switches, bool smooths) {
       check_output(output, format, pixels > 0 ? image_formats : io::known_shape_formats(),
                    input.path, common.json);
   if (!writable) return std::move(writable).error();
-  auto axes = load_axes(input, common);
+  auto axes = load_axes(input, common, how.specks);
   if (!axes) return std::move(axes).error();
   const Stopwatch watch;
   Json object = {{"input", input.path}};

@@ -3,11 +3,13 @@
 #include <algorithm>
 
 #include "cli/terminal.h"
+#include "medial/match.h"
 
 namespace medial::cli {
 
-Result<AxisFile> load_axes(const InputSwitches& input, const CommonSwitches& common) {
-  if (input.text.empty() && io::is_native(input.path)) {
+Result<AxisFile> load_axes(const InputSwitches& input, const CommonSwitches& common,
+                           double specks) {
+  if (specks == 0 && input.text.empty() && io::is_native(input.path)) {
     const Stopwatch reading;
     auto native = [&input] {
       const Activity shown("reading", input.path);
@@ -27,6 +29,8 @@ Result<AxisFile> load_axes(const InputSwitches& input, const CommonSwitches& com
   }
   auto shapes = load_shapes(input, common.threads);
   if (!shapes) return std::move(shapes).error();
+  if (specks > 0)
+    for (Shape& shape : shapes->shapes) shape = without_specks(shape, specks);
   print_notes(*shapes, input, common);
   return compute_axes(std::move(shapes).value(), input.path, common);
 }

@@ -5,7 +5,9 @@
 namespace medial::cli {
 
 /// The axes that a verb works on: of medial's own .json as they stand there, of shapes computed
-/// now. Errors: those of reading and computing.
-Result<AxisFile> load_axes(const InputSwitches& input, const CommonSwitches& common);
+/// now. With `specks` above 0 computed of without_specks() of the shapes, stored axes or not.
+/// Errors: those of reading and computing.
+Result<AxisFile> load_axes(const InputSwitches& input, const CommonSwitches& common,
+                           double specks = 0);
 
 }  // namespace medial::cli

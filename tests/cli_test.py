@@ -409,6 +409,26 @@ class Axis(CommandLine):
         self.refuse("invalid_option", "prune", "bumps.wkt", "--by", "size")
         self.refuse("invalid_option", "prune", "bumps.wkt", "--angle", "-1")
 
+    def test_specks_are_left_out(self):
+        """A small hole and a small part stay with prune and smooth, and go with --specks."""
+        self.write("specks.wkt", "MULTIPOLYGON(((0 0,10 0,10 6,0 6,0 0),(3 3,3.2 3,3.2 3.2,3 3),"
+                                 "(6 2,8 2,8 4,6 4,6 2)),((12 3,12.2 3,12.2 3.2,12 3)))")
+
+        def rings_of(verb, *switches):
+            self.succeed(verb, "specks.wkt", "-o", "rest.json", *switches)
+            told = json.loads(self.succeed("info", "rest.json", "--json").stdout)
+            return told["shape"]["components"], told["shape"]["holes"]
+
+        for verb in ("prune", "smooth"):
+            self.assertEqual(rings_of(verb), (2, 2))
+            self.assertEqual(rings_of(verb, "--specks"), (1, 1))
+            self.assertEqual(rings_of(verb, "--specks=0.01"), (2, 2))
+            self.assertEqual(rings_of(verb, "--specks=0.5"), (1, 0))
+        self.succeed("axis", "specks.wkt", "-o", "stored.json")
+        self.succeed("prune", "stored.json", "--specks", "-o", "rest.json")
+        self.assertEqual(json.loads(self.succeed("info", "rest.json", "--json").stdout)["shape"]["holes"], 1)
+        self.refuse("invalid_option", "prune", "specks.wkt", "--specks=2")
+
     def test_curve_axis(self):
         """One smooth curve is followed; corners are refused, and fitted on request."""
         self.write("ellipse.svg", '<svg xmlns="http://www.w3.org/2000/svg">'

@@ -17,6 +17,7 @@
 #include <iterator>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <random>
 #include <sstream>
 #include <tuple>
@@ -349,6 +350,67 @@ TEST_F(Io, EveryGisFormatIsReadBackByGdal) {
       ASSERT_EQ(layers[1].rows.size(), 8U);
       EXPECT_EQ(layers[1].rows[4].at("kind"), "branching");
       EXPECT_EQ(std::stod(layers[1].rows[4].at("r")), 1);
+    }
+  }
+}
+
+TEST_F(Io, SpatialIndexesAreWholeAndFindWhatIsThere) {
+  // A node of the index holds 51 features: one node, two levels, three levels.
+  for (const int corners : {8, 100, 4000}) {
+    SCOPED_TRACE(corners);
+    Ring star;
+    for (int i = 0; i < corners; ++i) {
+      const double angle = 2 * std::numbers::pi * i / corners, radius = i % 2 == 0 ? 1 : 0.9;
+      star.points.push_back({-radius * std::cos(angle), radius * std::sin(angle)});
+    }
+    NativeFile file;
+    NativeItem& item = file.items.emplace_back();
+    item.shape = build_shape(std::vector<Ring>{star}).value();
+    item.axis = compute(item.shape).value();
+    const std::string name = path("index.gpkg");
+    const Status status = write_axes(name, "", file);
+    ASSERT_TRUE(status.ok()) << to_string(status.error());
+    const GDALDatasetUniquePtr data(
+        GDALDataset::Open(name.c_str(), GDAL_OF_VECTOR | GDAL_OF_UPDATE));
+    ASSERT_TRUE(data);
+    const auto answer = [&data](const std::string& query) {
+      OGRLayer* rows = data->ExecuteSQL(query.c_str(), nullptr, nullptr);
+      const OGRFeatureUniquePtr row(rows == nullptr ? nullptr : rows->GetNextFeature());
+      std::string text = row ? row->GetFieldAsString(0) : "";
+      data->ReleaseResultSet(rows);
+      return text;
+    };
+    for (const std::string layer : {"axis", "nodes"}) {
+      OGRLayer* const features = data->GetLayerByName(layer.c_str());
+      ASSERT_NE(features, nullptr);
+      EXPECT_EQ(answer("SELECT rtreecheck('rtree_" + layer + "_geom')"), "ok");
+      const auto indexed = [&] { return answer("SELECT count(*) FROM rtree_" + layer + "_geom"); };
+      EXPECT_EQ(indexed(), std::to_string(features->GetFeatureCount()));
+      // What a window holds is the same by the index and feature by feature.
+      std::size_t inside = 0, found = 0;
+      OGREnvelope window;
+      window.MinX = 0.1, window.MaxX = 1.5, window.MinY = -0.3, window.MaxY = 0.4;
+      for (const auto& feature : *features) {
+        OGREnvelope box;
+        feature->GetGeometryRef()->getEnvelope(&box);
+        if (window.Intersects(box)) ++inside;
+      }
+      features->SetSpatialFilterRect(window.MinX, window.MinY, window.MaxX, window.MaxY);
+      for (const auto& feature : *features) found += feature->GetFID() > 0 ? 1 : 0;
+      features->SetSpatialFilter(nullptr);
+      EXPECT_GT(found, 0U);
+      EXPECT_LE(found, inside);
+      const std::string ids = answer("SELECT count(*) FROM rtree_" + layer +
+                                     "_geom WHERE maxx>=0.1 AND minx<=1.5 AND maxy>=-0.3 AND "
+                                     "miny<=0.4");
+      EXPECT_EQ(ids, std::to_string(inside));
+      // Later changes reach the index.
+      EXPECT_EQ(features->DeleteFeature(1), OGRERR_NONE);
+      OGRFeature added(features->GetLayerDefn());
+      if (layer == "nodes") added.SetGeometryDirectly(new OGRPoint(0.5, 0.5));
+      EXPECT_EQ(features->CreateFeature(&added), OGRERR_NONE);
+      EXPECT_EQ(indexed(), std::to_string(features->GetFeatureCount() - (layer == "axis" ? 1 : 0)));
+      EXPECT_EQ(answer("SELECT rtreecheck('rtree_" + layer + "_geom')"), "ok");
     }
   }
 }

@@ -29,10 +29,12 @@ struct ShapeSignature {
   double elongation = 0;  ///< logarithm of the quotient of the axes of inertia
 };
 
-/// The shape without its specks: holes and components that are small against it (a bounding box
-/// with a diagonal below a tenth of the square root of the area). For however small they are, the
-/// axis goes around holes.
-Shape without_specks(const Shape& shape);
+/// What a speck's bounding box may have for a diagonal, as a share of the square root of the area.
+constexpr double speck_share = 0.1;
+
+/// The shape without its specks: holes and components that are small against it. For however small
+/// they are, the axis goes around holes. Where nothing else is there, components stay. O(n).
+Shape without_specks(const Shape& shape, double share = speck_share);
 
 /// O(edges log(edges)). `features` are the axis's own. Take the axis of without_specks().
 ShapeSignature signature_of(const MedialAxis& axis, const AxisFeatures& features);

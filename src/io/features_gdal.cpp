@@ -2,11 +2,13 @@
 #include <ogrsf_frmts.h>
 
 #include <memory>
+#include <optional>
 
 #include "io/features_writer.h"
 #include "io/gdal_columns.h"
 #include "io/gdal_support.h"
 #include "io/gdal_target.h"
+#include "io/gpkg_index.h"
 #include "io/table_writer.h"
 
 namespace medial::io {
@@ -49,28 +51,33 @@ class FeaturesGdalWriter {
   Status write_layer(GDALDataset& target, FeatureTable table, const std::string& name,
                      const GdalMessages& messages) {
     const bool points = table == FeatureTable::points;
-    OGRLayer* layer = target.CreateLayer(name.c_str(), crs_.reference(),
-                                         points ? wkbPoint : wkbLineString, nullptr);
+    const bool indexed = has_gpkg_index(target);
+    OGRLayer* layer =
+        target.CreateLayer(name.c_str(), crs_.reference(), points ? wkbPoint : wkbLineString,
+                           indexed ? without_index() : nullptr);
     if (layer == nullptr) return cannot_write(messages);
     for (const TableColumn& column : columns_of(table)) {
       OGRFieldDefn field(column.name, type_of(column.type));
       if (layer->CreateField(&field) != OGRERR_NONE) return cannot_write(messages);
     }
     if (!attributes_.create_in(*layer)) return cannot_write(messages);
+    std::optional<GpkgIndex> index;
+    if (indexed) index.emplace(target, *layer);
     for (std::size_t i = 0; i < features_.size(); ++i) {
       const NativeItem& item = axes_.items[i];
       for (TableRow& row :
            rows_of(table, i, item.axis, features_[i], chord_of(item, options_.write))) {
-        if (Status status = write_row(*layer, row, item.attributes, points, messages); !status)
+        if (Status status = write_row(*layer, row, item.attributes, points, index, messages);
+            !status)
           return status;
       }
     }
-    return success();
+    return index ? index->write(messages) : success();
   }
 
  private:
   Status write_row(OGRLayer& layer, TableRow& row, const Attributes& attributes, bool point,
-                   const GdalMessages& messages) {
+                   std::optional<GpkgIndex>& index, const GdalMessages& messages) {
     if (Status status = crs_.transform(row.points); !status) return status;
     OGRFeature feature(layer.GetLayerDefn());
     for (int k = 0; k < static_cast<int>(row.values.size()); ++k) {
@@ -94,6 +101,7 @@ class FeaturesGdalWriter {
       feature.SetGeometryDirectly(line.release());
     }
     if (layer.CreateFeature(&feature) != OGRERR_NONE) return cannot_write(messages);
+    if (index) index->add(feature.GetFID(), row.points);
     return success();
   }
 

@@ -8,10 +8,12 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "io/gdal_columns.h"
 #include "io/gdal_support.h"
 #include "io/gdal_target.h"
+#include "io/gpkg_index.h"
 #include "io/table_writer.h"
 #include "medial/centreline.h"
 #include "medial/query.h"
@@ -58,6 +60,7 @@ class GdalWriter {
     for (std::size_t i = 0; i < file_.items.size(); ++i) {
       if (Status status = write_branches(*lines, i, messages); !status) return status;
     }
+    if (Status status = write_index(messages); !status) return status;
     if (format == "gpkg") {
       OGRLayer* nodes = create_layer(
           target, "nodes", wkbPoint,
@@ -66,20 +69,29 @@ class GdalWriter {
       for (std::size_t i = 0; i < file_.items.size(); ++i) {
         if (Status status = write_nodes(*nodes, i, messages); !status) return status;
       }
+      if (Status status = write_index(messages); !status) return status;
     }
     return success();
   }
 
  private:
+  Status write_index(const GdalMessages& messages) {
+    return index_ ? index_->write(messages) : success();
+  }
+
   OGRLayer* create_layer(GDALDataset& target, const char* name, OGRwkbGeometryType type,
                          std::initializer_list<std::pair<const char*, OGRFieldType>> fields) {
-    OGRLayer* layer = target.CreateLayer(name, crs_.reference(), type, nullptr);
+    OGRLayer* layer = target.CreateLayer(name, crs_.reference(), type,
+                                         has_gpkg_index(target) ? without_index() : nullptr);
     if (layer == nullptr) return nullptr;
     for (const auto& [field, field_type] : fields) {
       OGRFieldDefn definition(field, field_type);
       if (layer->CreateField(&definition) != OGRERR_NONE) return nullptr;
     }
-    return columns_.create_in(*layer) ? layer : nullptr;
+    if (!columns_.create_in(*layer)) return nullptr;
+    index_.reset();
+    if (has_gpkg_index(target)) index_.emplace(target, *layer);
+    return layer;
   }
 
   Status write_branches(OGRLayer& layer, std::size_t index, const GdalMessages& messages) {
@@ -121,6 +133,7 @@ class GdalWriter {
       columns_.set(feature, 9, item.attributes);
       feature.SetGeometryDirectly(line.release());
       if (layer.CreateFeature(&feature) != OGRERR_NONE) return cannot_write(messages);
+      if (index_) index_->add(feature.GetFID(), points);
     }
     return success();
   }
@@ -141,6 +154,7 @@ class GdalWriter {
       columns_.set(feature, 4, item.attributes);
       feature.SetGeometryDirectly(new OGRPoint(points[i].x, points[i].y));
       if (layer.CreateFeature(&feature) != OGRERR_NONE) return cannot_write(messages);
+      if (index_) index_->add(feature.GetFID(), {points[i]});
     }
     return success();
   }
@@ -149,6 +163,7 @@ class GdalWriter {
   const WriteOptions& options_;
   const OutputCrs& crs_;
   AttributeColumns columns_;
+  std::optional<GpkgIndex> index_;  ///< of the layer being written
 };
 
 }  // namespace

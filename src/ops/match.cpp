@@ -202,8 +202,7 @@ double extent_of(const Shape& shape, std::size_t loop) {
 
 }  // namespace
 
-Shape without_specks(const Shape& shape) {
-  constexpr double share = 0.1;
+Shape without_specks(const Shape& shape, double share) {
   const double least = share * std::sqrt(std::max(area(shape), 0.0));
   std::vector<bool> kept(shape.component_count(), false);
   for (std::size_t i = 0; i < shape.loop_count(); ++i)
