@@ -21,8 +21,8 @@ bool has_gpkg_index(GDALDataset& target);
 char** without_index();
 
 /// The spatial index of a layer of a GeoPackage (extension gpkg_rtree_index), filled all at once
-/// behind the features: SQLite's R*-tree takes features one by one at seven microseconds each,
-/// sorted ones are packed in a tenth of that. The packing is that of Leutenegger, Lopez and
+/// behind the features: one by one, as SQLite's R*-tree takes them, the index is most of the time
+/// of writing. The packing is that of Leutenegger, Lopez and
 /// Edgington, "STR: a simple and efficient algorithm for R-tree packing" (1997); the nodes are as
 /// "The SQLite R*Tree module", section "Shadow tables", has them.
 class GpkgIndex {
