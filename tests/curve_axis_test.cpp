@@ -267,6 +267,44 @@ TEST(CurveAxis, RefusesWhatItCannotFollow) {
   EXPECT_EQ(code({ellipse(2, 1)}, cancelled), ErrorCode::cancelled);
 }
 
+/// A closed spline of 59 corners, beside which a branch takes a wrong turn.
+Contour shaky_star() {
+  test::Random random(1122);
+  const auto n = static_cast<std::size_t>(random.integer(3, 60));
+  std::vector<Vec2> corners;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double angle = 2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(n);
+    const double radius = 1 + 0.4 * std::sin(3 * angle) + random.between(-0.03, 0.03);
+    corners.push_back({radius * std::cos(angle), radius * std::sin(angle)});
+  }
+  return *fit_smooth_contour(corners, 10);
+}
+
+TEST(CurveAxis, IsNoAxisWhoseDisksTheBoundaryReachesInto) {
+  const Contour contour = shaky_star();
+  // At some steps, not at all.
+  std::size_t refused = 0;
+  for (const double step : {1e-3, 2e-3, 5e-3, 1e-2, 2e-2, 5e-2}) {
+    const auto result = compute_curve_axis({&contour, 1}, {.step = step});
+    if (!result) {
+      ++refused;
+      EXPECT_EQ(result.error().code, ErrorCode::unsupported) << step << to_string(result.error());
+      EXPECT_TRUE(result.error().place.point.has_value());
+      continue;
+    }
+    const auto rings = approximate_by_arcs({&contour, 1}, {.tolerance = 1e-9});
+    const auto shape = build_shape(*rings);
+    ASSERT_TRUE(shape.ok());
+    const auto exact = compute(*shape);
+    ASSERT_TRUE(exact.ok());
+    const AxisLocator locator(*exact);
+    const double size = diagonal(bounding_box(*shape));
+    for (const Node& node : result->axis.nodes)
+      EXPECT_LE(locator.nearest(node.disk.center).distance, 1e-5 * size) << step;
+  }
+  EXPECT_GT(refused, 0U);
+}
+
 TEST(CurveAxis, SmoothFitsStayWithinTheirTolerance) {
   const Ring polygon = test::comb(5)[0];
   for (const double tolerance : {1.0, 0.1, 0.01}) {

@@ -63,8 +63,9 @@ struct CurveAxis {
 /// one curvature. Time grows with the number of points, and with the square of the number of
 /// maxima of curvature. Errors: not_finite, invalid_option, cancelled, too_large (20,000 pieces,
 /// 2^21 points, some seconds of work), unsupported (not smooth: the place
-/// is named; more than one contour; no maximum of curvature, as for a circle), crossing and what
-/// else build_shape() refuses, internal (boundary is left that no branch reaches).
+/// is named; more than one contour; no maximum of curvature, as for a circle; a disk that the
+/// boundary reaches into by more than 1e-5 of the size, or boundary that no branch reaches: the
+/// method has gone astray), crossing and what else build_shape() refuses.
 Result<CurveAxis> compute_curve_axis(std::span<const Contour> contours,
                                      const CurveAxisOptions& options = {});
 

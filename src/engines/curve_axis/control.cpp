@@ -76,8 +76,9 @@ Status Control::run() {
                  {}};
   Place place;
   if (any_ >= 0) place.point = last(any_).right.point;
-  return Error{ErrorCode::internal,
-               "no branch reaches a part of the boundary: please report this shape", place};
+  return Error{ErrorCode::unsupported,
+               "the curve axis reaches no end here: use a smaller step, or the method disks",
+               place};
 }
 
 std::vector<int> Control::in_use() const {

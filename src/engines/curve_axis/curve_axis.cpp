@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/box_tree.h"
 #include "base/in_flight.h"
 #include "engines/curve_axis/control.h"
 #include "medial/shape.h"
@@ -313,6 +314,39 @@ std::optional<Error> refuse(std::span<const Contour> contours, const CurveAxisOp
   return std::nullopt;
 }
 
+/// A branch that took a wrong turn, or one that is missing, leaves disks that the boundary reaches
+/// into. Success if no point of the boundary, at distances of `spacing` of the size, lies deeper
+/// inside of a node's disk than `slack` of the size; the farthest of generation and graph from the
+/// axis is far less. O((n + points) log n) but for points near a disk's box and not in the disk.
+Status check_disks(const SmoothBoundary& boundary, const MedialAxis& axis) {
+  constexpr double spacing = 1e-3, slack = 1e-5;
+  std::vector<Vec2> points;
+  std::vector<Box> boxes;
+  for (double u = 0, next = 0; u < boundary.period(); u = next) {
+    points.push_back(boundary.at(u).point);
+    boxes.push_back({points.back(), points.back()});
+    next = boundary.advanced(u, spacing * boundary.size());
+    if (!(next > u)) break;
+  }
+  const BoxTree tree(boxes);
+  for (const Node& node : axis.nodes) {
+    const Vec2 center = node.disk.center;
+    const double reach = node.disk.radius - slack * boundary.size();
+    if (!(reach > 0)) continue;
+    bool reached = false;
+    tree.find({center - Vec2{reach, reach}, center + Vec2{reach, reach}},
+              [&](std::uint32_t i) { reached = reached || distance(points[i], center) < reach; });
+    if (!reached) continue;
+    Error error{ErrorCode::unsupported,
+                "the curve axis has gone astray here, where the boundary reaches into a disk: use "
+                "the method disks",
+                {}};
+    error.place.point = center;
+    return error;
+  }
+  return success();
+}
+
 }  // namespace
 }  // namespace curve_axis
 
@@ -325,7 +359,9 @@ Result<CurveAxis> compute_curve_axis(std::span<const Contour> contours,
     const double step = options.step * boundary.size();
     Control control(boundary, options, step);
     if (Status done = control.run(); !done) return std::move(done).error();
-    return Assembly(boundary, control, step).take();
+    CurveAxis result = Assembly(boundary, control, step).take();
+    if (Status right = check_disks(boundary, result.axis); !right) return std::move(right).error();
+    return result;
   } catch (...) {
     return error_in_flight();
   }
