@@ -73,9 +73,9 @@ AxisPoint Generator::at_maximum(double u) const {
 /// (13) is 0 / 0 in a tip. Where the curvature falls by a l on the left and by b r on the right,
 /// the circle tangent at both feet has, to leading order, a x^3 + 3 a x^2 - 3 b x - b = 0 with x =
 /// l / r (docs/curve-axis.md): one positive root, 1 where both sides are alike.
-std::optional<AxisPoint> Generator::first_after(const AxisPoint& tip, double largest_turn) const {
+std::optional<AxisPoint> Generator::first_after(const AxisPoint& tip, double turn_at_most) const {
   const double u = tip.left.u, peak = tip.left.curvature;
-  for (double turn = largest_turn; turn > first_turn / 1024; turn /= 2) {
+  for (double turn = turn_at_most; turn > first_turn / 1024; turn /= 2) {
     const double way = turn / peak;
     const double a = peak - boundary_.at(boundary_.advanced(u, -way)).curvature;
     const double b = peak - boundary_.at(boundary_.advanced(u, way)).curvature;

@@ -42,9 +42,9 @@ class Generator {
   };
   std::optional<Junction> junction(double left, double middle, double right) const;
 
-  /// The first point after a maximum, as near to it as `largest_turn` says: half of the angle
+  /// The first point after a maximum, as near to it as `turn_at_most` says: half of the angle
   /// between its normals, in radians.
-  std::optional<AxisPoint> first_after(const AxisPoint& tip, double largest_turn) const;
+  std::optional<AxisPoint> first_after(const AxisPoint& tip, double turn_at_most) const;
 
   /// The point of a valid pair.
   AxisPoint point_of(const BoundaryPoint& left, const BoundaryPoint& right) const;
