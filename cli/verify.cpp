@@ -139,7 +139,7 @@ std::string verdict_table(const Certificate& c, std::size_t features) {
   return text;
 }
 
-Json to_json(const VoronoiCertificate& c) {
+Json json_of(const VoronoiCertificate& c) {
   return {{"passed", c.passed},
           {"failures", c.failures},
           {"tolerance", c.tolerance},
@@ -203,7 +203,7 @@ Result<int> verify_voronoi(const VerifySwitches& switches) {
   if (common.json) {
     Json object = {{"input", input.path}, {"voronoi", switches.axis_path}};
     if (common.stats) object.update(costs);
-    object.update(to_json(certificate));
+    object.update(json_of(certificate));
     printed = print(object);
   } else if (!common.quiet) {
     printed = print(verdict_table(certificate));

@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "io/text_source.h"
 #include "medial/axis.h"
@@ -46,6 +47,17 @@ inline double number(json::value value) {
 
 inline std::string text_of(json::value value) {
   return std::string(std::string_view(value.get_string()));
+}
+
+/// Appends the pairs of texts of an array; `otherwise` is told of what is none.
+inline void read_attributes(json::value value, const char* otherwise,
+                            std::vector<std::pair<std::string, std::string>>& attributes) {
+  for (json::value element : value.get_array()) {
+    std::vector<std::string> words;
+    for (json::value word : element.get_array()) words.push_back(text_of(word));
+    demand(words.size() == 2, otherwise);
+    attributes.emplace_back(std::move(words[0]), std::move(words[1]));
+  }
 }
 
 /// Walks along a row of numbers.

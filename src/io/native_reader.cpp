@@ -289,13 +289,7 @@ NativeItem read_item(json::value value) {
     const std::string_view key = field.unescaped_key();
     json::value content = field.value();
     if (key == "attributes") {
-      for_each(content, [&item](json::value element) {
-        json::array pair = element.get_array();
-        std::vector<std::string> words;
-        for (json::value word : pair) words.push_back(text_of(word));
-        demand(words.size() == 2, "an attribute is no pair of texts");
-        item.attributes.emplace_back(std::move(words[0]), std::move(words[1]));
-      });
+      read_attributes(content, "an attribute is no pair of texts", item.attributes);
     } else if (key == "shape") {
       read_shape(content, item.shape);
     } else if (key == "contours") {

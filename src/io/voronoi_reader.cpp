@@ -79,12 +79,7 @@ VoronoiItem read_item(json::value value) {
       diagram.frame = Box{low, row.point()};
       row.end();
     } else if (key == "attributes") {
-      for_each(content, [&](json::value pair) {
-        std::vector<std::string> texts;
-        for_each(pair, [&](json::value one) { texts.push_back(text_of(one)); });
-        demand(texts.size() == 2, "an attribute is a name and a value");
-        item.attributes.emplace_back(std::move(texts[0]), std::move(texts[1]));
-      });
+      read_attributes(content, "an attribute is a name and a value", item.attributes);
     } else if (key == "sites") {
       for_each(content, [&](json::value one) { diagram.sites.push_back(read_site(Row(one))); });
     } else if (key == "nodes") {

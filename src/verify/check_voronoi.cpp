@@ -1,11 +1,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <exception>
 #include <numeric>
 #include <utility>
 
-#include "base/threads.h"
 #include "medial/query.h"
 #include "verify/checks.h"
 #include "verify/distance_tree.h"
@@ -290,14 +288,9 @@ class VoronoiCheck {
 VoronoiCertificate verify(const Soup& soup, const VoronoiDiagram& diagram,
                           const VerifyOptions& options) {
   VoronoiCertificate certificate;
-  try {
-    on_threads(options.threads,
-               [&] { verify_detail::VoronoiCheck(soup, diagram, options, certificate).run(); });
-  } catch (const std::exception& failure) {
-    certificate.failures.push_back(
-        verify_detail::sentence("The check could not be finished: %s.", failure.what()));
-  }
-  certificate.passed = certificate.failures.empty();
+  verify_detail::certify(options.threads, certificate, [&] {
+    verify_detail::VoronoiCheck(soup, diagram, options, certificate).run();
+  });
   return certificate;
 }
 

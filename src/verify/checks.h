@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <exception>
 #include <limits>
 #include <string>
 #include <vector>
 
+#include "base/threads.h"
 #include "geometry/joint.h"
 #include "medial/axis.h"
 #include "medial/shape.h"
@@ -68,6 +70,18 @@ inline double spacing_in(const Box& box) {
   return std::numeric_limits<double>::epsilon() *
          std::max({std::abs(box.low.x), std::abs(box.low.y), std::abs(box.high.x),
                    std::abs(box.high.y)});
+}
+
+/// Runs a check on so many threads; what it throws is a failure, and none at all a pass.
+template <class OneCertificate, class Run>
+void certify(int threads, OneCertificate& certificate, const Run& run) {
+  try {
+    on_threads(threads, run);
+  } catch (const std::exception& failure) {
+    certificate.failures.push_back(
+        sentence("The check could not be finished: %s.", failure.what()));
+  }
+  certificate.passed = certificate.failures.empty();
 }
 
 /// Whether the shape can be worked with at all: its indices are in order, its coordinates finite.

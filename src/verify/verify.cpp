@@ -2,10 +2,8 @@
 
 #include <cstdarg>
 #include <cstdio>
-#include <exception>
 #include <numbers>
 
-#include "base/threads.h"
 #include "shape/exterior.h"
 #include "verify/checks.h"
 
@@ -79,14 +77,8 @@ void run_checks(const Shape& original, const MedialAxis& axis, const VerifyOptio
 
 Certificate verify(const Shape& shape, const MedialAxis& axis, const VerifyOptions& options) {
   Certificate certificate;
-  try {
-    on_threads(options.threads,
-               [&] { verify_detail::run_checks(shape, axis, options, certificate); });
-  } catch (const std::exception& failure) {
-    certificate.failures.push_back(
-        verify_detail::sentence("The check could not be finished: %s.", failure.what()));
-  }
-  certificate.passed = certificate.failures.empty();
+  verify_detail::certify(options.threads, certificate,
+                         [&] { verify_detail::run_checks(shape, axis, options, certificate); });
   return certificate;
 }
 
