@@ -271,7 +271,7 @@ CLI::Option* add_list_switch(CLI::App& verb, const std::string& name, std::size_
 }
 
 std::string explain(const CLI::ParseError& error, const CLI::App& verb) {
-  const std::string text = error.what();
+  std::string text = error.what();
   const std::string name = text.substr(0, text.find(':'));
   if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
     std::vector<std::string> extra = verb.remaining(true);

@@ -22,7 +22,7 @@ namespace medial::test {
 namespace {
 
 /// Dealt out to several tests, which can run side by side.
-constexpr std::uint64_t shares = 4;
+constexpr std::uint64_t arc_shares = 4;
 
 class ArcShapes : public testing::TestWithParam<std::uint64_t> {
  protected:
@@ -30,7 +30,7 @@ class ArcShapes : public testing::TestWithParam<std::uint64_t> {
                       const std::function<std::vector<std::string>(const RandomShape&)>& check) {
     const std::uint64_t base = first_seed();
     int failed = 0;
-    for (std::uint64_t i = GetParam(); i < count && failed < 3; i += shares) {
+    for (std::uint64_t i = GetParam(); i < count && failed < 3; i += arc_shares) {
       const RandomShape shape = random_arc_shape(base + i);
       const std::vector<std::string> failures = check(shape);
       if (failures.empty()) continue;
@@ -47,11 +47,11 @@ TEST_P(ArcShapes, AreVerified) {
 }
 
 TEST_P(ArcShapes, KeepTheirAxisUnderSymmetries) {
-  for_all(shape_count(50, shares), check_symmetries);
+  for_all(shape_count(50, arc_shares), check_symmetries);
 }
 
 TEST_P(ArcShapes, HaveOneAxisForAnyNumberOfThreads) {
-  for_all(shape_count(100, shares),
+  for_all(shape_count(100, arc_shares),
           [](const RandomShape& shape) { return check_threads(shape.rings); });
 }
 
@@ -126,10 +126,10 @@ std::vector<std::string> check_against_flattened(const RandomShape& random) {
 }
 
 TEST_P(ArcShapes, AgreeWithTheirFlattening) {
-  for_all(shape_count(100, shares), check_against_flattened);
+  for_all(shape_count(100, arc_shares), check_against_flattened);
 }
 
-INSTANTIATE_TEST_SUITE_P(Random, ArcShapes, testing::Range<std::uint64_t>(0, shares));
+INSTANTIATE_TEST_SUITE_P(Random, ArcShapes, testing::Range<std::uint64_t>(0, arc_shares));
 
 }  // namespace
 }  // namespace medial::test

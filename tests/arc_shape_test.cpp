@@ -21,7 +21,7 @@ using test::circle;
 using test::Rings;
 using test::stadium;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 Ring with_role(Ring ring, RingRole role) {
   ring.role = role;

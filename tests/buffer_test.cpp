@@ -19,7 +19,7 @@
 namespace medial {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 using Chains = std::vector<Chain>;
 
 std::uint64_t soup_count() {

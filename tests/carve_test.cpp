@@ -17,7 +17,7 @@
 namespace medial {
 namespace {
 
-const std::uint64_t shape_count = test::shape_count(60);
+const std::uint64_t carve_count = test::shape_count(60);
 
 using test::RandomShape;
 using test::shape_of;
@@ -156,7 +156,7 @@ TEST(Carve, ChordsOfRoundWallsDoNotGouge) {
 
 TEST(Carve, PassesInDepthTakeOffNoMoreThanAsked) {
   std::size_t several = 0;
-  for (std::uint64_t seed = 0; seed < shape_count / 8; ++seed) {
+  for (std::uint64_t seed = 0; seed < carve_count / 8; ++seed) {
     const RandomShape random =
         seed % 2 == 0 ? test::random_shape(seed) : test::random_arc_shape(seed);
     SCOPED_TRACE(random.kind + " " + std::to_string(seed));
@@ -202,7 +202,7 @@ TEST(Carve, PassesInDepthTakeOffNoMoreThanAsked) {
     }
     if (HasFailure()) return;
   }
-  EXPECT_GT(several, shape_count / 50);
+  EXPECT_GT(several, carve_count / 50);
 }
 
 TEST(Carve, OtherUnitsChangeTheScaleOnly) {
@@ -225,7 +225,7 @@ TEST(Carve, OtherUnitsChangeTheScaleOnly) {
 
 TEST(Carve, NeitherGougesNorLeavesAnything) {
   std::size_t probes = 0;
-  for (std::uint64_t seed = 0; seed < shape_count; ++seed) {
+  for (std::uint64_t seed = 0; seed < carve_count; ++seed) {
     const RandomShape random = test::random_any(seed);
     SCOPED_TRACE(random.kind + " " + std::to_string(seed));
     const Shape shape = shape_of(random.rings);
@@ -290,7 +290,7 @@ TEST(Carve, NeitherGougesNorLeavesAnything) {
     }
     if (HasFailure()) return;
   }
-  EXPECT_GT(probes, 20 * shape_count);
+  EXPECT_GT(probes, 20 * carve_count);
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ using test::random_any;
 using test::RandomShape;
 using test::Rings;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 Disk begin_of(const MedialAxis& axis, const AxisPath& path) {
   const PathPiece& piece = path.pieces.front();

@@ -6,6 +6,7 @@
 
 import csv
 import gzip
+import itertools
 import json
 import math
 import os
@@ -974,13 +975,13 @@ class Verify(CommandLine):
             self.refuse("(malformed|unsupported|unreadable)", "verify", "shapes.wkt", "cut.json")
         # Any number replaced by one far out of range must be told, never followed.
         numbers = list(re.finditer(rb"(?<=[\[,:])\d+(?=[\],}])", content))
-        for match in numbers[::max(1, len(numbers) // 40)]:
+        verbs = itertools.cycle((["verify", "shapes.wkt", "damaged.json"], ["info", "damaged.json"],
+                                 ["draw", "damaged.json", "-o", "-", "--format", "svg"],
+                                 ["axis", "damaged.json"]))
+        for match, verb in zip(numbers[::max(1, len(numbers) // 60)], verbs):
             damaged = content[:match.start()] + b"4000000000" + content[match.end():]
             self.write("damaged.json", damaged)
-            for verb in (["verify", "shapes.wkt", "damaged.json"], ["info", "damaged.json"],
-                         ["draw", "damaged.json", "-o", "-", "--format", "svg"],
-                         ["axis", "damaged.json"]):
-                self.run_medial(*verb)
+            self.run_medial(*verb)
 
 
 class Costs(CommandLine):

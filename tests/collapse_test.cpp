@@ -19,7 +19,7 @@ using test::axis_of;
 using test::RandomShape;
 using test::Rings;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 CollapsedShape collapsed(const Rings& rings, double width) {
   auto result = collapse_narrow(axis_of(rings), width);

@@ -11,10 +11,13 @@
 #include "medial/compute.h"
 #include "medial/query.h"
 #include "medial/sides.h"
+#include "support/contours.h"
 #include "support/generate.h"
 
 namespace medial {
 namespace {
+
+using test::ellipse;
 
 /// A star of random radii, as a periodic cubic spline through its corners.
 Contour smooth_star(std::uint64_t seed) {
@@ -29,12 +32,6 @@ Contour smooth_star(std::uint64_t seed) {
   auto contour = fit_smooth_contour(corners, 10);
   EXPECT_TRUE(contour.ok());
   return *contour;
-}
-
-Contour ellipse(double a, double b) {
-  Contour contour;
-  contour.ellipse_to({0, 0}, {a, 0}, {0, b}, 0, 2 * std::numbers::pi);
-  return contour;
 }
 
 std::size_t leaves(const MedialAxis& axis) {

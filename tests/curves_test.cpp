@@ -11,6 +11,7 @@
 #include "curves/biarc.h"
 #include "curves/spirals.h"
 #include "medial/medial.h"
+#include "support/contours.h"
 #include "support/curve_check.h"
 
 namespace medial {
@@ -19,12 +20,6 @@ namespace {
 using namespace curves;
 using namespace test;
 using std::numbers::pi;
-
-Contour ellipse(double a, double b, double start = 0, Vec2 center = {0, 0}) {
-  Contour contour;
-  contour.ellipse_to(center, {a, 0}, {0, b}, start, start + 2 * pi);
-  return contour;
-}
 
 Contour bezier(std::vector<Vec2> points, std::vector<double> weights = {}) {
   Contour contour;

@@ -16,7 +16,7 @@
 namespace medial {
 namespace {
 
-const std::uint64_t shape_count = test::shape_count(20);
+const std::uint64_t feature_count = test::shape_count(20);
 
 using std::numbers::pi;
 using test::axis_of;
@@ -332,7 +332,7 @@ Folded folded(const AxisFeatures& features) {
 }
 
 TEST(Features, OfRandomShapesAddUp) {
-  for (std::uint64_t seed = 0; seed < shape_count; ++seed) {
+  for (std::uint64_t seed = 0; seed < feature_count; ++seed) {
     const RandomShape random = test::random_any(seed);
     SCOPED_TRACE(random.kind + " " + std::to_string(seed));
     const auto shape = build_shape(random.rings);
@@ -367,7 +367,7 @@ TEST(Features, OfRandomShapesAddUp) {
 
 TEST(Features, KeepUnderSymmetries) {
   std::size_t checked = 0;
-  for (std::uint64_t seed = 0; seed < shape_count / 2; ++seed) {
+  for (std::uint64_t seed = 0; seed < feature_count / 2; ++seed) {
     const RandomShape random = test::random_any(seed);
     if (!random.rigid) continue;
     const AxisFeatures before = describe(axis_of(random.rings));

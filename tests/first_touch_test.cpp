@@ -17,10 +17,8 @@
 namespace medial::test {
 namespace {
 
-using geometry::Site;
-
-std::vector<Site> random_sites(Random& random, std::size_t count) {
-  std::vector<Site> sites;
+std::vector<geometry::Site> random_sites(Random& random, std::size_t count) {
+  std::vector<geometry::Site> sites;
   const auto point = [&] { return Vec2{random.between(-1, 1), random.between(-1, 1)}; };
   while (sites.size() < count) {
     const Vec2 a = point(), b = random.chance(0.2)
@@ -44,7 +42,7 @@ std::vector<Site> random_sites(Random& random, std::size_t count) {
 TEST(FirstTouch, FindsWhatLookingAtEverySiteFinds) {
   Random random(1);
   for (const std::size_t count : {1U, 7U, 8U, 33U, 500U, 5000U}) {
-    const std::vector<Site> sites = random_sites(random, count);
+    const std::vector<geometry::Site> sites = random_sites(random, count);
     std::vector<std::uint32_t> groups;
     for (std::size_t i = 0; i < count; ++i)
       groups.push_back(static_cast<std::uint32_t>(random.integer(0, 2)));

@@ -113,7 +113,7 @@ std::string check_axis_of(const Shape& shape, bool as_graph) {
   return off > 1e-8 * size ? "another set of points" : "";
 }
 
-constexpr std::uint64_t shares = 8;
+constexpr std::uint64_t lee_shares = 8;
 
 class Lee : public testing::TestWithParam<std::uint64_t> {
  protected:
@@ -122,10 +122,10 @@ class Lee : public testing::TestWithParam<std::uint64_t> {
   static void for_polygons(double share_of_all, const Check& check) {
     const auto all = static_cast<double>(shape_count(1));
     const std::uint64_t base = first_seed();
-    const auto wanted = static_cast<std::uint64_t>(share_of_all * all / shares) + 1;
+    const auto wanted = static_cast<std::uint64_t>(share_of_all * all / lee_shares) + 1;
     std::uint64_t checked = 0;
     int failed = 0;
-    for (std::uint64_t i = GetParam(); checked < wanted && failed < 3; i += shares) {
+    for (std::uint64_t i = GetParam(); checked < wanted && failed < 3; i += lee_shares) {
       const RandomShape random = random_shape(base + i);
       const auto shape = build_shape(random.rings);
       if (!shape || shape->hole_count() > 0) continue;
@@ -154,7 +154,7 @@ TEST_P(Lee, HasTheAxisOfDisks) {
   });
 }
 
-INSTANTIATE_TEST_SUITE_P(Random, Lee, testing::Range<std::uint64_t>(0, shares));
+INSTANTIATE_TEST_SUITE_P(Random, Lee, testing::Range<std::uint64_t>(0, lee_shares));
 
 Shape built(const Rings& rings) { return build_shape(rings).value(); }
 

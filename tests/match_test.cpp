@@ -10,7 +10,7 @@
 namespace medial {
 namespace {
 
-const std::uint64_t shape_count = test::shape_count(100);
+const std::uint64_t match_count = test::shape_count(100);
 
 using test::RandomShape;
 using test::Rings;
@@ -25,7 +25,7 @@ ShapeSignature sign(const Rings& rings) {
 
 TEST(Match, ImagesOfAShapeAreTheSame) {
   std::size_t checked = 0;
-  for (std::uint64_t seed = 0; seed < shape_count; ++seed) {
+  for (std::uint64_t seed = 0; seed < match_count; ++seed) {
     const RandomShape random = test::random_any(seed);
     if (!random.rigid) continue;  // contacts and needles are others once coordinates are rounded
     const ShapeSignature one = sign(random.rings);

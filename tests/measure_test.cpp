@@ -22,7 +22,7 @@ using test::random_any;
 using test::RandomShape;
 using test::Rings;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Two chambers of 4 x 4 with a neck between them, 2 long and `width` wide.
 Rings bottle(double width) {

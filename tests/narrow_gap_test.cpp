@@ -80,14 +80,17 @@ void add_shrunk(const Polygon& polygon, double width, Rings& rings) {
   if (inner.size() >= 3) rings.push_back(ring_of(inner));
 }
 
-Polygon square(double half) { return {{-half, -half}, {half, -half}, {half, half}, {-half, half}}; }
+Polygon centred_square(double half) {
+  return {{-half, -half}, {half, -half}, {half, half}, {-half, half}};
+}
 
 /// Holes that would fill a square but for the gaps between them.
 Rings slots(Random& random, Gaps& gaps) {
   constexpr double half = 0.3;
   std::vector<Polygon> parts;
-  cut_up(random, square(half), static_cast<int>(random.integer(1, 5)), parts);
-  Rings rings{ring_of(square(half + (random.chance(0.5) ? gaps.next() : random.between(0, 0.3))))};
+  cut_up(random, centred_square(half), static_cast<int>(random.integer(1, 5)), parts);
+  Rings rings{
+      ring_of(centred_square(half + (random.chance(0.5) ? gaps.next() : random.between(0, 0.3))))};
   for (const Polygon& part : parts)
     if (random.chance(0.9)) add_shrunk(part, 0.5 * gaps.next(), rings);
   return rings;
@@ -96,7 +99,7 @@ Rings slots(Random& random, Gaps& gaps) {
 /// Rectangular holes in rows and columns.
 Rings rows_and_columns(Random& random, Gaps& gaps) {
   constexpr double half = 0.3;
-  Rings rings{ring_of(square(0.5))};
+  Rings rings{ring_of(centred_square(0.5))};
   std::vector<double> xs{-half, half}, ys{-half, half};
   for (std::int64_t k = random.integer(1, 4); k > 0; --k) {
     xs.push_back(random.between(-half, half));
@@ -114,7 +117,7 @@ Rings rows_and_columns(Random& random, Gaps& gaps) {
 
 /// Wedges around one point.
 Rings fan(Random& random, Gaps& gaps) {
-  Rings rings{ring_of(square(0.5))};
+  Rings rings{ring_of(centred_square(0.5))};
   const auto count = random.integer(3, 12);
   for (std::int64_t i = 0; i < count; ++i) {
     const double step = 2 * std::numbers::pi / static_cast<double>(count);
@@ -155,7 +158,7 @@ Rings slits(Random& random, Gaps& gaps) {
 
 /// Strips on top of each other, some with slanting sides.
 Rings strips(Random& random, Gaps& gaps) {
-  Rings rings{ring_of(square(0.5))};
+  Rings rings{ring_of(centred_square(0.5))};
   double y = -0.4;
   for (std::int64_t k = random.integer(1, 7); k > 0 && y < 0.3; --k) {
     const double thick = random.chance(0.5) ? random.between(0.01, 0.1) : gaps.next();
@@ -215,7 +218,7 @@ Rings narrow_shape(std::uint64_t seed) {
   return rings;
 }
 
-constexpr std::uint64_t shares = 4;
+constexpr std::uint64_t gap_shares = 4;
 
 class NarrowGaps : public testing::TestWithParam<std::uint64_t> {};
 
@@ -223,7 +226,7 @@ TEST_P(NarrowGaps, AreVerified) {
   const char* text = std::getenv("MEDIAL_PROPERTY_COUNT");
   const std::uint64_t count = text && *text ? std::strtoull(text, nullptr, 10) / 2 : 10000;
   std::uint64_t valid = 0, unsupported = 0;
-  for (std::uint64_t seed = GetParam(); seed < count; seed += shares) {
+  for (std::uint64_t seed = GetParam(); seed < count; seed += gap_shares) {
     const Rings rings = narrow_shape(seed);
     const std::vector<std::string> failures = check_axis(rings);
     // Gaps so narrow that rounding has closed them.
@@ -236,11 +239,11 @@ TEST_P(NarrowGaps, AreVerified) {
     }
     EXPECT_EQ(failures, std::vector<std::string>{}) << "seed " << seed << ":\n" << to_wkt(rings);
   }
-  EXPECT_GT(2 * valid, count / shares);
+  EXPECT_GT(2 * valid, count / gap_shares);
   EXPECT_LE(unsupported, 1 + valid / 1000);
 }
 
-INSTANTIATE_TEST_SUITE_P(Random, NarrowGaps, testing::Range<std::uint64_t>(0, shares));
+INSTANTIATE_TEST_SUITE_P(Random, NarrowGaps, testing::Range<std::uint64_t>(0, gap_shares));
 
 }  // namespace
 }  // namespace medial::test

@@ -18,11 +18,11 @@
 namespace medial {
 namespace {
 
-const std::uint64_t shape_count = test::shape_count(33);
+const std::uint64_t offset_count = test::shape_count(33);
 
+using std::numbers::pi;
 using test::RandomShape;
 using test::shape_of;
-constexpr double pi = std::numbers::pi;
 
 Offsets offsets_of(const test::Rings& rings, std::vector<double> clearances) {
   auto offsets = offset_curves(shape_of(rings), clearances);
@@ -193,7 +193,7 @@ std::vector<double> interesting(const MedialAxis& axis, double size, test::Rando
 
 TEST(Offset, EveryPointHasItsDistance) {
   std::size_t points = 0, regions = 0;
-  for (std::uint64_t seed = 0; seed < shape_count; ++seed) {
+  for (std::uint64_t seed = 0; seed < offset_count; ++seed) {
     const RandomShape random = test::random_any(seed);
     SCOPED_TRACE(random.kind + " " + std::to_string(seed));
     const Shape shape = shape_of(random.rings);
@@ -211,8 +211,8 @@ TEST(Offset, EveryPointHasItsDistance) {
     regions += offsets->regions.size();
     if (HasFailure()) return;
   }
-  EXPECT_GT(points, 20 * shape_count);
-  EXPECT_GT(regions, shape_count);
+  EXPECT_GT(points, 20 * offset_count);
+  EXPECT_GT(regions, offset_count);
 }
 
 /// Sorted clearances, ring counts, areas and lengths of all regions.
@@ -243,7 +243,7 @@ Measures measures_of(const Offsets& offsets, double scale) {
 TEST(Offset, MovesWithTheShape) {
   // Rotation, scale, another start, the other direction: the same but for rounding.
   std::size_t compared = 0;
-  for (std::uint64_t seed = 0; seed < shape_count / 5; ++seed) {
+  for (std::uint64_t seed = 0; seed < offset_count / 5; ++seed) {
     const RandomShape random = test::random_any(seed);
     SCOPED_TRACE(random.kind + " " + std::to_string(seed));
     const Shape shape = shape_of(random.rings);
@@ -292,12 +292,12 @@ TEST(Offset, MovesWithTheShape) {
     ++compared;
     if (HasFailure()) return;
   }
-  EXPECT_GT(compared, shape_count / 12);
+  EXPECT_GT(compared, offset_count / 12);
 }
 
 TEST(Offset, CountsRingsAsPixelsDo) {
   std::size_t compared = 0;
-  for (std::uint64_t seed = 0; seed < std::min<std::uint64_t>(shape_count / 10, 60); ++seed) {
+  for (std::uint64_t seed = 0; seed < std::min<std::uint64_t>(offset_count / 10, 60); ++seed) {
     const RandomShape random = test::random_any(seed);
     SCOPED_TRACE(random.kind + " " + std::to_string(seed));
     const Shape shape = shape_of(random.rings);
@@ -320,7 +320,7 @@ TEST(Offset, CountsRingsAsPixelsDo) {
       ++compared;
     }
   }
-  EXPECT_GT(compared, std::min<std::uint64_t>(shape_count / 20, 30));
+  EXPECT_GT(compared, std::min<std::uint64_t>(offset_count / 20, 30));
 }
 
 }  // namespace

@@ -15,7 +15,7 @@
 namespace medial {
 namespace {
 
-const std::uint64_t shape_count = test::shape_count(100);
+const std::uint64_t pack_count = test::shape_count(100);
 
 using test::Random;
 using test::RandomShape;
@@ -69,7 +69,7 @@ std::vector<Vec2> boundary_points(const MedialAxis& axis) {
 
 TEST(Pack, ComesBackWithinTheBound) {
   std::uint64_t checked = 0;
-  for (std::uint64_t seed = 0; seed < shape_count; ++seed) {
+  for (std::uint64_t seed = 0; seed < pack_count; ++seed) {
     const RandomShape random = test::random_any(seed);
     SCOPED_TRACE(random.kind + " " + std::to_string(seed));
     const auto shape = build_shape(random.rings);
@@ -115,7 +115,7 @@ TEST(Pack, ComesBackWithinTheBound) {
     ++checked;
     if (testing::Test::HasFailure()) return;
   }
-  EXPECT_GT(checked, shape_count / 2);
+  EXPECT_GT(checked, pack_count / 2);
 }
 
 TEST(Pack, OfARectangleIsSixDisks) {
@@ -155,7 +155,7 @@ TEST(Pack, DamagedCodesAreRefused) {
   const std::array<MedialAxis, 1> axes{*axis};
   const auto code = encode_axes(axes, {1e-3 * diagonal(bounding_box(*shape))});
   ASSERT_TRUE(code.ok());
-  const std::uint64_t rounds = 40 * shape_count;
+  const std::uint64_t rounds = 40 * pack_count;
   std::uint64_t refused = 0;
   for (std::uint64_t i = 0; i < rounds; ++i) {
     ShapeCode damaged = *code;
@@ -207,7 +207,7 @@ Image random_image(Random& random) {
 
 TEST(Squares, KeepImages) {
   Random random(3);
-  for (std::uint64_t i = 0; i < shape_count / 2; ++i) {
+  for (std::uint64_t i = 0; i < pack_count / 2; ++i) {
     const Image image = random_image(random);
     SquareReport report;
     const auto back = decode_squares(encode_squares(image, 0, &report));
@@ -219,7 +219,7 @@ TEST(Squares, KeepImages) {
 
 TEST(Squares, MissAtMostTheError) {
   Random random(4);
-  for (std::uint64_t i = 0; i < shape_count / 10; ++i) {
+  for (std::uint64_t i = 0; i < pack_count / 10; ++i) {
     const Image image = random_image(random);
     const std::uint32_t error = 1 + static_cast<std::uint32_t>(random.next() % 3);
     SquareReport report;
@@ -253,7 +253,7 @@ TEST(Squares, OfASquareAreOne) {
 TEST(Squares, DamagedCodesAreRefused) {
   Random random(5);
   const ShapeCode code = encode_squares(random_image(random));
-  for (std::uint64_t i = 0; i < 10 * shape_count; ++i) {
+  for (std::uint64_t i = 0; i < 10 * pack_count; ++i) {
     ShapeCode damaged = code;
     auto& stream = damaged[random.next() % damaged.size()];
     if (stream.empty()) continue;

@@ -17,7 +17,7 @@
 namespace medial {
 namespace {
 
-const std::uint64_t shape_count = test::shape_count(40);
+const std::uint64_t prune_count = test::shape_count(40);
 
 using test::axis_of;
 using test::RandomShape;
@@ -69,7 +69,7 @@ std::vector<double> thresholds_of(const PruneOrder& order, const MedialAxis& axi
 /// Every measure on 10,000 shapes, on the first 400 of them at all thresholds.
 TEST(Prune, KeepsTheHomotopyTypeAndIsNested) {
   std::size_t cuts = 0, removed = 0;
-  const std::uint64_t thorough = shape_count;
+  const std::uint64_t thorough = prune_count;
   const std::uint64_t count =
       std::getenv("MEDIAL_PROPERTY_COUNT") != nullptr ? 4 * thorough : 10'000;
   for (std::uint64_t seed = 0; seed < count; ++seed) {
@@ -124,7 +124,7 @@ TEST(Prune, KeepsTheHomotopyTypeAndIsNested) {
 /// What is kept is the axis it was: the same curves, and disks that touch the boundary.
 TEST(Prune, CutsEdgesExactly) {
   std::size_t cuts = 0;
-  for (std::uint64_t seed = 0; seed < shape_count / 4; ++seed) {
+  for (std::uint64_t seed = 0; seed < prune_count / 4; ++seed) {
     const RandomShape random = shape_of(seed);
     SCOPED_TRACE(random.kind + " " + std::to_string(seed));
     const auto shape = build_shape(random.rings);
@@ -157,7 +157,7 @@ TEST(Prune, CutsEdgesExactly) {
 /// Rotated, scaled, mirrored, reversed and re-started, the same part of the axis is kept.
 TEST(Prune, DoesNotDependOnHowTheShapeIsWritten) {
   std::size_t compared = 0;
-  for (std::uint64_t seed = 0; seed < shape_count / 8; ++seed) {
+  for (std::uint64_t seed = 0; seed < prune_count / 8; ++seed) {
     const RandomShape random = test::random_shape(seed);
     if (!random.rigid) continue;
     SCOPED_TRACE(random.kind + " " + std::to_string(seed));
@@ -249,7 +249,7 @@ TEST(Prune, TheDeepestDiskMayLieInsideAnEdge) {
 }
 
 TEST(Prune, KeepsSoManyBranches) {
-  for (std::uint64_t seed = 0; seed < shape_count / 8; ++seed) {
+  for (std::uint64_t seed = 0; seed < prune_count / 8; ++seed) {
     const MedialAxis axis = axis_of(shape_of(seed).rings);
     for (const PruneMeasure measure : {PruneMeasure::significance, PruneMeasure::residual}) {
       const std::size_t fewest = PruneOrder(axis, measure).branches_at(1e300);

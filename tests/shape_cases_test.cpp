@@ -23,7 +23,7 @@ std::filesystem::path data_folder() {
              : std::filesystem::path(MEDIAL_SOURCE_DIR) / "../shared/data";
 }
 
-struct Case {
+struct ShapeCase {
   std::string id;
   std::string geos;
   std::string wkt;
@@ -41,8 +41,8 @@ std::vector<std::string> fields_of(const std::string& line) {
   return fields;
 }
 
-std::vector<Case> read_table(const std::filesystem::path& file) {
-  std::vector<Case> cases;
+std::vector<ShapeCase> read_table(const std::filesystem::path& file) {
+  std::vector<ShapeCase> cases;
   std::ifstream stream(file);
   std::string line;
   std::getline(stream, line);
@@ -89,10 +89,10 @@ TEST_P(Cases, AgreeWithGeosExceptThatTouchingIsLegal) {
   const std::filesystem::path file =
       data_folder() / "in_place/E_degenerate" / (std::string(GetParam().name) + ".tsv");
   if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is absent";
-  const std::vector<Case> cases = read_table(file);
+  const std::vector<ShapeCase> cases = read_table(file);
   EXPECT_EQ(cases.size(), GetParam().rows);
   std::size_t legal_touching = 0;
-  for (const Case& row : cases) {
+  for (const ShapeCase& row : cases) {
     SCOPED_TRACE(row.id + ": " + row.geos);
     const bool geos_accepts = row.geos == "Valid Geometry";
     const auto rings = test::rings_of_wkt(row.wkt);

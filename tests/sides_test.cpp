@@ -13,14 +13,14 @@
 namespace medial {
 namespace {
 
-const std::uint64_t shape_count = test::shape_count(40);
+const std::uint64_t sides_count = test::shape_count(40);
 
 using test::RandomShape;
 
 /// Calls `check` with random shapes, straight and curved by turns, their axis and their diagonal.
 template <class Check>
 void for_shapes(const Check& check) {
-  for (std::uint64_t seed = 0; seed < shape_count; ++seed) {
+  for (std::uint64_t seed = 0; seed < sides_count; ++seed) {
     const RandomShape random = test::random_any(seed);
     const auto shape = build_shape(random.rings);
     ASSERT_TRUE(shape.ok()) << seed;

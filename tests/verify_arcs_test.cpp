@@ -10,19 +10,15 @@
 
 #include "medial/medial.h"
 #include "support/generate_arcs.h"
+#include "support/property.h"
 #include "verify/boundary_edge.h"
 #include "verify/distance_tree.h"
 
 namespace medial {
 namespace {
 
+using test::joined;
 using verify_detail::BoundaryEdge;
-
-std::string joined(const Certificate& certificate) {
-  std::string text;
-  for (const std::string& failure : certificate.failures) text += failure + "\n";
-  return text;
-}
 
 /// One loop and its axis, by hand: a site for each edge, in their order.
 struct HandMadeArcs {
@@ -86,12 +82,12 @@ HandMadeArcs lens() {
   return m;
 }
 
-std::vector<HandMadeArcs> all_hand_made() {
+std::vector<HandMadeArcs> all_hand_made_arcs() {
   return {round_disk(), hand_made_stadium(), half_circle(), lens()};
 }
 
 TEST(VerifyArcs, PassesAxesInClosedForm) {
-  for (const HandMadeArcs& m : all_hand_made()) {
+  for (const HandMadeArcs& m : all_hand_made_arcs()) {
     const Certificate certificate = verify(m.shape, m.axis);
     EXPECT_TRUE(certificate.passed) << joined(certificate);
     EXPECT_LE(certificate.largest_residual, 2e-15);
@@ -108,7 +104,7 @@ TEST(VerifyArcs, PassesAxesInClosedForm) {
 }
 
 TEST(VerifyArcsFinds, MovedNodes) {
-  for (const HandMadeArcs& m : all_hand_made()) {
+  for (const HandMadeArcs& m : all_hand_made_arcs()) {
     for (std::size_t i = 0; i < m.axis.nodes.size(); ++i) {
       for (const double change : {1e-9, -1e-9, 1e-12, -1e-12}) {
         HandMadeArcs damaged = m;
@@ -297,7 +293,7 @@ TEST(VerifyArcs, NeverCrashesOnRandomDamage) {
   const double numbers[] = {0,      1,   -1, 1e300, -1e300,
                             1e-300, 0.5, 3,  1e16,  std::numeric_limits<double>::denorm_min()};
   for (int round = 0; round < 3000; ++round) {
-    auto all = all_hand_made();
+    auto all = all_hand_made_arcs();
     HandMadeArcs& m = all[1 + below(all.size() - 1)];
     for (std::size_t k = 0; k <= below(3); ++k) {
       Node& node = m.axis.nodes[below(m.axis.nodes.size())];

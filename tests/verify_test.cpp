@@ -10,6 +10,7 @@
 #include "medial/compute.h"
 #include "support/generate.h"
 #include "support/hand_made.h"
+#include "support/property.h"
 #include "verify/distance_tree.h"
 
 namespace medial {
@@ -19,15 +20,10 @@ using test::all_hand_made;
 using test::ell;
 using test::HandMade;
 using test::hourglass;
+using test::joined;
 using test::notch;
 using test::rectangle;
 using test::square_with_hole;
-
-std::string joined(const Certificate& certificate) {
-  std::string text;
-  for (const std::string& failure : certificate.failures) text += failure + "\n";
-  return text;
-}
 
 /// Expects that the axis is refused, with a sentence that holds `words`.
 void expect_failure(const HandMade& m, const std::string& words) {

@@ -6,9 +6,17 @@
 #include <vector>
 
 #include "medial/axis.h"
+#include "medial/verify.h"
 #include "support/generate.h"
 
 namespace medial::test {
+
+/// What a certificate found, a line each.
+inline std::string joined(const Certificate& certificate) {
+  std::string text;
+  for (const std::string& failure : certificate.failures) text += failure + "\n";
+  return text;
+}
 
 /// Whether all arrays of sites, nodes and edges agree bit for bit.
 bool identical(const MedialAxis& a, const MedialAxis& b);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <ranges>
 #include <span>
 #include <string>
 
@@ -44,8 +45,8 @@ Contour reversed(const Contour& contour) {
   out.points.assign(contour.points.rbegin(), contour.points.rend());
   out.weights.assign(contour.weights.rbegin(), contour.weights.rend());
   const auto last = static_cast<std::uint32_t>(contour.points.size() - 1);
-  for (auto piece = contour.pieces.rbegin(); piece != contour.pieces.rend(); ++piece)
-    out.pieces.push_back({last - piece->first - piece->degree, piece->degree, -piece->bulge});
+  for (const CurvePiece& piece : contour.pieces | std::views::reverse)
+    out.pieces.push_back({last - piece.first - piece.degree, piece.degree, -piece.bulge});
   return out;
 }
 

@@ -33,7 +33,7 @@ struct Touch {
   enum class Part : std::uint8_t { site, start, middle, end };
   std::uint32_t site = ~std::uint32_t{0};
   Part part = Part::site;
-  auto operator<=>(const Touch&) const = default;
+  auto operator<=>(const Touch&) const = default;  // NOLINT(modernize-use-nullptr)
 
   /// What is touched: a point where an arc's foot is one of its ends.
   geometry::Site seen_from(std::span<const geometry::Site> sites, Vec2 center) const {

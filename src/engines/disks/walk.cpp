@@ -11,13 +11,17 @@ namespace {
 using geometry::Site;
 using Hit = Contacts::Hit;
 
-/// Spans of at least so many sites become tasks of their own, if another such span is at hand.
-constexpr std::uint32_t fork_size = 8192;
+/// Spans of at least so many sites become tasks of their own, if another such span is at hand:
+/// small enough for the threads to share the work evenly, large enough for the lists of a task.
+std::uint32_t fork_size_of(const Boundary& boundary) {
+  return std::clamp(static_cast<std::uint32_t>(boundary.sites.size() / 64), 512u, 8192u);
+}
 
 class Walker {
  public:
-  Walker(const WalkContext& context, tbb::task_group& tasks, Chunk& chunk)
+  Walker(const WalkContext& context, std::uint32_t fork_size, tbb::task_group& tasks, Chunk& chunk)
       : context_(context),
+        fork_size_(fork_size),
         boundary_(context.boundary),
         tasks_(tasks),
         chunk_(chunk),
@@ -177,7 +181,7 @@ class Walker {
     const bool a_larger = a.left - a.right > b.left - b.right;
     const Span& larger = a_larger ? a : b;
     const Span& smaller = a_larger ? b : a;
-    if (smaller.left - smaller.right >= fork_size)
+    if (smaller.left - smaller.right >= fork_size_)
       fork(larger);
     else
       stack_.push_back(larger);
@@ -190,8 +194,8 @@ class Walker {
     child.component = chunk_.component;
     child.parent_node = span.node;
     child.nodes.push_back(chunk_.nodes[span.node]);
-    tasks_.run([&context = context_, &tasks = tasks_, &child, span] {
-      Walker(context, tasks, child).walk_span({span.right, span.left, 0});
+    tasks_.run([&context = context_, fork_size = fork_size_, &tasks = tasks_, &child, span] {
+      Walker(context, fork_size, tasks, child).walk_span({span.right, span.left, 0});
     });
   }
 
@@ -211,6 +215,7 @@ class Walker {
   }
 
   const WalkContext& context_;
+  std::uint32_t fork_size_;
   const Boundary& boundary_;
   tbb::task_group& tasks_;
   Chunk& chunk_;
@@ -226,6 +231,7 @@ std::vector<std::unique_ptr<Chunk>> walk(const WalkContext& context) {
   std::vector<std::unique_ptr<Chunk>> chunks;
   tbb::task_group tasks;
   // Small components share a task.
+  const std::uint32_t fork_size = fork_size_of(context.boundary);
   std::size_t next = 0;
   const auto& runs = context.boundary.runs;
   for (std::size_t i = 0; i < runs.size(); ++i) {
@@ -239,9 +245,9 @@ std::vector<std::unique_ptr<Chunk>> walk(const WalkContext& context) {
       sites += runs[next].last - runs[next].first + 1;
       ++next;
     }
-    tasks.run([&context, &tasks, &chunks, &runs, begin, end = next] {
+    tasks.run([&context, fork_size, &tasks, &chunks, &runs, begin, end = next] {
       for (std::size_t i = begin; i < end; ++i)
-        Walker(context, tasks, *chunks[i]).walk_run(runs[i]);
+        Walker(context, fork_size, tasks, *chunks[i]).walk_run(runs[i]);
     });
   }
   tasks.wait();

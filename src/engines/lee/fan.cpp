@@ -87,7 +87,7 @@ std::uint32_t fan_of(Diagram& diagram, std::uint32_t first, std::uint32_t end, d
     known = disk;
   }
   // Places 2 i for B(e_i, e_i+1), 2 i + 1 for B(e_begin, e_i+1).
-  diagram.edges[2 * begin] = {
+  diagram.edges[std::size_t{2} * begin] = {
       {begin, begin + 1}, {none, none}, {elements.sites[begin + 1].point, 0}};
   diagram.top[begin + 1][1] = 2 * begin;
   std::uint32_t outermost = 2 * begin;

@@ -13,7 +13,6 @@ namespace medial::ridge {
 
 using raster::BitMap;
 using raster::Grid;
-using raster::Pixel;
 
 Result<Grid> grid_for(const Box& box, const Options& options) {
   constexpr std::uint64_t default_pixels = 1024;

@@ -1,10 +1,9 @@
 #include "engines/ridge/ridge.h"
 
-#include <time.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <ctime>
 #include <numeric>
 
 #include "axis/pixel_graph.h"
