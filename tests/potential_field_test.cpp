@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <cmath>
 #include <vector>
@@ -103,6 +104,30 @@ TEST(PotentialField, IntegralsMatchQuadratureAtAnyRealOrder) {
   }
 }
 
+TEST(PotentialField, IntegralsSideBySideAreThoseOneByOne) {
+  Random random(4);
+  constexpr std::size_t count = potential::LowOrder::most;
+  for (int i = 0; i < 100; ++i) {
+    const double order = random.between(0.01, 1.99);
+    std::array<double, count> x1, x2, y, p1, p2, found;
+    for (std::size_t k = 0; k < count; ++k) {
+      // At least 1 away: beside a piece, or beyond its end.
+      const bool beside = k % 2 == 0;
+      const double from = random.power_of_ten(-3, 1), length = random.power_of_ten(-6, 1);
+      y[k] = (beside ? random.between(1, 4) : random.power_of_ten(-6, 0)) * (k % 4 < 2 ? 1 : -1);
+      x1[k] = beside ? random.between(-5, 5) : 1 + from;
+      x2[k] = x1[k] + length;
+      if (k % 8 == 5) std::swap(x1[k] *= -1, x2[k] *= -1);
+      p1[k] = std::pow(x1[k] * x1[k] + y[k] * y[k], -0.5 * order);
+      p2[k] = std::pow(x2[k] * x2[k] + y[k] * y[k], -0.5 * order);
+    }
+    potential::LowOrder(order).integrals(x1, x2, y, p1, p2, found);
+    for (std::size_t k = 0; k < count; ++k)
+      EXPECT_NEAR(found[k], potential::segment_integral(order, x1[k], x2[k], y[k]), 1e-13)
+          << order << " " << x1[k] << " " << x2[k] << " " << y[k];
+  }
+}
+
 TEST(PotentialField, IntegralsOfHighOrderMatchQuadrature) {
   Random random(2);
   for (int i = 0; i < 1000; ++i) {
@@ -158,7 +183,8 @@ TEST(PotentialField, ForcesMatchTheirDefinition) {
       const double distance = evaluator.place(p).distance;
       if (!(distance > 1e-7)) continue;
       ++places;
-      for (const double order : {1.0, 2.0, 3.0, 4.0, 8.0, 17.0, 33.5, 64.0, 300.0, 2.5}) {
+      for (const double order :
+           {1.0, 2.0, 3.0, 4.0, 8.0, 17.0, 33.5, 64.0, 300.0, 2.5, 1.25, 3.75}) {
         SCOPED_TRACE(testing::Message() << "order " << order << " at " << p.x << " " << p.y);
         expect_near(evaluator.force(order), by_definition(pieces, p, order, distance), 1e-6);
       }
@@ -208,7 +234,7 @@ TEST(PotentialField, ThePotentialMatchesItsDefinition) {
   Evaluator evaluator(charges);
   for (const Vec2 p : {Vec2{0.4, 0.3}, Vec2{1.9, 0.99}, Vec2{0.01, 1.5}, Vec2{1, 0.5}}) {
     evaluator.place(p);
-    for (const double order : {1.0, 1.5, 2.0, 2.7, 3.0, 8.0}) {
+    for (const double order : {1.0, 1.5, 2.0, 2.7, 3.0, 3.5, 8.0, 40.0}) {
       double sum = 0;
       for (const Charge& piece : pieces) {
         const auto f = [&](double t) {
@@ -217,7 +243,9 @@ TEST(PotentialField, ThePotentialMatchesItsDefinition) {
         for (int i = 0; i < 64; ++i)
           sum += distance(piece.start, piece.end) * integrate(f, i / 64.0, (i + 1) / 64.0);
       }
-      EXPECT_NEAR(evaluator.log_potential(order), std::log(sum), 1e-6) << order;
+      const auto [force, log_potential] = evaluator.field(order);
+      EXPECT_NEAR(log_potential, std::log(sum), 1e-6) << order;
+      EXPECT_LT(distance(force.force, evaluator.force(order).force), 1e-6) << order;
     }
   }
 }

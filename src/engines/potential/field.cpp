@@ -53,15 +53,14 @@ std::optional<PotentialField::Sample> PotentialField::at(Vec2 p) const {
   potential::Evaluator evaluator(*charges);
   const double distance = evaluator.place(local).distance;
   if (!(distance > 0)) return std::nullopt;
+  const auto [force, log_potential] = evaluator.field(parts_->order);
   Sample sample;
   sample.clearance = distance * parts_->frame.inverse;
   // A length of the frame is `inverse` lengths of the input, and the potential's unit is a length
   // to the power of 1 - order.
-  sample.log_potential = evaluator.log_potential(parts_->order) +
-                         (1 - parts_->order) * std::log(parts_->frame.inverse);
-  const Vec2 force = evaluator.force(parts_->order).force;
-  const double size = norm(force);
-  if (size > 0) sample.direction = (1 / size) * force;
+  sample.log_potential = log_potential + (1 - parts_->order) * std::log(parts_->frame.inverse);
+  const double size = norm(force.force);
+  if (size > 0) sample.direction = (1 / size) * force.force;
   return sample;
 }
 

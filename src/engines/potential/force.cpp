@@ -5,8 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "engines/potential/integral.h"
-
 namespace medial::potential {
 namespace {
 
@@ -87,7 +85,8 @@ void Evaluator::add_far(double order, Force& total) const {
   }
 }
 
-void Evaluator::sum(double start, double low, std::span<Force> forces) const {
+void Evaluator::sum(double start, double low, std::span<Force> forces) {
+  if (start != 0 && start != 1 && !(start_ && start_->order() == start)) start_.emplace(start);
   constexpr std::size_t lanes = Charges::leaf_size;
   const double high = low + static_cast<double>(forces.size()) - 1;
   // Upward, the recurrence multiplies errors by 1 / |y| an order: up to 1e7 is borne.
@@ -136,8 +135,12 @@ void Evaluator::sum(double start, double low, std::span<Force> forces) const {
         q2[k] = 1 / (x2[k] * x2[k] + square);
         p1[k] = start == 0 ? 1 : std::pow(q1[k], 0.5 * start);
         p2[k] = start == 0 ? 1 : std::pow(q2[k], 0.5 * start);
-        j[k] = x1[k] == x2[k] ? 0 : segment_integral(start, x1[k], x2[k], y[k]);
+        if (start == 0) j[k] = x1[k] == x2[k] ? 0 : segment_integral(0, x1[k], x2[k], y[k]);
         inverse_square[k] = 1 / std::max(square, 1e-300);
+      }
+      if (start != 0) {
+        const auto of = [&](Lanes& lane) { return std::span<double>(lane).first(count); };
+        start_->integrals(of(x1), of(x2), of(y), of(p1), of(p2), of(j));
       }
     }
     for (double n = start;; n += 2) {
@@ -251,12 +254,28 @@ void Evaluator::forces(int first, std::span<Force> forces) {
     add_far(order, forces[static_cast<std::size_t>(order - first)]);
 }
 
-double Evaluator::log_potential(double order) {
-  const double scale = (1 - order) * -std::log(inverse_);
-  if (order > 2) {
-    const Force lower = force(order - 2);
-    return std::log(-(lower.xx + lower.yy) / (order - 2)) + scale;
+Evaluator::Field Evaluator::field(double order) {
+  if (order <= 2) return {force(order), low_log_potential(order)};
+  // The potential follows from the derivatives of the force two orders below.
+  Field result;
+  Force lower;
+  if (order < HighOrder::least_order) {
+    std::array<Force, 3> both;
+    gather(order - 2, order);
+    sum(std::fmod(order, 2), order - 2, both);
+    result.force = both[2];
+    lower = both[0];
+    add_far(order, result.force);
+    add_far(order - 2, lower);
+  } else {
+    lower = force(order - 2);
+    result.force = force(order);
   }
+  result.log_potential = std::log(lower.potential(order - 2)) - (1 - order) * std::log(inverse_);
+  return result;
+}
+
+double Evaluator::low_log_potential(double order) const {
   double total = 0;
   for (std::size_t i = 0; i < charges_.size(); ++i) {
     const Vec2 t = charges_.tangent(i), d = place_ - charges_.start(i);
@@ -274,7 +293,7 @@ double Evaluator::log_potential(double order) {
                (order - 1);
     }
   }
-  return std::log(total) + scale;
+  return std::log(total) - (1 - order) * std::log(inverse_);
 }
 
 }  // namespace medial::potential

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "engines/potential/charges.h"
+#include "engines/potential/integral.h"
 
 namespace medial::potential {
 
@@ -45,8 +47,12 @@ class Evaluator {
   Force force(double order);
   /// Those of the whole orders first, first + 1, ... as many as `forces` holds. One pass for all.
   void forces(int first, std::span<Force> forces);
-  /// The logarithm of the potential (7) at the place. Requires order in [1, largest_order].
-  double log_potential(double order);
+  struct Field {
+    Force force;
+    double log_potential = 0;  ///< the logarithm of the potential (7)
+  };
+  /// Both at the place, of one order. Requires order in [1, largest_order].
+  Field field(double order);
 
   static constexpr double far_field = 1e-7;
 
@@ -54,9 +60,11 @@ class Evaluator {
   /// Which pieces to sum one by one, and which sets by their moments, for orders in [low, high].
   void gather(double low, double high);
   void add_far(double order, Force& sum) const;
+  /// The logarithm of the potential of an order up to 2, piece by piece.
+  double low_log_potential(double order) const;
   /// Adds the near pieces' forces of the orders start, start + 2, ... from `low` on; forces[i]
   /// takes that of order low + i.
-  void sum(double start, double low, std::span<Force> forces) const;
+  void sum(double start, double low, std::span<Force> forces);
   /// The near pieces' forces of one high order, from the integral itself.
   void sum_high(double order, Force& sum) const;
   void sum_steep(std::uint32_t piece, double start, double low, std::span<Force> forces) const;
@@ -66,7 +74,8 @@ class Evaluator {
   };
   const Charges& charges_;
   Vec2 place_;
-  double inverse_ = 1;  ///< of the distance to the nearest charge
+  double inverse_ = 1;             ///< of the distance to the nearest charge
+  std::optional<LowOrder> start_;  ///< of the recurrence at orders that are no whole numbers
   std::vector<Range> near_;
   std::vector<std::uint32_t> far_;
 };

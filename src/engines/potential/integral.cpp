@@ -127,6 +127,62 @@ double first_potential(double x1, double x2, double y) {
   return std::log1p(2 * (x2 - x1) / Ends(x1, x2, y).excess);
 }
 
+LowOrder::LowOrder(double order)
+    : order_(order),
+      half_(0.5 * std::sqrt(std::numbers::pi) *
+            std::exp(std::lgamma(0.5 * (order + 1)) - std::lgamma(0.5 * order + 1))) {
+  // As in cosine_power() and tail_factor(); both start with a sine over r^(order + 1).
+  double near = 1, far = 1 / (order + 1);
+  for (std::size_t i = 0; i < terms; ++i) {
+    from_foot_[i] = near;
+    beyond_[i] = far;
+    const auto k = static_cast<double>(i);
+    near *= (0.5 * order + 1 + k) / (1.5 + k);
+    far *= (0.5 * order + 1 + k) / (0.5 * (order + 3) + k);
+  }
+}
+
+void LowOrder::to_ends(std::span<const double> x, std::span<const double> y,
+                       std::span<const double> p, Ends& integrals) const {
+  const std::size_t count = x.size();
+  Ends z, is_far, scale;
+  for (std::size_t k = 0; k < count; ++k) {
+    const double x2 = x[k] * x[k], y2 = y[k] * y[k], inverse = 1 / (x2 + y2);
+    is_far[k] = x2 > y2 ? 1 : 0;
+    z[k] = std::min(x2, y2) * inverse;
+    scale[k] = std::abs(x[k]) * p[k] * inverse;
+    integrals[k] = 0;
+  }
+  for (std::size_t i = terms; i-- > 0;) {
+    const double near = from_foot_[i], change = beyond_[i] - near;
+    for (std::size_t k = 0; k < count; ++k)
+      integrals[k] = integrals[k] * z[k] + (near + is_far[k] * change);
+  }
+  for (std::size_t k = 0; k < count; ++k) integrals[k] *= scale[k];
+}
+
+void LowOrder::integrals(std::span<const double> x1, std::span<const double> x2,
+                         std::span<const double> y, std::span<const double> p1,
+                         std::span<const double> p2, std::span<double> integrals) const {
+  Ends first, last;
+  to_ends(x1, y, p1, first);
+  to_ends(x2, y, p2, last);
+  for (std::size_t k = 0; k < x1.size(); ++k) {
+    const double size = std::abs(y[k]);
+    const bool first_far = std::abs(x1[k]) > size, last_far = std::abs(x2[k]) > size;
+    const bool around = x1[k] < 0 && x2[k] > 0, behind = !around && x2[k] <= 0;
+    if (!around && first_far && last_far) {
+      integrals[k] = behind ? last[k] - first[k] : first[k] - last[k];
+      continue;
+    }
+    // From the foot to both ends.
+    const double whole = first_far || last_far ? half_ * std::pow(size, -order_ - 1) : 0;
+    const double a = first_far ? whole - first[k] : first[k];
+    const double b = last_far ? whole - last[k] : last[k];
+    integrals[k] = around ? a + b : behind ? a - b : b - a;
+  }
+}
+
 HighOrder::HighOrder(double order)
     : order_(order),
       half_(std::sqrt(0.5 * std::numbers::pi / order) * whole_series(order)),

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <span>
+
 namespace medial::potential {
 
 /// J(order): the integral of dx / (x^2 + y^2)^(order / 2 + 1) over [x1, x2], relative error about
@@ -9,6 +13,33 @@ double segment_integral(double order, double x1, double x2, double y);
 
 /// The potential of order 1, (3): log((r1 + r2 + L) / (r1 + r2 - L)), without cancellation.
 double first_potential(double x1, double x2, double y);
+
+/// The same integral at one low order, for many segments: a power series in the square of a sine or
+/// of a cosine, whichever is at most a half. Requires 0 < order < 2. Absolute error below 1e-14 of
+/// what half a line from a point at the distance 1 gives, where no charge is nearer than 1.
+class LowOrder {
+ public:
+  explicit LowOrder(double order);
+  double order() const { return order_; }
+  /// integrals[k] becomes J(order) of [x1[k], x2[k]] at y[k], where p1[k] and p2[k] are its ends'
+  /// r^-order. All spans of one size, at most `most` long.
+  void integrals(std::span<const double> x1, std::span<const double> x2, std::span<const double> y,
+                 std::span<const double> p1, std::span<const double> p2,
+                 std::span<double> integrals) const;
+
+  static constexpr std::size_t most = 16;
+
+ private:
+  /// Of x >= 0: the integral beyond it, where that is further than |y|, else that from the foot.
+  using Ends = std::array<double, most>;
+  void to_ends(std::span<const double> x, std::span<const double> y, std::span<const double> p,
+               Ends& integrals) const;
+
+  static constexpr std::size_t terms = 54;
+  double order_;
+  double half_;                                   ///< the integral of cos^order over a right angle
+  std::array<double, terms> from_foot_, beyond_;  ///< the series' coefficients
+};
 
 /// The same integral at one high order, for many segments, in time that does not grow with the
 /// order: with cos theta = exp(-w^2 / 2) it is nearly a Gaussian's, and what is left is a series in
