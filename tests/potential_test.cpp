@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
@@ -10,9 +11,14 @@
 #include <utility>
 #include <vector>
 
+#include "base/frame.h"
+#include "engines/potential/region.h"
+#include "engines/potential/skeleton.h"
 #include "medial/compute.h"
 #include "medial/field.h"
+#include "medial/image.h"
 #include "medial/query.h"
+#include "medial/verify.h"
 #include "support/generate.h"
 
 namespace medial::test {
@@ -104,6 +110,74 @@ TEST(Potential, IsConnectedWithOneCycleForEachHole) {
     EXPECT_EQ(parts(*axis), shape.component_count());
     EXPECT_EQ(axis->edges.size() + parts(*axis) - axis->nodes.size(), shape.hole_count());
   }
+}
+
+/// Noise of so many pixels a side: most corridors are one pixel wide, most necks are gaps between
+/// pixels that touch in a corner.
+Shape pixel_noise(std::uint32_t side, double share) {
+  Random random(17);
+  Image image(side, side);
+  for (std::uint32_t y = 0; y < side; ++y)
+    for (std::uint32_t x = 0; x < side; ++x) image.set(x, y, random.chance(share));
+  return *build_shape(*pixel_outline(image));
+}
+
+TEST(Potential, PixelNoiseIsConnectedThroughLevelFloorsAndNecks) {
+  for (const auto& [side, share] : {std::pair{12U, 0.6}, {20U, 0.5}}) {
+    const Shape shape = pixel_noise(side, share);
+    const auto axis = compute(shape, {.method = Method::potential});
+    ASSERT_TRUE(axis.ok());
+    EXPECT_EQ(parts(*axis), shape.component_count());
+    EXPECT_EQ(axis->edges.size() + parts(*axis) - axis->nodes.size(), shape.hole_count());
+    EXPECT_GT(shape.hole_count(), 5U);
+    EXPECT_LT(distances(shape, *axis).mean, 0.001 * size_of(shape));
+    EXPECT_TRUE(verify(shape, *axis).passed);
+    EXPECT_LT(axis->statistics.queries, 60000U + 150 * shape.points.size());  // forces
+  }
+}
+
+/// A lower bound of forces than any shape's, and a flag that is up: both end within a few lines.
+TEST(Potential, TracingEndsWithItsBudgetAndWhenCancelled) {
+  const Shape shape = pixel_noise(14, 0.7);
+  const auto regions = potential::regions_of(shape, frame_of(bounding_box(shape)), 0.01, 1e-4);
+  ASSERT_FALSE(regions.empty());
+  const auto largest = std::max_element(
+      regions.begin(), regions.end(),
+      [](const auto& a, const auto& b) { return a.pieces.size() < b.pieces.size(); });
+  const potential::Charges charges(largest->pieces);
+  potential::SkeletonOptions options;
+  options.order = 4;
+  options.step = 0.01 * largest->size;
+  const auto whole = potential::trace_valleys(*largest, charges, options);
+  EXPECT_GT(whole.forces, 5000U);
+  const std::atomic<bool> cancel = true;
+  options.cancel = &cancel;
+  const auto cancelled = potential::trace_valleys(*largest, charges, options);
+  EXPECT_FALSE(cancelled.whole);
+  EXPECT_LT(cancelled.forces, whole.forces / 4);
+  options.cancel = nullptr;
+  options.spent = std::uint64_t{1} << 60;
+  const auto ended = potential::trace_valleys(*largest, charges, options);
+  EXPECT_FALSE(ended.whole);
+  EXPECT_LT(ended.forces, whole.forces / 4);
+}
+
+TEST(Potential, IsCancelled) {
+  const std::atomic<bool> cancel = true;
+  Options options{.method = Method::potential};
+  options.cancel = &cancel;
+  const auto axis = compute(pixel_noise(12, 0.6), options);
+  ASSERT_FALSE(axis.ok());
+  EXPECT_EQ(axis.error().code, ErrorCode::cancelled);
+}
+
+/// A needle's steps are too many: refused, after no more forces than any shape of its size may
+/// take.
+TEST(Potential, WhatCannotBeConnectedIsRefusedWithinTheBudget) {
+  const Shape shape = *build_shape(triangle({0, 0}, {1, 0}, {0.5, 1e-5}));
+  const auto axis = compute(shape, {.method = Method::potential});
+  ASSERT_FALSE(axis.ok());
+  EXPECT_EQ(axis.error().code, ErrorCode::unsupported);
 }
 
 TEST(Potential, IsTheSameForAnyNumberOfThreads) {

@@ -84,29 +84,52 @@ void Charges::squared_distances(Vec2 p, std::uint32_t begin, std::uint32_t end,
   }
 }
 
-Charges::Nearest Charges::nearest(Vec2 p) const {
-  Nearest best{std::numeric_limits<double>::infinity(), 0};  // squared until the end
+template <class Visit>
+void Charges::from_near(Vec2 p, const double& limit, const Visit& visit) const {
   std::array<std::uint32_t, 64> stack{};
   std::size_t depth = 1;
   while (depth > 0) {
     const std::uint32_t index = stack[--depth];
     const Node& node = nodes[index];
-    if (squared_distance(node.box, p) >= best.distance) continue;
-    if (node.right != 0) {
-      const std::uint32_t left = index + 1;
-      const bool left_first =
-          squared_distance(nodes[left].box, p) <= squared_distance(nodes[node.right].box, p);
-      stack[depth++] = left_first ? node.right : left;
-      stack[depth++] = left_first ? left : node.right;
+    if (squared_distance(node.box, p) >= limit) continue;
+    if (node.right == 0) {
+      visit(node);
       continue;
     }
-    std::array<double, leaf_size> square;
-    squared_distances(p, node.begin, node.end, square);
-    for (std::uint32_t k = 0; k < node.end - node.begin; ++k) {
-      if (square[k] < best.distance) best = {square[k], node.begin + k};
-    }
+    const std::uint32_t left = index + 1;
+    const bool left_first =
+        squared_distance(nodes[left].box, p) <= squared_distance(nodes[node.right].box, p);
+    stack[depth++] = left_first ? node.right : left;
+    stack[depth++] = left_first ? left : node.right;
   }
+}
+
+Charges::Nearest Charges::nearest(Vec2 p) const {
+  Nearest best{std::numeric_limits<double>::infinity(), 0};  // squared until the end
+  from_near(p, best.distance, [&](const Node& leaf) {
+    std::array<double, leaf_size> square;
+    squared_distances(p, leaf.begin, leaf.end, square);
+    for (std::uint32_t k = 0; k < leaf.end - leaf.begin; ++k) {
+      if (square[k] < best.distance) best = {square[k], leaf.begin + k};
+    }
+  });
   best.distance = std::sqrt(best.distance);
+  return best;
+}
+
+Vec2 Charges::nearest_ahead(Vec2 p, Vec2 a, Vec2 b) const {
+  double limit = std::numeric_limits<double>::infinity();
+  Vec2 best = p;
+  from_near(p, limit, [&](const Node& leaf) {
+    for (std::uint32_t i = leaf.begin; i < leaf.end; ++i) {
+      const Vec2 t = tangent(i);
+      const Vec2 q = start(i) + std::clamp(dot(p - start(i), t), 0.0, lengths[i]) * t;
+      const double square = squared_norm(q - p);
+      if (!(square > 0 && square < limit) || dot(q - p, a) > 0 || dot(q - p, b) > 0) continue;
+      limit = square;
+      best = q;
+    }
+  });
   return best;
 }
 

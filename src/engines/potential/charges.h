@@ -41,6 +41,11 @@ class Charges {
   /// The piece nearest to p; the lowest among equals. O(log n) for sensible borders.
   Nearest nearest(Vec2 p) const;
 
+  /// The nearest point of the border that lies ahead of a reflex corner p, by 90 degrees or more
+  /// away from both edges, which lead from p in the directions a and b; p itself if there is none.
+  /// O(log n) for sensible borders.
+  Vec2 nearest_ahead(Vec2 p, Vec2 a, Vec2 b) const;
+
   static constexpr std::uint32_t leaf_size = 16;
   /// From p to each of the pieces begin .. end - 1, of which there are no more than leaf_size.
   void squared_distances(Vec2 p, std::uint32_t begin, std::uint32_t end,
@@ -58,6 +63,9 @@ class Charges {
   std::vector<Node> nodes;  ///< the root is the first
 
  private:
+  /// Leaves that lie nearer than the root of `limit`, which may shrink meanwhile; about in order.
+  template <class Visit>
+  void from_near(Vec2 p, const double& limit, const Visit& visit) const;
   std::uint32_t build(std::uint32_t begin, std::uint32_t end);
 };
 

@@ -150,6 +150,11 @@ Trail ForceLines::follow(Vec2 p, Vec2 direction, double share, Start start) {
       climbing = false;
       if (!trail.points.empty()) trail.points.back().kind = ValleyPoint::Kind::saddle;
     }
+    // A floor without slope between rising ones stands for a minimum.
+    if (flat_since != no_point && !flat && dot(next.force, moved) < 0 && share > 0) {
+      trail.end = graph_.minimum_at({p, radius, direction, ValleyPoint::Kind::minimum});
+      return trail;
+    }
     // Up to the border: no saddle is ahead. Necks wider than this are passed.
     constexpr double narrowest = 1e-4;
     if (climbing && radius < narrowest * options_.step) return trail;
@@ -195,13 +200,20 @@ Trail ForceLines::follow(Vec2 p, Vec2 direction, double share, Start start) {
     radius = next_radius;
     force = next;
     direction = unit(p_moved);
-    trail.points.push_back({p, radius, direction, ValleyPoint::Kind::valley});
+    // Other valleys may begin where a floor without slope does: a corridor's end.
+    const bool level = flat != (flat_since != no_point);
+    if (level && !trail.points.empty() && trail.points.back().kind == ValleyPoint::Kind::valley)
+      trail.points.back().kind = ValleyPoint::Kind::level;
+    trail.points.push_back(
+        {p, radius, direction, level ? ValleyPoint::Kind::level : ValleyPoint::Kind::valley});
     if (force.determinant() < 0 && norm(force.force) < trail.weakest) {
       trail.weakest = norm(force.force);
       trail.place = p;
     }
     if (share > 0) {
       trail.end = graph_.joined(p, radius, direction, share, flat || climbing);
+      if (trail.end == no_point && (flat || climbing))
+        trail.end = graph_.crossed(p - p_moved, p, radius);
       if (trail.end != no_point) return trail;
     }
     if (!flat) {
@@ -251,6 +263,8 @@ Label ForceLines::keep(std::uint32_t from, const Trail& trail) {
   const auto first = static_cast<std::uint32_t>(graph_.skeleton.points.size());
   std::uint32_t last = from;
   for (const ValleyPoint& point : trail.points) {
+    // A minimum may be made of the last point.
+    if (trail.end != no_point && point.place == graph_.skeleton.points[trail.end].place) break;
     const std::uint32_t index = graph_.add_point(point, label);
     graph_.add_link(last, index);
     last = index;

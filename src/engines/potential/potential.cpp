@@ -8,6 +8,7 @@
 #include <string>
 
 #include "axis/sites.h"
+#include "base/disjoint_sets.h"
 #include "base/frame.h"
 #include "base/stopwatch.h"
 #include "base/tolerance.h"
@@ -146,6 +147,23 @@ Refined successors_of(const Skeleton& skeleton, const Charges& charges,
   return result;
 }
 
+/// Makes one of linked points that have come to the same place: a link needs a direction.
+void join_equal(Refined& axis) {
+  DisjointSets sets(axis.points.size());
+  for (const auto& [from, to] : axis.links)
+    if (axis.points[from].place == axis.points[to].place) sets.join(from, to);
+  std::vector<std::uint32_t> number(axis.points.size());
+  std::uint32_t count = 0;
+  for (std::uint32_t i = 0; i < number.size(); ++i) {
+    const std::uint32_t first = sets.find(i);  // no higher than i
+    number[i] = first == i ? count++ : number[first];
+    axis.points[number[i]] = axis.points[i];
+  }
+  axis.points.resize(count);
+  for (auto& link : axis.links) link = {number[link[0]], number[link[1]]};
+  std::erase_if(axis.links, [](const auto& link) { return link[0] == link[1]; });
+}
+
 }  // namespace
 
 Result<MedialAxis> run(const Shape& shape, const Options& options) {
@@ -212,6 +230,7 @@ Result<MedialAxis> run(const Shape& shape, const Options& options) {
     } else {
       refined = successors_of(skeleton, charges, search);
     }
+    join_equal(refined);
     const auto base = static_cast<std::uint32_t>(axis.nodes.size());
     for (const Successor& point : refined.points)
       axis.nodes.push_back({{frame.to_input(point.place), point.radius * frame.inverse},

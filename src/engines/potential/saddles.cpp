@@ -50,9 +50,16 @@ bool SaddleSearch::wanted(std::uint32_t from, std::span<const ValleyPoint> betwe
   if (graph_.cycles() >= region_.holes()) return false;
   std::vector<Vec2> cycle = graph_.way(to, from);
   for (const ValleyPoint& point : between) cycle.push_back(point.place);
+  Box box{cycle.front(), cycle.front()};
+  for (const Vec2 p : cycle) {
+    box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y)};
+    box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y)};
+  }
   std::vector<bool> around(region_.holes());
-  for (std::size_t i = 0; i < around.size(); ++i)
-    around[i] = encloses(cycle, region_.loops[i + 1].inside);
+  for (std::size_t i = 0; i < around.size(); ++i) {
+    const Vec2 inside = region_.loops[i + 1].inside;
+    around[i] = contains(box, inside) && encloses(cycle, inside);
+  }
   // Less the cycles that are known, as sets: what is left must be a new one.
   for (const std::vector<bool>& known : cycles_) {
     const auto pivot = std::find(known.begin(), known.end(), true) - known.begin();
@@ -69,9 +76,11 @@ void SaddleSearch::traverse() {
   constexpr int halvings = 5;
   const auto done = [&] { return complete() || lines_.exhausted(); };
   // Minima that are found on the way come after these.
-  for (std::uint32_t m = 0; m < graph_.skeleton.points.size() && !done(); ++m) {
+  for (; traversed_ < graph_.skeleton.points.size() && !done(); ++traversed_) {
+    const std::uint32_t m = traversed_;
     const ValleyPoint minimum = graph_.skeleton.points[m];
-    if (minimum.kind != ValleyPoint::Kind::minimum) continue;
+    if (minimum.kind != ValleyPoint::Kind::minimum && minimum.kind != ValleyPoint::Kind::level)
+      continue;
     const double around = lines_.reach(minimum.radius);
     // The force along a circle turns from forward to backward in a valley.
     double radius = 0;
@@ -83,14 +92,20 @@ void SaddleSearch::traverse() {
       const double angle = 2 * std::numbers::pi * turns / directions;
       return Vec2{std::cos(angle), std::sin(angle)};
     };
-    double before = along(towards(-1));
+    // The last place where the force is none or tells nothing lies before this.
+    int known_at = -1;
+    double before = along(towards(known_at));
+    while (before == 0 && known_at > -directions) before = along(towards(--known_at));
     for (int i = 0; i < directions && !done(); ++i) {
       const double here = along(towards(i));
+      if (here == 0) continue;
       const bool valley = before > 0 && here < 0;
+      double low = known_at, high = i;
       before = here;
+      known_at = i;
       if (!valley) continue;
-      double low = i - 1, high = i;
-      for (int k = 0; k < halvings; ++k) {
+      // On a floor without slope the force tells nothing: that is its middle.
+      for (int k = 0; k < halvings && high - low <= 1; ++k) {
         const double middle = 0.5 * (low + high);
         (along(towards(middle)) > 0 ? low : high) = middle;
       }
@@ -101,13 +116,34 @@ void SaddleSearch::traverse() {
           graph_.joined(p, radius, direction, 2 * ForceLines::merge_share, true);
       if (known != no_point) {
         // A line that passed the minimum by, or one that leads from it.
-        if (!graph_.connected(m, known)) graph_.add_link(m, known);
+        if (wanted(m, {}, known)) graph_.add_link(m, known);
         continue;
       }
       Trail trail = lines_.follow(p, direction, ForceLines::merge_share, ForceLines::Start::either);
       if (!wanted(m, trail.points, trail.end)) continue;
       trail.points.insert(trail.points.begin(), {p, radius, direction, ValleyPoint::Kind::valley});
       lines_.keep(m, trail);
+    }
+  }
+}
+
+void SaddleSearch::pass_necks(const Charges& charges) {
+  // What is as near as the corner to the middle of the way is no nearer than rounding.
+  constexpr double as_near = 0.999;
+  for (const Region::Loop& loop : region_.loops) {
+    for (std::uint32_t i = loop.begin; i < loop.end && !complete() && !lines_.exhausted(); ++i) {
+      const Charge& before = region_.pieces[i == loop.begin ? loop.end - 1 : i - 1];
+      const Charge& after = region_.pieces[i];
+      const Vec2 out = after.end - after.start, back = before.start - before.end;
+      if (!(cross(out, back) < 0)) continue;
+      const Vec2 across = charges.nearest_ahead(after.start, out, back) - after.start;
+      const Vec2 middle = after.start + 0.5 * across;
+      const double radius = lines_.distance_at(middle);
+      if (!(radius > 0 && radius >= as_near * 0.5 * norm(across))) continue;
+      const Vec2 tangent = left_of(unit(across));
+      if (graph_.joined(middle, radius, tangent, 2 * ForceLines::merge_share, true) != no_point)
+        continue;
+      pass({middle, radius, tangent, ValleyPoint::Kind::saddle}, ForceLines::Start::either);
     }
   }
 }

@@ -28,6 +28,10 @@ class SaddleSearch {
   /// its other side, and keeps them as pass() does ([ahuja1997], Section 4.1.3, Step 3).
   void traverse();
 
+  /// Makes lines through the necks that lie ahead of reflex corners part of the skeleton, as pass()
+  /// does: their valleys may lead down to others that are no minima.
+  void pass_necks(const Charges& charges);
+
   /// A line from the border: what it belongs to.
   Label probe(std::uint32_t piece, double share, Trail& trail);
 
@@ -57,6 +61,7 @@ class SaddleSearch {
   const Region& region_;
   ValleyGraph& graph_;
   ForceLines& lines_;
+  std::uint32_t traversed_ = 0;  ///< points of the skeleton that traverse() has been at
   std::vector<Pass> saddles_;
   std::vector<std::vector<bool>> cycles_;  ///< around which holes; in echelon form
 };

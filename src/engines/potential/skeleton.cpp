@@ -52,7 +52,11 @@ class Tracer {
   }
 
   void connect() { saddles_.connect(corner_labels_); }
-  void traverse() { saddles_.traverse(); }
+  void traverse() {
+    saddles_.traverse();
+    saddles_.pass_necks(charges_);
+    saddles_.traverse();
+  }
 
   /// Connects through places in the valleys where a skeleton of lower order has its saddles.
   void connect_as(const Skeleton& coarse) {

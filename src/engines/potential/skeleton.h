@@ -13,7 +13,13 @@ namespace medial::potential {
 
 /// A point of a potential valley.
 struct ValleyPoint {
-  enum class Kind : std::uint8_t { corner, valley, minimum, saddle };
+  enum class Kind : std::uint8_t {
+    corner,
+    valley,
+    minimum,
+    saddle,
+    level  ///< where a floor without slope begins or ends
+  };
   Vec2 place;
   double radius = 0;  ///< distance to the border
   Vec2 tangent;       ///< unit vector along the valley; (0, 0) at a corner

@@ -129,4 +129,18 @@ std::uint32_t ValleyGraph::joined(Vec2 q, double radius, Vec2 direction, double 
   return next;
 }
 
+std::uint32_t ValleyGraph::crossed(Vec2 p, Vec2 q, double radius) const {
+  std::uint32_t found = no_point;
+  links_.near(midpoint(p, q), 0.5 * distance(p, q), reach(radius), [&](std::uint32_t index) {
+    const auto [from, to] = skeleton.links[index];
+    const Vec2 a = skeleton.points[from].place, b = skeleton.points[to].place;
+    const double at_a = cross(q - p, a - p), at_b = cross(q - p, b - p);
+    const double at_p = cross(b - a, p - a), at_q = cross(b - a, q - a);
+    // Both ends on one line are no crossing; one is.
+    if (at_a * at_b > 0 || at_p * at_q > 0 || (at_a == 0 && at_b == 0)) return;
+    found = std::abs(at_a) < std::abs(at_b) ? from : to;
+  });
+  return found;
+}
+
 }  // namespace medial::potential

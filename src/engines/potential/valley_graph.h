@@ -52,6 +52,9 @@ class ValleyGraph {
   /// point downward. Only one that leads the same way, unless `any_way`.
   std::uint32_t joined(Vec2 q, double radius, Vec2 direction, double share, bool any_way) const;
 
+  /// The valley that a step from p to q crosses: the nearer end of its link.
+  std::uint32_t crossed(Vec2 p, Vec2 q, double radius) const;
+
   /// The places along a way between two connected points, both ends included. O(points).
   std::vector<Vec2> way(std::uint32_t from, std::uint32_t to) const;
   bool connected(std::uint32_t a, std::uint32_t b) { return find(a) == find(b); }
