@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <utility>
 
 #include "base/arc.h"
@@ -127,26 +126,28 @@ NodedOutline Noding::monotone() const {
   return result;
 }
 
-std::optional<Error> Noding::apply(const NodedOutline& noded, std::span<const Contact> contacts,
-                                   std::span<const Merge> merges) {
-  // Where points of the input move to. Chains are followed; the lowest of a group stays.
-  const auto less = [](Vec2 a, Vec2 b) { return lexicographic_less(a, b); };
-  std::map<Vec2, Vec2, decltype(less)> moved(less);
-  const auto target = [&](Vec2 point) {
-    for (auto it = moved.find(point); it != moved.end(); it = moved.find(point)) point = it->second;
-    return point;
-  };
+Noding::Moves::Moves(const NodedOutline& noded, std::span<const Merge> merges) {
   for (const Merge& merge : merges) {
     const Vec2 from = target(noded.originals[merge.from]);
     const Vec2 to = target(noded.originals[merge.to]);
-    if (from != to) moved.emplace(std::max(from, to, less), std::min(from, to, less));
+    if (from != to) moved_.emplace(std::max(from, to, Less{}), std::min(from, to, Less{}));
   }
+}
 
-  struct Cut {
-    std::uint32_t edge;
-    double along;  ///< the chord
-    Node node;
-  };
+Vec2 Noding::Moves::target(Vec2 point) const {
+  for (auto it = moved_.find(point); it != moved_.end(); it = moved_.find(point))
+    point = it->second;
+  return point;
+}
+
+void Noding::move(Node& node, Vec2 original) const {
+  node.original = original;
+  node.local = to_local(original);
+}
+
+std::vector<Noding::Cut> Noding::cuts_of(const NodedOutline& noded,
+                                         std::span<const Contact> contacts,
+                                         const Moves& moves) const {
   std::vector<Cut> cuts;
   cuts.reserve(contacts.size());
   for (const Contact& contact : contacts) {
@@ -156,18 +157,45 @@ std::optional<Error> Noding::apply(const NodedOutline& noded, std::span<const Co
     const Vec2 end = nodes_[next(ring, contact.edge)].local;
     Node cut = node;
     if (contact.vertex == no_index) {
-      cut.original = to_input(contact.point);
+      move(cut, to_input(contact.point));
     } else {
-      cut.original = target(noded.originals[contact.vertex]);
+      move(cut, moves.target(noded.originals[contact.vertex]));
       if (!noded.passing[contact.vertex]) cut.source = noded.sources[contact.vertex];
     }
-    cut.local = to_local(cut.original);
     cuts.push_back({contact.edge, dot(end - node.local, cut.local - node.local), cut});
   }
   std::sort(cuts.begin(), cuts.end(), [](const Cut& a, const Cut& b) {
     return std::pair(a.edge, a.along) < std::pair(b.edge, b.along);
   });
+  return cuts;
+}
 
+void Noding::append_parts(std::uint32_t v, std::uint32_t end, std::span<const Cut> cuts,
+                          const Moves& moves, std::vector<Node>& result) {
+  const BulgeArc arc{nodes_[v].local, nodes_[end].local, nodes_[v].bulge};
+  const Vec2 last = moves.target(nodes_[end].original);
+  Node node = nodes_[v];
+  move(node, moves.target(node.original));
+  Vec2 from = arc.start;
+  bool whole = true;
+  for (const Cut& cut : cuts) {
+    if (cut.node.original == node.original || cut.node.original == last) continue;
+    node.bulge = partial_bulge(arc, from, cut.node.local);
+    result.push_back(node);
+    node = cut.node;
+    from = node.local;
+    whole = false;
+    ++split_edges_;
+  }
+  if (node.original == last) return;
+  if (!whole) node.bulge = 0 - partial_bulge(arc.reversed(), arc.end, from);
+  result.push_back(node);
+}
+
+std::optional<Error> Noding::apply(const NodedOutline& noded, std::span<const Contact> contacts,
+                                   std::span<const Merge> merges) {
+  const Moves moves(noded, merges);
+  const std::vector<Cut> cuts = cuts_of(noded, contacts, moves);
   std::vector<Node> result;
   std::vector<std::uint32_t> begin;
   result.reserve(nodes_.size() + cuts.size());
@@ -178,29 +206,13 @@ std::optional<Error> Noding::apply(const NodedOutline& noded, std::span<const Co
     for (std::uint32_t v = begin_[ring]; v < begin_[ring + 1]; ++v) {
       if (ends_chain(ring, v)) {
         result.push_back(nodes_[v]);
-        result.back().original = target(nodes_[v].original);
-        result.back().local = to_local(result.back().original);
+        move(result.back(), moves.target(nodes_[v].original));
         continue;
       }
-      const BulgeArc arc{nodes_[v].local, nodes_[next(ring, v)].local, nodes_[v].bulge};
-      const Vec2 end = target(nodes_[next(ring, v)].original);
-      Node node = nodes_[v];
-      node.original = target(node.original);
-      node.local = to_local(node.original);
-      Vec2 from = arc.start;
-      bool whole = true;
-      for (; cut != cuts.end() && cut->edge == v; ++cut) {
-        if (cut->node.original == node.original || cut->node.original == end) continue;
-        node.bulge = partial_bulge(arc, from, cut->node.local);
-        result.push_back(node);
-        node = cut->node;
-        from = node.local;
-        whole = false;
-        ++split_edges_;
-      }
-      if (node.original == end) continue;
-      if (!whole) node.bulge = 0 - partial_bulge(arc.reversed(), arc.end, from);
-      result.push_back(node);
+      const auto next_cut =
+          std::find_if(cut, cuts.end(), [v](const Cut& c) { return c.edge != v; });
+      append_parts(v, next(ring, v), {cut, next_cut}, moves, result);
+      cut = next_cut;
     }
     const std::size_t size = result.size() - first;
     if (open_) continue;

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "base/frame.h"
+#include "base/predicates.h"
 #include "medial/error.h"
 #include "shape/clean.h"
 #include "shape/sweep.h"
@@ -71,7 +73,33 @@ class Noding {
     VertexSource edge_source;
   };
 
+  /// Where an edge is cut.
+  struct Cut {
+    std::uint32_t edge;
+    double along;  ///< the chord
+    Node node;
+  };
+  /// Where points of the input move to. Chains are followed; the lowest of a group stays.
+  class Moves {
+   public:
+    Moves(const NodedOutline& noded, std::span<const Merge> merges);
+    Vec2 target(Vec2 point) const;
+
+   private:
+    struct Less {
+      bool operator()(Vec2 a, Vec2 b) const { return lexicographic_less(a, b); }
+    };
+    std::map<Vec2, Vec2, Less> moved_;
+  };
+
   Vec2 to_local(Vec2 input) const;
+  void move(Node& node, Vec2 original) const;
+  /// By edge and along it.
+  std::vector<Cut> cuts_of(const NodedOutline& noded, std::span<const Contact> contacts,
+                           const Moves& moves) const;
+  /// Appends the parts of the edge from node `v` to node `end`, without those of no length.
+  void append_parts(std::uint32_t v, std::uint32_t end, std::span<const Cut> cuts,
+                    const Moves& moves, std::vector<Node>& result);
   std::uint32_t next(std::uint32_t ring, std::uint32_t node) const {
     return node + 1 == begin_[ring + 1] ? begin_[ring] : node + 1;
   }

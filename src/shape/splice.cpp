@@ -22,6 +22,21 @@ std::uint32_t Arrangement::previous(std::uint32_t vertex) const {
   return (vertex == begin[ring] ? begin[ring + 1] : vertex) - 1;
 }
 
+namespace {
+
+/// The touches of the sweep name vertices of the outline, the `split_count` after them those of the
+/// arrangement: all do then, in the order of their places.
+void renumber_touches(Arrangement& result, const std::vector<std::uint32_t>& new_vertex,
+                      std::uint32_t split_count) {
+  const std::size_t whole = result.touches.size() - split_count;
+  for (std::size_t i = 0; i < whole; ++i)
+    result.touches[i].vertex = new_vertex[result.touches[i].vertex];
+  std::stable_sort(result.touches.begin(), result.touches.end(),
+                   [](const Touch& a, const Touch& b) { return a.place < b.place; });
+}
+
+}  // namespace
+
 Arrangement insert_splits(Outline outline, Sweep sweep) {
   const auto edge_count = static_cast<std::uint32_t>(outline.points.size());
   const auto split_count = static_cast<std::uint32_t>(sweep.splits.size());
@@ -78,13 +93,7 @@ Arrangement insert_splits(Outline outline, Sweep sweep) {
     result.next[result.begin[ring + 1] - 1] = result.begin[ring];
   }
 
-  // Indices of the outline become those of the arrangement.
-  const std::size_t whole = result.touches.size() - split_count;
-  for (std::size_t i = 0; i < whole; ++i) {
-    result.touches[i].vertex = new_vertex[result.touches[i].vertex];
-  }
-  std::stable_sort(result.touches.begin(), result.touches.end(),
-                   [](const Touch& a, const Touch& b) { return a.place < b.place; });
+  renumber_touches(result, new_vertex, split_count);
   const auto new_edge = [&](std::uint32_t piece) {
     if (piece == no_index) return no_index;
     if (piece >= edge_count) return new_edge_of_split[piece - edge_count];
