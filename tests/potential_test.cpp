@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
+#include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
@@ -221,6 +223,73 @@ TEST(Potential, ComesNearerWithTheOrder) {
       before = mean;
     }
   }
+}
+
+/// The direction of the n-force in the rectangle of 20 x 10 by quadrature over the angles under
+/// which its sides are seen: shares nothing with the engine.
+Vec2 direction_in_rectangle(Vec2 p, double order) {
+  const std::array<Vec2, 4> corners = {{{0, 0}, {20, 0}, {20, 10}, {0, 10}}};
+  Vec2 force;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Vec2 a = corners[i], side = corners[(i + 1) % 4] - a;
+    const double length = norm(side);
+    const Vec2 t = (1 / length) * side;
+    const double x1 = dot(a - p, t), x2 = x1 + length, y = cross(t, p - a);
+    const double angles = boost::math::quadrature::gauss<double, 30>::integrate(
+        [&](double angle) { return std::pow(std::cos(angle), order); }, std::atan2(x1, y),
+        std::atan2(x2, y));
+    const double along =
+        (std::pow(std::hypot(x2, y), -order) - std::pow(std::hypot(x1, y), -order)) / order;
+    force = force + along * t + std::pow(y, -order) * angles * left_of(t);
+  }
+  return (1 / norm(force)) * force;
+}
+
+/// The mean distance from the n-skeleton of that rectangle to its axis, over the size: a force line
+/// from a corner (all four are alike) by Runge and Kutta's rule in short steps, and from where it
+/// has come to the middle line, that.
+double mean_of_rectangle(double order) {
+  Vec2 p{1e-3, 1e-3};
+  double length = 0, moment = 0;
+  while (p.y < 5 - 1e-5) {
+    const double h = std::min(0.04, 0.5 * p.y);
+    const Vec2 k1 = direction_in_rectangle(p, order);
+    const Vec2 k2 = direction_in_rectangle(p + 0.5 * h * k1, order);
+    const Vec2 k3 = direction_in_rectangle(p + 0.5 * h * k2, order);
+    const Vec2 k4 = direction_in_rectangle(p + h * k3, order);
+    const Vec2 q = p + (h / 6) * (k1 + 2 * k2 + 2 * k3 + k4), middle = midpoint(p, q);
+    const double aside = std::abs(middle.x - middle.y) / std::numbers::sqrt2;
+    const double below = middle.x >= 5 ? 5 - middle.y : distance(middle, {5, 5});
+    length += distance(p, q);
+    moment += distance(p, q) * std::min(middle.x + middle.y < 10 ? aside : below, below);
+    p = q;
+  }
+  return 2 * moment / (2 * length + 10 - p.x) / 20;
+}
+
+/// From order 1 to 2 the skeleton of a rectangle goes away from the axis. That is the field's own.
+TEST(Potential, LowOrdersAreAsFarFromTheAxisAsTheirField) {
+  const Shape shape = *build_shape(rectangle(20, 10));
+  const MedialAxis exact = *compute(shape);
+  std::array<double, 3> own{};
+  for (std::size_t i = 0; i < own.size(); ++i) {
+    const double order = std::exp2(i);
+    own[i] = mean_of_rectangle(order);
+    const auto axis =
+        compute(shape, {.method = Method::potential, .potential = {.order = order, .step = 0.001}});
+    ASSERT_TRUE(axis.ok());
+    double length = 0, moment = 0;
+    const AxisLocator locator(exact);
+    for (const Edge& edge : axis->edges) {
+      const Vec2 a = axis->nodes[edge.node[0]].disk.center;
+      const Vec2 b = axis->nodes[edge.node[1]].disk.center;
+      length += distance(a, b);
+      moment += distance(a, b) * locator.nearest(midpoint(a, b)).distance;
+    }
+    EXPECT_NEAR(moment / length / 20, own[i], 5e-5) << order;
+  }
+  EXPECT_GT(own[1], own[0] + 3e-4);
+  EXPECT_LT(own[2], own[0] - 3e-4);
 }
 
 /// A disk with slots of half of its rings' width, `slots` in each of four rings.
