@@ -431,6 +431,39 @@ TEST_F(Io, AttributesNeverHideTheFieldsOfTheAxis) {
   }
 }
 
+TEST_F(Io, ReferenceSystemsAndKindsOfNumbersComeBackFromGeojsonAndGeoPackages) {
+  NativeFile file = two_items();
+  OGRSpatialReference reference;
+  ASSERT_EQ(reference.importFromEPSG(32633), OGRERR_NONE);
+  char* wkt = nullptr;
+  ASSERT_EQ(reference.exportToWkt(&wkt), OGRERR_NONE);
+  file.crs_wkt = wkt;
+  CPLFree(wkt);
+  file.items[0].attributes = {{"name", "\"a\" \\ \xC3\xA4 \t"}};
+  GDALAllRegister();
+  for (const char* name : {"a.geojson", "a.gpkg"}) {
+    SCOPED_TRACE(name);
+    ASSERT_TRUE(write_axes(path(name), "", file).ok());
+    const GDALDatasetUniquePtr data(GDALDataset::Open(path(name).c_str(), GDAL_OF_VECTOR));
+    ASSERT_TRUE(data);
+    OGRLayer* const layer = data->GetLayer(0);
+    ASSERT_NE(layer->GetSpatialRef(), nullptr);
+    EXPECT_STREQ(layer->GetSpatialRef()->GetAuthorityCode(nullptr), "32633");
+    const OGRFeatureDefn* fields = layer->GetLayerDefn();
+    const auto type = [&](const char* field) {
+      return fields->GetFieldDefn(fields->GetFieldIndex(field))->GetType();
+    };
+    EXPECT_EQ(type("r_max"), OFTReal);
+    EXPECT_NE(type("branch"), OFTReal);
+    const OGRFeatureUniquePtr first(layer->GetNextFeature());
+    EXPECT_STREQ(first->GetFieldAsString("name"), file.items[0].attributes[0].second.c_str());
+    OGREnvelope box;
+    ASSERT_EQ(layer->GetExtent(&box, TRUE), OGRERR_NONE);
+    EXPECT_EQ(box.MinX, 0);  // of the rectangle and the notched one beside it
+    EXPECT_GT(box.MaxX, 3);
+  }
+}
+
 TEST_F(Io, LayersOfAFileAreChosenByName) {
   GDALAllRegister();
   GDALDriver* driver = GetGDALDriverManager()->GetDriverByName("GPKG");

@@ -17,7 +17,7 @@ HIDDEN = {"verify": {"exact", "index", "engines", "ops"}}
 # Experiments measure and draw what happens inside of an engine (its base cases, merge curves, orders): no
 # user of the library needs that, so it stays out of the public headers. cli/CMakeLists.txt has this list too.
 EXPERIMENTS = {"bench_biarc.cpp", "bench_curve_axis.cpp", "bench_lee.cpp", "bench_potential.cpp", "bench_ridge.cpp", "lee_figures.cpp"}
-IO_ONLY = re.compile(r"(gdal|ogr|cpl_|geos|cairo|svgpp|libxml|dl_|ft2build|simdjson|nlohmann/|CLI/|zlib\.h|assimp)", re.IGNORECASE)
+IO_ONLY = re.compile(r"(gdal|ogr|cpl_|geos|cairo|svgpp|libxml|dl_|ft2build|simdjson|nlohmann/|CLI/|zlib\.h|sqlite3\.h|assimp)", re.IGNORECASE)
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.MULTILINE)
 
 

@@ -18,40 +18,6 @@ namespace {
 
 constexpr char feature_formats[] = ".json .geojson .gpkg .shp .fgb .csv .svg .pdf .png .ps";
 
-constexpr std::array<TableColumn, 12> run_columns{{{"feature", ColumnType::whole},
-                                                   {"branch", ColumnType::whole},
-                                                   {"run", ColumnType::whole},
-                                                   {"primitive", ColumnType::text},
-                                                   {"variation", ColumnType::text},
-                                                   {"length", ColumnType::real},
-                                                   {"r_from", ColumnType::real},
-                                                   {"r_to", ColumnType::real},
-                                                   {"mean_width", ColumnType::real},
-                                                   {"slope", ColumnType::real},
-                                                   {"bend", ColumnType::real},
-                                                   {"turning", ColumnType::real}}};
-
-constexpr std::array<TableColumn, 23> branch_columns{
-    {{"feature", ColumnType::whole},    {"branch", ColumnType::whole},
-     {"from_kind", ColumnType::text},   {"to_kind", ColumnType::text},
-     {"closed", ColumnType::whole},     {"length", ColumnType::real},
-     {"r_min", ColumnType::real},       {"r_max", ColumnType::real},
-     {"mean_width", ColumnType::real},  {"turning", ColumnType::real},
-     {"abs_turn", ColumnType::real},    {"area", ColumnType::real},
-     {"signif", ColumnType::real},      {"runs", ColumnType::whole},
-     {"primitives", ColumnType::text},  {"left_ring", ColumnType::whole},
-     {"left_from", ColumnType::whole},  {"left_to", ColumnType::whole},
-     {"left_len", ColumnType::real},    {"right_ring", ColumnType::whole},
-     {"right_from", ColumnType::whole}, {"right_to", ColumnType::whole},
-     {"right_len", ColumnType::real}}};
-
-constexpr std::array<TableColumn, 5> point_columns{{{"feature", ColumnType::whole},
-                                                    {"node", ColumnType::whole},
-                                                    {"kind", ColumnType::text},
-                                                    {"degree", ColumnType::whole},
-                                                    {"r", ColumnType::real}}};
-
-Value whole(std::uint64_t number) { return static_cast<std::int64_t>(number); }
 Value whole_or_nothing(std::uint32_t number) { return number == no_site ? Value{} : whole(number); }
 Value real(double number) { return std::isfinite(number) ? Value{number} : Value{}; }
 Value text_value(const char* words) { return std::string(words); }
@@ -317,7 +283,7 @@ Status write_table(OutputStream& out, const NativeFile& axes,
   const Result<OutputCrs> crs = OutputCrs::make(axes.crs_wkt);
   if (!crs) return crs.error();
   const char* comma = "";
-  for (const TableColumn& column : columns_of(table)) {
+  for (const Column& column : columns_of(table)) {
     out.put(comma);
     out.put(column.name);
     comma = ",";
@@ -350,18 +316,6 @@ Status write_table(OutputStream& out, const NativeFile& axes,
 }
 
 }  // namespace
-
-std::span<const TableColumn> columns_of(FeatureTable table) {
-  switch (table) {
-    case FeatureTable::runs:
-      return run_columns;
-    case FeatureTable::branches:
-      return branch_columns;
-    case FeatureTable::points:
-      break;
-  }
-  return point_columns;
-}
 
 const char* name_of(FeatureTable table) {
   constexpr std::array<const char*, 3> names{"runs", "branches", "points"};
@@ -438,19 +392,16 @@ Status write_features(const std::string& path, const std::string& format, const 
                       std::span<const AxisFeatures> features, const FeatureWriteOptions& options) {
   const Result<std::string> known = output_format(path, format, "json", feature_formats);
   if (!known) return known.error();
-  return write_file(
-      path, *known, "features",
-      [&](const std::string& name) {
-        return write_features_gdal(name, *known, axes, features, options);
-      },
-      [&](OutputStream& out) -> Status {
-        if (*known == "json") {
-          write_json(out, axes, features);
-          return success();
-        }
-        if (*known == "csv") return write_table(out, axes, features, options.table);
-        return write_features_picture(out, *known, axes, features, options);
-      });
+  if (holds_tables(*known))
+    return write_tables(path, *known, "features", features_tables(axes, features, *known, options));
+  return write_whole(path, [&](OutputStream& out) -> Status {
+    if (*known == "json") {
+      write_json(out, axes, features);
+      return success();
+    }
+    if (*known == "csv") return write_table(out, axes, features, options.table);
+    return write_features_picture(out, *known, axes, features, options);
+  });
 }
 
 }  // namespace medial::io

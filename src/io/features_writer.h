@@ -5,26 +5,17 @@
 #include <cstdint>
 #include <span>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "io/output.h"
+#include "io/tables.h"
 #include "medial/io/features.h"
 #include "medial/query.h"
 
 namespace medial::io {
 
-/// Nothing, a whole number, a real one, or a text.
-using Value = std::variant<std::monostate, std::int64_t, double, std::string>;
-
-enum class ColumnType : std::uint8_t { whole, real, text };
-struct TableColumn {
-  const char* name;  ///< at most ten characters: a shapefile has no more
-  ColumnType type;
-};
-
 /// The columns of a table, in order.
-std::span<const TableColumn> columns_of(FeatureTable table);
+std::vector<Column> columns_of(FeatureTable table);
 const char* name_of(FeatureTable table);
 
 /// A row: its values, and its geometry, which is one point or a line.
@@ -43,10 +34,10 @@ std::vector<std::vector<Disk>> lines_of(const MedialAxis& axis, const AxisFeatur
                                         const BranchFeatures& branch, const Branch& chain,
                                         double chord);
 
-/// By GDAL: see write_features(). Errors: unwritable, unsupported.
-Status write_features_gdal(const std::string& path, const std::string& format,
-                           const NativeFile& axes, std::span<const AxisFeatures> features,
-                           const FeatureWriteOptions& options);
+/// The tables of a format: all of them in a GeoPackage, else the one of the options. The source
+/// refers to the arguments.
+TableSource features_tables(const NativeFile& axes, std::span<const AxisFeatures> features,
+                            const std::string& format, const FeatureWriteOptions& options);
 
 /// A picture by Cairo. Errors: invalid_option (the width), unwritable.
 Status write_features_picture(OutputStream& out, const std::string& format, const NativeFile& axes,

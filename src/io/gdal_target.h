@@ -1,26 +1,20 @@
 #pragma once
 
-// What all writers through GDAL share: the reference system, the dataset, the way to a file.
+// What is written through GDAL, and the reference system of all outputs.
 
-#include <cstddef>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "io/output.h"
 #include "medial/axis.h"
 #include "medial/io/projection.h"
 
-class GDALDataset;
-class OGRLineString;
-class OGRSimpleCurve;
 class OGRSpatialReference;
 
 namespace medial::io {
 
-class GdalMessages;
+struct TableSource;
 
 /// The reference system of an output: that of the input, or its longitudes and latitudes again
 /// where that is a local projection of project_to_local().
@@ -46,26 +40,12 @@ class OutputCrs {
   std::optional<BackToGeographic> back_;
 };
 
-/// Whether a format is written through GDAL: geojson, gpkg, shp, fgb.
-bool through_gdal(const std::string& format);
-
-/// An unwritable file, in GDAL's words.
-Error cannot_write(const GdalMessages& messages);
-
-/// Makes a dataset that `fill` puts layers into, in one transaction where the format has such.
-/// Errors: unsupported, unwritable, and those of `fill`.
-Status write_dataset(
-    const std::string& path, const std::string& format,
-    const std::function<Status(GDALDataset& target, const GdalMessages& messages)>& fill);
-
-/// Points of a line or ring.
-void set_points(OGRSimpleCurve& curve, const std::vector<Vec2>& points);
-
-/// Writes a file all at once, or to a stream: where GDAL writes the format by `make`, which makes
-/// the file of a path, and else by `put`, which puts its bytes. `name` is what GDAL calls a layer
-/// that has no file to be named after. Exceptions become errors, and errors name the file.
-Status write_file(const std::string& path, const std::string& format, const std::string& name,
-                  const std::function<Status(const std::string& path)>& make,
-                  const std::function<Status(OutputStream& out)>& put);
+/// Makes a dataset with an empty layer for each table, in GDAL's words where it cannot; and puts
+/// the tables into it, feature by feature. The one layer of a format that is no GeoPackage is named
+/// after the file. Errors: unsupported, unwritable, and those of `fill`.
+Status create_by_gdal(const std::string& path, const std::string& format, const OutputCrs& crs,
+                      const TableSource& source);
+Status write_by_gdal(const std::string& path, const std::string& format, const OutputCrs& crs,
+                     const TableSource& source);
 
 }  // namespace medial::io

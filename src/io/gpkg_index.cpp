@@ -1,17 +1,14 @@
 #include "io/gpkg_index.h"
 
 #include <fmt/format.h>
-#include <ogrsf_frmts.h>
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstdlib>
-#include <iterator>
 #include <limits>
+#include <utility>
 
-#include "io/gdal_support.h"
-#include "io/gdal_target.h"
+#include "io/sqlite.h"
 
 namespace medial::io {
 
@@ -26,73 +23,31 @@ float float_below(double value) {
 }
 float float_above(double value) { return -float_below(-value); }
 
-void put_hex(std::string& out, std::uint64_t value, int bytes) {
-  fmt::format_to(std::back_inserter(out), "{:0{}x}", value, 2 * bytes);
-}
-
-void execute(GDALDataset& target, const std::string& statement) {
-  target.ReleaseResultSet(target.ExecuteSQL(statement.c_str(), nullptr, nullptr));
+/// Appends a whole number, its high byte first.
+template <class Number>
+void put_big_endian(std::vector<std::uint8_t>& out, Number value) {
+  for (int shift = 8 * (static_cast<int>(sizeof(Number)) - 1); shift >= 0; shift -= 8)
+    out.push_back(static_cast<std::uint8_t>(value >> shift));
 }
 
 }  // namespace
 
-bool has_gpkg_index(GDALDataset& target) { return EQUAL(target.GetDriverName(), "GPKG"); }
-
-char** without_index() {
-  static char option[] = "SPATIAL_INDEX=NO";
-  static char* options[] = {option, nullptr};
-  return options;
+GpkgIndex::GpkgIndex(Database& database, const std::string& layer) : database_(database) {
+  Statement column(database, "SELECT column_name FROM gpkg_geometry_columns WHERE table_name=?");
+  column.bind(1, layer);
+  if (!column.step()) return;
+  table_ = fmt::format("rtree_{}_{}", layer, column.text(0));
+  Statement made(database, "SELECT count(*) FROM sqlite_master WHERE type='table' AND name=?");
+  made.bind(1, table_);
+  if (!made.step() || made.whole(0) == 0) return;
+  Statement size(database, fmt::format("SELECT length(data) FROM {} WHERE nodeno=1",
+                                       quoted_name(table_ + "_node")));
+  if (size.step()) node_size_ = static_cast<std::size_t>(size.whole(0));
+  if (node_size_ < header_size + 2 * cell_size) node_size_ = 0;
 }
 
-struct GpkgIndex::Insert {
-  GDALDataset& target;
-  std::string into;
-  std::string statement = {};
-
-  void add(std::int64_t key, std::string_view value) {
-    constexpr std::size_t enough = 1U << 16U;
-    statement += statement.empty() ? into : ",";
-    fmt::format_to(std::back_inserter(statement), "({},{})", key, value);
-    if (statement.size() > enough) end();
-  }
-  void end() {
-    if (!statement.empty()) execute(target, statement);
-    statement.clear();
-  }
-};
-
-GpkgIndex::GpkgIndex(GDALDataset& target, OGRLayer& layer) : target_(target) {
-  // GDAL makes the tables, their triggers and what announces them, all of them empty.
-  const std::string column = layer.GetGeometryColumn();
-  table_ = fmt::format("rtree_{}_{}", layer.GetName(), column);
-  text_of(fmt::format("SELECT CreateSpatialIndex('{}','{}')", layer.GetName(), column));
-  const std::string size =
-      text_of(fmt::format("SELECT length(data) FROM \"{}_node\" WHERE nodeno=1", table_));
-  node_size_ = std::strtoull(size.c_str(), nullptr, 10);
-  if (node_size_ < header_size + 2 * cell_size) return;
-  const std::string trigger = table_ + "_insert";
-  insert_trigger_ = text_of(fmt::format("SELECT sql FROM sqlite_master WHERE name='{}'", trigger));
-  if (!insert_trigger_.empty()) execute(target_, fmt::format("DROP TRIGGER \"{}\"", trigger));
-}
-
-std::string GpkgIndex::text_of(const std::string& query) const {
-  OGRLayer* rows = target_.ExecuteSQL(query.c_str(), nullptr, nullptr);
-  std::string text;
-  if (rows != nullptr) {
-    const OGRFeatureUniquePtr first(rows->GetNextFeature());
-    if (first && first->GetFieldCount() > 0) text = first->GetFieldAsString(0);
-  }
-  target_.ReleaseResultSet(rows);
-  return text;
-}
-
-void GpkgIndex::add(std::int64_t row, const std::vector<Vec2>& points) {
-  if (insert_trigger_.empty()) return;
-  Vec2 low = points.front(), high = low;
-  for (const Vec2 p : points) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-  }
+void GpkgIndex::add(std::int64_t row, Vec2 low, Vec2 high) {
+  if (node_size_ == 0) return;
   cells_.push_back(
       {row, float_below(low.x), float_above(high.x), float_below(low.y), float_above(high.y)});
 }
@@ -112,17 +67,22 @@ void GpkgIndex::sort(std::vector<Cell>& cells, std::size_t nodes) const {
   }
 }
 
-Status GpkgIndex::write(const GdalMessages& messages) {
-  if (insert_trigger_.empty()) return success();
+void GpkgIndex::write() {
+  if (node_size_ == 0) return;
   constexpr std::int64_t root = 1;
-  Insert nodes{target_, fmt::format("REPLACE INTO \"{}_node\" VALUES", table_)};
-  Insert rows{target_, fmt::format("INSERT INTO \"{}_rowid\" VALUES", table_)};
-  Insert parents{target_, fmt::format("INSERT INTO \"{}_parent\" VALUES", table_)};
+  const auto statement = [this](const char* verb, const char* ending) {
+    return fmt::format("{} INTO {} VALUES(?,?)", verb, quoted_name(table_ + ending));
+  };
+  Statement nodes(database_, statement("REPLACE", "_node"));
+  Statement rows(database_, statement("INSERT", "_rowid"));
+  Statement parents(database_, statement("INSERT", "_parent"));
   const std::size_t capacity = (node_size_ - header_size) / cell_size;
   std::vector<Cell> cells = std::move(cells_), above;
+  std::vector<std::pair<std::int64_t, std::int64_t>> leaves;  // row and node
+  leaves.reserve(cells.size());
   std::int64_t next = root + 1;
-  std::string blob;
-  for (std::uint64_t level = 0;; ++level) {
+  std::vector<std::uint8_t> bytes;
+  for (std::uint16_t level = 0;; ++level) {
     const std::size_t count = std::max<std::size_t>((cells.size() + capacity - 1) / capacity, 1);
     if (count > 1) sort(cells, count);
     above.clear();
@@ -130,15 +90,21 @@ Status GpkgIndex::write(const GdalMessages& messages) {
       const std::int64_t node = count == 1 ? root : next++;
       const std::size_t begin = cells.size() * i / count, end = cells.size() * (i + 1) / count;
       Cell box{node};
-      blob = "x'";
-      put_hex(blob, count == 1 ? level : 0, 2);
-      put_hex(blob, end - begin, 2);
+      bytes.clear();
+      put_big_endian(bytes, count == 1 ? level : std::uint16_t{0});
+      put_big_endian(bytes, static_cast<std::uint16_t>(end - begin));
       for (std::size_t k = begin; k < end; ++k) {
         const Cell& cell = cells[k];
-        put_hex(blob, static_cast<std::uint64_t>(cell.id), 8);
+        put_big_endian(bytes, static_cast<std::uint64_t>(cell.id));
         for (const float value : {cell.low_x, cell.high_x, cell.low_y, cell.high_y})
-          put_hex(blob, std::bit_cast<std::uint32_t>(value), 4);
-        (level == 0 ? rows : parents).add(cell.id, std::to_string(node));
+          put_big_endian(bytes, std::bit_cast<std::uint32_t>(value));
+        if (level == 0) {
+          leaves.emplace_back(cell.id, node);
+        } else {
+          parents.bind(1, cell.id);
+          parents.bind(2, node);
+          parents.run();
+        }
         if (k == begin) {
           box = cell;
           box.id = node;
@@ -148,19 +114,22 @@ Status GpkgIndex::write(const GdalMessages& messages) {
         box.low_y = std::min(box.low_y, cell.low_y);
         box.high_y = std::max(box.high_y, cell.high_y);
       }
-      blob.append(2 * (node_size_ - header_size - cell_size * (end - begin)), '0');
-      blob += '\'';
-      nodes.add(node, blob);
+      bytes.resize(node_size_);
+      nodes.bind(1, node);
+      nodes.bind(2, std::span<const std::uint8_t>(bytes));
+      nodes.run();
       above.push_back(box);
     }
     if (count == 1) break;
     cells.swap(above);
   }
-  nodes.end();
-  rows.end();
-  parents.end();
-  execute(target_, insert_trigger_);
-  return messages.failure().empty() ? success() : cannot_write(messages);
+  // In the order of their keys rows are appended, and none is looked for.
+  std::ranges::sort(leaves);
+  for (const auto& [row, node] : leaves) {
+    rows.bind(1, row);
+    rows.bind(2, node);
+    rows.run();
+  }
 }
 
 }  // namespace medial::io

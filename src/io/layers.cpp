@@ -1,144 +1,87 @@
 #include "medial/io/layers.h"
 
 #include <fmt/format.h>
-#include <gdal_priv.h>
-#include <ogrsf_frmts.h>
 
-#include <algorithm>
-#include <memory>
-#include <string_view>
-
-#include "io/gdal_columns.h"
-#include "io/gdal_support.h"
+#include "io/attribute_columns.h"
 #include "io/gdal_target.h"
 #include "io/output.h"
 #include "io/picture.h"
 #include "io/place.h"
+#include "io/ring_text.h"
+#include "io/tables.h"
 
 namespace medial::io {
 namespace {
 
 constexpr char layer_formats[] = ".geojson .gpkg .shp .fgb .wkt .svg .pdf .png .ps";
 
-OGRwkbGeometryType type_of(LayerKind kind) {
-  if (kind == LayerKind::disks) return wkbPoint;
-  return kind == LayerKind::lines ? wkbLineString : wkbPolygon;
+GeometryKind geometry_of(LayerKind kind) {
+  if (kind == LayerKind::disks) return GeometryKind::point;
+  return kind == LayerKind::lines ? GeometryKind::line : GeometryKind::polygon;
 }
 
-std::unique_ptr<OGRGeometry> geometry_of(LayerKind kind,
-                                         const std::vector<std::vector<Vec2>>& parts) {
-  if (kind == LayerKind::disks) return std::make_unique<OGRPoint>(parts[0][0].x, parts[0][0].y);
-  if (kind == LayerKind::lines) {
-    auto line = std::make_unique<OGRLineString>();
-    set_points(*line, parts[0]);
-    return line;
+/// A table for each layer; in the one collection of a GeoJSON file rows tell their layer.
+TableSource layer_tables(const LayerFile& file, const std::string& format) {
+  const bool named = format == "geojson";
+  std::vector<std::string> own{"feature", "layer"};
+  for (const Layer& layer : file.layers)
+    own.insert(own.end(), layer.fields.begin(), layer.fields.end());
+  std::vector<const Attributes*> items;
+  for (const Attributes& item : file.attributes) items.push_back(&item);
+  const AttributeColumns attributes(items, own);
+  TableSource source;
+  source.crs_wkt = file.crs_wkt;
+  for (const Layer& layer : file.layers) {
+    Table& table = source.tables.emplace_back();
+    table.name = layer.name;
+    table.kind = geometry_of(layer.kind);
+    table.columns.push_back({"feature", ColumnType::whole});
+    if (named) table.columns.push_back({"layer", ColumnType::text});
+    for (const std::string& field : layer.fields)
+      table.columns.push_back({field, ColumnType::real});
+    attributes.append_to(table.columns);
   }
-  auto polygon = std::make_unique<OGRPolygon>();
-  for (const auto& part : parts) {
-    auto ring = std::make_unique<OGRLinearRing>();
-    set_points(*ring, part);
-    ring->closeRings();
-    polygon->addRingDirectly(ring.release());
-  }
-  return polygon;
-}
-
-class LayerWriter {
- public:
-  LayerWriter(const LayerFile& file, const OutputCrs& crs) : file_(file), crs_(crs) {}
-
-  Status write(const std::string& path, const std::string& format) const {
-    return write_dataset(
-        path, format, [&](GDALDataset& target, const GdalMessages& messages) -> Status {
-          const std::string base = CPLGetBasename(path.c_str());
-          OGRLayer* all = nullptr;
-          for (const Layer& layer : file_.layers) {
-            OGRLayer* own = nullptr;
-            // Of GeoJSON there is one collection of all geometries.
-            const bool added = format == "geojson"
-                                   ? add(target, all, layer, base, wkbUnknown)
-                                   : add(target, own, layer, format == "gpkg" ? layer.name : base,
-                                         type_of(layer.kind));
-            if (!added) return cannot_write(messages);
-          }
-          return success();
-        });
-  }
-
-  /// Well-known text, a geometry a line.
-  Status write_wkt(OutputStream& out) const {
-    for (const Layer& layer : file_.layers) {
-      for (const LayerFeature& feature : layer.features) {
+  source.fill = [&file, attributes, named](TableSink& sink) {
+    for (std::size_t k = 0; k < file.layers.size(); ++k) {
+      for (const LayerFeature& feature : file.layers[k].features) {
+        std::vector<Value> values{whole(feature.feature)};
+        if (named) values.emplace_back(file.layers[k].name);
+        values.insert(values.end(), feature.values.begin(), feature.values.end());
+        std::vector<Value> rest;
+        if (feature.feature < file.attributes.size())
+          rest = attributes.values_of(file.attributes[feature.feature]);
         auto parts = feature.parts;
-        if (Status done = back(parts); !done) return done;
-        char* text = nullptr;
-        geometry_of(layer.kind, parts)->exportToWkt(&text);
-        if (text != nullptr) out.put(std::string_view(text));
-        CPLFree(text);
-        out.put('\n');
+        if (Status added = sink.add(k, values, rest, parts); !added) return added;
       }
     }
     return success();
-  }
+  };
+  return source;
+}
 
- private:
-  Status back(std::vector<std::vector<Vec2>>& parts) const {
-    for (auto& part : parts)
-      if (Status done = crs_.transform(part); !done) return done;
-    return success();
-  }
-
-  /// Appends the features of a layer; creates the layer of the file where there is none yet.
-  bool add(GDALDataset& target, OGRLayer*& to, const Layer& layer, const std::string& name,
-           OGRwkbGeometryType type) const {
-    const bool shared = type == wkbUnknown;
-    std::vector<std::string> own{"feature", "layer"};
-    for (const Layer& one : file_.layers)
-      for (const std::string& field : one.fields)
-        if (std::ranges::find(own, field) == own.end()) own.push_back(field);
-    std::vector<const Attributes*> items;
-    for (const Attributes& item : file_.attributes) items.push_back(&item);
-    const AttributeColumns columns(items, own);
-    const std::vector<std::string>& fields = layer.fields;
-    if (to == nullptr) {
-      to = target.CreateLayer(name.c_str(), crs_.reference(), type, nullptr);
-      if (to == nullptr) return false;
-      OGRFieldDefn number("feature", OFTInteger64);
-      if (to->CreateField(&number) != OGRERR_NONE) return false;
-      if (shared) {
-        OGRFieldDefn kind("layer", OFTString);
-        if (to->CreateField(&kind) != OGRERR_NONE) return false;
+/// Well-known text, a geometry a line.
+Status write_layers_wkt(OutputStream& out, const LayerFile& file) {
+  const Result<OutputCrs> crs = OutputCrs::make(file.crs_wkt);
+  if (!crs) return crs.error();
+  for (const Layer& layer : file.layers) {
+    for (const LayerFeature& feature : layer.features) {
+      auto parts = feature.parts;
+      const char* separator = layer.kind == LayerKind::disks   ? "POINT "
+                              : layer.kind == LayerKind::lines ? "LINESTRING "
+                                                               : "POLYGON (";
+      for (std::vector<Vec2>& part : parts) {
+        if (Status placed = crs->transform(part); !placed) return placed;
+        if (layer.kind == LayerKind::polygons && part.front() != part.back())
+          part.push_back(part.front());
+        out.put(separator);
+        put_wkt_points(out, part);
+        separator = ", ";
       }
-      const auto create = [&](const std::string& field) {
-        OGRFieldDefn value(field.c_str(), OFTReal);
-        return to->CreateField(&value) == OGRERR_NONE;
-      };
-      if (!shared && !std::ranges::all_of(fields, create)) return false;
-      if (shared && !std::all_of(own.begin() + 2, own.end(), create)) return false;
-      if (!columns.create_in(*to)) return false;
+      out.put(layer.kind == LayerKind::polygons ? ")\n" : "\n");
     }
-    const int first_attribute = 1 + static_cast<int>(shared ? own.size() - 1 : fields.size());
-    for (const LayerFeature& source : layer.features) {
-      OGRFeature feature(to->GetLayerDefn());
-      feature.SetField(0, static_cast<GIntBig>(source.feature));
-      if (shared) feature.SetField(1, layer.name.c_str());
-      for (std::size_t i = 0; i < fields.size(); ++i) {
-        const auto at = std::ranges::find(own, fields[i]) - own.begin();
-        feature.SetField(shared ? static_cast<int>(at) : 1 + static_cast<int>(i), source.values[i]);
-      }
-      if (source.feature < file_.attributes.size())
-        columns.set(feature, first_attribute, file_.attributes[source.feature]);
-      auto parts = source.parts;
-      if (Status done = back(parts); !done) return false;
-      feature.SetGeometryDirectly(geometry_of(layer.kind, parts).release());
-      if (to->CreateFeature(&feature) != OGRERR_NONE) return false;
-    }
-    return true;
   }
-
-  const LayerFile& file_;
-  const OutputCrs& crs_;
-};
+  return success();
+}
 
 }  // namespace
 
@@ -156,15 +99,11 @@ Status write_layers(const std::string& path, const std::string& format, const La
                    fmt::format(".{} holds one layer only, and there are {}; .gpkg and .geojson "
                                "hold several",
                                *known, file.layers.size()));
-  Result<OutputCrs> crs = OutputCrs::make(file.crs_wkt);
-  if (!crs) return refused(crs.error().code, crs.error().text);
-  const LayerWriter writer(file, *crs);
-  return write_file(
-      path, *known, "medial", [&](const std::string& name) { return writer.write(name, *known); },
-      [&](OutputStream& out) {
-        return *known == "wkt" ? writer.write_wkt(out)
-                               : write_layers_picture(out, *known, file, background, options);
-      });
+  if (holds_tables(*known)) return write_tables(path, *known, "medial", layer_tables(file, *known));
+  return write_whole(path, [&](OutputStream& out) {
+    return *known == "wkt" ? write_layers_wkt(out, file)
+                           : write_layers_picture(out, *known, file, background, options);
+  });
 }
 
 }  // namespace medial::io

@@ -4,9 +4,11 @@
 #include <cmath>
 #include <limits>
 #include <set>
+#include <string_view>
 
 #include "io/canvas.h"
 #include "io/gdal_target.h"
+#include "io/geojson.h"
 #include "io/output.h"
 #include "io/ring_text.h"
 #include "medial/io/offsets.h"
@@ -133,37 +135,48 @@ Status write_wkt(OutputStream& out, const OffsetFile& file, const WriteOptions& 
 Status write_geojson(OutputStream& out, const OffsetFile& file, const WriteOptions& options) {
   const Result<OutputCrs> crs = OutputCrs::make(file.crs_wkt);
   if (!crs) return crs.error();
-  out.put("{\"type\":\"FeatureCollection\",\"features\":[");
-  bool first = true;
+  GeojsonCollection collection(out, {}, crs->reference());
   for (std::size_t i = 0; i < file.items.size(); ++i) {
     const OffsetItem& item = file.items[i];
     const double chord = chord_of(item, options);
     for (std::size_t k = 0; k < item.offsets.regions.size(); ++k) {
       const OffsetRegion& region = item.offsets.regions[k];
-      out.put(first ? "\n" : ",\n");
-      first = false;
-      out.put("{\"type\":\"Feature\",\"geometry\":{\"type\":\"Polygon\",\"coordinates\":[");
+      collection.start();
+      const auto member = [&](std::string_view key, auto value) {
+        collection.member(key);
+        out.put(value);
+      };
+      member("\"feature\"", i);
+      member("\"region\"", k);
+      member("\"clearance\"", region.clearance);
+      if (region.parent == no_region) {
+        member("\"parent\"", std::string_view("null"));
+      } else {
+        member("\"parent\"", region.parent);
+      }
+      member("\"area\"", area(region));
+      member("\"length\"", length(region));
+      if (!item.sources.empty()) {
+        collection.member("\"features\"");
+        out.put(fmt::format("[{}]", fmt::join(item.sources[k].features, ",")));
+      }
+      for (const auto& [name, value] :
+           item.sources.empty() ? item.attributes : item.sources[k].attributes) {
+        collection.member(quoted(name));
+        put_quoted(out, value);
+      }
+      collection.geometry("Polygon");
       for (std::size_t r = 0; r < region.rings.size(); ++r) {
         std::vector<Vec2> points = chords_of(region.rings[r], chord);
         if (Status placed = crs->transform(points); !placed) return placed;
-        out.put(r == 0 ? "" : ",");
+        out.put(r == 0 ? '[' : ',');
         put_geojson_points(out, points);
       }
-      out.put(
-          fmt::format("]}},\"properties\":{{\"feature\":{},\"region\":{},\"clearance\":{},"
-                      "\"parent\":{},\"area\":{},\"length\":{}",
-                      i, k, region.clearance,
-                      region.parent == no_region ? "null" : std::to_string(region.parent),
-                      area(region), length(region)));
-      if (!item.sources.empty())
-        out.put(fmt::format(",\"features\":[{}]", fmt::join(item.sources[k].features, ",")));
-      for (const auto& [name, value] :
-           item.sources.empty() ? item.attributes : item.sources[k].attributes)
-        out.put(fmt::format(",{}:{}", quoted(name), quoted(value)));
-      out.put("}}");
+      out.put(']');
+      collection.end();
     }
   }
-  out.put("\n]}\n");
+  collection.finish();
   return success();
 }
 

@@ -6,6 +6,7 @@
 
 #include "base/arc.h"
 #include "io/gdal_target.h"
+#include "io/geojson.h"
 #include "io/native.h"
 #include "io/output.h"
 #include "io/picture.h"
@@ -139,17 +140,16 @@ Status write_wkt(OutputStream& out, const ShapesFile& file) {
 Status write_geojson(OutputStream& out, const ShapesFile& file) {
   const Result<OutputCrs> crs = OutputCrs::make(file.crs_wkt);
   if (!crs) return crs.error();
-  out.put("{\"type\":\"FeatureCollection\",\"features\":[");
-  bool first = true;
+  GeojsonCollection collection(out, {}, crs->reference());
   for (const ShapeItem& item : file.items) {
     const Shape& shape = item.shape;
-    out.put(first ? "\n" : ",\n");
-    first = false;
-    out.put("{\"type\":\"Feature\",\"properties\":{");
-    for (std::size_t i = 0; i < item.attributes.size(); ++i)
-      out.put(fmt::format("{}{}:{}", i > 0 ? "," : "", quoted(item.attributes[i].first),
-                          quoted(item.attributes[i].second)));
-    out.put("},\"geometry\":{\"type\":\"MultiPolygon\",\"coordinates\":[");
+    collection.start();
+    for (const auto& [name, value] : item.attributes) {
+      collection.member(quoted(name));
+      put_quoted(out, value);
+    }
+    collection.geometry("MultiPolygon");
+    out.put('[');
     const auto parts = parts_of(shape);
     for (std::size_t k = 0; k < parts.size(); ++k) {
       out.put(k > 0 ? ",[" : "[");
@@ -161,9 +161,10 @@ Status write_geojson(OutputStream& out, const ShapesFile& file) {
       }
       out.put(']');
     }
-    out.put("]}}");
+    out.put(']');
+    collection.end();
   }
-  out.put("\n]}\n");
+  collection.finish();
   return success();
 }
 

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "io/gdal_target.h"
+#include "io/geojson.h"
 #include "io/picture.h"
 #include "io/ring_text.h"
 #include "medial/io/write.h"
@@ -135,28 +136,6 @@ Status write_voronoi_wkt(OutputStream& out, const VoronoiFile& file, const Write
   return success();
 }
 
-/// Features of a GeoJSON collection, one by one.
-class Features {
- public:
-  explicit Features(OutputStream& out) : out_(out) {
-    out_.put("{\"type\":\"FeatureCollection\",\"features\":[");
-  }
-  void start(const char* geometry) {
-    out_.put(first_ ? "\n" : ",\n");
-    first_ = false;
-    out_.put(fmt::format("{{\"type\":\"Feature\",\"geometry\":{{\"type\":\"{}\",\"coordinates\":",
-                         geometry));
-  }
-  void properties(const std::string& text) {
-    out_.put(fmt::format("}},\"properties\":{{{}}}}}", text));
-  }
-  void finish() { out_.put("\n]}\n"); }
-
- private:
-  OutputStream& out_;
-  bool first_ = true;
-};
-
 void write_voronoi_json(OutputStream& out, const VoronoiFile& file) {
   out.put("{\"medial_voronoi\":1,\n\"items\":[");
   for (std::size_t i = 0; i < file.items.size(); ++i) {
@@ -212,7 +191,15 @@ void write_voronoi_json(OutputStream& out, const VoronoiFile& file) {
 
 Status write_voronoi_geojson(OutputStream& out, const VoronoiFile& file,
                              const WriteOptions& options, const OutputCrs& crs) {
-  Features features(out);
+  GeojsonCollection collection(out, {}, crs.reference());
+  const auto number = [&](std::string_view key, auto value) {
+    collection.member(key);
+    out.put(value);
+  };
+  const auto text = [&](std::string_view key, const char* value) {
+    collection.member(key);
+    put_quoted(out, value);
+  };
   for (std::size_t i = 0; i < file.items.size(); ++i) {
     const VoronoiDiagram& diagram = file.items[i].diagram;
     const double chord = chord_of(file.items[i], options);
@@ -221,29 +208,36 @@ Status write_voronoi_geojson(OutputStream& out, const VoronoiFile& file,
       std::vector<Vec2> ring = ring_of_face(diagram, k, chord);
       if (ring.empty()) continue;
       if (Status placed = crs.transform(ring); !placed) return placed;
-      features.start("Polygon");
+      collection.start();
+      number("\"feature\"", i);
+      text("\"part\"", "face");
+      number("\"site\"", k);
+      text("\"kind\"", name_of(site.kind));
+      number("\"ring\"", site.ring);
+      number("\"vertex\"", site.vertex);
+      collection.geometry("Polygon");
       out.put('[');
       put_geojson_points(out, ring);
       out.put(']');
-      features.properties(
-          fmt::format("\"feature\":{},\"part\":\"face\",\"site\":{},\"kind\":\"{}\",\"ring\":{},"
-                      "\"vertex\":{}",
-                      i, k, name_of(site.kind), site.ring, site.vertex));
+      collection.end();
     }
     for (const VoronoiEdge& edge : diagram.edges) {
-      features.start("LineString");
       std::vector<Vec2> line;
       for (const Disk& disk : line_of(diagram, edge, chord, true)) line.push_back(disk.center);
       if (Status placed = crs.transform(line); !placed) return placed;
+      collection.start();
+      number("\"feature\"", i);
+      text("\"part\"", name_of(edge));
+      number("\"left\"", number_of(edge.site[0]));
+      number("\"right\"", number_of(edge.site[1]));
+      number("\"radius_from\"", diagram.nodes[edge.node[0]].disk.radius);
+      number("\"radius_to\"", diagram.nodes[edge.node[1]].disk.radius);
+      collection.geometry("LineString");
       put_geojson_points(out, line);
-      features.properties(fmt::format(
-          "\"feature\":{},\"part\":\"{}\",\"left\":{},\"right\":{},\"radius_from\":{},"
-          "\"radius_to\":{}",
-          i, name_of(edge), number_of(edge.site[0]), number_of(edge.site[1]),
-          diagram.nodes[edge.node[0]].disk.radius, diagram.nodes[edge.node[1]].disk.radius));
+      collection.end();
     }
   }
-  features.finish();
+  collection.finish();
   return success();
 }
 

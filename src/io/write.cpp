@@ -2,9 +2,8 @@
 
 #include <cmath>
 
+#include "io/axis_tables.h"
 #include "io/dxf_writer.h"
-#include "io/gdal_target.h"
-#include "io/gdal_writer.h"
 #include "io/native.h"
 #include "io/picture.h"
 #include "io/place.h"
@@ -41,10 +40,9 @@ Status write_axes(const std::string& path, const std::string& format, const Nati
   if (!known) return known.error();
   if (!(options.chord > 0) || !std::isfinite(options.chord))
     return Error{ErrorCode::invalid_option, "chord is not a positive number", in_file(path)};
-  return write_file(
-      path, *known, "medial",
-      [&](const std::string& name) { return write_gdal(name, *known, file, options); },
-      [&](OutputStream& out) { return put_axes(out, *known, file, options); });
+  if (holds_tables(*known))
+    return write_tables(path, *known, "medial", axis_tables(file, *known, options));
+  return write_whole(path, [&](OutputStream& out) { return put_axes(out, *known, file, options); });
 }
 
 }  // namespace medial::io

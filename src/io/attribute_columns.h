@@ -1,14 +1,11 @@
 #pragma once
 
-#include <ogr_core.h>
-
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
-class OGRFeature;
-class OGRLayer;
+#include "io/tables.h"
 
 namespace medial::io {
 
@@ -22,18 +19,14 @@ class AttributeColumns {
   /// name gets another one.
   AttributeColumns(std::span<const Attributes* const> items, std::span<const std::string> own);
 
-  /// Adds the columns to a layer; false where GDAL refuses.
-  bool create_in(OGRLayer& layer) const;
-  /// Sets the values of one item, in the fields from `first` on.
-  void set(OGRFeature& feature, int first, const Attributes& item) const;
+  /// Appends the columns to those of a table.
+  void append_to(std::vector<Column>& columns) const;
+  /// The values of one item in these columns.
+  std::vector<Value> values_of(const Attributes& item) const;
 
  private:
-  struct Column {
-    std::string name;    ///< in the input
-    std::string column;  ///< in the output, different from the writer's own
-    OGRFieldType type = OFTInteger64;
-  };
-  std::vector<Column> columns_;
+  std::vector<std::string> names_;  ///< in the input
+  std::vector<Column> columns_;     ///< in the output, named differently from the writer's own
 };
 
 }  // namespace medial::io

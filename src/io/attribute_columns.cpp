@@ -1,7 +1,6 @@
-#include "io/gdal_columns.h"
+#include "io/attribute_columns.h"
 
 #include <fmt/format.h>
-#include <ogrsf_frmts.h>
 
 #include <algorithm>
 #include <array>
@@ -38,47 +37,48 @@ AttributeColumns::AttributeColumns(std::span<const Attributes* const> items,
   for (const Attributes* item : items) {
     for (const auto& [name, value] : *item) {
       const auto [found, inserted] = index.try_emplace(name, columns_.size());
-      if (inserted) columns_.push_back({name, name, OFTInteger64});
-      OGRFieldType& type = columns_[found->second].type;
+      if (inserted) {
+        names_.push_back(name);
+        columns_.push_back({name, ColumnType::whole});
+      }
+      ColumnType& type = columns_[found->second].type;
       std::int64_t whole = 0;
       double real = 0;
-      if (type == OFTInteger64 && !spells(value, whole)) type = OFTReal;
-      if (type == OFTReal && !(spells(value, real) && std::isfinite(real)) &&
+      if (type == ColumnType::whole && !spells(value, whole)) type = ColumnType::real;
+      if (type == ColumnType::real && !(spells(value, real) && std::isfinite(real)) &&
           !spells(value, whole)) {
-        type = OFTString;
+        type = ColumnType::text;
       }
     }
   }
   std::set<std::string> taken(own.begin(), own.end());
   for (const char* name : {"fid", "ogc_fid", "geom"}) taken.insert(name);
-  for (Column& column : columns_) {
-    for (int i = 1; !taken.insert(lower(column.column)).second; ++i)
-      column.column = fmt::format("{}_{}", column.name, i);
+  for (std::size_t k = 0; k < columns_.size(); ++k) {
+    for (int i = 1; !taken.insert(lower(columns_[k].name)).second; ++i)
+      columns_[k].name = fmt::format("{}_{}", names_[k], i);
   }
 }
 
-bool AttributeColumns::create_in(OGRLayer& layer) const {
-  return std::ranges::all_of(columns_, [&layer](const Column& column) {
-    OGRFieldDefn definition(column.column.c_str(), column.type);
-    return layer.CreateField(&definition) == OGRERR_NONE;
-  });
+void AttributeColumns::append_to(std::vector<Column>& columns) const {
+  columns.insert(columns.end(), columns_.begin(), columns_.end());
 }
 
-void AttributeColumns::set(OGRFeature& feature, int first, const Attributes& item) const {
+std::vector<Value> AttributeColumns::values_of(const Attributes& item) const {
+  std::vector<Value> values(columns_.size());
   for (const auto& [name, value] : item) {
-    const auto column = std::ranges::find(columns_, name, &Column::name);
-    const int field = first + static_cast<int>(column - columns_.begin());
+    const auto k = static_cast<std::size_t>(std::ranges::find(names_, name) - names_.begin());
     std::int64_t whole = 0;
     double real = 0;
-    if (column->type == OFTInteger64 && spells(value, whole)) {
-      feature.SetField(field, static_cast<GIntBig>(whole));
-    } else if (column->type == OFTReal) {
+    if (columns_[k].type == ColumnType::whole && spells(value, whole)) {
+      values[k] = whole;
+    } else if (columns_[k].type == ColumnType::real) {
       std::from_chars(value.data(), value.data() + value.size(), real);
-      feature.SetField(field, real);
+      values[k] = real;
     } else {
-      feature.SetField(field, value.c_str());
+      values[k] = value;
     }
   }
+  return values;
 }
 
 }  // namespace medial::io
