@@ -45,6 +45,13 @@ class BoxTree {
     if (!order_.empty()) find_below(levels_.size() - 1, 0, query, visit);
   }
 
+  /// Calls visit(i, j) once for each pair of boxes that meet. O(n + k) for k pairs, of boxes as
+  /// above.
+  template <class Visit>
+  void find_pairs(const Visit& visit) const {
+    if (!order_.empty()) pairs_within(levels_.size() - 1, 0, visit);
+  }
+
  private:
   static constexpr std::size_t fan_out = 8;
 
@@ -58,6 +65,34 @@ class BoxTree {
     if (level == 0) return visit(order_[i]);
     const std::size_t end = std::min((i + 1) * fan_out, levels_[level - 1].size());
     for (std::size_t k = i * fan_out; k < end; ++k) find_below(level - 1, k, query, visit);
+  }
+
+  std::size_t end_below(std::size_t level, std::size_t i) const {
+    return std::min((i + 1) * fan_out, levels_[level - 1].size());
+  }
+
+  template <class Visit>
+  void pairs_within(std::size_t level, std::size_t i, const Visit& visit) const {
+    if (level == 0) return;
+    const std::size_t end = end_below(level, i);
+    for (std::size_t k = i * fan_out; k < end; ++k) {
+      pairs_within(level - 1, k, visit);
+      for (std::size_t m = k + 1; m < end; ++m) pairs_between(level - 1, k, m, visit);
+    }
+  }
+
+  /// Of a node and another one of the same level.
+  template <class Visit>
+  void pairs_between(std::size_t level, std::size_t i, std::size_t j, const Visit& visit) const {
+    const Box &a = levels_[level][i], &b = levels_[level][j];
+    if (!meet(a, b)) return;
+    if (level == 0) return visit(order_[i], order_[j]);
+    const std::vector<Box>& below = levels_[level - 1];
+    const std::size_t end = end_below(level, j);
+    for (std::size_t k = i * fan_out; k < end_below(level, i); ++k) {
+      if (!meet(below[k], b)) continue;
+      for (std::size_t m = j * fan_out; m < end; ++m) pairs_between(level - 1, k, m, visit);
+    }
   }
 
   std::vector<std::uint32_t> order_;

@@ -94,9 +94,6 @@ class CrossingFinder {
                          noded.edges[v],
                          {forward ? v : w, forward ? w : v}});
     }
-    std::sort(pieces_.begin(), pieces_.end(), [](const Piece& a, const Piece& b) {
-      return lexicographic_less(a.arc.left, b.arc.left);
-    });
   }
 
   std::vector<Contact> find() {
@@ -105,13 +102,16 @@ class CrossingFinder {
     for (const Piece& piece : pieces_)
       boxes.push_back(
           {{piece.arc.left.x - tolerance_, piece.low}, {piece.arc.right.x, piece.high}});
-    const BoxTree tree(boxes);
-    for (std::uint32_t i = 0; i < pieces_.size(); ++i) {
-      const Piece& piece = pieces_[i];
-      tree.find(boxes[i], [&](std::uint32_t j) {
-        if (j < i && pieces_[j].edge != piece.edge) meet(pieces_[j], piece);
-      });
-    }
+    BoxTree(boxes).find_pairs([this](std::uint32_t i, std::uint32_t j) {
+      const Piece &a = pieces_[i], &b = pieces_[j];
+      if (a.edge == b.edge) return;
+      // What is found does not hang on where rings begin.
+      if (lexicographic_less(b.arc.left, a.arc.left)) {
+        meet(b, a);
+      } else {
+        meet(a, b);
+      }
+    });
     return std::move(contacts_);
   }
   std::uint64_t crossings() const { return crossings_; }
@@ -532,18 +532,28 @@ Result<SweptArcs> sweep_arcs(const Outline& outline, bool node_crossings) {
   std::uint64_t crossings = 0;
   for (int round = 0; round < most_rounds; ++round) {
     NodedOutline noded = noding.monotone();
-    if (node_crossings) {
+    const auto node_all = [&]() -> Result<bool> {
       CrossingFinder finder(noding, noded);
       const std::vector<Contact> contacts = finder.find();
       crossings += finder.crossings();
-      if (!contacts.empty()) {
-        if (auto error = noding.apply(noded, contacts, {})) return std::move(*error);
-        continue;
-      }
+      if (contacts.empty()) return false;
+      if (auto error = noding.apply(noded, contacts, {})) return std::move(*error);
+      return true;
+    };
+    // Once all crossings have been noded, the sweep tells whether one is left, which is faster.
+    if (node_crossings && round == 0) {
+      const Result<bool> any = node_all();
+      if (!any) return any.error();
+      if (*any) continue;
     }
     ArcSweeper sweeper(noding, noded);
     auto error = sweeper.run();
     if (sweeper.contacts().empty() && sweeper.merges().empty()) {
+      if (error && node_crossings && round > 0) {
+        const Result<bool> any = node_all();
+        if (!any) return any.error();
+        if (*any) continue;
+      }
       if (error) return std::move(*error);
       Sweep found = std::move(sweeper.found());
       return SweptArcs{std::move(noded), std::move(found), noding.split_edges(), crossings};

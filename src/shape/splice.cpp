@@ -18,6 +18,7 @@ std::uint32_t Arrangement::ring_of(std::uint32_t vertex) const {
 }
 
 std::uint32_t Arrangement::previous(std::uint32_t vertex) const {
+  if (vertex > 0 && next[vertex - 1] == vertex) return vertex - 1;
   const std::uint32_t ring = ring_of(vertex);
   return (vertex == begin[ring] ? begin[ring + 1] : vertex) - 1;
 }
@@ -127,18 +128,13 @@ Arrangement arrange_arcs(SweptArcs swept) {
 
 Ray ray_from_start(const Arrangement& arrangement, std::uint32_t edge) {
   const double bulge = arrangement.bulges.empty() ? 0 : arrangement.bulges[edge];
-  return {arrangement.points[arrangement.next[edge]],
-          edge,
-          no_index,
-          bulge,
-          arrangement.interior_left[edge],
+  return {arrangement.points[arrangement.next[edge]], edge, bulge, arrangement.interior_left[edge],
           true};
 }
 
 Ray ray_from_end(const Arrangement& arrangement, std::uint32_t edge) {
   const double bulge = arrangement.bulges.empty() ? 0 : arrangement.bulges[edge];
-  return {arrangement.points[edge],         edge, no_index, -bulge,
-          !arrangement.interior_left[edge], false};
+  return {arrangement.points[edge], edge, -bulge, !arrangement.interior_left[edge], false};
 }
 
 bool turns_left(Vec2 center, const Ray& a, const Ray& b) {
@@ -156,17 +152,20 @@ void rays_around(const Arrangement& arrangement, std::span<const Touch> touches,
   rays.clear();
   for (const Touch& touch : touches) {
     const std::uint32_t vertex = touch.vertex;
-    const std::uint32_t ring = arrangement.ring_of(vertex);
     rays.push_back(ray_from_end(arrangement, arrangement.previous(vertex)));
     rays.push_back(ray_from_start(arrangement, vertex));
-    for (std::size_t i = rays.size() - 2; i < rays.size(); ++i) rays[i].ring = ring;
   }
-  std::stable_sort(rays.begin(), rays.end(), [&](const Ray& a, const Ray& b) {
+  const auto comes_before = [&](const Ray& a, const Ray& b) {
     const bool a_right = lexicographic_less(center, a.far);
     const bool b_right = lexicographic_less(center, b.far);
     if (a_right != b_right) return a_right;
     return turns_left(center, a, b);
-  });
+  };
+  // Of a few, as nearly always, one by one: std::stable_sort() would allocate.
+  constexpr std::size_t few = 16;
+  if (rays.size() > few) return std::stable_sort(rays.begin(), rays.end(), comes_before);
+  for (auto ray = rays.begin(); ray != rays.end(); ++ray)
+    std::rotate(std::upper_bound(rays.begin(), ray, *ray, comes_before), ray, ray + 1);
 }
 
 namespace {
@@ -196,15 +195,22 @@ class Star {
   std::optional<std::uint32_t> crossing_vertex(std::span<const Ring> rings,
                                                const Arrangement& arrangement,
                                                std::span<const Touch> touches) {
+    const auto has_role = [&](const Touch& touch) {
+      const RingRole role = rings[arrangement.ring_of(touch.vertex)].role;
+      return role != RingRole::any && role != RingRole::winding;
+    };
+    if (std::none_of(touches.begin(), touches.end(), has_role)) return std::nullopt;
     // Of the rays between the two of a vertex, those of other rings are all less those of its own;
     // the ring crosses others where their number is odd.
     std::vector<std::uint32_t> own(rays_.size());  // rank among the rays of the same ring
+    std::vector<std::uint32_t> ring;
+    for (const Ray& ray : rays_) ring.push_back(arrangement.ring_of(ray.edge));
     std::vector<std::size_t> order(rays_.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return rays_[a].ring < rays_[b].ring; });
+                     [&](std::size_t a, std::size_t b) { return ring[a] < ring[b]; });
     for (std::size_t i = 1; i < order.size(); ++i) {
-      if (rays_[order[i]].ring == rays_[order[i - 1]].ring) own[order[i]] = own[order[i - 1]] + 1;
+      if (ring[order[i]] == ring[order[i - 1]]) own[order[i]] = own[order[i - 1]] + 1;
     }
     // The number of foreign rays before a ray, even or odd; by edge, as an edge has one end here.
     std::vector<std::pair<std::uint32_t, bool>> foreign(rays_.size());
@@ -216,8 +222,7 @@ class Star {
       return std::lower_bound(foreign.begin(), foreign.end(), std::pair(edge, false))->second;
     };
     for (const Touch& touch : touches) {
-      const RingRole role = rings[arrangement.ring_of(touch.vertex)].role;
-      if (role == RingRole::any || role == RingRole::winding) continue;
+      if (!has_role(touch)) continue;
       if (parity_of(arrangement.previous(touch.vertex)) != parity_of(touch.vertex)) {
         return touch.vertex;
       }

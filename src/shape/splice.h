@@ -49,13 +49,12 @@ Arrangement arrange_arcs(SweptArcs swept);
 struct Ray {
   Vec2 far;
   std::uint32_t edge = 0;
-  std::uint32_t ring = 0;
   double bulge = 0;         ///< when walked away from that end
   bool outgoing = false;    ///< when walked with the interior on the left
   bool from_start = false;  ///< the end is the edge's first vertex
 };
 
-/// The ray of an edge from its first vertex, or from its other one. `ring` is not set.
+/// The ray of an edge from its first vertex, or from its other one.
 Ray ray_from_start(const Arrangement& arrangement, std::uint32_t edge);
 Ray ray_from_end(const Arrangement& arrangement, std::uint32_t edge);
 

@@ -156,6 +156,14 @@ class Winder {
       const std::uint32_t edge = group[i];
       for (const bool at_start : {true, false}) {
         const std::uint32_t vertex = at_start ? edge : arrangement_.next[edge];
+        if (place_[vertex] == no_index) {
+          // Nothing touches here: the other edge of the ring lies between the same faces.
+          const std::uint32_t other = at_start ? previous_[vertex] : vertex;
+          if (seen[other]) continue;
+          seen[other] = true;
+          group.push_back(other);
+          continue;
+        }
         collect(vertex);
         const auto here = std::find_if(rays_.begin(), rays_.end(), [&](const Ray& ray) {
           return ray.edge == edge && ray.from_start == at_start;
