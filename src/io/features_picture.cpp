@@ -30,6 +30,7 @@ constexpr std::array<Color, primitive_count> primitive_colors{{{0.30, 0.32, 0.36
 
 constexpr double legend = 0.025;      // height of the legend below, of the picture's width
 constexpr double width_share = 1e-3;  // line widths, of the picture's larger side
+constexpr double mark = 3.2;          // radius of the marks, in line widths
 constexpr int most_names = 60;
 
 /// The words for a run: "closing wedge", "worm, left circular".
@@ -52,7 +53,8 @@ class FeaturesPicture {
         axes_(axes),
         features_(features),
         options_(options),
-        line_(width_share * frame.width) {}
+        line_(width_share * frame.width),
+        drawn_(primitive_count, Cells(cell())) {}
 
   void draw() {
     cairo_set_line_cap(context_, CAIRO_LINE_CAP_BUTT);
@@ -62,7 +64,7 @@ class FeaturesPicture {
       collect_runs(axes_.items[i].axis, features_[i]);
     draw_runs();
     for (std::size_t i = 0; i < features_.size(); ++i)
-      draw_points(axes_.items[i].axis, features_[i]);
+      draw_points(axes_.items[i].axis, features_[i], marked_[i]);
     if (options_.names) draw_names();
     draw_legend();
   }
@@ -73,6 +75,9 @@ class FeaturesPicture {
     Vec2 at;  ///< in the picture
     std::string words;
   };
+
+  /// A tenth of the width of a run's line.
+  double cell() const { return 0.25 * line_; }
 
   void color(const Color& c, double alpha = 1) {
     cairo_set_source_rgba(context_, c.red, c.green, c.blue, alpha);
@@ -89,8 +94,14 @@ class FeaturesPicture {
       const std::size_t begin = shape.loop_begin[i], end = shape.loop_begin[i + 1];
       const Vec2 first = frame_(shape.points[begin]);
       cairo_move_to(context_, first.x, first.y);
-      for (std::size_t k = begin; k < end; ++k)
-        edge_to(shape.points[k], shape.points[k + 1 == end ? begin : k + 1], shape.bulge(k));
+      Vec2 last = first;
+      for (std::size_t k = begin; k < end; ++k) {
+        // Nobody sees less than an eighth of the outline's width, however near.
+        const Vec2 to = shape.points[k + 1 == end ? begin : k + 1];
+        if (distance(frame_(to), last) < 0.1 * line_) continue;
+        edge_to(shape.points[k], to, shape.bulge(k));
+        last = frame_(to);
+      }
       cairo_close_path(context_);
     }
     cairo_set_fill_rule(context_, CAIRO_FILL_RULE_EVEN_ODD);
@@ -105,15 +116,21 @@ class FeaturesPicture {
   void collect_runs(const MedialAxis& axis, const AxisFeatures& features) {
     const std::vector<Branch> all = branches(axis);
     const double chord = 0.1 / frame_.scale;  // a tenth of a pixel
+    // What is shorter than the marks at its ends has none: they would hide everything.
+    const double shortest = 2 * mark * line_ / frame_.scale;
+    std::vector<bool>& marked = marked_.emplace_back(axis.nodes.size(), false);
     for (const BranchFeatures& branch : features.branches) {
-      const auto lines = lines_of(axis, features, branch, all[branch.branch], chord);
+      const Branch& chain = all[branch.branch];
+      if (branch.length >= shortest) marked[chain.from] = marked[chain.to] = true;
+      const auto lines = lines_of(axis, features, branch, chain, chord);
       for (std::size_t k = 0; k < lines.size(); ++k) {
         const PrimitiveRun& run = features.runs[branch.first_run + k];
         const auto primitive = static_cast<std::size_t>(run.primitive);
         used_[primitive] = true;
-        if (k > 0) cuts_.push_back(frame_(lines[k].front().center));
+        if (k > 0 && run.length >= shortest &&
+            features.runs[branch.first_run + k - 1].length >= shortest)
+          cuts_.push_back(frame_(lines[k].front().center));
         const Vec2 from = frame_(lines[k].front().center), to = frame_(lines[k].back().center);
-        // Lines are ten times as wide as a cell.
         if (lines[k].size() == 2 && !drawn_[primitive].add({from, from, to})) continue;
         std::vector<Vec2>& path = paths_[primitive].emplace_back();
         for (const Disk& disk : lines[k]) path.push_back(frame_(disk.center));
@@ -173,18 +190,20 @@ class FeaturesPicture {
     cairo_set_line_cap(context_, CAIRO_LINE_CAP_BUTT);
   }
 
-  void draw_points(const MedialAxis& axis, const AxisFeatures& features) {
-    // Nobody sees two dots in one cell.
-    const auto once = [](std::vector<Vec2>& places) {
-      Cells cells;
+  void draw_points(const MedialAxis& axis, const AxisFeatures& features,
+                   const std::vector<bool>& marked) {
+    // Nobody sees two dots in one cell, a tenth as wide as they are.
+    const auto once = [this](std::vector<Vec2>& places) {
+      Cells cells(0.6 * line_);
       std::erase_if(places, [&cells](Vec2 at) { return !cells.add({at, at, at}); });
     };
     for (const PointKind drawn : {PointKind::end, PointKind::branching}) {
       std::vector<Vec2> places;
       for (std::size_t i = 0; i < features.points.size(); ++i)
-        if (features.points[i] == drawn) places.push_back(frame_(axis.nodes[i].disk.center));
+        if (features.points[i] == drawn && marked[i])
+          places.push_back(frame_(axis.nodes[i].disk.center));
       once(places);
-      draw_dots(places, 3.2, drawn == PointKind::end ? end_color : branching);
+      draw_dots(places, mark, drawn == PointKind::end ? end_color : branching);
     }
     // Cuts inside of branches: rings.
     once(cuts_);
@@ -223,7 +242,7 @@ class FeaturesPicture {
       cairo_move_to(context_, x, y);
       cairo_text_path(context_, label.words.c_str());
       cairo_set_line_width(context_, 4 * line_);
-      color(paper_color, 0.8);
+      color(paper_color);
       cairo_stroke_preserve(context_);
       color(text);
       cairo_fill(context_);
@@ -259,7 +278,8 @@ class FeaturesPicture {
   double line_;
   std::array<bool, primitive_count> used_{};
   std::array<std::vector<std::vector<Vec2>>, primitive_count> paths_;  ///< in the picture
-  std::array<Cells, primitive_count> drawn_;
+  std::vector<Cells> drawn_;                                           ///< of each primitive
+  std::vector<std::vector<bool>> marked_;  ///< nodes of each item that get a mark
   std::vector<Label> labels_;
   std::vector<Vec2> cuts_;
 };

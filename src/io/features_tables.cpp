@@ -59,10 +59,11 @@ TableSource features_tables(const NativeFile& axes, std::span<const AxisFeatures
       const std::vector<Value> values = attributes.values_of(item.attributes);
       const double chord = chord_of(item, options.write);
       for (std::size_t table = 0; table < wanted.size(); ++table) {
-        for (TableRow& row : rows_of(wanted[table], i, item.axis, features[i], chord)) {
-          if (Status added = sink.add(table, row.values, values, {&row.points, 1}); !added)
-            return added;
-        }
+        const Status written =
+            for_each_row(wanted[table], i, item.axis, features[i], chord, [&](TableRow& row) {
+              return sink.add(table, row.values, values, {&row.points, 1});
+            });
+        if (!written) return written;
       }
     }
     return success();

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "io/gdal_target.h"
+#include "io/ring_text.h"
 #include "io/table_writer.h"
 #include "medial/query.h"
 
@@ -22,24 +23,22 @@ Value whole_or_nothing(std::uint32_t number) { return number == no_site ? Value{
 Value real(double number) { return std::isfinite(number) ? Value{number} : Value{}; }
 Value text_value(const char* words) { return std::string(words); }
 
-std::vector<Value> values_of(std::size_t item, const BranchFeatures& branch, std::size_t index,
-                             const PrimitiveRun& run) {
-  return {whole(item),
-          whole(branch.branch),
-          whole(index),
-          text_value(name_of(run.primitive)),
-          text_value(name_of(run.variation)),
-          real(run.length),
-          real(run.from.disk.radius),
-          real(run.to.disk.radius),
-          real(2 * run.mean_radius),
-          real(run.slope),
-          real(run.bend),
-          real(run.turning)};
+void put_values(std::size_t item, const BranchFeatures& branch, std::size_t index,
+                const PrimitiveRun& run, std::vector<Value>& values) {
+  values.resize(12);
+  auto value = values.begin();
+  for (const std::uint64_t number :
+       {std::uint64_t{item}, std::uint64_t{branch.branch}, std::uint64_t{index}})
+    *value++ = whole(number);
+  *value++ = text_value(name_of(run.primitive));
+  *value++ = text_value(name_of(run.variation));
+  for (const double number : {run.length, run.from.disk.radius, run.to.disk.radius,
+                              2 * run.mean_radius, run.slope, run.bend, run.turning})
+    *value++ = real(number);
 }
 
-std::vector<Value> values_of(std::size_t item, const BranchFeatures& branch,
-                             const AxisFeatures& features) {
+void put_values(std::size_t item, const BranchFeatures& branch, const AxisFeatures& features,
+                std::vector<Value>& values) {
   std::string primitives;
   for (std::uint32_t k = 0; k < branch.run_count; ++k) {
     const PrimitiveRun& run = features.runs[branch.first_run + k];
@@ -49,28 +48,24 @@ std::vector<Value> values_of(std::size_t item, const BranchFeatures& branch,
     primitives += ' ';
     primitives += name_of(run.variation);
   }
-  std::vector<Value> values{whole(item),
-                            whole(branch.branch),
-                            text_value(name_of(branch.from_kind)),
-                            text_value(name_of(branch.to_kind)),
-                            whole(branch.closed ? 1 : 0),
-                            real(branch.length),
-                            real(branch.smallest_radius),
-                            real(branch.largest_radius),
-                            real(branch.mean_width),
-                            real(branch.turning),
-                            real(branch.absolute_turning),
-                            real(branch.area),
-                            real(branch.significance),
-                            whole(branch.run_count),
-                            Value(std::move(primitives))};
+  values.clear();
+  values.push_back(whole(item));
+  values.push_back(whole(branch.branch));
+  values.push_back(text_value(name_of(branch.from_kind)));
+  values.push_back(text_value(name_of(branch.to_kind)));
+  values.push_back(whole(branch.closed ? 1 : 0));
+  for (const double number :
+       {branch.length, branch.smallest_radius, branch.largest_radius, branch.mean_width,
+        branch.turning, branch.absolute_turning, branch.area, branch.significance})
+    values.push_back(real(number));
+  values.push_back(whole(branch.run_count));
+  values.emplace_back(std::move(primitives));
   for (const BoundarySection& section : branch.side) {
     values.push_back(whole_or_nothing(section.ring));
     values.push_back(whole_or_nothing(section.first_vertex));
     values.push_back(whole_or_nothing(section.last_vertex));
     values.push_back(real(section.length));
   }
-  return values;
 }
 
 /// The part of an edge between two parameters, in this order, without its first disk.
@@ -89,11 +84,9 @@ void append(const MedialAxis& axis, const Edge& edge, double from, double to, do
     line.push_back(disk_at(axis, edge, from + (to - from) * (i / pieces)));
 }
 
-std::vector<Vec2> centers_of(const std::vector<Disk>& line) {
-  std::vector<Vec2> points;
-  points.reserve(line.size());
+void put_centers(const std::vector<Disk>& line, std::vector<Vec2>& points) {
+  points.clear();
   for (const Disk& disk : line) points.push_back(disk.center);
-  return points;
 }
 
 // ---- JSON.
@@ -292,25 +285,27 @@ Status write_table(OutputStream& out, const NativeFile& axes,
   for (std::size_t i = 0; i < features.size(); ++i) {
     // The ends are all that is wanted: any chord does.
     const double chord = std::numeric_limits<double>::max();
-    for (const TableRow& row : rows_of(table, i, axes.items[i].axis, features[i], chord)) {
-      comma = "";
-      for (const Value& value : row.values) {
-        out.put(comma);
-        put_csv(out, value);
-        comma = ",";
-      }
-      const auto put = [&out](Vec2 p) {
-        out.put(',');
-        out.put(p.x);
-        out.put(',');
-        out.put(p.y);
-      };
-      std::vector<Vec2> places{row.points.front()};
-      if (table != FeatureTable::points) places.push_back(row.points.back());
-      if (Status placed = crs->transform(places); !placed) return placed;
-      for (const Vec2 p : places) put(p);
-      out.put('\n');
-    }
+    const Status written = for_each_row(table, i, axes.items[i].axis, features[i], chord,
+                                        [&](TableRow& row) -> Status {
+                                          comma = "";
+                                          for (const Value& value : row.values) {
+                                            out.put(comma);
+                                            put_csv(out, value);
+                                            comma = ",";
+                                          }
+                                          std::vector<Vec2> places{row.points.front()};
+                                          if (table != FeatureTable::points)
+                                            places.push_back(row.points.back());
+                                          if (Status placed = crs->transform(places); !placed)
+                                            return placed;
+                                          for (const Vec2 p : places) {
+                                            out.put(',');
+                                            put_point(out, p, ',');
+                                          }
+                                          out.put('\n');
+                                          return success();
+                                        });
+    if (!written) return written;
   }
   return success();
 }
@@ -355,19 +350,25 @@ std::vector<std::vector<Disk>> lines_of(const MedialAxis& axis, const AxisFeatur
   return lines;
 }
 
-std::vector<TableRow> rows_of(FeatureTable table, std::size_t item, const MedialAxis& axis,
-                              const AxisFeatures& features, double chord) {
-  std::vector<TableRow> rows;
+Status for_each_row(FeatureTable table, std::size_t item, const MedialAxis& axis,
+                    const AxisFeatures& features, double chord,
+                    const std::function<Status(TableRow&)>& visit) {
+  TableRow row;  // one, whose memory is kept
   if (table == FeatureTable::points) {
     const Incidence incidence(axis);
+    row.values.resize(5);
     for (std::uint32_t i = 0; i < features.points.size(); ++i) {
       if (features.points[i] == PointKind::normal) continue;
       const Disk& disk = axis.nodes[i].disk;
-      rows.push_back({{whole(item), whole(i), text_value(name_of(features.points[i])),
-                       whole(incidence.degree(i)), real(disk.radius)},
-                      {disk.center}});
+      row.values[0] = whole(item);
+      row.values[1] = whole(i);
+      row.values[2] = text_value(name_of(features.points[i]));
+      row.values[3] = whole(incidence.degree(i));
+      row.values[4] = real(disk.radius);
+      row.points.assign(1, disk.center);
+      if (Status visited = visit(row); !visited) return visited;
     }
-    return rows;
+    return success();
   }
   const std::vector<Branch> all = branches(axis);
   for (const BranchFeatures& branch : features.branches) {
@@ -375,15 +376,19 @@ std::vector<TableRow> rows_of(FeatureTable table, std::size_t item, const Medial
     if (table == FeatureTable::branches) {
       std::vector<Disk> line = sample(axis, chain, chord);
       if (branch.reversed) std::ranges::reverse(line);
-      rows.push_back({values_of(item, branch, features), centers_of(line)});
+      put_values(item, branch, features, row.values);
+      put_centers(line, row.points);
+      if (Status visited = visit(row); !visited) return visited;
       continue;
     }
-    auto lines = lines_of(axis, features, branch, chain, chord);
-    for (std::size_t k = 0; k < lines.size(); ++k)
-      rows.push_back(
-          {values_of(item, branch, k, features.runs[branch.first_run + k]), centers_of(lines[k])});
+    const auto lines = lines_of(axis, features, branch, chain, chord);
+    for (std::size_t k = 0; k < lines.size(); ++k) {
+      put_values(item, branch, k, features.runs[branch.first_run + k], row.values);
+      put_centers(lines[k], row.points);
+      if (Status visited = visit(row); !visited) return visited;
+    }
   }
-  return rows;
+  return success();
 }
 
 std::string known_feature_formats() { return feature_formats; }

@@ -3,6 +3,7 @@
 // What the writers of features share: tables whose rows have a geometry and values by column.
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -24,10 +25,11 @@ struct TableRow {
   std::vector<Vec2> points;
 };
 
-/// The rows of a table of one item; `chord` is the largest deviation of lines, in units of the
-/// input.
-std::vector<TableRow> rows_of(FeatureTable table, std::size_t item, const MedialAxis& axis,
-                              const AxisFeatures& features, double chord);
+/// Calls visit(row), which may change the row, for each row of a table of one item; `chord` is the
+/// largest deviation of lines, in units of the input. Errors: those of `visit`.
+Status for_each_row(FeatureTable table, std::size_t item, const MedialAxis& axis,
+                    const AxisFeatures& features, double chord,
+                    const std::function<Status(TableRow& row)>& visit);
 
 /// The runs of a branch as lines of disks, in the branch's direction.
 std::vector<std::vector<Disk>> lines_of(const MedialAxis& axis, const AxisFeatures& features,

@@ -82,22 +82,23 @@ void cut(const MedialAxis& axis, const Edge& edge, const PictureFrame& frame, do
 void draw_axes(Pen& pen, const NativeFile& file, double largest) {
   // Few changes of colour: pieces are counted, then sorted by shade, then stroked in batches.
   std::array<std::vector<Piece>, shade_count> pieces;
-  std::array<Cells, shade_count> cells;
+  std::vector<Cells> cells(shade_count, Cells(pen.cell()));
   for (const NativeItem& item : file.items) {
     for (const Edge& edge : item.axis.edges) {
       cut(item.axis, edge, pen.frame(), largest, [&](int index, const Piece& piece) {
         const auto i = static_cast<std::size_t>(index);
-        if (!pen.pixels() || cells[i].add(piece)) pieces[i].push_back(piece);
+        if (cells[i].add(piece)) pieces[i].push_back(piece);
       });
     }
   }
   pen.line_width(1.6);
   for (int i = 0; i < shade_count; ++i) {
     pen.color(shade(i));
+    const Piece* last = nullptr;
     for (const Piece& piece : pieces[static_cast<std::size_t>(i)]) {
-      pen.move_to(piece.from);
+      if (last == nullptr || !(piece.from == last->to)) pen.move_to(piece.from);
       pen.piece_to(piece);
-      pen.count_piece(false);
+      last = pen.count_piece(false) ? nullptr : &piece;
     }
     pen.stroke();
   }

@@ -19,12 +19,13 @@ template <class Each>
 void Pen::trace_loop(const Shape& shape, std::size_t loop, Each each) {
   const std::size_t begin = shape.loop_begin[loop];
   const std::size_t end = shape.loop_begin[loop + 1];
+  const double smallest = cell();
   Vec2 last = frame_(shape.points[begin]);
   move_to(last);
   for (std::size_t k = begin; k < end; ++k) {
     const Vec2 p = frame_(shape.points[k + 1 == end ? begin : k + 1]);
     const double bulge = shape.bulge(k);
-    if (pixels_ && distance(p, last) < Cells::cell) continue;
+    if (distance(p, last) < smallest) continue;
     if (bulge == 0) {
       line_to(p);
     } else {

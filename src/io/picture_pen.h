@@ -24,25 +24,26 @@ struct Piece {
   bool straight = true;
 };
 
-/// Tells which pieces smaller than a fraction of a pixel add nothing to a picture of pixels: those
-/// in a cell where one of the same shade is drawn already.
+/// Tells which pieces smaller than a cell add nothing to a picture: those in a cell where one of
+/// the same shade is drawn already.
 class Cells {
  public:
+  explicit Cells(double size) : size_(size) {}
+
   bool add(const Piece& piece) {
     const double extent =
         std::max(std::fabs(piece.to.x - piece.from.x), std::fabs(piece.to.y - piece.from.y));
-    if (!(extent <= cell)) return true;
+    if (!(extent <= size_)) return true;
     // A file may hold curves that leave the picture.
-    const auto index = [](double place) {
-      return static_cast<std::uint64_t>(std::clamp(place, 0.0, farthest) / cell);
+    const auto index = [this](double place) {
+      return static_cast<std::uint64_t>(std::clamp(place / size_, 0.0, farthest));
     };
     return drawn_.insert(index(piece.from.y) << 32U | index(piece.from.x)).second;
   }
-  /// The distance below which points of an outline are not told apart, either.
-  static constexpr double cell = 0.25;  // pixels
 
  private:
-  static constexpr double farthest = 1e6;  // pixels, more than any picture has
+  static constexpr double farthest = 1e9;  // more cells than any picture has
+  double size_;
   std::unordered_set<std::uint64_t> drawn_;
 };
 
@@ -58,8 +59,9 @@ class Pen {
         pixels_(cairo_surface_get_type(cairo_get_target(context)) == CAIRO_SURFACE_TYPE_IMAGE) {}
 
   const PictureFrame& frame() const { return frame_; }
-  /// Whether this is a picture of pixels, in which nobody can look closer.
-  bool pixels() const { return pixels_; }
+  /// How far apart places are that can be told apart: a fraction of a pixel, or where a picture can
+  /// be looked at closer, of the thinnest line, which hides what is smaller at any size.
+  double cell() const { return pixels_ ? 0.25 : thickness(0.1); }
   /// Of lines: in thousandths of the longer side.
   double thickness(double thousandths) const {
     return thousandths * 1e-3 * fineness_ * std::max(frame_.width, frame_.height);
@@ -80,9 +82,11 @@ class Pen {
   void fill_even_odd(bool keep = false);
   void fill();
 
-  /// Strokes or fills once so many pieces have come that the path gets slow.
-  void count_piece(bool filled) {
-    if (++batch_ % pieces_per_stroke == 0) filled ? fill() : stroke();
+  /// Strokes or fills once so many pieces have come that the path gets slow; whether it did.
+  bool count_piece(bool filled) {
+    if (++batch_ % pieces_per_stroke != 0) return false;
+    filled ? fill() : stroke();
+    return true;
   }
 
   void fill_shape(const Shape& shape, const Color& inside);

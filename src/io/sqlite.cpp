@@ -29,7 +29,7 @@ void Database::open() {
     if (code != SQLITE_OK)
       throw SqliteFailure{handle_ == nullptr ? sqlite3_errstr(code) : sqlite3_errmsg(handle_)};
   };
-  demand(sqlite3_open_v2(file, &handle_, SQLITE_OPEN_READWRITE, nullptr));
+  demand(sqlite3_open_v2(file, &handle_, SQLITE_OPEN_READWRITE | SQLITE_OPEN_NOMUTEX, nullptr));
   if (in_memory(path_)) {
     vsi_l_offset size = 0;
     const GByte* bytes = VSIGetMemFileBuffer(path_.c_str(), &size, FALSE);
