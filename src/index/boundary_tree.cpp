@@ -318,16 +318,26 @@ BoundaryTree::Hit BoundaryTree::nearest_lowest(Vec2 c, double reach) const {
   constexpr double a_little_more = 1 + 0x1p-40;
   double squared = reach * reach;
   reach *= a_little_more;
+  const auto take_if_nearer = [&](std::uint32_t i) {
+    const double d = geometry::squared_distance(sites_[i], c);
+    if (d < squared || (d == squared && i < hit.site)) {
+      squared = d;
+      hit = {i, d};
+    }
+  };
   visit_blocks(c, reach, 0, static_cast<std::uint32_t>(sites_.size() - 1),
                [&](std::uint32_t from, std::uint32_t to) {
-                 for (std::uint32_t i = from; i <= to; ++i) {
-                   const double d = geometry::squared_distance(sites_[i], c);
-                   if (d < squared || (d == squared && i < hit.site)) {
-                     squared = d;
-                     hit = {i, d};
+                 const double before = squared;
+                 if (!has_arcs_)
+                   for (; from < to; from += 2) {
+                     const double or_equal =
+                         a_little_more * squared + std::numeric_limits<double>::min();
+                     if (!one_is_nearer(sites_[from], sites_[from + 1], c, or_equal)) continue;
+                     take_if_nearer(from);
+                     take_if_nearer(from + 1);
                    }
-                 }
-                 if (hit) reach = a_little_more * std::sqrt(squared);
+                 for (; from <= to; ++from) take_if_nearer(from);
+                 if (squared < before) reach = a_little_more * std::sqrt(squared);
                });
   return hit;
 }

@@ -1,6 +1,7 @@
 #include "engines/ridge/gaps.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "base/disjoint_sets.h"
 #include "engines/ridge/thin.h"
@@ -14,13 +15,14 @@ using raster::Pixel;
 /// The pixels of the interior that are not medial, and which sets of them touch a boundary.
 struct Rest {
   std::vector<Run> runs;
-  std::vector<bool> touches;  ///< of each set
+  std::vector<std::size_t> row_begin;  ///< in `runs`; of each row and of one more
+  std::vector<bool> touches;           ///< of each set
   bool any_gap() const { return std::find(touches.begin(), touches.end(), false) != touches.end(); }
   std::uint32_t set_of(Pixel p) const {
-    return (std::upper_bound(runs.begin(), runs.end(), p,
-                             [](Pixel a, const Run& b) {
-                               return a.row != b.row ? a.row < b.row : a.column < b.first;
-                             }) -
+    const auto from = runs.begin() + static_cast<std::ptrdiff_t>(row_begin[p.row]);
+    const auto to = runs.begin() + static_cast<std::ptrdiff_t>(row_begin[std::size_t{p.row} + 1]);
+    return (std::upper_bound(from, to, p.column,
+                             [](std::uint32_t column, const Run& b) { return column < b.first; }) -
             1)
         ->set;
   }
@@ -33,6 +35,9 @@ Rest rest_of(const InteriorSets& sets, const BitMap& boundary, const BitMap& med
   Rest rest;
   std::uint32_t count = 0;
   rest.runs = runs_of(map, count);
+  rest.row_begin.assign(std::size_t{map.rows()} + 1, 0);
+  for (const Run& run : rest.runs) ++rest.row_begin[std::size_t{run.row} + 1];
+  std::partial_sum(rest.row_begin.begin(), rest.row_begin.end(), rest.row_begin.begin());
   rest.touches.assign(count, false);
   const auto any = [&](std::uint32_t row, std::uint32_t first, std::uint32_t last) {
     for (std::uint32_t c = first; c <= last; ++c)
@@ -77,11 +82,12 @@ void open_gaps(const InteriorSets& sets, const BitMap& boundary, MedialMap& map)
     Pixel pixel;
   };
   std::vector<Wall> walls;
+  BitMap gaps(map.medial.columns(), map.medial.rows());
+  for (const Run& run : rest.runs)
+    if (!rest.touches[run.set]) set_bits(gaps.row(run.row), run.first, run.last);
   const auto is_gap_beside = [&](Pixel p) {
-    for (int direction = 0; direction < 8; direction += 2) {
-      const Pixel q = neighbour(p, direction);
-      if (!boundary.at(q) && !map.medial.at(q) && !rest.touches[rest.set_of(q)]) return true;
-    }
+    for (int direction = 0; direction < 8; direction += 2)
+      if (gaps.at(neighbour(p, direction))) return true;
     return false;
   };
   for (const Found& found : map.found)
@@ -102,21 +108,22 @@ void open_gaps(const InteriorSets& sets, const BitMap& boundary, MedialMap& map)
   raster::SparseMap<std::uint32_t> opened(map.medial.columns(), map.medial.rows(), none);
   for (const Wall& wall : walls) {
     // What lies on its sides, one after the other around it.
-    const auto set = closed_neighbours(map.medial, boundary, wall.pixel);
+    const std::uint8_t closed = closed_neighbours(map.medial, boundary, wall.pixel);
+    const auto set = [&](std::size_t direction) { return (closed >> (direction % 8) & 1) != 0; };
     std::array<std::uint32_t, 4> side{};
     std::size_t sides = 0;
     std::size_t start = 0;
-    while (start < 8 && !set[start]) ++start;
+    while (start < 8 && !set(start)) ++start;
     if (start == 8) continue;
     for (std::size_t i = 1; i <= 8; ++i) {
       const std::size_t d = (start + i) % 8;
-      if (set[d] || d % 2 == 1) continue;
+      if (set(d) || d % 2 == 1) continue;
       const Pixel q = neighbour(wall.pixel, static_cast<int>(d));
       const std::uint32_t now_in = opened.at(q);
       const std::uint32_t what = joined.find(boundary.at(q)   ? outside
                                              : now_in != none ? now_in
                                                               : rest.set_of(q));
-      const bool same_side = sides > 0 && !set[(d + 7) % 8] && !set[(d + 6) % 8];
+      const bool same_side = sides > 0 && !set(d + 7) && !set(d + 6);
       if (!same_side) side[sides++] = what;
     }
     if (sides != 2 || side[0] == side[1]) continue;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <functional>
 #include <queue>
 #include <vector>
@@ -13,48 +14,26 @@ using raster::Pixel;
 
 namespace {
 
+/// A pixel that may go, or may have to.
+struct Candidate {
+  double quality;
+  Pixel pixel;
+};
+
+Candidate candidate_of(const Found& found) { return {found.quality, found.pixel}; }
+
 /// Whether one pixel is worse than another; no two are equal.
-bool is_worse(const Found& a, const Found& b) {
+bool is_worse(const Candidate& a, const Candidate& b) {
   if (a.quality != b.quality) return a.quality > b.quality;
   return a.pixel.row != b.pixel.row ? a.pixel.row > b.pixel.row : a.pixel.column > b.pixel.column;
 }
 
-/// Takes pixels away in the order given, as often as that changes anything. Whether one may go must
-/// depend on the pixels up to two columns and rows away only: unless one of those has gone since, a
-/// pixel that had to stay is not asked again.
-template <class MayGo>
-void thin(const BitMap& boundary, MedialMap& map, const std::vector<std::uint32_t>& order,
-          MayGo may_go) {
-  using Ranks = std::priority_queue<std::uint32_t, std::vector<std::uint32_t>, std::greater<>>;
-  std::vector<std::uint32_t> rank(map.found.size(), 0);
-  for (std::uint32_t i = 0; i < order.size(); ++i) rank[order[i]] = i;
-  std::vector<bool> waits(order.size(), true);  // to be asked in this round or the next
-  Ranks now, later;
-  const auto ask = [&](std::uint32_t i) {
-    waits[i] = false;
-    const Found& found = map.found[order[i]];
-    if (found.is_pinned() || !may_go(found) || !is_simple(map.medial, boundary, found.pixel))
-      return;
-    map.medial.clear(found.pixel);
-    for (std::uint32_t row = found.pixel.row - 2; row != found.pixel.row + 3; ++row)
-      for (std::uint32_t column = found.pixel.column - 2; column != found.pixel.column + 3;
-           ++column) {
-        if (!map.medial.contains(column, row) || !map.medial.at({column, row})) continue;
-        const std::uint32_t other = rank[map.place.at({column, row}) - 1];
-        if (waits[other]) continue;
-        waits[other] = true;
-        (other > i ? now : later).push(other);
-      }
-  };
-  for (std::uint32_t i = 0; i < order.size(); ++i) ask(i);
-  while (!later.empty()) {
-    std::swap(now, later);
-    while (!now.empty()) {
-      const std::uint32_t i = now.top();
-      now.pop();
-      if (map.medial.at(map.found[order[i]].pixel)) ask(i);
-    }
-  }
+/// All medial pixels but the pinned ones, by increasing x within increasing y.
+std::vector<Candidate> candidates_in_rows(const MedialMap& map) {
+  std::vector<Candidate> candidates;
+  for (const std::uint32_t place : map.in_rows())
+    if (!map.found[place].is_pinned()) candidates.push_back(candidate_of(map.found[place]));
+  return candidates;
 }
 
 /// The five bits of a row around a column, the one two to the left lowest; beyond the map none.
@@ -66,6 +45,54 @@ std::uint32_t five_bits(const BitMap& map, std::int64_t row, std::uint32_t colum
   if (bit < 2 && word > 0) bits |= words[word - 1] >> (62 + bit);
   if (bit > 61 && word + 1 < map.words_per_row()) bits |= words[word + 1] << (66 - bit);
   return static_cast<std::uint32_t>(bits & 31);
+}
+
+/// The eight neighbours, a bit for each direction.
+std::uint8_t ring(const BitMap& map, Pixel p) {
+  constexpr std::array<std::uint8_t, 8> reversed{0, 4, 2, 6, 1, 5, 3, 7};
+  const auto three_bits = [&](std::int64_t row) { return five_bits(map, row, p.column) >> 1 & 7; };
+  const std::uint32_t below = three_bits(std::int64_t{p.row} - 1), beside = three_bits(p.row),
+                      above = three_bits(std::int64_t{p.row} + 1);
+  return static_cast<std::uint8_t>(beside >> 2 | reversed[above] << 1 | (beside & 1) << 4 |
+                                   below << 5);
+}
+
+/// Takes pixels away in the order given, as often as that changes anything. Whether one may go must
+/// depend on the pixels up to two columns and rows away only: unless one of those has gone since, a
+/// pixel that had to stay is not asked again.
+template <class MayGo>
+void thin(const BitMap& boundary, MedialMap& map, const std::vector<Candidate>& order,
+          MayGo may_go) {
+  using Ranks = std::priority_queue<std::uint32_t, std::vector<std::uint32_t>, std::greater<>>;
+  constexpr std::uint32_t unranked = ~std::uint32_t{0};
+  std::vector<std::uint32_t> rank(map.found.size(), unranked);
+  for (std::uint32_t i = 0; i < order.size(); ++i) rank[map.place.at(order[i].pixel) - 1] = i;
+  std::vector<bool> waits(order.size(), true);  // to be asked in this round or the next
+  Ranks now, later;
+  const auto ask = [&](std::uint32_t i) {
+    waits[i] = false;
+    const Pixel p = order[i].pixel;
+    if (!is_simple(map.medial, boundary, p) || !may_go(order[i])) return;
+    map.medial.clear(p);
+    for (std::uint32_t row = p.row - 2; row != p.row + 3; ++row)
+      for (std::uint32_t bits = five_bits(map.medial, static_cast<std::int32_t>(row), p.column);
+           bits != 0; bits &= bits - 1) {
+        const auto bit = static_cast<std::uint32_t>(std::countr_zero(bits));
+        const std::uint32_t other = rank[map.place.at({p.column + bit - 2, row}) - 1];
+        if (other == unranked || waits[other]) continue;
+        waits[other] = true;
+        (other > i ? now : later).push(other);
+      }
+  };
+  for (std::uint32_t i = 0; i < order.size(); ++i) ask(i);
+  while (!later.empty()) {
+    std::swap(now, later);
+    while (!now.empty()) {
+      const std::uint32_t i = now.top();
+      now.pop();
+      if (map.medial.at(order[i].pixel)) ask(i);
+    }
+  }
 }
 
 /// Whether, with a medial pixel gone, all pixels among it and its neighbours that the axis passes
@@ -88,31 +115,29 @@ bool stays_near(const BitMap& passed, const BitMap& medial, Pixel p) {
 
 }  // namespace
 
-std::array<bool, 8> closed_neighbours(const BitMap& medial, const BitMap& boundary, Pixel p) {
-  std::array<bool, 8> set{};
-  for (int direction = 0; direction < 8; ++direction)
-    set[static_cast<std::size_t>(direction)] =
-        medial.at(neighbour(p, direction)) && !crosses_contour(boundary, p, direction);
-  for (std::size_t d = 1; d < 8; d += 2) set[d] = set[d] || (set[d - 1] && set[(d + 1) % 8]);
-  return set;
+std::uint8_t closed_neighbours(const BitMap& medial, const BitMap& boundary, Pixel p) {
+  constexpr std::uint8_t diagonals = 0b10101010;
+  // Of each direction, whether those next to it on both sides are set.
+  const auto between = [](std::uint8_t set) { return std::rotl(set, 1) & std::rotr(set, 1); };
+  const std::uint8_t set = ring(medial, p);
+  // Only diagonal ones without medial pixels beside them can lie across a contour.
+  const int alone = set & diagonals & ~std::rotl(set, 1) & ~std::rotr(set, 1);
+  const int across = alone == 0 ? 0 : alone & between(ring(boundary, p));
+  return static_cast<std::uint8_t>((set & ~across) | (between(set) & diagonals));
 }
 
 bool is_simple(const BitMap& medial, const BitMap& boundary, Pixel p) {
-  const std::array<bool, 8> set = closed_neighbours(medial, boundary, p);
-  int elements = 0, changes = 0;
-  for (std::size_t d = 0; d < 8; ++d) {
-    elements += set[d] ? 1 : 0;
-    changes += set[d] && !set[(d + 1) % 8] ? 1 : 0;
-  }
-  return elements > 2 && changes == 1;
+  const std::uint8_t set = closed_neighbours(medial, boundary, p);
+  const auto last = static_cast<std::uint8_t>(set & ~std::rotr(set, 1));  // the next one is not set
+  return std::popcount(set) > 2 && std::has_single_bit(last);
 }
 
 void thin_by_report(const BitMap& boundary, MedialMap& map) {
-  thin(boundary, map, map.in_rows(), [&](const Found& found) {
+  thin(boundary, map, candidates_in_rows(map), [&](const Candidate& candidate) {
     for (int direction = 0; direction < 8; ++direction) {
-      const Pixel q = neighbour(found.pixel, direction);
-      if (map.medial.at(q) && !crosses_contour(boundary, found.pixel, direction) &&
-          !is_worse(found, map.at(q)))
+      const Pixel q = neighbour(candidate.pixel, direction);
+      if (map.medial.at(q) && !crosses_contour(boundary, candidate.pixel, direction) &&
+          !is_worse(candidate, candidate_of(map.at(q))))
         return false;
     }
     return true;
@@ -120,14 +145,13 @@ void thin_by_report(const BitMap& boundary, MedialMap& map) {
 }
 
 void thin_to_lines(const BitMap& boundary, double step, MedialMap& map) {
-  std::vector<std::uint32_t> order = map.in_rows();
   BitMap passed(map.medial.columns(), map.medial.rows());
-  for (const std::uint32_t place : order)
-    if (map.found[place].quality <= step) passed.set(map.found[place].pixel);
-  std::sort(order.begin(), order.end(),
-            [&](std::uint32_t a, std::uint32_t b) { return is_worse(map.found[a], map.found[b]); });
+  for (const Found& found : map.found)
+    if (found.quality <= step) passed.set(found.pixel);
+  std::vector<Candidate> order = candidates_in_rows(map);
+  std::sort(order.begin(), order.end(), is_worse);
   thin(boundary, map, order,
-       [&](const Found& found) { return stays_near(passed, map.medial, found.pixel); });
+       [&](const Candidate& candidate) { return stays_near(passed, map.medial, candidate.pixel); });
 }
 
 }  // namespace medial::ridge

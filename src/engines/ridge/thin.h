@@ -1,6 +1,6 @@
 #pragma once
 
-#include <array>
+#include <cstdint>
 
 #include "engines/ridge/follow.h"
 
@@ -11,10 +11,10 @@ namespace medial::ridge {
 /// side by side, stay: they end a branch.
 bool is_simple(const raster::BitMap& medial, const raster::BitMap& boundary, raster::Pixel p);
 
-/// The neighbours of a pixel that count for is_simple(), by direction: the medial ones, those
-/// across a contour not; and diagonal ones between two of them.
-std::array<bool, 8> closed_neighbours(const raster::BitMap& medial, const raster::BitMap& boundary,
-                                      raster::Pixel p);
+/// The neighbours of a pixel that count for is_simple(), a bit for each direction: the medial ones,
+/// those across a contour not; and diagonal ones between two of them.
+std::uint8_t closed_neighbours(const raster::BitMap& medial, const raster::BitMap& boundary,
+                               raster::Pixel p);
 
 /// The report's thinning (step 9 of A.3): row by row, as often as it changes anything, simple
 /// pixels go whose quality is worse than that of all their medial neighbours; of equal ones, the
