@@ -103,9 +103,14 @@ void open_gaps(const InteriorSets& sets, const BitMap& boundary, MedialMap& map)
   DisjointSets joined(rest.touches.size() + 1);
   for (std::uint32_t i = 0; i < outside; ++i)
     if (rest.touches[i]) joined.join(i, outside);
-  // A pixel taken away belongs to the set that it opened.
+  // A pixel taken away belongs to the set that it opened; by its place in `found`.
   constexpr std::uint32_t none = ~std::uint32_t{0};
-  raster::SparseMap<std::uint32_t> opened(map.medial.columns(), map.medial.rows(), none);
+  std::vector<std::uint32_t> opened(map.found.size(), none);
+  const auto set_at = [&](Pixel q) {
+    if (gaps.at(q)) return rest.set_of(q);
+    const std::uint32_t place = map.place.at(q);
+    return place == 0 || opened[place - 1] == none ? outside : opened[place - 1];
+  };
   for (const Wall& wall : walls) {
     // What lies on its sides, one after the other around it.
     const std::uint8_t closed = closed_neighbours(map.medial, boundary, wall.pixel);
@@ -119,17 +124,14 @@ void open_gaps(const InteriorSets& sets, const BitMap& boundary, MedialMap& map)
       const std::size_t d = (start + i) % 8;
       if (set(d) || d % 2 == 1) continue;
       const Pixel q = neighbour(wall.pixel, static_cast<int>(d));
-      const std::uint32_t now_in = opened.at(q);
-      const std::uint32_t what = joined.find(boundary.at(q)   ? outside
-                                             : now_in != none ? now_in
-                                                              : rest.set_of(q));
+      const std::uint32_t what = joined.find(set_at(q));
       const bool same_side = sides > 0 && !set(d + 7) && !set(d + 6);
       if (!same_side) side[sides++] = what;
     }
     if (sides != 2 || side[0] == side[1]) continue;
     map.medial.clear(wall.pixel);
     joined.join(side[0], side[1]);
-    opened[wall.pixel] = side[0];
+    opened[map.place.at(wall.pixel) - 1] = side[0];
   }
 }
 
