@@ -220,6 +220,28 @@ TEST(Ridge, NoExactPointIsFarFromALine) {
   }
 }
 
+TEST(Ridge, ArcsHaveNoSpursBeyondTheirCentres) {
+  // Where the boundary turns left along curves only, a pixel has the nearer one of two beside each
+  // other for medial, up to half a pixel's diagonal and the chords beyond a centre of curvature:
+  // within 2 + margin of the axis (docs/ridge.md). The cloud's arcs meet in a vertex that the
+  // boundary turns right at, and have different radii.
+  constexpr double farthest = 2.78;
+  std::vector<Rings> all{
+      {ring_of({{11.473, -11}, {2.753, -10.01}, {3, -16}, {11.5, -16}, {11.5, -11}})}};
+  all[0][0].bulges = {0.7981558371203751, 0.9603400330660403, 0, 1, 0};
+  for (std::uint64_t seed = 0; seed < 16; ++seed) all.push_back(random_arc_shape(seed).rings);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const auto shape = build_shape(all[i]);
+    if (!shape) continue;
+    const MedialAxis exact = compute(*shape).value();
+    if (exact.edges.empty()) continue;
+    const Comparison found =
+        compare(ridge_axis(*shape, ridge_options(i == 0 ? 512 : 200)), exact, 3);
+    EXPECT_LE(found.farthest_pixel, i == 0 ? farthest_allowed : farthest)
+        << i << ": " << found.pixel.x << " " << found.pixel.y;
+  }
+}
+
 TEST(Ridge, RadiusOfCurvatureLeavesNoSpokes) {
   // The polygon of a circle's chords has none; the polygon that is given as such has them.
   Options options = ridge_options(200);

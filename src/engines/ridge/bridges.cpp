@@ -48,7 +48,8 @@ Bridges::Point Builder::point_in(const Necks::Gate& gate) {
   };
   const auto differ = [&](const Probe& a, const Probe& b) {
     return a.near.edge != b.near.edge &&
-           !outline_.are_one(a.near.edge, b.near.edge, std::max(a.near.distance, b.near.distance));
+           !outline_.are_one({a.near.edge, place(gate, a.at)}, {b.near.edge, place(gate, b.at)},
+                             std::max(a.near.distance, b.near.distance));
   };
   Probe low = probe(gate.low, no_edge), high = probe(gate.high, low.near.edge);
   Probe middle = probe(0.5 * (gate.low + gate.high), low.near.edge);

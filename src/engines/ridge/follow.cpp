@@ -90,7 +90,7 @@ bool Follower::by_crossing(Pixel p, Found& found) {
     if (other == found.first) continue;
     const Vec2 d = local_.grid.center(q);
     const double radius = search_.distance_to(other, d);
-    if (outline_.are_one(found.first, other, std::max(found.radius, radius))) continue;
+    if (outline_.are_one({found.first, c}, {other, d}, std::max(found.radius, radius))) continue;
     // Both have the other's edge farther than their own; the axis is nearer to the one that has it
     // less so. Of equals, the lower one is medial.
     const double own = search_.distance_to(other, c) - found.radius;

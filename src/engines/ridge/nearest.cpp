@@ -14,15 +14,16 @@ double NearestEdges::distance_to(std::uint32_t edge, Vec2 c) const {
   return std::sqrt(geometry::squared_distance(outline_.edges[edge], c));
 }
 
-bool NearestEdges::is_another(Near first, std::uint32_t edge, RidgeRule rule) const {
+bool NearestEdges::is_another(Vec2 c, Near first, std::uint32_t edge, RidgeRule rule) const {
   if (edge == first.edge) return false;
-  if (rule == RidgeRule::crossing) return !outline_.are_one(first.edge, edge, first.distance);
+  if (rule == RidgeRule::crossing)
+    return !outline_.are_one({first.edge, c}, {edge, c}, first.distance);
   if (outline_.meet_concavely(first.edge, edge)) return false;
   // Section V.B.1, for two edges of one curve only: with the text as it stands a lens, whose two
   // arcs have radii larger than any disk in it, would have no axis at all.
   const double least = std::min(outline_.radius[first.edge], outline_.radius[edge]);
   return least == std::numeric_limits<double>::infinity() ||
-         !outline_.are_one(first.edge, edge, first.distance);
+         !outline_.are_one({first.edge, c}, {edge, c}, first.distance);
 }
 
 bool NearestEdges::is_seen(Vec2 c, Near first, Near other, double away) const {
@@ -64,7 +65,7 @@ class SortedList final : public NearestEdges {
     Near best{no_edge, reach};
     for (const Bound& bound : list_) {
       if (exceeds(bound, best.distance)) break;
-      if (!is_another(first, bound.edge, rule)) continue;
+      if (!is_another(c, first, bound.edge, rule)) continue;
       ++distances;
       const Near candidate{bound.edge, distance_to(bound.edge, c)};
       if (is_seen(c, first, candidate, away)) take(candidate, best);
@@ -147,7 +148,7 @@ class Tree final : public NearestEdges {
     Near best{no_edge, reach};
     for (const std::uint32_t edge : found_) {
       const double distance = distance_to(edge, c);
-      if (distance < best.distance && is_another(first, edge, rule) &&
+      if (distance < best.distance && is_another(c, first, edge, rule) &&
           is_seen(c, first, {edge, distance}, away))
         best = {edge, distance};
     }

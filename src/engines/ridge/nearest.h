@@ -35,7 +35,7 @@ class NearestEdges {
   std::uint64_t distances = 0;  ///< computed by the sorted list
 
  protected:
-  bool is_another(Near first, std::uint32_t edge, RidgeRule rule) const;
+  bool is_another(Vec2 c, Near first, std::uint32_t edge, RidgeRule rule) const;
   /// Whether the disk that touches both feet, the nearest one where c's disk does, has its centre
   /// within `away` of c: then some point of the axis is. Feet behind the nearest one have no such
   /// disk.

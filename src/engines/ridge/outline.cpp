@@ -211,30 +211,41 @@ bool Outline::meet_concavely(std::uint32_t e, std::uint32_t f) const {
          (next[f] == e && type[e] != VertexType::convex);
 }
 
-bool Outline::are_one(std::uint32_t e, std::uint32_t f, double disk) const {
-  const std::uint32_t c = chain[e];
-  if (chain[f] != c) return false;
-  const std::uint32_t i = std::min(e, f), j = std::max(e, f);
+bool Outline::are_one(const Touch& a, const Touch& b, double disk) const {
+  const std::uint32_t c = chain[a.edge];
+  if (chain[b.edge] != c) return false;
+  const Touch &low = a.edge < b.edge ? a : b, &high = a.edge < b.edge ? b : a;
+  const std::uint32_t i = low.edge, j = high.edge;
   if (closed[c] > 0 && all_left[c] + closing_left[c] == 0) return true;  // a convex hole
-  const auto curve = [&](std::uint32_t from, std::uint32_t to) {
-    const auto level = static_cast<std::size_t>(std::bit_width(to - from + 1) - 1);
-    const std::vector<double>& least = least_radius[level];
-    return std::min(least[from], least[to + 1 - (std::uint32_t{1} << level)]);
+  const auto least = [&](std::uint32_t from, std::uint32_t end) {
+    if (from >= end) return infinity;
+    const auto level = static_cast<std::size_t>(std::bit_width(end - from) - 1);
+    const std::vector<double>& radius_of = least_radius[level];
+    return std::min(radius_of[from], radius_of[end - (std::uint32_t{1} << level)]);
+  };
+  // Edges that are touched in the vertex on the side of the other one are none between.
+  const auto at_start = [&](const Touch& touch) -> std::uint32_t {
+    return geometry::foot_parameter(edges[touch.edge], touch.center) <= 0 ? 1 : 0;
+  };
+  const auto at_end = [&](const Touch& touch) -> std::uint32_t {
+    const geometry::Site& edge = edges[touch.edge];
+    return geometry::foot_parameter(edge, touch.center) >= edge.length ? 1 : 0;
   };
   constexpr double half_turn = std::numbers::pi;
   const double lefts = left[j] - left_end[i], rights = right[j] - right_end[i];
   if (lefts <= half_turn && rights <= half_turn &&
-      (lefts == 0 || (!least_radius.empty() && disk + margin < curve(i, j))))
+      (lefts == 0 ||
+       (!least_radius.empty() && disk + margin < least(i + at_end(low), j + 1 - at_start(high)))))
     return true;
   if (closed[c] == 0) return false;
   // The other way round the loop; chains of a loop without a corner begin with its first edge.
   const double other_lefts = (all_left[c] - left_end[j]) + closing_left[c] + left[i];
   const double other_rights = (all_right[c] - right_end[j]) + closing_right[c] + right[i];
   if (other_lefts > half_turn || other_rights > half_turn) return false;
-  const std::uint32_t first = chain_begin[c];
-  const std::uint32_t last = first + closed[c] - 1;
+  const std::uint32_t first = chain_begin[c], end = first + closed[c];
   return other_lefts == 0 || least_radius.empty() ||
-         disk + margin < std::min(curve(first, i), curve(j, last));
+         disk + margin <
+             std::min(least(first, i + 1 - at_start(low)), least(j + at_end(high), end));
 }
 
 Outline outline_of(const Shape& shape, const Frame& frame, double step, const Options& options) {

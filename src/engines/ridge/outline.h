@@ -37,14 +37,20 @@ struct Outline {
   /// Whether two edges meet at a concave vertex: then the foot on both is that vertex (Fig. 16,
   /// A.8).
   bool meet_concavely(std::uint32_t e, std::uint32_t f) const;
-  /// Whether no disk of this radius whose centre is near to both edges can touch them as two
+  /// An edge, and a point near to it: they tell where it is touched.
+  struct Touch {
+    std::uint32_t edge;
+    Vec2 center;
+  };
+  /// Whether no disk of this radius whose centre is near to both can touch these edges as two
   /// different places of the boundary: between them the boundary turns right only, by at most half
   /// a turn, as a convex obstacle does; or left along a curve whose radius of curvature is larger
-  /// than the disk's by half a pixel's diagonal and a little (Section V.B.1).
+  /// than the disk's by half a pixel's diagonal and a little (Section V.B.1). An edge that is
+  /// touched in the vertex between them is no part of that curve.
   ///
   /// By Schur's comparison theorem, a curve that leaves a disk's circle at a tangent, curves less
   /// than it and turns by less than half of it does not come back to it.
-  bool are_one(std::uint32_t e, std::uint32_t f, double disk) const;
+  bool are_one(const Touch& a, const Touch& b, double disk) const;
 
   std::vector<std::uint32_t> chain_begin;  ///< of each chain: its first edge
   std::vector<std::uint32_t> chain;        ///< of each edge
