@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -178,6 +179,56 @@ TEST_F(MeshFiles, OfPolygonsAreCutIntoTriangles) {
                  cross(solid->surface.vertices[b], solid->surface.vertices[c]));
     EXPECT_EQ(six, 6 * 4.0);
   }
+}
+
+TEST_F(MeshFiles, OfLargeFacesAreCutInTheSquareOfTheirCorners) {
+  // A spiral of 1,024 corners has two ears at a time; a star polygon crosses itself everywhere.
+  constexpr int corners = 1024, half = corners / 2;
+  const auto text = [&](auto point) {
+    std::ostringstream out;
+    out << "OFF " << corners << " 1 0\n";
+    for (int k = 0; k < corners; ++k) {
+      const Vec2 p = point(k);
+      out << p.x << ' ' << p.y << " 1\n";
+    }
+    out << corners;
+    for (int k = 0; k < corners; ++k) out << ' ' << k;
+    return out.str();
+  };
+  const auto on_spiral = [](double turn, double radius) {
+    return Vec2{radius * std::cos(turn), radius * std::sin(turn)};
+  };
+  const auto spiral =
+      io::read_mesh(write("spiral.off", text([&](int k) {
+                            const double turn = 0.2 * (k < half ? k : corners - 1 - k);
+                            return on_spiral(turn, 1 + turn + (k < half ? 0.0 : 2.0));
+                          })));
+  ASSERT_TRUE(spiral.ok()) << to_string(spiral.error());
+  EXPECT_EQ(spiral->faces.size(), corners - 2U);
+  // Triangles that all turn one way and together have the polygon's area lie side by side.
+  double area = 0, size = 0;
+  for (const auto& [a, b, c] : spiral->faces) {
+    const Vec3 normal =
+        cross(spiral->vertices[b] - spiral->vertices[a], spiral->vertices[c] - spiral->vertices[a]);
+    area += normal.z / 2;
+    size += std::abs(normal.z) / 2;
+  }
+  double expected = 0;
+  for (std::size_t k = 0; k < corners; ++k)
+    expected += cross(spiral->vertices[k], spiral->vertices[(k + 1) % corners]).z / 2;
+  EXPECT_NEAR(area, expected, 1e-9 * size);
+  EXPECT_NEAR(size, std::abs(area), 1e-9 * size);
+
+  const auto star = io::read_mesh(
+      write("star.off", text([&](int k) { return on_spiral(k * 511 * 6.283185307 / 1024, 1); })));
+  ASSERT_TRUE(star.ok()) << to_string(star.error());
+  EXPECT_EQ(star->faces.size(), corners - 2U);
+
+  // Coordinates that nothing can be decided on in time.
+  const auto huge = io::read_mesh(write(
+      "huge.off", text([&](int k) { return on_spiral(k * 0.006, k % 2 == 0 ? 1e308 : 1e-300); })));
+  ASSERT_FALSE(huge.ok());
+  EXPECT_EQ(huge.error().code, ErrorCode::unsupported);
 }
 
 TEST_F(MeshFiles, ThatAreDamagedAreReadOrRefused) {

@@ -2,6 +2,7 @@
 
 // What coordinates the library takes: one pair of numbers for the engines and the certificate.
 
+#include <cmath>
 #include <optional>
 
 #include "medial/error.h"
@@ -19,6 +20,12 @@ constexpr double largest_coordinate = 1e100;
 /// the products of any two of them lie between 1e-232 and 1e201 (or are zero): nothing that is
 /// divided by them overflows or vanishes.
 constexpr double smallest_coordinate = 1e-100;
+
+/// Whether a finite coordinate is within them.
+inline bool is_within_limits(double value) {
+  const double size = std::abs(value);
+  return size <= largest_coordinate && (size == 0 || size >= smallest_coordinate);
+}
 
 /// The first coordinate of a shape that is beyond the limits, as an error `unsupported` with its
 /// place; none where all are within them. O(n).

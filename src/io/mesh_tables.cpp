@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/limits.h"
 #include "base/predicates.h"
 
 namespace medial::io {
@@ -22,7 +23,7 @@ namespace {
 /// No table is allotted for more than so many items before they are read.
 constexpr std::uint64_t most_reserved = std::uint64_t{1} << 16U;
 constexpr std::uint64_t most_items = std::uint64_t{1} << 31U;
-/// Cutting a polygon takes time in the square of its corners, or worse.
+/// Cutting a polygon takes time in the square of its corners.
 constexpr std::uint64_t most_corners = 1024;
 
 // ---- Polygons.
@@ -52,39 +53,61 @@ std::vector<Vec2> flattened(const std::vector<Vec3>& vertices,
   return points;
 }
 
-/// Cuts a polygon into triangles, ear by ear; where there is none, as polygons that cross
-/// themselves have it, anyhow. O(n^3), mostly n^2.
-void cut(const std::vector<Vec3>& vertices, std::vector<std::uint32_t> corners,
-         std::vector<std::array<std::uint32_t, 3>>& faces) {
-  if (corners.size() == 3) {
-    faces.push_back({corners[0], corners[1], corners[2]});
-    return;
+/// Cuts a polygon of more than three corners into triangles, ear by ear. Cutting an ear off makes
+/// ears of its neighbours only, where a polygon does not cross or touch itself; others are looked
+/// through again some times, then cut anyhow. O(n^2).
+class EarCutter {
+ public:
+  EarCutter(const std::vector<Vec3>& vertices, const std::vector<std::uint32_t>& corners)
+      : points_(flattened(vertices, corners)), next_(points_.size()), before_(points_.size()) {
+    const std::size_t n = points_.size();
+    for (std::size_t i = 0; i < n; ++i) {
+      next_[i] = (i + 1) % n;
+      before_[i] = (i + n - 1) % n;
+    }
   }
-  std::vector<Vec2> points = flattened(vertices, corners);
-  const auto is_ear = [&](std::size_t i) {
-    const std::size_t n = points.size();
-    const std::size_t before = (i + n - 1) % n, after = (i + 1) % n;
-    const Vec2 a = points[before], b = points[i], c = points[after];
+
+  void cut(const std::vector<std::uint32_t>& corners,
+           std::vector<std::array<std::uint32_t, 3>>& faces) {
+    int searches = 8;
+    std::vector<bool> ears(points_.size(), false);
+    std::size_t at = 0;
+    for (std::size_t left = points_.size(); left >= 3; --left) {
+      const auto go_to_ear = [&] {
+        for (std::size_t steps = 0; steps < left && !ears[at]; ++steps) at = next_[at];
+        return ears[at];
+      };
+      if (!go_to_ear() && searches > 0) {
+        --searches;
+        for (std::size_t steps = 0; steps < left; ++steps, at = next_[at]) ears[at] = is_ear(at);
+        go_to_ear();
+      }
+      const std::size_t last = before_[at], on = next_[at];
+      faces.push_back({corners[last], corners[at], corners[on]});
+      next_[last] = on;
+      before_[on] = last;
+      ears[last] = is_ear(last);
+      ears[on] = is_ear(on);
+      at = on;
+    }
+  }
+
+ private:
+  bool is_ear(std::size_t i) const {
+    const std::size_t last = before_[i], on = next_[i];
+    const Vec2 a = points_[last], b = points_[i], c = points_[on];
     if (orientation(a, b, c) <= 0) return false;
-    for (std::size_t k = 0; k < n; ++k) {
-      if (k == before || k == i || k == after) continue;
-      const Vec2 p = points[k];
+    for (std::size_t k = next_[on]; k != last; k = next_[k]) {
+      const Vec2 p = points_[k];
       if (orientation(a, b, p) >= 0 && orientation(b, c, p) >= 0 && orientation(c, a, p) >= 0)
         return false;
     }
     return true;
-  };
-  while (corners.size() > 3) {
-    const std::size_t n = corners.size();
-    std::size_t ear = 0;
-    while (ear < n && !is_ear(ear)) ++ear;
-    if (ear == n) ear = 1;
-    faces.push_back({corners[(ear + n - 1) % n], corners[ear], corners[(ear + 1) % n]});
-    corners.erase(corners.begin() + static_cast<std::ptrdiff_t>(ear));
-    points.erase(points.begin() + static_cast<std::ptrdiff_t>(ear));
   }
-  faces.push_back({corners[0], corners[1], corners[2]});
-}
+
+  std::vector<Vec2> points_;
+  std::vector<std::size_t> next_, before_;  ///< of the corners that are left
+};
 
 Result<TriangleMesh> mesh_of(Table table, const TextSource& source) {
   TriangleMesh mesh;
@@ -98,7 +121,17 @@ Result<TriangleMesh> mesh_of(Table table, const TextSource& source) {
       return source.error(ErrorCode::malformed,
                           fmt::format("face {} names a vertex that is not there: {}", i, index));
     }
-    if (polygon.size() >= 3) cut(table.vertices, polygon, mesh.faces);
+    if (polygon.size() == 3) mesh.faces.push_back({polygon[0], polygon[1], polygon[2]});
+    if (polygon.size() <= 3) continue;
+    // No mesh with such coordinates becomes a solid, and deciding on them takes long.
+    for (const std::uint32_t index : polygon)
+      for (int axis = 0; axis < 3; ++axis)
+        if (!is_within_limits(table.vertices[index][axis]))
+          return source.error(ErrorCode::unsupported,
+                              fmt::format("face {} has a coordinate beyond 1e100 in size, or below "
+                                          "1e-100",
+                                          i));
+    EarCutter(table.vertices, polygon).cut(polygon, mesh.faces);
   }
   if (mesh.faces.empty()) return source.error(ErrorCode::empty, "holds no face");
   mesh.vertices = std::move(table.vertices);

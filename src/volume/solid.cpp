@@ -49,8 +49,7 @@ std::optional<Error> refuse(const TriangleMesh& mesh) {
       const double value = mesh.vertices[i][axis];
       if (!std::isfinite(value))
         return error_at_vertex(ErrorCode::not_finite, "a coordinate is not finite", i);
-      if (std::abs(value) > largest_coordinate ||
-          (value != 0 && std::abs(value) < smallest_coordinate))
+      if (!is_within_limits(value))
         return error_at_vertex(ErrorCode::unsupported,
                                "a coordinate is beyond 1e100 in size, or below 1e-100", i);
     }
