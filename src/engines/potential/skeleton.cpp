@@ -24,6 +24,53 @@ std::uint64_t forces_of_an_order(const Region& region) {
 }
 constexpr std::uint64_t most_orders = 3;
 
+/// Takes minima with one line away that have a junction within two steps: lines that met the same
+/// valley in two places made them. What is left stays connected and keeps its cycles.
+void drop_hooks(Skeleton& skeleton, double step) {
+  constexpr double reach = 2;
+  const std::size_t count = skeleton.points.size();
+  std::vector<std::vector<std::uint32_t>> links(count);
+  for (std::uint32_t i = 0; i < skeleton.links.size(); ++i)
+    for (const std::uint32_t end : skeleton.links[i]) links[end].push_back(i);
+  std::vector<bool> point_goes(count), link_goes(skeleton.links.size());
+  const auto degree = [&](std::uint32_t i) {
+    return std::count_if(links[i].begin(), links[i].end(),
+                         [&](std::uint32_t link) { return !link_goes[link]; });
+  };
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const ValleyPoint& tip = skeleton.points[i];
+    if (tip.kind != ValleyPoint::Kind::minimum || degree(i) != 1) continue;
+    std::vector<std::uint32_t> way, walked;
+    std::uint32_t here = i;
+    while (degree(here) == (here == i ? 1 : 2) &&
+           distance(skeleton.points[here].place, tip.place) <= reach * std::min(step, tip.radius)) {
+      walked.push_back(here);
+      const auto next = std::find_if(links[here].begin(), links[here].end(), [&](auto link) {
+        return !link_goes[link] && (way.empty() || link != way.back());
+      });
+      way.push_back(*next);
+      const auto [from, to] = skeleton.links[*next];
+      here = from == here ? to : from;
+    }
+    if (degree(here) < 3) continue;
+    for (const std::uint32_t link : way) link_goes[link] = true;
+    for (const std::uint32_t point : walked) point_goes[point] = true;
+  }
+  std::vector<std::uint32_t> number(count);
+  std::uint32_t kept = 0;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    if (point_goes[i]) continue;
+    skeleton.points[kept] = skeleton.points[i];
+    number[i] = kept++;
+  }
+  skeleton.points.resize(kept);
+  std::size_t left = 0;
+  for (std::size_t i = 0; i < link_goes.size(); ++i)
+    if (!link_goes[i])
+      skeleton.links[left++] = {number[skeleton.links[i][0]], number[skeleton.links[i][1]]};
+  skeleton.links.resize(left);
+}
+
 class Tracer {
  public:
   Tracer(const Region& region, const Charges& charges, const SkeletonOptions& options)
@@ -88,6 +135,7 @@ class Tracer {
 
   Skeleton take() {
     graph_.skeleton.order = options_.order;
+    if (!options_.from && !options_.within) drop_hooks(graph_.skeleton, options_.step);
     return std::move(graph_.skeleton);
   }
 
