@@ -342,6 +342,21 @@ TEST(Potential, CoarseToFineLeavesSmallTeethOut) {
   EXPECT_LT(distances(shape, *coarse).mean, 0.002 * size_of(shape));
 }
 
+/// Chords of an arc whose radius is half a hundredth of the size are nearer to its centre than it.
+TEST(Potential, BranchesThatEndInSmallSmoothTipsAreThere) {
+  Ring ring;
+  ring.points = {{0.5, 0},   {99.5, 0}, {100, 0.5}, {100, 59.5},
+                 {99.5, 60}, {0.5, 60}, {0, 59.5},  {0, 0.5}};
+  const double quarter = std::tan(std::numbers::pi / 8);
+  ring.bulges = {0, quarter, 0, quarter, 0, quarter, 0, quarter};
+  const Shape shape = *build_shape(Rings{ring});
+  const auto axis = compute(shape, {.method = Method::potential});
+  ASSERT_TRUE(axis.ok());
+  const AxisLocator locator(*axis);
+  for (const Vec2 tip : {Vec2{0.5, 0.5}, {99.5, 0.5}, {99.5, 59.5}, {0.5, 59.5}})
+    EXPECT_LT(locator.nearest(tip).distance, 0.05);
+}
+
 TEST(Potential, RingsOfOneWidthAreConnectedWithoutLongSearches) {
   for (const int slots : {1, 3}) {
     SCOPED_TRACE(slots);

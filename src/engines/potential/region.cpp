@@ -96,6 +96,7 @@ std::vector<Region> regions_of(const Shape& shape, const Frame& frame, double co
     }
   }
   for (Region& region : regions) {
+    region.chord = chord;
     Box box{region.pieces[0].start, region.pieces[0].start};
     for (const Charge& piece : region.pieces) {
       box.low = {std::min(box.low.x, piece.start.x), std::min(box.low.y, piece.start.y)};

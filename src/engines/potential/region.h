@@ -21,6 +21,7 @@ struct Region {
   std::vector<Loop> loops;
   std::vector<std::uint32_t> corners;  ///< pieces that begin at a convex corner, ascending
   std::vector<Disk> bends;             ///< the circles of smooth arcs of locally largest curvature
+  double chord = 0;                    ///< how far chords are from their arcs at most
   double bend = 0;                     ///< half of the largest turn between chords of one arc
   double size = 0;                     ///< the larger side of its bounding box
   /// How many edges the pieces are of.

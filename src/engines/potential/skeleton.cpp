@@ -193,7 +193,7 @@ class Tracer {
       double radius = 0;
       const Force force = lines_.force_at(center, radius);
       // Only the centre of a maximal disk is a leaf; chords are a little nearer than their arc.
-      if (!(radius > 0.99 * bend)) continue;
+      if (!(radius > 0.99 * bend - region_.chord)) continue;
       const Trail trail = lines_.follow(center, unit(force.force), ForceLines::merge_share);
       const std::uint32_t leaf =
           graph_.add_point({center, radius, unit(force.force), ValleyPoint::Kind::valley});
