@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "medial/compute.h"
+#include "medial/prune.h"
 #include "medial/query.h"
 #include "support/computed.h"
 #include "support/random_shapes.h"
@@ -316,6 +317,104 @@ TEST(Variations, OfASpiralIsOne) {
               runs[0].variation == Variation::spiral_in_left ||
               runs[0].variation == Variation::spiral_in_right);
   EXPECT_NEAR(std::abs(runs[0].turning), 8 * pi, 0.3);
+}
+
+/// A shape whose axis is one branch of a given radius and curvature: the disks' envelope as cubics,
+/// and around both ends.
+struct Horn {
+  double length;
+  double (*radius)(double s);
+  double (*curvature)(double share);  ///< by s / length
+
+  Contour outline() const {
+    constexpr int fine = 2400, pieces = 24;
+    std::vector<Vec2> centers{{0, 0}};
+    std::vector<double> angles{0};
+    const double step = length / fine;
+    for (int i = 0; i < fine; ++i) {
+      const double angle = angles.back() + step * curvature((i + 0.5) / fine);
+      const double middle = 0.5 * (angles.back() + angle);
+      centers.push_back(centers.back() + step * Vec2{std::cos(middle), std::sin(middle)});
+      angles.push_back(angle);
+    }
+    const auto slope = [&](int i) {
+      constexpr double h = 1e-4;
+      return (radius(i * step + h) - radius(i * step - h)) / (2 * h);
+    };
+    const auto side = [&](int i, double left) {
+      const Vec2 along{std::cos(angles[i]), std::sin(angles[i])};
+      const double share = -slope(i);
+      return centers[i] + radius(i * step) * (share * along +
+                                              left * std::sqrt(1 - share * share) * left_of(along));
+    };
+    Contour contour;
+    contour.start_at(side(0, -1));
+    for (const int way : {1, -1}) {
+      const auto at = [&](int i) { return side(way > 0 ? i : fine - i, -way); };
+      if (way < 0) contour.arc_to(at(0), std::tan(std::acos(-slope(fine)) / 2));
+      constexpr int size = fine / pieces;
+      const auto tangent = [&](int i) {  // times a third of a piece
+        const int a = std::max(i - 1, 0), b = std::min(i + 1, fine);
+        return (size / 3.0 / (b - a)) * (at(b) - at(a));
+      };
+      for (int i = 0; i + size <= fine; i += size) {
+        const Vec2 end = at(i + size);
+        const std::array<Vec2, 3> control{at(i) + tangent(i), end - tangent(i + size), end};
+        contour.bezier_to(control);
+      }
+    }
+    contour.arc_to(contour.points[0], std::tan((pi - std::acos(-slope(0))) / 2));
+    return contour;
+  }
+};
+
+TEST(Variations, OfEachPrimitiveOnAShapeMadeForIt) {
+  // An opening run follows a steep closing one: a branch begins at its deeper end.
+  struct Radius {
+    Primitive primitive;
+    double length;
+    double (*radius)(double);
+  };
+  const std::array<Radius, primitive_count> radii{{
+      {Primitive::worm, 12, [](double s) { return 1.02 - 0.004 * s; }},
+      {Primitive::opening_wedge, 12,
+       [](double s) { return 0.6 + 0.1 * (s - 6) + (s < 6 ? 0.039 * (6 - s) * (6 - s) : 0); }},
+      {Primitive::closing_wedge, 10, [](double s) { return 1.6 - 0.1 * s; }},
+      {Primitive::opening_cup, 12,
+       [](double s) {
+         return s < 8 ? 1 + 0.16 * s - 0.01 * s * s : 1.64 - 0.05 * (s - 8) * (s - 8);
+       }},
+      {Primitive::closing_cup, 9, [](double s) { return 1.5 - 0.01 * s * s; }},
+      {Primitive::opening_flare, 14,
+       [](double s) { return 0.6 + (s < 5 ? 0.052 : 0.01) * (s - 5) * (s - 5); }},
+      {Primitive::closing_flare, 9, [](double s) { return 2 - 0.3 * s + 0.015 * s * s; }},
+  }};
+  const std::array<std::pair<Variation, double (*)(double)>, variation_count> curvatures{{
+      {Variation::straight, [](double) { return 0.0; }},
+      {Variation::left_circular, [](double) { return 0.12; }},
+      {Variation::right_circular, [](double) { return -0.12; }},
+      {Variation::spiral_in_left, [](double t) { return 0.02 + 0.24 * t; }},
+      {Variation::spiral_in_right, [](double t) { return -0.02 - 0.24 * t; }},
+      {Variation::spiral_out_left, [](double t) { return 0.26 - 0.24 * t; }},
+      {Variation::spiral_out_right, [](double t) { return -0.26 + 0.24 * t; }},
+  }};
+  for (const auto& [primitive, length, radius] : radii) {
+    for (const auto& [variation, curvature] : curvatures) {
+      SCOPED_TRACE(std::string(name_of(primitive)) + " " + name_of(variation));
+      const Contour outline = Horn{length, radius, curvature}.outline();
+      const auto rings = approximate_by_arcs(std::span(&outline, 1));
+      ASSERT_TRUE(rings.ok()) << to_string(rings.error());
+      // Where the ends' arcs meet the sides, rounding may make corners, which have branches.
+      const MedialAxis axis = axis_of(*rings);
+      const AxisFeatures features = describe(PruneOrder(axis, PruneMeasure::erosion).at(0.01));
+      ASSERT_EQ(features.branches.size(), 1U);
+      const auto runs = main_runs(features);
+      const auto longest = std::ranges::max_element(runs, {}, &PrimitiveRun::length);
+      EXPECT_EQ(longest->primitive, primitive) << name_of(longest->primitive);
+      EXPECT_EQ(longest->variation, variation) << name_of(longest->variation);
+      EXPECT_GT(longest->length, 0.4 * length);
+    }
+  }
 }
 
 /// Shares with left and right, opening and closing taken together.

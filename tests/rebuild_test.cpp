@@ -174,6 +174,16 @@ TEST(Rebuild, OneEndCutOffLosesTheAreaThatItsMeasureTells) {
   EXPECT_NEAR(area(*shape), 20 * (1 - static_cast<double>(cut) * threshold), 1e-9);
 }
 
+/// Ho and Dyer's rectangle (Fig. 9 of Volkmann and St. Clair): the ends of its four branches go up
+/// to disks of one radius, whose arcs round the corners.
+TEST(Rebuild, ARectangleGetsRoundCorners) {
+  const Case one = case_of({{0, 0}, {8, 0}, {8, 4}, {0, 4}});
+  const auto shape = rebuild(PruneOrder(one.axis, PruneMeasure::radius).at(0.5));
+  ASSERT_TRUE(shape.ok()) << to_string(shape.error());
+  EXPECT_NEAR(area(*shape), 32 - (4 - std::numbers::pi), 1e-9);
+  EXPECT_EQ(std::ranges::count_if(shape->bulges, [](double bulge) { return bulge != 0; }), 4);
+}
+
 TEST(Rebuild, OneDiskIsACircle) {
   const Case one = case_of({{0, 0}, {2, 0}, {2, 2}, {0, 2}});
   const auto shape = rebuild(PruneOrder(one.axis, PruneMeasure::erosion).at(1e6));
