@@ -13,7 +13,8 @@ namespace medial {
 
 struct CurveAxisOptions {
   /// The way along the axis from point to point, relative to the diagonal of the bounding box, in
-  /// [1e-6, 0.1]; shorter where the boundary turns fast.
+  /// [1e-6, 0.1]; shorter where the boundary turns fast. Where the control process goes astray the
+  /// axis is begun anew with half of it, up to five times: MedialAxis::resolution tells.
   double step = 1e-3;
   /// Which of the curvature's maxima, counted along the boundary from its start, the first
   /// generation starts from. The axis is the same for each, to the steps.

@@ -347,6 +347,18 @@ Status check_disks(const SmoothBoundary& boundary, const MedialAxis& axis) {
   return success();
 }
 
+/// How often an axis that has gone astray is begun anew.
+constexpr int most_attempts = 5;
+
+Result<CurveAxis> attempt(const SmoothBoundary& boundary, const CurveAxisOptions& options) {
+  const double step = options.step * boundary.size();
+  Control control(boundary, options, step);
+  if (Status done = control.run(); !done) return std::move(done).error();
+  CurveAxis result = Assembly(boundary, control, step).take();
+  if (Status right = check_disks(boundary, result.axis); !right) return std::move(right).error();
+  return result;
+}
+
 }  // namespace
 }  // namespace curve_axis
 
@@ -356,11 +368,19 @@ Result<CurveAxis> compute_curve_axis(std::span<const Contour> contours,
   try {
     if (auto error = refuse(contours, options)) return std::move(*error);
     const SmoothBoundary boundary(normalized(contours[0]));
-    const double step = options.step * boundary.size();
-    Control control(boundary, options, step);
-    if (Status done = control.run(); !done) return std::move(done).error();
-    CurveAxis result = Assembly(boundary, control, step).take();
-    if (Status right = check_disks(boundary, result.axis); !right) return std::move(right).error();
+    Result<CurveAxis> result = attempt(boundary, options);
+    // What has gone astray does so at some steps only, and from some maxima: again with shorter
+    // ones.
+    CurveAxisOptions again = options;
+    for (int round = 0; round < most_attempts && !result.ok() &&
+                        result.error().code == ErrorCode::unsupported && !boundary.maxima().empty();
+         ++round) {
+      again.step /= 2;
+      ++again.first_maximum;
+      Result<CurveAxis> next = attempt(boundary, again);
+      // Of errors the first one tells most.
+      if (next.ok() || next.error().code == ErrorCode::cancelled) result = std::move(next);
+    }
     return result;
   } catch (...) {
     return error_in_flight();
