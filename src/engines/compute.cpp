@@ -178,7 +178,7 @@ bool has_right_topology(const Shape& shape, const MedialAxis& axis) {
          signed_size(shape.component_count()) - signed_size(shape.hole_count());
 }
 
-Result<MedialAxis> run(const Shape& shape, const Options& options) {
+Result<MedialAxis> run(const Shape& shape, const Options& options, bool& in_centers) {
   switch (options.method) {
     case Method::potential:
       return potential::run(shape, options);
@@ -193,7 +193,7 @@ Result<MedialAxis> run(const Shape& shape, const Options& options) {
     case Method::disks:
       break;
   }
-  return disks::run(shape, options);
+  return disks::run(shape, options, &in_centers);
 }
 
 constexpr std::array<std::pair<Method, const char*>, 6> method_names = {
@@ -222,7 +222,8 @@ Result<MedialAxis> compute(const Shape& shape, const Options& options) {
   try {
     if (auto error = refuse(shape, options)) return std::move(*error);
     if (options.exterior) return compute_exterior(shape, options);
-    auto result = on_threads(options.threads, [&] { return run(shape, options); });
+    bool in_centers = false;
+    auto result = on_threads(options.threads, [&] { return run(shape, options, in_centers); });
     if (!result) return std::move(result).error();
     MedialAxis& axis = *result;
     const bool one_thread = options.method == Method::biarc_dc || options.method == Method::ridge ||
@@ -240,6 +241,9 @@ Result<MedialAxis> compute(const Shape& shape, const Options& options) {
       Status certain =
           on_threads(options.threads, [&] { return exact::certify(shape, options, axis); });
       if (!certain) return std::move(certain).error();
+      if (in_centers)
+        if (auto refused = disks::error_if_refused(shape, options, axis))
+          return std::move(*refused);
     }
 #endif
     if (options.progress) options.progress(1);

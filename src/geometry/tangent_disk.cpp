@@ -206,6 +206,18 @@ bool nearly_concentric(const Carrier<Real>& a, const Carrier<Real>& b) {
   return dot(apart, apart) < reach * reach;
 }
 
+/// Whether the own circle of an arc is nearly tangent to another carrier.
+template <class Real>
+bool nearly_touches(const Circle<Real>& own, const Carrier<Real>& other) {
+  using std::abs;
+  constexpr double near = 0x1p-20;
+  const Vector<Real> d = own.center - other.point;
+  const Real error = other.round * (dot(d, d) - own.radius * own.radius) -
+                     Real(2) * other.flat * (dot(other.normal, d) - own.radius);
+  const Real scale = abs(own.radius) * (abs(other.round * own.radius) + other.flat);
+  return abs(error) < Real(near) * scale;
+}
+
 /// Three carriers, the first one an arc to which another one is nearly concentric. Seen from the
 /// arc's centre, x = c - q and s = rho - r, its own equation is x.x = s s, and that of another one
 /// round (x + D).(x + D) - round (rho - s)^2 = 2 flat (n.(x + D) - rho + s), with D = q - point.
@@ -284,6 +296,14 @@ Solutions<Real> three_carriers(std::array<const Carrier<Real>*, 3> carriers) {
     for (std::size_t j = i + 1; j < 3; ++j)
       if (nearly_concentric(*carriers[i], *carriers[j]))
         return about_center<Real>(*carriers[i], {carriers[j], carriers[3 - i - j]});
+  std::size_t first_arc = 0;
+  while (carriers[first_arc]->vertex) ++first_arc;
+  if (carriers[first_arc]->round > Real(0)) {
+    const auto &arc = *carriers[first_arc], &b = *carriers[(first_arc + 1) % 3],
+               &c = *carriers[(first_arc + 2) % 3];
+    const Circle<Real> own(arc);
+    if (nearly_touches(own, b) && nearly_touches(own, c)) return about_center<Real>(arc, {&b, &c});
+  }
   struct Plane {
     Vector<Real> g;
     Real s, h;  // g.(x, y) + s r = h

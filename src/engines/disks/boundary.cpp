@@ -143,17 +143,6 @@ void add_loop(const Loop& loop, const SiteNumbers& numbers, const Start& start,
 
 }  // namespace
 
-bool is_near_circle(const Boundary& boundary, const Box& box, double slack) {
-  if (!boundary.has_arcs || boundary.runs.size() != 1) return false;
-  const Vec2 center = midpoint(box.low, box.high);
-  const double radius = 0.5 * (box.high.x - box.low.x);
-  return std::ranges::all_of(boundary.sites, [&](const geometry::Site& site) {
-    const bool convex = site.is_vertex() || site.curvature > 0;
-    return convex && std::abs(distance(site.point, center) - radius) <= slack &&
-           std::abs(distance(site.at(0.5 * site.length), center) - radius) <= slack;
-  });
-}
-
 double clockwise_turn(Vec2 from, Vec2 to) {
   constexpr double none = 1e-9;  // a little to the left is rounding
   const double angle = std::atan2(-cross(from, to), dot(from, to));

@@ -83,12 +83,20 @@ struct Boundary {
     Vec2 normal;
   };
   Place smooth_place(std::uint32_t before, std::uint32_t after) const {
-    // Of two edges the longer one knows its direction better; a vertex has length 0. But of two
-    // arcs of almost one circle the rounder one says where a disk as round has to be.
-    const double a = sites[before].curvature, b = sites[after].curvature;
+    // Of two edges the longer one knows its direction better. But of two arcs of almost one circle
+    // the rounder one says where a disk as round has to be; and so it does of others where that
+    // disk reaches less over the flatter one, by turn^2 / (2 bend) at most, than the longer one's
+    // disk does over the shorter edge, by turn * length.
+    const geometry::Site &first = sites[before], &second = sites[after];
+    const double a = first.curvature, b = second.curvature, bend = std::abs(a - b);
     constexpr double almost = 0x1p-20;
-    const bool alike = a > 0 && b > 0 && a != b && std::abs(a - b) <= almost * a;
-    const bool by_after = alike ? b > a : sites[after].length > sites[before].length;
+    const bool alike = a > 0 && b > 0 && bend > 0 && bend <= almost * a;
+    const bool edges = elements[before] == Element::edge && elements[after] == Element::edge;
+    const double shorter = std::min(first.length, second.length);
+    const bool by_rounder =
+        alike || (edges && std::max(a, b) > 0 &&
+                  std::abs(cross(first.end_normal(), second.normal())) < 2 * bend * shorter);
+    const bool by_after = by_rounder ? b > a : second.length > first.length;
     const Vec2 point =
         elements[before] == Element::vertex ? sites[before].point : sites[after].point;
     return {point, by_after ? sites[after].normal() : sites[before].end_normal()};
@@ -102,10 +110,6 @@ struct Boundary {
 /// point is a vertex with the shape all around it, and without a neighbour.
 Boundary loops_boundary(const Shape& shape, const SiteNumbers& numbers, const Frame& frame,
                         bool two_sided = false);
-
-/// Whether all of the boundary is one loop of arcs that lie within `slack` of one circle. `box` is
-/// the boundary's. O(n), and mostly O(1) where it is not so.
-bool is_near_circle(const Boundary& boundary, const Box& box, double slack);
 
 /// The angle from one direction to another, clockwise, in [0, 2 pi).
 double clockwise_turn(Vec2 from, Vec2 to);

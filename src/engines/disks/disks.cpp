@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <optional>
 
 #include "base/frame.h"
 #include "base/stopwatch.h"
@@ -10,8 +11,10 @@
 #include "engines/disks/collect.h"
 #include "engines/disks/connect.h"
 #include "engines/disks/merge_ties.h"
+#include "engines/disks/near_circle.h"
 #include "engines/disks/walk.h"
 #include "index/boundary_tree.h"
+#include "medial/verify.h"
 
 namespace medial::disks {
 
@@ -23,6 +26,10 @@ namespace {
 /// is merged at the end. Among other arcs ties are known to the tolerance only, as their bulges
 /// round, too.
 constexpr double fine_share = 0.25, near_circle = 1 << 12;
+
+/// The axis of such arcs is certified before it is given out. Of more of them that takes too long,
+/// as searches among them take O(n).
+constexpr std::size_t most_arcs_in_near_circle = 1 << 14;
 
 /// In tolerances: disks that are smaller cannot always be told from rounding.
 constexpr double narrow = 16;
@@ -36,10 +43,18 @@ std::function<void(std::uint64_t)> reporter(const Options& options, const Bounda
   };
 }
 
-/// The engine: sites, holes connected, tree, walk, graph. Cancelled, it stops where it is. `fine`:
-/// contacts are told apart to a share of the tolerance where the shape allows it.
-Result<MedialAxis> run(const Shape& shape, const Options& options, bool two_sided, bool fine) {
+/// What a walk makes of a shape.
+struct Outcome {
   MedialAxis axis;
+  bool in_centers = false;  ///< rounding may have decided what it is: see is_in_centers()
+};
+
+/// The engine: sites, holes connected, tree, walk, graph. Cancelled, it stops where it is. Contacts
+/// are told apart to a share of the tolerance, which if it is not given goes by the shape.
+Result<Outcome> run(const Shape& shape, const Options& options, bool two_sided,
+                    std::optional<double> share) {
+  Outcome outcome;
+  MedialAxis& axis = outcome.axis;
   axis.method = "disks";
   Statistics& statistics = axis.statistics;
   Stopwatch all, watch;
@@ -55,8 +70,15 @@ Result<MedialAxis> run(const Shape& shape, const Options& options, bool two_side
 
   SiteNumbers numbers = sites::number_sites(shape, frame, options.corner_angle);
   Boundary boundary = loops_boundary(shape, numbers, frame, two_sided);
-  if (fine && (!boundary.has_arcs || is_near_circle(boundary, local, near_circle * walk_tolerance)))
-    walk_tolerance *= fine_share;
+  const double near = near_circle * walk_tolerance;
+  outcome.in_centers = !two_sided && is_near_circle(boundary, local, near);
+  const bool fine = !boundary.has_arcs || outcome.in_centers;
+  if (outcome.in_centers && boundary.sites.size() > most_arcs_in_near_circle) {
+    Error error{ErrorCode::unsupported, "too many arcs are of one circle but for rounding", {}};
+    error.place.point = midpoint(box.low, box.high);
+    return error;
+  }
+  walk_tolerance *= share ? *share : fine ? fine_share : 1;
   statistics.seconds_sites = watch.lap();
 
   const auto cancelled = [&] { return options.cancel != nullptr && options.cancel->load(); };
@@ -65,7 +87,7 @@ Result<MedialAxis> run(const Shape& shape, const Options& options, bool two_side
   if (!cuts.empty()) boundary = connect(shape, boundary, cuts);
   statistics.cuts = cuts.size();
   statistics.seconds_connect = watch.lap();
-  if (cancelled()) return axis;
+  if (cancelled()) return outcome;
 
   auto tree = std::make_unique<index::BoundaryTree>(boundary.sites);
   statistics.seconds_tree = watch.lap();
@@ -74,35 +96,65 @@ Result<MedialAxis> run(const Shape& shape, const Options& options, bool two_side
   auto chunks = walk({boundary, cuts, *tree, walk_tolerance, radius_limit(box, frame),
                       options.cancel, reporter(options, boundary, finished)});
   statistics.seconds_walk = watch.lap();
-  if (cancelled()) return axis;
+  if (cancelled()) return outcome;
 
   collect(chunks, cuts.size(), axis);
   merge_ties(boundary, *tree, input_tolerance, axis);
   tree.reset();
+  if (!two_sided && !outcome.in_centers) outcome.in_centers = is_in_centers(boundary, axis, near);
   constexpr double loose = 0x1p-20;  // of the size: no near tie is that far off
   const double slack = std::max(loose * diagonal(box), 4 * axis.tolerance);
-  const auto doubtful = complete(boundary, frame, frame.scale * slack, axis);
+  const auto loose_edges = complete(boundary, frame, frame.scale * slack, axis);
   boundary = {};
   axis.sites = sites::result_sites(shape, numbers);
   statistics.seconds_collect = watch.lap();
   statistics.seconds = all.lap();
-  const bool holds = std::all_of(doubtful.begin(), doubtful.end(), [&](std::uint32_t edge) {
+  const bool holds = std::all_of(loose_edges.begin(), loose_edges.end(), [&](std::uint32_t edge) {
     return touches_its_sites(axis, axis.edges[edge], slack);
   });
   if (!holds)
     return error_of_wrong_axis(
         axis, "a disk of the axis misses a site that it should touch: please report this shape");
-  return axis;
+  return outcome;
 }
 
 }  // namespace
 
-Result<MedialAxis> run(const Shape& shape, const Options& options) {
-  Result<MedialAxis> axis = run(shape, options, false, true);
-  if (axis) return axis;
-  // To the whole tolerance, what misled the walk may be one contact.
-  Result<MedialAxis> coarse = run(shape, options, false, false);
-  return coarse ? std::move(coarse) : std::move(axis);
+std::optional<Error> error_if_refused(const Shape& shape, const Options& options,
+                                      const MedialAxis& axis) {
+  constexpr std::size_t most = 1 << 13;
+  VerifyOptions demands;
+  const auto samples = static_cast<int>(most / (axis.edges.size() + 1));
+  demands.samples_per_edge = std::clamp(samples, 1, demands.samples_per_edge);
+  demands.corner_angle = options.corner_angle;
+  demands.threads = options.threads;
+  const Certificate certificate = verify(shape, axis, demands);
+  if (certificate.passed) return std::nullopt;
+  Error error{ErrorCode::unsupported,
+              "rounding alone tells which of the arcs here, of almost one circle, a disk touches",
+              {}};
+  error.place.point = Vec2{certificate.worst_x, certificate.worst_y};
+  return error;
+}
+
+Result<MedialAxis> run(const Shape& shape, const Options& options, bool* in_centers) {
+  std::optional<Error> error;
+  // To another share of the tolerance, what misled the walk may be one contact, or two.
+  std::vector<std::optional<double>> shares{std::nullopt, 1.0};
+  if (!shape.bulges.empty()) shares = {std::nullopt, 0.25, 0.0625, 0.5, 1.0};
+  for (const auto& share : shares) {
+    Result<Outcome> outcome = run(shape, options, false, share);
+    if (!outcome) {
+      if (!error) error = std::move(outcome).error();
+      continue;
+    }
+    if (in_centers != nullptr) *in_centers = outcome->in_centers;
+    const bool cancelled = options.cancel != nullptr && options.cancel->load();
+    if (!outcome->in_centers || cancelled) return std::move(outcome->axis);
+    error = error_if_refused(shape, options, outcome->axis);
+    if (!error) return std::move(outcome->axis);
+  }
+  return std::move(*error);
 }
 
 Error error_of_wrong_axis(const MedialAxis& axis, const char* text) {
@@ -121,7 +173,7 @@ Error error_of_wrong_axis(const MedialAxis& axis, const char* text) {
 }
 
 MedialAxis run_two_sided(const Shape& shape, const Options& options) {
-  return *run(shape, options, true, true);
+  return std::move(run(shape, options, true, std::nullopt)->axis);
 }
 
 }  // namespace medial::disks

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "medial/axis.h"
 #include "medial/compute.h"
 #include "medial/shape.h"
@@ -9,8 +11,16 @@ namespace medial::disks {
 /// The engine `disks` (docs/disks.md): sites, holes connected, tree, walk, graph. Requires what
 /// compute() has checked. Cut short, with any content, where the caller cancels. An error
 /// (error_of_wrong_axis) where a disk misses one of its sites by far more than rounding explains:
-/// no such axis is given out.
-Result<MedialAxis> run(const Shape& shape, const Options& options);
+/// no such axis is given out. Nor is one, of disks that are the own circles of several arcs but for
+/// rounding, that verify() refuses (`in_centers` tells of such disks): then it is unsupported, with
+/// the place.
+Result<MedialAxis> run(const Shape& shape, const Options& options, bool* in_centers = nullptr);
+
+/// The error instead of an axis that verify() refuses, for shapes of arcs of almost one circle.
+/// Disks there touch nearly all of these, so that every search takes O(n): of large axes fewer
+/// disks are measured.
+std::optional<Error> error_if_refused(const Shape& shape, const Options& options,
+                                      const MedialAxis& axis);
 
 /// The error instead of an axis that has come out wrong: unsupported, with the place, where it has
 /// disks of so few tolerances that rounding is the cause; internal, with the text, else. O(n).

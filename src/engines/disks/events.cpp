@@ -34,6 +34,18 @@ constexpr double as_good_as_point = 8;
 
 }  // namespace
 
+std::optional<Event> EventSearch::pass_pinned() const {
+  for (const bool on_right : {true, false}) {
+    const std::uint32_t own = on_right ? span_.right : span_.left;
+    if (!end_[on_right] || !boundary_.is_smooth(on_right ? own : own - 1)) continue;
+    const double s = geometry::foot_parameter(site(own), from_.center);
+    if (on_right ? s >= site(own).length : s <= 0)
+      return Event{on_right ? Event::Kind::pass_right : Event::Kind::pass_left, Hit::none, from_,
+                   low_};
+  }
+  return std::nullopt;
+}
+
 Event EventSearch::local_event(bool on_right) {
   const std::uint32_t own = on_right ? span_.right : span_.left;
   const std::uint32_t next = on_right ? own + 1 : own - 1;
@@ -43,6 +55,7 @@ Event EventSearch::local_event(bool on_right) {
 
 Event EventSearch::event_at_smooth_joint(bool on_right) {
   Event event;
+  if (end_[on_right]) return event;
   auto joint = disk_at_joint(on_right);
   if (!joint) return event;
   if (bisector_.is_straight) {
@@ -106,7 +119,7 @@ Event EventSearch::event_at_corner(bool on_right) {
     if (!contact) contact = contact_with(next, nowhere);
     if (contact && reaches(*contact)) return *contact;
   }
-  if (!in_reach || bisector_.is_straight) return event;
+  if (!in_reach || bisector_.is_straight || end_[on_right]) return event;
   event.kind = flat ? Event::Kind::contact : Event::Kind::far;
   event.site = next;
   event.disk = {foot + radius * normal, radius};
@@ -233,7 +246,7 @@ bool EventSearch::in_line(Vec2 gap) const {
 }
 
 geometry::Bisector EventSearch::bisector() const {
-  geometry::Bisector result(site(span_.right), site(span_.left));
+  geometry::Bisector result(touched_part(true), touched_part(false));
   if (!at_narrow_gap_) return result;
   const Site &right = result.right, &left = result.left;
   if (right.is_vertex() && left.is_vertex()) {
@@ -315,6 +328,7 @@ void EventSearch::polish(Event& event, const Site& third) {
 
 Event EventSearch::next() {
   if (const auto passed = pass_over_circle()) return *passed;
+  if (const auto passed = pass_pinned()) return *passed;
   if (at_narrow_gap_)
     if (const auto passed = pass_into_gap()) return *passed;
   // A foot that passes on smoothly is found at little cost, and makes most corners' events

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <limits>
 #include <optional>
 
@@ -36,6 +37,7 @@ class EventSearch {
         statistics_(statistics),
         span_(span),
         from_(from),
+        end_{pinned_end(span.left), pinned_end(span.right)},
         at_narrow_gap_(at_narrow_gap()),
         bisector_(bisector()),
         low_(bisector_.position(from.center)) {}
@@ -53,6 +55,23 @@ class EventSearch {
 
   const geometry::Site& site(std::uint32_t i) const { return boundary_.sites[i]; }
   Element element(std::uint32_t i) const { return boundary_.elements[i]; }
+  /// Where the node's disk is larger than the own circle of an arc, the end in which it touches it:
+  /// next to a joint that is smooth but for some tolerances.
+  std::optional<geometry::Site> pinned_end(std::uint32_t i) const {
+    if (!(overreach(site(i), from_.radius) > 0.5 * context_.tolerance)) return std::nullopt;
+    return geometry::make_vertex(geometry::foot(site(i), from_.center));
+  }
+  /// By how much a disk that touches a convex arc at one end reaches over it, at most.
+  static double overreach(const geometry::Site& arc, double radius) {
+    if (!(arc.curvature * radius > 1)) return 0;
+    return 0.5 * (radius - 1 / arc.curvature) * squared_norm(arc.normal() - arc.end_normal());
+  }
+  /// What the disks after the node touch of `right` or `left`: all of it, or one end of it.
+  const geometry::Site& touched_part(bool on_right) const {
+    return end_[on_right] ? *end_[on_right] : site(on_right ? span_.right : span_.left);
+  }
+  /// Where a pinned foot is at the end of its site, it passes on at once.
+  std::optional<Event> pass_pinned() const;
   /// Whether a contact lies on the site itself, not only on its carrier, and on its inner side.
   bool reaches(const Event& event) const {
     return contacts_.reaches(event.site, event.disk) &&
@@ -151,6 +170,8 @@ class EventSearch {
   Statistics& statistics_;
   const Span span_;
   const Disk from_;
+  /// The end of `left` and `right` where that is all of it that can be touched, as a vertex.
+  const std::array<std::optional<geometry::Site>, 2> end_;
   const bool at_narrow_gap_;
   const geometry::Bisector bisector_;
   const double low_;  ///< position of `from`

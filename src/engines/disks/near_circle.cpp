@@ -1,0 +1,52 @@
+#include "engines/disks/near_circle.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace medial::disks {
+namespace {
+
+using geometry::Site;
+
+/// Whether a disk that touches a site is an arc's own circle, within `slack`.
+bool is_own_circle(const Site& site, const Disk& disk, double slack) {
+  return site.curvature > 0 && std::abs(site.curvature * disk.radius - 1) <= slack * site.curvature;
+}
+
+/// Whether the sites strictly between two others, few, are arcs of several edges of the input.
+bool are_several_edges(const Boundary& boundary, const Edge& edge) {
+  constexpr std::uint32_t most = 64;
+  const auto [left, right] = edge.site;
+  if (!(right + 2 < left && left - right <= most)) return false;
+  for (std::uint32_t i = right + 2; i < left; ++i)
+    if (boundary.originals[i] != boundary.originals[right + 1]) return true;
+  return false;
+}
+
+}  // namespace
+
+bool is_near_circle(const Boundary& boundary, const Box& box, double slack) {
+  if (!boundary.has_arcs || boundary.runs.size() != 1) return false;
+  const Vec2 center = midpoint(box.low, box.high);
+  const double radius = 0.5 * (box.high.x - box.low.x);
+  return std::ranges::all_of(boundary.sites, [&](const Site& site) {
+    const bool convex = site.is_vertex() || site.curvature > 0;
+    return convex && std::abs(distance(site.point, center) - radius) <= slack &&
+           std::abs(distance(site.at(0.5 * site.length), center) - radius) <= slack;
+  });
+}
+
+bool is_in_centers(const Boundary& boundary, const MedialAxis& axis, double slack) {
+  if (!boundary.has_arcs) return false;
+  return std::ranges::any_of(axis.edges, [&](const Edge& edge) {
+    const auto [left, right] = edge.site;
+    const Disk &from = axis.nodes[edge.node[0]].disk, &to = axis.nodes[edge.node[1]].disk;
+    for (const std::uint32_t i : {left, right})
+      if (is_own_circle(boundary.sites[i], to, slack) &&
+          is_own_circle(boundary.sites[i], from, slack))
+        return true;
+    return are_several_edges(boundary, edge) && is_own_circle(boundary.sites[right + 1], to, slack);
+  });
+}
+
+}  // namespace medial::disks
