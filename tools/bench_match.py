@@ -52,7 +52,7 @@ def icons(program, data):
             tell("icons", way, [t for t in told if t], len(files))
 
 
-def islands(program, data, count=400, asked=60):
+def islands(program, data, count=200, asked=50):
     text = gzip.open(data / "packaged/A_gis/gshhg/islands_rank2001_4000.wkt.gz", "rt").read()
     rings = [[tuple(map(float, p.split(" "))) for p in ring.split(",")][:-1]
              for ring in re.findall(r"\(\(([^()]*)\)\)", text)][::4][:count]

@@ -16,6 +16,9 @@ import tempfile
 KINDS = {
     "coastlines": ("packaged/A_gis/gshhg", ["new_guinea*", "halmahera*", "sao_tome*", "newfoundland*"]),
     "countries": ("packaged/A_gis/countries", ["*.geojson", "*.wkt"]),
+    "parcels, boroughs, a bee": ("packaged/A_gis/repos", ["*.geojson.gz", "*.wkt"]),
+    "icons (bootstrap)": ("packaged/B_svg/bootstrap", ["*.svg"]),
+    "drawings (DXF)": ("packaged/B_dxf", ["*.dxf*"]),
     "icons (mdi)": ("packaged/B_svg/mdi", ["*.svg"]),
     "drawings (openclipart)": ("packaged/B_svg/openclipart", ["*.svg*"]),
     "copper": ("packaged/B_pcb", ["ecc83*", "flat*"]),
