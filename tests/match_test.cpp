@@ -68,6 +68,21 @@ TEST(Match, TellsShapesApart) {
   EXPECT_EQ(dissimilarity(bar, cross), dissimilarity(cross, bar));
 }
 
+TEST(Match, FullDisksAreToldApart) {
+  // Their axes are points, without a length to count by.
+  const auto disks = [](int count) {
+    test::Rings rings;
+    for (int i = 0; i < count; ++i) {
+      Ring& ring = rings.emplace_back();
+      ring.points = {{3.0 * i - 1, 0}, {3.0 * i + 1, 0}};
+      ring.bulges = {1, 1};
+    }
+    return sign(rings);
+  };
+  EXPECT_GT(dissimilarity(disks(1), disks(3)), 0.5);
+  EXPECT_GT(dissimilarity(disks(3), disks(12)), 0.5);
+}
+
 TEST(Match, NoiseHardlyCounts) {
   // A bar with small teeth all along one side is nearer to the bar than a bar a third shorter.
   Ring teeth;

@@ -19,7 +19,7 @@ import tempfile
 
 
 def ranks(program, query, others, each):
-    done = subprocess.run([program, "match", str(query), str(others), "--best", "10", "--json", "--quiet"] +
+    done = subprocess.run([program, "match", str(query), str(others), "--best", "10", "--json", "--quiet", "--repair"] +
                           (["--each"] if each else []), capture_output=True, text=True, check=False, timeout=300)
     return [m["shape"] for m in json.loads(done.stdout)["matches"]] if done.returncode == 0 else None
 

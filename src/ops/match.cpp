@@ -71,10 +71,15 @@ class Signer {
     double latest = 0;
     for (const BranchFeatures& branch : features_.branches) latest = std::max(latest, last(branch));
     for (const BranchFeatures& branch : features_.branches) add(branch, all[branch.branch], latest);
-    // Little but a disk: nothing reaches far beyond it.
+    // Little but disks: nothing reaches far beyond one.
     if (pieces_.empty() && !axis_.nodes.empty()) {
-      const Disk& disk = axis_.nodes[deepest_node(axis_)].disk;
-      pieces_.push_back({disk.radius, disk.center, disk.radius, 0});
+      const auto add_disk = [this](const Disk& disk) {
+        pieces_.push_back({disk.radius, disk.center, disk.radius, 0});
+      };
+      const Incidence incidence(axis_);
+      for (std::uint32_t i = 0; i < axis_.nodes.size(); ++i)
+        if (incidence.degree(i) == 0) add_disk(axis_.nodes[i].disk);
+      if (pieces_.empty()) add_disk(axis_.nodes[deepest_node(axis_)].disk);
     }
     double total = 0, mean_radius = 0;
     Vec2 center;
