@@ -116,13 +116,19 @@ std::string series_table(const std::vector<BiarcRow>& rows, bool with_error) {
       const auto points = against_edges(group, get);
       return points.size() < 2 ? std::string("-") : fmt::format("{:.2f}", fitted_exponent(points));
     };
+    // Where tolerances are coarse, the number of arcs is that of the spirals, whatever the error.
+    const auto error_exponent = [&] {
+      auto points = against_edges(group, certified_error);
+      const double twice = points.empty() ? 0 : 2 * points.front().first;
+      std::erase_if(points, [&](const auto& point) { return point.first < twice; });
+      return points.size() < 2 ? std::string("-") : fmt::format("{:.2f}", fitted_exponent(points));
+    };
     const auto share = [](const BiarcRow& row) {
       return row.edges < 2 ? 0 : per_edge(axis_time(row), row) / std::log2(row.edges);
     };
-    text +=
-        fmt::format("| {} | {}{} | {} | {:.4f} to {:.4f} |\n", group.front().shape,
-                    with_error ? exponent(certified_error) + " | " : "", exponent(conversion_time),
-                    exponent(axis_time), share(group.front()), share(group.back()));
+    text += fmt::format("| {} | {}{} | {} | {:.4f} to {:.4f} |\n", group.front().shape,
+                        with_error ? error_exponent() + " | " : "", exponent(conversion_time),
+                        exponent(axis_time), share(group.front()), share(group.back()));
   }
   return text;
 }
