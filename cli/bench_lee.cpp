@@ -185,7 +185,8 @@ LeeRow measure(const std::string& name, const Ring& ring, int rounds) {
   row.lee = time_of(Method::lee);
   row.disks = time_of(Method::disks);
   std::vector<lee::Level> levels;
-  lee::run(*shape, {.method = Method::lee, .threads = 1}, &levels);
+  if (!lee::run(*shape, {.method = Method::lee, .threads = 1}, &levels))
+    row.failure = "not computed";
   for (const lee::Level& level : levels) row.levels.push_back(level.seconds);
   return row;
 }

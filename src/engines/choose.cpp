@@ -8,13 +8,11 @@ namespace medial {
 Method choose_method(const Shape& shape, const Options& options) {
   // Of the vertices of coasts and mazes about half are reflex, of smooth shapes less than a third.
   constexpr double most_reflex = 0.4;
-  // Beyond, nearly circular polygons are no sure matter for `lee`.
-  constexpr std::size_t most_vertices = 200000;
   const std::size_t count = shape.points.size();
   const bool takes =
       shape.hole_count() == 0 && std::all_of(shape.bulges.begin(), shape.bulges.end(),
                                              [](double bulge) { return bulge == 0; });
-  if (!takes || options.exterior || options.exact || count > most_vertices) return Method::disks;
+  if (!takes || options.exterior || options.exact) return Method::disks;
   std::size_t reflex = 0;
   for (std::size_t l = 0; l < shape.loop_count(); ++l) {
     const std::span<const Vec2> loop = shape.loop(l);

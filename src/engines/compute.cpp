@@ -258,9 +258,9 @@ Result<VoronoiDiagram> voronoi_diagram(const Shape& shape, const Options& option
     Options own = options;
     own.method = Method::lee;
     if (auto error = refuse(shape, own)) return std::move(*error);
-    VoronoiDiagram diagram =
-        on_threads(own.threads, [&] { return lee::voronoi_diagram(shape, own); });
-    diagram.statistics.threads = effective_threads(own.threads);
+    auto diagram = on_threads(own.threads, [&] { return lee::voronoi_diagram(shape, own); });
+    if (!diagram) return diagram;
+    diagram->statistics.threads = effective_threads(own.threads);
     if (own.cancel != nullptr && own.cancel->load())
       return Error{ErrorCode::cancelled, "cancelled", {}};
     if (own.progress) own.progress(1);

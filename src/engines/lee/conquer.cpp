@@ -34,6 +34,20 @@ struct Halving {
   }
 };
 
+/// Disks that may touch all of a list that is next: that of the last list which one disk touched,
+/// and that of the next such list, if it is known already.
+struct RoundDisks {
+  std::optional<Disk> last;
+  std::optional<Disk> next;
+};
+
+/// The lists of the first levels of a halving, numbered level by level.
+struct Lists {
+  static std::size_t number(int level, std::uint64_t i) { return (std::size_t{1} << level) + i; }
+  std::vector<bool> solved;           ///< in closed form, by itself or as a part
+  std::vector<RoundDisks> of_blocks;  ///< of the lists of the last level
+};
+
 class Conquest {
  public:
   Conquest(Diagram& diagram, const ConquerContext& context, Statistics& statistics)
@@ -54,22 +68,11 @@ class Conquest {
     if (level == 0) last_edge_ = edge;
   }
 
-  /// All merges below one list: of two lists, both as soon as they are there, and so in the cache.
-  void merge_below(const Halving& halving, int level, std::uint64_t i) {
+  /// All merges below one list.
+  void merge_below(const Halving& halving, int level, std::uint64_t i, RoundDisks known) {
     Statistics own;
-    std::optional<Disk> known;
-    const int bottom = std::max(level, halving.deepest() - levels_at_bottom);
-    for (std::uint64_t j = i << (bottom - level);
-         j < (i + 1) << (bottom - level) && !cancelled();) {
-      // The list that is solved next, and its level: as large as it can be in closed form.
-      int k = std::max(level, bottom - std::countr_zero(j));
-      while (k < bottom && !is_fan(halving, k, j >> (bottom - k), known)) ++k;
-      if (k == bottom) merge_bottom(halving, bottom, j, known, own);
-      std::uint64_t list = j >> (bottom - k);
-      j = (list + 1) << (bottom - k);
-      for (; k > level && list % 2 == 1; list /= 2, --k)
-        merge_halves(halving, k - 1, list / 2, own);
-    }
+    merge_parts(halving, level, i, std::max(level, halving.deepest() - levels_at_bottom), known,
+                own);
     add(own);
     report(halving.work(level, halving.deepest()) >> level);
   }
@@ -93,10 +96,14 @@ class Conquest {
   std::uint32_t merge_all(const Halving& halving) {
     int block_level = 0;
     while ((halving.count >> block_level) > block_size) ++block_level;
-    tbb::parallel_for(std::uint64_t{0}, std::uint64_t{1} << block_level,
-                      [&](std::uint64_t i) { merge_below(halving, block_level, i); });
+    const Lists lists = solve_fans(halving, block_level);
+    tbb::parallel_for(std::uint64_t{0}, std::uint64_t{1} << block_level, [&](std::uint64_t i) {
+      if (!lists.solved[Lists::number(block_level, i)])
+        merge_below(halving, block_level, i, lists.of_blocks[i]);
+    });
     for (int level = block_level - 1; level >= 0 && !cancelled(); --level) {
       tbb::parallel_for(std::uint64_t{0}, std::uint64_t{1} << level, [&](std::uint64_t i) {
+        if (lists.solved[Lists::number(level, i)]) return;
         Statistics own;
         merge_halves(halving, level, i, own);
         add(own);
@@ -107,19 +114,84 @@ class Conquest {
   }
 
  private:
-  /// All merges below one short list, level by level.
-  void merge_bottom(const Halving& halving, int level, std::uint64_t i, std::optional<Disk>& known,
+  /// The lists down to some level that are known in closed form, the largest first; a block of a
+  /// circle with very many sides turns too little to tell its disk by itself.
+  Lists solve_fans(const Halving& halving, int block_level) {
+    const std::uint64_t blocks = std::uint64_t{1} << block_level;
+    Lists lists{std::vector<bool>(2 * blocks), std::vector<RoundDisks>(blocks)};
+    auto& disks = lists.of_blocks;
+    for (int level = 1; level <= block_level; ++level)
+      for (std::uint64_t i = 0; i < std::uint64_t{1} << level; ++i) {
+        const std::size_t list = Lists::number(level, i);
+        lists.solved[list] = lists.solved[list / 2];
+        if (lists.solved[list]) continue;
+        const std::uint64_t begin = i << (block_level - level), end = (i + 1)
+                                                                      << (block_level - level);
+        RoundDisks known;
+        if (begin > 0) known.last = disks[begin - 1].last;
+        if (end < blocks) known.next = disks[end].last;
+        lists.solved[list] = is_fan(halving, level, i, known);
+        if (!lists.solved[list]) continue;
+        for (std::uint64_t j = begin; j < end; ++j) disks[j].last = known.last;
+      }
+    for (std::uint64_t i = 1; i < blocks; ++i) {
+      if (!disks[i].last) disks[i].last = disks[i - 1].last;
+    }
+    for (std::uint64_t i = blocks - 1; i-- > 0;) {
+      const bool is_next = lists.solved[Lists::number(block_level, i + 1)];
+      disks[i].next = is_next ? disks[i + 1].last : disks[i + 1].next;
+    }
+    for (std::uint64_t i = 0; i < blocks; ++i) {
+      const std::size_t block = Lists::number(block_level, i);
+      RoundDisks& known = lists.of_blocks[i];
+      if (!lists.solved[block] && (known.last || known.next))
+        lists.solved[block] = is_fan(halving, block_level, i, known);
+    }
+    return lists;
+  }
+
+  /// Merges a list out of its parts of a level `bottom`: of two lists, both as soon as they are
+  /// there, and so in the cache.
+  void merge_parts(const Halving& halving, int level, std::uint64_t i, int bottom,
+                   RoundDisks& known, Statistics& statistics) {
+    for (std::uint64_t j = i << (bottom - level);
+         j < (i + 1) << (bottom - level) && !cancelled();) {
+      // The list that is solved next, and its level: as large as it can be in closed form.
+      int k = std::max(level, bottom - std::countr_zero(j));
+      while (k < bottom && !is_fan(halving, k, j >> (bottom - k), known)) ++k;
+      if (k == bottom) merge_bottom(halving, bottom, j, known, statistics);
+      std::uint64_t list = j >> (bottom - k);
+      j = (list + 1) << (bottom - k);
+      for (; k > level && list % 2 == 1; list /= 2, --k)
+        merge_halves(halving, k - 1, list / 2, statistics);
+    }
+  }
+
+  /// All merges below one short list: level by level, but for parts that a disk beside it touches.
+  void merge_bottom(const Halving& halving, int level, std::uint64_t i, RoundDisks& known,
                     Statistics& statistics) {
-    if (known && is_fan(halving, level, i, known)) return;
-    for (int k = halving.deepest() - 1; k >= level; --k)
+    const int deepest = halving.deepest();
+    if ((known.last || known.next) && level < deepest) {
+      if (!is_fan(halving, level, i, known))
+        merge_parts(halving, level, i, deepest, known, statistics);
+      return;
+    }
+    for (int k = deepest - 1; k >= level; --k)
       for (std::uint64_t j = i << (k - level); j < (i + 1) << (k - level); ++j)
         merge_halves(halving, k, j, statistics);
   }
 
-  bool is_fan(const Halving& halving, int level, std::uint64_t i, std::optional<Disk>& known) {
+  bool is_fan(const Halving& halving, int level, std::uint64_t i, RoundDisks& known) {
     constexpr double slack = 0.0625;  // see merge.cpp
-    return fan_of(diagram_, halving.boundary(level, i), halving.boundary(level, i + 1),
-                  context_.limits.radius_limit, slack * context_.limits.tolerance, known) != none;
+    if (halving.boundary(level, i + 1) - halving.boundary(level, i) < 2) return false;
+    const auto is_fan_around = [&](std::optional<Disk>& disk) {
+      return fan_of(diagram_, halving.boundary(level, i), halving.boundary(level, i + 1),
+                    context_.limits.radius_limit, slack * context_.limits.tolerance, disk) != none;
+    };
+    if (is_fan_around(known.last)) return true;
+    if (!known.next || !is_fan_around(known.next)) return false;
+    known.last = known.next;
+    return true;
   }
 
   void report(std::uint64_t work) {

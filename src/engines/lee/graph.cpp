@@ -120,6 +120,14 @@ void Graph::find_short_edge(std::uint32_t edge) {
     short_edges_.push_back(edge);
 }
 
+std::array<std::uint32_t, 2> Graph::loop_around(std::uint32_t element) const {
+  const auto& loops = elements().loops;
+  const auto after = std::upper_bound(
+      loops.begin(), loops.end(), element,
+      [&](std::uint32_t e, const Elements::Loop& loop) { return e < begin_of(loop); });
+  return {begin_of(*(after - 1)), end_of(*(after - 1))};
+}
+
 void complete(const Graph& graph, const Frame& frame, VoronoiDiagram& diagram) {
   const Elements& elements = graph.elements();
   const std::size_t count = elements.size();

@@ -44,6 +44,9 @@ class Graph {
     return {edge.element[0], edge.element[1], diagram_.edges[edge.inward[0]].element[1]};
   }
 
+  /// The first element of the loop that an element is of, and the end.
+  std::array<std::uint32_t, 2> loop_around(std::uint32_t element) const;
+
   /// The edges between Voronoi points that could be one: closer together than `furthest` radii, or
   /// than the tolerance.
   const std::vector<std::uint32_t>& short_edges() const { return short_edges_; }

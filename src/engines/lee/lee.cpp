@@ -37,6 +37,15 @@ class Solution {
     if (options.cancel != nullptr && options.cancel->load()) return;
     graph.emplace(*diagram_, last_edges, local_tolerance());
     join_ties(*graph, local_tolerance());
+    // The certificate, too, would refuse such an axis.
+    constexpr double slack = 2;
+    if (const auto disk = find_overreach(*graph, slack * local_tolerance())) {
+      error = {ErrorCode::unsupported,
+               "the boundary is too nearly round here for its sides to be told from rounding: use "
+               "the method disks",
+               {}};
+      error->place.point = frame.to_input(disk->center);
+    }
     statistics.seconds_collect = watch.lap();
   }
   Solution(const Solution&) = delete;  // its members refer to each other
@@ -56,6 +65,7 @@ class Solution {
   double tolerance = 0;  ///< in units of the input
   sites::SiteNumbers numbers;
   Statistics statistics;
+  std::optional<Error> error;
 
  private:
   Elements elements_;
@@ -67,9 +77,10 @@ class Solution {
 
 }  // namespace
 
-MedialAxis run(const Shape& shape, const Options& options, std::vector<Level>* levels) {
+Result<MedialAxis> run(const Shape& shape, const Options& options, std::vector<Level>* levels) {
   Stopwatch all;
   Solution solution(shape, options, levels);
+  if (solution.error) return *solution.error;
   MedialAxis axis;
   axis.method = name_of(Method::lee);
   axis.tolerance = solution.tolerance;
@@ -84,9 +95,10 @@ MedialAxis run(const Shape& shape, const Options& options, std::vector<Level>* l
   return axis;
 }
 
-VoronoiDiagram voronoi_diagram(const Shape& shape, const Options& options) {
+Result<VoronoiDiagram> voronoi_diagram(const Shape& shape, const Options& options) {
   Stopwatch all;
   const Solution solution(shape, options, nullptr);
+  if (solution.error) return *solution.error;
   VoronoiDiagram diagram;
   diagram.method = name_of(Method::lee);
   diagram.tolerance = solution.tolerance;

@@ -178,4 +178,27 @@ void join_ties(Graph& graph, double tolerance) {
   ties.straighten(tolerance);
 }
 
+std::optional<Disk> find_overreach(const Graph& graph, double slack) {
+  constexpr double close = 0.995;          // the cosine of the angle between two feet
+  constexpr std::uint32_t first_step = 4;  // nearer ones, merges have seen
+  const Elements& elements = graph.elements();
+  for (const std::uint32_t node : graph.short_edges()) {
+    const Disk& disk = graph.disk(node);
+    const auto touched = graph.touched(node);
+    const Vec2 way = geometry::outward(elements.sites[touched[0]], disk.center);
+    if (dot(way, geometry::outward(elements.sites[touched[1]], disk.center)) < close ||
+        dot(way, geometry::outward(elements.sites[touched[2]], disk.center)) < close)
+      continue;
+    const auto [begin, end] = graph.loop_around(touched[0]);
+    const std::uint32_t size = end - begin;
+    const double inner = std::max(0.0, disk.radius - slack);
+    for (std::uint32_t step = first_step; step < size; step *= 2)
+      for (const std::uint32_t far : {step, size - step})
+        if (geometry::squared_distance(elements.sites[begin + (touched[0] - begin + far) % size],
+                                       disk.center) < inner * inner)
+          return disk;
+  }
+  return std::nullopt;
+}
+
 }  // namespace medial::lee

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "engines/lee/graph.h"
 
 namespace medial::lee {
@@ -10,5 +12,11 @@ namespace medial::lee {
 /// wherever one disk touches all their elements within half of the tolerance. O(short edges), or
 /// O(nodes) where there is a tie.
 void join_ties(Graph& graph, double tolerance);
+
+/// A disk that reaches over the boundary by more than `slack`, if there is one among those of which
+/// rounding may decide how far they reach: they touch three elements close together of a nearly
+/// round boundary with very many sides. Seen by elements that are a power of two away.
+/// O(short edges), and O(log N) for each such disk.
+std::optional<Disk> find_overreach(const Graph& graph, double slack);
 
 }  // namespace medial::lee
