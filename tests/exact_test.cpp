@@ -231,6 +231,27 @@ std::vector<std::string> compare_exact(const Rings& rings, Statistics* counts = 
 
 const std::vector<std::string> no_failures;
 
+/// Two methods that share nothing find one graph of every polygon, up to ties within the tolerance;
+/// and where one of them leaves it open which way such a tie goes, exact decisions of both agree.
+TEST(ExactAxis, OfLeeIsThatOfDisks) {
+  const std::uint64_t count = shape_count(200, 20);
+  for (std::uint64_t i = 0; i < count; ++i) {
+    const auto shape = build_shape(random_shape(first_seed() + i).rings);
+    if (!shape || shape->hole_count() > 0) continue;
+    for (const bool exact : {false, true}) {
+      Options options;
+      options.threads = 1;
+      options.exact = exact;
+      const auto disks = compute(*shape, options);
+      options.method = Method::lee;
+      const auto lee = compute(*shape, options);
+      ASSERT_TRUE(lee.ok() && disks.ok()) << first_seed() + i;
+      EXPECT_EQ(difference(*shape, *lee, *disks, lee->tolerance), "")
+          << "random_shape(" << first_seed() + i << ")";
+    }
+  }
+}
+
 TEST(ExactAxis, OfFixedShapes) {
   for (const auto& rings :
        {rectangle(8, 3), rectangle(3, 3), l_shape(2), t_shape(2), u_shape(3), cross_shape(2),

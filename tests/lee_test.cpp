@@ -315,6 +315,26 @@ TEST(LeeTies, OfNearlyRoundEllipsesReachOverNothing) {
   EXPECT_LT(deepest, 2 * axis->tolerance);
 }
 
+/// A list of a thousand of these sides turns too little to tell their disk: the largest lists tell.
+TEST(LeeTies, OfHalfCirclesWithVeryManySidesAreOneNodeEach) {
+  const Shape shape = built(stadium(100000, 0.1));
+  const auto axis = compute(shape, by_lee());
+  ASSERT_TRUE(axis.ok());
+  EXPECT_EQ(axis->nodes.size(), shape.points.size() + 4);
+  EXPECT_LT(axis->statistics.queries, 1000u);
+}
+
+/// Three sides next to each other determine a disk to 1e-8 only, of an axis that is 4e-10 long: no
+/// disk that reaches over the other side is given out.
+TEST(LeeRefuses, WhatIsTooNearlyRoundForItsNumberOfSides) {
+  const Shape shape = built(ellipse(100000, 2 - 2e-10));
+  const auto axis = compute(shape, by_lee());
+  ASSERT_FALSE(axis.ok());
+  EXPECT_EQ(axis.error().code, ErrorCode::unsupported);
+  EXPECT_TRUE(axis.error().place.point.has_value());
+  EXPECT_FALSE(voronoi_diagram(shape).ok());
+}
+
 TEST(LeeProgress, GrowsToOneOnOneThread) {
   std::vector<double> told;
   Options options = by_lee();

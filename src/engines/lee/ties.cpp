@@ -179,16 +179,18 @@ void join_ties(Graph& graph, double tolerance) {
 }
 
 std::optional<Disk> find_overreach(const Graph& graph, double slack) {
-  constexpr double close = 0.995;          // the cosine of the angle between two feet
+  constexpr double close = 0.1;            // radii from an element to the next
   constexpr std::uint32_t first_step = 4;  // nearer ones, merges have seen
   const Elements& elements = graph.elements();
   for (const std::uint32_t node : graph.short_edges()) {
     const Disk& disk = graph.disk(node);
     const auto touched = graph.touched(node);
-    const Vec2 way = geometry::outward(elements.sites[touched[0]], disk.center);
-    if (dot(way, geometry::outward(elements.sites[touched[1]], disk.center)) < close ||
-        dot(way, geometry::outward(elements.sites[touched[2]], disk.center)) < close)
-      continue;
+    const auto is_far = [&](std::uint32_t element) {
+      const double reach = close * disk.radius;
+      return squared_norm(elements.sites[element].point - elements.sites[touched[0]].point) >
+             reach * reach;
+    };
+    if (is_far(touched[1]) || is_far(touched[2])) continue;
     const auto [begin, end] = graph.loop_around(touched[0]);
     const std::uint32_t size = end - begin;
     const double inner = std::max(0.0, disk.radius - slack);
