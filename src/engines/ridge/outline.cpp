@@ -211,7 +211,24 @@ bool Outline::meet_concavely(std::uint32_t e, std::uint32_t f) const {
          (next[f] == e && type[e] != VertexType::convex);
 }
 
+bool Outline::touch_one_vertex(const Touch& a, const Touch& b) const {
+  const auto vertex = [this](const Touch& touch) -> const Vec2* {
+    const geometry::Site& edge = edges[touch.edge];
+    const double at = geometry::foot_parameter(edge, touch.center);
+    if (at <= 0) return &edge.point;
+    return at >= edge.length ? &edges[next[touch.edge]].point : nullptr;
+  };
+  const Vec2* of_a = vertex(a);
+  if (of_a == nullptr) return false;
+  const Vec2* of_b = vertex(b);
+  return of_b != nullptr && *of_a == *of_b;
+}
+
 bool Outline::are_one(const Touch& a, const Touch& b, double disk) const {
+  return lie_on_one_curve(a, b, disk) || touch_one_vertex(a, b);
+}
+
+bool Outline::lie_on_one_curve(const Touch& a, const Touch& b, double disk) const {
   const std::uint32_t c = chain[a.edge];
   if (chain[b.edge] != c) return false;
   const Touch &low = a.edge < b.edge ? a : b, &high = a.edge < b.edge ? b : a;

@@ -43,14 +43,18 @@ struct Outline {
     Vec2 center;
   };
   /// Whether no disk of this radius whose centre is near to both can touch these edges as two
-  /// different places of the boundary: between them the boundary turns right only, by at most half
-  /// a turn, as a convex obstacle does; or left along a curve whose radius of curvature is larger
-  /// than the disk's by half a pixel's diagonal and a little (Section V.B.1). An edge that is
-  /// touched in the vertex between them is no part of that curve.
+  /// different places of the boundary: lie_on_one_curve(), or both feet are one vertex, as where
+  /// rings touch.
+  bool are_one(const Touch& a, const Touch& b, double disk) const;
+  /// Whether between them the boundary turns right only, by at most half a turn, as a convex
+  /// obstacle does; or left along a curve whose radius of curvature is larger than the disk's by
+  /// half a pixel's diagonal and a little (Section V.B.1). An edge that is touched in the vertex
+  /// between them is no part of that curve.
   ///
   /// By Schur's comparison theorem, a curve that leaves a disk's circle at a tangent, curves less
   /// than it and turns by less than half of it does not come back to it.
-  bool are_one(const Touch& a, const Touch& b, double disk) const;
+  bool lie_on_one_curve(const Touch& a, const Touch& b, double disk) const;
+  bool touch_one_vertex(const Touch& a, const Touch& b) const;
 
   std::vector<std::uint32_t> chain_begin;  ///< of each chain: its first edge
   std::vector<std::uint32_t> chain;        ///< of each edge
