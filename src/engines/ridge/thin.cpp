@@ -49,7 +49,7 @@ std::uint32_t five_bits(const BitMap& map, std::int64_t row, std::uint32_t colum
 
 /// The eight neighbours, a bit for each direction.
 std::uint8_t ring(const BitMap& map, Pixel p) {
-  constexpr std::array<std::uint8_t, 8> reversed{0, 4, 2, 6, 1, 5, 3, 7};
+  constexpr std::array<std::uint32_t, 8> reversed{0, 4, 2, 6, 1, 5, 3, 7};
   const auto three_bits = [&](std::int64_t row) { return five_bits(map, row, p.column) >> 1 & 7; };
   const std::uint32_t below = three_bits(std::int64_t{p.row} - 1), beside = three_bits(p.row),
                       above = three_bits(std::int64_t{p.row} + 1);
