@@ -214,13 +214,8 @@ Verb make_axis_verb(CLI::App& program) {
   verb->add_flag("--radius-as-z", switches->write.radius_as_z,
                  "Drawings (.dxf): splines in space, with the radius as z.");
   add_method_switches(*verb, *switches);
-  verb->add_flag("--exterior", switches->options.exterior,
-                 "The axis of what lies around the shape and in its holes, within a frame.");
-  verb->add_option("--margin", switches->options.margin,
-                   "How far that frame is away from the shape's bounding box, in units of the\n"
-                   "input (default: half of the box's longer side).")
-      ->check(a_positive_number())
-      ->option_text("D");
+  add_exterior_switches(*verb, switches->options,
+                        "The axis of what lies around the shape and in its holes, within a frame.");
   add_grid_switches(*verb, switches->options);
   add_potential_switches(*verb, switches->options.potential);
   add_curve_switches(*verb, *switches);

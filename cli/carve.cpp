@@ -24,6 +24,7 @@ struct CarveSwitches {
   io::WriteOptions write;
   io::MachineOptions machine;
   CarveOptions carve;
+  Options options;  ///< exterior and margin
   double scale = 1;
 };
 
@@ -70,6 +71,11 @@ Result<int> run_carve(const CarveSwitches& switches) {
   file.items.resize(shapes->shapes.size());
   Status computed = for_each_shape(
       shapes->shapes, input.path, common, [&](std::size_t i, const Options& options) -> Status {
+        if (switches.options.exterior) {
+          auto around = surroundings(shapes->shapes[i], switches.options.margin / switches.scale);
+          if (!around) return std::move(around).error();
+          shapes->shapes[i] = std::move(around).value();
+        }
         auto axis = compute(shapes->shapes[i], options);
         if (!axis) return std::move(axis).error();
         auto carving = carve(*axis, scaled(switches.carve, 1 / switches.scale));
@@ -129,6 +135,10 @@ Verb make_carve_verb(CLI::App& program) {
          "1e-5 of the diagonal), and in .csv off arcs, always inwards (default: 1e-6 of\n"
          "the tool's radius at the bottom).",
          "T");
+  add_exterior_switches(
+      *verb, switches->options,
+      "Cut what lies around the shape and in its holes, up to a frame, so that the\n"
+      "shape stands out: the frame's edges become walls as well.");
   verb->add_option("--scale", switches->scale,
                    "Millimetres to a unit of the input (default: 1); all switches are in\n"
                    "millimetres.")

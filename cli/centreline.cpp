@@ -323,14 +323,9 @@ Verb make_centreline_verb(CLI::App& program) {
       ->excludes("--widest")
       ->excludes("--clearance")
       ->option_text("WIDTH");
-  verb->add_flag("--exterior", switches->options.exterior,
-                 "Lines of what lies around the shape and in its holes, within a frame.")
+  add_exterior_switches(*verb, switches->options,
+                        "Lines of what lies around the shape and in its holes, within a frame.")
       ->excludes("--collapse");
-  verb->add_option("--margin", switches->options.margin,
-                   "How far that frame is away from the shape's bounding box, in units of the\n"
-                   "input (default: half of the box's longer side).")
-      ->check(a_positive_number())
-      ->option_text("D");
   add_picture_switches(*verb, switches->write);
   add_common_switches(*verb, switches->common);
   verb->footer(

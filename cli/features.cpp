@@ -24,6 +24,7 @@ struct FeatureSwitches {
   std::string format;
   io::FeatureWriteOptions write;
   FeatureOptions options;
+  Options axis;
 };
 
 constexpr double most = 1e3;  // of a threshold
@@ -115,7 +116,7 @@ Result<int> run_features(const FeatureSwitches& switches) {
   Status writable =
       check_output(output, format, io::known_feature_formats(), input.path, common.json);
   if (!writable) return std::move(writable).error();
-  auto axes = load_axes(input, common);
+  auto axes = load_axes(input, common, 0, switches.axis);
   if (!axes) return std::move(axes).error();
   const Stopwatch watch;
   std::vector<AxisFeatures> features(axes->native.items.size());
@@ -188,6 +189,8 @@ Verb make_features_verb(CLI::App& program) {
   verb->add_flag("!--no-names", switches->write.names, "Pictures without the names of primitives.")
       ->group("Pictures");
   add_thresholds(*verb, switches->options);
+  add_exterior_switches(*verb, switches->axis,
+                        "Of what lies around the shape and in its holes, within a frame.");
   add_picture_switches(*verb, switches->write.write);
   add_common_switches(*verb, switches->common);
   verb->footer(

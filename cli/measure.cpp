@@ -40,6 +40,7 @@ struct MeasureSwitches {
   std::uint64_t necks = 0;
   double widening = 1.1;
   std::uint64_t disks = 0;
+  Options options;
 };
 
 /// A centre line and the widths along it.
@@ -369,7 +370,7 @@ Result<int> run_measure(MeasureSwitches switches) {
   auto shapes = load_shapes(input, common.threads);
   if (!shapes) return std::move(shapes).error();
   print_notes(*shapes, input, common);
-  auto axes = compute_axes(std::move(shapes).value(), input.path, common);
+  auto axes = compute_axes(std::move(shapes).value(), input.path, common, switches.options);
   if (!axes) return std::move(axes).error();
   const Stopwatch measuring;
   io::NativeFile& file = axes->native;
@@ -461,6 +462,11 @@ Verb make_measure_verb(CLI::App& program) {
       ->check(in_range(1, most_disks_told, true))
       ->option_text("K");
   add_path_switches(*verb, switches->path);
+  add_exterior_switches(
+      *verb, switches->options,
+      "The widths of what lies around the shape and in its holes, within a frame:\n"
+      "of bays, gaps and holes. The area is that of the axis's disks.")
+      ->excludes("--disks");
   add_width_switch(*verb, switches->write.width);
   add_common_switches(*verb, switches->common);
   verb->footer(

@@ -413,6 +413,17 @@ Result<AxisFile> compute_axes(ShapeFile shapes, const std::string& path,
   return file;
 }
 
+CLI::Option* add_exterior_switches(CLI::App& verb, Options& options, const std::string& help) {
+  CLI::Option* exterior = verb.add_flag("--exterior", options.exterior, help);
+  verb.add_option("--margin", options.margin,
+                  "How far that frame is away from the shape's bounding box, in units of the\n"
+                  "input (default: half of the box's longer side).")
+      ->check(a_positive_number())
+      ->needs(exterior)
+      ->option_text("D");
+  return exterior;
+}
+
 Options engine_options(const CommonSwitches& common, int threads) {
   Options options;
   options.tolerance = common.tolerance;

@@ -107,6 +107,9 @@ Result<AxisFile> compute_axes(ShapeFile shapes, const std::string& path,
                               const CommonSwitches& common, Options options = {},
                               const Engine& engine = {});
 
+/// --exterior, with this help, and --margin. Gives the former.
+CLI::Option* add_exterior_switches(CLI::App& verb, Options& options, const std::string& help);
+
 /// What the common switches tell the engines.
 Options engine_options(const CommonSwitches& common, int threads);
 

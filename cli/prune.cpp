@@ -153,6 +153,7 @@ struct PruneVerbSwitches {
   std::string output;
   std::string format;
   io::WriteOptions write;
+  Options options;
   bool preview = false;
 };
 
@@ -186,7 +187,7 @@ Status write_previews(const AxisFile& file, const PruneOptions& options,
 }
 
 Result<int> run_prune(const PruneVerbSwitches& switches) {
-  const auto& [input, common, how, output, format, pictures, preview] = switches;
+  const auto& [input, common, how, output, format, pictures, axis_options, preview] = switches;
   if (preview && (output.empty() || how.keep))
     return invalid_option("--preview needs -o with the name of a picture, and no --keep");
   const auto options = prune_options(how);
@@ -195,7 +196,7 @@ Result<int> run_prune(const PruneVerbSwitches& switches) {
                                  preview ? io::known_preview_formats() : io::known_output_formats(),
                                  input.path, common.json);
   if (!writable) return std::move(writable).error();
-  auto axes = load_axes(input, common, how.specks);
+  auto axes = load_axes(input, common, how.specks, axis_options);
   if (!axes) return std::move(axes).error();
   if (preview) {
     Status written = write_previews(*axes, *options, switches);
@@ -233,6 +234,8 @@ Verb make_prune_verb(CLI::App& program) {
   verb->add_option("--format", switches->format, "The format of -o - (default: json).")
       ->option_text("NAME");
   add_prune_switches(*verb, switches->prune);
+  add_exterior_switches(*verb, switches->options,
+                        "Of what lies around the shape and in its holes, within a frame.");
   verb->add_flag("--preview", switches->preview,
                  "One picture over thresholds instead: none, a quarter, a half, the chosen one,\n"
                  "twice and four times it.");

@@ -7,8 +7,8 @@
 
 namespace medial::cli {
 
-Result<AxisFile> load_axes(const InputSwitches& input, const CommonSwitches& common,
-                           double specks) {
+Result<AxisFile> load_axes(const InputSwitches& input, const CommonSwitches& common, double specks,
+                           const Options& options) {
   if (specks == 0 && input.text.empty() && io::is_native(input.path)) {
     const Stopwatch reading;
     auto native = [&input] {
@@ -19,7 +19,13 @@ Result<AxisFile> load_axes(const InputSwitches& input, const CommonSwitches& com
     // A file may hold shapes alone.
     const bool has_axes = std::ranges::any_of(
         native->items, [](const auto& item) { return !item.axis.nodes.empty(); });
-    if (!holds_contours(*native) && (has_axes || native->items.empty())) {
+    // A margin asks for axes of its own.
+    const bool as_asked =
+        !options.exterior ||
+        (options.margin == 0 && std::ranges::all_of(native->items, [](const auto& item) {
+           return item.axis.exterior > 0;
+         }));
+    if (as_asked && !holds_contours(*native) && (has_axes || native->items.empty())) {
       AxisFile file;
       file.native = std::move(native).value();
       file.statistics.threads = effective_threads(common.threads);
@@ -32,7 +38,7 @@ Result<AxisFile> load_axes(const InputSwitches& input, const CommonSwitches& com
   if (specks > 0)
     for (Shape& shape : shapes->shapes) shape = without_specks(shape, specks);
   print_notes(*shapes, input, common);
-  return compute_axes(std::move(shapes).value(), input.path, common);
+  return compute_axes(std::move(shapes).value(), input.path, common, options);
 }
 
 }  // namespace medial::cli

@@ -10,6 +10,7 @@
 #include "cli/common.h"
 #include "cli/costs.h"
 #include "cli/loose.h"
+#include "cli/nearest.h"
 #include "cli/pipeline.h"
 #include "cli/terminal.h"
 
@@ -22,6 +23,7 @@ struct VoronoiSwitches {
   std::string method = "disks";
   std::vector<double> frame;
   double margin = 0;
+  NearestSwitches nearest;
   std::string output;
   std::string format;
   io::WriteOptions write;
@@ -142,11 +144,16 @@ Result<io::VoronoiFile> compute_by_lee(const VoronoiSwitches& switches, Phases& 
 }
 
 Result<int> run_voronoi(const VoronoiSwitches& switches) {
-  const auto& [input, common, method, frame, margin, output, format, pictures] = switches;
+  const auto& [input, common, method, frame, margin, nearest, output, format, pictures] = switches;
+  const bool by_lee = method == "lee";
+  if (nearest.any()) {
+    if (by_lee || !frame.empty() || margin > 0)
+      return invalid_option("the nearest site is that of the whole plane: no frame, not by lee");
+    return run_nearest(input, common, nearest, output, format);
+  }
   Status writable =
       check_output(output, format, io::known_voronoi_formats(), input.path, common.json);
   if (!writable) return std::move(writable).error();
-  const bool by_lee = method == "lee";
   if (by_lee && !(frame.empty() && margin == 0))
     return invalid_option("the method lee has no frame: polygons are it");
   Phases seconds;
@@ -203,6 +210,7 @@ Verb make_voronoi_verb(CLI::App& program) {
       "hold the input.")
       ->excludes("--margin")
       ->option_text("X,Y,X,Y");
+  add_nearest_switches(*verb, switches->nearest);
   add_picture_switches(*verb, switches->write);
   add_common_switches(*verb, switches->common);
   verb->footer(
@@ -221,6 +229,7 @@ Verb make_voronoi_verb(CLI::App& program) {
       "  medial voronoi wells.csv -o wells.geojson\n"
       "  medial voronoi roads.gpkg --margin 500 --repair -o nearest.geojson\n"
       "  medial voronoi room.wkt --method lee -o room.svg\n"
+      "  medial voronoi roads.gpkg --queries houses.csv -o nearest-road.csv\n"
       "  medial voronoi parcels.geojson --where \"area > 100\" -o faces.geojson\n"
       "  medial voronoi plan.wkt -o - --format json | jq '.items[0].edges | length'");
   return {verb, [switches] { return run_voronoi(*switches); }};

@@ -352,6 +352,76 @@ class Axis(CommandLine):
         self.refuse("invalid_option", "axis", "frame.wkt", "--method", "ridge", "--pixels", "9", "--resolution", "1")
         self.refuse("invalid_option", "axis", "frame.wkt", "--exterior", "--margin", "0")
 
+    def test_nearest_sites(self):
+        """Of places on the command line and in a file: site, feature, distance and foot."""
+        def feature(name, kind, coordinates):
+            return {"type": "Feature", "properties": {"name": name}, "geometry": {"type": kind, "coordinates": coordinates}}
+        self.write("map.geojson", json.dumps({"type": "FeatureCollection", "features": [
+            feature("road", "LineString", [[0, 0], [10, 0], [10, 8]]), feature("well", "Point", [3, 4])]}))
+        self.write("places.csv", "x,y\n1,1\n3,3\n")
+        asked = ("voronoi", "map.geojson", "--nearest", "12,5", "--nearest=-3,-4", "--queries", "places.csv")
+        rows = self.rows(self.succeed(*asked).stdout)
+        self.assertEqual([row["kind"] for row in rows], ["segment", "point", "segment", "point"])
+        self.assertEqual([int(row["feature"]) for row in rows], [0, 0, 0, 1])
+        self.assertEqual([float(row["distance"]) for row in rows], [2, 5, 1, 1])
+        self.assertEqual([(float(row["foot_x"]), float(row["foot_y"])) for row in rows], [(10, 5), (0, 0), (1, 0), (3, 4)])
+        # The sites are those of the diagram.
+        self.succeed("voronoi", "map.geojson", "-o", "v.json")
+        sites = json.loads(self.read("v.json"))["items"][0]["sites"]
+        for row in rows:
+            foot, (kind, *place) = (float(row["foot_x"]), float(row["foot_y"])), sites[int(row["site"])]
+            self.assertEqual(kind == "vertex", row["kind"] == "point")
+        told = json.loads(self.succeed(*asked, "--json").stdout)["nearest"]
+        self.assertEqual([one["attributes"]["name"] for one in told], ["road", "road", "road", "well"])
+        self.assertEqual([one["foot"] for one in told], [{"x": x, "y": y} for x, y in ((10, 5), (0, 0), (1, 0), (3, 4))])
+        self.succeed(*asked, "-o", "n.json")
+        self.assertEqual(json.loads(self.read("n.json"))["nearest"], told)
+        self.succeed(*asked, "-o", "n.csv")
+        self.assertEqual(self.rows(self.read("n.csv")), rows)
+        self.refuse("invalid_option", *asked, "--method", "lee")
+        self.refuse("invalid_option", *asked, "--frame", "-9,-9,20,20")
+        self.refuse("unsupported", *asked, "-o", "n.svg", nothing_new=True)
+        self.refuse("[a-z_]+", "voronoi", "map.geojson", "--nearest", "12")
+
+    def test_exterior_of_other_verbs(self):
+        """A bay 2 wide and 4 deep in a square, a hole, and the frame: measure, prune, features, carve."""
+        self.write("bay.wkt", "POLYGON ((0 0, 10 0, 10 10, 6 10, 6 6, 4 6, 4 10, 0 10, 0 0), (2 2, 2 3, 5 3, 5 2, 2 2))")
+        told = json.loads(self.succeed("measure", "bay.wkt", "--exterior", "--json").stdout)["features"][0]
+        self.assertEqual([line["closed"] for line in told["lines"]], [False, False])
+        self.assertEqual(sorted(round(line["narrowest_width"], 9) for line in told["lines"]), [1, 2])
+        self.succeed("measure", "bay.wkt", "--exterior", "--margin", "3", "-o", "m.svg")
+        self.refuse("[a-z_]+", "measure", "bay.wkt", "--exterior", "--disks", "2")
+        self.refuse("[a-z_]+", "measure", "bay.wkt", "--margin", "2")
+        # Of a shape, of its stored axis of the interior, and of that of the exterior: the same.
+        self.succeed("axis", "bay.wkt", "-o", "inside.json")
+        self.succeed("axis", "bay.wkt", "--exterior", "-o", "around.json")
+        for verb, switches in (("prune", ["--by", "angle"]), ("features", [])):
+            texts = []
+            for source, exterior in (("bay.wkt", ["--exterior"]), ("inside.json", ["--exterior"]),
+                                     ("around.json", ["--exterior"]), ("around.json", [])):
+                self.succeed(verb, source, *switches, *exterior, "-o", "out.json")
+                texts.append(self.read("out.json"))
+            self.assertEqual(len(set(texts)), 1, verb)
+            self.succeed(verb, "inside.json", *switches, "-o", "out.json")
+            self.assertNotEqual(self.read("out.json"), texts[0])
+        self.succeed("prune", "bay.wkt", "--exterior", "-o", "pruned.json")
+        item = json.loads(self.read("pruned.json"))["items"][0]
+        self.assertEqual(item["axis"]["exterior"], 5)
+        self.succeed("verify", "bay.wkt", "around.json")
+        # Carving around the shape reaches the frame's corners, and the hole's bottom.
+        for scale in ("1", "10"):
+            margin = str(2 * float(scale))
+            told = json.loads(self.succeed("carve", "bay.wkt", "--angle", "90", "--exterior", "--margin", margin,
+                                           "--scale", scale, "-o", "c.csv", "--json").stdout)
+            self.assertGreater(told["paths"], 1)
+            rows = self.rows(self.read("c.csv"))
+            ends = {(float(row["x"]) / float(scale), float(row["y"]) / float(scale)) for row in rows}
+            for corner in ((-2, -2), (12, 12), (2, 2), (5, 3)):
+                self.assertTrue(any(math.dist(corner, end) < 1e-9 for end in ends), corner)
+            # Deepest before the bay, between its corners and the frame: (12 - y)^2 = 1 + (y - 10)^2.
+            self.assertAlmostEqual(min(float(row["z"]) for row in rows), -1.25 * float(scale))
+        self.refuse("invalid_option", "carve", "bay.wkt", "--angle", "90", "--exterior", "--margin", "1e9")
+
     def test_prune_and_rebuild(self):
         """An axis goes through a pipe: pruned, then back to a shape; all from `medial axis` on."""
         self.write("frame.wkt", FRAME)
@@ -1639,6 +1709,49 @@ class Carve(CommandLine):
             self.assertLessEqual(tip - after["Z"] * slope, room + 1e-5)
         self.assertAlmostEqual(min(after["Z"] for _, _, after, _ in moves), -2.25 / slope, 5)
         self.assertAlmostEqual(moves[-1][2]["Z"], 5)
+
+    @staticmethod
+    def places(move, spacing):
+        """Places along a move of G-code, clockwise along G2 and counter-clockwise along G3."""
+        kind, before, after, words = move
+        start, end = ((at["X"], at["Y"], at["Z"]) for at in (before, after))
+        if kind == 1:
+            steps = 1 + int(math.dist(start, end) / spacing)
+            return [tuple(a + i / steps * (b - a) for a, b in zip(start, end)) for i in range(steps + 1)]
+        x, y = start[0] + words["I"], start[1] + words["J"]
+        radius, first = math.hypot(words["I"], words["J"]), math.atan2(start[1] - y, start[0] - x)
+        turn = (math.atan2(end[1] - y, end[0] - x) - first) % (2 * math.pi)
+        if kind == 2:
+            turn -= 2 * math.pi
+        steps = 1 + int(abs(turn) * radius / spacing)
+        return [(x + radius * math.cos(first + i / steps * turn), y + radius * math.sin(first + i / steps * turn),
+                 start[2]) for i in range(steps + 1)]
+
+    def test_arcs_cut_what_they_should(self):
+        """A slot with round ends around a round post, cut by the G-code's own arcs on a map of heights."""
+        self.write("slot.wkt", "CURVEPOLYGON (COMPOUNDCURVE ((5 0, 15 0), CIRCULARSTRING (15 0, 20 5, 15 10), (15 10, 5 10), "
+                               "CIRCULARSTRING (5 10, 0 5, 5 0)), CIRCULARSTRING (8 5, 12 5, 8 5))")
+
+        def room(x, y):
+            return min(5 - math.hypot(x - min(max(x, 5), 15), y - 5), math.hypot(x - 10, y - 5) - 2)
+        slope, tip, deepest = math.tan(math.pi / 6), 0.5, 1.5
+        self.succeed("carve", "slot.wkt", "--angle", "60", "--tip", "1", "--depth", "1.5", "--pass-depth", "1", "-o", "s.nc")
+        moves = [move for move in self.moves("s.nc") if move[0] > 0]
+        self.assertEqual({move[0] for move in moves}, {1, 2, 3})
+        places = [place for move in moves for place in self.places(move, 0.2)]
+        for x, y, z in places:  # six decimals
+            self.assertLessEqual(tip - slope * z, room(x, y) + 2e-6)
+        bottom = [(x, y) for x, y, z in places if z < 1e-6 - deepest]
+        above = [place for place in places if place[2] >= 1e-6 - deepest]
+        for i in range(25):
+            for k in range(12):
+                p = (0.4 + 0.8 * i, 0.4 + 0.83 * k)
+                wanted = min(max(room(*p), 0) / slope, deepest)
+                cut = max(0, deepest - max(0, min(math.dist(p, at) for at in bottom) - tip) / slope)
+                if cut < wanted - 0.02:
+                    cut = max(-z - max(0, math.dist(p, (x, y)) - tip) / slope for x, y, z in above)
+                self.assertLessEqual(cut, wanted + 4e-6)
+                self.assertGreaterEqual(cut, wanted - 0.02, p)
 
     def test_arcs_have_one_radius(self):
         self.write("c.wkt", "CURVEPOLYGON (CIRCULARSTRING (-9 0, 9 0, -9 0))")

@@ -81,6 +81,9 @@ std::vector<Disk> sample_by_chord(const VoronoiDiagram& diagram, const VoronoiEd
 /// stay within `chord` of them; empty where the face is.
 std::vector<Vec2> face_outline(const VoronoiDiagram& diagram, std::size_t site, double chord);
 
+/// The sites of a soup's diagram without the diagram, for a SiteLocator. O(n).
+std::vector<Site> sites_of(const Soup& soup);
+
 /// A nearest site.
 struct NearestSite {
   std::uint32_t site = no_site;

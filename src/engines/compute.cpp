@@ -143,14 +143,9 @@ Result<MedialAxis> compute_exterior(const Shape& shape, const Options& options) 
     return Error{ErrorCode::unsupported,
                  "the method brushfire does not know what touches the frame: use ridge",
                  {}};
-  constexpr double least = 1e-6, most = 1e6;
-  const Box box = bounding_box(shape);
-  const double margin = margin_for(box, options.margin), size = diagonal(box);
-  if (!(options.margin >= 0 && margin >= least * size && margin <= most * size))
-    return Error{ErrorCode::invalid_option,
-                 "the margin must be 0 or in [1e-6, 1e6] of the shape's diagonal",
-                 {}};
-  auto exterior = exterior_of(shape, margin);
+  const auto margin = checked_margin_for(bounding_box(shape), options.margin);
+  if (!margin) return margin.error();
+  auto exterior = exterior_of(shape, *margin);
   if (!exterior) return std::move(exterior).error();
   Options inside = options;
   inside.exterior = false;
@@ -167,7 +162,7 @@ Result<MedialAxis> compute_exterior(const Shape& shape, const Options& options) 
   for (const Site& site : axis->sites)
     of_frame.push_back(is_corner(site.start) && is_corner(site.end));
   drop_frame(of_frame, *axis);
-  axis->exterior = margin;
+  axis->exterior = *margin;
   return axis;
 }
 

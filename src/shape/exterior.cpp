@@ -4,6 +4,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/in_flight.h"
+
 namespace medial {
 
 Result<Exterior> exterior_of(const Shape& shape, double margin) {
@@ -31,6 +33,29 @@ Result<Exterior> exterior_of(const Shape& shape, double margin) {
 
 double margin_for(const Box& box, double margin) {
   return margin > 0 ? margin : 0.5 * std::max(box.high.x - box.low.x, box.high.y - box.low.y);
+}
+
+Result<double> checked_margin_for(const Box& box, double margin) {
+  constexpr double least = 1e-6, most = 1e6;
+  const double chosen = margin_for(box, margin), size = diagonal(box);
+  if (!(margin >= 0 && chosen >= least * size && chosen <= most * size))
+    return Error{ErrorCode::invalid_option,
+                 "the margin must be 0 or in [1e-6, 1e6] of the shape's diagonal",
+                 {}};
+  return chosen;
+}
+
+Result<Shape> surroundings(const Shape& shape, double margin) {
+  if (shape.points.empty()) return Error{ErrorCode::empty, "the shape is empty", {}};
+  const auto chosen = checked_margin_for(bounding_box(shape), margin);
+  if (!chosen) return chosen.error();
+  try {
+    auto exterior = exterior_of(shape, *chosen);
+    if (!exterior) return std::move(exterior).error();
+    return std::move(exterior->shape);
+  } catch (...) {
+    return error_in_flight();
+  }
 }
 
 }  // namespace medial

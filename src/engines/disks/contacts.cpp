@@ -27,12 +27,8 @@ std::uint32_t Contacts::facing(std::uint32_t i, Vec2 center, const Span& span) c
   const double reach = std::sqrt(geometry::squared_distance(site(i), center));
   context_.tree.within(center, reach + 2 * context_.tolerance, span.right + 1, span.left - 1,
                        together_);
-  const Vec2 foot = geometry::foot(site(i), center);
   for (const std::uint32_t other : together_)
-    if (squared_norm(geometry::foot(site(other), center) - foot) <=
-            distinct_contacts * distinct_contacts * reach * reach &&
-        faces(other, center))
-      return other;
+    if (in_one_place(other, i, center, reach) && faces(other, center)) return other;
   return i;
 }
 

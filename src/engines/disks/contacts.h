@@ -106,6 +106,15 @@ class Contacts {
 
   /// Contacts of one disk at a smaller angle are not told apart at a node.
   static constexpr double distinct_contacts = 1e-6;
+  /// Whether a disk cannot touch both sites but in one place for their being nearer to each other
+  /// than contacts are told apart: copies of a point or of an edge, or neighbours. Two points are
+  /// told apart at any distance.
+  bool in_one_place(std::uint32_t i, std::uint32_t j, Vec2 center, double radius) const {
+    const geometry::Site &a = site(i), &b = site(j);
+    if (a.is_vertex() && b.is_vertex()) return a.point == b.point;
+    const double apart = distinct_contacts * radius;
+    return squared_norm(geometry::foot(a, center) - geometry::foot(b, center)) < apart * apart;
+  }
 
  private:
   /// Whether a disk touches two sites in two places, that of the second one by this angle further

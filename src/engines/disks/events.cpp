@@ -81,11 +81,8 @@ Event EventSearch::event_across_cut(bool on_right) {
       (on_right ? across + 1 : across - 1) == other && boundary_.is_smooth(std::min(across, other));
   if (continues_other) return event;  // the other foot's own event
   // Another copy of what is touched already is no third site.
-  const Vec2 foot = geometry::foot(site(across), from_.center);
   for (const std::uint32_t touched : {span_.right, span_.left})
-    if (distance(foot, geometry::foot(site(touched), from_.center)) <
-        Contacts::distinct_contacts * from_.radius)
-      return event;
+    if (contacts_.in_one_place(across, touched, from_.center, from_.radius)) return event;
   const auto contact = contact_with(across, nowhere);
   if (boundary_.two_sided) {
     // What is across may face elsewhere, and a point may have another copy that was just left.

@@ -12,6 +12,27 @@
 
 namespace medial::voronoi {
 
+/// Control point and weight of a part of the bisector of two points, from its ends. The radius over
+/// the place s along it, seen from half a distance d between the points, is d cosh u, s being
+/// d sinh u: with e = r + s, which is d exp(u), at both ends all is in closed form, without
+/// cancellation. Between points very near to each other rounding moves the ends off the bisector, so
+/// that the line between them need not pass between the points; the control point does, and where
+/// it matters its weight is large.
+inline void take_control_of_points(Vec2 first, Vec2 second, ConicEdge& edge) {
+  const Vec2 across = left_of(second - first);
+  const double size = norm(across), squared = 0.25 * size * size, scale = 1 / size;
+  const Vec2 middle = midpoint(first, second);
+  const auto grown = [&](const Disk& disk) {
+    const double s = scale * dot(disk.center - middle, across);
+    const double e = disk.radius + std::abs(s), other = squared / e;
+    return s >= 0 ? e : other;
+  };
+  const double e0 = grown(edge.from), e1 = grown(edge.to), sum = e0 + e1, product = e0 * e1;
+  edge.control = {middle + (scale * ((product - squared) / sum)) * across,
+                  (product + squared) / sum};
+  edge.weight = std::max(1.0, 0.5 * sum / std::sqrt(product));
+}
+
 /// Cuts the edges of a soup's diagram off at its frame, and closes the faces along it.
 ///
 /// First add() for every edge, then close(), then add_to_face() for the edges around each site.
@@ -36,6 +57,11 @@ class FrameCut {
   template <class NodeAt, class TakeControl>
   bool add(const ConicEdge& curve, std::array<std::uint32_t, 2> site, bool spoke, NodeAt&& node_at,
            TakeControl&& take_control);
+
+  /// The same for the bisector of two points, which is straight, so that only its radius bends: as
+  /// a curve whose control point weighs much, it could not be cut well.
+  template <class NodeAt>
+  void add_bisector(Vec2 from, Vec2 to, std::array<std::uint32_t, 2> site, NodeAt&& node_at);
 
   /// Adds the frame's own edges, from crossing to crossing and corner to corner. Throws
   /// std::runtime_error where what was added does not go around the frame.
@@ -126,6 +152,19 @@ bool FrameCut::add(const ConicEdge& curve, std::array<std::uint32_t, 2> site, bo
     diagram_.edges.push_back({{ends, site, cut.control, cut.weight}, spoke, false});
   }
   return false;
+}
+
+template <class NodeAt>
+void FrameCut::add_bisector(Vec2 from, Vec2 to, std::array<std::uint32_t, 2> site,
+                            NodeAt&& node_at) {
+  const Vec2 first = soup_.points[site[0]], second = soup_.points[site[1]];
+  const auto take_control = [&](ConicEdge& part) {
+    part.from.radius = distance(part.from.center, first);
+    part.to.radius = distance(part.to.center, first);
+    take_control_of_points(first, second, part);
+  };
+  const ConicEdge line{{from, 0}, {midpoint(from, to), 0}, {to, 0}, 1};
+  add(line, site, false, node_at, take_control);
 }
 
 }  // namespace medial::voronoi

@@ -191,40 +191,13 @@ class Dual {
     return std::clamp(place, -reach_, reach_);
   }
 
-  /// Control point and weight of the bisector of two points, half of whose distance is `half`. The
-  /// radius over the place s is half cosh u, s being half sinh u: with e = r + s, which is half
-  /// exp(u), at both ends all is in closed form.
-  static void take_control(Vec2 first, Vec2 second, ConicEdge& edge) {
-    const Vec2 across = left_of(second - first);
-    const double size = norm(across), squared = 0.25 * size * size, scale = 1 / size;
-    const Vec2 middle = midpoint(first, second);
-    const auto grown = [&](const Disk& disk) {
-      const double s = scale * dot(disk.center - middle, across);
-      const double e = disk.radius + std::abs(s), other = squared / e;
-      return s >= 0 ? e : other;
-    };
-    const double e0 = grown(edge.from), e1 = grown(edge.to), sum = e0 + e1, product = e0 * e1;
-    const double share = edge.from.radius / (edge.from.radius + edge.to.radius);
-    edge.control.center = edge.from.center + share * (edge.to.center - edge.from.center);
-    edge.control.radius = (product + squared) / sum;
-    edge.weight = std::max(1.0, 0.5 * sum / std::sqrt(product));
-  }
-
   /// The part inside of the frame of the edge between two sites, the first one on its left; or
   /// none.
   std::uint32_t add_cut_edge(std::array<std::uint32_t, 2> site, ConicEdge& curve,
                              std::array<std::uint32_t, 2> node) {
     const auto number = static_cast<std::uint32_t>(diagram_.edges.size());
-    const Vec2 first = soup_.points[site[0]], second = soup_.points[site[1]];
-    curve.control = {midpoint(curve.from.center, curve.to.center), 0};
-    curve.weight = 1;
-    cut_.add(
-        curve, site, false, [&](std::size_t end) { return node[end]; },
-        [&](ConicEdge& part) {
-          part.from.radius = distance(part.from.center, first);
-          part.to.radius = distance(part.to.center, first);
-          take_control(first, second, part);
-        });
+    cut_.add_bisector(curve.from.center, curve.to.center, site,
+                      [&](std::size_t end) { return node[end]; });
     return number < diagram_.edges.size() ? number : none;
   }
 
@@ -273,7 +246,7 @@ class Dual {
     if (node[0] != none && node[1] != none) {
       curve.from = diagram_.nodes[node[0]].disk;
       curve.to = diagram_.nodes[node[1]].disk;
-      take_control(point(vertex[0]), point(vertex[1]), curve);
+      take_control_of_points(point(vertex[0]), point(vertex[1]), curve);
       diagram_.edges.push_back({{node, site, curve.control, curve.weight}, false, false});
       return static_cast<std::uint32_t>(diagram_.edges.size() - 1);
     }

@@ -284,6 +284,13 @@ class Assembly {
       part_begin_.push_back(is_cut | begin);
       if (site[0] == no_site || site[1] == no_site) continue;
       const bool spoke = e >= edges;
+      if (!spoke && site[0] < point_count_ && site[1] < point_count_) {
+        const Edge& edge = axis_.edges[e];
+        cut_.add_bisector(axis_.nodes[edge.node[0]].disk.center,
+                          axis_.nodes[edge.node[1]].disk.center, site,
+                          [&](std::size_t end) { return node_at(e, end); });
+        continue;
+      }
       const bool whole = cut_.add(
           curve_of(e), site, spoke, [&](std::size_t end) { return node_at(e, end); },
           [&](ConicEdge& part) {
@@ -405,3 +412,13 @@ VoronoiDiagram diagram_of(const Soup& soup, const Shape& shape, MedialAxis axis,
 }
 
 }  // namespace medial::voronoi
+
+namespace medial {
+
+std::vector<Site> sites_of(const Soup& soup) {
+  std::vector<Site> sites(soup.points.size() + soup.edges.size());
+  for (std::uint32_t i = 0; i < sites.size(); ++i) sites[i] = voronoi::site_of_soup(soup, i);
+  return sites;
+}
+
+}  // namespace medial

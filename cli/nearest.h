@@ -1,0 +1,28 @@
+#pragma once
+
+// Which point, segment or arc of a file is nearest to a place.
+
+#include <string>
+#include <vector>
+
+#include "cli/common.h"
+
+namespace medial::cli {
+
+/// What is asked for.
+struct NearestSwitches {
+  std::vector<Vec2> places;
+  std::string queries;  ///< a file of more places; empty for none
+  bool any() const { return !places.empty() || !queries.empty(); }
+};
+
+/// --nearest and --queries.
+void add_nearest_switches(CLI::App& verb, NearestSwitches& nearest);
+
+/// Answers for all places, the switch's before the file's: as .csv or .json to `output`, or to
+/// standard output. No diagram is computed. Gives the exit status.
+Result<int> run_nearest(const InputSwitches& input, const CommonSwitches& common,
+                        const NearestSwitches& asked, const std::string& output,
+                        const std::string& format);
+
+}  // namespace medial::cli
