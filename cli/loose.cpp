@@ -41,6 +41,25 @@ void print_notes(const LooseFile& file, const InputSwitches& input, const Common
     fmt::print(stderr, "medial: {}: {}\n", input.path, note);
 }
 
+Result<Soup> soup_of(const LooseFile& file, const InputSwitches& input, double reach) {
+  auto soup = build_soup(
+      file.chains, {.node_crossings = input.read.repair != io::RepairRule::none, .reach = reach});
+  if (!soup) return in_terms_of(file, std::move(soup).error(), input.path);
+  return soup;
+}
+
+bool is_too_close(const Error& error) {
+  return error.code == ErrorCode::unsupported && error.place.ring && error.place.point;
+}
+
+void tell_touching(double reach, const InputSwitches& input, const CommonSwitches& common) {
+  if (!common.quiet)
+    fmt::print(stderr,
+               "medial: {}: note: points and edges within {:.2g} of each other touch, as rounding "
+               "does not tell them apart\n",
+               input.path, reach);
+}
+
 Error in_terms_of(const LooseFile& file, Error error, const std::string& path) {
   if (error.place.file.empty()) error.place.file = path;
   if (!error.place.ring || *error.place.ring >= file.feature.size()) return error;

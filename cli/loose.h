@@ -2,6 +2,7 @@
 
 // Files as loose points and lines, for verbs that do not need shapes.
 
+#include <array>
 #include <string>
 #include <utility>
 #include <vector>
@@ -27,5 +28,40 @@ void print_notes(const LooseFile& file, const InputSwitches& input, const Common
 
 /// An error of a soup, which names a chain, in terms of the file's features.
 Error in_terms_of(const LooseFile& file, Error error, const std::string& path);
+
+/// The soup of all chains, crossings split where --repair is given. Errors in terms of the
+/// features.
+Result<Soup> soup_of(const LooseFile& file, const InputSwitches& input, double reach = 0);
+
+/// Distances, shares of the size and increasing, within which things are made to touch where
+/// rounding does not tell them apart (SoupOptions::reach).
+inline constexpr std::array<double, 3> touching_shares{0x1p-39, 0x1p-35, 0x1p-31};
+
+/// Whether this is the error of a diagram whose points and edges are too near to each other.
+bool is_too_close(const Error& error);
+/// Tells that what is nearer than `reach` touches now.
+void tell_touching(double reach, const InputSwitches& input, const CommonSwitches& common);
+
+/// What work(soup) gives for the soup of all chains, which stays there. Where points or edges are
+/// too near to each other, they are made to touch, with a note on standard error.
+template <class Work>
+auto with_soup(const LooseFile& file, const InputSwitches& input, const CommonSwitches& common,
+               Soup& soup, Work&& work) -> decltype(work()) {
+  auto first = soup_of(file, input);
+  if (!first) return std::move(first).error();
+  soup = std::move(first).value();
+  auto result = work();
+  const double size = diagonal(bounding_box(soup));
+  for (const double share : touching_shares) {
+    if (result || !is_too_close(result.error())) break;
+    auto touching = soup_of(file, input, share * size);
+    if (!touching) break;
+    soup = std::move(touching).value();
+    result = work();
+    if (result) tell_touching(share * size, input, common);
+  }
+  if (!result) return in_terms_of(file, std::move(result).error(), input.path);
+  return result;
+}
 
 }  // namespace medial::cli

@@ -112,9 +112,8 @@ Result<int> run_nearest(const InputSwitches& input, const CommonSwitches& common
   }
   const double seconds_read = reading.seconds();
   const Stopwatch shaping;
-  const auto soup =
-      build_soup(file->chains, {.node_crossings = input.read.repair != io::RepairRule::none});
-  if (!soup) return in_terms_of(*file, soup.error(), input.path);
+  const auto soup = soup_of(*file, input);
+  if (!soup) return soup.error();
   const double seconds_shape = shaping.seconds();
   const Stopwatch searching;
   const std::vector<Site> sites = sites_of(*soup);

@@ -133,19 +133,18 @@ Result<io::OffsetFile> buffer_all(const OffsetSwitches& switches) {
   auto loose = load_chains(input, switches.common.threads);
   if (!loose) return std::move(loose).error();
   print_notes(*loose, input, switches.common);
-  auto soup =
-      build_soup(loose->chains, {.node_crossings = input.read.repair != io::RepairRule::none});
-  if (!soup) return in_terms_of(*loose, std::move(soup).error(), input.path);
-  auto offsets =
-      offset_curves(*soup, switches.distances,
-                    {.tolerance = switches.common.tolerance, .threads = switches.common.threads});
-  if (!offsets) return in_terms_of(*loose, std::move(offsets).error(), input.path);
+  Soup soup;
+  auto offsets = with_soup(*loose, input, switches.common, soup, [&] {
+    return offset_curves(
+        soup, switches.distances,
+        {.tolerance = switches.common.tolerance, .threads = switches.common.threads});
+  });
+  if (!offsets) return std::move(offsets).error();
   io::OffsetFile file;
   file.crs_wkt = loose->crs_wkt;
   file.y_down = loose->y_down;
-  auto sources = sources_of(*loose, *soup, *offsets);
-  file.items.push_back(
-      {{}, std::move(offsets).value(), {}, std::move(soup).value(), std::move(sources)});
+  auto sources = sources_of(*loose, soup, *offsets);
+  file.items.push_back({{}, std::move(offsets).value(), {}, std::move(soup), std::move(sources)});
   return file;
 }
 

@@ -189,12 +189,22 @@ Result<int> verify_voronoi(const VerifySwitches& switches) {
   auto loose = load_chains(input, common.threads);
   if (!loose) return std::move(loose).error();
   print_notes(*loose, input, common);
-  auto soup =
-      build_soup(loose->chains, {.node_crossings = input.read.repair != io::RepairRule::none});
-  if (!soup) return in_terms_of(*loose, std::move(soup).error(), input.path);
+  const VoronoiDiagram& diagram = stored->items.front().diagram;
+  auto soup = soup_of(*loose, input);
+  if (!soup) return std::move(soup).error();
+  // Of what rounding does not tell apart, it is the diagram of what touches.
+  const double size = diagonal(bounding_box(*soup));
+  const auto fits = [&] {
+    return soup->points.size() + soup->edges.size() == diagram.sites.size();
+  };
+  for (const double share : touching_shares) {
+    if (fits()) break;
+    auto touching = soup_of(*loose, input, share * size);
+    if (touching) soup = std::move(touching);
+  }
   const double seconds_read = reading.seconds();
   const Stopwatch checking;
-  const VoronoiCertificate certificate = verify(*soup, stored->items.front().diagram,
+  const VoronoiCertificate certificate = verify(*soup, diagram,
                                                 {.tolerance = common.tolerance,
                                                  .samples_per_edge = switches.samples,
                                                  .threads = common.threads});

@@ -83,23 +83,23 @@ Result<io::VoronoiFile> compute_soup(const VoronoiSwitches& switches, Phases& se
   if (!loose) return std::move(loose).error();
   print_notes(*loose, input, switches.common);
   seconds.read = reading.seconds();
-  const Stopwatch shaping;
-  SoupReport report;
-  auto soup = build_soup(loose->chains,
-                         {.node_crossings = input.read.repair != io::RepairRule::none}, &report);
-  if (!soup) return in_terms_of(*loose, std::move(soup).error(), input.path);
-  seconds.shape = shaping.seconds();
-  const Stopwatch watch;
   std::optional<Box> frame;
   if (!switches.frame.empty())
     frame = Box{{switches.frame[0], switches.frame[1]}, {switches.frame[2], switches.frame[3]}};
-  auto diagram = voronoi_diagram(*soup,
-                                 {.tolerance = switches.common.tolerance,
-                                  .threads = switches.common.threads,
-                                  .margin = switches.margin},
-                                 frame);
-  if (!diagram) return in_terms_of(*loose, std::move(diagram).error(), input.path);
-  seconds.voronoi = watch.seconds();
+  Soup soup;
+  const Stopwatch watch;
+  auto diagram = with_soup(*loose, input, switches.common, soup, [&] {
+    const Stopwatch computing;
+    auto computed = voronoi_diagram(soup,
+                                    {.tolerance = switches.common.tolerance,
+                                     .threads = switches.common.threads,
+                                     .margin = switches.margin},
+                                    frame);
+    seconds.voronoi = computing.seconds();
+    return computed;
+  });
+  if (!diagram) return std::move(diagram).error();
+  seconds.shape = watch.seconds() - seconds.voronoi;
   io::VoronoiFile file;
   file.crs_wkt = loose->crs_wkt;
   file.y_down = loose->y_down;

@@ -130,6 +130,9 @@ class CommandLine(unittest.TestCase):
             self.assertEqual(self.files(), before)
         return text
 
+    def rows(self, text):
+        return list(csv.DictReader(text.decode().splitlines()))
+
 
 class Axis(CommandLine):
     def test_every_format_is_written_and_is_what_it_claims(self):
@@ -369,8 +372,8 @@ class Axis(CommandLine):
         self.succeed("voronoi", "map.geojson", "-o", "v.json")
         sites = json.loads(self.read("v.json"))["items"][0]["sites"]
         for row in rows:
-            foot, (kind, *place) = (float(row["foot_x"]), float(row["foot_y"])), sites[int(row["site"])]
-            self.assertEqual(kind == "vertex", row["kind"] == "point")
+            kind = sites[int(row["site"])][0]
+            self.assertEqual(kind == 1, row["kind"] == "point")
         told = json.loads(self.succeed(*asked, "--json").stdout)["nearest"]
         self.assertEqual([one["attributes"]["name"] for one in told], ["road", "road", "road", "well"])
         self.assertEqual([one["foot"] for one in told], [{"x": x, "y": y} for x, y in ((10, 5), (0, 0), (1, 0), (3, 4))])
@@ -382,6 +385,18 @@ class Axis(CommandLine):
         self.refuse("invalid_option", *asked, "--frame", "-9,-9,20,20")
         self.refuse("unsupported", *asked, "-o", "n.svg", nothing_new=True)
         self.refuse("[a-z_]+", "voronoi", "map.geojson", "--nearest", "12")
+
+    def test_what_touches_but_for_rounding(self):
+        """Ends next to an edge, points next to points: they touch, which is told, and is verified."""
+        self.write("near.wkt", "LINESTRING(0 0,3 1);LINESTRING(1.5 0.50000000000000011,1 2);POINT(2 2);"
+                               "POINT(2.0000000000000004 2);POINT(0.30000000000000004 0.1)".replace(";", "\n"))
+        done = self.succeed("voronoi", "near.wkt", "-o", "v.json")
+        self.assertIn(b"rounding does not tell them apart", done.stderr)
+        self.assertTrue(json.loads(self.succeed("verify", "near.wkt", "v.json", "--json").stdout)["passed"])
+        self.assertIn(b"rounding", self.succeed("offset", "near.wkt", "--loose", "--distance", "0.5", "-o", "b.wkt").stderr)
+        self.write("apart.wkt", "LINESTRING(0 0,3 1)\nLINESTRING(1.5 0.5000000001,1 2)\nPOINT(2 2)\nPOINT(2.0000000001 2)")
+        self.assertEqual(self.succeed("voronoi", "apart.wkt", "-o", "v.json").stderr, b"")
+        self.assertTrue(json.loads(self.succeed("verify", "apart.wkt", "v.json", "--json").stdout)["passed"])
 
     def test_exterior_of_other_verbs(self):
         """A bay 2 wide and 4 deep in a square, a hole, and the frame: measure, prune, features, carve."""
@@ -419,7 +434,7 @@ class Axis(CommandLine):
             for corner in ((-2, -2), (12, 12), (2, 2), (5, 3)):
                 self.assertTrue(any(math.dist(corner, end) < 1e-9 for end in ends), corner)
             # Deepest before the bay, between its corners and the frame: (12 - y)^2 = 1 + (y - 10)^2.
-            self.assertAlmostEqual(min(float(row["z"]) for row in rows), -1.25 * float(scale))
+            self.assertAlmostEqual(min(float(row["z"]) for row in rows), -1.25 * float(scale), delta=1e-3 * float(scale))
         self.refuse("invalid_option", "carve", "bay.wkt", "--angle", "90", "--exterior", "--margin", "1e9")
 
     def test_prune_and_rebuild(self):
@@ -1281,9 +1296,6 @@ class Errors(CommandLine):
 
 
 class Centrelines(CommandLine):
-    def rows(self, text):
-        return list(csv.DictReader(text.decode().splitlines()))
-
     def test_main_path(self):
         self.write("rectangle.wkt", RECTANGLE)
         told = json.loads(self.succeed("centreline", "rectangle.wkt", "--json").stdout)

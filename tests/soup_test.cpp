@@ -257,25 +257,73 @@ TEST(Soup, ManyPointsHaveAsManyEdgesAsATriangulation) {
   EXPECT_EQ(diagram.nodes.size() - corners - crossings, 2 * count - 2 - crossings);
 }
 
-/// Among points alone any distance will do; beside edges a disk cannot tell them apart.
-TEST(Soup, PointsTooNearToEachOtherBesideEdgesAreRefused) {
-  for (const double near : {1e-17, 1e-90}) {
-    const Chains points{{{{0, 0}}}, {{{near, 0}}}, {{{0, near}}}, {{{1, 1}}}};
-    const auto of_points = build_soup(points);
-    ASSERT_TRUE(of_points);
-    EXPECT_TRUE(voronoi_diagram(*of_points, {.threads = 1}));
-    Chains with_edges = points;
-    with_edges.push_back({{{0.5, 0.25}, {0.25, 0.75}}});
-    const auto soup = build_soup(with_edges);
-    ASSERT_TRUE(soup);
-    const auto diagram = voronoi_diagram(*soup, {.threads = 1});
-    if (diagram) {
-      EXPECT_EQ(fault_of(*diagram), "");
-    } else {
-      EXPECT_EQ(diagram.error().code, ErrorCode::unsupported);
-      EXPECT_TRUE(diagram.error().place.point.has_value());
-    }
+/// Points, and ends of segments, `near` to other points, to ends or to edges, or twice as far.
+Chains near_chains(std::uint64_t seed, double near, bool points_alone) {
+  Random random(seed);
+  constexpr int cells = 3;
+  Chains chains;
+  for (int i = 0; i < cells * cells; ++i) {
+    const auto in_cell = [&] {
+      const double x = uniform(random), y = uniform(random);
+      return Vec2{i % cells + 0.05 + 0.9 * x, i / cells + 0.05 + 0.9 * y};
+    };
+    const Vec2 a = in_cell(), b = in_cell(), middle = a + uniform(random) * (b - a);
+    const double angle = 7 * uniform(random);
+    const Vec2 off = near * (1 + uniform(random)) * Vec2{std::cos(angle), std::sin(angle)};
+    const Vec2 across = (1 / distance(a, b)) * left_of(b - a);
+    const Vec2 away = (dot(across, off) > 0 ? 0.01 : -0.01) * across;
+    const int kind = points_alone ? 0 : static_cast<int>(5 * uniform(random));
+    if (kind == 0) chains.push_back({{a}});
+    if (kind <= 1) chains.push_back({{a + off}});
+    if (kind > 0) chains.push_back({{a, b}});
+    if (kind == 2) chains.push_back({{middle + off}});
+    if (kind == 3) chains.push_back({{middle + off, middle + off + away}});
   }
+  return chains;
+}
+
+TEST(Soup, PointsAloneMayBeAsNearToEachOtherAsTheyLike) {
+  for (std::uint64_t seed = 0; seed < shape_count(20); ++seed) {
+    const auto soup =
+        build_soup(near_chains(seed, std::pow(10.0, -8 - static_cast<double>(seed % 10)), true));
+    ASSERT_TRUE(soup.ok());
+    const auto diagram = voronoi_diagram(*soup, {.threads = 1});
+    ASSERT_TRUE(diagram.ok()) << seed << ": " << to_string(diagram.error());
+    EXPECT_EQ(fault_of(*soup, *diagram), "") << seed;
+  }
+  const auto tiny = build_soup(Chains{{{{0, 0}}}, {{{1e-90, 0}}}, {{{0, 1e-90}}}, {{{1, 1}}}});
+  ASSERT_TRUE(tiny.ok());
+  EXPECT_TRUE(voronoi_diagram(*tiny, {.threads = 1}).ok());
+}
+
+/// Beside edges, a disk cannot tell everything apart: right, or refused with a place; and right
+/// once what is that near touches.
+TEST(Soup, WhatIsNearBesideEdgesIsRightOrRefused) {
+  std::size_t right = 0, refused = 0;
+  for (std::uint64_t seed = 0; seed < shape_count(100); ++seed) {
+    const double near = std::pow(10.0, -6 - static_cast<double>(seed % 12));
+    const Chains chains = near_chains(seed, near, false);
+    auto soup = build_soup(chains);
+    if (soup.ok()) {
+      const auto diagram = voronoi_diagram(*soup, {.threads = 1});
+      if (diagram.ok()) {
+        ++right;
+        EXPECT_EQ(fault_of(*soup, *diagram), "") << seed;
+        continue;
+      }
+      ++refused;
+      EXPECT_EQ(diagram.error().code, ErrorCode::unsupported) << seed;
+      EXPECT_TRUE(diagram.error().place.point.has_value()) << seed;
+      EXPECT_LT(near, 1e-10) << seed;
+    }
+    soup = build_soup(chains, {.reach = 4e-11});
+    ASSERT_TRUE(soup.ok()) << seed << ": " << to_string(soup.error());
+    const auto diagram = voronoi_diagram(*soup, {.threads = 1});
+    ASSERT_TRUE(diagram.ok()) << seed << ": " << to_string(diagram.error());
+    EXPECT_EQ(fault_of(*soup, *diagram), "") << seed;
+  }
+  EXPECT_GT(right, shape_count(100) / 4);
+  EXPECT_GT(refused, shape_count(100) / 4);
 }
 
 TEST(Soup, WhatIsThereTwiceIsThereOnce) {

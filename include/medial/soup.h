@@ -62,6 +62,9 @@ struct Soup {
 struct SoupOptions {
   /// Edges that cross are split where they do; see ShapeOptions.
   bool node_crossings = false;
+  /// What comes within this distance touches: points become one, edges pass through them, as within
+  /// the tolerance among arcs. 0: that tolerance among arcs, and exactly without.
+  double reach = 0;
 };
 
 /// What build_soup() found and mended.

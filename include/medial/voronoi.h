@@ -68,8 +68,9 @@ Result<VoronoiDiagram> voronoi_diagram(const Shape& shape, const Options& option
 /// margin where no frame is given: how far the frame is away from the soup's bounding box, 0 for
 /// half of its longer side. Inside of the frame the diagram is that of the whole plane. O(n log n)
 /// expected. Errors: invalid_option (also a frame that the soup touches or leaves), cancelled,
-/// empty, too_large, unsupported (coordinates, as in compute(); two points beside edges that are
-/// nearer to each other than rounding tells apart), out_of_memory, internal.
+/// empty, too_large, unsupported (coordinates, as in compute(); among edges, a point that is nearer
+/// to another one or to an edge than rounding tells apart, 64 tolerances, with its place: see
+/// SoupOptions::reach), out_of_memory, internal.
 Result<VoronoiDiagram> voronoi_diagram(const Soup& soup, const Options& options = {},
                                        const std::optional<Box>& frame = {});
 

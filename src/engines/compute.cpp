@@ -27,6 +27,7 @@
 #include "engines/voronoi/long_edges.h"
 #include "engines/voronoi/points_diagram.h"
 #include "engines/voronoi/soup_diagram.h"
+#include "medial/query.h"
 #include "medial/voronoi.h"
 #include "shape/around.h"
 #include "shape/exterior.h"
@@ -318,34 +319,56 @@ Result<MedialAxis> run_around(const Shape& surroundings, const Options& options,
   return axis;
 }
 
-/// In tolerances: nearer points may be one for some disks.
-constexpr double told_apart = 16;
+/// In tolerances: what is nearer to each other may be one for some disks; and what may at least
+/// have misled a walk that failed.
+constexpr double told_apart = 64, doubtful = 0x1p20;
 
-/// An internal error, if two points of the soup are nearer to each other than rounding tells apart,
-/// as an error that says so and names the first such point of the input. O(n log n).
-Error explained(Error error, const Soup& soup, double tolerance) {
-  if (error.code != ErrorCode::internal) return error;
-  const double least = told_apart * tolerance;
-  std::vector<Box> boxes;
-  boxes.reserve(soup.points.size());
-  for (const Vec2 p : soup.points) boxes.push_back({p, p + Vec2{least, least}});
+/// An error that names the first point which is nearer than that to another one, or to an edge that
+/// does not end there, if there is one and edges. O(n log n).
+std::optional<Error> too_close(const Soup& soup, double least) {
+  const auto edges = static_cast<std::uint32_t>(soup.edges.size());
+  std::vector<Box> boxes;  // of edges, then of lone points
+  boxes.reserve(edges + soup.lone_points.size());
+  const auto add = [&](Vec2 a, Vec2 b, double beside) {
+    boxes.push_back({{std::min(a.x, b.x) - beside, std::min(a.y, b.y) - beside},
+                     {std::max(a.x, b.x) + beside, std::max(a.y, b.y) + beside}});
+  };
+  for (const SoupEdge& edge : soup.edges) {
+    const Vec2 a = soup.points[edge.from], b = soup.points[edge.to];
+    add(a, b, edge.bulge == 0 ? least : 0.5 * std::abs(edge.bulge) * distance(a, b) + least);
+  }
+  for (const LonePoint& lone : soup.lone_points)
+    add(soup.points[lone.point], soup.points[lone.point], least);
   const BoxTree tree(boxes);
   for (std::uint32_t i = 0; i < soup.points.size(); ++i) {
     const Vec2 p = soup.points[i];
-    bool too_close = false;
-    tree.find(boxes[i], [&](std::uint32_t j) {
-      too_close = too_close || (j < i && distance(p, soup.points[j]) < least);
-    });
-    if (!too_close) continue;
+    bool is_close = false;
+    const auto look_at = [&](std::uint32_t k) {
+      const std::uint32_t other = k < edges ? k : soup.lone_points[k - edges].point;
+      if (k < edges ? soup.edges[k].from == i || soup.edges[k].to == i : other == i) return;
+      const std::uint32_t site =
+          k < edges ? static_cast<std::uint32_t>(soup.points.size()) + k : other;
+      is_close = is_close || distance(foot(voronoi::site_of_soup(soup, site), p), p) < least;
+    };
+    tree.find({p, p}, look_at);
+    if (!is_close) continue;
     const VertexSource source = soup.point_sources[i];
-    error = {ErrorCode::unsupported,
-             "two of the points are nearer to each other than rounding tells apart",
-             {}};
+    Error error{ErrorCode::unsupported,
+                "a point is nearer to another one, or to an edge, than rounding tells apart",
+                {}};
     error.place.ring = source.ring;
     error.place.vertex = source.vertex;
     error.place.point = p;
     return error;
   }
+  return std::nullopt;
+}
+
+/// An internal error where points are so near to others that they may have misled the walk, as an
+/// error that names one of them.
+Error explained(Error error, const Soup& soup, double tolerance) {
+  if (error.code == ErrorCode::internal)
+    if (auto close = too_close(soup, doubtful * tolerance)) return std::move(*close);
   return error;
 }
 
@@ -356,11 +379,11 @@ Result<MedialAxis> axis_around(const Soup& soup, const Shape& surroundings,
   try {
     if (auto error = refuse(soup, options)) return std::move(*error);
     if (auto error = beyond_limits(surroundings)) return std::move(*error);
+    const double tolerance = tolerance_for(bounding_box(surroundings), options.tolerance);
+    if (auto error = too_close(soup, told_apart * tolerance)) return std::move(*error);
     auto axis =
         on_threads(options.threads, [&] { return run_around(surroundings, options, true); });
-    if (!axis)
-      return explained(std::move(axis).error(), soup,
-                       tolerance_for(bounding_box(surroundings), options.tolerance));
+    if (!axis) return explained(std::move(axis).error(), soup, tolerance);
     return axis;
   } catch (...) {
     return error_in_flight();
@@ -375,6 +398,9 @@ Result<VoronoiDiagram> voronoi_diagram(const Soup& soup, const Options& options,
     if (!box) return std::move(box).error();
     const Box far = voronoi::far_frame(*box);
     if (auto error = beyond_limits(soup, far)) return std::move(*error);
+    const double tolerance = tolerance_for(far, options.tolerance);
+    if (!soup.edges.empty())
+      if (auto error = too_close(soup, told_apart * tolerance)) return std::move(*error);
     Result<VoronoiDiagram> diagram = on_threads(options.threads, [&]() -> Result<VoronoiDiagram> {
       if (soup.edges.empty()) {
         VoronoiDiagram of_points = voronoi::diagram_of_points(soup, options, *box);
@@ -390,8 +416,7 @@ Result<VoronoiDiagram> voronoi_diagram(const Soup& soup, const Options& options,
         return Error{ErrorCode::internal, error.what(), {}};
       }
     });
-    if (!diagram)
-      return explained(std::move(diagram).error(), soup, tolerance_for(far, options.tolerance));
+    if (!diagram) return explained(std::move(diagram).error(), soup, tolerance);
     diagram->statistics.threads = effective_threads(options.threads);
     if (options.progress) options.progress(1);
     return diagram;

@@ -524,10 +524,10 @@ class ArcSweeper {
 
 }  // namespace
 
-Result<SweptArcs> sweep_arcs(const Outline& outline, bool node_crossings) {
+Result<SweptArcs> sweep_arcs(const Outline& outline, bool node_crossings, double reach) {
   // Nearly always one round more than there are layers of contacts that hide each other.
   constexpr int most_rounds = 64;
-  Noding noding(outline);
+  Noding noding(outline, reach);
   if (auto error = noding.too_small()) return std::move(*error);
   std::uint64_t crossings = 0;
   for (int round = 0; round < most_rounds; ++round) {

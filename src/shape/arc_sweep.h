@@ -24,7 +24,8 @@ struct SweptArcs {
 /// round if nothing touches. Errors: crossing, overlap, no_area (a ring within the tolerance).
 ///
 /// With `node_crossings` edges are split where they cross first, which takes O(n log n + p) for p
-/// pairs of edges above each other, in each of a few rounds.
-Result<SweptArcs> sweep_arcs(const Outline& outline, bool node_crossings = false);
+/// pairs of edges above each other, in each of a few rounds. A `reach` above the tolerance takes
+/// its place.
+Result<SweptArcs> sweep_arcs(const Outline& outline, bool node_crossings = false, double reach = 0);
 
 }  // namespace medial

@@ -38,11 +38,11 @@ Box box_of(const Outline& outline) {
 
 }  // namespace
 
-Noding::Noding(const Outline& outline) : begin_(outline.begin), open_(outline.open) {
+Noding::Noding(const Outline& outline, double reach) : begin_(outline.begin), open_(outline.open) {
   const Box box = box_of(outline);
   frame_ = frame_of(box);
   size_ = frame_.scale * diagonal(box);
-  tolerance_ = frame_.scale * tolerance_for(box, 0);
+  tolerance_ = frame_.scale * std::max(tolerance_for(box, 0), reach);
   nodes_.resize(outline.points.size());
   for (std::size_t v = 0; v < nodes_.size(); ++v) {
     const Vec2 point = outline.points[v];

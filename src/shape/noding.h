@@ -43,7 +43,8 @@ struct Merge {
 /// The edges of an outline while vertices are put into them where they touch.
 class Noding {
  public:
-  explicit Noding(const Outline& outline);
+  /// `reach`, in units of the input, is the tolerance where it is larger than the usual one.
+  explicit Noding(const Outline& outline, double reach = 0);
 
   /// An error `unsupported` where all of the outline is so small against its coordinates that the
   /// tolerance cannot tell its edges apart.

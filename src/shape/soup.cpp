@@ -406,9 +406,9 @@ Error in_terms_of_input(Error error, const Input& input) {
 
 Result<Soup> build_once(const Input& input, const SoupOptions& options, SoupReport& report) {
   Outline outline = outline_of(input);
-  if (options.node_crossings) outline.bulges.resize(outline.points.size());
+  if (options.node_crossings || options.reach > 0) outline.bulges.resize(outline.points.size());
   if (!outline.bulges.empty()) {
-    Result<SweptArcs> swept = sweep_arcs(outline, options.node_crossings);
+    Result<SweptArcs> swept = sweep_arcs(outline, options.node_crossings, options.reach);
     if (!swept) return in_terms_of_input(std::move(swept).error(), input);
     report.touching_places = swept->sweep.place_count;
     report.split_edges = swept->split_edges;
