@@ -15,9 +15,9 @@ namespace medial::voronoi {
 /// Control point and weight of a part of the bisector of two points, from its ends. The radius over
 /// the place s along it, seen from half a distance d between the points, is d cosh u, s being
 /// d sinh u: with e = r + s, which is d exp(u), at both ends all is in closed form, without
-/// cancellation. Between points very near to each other rounding moves the ends off the bisector, so
-/// that the line between them need not pass between the points; the control point does, and where
-/// it matters its weight is large.
+/// cancellation. Between points very near to each other rounding moves the ends off the bisector,
+/// so that the line between them need not pass between the points; the control point does, and
+/// where it matters its weight is large.
 inline void take_control_of_points(Vec2 first, Vec2 second, ConicEdge& edge) {
   const Vec2 across = left_of(second - first);
   const double size = norm(across), squared = 0.25 * size * size, scale = 1 / size;
