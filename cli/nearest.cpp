@@ -40,7 +40,7 @@ Status add_places(const NearestSwitches& asked, const InputSwitches& input, int 
   return success();
 }
 
-const char* name_of(SiteKind kind) {
+const char* kind_name(SiteKind kind) {
   return kind == SiteKind::vertex ? "point" : kind == SiteKind::arc ? "arc" : "segment";
 }
 
@@ -48,7 +48,7 @@ std::string csv_of(const std::vector<Answer>& answers) {
   std::string text = "x,y,site,kind,feature,distance,foot_x,foot_y\n";
   for (const auto& [place, nearest, kind, feature] : answers)
     fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{}\n", place.x, place.y,
-                   nearest.site, name_of(kind), feature, nearest.distance, nearest.foot.x,
+                   nearest.site, kind_name(kind), feature, nearest.distance, nearest.foot.x,
                    nearest.foot.y);
   return text;
 }
@@ -61,7 +61,7 @@ Json json_of(const std::vector<Answer>& answers, const LooseFile& file) {
     all.push_back({{"x", place.x},
                    {"y", place.y},
                    {"site", nearest.site},
-                   {"kind", name_of(kind)},
+                   {"kind", kind_name(kind)},
                    {"feature", feature},
                    {"distance", nearest.distance},
                    {"foot", {{"x", nearest.foot.x}, {"y", nearest.foot.y}}},
