@@ -49,6 +49,9 @@ struct Contour {
 /// `bulges` of the edges, as of a Ring; empty: all are straight.
 Contour contour_of(std::span<const Vec2> points, std::span<const double> bulges, bool closed);
 
+/// The same points, from the last to the first.
+Contour reversed(const Contour& contour);
+
 struct ArcOptions {
   /// Largest distance between a contour and its arcs; relative to the diagonal of the bounding box,
   /// or in units of the input. Above 0.

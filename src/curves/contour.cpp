@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <ranges>
 
 namespace medial {
 namespace {
@@ -174,6 +175,18 @@ Contour contour_of(std::span<const Vec2> points, std::span<const double> bulges,
   }
   contour.open = !closed;
   return contour;
+}
+
+Contour reversed(const Contour& contour) {
+  Contour result;
+  result.role = contour.role;
+  result.open = contour.open;
+  result.points.assign(contour.points.rbegin(), contour.points.rend());
+  result.weights.assign(contour.weights.rbegin(), contour.weights.rend());
+  const auto last = static_cast<std::uint32_t>(contour.points.size()) - 1;
+  for (const CurvePiece& piece : contour.pieces | std::views::reverse)
+    result.pieces.push_back({last - piece.first - piece.degree, piece.degree, -piece.bulge});
+  return result;
 }
 
 }  // namespace medial

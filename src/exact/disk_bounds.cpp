@@ -102,7 +102,7 @@ std::optional<DiskBounds<Real>> disk_bounds(const Outline& outline,
     };
     const Number closing = closing_on(spoke);
     if (!closing.positive()) return std::nullopt;
-    const auto disk = disk_on(spoke, form.height / closing);
+    auto disk = disk_on(spoke, form.height / closing);
     if (!disk) return std::nullopt;
     // It is smaller than the circles of all three: those of the joined ones on their own normals.
     for (const std::uint32_t site : {a, b}) {

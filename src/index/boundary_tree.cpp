@@ -115,7 +115,8 @@ void BoundaryTree::build_chord_boxes() {
     if (!any) return;
     chords_.push_back(std::move(boxes));
     fits_below = std::move(fits);
-    fits_below.resize(fits_below.size() + fan * fan);  // children beyond the last do not fit
+    fits_below.resize(fits_below.size() +
+                      std::size_t{fan} * fan);  // children beyond the last do not fit
   }
 }
 

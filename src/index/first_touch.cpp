@@ -157,7 +157,7 @@ std::optional<FirstTouch::Touch> FirstTouch::find(Vec2 foot, Vec2 direction, dou
     float from_foot;
   };
   // Three brothers wait on each of at most 16 levels.
-  std::array<Waiting, 3 * 16 + fan> stack;
+  std::array<Waiting, 3UL * 16 + fan> stack;
   std::size_t size = 0;
   stack[size++] = {static_cast<std::uint32_t>(levels_.size()), 0, 0};
 
@@ -200,7 +200,7 @@ void FirstTouch::look_around(const Extent& box, Region& region) const {
   struct Waiting {
     std::uint32_t level, index;
   };
-  std::array<Waiting, 3 * 16 + fan> stack;
+  std::array<Waiting, 3UL * 16 + fan> stack;
   std::size_t size = 0;
   stack[size++] = {static_cast<std::uint32_t>(levels_.size()) - 1, 0};
   while (size > 0) {

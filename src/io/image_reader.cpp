@@ -120,7 +120,7 @@ class PnmReader {
       for (std::uint32_t x = 0; x < image.width(); ++x) {
         const unsigned value = bits               ? row[x / 8] >> (7 - x % 8) & 1U
                                : value_bytes == 1 ? row[x]
-                                                  : row[2 * x] * 256U + row[2 * x + 1];
+                                                  : row[2UL * x] * 256U + row[2UL * x + 1];
         if (is_foreground(value)) image.set(x, y);
       }
     }

@@ -117,18 +117,6 @@ Contour transformed(const Affine& map, const Contour& contour) {
   return rebuilt;
 }
 
-Contour reversed(const Contour& contour) {
-  Contour result;
-  result.role = contour.role;
-  result.points.assign(contour.points.rbegin(), contour.points.rend());
-  result.weights.assign(contour.weights.rbegin(), contour.weights.rend());
-  const auto last = static_cast<std::uint32_t>(contour.points.size()) - 1;
-  for (auto piece = contour.pieces.rbegin(); piece != contour.pieces.rend(); ++piece) {
-    result.pieces.push_back({last - piece->first - piece->degree, piece->degree, -piece->bulge});
-  }
-  return result;
-}
-
 bool is_degenerate(const Contour& contour) {
   const auto is_straight = [](const CurvePiece& piece) {
     return piece.degree == 1 && piece.bulge == 0;

@@ -49,9 +49,6 @@ Contour closed_ellipse(Vec2 center, Vec2 u, Vec2 v);
 /// A contour under a map. Arcs stay arcs under similarities; else they become rational quadratics.
 Contour transformed(const Affine& map, const Contour& contour);
 
-/// The same points the other way round.
-Contour reversed(const Contour& contour);
-
 /// Whether a contour cannot enclose anything: straight, with fewer than three different points.
 bool is_degenerate(const Contour& contour);
 

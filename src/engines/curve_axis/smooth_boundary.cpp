@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <ranges>
 #include <span>
 #include <string>
 
@@ -37,17 +36,6 @@ double doubled_area(const Contour& contour) {
     }
   }
   return sum;
-}
-
-Contour reversed(const Contour& contour) {
-  Contour out;
-  out.role = contour.role;
-  out.points.assign(contour.points.rbegin(), contour.points.rend());
-  out.weights.assign(contour.weights.rbegin(), contour.weights.rend());
-  const auto last = static_cast<std::uint32_t>(contour.points.size() - 1);
-  for (const CurvePiece& piece : contour.pieces | std::views::reverse)
-    out.pieces.push_back({last - piece.first - piece.degree, piece.degree, -piece.bulge});
-  return out;
 }
 
 /// Where a piece begins, or ends.
