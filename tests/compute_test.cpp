@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cmath>
 #include <mutex>
+#include <numbers>
 #include <vector>
 
 #include "medial/verify.h"
@@ -120,6 +121,32 @@ TEST(Compute, NarrowSlotsBesideEachOtherAreVerified) {
   const auto axis = compute(shape);
   ASSERT_TRUE(axis) << to_string(axis.error());
   EXPECT_TRUE(verify(shape, *axis).passed);
+}
+
+/// An L with rounded convex corners begins at its reflex vertex; beside it are two holes, so that
+/// for some directions the disks that connect them touch that vertex.
+TEST(Compute, HolesBesideTheOnlyVertexOfTheOuterLoop) {
+  const double round = std::tan(std::numbers::pi / 8);
+  const std::vector<Vec2> outer = {{4, 2},   {20, 2}, {22, 4}, {22, 8}, {20, 10}, {10, 10},
+                                   {10, 20}, {8, 22}, {4, 22}, {2, 20}, {2, 4}};
+  const std::vector<double> bulges = {0, round, 0, round, 0, 0, round, 0, round, 0, round};
+  for (int degrees = 0; degrees < 360; degrees += 15) {
+    const double angle = degrees * std::numbers::pi / 180;
+    const auto turn = [&](std::vector<Vec2> points) {
+      for (Vec2& p : points)
+        p = {p.x * std::cos(angle) - p.y * std::sin(angle),
+             p.x * std::sin(angle) + p.y * std::cos(angle)};
+      return points;
+    };
+    const std::vector<Ring> rings = {Ring{turn(outer), RingRole::any, bulges},
+                                     Ring{turn({{4, 10}, {4, 14}, {8, 14}, {8, 10}})},
+                                     Ring{turn({{10, 4}, {10, 8}, {14, 8}, {14, 4}})}};
+    const auto shape = build_shape(rings);
+    ASSERT_TRUE(shape) << degrees << ": " << to_string(shape.error());
+    const auto axis = compute(*shape);
+    ASSERT_TRUE(axis) << degrees << ": " << to_string(axis.error());
+    EXPECT_TRUE(verify(*shape, *axis).passed) << degrees;
+  }
 }
 
 }  // namespace

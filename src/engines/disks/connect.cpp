@@ -16,9 +16,9 @@ using geometry::Site;
 /// Cuts are kept where no query finds them.
 const Site far_away = geometry::make_vertex({1e30, 1e30});
 
-/// The run of the loop that a site belongs to. Loops that are neighbours in the plane mostly have
+/// The loop that a site belongs to. Loops that are neighbours in the plane mostly have
 /// about the same number of sites, so a guess saves most of the search.
-Boundary::Run run_of(const Boundary& loops, std::uint32_t site) {
+std::size_t loop_of(const Boundary& loops, std::uint32_t site) {
   const auto count = static_cast<std::uint64_t>(loops.runs.size());
   const auto guess = static_cast<std::size_t>(count * site / loops.sites.size());
   constexpr std::size_t around = 32;
@@ -30,7 +30,11 @@ Boundary::Run run_of(const Boundary& loops, std::uint32_t site) {
     to = begin + static_cast<std::ptrdiff_t>(guess + around);
   const auto run = std::upper_bound(
       from, to, site, [](std::uint32_t s, const Boundary::Run& r) { return s < r.first; });
-  return *std::prev(run);
+  return static_cast<std::size_t>(run - begin) - 1;
+}
+
+Boundary::Run run_of(const Boundary& loops, std::uint32_t site) {
+  return loops.runs[loop_of(loops, site)];
 }
 
 /// Of a segment touched in an end that is a vertex site, that vertex.
@@ -185,13 +189,16 @@ class Splicer {
       : shape_(shape), loops_(loops), cuts_(cuts) {
     places_.reserve(cuts.size());
     for (std::uint32_t i = 0; i < cuts.size(); ++i) {
-      const Boundary::Run run = run_of(loops, cuts[i].site);
+      const std::size_t loop = loop_of(loops, cuts[i].site);
+      const Boundary::Run run = loops.runs[loop];
       const std::uint32_t before = cuts[i].site == run.first ? run.last : cuts[i].site - 1;
       double place = place_on_site(loops, cuts[i].site, before, cuts[i].disk.center);
       std::uint32_t site = cuts[i].site;
       // A hole's run starts in the middle of its first vertex: what is touched earlier on that
-      // vertex comes at the very end. A point's run starts and ends there.
-      if (site == run.first && run.first < run.last && loops.elements[site] == Element::vertex &&
+      // vertex comes at the very end. A point's run starts and ends there, and an outer loop's at
+      // the beginning of a vertex.
+      if (shape.hole[loop] && site == run.first && run.first < run.last &&
+          loops.elements[site] == Element::vertex &&
           place < place_on_site(loops, site, before, loops.sites[site].point + outreach))
         site = run.last + 1;
       places_.push_back({run.first, site, place, i});

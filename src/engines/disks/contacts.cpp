@@ -48,9 +48,12 @@ std::uint32_t Contacts::owner(std::uint32_t i, Vec2 center, const Span& span) co
   for (std::size_t step = 0; step <= context_.cuts.size(); ++step) {
     const Vec2 to = center - site(copy).point;
     std::uint32_t next = copy;
-    if (element(copy - 1) == Element::cut && cross(cut_direction(copy, copy - 1), to) > 0)
+    // An outer loop without a convex corner may begin with a vertex, which no cut stands before.
+    if (copy > 0 && element(copy - 1) == Element::cut &&
+        cross(cut_direction(copy, copy - 1), to) > 0)
       next = other_copy(copy - 1, copy);
-    else if (element(copy + 1) == Element::cut && cross(to, cut_direction(copy, copy + 1)) > 0)
+    else if (copy + 1 < boundary_.sites.size() && element(copy + 1) == Element::cut &&
+             cross(to, cut_direction(copy, copy + 1)) > 0)
       next = other_copy(copy + 1, copy);
     if (next == copy) break;
     copy = next;

@@ -98,13 +98,17 @@ class Walker {
       if (site(i).curvature > 0) radius = std::min(radius, 1 / site(i).curvature);
     const auto disk_of = [&](double r) { return Disk{foot + r * normal, r}; };
     const Span whole{run.first, run.last, 0};
+    // The edge behind the vertex at which the run begins, behind the holes connected there, if any.
+    std::uint32_t behind = Hit::none;
+    if (element(run.first) == Element::vertex)
+      for (behind = run.first + 1; element(behind) == Element::cut;)
+        behind = boundary_.cut_places[boundary_.originals[behind]][1] + 2;
     std::uint32_t touched = Hit::none;
     while (const Hit hit = contacts_.nearest(disk_of(radius), whole)) {
       // The edge behind a reflex vertex bends into the disk, if at all, up to its end.
-      const bool behind = element(run.first) == Element::vertex && hit.site == run.first + 1;
       const Site& hindrance = site(hit.site);
       const double smaller = geometry::touching_radius(
-          foot, normal, behind ? geometry::make_vertex(hindrance.end()) : hindrance);
+          foot, normal, hit.site == behind ? geometry::make_vertex(hindrance.end()) : hindrance);
       touched = hit.site;
       if (!(smaller < radius)) break;
       radius = smaller;
