@@ -258,13 +258,14 @@ void LevelWalk::find_crossing(std::uint32_t index, double level) {
   const auto at = [&](double numerator, double denominator) {  // t / s = numerator / denominator
     return curve.at(numerator / (numerator + denominator)).center;
   };
+  const std::size_t place = 2 * std::size_t{index};
   if (inside2) {
-    rise_[2 * index] = b <= 0 ? at(root - b, c) : at(-a, b + root);
-    risen_[2 * index] = true;
+    rise_[place] = b <= 0 ? at(root - b, c) : at(-a, b + root);
+    risen_[place] = true;
   }
   if (inside0) {
-    rise_[2 * index + 1] = b <= 0 ? at(a, root - b) : at(b + root, -c);
-    risen_[2 * index + 1] = true;
+    rise_[place + 1] = b <= 0 ? at(a, root - b) : at(b + root, -c);
+    risen_[place + 1] = true;
   }
 }
 

@@ -359,7 +359,7 @@ class ArcSweeper {
 
   /// Other pieces lie between those that end here. With contacts that are still to be noded this is
   /// no wonder.
-  std::optional<Error> out_of_order(Status::iterator first, std::size_t ends,
+  std::optional<Error> out_of_order(const Status::iterator& first, std::size_t ends,
                                     std::uint32_t vertex) {
     const Vec2 point = outline_.points[vertex];
     if (!contacts_.empty() || !merges_.empty()) return pending();

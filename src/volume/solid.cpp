@@ -17,7 +17,6 @@
 namespace medial {
 namespace {
 
-using volume::Box3;
 using volume::Face;
 using volume::FaceTree;
 using volume::Triangle;

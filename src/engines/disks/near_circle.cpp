@@ -8,9 +8,14 @@ namespace {
 
 using geometry::Site;
 
-/// Whether a disk that touches a site is an arc's own circle, within `slack`.
+/// Whether a disk is an arc's own circle, within `slack`: as round, and through both ends.
 bool is_own_circle(const Site& site, const Disk& disk, double slack) {
-  return site.curvature > 0 && std::abs(site.curvature * disk.radius - 1) <= slack * site.curvature;
+  const auto is_on_disk = [&](Vec2 p) {
+    return std::abs(distance(p, disk.center) - disk.radius) <= slack;
+  };
+  return site.curvature > 0 &&
+         std::abs(site.curvature * disk.radius - 1) <= slack * site.curvature &&
+         is_on_disk(site.point) && is_on_disk(site.end());
 }
 
 /// Whether the sites strictly between two others, few, are arcs of several edges of the input.
