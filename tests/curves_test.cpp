@@ -13,6 +13,7 @@
 #include "medial/medial.h"
 #include "support/contours.h"
 #include "support/curve_check.h"
+#include "support/random_shapes.h"
 
 namespace medial {
 namespace {
@@ -417,7 +418,8 @@ TEST(Arcs, ToleranceHoldsAndLeavesStay) {
       const Ring ring = ring_of(shape.contour, tolerance, &report);
       EXPECT_EQ(report.arcs + report.segments, ring.points.size());
       EXPECT_LE(report.largest_error, report.tolerance * (1 + 1e-5)) << shape.name;
-      const int samples = shape.contour.pieces.size() > 10 ? 20 : 200;
+      const auto samples =
+          static_cast<int>(shape_count(shape.contour.pieces.size() > 10 ? 1000 : 100, 10));
       const double measured = measured_distance(shape.contour, ring, samples);
       EXPECT_LE(measured, report.largest_error + 1e-15) << shape.name << " " << tolerance;
       EXPECT_GT(measured, 0.3 * report.largest_error - 1e-15) << shape.name << " " << tolerance;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <ranges>
 
 namespace medial {
 namespace {
@@ -184,8 +183,8 @@ Contour reversed(const Contour& contour) {
   result.points.assign(contour.points.rbegin(), contour.points.rend());
   result.weights.assign(contour.weights.rbegin(), contour.weights.rend());
   const auto last = static_cast<std::uint32_t>(contour.points.size()) - 1;
-  for (const CurvePiece& piece : contour.pieces | std::views::reverse)
-    result.pieces.push_back({last - piece.first - piece.degree, piece.degree, -piece.bulge});
+  for (auto piece = contour.pieces.rbegin(); piece != contour.pieces.rend(); ++piece)
+    result.pieces.push_back({last - piece->first - piece->degree, piece->degree, -piece->bulge});
   return result;
 }
 

@@ -14,7 +14,7 @@ using Hit = Contacts::Hit;
 /// Spans of at least so many sites become tasks of their own, if another such span is at hand:
 /// small enough for the threads to share the work evenly, large enough for the lists of a task.
 std::uint32_t fork_size_of(const Boundary& boundary) {
-  return std::clamp(static_cast<std::uint32_t>(boundary.sites.size() / 64), 512u, 8192u);
+  return std::clamp(static_cast<std::uint32_t>(boundary.sites.size() / 64), 1024u, 8192u);
 }
 
 class Walker {
