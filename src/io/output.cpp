@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sched.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -9,6 +10,7 @@
 #include <array>
 #include <atomic>
 #include <cerrno>
+#include <csignal>
 #include <cstring>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -66,10 +68,34 @@ void forget(int slot) {
   if (slot >= 0) delete[] g_partial[static_cast<std::size_t>(slot)].exchange(nullptr);
 }
 
+std::atomic<int> g_commits = 0;
+
+/// While one lives, no signal ends the program by way of remove_partial_files(): a handler does not
+/// run in this thread, and waits in others. So a file comes with all of its companions.
+class Uninterrupted {
+ public:
+  Uninterrupted() {
+    sigset_t all;
+    sigfillset(&all);
+    pthread_sigmask(SIG_BLOCK, &all, &before_);
+    ++g_commits;
+  }
+  Uninterrupted(const Uninterrupted&) = delete;
+  Uninterrupted& operator=(const Uninterrupted&) = delete;
+  ~Uninterrupted() {
+    --g_commits;
+    pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+  }
+
+ private:
+  sigset_t before_{};
+};
+
 }  // namespace
 
 void remove_partial_files() noexcept {
   const int saved = errno;
+  while (g_commits.load() > 0) sched_yield();
   for (auto& slot : g_partial) {
     const char* name = slot.exchange(nullptr);
     if (name == nullptr) continue;
@@ -93,6 +119,7 @@ Result<PendingFile> PendingFile::create(const std::string& target) {
   file.target_ = resolved.string();
   const fs::path parent = resolved.has_parent_path() ? resolved.parent_path() : fs::path(".");
   std::string directory = (parent / ".medial-XXXXXX").string();
+  const Uninterrupted uninterrupted;
   if (mkdtemp(directory.data()) == nullptr) return unwritable(target, errno);
   file.directory_ = directory;
   file.path_ = (fs::path(directory) / resolved.filename()).string();
@@ -108,9 +135,9 @@ PendingFile::PendingFile(PendingFile&& other) noexcept
 
 PendingFile::~PendingFile() {
   if (directory_.empty()) return;
-  forget(slot_);
   std::error_code ignored;
   fs::remove_all(directory_, ignored);
+  forget(slot_);
 }
 
 Status PendingFile::commit() {
@@ -124,6 +151,7 @@ Status PendingFile::commit() {
   // The named file last: once it is there, its companions are, too.
   std::partition(files.begin(), files.end(),
                  [this](const fs::path& file) { return file != path_; });
+  const Uninterrupted uninterrupted;
   for (const fs::path& file : files) {
     fs::rename(file, fs::path(target_).replace_filename(file.filename()), code);
     if (code) return unwritable(target_, code.value());
