@@ -3,7 +3,7 @@
 
 Public headers include no internal ones, the core never includes what only medial::io may use, and
 verify shares nothing with the engines above geometry. The command line includes public headers and its
-own, but for the few files of EXPERIMENTS.
+own, but for the few files of EXPERIMENTS. medial.h includes all public headers of the core.
 """
 
 import pathlib
@@ -62,6 +62,12 @@ def main():
     files = [p for folder in ("include", "src", "cli") for p in sorted((ROOT / folder).rglob("*"))
              if p.suffix in (".h", ".cpp")]
     faults = 0
+    core = ROOT / "include" / "medial"
+    whole = {name for _, name in INCLUDE.findall((core / "medial.h").read_text())}
+    for path in core.glob("*.h"):
+        if path.name != "medial.h" and f"medial/{path.name}" not in whole:
+            print(f"include/medial/medial.h does not include {path.name}")
+            faults += 1
     for path in files:
         relative = path.relative_to(ROOT)
         if relative.parts[0] == "src" and relative.parts[1] not in LAYERS:
