@@ -1,8 +1,16 @@
 #include <algorithm>
 
+#include "axis/node_kinds.h"
 #include "medial/query.h"
 
 namespace medial {
+
+void set_node_kinds(MedialAxis& axis) {
+  std::vector<std::uint32_t> degree(axis.nodes.size(), 0);
+  for (const Edge& edge : axis.edges)
+    for (const std::uint32_t node : edge.node) ++degree[node];
+  for (std::size_t i = 0; i < degree.size(); ++i) axis.nodes[i].kind = kind_of_degree(degree[i]);
+}
 
 Incidence::Incidence(const MedialAxis& axis)
     : begin_(axis.nodes.size() + 1, 0), edges_(2 * axis.edges.size()) {

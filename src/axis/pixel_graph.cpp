@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "axis/node_kinds.h"
 #include "medial/query.h"
 
 namespace medial {
@@ -91,16 +92,6 @@ void link_pixels(const raster::Grid& grid, std::span<const MedialPixel> pixels,
     }
   }
   set_node_kinds(axis);
-}
-
-void set_node_kinds(MedialAxis& axis) {
-  std::vector<std::uint32_t> degree(axis.nodes.size(), 0);
-  for (const Edge& edge : axis.edges)
-    for (const std::uint32_t node : edge.node) ++degree[node];
-  for (std::size_t i = 0; i < degree.size(); ++i)
-    axis.nodes[i].kind = degree[i] < 2    ? NodeKind::leaf
-                         : degree[i] == 2 ? NodeKind::site_change
-                                          : NodeKind::branching;
 }
 
 }  // namespace medial

@@ -42,7 +42,4 @@ void link_pixels(const raster::Grid& grid, std::span<const MedialPixel> pixels,
 void add_link(MedialAxis& axis, std::uint32_t from, std::uint32_t to,
               std::array<std::uint32_t, 2> sites);
 
-/// Sets the kind of every node from the number of its edges. O(nodes + edges).
-void set_node_kinds(MedialAxis& axis);
-
 }  // namespace medial

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "axis/pixel_graph.h"
+#include "axis/node_kinds.h"
 
 namespace medial {
 

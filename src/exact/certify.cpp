@@ -9,6 +9,7 @@
 #include <numeric>
 #include <utility>
 
+#include "axis/node_kinds.h"
 #include "base/frame.h"
 #include "base/stopwatch.h"
 #include "exact/contact_graph.h"
@@ -474,10 +475,7 @@ class Certifier {
       axis_.edges[edges++] = edge;
     }
     axis_.edges.resize(edges);
-    for (std::uint32_t i = 0; i < kept; ++i)
-      axis_.nodes[i].kind = degree[i] <= 1   ? NodeKind::leaf
-                            : degree[i] == 2 ? NodeKind::site_change
-                                             : NodeKind::branching;
+    for (std::uint32_t i = 0; i < kept; ++i) axis_.nodes[i].kind = kind_of_degree(degree[i]);
   }
 
   const Outline& outline_;

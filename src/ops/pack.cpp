@@ -7,6 +7,7 @@
 #include <numbers>
 #include <optional>
 
+#include "axis/node_kinds.h"
 #include "base/arc.h"
 #include "ops/code_bytes.h"
 #include "ops/disk_lines.h"
@@ -216,13 +217,7 @@ class AxisDecoder {
           if (!read_line(axis, at, junctions, place, stack)) return false;
       }
     }
-    std::vector<std::uint32_t> degree(axis.nodes.size(), 0);
-    for (const Edge& edge : axis.edges)
-      for (const std::uint32_t node : edge.node) ++degree[node];
-    for (std::size_t i = 0; i < degree.size(); ++i)
-      axis.nodes[i].kind = degree[i] < 2    ? NodeKind::leaf
-                           : degree[i] == 2 ? NodeKind::site_change
-                                            : NodeKind::branching;
+    set_node_kinds(axis);
     return true;
   }
 

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "axis/curve.h"
+#include "axis/node_kinds.h"
 #include "base/arc.h"
 #include "base/numbers.h"
 #include "medial/centreline.h"
@@ -145,9 +146,7 @@ MedialAxis part_of(const MedialAxis& axis, std::span<const PathPiece> pieces) {
     part.edges.push_back(edge);
   }
   for (std::size_t i = 0; i < part.nodes.size(); ++i) {
-    part.nodes[i].kind = degree[i] == 1   ? NodeKind::leaf
-                         : degree[i] == 2 ? NodeKind::site_change
-                                          : NodeKind::branching;
+    part.nodes[i].kind = kind_of_degree(degree[i]);
   }
   return part;
 }

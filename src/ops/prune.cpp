@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "axis/curve.h"
+#include "axis/node_kinds.h"
 #include "base/numbers.h"
 #include "medial/query.h"
 #include "ops/importance.h"
@@ -208,10 +209,7 @@ MedialAxis PruneOrder::at(double threshold) const {
     for (std::uint32_t& node : edge.node) ++degree[node = index[node]];
     out.edges.push_back(edge);
   }
-  for (std::size_t i = 0; i < out.nodes.size(); ++i)
-    out.nodes[i].kind = degree[i] <= 1   ? NodeKind::leaf
-                        : degree[i] == 2 ? NodeKind::site_change
-                                         : NodeKind::branching;
+  for (std::size_t i = 0; i < out.nodes.size(); ++i) out.nodes[i].kind = kind_of_degree(degree[i]);
   return out;
 }
 

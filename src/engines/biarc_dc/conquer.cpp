@@ -7,6 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "axis/node_kinds.h"
 #include "geometry/bisector.h"
 #include "geometry/tangent_disk.h"
 
@@ -309,9 +310,7 @@ void add_curves(const Skeleton& skeleton, const Context& context, const Frame& f
   axis.nodes.reserve(skeleton.nodes.size());
   for (std::size_t i = 0; i < skeleton.nodes.size(); ++i) {
     const Disk& disk = skeleton.nodes[i];
-    const NodeKind kind = degree[i] <= 1   ? NodeKind::leaf
-                          : degree[i] == 2 ? NodeKind::site_change
-                                           : NodeKind::branching;
+    const NodeKind kind = kind_of_degree(degree[i]);
     axis.nodes.push_back(
         {{frame.to_input(disk.center), frame.inverse * disk.radius}, skeleton.component[i], kind});
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "axis/node_kinds.h"
 #include "base/box_tree.h"
 #include "base/in_flight.h"
 #include "engines/curve_axis/control.h"
@@ -276,13 +277,7 @@ class Assembly {
     axis.method = "curve-axis";
     axis.resolution = step_;
     axis.tolerance = 0;
-    std::vector<int> degree(axis.nodes.size(), 0);
-    for (const Edge& edge : axis.edges)
-      for (const std::uint32_t node : edge.node) ++degree[node];
-    for (std::size_t i = 0; i < axis.nodes.size(); ++i)
-      axis.nodes[i].kind = degree[i] == 1   ? NodeKind::leaf
-                           : degree[i] == 2 ? NodeKind::site_change
-                                            : NodeKind::branching;
+    set_node_kinds(axis);
   }
 
   const SmoothBoundary& boundary_;

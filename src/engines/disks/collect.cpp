@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "axis/node_kinds.h"
 #include "axis/sites.h"
 #include "base/memory.h"
 #include "base/numbers.h"
@@ -186,9 +187,7 @@ tbb::concurrent_vector<std::uint32_t> complete(const Boundary& boundary, const F
         for (std::size_t i = range.begin(); i < range.end(); ++i) {
           Node& node = axis.nodes[i];
           node.disk = {frame.to_input(node.disk.center), frame.inverse * node.disk.radius};
-          node.kind = degree[i] <= 1   ? NodeKind::leaf
-                      : degree[i] == 2 ? NodeKind::site_change
-                                       : NodeKind::branching;
+          node.kind = kind_of_degree(degree[i]);
         }
       });
   return doubtful;

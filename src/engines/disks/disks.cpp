@@ -12,9 +12,9 @@
 #include "engines/disks/connect.h"
 #include "engines/disks/merge_ties.h"
 #include "engines/disks/near_circle.h"
+#include "engines/disks/refusal.h"
 #include "engines/disks/walk.h"
 #include "index/boundary_tree.h"
-#include "medial/verify.h"
 
 namespace medial::disks {
 
@@ -31,8 +31,9 @@ constexpr double fine_share = 0.25, near_circle = 1 << 12;
 /// as searches among them take O(n).
 constexpr std::size_t most_arcs_in_near_circle = 1 << 14;
 
-/// In tolerances: disks that are smaller cannot always be told from rounding.
-constexpr double narrow = 16;
+bool is_cancelled(const Options& options) {
+  return options.cancel != nullptr && options.cancel->load();
+}
 
 /// Tells the caller how much of the walk is done, if he wants to know.
 std::function<void(std::uint64_t)> reporter(const Options& options, const Boundary& boundary,
@@ -41,6 +42,12 @@ std::function<void(std::uint64_t)> reporter(const Options& options, const Bounda
   return [&, all = static_cast<double>(boundary.sites.size())](std::uint64_t sites) {
     options.progress(std::min(1.0, static_cast<double>(finished += sites) / all));
   };
+}
+
+Error error_of_too_many_arcs(const Box& box) {
+  Error error{ErrorCode::unsupported, "too many arcs are of one circle but for rounding", {}};
+  error.place.point = midpoint(box.low, box.high);
+  return error;
 }
 
 /// What a walk makes of a shape.
@@ -73,21 +80,17 @@ Result<Outcome> run(const Shape& shape, const Options& options, bool two_sided,
   const double near = near_circle * walk_tolerance;
   outcome.in_centers = !two_sided && is_near_circle(boundary, local, near);
   const bool fine = !boundary.has_arcs || outcome.in_centers;
-  if (outcome.in_centers && boundary.sites.size() > most_arcs_in_near_circle) {
-    Error error{ErrorCode::unsupported, "too many arcs are of one circle but for rounding", {}};
-    error.place.point = midpoint(box.low, box.high);
-    return error;
-  }
+  if (outcome.in_centers && boundary.sites.size() > most_arcs_in_near_circle)
+    return error_of_too_many_arcs(box);
   walk_tolerance *= share ? *share : fine ? fine_share : 1;
   statistics.seconds_sites = watch.lap();
 
-  const auto cancelled = [&] { return options.cancel != nullptr && options.cancel->load(); };
   const std::vector<Cut> cuts =
       connecting_disks(shape, boundary, walk_tolerance, statistics.queries);
   if (!cuts.empty()) boundary = connect(shape, boundary, cuts);
   statistics.cuts = cuts.size();
   statistics.seconds_connect = watch.lap();
-  if (cancelled()) return outcome;
+  if (is_cancelled(options)) return outcome;
 
   auto tree = std::make_unique<index::BoundaryTree>(boundary.sites);
   statistics.seconds_tree = watch.lap();
@@ -96,7 +99,7 @@ Result<Outcome> run(const Shape& shape, const Options& options, bool two_sided,
   auto chunks = walk({boundary, cuts, *tree, walk_tolerance, radius_limit(box, frame),
                       options.cancel, reporter(options, boundary, finished)});
   statistics.seconds_walk = watch.lap();
-  if (cancelled()) return outcome;
+  if (is_cancelled(options)) return outcome;
 
   collect(chunks, cuts.size(), axis);
   merge_ties(boundary, *tree, input_tolerance, axis);
@@ -109,33 +112,14 @@ Result<Outcome> run(const Shape& shape, const Options& options, bool two_sided,
   axis.sites = sites::result_sites(shape, numbers);
   statistics.seconds_collect = watch.lap();
   statistics.seconds = all.lap();
-  const bool holds = std::all_of(loose_edges.begin(), loose_edges.end(), [&](std::uint32_t edge) {
-    return touches_its_sites(axis, axis.edges[edge], slack);
-  });
-  if (!holds)
-    return error_of_wrong_axis(
-        axis, "a disk of the axis misses a site that it should touch: please report this shape");
+  for (const std::uint32_t edge : loose_edges)
+    if (!touches_its_sites(axis, axis.edges[edge], slack))
+      return error_of_wrong_axis(
+          axis, "a disk of the axis misses a site that it should touch: please report this shape");
   return outcome;
 }
 
 }  // namespace
-
-std::optional<Error> error_if_refused(const Shape& shape, const Options& options,
-                                      const MedialAxis& axis) {
-  constexpr std::size_t most = 1 << 13;
-  VerifyOptions demands;
-  const auto samples = static_cast<int>(most / (axis.edges.size() + 1));
-  demands.samples_per_edge = std::clamp(samples, 1, demands.samples_per_edge);
-  demands.corner_angle = options.corner_angle;
-  demands.threads = options.threads;
-  const Certificate certificate = verify(shape, axis, demands);
-  if (certificate.passed) return std::nullopt;
-  Error error{ErrorCode::unsupported,
-              "rounding alone tells which of the arcs here, of almost one circle, a disk touches",
-              {}};
-  error.place.point = Vec2{certificate.worst_x, certificate.worst_y};
-  return error;
-}
 
 Result<MedialAxis> run(const Shape& shape, const Options& options, bool* in_centers) {
   std::optional<Error> error;
@@ -149,27 +133,11 @@ Result<MedialAxis> run(const Shape& shape, const Options& options, bool* in_cent
       continue;
     }
     if (in_centers != nullptr) *in_centers = outcome->in_centers;
-    const bool cancelled = options.cancel != nullptr && options.cancel->load();
-    if (!outcome->in_centers || cancelled) return std::move(outcome->axis);
+    if (!outcome->in_centers || is_cancelled(options)) return std::move(outcome->axis);
     error = error_if_refused(shape, options, outcome->axis);
     if (!error) return std::move(outcome->axis);
   }
   return std::move(*error);
-}
-
-Error error_of_wrong_axis(const MedialAxis& axis, const char* text) {
-  const Node* narrowest = nullptr;
-  for (const Node& node : axis.nodes)
-    if (node.kind != NodeKind::leaf &&
-        (narrowest == nullptr || node.disk.radius < narrowest->disk.radius))
-      narrowest = &node;
-  if (narrowest == nullptr || narrowest->disk.radius > narrow * axis.tolerance)
-    return {ErrorCode::internal, text, {}};
-  Error error{ErrorCode::unsupported,
-              "the shape is too narrow here for its sides to be told from rounding",
-              {}};
-  error.place.point = narrowest->disk.center;
-  return error;
 }
 
 MedialAxis run_two_sided(const Shape& shape, const Options& options) {

@@ -6,6 +6,7 @@
 #include <ctime>
 #include <numeric>
 
+#include "axis/node_kinds.h"
 #include "axis/pixel_graph.h"
 #include "base/frame.h"
 #include "base/stopwatch.h"

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "axis/node_kinds.h"
 #include "axis/sites.h"
 #include "base/arc.h"
 #include "base/frame.h"
@@ -395,10 +396,7 @@ void set_kinds(VoronoiDiagram& diagram) {
   for (const VoronoiEdge& edge : diagram.edges)
     for (const std::uint32_t node : edge.node)
       if (degree[node] < 3) ++degree[node];
-  for (std::size_t i = 0; i < degree.size(); ++i)
-    diagram.nodes[i].kind = degree[i] <= 1   ? NodeKind::leaf
-                            : degree[i] == 2 ? NodeKind::site_change
-                                             : NodeKind::branching;
+  for (std::size_t i = 0; i < degree.size(); ++i) diagram.nodes[i].kind = kind_of_degree(degree[i]);
 }
 
 Box far_frame(const Box& frame) {

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <cstddef>
+
+#include "medial/axis.h"
+
+namespace medial {
+
+/// The kind of a node with so many edges; the only point of an axis, which has none, is a leaf.
+constexpr NodeKind kind_of_degree(std::size_t degree) {
+  return degree <= 1 ? NodeKind::leaf : degree == 2 ? NodeKind::site_change : NodeKind::branching;
+}
+
+/// Sets the kind of every node from the number of its edges. O(nodes + edges).
+void set_node_kinds(MedialAxis& axis);
+
+}  // namespace medial
