@@ -173,9 +173,16 @@ TEST(CurveAxis, TellsTheCurvaturesOfItsBoundary) {
   EXPECT_GT(checked, 100U);
 }
 
-/// The errors of (7), on both sides along a spline's axis, whose curvature is known at the feet.
-std::vector<double> curvature_errors(const Contour& contour) {
-  std::vector<double> errors;
+/// A curvature of a boundary by (7): how far it is off the spline's, and how much of that comes
+/// from its coordinates' rounding. Both are shares of the curvature, or of 1 where that is less.
+struct CurvatureError {
+  double error = 0;
+  double rounding = 0;
+};
+
+/// Those on both sides along a spline's axis, whose curvature is known at the feet.
+std::vector<CurvatureError> curvature_errors(const Contour& contour) {
+  std::vector<CurvatureError> errors;
   const auto result = compute_curve_axis({&contour, 1});
   EXPECT_TRUE(result.ok());
   if (!result) return errors;
@@ -189,6 +196,7 @@ std::vector<double> curvature_errors(const Contour& contour) {
     const Vec2 second = 6 * (s * (p[2] - 2 * p[1] + p[0]) + t * (p[3] - 2 * p[2] + p[1]));
     return cross(first, second) / std::pow(norm(first), 3);
   };
+  test::Random random(1);
   for (const auto& points : result->branches) {
     MedialAxis one;
     one.method = "curve-axis";
@@ -203,13 +211,25 @@ std::vector<double> curvature_errors(const Contour& contour) {
     }
     const std::vector<AxisFrame> frames = frames_along(one, branch);
     EXPECT_EQ(frames.size() + 2, points.size());
-    for (std::size_t i = 0; i < frames.size(); ++i) {
+    // What moving the disks by 1e-13 changes, over what they are off by.
+    constexpr double moved = 1e-13, off = 1e-16;
+    for (Node& node : one.nodes) {
+      node.disk.center.x += random.between(-moved, moved);
+      node.disk.center.y += random.between(-moved, moved);
+      node.disk.radius += random.between(-moved, moved);
+    }
+    const std::vector<AxisFrame> others = frames_along(one, branch);
+    EXPECT_EQ(others.size(), frames.size());
+    for (std::size_t i = 0; i < std::min(frames.size(), others.size()); ++i) {
       if (std::abs(frames[i].radius_rate) > 0.95) continue;  // the feet are nearly one
       for (const Side side : {Side::left, Side::right}) {
         const double wanted =
             curvature_at(side == Side::left ? points[i + 1].left : points[i + 1].right);
         const double found = boundary_at(frames[i], side).curvature;
-        errors.push_back(std::abs(found - wanted) / std::max(1.0, std::abs(wanted)));
+        const double other = boundary_at(others[i], side).curvature;
+        const double unit = std::max(1.0, std::abs(wanted));
+        errors.push_back(
+            {std::abs(found - wanted) / unit, off / moved * std::abs(found - other) / unit});
       }
     }
   }
@@ -217,16 +237,22 @@ std::vector<double> curvature_errors(const Contour& contour) {
 }
 
 TEST(CurveAxis, TellsTheCurvaturesOfSplines) {
-  std::vector<double> errors;
-  for (const std::uint64_t seed : {2U, 3U, 4U, 6U, 7U, 8U}) {
-    const std::vector<double> some = curvature_errors(smooth_star(seed));
+  std::vector<CurvatureError> errors;
+  for (const std::uint64_t seed : {2U, 3U, 4U, 6U, 7U, 8U, 19U}) {
+    const std::vector<CurvatureError> some = curvature_errors(smooth_star(seed));
     errors.insert(errors.end(), some.begin(), some.end());
   }
   ASSERT_GT(errors.size(), 20000U);
-  std::sort(errors.begin(), errors.end());
-  // The rest lies where a foot is nearly in its centre of curvature, see docs/curve-axis.md.
-  EXPECT_LE(errors[errors.size() * 98 / 100], 1e-6);
-  EXPECT_LE(errors[errors.size() * 9 / 10], 1e-8);
+  std::sort(errors.begin(), errors.end(),
+            [](const CurvatureError& a, const CurvatureError& b) { return a.error < b.error; });
+  EXPECT_LE(errors[errors.size() * 99 / 100].error, 1e-6);
+  EXPECT_LE(errors[errors.size() * 9 / 10].error, 1e-8);
+  // The rest is what rounding makes of it where a foot is nearly in its centre of curvature, but
+  // for a few beside a spline's knots; see docs/curve-axis.md.
+  const auto unexplained = std::count_if(errors.begin(), errors.end(), [](const CurvatureError& e) {
+    return e.error > 1e-6 && e.error > 30 * e.rounding;
+  });
+  EXPECT_LE(static_cast<double>(unexplained), 0.001 * static_cast<double>(errors.size()));
 }
 
 TEST(CurveAxis, RefusesWhatItCannotFollow) {

@@ -102,13 +102,14 @@ double roughness(std::span<const Disk* const> disks) {
   return std::hypot(values[0][0], values[0][1], values[0][2]);
 }
 
-/// How much a run's roughness weighs at its disk `at`: the product of the ways from there to the
-/// others, the factor of the error of polynomials, least in the middle.
+/// How much a run's roughness weighs at its disk `at`: between the product of the ways from there
+/// to the others, the factor of the error of polynomials, least in the middle, and nothing, because
+/// of jumps that product tells too little in the middle.
 double weight_at(std::span<const Disk* const> disks, std::size_t at) {
   double product = 1;
   for (std::size_t k = 0; k < disks.size(); ++k)
     if (k != at) product *= distance(disks[k]->center, disks[at]->center);
-  return product;
+  return std::sqrt(product);
 }
 
 /// The frames at the inner nodes of a branch whose nodes are exact, from seven nodes each: those

@@ -1,6 +1,7 @@
 #include "medial/curve_axis.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -35,6 +36,12 @@ constexpr double longest_step = 1.5;
 /// So do points between which the boundary turns by more, in radians: next to tips the axis's own
 /// scale is the way to the tip.
 constexpr double largest_turn_between = 0.0125;
+/// So do points between which the axis's second derivatives are this share of themselves off a
+/// straight line: differences of seven points are to tell the curvatures of the boundary.
+constexpr double bend_between = 1e-4;
+/// But none where those differences lose more to rounding of the disks, a share of the size, than
+/// they gain.
+constexpr double rounding = 3e-16;
 /// Points much nearer to each other than their neighbours add rounding to differences, little else.
 constexpr double shortest_step = 0.25;
 /// The least number of ways between points on a smooth run: frames_along() takes seven points.
@@ -58,6 +65,29 @@ double distance_to_quadratic(const AxisPoint& a, const AxisPoint& b, const Disk&
   const Vec2 center = u * u * a.disk.center + two * control.center + t * t * b.disk.center;
   const double radius = u * u * a.disk.radius + two * control.radius + t * t * b.disk.radius;
   return std::max(distance(center, between.center), std::abs(radius - between.radius));
+}
+
+/// R_aa + K_A s and R_aa - K_A s: (7) for the left and for the right foot, solved for them. Nothing
+/// that is a number in a tip.
+std::array<double, 2> bends_of(const AxisPoint& p) {
+  const double square = (1 - p.radius_rate) * (1 + p.radius_rate), radius = p.disk.radius;
+  return {-p.left.curvature * square / (1 - p.left.curvature * radius),
+          -p.right.curvature * square / (1 - p.right.curvature * radius)};
+}
+
+/// Whether second derivatives change too much from a to b for differences of seven points to tell
+/// them, and nearer points would help; `between` lies about in the middle. Those differences are
+/// off by `rounding` / h^2 for points h apart, and where a foot comes near to its centre of
+/// curvature and second derivatives grow as d^(-1/2), at the distance d to there, by about 350 x^3
+/// of them, with x their share that the middle is off the straight line between a and b.
+bool bends_unevenly(const AxisPoint& a, const AxisPoint& b, const AxisPoint& between, double size) {
+  const auto at_a = bends_of(a), at_b = bends_of(b), here = bends_of(between);
+  const double most = std::max({std::abs(here[0]), std::abs(here[1]), 1 / size});
+  double x = 0;
+  for (const std::size_t side : {0U, 1U})
+    x = std::max(x, std::abs(here[side] - 0.5 * (at_a[side] + at_b[side])) / most);
+  const double h = 0.5 * distance(a.disk.center, b.disk.center);
+  return x > bend_between && 350 * x * x * x * most * h * h > rounding * size;
 }
 
 /// The segments' branches as a graph and as lists of points.
@@ -108,6 +138,8 @@ class Assembly {
     std::vector<AxisPoint> points;
     for (const AxisPoint& point : from.branch)
       if (!(point.disk.center == end.disk.center)) points.push_back(point);
+    while (points.size() > 1 && is_close(points[points.size() - 2], points.back(), end))
+      points.pop_back();
     points.push_back(end);
     points = refined(points);
     std::vector<CurveAxisPoint> list;
@@ -132,6 +164,12 @@ class Assembly {
     const AxisPoint& junction = from.branch.front();
     waiting_.push_back({from.first_child, first, seen_between(junction, false, from.middle)});
     waiting_.push_back({from.second_child, first, seen_between(junction, true, from.middle)});
+  }
+
+  /// Whether the way from b to c is but a rest of a step, as that from a to b.
+  static bool is_close(const AxisPoint& a, const AxisPoint& b, const AxisPoint& c) {
+    return distance(b.disk.center, c.disk.center) <
+           shortest_step * distance(a.disk.center, b.disk.center);
   }
 
   /// A branch with more points, where the generation's are too few for quadratics between them, and
@@ -217,7 +255,7 @@ class Assembly {
     const bool is_short = distance(a.disk.center, b.disk.center) <= longest_step * step_ &&
                           std::abs(cross(a.left.tangent, b.left.tangent)) <= largest_turn_between &&
                           std::abs(cross(a.right.tangent, b.right.tangent)) <= largest_turn_between;
-    if (done >= wanted && is_short &&
+    if (done >= wanted && is_short && !bends_unevenly(a, b, *middle, boundary_.size()) &&
         distance_to_quadratic(a, b, middle->disk) <= between_points * boundary_.size())
       return;
     halve(a, *middle, done + 1, wanted, out);

@@ -10,7 +10,7 @@ namespace {
 
 constexpr int most_rounds = 30;
 /// Corrections below this share of the boundary's size are rounding.
-constexpr double converged = 1e-14;
+constexpr double converged = 1e-15;
 /// Close to a tip (14) is flat: rounding moves the feet by more. Corrections below this share that
 /// shrink no further have come as near as they can.
 constexpr double nearly_converged = 1e-8;
