@@ -363,6 +363,28 @@ TEST(ArcClosedForm, ManyArcsAroundOneNode) {
 
 // Arcs of huge radius are as good as straight.
 
+/// The two corners of a pocket's mouth and the nearly straight wall opposite: the disk that touches
+/// all three is where it would be beside a straight wall, but for the wall's sag, at every radius
+/// of the wall.
+TEST(ArcClosedForm, TwoVerticesOppositeToAnArcOfHugeRadius) {
+  for (const double bulge : {1e-5, 1e-7, 3e-8, 1e-8, 1e-9, 1e-10, 1e-12}) {
+    SCOPED_TRACE(bulge);
+    Ring ring{
+        {{0, -3}, {3, -3}, {3, 1}, {5, 1}, {5, 2}, {3, 2}, {3, 6}, {0, 6}}, RingRole::any, {}};
+    ring.bulges.assign(ring.points.size(), 0);
+    ring.bulges[7] = bulge;  // the side at x = 0
+    const auto shape = build_shape(Rings{ring});
+    ASSERT_TRUE(shape);
+    const auto axis = compute(*shape, {.threads = 1});
+    ASSERT_TRUE(axis) << to_string(axis.error());
+    const Certificate certificate = verify(*shape, *axis, {.threads = 1});
+    EXPECT_TRUE(certificate.passed) << certificate.failures.front();
+    // x = r, and (3 - r)^2 + 1/4 = r^2.
+    EXPECT_NEAR(AxisLocator(*axis).nearest({9.25 / 6, 1.5}).distance, 0, 8 * bulge + 1e-14);
+    EXPECT_EQ(axis->statistics.brackets, 0);
+  }
+}
+
 TEST(ArcClosedForm, NearlyStraightEdges) {
   const auto straight_shape = build_shape(rectangle(5, 3));
   ASSERT_TRUE(straight_shape);

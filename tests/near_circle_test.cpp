@@ -152,6 +152,20 @@ TEST(BarWithEndsOfArcs, OffBySomeTolerancesIsVerifiedOrUnsupported) {
   EXPECT_LE(errors, 1 + count / 50);
 }
 
+/// The walk begins where a bar's straight side begins, in the centre of these arcs, and they lie
+/// behind it.
+TEST(BarWithEndsOfArcs, WhereTheWalkBeginsIsVerifiedOrUnsupported) {
+  Ring ring;
+  ring.points = {{-0.96966539587239797, -0.33571651744046893},
+                 {1.0188714576936357, -0.12189139728453782},
+                 {0.96966539587239808, 0.33571651744046882},
+                 {0.60285231976218923, 1.0074565004855984},
+                 {-1.0188714576936357, 0.12189139728453796}};
+  ring.bulges = {1, 0, 0.19891236737987572, 0.66817863791929888, 0};
+  std::uint64_t errors = 0;
+  expect_verified_or_unsupported(ring, 1597, errors);
+}
+
 /// An arc so short that its own curvature means nothing belongs to the circle around it.
 TEST(CircleOfArcs, WithASliverIsACircle) {
   Ring ring;

@@ -298,7 +298,10 @@ Solutions<Real> three_carriers(std::array<const Carrier<Real>*, 3> carriers) {
         return about_center<Real>(*carriers[i], {carriers[j], carriers[3 - i - j]});
   std::size_t first_arc = 0;
   while (carriers[first_arc]->vertex) ++first_arc;
-  if (carriers[first_arc]->round > Real(0)) {
+  // A disk in the shape may be nearly the arc's own circle only if that is no larger than the
+  // frame. Seen from the centre of a larger one, near places lose their digits, and all seem to
+  // touch it.
+  if (Real(2) * carriers[first_arc]->round > carriers[first_arc]->flat) {
     const auto &arc = *carriers[first_arc], &b = *carriers[(first_arc + 1) % 3],
                &c = *carriers[(first_arc + 2) % 3];
     const Circle<Real> own(arc);

@@ -18,14 +18,12 @@ bool is_own_circle(const Site& site, const Disk& disk, double slack) {
          is_on_disk(site.point) && is_on_disk(site.end());
 }
 
-/// Whether the sites strictly between two others, few, are arcs of several edges of the input.
-bool are_several_edges(const Boundary& boundary, const Edge& edge) {
-  constexpr std::uint32_t most = 64;
-  const auto [left, right] = edge.site;
-  if (!(right + 2 < left && left - right <= most)) return false;
-  for (std::uint32_t i = right + 2; i < left; ++i)
-    if (boundary.originals[i] != boundary.originals[right + 1]) return true;
-  return false;
+/// Whether an edge's end is the own circle of arcs of several edges of the input, which the axis
+/// goes no further into: the sites from one to another one.
+bool ends_in_several_arcs(const Boundary& boundary, std::uint32_t first, std::uint32_t last,
+                          const Disk& end, double slack) {
+  return boundary.originals[first] != boundary.originals[last] &&
+         is_own_circle(boundary.sites[first], end, slack);
 }
 
 }  // namespace
@@ -50,7 +48,13 @@ bool is_in_centers(const Boundary& boundary, const MedialAxis& axis, double slac
       if (is_own_circle(boundary.sites[i], to, slack) &&
           is_own_circle(boundary.sites[i], from, slack))
         return true;
-    return are_several_edges(boundary, edge) && is_own_circle(boundary.sites[right + 1], to, slack);
+    // The walk leads from where the run's ends are into the range between the two sites.
+    const Boundary::Run& run =
+        *std::ranges::lower_bound(boundary.runs, left, {}, &Boundary::Run::last);
+    const std::uint32_t behind = left < run.last ? left + 1 : run.first,
+                        before = right > run.first ? right - 1 : run.last;
+    return (right + 1 < left && ends_in_several_arcs(boundary, right + 1, left - 1, to, slack)) ||
+           (behind != right && ends_in_several_arcs(boundary, behind, before, from, slack));
   });
 }
 
