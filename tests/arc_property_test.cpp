@@ -9,6 +9,7 @@
 #include <functional>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -127,6 +128,53 @@ std::vector<std::string> check_against_flattened(const RandomShape& random) {
 
 TEST_P(ArcShapes, AgreeWithTheirFlattening) {
   for_all(shape_count(100, arc_shares), check_against_flattened);
+}
+
+/// Splines with holes, at tolerances from 1e-2 to 1e-8 of the size: every axis is verified, and its
+/// leaves are as many at each, as they are the curves' own.
+TEST(RandomSplines, AreVerifiedAndKeepTheirLeaves) {
+  const std::uint64_t count = shape_count(2000), base = first_seed();
+  for (std::uint64_t i = 0; i < count; ++i) {
+    SCOPED_TRACE(base + i);
+    const std::vector<Contour> contours = random_splines(base + i);
+    std::optional<std::ptrdiff_t> leaves;
+    double deepest = 0, fine_error = 0;
+    for (const double tolerance : {1e-8, 1e-6, 1e-4, 1e-2}) {
+      SCOPED_TRACE(tolerance);
+      ArcReport report;
+      const auto rings =
+          approximate_by_arcs(contours, {.tolerance = tolerance, .threads = 1}, &report);
+      ASSERT_TRUE(rings) << to_string(rings.error());
+      EXPECT_LE(report.largest_error, report.tolerance);
+      const auto shape = build_shape(*rings);
+      ASSERT_TRUE(shape) << to_string(shape.error());
+      EXPECT_EQ(shape->hole_count(), contours.size() - 1);
+      const auto axis = compute(*shape, {.threads = 1});
+      ASSERT_TRUE(axis) << to_string(axis.error());
+      EXPECT_EQ(joined(verify(*shape, *axis, {.threads = 1})), "");
+      EXPECT_EQ(axis->edges.size() + 1, axis->nodes.size() + shape->hole_count());
+      const auto now = std::ranges::count(axis->nodes, NodeKind::leaf, &Node::kind);
+      const double radius = deepest_disk(*axis).radius;
+      if (!leaves) {
+        leaves = now;
+        deepest = radius;
+        fine_error = report.largest_error;
+      }
+      EXPECT_EQ(now, *leaves);
+      // What is within a distance of the curve changes no distance to it by more.
+      EXPECT_NEAR(radius, deepest, report.largest_error + fine_error + 1e-14);
+    }
+  }
+}
+
+TEST(RandomSplines, KeepTheirAxisUnderSymmetries) {
+  const std::uint64_t count = shape_count(2000), base = first_seed();
+  for (std::uint64_t i = 0; i < count; ++i) {
+    const auto rings = approximate_by_arcs(random_splines(base + i), {.threads = 1});
+    ASSERT_TRUE(rings) << to_string(rings.error());
+    EXPECT_EQ(check_symmetries({"splines", *rings, true}), std::vector<std::string>{}) << base + i;
+    EXPECT_EQ(check_threads(*rings), std::vector<std::string>{}) << base + i;
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Random, ArcShapes, testing::Range<std::uint64_t>(0, arc_shares));

@@ -3,11 +3,11 @@
 //
 //   medial_glyphs [--every N] [--save DIR] PATH...
 //
-// PATH is a font (every character it has is a case), an .svg or .dxf drawing (every feature is), or
-// a folder of both. --every N takes each N-th glyph only. --save writes the rings of what fails and
-// of what is refused (lines `x y bulge` at full precision). Exit status: 0; 1 where a case failed;
-// 2 for a wrong call; 77 (what ctest takes for a skipped test) where there is no font and no
-// drawing.
+// PATH is a font (every character it has is a case), an .svg or .dxf drawing, packed or not (every
+// feature is), or a folder of both. --every N takes each N-th glyph only. --save writes the rings
+// of what fails and of what is refused (lines `x y bulge` at full precision). Exit status: 0; 1
+// where a case failed; 2 for a wrong call; 77 (what ctest takes for a skipped test) where there is
+// no font and no drawing.
 
 #include <ft2build.h>
 
@@ -51,7 +51,10 @@ bool has_extension(const fs::path& path, std::initializer_list<const char*> exte
                      [&](const char* extension) { return path.extension() == extension; });
 }
 bool is_font(const fs::path& path) { return has_extension(path, {".ttf", ".otf", ".ttc", ".pfb"}); }
-bool is_drawing(const fs::path& path) { return has_extension(path, {".svg", ".dxf"}); }
+bool is_drawing(const fs::path& path) {
+  const bool packed = path.extension() == ".gz";
+  return has_extension(packed ? path.stem() : path, {".svg", ".svgz", ".dxf", ".DXF"});
+}
 
 std::string utf8(unsigned long code) {
   const auto tail = [&](int shift) { return static_cast<char>(0x80 | ((code >> shift) & 0x3F)); };

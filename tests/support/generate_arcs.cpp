@@ -333,4 +333,34 @@ RandomShape random_arc_shape(std::uint64_t seed) {
   }
 }
 
+namespace {
+
+Contour closed_spline(Random& random, Vec2 center, double radius) {
+  const auto degree = static_cast<std::size_t>(random.integer(2, 5));
+  const auto n = static_cast<std::size_t>(random.integer(10, 30));
+  std::vector<Vec2> control;
+  for (std::size_t i = 0; i < n; ++i)
+    control.push_back(center + at_angle(2 * pi * static_cast<double>(i) / static_cast<double>(n),
+                                        radius * random.between(0.7, 1.3)));
+  for (std::size_t i = 0; i < degree; ++i) control.push_back(control[i]);
+  std::vector<double> knots(control.size() + degree + 1);
+  for (std::size_t i = 0; i < knots.size(); ++i) knots[i] = static_cast<double>(i);
+  Contour contour;
+  if (!contour.spline_to(static_cast<std::uint32_t>(degree), knots, control)) return {};
+  return contour;
+}
+
+}  // namespace
+
+std::vector<Contour> random_splines(std::uint64_t seed) {
+  Random random(seed * 2 + 1);
+  std::vector<Contour> contours{closed_spline(random, {0, 0}, 1)};
+  const auto holes = static_cast<int>(random.integer(0, 4));
+  const double turn = random.between(0, pi);
+  for (int i = 0; i < holes; ++i)
+    contours.push_back(
+        closed_spline(random, at_angle(turn + 0.5 * pi * i, 0.3), random.between(0.02, 0.1)));
+  return contours;
+}
+
 }  // namespace medial::test

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "medial/contour.h"
 #include "support/generate.h"
 
 namespace medial::test {
@@ -40,5 +41,9 @@ Rings circle_grid(std::size_t k, double radius);
 
 /// A random shape with arcs of any of the kinds above, some with contacts; one seed, one shape.
 RandomShape random_arc_shape(std::uint64_t seed);
+
+/// A smooth closed B-spline of degree 2 to 5 with up to four such holes; one seed, one shape. No
+/// two curves meet.
+std::vector<Contour> random_splines(std::uint64_t seed);
 
 }  // namespace medial::test
