@@ -10,6 +10,13 @@
 
 namespace medial::test {
 
+/// Whether sanitizers watch: what takes a second otherwise may take twenty then.
+#ifdef __SANITIZE_ADDRESS__
+inline constexpr bool sanitized = true;
+#else
+inline constexpr bool sanitized = false;
+#endif
+
 /// A number from the environment.
 inline std::uint64_t number_from(const char* name, std::uint64_t otherwise) {
   const char* text = std::getenv(name);
