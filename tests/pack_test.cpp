@@ -10,6 +10,7 @@
 #include "medial/compute.h"
 #include "medial/query.h"
 #include "medial/rebuild.h"
+#include "support/computed.h"
 #include "support/random_shapes.h"
 
 namespace medial {
@@ -116,6 +117,42 @@ TEST(Pack, ComesBackWithinTheBound) {
     if (testing::Test::HasFailure()) return;
   }
   EXPECT_GT(checked, pack_count / 2);
+}
+
+/// Turned, scaled, mirrored, reversed and re-started: about as many disks (the grid that
+/// they are rounded to decides some), and a shape within the error.
+TEST(Pack, DoesNotDependOnHowTheShapeIsWritten) {
+  std::uint64_t checked = 0;
+  for (std::uint64_t seed = 0; seed < pack_count / 4; ++seed) {
+    const RandomShape random = test::random_any(seed);
+    if (!random.rigid) continue;
+    const double size = diagonal(bounding_box(test::shape_of(random.rings)));
+    double disks = 0;  // of the first, the identity
+    for (std::size_t i = 0; i < test::symmetries().size(); ++i) {
+      const test::Symmetry& symmetry = test::symmetries()[i];
+      // Far from the origin the shape is another one: its coordinates are rounded.
+      if (norm({symmetry.dx, symmetry.dy}) > 1e4 * symmetry.scale() * size) continue;
+      SCOPED_TRACE(random.kind + " " + std::to_string(seed) + " " + symmetry.name);
+      const auto [shape, axis] = test::computed(test::symmetric(random.rings, i));
+      const double error = 3e-3 * symmetry.scale() * size;
+      PackReport report;
+      const auto code = encode_axes({&axis, 1}, {error}, &report);
+      ASSERT_TRUE(code.ok());
+      const auto found = static_cast<double>(report.disks);
+      if (i == 0) disks = found;
+      const bool written_anew = symmetry.name == "reversed" || symmetry.name == "re-started";
+      EXPECT_NEAR(found, disks, 1 + (written_anew ? 0.02 : 0.2) * disks);
+      const auto back = decode_axes(*code);
+      ASSERT_TRUE(back.ok());
+      const auto rebuilt = rebuild(back->front());
+      ASSERT_TRUE(rebuilt.ok());
+      for (std::size_t k = 0; k < rebuilt->points.size(); k += 1 + rebuilt->points.size() / 25)
+        EXPECT_LE(std::abs(clearance(shape, rebuilt->points[k])), error * (1 + 1e-6));
+      ++checked;
+    }
+    if (testing::Test::HasFailure()) return;
+  }
+  EXPECT_GT(checked, 0U);
 }
 
 TEST(Pack, OfARectangleIsSixDisks) {
