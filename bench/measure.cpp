@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <fstream>
+#include <thread>
 #include <type_traits>
 #include <vector>
 
@@ -110,6 +111,7 @@ std::optional<MedialFigures> figures_of_medial(const std::vector<Ring>& rings, M
   std::vector<double> one;
   std::vector<double> one_wall;
   std::vector<double> two_wall;
+  std::vector<double> copies_wall;
   for (int round = 0; round < rounds; ++round) {
     double start = processor_seconds();
     const auto built = build_shape(rings);
@@ -146,11 +148,18 @@ std::optional<MedialFigures> figures_of_medial(const std::vector<Ring>& rings, M
       why = to_string(axis.error());
       return std::nullopt;
     }
+    const auto copy = [&] { static_cast<void>(compute(*built, {.method = method, .threads = 1})); };
+    wall = wall_seconds();
+    std::thread other(copy);
+    copy();
+    other.join();
+    copies_wall.push_back(wall_seconds() - wall);
   }
   figures.shape_seconds = median(shape);
   figures.seconds = median(one);
   figures.one_thread_wall = median(one_wall);
   figures.two_threads_wall = median(two_wall);
+  figures.two_copies_wall = median(copies_wall);
   return figures;
 }
 

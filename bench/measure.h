@@ -22,7 +22,8 @@ struct MedialFigures {
   double seconds = 0;          ///< compute() on one thread, processor time
   double one_thread_wall = 0;  ///< the same by the clock on the wall
   double two_threads_wall = 0;
-  double peak_bytes = 0;  ///< of build_shape() and compute(), above the input
+  double two_copies_wall = 0;  ///< two runs on one thread each, at once: what the machine allows
+  double peak_bytes = 0;       ///< of build_shape() and compute(), above the input
   double queries_per_site = 0;
   double precision_retries = 0;
   double largest_residual = 0;  ///< relative to the diagonal
