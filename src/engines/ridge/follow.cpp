@@ -60,7 +60,10 @@ Follower::Follower(const Outline& outline, const LocalGrid& local, const BitMap&
 
 std::uint32_t Follower::label(Pixel p, std::uint32_t hint) {
   std::uint32_t& known = label_[p];
-  if (known == no_edge) known = search_.nearest(local_.grid.center(p), hint).edge;
+  if (known == no_edge) {
+    const Vec2 c = local_.grid.center(p);
+    known = outline_.seen_edge({search_.nearest(c, hint).edge, c});
+  }
   return known;
 }
 

@@ -18,7 +18,8 @@ bool NearestEdges::is_another(Vec2 c, Near first, std::uint32_t edge, RidgeRule 
   if (edge == first.edge) return false;
   if (rule == RidgeRule::crossing)
     return !outline_.are_one({first.edge, c}, {edge, c}, first.distance);
-  if (outline_.meet_concavely(first.edge, edge)) return false;
+  const std::uint32_t seen = outline_.seen_edge({edge, c});
+  if (seen == first.edge || outline_.meet_concavely(first.edge, seen)) return false;
   // Section V.B.1, for two edges of one curve only: with the text as it stands a lens, whose two
   // arcs have radii larger than any disk in it, would have no axis at all.
   const double least = std::min(outline_.radius[first.edge], outline_.radius[edge]);

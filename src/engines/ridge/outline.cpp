@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 
 #include "axis/sites.h"
 #include "base/arc.h"
@@ -120,6 +121,28 @@ void fill_least_radius(Outline& outline) {
   }
 }
 
+/// Finds the vertices in which rings touch. O(edges log edges).
+void fill_arriving(Outline& outline) {
+  const auto start = [&](std::uint32_t e) { return outline.edges[e].point; };
+  std::vector<std::uint32_t> order(outline.edges.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::sort(order.begin(), order.end(), [&](std::uint32_t e, std::uint32_t f) {
+    const Vec2 a = start(e), b = start(f);
+    if (a.x != b.x) return a.x < b.x;
+    return a.y != b.y ? a.y < b.y : e < f;
+  });
+  const auto touch = [&](std::uint32_t e, std::uint32_t f) { return start(e) == start(f); };
+  if (std::adjacent_find(order.begin(), order.end(), touch) == order.end()) return;
+  std::vector<std::uint32_t> before(order.size());
+  for (std::uint32_t e = 0; e < before.size(); ++e) before[outline.next[e]] = e;
+  outline.arriving = before;
+  for (std::size_t i = 0, end = 0; i < order.size(); i = end) {
+    for (end = i + 1; end < order.size() && touch(order[i], order[end]);) ++end;
+    for (std::size_t k = i; k < end; ++k)
+      outline.arriving[order[k]] = before[order[k + 1 < end ? k + 1 : i]];
+  }
+}
+
 /// Appends a loop. Joints between edges that were combined are told by the edges' own directions.
 void add_loop(std::vector<Vertex> loop, std::uint32_t component, Outline& outline) {
   const std::size_t n = loop.size();
@@ -224,8 +247,28 @@ bool Outline::touch_one_vertex(const Touch& a, const Touch& b) const {
   return of_b != nullptr && *of_a == *of_b;
 }
 
+std::uint32_t Outline::seen_edge(const Touch& touch) const {
+  if (arriving.empty()) return touch.edge;
+  const double at = geometry::foot_parameter(edges[touch.edge], touch.center);
+  if (at > 0 && at < edges[touch.edge].length) return touch.edge;
+  const std::uint32_t start = at <= 0 ? touch.edge : next[touch.edge];
+  if (next[arriving[start]] == start) return touch.edge;
+  const Vec2 to = touch.center - edges[start].point;
+  // The interior lies, to the left, between the way on and the way back.
+  const auto lies_between = [&](std::uint32_t before, std::uint32_t after) {
+    const Vec2 on = edges[after].direction, back = left_of(edges[before].end_normal());
+    const bool left_of_on = cross(on, to) >= 0, right_of_back = cross(to, back) >= 0;
+    return cross(on, back) > 0 ? left_of_on && right_of_back : left_of_on || right_of_back;
+  };
+  std::uint32_t before = arriving[start];
+  while (next[before] != start && !lies_between(before, next[before])) before = arriving[next[before]];
+  const std::uint32_t after = next[before];
+  return touch.edge == before || touch.edge == after ? touch.edge : std::min(before, after);
+}
+
 bool Outline::are_one(const Touch& a, const Touch& b, double disk) const {
-  return lie_on_one_curve(a, b, disk) || touch_one_vertex(a, b);
+  const Touch of_a{seen_edge(a), a.center}, of_b{seen_edge(b), b.center};
+  return lie_on_one_curve(of_a, of_b, disk) || touch_one_vertex(of_a, of_b);
 }
 
 bool Outline::lie_on_one_curve(const Touch& a, const Touch& b, double disk) const {
@@ -283,6 +326,7 @@ Outline outline_of(const Shape& shape, const Frame& frame, double step, const Op
     add_loop(std::move(vertices), shape.component[l], outline);
   }
   fill_least_radius(outline);
+  fill_arriving(outline);
   return outline;
 }
 

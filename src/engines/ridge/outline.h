@@ -55,7 +55,13 @@ struct Outline {
   /// than it and turns by less than half of it does not come back to it.
   bool lie_on_one_curve(const Touch& a, const Touch& b, double disk) const;
   bool touch_one_vertex(const Touch& a, const Touch& b) const;
+  /// The edge that a disk around the center touches. Where rings touch in a vertex, all edges there
+  /// are equally far: it is one of the two between which the center lies.
+  std::uint32_t seen_edge(const Touch& touch) const;
 
+  /// Of each edge: an edge that arrives where it starts, the one before it unless rings touch there;
+  /// then those that leave and arrive form a ring. Empty where no rings touch.
+  std::vector<std::uint32_t> arriving;
   std::vector<std::uint32_t> chain_begin;  ///< of each chain: its first edge
   std::vector<std::uint32_t> chain;        ///< of each edge
   /// How far the chain has turned to the left before each edge and at its end; and to the right.
