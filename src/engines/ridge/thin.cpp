@@ -62,7 +62,7 @@ std::uint8_t ring(const BitMap& map, Pixel p) {
 /// pixel that had to stay is not asked again.
 template <class MayGo>
 void thin(const BitMap& boundary, MedialMap& map, const std::vector<Candidate>& order,
-          MayGo may_go) {
+          bool at_once, MayGo may_go) {
   using Ranks = std::priority_queue<std::uint32_t, std::vector<std::uint32_t>, std::greater<>>;
   constexpr std::uint32_t unranked = ~std::uint32_t{0};
   std::vector<std::uint32_t> rank(map.found.size(), unranked);
@@ -81,17 +81,23 @@ void thin(const BitMap& boundary, MedialMap& map, const std::vector<Candidate>& 
         const std::uint32_t other = rank[map.place.at({p.column + bit - 2, row}) - 1];
         if (other == unranked || waits[other]) continue;
         waits[other] = true;
-        (other > i ? now : later).push(other);
+        (other > i || at_once ? now : later).push(other);
       }
   };
-  for (std::uint32_t i = 0; i < order.size(); ++i) ask(i);
-  while (!later.empty()) {
-    std::swap(now, later);
+  const auto ask_again = [&] {
     while (!now.empty()) {
       const std::uint32_t i = now.top();
       now.pop();
       if (map.medial.at(order[i].pixel)) ask(i);
     }
+  };
+  for (std::uint32_t i = 0; i < order.size(); ++i) {
+    ask(i);
+    if (at_once) ask_again();
+  }
+  while (!later.empty()) {
+    std::swap(now, later);
+    ask_again();
   }
 }
 
@@ -133,7 +139,7 @@ bool is_simple(const BitMap& medial, const BitMap& boundary, Pixel p) {
 }
 
 void thin_by_report(const BitMap& boundary, MedialMap& map) {
-  thin(boundary, map, candidates_in_rows(map), [&](const Candidate& candidate) {
+  thin(boundary, map, candidates_in_rows(map), false, [&](const Candidate& candidate) {
     for (int direction = 0; direction < 8; ++direction) {
       const Pixel q = neighbour(candidate.pixel, direction);
       if (map.medial.at(q) && !crosses_contour(boundary, candidate.pixel, direction) &&
@@ -150,7 +156,7 @@ void thin_to_lines(const BitMap& boundary, double step, MedialMap& map) {
     if (found.quality <= step) passed.set(found.pixel);
   std::vector<Candidate> order = candidates_in_rows(map);
   std::sort(order.begin(), order.end(), is_worse);
-  thin(boundary, map, order,
+  thin(boundary, map, order, true,
        [&](const Candidate& candidate) { return stays_near(passed, map.medial, candidate.pixel); });
 }
 
