@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -203,20 +204,54 @@ TEST(Ridge, PixelsLieAtTheExactAxisAndMissNoBranch) {
   }
 }
 
+TEST(Ridge, WhereRingsTouchNoSpurLeadsToTheAxis) {
+  // At the vertex that two holes share their four edges are equally near.
+  const std::vector<Rings> all{
+      {ring_of({{0, 0}, {20, 0}, {20, 25}, {0, 25}}), ring_of({{3, 3}, {5, 12}, {9, 10}}),
+       ring_of({{9, 21}, {5, 12}, {7, 22}})},
+      {ring_of({{0, 0}, {30, 0}, {30, 30}, {0, 30}}), ring_of({{6, 10}, {0, 0}, {14, 8}}),
+       ring_of({{16, 16}, {14, 8}, {20, 14}}), ring_of({{22, 22}, {20, 14}, {27, 20}})}};
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const Shape shape = build_shape(all[i]).value();
+    const MedialAxis exact = compute(shape).value();
+    for (const RidgeRule rule : {RidgeRule::crossing, RidgeRule::difference}) {
+      Options options = ridge_options(256);
+      options.ridge_rule = rule;
+      const MedialAxis sampled = ridge_axis(shape, options);
+      const Comparison found = compare(sampled, exact, 3);
+      // The report's rule takes feet behind a thin wall for others.
+      if (rule == RidgeRule::crossing) {
+        EXPECT_LE(found.farthest_pixel, farthest_allowed)
+            << i << ": " << found.pixel.x << " " << found.pixel.y;
+      }
+      EXPECT_LE(found.farthest_point, 2) << i << ": " << found.point.x << " " << found.point.y;
+      const Certificate certificate = verify(shape, sampled);
+      EXPECT_TRUE(certificate.passed) << i << ", rule " << int(rule);
+    }
+  }
+}
+
 TEST(Ridge, NoExactPointIsFarFromALine) {
   // A point of the axis lies in a square with a corner that is medial before thinning, and that
   // stays or has a neighbour that stays.
   constexpr double farthest = 2 * std::numbers::sqrt2;
   // Pixels that lead to a neck lie in the squares between the axis and the neck.
   constexpr double farthest_of_necks = 2;
-  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+  // Where branches run side by side, a filled pixel between them may be a little farther than one.
+  constexpr double farthest_of_gaps = 1.05;
+  std::vector<std::uint64_t> seeds(45);
+  std::iota(seeds.begin(), seeds.end(), 0u);
+  seeds.insert(seeds.end(), {162, 262, 295});  // filled pixels stayed here, up to 1.27 away
+  for (const std::uint64_t seed : seeds) {
     const RandomShape random = random_shape(seed);
     const auto shape = build_shape(random.rings);
     if (!shape) continue;
-    const MedialAxis sampled = ridge_axis(*shape, ridge_options(111));
+    ridge::Report report;
+    const MedialAxis sampled = ridge::run(*shape, ridge_options(111), &report);
     const Comparison found = compare(sampled, compute(*shape).value(), 3);
     EXPECT_LE(found.farthest_point, farthest) << random.kind << ", seed " << seed;
-    EXPECT_LE(found.farthest_pixel, farthest_of_necks) << random.kind << ", seed " << seed;
+    EXPECT_LE(found.farthest_pixel, report.gates > 0 ? farthest_of_necks : farthest_of_gaps)
+        << random.kind << ", seed " << seed;
   }
 }
 

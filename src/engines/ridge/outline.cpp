@@ -261,7 +261,8 @@ std::uint32_t Outline::seen_edge(const Touch& touch) const {
     return cross(on, back) > 0 ? left_of_on && right_of_back : left_of_on || right_of_back;
   };
   std::uint32_t before = arriving[start];
-  while (next[before] != start && !lies_between(before, next[before])) before = arriving[next[before]];
+  while (next[before] != start && !lies_between(before, next[before]))
+    before = arriving[next[before]];
   const std::uint32_t after = next[before];
   return touch.edge == before || touch.edge == after ? touch.edge : std::min(before, after);
 }

@@ -59,8 +59,8 @@ struct Outline {
   /// are equally far: it is one of the two between which the center lies.
   std::uint32_t seen_edge(const Touch& touch) const;
 
-  /// Of each edge: an edge that arrives where it starts, the one before it unless rings touch there;
-  /// then those that leave and arrive form a ring. Empty where no rings touch.
+  /// Of each edge: an edge that arrives where it starts, the one before it unless rings touch
+  /// there; then those that leave and arrive form a ring. Empty where no rings touch.
   std::vector<std::uint32_t> arriving;
   std::vector<std::uint32_t> chain_begin;  ///< of each chain: its first edge
   std::vector<std::uint32_t> chain;        ///< of each edge

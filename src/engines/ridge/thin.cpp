@@ -61,8 +61,8 @@ std::uint8_t ring(const BitMap& map, Pixel p) {
 /// depend on the pixels up to two columns and rows away only: unless one of those has gone since, a
 /// pixel that had to stay is not asked again.
 template <class MayGo>
-void thin(const BitMap& boundary, MedialMap& map, const std::vector<Candidate>& order,
-          bool at_once, MayGo may_go) {
+void thin(const BitMap& boundary, MedialMap& map, const std::vector<Candidate>& order, bool at_once,
+          MayGo may_go) {
   using Ranks = std::priority_queue<std::uint32_t, std::vector<std::uint32_t>, std::greater<>>;
   constexpr std::uint32_t unranked = ~std::uint32_t{0};
   std::vector<std::uint32_t> rank(map.found.size(), unranked);
