@@ -15,6 +15,7 @@
 
 #include "clock.h"
 #include "medial/compute.h"
+#include "support/generate.h"
 
 namespace medial::bench {
 
@@ -99,10 +100,10 @@ std::optional<T> in_child(const std::function<std::optional<T>(std::string&)>& b
 std::optional<MedialFigures> figures_of_medial(const std::vector<Ring>& rings, Method method,
                                                int rounds, std::string& why) {
   MedialFigures figures;
-  // Once before: what the program itself needs, code and tables, is no memory of the input's.
-  const std::vector<Ring> small{{{{0, 0}, {2, 0}, {2, 1}, {0, 1}}, RingRole::any}};
-  if (const auto built = build_shape(small)) {
-    static_cast<void>(compute(*built, {.method = method, .threads = 1}));
+  // Small ones before: what the program itself needs, code and tables, is no memory of the input's.
+  for (std::uint64_t seed = 0; seed < 50; ++seed) {
+    if (const auto built = build_shape(test::random_integer_shape(seed).rings))
+      static_cast<void>(compute(*built, {.method = method, .threads = 1}));
   }
   malloc_trim(0);
   const double baseline = status_bytes("VmRSS");
