@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "medial/medial.h"
+#include "support/curve_check.h"
 #include "support/generate_arcs.h"
 #include "support/property.h"
 #include "support/random_shapes.h"
@@ -106,7 +107,7 @@ std::vector<std::string> check_against_flattened(const RandomShape& random) {
   if (flat->edges.empty()) return {};
   const AxisLocator locator(*flat);
   std::vector<std::string> failures;
-  for (const Edge& edge : axis->edges) {
+  for (const medial::Edge& edge : axis->edges) {
     for (const double t : {0.0, 0.3, 0.6}) {
       const Disk disk = disk_at(*axis, edge, t);
       const Vec2 left = foot(axis->sites[edge.site[0]], disk.center) - disk.center;
@@ -130,14 +131,14 @@ TEST_P(ArcShapes, AgreeWithTheirFlattening) {
   for_all(shape_count(100, arc_shares), check_against_flattened);
 }
 
-/// Splines with holes, at tolerances from 1e-2 to 1e-8 of the size: every axis is verified, and its
-/// leaves are as many at each, as they are the curves' own.
-TEST(RandomSplines, AreVerifiedAndKeepTheirLeaves) {
+/// Splines with holes, at tolerances from 1e-2 to 1e-8 of the size: every axis is verified, there
+/// are as many arcs of largest curvature at each, the curves' own, and no corners.
+TEST(RandomSplines, AreVerifiedAndKeepTheirApices) {
   const std::uint64_t count = shape_count(2000), base = first_seed();
   for (std::uint64_t i = 0; i < count; ++i) {
     SCOPED_TRACE(base + i);
     const std::vector<Contour> contours = random_splines(base + i);
-    std::optional<std::ptrdiff_t> leaves;
+    std::optional<int> apices;
     double deepest = 0, fine_error = 0;
     for (const double tolerance : {1e-8, 1e-6, 1e-4, 1e-2}) {
       SCOPED_TRACE(tolerance);
@@ -153,14 +154,17 @@ TEST(RandomSplines, AreVerifiedAndKeepTheirLeaves) {
       ASSERT_TRUE(axis) << to_string(axis.error());
       EXPECT_EQ(joined(verify(*shape, *axis, {.threads = 1})), "");
       EXPECT_EQ(axis->edges.size() + 1, axis->nodes.size() + shape->hole_count());
-      const auto now = std::ranges::count(axis->nodes, NodeKind::leaf, &Node::kind);
+      EXPECT_EQ(std::ranges::count(axis->nodes, 0.0, [](const Node& n) { return n.disk.radius; }),
+                0);
+      int now = 0;
+      for (const Ring& ring : *rings) now += locally_most_curved(ring);
       const double radius = deepest_disk(*axis).radius;
-      if (!leaves) {
-        leaves = now;
+      if (!apices) {
+        apices = now;
         deepest = radius;
         fine_error = report.largest_error;
       }
-      EXPECT_EQ(now, *leaves);
+      EXPECT_EQ(now, *apices);
       // What is within a distance of the curve changes no distance to it by more.
       EXPECT_NEAR(radius, deepest, report.largest_error + fine_error + 1e-14);
     }

@@ -153,6 +153,21 @@ TEST(ArcCleaning, BulgesBelowRoundingAreStraight) {
   EXPECT_EQ(area(shape), 1);
 }
 
+/// Their joint is no corner, though they meet at an angle; that of segments is as it is told.
+TEST(ArcCleaning, ArcsThatBecomeStraightAreOneSegment) {
+  Ring ring{{{30, 0}, {31, 0}, {31 + 4e-6, -1e-14}, {31 + 1.2e-5, 0}, {33, 4}, {30, 4}},
+            RingRole::any,
+            {0.1, 5e-10, -5e-10, 0.1, 0, 0}};
+  EXPECT_EQ(built({ring}).points.size(), 5U);
+  ring.bulges = {0.1, 0, 5e-10, 0.1, 0, 0};
+  EXPECT_EQ(built({ring}).points.size(), 5U);
+  ring.bulges = {0.1, 0, 0, 0.1, 0, 0};
+  EXPECT_EQ(built({ring}).points.size(), 6U);
+  ring.bulges = {0.1, 5e-10, 5e-10, 0.1, 0, 0};
+  ring.points[2].y = -1e-12;
+  EXPECT_EQ(built({ring}).points.size(), 6U);
+}
+
 TEST(ArcCleaning, ZeroLengthEdgesAndStraightRunsBesideArcs) {
   ShapeReport report;
   const Rings rings = {{{{0, 0}, {1, 0}, {2, 0}, {2, 0}, {2, 2}, {0, 2}, {0, 0}},

@@ -38,9 +38,9 @@ class Cleaner {
 
   void run() {
     straighten();
-    split_long_arcs();
     // Nothing is merged in a ring of two edges: it would vanish.
     if (edges_.size() > 2) drop_collinear();
+    split_long_arcs();
     merge_cocircular();
   }
 
@@ -53,9 +53,12 @@ class Cleaner {
 
   /// An arc is straight if its sagitta is half a spacing of the coordinates, or less.
   void straighten() {
+    straightened_.assign(edges_.size(), false);
     for (std::size_t i = 0; i < edges_.size(); ++i) {
       const double sagitta = std::abs(edges_[i].bulge) / 2 * norm(arc(i).chord());
-      if (sagitta <= rounding_ / 2) edges_[i].bulge = 0;
+      if (edges_[i].bulge == 0 || !(sagitta <= rounding_ / 2)) continue;
+      edges_[i].bulge = 0;
+      straightened_[i] = true;
     }
   }
 
@@ -76,21 +79,50 @@ class Cleaner {
     edges_ = std::move(result);
   }
 
-  /// As for rings without arcs: dropping a vertex changes no direction.
+  /// As for rings without arcs: dropping a vertex changes no direction. Where arcs became straight,
+  /// it changes it within the play: what joined smoothly is no corner now.
   void drop_collinear() {
+    const std::size_t count = edges_.size();
+    std::vector<bool> dropped(count);
+    // Runs of straight edges begin behind an arc.
+    std::size_t first = 0;
+    while (first < count && edges_[previous(first)].bulge == 0) ++first;
+    std::size_t kept = first % count;
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::size_t i = (first + k) % count, before = previous(i);
+      const bool straight = edges_[before].bulge == 0 && edges_[i].bulge == 0;
+      const Vec2 a = edges_[before].point, b = edges_[next(i)].point;
+      const bool exact = straight && orientation(a, edges_[i].point, b) == 0 &&
+                         strictly_between(a, edges_[i].point, b);
+      dropped[i] =
+          exact || (straight && first < count && (straightened_[before] || straightened_[i]) &&
+                    is_one_line(kept, next(i)));
+      if (!dropped[i]) kept = i;
+    }
     std::vector<RingEdge> result;
-    for (std::size_t i = 0; i < edges_.size(); ++i) {
-      const std::size_t before = previous(i);
-      const Vec2 a = edges_[before].point;
-      const Vec2 b = edges_[next(i)].point;
-      if (edges_[before].bulge == 0 && edges_[i].bulge == 0 &&
-          orientation(a, edges_[i].point, b) == 0 && strictly_between(a, edges_[i].point, b)) {
+    for (std::size_t i = 0; i < count; ++i) {
+      if (dropped[i])
         ++report_.collinear_points;
-      } else {
+      else
         result.push_back(edges_[i]);
-      }
     }
     if (result.size() >= 2) edges_ = std::move(result);
+  }
+
+  /// Whether the vertices between two others, few, lie between them in one line, within the play.
+  bool is_one_line(std::size_t from, std::size_t to) const {
+    constexpr int most = 16;
+    const Vec2 start = edges_[from].point, way = edges_[to].point - start;
+    const double length = norm(way);
+    int vertices = 0;
+    for (std::size_t i = next(from); i != to; i = next(i)) {
+      const Vec2 d = edges_[i].point - start;
+      const double along = dot(way, d);
+      if (++vertices > most || !(std::abs(cross(way, d)) <= play_ * length) || !(along > 0) ||
+          !(along < length * length))
+        return false;
+    }
+    return true;
   }
 
   /// Whether an arc may continue the one before it on the same circle.
@@ -238,6 +270,8 @@ class Cleaner {
 
   std::vector<RingEdge>& edges_;
   ShapeReport& report_;
+  std::vector<bool>
+      straightened_;     ///< of each edge: whether it was an arc, as straight as rounding
   double rounding_ = 0;  ///< the spacing of doubles at the largest coordinate, about
   /// How far arcs may be off one circle and still become one: what the tolerance cannot tell apart.
   double play_ = 0;
