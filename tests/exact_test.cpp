@@ -252,6 +252,38 @@ TEST(ExactAxis, OfLeeIsThatOfDisks) {
   }
 }
 
+/// A wall nearly on one line, with a notch in it: a disk beside the notch touches both of its ends
+/// and the wall on both sides but for rounding, of which each joint lies behind the other's line.
+/// And where the wall leaves open how far along it a disk touches, no foot moves backward.
+TEST(ExactAxis, OfNotchesInAWall) {
+  Random random(1);
+  for (int i = 0; i < 90; ++i) {
+    const double width = std::pow(10, -random.between(6, 9)), far = random.chance(0.5) ? 119 : 0;
+    const double lean = 1e-6 * random.between(-1, 1), up = random.between(0.3, 0.7);
+    Ring ring{{{0, 1},
+               {0, up},
+               {-width * random.between(0.5, 1.5), up},
+               {-width * random.between(0.5, 1.5), up - width},
+               {lean * width, up - width},
+               {lean, 0},
+               {1, 1e-3 * random.between(-1, 1)},
+               {1.1, 1.2}}};
+    for (Vec2& p : ring.points) p = p + Vec2{-far, 0.3 * far};
+    const auto shape = build_shape(std::vector<Ring>{ring});
+    ASSERT_TRUE(shape.ok());
+    std::vector<MedialAxis> certain;
+    for (const Method method : {Method::disks, Method::lee}) {
+      Options options{.method = method, .threads = 1};
+      EXPECT_TRUE(verify(*shape, compute(*shape, options).value(), {.threads = 1}).passed) << i;
+      options.exact = true;
+      const auto axis = compute(*shape, options);
+      ASSERT_TRUE(axis.ok()) << i;
+      certain.push_back(*axis);
+    }
+    EXPECT_EQ(difference(*shape, certain[0], certain[1], certain[0].tolerance), "") << i;
+  }
+}
+
 TEST(ExactAxis, OfFixedShapes) {
   for (const auto& rings :
        {rectangle(8, 3), rectangle(3, 3), l_shape(2), t_shape(2), u_shape(3), cross_shape(2),

@@ -109,6 +109,9 @@ class Kernel {
              : meets_d == Sign::open   ? Sign::open
                                        : Sign::none;
     }
+    const Sign ahead = sign_of(d.height);
+    if (ahead == Sign::open) return ahead;
+    if (ahead != Sign::positive) return Sign::positive;
     return on_arc(sign_of(d.height * c.closing - c.height * d.closing), fourth,
                   side_on(spoke, c.height, c.closing));
   }
@@ -119,10 +122,14 @@ class Kernel {
     const Spoke<Number> spoke = outline_.template spoke_after<Number>(a, roots_);
     const Spoke<Number> end = outline_.template spoke_after<Number>(third, roots_);
     const Reach c = reach(spoke, third);
+    const Vector<Number> forward = end.tangent();
+    const Sign ahead = sign_of(c.height);
+    if (ahead == Sign::open) return ahead;
+    // Where the first joint lies behind `third`, it is beside it.
+    if (ahead != Sign::positive) return -sign_of(dot(forward, spoke.foot - end.foot));
     const Sign met = meets(a, c, third);
     if (met == Sign::open) return met;
     if (met != Sign::positive) return Sign::none;
-    const Vector<Number> forward = end.tangent();
     return -sign_of(dot(forward, spoke.foot - end.foot) * c.closing +
                     c.height * dot(forward, spoke.normal));
   }
@@ -179,9 +186,12 @@ class Kernel {
   }
 
   /// Whether the disk that grows at the joint after `a` meets a site before it is as large as the
-  /// own circle of an arc that begins or ends there, on that arc's own normal.
+  /// own circle of an arc that begins or ends there, on that arc's own normal. It never meets the
+  /// line (or circle) of a site that the joint lies behind, as it may where the two are nearly on
+  /// one line.
   Sign meets(std::uint32_t a, const Reach& c, std::uint32_t third) {
-    Sign sign = sign_of(c.closing);
+    Sign sign = sign_of(c.height);
+    if (sign == Sign::positive) sign = sign_of(c.closing);
     for (const std::uint32_t edge : {a, outline_.next[a]}) {
       const ExactSite& site = outline_.sites[edge];
       if (!(site.bulge > 0) || sign != Sign::positive) continue;

@@ -97,7 +97,7 @@ void Graph::close(const Elements::Loop& loop, std::uint32_t last_edge) {
         to = outer;
       outer = edge;
       ++count;
-      find_short_edge(edge);
+      find_doubtful_edge(edge);
     }
     outer = none;
     for (std::uint32_t edge = diagram_.top[i][1]; edge != none;) {
@@ -112,12 +112,19 @@ void Graph::close(const Elements::Loop& loop, std::uint32_t last_edge) {
     throw std::runtime_error("a Voronoi diagram has too few edges");
 }
 
-void Graph::find_short_edge(std::uint32_t edge) {
+void Graph::find_doubtful_edge(std::uint32_t edge) {
   const Disk &inner = disk(edge), &outer = disk(to(edge));
+  if (!(inner.radius > 0 && outer.radius > 0)) return;
+  const Vec2 way = outer.center - inner.center;
   const double limit = std::max(furthest * inner.radius, tolerance_);
-  if (squared_norm(inner.center - outer.center) <= limit * limit && inner.radius > 0 &&
-      outer.radius > 0)
-    short_edges_.push_back(edge);
+  // By how far the foot on an element moves forward along it.
+  const auto moves = [&](std::uint32_t element) {
+    return dot(elements().sites[element].direction, way);
+  };
+  const auto& [first, second] = diagram_.edges[edge].element;
+  if (squared_norm(way) <= limit * limit || moves(first) > tolerance_ ||
+      moves(second) < -tolerance_)
+    doubtful_edges_.push_back(edge);
 }
 
 std::array<std::uint32_t, 2> Graph::loop_around(std::uint32_t element) const {
@@ -175,7 +182,7 @@ void complete(Graph& graph, const Frame& frame, double tolerance, MedialAxis& ax
     kept +=
         2 * std::size_t{elements.chains[loop.end_chain] - elements.chains[loop.first_chain]} - 3;
   for (const geometry::Site& site : elements.sites) kept -= site.is_vertex() ? 2 : 0;
-  for (const std::uint32_t edge : graph.short_edges()) {
+  for (const std::uint32_t edge : graph.doubtful_edges()) {
     const Disk &from = graph.disk(edge), &to = graph.disk(end_of(edge));
     if (squared_norm(from.center - to.center) > tolerance * tolerance ||
         std::abs(from.radius - to.radius) > tolerance)

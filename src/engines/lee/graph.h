@@ -48,8 +48,9 @@ class Graph {
   std::array<std::uint32_t, 2> loop_around(std::uint32_t element) const;
 
   /// The edges between Voronoi points that could be one: closer together than `furthest` radii, or
-  /// than the tolerance.
-  const std::vector<std::uint32_t>& short_edges() const { return short_edges_; }
+  /// than the tolerance; or with a foot that moves the wrong way by more than the tolerance, as
+  /// between segments nearly on one line, which leave open where along it a disk touches them.
+  const std::vector<std::uint32_t>& doubtful_edges() const { return doubtful_edges_; }
   static constexpr double furthest = 1e-4;
 
   /// Calls work(edge) for all edges of a loop, in the order of their first elements, and in the
@@ -70,11 +71,11 @@ class Graph {
     return elements().chains[loop.end_chain];
   }
   void close(const Elements::Loop& loop, std::uint32_t last_edge);
-  void find_short_edge(std::uint32_t edge);
+  void find_doubtful_edge(std::uint32_t edge);
 
   Diagram& diagram_;
   double tolerance_;
-  std::vector<std::uint32_t> short_edges_;
+  std::vector<std::uint32_t> doubtful_edges_;
 };
 
 /// The result in units of the input: all of the graph, with faces.

@@ -21,7 +21,7 @@ class Ties {
       const Disk &from = graph.disk(edge), &to = graph.disk(end);
       return !is_same(from, to) && (touches(end, from) || touches(edge, to));
     };
-    const auto& all = graph.short_edges();
+    const auto& all = graph.doubtful_edges();
     if (std::any_of(all.begin(), all.end(), could_be_empty)) edges_ = all;
   }
 
@@ -182,7 +182,7 @@ std::optional<Disk> find_overreach(const Graph& graph, double slack) {
   constexpr double close = 0.1;            // radii from an element to the next
   constexpr std::uint32_t first_step = 4;  // nearer ones, merges have seen
   const Elements& elements = graph.elements();
-  for (const std::uint32_t node : graph.short_edges()) {
+  for (const std::uint32_t node : graph.doubtful_edges()) {
     const Disk& disk = graph.disk(node);
     const auto touched = graph.touched(node);
     const auto is_far = [&](std::uint32_t element) {

@@ -9,14 +9,14 @@ namespace medial::lee {
 /// Where more than three elements touch one disk but for rounding, a tie, the merges broke it some
 /// way: a few Voronoi points lie close together, some of them far less exactly known than the disk
 /// that touches all. Such points all become that disk, and the edges between them have no length,
-/// wherever one disk touches all their elements within half of the tolerance. O(short edges), or
+/// wherever one disk touches all their elements within half of the tolerance. O(doubtful edges), or
 /// O(nodes) where there is a tie.
 void join_ties(Graph& graph, double tolerance);
 
 /// A disk that reaches over the boundary by more than `slack`, if there is one among those of which
 /// rounding may decide how far they reach: they touch three elements close together of a nearly
 /// round boundary with very many sides. Seen by elements that are a power of two away.
-/// O(short edges), and O(log N) for each such disk.
+/// O(doubtful edges), and O(log N) for each such disk.
 std::optional<Disk> find_overreach(const Graph& graph, double slack);
 
 }  // namespace medial::lee
