@@ -115,16 +115,17 @@ void Graph::close(const Elements::Loop& loop, std::uint32_t last_edge) {
 void Graph::find_doubtful_edge(std::uint32_t edge) {
   const Disk &inner = disk(edge), &outer = disk(to(edge));
   if (!(inner.radius > 0 && outer.radius > 0)) return;
-  const Vec2 way = outer.center - inner.center;
   const double limit = std::max(furthest * inner.radius, tolerance_);
-  // By how far the foot on an element moves forward along it.
-  const auto moves = [&](std::uint32_t element) {
-    return dot(elements().sites[element].direction, way);
-  };
-  const auto& [first, second] = diagram_.edges[edge].element;
-  if (squared_norm(way) <= limit * limit || moves(first) > tolerance_ ||
-      moves(second) < -tolerance_)
+  if (squared_norm(inner.center - outer.center) <= limit * limit ||
+      runs_backward(edge, tolerance_))
     doubtful_edges_.push_back(edge);
+}
+
+bool Graph::runs_backward(std::uint32_t edge, double slack) const {
+  const auto& [first, second] = diagram_.edges[edge].element;
+  const Vec2 way = disk(to(edge)).center - disk(edge).center;
+  return dot(elements().sites[first].direction, way) > slack ||
+         dot(elements().sites[second].direction, way) < -slack;
 }
 
 std::array<std::uint32_t, 2> Graph::loop_around(std::uint32_t element) const {

@@ -52,6 +52,9 @@ class Graph {
   /// between segments nearly on one line, which leave open where along it a disk touches them.
   const std::vector<std::uint32_t>& doubtful_edges() const { return doubtful_edges_; }
   static constexpr double furthest = 1e-4;
+  /// Whether the foot of an edge's disks moves the wrong way on one of its elements by more than
+  /// `slack`, from its inner to its outer end.
+  bool runs_backward(std::uint32_t edge, double slack) const;
 
   /// Calls work(edge) for all edges of a loop, in the order of their first elements, and in the
   /// order of the foot on each.

@@ -184,6 +184,7 @@ std::optional<Disk> find_overreach(const Graph& graph, double slack) {
   const Elements& elements = graph.elements();
   for (const std::uint32_t node : graph.doubtful_edges()) {
     const Disk& disk = graph.disk(node);
+    if (graph.runs_backward(node, slack)) return disk;
     const auto touched = graph.touched(node);
     const auto is_far = [&](std::uint32_t element) {
       const double reach = close * disk.radius;
