@@ -335,6 +335,50 @@ TEST(LeeRefuses, WhatIsTooNearlyRoundForItsNumberOfSides) {
   EXPECT_FALSE(voronoi_diagram(shape).ok());
 }
 
+/// Two quarters of a circle are off by some tolerances, so that each side of these is nearly tied
+/// with all of the others: disks in between reached over the boundary by tens of tolerances, and of
+/// very many sides the diagram fell apart.
+TEST(LeeRefuses, QuartersOfACircleThatAreNearlyTied) {
+  const auto quarters = [](std::size_t n, const auto& off) {
+    const double turn = 2 * std::numbers::pi / static_cast<double>(n);
+    std::vector<double> height(n, 1.0);
+    for (std::size_t i = 0; i < n; ++i)
+      if ((4 * i / n) % 2 == 1) height[i] += off(turn * static_cast<double>(i));
+    Ring ring;
+    for (std::size_t i = 0; i < n; ++i) {
+      const double angle = turn * static_cast<double>(i), half = std::sin(0.5 * turn);
+      const double along =
+          (height[(i + 1) % n] - height[i] + height[i] * 2 * half * half) / std::sin(turn);
+      ring.points.push_back({height[i] * std::cos(angle) - along * std::sin(angle),
+                             height[i] * std::sin(angle) + along * std::cos(angle)});
+    }
+    return Rings{ring};
+  };
+  Random random(5);
+  const auto smooth = [](double angle) { return 2e-13 * std::cos(2 * angle); };
+  const auto rough = [&](double) { return 2e-13 * random.between(-1, 1); };
+  for (const Rings& rings : {quarters(3000, smooth), quarters(100000, rough)}) {
+    const auto axis = compute(built(rings), by_lee());
+    ASSERT_FALSE(axis.ok());
+    EXPECT_EQ(axis.error().code, ErrorCode::unsupported);
+    EXPECT_TRUE(axis.error().place.point.has_value());
+  }
+}
+
+/// Between the two long sides, nearly on one line, hardly anything tells where along them a disk
+/// touches: one was taken for a tie, and the foot on one of them moved backward.
+TEST(LeeTies, OfSidesNearlyOnOneLineMoveNoFootBackward) {
+  const Ring ring{{{-119, 36.699999999999996},
+                   {-119, 36.293228326591269},
+                   {-119.00000000559641, 36.293228326591269},
+                   {-119.00000000327202, 36.293228322833968},
+                   {-119, 36.293228322833968},
+                   {-118.99999998513714, 35.699999999999996},
+                   {-118, 35.700819478179135},
+                   {-117.90000000000001, 36.899999999999999}}};
+  EXPECT_EQ(check_axis_of(built({ring}), false), "");
+}
+
 TEST(LeeProgress, GrowsToOneOnOneThread) {
   std::vector<double> told;
   Options options = by_lee();

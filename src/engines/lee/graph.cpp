@@ -116,8 +116,7 @@ void Graph::find_doubtful_edge(std::uint32_t edge) {
   const Disk &inner = disk(edge), &outer = disk(to(edge));
   if (!(inner.radius > 0 && outer.radius > 0)) return;
   const double limit = std::max(furthest * inner.radius, tolerance_);
-  if (squared_norm(inner.center - outer.center) <= limit * limit ||
-      runs_backward(edge, tolerance_))
+  if (squared_norm(inner.center - outer.center) <= limit * limit || runs_backward(edge, tolerance_))
     doubtful_edges_.push_back(edge);
 }
 

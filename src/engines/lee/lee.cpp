@@ -1,6 +1,8 @@
 #include "engines/lee/lee.h"
 
+#include <cmath>
 #include <optional>
+#include <stdexcept>
 
 #include "base/stopwatch.h"
 #include "base/tolerance.h"
@@ -9,6 +11,24 @@
 
 namespace medial::lee {
 namespace {
+
+/// A point amid very many sides that turn by very little each, if there are such: three next to
+/// each other determine a disk far less exactly than the tolerance.
+std::optional<Vec2> find_smooth_run(const Elements& elements) {
+  constexpr std::uint32_t many = 256;
+  constexpr double little = 1e-3;
+  const geometry::Site* before = nullptr;
+  std::uint32_t count = 0;
+  for (const geometry::Site& site : elements.sites) {
+    if (site.is_vertex()) continue;
+    const bool goes_on = before != nullptr && geometry::meets(*before, site) &&
+                         std::abs(cross(before->direction, site.direction)) <= little;
+    count = goes_on ? count + 1 : 0;
+    if (count == many) return site.point;
+    before = &site;
+  }
+  return std::nullopt;
+}
 
 /// A shape's diagram, and what its results are completed from.
 class Solution {
@@ -31,21 +51,23 @@ class Solution {
         local_tolerance(),
         options.cancel,
         options.progress};
-    const std::vector<std::uint32_t> last_edges = conquer(*diagram_, context, statistics, levels);
-    statistics.seconds_walk = watch.lap();
-
-    if (options.cancel != nullptr && options.cancel->load()) return;
-    graph.emplace(*diagram_, last_edges, local_tolerance());
+    try {
+      const std::vector<std::uint32_t> last_edges = conquer(*diagram_, context, statistics, levels);
+      statistics.seconds_walk = watch.lap();
+      if (options.cancel != nullptr && options.cancel->load()) return;
+      graph.emplace(*diagram_, last_edges, local_tolerance());
+    } catch (const std::runtime_error&) {
+      // Of such a boundary, rounding may break the structure, too.
+      const auto place = find_smooth_run(elements_);
+      if (!place) throw;
+      error = too_nearly_round(*place);
+      return;
+    }
     join_ties(*graph, local_tolerance());
     // The certificate, too, would refuse such an axis.
     constexpr double slack = 2;
-    if (const auto disk = find_overreach(*graph, slack * local_tolerance())) {
-      error = {ErrorCode::unsupported,
-               "the boundary is too nearly round here for its sides to be told from rounding: use "
-               "the method disks",
-               {}};
-      error->place.point = frame.to_input(disk->center);
-    }
+    if (const auto disk = find_overreach(*graph, slack * local_tolerance()))
+      error = too_nearly_round(disk->center);
     statistics.seconds_collect = watch.lap();
   }
   Solution(const Solution&) = delete;  // its members refer to each other
@@ -68,6 +90,15 @@ class Solution {
   std::optional<Error> error;
 
  private:
+  Error too_nearly_round(Vec2 place) const {
+    Error told{ErrorCode::unsupported,
+               "the boundary is too nearly round here for its sides to be told from rounding: use "
+               "the method disks",
+               {}};
+    told.place.point = frame.to_input(place);
+    return told;
+  }
+
   Elements elements_;
   std::optional<Diagram> diagram_;
 
