@@ -15,10 +15,10 @@ constexpr double junction_reach = 4;
 constexpr double same_parameter = 1e-7;
 /// Points that all generations together may find before the axis is given up: some 200 bytes each.
 constexpr std::size_t most_points = std::size_t{1} << 21;
-/// Times that generations are taken up again before the rest of the boundary is given up.
-// The most evaluations of the boundary, and those more for each of its pieces: some seconds. A
-// boundary of 300 maxima takes a tenth.
+/// The most evaluations of the boundary, and those more for each of its pieces: some seconds. A
+/// boundary of 300 maxima takes a tenth.
 constexpr double most_evaluations = 2e7, most_evaluations_a_piece = 2e3;
+/// Times that generations are taken up again before the rest of the boundary is given up.
 constexpr int most_resumptions = 16;
 
 double between(double a, double b, double share) { return a + share * (b - a); }
@@ -136,15 +136,15 @@ Control::Stop Control::grow(int segment) {
     if (++points_ > most_points || is_exhausted()) return Stop::exhausted;
     const AxisPoint here = last(segment);
     const std::optional<AxisPoint> there = generator_.next(here);
-    const bool alone = at(segment).next == segment || is_last_tip(at(segment).next, segment);
     // Feet that meet do so in the tip; next to it (14) may also end in its trivial zero, one foot
     // on the other.
-    const bool closes =
-        there && there->right.u >= there->left.u + boundary_.period() - same_parameter;
-    if (alone && (!there || closes)) {
-      if (end_in_tip(segment, here)) return Stop::complete;
-    }
-    if (!there || closes) {
+    const bool ends =
+        !there || there->right.u >= there->left.u + boundary_.period() - same_parameter;
+    const bool alone = at(segment).next == segment || is_last_tip(at(segment).next, segment);
+    if (ends && alone && end_in_tip(segment, here)) return Stop::complete;
+    // (10) fails at a maximum, too, that a foot steps over and whose circle is smaller than the
+    // disk.
+    if (ends || steps_over_twist(here, *there)) {
       if (const int joined = join_tip(segment, here); joined >= 0) {
         segment = joined;
         continue;
@@ -153,85 +153,88 @@ Control::Stop Control::grow(int segment) {
       tell({Decision::Rule::retreat, segment, there.value_or(here), -1});
       return Stop::retreat;
     }
-    // A maximum that a foot steps over, and whose circle is smaller than the disk: (10) fails
-    // there.
-    if (steps_over_twist(here, *there)) {
-      if (const int joined = join_tip(segment, here); joined >= 0) {
-        segment = joined;
-        continue;
-      }
-      ++rules_.retreats;
-      tell({Decision::Rule::retreat, segment, there.value_or(here), -1});
-      return Stop::retreat;
-    }
-    const Vec2 c = there->disk.center;
-    if (!(c.x >= boundary_.low().x && c.x <= boundary_.high().x && c.y >= boundary_.low().y &&
-          c.y <= boundary_.high().y)) {
+    if (!is_in_frame(there->disk.center)) {
       ++rules_.outside_frame;
       tell({Decision::Rule::outside_frame, segment, *there, -1});
       return Stop::frame;
     }
-    bool joined = false;
-    while (const std::optional<Contact> contact = first_contact(segment, here, *there)) {
-      const AxisPoint& old = last(contact->neighbour);
-      const AxisPoint& active = contact->active;
-      const bool only_two = at(at(segment).next).next == segment;
-      if (only_two &&
-          distance(active.disk.center, old.disk.center) <= same_disk * boundary_.size()) {
-        ++rules_.meetings;
-        at(segment).branch.push_back(active);
-        roots_ = {segment, contact->neighbour};
-        return Stop::complete;
-      }
-      if (active.disk.radius < old.disk.radius) {
-        ++rules_.smaller;
-        tell({Decision::Rule::smaller, segment, active, contact->neighbour});
-        shrink(contact->neighbour);
-        continue;
-      }
-      // Equal somewhere since the last point: a junction.
-      // In a tip both feet are one: the branch's next point tells where they part.
-      const bool is_tip = old.left.u == old.right.u;
-      const AxisPoint outer = is_tip ? generator_.next(old).value_or(old) : old;
-      const double left = contact->on_right
-                              ? active.left.u
-                              : boundary_.above(outer.left.u, contact->foot - boundary_.period());
-      const double right =
-          contact->on_right ? boundary_.above(outer.right.u, contact->foot) : active.right.u;
-      const double shift = contact->foot - (contact->on_right ? old.left.u : old.right.u);
-      const double middle = (contact->on_right ? outer.left.u : outer.right.u) + shift;
-      const auto junction = generator_.junction(left, middle, right);
-      // The first point after a tip may be farther off than a step.
-      const auto reach = [&](const AxisPoint& last_one, const AxisPoint& next_one) {
-        return std::max(junction_reach * step_,
-                        2 * distance(last_one.disk.center, next_one.disk.center));
-      };
-      // Within a few steps of the last points of both, from before which it is reached.
-      const bool here_it_is =
-          junction && junction->disk.radius > 0 &&
-          junction->right < junction->left + boundary_.period() &&
-          junction->left < junction->middle && junction->middle < junction->right &&
-          distance(junction->disk.center, here.disk.center) <= reach(here, *there) &&
-          distance(junction->disk.center, old.disk.center) <= reach(old, outer);
-      if (!here_it_is) {
-        ++rules_.larger;
-        tell({Decision::Rule::larger, segment, active, contact->neighbour});
-        return Stop::conflict;
-      }
-      ++rules_.junctions;
-      if (observer_) {
-        AxisPoint third =
-            generator_.point_of(boundary_.at(junction->left), boundary_.at(junction->right));
-        third.disk = junction->disk;
-        tell({Decision::Rule::junction, segment, third, contact->neighbour});
-      }
-      segment = join(segment, *contact, *junction);
-      joined = true;
-      break;
-    }
-    if (joined) continue;
-    at(segment).branch.push_back(*there);
+    const int before = segment;
+    if (const std::optional<Stop> stop = resolve_conflicts(segment, here, *there)) return *stop;
+    if (segment == before) at(segment).branch.push_back(*there);
   }
+}
+
+bool Control::is_in_frame(Vec2 p) const {
+  return p.x >= boundary_.low().x && p.x <= boundary_.high().x && p.y >= boundary_.low().y &&
+         p.y <= boundary_.high().y;
+}
+
+std::optional<Control::Stop> Control::resolve_conflicts(int& segment, const AxisPoint& here,
+                                                        const AxisPoint& there) {
+  while (const std::optional<Contact> contact = first_contact(segment, here, there)) {
+    const AxisPoint& old = last(contact->neighbour);
+    const AxisPoint& active = contact->active;
+    const bool only_two = at(at(segment).next).next == segment;
+    if (only_two && distance(active.disk.center, old.disk.center) <= same_disk * boundary_.size()) {
+      ++rules_.meetings;
+      at(segment).branch.push_back(active);
+      roots_ = {segment, contact->neighbour};
+      return Stop::complete;
+    }
+    if (active.disk.radius < old.disk.radius) {
+      ++rules_.smaller;
+      tell({Decision::Rule::smaller, segment, active, contact->neighbour});
+      shrink(contact->neighbour);
+      continue;
+    }
+    const auto junction = junction_at(*contact, here, there);
+    if (!junction) {
+      ++rules_.larger;
+      tell({Decision::Rule::larger, segment, active, contact->neighbour});
+      return Stop::conflict;
+    }
+    ++rules_.junctions;
+    if (observer_) {
+      AxisPoint third =
+          generator_.point_of(boundary_.at(junction->left), boundary_.at(junction->right));
+      third.disk = junction->disk;
+      tell({Decision::Rule::junction, segment, third, contact->neighbour});
+    }
+    segment = join(segment, *contact, *junction);
+    return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+std::optional<Generator::Junction> Control::junction_at(const Contact& contact,
+                                                        const AxisPoint& here,
+                                                        const AxisPoint& there) const {
+  const AxisPoint& old = last(contact.neighbour);
+  const AxisPoint& active = contact.active;
+  // In a tip both feet are one: the branch's next point tells where they part.
+  const bool is_tip = old.left.u == old.right.u;
+  const AxisPoint outer = is_tip ? generator_.next(old).value_or(old) : old;
+  const double left = contact.on_right
+                          ? active.left.u
+                          : boundary_.above(outer.left.u, contact.foot - boundary_.period());
+  const double right =
+      contact.on_right ? boundary_.above(outer.right.u, contact.foot) : active.right.u;
+  const double shift = contact.foot - (contact.on_right ? old.left.u : old.right.u);
+  const double middle = (contact.on_right ? outer.left.u : outer.right.u) + shift;
+  auto junction = generator_.junction(left, middle, right);
+  // The first point after a tip may be farther off than a step.
+  const auto reach = [&](const AxisPoint& last_one, const AxisPoint& next_one) {
+    return std::max(junction_reach * step_,
+                    2 * distance(last_one.disk.center, next_one.disk.center));
+  };
+  // Within a few steps of the last points of both, from before which it is reached.
+  const bool here_it_is = junction && junction->disk.radius > 0 &&
+                          junction->right < junction->left + boundary_.period() &&
+                          junction->left < junction->middle && junction->middle < junction->right &&
+                          distance(junction->disk.center, here.disk.center) <= reach(here, there) &&
+                          distance(junction->disk.center, old.disk.center) <= reach(old, outer);
+  if (!here_it_is) return std::nullopt;
+  return junction;
 }
 
 std::optional<Control::Contact> Control::first_contact(int segment, const AxisPoint& from,
@@ -292,7 +295,9 @@ int Control::join(int segment, const Contact& contact, const Generator::Junction
 }
 
 bool Control::is_last_tip(int tip, int segment) const {
-  return at(tip).next == segment && at(segment).next == tip && is_tip(tip);
+  // In needles a branch may get no further than a share of a step.
+  return at(tip).next == segment && at(segment).next == tip && at(tip).first_child < 0 &&
+         distance(at(tip).branch.front().disk.center, last(tip).disk.center) <= step_;
 }
 
 bool Control::is_tip(int segment) const {

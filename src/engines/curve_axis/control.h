@@ -65,13 +65,23 @@ class Control {
   bool is_exhausted() const;
   bool is_scanned(double u) const;
   int start(double maximum);
+  /// Generates axis points until a rule stops the branch, or the branches behind its junctions.
   Stop grow(int segment);
+  bool is_in_frame(Vec2 p) const;
+  /// Conflicts of the step from `here` to `there`, by the radii on one boundary point: the older
+  /// branch gives way (Fig 5b), growth stops (Fig 5a) as told, or `segment` becomes that of a
+  /// junction (Fig 6).
+  std::optional<Stop> resolve_conflicts(int& segment, const AxisPoint& here,
+                                        const AxisPoint& there);
+  /// The junction of a contact whose radii become equal within the step.
+  std::optional<Generator::Junction> junction_at(const Contact& contact, const AxisPoint& here,
+                                                 const AxisPoint& there) const;
   std::optional<Contact> first_contact(int segment, const AxisPoint& from,
                                        const AxisPoint& to) const;
   int join(int segment, const Contact& contact, const Generator::Junction& at);
   /// Whether a segment is the point of a maximum, and no more.
   bool is_tip(int segment) const;
-  /// Whether the only other segment is the last maximum (Fig 8).
+  /// Whether the only other segment is the last maximum (Fig 8), or a step of its branch.
   bool is_last_tip(int tip, int segment) const;
   /// The junction of a branch that can go no further with a neighbour that is a tip only: it lies
   /// on the tip's first step, which is longer than others. The joined segment, or -1.

@@ -22,6 +22,99 @@ void add_piece(double order, Vec2 t, double x1, double x2, double y, double inte
   sum.xy += (a - c) * xy + b * (xx - yy);
 }
 
+/// Some pieces side by side, with r^-n, r^-2 at both ends and J(n) of each, for an order n that
+/// rises by two.
+struct Block {
+  using Lanes = std::array<double, Charges::leaf_size>;
+
+  /// The ends of the pieces as seen from a place, in units of the nearest charge's distance.
+  void load(const Charges& charges, std::uint32_t begin, std::uint32_t end, Vec2 place,
+            double inverse) {
+    count = end - begin;
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::size_t i = begin + k;
+      tx[k] = charges.tangent_x[i];
+      ty[k] = charges.tangent_y[i];
+      const double dx = place.x - charges.start_x[i], dy = place.y - charges.start_y[i];
+      x1[k] = -(dx * tx[k] + dy * ty[k]) * inverse;
+      x2[k] = x1[k] + charges.lengths[i] * inverse;
+      y[k] = (dy * tx[k] - dx * ty[k]) * inverse;
+    }
+  }
+
+  /// To order 1, with (6) without a difference.
+  void start_at_one() {
+    for (std::size_t k = 0; k < count; ++k) {
+      const double length = x2[k] - x1[k], square = y[k] * y[k];
+      const double r1 = std::sqrt(x1[k] * x1[k] + square);
+      const double r2 = std::sqrt(x2[k] * x2[k] + square);
+      const double size1 = std::abs(x1[k]) + r1, size2 = std::abs(x2[k]) + r2;
+      const double before = x1[k] < 0 ? square / size1 : size1;
+      const double behind = x2[k] > 0 ? square / size2 : size2;
+      const double excess = before + behind;
+      p1[k] = 1 / r1;
+      p2[k] = 1 / r2;
+      j[k] = 2 * length * (p1[k] + p2[k]) / (excess * (excess + 2 * length));
+      q1[k] = p1[k] * p1[k];
+      q2[k] = p2[k] * p2[k];
+      inverse_square[k] = 1 / std::max(square, 1e-300);
+    }
+  }
+
+  /// To order 0, with an angle, or to that of `series`.
+  void start_at(double order, const std::optional<LowOrder>& series) {
+    for (std::size_t k = 0; k < count; ++k) {
+      const double square = y[k] * y[k];
+      q1[k] = 1 / (x1[k] * x1[k] + square);
+      q2[k] = 1 / (x2[k] * x2[k] + square);
+      p1[k] = order == 0 ? 1 : std::pow(q1[k], 0.5 * order);
+      p2[k] = order == 0 ? 1 : std::pow(q2[k], 0.5 * order);
+      if (order == 0) j[k] = x1[k] == x2[k] ? 0 : segment_integral(0, x1[k], x2[k], y[k]);
+      inverse_square[k] = 1 / std::max(square, 1e-300);
+    }
+    if (order == 0) return;
+    const auto of = [&](Lanes& lane) { return std::span<double>(lane).first(count); };
+    series->integrals(of(x1), of(x2), of(y), of(p1), of(p2), of(j));
+  }
+
+  /// (5) of order n and its derivatives, of all pieces.
+  void add_force(double n, Force& total) const {
+    Force add;
+    const double inverse_n = 1 / n;
+    for (std::size_t k = 0; k < count; ++k) {
+      const double along = (p2[k] - p1[k]) * inverse_n, across = y[k] * j[k];
+      add.force.x += tx[k] * along - ty[k] * across;
+      add.force.y += ty[k] * along + tx[k] * across;
+      const double s1 = p1[k] * q1[k], s2 = p2[k] * q2[k];
+      const double a = x2[k] * s2 - x1[k] * s1;
+      const double b = -y[k] * (s2 - s1);
+      const double c = -n * j[k] - a;
+      // (a, b; b, c) turned into the frame of the plane.
+      const double xx = tx[k] * tx[k], xy = tx[k] * ty[k], yy = ty[k] * ty[k];
+      add.xx += a * xx - 2 * b * xy + c * yy;
+      add.yy += a * yy + 2 * b * xy + c * xx;
+      add.xy += (a - c) * xy + b * (xx - yy);
+    }
+    total.force = total.force + add.force;
+    total.xx += add.xx;
+    total.xy += add.xy;
+    total.yy += add.yy;
+  }
+
+  /// (9): from order n to n + 2.
+  void rise_from(double n) {
+    const double inverse_next = 1 / (n + 2);
+    for (std::size_t k = 0; k < count; ++k) {
+      p1[k] *= q1[k];
+      p2[k] *= q2[k];
+      j[k] = inverse_square[k] * (x2[k] * p2[k] - x1[k] * p1[k] + (n + 1) * j[k]) * inverse_next;
+    }
+  }
+
+  std::size_t count = 0;
+  alignas(32) Lanes x1, x2, y, tx, ty, j, p1, p2, q1, q2, inverse_square;
+};
+
 }  // namespace
 
 Charges::Nearest Evaluator::place(Vec2 p) {
@@ -87,93 +180,28 @@ void Evaluator::add_far(double order, Force& total) const {
 
 void Evaluator::sum(double start, double low, std::span<Force> forces) {
   if (start != 0 && start != 1 && !(start_ && start_->order() == start)) start_.emplace(start);
-  constexpr std::size_t lanes = Charges::leaf_size;
   const double high = low + static_cast<double>(forces.size()) - 1;
   // Upward, the recurrence multiplies errors by 1 / |y| an order: up to 1e7 is borne.
   const double flat = start == 1 && high < 3 ? 0 : std::pow(1e-7, 1 / high);
-  using Lanes = std::array<double, lanes>;
-  alignas(32) Lanes x1, x2, y, tx, ty, j, p1, p2, q1, q2, inverse_square;
+  Block block;
   for (const Range& range : near_) {
-    const std::size_t count = range.end - range.begin;
-    for (std::size_t k = 0; k < count; ++k) {
-      const std::size_t i = range.begin + k;
-      tx[k] = charges_.tangent_x[i];
-      ty[k] = charges_.tangent_y[i];
-      const double dx = place_.x - charges_.start_x[i], dy = place_.y - charges_.start_y[i];
-      x1[k] = -(dx * tx[k] + dy * ty[k]) * inverse_;
-      x2[k] = x1[k] + charges_.lengths[i] * inverse_;
-      y[k] = (dy * tx[k] - dx * ty[k]) * inverse_;
-    }
-    if (flat > 0) {
-      for (std::size_t k = 0; k < count; ++k) {
-        if (std::abs(y[k]) >= flat) continue;
-        if (x1[k] < 0 && x2[k] > 0) continue;  // as near as the nearest: |y| is 1 or more
-        sum_steep(static_cast<std::uint32_t>(range.begin + k), start, low, forces);
-        x1[k] = x2[k] = y[k] = 1;  // nothing
-      }
+    block.load(charges_, range.begin, range.end, place_, inverse_);
+    for (std::size_t k = 0; flat > 0 && k < block.count; ++k) {
+      if (std::abs(block.y[k]) >= flat) continue;
+      if (block.x1[k] < 0 && block.x2[k] > 0) continue;  // as near as the nearest: |y| >= 1
+      sum_steep(static_cast<std::uint32_t>(range.begin + k), start, low, forces);
+      block.x1[k] = block.x2[k] = block.y[k] = 1;  // nothing
     }
     if (start == 1) {
-      for (std::size_t k = 0; k < count; ++k) {
-        const double length = x2[k] - x1[k], square = y[k] * y[k];
-        const double r1 = std::sqrt(x1[k] * x1[k] + square);
-        const double r2 = std::sqrt(x2[k] * x2[k] + square);
-        const double size1 = std::abs(x1[k]) + r1, size2 = std::abs(x2[k]) + r2;
-        const double before = x1[k] < 0 ? square / size1 : size1;
-        const double behind = x2[k] > 0 ? square / size2 : size2;
-        const double excess = before + behind;
-        p1[k] = 1 / r1;
-        p2[k] = 1 / r2;
-        j[k] = 2 * length * (p1[k] + p2[k]) / (excess * (excess + 2 * length));
-        q1[k] = p1[k] * p1[k];
-        q2[k] = p2[k] * p2[k];
-        inverse_square[k] = 1 / std::max(square, 1e-300);
-      }
+      block.start_at_one();
     } else {
-      for (std::size_t k = 0; k < count; ++k) {
-        const double square = y[k] * y[k];
-        q1[k] = 1 / (x1[k] * x1[k] + square);
-        q2[k] = 1 / (x2[k] * x2[k] + square);
-        p1[k] = start == 0 ? 1 : std::pow(q1[k], 0.5 * start);
-        p2[k] = start == 0 ? 1 : std::pow(q2[k], 0.5 * start);
-        if (start == 0) j[k] = x1[k] == x2[k] ? 0 : segment_integral(0, x1[k], x2[k], y[k]);
-        inverse_square[k] = 1 / std::max(square, 1e-300);
-      }
-      if (start != 0) {
-        const auto of = [&](Lanes& lane) { return std::span<double>(lane).first(count); };
-        start_->integrals(of(x1), of(x2), of(y), of(p1), of(p2), of(j));
-      }
+      block.start_at(start, start_);
     }
     for (double n = start;; n += 2) {
-      if (n > low - 0.5 && n > 0) {
-        Force add;
-        const double inverse_n = 1 / n;
-        for (std::size_t k = 0; k < count; ++k) {
-          const double along = (p2[k] - p1[k]) * inverse_n, across = y[k] * j[k];
-          add.force.x += tx[k] * along - ty[k] * across;
-          add.force.y += ty[k] * along + tx[k] * across;
-          const double s1 = p1[k] * q1[k], s2 = p2[k] * q2[k];
-          const double a = x2[k] * s2 - x1[k] * s1;
-          const double b = -y[k] * (s2 - s1);
-          const double c = -n * j[k] - a;
-          // (a, b; b, c) turned into the frame of the plane.
-          const double xx = tx[k] * tx[k], xy = tx[k] * ty[k], yy = ty[k] * ty[k];
-          add.xx += a * xx - 2 * b * xy + c * yy;
-          add.yy += a * yy + 2 * b * xy + c * xx;
-          add.xy += (a - c) * xy + b * (xx - yy);
-        }
-        Force& sum = forces[static_cast<std::size_t>(std::lround(n - low))];
-        sum.force = sum.force + add.force;
-        sum.xx += add.xx;
-        sum.xy += add.xy;
-        sum.yy += add.yy;
-      }
+      if (n > low - 0.5 && n > 0)
+        block.add_force(n, forces[static_cast<std::size_t>(std::lround(n - low))]);
       if (n + 2 > high + 0.5) break;
-      const double inverse_next = 1 / (n + 2);
-      for (std::size_t k = 0; k < count; ++k) {
-        p1[k] *= q1[k];
-        p2[k] *= q2[k];
-        j[k] = inverse_square[k] * (x2[k] * p2[k] - x1[k] * p1[k] + (n + 1) * j[k]) * inverse_next;
-      }
+      block.rise_from(n);
     }
   }
 }

@@ -96,140 +96,226 @@ std::optional<ValleyPoint> ForceLines::critical_point(Vec2 p, bool minimum) {
   return std::nullopt;
 }
 
-Trail ForceLines::follow(Vec2 p, Vec2 direction, double share, Start start) {
-  Trail trail;
-  double radius = 0;
-  Force force = force_at(p, radius);
-  double scale = 0.8;
-  constexpr double least_scale = 0.8 / 64;
-  constexpr int most_steps = 10000;
-  const int most_stalls = options_.through_flats ? 3 : 40;
-  int stalls = 0;
-  bool settled = false;  // since the last good step
-  std::uint32_t flat_since = no_point;
-  bool climbing = start == Start::either;
-  for (int count = 0; count < most_steps && !exhausted(); ++count) {
-    if (options_.within && !contains(*options_.within, p) && count > 0) return trail;
-    const Vec2 before = direction;
-    if (scale < 0.15 && !settled && settle(p, radius, force, direction)) {
-      // Steps of this size would zigzag across the valley.
-      settled = true;
-      if ((climbing || (options_.through_flats && lost(force))) && dot(direction, before) < 0)
-        direction = -direction;
-      trail.points.push_back({p, radius, direction, ValleyPoint::Kind::valley});
-      scale = 0.4;
-      continue;
+/// One line while it is followed.
+class ForceLines::Walk {
+ public:
+  Walk(ForceLines& lines, Vec2 p, Vec2 direction, double share, Start start)
+      : lines_(lines), share_(share), direction_(direction), climbing_(start == Start::either) {
+    here_.p = p;
+    here_.force = lines_.force_at(p, here_.radius);
+  }
+
+  Trail run() {
+    Next next = Next::on;
+    for (int count = 0; count < most_steps && !lines_.exhausted() && next != Next::stuck; ++count) {
+      begins_ = count == 0;
+      if (!begins_ && has_left_box()) return std::move(trail_);
+      if (settles()) continue;
+      next = propose();
+      if (next == Next::on) next = judge();
+      if (next == Next::on) next = go();
+      if (next == Next::ended) return std::move(trail_);
     }
-    const double step = scale * reach(radius);
-    Vec2 q;
-    Force next;
-    double next_radius = 0;
-    bool good = advance(p, direction, step, q, next, next_radius);
-    if (!good && scale > least_scale) {
-      scale = std::max(scale / 2, least_scale);
-      if (!climbing && !(options_.through_flats && lost(force)) &&
-          (count > 0 || norm(force.force) > 1e-9))
-        direction = blend(direction, force.force);
-      continue;
+    if (!lines_.exhausted()) trail_.end = minimum_here();
+    return std::move(trail_);
+  }
+
+ private:
+  enum class Next : std::uint8_t {
+    on,     ///< with what is told of the step
+    again,  ///< with another step
+    ended,  ///< the trail is whole
+    stuck,  ///< no step leads on
+  };
+  struct Spot {
+    Vec2 p;
+    double radius = 0;
+    Force force;
+  };
+  static constexpr int most_steps = 10000;
+  static constexpr double longest = 0.8, least = longest / 64;
+
+  double step() const { return scale_ * lines_.reach(here_.radius); }
+  /// Where the force along a valley is lost, the line goes on as it went.
+  bool is_flat(const Force& force) const {
+    return lines_.options_.through_flats && lines_.lost(force);
+  }
+  bool has_left_box() const {
+    return lines_.options_.within && !contains(*lines_.options_.within, here_.p);
+  }
+  std::uint32_t minimum_here() {
+    return lines_.graph_.minimum_at(
+        {here_.p, here_.radius, direction_, ValleyPoint::Kind::minimum});
+  }
+  void record(ValleyPoint::Kind kind) {
+    trail_.points.push_back({here_.p, here_.radius, direction_, kind});
+  }
+
+  /// Down to the floor, where steps so short would zigzag across the valley.
+  bool settles() {
+    const Vec2 before = direction_;
+    if (!(scale_ < 0.15 && !settled_ &&
+          lines_.settle(here_.p, here_.radius, here_.force, direction_)))
+      return false;
+    settled_ = true;
+    if ((climbing_ || is_flat(here_.force)) && dot(direction_, before) < 0)
+      direction_ = -direction_;
+    record(ValleyPoint::Kind::valley);
+    scale_ = 0.4;
+    return true;
+  }
+
+  /// A step along the force, or a shorter one; an explicit one at last.
+  Next propose() {
+    const bool good =
+        lines_.advance(here_.p, direction_, step(), there_.p, there_.force, there_.radius);
+    if (!good && scale_ > least) {
+      scale_ = std::max(scale_ / 2, least);
+      if (!climbing_ && !is_flat(here_.force) && (!begins_ || norm(here_.force.force) > 1e-9))
+        direction_ = blend(direction_, here_.force.force);
+      return Next::again;
     }
-    if (!good && climbing) return trail;
-    if (!good) {
-      q = p + step * unit(force.force);
-      next = force_at(q, next_radius);
-      if (!(next_radius > 0)) return trail;
+    if (!good && (climbing_ || !step_explicitly())) return Next::ended;
+    moved_ = unit(there_.p - here_.p);
+    turn_ = dot(moved_, direction_);
+    if (turn_ < 0.8 && scale_ > 0.1) {
+      scale_ /= 2;
+      return Next::again;
     }
-    const Vec2 moved = unit(q - p);
-    const double turn = dot(moved, direction);
-    if (turn < 0.8 && scale > 0.1) {
-      scale /= 2;
-      continue;
+    return Next::on;
+  }
+
+  /// False on the border.
+  bool step_explicitly() {
+    there_.p = here_.p + step() * unit(here_.force.force);
+    there_.force = lines_.force_at(there_.p, there_.radius);
+    return there_.radius > 0;
+  }
+
+  /// What the force at the end of the step tells: a saddle climbed, a minimum, an end.
+  Next judge() {
+    flat_ = is_flat(there_.force);
+    if (climbing_ && !flat_ && dot(there_.force.force, moved_) > 0) {
+      climbing_ = false;
+      if (!trail_.points.empty()) trail_.points.back().kind = ValleyPoint::Kind::saddle;
     }
-    // Where the force along a valley is lost, the line goes on as it went.
-    const bool flat = options_.through_flats && lost(next);
-    if (climbing && !flat && dot(next.force, moved) > 0) {
-      climbing = false;
-      if (!trail.points.empty()) trail.points.back().kind = ValleyPoint::Kind::saddle;
-    }
+    const bool turned = !flat_ && dot(there_.force.force, moved_) < 0;
     // A floor without slope between rising ones stands for a minimum.
-    if (flat_since != no_point && !flat && dot(next.force, moved) < 0 && share > 0) {
-      trail.end = graph_.minimum_at({p, radius, direction, ValleyPoint::Kind::minimum});
-      return trail;
+    if (turned && flat_since_ != no_point && share_ > 0) {
+      trail_.end = minimum_here();
+      return Next::ended;
     }
     // Up to the border: no saddle is ahead. Necks wider than this are passed.
     constexpr double narrowest = 1e-4;
-    if (climbing && radius < narrowest * options_.step) return trail;
-    if (dot(next.force, moved) < 0 && !flat && !climbing) {
-      // The force has turned: a minimum or a saddle lies near, or the step was too long.
-      if (next.determinant() > 0 || force.determinant() > 0) {
-        const auto minimum = critical_point(next.determinant() > 0 ? q : p, true);
-        if (minimum && distance(minimum->place, p) <= 2 * reach(radius)) {
-          trail.end = graph_.minimum_at(*minimum);
-          return trail;
-        }
-      }
-      if (scale > 0.2) {
-        scale /= 2;
-        continue;
-      }
-      const auto saddle = critical_point(p, false);
-      if (saddle && distance(saddle->place, p) <= 2 * reach(radius) && stalls < most_stalls) {
-        // The line all but meets it: on, to the side that the line is on.
-        ++stalls;
-        trail.weakest = 0;
-        trail.place = saddle->place;
-        direction = dot(force.force, saddle->tangent) < 0 ? -saddle->tangent : saddle->tangent;
-        trail.points.push_back(
-            {saddle->place, saddle->radius, direction, ValleyPoint::Kind::valley});
-        p = saddle->place + 0.25 * reach(saddle->radius) * direction;
-        force = force_at(p, radius);
-        trail.points.push_back({p, radius, direction, ValleyPoint::Kind::valley});
-        continue;
-      }
-      if (scale > least_scale) {
-        scale /= 2;
-        continue;
-      }
-      if (++stalls > most_stalls) break;
-      q = p + step * unit(force.force);
-      next = force_at(q, next_radius);
-      if (!(next_radius > 0)) return trail;
-    }
-    if (scale >= 0.15) settled = false;
-    const Vec2 p_moved = q - p;
-    p = q;
-    radius = next_radius;
-    force = next;
-    direction = unit(p_moved);
-    // Other valleys may begin where a floor without slope does: a corridor's end.
-    const bool level = flat != (flat_since != no_point);
-    if (level && !trail.points.empty() && trail.points.back().kind == ValleyPoint::Kind::valley)
-      trail.points.back().kind = ValleyPoint::Kind::level;
-    trail.points.push_back(
-        {p, radius, direction, level ? ValleyPoint::Kind::level : ValleyPoint::Kind::valley});
-    if (force.determinant() < 0 && norm(force.force) < trail.weakest) {
-      trail.weakest = norm(force.force);
-      trail.place = p;
-    }
-    if (share > 0) {
-      trail.end = graph_.joined(p, radius, direction, share, flat || climbing);
-      if (trail.end == no_point && (flat || climbing))
-        trail.end = graph_.crossed(p - p_moved, p, radius);
-      if (trail.end != no_point) return trail;
-    }
-    if (!flat) {
-      flat_since = no_point;
-    } else if (flat_since == no_point) {
-      flat_since = static_cast<std::uint32_t>(trail.points.size() - 1);
-    } else if (trail.points.size() > flat_since + 8 &&
-               distance(trail.points[flat_since].place, p) < 0.8 * reach(radius)) {
-      trail.closes = flat_since;
-      return trail;
-    }
-    if (turn > 0.98) scale = std::min(0.8, scale * 1.6);
+    if (climbing_ && here_.radius < narrowest * lines_.options_.step) return Next::ended;
+    return turned && !climbing_ ? meet_turned_force() : Next::on;
   }
-  if (!exhausted())
-    trail.end = graph_.minimum_at({p, radius, direction, ValleyPoint::Kind::minimum});
-  return trail;
+
+  /// The force has turned: a minimum or a saddle lies near, or the step was too long.
+  Next meet_turned_force() {
+    if (there_.force.determinant() > 0 || here_.force.determinant() > 0) {
+      const auto minimum =
+          lines_.critical_point(there_.force.determinant() > 0 ? there_.p : here_.p, true);
+      if (minimum && is_near(*minimum)) {
+        trail_.end = lines_.graph_.minimum_at(*minimum);
+        return Next::ended;
+      }
+    }
+    if (scale_ > 0.2) {
+      scale_ /= 2;
+      return Next::again;
+    }
+    const int most_stalls = lines_.options_.through_flats ? 3 : 40;
+    const auto saddle = lines_.critical_point(here_.p, false);
+    if (saddle && is_near(*saddle) && stalls_ < most_stalls) {
+      ++stalls_;
+      pass(*saddle);
+      return Next::again;
+    }
+    if (scale_ > least) {
+      scale_ /= 2;
+      return Next::again;
+    }
+    if (++stalls_ > most_stalls) return Next::stuck;
+    return step_explicitly() ? Next::on : Next::ended;
+  }
+
+  bool is_near(const ValleyPoint& point) const {
+    return distance(point.place, here_.p) <= 2 * lines_.reach(here_.radius);
+  }
+
+  /// The line all but meets a saddle: on, to the side that the line is on.
+  void pass(const ValleyPoint& saddle) {
+    trail_.weakest = 0;
+    trail_.place = saddle.place;
+    direction_ = dot(here_.force.force, saddle.tangent) < 0 ? -saddle.tangent : saddle.tangent;
+    trail_.points.push_back({saddle.place, saddle.radius, direction_, ValleyPoint::Kind::valley});
+    here_.p = saddle.place + 0.25 * lines_.reach(saddle.radius) * direction_;
+    here_.force = lines_.force_at(here_.p, here_.radius);
+    record(ValleyPoint::Kind::valley);
+  }
+
+  /// Takes the step, and ends in a valley that is known.
+  Next go() {
+    if (scale_ >= 0.15) settled_ = false;
+    const Vec2 way = there_.p - here_.p;
+    here_ = there_;
+    direction_ = unit(way);
+    // Other valleys may begin where a floor without slope does: a corridor's end.
+    const bool level = flat_ != (flat_since_ != no_point);
+    if (level && !trail_.points.empty() && trail_.points.back().kind == ValleyPoint::Kind::valley)
+      trail_.points.back().kind = ValleyPoint::Kind::level;
+    record(level ? ValleyPoint::Kind::level : ValleyPoint::Kind::valley);
+    if (here_.force.determinant() < 0 && norm(here_.force.force) < trail_.weakest) {
+      trail_.weakest = norm(here_.force.force);
+      trail_.place = here_.p;
+    }
+    if ((share_ > 0 && joins(way)) || comes_round()) return Next::ended;
+    if (turn_ > 0.98) scale_ = std::min(longest, scale_ * 1.6);
+    return Next::on;
+  }
+
+  bool joins(Vec2 way) {
+    const ValleyGraph& graph = lines_.graph_;
+    const bool any_way = flat_ || climbing_;
+    trail_.end = graph.joined(here_.p, here_.radius, direction_, share_, any_way);
+    if (trail_.end == no_point && any_way)
+      trail_.end = graph.crossed(here_.p - way, here_.p, here_.radius);
+    return trail_.end != no_point;
+  }
+
+  /// To where the floor without slope that it is on began.
+  bool comes_round() {
+    const auto last = static_cast<std::uint32_t>(trail_.points.size() - 1);
+    if (!flat_) {
+      flat_since_ = no_point;
+    } else if (flat_since_ == no_point) {
+      flat_since_ = last;
+    } else if (last >= flat_since_ + 8 && distance(trail_.points[flat_since_].place, here_.p) <
+                                              0.8 * lines_.reach(here_.radius)) {
+      trail_.closes = flat_since_;
+    }
+    return trail_.closes != no_point;
+  }
+
+  ForceLines& lines_;
+  const double share_;
+  Trail trail_;
+  Spot here_, there_;  ///< there: the end of the step
+  Vec2 direction_;
+  Vec2 moved_;              ///< the direction of the step
+  double turn_ = 1;         ///< between it and the last one's: the cosine
+  bool flat_ = false;       ///< is_flat() there
+  double scale_ = longest;  ///< of the step, in units of the longest here
+  bool begins_ = true;
+  bool climbing_;
+  bool settled_ = false;  ///< since the last good step
+  int stalls_ = 0;
+  std::uint32_t flat_since_ = no_point;
+};
+
+Trail ForceLines::follow(Vec2 p, Vec2 direction, double share, Start start) {
+  return Walk(*this, p, direction, share, start).run();
 }
 
 bool ForceLines::settle(Vec2& p, double& radius, Force& force, Vec2& direction) {

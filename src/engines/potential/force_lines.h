@@ -79,6 +79,8 @@ class ForceLines {
   static constexpr double merge_share = 0.25;
 
  private:
+  class Walk;
+
   /// What a force must be, as a share of what it would be beside one side alone.
   static constexpr double least_force = 100 * Evaluator::far_field;
 

@@ -164,6 +164,81 @@ void join_equal(Refined& axis) {
   std::erase_if(axis.links, [](const auto& link) { return link[0] == link[1]; });
 }
 
+/// How the valleys of a region are traced; a seed and a box in the frame's units.
+SkeletonOptions tracing_of(const Region& region, const Frame& frame, const Options& options) {
+  const PotentialOptions& own = options.potential;
+  SkeletonOptions tracing;
+  tracing.order = own.base_order > 0 ? own.base_order
+                  : own.order > 0    ? std::min(own.order, usual_order)
+                                     : usual_order;
+  if (!own.whole() && own.base_order == 0) tracing.order = std::min(tracing.order, partial_order);
+  tracing.step = own.step * region.size;
+  tracing.cancel = options.cancel;
+  if (own.from) tracing.from = frame.to_local(*own.from);
+  if (own.within)
+    tracing.within = Box{frame.to_local(own.within->low), frame.to_local(own.within->high)};
+  return tracing;
+}
+
+/// The points of the axis: the skeleton's own, where its order is the one asked for.
+Refined points_of(const Skeleton& skeleton, const Charges& charges, const Region& region,
+                  const SkeletonOptions& tracing, const PotentialOptions& own) {
+  Refined refined;
+  if (own.order == skeleton.order) {
+    for (const ValleyPoint& point : skeleton.points)
+      refined.points.push_back({point.place, point.radius, skeleton.order});
+    refined.links = skeleton.links;
+  } else {
+    SuccessorOptions search;
+    search.order = own.order;
+    search.angle = own.angle * std::numbers::pi / 180;
+    search.movement = own.movement * region.size;
+    // Points on a valley of some order are no worse than that.
+    search.least_order = skeleton.order;
+    search.step = tracing.step;
+    search.accuracy = tracing.step / 64;
+    refined = successors_of(skeleton, charges, search);
+  }
+  join_equal(refined);
+  return refined;
+}
+
+/// Makes the points of one component nodes of the axis, and their links edges between the nearest
+/// charges on both sides.
+void append(MedialAxis& axis, std::uint32_t component, const Refined& refined, const Region& region,
+            const Charges& charges, const SiteNames& names, const Frame& frame) {
+  const auto base = static_cast<std::uint32_t>(axis.nodes.size());
+  for (const Successor& point : refined.points)
+    axis.nodes.push_back({{frame.to_input(point.place), point.radius * frame.inverse},
+                          component,
+                          NodeKind::site_change});
+  for (const auto& [from, to] : refined.links) {
+    const Successor &a = refined.points[from], &b = refined.points[to];
+    const Successor& inner = a.radius > 0 ? a : b;
+    const Vec2 along = b.place - a.place;
+    const double length = norm(along);
+    const Vec2 aside = length > 0 ? (0.5 * inner.radius / length) * left_of(along) : Vec2{};
+    std::array<std::uint32_t, 2> touched{};
+    for (const std::size_t side : {0U, 1U}) {
+      const Vec2 p = side == 0 ? inner.place + aside : inner.place - aside;
+      touched[side] = names.nearest(region.pieces[charges.nearest(p).piece], p);
+    }
+    const Disk &first = axis.nodes[base + from].disk, &last = axis.nodes[base + to].disk;
+    const Disk middle{midpoint(first.center, last.center), 0.5 * (first.radius + last.radius)};
+    axis.edges.push_back({{base + from, base + to}, touched, middle, 1});
+  }
+}
+
+void tell_kinds(MedialAxis& axis) {
+  std::vector<std::uint32_t> degree(axis.nodes.size());
+  for (const Edge& edge : axis.edges)
+    for (const std::uint32_t node : edge.node) ++degree[node];
+  for (std::size_t i = 0; i < degree.size(); ++i)
+    axis.nodes[i].kind = degree[i] > 2   ? NodeKind::branching
+                         : degree[i] < 2 ? NodeKind::leaf
+                                         : NodeKind::site_change;
+}
+
 }  // namespace
 
 Result<MedialAxis> run(const Shape& shape, const Options& options) {
@@ -183,25 +258,15 @@ Result<MedialAxis> run(const Shape& shape, const Options& options) {
   const double whole = std::max(box.high.x - box.low.x, box.high.y - box.low.y);
   const std::vector<Region> regions =
       regions_of(shape, frame, options.corner_angle, 0.01 * own.step * whole * frame.scale);
+  const auto cancelled = [&] { return options.cancel != nullptr && options.cancel->load(); };
   bool seeded = !own.from;
   for (std::uint32_t component = 0; component < regions.size(); ++component) {
     const Region& region = regions[component];
     const Charges charges(region.pieces);
     axis.statistics.seconds_tree += watch.lap();
-    SkeletonOptions tracing;
-    tracing.order = own.base_order > 0 ? own.base_order
-                    : own.order > 0    ? std::min(own.order, usual_order)
-                                       : usual_order;
-    tracing.step = own.step * region.size;
-    tracing.cancel = options.cancel;
-    if (own.within)
-      tracing.within = Box{frame.to_local(own.within->low), frame.to_local(own.within->high)};
-    if (!own.whole() && own.base_order == 0) tracing.order = std::min(tracing.order, partial_order);
-    if (own.from) {
-      tracing.from = frame.to_local(*own.from);
-      if (!encloses(region, *tracing.from)) continue;
-      seeded = true;
-    }
+    const SkeletonOptions tracing = tracing_of(region, frame, options);
+    if (tracing.from && !encloses(region, *tracing.from)) continue;
+    seeded = true;
     axis.resolution = std::max(axis.resolution, tracing.step * frame.inverse);
     const Skeleton skeleton =
         own.coarse > 0 && own.whole()
@@ -209,62 +274,19 @@ Result<MedialAxis> run(const Shape& shape, const Options& options) {
             : trace_valleys(region, charges, tracing);
     axis.statistics.queries += skeleton.forces;
     axis.statistics.seconds_walk += watch.lap();
-    if (options.cancel != nullptr && options.cancel->load()) break;
+    if (cancelled()) break;
     if (!skeleton.whole)
       return Error{ErrorCode::unsupported,
                    "the potential's valleys are too flat to be connected: use the method disks",
                    {}};
-    SuccessorOptions search;
-    search.order = own.order;
-    search.angle = own.angle * std::numbers::pi / 180;
-    search.movement = own.movement * region.size;
-    // Points on a valley of some order are no worse than that.
-    search.least_order = skeleton.order;
-    search.step = tracing.step;
-    search.accuracy = tracing.step / 64;
-    Refined refined;
-    if (own.order == skeleton.order) {
-      for (const ValleyPoint& point : skeleton.points)
-        refined.points.push_back({point.place, point.radius, skeleton.order});
-      refined.links = skeleton.links;
-    } else {
-      refined = successors_of(skeleton, charges, search);
-    }
-    join_equal(refined);
-    const auto base = static_cast<std::uint32_t>(axis.nodes.size());
-    for (const Successor& point : refined.points)
-      axis.nodes.push_back({{frame.to_input(point.place), point.radius * frame.inverse},
-                            component,
-                            NodeKind::site_change});
-    for (const auto& [from, to] : refined.links) {
-      const Successor &a = refined.points[from], &b = refined.points[to];
-      // The nearest charges on both sides.
-      const Successor& inner = a.radius > 0 ? a : b;
-      const Vec2 along = b.place - a.place;
-      const double length = norm(along);
-      const Vec2 aside = length > 0 ? (0.5 * inner.radius / length) * left_of(along) : Vec2{};
-      std::array<std::uint32_t, 2> touched{};
-      for (const std::size_t side : {0U, 1U}) {
-        const Vec2 p = side == 0 ? inner.place + aside : inner.place - aside;
-        touched[side] = names.nearest(region.pieces[charges.nearest(p).piece], p);
-      }
-      axis.edges.push_back({{base + from, base + to}, touched, {}, 1});
-      const Disk &first = axis.nodes[base + from].disk, &last = axis.nodes[base + to].disk;
-      axis.edges.back().control = {midpoint(first.center, last.center),
-                                   0.5 * (first.radius + last.radius)};
-    }
+    append(axis, component, points_of(skeleton, charges, region, tracing, own), region, charges,
+           names, frame);
     axis.statistics.seconds_collect += watch.lap();
-    if (options.cancel != nullptr && options.cancel->load()) break;
+    if (cancelled()) break;
     if (options.progress) options.progress((component + 1.0) / static_cast<double>(regions.size()));
   }
   if (!seeded) return Error{ErrorCode::invalid_option, "the seed lies outside of the shape", {}};
-  std::vector<std::uint32_t> degree(axis.nodes.size());
-  for (const Edge& edge : axis.edges)
-    for (const std::uint32_t node : edge.node) ++degree[node];
-  for (std::size_t i = 0; i < degree.size(); ++i)
-    axis.nodes[i].kind = degree[i] > 2   ? NodeKind::branching
-                         : degree[i] < 2 ? NodeKind::leaf
-                                         : NodeKind::site_change;
+  tell_kinds(axis);
   return axis;
 }
 
