@@ -197,6 +197,24 @@ TEST(BiarcDc, NodesOfHighDegreeAreOneDisk) {
   }
 }
 
+/// Corners rounded by 1e-9 of the size, and a disk that 21 arcs touch: the axis is certified, begun
+/// anew from other places, or refused with the place.
+TEST(BiarcDc, DoubtfulAxesAreVerifiedOrUnsupported) {
+  for (const std::uint64_t number : {3627U, 4787U, 11728U}) {
+    SCOPED_TRACE(number);
+    const auto shape = build_shape(random_arc_shape(number).rings);
+    ASSERT_TRUE(shape.ok());
+    const auto axis = compute(*shape, options_for(Method::biarc_dc, 2));
+    EXPECT_EQ(axis.ok(), number != 11728);
+    if (axis) {
+      EXPECT_EQ(joined(verify(*shape, *axis, {.threads = 1})), "");
+    } else {
+      EXPECT_EQ(axis.error().code, ErrorCode::unsupported) << to_string(axis.error());
+      EXPECT_TRUE(axis.error().place.point);
+    }
+  }
+}
+
 TEST(BiarcDc, RoundShapes) {
   const auto round = build_shape(std::vector{circle({1, 2}, 3, 0.5)});
   ASSERT_TRUE(round.ok());

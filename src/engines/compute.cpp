@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "base/arc.h"
 #include "base/in_flight.h"
 #include "base/threads.h"
 #include "engines/biarc_dc/biarc_dc.h"
@@ -55,12 +57,48 @@ Result<MedialAxis> compute_exterior(const Shape& shape, const Options& options) 
   return axis;
 }
 
+/// Whether rounding alone may decide what disks touch: arcs so small that their directions have few
+/// digits, or a disk that very many sites touch. O(n).
+bool is_doubtful(const Shape& shape, const MedialAxis& axis) {
+  if (shape.bulges.empty()) return false;
+  constexpr double few_digits = 0x1p-24;  // of the size
+  constexpr std::uint32_t many = 8;
+  const double least = few_digits * diagonal(bounding_box(shape));
+  for (std::size_t loop = 0; loop < shape.loop_count(); ++loop) {
+    const auto points = shape.loop(loop);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const BulgeArc arc{points[i], points[i + 1 < points.size() ? i + 1 : 0],
+                         shape.bulge(shape.loop_begin[loop] + i)};
+      if (std::abs(curvature(arc)) * least > 1) return true;
+    }
+  }
+  std::vector<std::uint32_t> degree(axis.nodes.size());
+  return std::ranges::any_of(axis.edges, [&](const Edge& edge) {
+    return ++degree[edge.node[0]] > many || ++degree[edge.node[1]] > many;
+  });
+}
+
+/// The method biarc-dc. Where an axis is doubtful it is certified, begun anew from other random
+/// places, and refused if none stands.
+Result<MedialAxis> run_biarc_dc(const Shape& shape, Options options) {
+  constexpr int most_beginnings = 4;
+  std::optional<Error> error;
+  for (int i = 0; i < most_beginnings; ++i, ++options.seed) {
+    MedialAxis axis = biarc_dc::run(shape, options);
+    if (is_cancelled(options) || !is_doubtful(shape, axis)) return axis;
+    error = disks::error_if_refused(shape, options, axis);
+    if (!error) return axis;
+  }
+  error->text = "rounding alone tells what a disk touches here";
+  return std::move(*error);
+}
+
 Result<MedialAxis> run(const Shape& shape, const Options& options, bool& in_centers) {
   switch (options.method) {
     case Method::potential:
       return potential::run(shape, options);
     case Method::biarc_dc:
-      return biarc_dc::run(shape, options);
+      return run_biarc_dc(shape, options);
     case Method::lee:
       return lee::run(shape, options);
     case Method::ridge:
