@@ -107,7 +107,7 @@ std::vector<std::string> check_against_flattened(const RandomShape& random) {
   if (flat->edges.empty()) return {};
   const AxisLocator locator(*flat);
   std::vector<std::string> failures;
-  for (const medial::Edge& edge : axis->edges) {
+  for (const Edge& edge : axis->edges) {
     for (const double t : {0.0, 0.3, 0.6}) {
       const Disk disk = disk_at(*axis, edge, t);
       const Vec2 left = foot(axis->sites[edge.site[0]], disk.center) - disk.center;

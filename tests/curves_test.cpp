@@ -503,7 +503,7 @@ TEST(Arcs, CurvatureIsMonotoneAlongSpirals) {
     int turns = 0, sign_changes = 0;
     double before = 0, direction = 0;
     for (std::size_t i = 0; i + 1 < ring.points.size(); ++i) {
-      const double k = test::Edge{ring.points[i], ring.points[i + 1], ring.bulges[i]}.curvature();
+      const double k = ArcEdge{ring.points[i], ring.points[i + 1], ring.bulges[i]}.curvature();
       if (i > 0) {
         sign_changes += (k > 0) != (before > 0);
         const double step = k - before;
@@ -525,7 +525,7 @@ TEST(Arcs, AnApexOfLargestCurvatureIsOneArc) {
   const Contour contour = ellipse(2, 1, 0.4);  // its apices are inside its pieces
   const Ring ring = ring_of(contour, 1e-6);
   int at_apex = 0;
-  for (const test::Edge& edge : edges_of(ring)) {
+  for (const ArcEdge& edge : edges_of(ring)) {
     if (std::abs(edge.curvature() - 2) < 1e-9) {
       ++at_apex;
       EXPECT_NEAR(edge.distance_to({std::copysign(2, edge.begin.x), 0}), 0, 1e-15);
@@ -556,7 +556,7 @@ TEST(Arcs, CurvatureThatJumpsUpIsALeafAtEveryTolerance) {
 TEST(Arcs, CirclesAreExact) {
   const Ring circle = ring_of(ellipse(1, 1), 1e-3);
   ASSERT_EQ(circle.points.size(), 4u);
-  for (const test::Edge& edge : edges_of(circle)) {
+  for (const ArcEdge& edge : edges_of(circle)) {
     EXPECT_NEAR(edge.bulge, std::tan(pi / 8), 1e-15);
     EXPECT_NEAR(norm(edge.begin), 1, 1e-16);
   }
@@ -569,7 +569,7 @@ TEST(Arcs, CirclesAreExact) {
       std::vector<double>{1, s, 1, s, 1, s, 1, s, 1}));
   const Ring nurbs = ring_of(contour, 1e-3);
   ASSERT_EQ(nurbs.points.size(), 4u);
-  for (const test::Edge& edge : edges_of(nurbs)) EXPECT_NEAR(edge.curvature(), 0.5, 1e-15);
+  for (const ArcEdge& edge : edges_of(nurbs)) EXPECT_NEAR(edge.curvature(), 0.5, 1e-15);
 }
 
 TEST(Arcs, RationalCurvesMeetTheTolerance) {

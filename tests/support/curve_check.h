@@ -42,8 +42,8 @@ inline Vec2 point_of(const Contour& contour, const CurvePiece& piece, double t) 
   return {static_cast<double>(x[0] / w[0]), static_cast<double>(y[0] / w[0])};
 }
 
-/// Edge i of a ring as an arc.
-struct Edge {
+/// ArcEdge i of a ring as an arc.
+struct ArcEdge {
   Vec2 begin;
   Vec2 end;
   double bulge = 0;
@@ -70,8 +70,8 @@ struct Edge {
   }
 };
 
-inline std::vector<Edge> edges_of(const Ring& ring) {
-  std::vector<Edge> edges;
+inline std::vector<ArcEdge> edges_of(const Ring& ring) {
+  std::vector<ArcEdge> edges;
   const std::size_t n = ring.points.size();
   for (std::size_t i = 0; i < n; ++i) {
     edges.push_back({ring.points[i], ring.points[(i + 1) % n], ring.bulges[i]});
@@ -82,7 +82,7 @@ inline std::vector<Edge> edges_of(const Ring& ring) {
 /// The distance between a contour that its pieces close and its ring, both ways, at `samples`
 /// points of each piece and at the middle of each edge. An estimate from below.
 inline double measured_distance(const Contour& contour, const Ring& ring, int samples) {
-  const std::vector<Edge> edges = edges_of(ring);
+  const std::vector<ArcEdge> edges = edges_of(ring);
   double largest = 0;
   struct Sample {
     Vec2 point;
@@ -98,14 +98,14 @@ inline double measured_distance(const Contour& contour, const Ring& ring, int sa
   }
   for (const Sample& sample : on_curve) {
     double least = 1e300;
-    for (const Edge& edge : edges) {
+    for (const ArcEdge& edge : edges) {
       const double reach = 2 * distance(edge.begin, edge.end);
       if (distance(sample.point, edge.begin) > least + reach) continue;
       least = std::min(least, edge.distance_to(sample.point));
     }
     largest = std::max(largest, least);
   }
-  for (const Edge& edge : edges) {
+  for (const ArcEdge& edge : edges) {
     const Vec2 middle = edge.middle();
     double nearest = 1e300;
     for (const Sample& sample : on_curve) {
@@ -149,7 +149,7 @@ inline int locally_most_curved(const Ring& ring) {
   // Neighbours on one circle differ by rounding: of points over the square of chords.
   constexpr double same = 1e-7;
   std::vector<double> k;
-  for (const Edge& edge : edges_of(ring)) {
+  for (const ArcEdge& edge : edges_of(ring)) {
     const double next = edge.curvature();
     if (k.empty() || std::abs(next - k.back()) > same * std::abs(next)) k.push_back(next);
   }
@@ -164,7 +164,7 @@ inline int locally_most_curved(const Ring& ring) {
 
 /// The largest angle between the tangents of neighbouring edges.
 inline double largest_turn(const Ring& ring) {
-  const std::vector<Edge> edges = edges_of(ring);
+  const std::vector<ArcEdge> edges = edges_of(ring);
   double largest = 0;
   for (std::size_t i = 0; i < edges.size(); ++i) {
     const Vec2 u = edges[i].tangent(true), v = edges[(i + 1) % edges.size()].tangent(false);
