@@ -166,7 +166,8 @@ Status write_previews(const AxisFile& file, const PruneOptions& options,
     if (options.measure == PruneMeasure::angle) {  // from 0 to 180 degrees
       const double half = factor <= 1 ? chosen * factor : chosen + (180 - chosen) * factor / 5;
       thresholds.push_back(half);
-    } else if (options.measure == PruneMeasure::scale) {  // from 1 up
+    } else if (options.measure == PruneMeasure::scale ||
+               options.measure == PruneMeasure::ratio) {  // from 1 up
       thresholds.push_back(1 + (chosen - 1) * factor);
     } else {
       thresholds.push_back(chosen * factor);
