@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 #include <functional>
+#include <string>
 
 #include "base/tolerance.h"
 #include "cli/bench_lee.h"
@@ -16,11 +17,18 @@
 namespace medial::cli {
 namespace {
 
-/// The components of a bisector in turn.
-void component_pen(Figure& figure, int which) {
-  constexpr std::array<std::array<double, 3>, 4> pens{
-      {{0.80, 0.20, 0.20}, {0.15, 0.45, 0.75}, {0.20, 0.55, 0.25}, {0.75, 0.45, 0.10}}};
-  const auto& [red, green, blue] = pens[static_cast<std::size_t>(which) % pens.size()];
+/// The components of a bisector, each in its colour.
+void component_pen(Figure& figure, std::size_t which) {
+  constexpr std::array<std::array<double, 3>, 9> pens{{{0.80, 0.20, 0.20},
+                                                       {0.15, 0.45, 0.75},
+                                                       {0.20, 0.55, 0.25},
+                                                       {0.75, 0.45, 0.10},
+                                                       {0.50, 0.25, 0.60},
+                                                       {0.10, 0.60, 0.60},
+                                                       {0.15, 0.45, 0.75},
+                                                       {0.85, 0.55, 0.15},
+                                                       {0.15, 0.45, 0.75}}};
+  const auto& [red, green, blue] = pens[which % pens.size()];
   figure.pen(red, green, blue, 1.8);
 }
 
@@ -37,7 +45,7 @@ void draw_bisector(Figure& figure, const Site& first, const Site& second) {
   };
   const auto part_of = [](const Site& site, Vec2 p) {
     const Vec2 f = foot(site, p);
-    return f == site.start ? 0 : f == site.end ? 1 : 2;
+    return f == site.start ? 0u : f == site.end ? 1u : 2u;
   };
   for (int i = 0; i < cells; ++i) {
     for (int j = 0; j < cells; ++j) {
@@ -50,7 +58,7 @@ void draw_bisector(Figure& figure, const Site& first, const Site& second) {
       }
       if (crossings.size() != 2) continue;
       const Vec2 middle = midpoint(crossings[0], crossings[1]);
-      component_pen(figure, part_of(first, middle) + part_of(second, middle));
+      component_pen(figure, part_of(first, middle) + 3 * part_of(second, middle));
       figure.line(crossings);
     }
   }
@@ -58,19 +66,22 @@ void draw_bisector(Figure& figure, const Site& first, const Site& second) {
 
 Site segment(Vec2 a, Vec2 b) { return {a, b}; }
 
-/// The polygon of Figs. 3 to 6: ten segments and their like, five reflex vertices.
+/// A polygon for Figs. 3 to 6 with the chains of the paper's: e_1, e_2, e_3 and e_4 to e_10 in its
+/// first half, e_11 to e_21 in its second one; 14 segments and seven reflex vertices.
 Shape polygon() {
   const Ring ring{{{0, 0},
-                   {10, -1},
-                   {12, 3},
-                   {20, 2},
-                   {22, 10},
-                   {15, 9},
-                   {14, 14},
-                   {9, 10},
-                   {5, 15},
-                   {3, 9},
-                   {-3, 10},
+                   {9, -1},
+                   {19, 0},
+                   {23, 4},
+                   {17, 5},
+                   {15, 7},
+                   {15, 10},
+                   {17, 15},
+                   {12, 12},
+                   {9, 16},
+                   {7, 11},
+                   {3, 9.5},
+                   {-2, 12},
                    {1, 5}}};
   return build_shape(std::vector<Ring>{ring}).value();
 }
@@ -125,7 +136,7 @@ class Halves {
   /// The edges among one half's elements, or among all (2); the merge curve in red.
   void draw(Figure& figure, int half) const {
     const auto count = static_cast<std::uint32_t>(elements_.chains.size() - 1);
-    const std::uint32_t middle = elements_.chains[count / 2];
+    const std::uint32_t middle = elements_.chains[(count + 1) / 2];
     figure.thin();
     for (std::uint32_t i = 0; i < elements_.size(); ++i) {
       const geometry::Site& site = elements_.sites[i];
@@ -135,6 +146,15 @@ class Halves {
       else
         figure.thin();
       figure.line({site.point, site.end()});
+    }
+    for (std::uint32_t i = 0; i < elements_.size() && half < 2; ++i) {
+      if ((i < middle) != (half == 0)) continue;
+      figure.ink();
+      // Outside of the polygon, beside the element.
+      const geometry::Site& site = elements_.sites[i];
+      const geometry::Site& beside = site.is_vertex() ? elements_.sites[i - 1] : site;
+      const Vec2 at = site.is_vertex() ? site.point : midpoint(site.point, site.end());
+      figure.mark(at - 0.7 * beside.normal(), ("e" + std::to_string(i + 1)).c_str());
     }
     const std::vector<std::uint32_t> outer = outer_edges();
     for (std::uint32_t i = 0; i < elements_.size(); ++i)
@@ -149,7 +169,8 @@ class Halves {
     Statistics statistics;
     for (std::uint64_t i = 0; i < std::uint64_t{1} << level; ++i) {
       const auto at = [&](int k, std::uint64_t j) {
-        return static_cast<std::uint32_t>((count * j) >> k);
+        const std::uint64_t lists = std::uint64_t{1} << k;
+        return static_cast<std::uint32_t>((count * j + lists - 1) / lists);
       };
       const std::uint32_t first = at(level, i), middle = at(level + 1, 2 * i + 1),
                           end = at(level, i + 1);
@@ -168,6 +189,17 @@ class Halves {
           if (const std::uint32_t inner = diagram_.edges[place].inward[k]; inner != lee::none)
             outer[inner] = place;
     return outer;
+  }
+
+  /// Whether a point's foot on an element's line lies on the element, but for rounding.
+  bool is_beside(std::uint32_t i, Vec2 p) const {
+    constexpr double slack = 1e-9;
+    const geometry::Site& site = elements_.sites[i];
+    const Vec2 d = p - site.point;
+    if (site.is_vertex())
+      return dot(elements_.sites[i - 1].direction, d) >= -slack &&
+             dot(elements_.sites[i + 1].direction, d) <= slack;
+    return dot(site.direction, d) >= -slack && dot(site.direction, d) <= site.length + slack;
   }
 
   /// `outer`: the edge that begins where this one ends.
@@ -195,12 +227,13 @@ class Halves {
     double to = from + 60;
     if (outer != lee::none) to = bisector.position(end);
     if (outer == lee::none && last) to = bisector.position(elements_.sites[0].point);
-    constexpr int pieces = 64;
+    const int pieces = outer == lee::none && !last ? 256 : 48;
     std::vector<Vec2> line;
     for (int k = 0; k <= pieces; ++k) {
       const double t = static_cast<double>(k) / pieces;
       const Vec2 p = bisector.disk_at(from + t * (to - from), edge.inner).center;
       if (!std::isfinite(p.x) || !std::isfinite(p.y)) break;
+      if (outer == lee::none && !last && !(is_beside(i, p) && is_beside(j, p))) break;
       line.push_back(p);
     }
     figure.line(line);
@@ -222,6 +255,10 @@ Status figure_of_point_and_segment(const std::filesystem::path& path) {
     figure.dot(p);
     figure.label(p, name);
   }
+  for (const auto& [p, name] : {std::pair{Vec2{-2.9, 2.0}, "B(q, a)"},
+                                {{-0.4, 0.15}, "B(q, (a, b))"},
+                                {{2.6, 1.5}, "B(q, b)"}})
+    figure.label(p, name);
   return figure.write(path);
 }
 
@@ -236,6 +273,12 @@ Status figure_of_two_segments(const std::filesystem::path& path) {
     figure.dot(p);
     figure.label(p, name);
   }
+  for (const auto& [p, name] : {std::pair{Vec2{-3.4, -0.1}, "B(a, c)"},
+                                {{-2.3, 0.5}, "B(c, (a, b))"},
+                                {{-0.4, 0.4}, "B((a, b), (c, d))"},
+                                {{1.9, -0.3}, "B(b, (c, d))"},
+                                {{3.1, 0.8}, "B(b, d)"}})
+    figure.label(p, name);
   return figure.write(path);
 }
 
@@ -256,7 +299,7 @@ Status figure_of_lemmas(const std::filesystem::path& path) {
   if (!diagram) return diagram.error();
   Figure figure(with_room(shape, 0.5));
   draw_diagram(figure, *diagram, true);
-  const Vec2 z{16.5, 3.6};
+  const Vec2 z{13, 1.5};
   const auto nearest = std::min_element(diagram->sites.begin(), diagram->sites.end(),
                                         [&](const Site& a, const Site& b) {
                                           return distance(foot(a, z), z) < distance(foot(b, z), z);
