@@ -4,12 +4,14 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
 #include "base/arc.h"
 #include "base/in_flight.h"
 #include "base/threads.h"
+#include "base/tolerance.h"
 #include "engines/biarc_dc/biarc_dc.h"
 #include "engines/brushfire/brushfire.h"
 #include "engines/checks.h"
@@ -57,37 +59,58 @@ Result<MedialAxis> compute_exterior(const Shape& shape, const Options& options) 
   return axis;
 }
 
-/// Whether rounding alone may decide what disks touch: arcs so small that their directions have few
-/// digits, or a disk that very many sites touch. O(n).
-bool is_doubtful(const Shape& shape, const MedialAxis& axis) {
-  if (shape.bulges.empty()) return false;
-  constexpr double few_digits = 0x1p-24;  // of the size
-  constexpr std::uint32_t many = 8;
-  const double least = few_digits * diagonal(bounding_box(shape));
+/// Where rounding alone may decide what disks touch, if anywhere: at an arc so small that its
+/// directions have few digits, or at one that the next arc continues on almost the same circle.
+/// O(n).
+std::optional<Vec2> doubtful_place(const Shape& shape) {
+  if (shape.bulges.empty()) return std::nullopt;
+  constexpr double few_digits = 0x1p-24;   // of the size
+  constexpr double near_circle = 1 << 12;  // tolerances
+  const Box box = bounding_box(shape);
+  const double least = few_digits * diagonal(box), near = near_circle * tolerance_for(box, 0);
   for (std::size_t loop = 0; loop < shape.loop_count(); ++loop) {
     const auto points = shape.loop(loop);
+    const auto curvature_of = [&](std::size_t i) {
+      return curvature(
+          {points[i], points[(i + 1) % points.size()], shape.bulge(shape.loop_begin[loop] + i)});
+    };
     for (std::size_t i = 0; i < points.size(); ++i) {
-      const BulgeArc arc{points[i], points[i + 1 < points.size() ? i + 1 : 0],
-                         shape.bulge(shape.loop_begin[loop] + i)};
-      if (std::abs(curvature(arc)) * least > 1) return true;
+      const double one = curvature_of(i), next = curvature_of((i + 1) % points.size());
+      const bool small = std::abs(one) * least > 1;
+      if (small || (one > 0 && next > 0 && std::abs(one - next) <= near * one * next))
+        return points[i];
     }
   }
+  return std::nullopt;
+}
+
+/// Whether a disk is touched by so many sites that rounding may decide what it is.
+bool has_large_ties(const MedialAxis& axis) {
+  constexpr std::uint32_t many = 8;
   std::vector<std::uint32_t> degree(axis.nodes.size());
   return std::ranges::any_of(axis.edges, [&](const Edge& edge) {
     return ++degree[edge.node[0]] > many || ++degree[edge.node[1]] > many;
   });
 }
 
-/// The method biarc-dc. Where an axis is doubtful it is certified, begun anew from other random
+/// The method biarc-dc. Where its axis is doubtful it is certified, begun anew from other random
 /// places, and refused if none stands.
 Result<MedialAxis> run_biarc_dc(const Shape& shape, Options options) {
   constexpr int most_beginnings = 4;
+  const std::optional<Vec2> doubtful = doubtful_place(shape);
   std::optional<Error> error;
   for (int i = 0; i < most_beginnings; ++i, ++options.seed) {
-    MedialAxis axis = biarc_dc::run(shape, options);
-    if (is_cancelled(options) || !is_doubtful(shape, axis)) return axis;
-    error = disks::error_if_refused(shape, options, axis);
-    if (!error) return axis;
+    error = Error{ErrorCode::unsupported, "", {}};
+    error->place.point = doubtful;
+    try {
+      MedialAxis axis = biarc_dc::run(shape, options);
+      const bool certain = !doubtful && (shape.bulges.empty() || !has_large_ties(axis));
+      if (certain || is_cancelled(options)) return axis;
+      error = disks::error_if_refused(shape, options, axis);
+      if (!error) return axis;
+    } catch (const std::runtime_error&) {
+      if (!doubtful) throw;
+    }
   }
   error->text = "rounding alone tells what a disk touches here";
   return std::move(*error);
