@@ -101,12 +101,15 @@ TEST(Prune, KeepsTheHomotopyTypeAndIsNested) {
         }
         before = parts;
         first = false;
+        std::size_t here = 0;
         for (const EdgePart& part : parts) {
           ASSERT_LE(0, part.t0);
           ASSERT_LE(part.t0, part.t1);
           ASSERT_LE(part.t1, 1);
-          cuts += part.t0 > 0 || part.t1 < 1 ? 1 : 0;
+          here += part.t0 > 0 || part.t1 < 1 ? 1 : 0;
         }
+        ASSERT_EQ(order.cuts_at(threshold), here);
+        cuts += here;
         removed += axis.edges.size() - parts.size();
         const MedialAxis pruned = order.at(threshold);
         ASSERT_EQ(pruned.edges.size(), parts.size());

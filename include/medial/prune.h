@@ -92,6 +92,8 @@ class PruneOrder {
   MedialAxis at(double threshold) const;
   /// Of at(threshold).
   std::uint64_t branches_at(double threshold) const;
+  /// How many edges of at(threshold) are cut in their inside. O(n).
+  std::uint64_t cuts_at(double threshold) const;
   /// The lowest threshold that keeps at most so many branches, or else the fewest. O(n log n).
   double threshold_of(std::uint64_t branches) const;
 

@@ -39,14 +39,24 @@ class DiskTree {
   /// `other` is that disk, unchanged where there is none; before, any disk of the part that is
   /// likely to be near to it.
   double vanishes_at(const Disk& disk, std::uint32_t part, Disk& other) const {
-    const Part& tree = parts_[part];
-    Search search{tree, disk, factor(disk, other), other};
-    search.run(tree.levels.size() - 1, 0);
-    return search.best;
+    return least(disk, part, other, factor(disk, other));
+  }
+  /// Whether vanishes_at(disk, part, likely) is below `limit`; sooner than the value.
+  bool vanishes_below(double limit, const Disk& disk, std::uint32_t part, Disk likely) const {
+    return factor(disk, likely) < limit || least(disk, part, likely, limit) < limit;
   }
 
  private:
   static constexpr std::size_t fan_out = 8;
+
+  /// The least factor that is below `best`, of `other` then; or else `best`.
+  double least(const Disk& disk, std::uint32_t part, Disk& other, double best) const {
+    const Part& tree = parts_[part];
+    Search search{tree, disk, best, other};
+    search.run(tree.levels.size() - 1, 0);
+    return search.best;
+  }
+
   /// A box around centres, and the largest radius in it.
   struct Bound {
     Vec2 low, high;

@@ -229,4 +229,13 @@ double Importance::at(std::uint32_t e, double s) const {
   return 0;
 }
 
+bool Importance::reaches(std::uint32_t e, double s, double threshold) const {
+  if (measure_ != PruneMeasure::scale || s == 0 || s == 1) return at(e, s) >= threshold;
+  const Edge& edge = axis_.edges[e];
+  const bool outer_first = trees_.outer_end(axis_, e) == 0;
+  return !disks_->vanishes_below(threshold, curve_of(axis_, edge).at(outer_first ? s : 1 - s),
+                                 trees_.part[edge.node[0]],
+                                 vanishing_[edge.node[outer_first ? 1 : 0]].second);
+}
+
 }  // namespace medial::ops

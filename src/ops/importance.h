@@ -27,6 +27,8 @@ class Importance {
   int steps() const { return steps_; }
   /// The measure at s in [0, 1] of a tree's edge, from its outer to its inner end. Not negative.
   double at(std::uint32_t edge, double s) const;
+  /// Whether at(edge, s) >= threshold.
+  bool reaches(std::uint32_t edge, double s, double threshold) const;
   /// How far the shape reaches from the inner end of an edge, along it and through the disk at the
   /// end of the way.
   double reach(std::uint32_t edge) const;

@@ -48,7 +48,7 @@ double crossing_of(const ops::Importance& importance, std::uint32_t edge, double
   constexpr int halvings = 44;  // to a few units in the last place of lengths along the edge
   for (int i = 0; i < halvings; ++i) {
     const double middle = 0.5 * (low + high);
-    (importance.at(edge, middle) >= threshold ? high : low) = middle;
+    (importance.reaches(edge, middle, threshold) ? high : low) = middle;
   }
   return high;
 }
@@ -148,7 +148,7 @@ struct PruneOrder::Parts {
     const int steps = importance.steps();
     for (int k = 1; k <= steps; ++k) {
       const double high = static_cast<double>(k) / steps;
-      if (k < steps && !(importance.at(e, high) >= threshold)) continue;
+      if (k < steps && !importance.reaches(e, high, threshold)) continue;
       return crossing_of(importance, e, static_cast<double>(k - 1) / steps, high, threshold);
     }
     return 0;
@@ -233,6 +233,13 @@ std::uint64_t PruneOrder::branches_at(double threshold) const {
   return ends / 2 + closed;
 }
 
+std::uint64_t PruneOrder::cuts_at(double threshold) const {
+  std::uint64_t cuts = 0;
+  for (std::size_t e = 0; e < parts_->inner.size(); ++e)
+    cuts += parts_->inner[e] >= threshold && !(parts_->outer[e] >= threshold) ? 1 : 0;
+  return cuts;
+}
+
 double PruneOrder::threshold_of(std::uint64_t branches) const {
   // The count changes only where an edge goes; a larger threshold never has more.
   std::vector<double> values;
@@ -274,8 +281,7 @@ Result<MedialAxis> prune(const MedialAxis& axis, const PruneOptions& options, Pr
     report->edges = pruned.edges.size();
     report->branches_before = order.branches_at(0);
     report->branches = order.branches_at(threshold);
-    for (const EdgePart& part : order.parts(threshold))
-      report->cuts += part.t0 > 0 || part.t1 < 1 ? 1 : 0;
+    report->cuts = order.cuts_at(threshold);
   }
   return pruned;
 }
