@@ -11,6 +11,11 @@ namespace medial::lee {
 
 constexpr std::uint32_t none = ~std::uint32_t{0};
 
+/// Bit for bit: a tie that has been joined.
+inline bool is_same(const Disk& a, const Disk& b) {
+  return a.center == b.center && a.radius == b.radius;
+}
+
 /// A Voronoi edge B(e_i, e_j), i < j: the disks that touch both. Such a disk cuts off the boundary
 /// between its two feet. Along the edge from its inner to its outer end this part grows: the foot
 /// on e_i moves backward, the one on e_j forward.

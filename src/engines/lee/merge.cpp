@@ -79,10 +79,6 @@ class MergeCurve {
 
   const Site& site(std::uint32_t i) const { return diagram_.elements.sites[i]; }
   std::uint32_t& top(std::size_t side) { return diagram_.top[current_[side]][1 - side]; }
-  static bool is_same(const Disk& a, const Disk& b) {
-    return a.center == b.center && a.radius == b.radius;
-  }
-
   /// Begins the edge between the current elements.
   std::uint32_t add_edge() {
     const std::uint32_t place = free_.first;

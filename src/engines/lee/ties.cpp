@@ -84,10 +84,6 @@ class Ties {
   }
 
  private:
-  static bool is_same(const Disk& a, const Disk& b) {
-    return a.center == b.center && a.radius == b.radius;
-  }
-
   bool runs_backward(std::uint32_t edge) const {
     const Disk &from = graph_.disk(edge), &to = graph_.disk(graph_.to(edge));
     if (from.center == to.center) return false;
