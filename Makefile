@@ -76,7 +76,7 @@ corpus: setup   ## every data file below DATA, every glyph below FONTS, verified
 offsets: setup  ## eight offsets of every polygon below DATA, measured, rings counted by pixels: a table
 	@cmake --preset release >/dev/null
 	@cmake --build $(RELEASE) -j $(JOBS) --target medial_offsets
-	@$(RELEASE)/tests/medial_offsets $(DATA)
+	@$(RELEASE)/tests/medial_offsets --fine $(DATA)
 
 tsan: setup     ## the engine's tests under the thread sanitizer
 	@tools/tsan.sh $(TSAN) $(JOBS)

@@ -31,7 +31,8 @@ struct CompareSwitches {
   CommonSwitches common;
   std::string methods = "all";
   std::string output;
-  double fit = 0;  ///< boundaries become smooth within this distance; 0: they do not
+  double fit = 0;   ///< boundaries become smooth within this distance; 0: they do not
+  Options options;  ///< exterior and margin
 };
 
 struct Row {
@@ -61,13 +62,15 @@ double radius_error(const Shape& shape, const MedialAxis& axis) {
 
 /// By the method of this name, which is known.
 Result<MedialAxis> compute_by(const std::string& method, const Shape& shape,
-                              const std::vector<Contour>& contours, const CommonSwitches& common) {
+                              const std::vector<Contour>& contours, const CommonSwitches& common,
+                              Options options) {
   if (method == curve_axis) {
+    if (options.exterior)
+      return Error{ErrorCode::unsupported, "the method curve-axis knows no exterior", {}};
     auto axis = compute_curve_axis(contours);
     if (!axis) return std::move(axis).error();
     return std::move(axis->axis);
   }
-  Options options;
   options.method = *method_from(method);
   options.threads = 1;
   options.tolerance = common.tolerance;
@@ -75,13 +78,15 @@ Result<MedialAxis> compute_by(const std::string& method, const Shape& shape,
   return compute(shape, options);
 }
 
-/// One method's axis beside the exact one. With `lenient` it may refuse the kind of input.
-Row measure(const Shape& shape, const std::vector<Contour>& contours, const MedialAxis& exact,
-            const std::string& method, const CommonSwitches& common, bool lenient) {
+/// One method's axis beside the exact one, of a shape or of its exterior, which is the same as the
+/// axis of `region`. With `lenient` the method may refuse the kind of input.
+Row measure(const Shape& shape, const Shape& region, const std::vector<Contour>& contours,
+            const MedialAxis& exact, const std::string& method, const CommonSwitches& common,
+            const Options& options, bool lenient) {
   Row row;
   row.method = method;
   const Stopwatch watch;
-  auto axis = compute_by(method, shape, contours, common);
+  auto axis = compute_by(method, shape, contours, common, options);
   row.seconds = watch.seconds();
   if (!axis) {
     row.refused = axis.error().text;
@@ -91,10 +96,10 @@ Row measure(const Shape& shape, const std::vector<Contour>& contours, const Medi
   row.axis = std::move(axis).value();
   row.nodes = row.axis.nodes.size();
   row.branches = branches(row.axis).size();
-  const Box box = bounding_box(shape);
+  const Box box = bounding_box(region);
   const double size = std::max(box.high.x - box.low.x, box.high.y - box.low.y);
   row.distance = distance_between(row.axis, exact, 0.005 * size, 0.05 * size);
-  row.radius_error = radius_error(shape, row.axis);
+  row.radius_error = radius_error(region, row.axis);
   const Certificate certificate =
       verify(shape, row.axis, {.tolerance = common.tolerance, .corner_angle = common.corner_angle});
   row.parts = certificate.graph_parts;
@@ -158,12 +163,11 @@ Result<std::vector<std::string>> methods_of(const std::string& names) {
 }
 
 /// One picture of all axes: each in a frame of its own, side by side in the plane.
-Status write_comparison(const std::string& path, const Shape& shape, std::vector<Row>& rows,
-                        const ShapeFile& file) {
+Status write_comparison(const std::string& path, const Shape& shape, const Box& box,
+                        std::vector<Row>& rows, const ShapeFile& file) {
   io::NativeFile native;
   native.crs_wkt = file.crs_wkt;
   native.y_down = file.y_down;
-  const Box box = bounding_box(shape);
   const Vec2 pitch = 1.1 * (box.high - box.low);
   std::size_t count = 0;
   constexpr std::size_t columns = 3;
@@ -190,7 +194,7 @@ Status write_comparison(const std::string& path, const Shape& shape, std::vector
 }
 
 Result<int> run_compare(const CompareSwitches& switches) {
-  const auto& [input, common, names, output, fit] = switches;
+  const auto& [input, common, names, output, fit, options] = switches;
   auto methods = methods_of(names);
   if (!methods) return std::move(methods).error();
   Status writable = check_output(output, {}, ".svg .pdf .png .ps", input.path, common.json);
@@ -208,15 +212,22 @@ Result<int> run_compare(const CompareSwitches& switches) {
   std::string text;
   for (std::size_t i = 0; i < file->shapes.size(); ++i) {
     const Shape& shape = file->shapes[i];
-    Options reference;
+    Options reference = options;
     reference.tolerance = common.tolerance;
     reference.corner_angle = common.corner_angle;
     const auto exact = compute(shape, reference);
     if (!exact) return at_feature(exact.error(), input.path, i);
+    Shape around;
+    if (options.exterior) {
+      auto found = surroundings(shape, options.margin);
+      if (!found) return at_feature(std::move(found).error(), input.path, i);
+      around = std::move(found).value();
+    }
+    const Shape& region = options.exterior ? around : shape;
     std::vector<Row> rows;
     for (const std::string& method : *methods)
-      rows.push_back(measure(shape, i < file->contours.size() ? file->contours[i] : nothing, *exact,
-                             method, common, names == "all"));
+      rows.push_back(measure(shape, region, i < file->contours.size() ? file->contours[i] : nothing,
+                             *exact, method, common, options, names == "all"));
     if (file->shapes.size() > 1) text += fmt::format("feature {}\n", i);
     text += table_of(rows);
     for (const Row& row : rows) failed = failed || row.failed;
@@ -224,7 +235,7 @@ Result<int> run_compare(const CompareSwitches& switches) {
     for (const Row& row : rows) list.push_back(json_of(row));
     features.push_back(std::move(list));
     if (i == 0 && !output.empty()) {
-      Status written = write_comparison(output, shape, rows, *file);
+      Status written = write_comparison(output, shape, bounding_box(region), rows, *file);
       if (!written) return std::move(written).error();
     }
   }
@@ -259,6 +270,8 @@ Verb make_compare_verb(CLI::App& program) {
           "of it, as curve-axis wants it.")
       ->check(a_positive_number())
       ->option_text("D");
+  add_exterior_switches(*verb, switches->options,
+                        "The axes of what lies around the shape and in its holes, within a frame.");
   add_common_switches(*verb, switches->common);
   verb->footer(
       "Each method runs on one thread. Distances are to the axis of the method disks, by\n"

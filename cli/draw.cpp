@@ -18,14 +18,15 @@ struct DrawSwitches {
   std::string output;
   std::string format;
   io::WriteOptions write;
+  Options options;  ///< exterior and margin
 };
 
 Result<int> run_draw(const DrawSwitches& switches) {
-  const auto& [input, common, output, format, pictures] = switches;
+  const auto& [input, common, output, format, pictures, options] = switches;
   if (output.empty()) return invalid_option("-o needs the name of a picture");
   Status writable = check_output(output, format, picture_formats, input.path, common.json);
   if (!writable) return std::move(writable).error();
-  auto axes = load_axes(input, common);
+  auto axes = load_axes(input, common, 0, options);
   if (!axes) return std::move(axes).error();
   return write_and_tell(*axes, input, common, output, format, pictures);
 }
@@ -45,6 +46,8 @@ Verb make_draw_verb(CLI::App& program) {
       ->option_text("PICTURE REQUIRED");
   verb->add_option("--format", switches->format, "The format of -o -, for example svg.")
       ->option_text("NAME");
+  add_exterior_switches(*verb, switches->options,
+                        "The axis of what lies around the shape and in its holes, within a frame.");
   add_picture_switches(*verb, switches->write);
   add_common_switches(*verb, switches->common);
   verb->footer(

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <numeric>
 
 #include "cli/common.h"
 #include "cli/costs.h"
@@ -16,6 +15,7 @@
 #include "cli/pipeline.h"
 #include "cli/terminal.h"
 #include "medial/io/offsets.h"
+#include "medial/voronoi.h"
 
 namespace medial::cli {
 namespace {
@@ -99,21 +99,17 @@ void keep_common(io::BufferSource& of, const io::BufferSource& more) {
 }
 
 /// The features in each region of buffers. A chain lies in one region as a whole: where its first
-/// point does. O(n log n).
+/// point does, or what that point touches and has become part of. O(n log n) expected.
 std::vector<io::BufferSource> sources_of(const LooseFile& file, const Soup& soup,
                                          const Offsets& offsets) {
-  const auto before = [](Vec2 a, Vec2 b) { return a.x != b.x ? a.x < b.x : a.y < b.y; };
-  std::vector<std::uint32_t> order(soup.points.size());
-  std::iota(order.begin(), order.end(), 0U);
-  std::ranges::sort(order, before, [&](std::uint32_t i) { return soup.points[i]; });
+  const SiteLocator locator(sites_of(soup));
   std::vector<io::BufferSource> sources(offsets.regions.size());
   for (std::size_t i = 0; i < file.chains.size(); ++i) {
     if (file.chains[i].points.empty()) continue;
-    const Vec2 point = file.chains[i].points.front();
-    const auto at = std::ranges::lower_bound(order, point, before,
-                                             [&](std::uint32_t k) { return soup.points[k]; });
-    if (at == order.end() || soup.points[*at] != point) continue;
-    const std::uint32_t region = offsets.region_of_point[*at], feature = file.feature[i];
+    const std::size_t site = locator.nearest(file.chains[i].points.front()).site;
+    const std::size_t count = soup.points.size();
+    const std::size_t point = site < count ? site : soup.edges[site - count].from;
+    const std::uint32_t region = offsets.region_of_point[point], feature = file.feature[i];
     if (region != no_region) keep_common(sources[region], {{feature}, file.attributes[feature]});
   }
   // Parents come before their children.

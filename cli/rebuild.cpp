@@ -6,13 +6,17 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <limits>
 #include <memory>
+#include <tuple>
+#include <utility>
 
 #include "cli/prune_switches.h"
 #include "cli/stored_axes.h"
 #include "cli/terminal.h"
 #include "medial/io/image.h"
 #include "medial/io/shapes.h"
+#include "medial/match.h"
 #include "medial/query.h"
 #include "medial/shape_distance.h"
 
@@ -31,6 +35,7 @@ struct RebuildSwitches {
   std::uint32_t pixels = 0;
   std::string against;
   double width = 1024;
+  Options options;  ///< of smooth: exterior and margin
 };
 
 /// What was rebuilt, summed over the features, and how far it is from what it should be.
@@ -40,6 +45,41 @@ struct Told {
   bool compared = false;
   ShapeDistance distance;
 };
+
+/// The axes of what lies around a file's shapes, in a frame. The shapes go to `before`.
+Result<AxisFile> axes_outside(const RebuildSwitches& switches, std::vector<Shape>& before) {
+  const auto& [input, common] = std::tie(switches.input, switches.common);
+  auto file = load_shapes(input, common.threads);
+  if (!file) return std::move(file).error();
+  print_notes(*file, input, common);
+  for (std::size_t i = 0; i < file->shapes.size(); ++i) {
+    Shape& shape = file->shapes[i];
+    if (switches.prune.specks > 0) shape = without_specks(shape, switches.prune.specks);
+    auto around = surroundings(shape, switches.options.margin);
+    if (!around) return at_feature(std::move(around).error(), input.path, i);
+    before.push_back(std::exchange(shape, std::move(around).value()));
+  }
+  return compute_axes(std::move(file).value(), input.path, common);
+}
+
+/// The shape that these surroundings are of: what their loops enclose but the frame's, which
+/// reaches furthest to the left.
+Result<Shape> without_frame(const Shape& around) {
+  std::size_t frame = 0;
+  std::vector<Ring> rings;
+  double left = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < around.loop_count(); ++i) {
+    const auto loop = around.loop(i);
+    Ring& ring = rings.emplace_back();
+    ring.points.assign(loop.begin(), loop.end());
+    for (std::size_t k = 0; k < loop.size(); ++k) {
+      ring.bulges.push_back(around.bulge(around.loop_begin[i] + k));
+      if (loop[k].x < left) left = loop[k].x, frame = i;
+    }
+  }
+  rings.erase(rings.begin() + static_cast<std::ptrdiff_t>(frame));
+  return build_shape(rings);
+}
 
 Result<std::vector<Shape>> rebuild_all(const AxisFile& axes, const RebuildSwitches& switches,
                                        Told& told) {
@@ -64,6 +104,7 @@ Result<std::vector<Shape>> rebuild_all(const AxisFile& axes, const RebuildSwitch
           options.chord = switches.common.chord * size;
         }
         auto shape = rebuild(axis, options, &reports[i]);
+        if (shape && switches.options.exterior) shape = without_frame(*shape);
         if (!shape) return at_feature(std::move(shape).error(), switches.input.path, i);
         shapes[i] = std::move(shape).value();
         return success();
@@ -153,7 +194,7 @@ Status tell(const Told& told, const RebuildSwitches& switches, Json object, cons
 
 Result<int> run(const RebuildSwitches& switches, bool smooths) {
   const auto& [input, common, how, output, format, tangents, points, polygon, pixels, against,
-               width] = switches;
+               width, around] = switches;
   if (pixels > 0 && (output.empty() || output == "-"))
     return invalid_option("--pixels needs -o with the name of an image");
   if (pixels > 0 && !against.empty()) return invalid_option("--against is not for --pixels");
@@ -163,14 +204,16 @@ Result<int> run(const RebuildSwitches& switches, bool smooths) {
       check_output(output, format, pixels > 0 ? image_formats : io::known_shape_formats(),
                    input.path, common.json);
   if (!writable) return std::move(writable).error();
-  auto axes = load_axes(input, common, how.specks);
+  std::vector<Shape> before;
+  auto axes =
+      around.exterior ? axes_outside(switches, before) : load_axes(input, common, how.specks);
   if (!axes) return std::move(axes).error();
   const Stopwatch watch;
   Json object = {{"input", input.path}};
   if (!output.empty()) object["output"] = output;
-  std::vector<Shape> before;
   if (smooths) {
-    for (const io::NativeItem& item : axes->native.items) before.push_back(item.shape);
+    if (!around.exterior)
+      for (const io::NativeItem& item : axes->native.items) before.push_back(item.shape);
     const auto report = prune_all(*axes, *options, common.threads);
     if (!report) return report.error();
     object["measure"] = name_of(options->measure);
@@ -260,7 +303,13 @@ void add_switches(CLI::App& verb, RebuildSwitches& switches, bool smooths) {
         ->option_text("N")
         ->excludes(tangents);
   }
-  if (smooths) add_prune_switches(verb, switches.prune);
+  if (smooths) {
+    add_prune_switches(verb, switches.prune);
+    add_exterior_switches(
+        verb, switches.options,
+        "Fill what sticks in instead: prune the axis of what lies around the shape and\n"
+        "in its holes, within a frame.");
+  }
   add_common_switches(verb, switches.common);
 }
 
@@ -291,12 +340,14 @@ Verb make_smooth_verb(CLI::App& program) {
   verb->footer(
       "Computes the axis, prunes it as `medial prune` does, and rebuilds the shape: what\n"
       "is removed is replaced by the arcs of the disks that it stood on (Ho and Dyer).\n"
-      "Only what sticks out is removed; notches stay. Parts and holes stay.\n"
+      "Only what sticks out is removed; notches stay, and with --exterior the other way\n"
+      "round. Parts and holes stay.\n"
       "\n"
       "Examples:\n"
       "  medial smooth coast.wkt.gz -o calm.geojson\n"
       "  medial smooth scan.svg --significance 0.2 -o clean.svg\n"
-      "  medial smooth plan.wkt --radius 0.3 --json");
+      "  medial smooth plan.wkt --radius 0.3 --json\n"
+      "  medial smooth plan.wkt --exterior --significance 0.5 -o filled.svg");
   return {verb, [switches] { return run(*switches, true); }};
 }
 

@@ -223,6 +223,48 @@ TEST(Carve, OtherUnitsChangeTheScaleOnly) {
   ASSERT_EQ(back.paths.size(), large->paths.size());
 }
 
+TEST(Carve, CutsTheSameUnderSymmetries) {
+  std::size_t compared = 0;
+  for (std::uint64_t seed = 0; seed < carve_count / 4; ++seed) {
+    const RandomShape random = test::random_any(seed);
+    SCOPED_TRACE(random.kind + " " + std::to_string(seed));
+    const Shape shape = shape_of(random.rings);
+    if (!random.rigid || shape.points.size() > 60) continue;
+    const Box box = bounding_box(shape);
+    const auto axis = compute(shape);
+    ASSERT_TRUE(axis.ok());
+    const double deepest = axis->nodes[deepest_node(*axis)].disk.radius;
+    if (deepest < 1e-2 * diagonal(box)) continue;
+    CarveOptions options{.angle = seed % 3 == 2 ? 0.0 : 60.0, .chord = 1e-4 * deepest};
+    if (seed % 3 > 0) options.tool = deepest;
+    if (seed % 3 == 2) options.depth = deepest;
+    const Carving plain = carving_of(shape, options);
+    const test::Cutter cutter{plain.tip_radius, plain.slope};
+    const double left = plain.slope > 0 ? (3 * options.chord + plain.step) / plain.slope : 0;
+    for (const test::Symmetry& symmetry : test::symmetries()) {
+      const double scale = symmetry.scale();
+      const auto moved = build_shape(test::transformed(random.rings, symmetry));
+      ASSERT_TRUE(moved.ok()) << symmetry.name;
+      const Carving other = scaled(carving_of(*moved, scaled(options, scale)), 1 / scale);
+      const double rounding = 1e-7 * deepest + 1e-15 * std::abs(symmetry.dx) / scale;
+      EXPECT_NEAR(other.deepest, plain.deepest, rounding) << symmetry.name;
+      test::Random numbers(seed);
+      for (int i = 0; i < 4; ++i) {
+        const Vec2 p{numbers.between(box.low.x, box.high.x),
+                     numbers.between(box.low.y, box.high.y)};
+        // At the edge of a mill's bottom rounding tells.
+        if (plain.slope == 0 && std::abs(clearance(shape, p)) < rounding) continue;
+        EXPECT_NEAR(cutter.depth_at((1 / scale) * symmetry(p), other.paths),
+                    cutter.depth_at(p, plain.paths), left + rounding)
+            << symmetry.name << " " << p.x << " " << p.y;
+        ++compared;
+      }
+    }
+    if (HasFailure()) return;
+  }
+  EXPECT_GT(compared, carve_count);
+}
+
 TEST(Carve, NeitherGougesNorLeavesAnything) {
   std::size_t probes = 0;
   for (std::uint64_t seed = 0; seed < carve_count; ++seed) {

@@ -436,6 +436,18 @@ class Axis(CommandLine):
             # Deepest before the bay, between its corners and the frame: (12 - y)^2 = 1 + (y - 10)^2.
             self.assertAlmostEqual(min(float(row["z"]) for row in rows), -1.25 * float(scale), delta=1e-3 * float(scale))
         self.refuse("invalid_option", "carve", "bay.wkt", "--angle", "90", "--exterior", "--margin", "1e9")
+        # Drawn as it is stored; by several methods; and the bay's bottom filled, the hole's corners, too.
+        self.succeed("draw", "bay.wkt", "--exterior", "-o", "drawn.svg")
+        self.succeed("draw", "around.json", "-o", "stored.svg")
+        self.assertEqual(self.read("drawn.svg"), self.read("stored.svg"))
+        told = json.loads(self.succeed("compare", "bay.wkt", "--exterior", "--methods", "disks,ridge", "-o", "both.svg",
+                                       "--json").stdout)["features"][0]
+        self.assertEqual([(row["passed"], row["parts"]) for row in told], [(True, 2), (True, 2)])
+        self.assertLess(told[0]["radius_error"], 1e-12)
+        self.assertEqual(self.run_medial("compare", "bay.wkt", "--exterior", "--methods", "curve-axis").returncode, 1)
+        told = json.loads(self.succeed("smooth", "bay.wkt", "--exterior", "--significance", "0.5", "--json").stdout)
+        # Four corners of the hole and two of the bay are arcs of half of their widths now.
+        self.assertAlmostEqual(told["area"] - (100 - 8 - 3), (1 - math.pi / 4) * (4 * 0.25 + 2 * 1), delta=1e-6)
 
     def test_prune_and_rebuild(self):
         """An axis goes through a pipe: pruned, then back to a shape; all from `medial axis` on."""
@@ -475,7 +487,7 @@ class Axis(CommandLine):
         bumps = ("POLYGON((0 -4,10 -1,14 -1,24 -4,24 4,14 1,12.4 1,12.4 1.6,11.6 1.6,11.6 1,10 1,0 4,0 .4,"
                  "-.6 .4,-.6 -.4,0 -.4))")
         self.write("bumps.wkt", bumps)
-        told = json.loads(self.succeed("smooth", "bumps.wkt", "--significance", "0.3", "-o", "calm.wkt",
+        told = json.loads(self.succeed("smooth", "bumps.wkt", "--significance", "0.5", "-o", "calm.wkt",
                                        "--json").stdout)
         self.assertEqual(told["measure"], "significance")
         self.assertLess(told["branches"], told["branches_before"])
@@ -1691,6 +1703,15 @@ class Offset(CommandLine):
         told = [f["properties"] for f in json.loads(self.read("b.geojson"))["features"]]
         self.assertEqual(sorted((p["features"], p["kind"], p.get("name")) for p in told),
                          [([0, 1], "road", None), ([2], "path", "c")])
+        # What rounding does not tell apart touches and is one region; nobody's attributes are lost.
+        pieces = [("LineString", [[0, 0], [3, 1]], "a"), ("LineString", [[1.5, 0.50000000000001], [1, 2]], "b"),
+                  ("Point", [3.00000000000001, 1], "c")]
+        self.write("near.geojson", json.dumps({"type": "FeatureCollection", "features": [
+            {"type": "Feature", "properties": {"kind": "road", "name": name},
+             "geometry": {"type": kind, "coordinates": places}} for kind, places, name in pieces]}))
+        self.succeed("offset", "near.geojson", "--loose", "--distance", "0.1", "-o", "n.json")
+        told = json.loads(self.read("n.json"))["items"][0]["regions"]
+        self.assertEqual([(r["features"], dict(r["attributes"])) for r in told], [([0, 1, 2], {"kind": "road"})])
 
     def test_what_cannot_be_done_is_refused(self):
         self.write("s.wkt", self.SQUARE)

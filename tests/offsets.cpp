@@ -1,25 +1,28 @@
-// Offsets every polygon of a data folder inwards and outwards, and checks the curves: the distance
-// of their points from the boundary, random points on both sides, nesting, and the number of rings
-// against pixels.
+// Offsets every shape of a data folder (polygons, drawings, images, tables) inwards and outwards,
+// and checks the curves: the distance of their points from the boundary, random points on both
+// sides, nesting, and the number of rings against pixels.
 //
-//   medial_offsets [--every N] FOLDER...
+//   medial_offsets [--fine] [--every N] FOLDER...
 //
-// With --every, each N-th feature of all files.
+// With --every, each N-th feature of all files. With --fine, grids of up to 1200 pixels where 300
+// do not tell the number of rings of one of a file's first features.
 //
 // Exit status: 0; 1 where a check failed; 2 for a wrong call; 77 (what ctest takes for a skipped
 // test) where a folder does not exist.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "medial/compute.h"
-#include "medial/io/read.h"
 #include "medial/query.h"
+#include "support/corpus_cases.h"
 #include "support/offset_check.h"
 
 namespace medial::test {
@@ -32,14 +35,17 @@ struct Row {
   double largest_error = 0;  ///< by the size of the shape
 };
 
-void examine(const Shape& shape, const std::string& name, bool count, Row& row) {
+/// Eight distances of a shape. Rings are counted by the first of these grids that can tell how many
+/// there are.
+void examine(const Shape& shape, const std::string& name, std::span<const std::size_t> grids,
+             Row& row) {
   const auto fault = [&](const std::string& text) {
     ++row.faults;
     std::printf("    FAULT %s: %s\n", name.c_str(), text.c_str());
   };
   const auto axis = compute(shape);
   if (!axis) return fault(to_string(axis.error()));
-  const double deepest = axis->nodes[deepest_node(*axis)].disk.radius;
+  const double deepest = deepest_disk(*axis).radius;
   std::vector<double> levels;
   for (const double share : {-1.0, -0.3, -0.05, 0.02, 0.1, 0.3, 0.6, 0.95})
     levels.push_back(share * deepest);
@@ -56,12 +62,16 @@ void examine(const Shape& shape, const std::string& name, bool count, Row& row) 
   if (!(check.largest_error <= 1e-9 * size))
     fault("a point is " + std::to_string(check.largest_error / size) + " off");
   for (const OffsetRegion& region : offsets->regions) row.rings += region.rings.size();
-  if (!count) return;
-  constexpr std::size_t pixels = 300;
-  const double pixel = std::max(box.high.x - box.low.x, box.high.y - box.low.y) / pixels;
+  const double side = std::max(box.high.x - box.low.x, box.high.y - box.low.y);
   for (const double level : levels) {
-    if (!is_steady(shape, level, 3 * pixel)) continue;
-    const PixelCount found = count_by_pixels(shape, level, pixels);
+    const auto tells = [&](std::size_t pixels) {
+      // Outwards the grid is larger.
+      const double wide = side + 2 * std::max(-level, 0.0);
+      return is_steady(shape, level, 3 * wide / static_cast<double>(pixels));
+    };
+    const auto pixels = std::find_if(grids.begin(), grids.end(), tells);
+    if (pixels == grids.end()) continue;
+    const PixelCount found = count_by_pixels(shape, level, *pixels);
     std::size_t regions = 0, rings = 0;
     for (const OffsetRegion& region : offsets->regions) {
       if (region.clearance != level) continue;
@@ -75,8 +85,9 @@ void examine(const Shape& shape, const std::string& name, bool count, Row& row) 
   }
 }
 
-int run(const std::vector<fs::path>& folders, std::size_t every) {
+int run(const std::vector<fs::path>& folders, std::size_t every, bool fine) {
   std::size_t number = 0;
+  Row all;
   std::printf("%-58s %8s %7s %9s %10s %7s %9s %6s\n", "file", "features", "curves", "rings",
               "points", "counted", "error", "FAULTS");
   std::size_t faults = 0;
@@ -84,36 +95,46 @@ int run(const std::vector<fs::path>& folders, std::size_t every) {
     std::vector<fs::path> files;
     for (const auto& entry : fs::recursive_directory_iterator(folder)) {
       const std::string name = entry.path().filename().string();
-      for (const char* ending : {".wkt", ".wkt.gz", ".geojson", ".geojson.gz", ".dxf"})
-        if (entry.is_regular_file() && name.ends_with(ending)) files.push_back(entry.path());
+      for (const char* ending : {".wkt", ".wkt.gz", ".geojson", ".geojson.gz", ".dxf", ".dxf.gz",
+                                 ".svg", ".png", ".tsv", ".txt"})
+        if (entry.is_regular_file() && name.ends_with(ending) && name != "LIST.tsv")
+          files.push_back(entry.path());
     }
     std::sort(files.begin(), files.end());
     for (const fs::path& path : files) {
-      const auto dataset = io::read_dataset(path.string());
-      if (!dataset) continue;  // not for this test
       Row row;
-      for (std::size_t i = 0; i < dataset->features.size(); ++i) {
-        if (number++ % every != 0) continue;
-        const auto& feature = dataset->features[i];
-        std::vector<Ring> rings = feature.rings;
-        if (!feature.contours.empty()) {
-          const auto arcs = approximate_by_arcs(feature.contours);
-          if (!arcs) continue;
-          rings.insert(rings.end(), arcs->begin(), arcs->end());
-        }
-        const auto shape = build_shape(rings);
+      const std::vector<Case> cases = read_cases(path);
+      for (std::size_t i = 0; i < cases.size(); ++i) {
+        const Case& one = cases[i];
+        if (number++ % every != 0 || one.error) continue;
+        const auto shape = build_shape(one.rings);
         if (!shape) continue;
         constexpr std::size_t most_counted = 10, largest_counted = 20000;
-        examine(*shape, std::to_string(i),
-                i < most_counted && shape->points.size() < largest_counted, row);
+        constexpr std::array<std::size_t, 3> grids{300, 600, 1200};
+        const bool first = i < most_counted;
+        const bool small = fine || shape->points.size() < largest_counted;
+        examine(*shape, one.name,
+                std::span(grids).first(!first || !small ? 0
+                                       : fine           ? grids.size()
+                                                        : 1),
+                row);
       }
+      if (row.features == 0) continue;
       std::printf("%-58s %8zu %7zu %9zu %10zu %7zu %9.1e %6zu\n",
                   fs::relative(path, folder).generic_string().c_str(), row.features, row.curves,
                   row.rings, row.points, row.counted, row.largest_error, row.faults);
       std::fflush(stdout);
       faults += row.faults;
+      all.features += row.features;
+      all.curves += row.curves;
+      all.rings += row.rings;
+      all.points += row.points;
+      all.counted += row.counted;
+      all.largest_error = std::max(all.largest_error, row.largest_error);
     }
   }
+  std::printf("%-58s %8zu %7zu %9zu %10zu %7zu %9.1e %6zu\n", "all", all.features, all.curves,
+              all.rings, all.points, all.counted, all.largest_error, faults);
   return faults == 0 ? 0 : 1;
 }
 
@@ -123,12 +144,15 @@ int run(const std::vector<fs::path>& folders, std::size_t every) {
 int main(int count, char** arguments) {
   std::vector<std::filesystem::path> folders(arguments + 1, arguments + count);
   std::size_t every = 1;
+  const auto given = std::find(folders.begin(), folders.end(), "--fine");
+  const bool fine = given != folders.end();
+  if (fine) folders.erase(given);
   if (folders.size() > 1 && folders[0] == "--every") {
     every = std::strtoull(folders[1].c_str(), nullptr, 10);
     folders.erase(folders.begin(), folders.begin() + 2);
   }
   if (folders.empty() || every == 0) {
-    std::fprintf(stderr, "usage: medial_offsets [--every N] FOLDER...\n");
+    std::fprintf(stderr, "usage: medial_offsets [--fine] [--every N] FOLDER...\n");
     return 2;
   }
   for (const auto& folder : folders) {
@@ -136,5 +160,5 @@ int main(int count, char** arguments) {
     std::printf("%s: no such folder: skipped\n", folder.c_str());
     return 77;
   }
-  return medial::test::run(folders, every);
+  return medial::test::run(folders, every, fine);
 }

@@ -511,6 +511,63 @@ TEST_P(RandomSoups, HaveRightDiagrams) {
 
 INSTANTIATE_TEST_SUITE_P(Random, RandomSoups, testing::Range<std::uint64_t>(0, 4));
 
+Chains transformed(const Chains& chains, const Symmetry& symmetry) {
+  Chains result;
+  for (const Chain& chain : chains) {
+    Symmetry own = symmetry;
+    if (!chain.closed) own.restart = 0;
+    Ring ring = transformed(Rings{{chain.points, RingRole::any, chain.bulges}}, own)[0];
+    result.push_back({std::move(ring.points), std::move(ring.bulges), chain.closed});
+  }
+  std::rotate(result.begin(), result.begin() + symmetry.restart % result.size(), result.end());
+  return result;
+}
+
+/// The disks of a soup's nodes that are away from the frame.
+std::vector<Disk> inner_nodes(const VoronoiDiagram& diagram, Vec2 middle, double within) {
+  std::vector<Disk> disks;
+  for (const Node& node : diagram.nodes)
+    if (node.kind == NodeKind::branching && distance(node.disk.center, middle) < within)
+      disks.push_back(node.disk);
+  return disks;
+}
+
+TEST(Soup, DiagramsMoveWithTheSoup) {
+  std::size_t compared = 0;
+  for (std::uint64_t seed = 0; seed < shape_count(250, 16); ++seed) {
+    const Chains chains = random_soup(seed);
+    const Soup soup = soup_of(chains);
+    const Vec2 middle = midpoint(bounding_box(soup).low, bounding_box(soup).high);
+    const double size = std::max(diagonal(bounding_box(soup)), 1e-3);
+    const auto diagram = voronoi_diagram(soup, {.threads = 1, .margin = 2 * size});
+    ASSERT_TRUE(diagram.ok()) << seed;
+    const auto expected = inner_nodes(*diagram, middle, 1.5 * size);
+    for (const Symmetry& symmetry : symmetries()) {
+      SCOPED_TRACE(std::to_string(seed) + " " + symmetry.name);
+      const auto moved_soup = build_soup(transformed(chains, symmetry));
+      // Ends on integer edges leave them as they are turned.
+      if (seed % 4 == 1 && !symmetry.exact) continue;
+      ASSERT_TRUE(moved_soup.ok()) << to_string(moved_soup.error());
+      const auto moved =
+          voronoi_diagram(*moved_soup, {.threads = 1, .margin = 2 * size * symmetry.scale()});
+      ASSERT_TRUE(moved.ok()) << to_string(moved.error());
+      const double slack = 1e-6 * size * symmetry.scale() + 1e-12 * std::abs(symmetry.dx);
+      const auto found =
+          inner_nodes(*moved, symmetry(middle), 1.5 * size * symmetry.scale() + slack);
+      for (const Disk& disk : expected) {
+        const Vec2 at = symmetry(disk.center);
+        const bool there = std::ranges::any_of(found, [&](const Disk& other) {
+          return distance(other.center, at) <= slack &&
+                 std::abs(other.radius - symmetry.scale() * disk.radius) <= slack;
+        });
+        ASSERT_TRUE(there) << disk.center.x << " " << disk.center.y;
+        ++compared;
+      }
+    }
+  }
+  EXPECT_GT(compared, 400U);
+}
+
 /// Chains of arcs all over each other, split where they cross. (Of 418 and 772 two neighbours cross
 /// within some tolerances of their common end.)
 TEST(Soup, NodedArcsHaveRightDiagrams) {

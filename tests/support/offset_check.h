@@ -32,8 +32,8 @@ struct PixelCount {
   std::size_t regions = 0, rings = 0;
 };
 /// Whether every region at clearance - slack holds just one at each of some clearances up to
-/// clearance + slack, with as many rings: then pixels of a third of the slack tell how many there
-/// are.
+/// clearance + slack, with as many rings in the same places: then pixels of a third of the slack
+/// tell how many there are.
 bool is_steady(const Shape& shape, double clearance, double slack);
 
 PixelCount count_by_pixels(const Shape& shape, double clearance, std::size_t pixels);
