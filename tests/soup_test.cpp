@@ -511,7 +511,7 @@ TEST_P(RandomSoups, HaveRightDiagrams) {
 
 INSTANTIATE_TEST_SUITE_P(Random, RandomSoups, testing::Range<std::uint64_t>(0, 4));
 
-Chains transformed(const Chains& chains, const Symmetry& symmetry) {
+Chains chains_moved(const Chains& chains, const Symmetry& symmetry) {
   Chains result;
   for (const Chain& chain : chains) {
     Symmetry own = symmetry;
@@ -544,7 +544,7 @@ TEST(Soup, DiagramsMoveWithTheSoup) {
     const auto expected = inner_nodes(*diagram, middle, 1.5 * size);
     for (const Symmetry& symmetry : symmetries()) {
       SCOPED_TRACE(std::to_string(seed) + " " + symmetry.name);
-      const auto moved_soup = build_soup(transformed(chains, symmetry));
+      const auto moved_soup = build_soup(chains_moved(chains, symmetry));
       // Ends on integer edges leave them as they are turned.
       if (seed % 4 == 1 && !symmetry.exact) continue;
       ASSERT_TRUE(moved_soup.ok()) << to_string(moved_soup.error());

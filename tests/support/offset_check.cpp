@@ -115,6 +115,30 @@ std::string fault_of(const Offsets& offsets, std::size_t i) {
   return "";
 }
 
+/// Whether these may be the rings of one region at two clearances: as many, and each of one around
+/// the middle of one of the other. (Where a bay becomes a hole just as another hole is filled,
+/// numbers tell nothing.)
+bool may_be_same(const OffsetRegion& a, const OffsetRegion& b) {
+  if (a.rings.size() != b.rings.size()) return false;
+  const auto box_of = [](const Ring& ring) {
+    Box box{ring.points[0], ring.points[0]};
+    for (const Vec2 p : ring.points) {
+      box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y)};
+      box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y)};
+    }
+    return box;
+  };
+  const auto holds_middle = [](const Box& box, const Box& other) {
+    const Vec2 p = midpoint(other.low, other.high);
+    return p.x >= box.low.x && p.x <= box.high.x && p.y >= box.low.y && p.y <= box.high.y;
+  };
+  return std::ranges::all_of(a.rings, [&](const Ring& ring) {
+    return std::ranges::any_of(b.rings, [&, box = box_of(ring)](const Ring& other) {
+      return holds_middle(box, box_of(other)) && holds_middle(box_of(other), box);
+    });
+  });
+}
+
 }  // namespace
 
 int winding(const std::vector<Ring>& rings, Vec2 p) {
@@ -165,30 +189,6 @@ OffsetCheck check_offsets(const Shape& shape, const Offsets& offsets, int inside
     }
   }
   return check;
-}
-
-/// Whether these may be the rings of one region at two clearances: as many, and each of one around
-/// the middle of one of the other. (Where a bay becomes a hole just as another hole is filled,
-/// numbers tell nothing.)
-static bool may_be_same(const OffsetRegion& a, const OffsetRegion& b) {
-  if (a.rings.size() != b.rings.size()) return false;
-  const auto box_of = [](const Ring& ring) {
-    Box box{ring.points[0], ring.points[0]};
-    for (const Vec2 p : ring.points) {
-      box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y)};
-      box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y)};
-    }
-    return box;
-  };
-  const auto holds_middle = [](const Box& box, const Box& other) {
-    const Vec2 p = midpoint(other.low, other.high);
-    return p.x >= box.low.x && p.x <= box.high.x && p.y >= box.low.y && p.y <= box.high.y;
-  };
-  return std::ranges::all_of(a.rings, [&](const Ring& ring) {
-    return std::ranges::any_of(b.rings, [&, box = box_of(ring)](const Ring& other) {
-      return holds_middle(box, box_of(other)) && holds_middle(box_of(other), box);
-    });
-  });
 }
 
 bool is_steady(const Shape& shape, double clearance, double slack) {
