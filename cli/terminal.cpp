@@ -8,7 +8,9 @@
 #include <cmath>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <ctime>
+#include <fstream>
 
 #include "medial/io/write.h"
 
@@ -55,6 +57,10 @@ bool error_is_terminal() { return isatty(STDERR_FILENO) == 1; }
 void be_quiet() { quiet = true; }
 
 std::uint64_t peak_bytes() {
+  // On Linux getrusage() tells the caller's peak, if that was larger and it started us by vfork().
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);)
+    if (line.starts_with("VmHWM:")) return 1024 * std::strtoull(line.c_str() + 6, nullptr, 10);
   struct rusage usage {};
   if (getrusage(RUSAGE_SELF, &usage) != 0) return 0;
 #ifdef __APPLE__

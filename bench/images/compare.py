@@ -14,7 +14,6 @@ import math
 import multiprocessing
 import os
 import pathlib
-import resource
 import subprocess
 import sys
 import time
@@ -103,19 +102,24 @@ def peer(name):
     return lambda image: cv2.ximgproc.thinning(image.astype(np.uint8) * 255, thinningType=kind) > 0
 
 
+def status_bytes(key):
+    """VmRSS: resident memory; VmHWM: at most so far."""
+    with open("/proc/self/status") as file:
+        return next(1024 * int(line.split()[1]) for line in file if line.startswith(key + ":"))
+
+
 def run_peer(name, path, rounds, pipe):
     cv2.setNumThreads(1)
     image = cv2.imread(str(path), cv2.IMREAD_GRAYSCALE) == 0  # PBM: black is set
     thin = peer(name)
-    with open("/proc/self/statm") as file:
-        before = int(file.read().split()[1]) * resource.getpagesize() // 1024
+    before = status_bytes("VmRSS")
     best = math.inf
     for _ in range(rounds):
         start = time.process_time()
         result = thin(image)
         best = min(best, time.process_time() - start)
-    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-    pipe.send((best, (peak - before) * 1024, topology(result), result if name == "opencv guo-hall" else None))
+    peak = status_bytes("VmHWM")  # that of getrusage may be the parent's
+    pipe.send((best, peak - before, topology(result), result if name == "opencv guo-hall" else None))
 
 
 def in_own_process(name, path, rounds):

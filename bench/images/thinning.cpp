@@ -7,7 +7,6 @@
 // thinning and for the exact distances, and how many bytes the peak memory
 // is above what was held before.
 
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -27,11 +26,17 @@ double seconds_since(std::clock_t start) {
   return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
 }
 
-/// The largest memory this process has held, in bytes.
+/// The largest memory this program has held, in bytes. (That of getrusage() is the caller's, where
+/// it was larger, if this process was started by vfork().)
 long peak_bytes() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return usage.ru_maxrss * 1024L;
+  long kilobytes = 0;
+  if (std::FILE* file = std::fopen("/proc/self/status", "r")) {
+    char line[256];
+    while (std::fgets(line, sizeof line, file) != nullptr)
+      if (std::sscanf(line, "VmHWM: %ld", &kilobytes) == 1) break;
+    std::fclose(file);
+  }
+  return kilobytes * 1024L;
 }
 
 /// The memory this process holds now, in bytes.
