@@ -8,13 +8,15 @@ namespace {
 
 using geometry::Site;
 
-/// Whether a disk is an arc's own circle, within `slack`: as round, and through both ends.
+/// Whether a disk is an arc's own circle, within `slack`: as round, and through both ends. Two arcs
+/// on both sides of an apex, as curves have them, are small, and not that much alike.
 bool is_own_circle(const Site& site, const Disk& disk, double slack) {
+  constexpr double alike = 0x1p-33;
   const auto is_on_disk = [&](Vec2 p) {
     return std::abs(distance(p, disk.center) - disk.radius) <= slack;
   };
   return site.curvature > 0 &&
-         std::abs(site.curvature * disk.radius - 1) <= slack * site.curvature &&
+         std::abs(site.curvature * disk.radius - 1) <= std::min(slack * site.curvature, alike) &&
          is_on_disk(site.point) && is_on_disk(site.end());
 }
 
