@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdio>
 #include <numbers>
-#include <string>
 #include <vector>
 
 #include "clock.h"

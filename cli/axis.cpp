@@ -4,6 +4,7 @@
 
 #include "cli/common.h"
 #include "cli/pipeline.h"
+#include "cli/verbs.h"
 #include "medial/choose.h"
 #include "medial/curve_axis.h"
 
@@ -202,15 +203,7 @@ Verb make_axis_verb(CLI::App& program) {
   auto switches = std::make_shared<AxisSwitches>();
   CLI::App* verb = program.add_subcommand("axis", "Compute medial axes and write them to a file.");
   add_input_switches(*verb, switches->input);
-  verb->add_option("-o,--output", switches->output,
-                   "Where to write; the extension tells the format:\n" +
-                       io::known_output_formats() +
-                       "\n- is standard output, see --format. Without -o, only a summary is\n"
-                       "printed.")
-      ->check(a_name())
-      ->option_text("OUTPUT");
-  verb->add_option("--format", switches->format, "The format of -o - (default: json).")
-      ->option_text("NAME");
+  add_output_switches(*verb, switches->output, switches->format, io::known_output_formats());
   verb->add_flag("--radius-as-z", switches->write.radius_as_z,
                  "Drawings (.dxf): splines in space, with the radius as z.");
   add_method_switches(*verb, *switches);

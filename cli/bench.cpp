@@ -18,6 +18,7 @@
 #include "cli/pipeline.h"
 #include "cli/plot.h"
 #include "cli/terminal.h"
+#include "cli/verbs.h"
 
 namespace medial::cli {
 namespace {

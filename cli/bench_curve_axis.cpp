@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "cli/figure.h"
+#include "cli/verbs.h"
 #include "engines/curve_axis/control.h"
 #include "medial/medial.h"
 

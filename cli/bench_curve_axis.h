@@ -5,6 +5,7 @@
 #include <string>
 
 #include "cli/common.h"
+#include "cli/verbs.h"
 
 namespace medial::cli {
 

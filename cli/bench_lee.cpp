@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cmath>
-#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -17,6 +16,7 @@
 #include "cli/bench_biarc.h"
 #include "cli/plot.h"
 #include "cli/terminal.h"
+#include "cli/verbs.h"
 #include "engines/lee/lee.h"
 #include "medial/medial.h"
 

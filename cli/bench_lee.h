@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cli/common.h"
+#include "cli/verbs.h"
 
 namespace medial::cli {
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cli/common.h"
+#include "cli/verbs.h"
 #include "medial/compute.h"
 #include "medial/shape.h"
 

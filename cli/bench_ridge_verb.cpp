@@ -12,6 +12,7 @@
 #include "cli/common.h"
 #include "cli/plot.h"
 #include "cli/terminal.h"
+#include "cli/verbs.h"
 
 namespace medial::cli {
 namespace {

@@ -175,13 +175,10 @@ std::vector<Contour> border(int level) {
 }
 
 std::string svg_document(const std::vector<Contour>& contours) {
-  Vec2 low{INFINITY, INFINITY}, high{-INFINITY, -INFINITY};
+  Box box = Box::nothing();
   std::string path;
   for (const Contour& contour : contours) {
-    for (Vec2 p : contour.points) {
-      low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-      high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-    }
+    for (const Vec2 p : contour.points) box.add(p);
     fmt::format_to(std::back_inserter(path), "M{} {}", contour.points[0].x, contour.points[0].y);
     for (const CurvePiece& piece : contour.pieces) {
       path += piece.degree == 1 ? 'L' : 'C';
@@ -195,7 +192,7 @@ std::string svg_document(const std::vector<Contour>& contours) {
   return fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"{} {} {} {}\">\n"
       "<path fill-rule=\"evenodd\" d=\"{}\"/>\n</svg>\n",
-      low.x, low.y, high.x - low.x, high.y - low.y, path);
+      box.low.x, box.low.y, box.high.x - box.low.x, box.high.y - box.low.y, path);
 }
 
 }  // namespace medial::cli

@@ -4,13 +4,13 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <memory>
 
 #include "cli/common.h"
 #include "cli/costs.h"
 #include "cli/pipeline.h"
 #include "cli/terminal.h"
+#include "cli/verbs.h"
 #include "medial/io/carve.h"
 
 namespace medial::cli {
@@ -153,15 +153,8 @@ Verb make_carve_verb(CLI::App& program) {
       ->group(group);
   length("--spindle", switches->machine.spindle, "Turns a minute (default: not started).", "S")
       ->group(group);
-  verb->add_option("-o,--output", switches->output,
-                   fmt::format("Where to write; the extension tells the format:\n{}\n"
-                               "- is standard output, see --format. Without -o, only a summary is\n"
-                               "printed.",
-                               io::known_carve_formats()))
-      ->check(a_name())
-      ->option_text("OUTPUT");
-  verb->add_option("--format", switches->format, "The format of -o -, for example nc.")
-      ->option_text("NAME");
+  add_output_switches(*verb, switches->output, switches->format, io::known_carve_formats(),
+                      "for example nc");
   add_width_switch(*verb, switches->write.width);
   add_common_switches(*verb, switches->common);
   verb->footer(

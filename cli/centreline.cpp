@@ -13,6 +13,7 @@
 #include "cli/lines.h"
 #include "cli/pipeline.h"
 #include "cli/terminal.h"
+#include "cli/verbs.h"
 #include "medial/io/layers.h"
 #include "medial/query.h"
 
@@ -290,15 +291,7 @@ Verb make_centreline_verb(CLI::App& program) {
   CLI::App* verb = program.add_subcommand(
       "centreline", "Compute the centre lines of shapes, or the widest way between two places.");
   add_input_switches(*verb, switches->input);
-  verb->add_option("-o,--output", switches->output,
-                   "Where to write; the extension tells the format:\n" +
-                       io::known_output_formats() +
-                       "\n- is standard output, see --format. Without -o, only a summary is\n"
-                       "printed.")
-      ->check(a_name())
-      ->option_text("OUTPUT");
-  verb->add_option("--format", switches->format, "The format of -o - (default: json).")
-      ->option_text("NAME");
+  add_output_switches(*verb, switches->output, switches->format, io::known_output_formats());
   add_path_switches(*verb, switches->path);
   verb->add_flag("--extend", switches->line.extend, "Extend both ends to the boundary.");
   verb->add_option("--smooth", switches->line.smooth,

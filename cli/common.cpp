@@ -174,41 +174,65 @@ void add_image_switches(CLI::App& verb, io::ImageOptions& options) {
                 "Of images: pixels below the threshold are foreground instead.");
 }
 
-void add_common_switches(CLI::App& verb, CommonSwitches& common) {
-  constexpr char group[] = "Common switches, taken by every verb";
+namespace {
+constexpr char common_group[] = "Common switches";
+}  // namespace
+
+void add_output_switches(CLI::App& verb, std::string& output, std::string& format,
+                         const std::string& formats, const std::string& piped) {
+  verb.add_option("-o,--output", output,
+                  fmt::format("Where to write; the extension tells the format:\n{}\n"
+                              "- is standard output, see --format. Without -o, only a summary is\n"
+                              "printed.",
+                              formats))
+      ->check(a_name())
+      ->option_text("OUTPUT");
+  verb.add_option("--format", format, fmt::format("The format of -o - ({}).", piped))
+      ->option_text("NAME");
+}
+
+void add_threads_switch(CLI::App& verb, CommonSwitches& common) {
   verb.add_option("--threads", common.threads,
                   "Threads to use (default: 0, all of the machine). The result is the\n"
                   "same, byte for byte.")
       ->check(in_range(0, most_threads))
       ->option_text("N")
-      ->group(group);
+      ->group(common_group);
+}
+
+void add_report_switches(CLI::App& verb, CommonSwitches& common) {
+  verb.add_flag("--stats", common.stats,
+                "Tell times, counts and memory: a table on standard error, or with --json\n"
+                "within the object on standard output. Times are in seconds.")
+      ->group(common_group);
+  verb.add_flag("--json", common.json, "Print one JSON object on standard output; errors too.")
+      ->group(common_group);
+  verb.add_flag("--quiet", common.quiet, "No warnings, notes or progress; only errors.")
+      ->group(common_group);
+}
+
+void add_common_switches(CLI::App& verb, CommonSwitches& common) {
+  add_threads_switch(verb, common);
   verb.add_option("--tolerance", common.tolerance,
                   "How far a disk may miss what it touches, as a fraction of the diagonal\n"
                   "of the bounding box, at most 1e-3 (default: 4e-15, in verify 1e-14, or\n"
                   "what the coordinates' spacing allows).")
       ->check(a_tolerance())
       ->option_text("T")
-      ->group(group);
+      ->group(common_group);
   verb.add_option("--corner-angle", common.corner_angle,
                   "Where an arc is involved, convex joints below this angle, in degrees, are\n"
                   "smooth and no corners, at most 10 (default: 0.01).")
       ->check(in_range(0, 10))
       ->option_text("A")
-      ->group(group);
+      ->group(common_group);
   verb.add_option("--chord", common.chord,
                   "Where curves are written as points, chords stay within this fraction\n"
                   "of the diagonal of the bounding box (default: 1e-3).")
       ->check(in_range(smallest_chord, 1))
       ->option_text("C")
-      ->group(group);
-  verb.add_flag("--stats", common.stats,
-                "Tell times, counts and memory: a table on standard error, or with --json\n"
-                "within the object on standard output. Times are in seconds.")
-      ->group(group);
-  verb.add_flag("--json", common.json, "Print one JSON object on standard output; errors too.")
-      ->group(group);
-  verb.add_flag("--quiet", common.quiet, "No warnings, notes or progress; only errors.")
-      ->group(group);
+      ->group(common_group);
+  add_report_switches(verb, common);
 }
 
 CLI::Validator in_range(double low, double high, bool quiet) {

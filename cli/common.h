@@ -22,30 +22,6 @@ constexpr int exit_success = 0;
 constexpr int exit_failed_verdict = 1;
 constexpr int exit_error = 2;
 
-/// A verb: its place on the command line, and what to do once the line is parsed. `run` gives the
-/// exit status, or the error that main() reports.
-struct Verb {
-  CLI::App* app = nullptr;
-  std::function<Result<int>()> run;
-};
-
-Verb make_axis_verb(CLI::App& program);
-Verb make_verify_verb(CLI::App& program);
-Verb make_info_verb(CLI::App& program);
-Verb make_legal_verb(CLI::App& program);
-Verb make_draw_verb(CLI::App& program);
-Verb make_prune_verb(CLI::App& program);
-Verb make_smooth_verb(CLI::App& program);
-Verb make_rebuild_verb(CLI::App& program);
-Verb make_distance_verb(CLI::App& program);
-Verb make_voxels_verb(CLI::App& program);
-Verb make_bench_verb(CLI::App& program);
-Verb make_field_verb(CLI::App& program);
-Verb make_compare_verb(CLI::App& program);
-Verb make_voronoi_verb(CLI::App& program);
-Verb make_offset_verb(CLI::App& program);
-Verb make_carve_verb(CLI::App& program);
-
 /// Where shapes come from.
 struct InputSwitches {
   std::string path;    ///< of a file; with a text, of the font
@@ -74,6 +50,13 @@ void add_input_switches(CLI::App& verb, InputSwitches& input);
 void add_input_switches(CLI::App& verb, InputSwitches& input, const std::string& second_name,
                         const std::string& second_help, std::string& second);
 void add_common_switches(CLI::App& verb, CommonSwitches& common);
+/// -o and --format, for outputs of `formats`; without -o such a verb prints its summary only.
+/// `piped` tells which format -o - has.
+void add_output_switches(CLI::App& verb, std::string& output, std::string& format,
+                         const std::string& formats, const std::string& piped = "default: json");
+/// --threads, and --stats, --json and --quiet; both are part of the common switches.
+void add_threads_switch(CLI::App& verb, CommonSwitches& common);
+void add_report_switches(CLI::App& verb, CommonSwitches& common);
 /// --threshold and --invert.
 void add_image_switches(CLI::App& verb, io::ImageOptions& options);
 void add_picture_switches(CLI::App& verb, io::WriteOptions& write);

@@ -3,9 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <filesystem>
 #include <memory>
 #include <sstream>
 
@@ -15,6 +13,7 @@
 #include "cli/pipeline.h"
 #include "cli/plot.h"
 #include "cli/terminal.h"
+#include "cli/verbs.h"
 #include "medial/compute.h"
 #include "medial/curve_axis.h"
 #include "medial/verify.h"

@@ -9,6 +9,7 @@
 #include "cli/common.h"
 #include "cli/pipeline.h"
 #include "cli/terminal.h"
+#include "cli/verbs.h"
 #include "medial/image.h"
 
 namespace medial::cli {

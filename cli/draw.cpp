@@ -6,6 +6,7 @@
 
 #include "cli/common.h"
 #include "cli/stored_axes.h"
+#include "cli/verbs.h"
 
 namespace medial::cli {
 namespace {

@@ -9,9 +9,9 @@
 
 #include "cli/common.h"
 #include "cli/pipeline.h"
-#include "cli/shape_verbs.h"
 #include "cli/stored_axes.h"
 #include "cli/terminal.h"
+#include "cli/verbs.h"
 #include "medial/io/features.h"
 
 namespace medial::cli {
@@ -166,15 +166,7 @@ Verb make_features_verb(CLI::App& program) {
   CLI::App* verb = program.add_subcommand(
       "features", "Describe shapes by their branches and what these are made of.");
   add_input_switches(*verb, switches->input);
-  verb->add_option("-o,--output", switches->output,
-                   fmt::format("Where to write; the extension tells the format:\n{}\n"
-                               "- is standard output, see --format. Without -o, only a summary is\n"
-                               "printed.",
-                               io::known_feature_formats()))
-      ->check(a_name())
-      ->option_text("OUTPUT");
-  verb->add_option("--format", switches->format, "The format of -o - (default: json).")
-      ->option_text("NAME");
+  add_output_switches(*verb, switches->output, switches->format, io::known_feature_formats());
   verb->add_option_function<std::string>(
           "--table",
           [switches](const std::string& name) {

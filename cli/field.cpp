@@ -9,6 +9,7 @@
 #include "cli/costs.h"
 #include "cli/pipeline.h"
 #include "cli/terminal.h"
+#include "cli/verbs.h"
 #include "medial/io/field.h"
 
 namespace medial::cli {

@@ -2,7 +2,6 @@
 
 #include <cairo-svg.h>
 
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <system_error>

@@ -9,6 +9,7 @@
 #include "cli/costs.h"
 #include "cli/pipeline.h"
 #include "cli/terminal.h"
+#include "cli/verbs.h"
 
 namespace medial::cli {
 namespace {
@@ -40,29 +41,19 @@ struct ShapeSummary {
   Box extent;
 };
 
-void grow(Box& box, const Box& other) {
-  box.low = {std::min(box.low.x, other.low.x), std::min(box.low.y, other.low.y)};
-  box.high = {std::max(box.high.x, other.high.x), std::max(box.high.y, other.high.y)};
-}
-
 template <class Shapes>
 ShapeSummary summarize_shapes(const Shapes& shapes) {
   ShapeSummary summary;
-  bool first = true;
+  Box extent = Box::nothing();
   for (const Shape& shape : shapes) {
     summary.components += shape.component_count();
     summary.loops += shape.loop_count();
     summary.holes += shape.hole_count();
     summary.vertices += shape.points.size();
     summary.area += area(shape);
-    if (shape.points.empty()) continue;
-    if (first) {
-      summary.extent = bounding_box(shape);
-    } else {
-      grow(summary.extent, bounding_box(shape));
-    }
-    first = false;
+    if (!shape.points.empty()) extent.add(bounding_box(shape));
   }
+  if (!extent.is_nothing()) summary.extent = extent;
   return summary;
 }
 

@@ -7,6 +7,7 @@
 #include "cli/common.h"
 #include "cli/pipeline.h"
 #include "cli/terminal.h"
+#include "cli/verbs.h"
 #include "medial/sides.h"
 
 namespace medial::cli {

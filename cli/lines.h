@@ -10,9 +10,6 @@
 
 namespace medial::cli {
 
-Verb make_centreline_verb(CLI::App& program);
-Verb make_measure_verb(CLI::App& program);
-
 struct PathSwitches {
   std::string from, to;             ///< "X,Y" or "RING/VERTEX"
   std::vector<std::string> widest;  ///< two of them, instead

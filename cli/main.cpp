@@ -9,9 +9,8 @@
 #include <vector>
 
 #include "cli/common.h"
-#include "cli/lines.h"
-#include "cli/shape_verbs.h"
 #include "cli/terminal.h"
+#include "cli/verbs.h"
 
 namespace medial::cli {
 namespace {

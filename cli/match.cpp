@@ -10,9 +10,9 @@
 
 #include "cli/common.h"
 #include "cli/pipeline.h"
-#include "cli/shape_verbs.h"
 #include "cli/stored_axes.h"
 #include "cli/terminal.h"
+#include "cli/verbs.h"
 #include "medial/compute.h"
 
 namespace medial::cli {

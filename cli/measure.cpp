@@ -15,6 +15,7 @@
 #include "cli/pipeline.h"
 #include "cli/plot.h"
 #include "cli/terminal.h"
+#include "cli/verbs.h"
 #include "medial/io/layers.h"
 #include "medial/io/projection.h"
 #include "medial/query.h"

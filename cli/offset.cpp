@@ -14,6 +14,7 @@
 #include "cli/loose.h"
 #include "cli/pipeline.h"
 #include "cli/terminal.h"
+#include "cli/verbs.h"
 #include "medial/io/offsets.h"
 #include "medial/voronoi.h"
 
@@ -230,15 +231,7 @@ Verb make_offset_verb(CLI::App& program) {
   verb->add_flag("--loose", switches->loose,
                  "Buffers: all places within each distance of the file's points, lines and\n"
                  "boundaries, taken together; --repair splits them where they cross.");
-  verb->add_option("-o,--output", switches->output,
-                   fmt::format("Where to write; the extension tells the format:\n{}\n"
-                               "- is standard output, see --format. Without -o, only a summary is\n"
-                               "printed.",
-                               io::known_offset_formats()))
-      ->check(a_name())
-      ->option_text("OUTPUT");
-  verb->add_option("--format", switches->format, "The format of -o - (default: json).")
-      ->option_text("NAME");
+  add_output_switches(*verb, switches->output, switches->format, io::known_offset_formats());
   verb->add_flag("--chords", switches->chords,
                  "Well-known text: polygons of chords (see --chord) instead of exact arcs.");
   add_width_switch(*verb, switches->write.width);

@@ -4,15 +4,14 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <memory>
 
 #include "cli/common.h"
 #include "cli/pipeline.h"
-#include "cli/shape_verbs.h"
 #include "cli/stored_axes.h"
 #include "cli/terminal.h"
+#include "cli/verbs.h"
 
 namespace medial::cli {
 namespace {
@@ -31,17 +30,10 @@ struct PackSwitches {
 
 /// The diagonal of all shapes together.
 double extent_of(const io::NativeFile& file) {
-  bool first = true;
-  Box all;
-  for (const io::NativeItem& item : file.items) {
-    if (item.shape.points.empty()) continue;
-    const Box box = bounding_box(item.shape);
-    if (first) all = box;
-    first = false;
-    all.low = {std::min(all.low.x, box.low.x), std::min(all.low.y, box.low.y)};
-    all.high = {std::max(all.high.x, box.high.x), std::max(all.high.y, box.high.y)};
-  }
-  return first ? 0 : diagonal(all);
+  Box all = Box::nothing();
+  for (const io::NativeItem& item : file.items)
+    if (!item.shape.points.empty()) all.add(bounding_box(item.shape));
+  return all.is_nothing() ? 0 : diagonal(all);
 }
 
 /// How the error is shared out: the shortest of these, or the first one where that is large: of

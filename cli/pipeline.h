@@ -10,6 +10,7 @@
 
 #include "cli/common.h"
 #include "medial/compute.h"
+#include "medial/io/attributes.h"
 #include "medial/io/read.h"
 
 namespace medial::cli {
@@ -17,12 +18,10 @@ namespace medial::cli {
 /// The error, told to be in this feature of the file.
 Error at_feature(Error error, const std::string& path, std::size_t feature);
 
-using Attributes = std::vector<std::pair<std::string, std::string>>;
-
 /// The shapes of a file, one for each feature, in the file's order.
 struct ShapeFile {
   std::vector<Shape> shapes;
-  std::vector<Attributes> attributes;
+  std::vector<io::Attributes> attributes;
   std::vector<std::vector<Contour>>
       contours;        ///< as read, where load_shapes() is told to keep them
   ShapeReport report;  ///< summed over the features

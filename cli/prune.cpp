@@ -9,6 +9,7 @@
 #include "cli/prune_switches.h"
 #include "cli/stored_axes.h"
 #include "cli/terminal.h"
+#include "cli/verbs.h"
 #include "medial/io/preview.h"
 #include "medial/match.h"
 #include "medial/query.h"
@@ -226,14 +227,7 @@ Verb make_prune_verb(CLI::App& program) {
   auto switches = std::make_shared<PruneVerbSwitches>();
   CLI::App* verb = program.add_subcommand("prune", "Remove the branches that do not matter.");
   add_input_switches(*verb, switches->input);
-  verb->add_option("-o,--output", switches->output,
-                   fmt::format("Where to write; the extension tells the format: {}\n"
-                               "- is standard output, see --format.",
-                               io::known_output_formats()))
-      ->check(a_name())
-      ->option_text("FILE");
-  verb->add_option("--format", switches->format, "The format of -o - (default: json).")
-      ->option_text("NAME");
+  add_output_switches(*verb, switches->output, switches->format, io::known_output_formats());
   add_prune_switches(*verb, switches->prune);
   add_exterior_switches(*verb, switches->options,
                         "Of what lies around the shape and in its holes, within a frame.");

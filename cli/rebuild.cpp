@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <limits>
 #include <memory>
 #include <tuple>
@@ -14,6 +13,7 @@
 #include "cli/prune_switches.h"
 #include "cli/stored_axes.h"
 #include "cli/terminal.h"
+#include "cli/verbs.h"
 #include "medial/io/image.h"
 #include "medial/io/shapes.h"
 #include "medial/match.h"
@@ -271,14 +271,7 @@ Result<int> run(const RebuildSwitches& switches, bool smooths) {
 
 void add_switches(CLI::App& verb, RebuildSwitches& switches, bool smooths) {
   add_input_switches(verb, switches.input);
-  verb.add_option("-o,--output", switches.output,
-                  fmt::format("Where to write; the extension tells the format: {}\n"
-                              "- is standard output, see --format.",
-                              io::known_shape_formats()))
-      ->check(a_name())
-      ->option_text("FILE");
-  verb.add_option("--format", switches.format, "The format of -o - (default: json).")
-      ->option_text("NAME");
+  add_output_switches(verb, switches.output, switches.format, io::known_shape_formats());
   verb.add_flag("--polygon", switches.polygon,
                 "Straight edges only: arcs become chords within --chord.");
   add_width_switch(verb, switches.width);

@@ -13,6 +13,7 @@
 #include "cli/nearest.h"
 #include "cli/pipeline.h"
 #include "cli/terminal.h"
+#include "cli/verbs.h"
 
 namespace medial::cli {
 namespace {
@@ -184,15 +185,7 @@ Verb make_voronoi_verb(CLI::App& program) {
   CLI::App* verb = program.add_subcommand(
       "voronoi", "Compute the Voronoi diagram of points, lines, curves and polygons.");
   add_input_switches(*verb, switches->input);
-  verb->add_option("-o,--output", switches->output,
-                   fmt::format("Where to write; the extension tells the format:\n{}\n"
-                               "- is standard output, see --format. Without -o, only a summary is\n"
-                               "printed.",
-                               io::known_voronoi_formats()))
-      ->check(a_name())
-      ->option_text("OUTPUT");
-  verb->add_option("--format", switches->format, "The format of -o - (default: json).")
-      ->option_text("NAME");
+  add_output_switches(*verb, switches->output, switches->format, io::known_voronoi_formats());
   verb->add_option("--method", switches->method,
                    "How: disks (default), of everything in the file together, within a\n"
                    "frame; or lee, of each polygon inside of it.")

@@ -7,6 +7,7 @@
 #include "cli/common.h"
 #include "cli/pipeline.h"
 #include "cli/terminal.h"
+#include "cli/verbs.h"
 #include "medial/io/mesh.h"
 #include "medial/volume.h"
 
@@ -232,24 +233,6 @@ void add_own_switches(CLI::App& verb, VoxelSwitches& switches) {
       ->option_text("W");
 }
 
-void add_common_part(CLI::App& verb, CommonSwitches& common) {
-  constexpr char group[] = "Common switches";
-  verb.add_option("--threads", common.threads,
-                  "Threads to use (default: 0, all of the machine). The result is the\n"
-                  "same, byte for byte.")
-      ->check(in_range(0, 1024, true))
-      ->option_text("N")
-      ->group(group);
-  verb.add_flag("--stats", common.stats,
-                "Tell times, counts and memory: a table on standard error, or with --json\n"
-                "within the object on standard output. Times are in seconds.")
-      ->group(group);
-  verb.add_flag("--json", common.json, "Print one JSON object on standard output; errors too.")
-      ->group(group);
-  verb.add_flag("--quiet", common.quiet, "No warnings, notes or progress; only errors.")
-      ->group(group);
-}
-
 }  // namespace
 
 Verb make_voxels_verb(CLI::App& program) {
@@ -260,16 +243,11 @@ Verb make_voxels_verb(CLI::App& program) {
                    "A closed triangle mesh: " + io::known_mesh_formats() + ".")
       ->required()
       ->option_text(" ");
-  verb->add_option("-o,--output", switches->output,
-                   "Where to write; the extension tells the format: " + io::known_voxel_formats() +
-                       "\n- is standard output, see --format. Without -o, only a summary is\n"
-                       "printed.")
-      ->check(a_name())
-      ->option_text("OUTPUT");
-  verb->add_option("--format", switches->format, "The format of -o -, for example ply.")
-      ->option_text("NAME");
+  add_output_switches(*verb, switches->output, switches->format, io::known_voxel_formats(),
+                      "for example ply");
   add_own_switches(*verb, *switches);
-  add_common_part(*verb, switches->common);
+  add_threads_switch(*verb, switches->common);
+  add_report_switches(*verb, switches->common);
   verb->footer(
       "The axis is a set of voxels with radii, by ridge following: surfaces one voxel\n"
       "thick in general. It has as many parts, tunnels and cavities as the voxels inside\n"

@@ -95,7 +95,7 @@ struct Statistics {
 /// within half a pixel's diagonal of its distance to the boundary. Every edge runs straight to one
 /// of eight neighbours, its control point in the middle and its weight 1. Its sites are two that
 /// the disk of its first node touches, within a few pixels, or both no_site. Which pixels are
-/// linked: see axis/pixel_graph.h.
+/// linked: docs/ridge.md.
 struct MedialAxis {
   std::string method;     ///< the engine's name: see name_of(Method)
   double tolerance = 0;   ///< in units of the input: what |distance - radius| stays below

@@ -35,6 +35,9 @@ struct Contour {
   /// `control` without the first point; `weights` of control points 1.., empty: all 1. A rational
   /// piece is scaled so that its first weight is that of the piece before.
   void bezier_to(std::span<const Vec2> control, std::span<const double> control_weights = {});
+  /// The weights of a piece's control points but the first one, relative to that one, as
+  /// bezier_to() takes them.
+  std::vector<double> weights_of(const CurvePiece& piece) const;
   /// An elliptical arc around `center` with half axes `u` and `v` (conjugate), from the angle
   /// `begin` to `end` (radians; more than a whole turn is an error of the caller): rational
   /// quadratics of at most a quarter turn each. The contour ends at the point of angle `begin`, or

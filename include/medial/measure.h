@@ -3,7 +3,6 @@
 // How wide a shape is, by its axis: profiles, transects, necks, means, largest disks.
 
 #include <array>
-#include <cstdint>
 #include <span>
 #include <vector>
 

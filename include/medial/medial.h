@@ -2,6 +2,7 @@
 
 // The whole core library in one include.
 #include "medial/axis.h"
+#include "medial/box.h"
 #include "medial/brushfire.h"
 #include "medial/carve.h"
 #include "medial/centreline.h"

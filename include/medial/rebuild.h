@@ -34,9 +34,8 @@ struct RebuildOptions {
 };
 
 struct RebuildReport {
-  std::uint64_t medial_points =
-      0;                        ///< of tangents and hulls: the points on the axis that were used
-  std::uint64_t crossings = 0;  ///< where the new boundary crossed itself, and was split
+  std::uint64_t medial_points = 0;  ///< of tangents and hulls: points on the axis that were used
+  std::uint64_t crossings = 0;      ///< where the new boundary crossed itself, and was split
 };
 
 /// The shape of an axis, whole or pruned. An exact axis gives back the shape that it was computed

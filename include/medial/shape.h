@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "medial/box.h"
 #include "medial/error.h"
 #include "medial/vec2.h"
 
@@ -84,14 +85,8 @@ struct Shape {
   std::size_t hole_count() const;
 };
 
-struct Box {
-  Vec2 low;
-  Vec2 high;
-};
-
-/// The bounding box of the shape, its arcs included (O(n)), and the length of its diagonal.
+/// The bounding box of the shape, its arcs included. O(n).
 Box bounding_box(const Shape& shape);
-double diagonal(const Box& box);
 
 /// The area enclosed by the shape (holes subtracted), in squared units of the input. O(n).
 double area(const Shape& shape);

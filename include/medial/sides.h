@@ -6,7 +6,6 @@
 // For the axis of any engine; analytic on exact edges, from three neighbours on sampled ones, from
 // seven on a curve axis.
 
-#include <array>
 #include <cstdint>
 #include <vector>
 

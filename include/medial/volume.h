@@ -55,7 +55,7 @@ struct Solid {
 ///
 /// Errors, with the place: empty, not_finite, too_large (2^31 vertices or faces), unsupported
 /// (coordinates above 1e100 in size), malformed (an index out of range), open_surface (an edge with
-/// one face), non_manifold (an edge with more than two), not_orientable, crossing, overlap (faces
+/// one face), non_manifold (an edge with more than two), crossing, overlap (faces
 /// that touch or share more than their corners and edges), no_area, out_of_memory. O(n log n) for
 /// meshes whose faces are not all near each other.
 Result<Solid> build_solid(TriangleMesh mesh);

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cstddef>
-
 #include "medial/axis.h"
 
 namespace medial {

@@ -1,7 +1,5 @@
 #include "axis/pixel_graph.h"
 
-#include <algorithm>
-
 #include "axis/node_kinds.h"
 #include "medial/query.h"
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/spatial_order.h"
-#include "medial/shape.h"
+#include "medial/box.h"
 
 namespace medial {
 
@@ -28,10 +28,7 @@ class BoxTree {
       std::vector<Box> above;
       for (std::size_t i = 0; i < below.size(); i += fan_out) {
         Box all = below[i];
-        for (std::size_t k = i + 1; k < std::min(i + fan_out, below.size()); ++k) {
-          all.low = {std::min(all.low.x, below[k].low.x), std::min(all.low.y, below[k].low.y)};
-          all.high = {std::max(all.high.x, below[k].high.x), std::max(all.high.y, below[k].high.y)};
-        }
+        for (std::size_t k = i + 1; k < std::min(i + fan_out, below.size()); ++k) all.add(below[k]);
         above.push_back(all);
       }
       levels_.push_back(std::move(above));

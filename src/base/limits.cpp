@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <span>
 
+#include "base/tolerance.h"
+
 namespace medial {
 
 namespace {
@@ -49,10 +51,9 @@ std::optional<Error> beyond_limits(const Shape& shape) {
 
 std::optional<Error> beyond_limits(const Soup& soup, const Box& box) {
   const std::array<Vec2, 2> corners{box.low, box.high};
-  const double largest = std::max(
-      {std::abs(box.low.x), std::abs(box.low.y), std::abs(box.high.x), std::abs(box.high.y)});
   // A point of the input tells more than the box that lies around it.
-  if (auto error = beyond_limits(soup.points, largest, soup.point_sources)) return error;
+  if (auto error = beyond_limits(soup.points, largest_coordinate_in(box), soup.point_sources))
+    return error;
   return beyond_limits(corners, 0, {});
 }
 

@@ -55,11 +55,9 @@ void sort(std::vector<Cell>& cells) {
 
 std::vector<std::uint32_t> z_order(std::span<const Vec2> points) {
   if (points.empty()) return {};
-  Vec2 low = points[0], high = low;
-  for (const Vec2 p : points) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-  }
+  Box box = Box::nothing();
+  for (const Vec2 p : points) box.add(p);
+  const auto [low, high] = box;
   const double side = std::max(high.x - low.x, high.y - low.y);
   const double cells = side > 0 ? 0xFFFFFFFF / side : 0;
 

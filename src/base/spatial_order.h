@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "medial/vec2.h"
+#include "medial/box.h"
 
 namespace medial {
 
@@ -15,12 +15,9 @@ namespace detail {
 inline void order_by_place(std::span<std::uint32_t> order, std::span<const Vec2> points,
                            std::size_t fan_out) {
   while (order.size() > fan_out) {
-    Vec2 low = points[order[0]], high = low;
-    for (const std::uint32_t i : order) {
-      low = {std::min(low.x, points[i].x), std::min(low.y, points[i].y)};
-      high = {std::max(high.x, points[i].x), std::max(high.y, points[i].y)};
-    }
-    const bool by_x = high.x - low.x >= high.y - low.y;
+    Box box = Box::nothing();
+    for (const std::uint32_t i : order) box.add(points[i]);
+    const bool by_x = box.high.x - box.low.x >= box.high.y - box.low.y;
     // Both parts hold whole nodes of the tree: the left one a multiple of the largest power of the
     // fan-out below the count.
     std::size_t whole = fan_out;

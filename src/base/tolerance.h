@@ -4,9 +4,18 @@
 #include <cmath>
 #include <limits>
 
-#include "medial/shape.h"
+#include "medial/box.h"
 
 namespace medial {
+
+/// The largest coordinate of a box, in size, and the spacing of doubles there.
+inline double largest_coordinate_in(const Box& box) {
+  return std::max(
+      {std::abs(box.low.x), std::abs(box.low.y), std::abs(box.high.x), std::abs(box.high.y)});
+}
+inline double spacing_in(const Box& box) {
+  return largest_coordinate_in(box) * std::numeric_limits<double>::epsilon();
+}
 
 /// The one tolerance of a computation, in units of the input: disks with residuals below it touch.
 ///
@@ -15,10 +24,8 @@ namespace medial {
 /// spacing of doubles at the largest coordinate: the input itself is not known better.
 inline double tolerance_for(const Box& box, double relative) {
   constexpr double default_relative = 4e-15;
-  const double largest = std::max(
-      {std::abs(box.low.x), std::abs(box.low.y), std::abs(box.high.x), std::abs(box.high.y)});
-  const double spacing = largest * std::numeric_limits<double>::epsilon();
-  return std::max((relative > 0 ? relative : default_relative) * diagonal(box), 2 * spacing);
+  const double judged = relative > 0 ? relative : default_relative;
+  return std::max(judged * diagonal(box), 2 * spacing_in(box));
 }
 
 }  // namespace medial

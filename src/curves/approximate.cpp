@@ -13,6 +13,7 @@
 #include "base/numbers.h"
 #include "curves/biarc.h"
 #include "curves/spirals.h"
+#include "medial/box.h"
 #include "medial/contour.h"
 
 namespace medial {
@@ -100,11 +101,9 @@ bool is_straight(const Bezier& curve, double rounding) {
 }
 
 PieceFrame frame_of_piece(std::span<const Vec2> points) {
-  Vec2 low = 0.5 * points[0], high = low;
-  for (Vec2 p : points) {
-    low = {std::min(low.x, 0.5 * p.x), std::min(low.y, 0.5 * p.y)};
-    high = {std::max(high.x, 0.5 * p.x), std::max(high.y, 0.5 * p.y)};
-  }
+  Box half = Box::nothing();
+  for (const Vec2 p : points) half.add(0.5 * p);
+  const auto [low, high] = half;
   const Vec2 origin{detail::exact_origin(low.x, high.x), detail::exact_origin(low.y, high.y)};
   const double size = std::max({std::abs(low.x - origin.x), std::abs(low.y - origin.y),
                                 std::abs(high.x - origin.x), std::abs(high.y - origin.y)});

@@ -80,6 +80,14 @@ void Contour::bezier_to(std::span<const Vec2> control, std::span<const double> c
   }
 }
 
+std::vector<double> Contour::weights_of(const CurvePiece& piece) const {
+  if (weights.empty()) return {};
+  const auto first = weights.begin() + piece.first;
+  std::vector<double> relative(first + 1, first + 1 + piece.degree);
+  for (double& weight : relative) weight /= *first;
+  return relative;
+}
+
 void Contour::ellipse_to(Vec2 center, Vec2 u, Vec2 v, double begin, double end) {
   constexpr double quarter = std::numbers::pi / 2;
   const auto point_at = [&](Vec2 d) { return center + d.x * u + d.y * v; };

@@ -30,8 +30,7 @@ Result<Box> frame_for(const Soup& soup, const Options& options, const std::optio
   constexpr double most = 1e6;  // of the soup's size, or of its coordinates'
   const Box box = bounding_box(soup);
   const double size = diagonal(box);
-  const double largest = std::max(
-      {std::abs(box.low.x), std::abs(box.low.y), std::abs(box.high.x), std::abs(box.high.y), size});
+  const double largest = std::max(largest_coordinate_in(box), size);
   if (frame) {
     const bool holds = frame->low.x < box.low.x && frame->low.y < box.low.y &&
                        frame->high.x > box.high.x && frame->high.y > box.high.y;

@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <utility>
 
 #include "axis/node_kinds.h"
 #include "base/frame.h"
+#include "base/numbers.h"
 #include "base/stopwatch.h"
 #include "exact/contact_graph.h"
 #include "exact/disk_bounds.h"
@@ -20,8 +20,6 @@
 
 namespace medial::exact {
 namespace {
-
-constexpr std::uint32_t none = ~std::uint32_t{0};
 
 /// Blocks whose counts are added up in order.
 constexpr std::size_t block = 1 << 10;

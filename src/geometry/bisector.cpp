@@ -20,13 +20,57 @@ struct DiskVector {
 };
 double product(const DiskVector& u, const DiskVector& v) { return dot(u.c, v.c) - u.r * v.r; }
 
+Disk middle_of(const Disk& from, const Disk& to) {
+  return {midpoint(from.center, to.center), 0.5 * (from.radius + to.radius)};
+}
+
+/// The control point of an edge between two vertices. Along the line of centres the radius is a
+/// hyperbola: with h measured from the middle of the vertices, r = d cosh u and h = d sinh u, and
+/// the shoulder point lies at the mean u. Its weight is cosh of half the difference of u, which the
+/// two e^u = (r + h) / d = d / (r - h) tell without cancellation.
+Control control_of_vertices(Vec2 a, Vec2 b, const Disk& from, const Disk& to) {
+  const Disk middle = middle_of(from, to);
+  const Vec2 foot = midpoint(a, b), across = 0.5 * (b - a);
+  const double squared = squared_norm(across);
+  if (!(squared > 0)) return {middle, 1};
+  const Vec2 along = (1 / std::sqrt(squared)) * left_of(across);
+  const auto exponential = [&](const Disk& disk) {  // times d
+    const double h = dot(along, disk.center - foot);
+    return h >= 0 ? disk.radius + h : squared / (disk.radius - h);
+  };
+  const double growth = exponential(to) / exponential(from);
+  const double weight_squared = 0.25 * (growth + 1) * (1 / growth + 1);
+  return {{foot + (1 / weight_squared) * (middle.center - foot), middle.radius / weight_squared},
+          std::sqrt(weight_squared)};
+}
+
+/// The control point of an edge between a segment and a vertex, a parabola: polynomial in the
+/// foot's parameter, so it is the blossom at both ends. With x and y the vertex seen from the
+/// segment, r(s) = ((s - x)^2 + y^2) / (2 y) has the blossom ((s - x)(t - x) + y^2) / (2 y).
+Control control_of_parabola(const Site& segment, Vec2 vertex, const Disk& from, const Disk& to) {
+  const double y = cross(segment.direction, vertex - segment.point);
+  const double s = dot(segment.direction, from.center - vertex);
+  const double t = dot(segment.direction, to.center - vertex);
+  if (!(y > 0)) return {middle_of(from, to), 1};
+  // Far from a vertex that is next to the segment, the radius knows better how far, as (s - x)^2 +
+  // y^2 = 2 y r: what is lost in y then cancels. The feet stay between those of the ends.
+  constexpr double next_to = 0x1p-4;
+  const auto by_radius = [&](double way, double radius) {
+    return y < next_to * std::abs(way) ? std::copysign(std::sqrt(y * (2 * radius - y)), way) : way;
+  };
+  const double r = (by_radius(s, from.radius) * by_radius(t, to.radius) + y * y) / (2 * y);
+  // Centres lie at height r over the line; the vertex at height y.
+  const Vec2 center = vertex + (0.5 * (s + t)) * segment.direction + (r - y) * segment.normal();
+  return {{center, r}, 1};
+}
+
 /// The control point of an edge with an arc. With P(u, v) = u.v - u_r v_r, a contact equation is
 /// round P(d, d) = 2 flat (n.d - r) for the disk seen from the site's point, and its polar form at
 /// both ends holds for the control point, the pole of the edge's chord: it lies in the plane of the
 /// edge, P-perpendicular to the chord over its middle. Of the two sites the rounder one gives the
 /// height over the chord and the weight.
 Control pole_of_chord(const Site& a, const Site& b, const Disk& from, const Disk& to) {
-  const Disk middle{midpoint(from.center, to.center), 0.5 * (from.radius + to.radius)};
+  const Disk middle = middle_of(from, to);
   // An edge this short against its radius, its arcs' and the distances to their centres (its foci)
   // is straight to rounding; its plane would be lost.
   constexpr double straight = 1e-8;
@@ -260,45 +304,10 @@ Control control_of(const Site& a, const Site& b, const Disk& from, const Disk& t
   if (const auto end = pinned_end(a, from, to)) return control_of(*end, b, from, to);
   if (const auto end = pinned_end(b, from, to)) return control_of(a, *end, from, to);
   if (a.is_arc() || b.is_arc()) return control_with_arc(a, b, from, to);
-  const Disk middle{midpoint(from.center, to.center), 0.5 * (from.radius + to.radius)};
-  if (a.is_vertex() && b.is_vertex()) {
-    // Along the line of centres the radius is a hyperbola: with h measured from the middle of the
-    // vertices, r = d cosh u and h = d sinh u, and the shoulder point lies at the mean u. Its
-    // weight is cosh of half the difference of u, which the two e^u = (r + h) / d = d / (r - h)
-    // tell without cancellation.
-    const Vec2 foot = midpoint(a.point, b.point), across = 0.5 * (b.point - a.point);
-    const double squared = squared_norm(across);
-    if (!(squared > 0)) return {middle, 1};
-    const Vec2 along = (1 / std::sqrt(squared)) * left_of(across);
-    const auto exponential = [&](const Disk& disk) {  // times d
-      const double h = dot(along, disk.center - foot);
-      return h >= 0 ? disk.radius + h : squared / (disk.radius - h);
-    };
-    const double growth = exponential(to) / exponential(from);
-    const double weight_squared = 0.25 * (growth + 1) * (1 / growth + 1);
-    return {{foot + (1 / weight_squared) * (middle.center - foot), middle.radius / weight_squared},
-            std::sqrt(weight_squared)};
-  }
-  if (!a.is_vertex() && !b.is_vertex()) return {middle, 1};
-  // A parabola over the segment: polynomial in the foot's parameter, so the control point is the
-  // blossom at both ends. With x and y the vertex seen from the segment,
-  // r(s) = ((s - x)^2 + y^2) / (2 y) has the blossom ((s - x)(t - x) + y^2) / (2 y).
-  const Site& segment = a.is_vertex() ? b : a;
-  const Vec2 vertex = a.is_vertex() ? a.point : b.point;
-  const double y = cross(segment.direction, vertex - segment.point);
-  const double s = dot(segment.direction, from.center - vertex);
-  const double t = dot(segment.direction, to.center - vertex);
-  if (!(y > 0)) return {middle, 1};
-  // Far from a vertex that is next to the segment, the radius knows better how far, as (s - x)^2 +
-  // y^2 = 2 y r: what is lost in y then cancels. The feet stay between those of the ends.
-  constexpr double next_to = 0x1p-4;
-  const auto by_radius = [&](double way, double radius) {
-    return y < next_to * std::abs(way) ? std::copysign(std::sqrt(y * (2 * radius - y)), way) : way;
-  };
-  const double r = (by_radius(s, from.radius) * by_radius(t, to.radius) + y * y) / (2 * y);
-  // Centres lie at height r over the line; the vertex at height y.
-  const Vec2 center = vertex + (0.5 * (s + t)) * segment.direction + (r - y) * segment.normal();
-  return {{center, r}, 1};
+  if (a.is_vertex() && b.is_vertex()) return control_of_vertices(a.point, b.point, from, to);
+  if (a.is_vertex()) return control_of_parabola(b, a.point, from, to);
+  if (b.is_vertex()) return control_of_parabola(a, b.point, from, to);
+  return {middle_of(from, to), 1};
 }
 
 }  // namespace medial::geometry

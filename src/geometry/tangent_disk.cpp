@@ -2,6 +2,7 @@
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <limits>
+#include <optional>
 
 namespace medial::geometry {
 namespace {
@@ -53,7 +54,29 @@ struct Solutions {
   std::size_t count = 0;
 };
 
-/// Centres origin + l * along with radii r0 + l * slope: where two contact equations hold.
+/// The real roots of a l l + 2 half_b l + c, both without cancellation.
+template <class Real>
+struct Roots {
+  std::array<Real, 2> root{};
+  std::size_t count = 0;
+
+  Roots(const Real& a, const Real& half_b, const Real& c) {
+    using std::sqrt;
+    Real discriminant = half_b * half_b - a * c;
+    // A double root that rounding moved off the real axis.
+    const Real noise = Real(16) * std::numeric_limits<Real>::epsilon();
+    if (discriminant < Real(0)) {
+      if (discriminant < -noise * half_b * half_b) return;
+      discriminant = Real(0);
+    }
+    const Real size = sqrt(discriminant);
+    const Real q = half_b > Real(0) ? Real(-half_b - size) : Real(size - half_b);
+    if (a != Real(0)) root[count++] = q / a;
+    if (q != Real(0)) root[count++] = c / q;
+  }
+};
+
+/// Centres origin + l * along with radii radius + l * slope: where two contact equations hold.
 template <class Real>
 struct LineOfCenters {
   Vector<Real> origin, along;
@@ -64,7 +87,6 @@ struct LineOfCenters {
 /// The line's disks that touch a carrier; the line's origin is relative to the carrier's point.
 template <class Real>
 Solutions<Real> disks_on(const LineOfCenters<Real>& line, const Carrier<Real>& carrier) {
-  using std::sqrt;
   Real a = line.one_minus_slope_squared;
   Real half_b = dot(line.origin, line.along) - line.radius * line.slope;
   Real c = dot(line.origin, line.origin) - line.radius * line.radius;
@@ -75,23 +97,42 @@ Solutions<Real> disks_on(const LineOfCenters<Real>& line, const Carrier<Real>& c
         Real(2) * carrier.flat * (dot(carrier.normal, line.origin) - line.radius);
   }
   Solutions<Real> result;
-  const auto add = [&](const Real& l) {
+  const Roots<Real> roots(a, half_b, c);
+  for (std::size_t i = 0; i < roots.count; ++i) {
+    const Real& l = roots.root[i];
     const Real r = line.radius + l * line.slope;
     if (r >= Real(0))
       result.disk[result.count++] = {line.origin + l * line.along + carrier.point, r};
-  };
-  Real discriminant = half_b * half_b - a * c;
-  // A double root that rounding moved off the real axis.
-  const Real noise = Real(16) * std::numeric_limits<Real>::epsilon();
-  if (discriminant < Real(0)) {
-    if (discriminant < -noise * half_b * half_b) return result;
-    discriminant = Real(0);
   }
-  const Real root = sqrt(discriminant);
-  const Real q = half_b > Real(0) ? Real(-half_b - root) : Real(root - half_b);
-  if (a != Real(0)) add(q / a);
-  if (q != Real(0)) add(c / q);
   return result;
+}
+
+/// A linear equation g.(x, y) + s r = h of a disk.
+template <class Real>
+struct Plane {
+  Vector<Real> g;
+  Real s, h;
+};
+
+/// The disks that two linear equations leave; none where the two are parallel.
+template <class Real>
+std::optional<LineOfCenters<Real>> line_of(const Plane<Real>& a, const Plane<Real>& b) {
+  using std::sqrt;
+  const Vector<Real> along{a.g.y * b.s - a.s * b.g.y, a.s * b.g.x - a.g.x * b.s};
+  const Real rise = cross(a.g, b.g);
+  const Real squared = dot(along, along) + rise * rise;
+  if (squared == Real(0)) return std::nullopt;
+  // The point of both planes nearest to the origin: (h_a (b x d) + h_b (d x a)) / d.d.
+  const Vector<Real> b_d{b.g.y * rise - b.s * along.y, b.s * along.x - b.g.x * rise};
+  const Vector<Real> d_a{along.y * a.s - rise * a.g.y, rise * a.g.x - along.x * a.s};
+  const Real inverse = Real(1) / squared, scale = sqrt(inverse);
+  LineOfCenters<Real> line;
+  line.origin = inverse * (a.h * b_d + b.h * d_a);
+  line.radius = inverse * (a.h * cross(b.g, along) + b.h * cross(along, a.g));
+  line.along = scale * along;
+  line.slope = scale * rise;
+  line.one_minus_slope_squared = dot(line.along, line.along) - line.slope * line.slope;
+  return line;
 }
 
 template <class Real>
@@ -228,12 +269,9 @@ Solutions<Real> about_center(const Carrier<Real>& arc,
                              const std::array<const Carrier<Real>*, 2>& others) {
   using std::sqrt;
   const Circle<Real> own(arc);
-  struct Plane {
-    Vector<Real> g;
-    Real s, h;  // g.x + s_ s = h, of unit size
-  };
+  // As an equation of x and s, of unit size.
   const auto plane_of = [&](const Carrier<Real>& c) {
-    Plane plane;
+    Plane<Real> plane;
     if (nearly_concentric(arc, c)) {
       const Circle<Real> circle(c);
       const Vector<Real> u = circle.center - own.center;
@@ -247,41 +285,22 @@ Solutions<Real> about_center(const Carrier<Real>& arc,
     }
     const Real size = sqrt(dot(plane.g, plane.g) + plane.s * plane.s);
     if (size == Real(0)) return plane;
-    return Plane{(Real(1) / size) * plane.g, plane.s / size, plane.h / size};
+    return Plane<Real>{(Real(1) / size) * plane.g, plane.s / size, plane.h / size};
   };
-  const Plane a = plane_of(*others[0]), b = plane_of(*others[1]);
-  const Vector<Real> along{a.g.y * b.s - a.s * b.g.y, a.s * b.g.x - a.g.x * b.s};
-  const Real rise = cross(a.g, b.g);
-  const Real squared = dot(along, along) + rise * rise;
   Solutions<Real> result;
-  if (squared == Real(0)) return result;
-  // As in three_carriers(): the point of both planes nearest to the centre.
-  const Vector<Real> b_d{b.g.y * rise - b.s * along.y, b.s * along.x - b.g.x * rise};
-  const Vector<Real> d_a{along.y * a.s - rise * a.g.y, rise * a.g.x - along.x * a.s};
-  const Real inverse = Real(1) / squared, scale = sqrt(inverse);
-  const Vector<Real> origin = inverse * (a.h * b_d + b.h * d_a);
-  const Real start = inverse * (a.h * cross(b.g, along) + b.h * cross(along, a.g));
-  const Vector<Real> way = scale * along;
-  const Real slope = scale * rise;
+  const auto line = line_of<Real>(plane_of(*others[0]), plane_of(*others[1]));
+  if (!line) return result;
   // x.x = s s on the line.
-  const Real qa = dot(way, way) - slope * slope, qb = dot(origin, way) - start * slope;
-  const Real qc = dot(origin, origin) - start * start;
-  Real discriminant = qb * qb - qa * qc;
-  const Real noise = Real(16) * std::numeric_limits<Real>::epsilon();
-  if (discriminant < Real(0)) {
-    if (discriminant < -noise * qb * qb) return result;
-    discriminant = Real(0);
-  }
-  const auto add = [&](const Real& l) {
-    const Real s = start + l * slope, r = own.radius - s;
+  const Roots<Real> roots(line->one_minus_slope_squared,
+                          dot(line->origin, line->along) - line->radius * line->slope,
+                          dot(line->origin, line->origin) - line->radius * line->radius);
+  for (std::size_t i = 0; i < roots.count; ++i) {
+    const Real& l = roots.root[i];
+    const Real s = line->radius + l * line->slope, r = own.radius - s;
     // Inside of the circle of a convex arc, outside of the other.
     if (r >= Real(0) && s * own.radius >= Real(0))
-      result.disk[result.count++] = {own.center + origin + l * way, r};
-  };
-  const Real root = sqrt(discriminant);
-  const Real q = qb > Real(0) ? Real(-qb - root) : Real(root - qb);
-  if (qa != Real(0)) add(q / qa);
-  if (q != Real(0)) add(qc / q);
+      result.disk[result.count++] = {own.center + line->origin + l * line->along, r};
+  }
   return result;
 }
 
@@ -289,7 +308,7 @@ Solutions<Real> about_center(const Carrier<Real>& arc,
 /// the other two, which leaves two planes in (x, y, r); their line meets the roundest.
 template <class Real>
 Solutions<Real> three_carriers(std::array<const Carrier<Real>*, 3> carriers) {
-  using std::abs, std::sqrt;
+  using std::abs;
   sort_three(carriers, [](const auto* a, const auto* b) { return abs(a->round) > abs(b->round); });
   const Carrier<Real>& roundest = *carriers[0];
   for (std::size_t i = 0; i < 2; ++i)
@@ -307,33 +326,15 @@ Solutions<Real> three_carriers(std::array<const Carrier<Real>*, 3> carriers) {
     const Circle<Real> own(arc);
     if (nearly_touches(own, b) && nearly_touches(own, c)) return about_center<Real>(arc, {&b, &c});
   }
-  struct Plane {
-    Vector<Real> g;
-    Real s, h;  // g.(x, y) + s r = h
-  };
   const auto plane_of = [&](const Carrier<Real>& c) {
     const Vector<Real> p = c.point - roundest.point;
     const Real ratio = c.round / roundest.round;
-    return Plane{c.round * p + c.flat * c.normal - (ratio * roundest.flat) * roundest.normal,
-                 ratio * roundest.flat - c.flat,
-                 c.round * dot(p, p) / Real(2) + c.flat * dot(c.normal, p)};
+    return Plane<Real>{c.round * p + c.flat * c.normal - (ratio * roundest.flat) * roundest.normal,
+                       ratio * roundest.flat - c.flat,
+                       c.round * dot(p, p) / Real(2) + c.flat * dot(c.normal, p)};
   };
-  const Plane a = plane_of(*carriers[1]), b = plane_of(*carriers[2]);
-  Vector<Real> along{a.g.y * b.s - a.s * b.g.y, a.s * b.g.x - a.g.x * b.s};
-  Real rise = cross(a.g, b.g);
-  const Real squared = dot(along, along) + rise * rise;
-  if (squared == Real(0)) return {};
-  // The point of both planes nearest to the origin: (h_a (b x d) + h_b (d x a)) / d.d.
-  const Vector<Real> b_d{b.g.y * rise - b.s * along.y, b.s * along.x - b.g.x * rise};
-  const Vector<Real> d_a{along.y * a.s - rise * a.g.y, rise * a.g.x - along.x * a.s};
-  const Real inverse = Real(1) / squared, scale = sqrt(inverse);
-  LineOfCenters<Real> line;
-  line.origin = inverse * (a.h * b_d + b.h * d_a);
-  line.radius = inverse * (a.h * cross(b.g, along) + b.h * cross(along, a.g));
-  line.along = scale * along;
-  line.slope = scale * rise;
-  line.one_minus_slope_squared = dot(line.along, line.along) - line.slope * line.slope;
-  return disks_on(line, roundest);
+  const auto line = line_of<Real>(plane_of(*carriers[1]), plane_of(*carriers[2]));
+  return line ? disks_on(*line, roundest) : Solutions<Real>{};
 }
 
 template <class Real>
@@ -406,6 +407,46 @@ Carrier<Real> carrier(const Site& site) {
 bool fits_into(double radius, const Site& site) {
   constexpr double slack = 0x1p-20;
   return radius * site.curvature <= 1 + slack;
+}
+
+/// One Newton step towards contact with three carriers; the same disk where the step is singular.
+Disk improved(const Disk& disk, const Site& a, const Site& b, const Site& c) {
+  const auto error = [&](const Site& s) { return carrier_distance(s, disk.center) - disk.radius; };
+  const Vec2 ga = outward(a, disk.center);
+  const Vec2 ab = outward(b, disk.center) - ga, ac = outward(c, disk.center) - ga;
+  const double ea = error(a), eb = ea - error(b), ec = ea - error(c);
+  const double determinant = medial::cross(ab, ac);
+  const Vec2 step{(eb * ac.y - ec * ab.y) / determinant, (ab.x * ec - ac.x * eb) / determinant};
+  const Disk better{disk.center + step, disk.radius + medial::dot(ga, step) + ea};
+  const bool usable = std::isfinite(better.center.x) && std::isfinite(better.center.y) &&
+                      std::isfinite(better.radius) && better.radius >= 0;
+  return usable ? better : disk;
+}
+
+/// tangent_disks() in 113-bit arithmetic, rounded to double: of its disks the one nearest to
+/// `near`, if there is one.
+std::optional<Disk> tangent_disk_in_high_precision(const Site& a, const Site& b, const Site& c,
+                                                   const Disk& near) {
+  using Real = boost::multiprecision::cpp_bin_float_quad;
+  std::array<Carrier<Real>, 3> carriers{carrier<Real>(a), carrier<Real>(b), carrier<Real>(c)};
+  for (Carrier<Real>& one : carriers)
+    if (!one.vertex) one.normal = (Real(1) / sqrt(dot(one.normal, one.normal))) * one.normal;
+  const Solutions<Real> solved = solve<Real>({&carriers[0], &carriers[1], &carriers[2]});
+  double best = std::numeric_limits<double>::infinity();
+  std::optional<Disk> disk;
+  for (std::size_t i = 0; i < solved.count; ++i) {
+    const auto& s = solved.disk[i];
+    const Disk candidate{{static_cast<double>(s.center.x), static_cast<double>(s.center.y)},
+                         static_cast<double>(s.radius)};
+    // The circle of an arc is touched from its other side at the same place; the residual tells.
+    const double off =
+        std::max(distance(candidate.center, near.center), residual(candidate, a, b, c));
+    if (off < best) {
+      best = off;
+      disk = candidate;
+    }
+  }
+  return disk;
 }
 
 }  // namespace
@@ -496,40 +537,23 @@ double residual(const Disk& disk, const Site& a, const Site& b, const Site& c) {
                    std::abs(carrier_distance(c, disk.center) - disk.radius)});
 }
 
-Disk improve(const Disk& disk, const Site& a, const Site& b, const Site& c) {
-  const auto error = [&](const Site& s) { return carrier_distance(s, disk.center) - disk.radius; };
-  const Vec2 ga = outward(a, disk.center);
-  const Vec2 ab = outward(b, disk.center) - ga, ac = outward(c, disk.center) - ga;
-  const double ea = error(a), eb = ea - error(b), ec = ea - error(c);
-  const double determinant = medial::cross(ab, ac);
-  const Vec2 step{(eb * ac.y - ec * ab.y) / determinant, (ab.x * ec - ac.x * eb) / determinant};
-  const Disk better{disk.center + step, disk.radius + medial::dot(ga, step) + ea};
-  const bool usable = std::isfinite(better.center.x) && std::isfinite(better.center.y) &&
-                      std::isfinite(better.radius) && better.radius >= 0;
-  return usable ? better : disk;
-}
-
-bool tangent_disk_in_high_precision(const Site& a, const Site& b, const Site& c, const Disk& near,
-                                    Disk& disk) {
-  using Real = boost::multiprecision::cpp_bin_float_quad;
-  std::array<Carrier<Real>, 3> carriers{carrier<Real>(a), carrier<Real>(b), carrier<Real>(c)};
-  for (Carrier<Real>& one : carriers)
-    if (!one.vertex) one.normal = (Real(1) / sqrt(dot(one.normal, one.normal))) * one.normal;
-  const Solutions<Real> solved = solve<Real>({&carriers[0], &carriers[1], &carriers[2]});
-  double best = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < solved.count; ++i) {
-    const auto& s = solved.disk[i];
-    const Disk candidate{{static_cast<double>(s.center.x), static_cast<double>(s.center.y)},
-                         static_cast<double>(s.radius)};
-    // The circle of an arc is touched from its other side at the same place; the residual tells.
-    const double off =
-        std::max(distance(candidate.center, near.center), residual(candidate, a, b, c));
-    if (off < best) {
-      best = off;
-      disk = candidate;
-    }
-  }
-  return best < std::numeric_limits<double>::infinity();
+void polish(Disk& disk, const Site& a, const Site& b, const Site& c, double good, double bad,
+            std::uint64_t& precision_retries) {
+  constexpr double reach = 1e-3;
+  const double furthest = reach * disk.radius;
+  double error = residual(disk, a, b, c);
+  const auto take_if_better = [&](const Disk& better) {
+    const double better_error = residual(better, a, b, c);
+    if (!(better_error < error && distance(better.center, disk.center) <= furthest)) return false;
+    disk = better;
+    error = better_error;
+    return true;
+  };
+  for (int step = 0; step < 2 && error > good; ++step)
+    if (!take_if_better(improved(disk, a, b, c))) break;
+  if (error <= bad) return;
+  ++precision_retries;
+  if (const auto precise = tangent_disk_in_high_precision(a, b, c, disk)) take_if_better(*precise);
 }
 
 }  // namespace medial::geometry

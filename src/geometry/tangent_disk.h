@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 
 #include "geometry/site.h"
 #include "medial/axis.h"
@@ -36,12 +37,11 @@ TangentDisks tangent_disks(const Site& a, const Site& b, const Site& c);
 /// Largest |distance - radius| of a disk to the carriers of three sites.
 double residual(const Disk& disk, const Site& a, const Site& b, const Site& c);
 
-/// One Newton step towards contact with three carriers; the same disk where the step is singular.
-Disk improve(const Disk& disk, const Site& a, const Site& b, const Site& c);
-
-/// tangent_disks() in 113-bit arithmetic, rounded to double; among its disks the one nearest to
-/// `near`. Returns false where there is no such disk.
-bool tangent_disk_in_high_precision(const Site& a, const Site& b, const Site& c, const Disk& near,
-                                    Disk& disk);
+/// Brings the residual of a disk that nearly touches three carriers below `good`, by two steps of
+/// Newton's method; where it stays above `bad`, by solving once more in 113-bit arithmetic, which
+/// is counted. No step moves the disk by more than a thousandth of its radius, as what is further
+/// is another solution, and none makes the residual larger.
+void polish(Disk& disk, const Site& a, const Site& b, const Site& c, double good, double bad,
+            std::uint64_t& precision_retries);
 
 }  // namespace medial::geometry

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "geometry/site.h"
+#include "medial/box.h"
 
 #if defined(__SSE2__)
 #include <emmintrin.h>
@@ -20,14 +21,9 @@ namespace medial::index {
 using Lanes = std::array<float, 4>;
 
 /// A box under way.
-struct Extent {
-  Vec2 low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-  Vec2 high = -low;
-
-  void add(Vec2 p) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-  }
+struct Extent : Box {
+  Extent() : Box(nothing()) {}
+  using Box::add;
   void add(const geometry::Site& site) {
     add(site.point);
     add(site.end());

@@ -32,8 +32,7 @@ SiteLocator::SiteLocator(std::span<const Site> sites) : index_(std::make_unique<
     const double reach = distance(site.start, site.end);  // of an arc, at most half beside it
     for (const Vec2 p : {site.start, site.end}) {
       const double pad = site.kind == SiteKind::arc ? reach : 0;
-      box.low = {std::min(box.low.x, p.x - pad), std::min(box.low.y, p.y - pad)};
-      box.high = {std::max(box.high.x, p.x + pad), std::max(box.high.y, p.y + pad)};
+      box.add({{p.x - pad, p.y - pad}, {p.x + pad, p.y + pad}});
     }
     middle.push_back(midpoint(site.start, site.end));
   }

@@ -2,14 +2,12 @@
 
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "io/tables.h"
+#include "medial/io/attributes.h"
 
 namespace medial::io {
-
-using Attributes = std::vector<std::pair<std::string, std::string>>;
 
 /// The attributes of the input as columns of the output. Attributes travel as text; a column whose
 /// every value is the usual spelling of a number becomes numbers again (so "007" stays a text).

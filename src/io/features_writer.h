@@ -2,7 +2,6 @@
 
 // What the writers of features share: tables whose rows have a geometry and values by column.
 
-#include <cstdint>
 #include <functional>
 #include <span>
 #include <string>

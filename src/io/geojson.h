@@ -3,10 +3,8 @@
 // GeoJSON (RFC 7946), written number by number: through GDAL's feature objects it takes four times
 // as long.
 
-#include <span>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "io/output.h"
 #include "medial/vec2.h"

@@ -2,29 +2,18 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <bit>
 #include <deque>
-#include <limits>
 #include <optional>
 
 #include "io/gdal_target.h"
 #include "io/gpkg_index.h"
 #include "io/sqlite.h"
+#include "medial/box.h"
 
 namespace medial::io {
 
 namespace {
-
-struct Bounds {
-  Vec2 low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-  Vec2 high{-low.x, -low.y};
-
-  void add(Vec2 p) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-  }
-};
 
 /// Appends the bytes of a value, as this machine orders them.
 template <class Number>
@@ -35,7 +24,7 @@ void put(std::vector<std::uint8_t>& out, Number value) {
 
 /// A geometry as a GeoPackage has it (OGC 12-128r18, 2.1.3): a header, a box where it is no point,
 /// and well-known binary.
-void encode(GeometryKind kind, std::span<const std::vector<Vec2>> parts, const Bounds& extent,
+void encode(GeometryKind kind, std::span<const std::vector<Vec2>> parts, const Box& extent,
             std::int32_t srs, std::vector<std::uint8_t>& out) {
   constexpr bool little = std::endian::native == std::endian::little;
   out.clear();
@@ -85,7 +74,7 @@ class GpkgLayer {
 
   void add(std::span<const Value> first, std::span<const Value> rest,
            std::span<std::vector<Vec2>> parts) {
-    Bounds own;
+    Box own = Box::nothing();
     for (std::vector<Vec2>& part : parts) {
       if (table_.kind == GeometryKind::polygon && part.front() != part.back())
         part.push_back(part.front());
@@ -145,7 +134,7 @@ class GpkgLayer {
   std::vector<std::uint8_t> bytes_;
   std::int32_t srs_ = 0;
   std::int64_t rows_ = 0;
-  Bounds bounds_;
+  Box bounds_ = Box::nothing();
 };
 
 class GpkgTables final : public TableSink {

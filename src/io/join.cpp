@@ -7,6 +7,7 @@
 #include <unordered_map>
 
 #include "io/path_builder.h"
+#include "medial/box.h"
 
 namespace medial::io {
 
@@ -163,28 +164,17 @@ void append(Contour& contour, const Contour& curve, bool backward) {
     const auto points = std::span(next.points).subspan(piece.first + 1, piece.degree);
     if (piece.degree == 1) {
       contour.arc_to(points.front(), piece.bulge);
-    } else if (next.weights.empty()) {
-      contour.bezier_to(points);
     } else {
-      std::vector<double> weights(next.weights.begin() + piece.first + 1,
-                                  next.weights.begin() + piece.first + 1 + piece.degree);
-      for (double& weight : weights) weight /= next.weights[piece.first];
-      contour.bezier_to(points, weights);
+      contour.bezier_to(points, next.weights_of(piece));
     }
   }
 }
 
 double diagonal_of(const std::vector<Contour>& curves) {
-  constexpr double endless = std::numeric_limits<double>::infinity();
-  Vec2 low{endless, endless};
-  Vec2 high{-endless, -endless};
-  for (const Contour& curve : curves) {
-    for (const Vec2 p : curve.points) {
-      low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-      high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-    }
-  }
-  return curves.empty() ? 0 : distance(low, high);
+  Box box = Box::nothing();
+  for (const Contour& curve : curves)
+    for (const Vec2 p : curve.points) box.add(p);
+  return curves.empty() ? 0 : distance(box.low, box.high);
 }
 
 }  // namespace

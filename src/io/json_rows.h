@@ -15,6 +15,7 @@
 #include "io/text_source.h"
 #include "medial/axis.h"
 #include "medial/error.h"
+#include "medial/io/attributes.h"
 
 // What the readers of medial's own JSON have in common: rows of numbers, and errors.
 
@@ -50,8 +51,7 @@ inline std::string text_of(json::value value) {
 }
 
 /// Appends the pairs of texts of an array; `otherwise` is told of what is none.
-inline void read_attributes(json::value value, const char* otherwise,
-                            std::vector<std::pair<std::string, std::string>>& attributes) {
+inline void read_attributes(json::value value, const char* otherwise, Attributes& attributes) {
   for (json::value element : value.get_array()) {
     std::vector<std::string> words;
     for (json::value word : element.get_array()) words.push_back(text_of(word));

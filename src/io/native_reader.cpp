@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "axis/statistics.h"
 #include "io/json_rows.h"
 #include "io/native.h"
 
@@ -127,24 +128,11 @@ void read_statistics(json::value value, Statistics& statistics) {
   for (json::field field : value.get_object()) {
     const std::string_view key = field.unescaped_key();
     json::value content = field.value();
-    if (key == "queries") statistics.queries = integer<std::uint64_t>(content);
-    if (key == "apollonius") statistics.apollonius = integer<std::uint64_t>(content);
-    if (key == "brackets") statistics.brackets = integer<std::uint64_t>(content);
-    if (key == "precision_retries") statistics.precision_retries = integer<std::uint64_t>(content);
-    if (key == "cuts") statistics.cuts = integer<std::uint64_t>(content);
-    if (key == "exact_filtered") statistics.exact_filtered = integer<std::uint64_t>(content);
-    if (key == "exact_precise") statistics.exact_precise = integer<std::uint64_t>(content);
-    if (key == "exact_rational") statistics.exact_rational = integer<std::uint64_t>(content);
-    if (key == "exact_ties") statistics.exact_ties = integer<std::uint64_t>(content);
-    if (key == "exact_changes") statistics.exact_changes = integer<std::uint64_t>(content);
+    for (const auto& [name, count] : statistics_counts)
+      if (key == name) statistics.*count = integer<std::uint64_t>(content);
+    for (const auto& [name, seconds] : statistics_times)
+      if (key == name) statistics.*seconds = number(content);
     if (key == "largest_residual") statistics.largest_residual = number(content);
-    if (key == "seconds_sites") statistics.seconds_sites = number(content);
-    if (key == "seconds_tree") statistics.seconds_tree = number(content);
-    if (key == "seconds_connect") statistics.seconds_connect = number(content);
-    if (key == "seconds_walk") statistics.seconds_walk = number(content);
-    if (key == "seconds_collect") statistics.seconds_collect = number(content);
-    if (key == "seconds_exact") statistics.seconds_exact = number(content);
-    if (key == "seconds") statistics.seconds = number(content);
     if (key == "threads") statistics.threads = integer<int>(content);
   }
 }

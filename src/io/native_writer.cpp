@@ -3,6 +3,7 @@
 #include <numeric>
 #include <optional>
 
+#include "axis/statistics.h"
 #include "io/native.h"
 
 namespace medial::io {
@@ -111,6 +112,11 @@ class NativeWriter {
       finite_ = false;
     }
   }
+  void put_name(std::string_view name) {
+    out_.put('"');
+    out_.put(name);
+    out_.put("\":");
+  }
   void member(std::string_view name, double value) {
     out_.put(name);
     number(value);
@@ -146,7 +152,7 @@ class NativeWriter {
     out_.put(']');
   }
 
-  void write_attributes(const std::vector<std::pair<std::string, std::string>>& attributes) {
+  void write_attributes(const Attributes& attributes) {
     array("\"attributes\":", attributes, [this](const auto& attribute) {
       out_.put('[');
       out_.put(quoted(attribute.first));
@@ -204,33 +210,20 @@ class NativeWriter {
   }
 
   void write_statistics(const Statistics& statistics) {
-    out_.put(",\n\"statistics\":{\"queries\":");
-    out_.put(statistics.queries);
-    out_.put(",\"apollonius\":");
-    out_.put(statistics.apollonius);
-    out_.put(",\"brackets\":");
-    out_.put(statistics.brackets);
-    out_.put(",\"precision_retries\":");
-    out_.put(statistics.precision_retries);
-    out_.put(",\"cuts\":");
-    out_.put(statistics.cuts);
-    for (const auto& [key, count] : {std::pair{",\"exact_filtered\":", statistics.exact_filtered},
-                                     std::pair{",\"exact_precise\":", statistics.exact_precise},
-                                     std::pair{",\"exact_rational\":", statistics.exact_rational},
-                                     std::pair{",\"exact_ties\":", statistics.exact_ties},
-                                     std::pair{",\"exact_changes\":", statistics.exact_changes}}) {
-      if (count == 0) continue;
-      out_.put(key);
-      out_.put(count);
+    out_.put(",\n\"statistics\":{");
+    for (const auto& [name, count] : statistics_counts) {
+      const bool of_exact = std::string_view(name).starts_with("exact_");
+      if (of_exact && statistics.*count == 0) continue;
+      if (count != &Statistics::queries) out_.put(',');
+      put_name(name);
+      out_.put(statistics.*count);
     }
     member(",\"largest_residual\":", statistics.largest_residual);
-    member(",\"seconds_sites\":", statistics.seconds_sites);
-    member(",\"seconds_tree\":", statistics.seconds_tree);
-    member(",\"seconds_connect\":", statistics.seconds_connect);
-    member(",\"seconds_walk\":", statistics.seconds_walk);
-    member(",\"seconds_collect\":", statistics.seconds_collect);
-    member(",\"seconds_exact\":", statistics.seconds_exact);
-    member(",\"seconds\":", statistics.seconds);
+    for (const auto& [name, seconds] : statistics_times) {
+      out_.put(',');
+      put_name(name);
+      number(statistics.*seconds);
+    }
     out_.put(",\"threads\":");
     out_.put(statistics.threads);
     out_.put('}');

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <set>
 #include <string_view>
 
@@ -34,8 +33,7 @@ double chord_of(const OffsetItem& item, const WriteOptions& options) {
   return options.chord * reach;
 }
 
-void put_attributes(OutputStream& out,
-                    const std::vector<std::pair<std::string, std::string>>& attributes) {
+void put_attributes(OutputStream& out, const Attributes& attributes) {
   for (std::size_t k = 0; k < attributes.size(); ++k)
     out.put(fmt::format("{}[{},{}]", k == 0 ? "" : ",", quoted(attributes[k].first),
                         quoted(attributes[k].second)));

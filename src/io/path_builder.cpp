@@ -105,13 +105,8 @@ Contour transformed(const Affine& map, const Contour& contour) {
       const Vec2 u = from - center;
       add_arc(rebuilt, {map(center), map.vector(u), map.vector(left_of(u)), 0, 4 * std::atan(b)},
               images.front());
-    } else if (contour.weights.empty()) {
-      rebuilt.bezier_to(images);
     } else {
-      std::vector<double> weights(contour.weights.begin() + piece.first + 1,
-                                  contour.weights.begin() + piece.first + 1 + piece.degree);
-      for (double& weight : weights) weight /= contour.weights[piece.first];
-      rebuilt.bezier_to(images, weights);
+      rebuilt.bezier_to(images, contour.weights_of(piece));
     }
   }
   return rebuilt;

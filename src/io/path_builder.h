@@ -1,7 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <span>
 
 #include "medial/contour.h"
 #include "medial/vec2.h"

@@ -28,16 +28,11 @@ cairo_surface_t* create_surface(OutputStream& out, const std::string& format, do
 
 }  // namespace
 
-void Extent::add(const Box& box) {
-  box_.low = {std::min(box_.low.x, box.low.x), std::min(box_.low.y, box.low.y)};
-  box_.high = {std::max(box_.high.x, box.high.x), std::max(box_.high.y, box.high.y)};
-}
-
 void Extent::add(const Shape& shape) {
   if (!shape.points.empty()) add(bounding_box(shape));
 }
 
-Box Extent::box() const { return box_.low.x <= box_.high.x ? box_ : Box{{0, 0}, {1, 1}}; }
+Box Extent::box() const { return box_.is_nothing() ? Box{{0, 0}, {1, 1}} : box_; }
 
 Box box_of(const NativeFile& file) {
   Extent extent;

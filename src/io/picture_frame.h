@@ -5,7 +5,6 @@
 #include <cairo.h>
 
 #include <functional>
-#include <limits>
 #include <string>
 
 #include "base/arc.h"
@@ -17,15 +16,14 @@ namespace medial::io {
 /// The box around what is added to it.
 class Extent {
  public:
-  void add(Vec2 p) { add(Box{p, p}); }
-  void add(const Box& box);
+  void add(Vec2 p) { box_.add(p); }
+  void add(const Box& box) { box_.add(box); }
   void add(const Shape& shape);
   /// A unit square where nothing was added.
   Box box() const;
 
  private:
-  static constexpr double endless = std::numeric_limits<double>::infinity();
-  Box box_{{endless, endless}, {-endless, -endless}};
+  Box box_ = Box::nothing();
 };
 
 /// The box around shapes, axes and sites.

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstdint>
 #include <unordered_set>
-#include <vector>
 
 #include "io/color.h"
 #include "io/picture_frame.h"

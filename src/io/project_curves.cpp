@@ -1,6 +1,5 @@
 #include "io/project_curves.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>

@@ -201,23 +201,19 @@ std::optional<Error> find_not_finite(const Dataset& dataset) {
     result.place.vertex = vertex;
     return result;
   };
+  const auto look_at = [&](std::size_t i, const auto& lines) -> std::optional<Error> {
+    for (std::size_t k = 0; k < lines.size(); ++k) {
+      if (auto at = not_finite(lines[k].points))
+        return error(i, k, *at, "a coordinate is not a finite number");
+      if (auto at = not_finite(lines[k].bulges))
+        return error(i, k, *at, "a bulge is not a finite number");
+    }
+    return std::nullopt;
+  };
   for (std::size_t i = 0; i < dataset.features.size(); ++i) {
     const Feature& feature = dataset.features[i];
-    for (std::size_t k = 0; k < feature.rings.size(); ++k) {
-      const Ring& ring = feature.rings[k];
-      if (auto at = not_finite(ring.points)) {
-        return error(i, k, *at, "a coordinate is not a finite number");
-      }
-      if (auto at = not_finite(ring.bulges)) {
-        return error(i, k, *at, "a bulge is not a finite number");
-      }
-    }
-    for (std::size_t k = 0; k < feature.chains.size(); ++k) {
-      if (auto at = not_finite(feature.chains[k].points))
-        return error(i, k, *at, "a coordinate is not a finite number");
-      if (auto at = not_finite(feature.chains[k].bulges))
-        return error(i, k, *at, "a bulge is not a finite number");
-    }
+    if (auto bad = look_at(i, feature.rings)) return bad;
+    if (auto bad = look_at(i, feature.chains)) return bad;
     for (std::size_t k = 0; k < feature.contours.size(); ++k) {
       const Contour& contour = feature.contours[k];
       if (auto at = not_finite(contour.points)) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "base/arc.h"
 #include "io/gdal_target.h"
@@ -47,16 +46,10 @@ bool has_arcs(const Shape& shape) {
 }
 
 void write_svg(OutputStream& out, const ShapesFile& file) {
-  Box box{{0, 0}, {0, 0}};
-  bool first = true;
-  for (const ShapeItem& item : file.items) {
-    if (item.shape.points.empty()) continue;
-    const Box own = bounding_box(item.shape);
-    if (first) box = own;
-    first = false;
-    box.low = {std::min(box.low.x, own.low.x), std::min(box.low.y, own.low.y)};
-    box.high = {std::max(box.high.x, own.high.x), std::max(box.high.y, own.high.y)};
-  }
+  Box box = Box::nothing();
+  for (const ShapeItem& item : file.items)
+    if (!item.shape.points.empty()) box.add(bounding_box(item.shape));
+  if (box.is_nothing()) box = {};
   const double margin = 0.02 * diagonal(box);
   const Vec2 size = box.high - box.low + 2 * margin * Vec2{1, 1};
   const double top = file.y_down ? box.low.y - margin : -box.high.y - margin;

@@ -4,10 +4,8 @@
 #include <libxml/parser.h>
 #include <libxml/tree.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
-#include <memory>
 #include <numbers>
 
 // The grammars of attributes are compiled in svg_grammars.cpp: both files need half the memory
@@ -314,7 +312,7 @@ using Groups = mpl::set<tag::element::svg, tag::element::g, tag::element::a, tag
                         tag::element::use_>::type;
 using Processed = mpl::fold<Shapes, Groups, mpl::insert<mpl::_1, mpl::_2>>::type;
 using Copied = mpl::insert<Processed, tag::element::symbol>::type;
-using Attributes =
+using ParsedAttributes =
     mpl::fold<mpl::protect<mpl::joint_view<svgpp::traits::shapes_attributes_by_element,
                                            svgpp::traits::viewport_attributes>>,
               mpl::set<tag::attribute::transform, tag::attribute::fill, tag::attribute::fill_rule,
@@ -393,7 +391,7 @@ static_assert(svgpp::policy::path::default_policy::no_cubic_bezier_shorthand &&
               svgpp::policy::transform::default_policy::join_transforms);
 using Traversal = svgpp::document_traversal<
     svgpp::context_factories<Contexts>, svgpp::processed_elements<Processed>,
-    svgpp::processed_attributes<Attributes>, svgpp::error_policy<Errors>,
+    svgpp::processed_attributes<ParsedAttributes>, svgpp::error_policy<Errors>,
     svgpp::viewport_policy<svgpp::policy::viewport::calculate>,
     svgpp::viewport_events_policy<Viewports>,
     svgpp::length_policy<

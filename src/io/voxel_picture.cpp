@@ -15,6 +15,7 @@
 
 #include "io/color.h"
 #include "io/picture_frame.h"
+#include "medial/box.h"
 
 namespace medial::io {
 
@@ -123,15 +124,10 @@ class Scene {
   }
 
   /// The corners of the smallest rectangle around the solid, in units of the input.
-  std::pair<Vec2, Vec2> extent(const View& view) const {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    Vec2 low{infinity, infinity}, high{-infinity, -infinity};
-    for (const Vec3 p : solid_.surface.vertices) {
-      const Vec2 at{dot(p, view.right), dot(p, view.up)};
-      low = {std::min(low.x, at.x), std::min(low.y, at.y)};
-      high = {std::max(high.x, at.x), std::max(high.y, at.y)};
-    }
-    return {low, high};
+  Box extent(const View& view) const {
+    Box box = Box::nothing();
+    for (const Vec3 p : solid_.surface.vertices) box.add(Vec2{dot(p, view.right), dot(p, view.up)});
+    return box;
   }
 
   /// Paints the scene as seen in one view, `scale` pixels for each unit.

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <numeric>
 
 #include "medial/image.h"
 #include "raster/runs.h"

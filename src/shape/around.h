@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cstdint>
-
 #include "medial/shape.h"
 #include "medial/soup.h"
 

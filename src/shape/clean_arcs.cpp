@@ -2,7 +2,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <optional>
 #include <vector>
 
 #include "base/arc.h"
@@ -26,13 +25,8 @@ class Cleaner {
  public:
   Cleaner(std::vector<RingEdge>& edges, ShapeReport& report) : edges_(edges), report_(report) {
     Box box{edges[0].point, edges[0].point};
-    for (const RingEdge& edge : edges) {
-      box.low = {std::min(box.low.x, edge.point.x), std::min(box.low.y, edge.point.y)};
-      box.high = {std::max(box.high.x, edge.point.x), std::max(box.high.y, edge.point.y)};
-    }
-    const double largest = std::max(
-        {std::abs(box.low.x), std::abs(box.low.y), std::abs(box.high.x), std::abs(box.high.y)});
-    rounding_ = largest * std::numeric_limits<double>::epsilon();
+    for (const RingEdge& edge : edges) box.add(edge.point);
+    rounding_ = spacing_in(box);
     play_ = std::max(4 * rounding_, tolerance_for(box, 0));
   }
 

@@ -23,15 +23,11 @@ constexpr double turn = 0.5931;
 
 Box box_of(const Outline& outline) {
   Box box{outline.points[0], outline.points[0]};
-  const auto include = [&](Vec2 p) {
-    box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y)};
-    box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y)};
-  };
   for (std::uint32_t v = 0; v < outline.points.size(); ++v) {
-    include(outline.points[v]);
+    box.add(outline.points[v]);
     if (outline.next(v) == no_index) continue;
     const BulgeArc arc{outline.points[v], outline.points[outline.next(v)], outline.bulges[v]};
-    if (arc.bulge != 0) include(apex(arc));  // at most a quarter circle from what is outermost
+    if (arc.bulge != 0) box.add(apex(arc));  // at most a quarter circle from what is outermost
   }
   return box;
 }

@@ -33,10 +33,7 @@ void for_each_arc(const Shape& shape, const Visitor& visit) {
 Box bounding_box(const Shape& shape) {
   if (shape.points.empty()) return {};
   Box box{shape.points[0], shape.points[0]};
-  for (const Vec2 point : shape.points) {
-    box.low = {std::min(box.low.x, point.x), std::min(box.low.y, point.y)};
-    box.high = {std::max(box.high.x, point.x), std::max(box.high.y, point.y)};
-  }
+  for (const Vec2 point : shape.points) box.add(point);
   if (shape.bulges.empty()) return box;
   for_each_arc(shape, [&](const BulgeArc& arc) {
     if (const auto point = parallel_point(arc, {1, 0})) {
@@ -49,10 +46,6 @@ Box bounding_box(const Shape& shape) {
     }
   });
   return box;
-}
-
-double diagonal(const Box& box) {
-  return std::hypot(box.high.x - box.low.x, box.high.y - box.low.y);
 }
 
 double area(const Shape& shape) {

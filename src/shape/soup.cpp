@@ -1,10 +1,8 @@
 #include "medial/soup.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -457,16 +455,12 @@ Result<Soup> build_soup(std::span<const Chain> chains, const SoupOptions& option
 
 Box bounding_box(const Soup& soup) {
   Box box{soup.points[0], soup.points[0]};
-  const auto include = [&](Vec2 p) {
-    box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y)};
-    box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y)};
-  };
-  for (const Vec2 p : soup.points) include(p);
+  for (const Vec2 p : soup.points) box.add(p);
   for (const SoupEdge& edge : soup.edges) {
     if (edge.bulge == 0) continue;
     const BulgeArc arc{soup.points[edge.from], soup.points[edge.to], edge.bulge};
     for (const Vec2 direction : {Vec2{1, 0}, Vec2{0, 1}})
-      if (const auto p = parallel_point(arc, direction)) include(*p);
+      if (const auto p = parallel_point(arc, direction)) box.add(*p);
   }
   return box;
 }

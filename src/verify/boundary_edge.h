@@ -1,7 +1,5 @@
 #pragma once
 
-#include <numbers>
-
 #include "base/arc.h"
 #include "medial/axis.h"
 

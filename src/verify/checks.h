@@ -3,14 +3,13 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <exception>
-#include <limits>
 #include <string>
 #include <vector>
 
 #include "base/threads.h"
+#include "base/tolerance.h"
 #include "geometry/joint.h"
 #include "medial/axis.h"
 #include "medial/shape.h"
@@ -63,13 +62,6 @@ std::vector<Findings> in_runs(std::size_t count, const Work& work) {
     for (std::size_t j = i * run; j < end; ++j) work(j, findings[i]);
   });
   return findings;
-}
-
-/// The spacing of doubles at the largest coordinate of a box.
-inline double spacing_in(const Box& box) {
-  return std::numeric_limits<double>::epsilon() *
-         std::max({std::abs(box.low.x), std::abs(box.low.y), std::abs(box.high.x),
-                   std::abs(box.high.y)});
 }
 
 /// Runs a check on so many threads; what it throws is a failure, and none at all a pass.

@@ -4,10 +4,10 @@
 
 #include <cstdint>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "medial/error.h"
+#include "medial/io/attributes.h"
 #include "medial/io/read.h"
 #include "medial/io/write.h"
 #include "medial/vec2.h"
@@ -36,7 +36,7 @@ struct Layer {
 struct LayerFile {
   std::vector<Layer> layers;
   /// Of the features of the input: name and value, as they were read.
-  std::vector<std::vector<std::pair<std::string, std::string>>> attributes;
+  std::vector<Attributes> attributes;
   std::string crs_wkt;
 };
 

@@ -1,10 +1,10 @@
 #pragma once
 
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "medial/error.h"
+#include "medial/io/attributes.h"
 #include "medial/io/write.h"
 #include "medial/offset.h"
 
@@ -14,14 +14,14 @@ namespace medial::io {
 struct BufferSource {
   std::vector<std::uint32_t> features;  ///< in their order in the input
   /// Name and value, in the order of the first feature: those on which all of them agree.
-  std::vector<std::pair<std::string, std::string>> attributes;
+  Attributes attributes;
 };
 
 /// A shape, or a soup, and its offset curves.
 struct OffsetItem {
   Shape shape;
   Offsets offsets;
-  std::vector<std::pair<std::string, std::string>> attributes = {};
+  Attributes attributes = {};
   Soup soup = {};                          ///< what buffers are of, where there is no shape
   std::vector<BufferSource> sources = {};  ///< of each region of a buffer; or empty
 };

@@ -8,6 +8,7 @@
 #include "medial/axis.h"
 #include "medial/contour.h"
 #include "medial/error.h"
+#include "medial/io/attributes.h"
 #include "medial/io/image.h"
 #include "medial/shape.h"
 #include "medial/soup.h"
@@ -24,7 +25,7 @@ struct Feature {
   std::vector<Chain> chains;  ///< loose points and lines, with ReadOptions::loose
   std::int64_t id = 0;        ///< of the source, or its index
   /// Name and value as text, in order.
-  std::vector<std::pair<std::string, std::string>> attributes;
+  Attributes attributes;
 };
 
 /// What a file holds.
@@ -81,7 +82,7 @@ Result<Dataset> read_text(const std::string& text, const std::string& font);
 struct NativeItem {
   Shape shape;
   MedialAxis axis;
-  std::vector<std::pair<std::string, std::string>> attributes;
+  Attributes attributes;
   std::vector<Contour> contours = {};  ///< instead of a shape: what is still to be made into one
 };
 
@@ -96,7 +97,7 @@ struct NativeFile {
 struct VoronoiItem {
   Shape shape;
   VoronoiDiagram diagram;
-  std::vector<std::pair<std::string, std::string>> attributes;
+  Attributes attributes;
 };
 
 struct VoronoiFile {

@@ -1,10 +1,10 @@
 #pragma once
 
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "medial/error.h"
+#include "medial/io/attributes.h"
 #include "medial/shape.h"
 
 namespace medial::io {
@@ -12,7 +12,7 @@ namespace medial::io {
 /// A shape to be written.
 struct ShapeItem {
   Shape shape;
-  std::vector<std::pair<std::string, std::string>> attributes;
+  Attributes attributes;
 };
 
 /// What write_shapes() writes.

@@ -1,7 +1,5 @@
 #include "engines/biarc_dc/biarc_dc.h"
 
-#include <cmath>
-
 #include "base/frame.h"
 #include "base/stopwatch.h"
 #include "base/tolerance.h"

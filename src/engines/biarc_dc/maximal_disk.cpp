@@ -20,9 +20,6 @@ constexpr int most_halvings = 128;
 /// Arcs of one circle: their curvatures differ by rounding at most.
 constexpr double same_curvature = 1e-9;
 
-/// Correcting a disk moves it by no more, against the radius; what is further is another solution.
-constexpr double polish_reach = 1e-3;
-
 /// Rounding may put a disk a little behind the one where a bisector begins; what is further behind
 /// is another solution. Next to the centre of the arc by whose foot positions are told, a disk's
 /// error counts for more, by the radius over the distance from there.
@@ -44,25 +41,9 @@ bool touches(const Disk& disk, const Site& site, double slack) {
   return std::abs(std::sqrt(geometry::squared_distance(site, disk.center)) - disk.radius) <= slack;
 }
 
-/// Brings a disk's residual at three sites below the tolerance: by Newton's method, and where that
-/// fails in higher precision.
 Disk polished(Context& context, Disk disk, const Site& a, const Site& b, const Site& c) {
-  double error = geometry::residual(disk, a, b, c);
-  const double furthest = polish_reach * disk.radius;
-  const Vec2 center = disk.center;
-  const auto take_if_better = [&](const Disk& better) {
-    const double better_error = geometry::residual(better, a, b, c);
-    if (!(better_error < error && distance(better.center, center) <= furthest)) return false;
-    disk = better;
-    error = better_error;
-    return true;
-  };
-  for (int step = 0; step < 2 && error > 0.25 * context.tolerance; ++step)
-    if (!take_if_better(geometry::improve(disk, a, b, c))) break;
-  if (error <= context.tolerance) return disk;
-  ++context.statistics.precision_retries;
-  Disk precise;
-  if (geometry::tangent_disk_in_high_precision(a, b, c, disk, precise)) take_if_better(precise);
+  geometry::polish(disk, a, b, c, 0.25 * context.tolerance, context.tolerance,
+                   context.statistics.precision_retries);
   return disk;
 }
 
@@ -282,86 +263,122 @@ MaximalDisk maximal_disk(Context& context, const Subshape& subshape, const Place
   return result;
 }
 
+namespace {
+
+/// How far the walk along a bisector goes: to a disk that touches a third place, or is as large as
+/// any disk in the shape.
+struct Stop {
+  Disk disk;
+  double position = nowhere;
+  std::optional<Place> third = {};
+};
+
+/// The walk from one artificial arc to what it ends at, between the two elements beside the arc.
+struct BranchWalk {
+  Context& context;
+  const Subshape& subshape;
+  const std::vector<Disk>& disks;
+  std::size_t left, right;  ///< elements
+  const Disk& from = disks[subshape.elements[left].disk_after];
+  Bisector bisector{context.site(subshape.elements[right]), context.site(subshape.elements[left])};
+  double low = bisector.position(from.center);
+  std::size_t after = subshape.next(right), before = subshape.before(left);
+  bool passes_right = context.joins_smoothly(subshape.elements[right]);
+  bool passes_left = context.joins_smoothly(subshape.elements[before]);
+
+  /// As long as both feet are on their elements, disks further on reach over all that the disks
+  /// before them do; so the scan begins where the first foot gets to its end. At a joint it passes
+  /// on to the neighbour there; elsewhere only rounding lets the disk reach over no neighbour.
+  Stop end_of_feet() const {
+    Stop stop;
+    const auto bound_by = [&](std::size_t own, std::size_t other, bool forward,
+                              const Place& place) {
+      const auto at_end = disk_at_end(context, subshape, own, forward,
+                                      context.site(subshape.elements[other]), disks);
+      if (!at_end) return;
+      const double there = bisector.position(at_end->disk.center);
+      if (there < low - slack(context, bisector, from) || !(there < stop.position)) return;
+      stop = {there < low ? from : at_end->disk, std::max(there, low), {}};
+      if (at_end->fits) stop.third = place;
+    };
+    bound_by(right, left, true, Place{passes_right ? right : after, passes_right, 0});
+    bound_by(left, right, false, Place{before, passes_left, 0});
+    if (stop.position == nowhere) {
+      stop.position = bisector.last_position(from, context.radius_limit);
+      stop.disk = bisector.disk_at(stop.position, from);
+    }
+    return stop;
+  }
+
+  /// Where arcs of one circle lie between the two, the axis ends in its centre. Joints so near to
+  /// each other would leave the disk open.
+  std::optional<Stop> apex() const {
+    const Site& next = context.site(subshape.elements[after]);
+    if (!(next.curvature > 0 && 1 / next.curvature <= context.radius_limit)) return std::nullopt;
+    for (std::size_t k = right; k != left; k = subshape.next(k)) {
+      const Element& element = subshape.elements[k];
+      const double bend = std::abs(context.site(element).curvature - next.curvature);
+      if (!(element.is_joined() && context.outline.joints[element.site] == Joint::smooth &&
+            (k == right || bend <= same_curvature * next.curvature)))
+        return std::nullopt;
+    }
+    const double radius = 1 / next.curvature;
+    const Disk disk{next.point + radius * next.normal(), radius};
+    return Stop{disk, std::max(low, bisector.position(disk.center)),
+                Place{after, false, 0.5 * next.length}};
+  }
+
+  /// The scan: whatever the disk reaches over moves it back to where it touches that.
+  void scan(Stop& stop) const {
+    for (std::size_t k = after; k != left; k = subshape.next(k)) {
+      if ((k == after && passes_right) || (k == before && passes_left)) continue;
+      const Site& site = context.site(subshape.elements[k]);
+      if (!overlaps(stop.disk, site, context.rounding())) continue;
+      stop.disk = first_contact(context, bisector, from, site, stop.disk);
+      stop.position = bisector.position(stop.disk.center);
+      stop.third = Place{k, false, geometry::foot_parameter(site, stop.disk.center)};
+    }
+  }
+
+  /// The disk and its places on both elements and the third one, each once.
+  MaximalDisk result(Disk disk, const Place& third) const {
+    MaximalDisk maximal{disk, {}};
+    const auto add = [&](const Place& place) {
+      for (const Place& known : maximal.contacts)
+        if (known.element == place.element && known.at_joint == place.at_joint) return;
+      maximal.contacts.push_back(place);
+    };
+    const bool right_at_joint = third.at_joint && third.element == right;
+    const bool left_at_joint = third.at_joint && third.element == before;
+    if (!right_at_joint) add(place_on(context, subshape, right, disk));
+    add(third.at_joint ? third : place_on(context, subshape, third.element, disk));
+    if (!left_at_joint) add(place_on(context, subshape, left, disk));
+    return maximal;
+  }
+};
+
+}  // namespace
+
 std::optional<MaximalDisk> branching_disk(Context& context, const Subshape& subshape, std::size_t i,
                                           const std::vector<Disk>& disks) {
   ++context.statistics.queries;
-  const std::size_t left = i, right = subshape.next(i);
-  const Element &on_left = subshape.elements[left], &on_right = subshape.elements[right];
-  if (left == right) return std::nullopt;
-  const Disk& from = disks[on_left.disk_after];
-  const Bisector bisector(context.site(on_right), context.site(on_left));
-  const double low = bisector.position(from.center);
-
-  // As long as both feet are on their elements, disks further on reach over all that the disks
-  // before them do; so the scan begins where the first foot gets to its end. At a joint it passes
-  // on to the neighbour there; elsewhere only rounding lets the disk reach over no neighbour.
-  std::optional<Place> third;
-  Disk disk;
-  double position = nowhere;
-  const std::size_t after = subshape.next(right), before = subshape.before(left);
-  const bool passes_right = context.joins_smoothly(on_right),
-             passes_left = context.joins_smoothly(subshape.elements[before]);
-  const auto bound_by = [&](std::size_t own, std::size_t other, bool forward, const Place& place) {
-    const auto at_end =
-        disk_at_end(context, subshape, own, forward, context.site(subshape.elements[other]), disks);
-    if (!at_end) return;
-    const double there = bisector.position(at_end->disk.center);
-    if (there < low - slack(context, bisector, from) || !(there < position)) return;
-    disk = there < low ? from : at_end->disk;
-    position = std::max(there, low);
-    third.reset();
-    if (at_end->fits) third = place;
-  };
-  bound_by(right, left, true, Place{passes_right ? right : after, passes_right, 0});
-  bound_by(left, right, false, Place{before, passes_left, 0});
-  // Arcs of one circle between the two: the axis ends in its centre. Joints so near to each other
-  // would leave the disk open.
-  const Site& next = context.site(subshape.elements[after]);
-  bool is_apex = next.curvature > 0 && 1 / next.curvature <= context.radius_limit;
-  for (std::size_t k = right; is_apex && k != left; k = subshape.next(k)) {
-    const Element& element = subshape.elements[k];
-    is_apex = element.is_joined() && context.outline.joints[element.site] == Joint::smooth &&
-              (k == right || std::abs(context.site(element).curvature - next.curvature) <=
-                                 same_curvature * next.curvature);
+  if (subshape.next(i) == i) return std::nullopt;
+  const BranchWalk walk{context, subshape, disks, i, subshape.next(i)};
+  Stop stop;
+  if (const auto apex = walk.apex()) {
+    stop = *apex;
+  } else {
+    stop = walk.end_of_feet();
+    walk.scan(stop);
   }
-  if (is_apex) {
-    const double radius = 1 / next.curvature;
-    disk = {next.point + radius * next.normal(), radius};
-    position = std::max(low, bisector.position(disk.center));
-    third = Place{after, false, 0.5 * next.length};
-  }
-  if (position == nowhere) {
-    position = bisector.last_position(from, context.radius_limit);
-    disk = bisector.disk_at(position, from);
-  }
-
-  for (std::size_t k = after; k != left && !is_apex; k = subshape.next(k)) {
-    if ((k == after && passes_right) || (k == before && passes_left)) continue;
-    const Site& site = context.site(subshape.elements[k]);
-    if (!overlaps(disk, site, context.rounding())) continue;
-    disk = first_contact(context, bisector, from, site, disk);
-    position = bisector.position(disk.center);
-    third = Place{k, false, geometry::foot_parameter(site, disk.center)};
-  }
-  if (!third) return std::nullopt;
-  for (const std::size_t k : {right, third->element, left}) {
-    const Disk* const passed = disk_passed(context, subshape, k, disk, disks);
+  if (!stop.third) return std::nullopt;
+  for (const std::size_t k : {walk.right, stop.third->element, walk.left}) {
+    const Disk* const passed = disk_passed(context, subshape, k, stop.disk, disks);
     if (passed == nullptr) continue;
-    disk = *passed;
+    stop.disk = *passed;
     break;
   }
-  MaximalDisk result{disk, {}};
-  const bool right_at_joint = third->at_joint && third->element == right;
-  const bool left_at_joint = third->at_joint && third->element == before;
-  const auto add = [&](const Place& place) {
-    for (const Place& known : result.contacts)
-      if (known.element == place.element && known.at_joint == place.at_joint) return;
-    result.contacts.push_back(place);
-  };
-  if (!right_at_joint) add(place_on(context, subshape, right, disk));
-  add(third->at_joint ? *third : place_on(context, subshape, third->element, disk));
-  if (!left_at_joint) add(place_on(context, subshape, left, disk));
-  return result;
+  return walk.result(stop.disk, *stop.third);
 }
 
 }  // namespace medial::biarc_dc

@@ -15,9 +15,6 @@ constexpr double nowhere = std::numeric_limits<double>::infinity();
 
 /// Halving an interval of doubles more often than this cannot change it.
 constexpr int bracket_steps = 128;
-/// Correcting a disk moves it by no more, against the radius; what is further is another
-/// solution.
-constexpr double polish_reach = 1e-3;
 /// Of shrinking a disk by closed forms before the bracket takes over; some three are usual.
 constexpr int most_rounds = 200;
 /// How far beyond() may look, against the radius: there the bisector is still straight.
@@ -213,7 +210,7 @@ std::optional<Event> EventSearch::contact_with(const Site& touched, std::uint32_
     }
   }
   if (best_violation > slack()) return std::nullopt;
-  polish(best, touched);
+  polish(best.disk, touched);
   best.position = bisector_.position(best.disk.center);
   return not_behind(best);
 }
@@ -298,29 +295,9 @@ Event EventSearch::not_behind(Event event) const {
   return event;
 }
 
-void EventSearch::polish(Event& event, const Site& third) {
-  const auto error_of = [&](const Disk& disk) {
-    return geometry::residual(disk, bisector_.right, bisector_.left, third);
-  };
-  const double furthest = polish_reach * event.disk.radius;
-  double error = error_of(event.disk);
-  const auto take_if_better = [&](const Disk& better) {
-    const double better_error = error_of(better);
-    if (!(better_error < error && distance(better.center, event.disk.center) <= furthest))
-      return false;
-    event.disk = better;
-    error = better_error;
-    return true;
-  };
-  for (int step = 0; step < 2 && error > 0.25 * context_.tolerance; ++step)
-    if (!take_if_better(geometry::improve(event.disk, bisector_.right, bisector_.left, third)))
-      break;
-  if (error <= context_.tolerance) return;
-  ++statistics_.precision_retries;
-  Disk precise;
-  if (geometry::tangent_disk_in_high_precision(bisector_.right, bisector_.left, third, event.disk,
-                                               precise))
-    take_if_better(precise);
+void EventSearch::polish(Disk& disk, const Site& third) {
+  geometry::polish(disk, bisector_.right, bisector_.left, third, 0.25 * context_.tolerance,
+                   context_.tolerance, statistics_.precision_retries);
 }
 
 Event EventSearch::next() {
@@ -533,7 +510,7 @@ Event EventSearch::bracket(const Disk& start, const Event& event) {
     }
   }
   Event polished = found;
-  polish(polished, site(found.site));
+  polish(polished.disk, site(found.site));
   polished.position = bisector_.position(polished.disk.center);
   const bool holds = polished.position >= bisector_.position(start.center) && reaches(polished) &&
                      contacts_.reaches(span_.right, polished.disk) &&

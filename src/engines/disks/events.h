@@ -130,7 +130,7 @@ class EventSearch {
   Event not_behind(Event event) const;
   /// Brings a disk's residual below the tolerance: by Newton's method, and where that fails in
   /// higher precision.
-  void polish(Event& event, const geometry::Site& third);
+  void polish(Disk& disk, const geometry::Site& third);
   /// Where the disk of the node is the circle of an arc, it touches all of it: the foot passes on.
   std::optional<Event> pass_over_circle() const;
   /// Where the node's disk touches the smooth neighbour of one of the two sites as well, within the

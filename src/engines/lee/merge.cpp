@@ -269,23 +269,8 @@ class MergeCurve {
   }
 
   void polish(Disk& disk, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-    const Site &sa = site(a), &sb = site(b), &sc = site(c);
-    double error = geometry::residual(disk, sa, sb, sc);
-    const double furthest = 1e-3 * disk.radius;
-    const auto take_if_better = [&](const Disk& better) {
-      const double better_error = geometry::residual(better, sa, sb, sc);
-      if (!(better_error < error && distance(better.center, disk.center) <= furthest)) return false;
-      disk = better;
-      error = better_error;
-      return true;
-    };
-    for (int step = 0; step < 2 && error > tie(); ++step)
-      if (!take_if_better(geometry::improve(disk, sa, sb, sc))) break;
-    if (error <= limits_.tolerance) return;
-    ++statistics_.precision_retries;
-    Disk precise;
-    if (geometry::tangent_disk_in_high_precision(sa, sb, sc, disk, precise))
-      take_if_better(precise);
+    geometry::polish(disk, site(a), site(b), site(c), tie(), limits_.tolerance,
+                     statistics_.precision_retries);
   }
 
   Diagram& diagram_;

@@ -1,0 +1,37 @@
+#pragma once
+
+#include "medial/axis.h"
+
+namespace medial {
+
+/// A number of Statistics and its name in files.
+template <class Number>
+struct StatisticsField {
+  const char* name;
+  Number Statistics::*number;
+};
+
+/// All counts and all times, in their order. largest_residual and threads are neither.
+inline constexpr StatisticsField<std::uint64_t> statistics_counts[] = {
+    {"queries", &Statistics::queries},
+    {"apollonius", &Statistics::apollonius},
+    {"brackets", &Statistics::brackets},
+    {"precision_retries", &Statistics::precision_retries},
+    {"cuts", &Statistics::cuts},
+    {"exact_filtered", &Statistics::exact_filtered},
+    {"exact_precise", &Statistics::exact_precise},
+    {"exact_rational", &Statistics::exact_rational},
+    {"exact_ties", &Statistics::exact_ties},
+    {"exact_changes", &Statistics::exact_changes},
+};
+inline constexpr StatisticsField<double> statistics_times[] = {
+    {"seconds_sites", &Statistics::seconds_sites},
+    {"seconds_tree", &Statistics::seconds_tree},
+    {"seconds_connect", &Statistics::seconds_connect},
+    {"seconds_walk", &Statistics::seconds_walk},
+    {"seconds_collect", &Statistics::seconds_collect},
+    {"seconds_exact", &Statistics::seconds_exact},
+    {"seconds", &Statistics::seconds},
+};
+
+}  // namespace medial
