@@ -161,13 +161,15 @@ Result<std::vector<std::string>> methods_of(const std::string& names) {
   return methods;
 }
 
-/// One picture of all axes: each in a frame of its own, side by side in the plane.
+/// One picture of all axes: each in a frame of its own, side by side in the plane, with its method
+/// below.
 Status write_comparison(const std::string& path, const Shape& shape, const Box& box,
                         std::vector<Row>& rows, const ShapeFile& file) {
   io::NativeFile native;
   native.crs_wkt = file.crs_wkt;
   native.y_down = file.y_down;
-  const Vec2 pitch = 1.1 * (box.high - box.low);
+  const Vec2 size = box.high - box.low;
+  const Vec2 pitch{1.1 * size.x, size.y + 0.1 * std::max(size.x, size.y)};
   std::size_t count = 0;
   constexpr std::size_t columns = 3;
   for (Row& row : rows) {
@@ -178,6 +180,7 @@ Status write_comparison(const std::string& path, const Shape& shape, const Box& 
     io::NativeItem item;
     item.shape = shape;
     item.axis = row.axis;
+    item.attributes = {{"title", row.method}};
     for (Vec2& p : item.shape.points) p = p + move;
     for (Site& site : item.axis.sites) {
       site.start = site.start + move;
@@ -189,6 +192,7 @@ Status write_comparison(const std::string& path, const Shape& shape, const Box& 
   }
   io::WriteOptions options;
   options.width = 1500;
+  options.titles = true;
   return io::write_axes(path, {}, native, options);
 }
 

@@ -48,6 +48,7 @@ Status draw_picture(OutputStream& out, const std::string& format, const NativeFi
     draw_axes(pen, file, largest);
     if (layers != nullptr) draw_lines_and_disks(pen, *layers);
     if (options.nodes) draw_nodes(pen, file);
+    if (options.titles) draw_titles(pen, file);
   });
 }
 

@@ -169,4 +169,17 @@ void draw_nodes(Pen& pen, const NativeFile& file) {
   }
 }
 
+void draw_titles(Pen& pen, const NativeFile& file) {
+  constexpr double height = 12;  // thousandths of the longer side
+  pen.color(outline_color);
+  for (const NativeItem& item : file.items) {
+    const Box box = bounding_box(item.shape);
+    const Vec2 low = pen.frame()(box.low), high = pen.frame()(box.high);
+    const Vec2 below{midpoint(low, high).x,
+                     std::max(low.y, high.y) + 1.3e-3 * height * pen.longer_side()};
+    for (const auto& [name, value] : item.attributes)
+      if (name == "title") pen.text(below, height, value);
+  }
+}
+
 }  // namespace medial::io

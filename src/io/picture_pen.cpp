@@ -79,4 +79,14 @@ void Pen::piece_to(const Piece& piece) {
   cairo_curve_to(context_, a.x, a.y, b.x, b.y, piece.to.x, piece.to.y);
 }
 
+void Pen::text(Vec2 middle, double thousandths, const std::string& words) {
+  cairo_select_font_face(context_, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
+  cairo_set_font_size(context_, 1e-3 * thousandths * longer_side());
+  cairo_text_extents_t extents;
+  cairo_text_extents(context_, words.c_str(), &extents);
+  cairo_move_to(context_, middle.x - 0.5 * extents.width - extents.x_bearing, middle.y);
+  cairo_show_text(context_, words.c_str());
+  cairo_new_path(context_);
+}
+
 }  // namespace medial::io

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <string>
 #include <unordered_set>
 
 #include "io/color.h"
@@ -63,8 +64,9 @@ class Pen {
   double cell() const { return pixels_ ? 0.25 : thickness(0.1); }
   /// Of lines: in thousandths of the longer side.
   double thickness(double thousandths) const {
-    return thousandths * 1e-3 * fineness_ * std::max(frame_.width, frame_.height);
+    return thousandths * 1e-3 * fineness_ * longer_side();
   }
+  double longer_side() const { return std::max(frame_.width, frame_.height); }
   void line_width(double thousandths) { cairo_set_line_width(context_, thickness(thousandths)); }
   void color(const Color& c, double alpha = 1) {
     cairo_set_source_rgba(context_, c.red, c.green, c.blue, alpha);
@@ -80,6 +82,9 @@ class Pen {
   /// Fills what is inside by the even-odd rule, or all that any part of the path goes around.
   void fill_even_odd(bool keep = false);
   void fill();
+
+  /// Words whose base line has its middle here, so many thousandths of the longer side high.
+  void text(Vec2 middle, double thousandths, const std::string& words);
 
   /// Strokes or fills once so many pieces have come that the path gets slow; whether it did.
   bool count_piece(bool filled) {

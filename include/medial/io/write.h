@@ -16,6 +16,7 @@ struct WriteOptions {
   bool contacts = false;  ///< draw the feet of the nodes' disks
   bool shape = true;      ///< draw the shape
   bool nodes = false;     ///< draw the nodes by kind
+  bool titles = false;    ///< write each item's attribute "title" below its shape
 };
 
 /// Writes axes by the extension of `path`: .json (native) .geojson .gpkg .shp .fgb .wkt .csv
