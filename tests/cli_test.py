@@ -639,7 +639,9 @@ class Axis(CommandLine):
                                        "--arc-tolerance", "1e-9", "--json", "-o", "both.svg").stdout)["features"][0]
         self.assertEqual(told[0]["branches"], told[1]["branches"])
         self.assertLess(told[1]["largest_distance"], 1e-5)
-        self.assertTrue(self.read("both.svg").startswith(b"<?xml"))
+        picture = self.read("both.svg")
+        self.assertTrue(picture.startswith(b"<?xml"))
+        self.assertEqual(picture.count(b"#glyph"), len("disks" + "curve-axis"))  # letters
         self.refuse("invalid_option", "compare", "island.wkt", "--methods", "magic")
 
     def test_compare_tells_failures_by_its_status(self):
