@@ -41,7 +41,7 @@ constexpr double largest_turn_between = 0.0125;
 constexpr double bend_between = 1e-4;
 /// But none where those differences lose more to rounding of the disks, a share of the size, than
 /// they gain.
-constexpr double rounding = 3e-16;
+constexpr double disk_rounding = 3e-16;
 /// Points much nearer to each other than their neighbours add rounding to differences, little else.
 constexpr double shortest_step = 0.25;
 /// The least number of ways between points on a smooth run: frames_along() takes seven points.
@@ -77,7 +77,7 @@ std::array<double, 2> bends_of(const AxisPoint& p) {
 
 /// Whether second derivatives change too much from a to b for differences of seven points to tell
 /// them, and nearer points would help; `between` lies about in the middle. Those differences are
-/// off by `rounding` / h^2 for points h apart, and where a foot comes near to its centre of
+/// off by `disk_rounding` / h^2 for points h apart, and where a foot comes near to its centre of
 /// curvature and second derivatives grow as d^(-1/2), at the distance d to there, by about 350 x^3
 /// of them, with x their share that the middle is off the straight line between a and b.
 bool bends_unevenly(const AxisPoint& a, const AxisPoint& b, const AxisPoint& between, double size) {
@@ -87,7 +87,7 @@ bool bends_unevenly(const AxisPoint& a, const AxisPoint& b, const AxisPoint& bet
   for (const std::size_t side : {0U, 1U})
     x = std::max(x, std::abs(here[side] - 0.5 * (at_a[side] + at_b[side])) / most);
   const double h = 0.5 * distance(a.disk.center, b.disk.center);
-  return x > bend_between && 350 * x * x * x * most * h * h > rounding * size;
+  return x > bend_between && 350 * x * x * x * most * h * h > disk_rounding * size;
 }
 
 /// The segments' branches as a graph and as lists of points.
