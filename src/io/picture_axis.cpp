@@ -173,7 +173,10 @@ void draw_titles(Pen& pen, const NativeFile& file) {
   constexpr double height = 12;  // thousandths of the longer side
   pen.color(outline_color);
   for (const NativeItem& item : file.items) {
-    const Box box = bounding_box(item.shape);
+    Extent extent;
+    extent.add(item.shape);
+    for (const Node& node : item.axis.nodes) extent.add(node.disk.center);  // of exteriors
+    const Box box = extent.box();
     const Vec2 low = pen.frame()(box.low), high = pen.frame()(box.high);
     const Vec2 below{midpoint(low, high).x,
                      std::max(low.y, high.y) + 1.3e-3 * height * pen.longer_side()};

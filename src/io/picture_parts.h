@@ -16,7 +16,7 @@ void draw_disks(Pen& pen, const NativeFile& file, int count);
 void draw_contacts(Pen& pen, const NativeFile& file);
 /// The nodes, coloured by kind.
 void draw_nodes(Pen& pen, const NativeFile& file);
-/// The attribute "title" of each item, below its shape.
+/// The attribute "title" of each item, below it.
 void draw_titles(Pen& pen, const NativeFile& file);
 
 /// Below the axes: polygons; above them: lines and disks, a colour for each layer.
