@@ -311,8 +311,8 @@ Result<int> run_biarc(const BenchSwitches& switches) {
   }
   const bool shown = error_is_terminal() && !switches.quiet;
   const BiarcReport report = run_biarc_experiments(
-      options, shown ? [](const std::string& name) { fmt::print(stderr, "{}\n", name); }
-                     : [](const std::string&) {});
+      options,
+      shown ? [](const std::string& name) { say("{}\n", name); } : [](const std::string&) {});
   if (!switches.output.empty()) {
     const std::string extension = std::filesystem::path(switches.output).extension().string();
     Status written = extension == ".svg" ? write_plots(switches.output, report_plots(report))
@@ -349,7 +349,7 @@ Result<int> run_potential(const std::vector<std::string>& files, const std::stri
   }
   const bool shown = error_is_terminal() && !quiet;
   const PotentialReport report = run_potential_experiments(shapes, [&](const std::string& name) {
-    if (shown) fmt::print(stderr, "{}\n", name);
+    if (shown) say("{}\n", name);
   });
   Status printed = print(report.text);
   if (!printed) return std::move(printed).error();

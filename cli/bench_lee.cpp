@@ -279,8 +279,7 @@ Result<int> run_lee(const LeeSwitches& switches) {
   const std::vector<LeeRow> rows = run_lee_experiment(
       switches.quick ? std::min(switches.largest, 3) : switches.largest,
       switches.quick ? 1 : switches.rounds,
-      shown ? [](const std::string& name) { fmt::print(stderr, "{}\n", name); }
-            : [](const std::string&) {});
+      shown ? [](const std::string& name) { say("{}\n", name); } : [](const std::string&) {});
   Json all = Json::array();
   bool passed = true;
   std::string csv = "shape,vertices,elements,lee,disks,crossings,passed\n";

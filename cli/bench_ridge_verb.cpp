@@ -203,8 +203,8 @@ Result<int> run_ridge(const RidgeBenchSwitches& switches) {
   if (options.quick) options.rounds = 1;
   const bool shown = error_is_terminal() && !switches.quiet;
   const std::vector<RidgeRow> rows = run_ridge_experiments(
-      options, shown ? [](const std::string& name) { fmt::print(stderr, "{}\n", name); }
-                     : [](const std::string&) {});
+      options,
+      shown ? [](const std::string& name) { say("{}\n", name); } : [](const std::string&) {});
   if (!switches.output.empty()) {
     Status written = std::filesystem::path(switches.output).extension() == ".svg"
                          ? write_plots(switches.output, report_plots(rows))

@@ -111,13 +111,11 @@ Result<int> tell(const Paths& paths, const io::NativeFile& file, const Centrelin
     if (switches.output.empty()) {
       printed = print(line + "\n");
     } else {
-      fmt::print(stderr, "{} -> {}\n", line,
-                 switches.output == "-" ? "standard output" : switches.output);
+      say("{} -> {}\n", line, switches.output == "-" ? "standard output" : switches.output);
     }
   }
   if (!printed) return std::move(printed).error();
-  if (switches.common.stats && !switches.common.json)
-    fmt::print(stderr, "{}", table(Json{{"seconds", seconds}}));
+  if (switches.common.stats && !switches.common.json) say_text(table(Json{{"seconds", seconds}}));
   return exit_success;
 }
 
@@ -237,7 +235,7 @@ Result<int> run_collapse(AxisFile axes, const CentrelineSwitches& switches) {
     if (switches.output.empty()) {
       printed = print(line);
     } else {
-      fmt::print(stderr, "{}", line);
+      say_text(line);
     }
   }
   if (!printed) return std::move(printed).error();

@@ -16,7 +16,7 @@ Json costs_of(const CommonSwitches& common, Json seconds) {
 }
 
 void print_costs(const CommonSwitches& common, const Json& costs) {
-  if (common.stats && !common.json) fmt::print(stderr, "{}", table(costs));
+  if (common.stats && !common.json) say_text(table(costs));
 }
 
 Status tell(const CommonSwitches& common, const std::string& output, Json object, const Json& costs,
@@ -27,7 +27,7 @@ Status tell(const CommonSwitches& common, const std::string& output, Json object
     return print(object);
   }
   if (output.empty()) return print(line);
-  if (error_is_terminal() && !common.quiet) fmt::print(stderr, "{}", line);
+  if (error_is_terminal() && !common.quiet) say_text(line);
   return success();
 }
 

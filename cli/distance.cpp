@@ -84,7 +84,7 @@ Result<int> run_distance(const DistanceSwitches& switches) {
         "at pixel ({}, {})\n",
         distances->width, distances->height, file->image.count(),
         counted(parts.components, "component"), counted(parts.holes, "hole"), deepest, x, y));
-    if (switches.stats) fmt::print(stderr, "{}", table(costs));
+    if (switches.stats) say_text(table(costs));
   }
   if (!printed) return std::move(printed).error();
   return exit_success;

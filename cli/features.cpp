@@ -103,9 +103,9 @@ Status tell(const AxisFile& file, std::span<const AxisFeatures> features,
   };
   rows(Primitive{}, sum.primitive);
   rows(Variation{}, sum.variation);
-  if (common.stats) fmt::print(stderr, "{}", table(costs));
+  if (common.stats) say_text(table(costs));
   if (switches.output.empty()) return print(text);
-  if (terminal) fmt::print(stderr, "{}", text);
+  if (terminal) say_text(text);
   return success();
 }
 

@@ -118,7 +118,7 @@ Result<int> run_legal(const LegalSwitches& switches) {
     printed = print(text);
   }
   if (!printed) return std::move(printed).error();
-  if (switches.common.stats && !switches.common.json) fmt::print(stderr, "{}", table(costs));
+  if (switches.common.stats && !switches.common.json) say_text(table(costs));
   return offences.empty() ? exit_success : exit_failed_verdict;
 }
 

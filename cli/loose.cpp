@@ -37,8 +37,7 @@ Result<LooseFile> load_chains(const InputSwitches& input, int threads) {
 
 void print_notes(const LooseFile& file, const InputSwitches& input, const CommonSwitches& common) {
   if (common.quiet) return;
-  for (const std::string& note : file.notes)
-    fmt::print(stderr, "medial: {}: {}\n", input.path, note);
+  for (const std::string& note : file.notes) say("medial: {}: {}\n", input.path, note);
 }
 
 Result<Soup> soup_of(const LooseFile& file, const InputSwitches& input, double reach) {
@@ -54,10 +53,9 @@ bool is_too_close(const Error& error) {
 
 void tell_touching(double reach, const InputSwitches& input, const CommonSwitches& common) {
   if (!common.quiet)
-    fmt::print(stderr,
-               "medial: {}: note: points and edges within {:.2g} of each other touch, as rounding "
-               "does not tell them apart\n",
-               input.path, reach);
+    say("medial: {}: note: points and edges within {:.2g} of each other touch, as rounding "
+        "does not tell them apart\n",
+        input.path, reach);
 }
 
 Error in_terms_of(const LooseFile& file, Error error, const std::string& path) {

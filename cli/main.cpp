@@ -1,11 +1,19 @@
 // The command line: parses, calls the library, prints. One file for each verb.
 
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/info.h>
+
 #include <algorithm>
 #include <array>
 #include <cstring>
 #include <exception>
+#include <mutex>
 #include <new>
+#include <optional>
+#include <sstream>
 #include <string>
+#include <system_error>
+#include <thread>
 #include <vector>
 
 #include "cli/common.h"
@@ -31,6 +39,46 @@ class HelpFormatter : public CLI::Formatter {
     return name + (name == "--close" ? "[=GAP]" : name == "--specks" ? "[=SHARE]" : "[=RULE]");
   }
 };
+
+/// How many threads the system starts beside this one, at most `wanted`.
+std::size_t startable_threads(std::size_t wanted) {
+  std::vector<std::thread> threads;
+  std::mutex all_started;
+  {
+    const std::lock_guard<std::mutex> hold(all_started);
+    try {
+      threads.reserve(wanted);
+      while (threads.size() < wanted)
+        threads.emplace_back([&] { const std::lock_guard<std::mutex> wait(all_started); });
+    } catch (const std::exception&) {  // no thread, or no memory for one
+    }
+  }
+  for (std::thread& thread : threads) thread.join();
+  return threads.size();
+}
+
+/// oneTBB ends the process, or never returns, where the system refuses it a thread: where address
+/// space or the number of processes is limited. So they are tried out first, and no more allowed
+/// than there are. The C library keeps some of their stacks for those to come.
+class AllowedThreads {
+ public:
+  explicit AllowedThreads(int requested) {
+    const int all = requested > 0 ? requested : oneapi::tbb::info::default_concurrency();
+    if (all <= 1) return;
+    const auto wanted = static_cast<std::size_t>(all) - 1;
+    const std::size_t started = startable_threads(wanted);
+    if (started < wanted)
+      fewer_.emplace(oneapi::tbb::global_control::max_allowed_parallelism, started + 1);
+  }
+
+ private:
+  std::optional<oneapi::tbb::global_control> fewer_;
+};
+
+int requested_threads(const CLI::App& verb) {
+  const CLI::Option* option = verb.get_option_no_throw("--threads");
+  return option != nullptr && option->count() > 0 ? option->as<int>() : 0;
+}
 
 int run(int argc, char** argv, bool json) {
   CLI::App program(
@@ -79,7 +127,12 @@ int run(int argc, char** argv, bool json) {
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& parse_error) {
-    if (parse_error.get_exit_code() == 0) return program.exit(parse_error);  // help and version
+    if (parse_error.get_exit_code() == 0) {  // help and version
+      std::ostringstream text;
+      program.exit(parse_error, text, text);
+      const Status printed = print(text.str());
+      return printed ? exit_success : report_error(printed.error(), json);
+    }
     const std::vector<CLI::App*> chosen = program.get_subcommands();
     if (chosen.empty()) {
       const std::vector<std::string> unknown = program.remaining();
@@ -92,6 +145,7 @@ int run(int argc, char** argv, bool json) {
   }
   const auto verb = std::find_if(verbs.begin(), verbs.end(),
                                  [](const Verb& candidate) { return candidate.app->parsed(); });
+  const AllowedThreads allowed(requested_threads(*verb->app));
   const Result<int> status = verb->run();
   return status ? *status : report_error(status.error(), json);
 }
@@ -101,6 +155,7 @@ int run(int argc, char** argv, bool json) {
 
 int main(int argc, char** argv) {
   using namespace medial;
+  cli::occupy_standard_descriptors();
   // Whether errors are wanted as JSON has to be known even where the line cannot be parsed.
   const bool json =
       std::any_of(argv, argv + argc, [](const char* word) { return !std::strcmp(word, "--json"); });

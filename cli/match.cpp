@@ -169,10 +169,9 @@ Result<int> run_match(const MatchSwitches& switches) {
   std::string text;
   for (std::size_t i = 0; i < shown; ++i)
     text += fmt::format("{:8.4f}  {}\n", ranked[i].value, ranked[i].named->name);
-  if (common.stats)
-    fmt::print(stderr, "{}", table({{"seconds", watch.seconds()}, {"peak_bytes", peak_bytes()}}));
+  if (common.stats) say_text(table({{"seconds", watch.seconds()}, {"peak_bytes", peak_bytes()}}));
   if (refused > 0 && !common.quiet)
-    fmt::print(stderr, "medial: {}: {} without a shape\n", other, counted(refused, "file"));
+    say("medial: {}: {} without a shape\n", other, counted(refused, "file"));
   Status printed = print(text);
   if (!printed) return std::move(printed).error();
   return exit_success;

@@ -414,7 +414,7 @@ Result<int> run_measure(MeasureSwitches switches) {
     printed = print(all.size() == 1 ? summary_of(all[0], switches) : summary_of(all));
   }
   if (!printed) return std::move(printed).error();
-  if (common.stats && !common.json) fmt::print(stderr, "{}", table(costs));
+  if (common.stats && !common.json) say_text(table(costs));
   return exit_success;
 }
 

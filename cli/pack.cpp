@@ -190,8 +190,7 @@ Result<int> run_unpack(const UnpackSwitches& switches) {
     return error;
   }
   if (!common.quiet)
-    for (const std::string& note : notes)
-      fmt::print(stderr, "medial: {}: note: {}\n", input.path, note);
+    for (const std::string& note : notes) say("medial: {}: note: {}\n", input.path, note);
   AxisFile file;
   file.native = std::move(native).value();
   file.statistics.threads = 1;

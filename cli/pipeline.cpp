@@ -329,12 +329,10 @@ Result<ShapeFile> load_shapes(const InputSwitches& input, int threads, bool keep
 void print_notes(const ShapeFile& file, const InputSwitches& input, const CommonSwitches& common) {
   if (common.quiet) return;
   for (const std::string& note : file.notes) {
-    fmt::print(stderr, "medial: {}: note: {}\n", input.path, note);
+    say("medial: {}: note: {}\n", input.path, note);
   }
   if (file.geographic && !input.read.project) {
-    fmt::print(
-        stderr,
-        "medial: {}: warning: longitudes and latitudes are taken as plane coordinates, which "
+    say("medial: {}: warning: longitudes and latitudes are taken as plane coordinates, which "
         "distorts distances; --project computes in metres\n",
         input.path);
   }
@@ -397,10 +395,9 @@ Result<AxisFile> compute_axes(ShapeFile shapes, const std::string& path,
     part.seconds_walk = part.seconds_collect = part.seconds_exact = part.seconds = 0;
   }
   if (file.unresolved > 0 && !common.quiet)
-    fmt::print(stderr,
-               "medial: {}: note: the grid does not tell apart {} of the shape's parts or holes; a "
-               "smaller --resolution may\n",
-               path, file.unresolved);
+    say("medial: {}: note: the grid does not tell apart {} of the shape's parts or holes; a "
+        "smaller --resolution may\n",
+        path, file.unresolved);
   file.statistics.threads = effective_threads(common.threads);
   file.cleaned = shapes.report;
   file.arcs = shapes.arcs;
@@ -537,9 +534,9 @@ Result<int> write_and_tell(const AxisFile& file, const InputSwitches& input,
     Status printed = print(line + "\n");
     if (!printed) return std::move(printed).error();
   } else if (summary_on_terminal) {
-    fmt::print(stderr, "{} -> {}\n", line, output == "-" ? "standard output" : output);
+    say("{} -> {}\n", line, output == "-" ? "standard output" : output);
   }
-  if (common.stats) fmt::print(stderr, "{}", table(stats(file, summary, seconds_write)));
+  if (common.stats) say_text(table(stats(file, summary, seconds_write)));
   return exit_success;
 }
 

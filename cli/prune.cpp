@@ -210,13 +210,12 @@ Result<int> run_prune(const PruneVerbSwitches& switches) {
   if (!report) return report.error();
   const double seconds = pruning.seconds();
   if (common.stats && !common.json) {
-    fmt::print(stderr, "{}",
-               table({{"measure", name_of(options->measure)},
-                      {"threshold", report->threshold},
-                      {"branches_before", report->branches_before},
-                      {"edges_before", report->edges_before},
-                      {"cuts", report->cuts},
-                      {"seconds_prune", seconds}}));
+    say_text(table({{"measure", name_of(options->measure)},
+                    {"threshold", report->threshold},
+                    {"branches_before", report->branches_before},
+                    {"edges_before", report->edges_before},
+                    {"cuts", report->cuts},
+                    {"seconds_prune", seconds}}));
   }
   return write_and_tell(*axes, input, common, output, format, pictures);
 }

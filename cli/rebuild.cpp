@@ -186,7 +186,7 @@ Status tell(const Told& told, const RebuildSwitches& switches, Json object, cons
     if (common.stats) object.update(costs);
     return print(object);
   }
-  if (common.stats) fmt::print(stderr, "{}", table(costs));
+  if (common.stats) say_text(table(costs));
   const bool to_screen = switches.output.empty() || told.compared;
   if (switches.output == "-" || common.quiet || !to_screen) return success();
   return print(table(object));

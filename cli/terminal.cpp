@@ -1,6 +1,6 @@
 #include "cli/terminal.h"
 
-#include <fmt/format.h>
+#include <fcntl.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -11,6 +11,8 @@
 #include <cstdlib>
 #include <ctime>
 #include <fstream>
+#include <system_error>
+#include <utility>
 
 #include "medial/io/write.h"
 
@@ -50,6 +52,20 @@ void install_signal_handlers() {
     sigfillset(&action.sa_mask);
     sigaction(signal_number, &action, nullptr);
   }
+}
+
+void occupy_standard_descriptors() {
+  for (int descriptor = 0; descriptor <= 2; ++descriptor) {
+    if (fcntl(descriptor, F_GETFD) != -1) continue;
+    // The lowest free descriptor is this one. Opened the wrong way round, so that its use fails.
+    if (open("/dev/null", descriptor == 0 ? O_WRONLY : O_RDONLY) == -1) return;
+  }
+}
+
+void say_text(const std::string& text) {
+  // Not by fmt::print, which throws where it cannot write.
+  (void)std::fwrite(text.data(), 1, text.size(), stderr);
+  (void)std::fflush(stderr);
 }
 
 bool error_is_terminal() { return isatty(STDERR_FILENO) == 1; }
@@ -102,26 +118,27 @@ void Progress::redraw() {
   const double share = std::clamp(done_.load() / total_, 0.0, 1.0);
   const int filled = static_cast<int>(std::lround(share * bar_width));
   bar_visible.store(true);
-  fmt::print(stderr, "\r{} [{:#<{}}{:.<{}}] {:3.0f} %", label_, "", filled, "", bar_width - filled,
-             100 * share);
-  std::fflush(stderr);
+  say("\r{} [{:#<{}}{:.<{}}] {:3.0f} %", label_, "", filled, "", bar_width - filled, 100 * share);
 }
 
 Activity::Activity(const std::string& doing, const std::string& path) {
   if (quiet || path.empty() || !error_is_terminal()) return;
   const std::string name =
       path == "-" ? "standard " + std::string(doing == "reading" ? "input" : "output") : path;
-  clock_ = std::thread([this, text = fmt::format("medial: {} {}", doing, name)] {
+  auto show = [this, text = fmt::format("medial: {} {}", doing, name)] {
     const Stopwatch watch;
     std::unique_lock lock(mutex_);
     for (double next = 1; !end_; next += 1) {
       const std::chrono::duration<double> left(next - watch.seconds());
       if (ended_.wait_for(lock, left, [this] { return end_; })) break;
       bar_visible.store(true);
-      fmt::print(stderr, "\r{} ... {:.0f} s", text, next);
-      std::fflush(stderr);
+      say("\r{} ... {:.0f} s", text, next);
     }
-  });
+  };
+  try {
+    clock_ = std::thread(std::move(show));
+  } catch (const std::system_error&) {  // the system has no thread to spare: no clock
+  }
 }
 
 Activity::~Activity() {

@@ -2,6 +2,8 @@
 
 // The process's surroundings: signals, the terminal, clocks and memory.
 
+#include <fmt/format.h>
+
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
@@ -10,6 +12,7 @@
 #include <mutex>
 #include <string>
 #include <thread>
+#include <utility>
 
 namespace medial::cli {
 
@@ -17,7 +20,19 @@ namespace medial::cli {
 /// process with 128 + the signal's number, without a word.
 void install_signal_handlers();
 
+/// Occupies descriptors 0 to 2 where the parent closed them: else the next file opened would get
+/// one of them, and messages end up in it. Reading or writing there fails as before.
+void occupy_standard_descriptors();
+
 bool error_is_terminal();
+
+/// Standard error takes what it can: a full device or a closed descriptor there changes nothing.
+void say_text(const std::string& text);
+
+template <typename... Arguments>
+void say(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
+  say_text(fmt::format(format, std::forward<Arguments>(arguments)...));
+}
 
 /// From here on no Activity shows itself.
 void be_quiet();

@@ -250,10 +250,9 @@ Result<int> run_verify(const VerifySwitches& switches) {
                     input.path, counted(count, "feature")));
   }
   if (!common.quiet && crs_name(stored->crs_wkt) != crs_name(shapes->crs_wkt)) {
-    fmt::print(stderr,
-               "medial: {}: warning: its coordinate reference system ({}) is not the input's ({}); "
-               "was it made with --project?\n",
-               axis_path, crs_name(stored->crs_wkt), crs_name(shapes->crs_wkt));
+    say("medial: {}: warning: its coordinate reference system ({}) is not the input's ({}); "
+        "was it made with --project?\n",
+        axis_path, crs_name(stored->crs_wkt), crs_name(shapes->crs_wkt));
   }
 
   const Stopwatch checking;

@@ -128,7 +128,7 @@ Status tell(const io::VoronoiFile& file, const VoronoiSwitches& switches, double
                   counted(sum.edges, "edge"), counted(sum.spokes, "spoke"),
                   counted(sum.points, "Voronoi point"), seconds);
   if (switches.output.empty()) return print(line);
-  if (error_is_terminal() && !switches.common.quiet) fmt::print(stderr, "{}", line);
+  if (error_is_terminal() && !switches.common.quiet) say_text(line);
   return success();
 }
 

@@ -112,12 +112,11 @@ void print_notes(const VoxelSwitches& switches, const Outcome& outcome) {
   mention(report.dropped_faces, "dropped face without an area", "dropped faces without an area");
   mention(report.reversed_faces, "reversed face", "reversed faces");
   mention(report.parted_vertices, "parted vertex", "parted vertices");
-  if (!mended.empty()) fmt::print(stderr, "medial: {}: {}\n", switches.input, mended);
+  if (!mended.empty()) say("medial: {}: {}\n", switches.input, mended);
   if (outcome.axis.interior != outcome.solid.topology)
-    fmt::print(stderr,
-               "medial: {}: the grid is too coarse for its topology: the mesh has {}; the interior "
-               "voxels have {}\n",
-               switches.input, counts_of(outcome.solid.topology), counts_of(outcome.axis.interior));
+    say("medial: {}: the grid is too coarse for its topology: the mesh has {}; the interior "
+        "voxels have {}\n",
+        switches.input, counts_of(outcome.solid.topology), counts_of(outcome.axis.interior));
 }
 
 Result<int> tell(const VoxelSwitches& switches, const Outcome& outcome) {
@@ -143,10 +142,9 @@ Result<int> tell(const VoxelSwitches& switches, const Outcome& outcome) {
     Status printed = print(line + "\n");
     if (!printed) return std::move(printed).error();
   } else if (error_is_terminal() && !common.quiet) {
-    fmt::print(stderr, "{} -> {}\n", line,
-               switches.output == "-" ? "standard output" : switches.output);
+    say("{} -> {}\n", line, switches.output == "-" ? "standard output" : switches.output);
   }
-  if (common.stats) fmt::print(stderr, "{}", table(stats(outcome)));
+  if (common.stats) say_text(table(stats(outcome)));
   return exit_success;
 }
 

@@ -717,12 +717,49 @@ class Axis(CommandLine):
             self.skipTest("no /dev/full here")
         self.write("frame.wkt", FRAME)
         for arguments in (["info", "frame.wkt"], ["axis", "frame.wkt", "-o", "-", "--format", "csv"],
-                          ["axis", "frame.wkt", "--json"]):
+                          ["axis", "frame.wkt", "--json"], ["axis", "--help"], ["--version"]):
             with open("/dev/full", "wb") as full:
                 done = subprocess.run([PROGRAM, *arguments], cwd=self.folder.name, stdout=full,
                                       stderr=subprocess.PIPE, timeout=60)
             self.assertEqual(done.returncode, 2)
             self.assertIn(b"[unwritable]", done.stderr)
+
+    def test_standard_error_that_takes_nothing_changes_nothing(self):
+        """Full or closed: the same exit status, and no message in a file that got its number."""
+        self.write("frame.wkt", FRAME)
+        self.succeed("axis", "frame.wkt", "-o", "frame.json")
+        for arguments, status in ((["axis", "frame.wkt", "--stats", "-o", "again.json"], 0),
+                                  (["axis", "none.wkt", "-o", "again.json"], 2)):
+            for where in ["2>&-"] + ["2>/dev/full"] * os.path.exists("/dev/full"):
+                done = subprocess.run(["sh", "-c", f'"$0" "$@" {where}', PROGRAM, *arguments],
+                                      cwd=self.folder.name, stdout=subprocess.PIPE, timeout=300)
+                self.assertEqual((done.returncode, done.stdout), (status, b""), (arguments, where))
+                if status == 0:
+                    self.assertEqual(len(self.read("again.json")), len(self.read("frame.json")))
+                    os.remove(self.path("again.json"))
+            self.assertEqual(self.files(), ["frame.json", "frame.wkt"])
+
+    def test_names_stay_in_one_line(self):
+        self.assertIn("b c [31m.wkt: cannot open", self.refuse("unreadable", "info", "b\nc\x1b[31m.wkt"))
+
+    def test_field_far_from_the_origin(self):
+        """Where a sum of small steps does not grow: coordinates a unit apart, at 1e16."""
+        low, high = "1e16", "10000000000000004"
+        self.write("far.wkt", f"POLYGON (({low} {low}, {high} {low}, {high} {high}, {low} {high}))")
+        self.succeed("field", "far.wkt", "--width", 20, "--lines", 4, "-o", "far.svg")
+        self.assertIn(b"<svg", self.read("far.svg"))
+
+    def test_a_forged_axis_takes_no_more_pixels(self):
+        """Nodes far away, as no maximal disk of the shape has them."""
+        self.write("frame.wkt", FRAME)
+        self.succeed("axis", "frame.wkt", "-o", "frame.json")
+        axis = json.loads(self.read("frame.json"))
+        axis["items"][0]["axis"]["nodes"][0][0] = 1e300
+        self.write("forged.json", json.dumps(axis))
+        self.refuse("unsupported", "rebuild", "forged.json", "--pixels", 50, "-o", "forged.png")
+        axis["items"][0]["axis"]["nodes"][0][0] = 1e50
+        self.write("forged.json", json.dumps(axis))
+        self.succeed("rebuild", "forged.json", "--pixels", 50, "-o", "forged.png")
 
     def test_pipe_from_axis_to_shape(self):
         """medial axis x.svg -o - | medial prune - --angle 60 -o - | medial rebuild - -o y.svg"""

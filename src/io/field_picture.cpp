@@ -55,10 +55,15 @@ void draw_lines(Canvas& canvas, std::span<const PotentialField> fields, const Bo
   const Vec2 size = box.high - box.low;
   const double gap = std::max(size.x, size.y) / count;
   constexpr std::size_t most_steps = 400;
-  for (double y = box.low.y + 0.5 * gap; y < box.high.y; y += gap) {
-    for (double x = box.low.x + 0.5 * gap; x < box.high.x; x += gap) {
+  // Counted, as far from the origin a sum of small steps may not grow.
+  const auto starts = [&](double extent) {
+    return static_cast<int>(std::ceil(extent / gap - 0.5));
+  };
+  for (int row = 0; row < starts(size.y); ++row) {
+    for (int column = 0; column < starts(size.x); ++column) {
+      const Vec2 start = box.low + gap * Vec2{column + 0.5, row + 0.5};
       for (const PotentialField& field : fields) {
-        canvas.trace(std::span<const Vec2>(field.streamline({x, y}, 0.25 * gap, most_steps)));
+        canvas.trace(std::span<const Vec2>(field.streamline(start, 0.25 * gap, most_steps)));
         canvas.stroke();
       }
     }

@@ -434,6 +434,9 @@ Result<DiskImage> rebuild_image(const MedialAxis& axis, std::uint32_t pixels, bo
   }
   DiskImage result;
   const double size = std::max(high.x - low.x, high.y - low.y);
+  if (!std::isfinite(2 * size * size))
+    return Error{
+        ErrorCode::unsupported, "the axis is so large that squares of lengths overflow", {}};
   result.pixel = size > 0 ? size / pixels : 1;
   result.corner = low - result.pixel * Vec2{1, 1};
   const auto cells = [&](double extent) {
@@ -447,6 +450,12 @@ Result<DiskImage> rebuild_image(const MedialAxis& axis, std::uint32_t pixels, bo
     if (!y_down) center.y = height - center.y;
     disks.push_back({center, std::max(disk.radius, 0.0) / result.pixel});
   };
+  // All of an axis lies between its disks' extremes. The curve of a forged one may leave it,
+  // however far, or be no number; what lies there is not refined.
+  const auto in_picture = [&](const Disk& disk) {
+    const Vec2 c = disk.center;
+    return low.x <= c.x && c.x <= high.x && low.y <= c.y && c.y <= high.y;
+  };
   for (const std::uint32_t i : uncovered(axis, slack * result.pixel)) add(axis.nodes[i].disk);
   for (const Edge& edge : axis.edges) {
     // Between two disks of radius r at a distance d, d^2 / 8 r is missed.
@@ -457,7 +466,9 @@ Result<DiskImage> rebuild_image(const MedialAxis& axis, std::uint32_t pixels, bo
     const auto halve = [&](const auto& self, double t0, const Disk& a, double t1, const Disk& b,
                            int depth) -> void {
       constexpr int deepest = 24;
-      if (distance(a.center, b.center) <= step || depth == deepest) return;
+      if (!in_picture(a) || !in_picture(b) || distance(a.center, b.center) <= step ||
+          depth == deepest)
+        return;
       const double t = 0.5 * (t0 + t1);
       const Disk middle = curve.at(t);
       add(middle);

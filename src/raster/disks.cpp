@@ -58,9 +58,10 @@ Image union_of_disks(std::uint32_t width, std::uint32_t height, std::span<const 
     for (double row = first; row <= last; ++row) {
       const double half =
           std::sqrt(std::max(0.0, disk.radius * disk.radius - (row - y) * (row - y)));
+      // Clamped before they become whole numbers: a radius may be any double.
       set_run(covered, static_cast<std::int64_t>(row),
-              static_cast<std::int64_t>(std::ceil(x - half)),
-              static_cast<std::int64_t>(std::floor(x + half)));
+              static_cast<std::int64_t>(std::max(std::ceil(x - half), 0.0)),
+              static_cast<std::int64_t>(std::min(std::floor(x + half), width - 1.0)));
     }
   }
   return covered;
