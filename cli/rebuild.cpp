@@ -149,7 +149,7 @@ Status write_pixels(const AxisFile& axes, const RebuildSwitches& switches, Json&
     return error_at(ErrorCode::unsupported, switches.input.path, "--pixels takes one feature only");
   }
   auto image = rebuild_image(axes.native.items[0].axis, switches.pixels, axes.native.y_down);
-  if (!image) return std::move(image).error();
+  if (!image) return at_feature(std::move(image).error(), switches.input.path, 0);
   io::ImageFile placed;
   placed.crs_wkt = axes.native.crs_wkt;
   const double h = image->pixel;
