@@ -407,6 +407,9 @@ class Axis(CommandLine):
         self.succeed("measure", "bay.wkt", "--exterior", "--margin", "3", "-o", "m.svg")
         self.refuse("[a-z_]+", "measure", "bay.wkt", "--exterior", "--disks", "2")
         self.refuse("[a-z_]+", "measure", "bay.wkt", "--margin", "2")
+        plan = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "data", "plan.wkt")
+        self.succeed("axis", plan, "--exterior", "--method", "potential", "-o", "plan.json")
+        self.succeed("verify", plan, "plan.json")
         # Of a shape, of its stored axis of the interior, and of that of the exterior: the same.
         self.succeed("axis", "bay.wkt", "-o", "inside.json")
         self.succeed("axis", "bay.wkt", "--exterior", "-o", "around.json")

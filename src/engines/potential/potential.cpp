@@ -17,6 +17,7 @@
 #include "engines/potential/region.h"
 #include "engines/potential/skeleton.h"
 #include "engines/potential/successor.h"
+#include "geometry/site.h"
 
 namespace medial::potential {
 namespace {
@@ -203,6 +204,25 @@ Refined points_of(const Skeleton& skeleton, const Charges& charges, const Region
   return refined;
 }
 
+/// The two sites that a link passes between, on its left first: what is nearest halfway to the
+/// border, at right angles to it. Where a link that is shorter than the accuracy of its ends points
+/// at the border, that is one site; then what lies across from it is the other.
+std::array<std::uint32_t, 2> sites_beside(const Successor& inner, Vec2 along, const Region& region,
+                                          const Charges& charges, const SiteNames& names) {
+  const auto nearest = [&](Vec2 p) {
+    return names.nearest(region.pieces[charges.nearest(p).piece], p);
+  };
+  const double length = norm(along);
+  const Vec2 aside = length > 0 ? (0.5 * inner.radius / length) * left_of(along) : Vec2{};
+  const std::array touched{nearest(inner.place + aside), nearest(inner.place - aside)};
+  if (touched[0] != touched[1]) return touched;
+  const Charge& piece = region.pieces[charges.nearest(inner.place).piece];
+  const Vec2 foot = geometry::foot(geometry::make_segment(piece.start, piece.end), inner.place);
+  const std::uint32_t across = nearest(inner.place - 0.5 * (foot - inner.place));
+  const bool is_left = cross(along, foot - inner.place) > 0;
+  return is_left ? std::array{touched[0], across} : std::array{across, touched[0]};
+}
+
 /// Makes the points of one component nodes of the axis, and their links edges between the nearest
 /// charges on both sides.
 void append(MedialAxis& axis, std::uint32_t component, const Refined& refined, const Region& region,
@@ -215,14 +235,7 @@ void append(MedialAxis& axis, std::uint32_t component, const Refined& refined, c
   for (const auto& [from, to] : refined.links) {
     const Successor &a = refined.points[from], &b = refined.points[to];
     const Successor& inner = a.radius > 0 ? a : b;
-    const Vec2 along = b.place - a.place;
-    const double length = norm(along);
-    const Vec2 aside = length > 0 ? (0.5 * inner.radius / length) * left_of(along) : Vec2{};
-    std::array<std::uint32_t, 2> touched{};
-    for (const std::size_t side : {0U, 1U}) {
-      const Vec2 p = side == 0 ? inner.place + aside : inner.place - aside;
-      touched[side] = names.nearest(region.pieces[charges.nearest(p).piece], p);
-    }
+    const auto touched = sites_beside(inner, b.place - a.place, region, charges, names);
     const Disk &first = axis.nodes[base + from].disk, &last = axis.nodes[base + to].disk;
     const Disk middle{midpoint(first.center, last.center), 0.5 * (first.radius + last.radius)};
     axis.edges.push_back({{base + from, base + to}, touched, middle, 1});
