@@ -16,6 +16,9 @@
 namespace medial::cli {
 namespace {
 
+/// In millimetres: no usual tool cuts so deep, so the input's units are hardly millimetres.
+constexpr double unlikely_depth = 50;
+
 struct CarveSwitches {
   InputSwitches input;
   CommonSwitches common;
@@ -39,6 +42,10 @@ Status tell(const io::CarveFile& file, const CarveSwitches& switches, double sec
     travel += c.travel_length;
     unordered += c.travel_unordered;
     deepest = std::max(deepest, c.deepest);
+  }
+  if (deepest > unlikely_depth && !switches.common.quiet) {
+    say("medial: {}: note: the cut is {:.3g} mm deep; --scale tells how long a unit is\n",
+        switches.input.path, deepest);
   }
   const Json object{{"input", switches.input.path},
                     {"features", file.items.size()},

@@ -134,7 +134,7 @@ TEST_F(CurvedDxf, GapsAndOpenCurves) {
   const Dataset dangling = read("a.dxf", dxf(dxf_line(0, 0, -1, -1) + dxf_line(0, 0, 4, 0) +
                                              dxf_line(4, 0, 4, 3) + dxf_line(4, 3, 0, 0)));
   EXPECT_EQ(count(dangling), (Counts{1, 3, 0, 0, 0, 0}));
-  EXPECT_NE(dangling.notes[0].find("1 curves stay open"), std::string::npos);
+  EXPECT_NE(dangling.notes[0].find("1 curve stays open"), std::string::npos);
   // Two triangles with a common corner.
   const Dataset touching =
       read("a.dxf", dxf(dxf_line(0, 0, 4, 0) + dxf_line(4, 0, 4, 3) + dxf_line(4, 3, 0, 0) +

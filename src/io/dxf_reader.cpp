@@ -414,9 +414,9 @@ Result<Dataset> dataset_of(Collector& found, std::map<std::string, std::uint64_t
   }
   others.merge(found.left_out);
   if (open > 0) {
-    std::string note =
-        fmt::format("{} curves stay open where ends within {:.3g} are joined, and were left out",
-                    open, tolerance);
+    std::string note = fmt::format(
+        "{} where ends within {:.3g} are joined, left out",
+        open == 1 ? "1 curve stays open" : fmt::format("{} curves stay open", open), tolerance);
     if (std::isfinite(smallest_gap)) {
       note += fmt::format("; the smallest gap is {:.3g}", smallest_gap);
     }
