@@ -33,6 +33,8 @@ constexpr double chord_rounding = 0x1p-48;
 constexpr double flat_enough = 1.0 / 16;
 /// and on the levels of nodes of 8 to 512 sites: larger ones are few.
 constexpr std::size_t chord_levels = 4;
+/// where at least one node in so many has one.
+constexpr std::size_t rare = 16;
 
 struct Waiting {
   std::uint32_t index;
@@ -77,28 +79,22 @@ BoundaryTree::BoundaryTree(std::span<const Site> sites)
 }
 
 void BoundaryTree::build_chord_boxes() {
-  // Of each child of the level under way, whether it has a box.
-  std::vector<std::uint8_t> fits_below;
   for (std::uint32_t level = 0; level < std::min<std::size_t>(chord_levels, levels_.size());
        ++level) {
     const std::size_t span = std::size_t{block_size} << (2 * level);
     const std::size_t nodes = levels_[level].size();
     std::vector<ChordBoxes> boxes(nodes);
-    std::vector<std::uint8_t> fits(nodes * fan);
-    std::atomic<bool> any = false;
+    std::atomic<std::size_t> count = 0;
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, nodes, 256), [&](const auto& range) {
+      std::size_t fitting = 0;
       for (std::size_t node = range.begin(); node < range.end(); ++node) {
         for (std::size_t lane = 0; lane < fan; ++lane) {
-          const std::size_t child = node * fan + lane, begin = child * span;
+          const std::size_t begin = (node * fan + lane) * span;
           const std::size_t end = std::min(begin + span, sites_.size());
           std::optional<ChordBox> box;
-          // Only what is smooth in small can be smooth at large.
-          const auto below = fits_below.begin() + static_cast<std::ptrdiff_t>(child * fan);
-          if (begin < end && (level == 0 || std::all_of(below, below + fan, std::identity())))
-            box = chord_box(sites_.subspan(begin, end - begin));
+          if (begin < end) box = chord_box(sites_.subspan(begin, end - begin));
           if (box) {
-            fits[child] = 1;
-            any = true;
+            ++fitting;
           } else {
             constexpr double all = std::numeric_limits<double>::infinity();
             box = ChordBox{{1, 0}, -all, all, -all, all};
@@ -111,21 +107,34 @@ void BoundaryTree::build_chord_boxes() {
           boxes[node].end[lane] = box->end;
         }
       }
+      count += fitting;
     });
-    if (!any) return;
+    if (count * rare * span < sites_.size()) boxes.clear();
     chords_.push_back(std::move(boxes));
-    fits_below = std::move(fits);
-    fits_below.resize(fits_below.size() +
-                      std::size_t{fan} * fan);  // children beyond the last do not fit
   }
+}
+
+/// The direction of the line that a boundary with reflex vertices shows to what lies before it, or
+/// else of its chord. Of a staircase no box in another direction tells the corners apart.
+Vec2 BoundaryTree::chord_of(std::span<const Site> sites) {
+  const auto is_vertex = [](const Site& site) { return site.is_vertex(); };
+  const auto first = std::find_if(sites.begin(), sites.end(), is_vertex);
+  const auto last = std::find_if(sites.rbegin(), sites.rend(), is_vertex);
+  if (first != sites.end() && first->point != last->point) return last->point - first->point;
+  return sites.back().end() - sites.front().point;
 }
 
 std::optional<BoundaryTree::ChordBox> BoundaryTree::chord_box(std::span<const Site> sites) {
   constexpr double infinity_d = std::numeric_limits<double>::infinity();
-  const Vec2 chord = sites.back().end() - sites.front().point;
+  const Vec2 chord = chord_of(sites);
   const double length = norm(chord);
   if (!(length > 0 && length < outside)) return std::nullopt;
   const Vec2 along = (1 / length) * chord;
+  // Most that do not fit are told by a few of their points.
+  for (std::size_t i = 1; i < 4; ++i) {
+    const Vec2 p = sites[i * sites.size() / 4].point - sites.front().point;
+    if (std::abs(cross(along, p)) > flat_enough * length) return std::nullopt;
+  }
   ChordBox box{left_of(along), infinity_d, -infinity_d, infinity_d, -infinity_d};
   const auto add = [&](Vec2 p) {
     const double height = dot(box.normal, p), position = dot(along, p);
@@ -223,7 +232,8 @@ template <class Visit>
 
       Lanes squared;
       mask &= nearer(boxes, x, y, limit, squared);
-      if (below < chord_count && mask != 0) mask &= ~beyond(chords_[below][top.index], c, reach);
+      if (below < chord_count && mask != 0 && !chords_[below].empty())
+        mask &= ~beyond(chords_[below][top.index], c, reach);
       if (mask != 0) {
         // Go on with the nearest; the others wait, the farthest at the bottom.
         auto lane = static_cast<std::uint32_t>(std::countr_zero(mask));
