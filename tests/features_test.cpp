@@ -342,10 +342,11 @@ struct Horn {
       return (radius(i * step + h) - radius(i * step - h)) / (2 * h);
     };
     const auto side = [&](int i, double left) {
-      const Vec2 along{std::cos(angles[i]), std::sin(angles[i])};
+      const auto at = static_cast<std::size_t>(i);
+      const Vec2 along{std::cos(angles[at]), std::sin(angles[at])};
       const double share = -slope(i);
-      return centers[i] + radius(i * step) * (share * along +
-                                              left * std::sqrt(1 - share * share) * left_of(along));
+      return centers[at] + radius(i * step) * (share * along + left * std::sqrt(1 - share * share) *
+                                                                   left_of(along));
     };
     Contour contour;
     contour.start_at(side(0, -1));

@@ -164,8 +164,8 @@ std::vector<Ring> outline_of_hulls(const MedialAxis& whole, double chord, std::u
     if (distance(a.center, b.center) > std::abs(a.radius - b.radius)) axis.edges.push_back(edge);
   }
   std::ranges::sort(axis.edges, {}, &Edge::node);
-  const auto same = std::ranges::unique(axis.edges, {}, &Edge::node);
-  axis.edges.erase(same.begin(), same.end());
+  const auto is_same = [](const Edge& a, const Edge& b) { return a.node == b.node; };
+  axis.edges.erase(std::unique(axis.edges.begin(), axis.edges.end(), is_same), axis.edges.end());
   // Of an edge, the hull is what its tangents and the four radii to their ends enclose, and what
   // its disks add; of a node, the edges leave gaps between their tangents on its disk, whose
   // sectors cover what is not in a neighbour's. So the sum of all these parts, each of them
