@@ -45,23 +45,31 @@ class Solution {
     elements_ = elements_of(shape, numbers, frame);
     statistics.seconds_sites = watch.lap();
 
-    diagram_.emplace(elements_);
-    const ConquerContext context{
-        {tolerance_for(local, options.tolerance), radius_limit(box, frame)},
-        local_tolerance(),
-        options.cancel,
-        options.progress};
-    try {
-      const std::vector<std::uint32_t> last_edges = conquer(*diagram_, context, statistics, levels);
-      statistics.seconds_walk = watch.lap();
-      if (options.cancel != nullptr && options.cancel->load()) return;
-      graph.emplace(*diagram_, last_edges, local_tolerance());
-    } catch (const std::runtime_error&) {
-      // Of such a boundary, rounding may break the structure, too.
-      const auto place = find_smooth_run(elements_);
-      if (!place) throw;
-      error = too_nearly_round(*place);
-      return;
+    // To a multiple of the tolerance, what misled a merge is a tie; what that may make of the disks
+    // is checked to the tolerance itself, below.
+    for (const double multiple : {1.0, 8.0, 64.0}) {
+      const ConquerContext context{
+          {multiple * tolerance_for(local, options.tolerance), radius_limit(box, frame)},
+          multiple * local_tolerance(),
+          options.cancel,
+          options.progress};
+      if (levels != nullptr) levels->clear();
+      diagram_.emplace(elements_);
+      try {
+        const std::vector<std::uint32_t> last_edges =
+            conquer(*diagram_, context, statistics, levels);
+        statistics.seconds_walk += watch.lap();
+        if (options.cancel != nullptr && options.cancel->load()) return;
+        graph.emplace(*diagram_, last_edges, multiple * local_tolerance());
+        break;
+      } catch (const std::runtime_error&) {
+        // Of such a boundary, rounding may break the structure, too.
+        if (const auto place = find_smooth_run(elements_)) {
+          error = too_nearly_round(*place);
+          return;
+        }
+        if (multiple > 8) throw;
+      }
     }
     join_ties(*graph, local_tolerance());
     // The certificate, too, would refuse such an axis.
