@@ -519,7 +519,8 @@ Chains chains_moved(const Chains& chains, const Symmetry& symmetry) {
     Ring ring = transformed(Rings{{chain.points, RingRole::any, chain.bulges}}, own)[0];
     result.push_back({std::move(ring.points), std::move(ring.bulges), chain.closed});
   }
-  std::rotate(result.begin(), result.begin() + symmetry.restart % result.size(), result.end());
+  const auto first = static_cast<std::ptrdiff_t>(symmetry.restart % result.size());
+  std::rotate(result.begin(), result.begin() + first, result.end());
   return result;
 }
 
