@@ -19,16 +19,6 @@
 namespace medial::cli {
 namespace {
 
-/// The loops of a shape as rings, to be checked anew: a file may hold anything.
-std::vector<Ring> rings_of(const Shape& shape) {
-  std::vector<Ring> rings;
-  rings.reserve(shape.loop_count());
-  for (std::size_t i = 0; i < shape.loop_count(); ++i) {
-    rings.push_back(io::ring_of(shape, i));
-  }
-  return rings;
-}
-
 /// Lets the sources of a shape built from the loops of `original` name what those came from.
 void keep_sources(Shape& shape, const Shape& original) {
   for (VertexSource& source : shape.sources) {
@@ -324,6 +314,13 @@ Result<ShapeFile> load_shapes(const InputSwitches& input, int threads, bool keep
   file.seconds_shape = shaping.seconds();
   file.processor_shape = processor_seconds() - processor;
   return file;
+}
+
+std::vector<Ring> rings_of(const Shape& shape) {
+  std::vector<Ring> rings;
+  rings.reserve(shape.loop_count());
+  for (std::size_t i = 0; i < shape.loop_count(); ++i) rings.push_back(io::ring_of(shape, i));
+  return rings;
 }
 
 void print_notes(const ShapeFile& file, const InputSwitches& input, const CommonSwitches& common) {

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <memory>
 #include <tuple>
 #include <utility>
@@ -65,19 +64,12 @@ Result<AxisFile> axes_outside(const RebuildSwitches& switches, std::vector<Shape
 /// The shape that these surroundings are of: what their loops enclose but the frame's, which
 /// reaches furthest to the left.
 Result<Shape> without_frame(const Shape& around) {
-  std::size_t frame = 0;
-  std::vector<Ring> rings;
-  double left = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < around.loop_count(); ++i) {
-    const auto loop = around.loop(i);
-    Ring& ring = rings.emplace_back();
-    ring.points.assign(loop.begin(), loop.end());
-    for (std::size_t k = 0; k < loop.size(); ++k) {
-      ring.bulges.push_back(around.bulge(around.loop_begin[i] + k));
-      if (loop[k].x < left) left = loop[k].x, frame = i;
-    }
-  }
-  rings.erase(rings.begin() + static_cast<std::ptrdiff_t>(frame));
+  std::vector<Ring> rings = rings_of(around);
+  const auto leftmost = [](const Ring& ring) {
+    return std::ranges::min(ring.points, {}, &Vec2::x).x;
+  };
+  rings.erase(std::ranges::min_element(rings, {}, leftmost));
+  for (Ring& ring : rings) ring.role = RingRole::any;  // holes around the shape are its outer loops
   return build_shape(rings);
 }
 

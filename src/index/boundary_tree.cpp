@@ -6,7 +6,6 @@
 #include <atomic>
 #include <bit>
 #include <cmath>
-#include <functional>
 #include <limits>
 
 namespace medial::index {
@@ -109,7 +108,7 @@ void BoundaryTree::build_chord_boxes() {
       }
       count += fitting;
     });
-    if (count * rare * span < sites_.size()) boxes.clear();
+    if (count * rare * span < sites_.size()) boxes = {};  // its memory, too
     chords_.push_back(std::move(boxes));
   }
 }

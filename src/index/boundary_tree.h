@@ -71,7 +71,7 @@ class BoundaryTree {
   std::span<const geometry::Site> sites_;
   bool has_arcs_;
   std::vector<std::vector<Boxes>> levels_;       ///< levels_[0] holds the boxes of blocks
-  std::vector<std::vector<ChordBoxes>> chords_;  ///< of the lowest levels, where there are any
+  std::vector<std::vector<ChordBoxes>> chords_;  ///< of the lowest levels; empty where rare
 };
 
 }  // namespace medial::index

@@ -7,6 +7,7 @@
 #include "base/frame.h"
 #include "base/stopwatch.h"
 #include "base/tolerance.h"
+#include "engines/checks.h"
 #include "engines/disks/boundary.h"
 #include "engines/disks/collect.h"
 #include "engines/disks/connect.h"
@@ -30,10 +31,6 @@ constexpr double fine_share = 0.25, near_circle = 1 << 12;
 /// The axis of such arcs is certified before it is given out. Of more of them that takes too long,
 /// as searches among them take O(n).
 constexpr std::size_t most_arcs_in_near_circle = 1 << 14;
-
-bool is_cancelled(const Options& options) {
-  return options.cancel != nullptr && options.cancel->load();
-}
 
 /// Tells the caller how much of the walk is done, if he wants to know.
 std::function<void(std::uint64_t)> reporter(const Options& options, const Boundary& boundary,

@@ -6,6 +6,7 @@
 
 #include "base/stopwatch.h"
 #include "base/tolerance.h"
+#include "engines/checks.h"
 #include "engines/lee/graph.h"
 #include "engines/lee/ties.h"
 
@@ -59,7 +60,7 @@ class Solution {
         const std::vector<std::uint32_t> last_edges =
             conquer(*diagram_, context, statistics, levels);
         statistics.seconds_walk += watch.lap();
-        if (options.cancel != nullptr && options.cancel->load()) return;
+        if (is_cancelled(options)) return;
         graph.emplace(*diagram_, last_edges, multiple * local_tolerance());
         break;
       } catch (const std::runtime_error&) {

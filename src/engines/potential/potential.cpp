@@ -7,11 +7,13 @@
 #include <numbers>
 #include <string>
 
+#include "axis/node_kinds.h"
 #include "axis/sites.h"
 #include "base/disjoint_sets.h"
 #include "base/frame.h"
 #include "base/stopwatch.h"
 #include "base/tolerance.h"
+#include "engines/checks.h"
 #include "engines/potential/charges.h"
 #include "engines/potential/coarse_to_fine.h"
 #include "engines/potential/region.h"
@@ -242,16 +244,6 @@ void append(MedialAxis& axis, std::uint32_t component, const Refined& refined, c
   }
 }
 
-void tell_kinds(MedialAxis& axis) {
-  std::vector<std::uint32_t> degree(axis.nodes.size());
-  for (const Edge& edge : axis.edges)
-    for (const std::uint32_t node : edge.node) ++degree[node];
-  for (std::size_t i = 0; i < degree.size(); ++i)
-    axis.nodes[i].kind = degree[i] > 2   ? NodeKind::branching
-                         : degree[i] < 2 ? NodeKind::leaf
-                                         : NodeKind::site_change;
-}
-
 }  // namespace
 
 Result<MedialAxis> run(const Shape& shape, const Options& options) {
@@ -271,7 +263,6 @@ Result<MedialAxis> run(const Shape& shape, const Options& options) {
   const double whole = std::max(box.high.x - box.low.x, box.high.y - box.low.y);
   const std::vector<Region> regions =
       regions_of(shape, frame, options.corner_angle, 0.01 * own.step * whole * frame.scale);
-  const auto cancelled = [&] { return options.cancel != nullptr && options.cancel->load(); };
   bool seeded = !own.from;
   for (std::uint32_t component = 0; component < regions.size(); ++component) {
     const Region& region = regions[component];
@@ -287,7 +278,7 @@ Result<MedialAxis> run(const Shape& shape, const Options& options) {
             : trace_valleys(region, charges, tracing);
     axis.statistics.queries += skeleton.forces;
     axis.statistics.seconds_walk += watch.lap();
-    if (cancelled()) break;
+    if (is_cancelled(options)) break;
     if (!skeleton.whole)
       return Error{ErrorCode::unsupported,
                    "the potential's valleys are too flat to be connected: use the method disks",
@@ -295,11 +286,11 @@ Result<MedialAxis> run(const Shape& shape, const Options& options) {
     append(axis, component, points_of(skeleton, charges, region, tracing, own), region, charges,
            names, frame);
     axis.statistics.seconds_collect += watch.lap();
-    if (cancelled()) break;
+    if (is_cancelled(options)) break;
     if (options.progress) options.progress((component + 1.0) / static_cast<double>(regions.size()));
   }
   if (!seeded) return Error{ErrorCode::invalid_option, "the seed lies outside of the shape", {}};
-  tell_kinds(axis);
+  set_node_kinds(axis);
   return axis;
 }
 

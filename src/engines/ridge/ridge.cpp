@@ -11,6 +11,7 @@
 #include "base/frame.h"
 #include "base/stopwatch.h"
 #include "base/tolerance.h"
+#include "engines/checks.h"
 #include "engines/ridge/bridges.h"
 #include "engines/ridge/digitize.h"
 #include "engines/ridge/follow.h"
@@ -172,7 +173,6 @@ MedialAxis run(const Shape& shape, const Options& options, Report* report) {
   Stopwatch all, watch;
   ProcessorWatch processor;
   Report measured;
-  const auto cancelled = [&] { return options.cancel != nullptr && options.cancel->load(); };
 
   const Box box = bounding_box(shape);
   const Frame frame = frame_of(box);
@@ -199,14 +199,14 @@ MedialAxis run(const Shape& shape, const Options& options, Report* report) {
   const std::uint64_t empty = find_first_pixels(seeds_of(outline, local, sets), sets, follower);
   statistics.seconds_connect = watch.lap();
   measured.seconds_first += processor.lap();
-  if (cancelled()) return axis;
+  if (is_cancelled(options)) return axis;
 
   follower.follow();
   const Bridges bridges = bridge_necks(necks, outline, local, sets, *search, follower);
   fill_gaps(sets, boundary, follower);
   statistics.seconds_walk = watch.lap();
   measured.seconds_follow = processor.lap();
-  if (cancelled()) return axis;
+  if (is_cancelled(options)) return axis;
 
   MedialMap& map = follower.map();
   const std::size_t found = map.found.size();

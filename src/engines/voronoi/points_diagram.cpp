@@ -12,6 +12,7 @@
 #include "base/predicates.h"
 #include "base/stopwatch.h"
 #include "base/tolerance.h"
+#include "engines/checks.h"
 #include "engines/voronoi/frame_cut.h"
 #include "engines/voronoi/soup_diagram.h"
 #include "geometry/delaunay.h"
@@ -70,7 +71,7 @@ class Dual {
     Stopwatch all, watch;
     triangulate();
     diagram_.statistics.seconds_walk = watch.lap();
-    if (options_.cancel != nullptr && options_.cancel->load()) return std::move(diagram_);
+    if (is_cancelled(options_)) return std::move(diagram_);
     if (triangulation_.triangles.empty()) {
       add_edges_of_line();
     } else {
