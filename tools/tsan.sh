@@ -24,8 +24,8 @@ if [ ! -e "$tbb/lib" ]; then
   ln -s "$(dirname "$(find "$tbb/build" -name libtbb.so | head -1)")" "$tbb/lib"
 fi
 
-tests=(property_test verify_test compute_test query_test first_touch_test)
-cmake --preset tsan -B "$tree"
+tests=(property_test verify_test compute_test query_test first_touch_test soup_test)
+cmake --preset tsan -B "$tree" -DMEDIAL_UNITY=OFF
 cmake --build "$tree" -j "$jobs" --target "${tests[@]}"
 for test in "${tests[@]}"; do
   LD_LIBRARY_PATH=$tbb/lib MEDIAL_PROPERTY_COUNT=${MEDIAL_PROPERTY_COUNT:-200} \
