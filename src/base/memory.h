@@ -21,4 +21,11 @@ void reserve_large(std::vector<T>& elements, std::size_t count) {
   prefer_large_pages(elements.data(), count * sizeof(T));
 }
 
+/// assign(), with large pages.
+template <class T>
+void assign_large(std::vector<T>& elements, std::size_t count, const T& value) {
+  reserve_large(elements, count);
+  elements.assign(count, value);
+}
+
 }  // namespace medial

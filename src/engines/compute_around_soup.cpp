@@ -56,15 +56,17 @@ std::optional<Error> refuse(const Soup& soup, const Options& options) {
   return std::nullopt;
 }
 
+/// The axis, but for its edges, which stand apart.
+template <class E>
 Result<MedialAxis> run_around(const Shape& surroundings, const Options& options,
-                              bool divide_parabolas) {
-  MedialAxis axis = disks::run_two_sided(surroundings, options);
+                              bool divide_parabolas, std::vector<E>& edges) {
+  MedialAxis axis = disks::run_two_sided(surroundings, options, edges);
   if (is_cancelled(options)) return Error{ErrorCode::cancelled, "cancelled", {}};
-  if (!has_right_topology(surroundings, axis))
+  if (!has_right_topology(surroundings, axis.nodes.size(), edges.size()))
     return Error{ErrorCode::internal,
                  "the diagram is not connected as it should be: please report this input",
                  {}};
-  voronoi::split_long_edges(axis, divide_parabolas);
+  voronoi::split_long_edges(axis, edges, divide_parabolas);
   return axis;
 }
 
@@ -130,9 +132,11 @@ Result<MedialAxis> axis_around(const Soup& soup, const Shape& surroundings,
     if (auto error = beyond_limits(surroundings)) return std::move(*error);
     const double tolerance = tolerance_for(bounding_box(surroundings), options.tolerance);
     if (auto error = too_close(soup, told_apart * tolerance)) return std::move(*error);
+    std::vector<Edge> edges;
     auto axis =
-        on_threads(options.threads, [&] { return run_around(surroundings, options, true); });
+        on_threads(options.threads, [&] { return run_around(surroundings, options, true, edges); });
     if (!axis) return explained(std::move(axis).error(), soup, tolerance);
+    axis->edges = std::move(edges);
     return axis;
   } catch (...) {
     return error_in_flight();
@@ -148,6 +152,7 @@ Result<VoronoiDiagram> voronoi_diagram(const Soup& soup, const Options& options,
     const Box far = voronoi::far_frame(*box);
     if (auto error = beyond_limits(soup, far)) return std::move(*error);
     const double tolerance = tolerance_for(far, options.tolerance);
+
     if (!soup.edges.empty())
       if (auto error = too_close(soup, told_apart * tolerance)) return std::move(*error);
     Result<VoronoiDiagram> diagram = on_threads(options.threads, [&]() -> Result<VoronoiDiagram> {
@@ -156,15 +161,19 @@ Result<VoronoiDiagram> voronoi_diagram(const Soup& soup, const Options& options,
         if (is_cancelled(options)) return Error{ErrorCode::cancelled, "cancelled", {}};
         return of_points;
       }
+
       const Shape shape = around(soup, far);
-      auto axis = run_around(shape, options, false);
+
+      std::vector<VoronoiEdge> edges;
+      auto axis = run_around(shape, options, false, edges);
       if (!axis) return std::move(axis).error();
       try {
-        return voronoi::diagram_of(soup, shape, std::move(axis).value(), *box);
+        return voronoi::diagram_of(soup, shape, std::move(axis).value(), std::move(edges), *box);
       } catch (const std::runtime_error& error) {
         return Error{ErrorCode::internal, error.what(), {}};
       }
     });
+
     if (!diagram) return explained(std::move(diagram).error(), soup, tolerance);
     diagram->statistics.threads = effective_threads(options.threads);
     if (options.progress) options.progress(1);

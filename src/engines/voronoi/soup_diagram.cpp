@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numbers>
 #include <span>
 #include <stdexcept>
@@ -36,13 +37,18 @@ constexpr std::uint32_t largest_edge = none >> 1U;
 /// of the disk that touches where they join; there the spoke leads to.
 class Assembly {
  public:
-  Assembly(const Soup& soup, const Shape& shape, MedialAxis& axis, const Box& frame)
+  Assembly(const Soup& soup, const Shape& shape, MedialAxis& axis, std::vector<VoronoiEdge>& edges,
+           const Box& frame)
       : soup_(soup),
         shape_(shape),
         axis_(axis),
         frame_(frame),
         point_count_(static_cast<std::uint32_t>(soup.points.size())),
-        cut_(soup, frame, axis.tolerance, diagram_) {}
+        edge_count_(static_cast<std::uint32_t>(edges.size())),
+        cut_(soup, frame, axis.tolerance, diagram_) {
+    diagram_.nodes = std::move(axis.nodes);
+    diagram_.edges = std::move(edges);
+  }
 
   VoronoiDiagram run() {
     make_own_sites();
@@ -81,28 +87,38 @@ class Assembly {
   }
 
   void make_own_sites() {
-    own_.reserve(axis_.sites.size());
+    reserve_large(own_, axis_.sites.size());
     for (const Site& site : axis_.sites)
       own_.push_back(site.ring == none               ? none
                      : site.kind == SiteKind::vertex ? site.ring
                                                      : edge_side | site.vertex);
+    axis_.sites = {};
+  }
+  /// The engine's site.
+  Site engine_site(std::uint32_t own) const {
+    Site site = site_of_soup(soup_, site_of(own));
+    if (is_vertex(own) || half_edge(own) % 2 == 0) return site;
+    std::swap(site.start, site.end);
+    site.bulge = 0 - site.bulge;
+    return site;
   }
 
   void make_chains() {
-    const std::size_t count = axis_.sites.size();
-    chain_begin_.assign(count + 1, 0);
-    for (const Edge& edge : axis_.edges)
-      for (const std::uint32_t own : edge.site) ++chain_begin_[own + 1];
-    for (std::size_t i = 0; i < count; ++i) chain_begin_[i + 1] += chain_begin_[i];
-    chains_.resize(2 * axis_.edges.size());
-    std::vector<std::uint32_t> filled(chain_begin_.begin(), chain_begin_.end() - 1);
-    for (std::uint32_t e = 0; e < axis_.edges.size(); ++e) {
-      const Edge& edge = axis_.edges[e];
-      chains_[filled[edge.site[1]]++] = {e & largest_edge, 1, edge.node[0], edge.node[1]};
-      chains_[filled[edge.site[0]]++] = {e & largest_edge, 0, edge.node[1], edge.node[0]};
+    const std::size_t count = own_.size();
+    // One place further, so that while the chains are filled, each grows to where the next begins.
+    assign_large(chain_begin_, count + 2, 0U);
+    for (const Edge& edge : diagram_.edges)
+      for (const std::uint32_t own : edge.site) ++chain_begin_[own + 2];
+    for (std::size_t i = 1; i <= count; ++i) chain_begin_[i + 1] += chain_begin_[i];
+    chains_ = std::make_unique_for_overwrite<Step[]>(2 * diagram_.edges.size());
+    prefer_large_pages(chains_.get(), 2 * diagram_.edges.size() * sizeof(Step));
+    for (std::uint32_t e = 0; e < diagram_.edges.size(); ++e) {
+      const Edge& edge = diagram_.edges[e];
+      chains_[chain_begin_[edge.site[1] + 1]++] = {e & largest_edge, 1, edge.node[0], edge.node[1]};
+      chains_[chain_begin_[edge.site[0] + 1]++] = {e & largest_edge, 0, edge.node[1], edge.node[0]};
     }
-    first_.assign(count, none);
-    last_.assign(count, none);
+    assign_large(first_, count, none);
+    assign_large(last_, count, none);
     for (std::uint32_t own = 0; own < count; ++own) {
       if (is_frame(own)) continue;
       const std::span<Step> steps = chain(own);
@@ -114,7 +130,7 @@ class Assembly {
   }
 
   std::span<Step> chain(std::uint32_t own) {
-    return std::span(chains_).subspan(chain_begin_[own], chain_begin_[own + 1] - chain_begin_[own]);
+    return {chains_.get() + chain_begin_[own], chains_.get() + chain_begin_[own + 1]};
   }
 
   /// From the step that no other leads to, or where they make a cycle, any one.
@@ -179,10 +195,10 @@ class Assembly {
   /// Of own sites without edges, the node that they are touched in: that of the site before.
   void find_ends() {
     std::vector<std::uint32_t> lone(shape_.component_count(), none);
-    std::vector<bool> used(axis_.nodes.size());
-    for (const Edge& edge : axis_.edges) used[edge.node[0]] = used[edge.node[1]] = true;
-    for (std::uint32_t n = 0; n < axis_.nodes.size(); ++n)
-      if (!used[n]) lone[axis_.nodes[n].component] = n;
+    std::vector<bool> used(diagram_.nodes.size());
+    for (const Edge& edge : diagram_.edges) used[edge.node[0]] = used[edge.node[1]] = true;
+    for (std::uint32_t n = 0; n < diagram_.nodes.size(); ++n)
+      if (!used[n]) lone[diagram_.nodes[n].component] = n;
     for_each_loop([&](std::uint32_t first, std::uint32_t last, std::size_t loop) {
       std::uint32_t node = lone[shape_.component[loop]];
       for (std::uint32_t own = first; own < last; ++own)
@@ -202,9 +218,10 @@ class Assembly {
   /// Spokes wherever one own site follows another but in a corner, and the nodes of the soup's
   /// points.
   void make_spokes() {
-    spoke_before_.assign(axis_.sites.size(), none);
-    spoke_after_.assign(axis_.sites.size(), none);
-    corner_.assign(axis_.nodes.size(), none);
+    assign_large(spoke_before_, own_.size(), none);
+    assign_large(spoke_after_, own_.size(), none);
+    assign_large(node_of_axis_, diagram_.nodes.size(), none);
+    reserve_large(spokes_, own_.size());
     for_each_loop([&](std::uint32_t first, std::uint32_t last, std::size_t) {
       if (last - first == 1) return;  // a lone point
       std::uint32_t before = last - 1;
@@ -214,8 +231,8 @@ class Assembly {
         const std::uint32_t node = first_[own];
         if (last_[before] != node) throw std::runtime_error("a Voronoi face has a gap");
         const std::uint32_t point = is_vertex(own) ? own_[own] : soup_.start(half_edge(own));
-        if (axis_.nodes[node].disk.radius == 0) {
-          corner_[node] = point;
+        if (diagram_.nodes[node].disk.radius == 0) {
+          node_of_axis_[node] = point;
         } else {
           spoke_before_[own] = spoke_after_[before] = static_cast<std::uint32_t>(spokes_.size());
           spokes_.push_back({point, node, {site_of(before), site_of(own)}});
@@ -225,97 +242,102 @@ class Assembly {
     });
   }
 
-  ConicEdge curve_of(std::uint32_t e) const {
-    if (e < axis_.edges.size()) {
-      const Edge& edge = axis_.edges[e];
-      return {axis_.nodes[edge.node[0]].disk, edge.control, axis_.nodes[edge.node[1]].disk,
-              edge.weight};
-    }
-    const Spoke& spoke = spokes_[e - axis_.edges.size()];
-    const Disk from{soup_.points[spoke.point], 0}, to = axis_.nodes[spoke.node].disk;
-    return {from, {midpoint(from.center, to.center), 0.5 * to.radius}, to, 1};
-  }
-  std::array<std::uint32_t, 2> sites_of(std::uint32_t e) const {
-    if (e >= axis_.edges.size()) return spokes_[e - axis_.edges.size()].site;
-    const Edge& edge = axis_.edges[e];
-    return {site_of(edge.site[0]), site_of(edge.site[1])};
-  }
-  /// The nodes inside of the frame; the soup's points among them once they are asked for.
+  /// Keeps the nodes inside of the frame; the soup's points among them once they are asked for.
   void make_nodes() {
-    node_of_point_.assign(soup_.points.size(), none);
-    node_of_axis_.assign(axis_.nodes.size(), none);
-    reserve_large(diagram_.nodes, axis_.nodes.size() + soup_.points.size());
-    for (std::uint32_t n = 0; n < axis_.nodes.size(); ++n) {
-      const Node& node = axis_.nodes[n];
-      if (corner_[n] != none)
-        node_of_axis_[n] = node_of_point(corner_[n]);
-      else if (cut_.holds(node.disk.center))
-        node_of_axis_[n] = add_node(node.disk, node.component);
+    assign_large(node_of_point_, soup_.points.size(), none);
+    std::vector<Node>& nodes = diagram_.nodes;
+    std::uint32_t kept = 0;
+    for (std::uint32_t n = 0; n < nodes.size(); ++n) {
+      const std::uint32_t point = node_of_axis_[n];
+      if (point == none && !cut_.holds(nodes[n].disk.center)) {
+        node_of_axis_[n] = is_cut | static_cast<std::uint32_t>(outside_.size());
+        outside_.push_back(nodes[n].disk);
+        continue;
+      }
+      if (point != none && node_of_point_[point] != none) {
+        node_of_axis_[n] = node_of_point_[point];
+        continue;
+      }
+      nodes[kept] = point == none ? nodes[n] : Node{{soup_.points[point], 0}, 0, NodeKind::leaf};
+      if (point != none) node_of_point_[point] = kept;
+      node_of_axis_[n] = kept++;
     }
+    nodes.resize(kept);
   }
-  /// An end as a node of the diagram, inside of the frame.
-  std::uint32_t node_at(std::uint32_t e, std::size_t end) {
-    if (e < axis_.edges.size()) return node_of_axis_[axis_.edges[e].node[end]];
-    const Spoke& spoke = spokes_[e - axis_.edges.size()];
-    return end == 0 ? node_of_point(spoke.point) : node_of_axis_[spoke.node];
+  bool is_inside(std::uint32_t node) const { return (node_of_axis_[node] & is_cut) == 0; }
+  const Disk& disk_of(std::uint32_t node) const {
+    const std::uint32_t now = node_of_axis_[node];
+    return is_inside(node) ? diagram_.nodes[now].disk : outside_[now & ~is_cut];
   }
   std::uint32_t node_of_point(std::uint32_t point) {
     std::uint32_t& node = node_of_point_[point];
-    if (node == none) node = add_node({soup_.points[point], 0}, 0);
+    if (node == none) {
+      node = static_cast<std::uint32_t>(diagram_.nodes.size());
+      diagram_.nodes.push_back({{soup_.points[point], 0}, 0, NodeKind::leaf});
+    }
     return node;
   }
-  std::uint32_t add_node(const Disk& disk, std::uint32_t component) {
-    diagram_.nodes.push_back({disk, component, NodeKind::leaf});
-    return static_cast<std::uint32_t>(diagram_.nodes.size() - 1);
-  }
 
-  /// The edges inside of the frame, or the parts of them.
+  /// Keeps the edges that are clearly all in the frame, as their triangles of control points are;
+  /// adds the parts of others, and the spokes or their parts.
   void cut_off() {
-    const auto edges = static_cast<std::uint32_t>(axis_.edges.size());
-    const std::size_t count = edges + spokes_.size();
-    reserve_large(diagram_.edges, count + 64);
-    reserve_large(part_begin_, count + 1);
-    for (std::uint32_t e = 0; e < count; ++e) {
-      const auto begin = static_cast<std::uint32_t>(diagram_.edges.size());
-      const std::array<std::uint32_t, 2> site = sites_of(e);
-      if (e < edges && add_whole(axis_.edges[e], site)) {
-        part_begin_.push_back(begin);
-        continue;
+    std::vector<VoronoiEdge>& edges = diagram_.edges;
+    reserve_large(place_, edge_count_ + spokes_.size());
+    std::vector<Edge> to_cut;
+    std::uint32_t kept = 0;
+    for (const VoronoiEdge& edge : edges) {
+      const auto [from, to] = edge.node;
+      const std::array<std::uint32_t, 2> site{site_of(edge.site[0]), site_of(edge.site[1])};
+      if (is_inside(from) && is_inside(to) && site[0] != no_site && site[1] != no_site &&
+          cut_.holds(edge.control.center)) {
+        place_.push_back(kept);
+        edges[kept++] = {
+            {{node_of_axis_[from], node_of_axis_[to]}, site, edge.control, edge.weight},
+            false,
+            false};
+      } else {
+        place_.push_back(is_cut | static_cast<std::uint32_t>(to_cut.size()));
+        to_cut.push_back(edge);
       }
-      part_begin_.push_back(is_cut | begin);
-      if (site[0] == no_site || site[1] == no_site) continue;
-      const bool spoke = e >= edges;
-      if (!spoke && site[0] < point_count_ && site[1] < point_count_) {
-        const Edge& edge = axis_.edges[e];
-        cut_.add_bisector(axis_.nodes[edge.node[0]].disk.center,
-                          axis_.nodes[edge.node[1]].disk.center, site,
-                          [&](std::size_t end) { return node_at(e, end); });
-        continue;
-      }
-      const bool whole = cut_.add(
-          curve_of(e), site, spoke, [&](std::size_t end) { return node_at(e, end); },
-          [&](ConicEdge& part) {
-            if (!spoke) take_control(axis_, axis_.edges[e].site, part);
-          });
-      if (whole) part_begin_.back() = begin;
     }
-    part_begin_.push_back(static_cast<std::uint32_t>(diagram_.edges.size()));
+    edges.resize(kept);
+    for (const Edge& edge : to_cut) {
+      const auto begin = static_cast<std::uint32_t>(edges.size());
+      add_parts_of(edge);
+      parts_.push_back({begin, static_cast<std::uint32_t>(edges.size())});
+    }
+    for (const Spoke& spoke : spokes_) add_spoke(spoke);
   }
-  /// Adds an edge of the axis that is clearly all in the frame: as its triangle of control points
-  /// is. False where it is not.
-  bool add_whole(const Edge& edge, std::array<std::uint32_t, 2> site) {
-    const std::uint32_t from = node_of_axis_[edge.node[0]], to = node_of_axis_[edge.node[1]];
-    if (from == none || to == none || site[0] == no_site || site[1] == no_site ||
-        !cut_.holds(edge.control.center))
-      return false;
-    diagram_.edges.push_back({{{from, to}, site, edge.control, edge.weight}, false, false});
-    return true;
+  void add_parts_of(const Edge& edge) {
+    const std::array<std::uint32_t, 2> site{site_of(edge.site[0]), site_of(edge.site[1])};
+    if (site[0] == no_site || site[1] == no_site) return;
+    const Disk &from = disk_of(edge.node[0]), &to = disk_of(edge.node[1]);
+    const auto node_at = [&](std::size_t end) { return node_of_axis_[edge.node[end]]; };
+    if (site[0] < point_count_ && site[1] < point_count_)
+      return cut_.add_bisector(from.center, to.center, site, node_at);
+    const auto take_control_of_part = [&](ConicEdge& part) {
+      take_control(engine_site(edge.site[0]), engine_site(edge.site[1]), part);
+    };
+    cut_.add({from, edge.control, to, edge.weight}, site, false, node_at, take_control_of_part);
+  }
+  void add_spoke(const Spoke& spoke) {
+    const auto begin = static_cast<std::uint32_t>(diagram_.edges.size());
+    const Disk from{soup_.points[spoke.point], 0}, to = disk_of(spoke.node);
+    const ConicEdge line{from, {midpoint(from.center, to.center), 0.5 * to.radius}, to, 1};
+    const auto node_at = [&](std::size_t end) {
+      return end == 0 ? node_of_point(spoke.point) : node_of_axis_[spoke.node];
+    };
+    if (cut_.add(line, spoke.site, true, node_at, [](ConicEdge&) {}))
+      return place_.push_back(begin);
+    place_.push_back(is_cut | static_cast<std::uint32_t>(parts_.size()));
+    parts_.push_back({begin, static_cast<std::uint32_t>(diagram_.edges.size())});
   }
 
   void make_faces() {
     const auto count = point_count_ + static_cast<std::uint32_t>(soup_.edges.size());
     // Own sites of each site, in the order in which they come around it.
-    std::vector<std::array<std::uint32_t, 2>> owns(count, {none, none});
+    std::vector<std::array<std::uint32_t, 2>> owns;
+    assign_large(owns, count, {none, none});
     for_each_loop([&](std::uint32_t first, std::uint32_t last, std::size_t) {
       for (std::uint32_t own = first; own < last; ++own) {
         if (is_empty_vertex(own)) continue;
@@ -324,18 +346,17 @@ class Assembly {
         pair[side] = own;
       }
     });
-    diagram_.face_begin.reserve(count + 1);
+    reserve_large(diagram_.face_begin, count + 1);
     reserve_large(diagram_.face_edges, 2 * diagram_.edges.size());
-    diagram_.sites.reserve(count);
+    reserve_large(diagram_.sites, count);
     for (std::uint32_t site = 0; site < count; ++site) {
       diagram_.face_begin.push_back(static_cast<std::uint32_t>(diagram_.face_edges.size()));
       diagram_.sites.push_back(site_of_soup(soup_, site));
       for (const std::uint32_t own : owns[site]) {
         if (own == none) continue;
-        const auto axis_edges = static_cast<std::uint32_t>(axis_.edges.size());
-        if (spoke_before_[own] != none) add_to_face(axis_edges + spoke_before_[own], true);
+        if (spoke_before_[own] != none) add_to_face(edge_count_ + spoke_before_[own], true);
         for (const Step& step : chain(own)) add_to_face(step.edge, step.forward != 0);
-        if (spoke_after_[own] != none) add_to_face(axis_edges + spoke_after_[own], false);
+        if (spoke_after_[own] != none) add_to_face(edge_count_ + spoke_after_[own], false);
       }
       cut_.end_face(site, diagram_.face_edges);
     }
@@ -344,13 +365,13 @@ class Assembly {
 
   /// Appends what is left of an edge.
   void add_to_face(std::uint32_t e, bool forward) {
-    if ((part_begin_[e] & is_cut) == 0) return diagram_.face_edges.push_back(part_begin_[e]);
-    const std::uint32_t begin = part_begin_[e] & ~is_cut, end = part_begin_[e + 1] & ~is_cut;
+    if ((place_[e] & is_cut) == 0) return diagram_.face_edges.push_back(place_[e]);
+    const auto [begin, end] = parts_[place_[e] & ~is_cut];
     for (std::uint32_t i = 0; i < end - begin; ++i)
       cut_.add_to_face(forward ? begin + i : end - 1 - i, forward, diagram_.face_edges);
   }
 
-  /// Of an edge, that it is not all in the frame.
+  /// Of an edge or a node, that it is not, or not all, in the frame.
   static constexpr std::uint32_t is_cut = none - largest_edge;
   /// Of an own site, that it is a side of an edge: a half-edge's number follows, else a point's.
   static constexpr std::uint32_t edge_side = none - largest_edge;
@@ -360,18 +381,24 @@ class Assembly {
   MedialAxis& axis_;
   const Box frame_;
   const std::uint32_t point_count_;
+  const std::uint32_t edge_count_;  ///< of the axis
   VoronoiDiagram diagram_;
   FrameCut cut_;
   std::vector<std::uint32_t> own_;          ///< what each own site is
   std::vector<std::uint32_t> chain_begin_;  ///< of each own site
-  std::vector<Step> chains_;
+  std::unique_ptr<Step[]> chains_;
   std::vector<std::uint32_t> first_, last_;  ///< nodes of each own site's chain
   std::vector<Spoke> spokes_;
   std::vector<std::uint32_t> spoke_before_, spoke_after_;  ///< of each own site
-  std::vector<std::uint32_t> corner_;  ///< of each node: the point that it is, if it is one
-  std::vector<std::uint32_t> node_of_point_, node_of_axis_;
-  std::vector<std::uint32_t>
-      part_begin_;  ///< of each edge and spoke: its parts in the diagram, and `is_cut`
+  std::vector<std::uint32_t> node_of_point_;
+  /// Of each node of the axis: the point that it is, if it is one; then which node of the diagram's
+  /// it has become, or `is_cut` and which one of those outside.
+  std::vector<std::uint32_t> node_of_axis_;
+  std::vector<Disk> outside_;
+  /// Of each edge of the axis and each spoke: its place in the diagram, or `is_cut` and which of
+  /// the ranges of parts.
+  std::vector<std::uint32_t> place_;
+  std::vector<std::array<std::uint32_t, 2>> parts_;
 };
 
 }  // namespace
@@ -405,8 +432,9 @@ Box far_frame(const Box& frame) {
   return {frame.low - Vec2{away, away}, frame.high + Vec2{away, away}};
 }
 
-VoronoiDiagram diagram_of(const Soup& soup, const Shape& shape, MedialAxis axis, const Box& frame) {
-  return Assembly(soup, shape, axis, frame).run();
+VoronoiDiagram diagram_of(const Soup& soup, const Shape& shape, MedialAxis axis,
+                          std::vector<VoronoiEdge> edges, const Box& frame) {
+  return Assembly(soup, shape, axis, edges, frame).run();
 }
 
 }  // namespace medial::voronoi
