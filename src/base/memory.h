@@ -21,11 +21,13 @@ void reserve_large(std::vector<T>& elements, std::size_t count) {
   prefer_large_pages(elements.data(), count * sizeof(T));
 }
 
-/// assign(), with large pages.
+/// A vector of so many equal elements, with large pages.
 template <class T>
-void assign_large(std::vector<T>& elements, std::size_t count, const T& value) {
+std::vector<T> large_vector(std::size_t count, const T& value = {}) {
+  std::vector<T> elements;
   reserve_large(elements, count);
   elements.assign(count, value);
+  return elements;
 }
 
 }  // namespace medial

@@ -9,6 +9,8 @@
 #include "base/box_tree.h"
 #include "base/in_flight.h"
 #include "base/limits.h"
+#include "base/numbers.h"
+#include "base/spatial_order.h"
 #include "base/threads.h"
 #include "base/tolerance.h"
 #include "engines/axis_around.h"
@@ -90,29 +92,33 @@ std::optional<Error> too_close(const Soup& soup, double least) {
   }
   for (const LonePoint& lone : soup.lone_points)
     add(soup.points[lone.point], soup.points[lone.point], least);
-  const BoxTree tree(boxes);
-  for (std::uint32_t i = 0; i < soup.points.size(); ++i) {
-    const Vec2 p = soup.points[i];
-    bool is_close = false;
-    const auto look_at = [&](std::uint32_t k) {
-      const std::uint32_t other = k < edges ? k : soup.lone_points[k - edges].point;
-      if (k < edges ? soup.edges[k].from == i || soup.edges[k].to == i : other == i) return;
-      const std::uint32_t site =
-          k < edges ? static_cast<std::uint32_t>(soup.points.size()) + k : other;
-      is_close = is_close || distance(foot(voronoi::site_of_soup(soup, site), p), p) < least;
-    };
-    tree.find({p, p}, look_at);
-    if (!is_close) continue;
-    const VertexSource source = soup.point_sources[i];
-    Error error{ErrorCode::unsupported,
-                "a point is nearer to another one, or to an edge, than rounding tells apart",
-                {}};
-    error.place.ring = source.ring;
-    error.place.vertex = source.vertex;
-    error.place.point = p;
-    return error;
-  }
-  return std::nullopt;
+  std::uint32_t first = none;
+  const auto look_at = [&](std::uint32_t point, std::uint32_t k) {
+    if (k < edges && (soup.edges[k].from == point || soup.edges[k].to == point)) return;
+    const std::uint32_t site = k < edges ? static_cast<std::uint32_t>(soup.points.size()) + k
+                                         : soup.lone_points[k - edges].point;
+    const Vec2 p = soup.points[point];
+    if (point < first && distance(foot(voronoi::site_of_soup(soup, site), p), p) < least)
+      first = point;
+  };
+  const auto look_from = [&](std::uint32_t i, std::uint32_t k) {
+    if (i >= edges) return look_at(soup.lone_points[i - edges].point, k);
+    for (const std::uint32_t end : {soup.edges[i].from, soup.edges[i].to}) look_at(end, k);
+  };
+  BoxTree(boxes, z_order(BoxTree::places_of(boxes)))
+      .find_pairs([&](std::uint32_t i, std::uint32_t k) {
+        look_from(i, k);
+        look_from(k, i);
+      });
+  if (first == none) return std::nullopt;
+  const VertexSource source = soup.point_sources[first];
+  Error error{ErrorCode::unsupported,
+              "a point is nearer to another one, or to an edge, than rounding tells apart",
+              {}};
+  error.place.ring = source.ring;
+  error.place.vertex = source.vertex;
+  error.place.point = soup.points[first];
+  return error;
 }
 
 /// An internal error where points are so near to others that they may have misled the walk, as an

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include "axis/node_kinds.h"
 #include "axis/sites.h"
@@ -64,7 +65,7 @@ Gluing glue(const std::vector<Placed>& placed, std::size_t cut_count, std::uint3
     std::uint32_t node = none, edge = none;
     std::uint32_t before = none;  ///< the node that the edge comes from
   };
-  std::vector<std::array<End, 2>> ends(cut_count);
+  auto ends = large_vector<std::array<End, 2>>(cut_count);
   for (const Placed& p : placed) {
     for (const CutEnd& end : p.chunk->cut_ends) {
       auto& pair = ends[end.cut];
@@ -77,8 +78,8 @@ Gluing glue(const std::vector<Placed>& placed, std::size_t cut_count, std::uint3
   }
   Gluing result;
   std::vector<std::uint32_t>& moved = result.number;
-  moved.resize(node_count);
-  for (std::uint32_t i = 0; i < node_count; ++i) moved[i] = i;
+  moved = large_vector<std::uint32_t>(node_count);
+  std::iota(moved.begin(), moved.end(), 0U);
   const auto target = [&](std::uint32_t node) {
     while (moved[node] != node) node = moved[node] = moved[moved[node]];
     return node;
@@ -102,7 +103,7 @@ Gluing glue(const std::vector<Placed>& placed, std::size_t cut_count, std::uint3
   }
   for (std::uint32_t i = 0; i < node_count; ++i) moved[i] = target(i);
   result.node_stays.resize(node_count);
-  std::vector<std::uint32_t> number(node_count);
+  auto number = large_vector<std::uint32_t>(node_count);
   std::uint32_t kept = 0;
   for (std::uint32_t i = 0; i < node_count; ++i) {
     if (moved[i] != i) continue;

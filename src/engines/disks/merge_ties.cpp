@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "base/memory.h"
 #include "base/numbers.h"
 #include "engines/disks/tie_fit.h"
 #include "geometry/bisector.h"
@@ -122,10 +123,11 @@ class Merger {
   /// Links the ends of all edges at the nodes of these ones.
   void link_ends(const std::vector<std::uint32_t>& edges) {
     constexpr std::uint32_t skipped = none - 1;
-    first_end_.assign(graph_.nodes.size(), skipped);
+    first_end_ = large_vector(graph_.nodes.size(), skipped);
     for (const std::uint32_t e : edges)
       for (const std::uint32_t node : graph_.links[e].node) first_end_[node] = none;
     next_end_ = std::make_unique_for_overwrite<std::uint32_t[]>(2 * graph_.links.size());
+    prefer_large_pages(next_end_.get(), 2 * graph_.links.size() * sizeof(std::uint32_t));
     for (std::uint32_t end = 0; end < 2 * graph_.links.size(); ++end) {
       std::uint32_t& first = first_end_[graph_.links[end / 2].node[end % 2]];
       if (first == skipped) continue;

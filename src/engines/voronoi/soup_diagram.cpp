@@ -106,7 +106,7 @@ class Assembly {
   void make_chains() {
     const std::size_t count = own_.size();
     // One place further, so that while the chains are filled, each grows to where the next begins.
-    assign_large(chain_begin_, count + 2, 0U);
+    chain_begin_ = large_vector(count + 2, 0U);
     for (const Edge& edge : diagram_.edges)
       for (const std::uint32_t own : edge.site) ++chain_begin_[own + 2];
     for (std::size_t i = 1; i <= count; ++i) chain_begin_[i + 1] += chain_begin_[i];
@@ -117,8 +117,8 @@ class Assembly {
       chains_[chain_begin_[edge.site[1] + 1]++] = {e & largest_edge, 1, edge.node[0], edge.node[1]};
       chains_[chain_begin_[edge.site[0] + 1]++] = {e & largest_edge, 0, edge.node[1], edge.node[0]};
     }
-    assign_large(first_, count, none);
-    assign_large(last_, count, none);
+    first_ = large_vector(count, none);
+    last_ = large_vector(count, none);
     for (std::uint32_t own = 0; own < count; ++own) {
       if (is_frame(own)) continue;
       const std::span<Step> steps = chain(own);
@@ -218,9 +218,9 @@ class Assembly {
   /// Spokes wherever one own site follows another but in a corner, and the nodes of the soup's
   /// points.
   void make_spokes() {
-    assign_large(spoke_before_, own_.size(), none);
-    assign_large(spoke_after_, own_.size(), none);
-    assign_large(node_of_axis_, diagram_.nodes.size(), none);
+    spoke_before_ = large_vector(own_.size(), none);
+    spoke_after_ = large_vector(own_.size(), none);
+    node_of_axis_ = large_vector(diagram_.nodes.size(), none);
     reserve_large(spokes_, own_.size());
     for_each_loop([&](std::uint32_t first, std::uint32_t last, std::size_t) {
       if (last - first == 1) return;  // a lone point
@@ -244,7 +244,7 @@ class Assembly {
 
   /// Keeps the nodes inside of the frame; the soup's points among them once they are asked for.
   void make_nodes() {
-    assign_large(node_of_point_, soup_.points.size(), none);
+    node_of_point_ = large_vector(soup_.points.size(), none);
     std::vector<Node>& nodes = diagram_.nodes;
     std::uint32_t kept = 0;
     for (std::uint32_t n = 0; n < nodes.size(); ++n) {
@@ -336,8 +336,7 @@ class Assembly {
   void make_faces() {
     const auto count = point_count_ + static_cast<std::uint32_t>(soup_.edges.size());
     // Own sites of each site, in the order in which they come around it.
-    std::vector<std::array<std::uint32_t, 2>> owns;
-    assign_large(owns, count, {none, none});
+    auto owns = large_vector<std::array<std::uint32_t, 2>>(count, {none, none});
     for_each_loop([&](std::uint32_t first, std::uint32_t last, std::size_t) {
       for (std::uint32_t own = first; own < last; ++own) {
         if (is_empty_vertex(own)) continue;
