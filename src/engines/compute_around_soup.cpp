@@ -1,3 +1,5 @@
+#include <tbb/parallel_invoke.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -58,17 +60,16 @@ std::optional<Error> refuse(const Soup& soup, const Options& options) {
   return std::nullopt;
 }
 
-/// The axis, but for its edges, which stand apart.
+/// The axis, but for its edges, which stand apart, and its sites.
 template <class E>
 Result<MedialAxis> run_around(const Shape& surroundings, const Options& options,
-                              bool divide_parabolas, std::vector<E>& edges) {
-  MedialAxis axis = disks::run_two_sided(surroundings, options, edges);
+                              std::vector<E>& edges, sites::SiteNumbers& numbers) {
+  MedialAxis axis = disks::run_two_sided(surroundings, options, edges, numbers);
   if (is_cancelled(options)) return Error{ErrorCode::cancelled, "cancelled", {}};
   if (!has_right_topology(surroundings, axis.nodes.size(), edges.size()))
     return Error{ErrorCode::internal,
                  "the diagram is not connected as it should be: please report this input",
                  {}};
-  voronoi::split_long_edges(axis, edges, divide_parabolas);
   return axis;
 }
 
@@ -139,9 +140,12 @@ Result<MedialAxis> axis_around(const Soup& soup, const Shape& surroundings,
     const double tolerance = tolerance_for(bounding_box(surroundings), options.tolerance);
     if (auto error = too_close(soup, told_apart * tolerance)) return std::move(*error);
     std::vector<Edge> edges;
-    auto axis =
-        on_threads(options.threads, [&] { return run_around(surroundings, options, true, edges); });
+    sites::SiteNumbers numbers;
+    auto axis = on_threads(options.threads,
+                           [&] { return run_around(surroundings, options, edges, numbers); });
     if (!axis) return explained(std::move(axis).error(), soup, tolerance);
+    axis->sites = sites::result_sites(surroundings, numbers);
+    voronoi::split_long_edges(*axis, edges, true);
     axis->edges = std::move(edges);
     return axis;
   } catch (...) {
@@ -159,8 +163,6 @@ Result<VoronoiDiagram> voronoi_diagram(const Soup& soup, const Options& options,
     if (auto error = beyond_limits(soup, far)) return std::move(*error);
     const double tolerance = tolerance_for(far, options.tolerance);
 
-    if (!soup.edges.empty())
-      if (auto error = too_close(soup, told_apart * tolerance)) return std::move(*error);
     Result<VoronoiDiagram> diagram = on_threads(options.threads, [&]() -> Result<VoronoiDiagram> {
       if (soup.edges.empty()) {
         VoronoiDiagram of_points = voronoi::diagram_of_points(soup, options, *box);
@@ -168,13 +170,23 @@ Result<VoronoiDiagram> voronoi_diagram(const Soup& soup, const Options& options,
         return of_points;
       }
 
-      const Shape shape = around(soup, far);
+      std::optional<Error> close;
+      Shape shape;
+      tbb::parallel_invoke([&] { close = too_close(soup, told_apart * tolerance); },
+                           [&] { shape = around(soup, far); });
+      if (close) return std::move(*close);
 
       std::vector<VoronoiEdge> edges;
-      auto axis = run_around(shape, options, false, edges);
+      sites::SiteNumbers numbers;
+      auto axis = run_around(shape, options, edges, numbers);
       if (!axis) return std::move(axis).error();
+      if (!shape.bulges.empty()) {
+        axis->sites = sites::result_sites(shape, numbers);
+        voronoi::split_long_edges(*axis, edges, false);
+      }
       try {
-        return voronoi::diagram_of(soup, shape, std::move(axis).value(), std::move(edges), *box);
+        return voronoi::diagram_of(soup, shape, numbers, std::move(axis).value(), std::move(edges),
+                                   *box);
       } catch (const std::runtime_error& error) {
         return Error{ErrorCode::internal, error.what(), {}};
       }

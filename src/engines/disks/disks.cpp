@@ -52,6 +52,7 @@ Error error_of_too_many_arcs(const Box& box) {
 struct Outcome {
   MedialAxis axis;
   bool in_centers = false;  ///< rounding may have decided what it is: see is_in_centers()
+  SiteNumbers numbers;      ///< of its sites, where it has none
 };
 
 /// The engine: sites, holes connected, tree, walk, graph. Cancelled, it stops where it is. Contacts
@@ -113,7 +114,10 @@ Result<Outcome> run(const Shape& shape, const Options& options, bool two_sided,
   boundary = {};
   axis.nodes = std::move(graph.nodes);
   statistics += graph.statistics;
-  axis.sites = sites::result_sites(shape, numbers);
+  if (two_sided)
+    outcome.numbers = std::move(numbers);
+  else
+    axis.sites = sites::result_sites(shape, numbers);
   statistics.seconds_collect = watch.lap();
   statistics.seconds = all.lap();
   for (const std::uint32_t edge : loose_edges)
@@ -147,11 +151,15 @@ Result<MedialAxis> run(const Shape& shape, const Options& options, bool* in_cent
 }
 
 template <class E>
-MedialAxis run_two_sided(const Shape& shape, const Options& options, std::vector<E>& edges) {
-  return std::move(run(shape, options, true, std::nullopt, edges)->axis);
+MedialAxis run_two_sided(const Shape& shape, const Options& options, std::vector<E>& edges,
+                         SiteNumbers& numbers) {
+  Outcome outcome = run(shape, options, true, std::nullopt, edges).value();
+  numbers = std::move(outcome.numbers);
+  return std::move(outcome.axis);
 }
 
-template MedialAxis run_two_sided(const Shape&, const Options&, std::vector<Edge>&);
-template MedialAxis run_two_sided(const Shape&, const Options&, std::vector<VoronoiEdge>&);
+template MedialAxis run_two_sided(const Shape&, const Options&, std::vector<Edge>&, SiteNumbers&);
+template MedialAxis run_two_sided(const Shape&, const Options&, std::vector<VoronoiEdge>&,
+                                  SiteNumbers&);
 
 }  // namespace medial::disks

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "axis/sites.h"
 #include "medial/compute.h"
 #include "medial/shape.h"
 #include "medial/voronoi.h"
@@ -16,8 +17,10 @@ Result<MedialAxis> run(const Shape& shape, const Options& options, bool* in_cent
 
 /// run() for what lies around a soup (shape/around.h): a shape whose edges may stand there
 /// twice, once for each side, and with loops of one point. The axis' edges, Edge or VoronoiEdge,
-/// stand in `edges`; they and the nodes leave room for a diagram's spokes and the soup's points.
+/// stand in `edges`; they and the nodes leave room for a diagram's spokes and the soup's points. It
+/// has no sites yet: `numbers` tells what they are.
 template <class E>
-MedialAxis run_two_sided(const Shape& shape, const Options& options, std::vector<E>& edges);
+MedialAxis run_two_sided(const Shape& shape, const Options& options, std::vector<E>& edges,
+                         sites::SiteNumbers& numbers);
 
 }  // namespace medial::disks

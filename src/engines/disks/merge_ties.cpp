@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "base/fill_gaps.h"
 #include "base/memory.h"
 #include "base/numbers.h"
 #include "engines/disks/tie_fit.h"
@@ -439,24 +440,6 @@ class Merger {
         if (node >= kept) node = place[node - kept];
     std::sort(contracted.begin(), contracted.end());
     fill_gaps(graph_.links, contracted, [](std::uint32_t, std::uint32_t) {});
-  }
-
-  /// Removes the elements in `gone`, increasing, and tells which of the others go where.
-  template <class T, class Moved>
-  static void fill_gaps(std::vector<T>& elements, const std::vector<std::uint32_t>& gone,
-                        Moved&& moved) {
-    const std::size_t kept = elements.size() - gone.size();
-    auto gap = gone.begin();
-    auto skipped = std::lower_bound(gone.begin(), gone.end(), kept);
-    for (std::size_t from = kept; from < elements.size(); ++from) {
-      if (skipped != gone.end() && *skipped == from) {
-        ++skipped;
-        continue;
-      }
-      elements[*gap] = elements[from];
-      moved(static_cast<std::uint32_t>(from), *gap++);
-    }
-    elements.resize(kept);
   }
 
   const Boundary& boundary_;

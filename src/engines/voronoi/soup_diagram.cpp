@@ -1,5 +1,8 @@
 #include "engines/voronoi/soup_diagram.h"
 
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,6 +16,7 @@
 #include "axis/node_kinds.h"
 #include "axis/sites.h"
 #include "base/arc.h"
+#include "base/fill_gaps.h"
 #include "base/frame.h"
 #include "base/memory.h"
 #include "base/numbers.h"
@@ -50,20 +54,19 @@ class Assembly {
     diagram_.edges = std::move(edges);
   }
 
-  VoronoiDiagram run() {
-    make_own_sites();
+  VoronoiDiagram run(const sites::SiteNumbers& numbers) {
+    make_own_sites(numbers);
     make_chains();
     find_ends();
     make_spokes();
     make_nodes();
     cut_off();
     cut_.close();
-    make_faces();
+    tbb::parallel_invoke([&] { make_faces(); }, [&] { set_kinds(diagram_); });
     diagram_.method = std::move(axis_.method);
     diagram_.tolerance = axis_.tolerance;
     diagram_.statistics = axis_.statistics;
     diagram_.frame = frame_;
-    set_kinds(diagram_);
     return std::move(diagram_);
   }
 
@@ -86,13 +89,14 @@ class Assembly {
     return is_vertex(own) ? own_[own] : point_count_ + half_edge(own) / 2;
   }
 
-  void make_own_sites() {
-    reserve_large(own_, axis_.sites.size());
-    for (const Site& site : axis_.sites)
-      own_.push_back(site.ring == none               ? none
-                     : site.kind == SiteKind::vertex ? site.ring
-                                                     : edge_side | site.vertex);
-    axis_.sites = {};
+  void make_own_sites(const sites::SiteNumbers& numbers) {
+    own_ = large_vector(numbers.count, none);
+    for (std::size_t i = 0; i < shape_.points.size(); ++i) {
+      const auto [point, half_edge] = shape_.sources[i];
+      if (point == none) continue;
+      if (numbers.is_site(i)) own_[numbers.edge[i] - 1] = point;
+      if (half_edge != none) own_[numbers.edge[i]] = edge_side | half_edge;
+    }
   }
   /// The engine's site.
   Site engine_site(std::uint32_t own) const {
@@ -119,22 +123,25 @@ class Assembly {
     }
     first_ = large_vector(count, none);
     last_ = large_vector(count, none);
-    for (std::uint32_t own = 0; own < count; ++own) {
-      if (is_frame(own)) continue;
-      const std::span<Step> steps = chain(own);
-      if (steps.empty()) continue;
-      put_in_order(steps);
-      first_[own] = steps.front().from;
-      last_[own] = steps.back().to;
-    }
+    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, static_cast<std::uint32_t>(count), 4096),
+                      [&](const auto& range) {
+                        for (std::uint32_t own = range.begin(); own < range.end(); ++own) {
+                          if (is_frame(own)) continue;
+                          const std::span<Step> steps = chain(own);
+                          if (steps.empty()) continue;
+                          put_in_order(steps);
+                          first_[own] = steps.front().from;
+                          last_[own] = steps.back().to;
+                        }
+                      });
   }
 
-  std::span<Step> chain(std::uint32_t own) {
+  std::span<Step> chain(std::uint32_t own) const {
     return {chains_.get() + chain_begin_[own], chains_.get() + chain_begin_[own + 1]};
   }
 
   /// From the step that no other leads to, or where they make a cycle, any one.
-  void put_in_order(std::span<Step> steps) {
+  static void put_in_order(std::span<Step> steps) {
     if (steps.size() == 1) return;
     constexpr std::size_t few = 24;
     if (steps.size() > few) return put_many_in_order(steps);
@@ -154,7 +161,7 @@ class Assembly {
       std::swap(steps[i], *next);
     }
   }
-  void put_many_in_order(std::span<Step> steps) {
+  static void put_many_in_order(std::span<Step> steps) {
     std::vector<Step> sorted(steps.begin(), steps.end());
     std::sort(sorted.begin(), sorted.end(),
               [](const Step& a, const Step& b) { return a.from < b.from; });
@@ -283,30 +290,43 @@ class Assembly {
   void cut_off() {
     std::vector<VoronoiEdge>& edges = diagram_.edges;
     reserve_large(place_, edge_count_ + spokes_.size());
+    place_.resize(edge_count_);
+    constexpr std::uint32_t block = 1 << 14;
+    std::vector<std::vector<std::uint32_t>> others((edge_count_ + block - 1) / block);
+    tbb::parallel_for(std::size_t{0}, others.size(), [&](std::size_t i) {
+      const auto begin = static_cast<std::uint32_t>(i * block);
+      for (std::uint32_t e = begin; e < std::min(begin + block, edge_count_); ++e) {
+        place_[e] = e;
+        if (!keep_whole(edges[e])) others[i].push_back(e);
+      }
+    });
+    std::vector<std::uint32_t> gone;
     std::vector<Edge> to_cut;
-    std::uint32_t kept = 0;
-    for (const VoronoiEdge& edge : edges) {
-      const auto [from, to] = edge.node;
-      const std::array<std::uint32_t, 2> site{site_of(edge.site[0]), site_of(edge.site[1])};
-      if (is_inside(from) && is_inside(to) && site[0] != no_site && site[1] != no_site &&
-          cut_.holds(edge.control.center)) {
-        place_.push_back(kept);
-        edges[kept++] = {
-            {{node_of_axis_[from], node_of_axis_[to]}, site, edge.control, edge.weight},
-            false,
-            false};
-      } else {
-        place_.push_back(is_cut | static_cast<std::uint32_t>(to_cut.size()));
-        to_cut.push_back(edge);
+    for (const auto& some : others) {
+      for (const std::uint32_t e : some) {
+        place_[e] = is_cut | static_cast<std::uint32_t>(gone.size());
+        gone.push_back(e);
+        to_cut.push_back(edges[e]);
       }
     }
-    edges.resize(kept);
+    fill_gaps(edges, gone, [&](std::uint32_t from, std::uint32_t to) { place_[from] = to; });
     for (const Edge& edge : to_cut) {
       const auto begin = static_cast<std::uint32_t>(edges.size());
       add_parts_of(edge);
       parts_.push_back({begin, static_cast<std::uint32_t>(edges.size())});
     }
     for (const Spoke& spoke : spokes_) add_spoke(spoke);
+  }
+  /// Makes an edge of the axis one of the diagram, unless it may leave the frame.
+  bool keep_whole(Edge& edge) const {
+    const auto [from, to] = edge.node;
+    const std::array<std::uint32_t, 2> site{site_of(edge.site[0]), site_of(edge.site[1])};
+    if (!(is_inside(from) && is_inside(to) && site[0] != no_site && site[1] != no_site &&
+          cut_.holds(edge.control.center)))
+      return false;
+    edge.node = {node_of_axis_[from], node_of_axis_[to]};
+    edge.site = site;
+    return true;
   }
   void add_parts_of(const Edge& edge) {
     const std::array<std::uint32_t, 2> site{site_of(edge.site[0]), site_of(edge.site[1])};
@@ -345,29 +365,56 @@ class Assembly {
         pair[side] = own;
       }
     });
-    reserve_large(diagram_.face_begin, count + 1);
-    reserve_large(diagram_.face_edges, 2 * diagram_.edges.size());
-    reserve_large(diagram_.sites, count);
-    for (std::uint32_t site = 0; site < count; ++site) {
-      diagram_.face_begin.push_back(static_cast<std::uint32_t>(diagram_.face_edges.size()));
-      diagram_.sites.push_back(site_of_soup(soup_, site));
-      for (const std::uint32_t own : owns[site]) {
-        if (own == none) continue;
-        if (spoke_before_[own] != none) add_to_face(edge_count_ + spoke_before_[own], true);
-        for (const Step& step : chain(own)) add_to_face(step.edge, step.forward != 0);
-        if (spoke_after_[own] != none) add_to_face(edge_count_ + spoke_after_[own], false);
+    // Faces are found in blocks, then put one behind the other.
+    constexpr std::uint32_t block = 1 << 12;
+    std::vector<std::vector<std::uint32_t>> edges((count + block - 1) / block);
+    std::vector<std::uint32_t>& face_begin = diagram_.face_begin;
+    face_begin = large_vector(count + 1, 0U);
+    diagram_.sites = large_vector<Site>(count);
+    const auto for_each_block = [&](auto&& visit) {
+      tbb::parallel_for(std::size_t{0}, edges.size(), [&](std::size_t i) {
+        const auto first = static_cast<std::uint32_t>(i) * block;
+        visit(edges[i], first, std::min(first + block, count));
+      });
+    };
+    for_each_block([&](std::vector<std::uint32_t>& some, std::uint32_t first, std::uint32_t last) {
+      for (std::uint32_t site = first; site < last; ++site) {
+        face_begin[site] = static_cast<std::uint32_t>(some.size());
+        diagram_.sites[site] = site_of_soup(soup_, site);
+        for (const std::uint32_t own : owns[site])
+          if (own != none) add_own(own, some);
+        cut_.end_face(site, some);
       }
-      cut_.end_face(site, diagram_.face_edges);
+    });
+    std::uint32_t all = 0;
+    std::vector<std::uint32_t> begin;
+    for (const auto& some : edges) {
+      begin.push_back(all);
+      all += static_cast<std::uint32_t>(some.size());
     }
-    diagram_.face_begin.push_back(static_cast<std::uint32_t>(diagram_.face_edges.size()));
+    face_begin[count] = all;
+    diagram_.face_edges = large_vector(all, 0U);
+    for_each_block([&](std::vector<std::uint32_t>& some, std::uint32_t first, std::uint32_t last) {
+      const std::uint32_t before = begin[first / block];
+      for (std::uint32_t site = first; site < last; ++site) face_begin[site] += before;
+      std::copy(some.begin(), some.end(), diagram_.face_edges.begin() + before);
+      some = {};
+    });
+  }
+
+  /// Appends what is along an own site, with the spokes at its ends, to a face.
+  void add_own(std::uint32_t own, std::vector<std::uint32_t>& face) const {
+    if (spoke_before_[own] != none) add_to_face(edge_count_ + spoke_before_[own], true, face);
+    for (const Step& step : chain(own)) add_to_face(step.edge, step.forward != 0, face);
+    if (spoke_after_[own] != none) add_to_face(edge_count_ + spoke_after_[own], false, face);
   }
 
   /// Appends what is left of an edge.
-  void add_to_face(std::uint32_t e, bool forward) {
-    if ((place_[e] & is_cut) == 0) return diagram_.face_edges.push_back(place_[e]);
+  void add_to_face(std::uint32_t e, bool forward, std::vector<std::uint32_t>& face) const {
+    if ((place_[e] & is_cut) == 0) return face.push_back(place_[e]);
     const auto [begin, end] = parts_[place_[e] & ~is_cut];
     for (std::uint32_t i = 0; i < end - begin; ++i)
-      cut_.add_to_face(forward ? begin + i : end - 1 - i, forward, diagram_.face_edges);
+      cut_.add_to_face(forward ? begin + i : end - 1 - i, forward, face);
   }
 
   /// Of an edge or a node, that it is not, or not all, in the frame.
@@ -431,9 +478,9 @@ Box far_frame(const Box& frame) {
   return {frame.low - Vec2{away, away}, frame.high + Vec2{away, away}};
 }
 
-VoronoiDiagram diagram_of(const Soup& soup, const Shape& shape, MedialAxis axis,
-                          std::vector<VoronoiEdge> edges, const Box& frame) {
-  return Assembly(soup, shape, axis, edges, frame).run();
+VoronoiDiagram diagram_of(const Soup& soup, const Shape& shape, const sites::SiteNumbers& numbers,
+                          MedialAxis axis, std::vector<VoronoiEdge> edges, const Box& frame) {
+  return Assembly(soup, shape, axis, edges, frame).run(numbers);
 }
 
 }  // namespace medial::voronoi
