@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <type_traits>
 
 #include "axis/node_kinds.h"
 #include "axis/sites.h"
@@ -185,6 +186,7 @@ tbb::concurrent_vector<std::uint32_t> complete(const Boundary& boundary, const F
   edges.resize(graph.links.size());
   std::vector<std::uint8_t> degree(graph.nodes.size());
   const auto count = [&] {
+    if (std::is_same_v<E, VoronoiEdge>) return;  // spokes are still to come
     for (const Link& link : graph.links)
       for (const std::uint32_t node : link.node)
         if (degree[node] < 3) ++degree[node];

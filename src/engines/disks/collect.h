@@ -26,11 +26,11 @@ struct Graph {
 Graph collect(std::vector<std::unique_ptr<Chunk>>& chunks, std::size_t cut_count,
               std::size_t spare_nodes);
 
-/// Makes edges of the links, with their curves, works out the nodes' kinds, and goes back to the
-/// result's numbers of sites and to the input's units. Returns the edges, in any order, with an end
-/// that does not touch one of the edge's two sites, give or take `slack` in local units: where cuts
-/// divide a site, the piece of it that the edge names. Of soups none are looked for. E is Edge or
-/// VoronoiEdge.
+/// Makes edges of the links, with their curves, works out an axis' nodes' kinds, and goes back to
+/// the result's numbers of sites and to the input's units. Returns the edges, in any order, with an
+/// end that does not touch one of the edge's two sites, give or take `slack` in local units: where
+/// cuts divide a site, the piece of it that the edge names. Of soups none are looked for. E is Edge
+/// or VoronoiEdge.
 template <class E>
 tbb::concurrent_vector<std::uint32_t> complete(const Boundary& boundary, const Frame& frame,
                                                double slack, Graph& graph, std::vector<E>& edges);
