@@ -8,7 +8,6 @@
 
 #include <boost/polygon/polygon.hpp>
 #include <boost/polygon/voronoi.hpp>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -34,10 +33,10 @@ void run_medial(const std::vector<Chain>& chains, int threads) {
   const auto soup = build_soup(chains);
   if (!soup) std::exit(1);
   tell("medial build_soup", start);
-  const auto begin = std::chrono::steady_clock::now();
+  const double begin = bench::wall_seconds();
   if (!voronoi_diagram(*soup, {.threads = threads})) std::exit(1);
-  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
-  std::printf("%-23s %2d threads %7.3f s\n", "medial voronoi_diagram", threads, seconds.count());
+  std::printf("%-23s %d threads %8.3f s\n", "medial voronoi_diagram", threads,
+              bench::wall_seconds() - begin);
   start = processor_seconds();
   if (!voronoi_diagram(*soup, {.threads = 1})) std::exit(1);
   tell("medial voronoi_diagram", start);
