@@ -1,6 +1,7 @@
 #include <tbb/parallel_invoke.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -77,6 +78,52 @@ Result<MedialAxis> run_around(const Shape& surroundings, const Options& options,
 /// have misled a walk that failed.
 constexpr double told_apart = 64, doubtful = 0x1p20;
 
+/// The ends of an edge, the lower one in the direction that it mostly runs in first.
+std::array<std::uint32_t, 2> ends_by_place(const Soup& soup, const SoupEdge& edge) {
+  const Vec2 along = soup.points[edge.to] - soup.points[edge.from];
+  const bool forward = std::abs(along.x) > std::abs(along.y) ? along.x > 0 : along.y > 0;
+  return forward ? std::array{edge.from, edge.to} : std::array{edge.to, edge.from};
+}
+
+/// Calls visit(points, box around them) for all points of a soup, each once, in groups that lie
+/// close together. `order` is a spatial one of the edges and, counted on, the lone points; of some
+/// neighbouring edges the first ends are a group and the last ones are another, as edges may be
+/// long.
+template <class Visit>
+void for_each_group(const Soup& soup, const std::vector<std::uint32_t>& order, Visit&& visit) {
+  constexpr std::size_t together = 8;
+  const std::size_t edges = soup.edges.size();
+  std::vector<bool> seen(soup.points.size());
+  std::vector<std::uint32_t> points;
+  for (std::size_t begin = 0; begin < order.size(); begin += together) {
+    for (const std::size_t end : {0UL, 1UL}) {
+      points.clear();
+      Box around = Box::nothing();
+      for (std::size_t i = begin; i < std::min(begin + together, order.size()); ++i) {
+        const std::uint32_t one = order[i];
+        const std::uint32_t point = one < edges ? ends_by_place(soup, soup.edges[one])[end]
+                                                : soup.lone_points[one - edges].point;
+        if (seen[point]) continue;
+        seen[point] = true;
+        points.push_back(point);
+        around.add(soup.points[point]);
+      }
+      if (!points.empty()) visit(points, around);
+    }
+  }
+}
+
+Error error_of_close_point(const Soup& soup, std::uint32_t point) {
+  const VertexSource source = soup.point_sources[point];
+  Error error{ErrorCode::unsupported,
+              "a point is nearer to another one, or to an edge, than rounding tells apart",
+              {}};
+  error.place.ring = source.ring;
+  error.place.vertex = source.vertex;
+  error.place.point = soup.points[point];
+  return error;
+}
+
 /// An error that names the first point which is nearer than that to another one, or to an edge that
 /// does not end there, if there is one and edges. O(n log n).
 std::optional<Error> too_close(const Soup& soup, double least) {
@@ -93,33 +140,27 @@ std::optional<Error> too_close(const Soup& soup, double least) {
   }
   for (const LonePoint& lone : soup.lone_points)
     add(soup.points[lone.point], soup.points[lone.point], least);
+  const std::vector<std::uint32_t> order = z_order(BoxTree::places_of(boxes));
+  const BoxTree tree(boxes, order);
   std::uint32_t first = none;
   const auto look_at = [&](std::uint32_t point, std::uint32_t k) {
-    if (k < edges && (soup.edges[k].from == point || soup.edges[k].to == point)) return;
-    const std::uint32_t site = k < edges ? static_cast<std::uint32_t>(soup.points.size()) + k
-                                         : soup.lone_points[k - edges].point;
     const Vec2 p = soup.points[point];
-    if (point < first && distance(foot(voronoi::site_of_soup(soup, site), p), p) < least)
-      first = point;
+    const auto& [low, high] = boxes[k];
+    if (point >= first || p.x < low.x || p.x > high.x || p.y < low.y || p.y > high.y) return;
+    const std::uint32_t other = k < edges ? k : soup.lone_points[k - edges].point;
+    if (k < edges ? soup.edges[k].from == point || soup.edges[k].to == point : other == point)
+      return;
+    const std::uint32_t site =
+        k < edges ? static_cast<std::uint32_t>(soup.points.size()) + k : other;
+    if (distance(foot(voronoi::site_of_soup(soup, site), p), p) < least) first = point;
   };
-  const auto look_from = [&](std::uint32_t i, std::uint32_t k) {
-    if (i >= edges) return look_at(soup.lone_points[i - edges].point, k);
-    for (const std::uint32_t end : {soup.edges[i].from, soup.edges[i].to}) look_at(end, k);
-  };
-  BoxTree(boxes, z_order(BoxTree::places_of(boxes)))
-      .find_pairs([&](std::uint32_t i, std::uint32_t k) {
-        look_from(i, k);
-        look_from(k, i);
-      });
+  for_each_group(soup, order, [&](const std::vector<std::uint32_t>& points, const Box& around) {
+    tree.find(around, [&](std::uint32_t k) {
+      for (const std::uint32_t point : points) look_at(point, k);
+    });
+  });
   if (first == none) return std::nullopt;
-  const VertexSource source = soup.point_sources[first];
-  Error error{ErrorCode::unsupported,
-              "a point is nearer to another one, or to an edge, than rounding tells apart",
-              {}};
-  error.place.ring = source.ring;
-  error.place.vertex = source.vertex;
-  error.place.point = soup.points[first];
-  return error;
+  return error_of_close_point(soup, first);
 }
 
 /// An internal error where points are so near to others that they may have misled the walk, as an
