@@ -597,17 +597,37 @@ TEST(Soup, NodedArcsHaveRightDiagrams) {
   }
 }
 
+/// All numbers of a diagram.
+std::vector<double> numbers_of(const VoronoiDiagram& diagram) {
+  std::vector<double> numbers;
+  for (const Node& node : diagram.nodes)
+    numbers.insert(numbers.end(), {node.disk.center.x, node.disk.center.y, node.disk.radius,
+                                   static_cast<double>(node.kind)});
+  for (const VoronoiEdge& edge : diagram.edges)
+    numbers.insert(numbers.end(),
+                   {double(edge.node[0]), double(edge.node[1]), double(edge.site[0]),
+                    double(edge.site[1]), edge.control.center.x, edge.control.center.y,
+                    edge.control.radius, edge.weight, double(edge.spoke), double(edge.frame)});
+  numbers.insert(numbers.end(), diagram.face_begin.begin(), diagram.face_begin.end());
+  numbers.insert(numbers.end(), diagram.face_edges.begin(), diagram.face_edges.end());
+  return numbers;
+}
+
 TEST(Soup, ThreadsChangeNothing) {
-  const auto soup = build_soup(random_soup(3));
-  ASSERT_TRUE(soup.ok());
-  const auto one = voronoi_diagram(*soup, {.threads = 1});
-  const auto two = voronoi_diagram(*soup, {.threads = 2});
-  ASSERT_TRUE(one.ok() && two.ok());
-  ASSERT_EQ(one->nodes.size(), two->nodes.size());
-  for (std::size_t i = 0; i < one->nodes.size(); ++i) {
-    EXPECT_EQ(one->nodes[i].disk.center, two->nodes[i].disk.center);
-    EXPECT_EQ(one->nodes[i].disk.radius, two->nodes[i].disk.radius);
-  }
+  Random random(1);
+  Chains chains;
+  for (double x = 0; x < 80; ++x)
+    for (double y = 0; y < 80; ++y) {
+      const auto inside = [&] {
+        return Vec2{x + 0.9 * uniform(random), y + 0.9 * uniform(random)};
+      };
+      chains.push_back({{inside(), inside()}});
+    }
+  const Soup soup = soup_of(chains);
+  const auto one = voronoi_diagram(soup, {.threads = 1}),
+             four = voronoi_diagram(soup, {.threads = 4});
+  ASSERT_TRUE(one.ok() && four.ok());
+  EXPECT_EQ(numbers_of(*one), numbers_of(*four));
 }
 
 }  // namespace

@@ -121,9 +121,9 @@ std::optional<Error> refuse(const Shape& shape, const Options& options) {
   return std::nullopt;
 }
 
-bool has_right_topology(const Shape& shape, const MedialAxis& axis) {
+bool has_right_topology(const Shape& shape, std::size_t nodes, std::size_t edges) {
   const auto signed_size = [](std::size_t n) { return static_cast<std::int64_t>(n); };
-  return signed_size(axis.nodes.size()) - signed_size(axis.edges.size()) ==
+  return signed_size(nodes) - signed_size(edges) ==
          signed_size(shape.component_count()) - signed_size(shape.hole_count());
 }
 

@@ -17,7 +17,7 @@ std::optional<Error> refuse(const Shape& shape, const Options& options);
 std::optional<Error> refuse(const Options& options);
 
 /// The Euler characteristic: one connected part for each component, one cycle for each hole.
-bool has_right_topology(const Shape& shape, const MedialAxis& axis);
+bool has_right_topology(const Shape& shape, std::size_t nodes, std::size_t edges);
 
 bool is_cancelled(const Options& options);
 

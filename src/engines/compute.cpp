@@ -170,7 +170,7 @@ Result<MedialAxis> compute(const Shape& shape, const Options& options) {
     if (is_cancelled(options)) return Error{ErrorCode::cancelled, "cancelled", {}};
     const bool whole =
         axis.resolution == 0 || (options.method == Method::potential && options.potential.whole());
-    if (whole && !has_right_topology(shape, axis))
+    if (whole && !has_right_topology(shape, axis.nodes.size(), axis.edges.size()))
       return disks::error_of_wrong_axis(
           axis, "the axis does not have one cycle for each hole: please report this shape");
 #ifdef MEDIAL_HAS_EXACT

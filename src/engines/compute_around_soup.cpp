@@ -1,4 +1,7 @@
+#include <tbb/parallel_invoke.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -9,6 +12,8 @@
 #include "base/box_tree.h"
 #include "base/in_flight.h"
 #include "base/limits.h"
+#include "base/numbers.h"
+#include "base/spatial_order.h"
 #include "base/threads.h"
 #include "base/tolerance.h"
 #include "engines/axis_around.h"
@@ -56,21 +61,68 @@ std::optional<Error> refuse(const Soup& soup, const Options& options) {
   return std::nullopt;
 }
 
+/// The axis, but for its edges, which stand apart, and its sites.
+template <class E>
 Result<MedialAxis> run_around(const Shape& surroundings, const Options& options,
-                              bool divide_parabolas) {
-  MedialAxis axis = disks::run_two_sided(surroundings, options);
+                              std::vector<E>& edges, sites::SiteNumbers& numbers) {
+  MedialAxis axis = disks::run_two_sided(surroundings, options, edges, numbers);
   if (is_cancelled(options)) return Error{ErrorCode::cancelled, "cancelled", {}};
-  if (!has_right_topology(surroundings, axis))
+  if (!has_right_topology(surroundings, axis.nodes.size(), edges.size()))
     return Error{ErrorCode::internal,
                  "the diagram is not connected as it should be: please report this input",
                  {}};
-  voronoi::split_long_edges(axis, divide_parabolas);
   return axis;
 }
 
 /// In tolerances: what is nearer to each other may be one for some disks; and what may at least
 /// have misled a walk that failed.
 constexpr double told_apart = 64, doubtful = 0x1p20;
+
+/// The ends of an edge, the lower one in the direction that it mostly runs in first.
+std::array<std::uint32_t, 2> ends_by_place(const Soup& soup, const SoupEdge& edge) {
+  const Vec2 along = soup.points[edge.to] - soup.points[edge.from];
+  const bool forward = std::abs(along.x) > std::abs(along.y) ? along.x > 0 : along.y > 0;
+  return forward ? std::array{edge.from, edge.to} : std::array{edge.to, edge.from};
+}
+
+/// Calls visit(points, box around them) for all points of a soup, each once, in groups that lie
+/// close together. `order` is a spatial one of the edges and, counted on, the lone points; of some
+/// neighbouring edges the first ends are a group and the last ones are another, as edges may be
+/// long.
+template <class Visit>
+void for_each_group(const Soup& soup, const std::vector<std::uint32_t>& order, Visit&& visit) {
+  constexpr std::size_t together = 8;
+  const std::size_t edges = soup.edges.size();
+  std::vector<bool> seen(soup.points.size());
+  std::vector<std::uint32_t> points;
+  for (std::size_t begin = 0; begin < order.size(); begin += together) {
+    for (const std::size_t end : {0UL, 1UL}) {
+      points.clear();
+      Box around = Box::nothing();
+      for (std::size_t i = begin; i < std::min(begin + together, order.size()); ++i) {
+        const std::uint32_t one = order[i];
+        const std::uint32_t point = one < edges ? ends_by_place(soup, soup.edges[one])[end]
+                                                : soup.lone_points[one - edges].point;
+        if (seen[point]) continue;
+        seen[point] = true;
+        points.push_back(point);
+        around.add(soup.points[point]);
+      }
+      if (!points.empty()) visit(points, around);
+    }
+  }
+}
+
+Error error_of_close_point(const Soup& soup, std::uint32_t point) {
+  const VertexSource source = soup.point_sources[point];
+  Error error{ErrorCode::unsupported,
+              "a point is nearer to another one, or to an edge, than rounding tells apart",
+              {}};
+  error.place.ring = source.ring;
+  error.place.vertex = source.vertex;
+  error.place.point = soup.points[point];
+  return error;
+}
 
 /// An error that names the first point which is nearer than that to another one, or to an edge that
 /// does not end there, if there is one and edges. O(n log n).
@@ -88,29 +140,27 @@ std::optional<Error> too_close(const Soup& soup, double least) {
   }
   for (const LonePoint& lone : soup.lone_points)
     add(soup.points[lone.point], soup.points[lone.point], least);
-  const BoxTree tree(boxes);
-  for (std::uint32_t i = 0; i < soup.points.size(); ++i) {
-    const Vec2 p = soup.points[i];
-    bool is_close = false;
-    const auto look_at = [&](std::uint32_t k) {
-      const std::uint32_t other = k < edges ? k : soup.lone_points[k - edges].point;
-      if (k < edges ? soup.edges[k].from == i || soup.edges[k].to == i : other == i) return;
-      const std::uint32_t site =
-          k < edges ? static_cast<std::uint32_t>(soup.points.size()) + k : other;
-      is_close = is_close || distance(foot(voronoi::site_of_soup(soup, site), p), p) < least;
-    };
-    tree.find({p, p}, look_at);
-    if (!is_close) continue;
-    const VertexSource source = soup.point_sources[i];
-    Error error{ErrorCode::unsupported,
-                "a point is nearer to another one, or to an edge, than rounding tells apart",
-                {}};
-    error.place.ring = source.ring;
-    error.place.vertex = source.vertex;
-    error.place.point = p;
-    return error;
-  }
-  return std::nullopt;
+  const std::vector<std::uint32_t> order = z_order(BoxTree::places_of(boxes));
+  const BoxTree tree(boxes, order);
+  std::uint32_t first = none;
+  const auto look_at = [&](std::uint32_t point, std::uint32_t k) {
+    const Vec2 p = soup.points[point];
+    const auto& [low, high] = boxes[k];
+    if (point >= first || p.x < low.x || p.x > high.x || p.y < low.y || p.y > high.y) return;
+    const std::uint32_t other = k < edges ? k : soup.lone_points[k - edges].point;
+    if (k < edges ? soup.edges[k].from == point || soup.edges[k].to == point : other == point)
+      return;
+    const std::uint32_t site =
+        k < edges ? static_cast<std::uint32_t>(soup.points.size()) + k : other;
+    if (distance(foot(voronoi::site_of_soup(soup, site), p), p) < least) first = point;
+  };
+  for_each_group(soup, order, [&](const std::vector<std::uint32_t>& points, const Box& around) {
+    tree.find(around, [&](std::uint32_t k) {
+      for (const std::uint32_t point : points) look_at(point, k);
+    });
+  });
+  if (first == none) return std::nullopt;
+  return error_of_close_point(soup, first);
 }
 
 /// An internal error where points are so near to others that they may have misled the walk, as an
@@ -130,9 +180,14 @@ Result<MedialAxis> axis_around(const Soup& soup, const Shape& surroundings,
     if (auto error = beyond_limits(surroundings)) return std::move(*error);
     const double tolerance = tolerance_for(bounding_box(surroundings), options.tolerance);
     if (auto error = too_close(soup, told_apart * tolerance)) return std::move(*error);
-    auto axis =
-        on_threads(options.threads, [&] { return run_around(surroundings, options, true); });
+    std::vector<Edge> edges;
+    sites::SiteNumbers numbers;
+    auto axis = on_threads(options.threads,
+                           [&] { return run_around(surroundings, options, edges, numbers); });
     if (!axis) return explained(std::move(axis).error(), soup, tolerance);
+    axis->sites = sites::result_sites(surroundings, numbers);
+    voronoi::split_long_edges(*axis, edges, true);
+    axis->edges = std::move(edges);
     return axis;
   } catch (...) {
     return error_in_flight();
@@ -148,23 +203,36 @@ Result<VoronoiDiagram> voronoi_diagram(const Soup& soup, const Options& options,
     const Box far = voronoi::far_frame(*box);
     if (auto error = beyond_limits(soup, far)) return std::move(*error);
     const double tolerance = tolerance_for(far, options.tolerance);
-    if (!soup.edges.empty())
-      if (auto error = too_close(soup, told_apart * tolerance)) return std::move(*error);
+
     Result<VoronoiDiagram> diagram = on_threads(options.threads, [&]() -> Result<VoronoiDiagram> {
       if (soup.edges.empty()) {
         VoronoiDiagram of_points = voronoi::diagram_of_points(soup, options, *box);
         if (is_cancelled(options)) return Error{ErrorCode::cancelled, "cancelled", {}};
         return of_points;
       }
-      const Shape shape = around(soup, far);
-      auto axis = run_around(shape, options, false);
+
+      std::optional<Error> close;
+      Shape shape;
+      tbb::parallel_invoke([&] { close = too_close(soup, told_apart * tolerance); },
+                           [&] { shape = around(soup, far); });
+      if (close) return std::move(*close);
+
+      std::vector<VoronoiEdge> edges;
+      sites::SiteNumbers numbers;
+      auto axis = run_around(shape, options, edges, numbers);
       if (!axis) return std::move(axis).error();
+      if (!shape.bulges.empty()) {
+        axis->sites = sites::result_sites(shape, numbers);
+        voronoi::split_long_edges(*axis, edges, false);
+      }
       try {
-        return voronoi::diagram_of(soup, shape, std::move(axis).value(), *box);
+        return voronoi::diagram_of(soup, shape, numbers, std::move(axis).value(), std::move(edges),
+                                   *box);
       } catch (const std::runtime_error& error) {
         return Error{ErrorCode::internal, error.what(), {}};
       }
     });
+
     if (!diagram) return explained(std::move(diagram).error(), soup, tolerance);
     diagram->statistics.threads = effective_threads(options.threads);
     if (options.progress) options.progress(1);

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/memory.h"
+
 namespace medial::index {
 namespace {
 
@@ -50,7 +52,7 @@ BoundaryTree::BoundaryTree(std::span<const Site> sites)
   const auto nodes_over = [](std::size_t count) { return (count + fan - 1) / fan; };
   constexpr std::size_t grain = 1024;
 
-  levels_.emplace_back(nodes_over((sites.size() + block_size - 1) / block_size));
+  levels_.push_back(large_vector<Boxes>(nodes_over((sites.size() + block_size - 1) / block_size)));
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, levels_[0].size(), grain),
                     [&](const auto& range) {
                       for (std::size_t node = range.begin(); node < range.end(); ++node) {
@@ -66,7 +68,7 @@ BoundaryTree::BoundaryTree(std::span<const Site> sites)
                     });
   while (levels_.back().size() > 1) {
     const std::vector<Boxes>& lower = levels_.back();
-    std::vector<Boxes> upper(nodes_over(lower.size()));
+    auto upper = large_vector<Boxes>(nodes_over(lower.size()));
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, lower.size(), grain),
                       [&](const auto& range) {
                         for (std::size_t child = range.begin(); child < range.end(); ++child)
@@ -82,7 +84,7 @@ void BoundaryTree::build_chord_boxes() {
        ++level) {
     const std::size_t span = std::size_t{block_size} << (2 * level);
     const std::size_t nodes = levels_[level].size();
-    std::vector<ChordBoxes> boxes(nodes);
+    auto boxes = large_vector<ChordBoxes>(nodes);
     std::atomic<std::size_t> count = 0;
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, nodes, 256), [&](const auto& range) {
       std::size_t fitting = 0;

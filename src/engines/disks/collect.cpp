@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
+#include <type_traits>
 
 #include "axis/node_kinds.h"
 #include "axis/sites.h"
@@ -38,7 +40,7 @@ std::vector<Placed> place(const std::vector<std::unique_ptr<Chunk>>& chunks, std
       stack.pop_back();
       placed.push_back({chunk, parent, nodes, edges});
       nodes += static_cast<std::uint32_t>(chunk->nodes.size() - 1);
-      edges += static_cast<std::uint32_t>(chunk->edges.size());
+      edges += static_cast<std::uint32_t>(chunk->links.size());
       const Placed self = placed.back();
       for (std::size_t i = chunk->children.size(); i-- > 0;) {
         Chunk* child = chunk->children[i].get();
@@ -64,7 +66,7 @@ Gluing glue(const std::vector<Placed>& placed, std::size_t cut_count, std::uint3
     std::uint32_t node = none, edge = none;
     std::uint32_t before = none;  ///< the node that the edge comes from
   };
-  std::vector<std::array<End, 2>> ends(cut_count);
+  auto ends = large_vector<std::array<End, 2>>(cut_count);
   for (const Placed& p : placed) {
     for (const CutEnd& end : p.chunk->cut_ends) {
       auto& pair = ends[end.cut];
@@ -72,13 +74,13 @@ Gluing glue(const std::vector<Placed>& placed, std::size_t cut_count, std::uint3
       slot.node = p.node(end.node);
       if (end.edge == CutEnd::no_edge) continue;
       slot.edge = p.first_edge + end.edge;
-      slot.before = p.node(p.chunk->edges[end.edge].from);
+      slot.before = p.node(p.chunk->links[end.edge].node[0]);
     }
   }
   Gluing result;
   std::vector<std::uint32_t>& moved = result.number;
-  moved.resize(node_count);
-  for (std::uint32_t i = 0; i < node_count; ++i) moved[i] = i;
+  moved = large_vector<std::uint32_t>(node_count);
+  std::iota(moved.begin(), moved.end(), 0U);
   const auto target = [&](std::uint32_t node) {
     while (moved[node] != node) node = moved[node] = moved[moved[node]];
     return node;
@@ -102,7 +104,7 @@ Gluing glue(const std::vector<Placed>& placed, std::size_t cut_count, std::uint3
   }
   for (std::uint32_t i = 0; i < node_count; ++i) moved[i] = target(i);
   result.node_stays.resize(node_count);
-  std::vector<std::uint32_t> number(node_count);
+  auto number = large_vector<std::uint32_t>(node_count);
   std::uint32_t kept = 0;
   for (std::uint32_t i = 0; i < node_count; ++i) {
     if (moved[i] != i) continue;
@@ -116,7 +118,9 @@ Gluing glue(const std::vector<Placed>& placed, std::size_t cut_count, std::uint3
 
 }  // namespace
 
-void collect(std::vector<std::unique_ptr<Chunk>>& chunks, std::size_t cut_count, MedialAxis& axis) {
+Graph collect(std::vector<std::unique_ptr<Chunk>>& chunks, std::size_t cut_count,
+              std::size_t spare_nodes) {
+  Graph graph;
   std::uint32_t node_count = 0, edge_count = 0;
   const std::vector<Placed> placed = place(chunks, node_count, edge_count);
   const bool glued = cut_count > 0;
@@ -124,33 +128,35 @@ void collect(std::vector<std::unique_ptr<Chunk>>& chunks, std::size_t cut_count,
 
   // One after the other: what takes the time is memory that is touched for the first time.
   const auto collect_nodes = [&] {
-    reserve_large(axis.nodes, glued ? gluing.nodes : node_count);
+    reserve_large(graph.nodes, (glued ? gluing.nodes : node_count) + spare_nodes);
     for (const Placed& p : placed) {
       p.chunk->nodes.drain([&](std::size_t i, const Disk& disk) {
         if (i > 0 && (!glued || gluing.node_stays[p.first_node + i - 1]))
-          axis.nodes.push_back({disk, p.chunk->component, NodeKind::leaf});
+          graph.nodes.push_back({disk, p.chunk->component, NodeKind::leaf});
       });
     }
   };
   const auto collect_edges = [&] {
-    reserve_large(axis.edges, glued ? gluing.edges : edge_count);
+    reserve_large(graph.links, glued ? gluing.edges : edge_count);
     const auto number = [&](std::uint32_t node) { return glued ? gluing.number[node] : node; };
     for (const Placed& p : placed) {
-      p.chunk->edges.drain([&](std::size_t i, const RawEdge& raw) {
+      p.chunk->links.drain([&](std::size_t i, const Link& link) {
         if (!glued || gluing.edge_stays[p.first_edge + i])
-          axis.edges.push_back(
-              {{number(p.node(raw.from)), number(p.node(raw.to))}, {raw.left, raw.right}, {}, 1});
+          graph.links.push_back(
+              {{number(p.node(link.node[0])), number(p.node(link.node[1]))}, link.site});
       });
     }
   };
   tbb::parallel_invoke(collect_nodes, collect_edges);
-  for (const Placed& p : placed) axis.statistics += p.chunk->statistics;
+  for (const Placed& p : placed) graph.statistics += p.chunk->statistics;
   chunks.clear();
+  return graph;
 }
 
+template <class E>
 tbb::concurrent_vector<std::uint32_t> complete(const Boundary& boundary, const Frame& frame,
-                                               double slack, MedialAxis& axis) {
-  axis.statistics.largest_residual *= frame.inverse;
+                                               double slack, Graph& graph, std::vector<E>& edges) {
+  graph.statistics.largest_residual *= frame.inverse;
   const auto touches = [&](const Disk& disk, const geometry::Site& site) {
     const double least = std::max(0.0, disk.radius - slack), most = disk.radius + slack;
     const double squared = geometry::squared_distance(site, disk.center);
@@ -159,39 +165,49 @@ tbb::concurrent_vector<std::uint32_t> complete(const Boundary& boundary, const F
   tbb::concurrent_vector<std::uint32_t> doubtful;
   const auto control = [&] {
     tbb::parallel_for(
-        tbb::blocked_range<std::size_t>(0, axis.edges.size(), 4096), [&](const auto& range) {
+        tbb::blocked_range<std::size_t>(0, graph.links.size(), 4096), [&](const auto& range) {
           for (std::size_t i = range.begin(); i < range.end(); ++i) {
-            Edge& edge = axis.edges[i];
-            const geometry::Site &left = boundary.sites[edge.site[0]],
-                                 &right = boundary.sites[edge.site[1]];
-            const Disk &from = axis.nodes[edge.node[0]].disk, &to = axis.nodes[edge.node[1]].disk;
+            const Link& link = graph.links[i];
+            const geometry::Site &left = boundary.sites[link.site[0]],
+                                 &right = boundary.sites[link.site[1]];
+            const Disk &from = graph.nodes[link.node[0]].disk, &to = graph.nodes[link.node[1]].disk;
             if (!boundary.two_sided && !(touches(from, left) && touches(from, right) &&
                                          touches(to, left) && touches(to, right)))
               doubtful.push_back(static_cast<std::uint32_t>(i));
             const geometry::Control found = geometry::control_of(left, right, from, to);
+            Edge& edge = edges[i];
+            edge.node = link.node;
+            edge.site = {boundary.originals[link.site[0]], boundary.originals[link.site[1]]};
             edge.control = {frame.to_input(found.point.center), frame.inverse * found.point.radius};
             edge.weight = found.weight;
-            for (std::uint32_t& site : edge.site) site = boundary.originals[site];
           }
         });
   };
-  std::vector<std::uint8_t> degree(axis.nodes.size());
+  edges.resize(graph.links.size());
+  std::vector<std::uint8_t> degree(graph.nodes.size());
   const auto count = [&] {
-    for (const Edge& edge : axis.edges)
-      for (const std::uint32_t node : edge.node)
+    if (std::is_same_v<E, VoronoiEdge>) return;  // spokes are still to come
+    for (const Link& link : graph.links)
+      for (const std::uint32_t node : link.node)
         if (degree[node] < 3) ++degree[node];
   };
   tbb::parallel_invoke(count, control);
   tbb::parallel_for(
-      tbb::blocked_range<std::size_t>(0, axis.nodes.size(), 4096), [&](const auto& range) {
+      tbb::blocked_range<std::size_t>(0, graph.nodes.size(), 4096), [&](const auto& range) {
         for (std::size_t i = range.begin(); i < range.end(); ++i) {
-          Node& node = axis.nodes[i];
+          Node& node = graph.nodes[i];
           node.disk = {frame.to_input(node.disk.center), frame.inverse * node.disk.radius};
           node.kind = kind_of_degree(degree[i]);
         }
       });
+  graph.links = {};
   return doubtful;
 }
+
+template tbb::concurrent_vector<std::uint32_t> complete(const Boundary&, const Frame&, double,
+                                                        Graph&, std::vector<Edge>&);
+template tbb::concurrent_vector<std::uint32_t> complete(const Boundary&, const Frame&, double,
+                                                        Graph&, std::vector<VoronoiEdge>&);
 
 bool touches_its_sites(const MedialAxis& axis, const Edge& edge, double slack) {
   const auto squared_distance = [](const Site& site, Vec2 c) {

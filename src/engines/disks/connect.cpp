@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "base/numbers.h"
 #include "index/first_touch.h"
 
 namespace medial::disks {
@@ -186,28 +187,28 @@ double place_on_site(const Boundary& loops, std::uint32_t site, std::uint32_t si
 class Splicer {
  public:
   Splicer(const Shape& shape, const Boundary& loops, const std::vector<Cut>& cuts)
-      : shape_(shape), loops_(loops), cuts_(cuts) {
-    places_.reserve(cuts.size());
-    for (std::uint32_t i = 0; i < cuts.size(); ++i) {
-      const std::size_t loop = loop_of(loops, cuts[i].site);
-      const Boundary::Run run = loops.runs[loop];
-      const std::uint32_t before = cuts[i].site == run.first ? run.last : cuts[i].site - 1;
-      double place = place_on_site(loops, cuts[i].site, before, cuts[i].disk.center);
-      std::uint32_t site = cuts[i].site;
-      // A hole's run starts in the middle of its first vertex: what is touched earlier on that
-      // vertex comes at the very end. A point's run starts and ends there, and an outer loop's at
-      // the beginning of a vertex.
-      if (shape.hole[loop] && site == run.first && run.first < run.last &&
-          loops.elements[site] == Element::vertex &&
-          place < place_on_site(loops, site, before, loops.sites[site].point + outreach))
-        site = run.last + 1;
-      places_.push_back({run.first, site, place, i});
-    }
-    std::sort(places_.begin(), places_.end(), [](const Place& a, const Place& b) {
-      return a.run != b.run     ? a.run < b.run
-             : a.site != b.site ? a.site < b.site
-                                : (a.place != b.place ? a.place < b.place : a.cut < b.cut);
-    });
+      : shape_(shape), loops_(loops), cuts_(cuts), places_(cuts.size()) {
+    std::vector<std::uint32_t> loop(cuts.size());
+    std::vector<Place> found(cuts.size());
+    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, static_cast<std::uint32_t>(cuts.size())),
+                      [&](const auto& range) {
+                        for (std::uint32_t i = range.begin(); i < range.end(); ++i) {
+                          loop[i] = static_cast<std::uint32_t>(loop_of(loops, cuts[i].site));
+                          found[i] = place_of(i, loop[i]);
+                        }
+                      });
+    // One place further, so that while the lists are filled, each grows to where the next begins.
+    first_place_.resize(loops.runs.size() + 2);
+    for (const std::uint32_t l : loop) ++first_place_[l + 2];
+    for (std::size_t l = 2; l < first_place_.size(); ++l) first_place_[l] += first_place_[l - 1];
+    for (std::size_t i = 0; i < cuts.size(); ++i) places_[first_place_[loop[i] + 1]++] = found[i];
+    for (std::size_t l = 0; l < loops.runs.size(); ++l)
+      std::sort(places_.begin() + first_place_[l], places_.begin() + first_place_[l + 1],
+                [](const Place& p, const Place& q) {
+                  return p.site != q.site     ? p.site < q.site
+                         : p.place != q.place ? p.place < q.place
+                                              : p.cut < q.cut;
+                });
   }
 
   Boundary splice() {
@@ -226,25 +227,35 @@ class Splicer {
   }
 
  private:
+  /// Where a cut touches.
   struct Place {
-    std::uint32_t run;  ///< first site of the touched loop
-    std::uint32_t site;
+    std::uint32_t site, cut;
     double place;
-    std::uint32_t cut;
   };
-  /// A loop under way: the next site, the next place on the loop, and where the next copy of a
-  /// segment starts.
+  /// A loop under way: the next site, the next place on the loop, where the next copy of a segment
+  /// starts, and the cut that led here.
   struct Cursor {
-    std::uint32_t loop, site, place;
+    std::uint32_t loop, site, place, cut;
     double from = 0;
   };
 
-  Cursor begin(std::uint32_t loop) const {
-    const std::uint32_t first = loops_.runs[loop].first;
-    const auto place =
-        std::lower_bound(places_.begin(), places_.end(), first,
-                         [](const Place& p, std::uint32_t run) { return p.run < run; });
-    return {loop, first, static_cast<std::uint32_t>(place - places_.begin())};
+  Place place_of(std::uint32_t cut, std::uint32_t loop) const {
+    const Boundary::Run run = loops_.runs[loop];
+    const auto [disk, hole, site] = cuts_[cut];
+    const std::uint32_t before = site == run.first ? run.last : site - 1;
+    const double place = place_on_site(loops_, site, before, disk.center);
+    // A hole's run starts in the middle of its first vertex: what is touched earlier on that
+    // vertex comes at the very end. A point's run starts and ends there, and an outer loop's at
+    // the beginning of a vertex.
+    const bool at_end =
+        shape_.hole[loop] && site == run.first && run.first < run.last &&
+        loops_.elements[site] == Element::vertex &&
+        place < place_on_site(loops_, site, before, loops_.sites[site].point + outreach);
+    return {at_end ? run.last + 1 : site, cut, place};
+  }
+
+  Cursor begin(std::uint32_t loop, std::uint32_t cut) const {
+    return {loop, loops_.runs[loop].first, first_place_[loop], cut};
   }
 
   void add_cut(std::uint32_t cut, std::size_t side) {
@@ -263,18 +274,17 @@ class Splicer {
   }
 
   void add_component(std::uint32_t outer) {
-    std::vector<Cursor> stack{begin(outer)};
+    std::vector<Cursor> stack{begin(outer, none)};
     while (!stack.empty()) {
       Cursor& at = stack.back();
       const Boundary::Run run = loops_.runs[at.loop];
-      const bool here = at.place < places_.size() && places_[at.place].run == run.first &&
-                        places_[at.place].site == at.site;
+      const bool here = at.place < first_place_[at.loop + 1] && places_[at.place].site == at.site;
       if (here) {
         const Place place = places_[at.place++];
         add_piece(at, place.place);
         at.from = place.place;
         add_cut(place.cut, 0);
-        stack.push_back(begin(cuts_[place.cut].hole));
+        stack.push_back(begin(cuts_[place.cut].hole, place.cut));
         continue;
       }
       // A hole that began at a vertex ends with a second copy of it; a point has nothing between.
@@ -288,22 +298,17 @@ class Splicer {
         ++at.site;
         continue;
       }
-      const std::uint32_t done = at.loop;
+      const std::uint32_t cut = at.cut;
       stack.pop_back();
-      if (!stack.empty()) add_cut(cut_of_hole(done), 1);
+      if (!stack.empty()) add_cut(cut, 1);
     }
-  }
-
-  std::uint32_t cut_of_hole(std::uint32_t hole) const {
-    const auto cut = std::lower_bound(cuts_.begin(), cuts_.end(), hole,
-                                      [](const Cut& c, std::uint32_t h) { return c.hole < h; });
-    return static_cast<std::uint32_t>(cut - cuts_.begin());
   }
 
   const Shape& shape_;
   const Boundary& loops_;
   const std::vector<Cut>& cuts_;
-  std::vector<Place> places_;
+  std::vector<Place> places_;               ///< loop after loop, in the order of each
+  std::vector<std::uint32_t> first_place_;  ///< of each loop
   Boundary result_;
 };
 

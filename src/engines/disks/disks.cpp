@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "base/frame.h"
+#include "base/memory.h"
 #include "base/stopwatch.h"
 #include "base/tolerance.h"
 #include "engines/checks.h"
@@ -51,12 +52,15 @@ Error error_of_too_many_arcs(const Box& box) {
 struct Outcome {
   MedialAxis axis;
   bool in_centers = false;  ///< rounding may have decided what it is: see is_in_centers()
+  SiteNumbers numbers;      ///< of its sites, where it has none
 };
 
 /// The engine: sites, holes connected, tree, walk, graph. Cancelled, it stops where it is. Contacts
-/// are told apart to a share of the tolerance, which if it is not given goes by the shape.
+/// are told apart to a share of the tolerance, which if it is not given goes by the shape. The
+/// edges stand apart from the axis.
+template <class E>
 Result<Outcome> run(const Shape& shape, const Options& options, bool two_sided,
-                    std::optional<double> share) {
+                    std::optional<double> share, std::vector<E>& edges) {
   Outcome outcome;
   MedialAxis& axis = outcome.axis;
   axis.method = "disks";
@@ -98,19 +102,26 @@ Result<Outcome> run(const Shape& shape, const Options& options, bool two_sided,
   statistics.seconds_walk = watch.lap();
   if (is_cancelled(options)) return outcome;
 
-  collect(chunks, cuts.size(), axis);
-  merge_ties(boundary, *tree, input_tolerance, axis);
+  // A diagram has nodes for a soup's points, and edges that lead there, as well.
+  Graph graph = collect(chunks, cuts.size(), two_sided ? shape.points.size() : 0);
+  merge_ties(boundary, *tree, input_tolerance, graph);
   tree.reset();
-  if (!two_sided && !outcome.in_centers) outcome.in_centers = is_in_centers(boundary, axis, near);
+  if (!two_sided && !outcome.in_centers) outcome.in_centers = is_in_centers(boundary, graph, near);
   constexpr double loose = 0x1p-20;  // of the size: no near tie is that far off
   const double slack = std::max(loose * diagonal(box), 4 * axis.tolerance);
-  const auto loose_edges = complete(boundary, frame, frame.scale * slack, axis);
+  reserve_large(edges, graph.links.size() + (two_sided ? numbers.count : 0));
+  const auto loose_edges = complete(boundary, frame, frame.scale * slack, graph, edges);
   boundary = {};
-  axis.sites = sites::result_sites(shape, numbers);
+  axis.nodes = std::move(graph.nodes);
+  statistics += graph.statistics;
+  if (two_sided)
+    outcome.numbers = std::move(numbers);
+  else
+    axis.sites = sites::result_sites(shape, numbers);
   statistics.seconds_collect = watch.lap();
   statistics.seconds = all.lap();
   for (const std::uint32_t edge : loose_edges)
-    if (!touches_its_sites(axis, axis.edges[edge], slack))
+    if (!touches_its_sites(axis, edges[edge], slack))
       return error_of_wrong_axis(
           axis, "a disk of the axis misses a site that it should touch: please report this shape");
   return outcome;
@@ -124,11 +135,13 @@ Result<MedialAxis> run(const Shape& shape, const Options& options, bool* in_cent
   std::vector<std::optional<double>> shares{std::nullopt, 1.0};
   if (!shape.bulges.empty()) shares = {std::nullopt, 0.25, 0.0625, 0.5, 1.0};
   for (const auto& share : shares) {
-    Result<Outcome> outcome = run(shape, options, false, share);
+    std::vector<Edge> edges;
+    Result<Outcome> outcome = run(shape, options, false, share, edges);
     if (!outcome) {
       if (!error) error = std::move(outcome).error();
       continue;
     }
+    outcome->axis.edges = std::move(edges);
     if (in_centers != nullptr) *in_centers = outcome->in_centers;
     if (!outcome->in_centers || is_cancelled(options)) return std::move(outcome->axis);
     error = error_if_refused(shape, options, outcome->axis);
@@ -137,8 +150,16 @@ Result<MedialAxis> run(const Shape& shape, const Options& options, bool* in_cent
   return std::move(*error);
 }
 
-MedialAxis run_two_sided(const Shape& shape, const Options& options) {
-  return std::move(run(shape, options, true, std::nullopt)->axis);
+template <class E>
+MedialAxis run_two_sided(const Shape& shape, const Options& options, std::vector<E>& edges,
+                         SiteNumbers& numbers) {
+  Outcome outcome = run(shape, options, true, std::nullopt, edges).value();
+  numbers = std::move(outcome.numbers);
+  return std::move(outcome.axis);
 }
+
+template MedialAxis run_two_sided(const Shape&, const Options&, std::vector<Edge>&, SiteNumbers&);
+template MedialAxis run_two_sided(const Shape&, const Options&, std::vector<VoronoiEdge>&,
+                                  SiteNumbers&);
 
 }  // namespace medial::disks

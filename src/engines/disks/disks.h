@@ -1,7 +1,9 @@
 #pragma once
 
+#include "axis/sites.h"
 #include "medial/compute.h"
 #include "medial/shape.h"
+#include "medial/voronoi.h"
 
 namespace medial::disks {
 
@@ -14,7 +16,11 @@ namespace medial::disks {
 Result<MedialAxis> run(const Shape& shape, const Options& options, bool* in_centers = nullptr);
 
 /// run() for what lies around a soup (shape/around.h): a shape whose edges may stand there
-/// twice, once for each side, and with loops of one point.
-MedialAxis run_two_sided(const Shape& shape, const Options& options);
+/// twice, once for each side, and with loops of one point. The axis' edges, Edge or VoronoiEdge,
+/// stand in `edges`; they and the nodes leave room for a diagram's spokes and the soup's points. It
+/// has no sites yet: `numbers` tells what they are.
+template <class E>
+MedialAxis run_two_sided(const Shape& shape, const Options& options, std::vector<E>& edges,
+                         sites::SiteNumbers& numbers);
 
 }  // namespace medial::disks

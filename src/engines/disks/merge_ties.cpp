@@ -9,6 +9,8 @@
 #include <span>
 #include <vector>
 
+#include "base/fill_gaps.h"
+#include "base/memory.h"
 #include "base/numbers.h"
 #include "engines/disks/tie_fit.h"
 #include "geometry/bisector.h"
@@ -45,16 +47,15 @@ struct Cluster {
 
 class Merger {
  public:
-  Merger(const Boundary& boundary, const index::BoundaryTree& tree, double tolerance,
-         MedialAxis& axis)
-      : boundary_(boundary), tree_(tree), tolerance_(tolerance), axis_(axis) {}
+  Merger(const Boundary& boundary, const index::BoundaryTree& tree, double tolerance, Graph& graph)
+      : boundary_(boundary), tree_(tree), tolerance_(tolerance), graph_(graph) {}
 
   void merge() {
     std::vector<std::uint32_t> edges = candidates();
     // Nearest nodes first: what belongs together comes together before anything else is tried.
     const auto length = [&](std::uint32_t e) {
-      const auto [from, to] = axis_.edges[e].node;
-      return squared_norm(axis_.nodes[to].disk.center - axis_.nodes[from].disk.center);
+      const auto [from, to] = graph_.links[e].node;
+      return squared_norm(graph_.nodes[to].disk.center - graph_.nodes[from].disk.center);
     };
     std::sort(edges.begin(), edges.end(), [&](std::uint32_t a, std::uint32_t b) {
       const double la = length(a), lb = length(b);
@@ -81,7 +82,7 @@ class Merger {
     }
     dissolve_backward();
     std::erase_if(contracted, [&](std::uint32_t e) {
-      return clusters_[cluster_of(axis_.edges[e].node[0])].dissolved;
+      return clusters_[cluster_of(graph_.links[e].node[0])].dissolved;
     });
     if (!contracted.empty()) remove(contracted);
   }
@@ -112,9 +113,9 @@ class Merger {
 
   /// The edges that are short against both of their disks: none that leads to a leaf.
   std::vector<std::uint32_t> short_edges() const {
-    return filter(axis_.edges.size(), [&](std::size_t e) {
-      const auto [from, to] = axis_.edges[e].node;
-      const Disk &a = axis_.nodes[from].disk, &b = axis_.nodes[to].disk;
+    return filter(graph_.links.size(), [&](std::size_t e) {
+      const auto [from, to] = graph_.links[e].node;
+      const Disk &a = graph_.nodes[from].disk, &b = graph_.nodes[to].disk;
       const double furthest = short_edge * std::min(a.radius, b.radius);
       return squared_norm(b.center - a.center) < furthest * furthest;
     });
@@ -123,12 +124,13 @@ class Merger {
   /// Links the ends of all edges at the nodes of these ones.
   void link_ends(const std::vector<std::uint32_t>& edges) {
     constexpr std::uint32_t skipped = none - 1;
-    first_end_.assign(axis_.nodes.size(), skipped);
+    first_end_ = large_vector(graph_.nodes.size(), skipped);
     for (const std::uint32_t e : edges)
-      for (const std::uint32_t node : axis_.edges[e].node) first_end_[node] = none;
-    next_end_ = std::make_unique_for_overwrite<std::uint32_t[]>(2 * axis_.edges.size());
-    for (std::uint32_t end = 0; end < 2 * axis_.edges.size(); ++end) {
-      std::uint32_t& first = first_end_[axis_.edges[end / 2].node[end % 2]];
+      for (const std::uint32_t node : graph_.links[e].node) first_end_[node] = none;
+    next_end_ = std::make_unique_for_overwrite<std::uint32_t[]>(2 * graph_.links.size());
+    prefer_large_pages(next_end_.get(), 2 * graph_.links.size() * sizeof(std::uint32_t));
+    for (std::uint32_t end = 0; end < 2 * graph_.links.size(); ++end) {
+      std::uint32_t& first = first_end_[graph_.links[end / 2].node[end % 2]];
       if (first == skipped) continue;
       next_end_[end] = first;
       first = end;
@@ -146,13 +148,13 @@ class Merger {
     if (edges.empty()) return edges;
     link_ends(edges);
     std::vector<std::uint32_t> kept = filter(
-        edges.size(), [&](std::size_t i) { return could_be_contracted(axis_.edges[edges[i]]); });
+        edges.size(), [&](std::size_t i) { return could_be_contracted(graph_.links[edges[i]]); });
     for (std::uint32_t& i : kept) i = edges[i];
     return kept;
   }
 
-  bool could_be_contracted(const Edge& edge) const {
-    const Disk &from = axis_.nodes[edge.node[0]].disk, &to = axis_.nodes[edge.node[1]].disk;
+  bool could_be_contracted(const Link& edge) const {
+    const Disk &from = graph_.nodes[edge.node[0]].disk, &to = graph_.nodes[edge.node[1]].disk;
     if (!is_branching(edge.node[0]) || !is_branching(edge.node[1]))
       return boundary_.has_arcs && could_be_at_hub(edge);
     const std::uint32_t after = other_contact(edge, edge.node[1]);
@@ -175,8 +177,8 @@ class Merger {
   /// Whether an edge of which not both ends are branching nodes may be due to rounding: it is not
   /// longer than rounding leaves its end open, and the disk of one end nearly touches all that is
   /// touched at the other.
-  bool could_be_at_hub(const Edge& edge) const {
-    const Disk &from = axis_.nodes[edge.node[0]].disk, &to = axis_.nodes[edge.node[1]].disk;
+  bool could_be_at_hub(const Link& edge) const {
+    const Disk &from = graph_.nodes[edge.node[0]].disk, &to = graph_.nodes[edge.node[1]].disk;
     const double open = hub_reach * tolerance_ * play(edge, from);
     if (!(squared_norm(to.center - from.center) <= open * open)) return false;
     const bool first = is_branching(edge.node[0]), second = is_branching(edge.node[1]);
@@ -187,7 +189,7 @@ class Merger {
   /// How far a disk may move, at most, that stays as near to the edge's two sites: against that
   /// distance. The bisector moves sideways by its inverse sine; where the disk touches an arc all
   /// along, it may move ahead by the inverse of 1 - cos of half of the arc's angle.
-  double play(const Edge& edge, const Disk& disk) const {
+  double play(const Link& edge, const Disk& disk) const {
     const Site &a = boundary_.sites[edge.site[0]], &b = boundary_.sites[edge.site[1]];
     double result = 2 / norm(geometry::outward(a, disk.center) - geometry::outward(b, disk.center));
     for (const Site* site : {&a, &b}) {
@@ -197,9 +199,9 @@ class Merger {
     return result;
   }
   bool nearly_touches(std::uint32_t hub, std::uint32_t node) const {
-    const Disk& disk = axis_.nodes[hub].disk;
+    const Disk& disk = graph_.nodes[hub].disk;
     for (std::uint32_t end = first_end_[node]; end != none; end = next_end_[end]) {
-      for (const std::uint32_t site : axis_.edges[end / 2].site) {
+      for (const std::uint32_t site : graph_.links[end / 2].site) {
         const double away = geometry::squared_distance(boundary_.sites[site], disk.center);
         if (!(std::abs(std::sqrt(away) - disk.radius) <= hub_reach * tolerance_)) return false;
       }
@@ -216,9 +218,9 @@ class Merger {
   }
 
   /// A site that is touched in a node of the edge, but is not the edge's own.
-  std::uint32_t other_contact(const Edge& edge, std::uint32_t node) const {
+  std::uint32_t other_contact(const Link& edge, std::uint32_t node) const {
     for (std::uint32_t end = first_end_[node]; end != none; end = next_end_[end])
-      for (const std::uint32_t site : axis_.edges[end / 2].site)
+      for (const std::uint32_t site : graph_.links[end / 2].site)
         if (site != edge.site[0] && site != edge.site[1]) return site;
     return none;
   }
@@ -226,17 +228,17 @@ class Merger {
   /// A cluster for every node of the edges, in the nodes' order.
   void make_clusters(const std::vector<std::uint32_t>& edges) {
     for (const std::uint32_t e : edges)
-      for (const std::uint32_t node : axis_.edges[e].node) nodes_.push_back(node);
+      for (const std::uint32_t node : graph_.links[e].node) nodes_.push_back(node);
     std::sort(nodes_.begin(), nodes_.end());
     nodes_.erase(std::unique(nodes_.begin(), nodes_.end()), nodes_.end());
     for (const std::uint32_t node : nodes_) {
       parent_.push_back(static_cast<std::uint32_t>(clusters_.size()));
       Cluster& cluster = clusters_.emplace_back(
           Cluster{Fit(boundary_.sites, bound()), node, {}, {}, is_branching(node)});
-      cluster.fit.disk = axis_.nodes[node].disk;
+      cluster.fit.disk = graph_.nodes[node].disk;
       for (std::uint32_t end = first_end_[node]; end != none; end = next_end_[end]) {
         cluster.ends.push_back(end);
-        for (const std::uint32_t site : axis_.edges[end / 2].site)
+        for (const std::uint32_t site : graph_.links[end / 2].site)
           add_contact(site, cluster.fit.disk, cluster.contacts);
       }
       auto& contacts = cluster.contacts;
@@ -276,8 +278,8 @@ class Merger {
   /// Makes one cluster of an edge's two, if they can be. Every edge is tried once: sites that no
   /// disk touches are not touched by one after others have joined them.
   bool contract(std::uint32_t edge) {
-    std::uint32_t a = cluster_of(axis_.edges[edge].node[0]);
-    std::uint32_t b = cluster_of(axis_.edges[edge].node[1]);
+    std::uint32_t a = cluster_of(graph_.links[edge].node[0]);
+    std::uint32_t b = cluster_of(graph_.links[edge].node[1]);
     if (a == b || !(clusters_[a].branching || clusters_[b].branching)) return false;
     if (clusters_[a].contacts.size() < clusters_[b].contacts.size()) std::swap(a, b);
     Cluster &large = clusters_[a], &small = clusters_[b];
@@ -287,9 +289,9 @@ class Merger {
     if (moved && !refit(fit, large, small)) return false;
     if (!keeps_directions(edge, small, a, b, fit.disk)) return false;
     if (moved && !keeps_directions(edge, large, a, b, fit.disk)) return false;
-    if (moved && !is_empty(fit.disk, axis_.nodes[small.node].component)) return false;
+    if (moved && !is_empty(fit.disk, graph_.nodes[small.node].component)) return false;
 
-    double& residual = axis_.statistics.largest_residual;
+    double& residual = graph_.statistics.largest_residual;
     residual = std::max(residual, fit.worst);
     large.fit = fit;
     large.contacts.insert(large.contacts.end(), small.contacts.begin(), small.contacts.end());
@@ -335,7 +337,7 @@ class Merger {
                         std::uint32_t b, const Disk& disk) {
     for (const std::uint32_t end : cluster.ends) {
       if (end / 2 == contracted) continue;
-      const Edge& edge = axis_.edges[end / 2];
+      const Link& edge = graph_.links[end / 2];
       const std::array<std::uint32_t, 2> there{cluster_of(edge.node[0]), cluster_of(edge.node[1])};
       if (there[0] == there[1]) continue;  // contracted before
       // It may be contracted as well; where it is not, see dissolve_backward().
@@ -344,7 +346,7 @@ class Merger {
       for (std::size_t k = 0; k < 2; ++k) {
         const bool here = there[k] == a || there[k] == b;
         center[k] = here               ? disk.center
-                    : there[k] == none ? axis_.nodes[edge.node[k]].disk.center
+                    : there[k] == none ? graph_.nodes[edge.node[k]].disk.center
                                        : clusters_[there[k]].fit.disk.center;
       }
       const geometry::Bisector bisector(boundary_.sites[edge.site[1]],
@@ -364,7 +366,7 @@ class Merger {
   void dissolve_backward() {
     std::vector<std::uint32_t> backward;
     const auto check = [&](std::uint32_t end) {
-      const Edge& edge = axis_.edges[end / 2];
+      const Link& edge = graph_.links[end / 2];
       const std::array<std::uint32_t, 2> there{cluster_of(edge.node[0]), cluster_of(edge.node[1])};
       if (there[0] == there[1] || advances(edge)) return;
       for (const std::uint32_t cluster : there)
@@ -385,13 +387,13 @@ class Merger {
 
   const Disk& disk_of(std::uint32_t node) {
     const std::uint32_t cluster = cluster_of(node);
-    return cluster == none || clusters_[cluster].dissolved ? axis_.nodes[node].disk
+    return cluster == none || clusters_[cluster].dissolved ? graph_.nodes[node].disk
                                                            : clusters_[cluster].fit.disk;
   }
 
   /// Whether the feet move forward on the right site and backward on the left one, but for what
   /// the tolerance leaves open, and the disk halfway along the edge still touches both and no more.
-  bool advances(const Edge& edge) {
+  bool advances(const Link& edge) {
     const double slack = 4 * tolerance_;
     const Site &left = boundary_.sites[edge.site[0]], &right = boundary_.sites[edge.site[1]];
     const Disk &start = disk_of(edge.node[0]), &end = disk_of(edge.node[1]);
@@ -406,7 +408,7 @@ class Merger {
     for (const Site& site : {left, right})
       if (!(std::abs(geometry::carrier_distance(site, halfway) - radius) <= tolerance_))
         return false;
-    if (!is_empty({halfway, radius}, axis_.nodes[edge.node[0]].component)) return false;
+    if (!is_empty({halfway, radius}, graph_.nodes[edge.node[0]].component)) return false;
     const auto step = [](const Site& site, Vec2 a, Vec2 b) {
       return geometry::carrier_parameter(site, b) - geometry::carrier_parameter(site, a);
     };
@@ -425,43 +427,25 @@ class Merger {
         gone.push_back(cluster.node);
         continue;
       }
-      axis_.nodes[cluster.node].disk = cluster.fit.disk;
+      graph_.nodes[cluster.node].disk = cluster.fit.disk;
       for (const std::uint32_t end : cluster.ends)
-        axis_.edges[end / 2].node[end % 2] = cluster.node;
+        graph_.links[end / 2].node[end % 2] = cluster.node;
     }
-    const std::size_t kept = axis_.nodes.size() - gone.size();
+    const std::size_t kept = graph_.nodes.size() - gone.size();
     std::vector<std::uint32_t> place(gone.size());
-    fill_gaps(axis_.nodes, gone,
+    fill_gaps(graph_.nodes, gone,
               [&](std::uint32_t from, std::uint32_t to) { place[from - kept] = to; });
-    for (Edge& edge : axis_.edges)
+    for (Link& edge : graph_.links)
       for (std::uint32_t& node : edge.node)
         if (node >= kept) node = place[node - kept];
     std::sort(contracted.begin(), contracted.end());
-    fill_gaps(axis_.edges, contracted, [](std::uint32_t, std::uint32_t) {});
-  }
-
-  /// Removes the elements in `gone`, increasing, and tells which of the others go where.
-  template <class T, class Moved>
-  static void fill_gaps(std::vector<T>& elements, const std::vector<std::uint32_t>& gone,
-                        Moved&& moved) {
-    const std::size_t kept = elements.size() - gone.size();
-    auto gap = gone.begin();
-    auto skipped = std::lower_bound(gone.begin(), gone.end(), kept);
-    for (std::size_t from = kept; from < elements.size(); ++from) {
-      if (skipped != gone.end() && *skipped == from) {
-        ++skipped;
-        continue;
-      }
-      elements[*gap] = elements[from];
-      moved(static_cast<std::uint32_t>(from), *gap++);
-    }
-    elements.resize(kept);
+    fill_gaps(graph_.links, contracted, [](std::uint32_t, std::uint32_t) {});
   }
 
   const Boundary& boundary_;
   const index::BoundaryTree& tree_;
   double tolerance_;
-  MedialAxis& axis_;
+  Graph& graph_;
   /// The edges at the nodes of short edges, as linked lists of their ends: end 2 e + k is node[k]
   /// of edge e.
   std::vector<std::uint32_t> first_end_;
@@ -475,8 +459,8 @@ class Merger {
 }  // namespace
 
 void merge_ties(const Boundary& boundary, const index::BoundaryTree& tree, double tolerance,
-                MedialAxis& axis) {
-  Merger(boundary, tree, tolerance, axis).merge();
+                Graph& graph) {
+  Merger(boundary, tree, tolerance, graph).merge();
 }
 
 }  // namespace medial::disks

@@ -1,13 +1,12 @@
 #pragma once
 
 #include "engines/disks/boundary.h"
+#include "engines/disks/collect.h"
 #include "index/boundary_tree.h"
-#include "medial/axis.h"
 
 namespace medial::disks {
 
 /// Merges nodes that are one within the tolerance, of which one is a branching node at least.
-/// `axis` is in the local frame, its edges name sites of the boundary and have no curves yet.
 ///
 /// The walk follows exact bisectors. Where many sites touch one disk but for the rounding of their
 /// coordinates, the bisector of two that enclose a small angle passes beside that disk's centre by
@@ -28,6 +27,6 @@ namespace medial::disks {
 /// and O(m log m) for the m edges that four of their ends' contacts do not rule out, with the edges
 /// of their nodes.
 void merge_ties(const Boundary& boundary, const index::BoundaryTree& tree, double tolerance,
-                MedialAxis& axis);
+                Graph& graph);
 
 }  // namespace medial::disks

@@ -41,11 +41,11 @@ bool is_near_circle(const Boundary& boundary, const Box& box, double slack) {
   });
 }
 
-bool is_in_centers(const Boundary& boundary, const MedialAxis& axis, double slack) {
+bool is_in_centers(const Boundary& boundary, const Graph& graph, double slack) {
   if (!boundary.has_arcs) return false;
-  return std::ranges::any_of(axis.edges, [&](const Edge& edge) {
+  return std::ranges::any_of(graph.links, [&](const Link& edge) {
     const auto [left, right] = edge.site;
-    const Disk &from = axis.nodes[edge.node[0]].disk, &to = axis.nodes[edge.node[1]].disk;
+    const Disk &from = graph.nodes[edge.node[0]].disk, &to = graph.nodes[edge.node[1]].disk;
     for (const std::uint32_t i : {left, right})
       if (is_own_circle(boundary.sites[i], to, slack) &&
           is_own_circle(boundary.sites[i], from, slack))

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "engines/disks/boundary.h"
-#include "medial/axis.h"
+#include "engines/disks/collect.h"
 
 namespace medial::disks {
 
@@ -11,7 +11,7 @@ bool is_near_circle(const Boundary& boundary, const Box& box, double slack);
 
 /// Whether disks of the axis are, within `slack`, the own circles of several arcs at once: an edge
 /// that lies in the centre of an arc, or ends there with other arcs inside. Rounding may then
-/// decide what the axis is. The axis as collect() leaves it. O(edges).
-bool is_in_centers(const Boundary& boundary, const MedialAxis& axis, double slack);
+/// decide what the axis is. O(edges).
+bool is_in_centers(const Boundary& boundary, const Graph& graph, double slack);
 
 }  // namespace medial::disks

@@ -145,7 +145,7 @@ class Walker {
       chunk_.cut_ends.push_back({cut, span.node, CutEnd::no_edge});
       return;
     }
-    const auto edge = static_cast<std::uint32_t>(chunk_.edges.size());
+    const auto edge = static_cast<std::uint32_t>(chunk_.links.size());
     const std::uint32_t node = add_node(disk);
     add_edge(span, node);
     chunk_.cut_ends.push_back({cut, node, edge});
@@ -162,7 +162,7 @@ class Walker {
   }
 
   void add_edge(const Span& span, std::uint32_t to) {
-    chunk_.edges.push_back({span.node, to, span.right, span.left});
+    chunk_.links.push_back({{span.node, to}, {span.left, span.right}});
   }
 
   /// The node of `disk`, with the edge that leads there; the old node where that edge has no

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <memory>
 #include <vector>
@@ -62,11 +63,9 @@ class BlockList {
 };
 
 /// An edge before its curve is worked out: nodes of the chunk, sites of the boundary.
-struct RawEdge {
-  std::uint32_t from = 0;
-  std::uint32_t to = 0;
-  std::uint32_t right = 0;
-  std::uint32_t left = 0;
+struct Link {
+  std::array<std::uint32_t, 2> node;  ///< from, to
+  std::array<std::uint32_t, 2> site;  ///< on the left and on the right
 };
 
 /// Where the axis meets a connecting disk, on one of its two sides.
@@ -84,7 +83,7 @@ struct Chunk {
   std::uint32_t component = 0;
   std::uint32_t parent_node = 0;
   BlockList<Disk> nodes;
-  BlockList<RawEdge> edges;
+  BlockList<Link> links;
   std::vector<CutEnd> cut_ends;
   std::vector<std::unique_ptr<Chunk>> children;  ///< in the order in which they were forked
   Statistics statistics;

@@ -18,10 +18,9 @@ bool is_vertex(const MedialAxis& axis, std::uint32_t own) {
   return axis.sites[own].kind == SiteKind::vertex;
 }
 
-/// An own site seen from an origin; of an arc longer than a quarter of a circle, the half next to
-/// a place.
-geometry::Site seen_from(const MedialAxis& axis, Vec2 origin, std::uint32_t own, Vec2 near) {
-  const Site& site = axis.sites[own];
+/// A site seen from an origin; of an arc longer than a quarter of a circle, the half next to a
+/// place.
+geometry::Site seen_from(const Site& site, Vec2 origin, Vec2 near) {
   if (site.kind == SiteKind::vertex) return geometry::make_vertex(site.start - origin);
   const sites::Pieces pieces = sites::pieces_of(site.start - origin, site.end - origin, site.bulge);
   const bool first = pieces.count == 1 || geometry::squared_distance(pieces.first(), near) <=
@@ -38,36 +37,38 @@ Disk disk_towards(const MedialAxis& axis, Vec2 point, Vec2 direction, std::uint3
   return {point + radius * direction, radius};
 }
 
-void add_piece(MedialAxis& axis, std::size_t e, bool first, Edge edge, std::uint32_t from,
-               std::uint32_t to) {
+template <class E>
+void add_piece(const MedialAxis& axis, std::vector<E>& edges, std::size_t e, bool first, E edge,
+               std::uint32_t from, std::uint32_t to) {
   edge.node = {from, to};
   ConicEdge curve{axis.nodes[from].disk, {}, axis.nodes[to].disk, 1};
-  take_control(axis, edge.site, curve);
+  take_control(axis.sites[edge.site[0]], axis.sites[edge.site[1]], curve);
   edge.control = curve.control;
   edge.weight = curve.weight;
   if (first)
-    axis.edges[e] = edge;
+    edges[e] = edge;
   else
-    axis.edges.push_back(edge);
+    edges.push_back(edge);
 }
 
 }  // namespace
 
-void take_control(const MedialAxis& axis, std::array<std::uint32_t, 2> own, ConicEdge& part) {
+void take_control(const Site& left, const Site& right, ConicEdge& part) {
   const Vec2 origin = part.from.center, middle = midpoint({0, 0}, part.to.center - origin);
-  const geometry::Control control = geometry::control_of(
-      seen_from(axis, origin, own[0], middle), seen_from(axis, origin, own[1], middle),
-      {{0, 0}, part.from.radius}, {part.to.center - origin, part.to.radius});
+  const geometry::Control control =
+      geometry::control_of(seen_from(left, origin, middle), seen_from(right, origin, middle),
+                           {{0, 0}, part.from.radius}, {part.to.center - origin, part.to.radius});
   part.control = {control.point.center + origin, control.point.radius};
   part.weight = control.weight;
 }
 
-void split_long_edges(MedialAxis& axis, bool parabolas) {
+template <class E>
+void split_long_edges(MedialAxis& axis, std::vector<E>& edges, bool parabolas) {
   const auto is_arc = [](const Site& site) { return site.kind == SiteKind::arc; };
   if (!parabolas && std::ranges::none_of(axis.sites, is_arc)) return;
-  const std::size_t count = axis.edges.size();
+  const std::size_t count = edges.size();
   for (std::size_t e = 0; e < count; ++e) {
-    const Edge edge = axis.edges[e];
+    const E edge = edges[e];
     const std::size_t side = is_vertex(axis, edge.site[0]) ? 0 : 1;
     const Site& other = axis.sites[edge.site[1 - side]];
     if (!is_vertex(axis, edge.site[side]) || !(is_arc(other) || parabolas)) continue;
@@ -89,11 +90,14 @@ void split_long_edges(MedialAxis& axis, bool parabolas) {
       const auto node = static_cast<std::uint32_t>(axis.nodes.size());
       axis.nodes.push_back({disk_towards(axis, point, direction, edge.site[1 - side]),
                             axis.nodes[edge.node[0]].component, NodeKind::site_change});
-      add_piece(axis, e, k == 1, edge, last, node);
+      add_piece(axis, edges, e, k == 1, edge, last, node);
       last = node;
     }
-    if (pieces > 1) add_piece(axis, e, false, edge, last, edge.node[1]);
+    if (pieces > 1) add_piece(axis, edges, e, false, edge, last, edge.node[1]);
   }
 }
+
+template void split_long_edges(MedialAxis&, std::vector<Edge>&, bool);
+template void split_long_edges(MedialAxis&, std::vector<VoronoiEdge>&, bool);
 
 }  // namespace medial::voronoi

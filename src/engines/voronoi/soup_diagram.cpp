@@ -1,9 +1,13 @@
 #include "engines/voronoi/soup_diagram.h"
 
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numbers>
 #include <span>
 #include <stdexcept>
@@ -12,6 +16,7 @@
 #include "axis/node_kinds.h"
 #include "axis/sites.h"
 #include "base/arc.h"
+#include "base/fill_gaps.h"
 #include "base/frame.h"
 #include "base/memory.h"
 #include "base/numbers.h"
@@ -36,28 +41,32 @@ constexpr std::uint32_t largest_edge = none >> 1U;
 /// of the disk that touches where they join; there the spoke leads to.
 class Assembly {
  public:
-  Assembly(const Soup& soup, const Shape& shape, MedialAxis& axis, const Box& frame)
+  Assembly(const Soup& soup, const Shape& shape, MedialAxis& axis, std::vector<VoronoiEdge>& edges,
+           const Box& frame)
       : soup_(soup),
         shape_(shape),
         axis_(axis),
         frame_(frame),
         point_count_(static_cast<std::uint32_t>(soup.points.size())),
-        cut_(soup, frame, axis.tolerance, diagram_) {}
+        edge_count_(static_cast<std::uint32_t>(edges.size())),
+        cut_(soup, frame, axis.tolerance, diagram_) {
+    diagram_.nodes = std::move(axis.nodes);
+    diagram_.edges = std::move(edges);
+  }
 
-  VoronoiDiagram run() {
-    make_own_sites();
+  VoronoiDiagram run(const sites::SiteNumbers& numbers) {
+    make_own_sites(numbers);
     make_chains();
     find_ends();
     make_spokes();
     make_nodes();
     cut_off();
     cut_.close();
-    make_faces();
+    tbb::parallel_invoke([&] { make_faces(); }, [&] { set_kinds(diagram_); });
     diagram_.method = std::move(axis_.method);
     diagram_.tolerance = axis_.tolerance;
     diagram_.statistics = axis_.statistics;
     diagram_.frame = frame_;
-    set_kinds(diagram_);
     return std::move(diagram_);
   }
 
@@ -80,45 +89,59 @@ class Assembly {
     return is_vertex(own) ? own_[own] : point_count_ + half_edge(own) / 2;
   }
 
-  void make_own_sites() {
-    own_.reserve(axis_.sites.size());
-    for (const Site& site : axis_.sites)
-      own_.push_back(site.ring == none               ? none
-                     : site.kind == SiteKind::vertex ? site.ring
-                                                     : edge_side | site.vertex);
+  void make_own_sites(const sites::SiteNumbers& numbers) {
+    own_ = large_vector(numbers.count, none);
+    for (std::size_t i = 0; i < shape_.points.size(); ++i) {
+      const auto [point, half_edge] = shape_.sources[i];
+      if (point == none) continue;
+      if (numbers.is_site(i)) own_[numbers.edge[i] - 1] = point;
+      if (half_edge != none) own_[numbers.edge[i]] = edge_side | half_edge;
+    }
+  }
+  /// The engine's site.
+  Site engine_site(std::uint32_t own) const {
+    Site site = site_of_soup(soup_, site_of(own));
+    if (is_vertex(own) || half_edge(own) % 2 == 0) return site;
+    std::swap(site.start, site.end);
+    site.bulge = 0 - site.bulge;
+    return site;
   }
 
   void make_chains() {
-    const std::size_t count = axis_.sites.size();
-    chain_begin_.assign(count + 1, 0);
-    for (const Edge& edge : axis_.edges)
-      for (const std::uint32_t own : edge.site) ++chain_begin_[own + 1];
-    for (std::size_t i = 0; i < count; ++i) chain_begin_[i + 1] += chain_begin_[i];
-    chains_.resize(2 * axis_.edges.size());
-    std::vector<std::uint32_t> filled(chain_begin_.begin(), chain_begin_.end() - 1);
-    for (std::uint32_t e = 0; e < axis_.edges.size(); ++e) {
-      const Edge& edge = axis_.edges[e];
-      chains_[filled[edge.site[1]]++] = {e & largest_edge, 1, edge.node[0], edge.node[1]};
-      chains_[filled[edge.site[0]]++] = {e & largest_edge, 0, edge.node[1], edge.node[0]};
+    const std::size_t count = own_.size();
+    // One place further, so that while the chains are filled, each grows to where the next begins.
+    chain_begin_ = large_vector(count + 2, 0U);
+    for (const Edge& edge : diagram_.edges)
+      for (const std::uint32_t own : edge.site) ++chain_begin_[own + 2];
+    for (std::size_t i = 1; i <= count; ++i) chain_begin_[i + 1] += chain_begin_[i];
+    chains_ = std::make_unique_for_overwrite<Step[]>(2 * diagram_.edges.size());
+    prefer_large_pages(chains_.get(), 2 * diagram_.edges.size() * sizeof(Step));
+    for (std::uint32_t e = 0; e < diagram_.edges.size(); ++e) {
+      const Edge& edge = diagram_.edges[e];
+      chains_[chain_begin_[edge.site[1] + 1]++] = {e & largest_edge, 1, edge.node[0], edge.node[1]};
+      chains_[chain_begin_[edge.site[0] + 1]++] = {e & largest_edge, 0, edge.node[1], edge.node[0]};
     }
-    first_.assign(count, none);
-    last_.assign(count, none);
-    for (std::uint32_t own = 0; own < count; ++own) {
-      if (is_frame(own)) continue;
-      const std::span<Step> steps = chain(own);
-      if (steps.empty()) continue;
-      put_in_order(steps);
-      first_[own] = steps.front().from;
-      last_[own] = steps.back().to;
-    }
+    first_ = large_vector(count, none);
+    last_ = large_vector(count, none);
+    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, static_cast<std::uint32_t>(count), 4096),
+                      [&](const auto& range) {
+                        for (std::uint32_t own = range.begin(); own < range.end(); ++own) {
+                          if (is_frame(own)) continue;
+                          const std::span<Step> steps = chain(own);
+                          if (steps.empty()) continue;
+                          put_in_order(steps);
+                          first_[own] = steps.front().from;
+                          last_[own] = steps.back().to;
+                        }
+                      });
   }
 
-  std::span<Step> chain(std::uint32_t own) {
-    return std::span(chains_).subspan(chain_begin_[own], chain_begin_[own + 1] - chain_begin_[own]);
+  std::span<Step> chain(std::uint32_t own) const {
+    return {chains_.get() + chain_begin_[own], chains_.get() + chain_begin_[own + 1]};
   }
 
   /// From the step that no other leads to, or where they make a cycle, any one.
-  void put_in_order(std::span<Step> steps) {
+  static void put_in_order(std::span<Step> steps) {
     if (steps.size() == 1) return;
     constexpr std::size_t few = 24;
     if (steps.size() > few) return put_many_in_order(steps);
@@ -138,7 +161,7 @@ class Assembly {
       std::swap(steps[i], *next);
     }
   }
-  void put_many_in_order(std::span<Step> steps) {
+  static void put_many_in_order(std::span<Step> steps) {
     std::vector<Step> sorted(steps.begin(), steps.end());
     std::sort(sorted.begin(), sorted.end(),
               [](const Step& a, const Step& b) { return a.from < b.from; });
@@ -179,10 +202,10 @@ class Assembly {
   /// Of own sites without edges, the node that they are touched in: that of the site before.
   void find_ends() {
     std::vector<std::uint32_t> lone(shape_.component_count(), none);
-    std::vector<bool> used(axis_.nodes.size());
-    for (const Edge& edge : axis_.edges) used[edge.node[0]] = used[edge.node[1]] = true;
-    for (std::uint32_t n = 0; n < axis_.nodes.size(); ++n)
-      if (!used[n]) lone[axis_.nodes[n].component] = n;
+    std::vector<bool> used(diagram_.nodes.size());
+    for (const Edge& edge : diagram_.edges) used[edge.node[0]] = used[edge.node[1]] = true;
+    for (std::uint32_t n = 0; n < diagram_.nodes.size(); ++n)
+      if (!used[n]) lone[diagram_.nodes[n].component] = n;
     for_each_loop([&](std::uint32_t first, std::uint32_t last, std::size_t loop) {
       std::uint32_t node = lone[shape_.component[loop]];
       for (std::uint32_t own = first; own < last; ++own)
@@ -202,9 +225,10 @@ class Assembly {
   /// Spokes wherever one own site follows another but in a corner, and the nodes of the soup's
   /// points.
   void make_spokes() {
-    spoke_before_.assign(axis_.sites.size(), none);
-    spoke_after_.assign(axis_.sites.size(), none);
-    corner_.assign(axis_.nodes.size(), none);
+    spoke_before_ = large_vector(own_.size(), none);
+    spoke_after_ = large_vector(own_.size(), none);
+    node_of_axis_ = large_vector(diagram_.nodes.size(), none);
+    reserve_large(spokes_, own_.size());
     for_each_loop([&](std::uint32_t first, std::uint32_t last, std::size_t) {
       if (last - first == 1) return;  // a lone point
       std::uint32_t before = last - 1;
@@ -214,8 +238,8 @@ class Assembly {
         const std::uint32_t node = first_[own];
         if (last_[before] != node) throw std::runtime_error("a Voronoi face has a gap");
         const std::uint32_t point = is_vertex(own) ? own_[own] : soup_.start(half_edge(own));
-        if (axis_.nodes[node].disk.radius == 0) {
-          corner_[node] = point;
+        if (diagram_.nodes[node].disk.radius == 0) {
+          node_of_axis_[node] = point;
         } else {
           spoke_before_[own] = spoke_after_[before] = static_cast<std::uint32_t>(spokes_.size());
           spokes_.push_back({point, node, {site_of(before), site_of(own)}});
@@ -225,97 +249,114 @@ class Assembly {
     });
   }
 
-  ConicEdge curve_of(std::uint32_t e) const {
-    if (e < axis_.edges.size()) {
-      const Edge& edge = axis_.edges[e];
-      return {axis_.nodes[edge.node[0]].disk, edge.control, axis_.nodes[edge.node[1]].disk,
-              edge.weight};
-    }
-    const Spoke& spoke = spokes_[e - axis_.edges.size()];
-    const Disk from{soup_.points[spoke.point], 0}, to = axis_.nodes[spoke.node].disk;
-    return {from, {midpoint(from.center, to.center), 0.5 * to.radius}, to, 1};
-  }
-  std::array<std::uint32_t, 2> sites_of(std::uint32_t e) const {
-    if (e >= axis_.edges.size()) return spokes_[e - axis_.edges.size()].site;
-    const Edge& edge = axis_.edges[e];
-    return {site_of(edge.site[0]), site_of(edge.site[1])};
-  }
-  /// The nodes inside of the frame; the soup's points among them once they are asked for.
+  /// Keeps the nodes inside of the frame; the soup's points among them once they are asked for.
   void make_nodes() {
-    node_of_point_.assign(soup_.points.size(), none);
-    node_of_axis_.assign(axis_.nodes.size(), none);
-    reserve_large(diagram_.nodes, axis_.nodes.size() + soup_.points.size());
-    for (std::uint32_t n = 0; n < axis_.nodes.size(); ++n) {
-      const Node& node = axis_.nodes[n];
-      if (corner_[n] != none)
-        node_of_axis_[n] = node_of_point(corner_[n]);
-      else if (cut_.holds(node.disk.center))
-        node_of_axis_[n] = add_node(node.disk, node.component);
+    node_of_point_ = large_vector(soup_.points.size(), none);
+    std::vector<Node>& nodes = diagram_.nodes;
+    std::uint32_t kept = 0;
+    for (std::uint32_t n = 0; n < nodes.size(); ++n) {
+      const std::uint32_t point = node_of_axis_[n];
+      if (point == none && !cut_.holds(nodes[n].disk.center)) {
+        node_of_axis_[n] = is_cut | static_cast<std::uint32_t>(outside_.size());
+        outside_.push_back(nodes[n].disk);
+        continue;
+      }
+      if (point != none && node_of_point_[point] != none) {
+        node_of_axis_[n] = node_of_point_[point];
+        continue;
+      }
+      nodes[kept] = point == none ? nodes[n] : Node{{soup_.points[point], 0}, 0, NodeKind::leaf};
+      if (point != none) node_of_point_[point] = kept;
+      node_of_axis_[n] = kept++;
     }
+    nodes.resize(kept);
   }
-  /// An end as a node of the diagram, inside of the frame.
-  std::uint32_t node_at(std::uint32_t e, std::size_t end) {
-    if (e < axis_.edges.size()) return node_of_axis_[axis_.edges[e].node[end]];
-    const Spoke& spoke = spokes_[e - axis_.edges.size()];
-    return end == 0 ? node_of_point(spoke.point) : node_of_axis_[spoke.node];
+  bool is_inside(std::uint32_t node) const { return (node_of_axis_[node] & is_cut) == 0; }
+  const Disk& disk_of(std::uint32_t node) const {
+    const std::uint32_t now = node_of_axis_[node];
+    return is_inside(node) ? diagram_.nodes[now].disk : outside_[now & ~is_cut];
   }
   std::uint32_t node_of_point(std::uint32_t point) {
     std::uint32_t& node = node_of_point_[point];
-    if (node == none) node = add_node({soup_.points[point], 0}, 0);
+    if (node == none) {
+      node = static_cast<std::uint32_t>(diagram_.nodes.size());
+      diagram_.nodes.push_back({{soup_.points[point], 0}, 0, NodeKind::leaf});
+    }
     return node;
   }
-  std::uint32_t add_node(const Disk& disk, std::uint32_t component) {
-    diagram_.nodes.push_back({disk, component, NodeKind::leaf});
-    return static_cast<std::uint32_t>(diagram_.nodes.size() - 1);
-  }
 
-  /// The edges inside of the frame, or the parts of them.
+  /// Keeps the edges that are clearly all in the frame, as their triangles of control points are;
+  /// adds the parts of others, and the spokes or their parts.
   void cut_off() {
-    const auto edges = static_cast<std::uint32_t>(axis_.edges.size());
-    const std::size_t count = edges + spokes_.size();
-    reserve_large(diagram_.edges, count + 64);
-    reserve_large(part_begin_, count + 1);
-    for (std::uint32_t e = 0; e < count; ++e) {
-      const auto begin = static_cast<std::uint32_t>(diagram_.edges.size());
-      const std::array<std::uint32_t, 2> site = sites_of(e);
-      if (e < edges && add_whole(axis_.edges[e], site)) {
-        part_begin_.push_back(begin);
-        continue;
+    std::vector<VoronoiEdge>& edges = diagram_.edges;
+    reserve_large(place_, edge_count_ + spokes_.size());
+    place_.resize(edge_count_);
+    constexpr std::uint32_t block = 1 << 14;
+    std::vector<std::vector<std::uint32_t>> others((edge_count_ + block - 1) / block);
+    tbb::parallel_for(std::size_t{0}, others.size(), [&](std::size_t i) {
+      const auto begin = static_cast<std::uint32_t>(i * block);
+      for (std::uint32_t e = begin; e < std::min(begin + block, edge_count_); ++e) {
+        place_[e] = e;
+        if (!keep_whole(edges[e])) others[i].push_back(e);
       }
-      part_begin_.push_back(is_cut | begin);
-      if (site[0] == no_site || site[1] == no_site) continue;
-      const bool spoke = e >= edges;
-      if (!spoke && site[0] < point_count_ && site[1] < point_count_) {
-        const Edge& edge = axis_.edges[e];
-        cut_.add_bisector(axis_.nodes[edge.node[0]].disk.center,
-                          axis_.nodes[edge.node[1]].disk.center, site,
-                          [&](std::size_t end) { return node_at(e, end); });
-        continue;
+    });
+    std::vector<std::uint32_t> gone;
+    std::vector<Edge> to_cut;
+    for (const auto& some : others) {
+      for (const std::uint32_t e : some) {
+        place_[e] = is_cut | static_cast<std::uint32_t>(gone.size());
+        gone.push_back(e);
+        to_cut.push_back(edges[e]);
       }
-      const bool whole = cut_.add(
-          curve_of(e), site, spoke, [&](std::size_t end) { return node_at(e, end); },
-          [&](ConicEdge& part) {
-            if (!spoke) take_control(axis_, axis_.edges[e].site, part);
-          });
-      if (whole) part_begin_.back() = begin;
     }
-    part_begin_.push_back(static_cast<std::uint32_t>(diagram_.edges.size()));
+    fill_gaps(edges, gone, [&](std::uint32_t from, std::uint32_t to) { place_[from] = to; });
+    for (const Edge& edge : to_cut) {
+      const auto begin = static_cast<std::uint32_t>(edges.size());
+      add_parts_of(edge);
+      parts_.push_back({begin, static_cast<std::uint32_t>(edges.size())});
+    }
+    for (const Spoke& spoke : spokes_) add_spoke(spoke);
   }
-  /// Adds an edge of the axis that is clearly all in the frame: as its triangle of control points
-  /// is. False where it is not.
-  bool add_whole(const Edge& edge, std::array<std::uint32_t, 2> site) {
-    const std::uint32_t from = node_of_axis_[edge.node[0]], to = node_of_axis_[edge.node[1]];
-    if (from == none || to == none || site[0] == no_site || site[1] == no_site ||
-        !cut_.holds(edge.control.center))
+  /// Makes an edge of the axis one of the diagram, unless it may leave the frame.
+  bool keep_whole(Edge& edge) const {
+    const auto [from, to] = edge.node;
+    const std::array<std::uint32_t, 2> site{site_of(edge.site[0]), site_of(edge.site[1])};
+    if (!(is_inside(from) && is_inside(to) && site[0] != no_site && site[1] != no_site &&
+          cut_.holds(edge.control.center)))
       return false;
-    diagram_.edges.push_back({{{from, to}, site, edge.control, edge.weight}, false, false});
+    edge.node = {node_of_axis_[from], node_of_axis_[to]};
+    edge.site = site;
     return true;
+  }
+  void add_parts_of(const Edge& edge) {
+    const std::array<std::uint32_t, 2> site{site_of(edge.site[0]), site_of(edge.site[1])};
+    if (site[0] == no_site || site[1] == no_site) return;
+    const Disk &from = disk_of(edge.node[0]), &to = disk_of(edge.node[1]);
+    const auto node_at = [&](std::size_t end) { return node_of_axis_[edge.node[end]]; };
+    if (site[0] < point_count_ && site[1] < point_count_)
+      return cut_.add_bisector(from.center, to.center, site, node_at);
+    const auto take_control_of_part = [&](ConicEdge& part) {
+      take_control(engine_site(edge.site[0]), engine_site(edge.site[1]), part);
+    };
+    cut_.add({from, edge.control, to, edge.weight}, site, false, node_at, take_control_of_part);
+  }
+  void add_spoke(const Spoke& spoke) {
+    const auto begin = static_cast<std::uint32_t>(diagram_.edges.size());
+    const Disk from{soup_.points[spoke.point], 0}, to = disk_of(spoke.node);
+    const ConicEdge line{from, {midpoint(from.center, to.center), 0.5 * to.radius}, to, 1};
+    const auto node_at = [&](std::size_t end) {
+      return end == 0 ? node_of_point(spoke.point) : node_of_axis_[spoke.node];
+    };
+    if (cut_.add(line, spoke.site, true, node_at, [](ConicEdge&) {}))
+      return place_.push_back(begin);
+    place_.push_back(is_cut | static_cast<std::uint32_t>(parts_.size()));
+    parts_.push_back({begin, static_cast<std::uint32_t>(diagram_.edges.size())});
   }
 
   void make_faces() {
     const auto count = point_count_ + static_cast<std::uint32_t>(soup_.edges.size());
     // Own sites of each site, in the order in which they come around it.
-    std::vector<std::array<std::uint32_t, 2>> owns(count, {none, none});
+    auto owns = large_vector<std::array<std::uint32_t, 2>>(count, {none, none});
     for_each_loop([&](std::uint32_t first, std::uint32_t last, std::size_t) {
       for (std::uint32_t own = first; own < last; ++own) {
         if (is_empty_vertex(own)) continue;
@@ -324,33 +365,59 @@ class Assembly {
         pair[side] = own;
       }
     });
-    diagram_.face_begin.reserve(count + 1);
-    reserve_large(diagram_.face_edges, 2 * diagram_.edges.size());
-    diagram_.sites.reserve(count);
-    for (std::uint32_t site = 0; site < count; ++site) {
-      diagram_.face_begin.push_back(static_cast<std::uint32_t>(diagram_.face_edges.size()));
-      diagram_.sites.push_back(site_of_soup(soup_, site));
-      for (const std::uint32_t own : owns[site]) {
-        if (own == none) continue;
-        const auto axis_edges = static_cast<std::uint32_t>(axis_.edges.size());
-        if (spoke_before_[own] != none) add_to_face(axis_edges + spoke_before_[own], true);
-        for (const Step& step : chain(own)) add_to_face(step.edge, step.forward != 0);
-        if (spoke_after_[own] != none) add_to_face(axis_edges + spoke_after_[own], false);
+    // Faces are found in blocks, then put one behind the other.
+    constexpr std::uint32_t block = 1 << 12;
+    std::vector<std::vector<std::uint32_t>> edges((count + block - 1) / block);
+    std::vector<std::uint32_t>& face_begin = diagram_.face_begin;
+    face_begin = large_vector(count + 1, 0U);
+    diagram_.sites = large_vector<Site>(count);
+    const auto for_each_block = [&](auto&& visit) {
+      tbb::parallel_for(std::size_t{0}, edges.size(), [&](std::size_t i) {
+        const auto first = static_cast<std::uint32_t>(i) * block;
+        visit(edges[i], first, std::min(first + block, count));
+      });
+    };
+    for_each_block([&](std::vector<std::uint32_t>& some, std::uint32_t first, std::uint32_t last) {
+      for (std::uint32_t site = first; site < last; ++site) {
+        face_begin[site] = static_cast<std::uint32_t>(some.size());
+        diagram_.sites[site] = site_of_soup(soup_, site);
+        for (const std::uint32_t own : owns[site])
+          if (own != none) add_own(own, some);
+        cut_.end_face(site, some);
       }
-      cut_.end_face(site, diagram_.face_edges);
+    });
+    std::uint32_t all = 0;
+    std::vector<std::uint32_t> begin;
+    for (const auto& some : edges) {
+      begin.push_back(all);
+      all += static_cast<std::uint32_t>(some.size());
     }
-    diagram_.face_begin.push_back(static_cast<std::uint32_t>(diagram_.face_edges.size()));
+    face_begin[count] = all;
+    diagram_.face_edges = large_vector(all, 0U);
+    for_each_block([&](std::vector<std::uint32_t>& some, std::uint32_t first, std::uint32_t last) {
+      const std::uint32_t before = begin[first / block];
+      for (std::uint32_t site = first; site < last; ++site) face_begin[site] += before;
+      std::copy(some.begin(), some.end(), diagram_.face_edges.begin() + before);
+      some = {};
+    });
+  }
+
+  /// Appends what is along an own site, with the spokes at its ends, to a face.
+  void add_own(std::uint32_t own, std::vector<std::uint32_t>& face) const {
+    if (spoke_before_[own] != none) add_to_face(edge_count_ + spoke_before_[own], true, face);
+    for (const Step& step : chain(own)) add_to_face(step.edge, step.forward != 0, face);
+    if (spoke_after_[own] != none) add_to_face(edge_count_ + spoke_after_[own], false, face);
   }
 
   /// Appends what is left of an edge.
-  void add_to_face(std::uint32_t e, bool forward) {
-    if ((part_begin_[e] & is_cut) == 0) return diagram_.face_edges.push_back(part_begin_[e]);
-    const std::uint32_t begin = part_begin_[e] & ~is_cut, end = part_begin_[e + 1] & ~is_cut;
+  void add_to_face(std::uint32_t e, bool forward, std::vector<std::uint32_t>& face) const {
+    if ((place_[e] & is_cut) == 0) return face.push_back(place_[e]);
+    const auto [begin, end] = parts_[place_[e] & ~is_cut];
     for (std::uint32_t i = 0; i < end - begin; ++i)
-      cut_.add_to_face(forward ? begin + i : end - 1 - i, forward, diagram_.face_edges);
+      cut_.add_to_face(forward ? begin + i : end - 1 - i, forward, face);
   }
 
-  /// Of an edge, that it is not all in the frame.
+  /// Of an edge or a node, that it is not, or not all, in the frame.
   static constexpr std::uint32_t is_cut = none - largest_edge;
   /// Of an own site, that it is a side of an edge: a half-edge's number follows, else a point's.
   static constexpr std::uint32_t edge_side = none - largest_edge;
@@ -360,18 +427,24 @@ class Assembly {
   MedialAxis& axis_;
   const Box frame_;
   const std::uint32_t point_count_;
+  const std::uint32_t edge_count_;  ///< of the axis
   VoronoiDiagram diagram_;
   FrameCut cut_;
   std::vector<std::uint32_t> own_;          ///< what each own site is
   std::vector<std::uint32_t> chain_begin_;  ///< of each own site
-  std::vector<Step> chains_;
+  std::unique_ptr<Step[]> chains_;
   std::vector<std::uint32_t> first_, last_;  ///< nodes of each own site's chain
   std::vector<Spoke> spokes_;
   std::vector<std::uint32_t> spoke_before_, spoke_after_;  ///< of each own site
-  std::vector<std::uint32_t> corner_;  ///< of each node: the point that it is, if it is one
-  std::vector<std::uint32_t> node_of_point_, node_of_axis_;
-  std::vector<std::uint32_t>
-      part_begin_;  ///< of each edge and spoke: its parts in the diagram, and `is_cut`
+  std::vector<std::uint32_t> node_of_point_;
+  /// Of each node of the axis: the point that it is, if it is one; then which node of the diagram's
+  /// it has become, or `is_cut` and which one of those outside.
+  std::vector<std::uint32_t> node_of_axis_;
+  std::vector<Disk> outside_;
+  /// Of each edge of the axis and each spoke: its place in the diagram, or `is_cut` and which of
+  /// the ranges of parts.
+  std::vector<std::uint32_t> place_;
+  std::vector<std::array<std::uint32_t, 2>> parts_;
 };
 
 }  // namespace
@@ -405,8 +478,9 @@ Box far_frame(const Box& frame) {
   return {frame.low - Vec2{away, away}, frame.high + Vec2{away, away}};
 }
 
-VoronoiDiagram diagram_of(const Soup& soup, const Shape& shape, MedialAxis axis, const Box& frame) {
-  return Assembly(soup, shape, axis, frame).run();
+VoronoiDiagram diagram_of(const Soup& soup, const Shape& shape, const sites::SiteNumbers& numbers,
+                          MedialAxis axis, std::vector<VoronoiEdge> edges, const Box& frame) {
+  return Assembly(soup, shape, axis, edges, frame).run(numbers);
 }
 
 }  // namespace medial::voronoi

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <vector>
+
+#include "axis/sites.h"
 #include "medial/axis.h"
 #include "medial/shape.h"
 #include "medial/soup.h"
@@ -18,8 +21,9 @@ Site site_of_soup(const Soup& soup, std::uint32_t site);
 void set_kinds(VoronoiDiagram& diagram);
 
 /// The Voronoi diagram of a soup within `frame`, of the axis of what lies around it in a farther
-/// frame: the axis with its spokes, by the faces of the soup's sites, cut off. `shape` is
-/// around(soup, far_frame(frame)). O(n) expected.
-VoronoiDiagram diagram_of(const Soup& soup, const Shape& shape, MedialAxis axis, const Box& frame);
+/// frame, whose sites are numbered so and whose edges stand apart: the axis with its spokes, by the
+/// faces of the soup's sites, cut off. `shape` is around(soup, far_frame(frame)). O(n) expected.
+VoronoiDiagram diagram_of(const Soup& soup, const Shape& shape, const sites::SiteNumbers& numbers,
+                          MedialAxis axis, std::vector<VoronoiEdge> edges, const Box& frame);
 
 }  // namespace medial::voronoi

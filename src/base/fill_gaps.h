@@ -1,0 +1,27 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+namespace medial {
+
+/// Removes the elements in `gone`, increasing: the last ones take their places. Calls
+/// moved(from, to) for each that does.
+template <class T, class Moved>
+void fill_gaps(std::vector<T>& elements, const std::vector<std::uint32_t>& gone, Moved&& moved) {
+  const std::size_t kept = elements.size() - gone.size();
+  auto gap = gone.begin();
+  auto skipped = std::lower_bound(gone.begin(), gone.end(), kept);
+  for (std::size_t from = kept; from < elements.size(); ++from) {
+    if (skipped != gone.end() && *skipped == from) {
+      ++skipped;
+      continue;
+    }
+    elements[*gap] = elements[from];
+    moved(static_cast<std::uint32_t>(from), *gap++);
+  }
+  elements.resize(kept);
+}
+
+}  // namespace medial
