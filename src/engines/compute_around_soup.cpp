@@ -210,16 +210,17 @@ Result<VoronoiDiagram> voronoi_diagram(const Soup& soup, const Options& options,
         if (is_cancelled(options)) return Error{ErrorCode::cancelled, "cancelled", {}};
         return of_points;
       }
-
       std::optional<Error> close;
       Shape shape;
       tbb::parallel_invoke([&] { close = too_close(soup, told_apart * tolerance); },
                            [&] { shape = around(soup, far); });
       if (close) return std::move(*close);
 
+      Options own = options;
+      own.corner_angle = 0;  // where a joint has no branch there is a spoke, which is straight
       std::vector<VoronoiEdge> edges;
       sites::SiteNumbers numbers;
-      auto axis = run_around(shape, options, edges, numbers);
+      auto axis = run_around(shape, own, edges, numbers);
       if (!axis) return std::move(axis).error();
       if (!shape.bulges.empty()) {
         axis->sites = sites::result_sites(shape, numbers);

@@ -428,12 +428,43 @@ class ArcSweeper {
       const double at_end = a.right == b.right ? 0 : gap(last);
       const bool together = std::abs(at_begin) <= tolerance_ && std::abs(at_end) <= tolerance_;
       if (together && distance(stops[0].point, last) > 4 * tolerance_) {
+        if (outline_.open && note_overlap(lower, upper)) return std::nullopt;
         return pending_or(error_of_pieces(ErrorCode::overlap, "overlaps", lower, upper, begin));
       }
       return std::nullopt;
     }
     note_tangency(lower, upper, std::span(stops.data(), count), signs, gap);
     return std::nullopt;
+  }
+
+  /// Notes that the edges of two pieces that lie on each other pass through each other's ends,
+  /// where these are not the same. What touch() looks at is as near but for rounding.
+  bool note_overlap(const ActivePiece& lower, const ActivePiece& upper) {
+    const auto first_of = [&](std::uint32_t v) {
+      while (noded_.passing[v]) --v;
+      return v;
+    };
+    const auto pass_through = [&](std::uint32_t first, std::uint32_t end) {
+      const Vec2 p = outline_.points[end];
+      for (std::uint32_t v = first; v == first || noded_.passing[v]; ++v) {
+        Vec2 from = outline_.points[v], to = outline_.points[v + 1];
+        double bulge = outline_.bulges[v];
+        if (p == from || p == to) return false;
+        if (lexicographic_less(to, from)) std::swap(from, to), bulge = -bulge;
+        if (!monotone_arc(from, to, bulge).is_near(p, 4 * tolerance_)) continue;
+        contacts_.push_back({noded_.edges[v], end, {}});
+        return true;
+      }
+      return false;
+    };
+    const std::array<std::uint32_t, 2> firsts{first_of(lower.piece), first_of(upper.piece)};
+    bool any = false;
+    for (const std::size_t i : {0, 1}) {
+      std::uint32_t last = firsts[i] + 1;
+      while (noded_.passing[last]) ++last;
+      for (const std::uint32_t end : {firsts[i], last}) any |= pass_through(firsts[1 - i], end);
+    }
+    return any;
   }
 
   /// Notes a contact in the inside of both pieces.
@@ -529,8 +560,9 @@ Result<SweptArcs> sweep_arcs(const Outline& outline, bool node_crossings, double
   constexpr int most_rounds = 64;
   Noding noding(outline, reach);
   if (auto error = noding.too_small()) return std::move(*error);
-  std::uint64_t crossings = 0;
+  std::uint64_t crossings = 0, repeated = 0;
   for (int round = 0; round < most_rounds; ++round) {
+    if (node_crossings && outline.open) repeated += noding.drop_repeated();
     NodedOutline noded = noding.monotone();
     const auto node_all = [&]() -> Result<bool> {
       CrossingFinder finder(noding, noded);
@@ -556,7 +588,8 @@ Result<SweptArcs> sweep_arcs(const Outline& outline, bool node_crossings, double
       }
       if (error) return std::move(*error);
       Sweep found = std::move(sweeper.found());
-      return SweptArcs{std::move(noded), std::move(found), noding.split_edges(), crossings};
+      return SweptArcs{std::move(noded), std::move(found), noding.split_edges(), crossings,
+                       repeated};
     }
     error = noding.apply(noded, sweeper.contacts(), sweeper.merges());
     if (error) return std::move(*error);

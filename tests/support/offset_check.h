@@ -2,7 +2,9 @@
 
 // What must hold for offset curves, measured without the axis.
 
+#include <span>
 #include <string>
+#include <vector>
 
 #include "medial/offset.h"
 
@@ -22,6 +24,13 @@ struct OffsetCheck {
 OffsetCheck check_offsets(const Shape& shape, const Offsets& offsets, int inside = 3,
                           int probes = 100);
 
+/// Ring counts, areas and lengths of all regions, by clearance and area; in units of `scale`.
+struct Measures {
+  std::vector<std::size_t> rings;
+  std::vector<double> areas, lengths;
+};
+Measures measures_of(const Offsets& offsets, double scale);
+
 /// How often rings wind around a point.
 int winding(const std::vector<Ring>& rings, Vec2 p);
 
@@ -31,10 +40,11 @@ int winding(const std::vector<Ring>& rings, Vec2 p);
 struct PixelCount {
   std::size_t regions = 0, rings = 0;
 };
-/// Whether every region at clearance - slack holds just one at each of some clearances up to
-/// clearance + slack, with as many rings in the same places: then pixels of a third of the slack
-/// tell how many there are.
-bool is_steady(const Shape& shape, double clearance, double slack);
+/// Of each clearance, whether every region at clearance - slack holds just one at each of some
+/// clearances up to clearance + slack, with as many rings in the same places: then pixels of a
+/// third of the slack tell how many there are.
+std::vector<bool> are_steady(const Shape& shape, std::span<const double> clearances,
+                             std::span<const double> slacks);
 
 PixelCount count_by_pixels(const Shape& shape, double clearance, std::size_t pixels);
 
