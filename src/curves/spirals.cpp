@@ -28,6 +28,16 @@ constexpr double cusp_neighbourhood = 1e-4;
 /// Curvatures that differ by less are the same: roots that are there by rounding only.
 constexpr double same_curvature = 1e-8;
 
+/// A part whose curvature changes evenly by d over a chord c is this part of d c^2 away from its
+/// balanced biarc. From its spiral biarc it is 27/8 times that, so a spiral biarc within a tolerance is
+/// 2/3 as long.
+constexpr double balanced_error = 1.0 / 324;
+constexpr double spiral_length = 2.0 / 3;
+
+/// Places at which a part is looked at to divide it, and parts that it is divided into at once.
+constexpr int most_samples = 16;
+constexpr int most_divisions = 64;
+
 /// A curve whose curvature goes monotonically from one value to another that differs by d, over a
 /// chord c, is less than d c^2 / 50 away from the arc between the directions at its ends (largest
 /// where curvature jumps at two thirds). Below a third of the rounding it is that arc.
@@ -73,13 +83,21 @@ class Converter {
   double run();
 
  private:
-  void convert(const Bezier& part, const Station& a, const Station& b, CurvatureLimits limits,
-               int depth);
+  /// What a part of the curve has to meet at its ends.
+  struct Demands {
+    CurvatureLimits limits;
+    bool apex = false;  ///< its more curved end is that of the whole spiral
+  };
+  using Knots = Fixed<Station, most_divisions + 1>;
+
+  void convert(const Bezier& part, const Station& a, const Station& b, Demands demands, int depth);
+  void convert_between(const Bezier& part, Knots& knots, int first, int last, Demands demands,
+                       int depth);
+  int knots_of(const Bezier& part, const Station& a, const Station& b, Demands demands, Knots& knots);
   bool try_single_arc(const Bezier& part, const Station& a, const Station& b);
   bool try_singular_end(const Bezier& part, const Station& a, const Station& b,
                         CurvatureLimits limits);
-  double fraction_to_split(const Station& a, const Station& b) const;
-  bool try_biarc(const Bezier& part, const Station& a, const Station& b, CurvatureLimits limits);
+  bool try_biarc(const Bezier& part, const Station& a, const Station& b, Demands demands);
   bool is_spiral(const Biarc& biarc, const Station& a, const Station& b,
                  CurvatureLimits limits) const;
   Vec2 settled(Vec2 joint, const Station& a, const Station& b) const;
@@ -98,7 +116,6 @@ class Converter {
   const SpiralOptions& options_;
   ArcChain& chain_;
   double error_ = 0;
-  double failed_error_ = 0;  ///< of the last part's biarc; 0: none was measured
   int parts_ = 0;
   bool ends_osculating_ = false;  ///< the last arc is the osculating circle where it ends
   bool merge_ = false;            ///< and the next one may go on along it
@@ -130,25 +147,24 @@ double Converter::run() {
     merge_ = i > 0 && !is_singular(a) && std::abs(before_a.curvature) < std::abs(a.curvature) &&
              std::abs(b.curvature) < std::abs(a.curvature);
     ++chain_.spirals;
-    convert(part, a, b, limits, 0);
+    convert(part, a, b, {limits, true}, 0);
     before_a = a;
     a = next.kind == Split::Kind::cusp ? station(next.t, Side::after, false) : b;
   }
   return error_;
 }
 
-void Converter::convert(const Bezier& part, const Station& a, const Station& b,
-                        CurvatureLimits limits, int depth) {
+void Converter::convert(const Bezier& part, const Station& a, const Station& b, Demands demands,
+                        int depth) {
   const bool singular = is_singular(a) || is_singular(b);
   const Vec2 chord = b.point - a.point;
-  failed_error_ = 0;
   if (!(a.point == b.point)) {
     if (singular) {
-      if (try_singular_end(part, a, b, limits)) return;
+      if (try_singular_end(part, a, b, demands.limits)) return;
     } else if (std::abs(a.curvature - b.curvature) * squared_norm(chord) <=
                constant * options_.rounding) {
       if (try_single_arc(part, a, b)) return;
-    } else if (try_biarc(part, a, b, limits)) {
+    } else if (try_biarc(part, a, b, demands)) {
       return;
     }
   }
@@ -160,25 +176,74 @@ void Converter::convert(const Bezier& part, const Station& a, const Station& b,
     error_ = std::max(error_, size);
     return;
   }
-  const double fraction = fraction_to_split(a, b);
-  const double t = a.t + fraction * (b.t - a.t);
-  const Station middle = snapped(station_at(curve_, t, Side::before));
-  Bezier left, right;
-  split(part, fraction, left, right);
-  convert(left, a, middle, {limits.begin, infinity}, depth + 1);
-  const Station from = is_singular(middle) ? snapped(station_at(curve_, t, Side::after)) : middle;
-  convert(right, from, b, {infinity, limits.end}, depth + 1);
+  Knots knots;
+  const int last = knots_of(part, a, b, demands, knots);
+  convert_between(part, knots, 0, last, demands, depth + 1);
 }
 
-/// The error falls with the third power of the number of parts, so the one of the biarc that failed
-/// tells how many there will be: an odd number is not split in the middle. There are fewer parts on
-/// the side of the larger curvature, so a curve is split alike from both ends.
-double Converter::fraction_to_split(const Station& a, const Station& b) const {
-  constexpr double most = 63;  // more are told better by the halves
-  const double parts = std::ceil(std::cbrt(failed_error_ / options_.tolerance));
-  if (!(parts > 1 && parts <= most)) return 0.5;
-  const double fraction = std::floor(0.5 * parts) / parts;
-  return std::abs(a.curvature) >= std::abs(b.curvature) ? fraction : 1 - fraction;
+/// The parts between some knots of a part, which is cut in the middle again and again: that rounds
+/// control points less often than cutting off one after the other.
+void Converter::convert_between(const Bezier& part, Knots& knots, int first, int last,
+                                Demands demands, int depth) {
+  const Station& a = knots[first];
+  const Station& b = knots[last];
+  if (last == first + 1) {
+    convert(part, a, b, demands, depth);
+    return;
+  }
+  const int middle = (first + last) / 2;
+  Station& m = knots[middle];
+  Bezier left, right;
+  split(part, (m.t - a.t) / (b.t - a.t), left, right);
+  const bool forward = std::abs(a.curvature) >= std::abs(b.curvature);
+  convert_between(left, knots, first, middle,
+                  {{demands.limits.begin, infinity}, demands.apex && forward}, depth);
+  if (is_singular(m)) m = snapped(station_at(curve_, m.t, Side::after));
+  convert_between(right, knots, middle, last,
+                  {{infinity, demands.limits.end}, demands.apex && !forward}, depth);
+}
+
+/// Where to divide a part that failed, with its ends, and the number of parts: so many that all have
+/// about the tolerance as their error. Gives the last index.
+///
+/// The error of a short balanced biarc grows with the change of curvature and the square of the
+/// length; its cube root adds up along the part.
+int Converter::knots_of(const Bezier& part, const Station& a, const Station& b, Demands demands,
+                        Knots& knots) {
+  const auto at = [&](double t) { return snapped(station_at(curve_, t, Side::before)); };
+  knots[0] = a;
+  if (is_singular(a) || is_singular(b)) {
+    knots[1] = at(0.5 * (a.t + b.t));
+    knots[2] = b;
+    return 2;
+  }
+  Fixed<double, most_samples + 1> sum;
+  sum[0] = 0;
+  Vec2 point = a.point;
+  double curved = a.curvature;
+  for (int i = 1; i <= most_samples; ++i) {
+    const Jet jet = evaluate(part, static_cast<double>(i) / most_samples);
+    const double next = i < most_samples ? curvature(jet) : b.curvature;
+    sum[i] = sum[i - 1] + std::cbrt(std::abs(next - curved) * squared_norm(jet.point - point));
+    point = jet.point;
+    curved = next;
+  }
+  const double total = sum[most_samples];
+  const double saved = demands.apex ? 1 - spiral_length : 0;
+  const double wanted = std::ceil(total * std::cbrt(balanced_error / options_.tolerance) + saved);
+  const int count = static_cast<int>(std::clamp(wanted, 2.0, double{most_divisions}));
+  const double unit = total / (count - saved);
+  const bool forward = std::abs(a.curvature) >= std::abs(b.curvature);
+  int sample = 0;
+  for (int i = 1; i < count; ++i) {
+    const double place = unit * (i - (forward ? saved : 0));
+    while (sample + 1 < most_samples && sum[sample + 1] < place) ++sample;
+    const double step = sum[sample + 1] - sum[sample];
+    const double along = std::clamp((place - sum[sample]) / step, 0.0, 1.0);
+    knots[i] = at(a.t + (sample + along) / most_samples * (b.t - a.t));
+  }
+  knots[count] = b;
+  return count;
 }
 
 /// Where curvature is constant but for rounding: one arc, between the directions at both ends.
@@ -229,15 +294,12 @@ Vec2 Converter::settled(Vec2 joint, const Station& a, const Station& b) const {
   return frame_.snap(settle_joint(joint_circle(a, b), snapped, frame_.spacing(snapped), reach));
 }
 
-bool Converter::try_biarc(const Bezier& part, const Station& a, const Station& b,
-                          CurvatureLimits limits) {
-  const Biarc biarc = make_biarc(a, settled(spiral_joint(a, b), a, b), b);
-  if (!is_spiral(biarc, a, b, limits)) return false;
+bool Converter::try_biarc(const Bezier& part, const Station& a, const Station& b, Demands demands) {
+  const Vec2 joint = demands.apex ? spiral_joint(a, b) : balanced_joint(a, b);
+  const Biarc biarc = make_biarc(a, settled(joint, a, b), b);
+  if (!is_spiral(biarc, a, b, demands.limits)) return false;
   const double error = certified_error(part, biarc, options_.rounding);
-  if (!(error <= options_.tolerance)) {
-    failed_error_ = error;
-    return false;
-  }
+  if (!(error <= options_.tolerance)) return false;
 
   const bool forward = std::abs(a.curvature) >= std::abs(b.curvature);
   if (merge_ && ends_osculating_ && forward) {
@@ -254,7 +316,7 @@ bool Converter::try_biarc(const Bezier& part, const Station& a, const Station& b
     emit(biarc.second.begin, biarc.second.bulge, error);
   }
   merge_ = false;
-  ends_osculating_ = !forward;
+  ends_osculating_ = demands.apex && !forward;
   return true;
 }
 
@@ -270,12 +332,13 @@ bool Converter::is_spiral(const Biarc& biarc, const Station& a, const Station& b
   const double sign = std::copysign(1.0, forward ? a.curvature : b.curvature);
   const double highest = sign * (forward ? a.curvature : b.curvature);
   const double lowest = std::max(0.0, sign * (forward ? b.curvature : a.curvature));
+  const double higher = sign * curvature(forward ? biarc.first : biarc.second);
   const double other = sign * curvature(forward ? biarc.second : biarc.first);
   const double shorter = std::min(squared_norm(biarc.first.end - biarc.first.begin),
                                   squared_norm(biarc.second.end - biarc.second.begin));
   // The rounding of the arcs' end points, as seen by their curvature.
   const double slack = options_.rounding / shorter;
-  return other >= lowest - slack && other <= highest + slack &&
+  return other >= lowest - slack && other <= higher + slack && higher <= highest + slack &&
          other <= (forward ? limits.end : limits.begin);
 }
 
