@@ -98,8 +98,7 @@ class Converter {
   bool try_singular_end(const Bezier& part, const Station& a, const Station& b,
                         CurvatureLimits limits);
   bool try_biarc(const Bezier& part, const Station& a, const Station& b, Demands demands);
-  bool is_spiral(const Biarc& biarc, const Station& a, const Station& b,
-                 CurvatureLimits limits) const;
+  bool is_spiral(const Biarc& biarc, const Station& a, const Station& b, Demands demands) const;
   Vec2 settled(Vec2 joint, const Station& a, const Station& b) const;
   Station snapped(Station station) const {
     station.point = frame_.snap(station.point);
@@ -297,7 +296,7 @@ Vec2 Converter::settled(Vec2 joint, const Station& a, const Station& b) const {
 bool Converter::try_biarc(const Bezier& part, const Station& a, const Station& b, Demands demands) {
   const Vec2 joint = demands.apex ? spiral_joint(a, b) : balanced_joint(a, b);
   const Biarc biarc = make_biarc(a, settled(joint, a, b), b);
-  if (!is_spiral(biarc, a, b, demands.limits)) return false;
+  if (!is_spiral(biarc, a, b, demands)) return false;
   const double error = certified_error(part, biarc, options_.rounding);
   if (!(error <= options_.tolerance)) return false;
 
@@ -320,10 +319,10 @@ bool Converter::try_biarc(const Bezier& part, const Station& a, const Station& b
   return true;
 }
 
-/// Whether the curvatures of the arcs lie between those of the curve's ends, as they do for a
+/// Whether the curvatures of the arcs go from one of the curve's ends to the other, as they do for a
 /// spiral that is short enough, and are below the limit.
 bool Converter::is_spiral(const Biarc& biarc, const Station& a, const Station& b,
-                          CurvatureLimits limits) const {
+                          Demands demands) const {
   if (!(std::abs(biarc.first.bulge) <= largest_bulge) ||
       !(std::abs(biarc.second.bulge) <= largest_bulge)) {
     return false;
@@ -332,14 +331,16 @@ bool Converter::is_spiral(const Biarc& biarc, const Station& a, const Station& b
   const double sign = std::copysign(1.0, forward ? a.curvature : b.curvature);
   const double highest = sign * (forward ? a.curvature : b.curvature);
   const double lowest = std::max(0.0, sign * (forward ? b.curvature : a.curvature));
-  const double higher = sign * curvature(forward ? biarc.first : biarc.second);
-  const double other = sign * curvature(forward ? biarc.second : biarc.first);
+  // At an apex it is the highest by construction, but for what the joint has slid.
+  const double high =
+      demands.apex ? highest : sign * curvature(forward ? biarc.first : biarc.second);
+  const double low = sign * curvature(forward ? biarc.second : biarc.first);
   const double shorter = std::min(squared_norm(biarc.first.end - biarc.first.begin),
                                   squared_norm(biarc.second.end - biarc.second.begin));
   // The rounding of the arcs' end points, as seen by their curvature.
   const double slack = options_.rounding / shorter;
-  return other >= lowest - slack && other <= higher + slack && higher <= highest + slack &&
-         other <= (forward ? limits.end : limits.begin);
+  return lowest <= low + slack && low <= high + slack && high <= highest + slack &&
+         low <= (forward ? demands.limits.end : demands.limits.begin);
 }
 
 }  // namespace
