@@ -4,15 +4,17 @@ export const distance = (a, b) => Math.hypot(a[0] - b[0], a[1] - b[1]);
 
 /** A rational Bezier curve of degree 1 to 3 at t: the point and the derivative. `points` are [x, y, weight]. */
 export function evaluate(points, t) {
-  let b = points.map(([x, y, w = 1]) => [x * w, y * w, w]);
-  const degree = b.length - 1;
-  for (let level = degree; level > 1; --level) {
-    b = b.slice(1).map((next, i) => next.map((value, k) => b[i][k] + t * (value - b[i][k])));
-  }
-  const [from, to] = b;
-  const [x, y, w] = from.map((value, k) => value + t * (to[k] - value));
-  const [dx, dy, dw] = from.map((value, k) => degree * (to[k] - value));
-  return { point: [x / w, y / w], slope: [(dx - dw * x / w) / w, (dy - dw * y / w) / w] };
+  const s = 1 - t, degree = points.length - 1;
+  const all = [0, 0, 0], slopes = [0, 0, 0];
+  points.forEach(([px, py, w = 1], i) => {
+    const choose = i === 0 || i === degree ? 1 : degree;
+    const value = choose * w * s ** (degree - i) * t ** i;
+    const slope = choose * w * ((i > 0 ? i * t ** (i - 1) * s ** (degree - i) : 0) -
+                                (i < degree ? (degree - i) * t ** i * s ** (degree - i - 1) : 0));
+    [px, py, 1].forEach((factor, k) => { all[k] += value * factor; slopes[k] += slope * factor; });
+  });
+  const [x, y, w] = all;
+  return { point: [x / w, y / w], slope: [0, 1].map(k => (slopes[k] - slopes[2] * all[k] / w) / w) };
 }
 
 /** The curves of a native file's axes. */

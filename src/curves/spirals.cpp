@@ -31,11 +31,13 @@ constexpr double same_curvature = 1e-8;
 /// A part whose curvature changes evenly by d over a chord c is this part of d c^2 away from its
 /// balanced biarc. From its spiral biarc it is 27/8 times that, so a spiral biarc within a tolerance is
 /// 2/3 as long.
-constexpr double balanced_error = 1.0 / 324;
+constexpr double balanced_error = 1.03 / 324;
 constexpr double spiral_length = 2.0 / 3;
 
-/// Places at which a part is looked at to divide it, and parts that it is divided into at once.
-constexpr int most_samples = 16;
+/// Places at which a part is looked at to divide it, for each part that it may have and in all; and
+/// parts that it is divided into at once.
+constexpr double samples_per_part = 2;
+constexpr int most_samples = 32;
 constexpr int most_divisions = 64;
 
 /// A curve whose curvature goes monotonically from one value to another that differs by d, over a
@@ -216,30 +218,40 @@ int Converter::knots_of(const Bezier& part, const Station& a, const Station& b, 
     knots[2] = b;
     return 2;
   }
+  const double parts_per_root = std::cbrt(balanced_error / options_.tolerance);
+  const auto parts_between = [&](const Station& from, const Station& to) {
+    return parts_per_root * std::cbrt(std::abs(to.curvature - from.curvature) *
+                                      squared_norm(to.point - from.point));
+  };
+  const int samples =
+      static_cast<int>(std::clamp(std::ceil(samples_per_part * parts_between(a, b)), 4.0,
+                                  double{most_samples}));
   Fixed<double, most_samples + 1> sum;
   sum[0] = 0;
-  Vec2 point = a.point;
-  double curved = a.curvature;
-  for (int i = 1; i <= most_samples; ++i) {
-    const Jet jet = evaluate(part, static_cast<double>(i) / most_samples);
-    const double next = i < most_samples ? curvature(jet) : b.curvature;
-    sum[i] = sum[i - 1] + std::cbrt(std::abs(next - curved) * squared_norm(jet.point - point));
-    point = jet.point;
-    curved = next;
+  Station from = a;
+  for (int i = 1; i <= samples; ++i) {
+    Station to = b;
+    if (i < samples) {
+      const Jet jet = evaluate(part, static_cast<double>(i) / samples);
+      to.point = jet.point;
+      to.curvature = curvature(jet);
+    }
+    sum[i] = sum[i - 1] + parts_between(from, to);
+    from = to;
   }
-  const double total = sum[most_samples];
+  const double total = sum[samples];
   const double saved = demands.apex ? 1 - spiral_length : 0;
-  const double wanted = std::ceil(total * std::cbrt(balanced_error / options_.tolerance) + saved);
+  const double wanted = std::ceil(total + saved);
   const int count = static_cast<int>(std::clamp(wanted, 2.0, double{most_divisions}));
   const double unit = total / (count - saved);
   const bool forward = std::abs(a.curvature) >= std::abs(b.curvature);
   int sample = 0;
   for (int i = 1; i < count; ++i) {
     const double place = unit * (i - (forward ? saved : 0));
-    while (sample + 1 < most_samples && sum[sample + 1] < place) ++sample;
+    while (sample + 1 < samples && sum[sample + 1] < place) ++sample;
     const double step = sum[sample + 1] - sum[sample];
     const double along = std::clamp((place - sum[sample]) / step, 0.0, 1.0);
-    knots[i] = at(a.t + (sample + along) / most_samples * (b.t - a.t));
+    knots[i] = at(a.t + (sample + along) / samples * (b.t - a.t));
   }
   knots[count] = b;
   return count;
