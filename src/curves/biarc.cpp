@@ -37,8 +37,9 @@ bool in_sector(const Bezier& curve, Vec2 from, Vec2 begin, Vec2 to, Vec2 end, do
 
 using DoubleDegree = Fixed<double, 2 * max_degree + 1>;
 
-/// A bound on a polynomial over W^2, both in Bernstein coefficients (W^2 of rational curves only), on
-/// both sides of t: a mean of the coefficients' ratios, with positive weights, is nowhere larger.
+/// A bound on a polynomial over W^2, both in Bernstein coefficients (W^2 of rational curves only),
+/// on both sides of t: a mean of the coefficients' ratios, with positive weights, is nowhere
+/// larger.
 double largest_on_parts(DoubleDegree& f, DoubleDegree* w, int degree, double t) {
   double largest = 0;
   const auto meet = [&](int i) {
@@ -81,8 +82,8 @@ double largest_circle_function(const Bezier& curve, Vec2 base, Vec2 tangent, dou
     numerator[m] = f * binomials.inverse_double_row[m];
     denominator[m] = squared * binomials.inverse_double_row[m];
   }
-  // Where the arc touches the curve the distance is at first like s^2 (1 - s), largest at two thirds
-  // of the way: where the two parts meet, the bound is the function itself.
+  // Where the arc touches the curve the distance is at first like s^2 (1 - s), largest at two
+  // thirds of the way: where the two parts meet, the bound is the function itself.
   constexpr double peak = 2.0 / 3;
   return largest_on_parts(numerator, curve.rational ? &denominator : nullptr, 2 * n,
                           at_begin ? peak : 1 - peak);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/numbers.h"
 #include "curves/biarc.h"
@@ -28,15 +29,16 @@ constexpr double cusp_neighbourhood = 1e-4;
 /// Curvatures that differ by less are the same: roots that are there by rounding only.
 constexpr double same_curvature = 1e-8;
 
-/// A part whose curvature changes evenly by d over a chord c is this part of d c^2 away from its
-/// balanced biarc. From its spiral biarc it is 27/8 times that, so a spiral biarc within a tolerance is
-/// 2/3 as long.
+/// A part whose curvature changes evenly by d over a chord c is d c^2 / 324 away from its balanced
+/// biarc; a little more makes up for what is uneven. From its spiral biarc it is 27/8 times that,
+/// so a spiral biarc within a tolerance is 2/3 as long.
 constexpr double balanced_error = 1.03 / 324;
 constexpr double spiral_length = 2.0 / 3;
 
 /// Places at which a part is looked at to divide it, for each part that it may have and in all; and
 /// parts that it is divided into at once.
 constexpr double samples_per_part = 2;
+constexpr int fewest_samples = 4;
 constexpr int most_samples = 32;
 constexpr int most_divisions = 64;
 
@@ -80,7 +82,11 @@ class Converter {
  public:
   Converter(const Bezier& curve, const PieceFrame& frame, const SpiralOptions& options,
             ArcChain& chain)
-      : curve_(curve), frame_(frame), options_(options), chain_(chain) {}
+      : curve_(curve),
+        frame_(frame),
+        options_(options),
+        chain_(chain),
+        parts_per_root_(std::cbrt(balanced_error / options.tolerance)) {}
 
   double run();
 
@@ -95,7 +101,14 @@ class Converter {
   void convert(const Bezier& part, const Station& a, const Station& b, Demands demands, int depth);
   void convert_between(const Bezier& part, Knots& knots, int first, int last, Demands demands,
                        int depth);
-  int knots_of(const Bezier& part, const Station& a, const Station& b, Demands demands, Knots& knots);
+  int knots_of(const Bezier& part, const Station& a, const Station& b, Demands demands,
+               Knots& knots) const;
+  /// How many balanced biarcs there are on a short part. The error of one grows with the change of
+  /// curvature and the square of the length; its cube root adds up along a curve.
+  double parts_between(const Station& a, const Station& b) const {
+    return parts_per_root_ *
+           std::cbrt(std::abs(b.curvature - a.curvature) * squared_norm(b.point - a.point));
+  }
   bool try_single_arc(const Bezier& part, const Station& a, const Station& b);
   bool try_singular_end(const Bezier& part, const Station& a, const Station& b,
                         CurvatureLimits limits);
@@ -116,6 +129,7 @@ class Converter {
   const PieceFrame& frame_;
   const SpiralOptions& options_;
   ArcChain& chain_;
+  const double parts_per_root_;
   double error_ = 0;
   int parts_ = 0;
   bool ends_osculating_ = false;  ///< the last arc is the osculating circle where it ends
@@ -157,10 +171,9 @@ double Converter::run() {
 
 void Converter::convert(const Bezier& part, const Station& a, const Station& b, Demands demands,
                         int depth) {
-  const bool singular = is_singular(a) || is_singular(b);
   const Vec2 chord = b.point - a.point;
   if (!(a.point == b.point)) {
-    if (singular) {
+    if (is_singular(a) || is_singular(b)) {
       if (try_singular_end(part, a, b, demands.limits)) return;
     } else if (std::abs(a.curvature - b.curvature) * squared_norm(chord) <=
                constant * options_.rounding) {
@@ -178,8 +191,8 @@ void Converter::convert(const Bezier& part, const Station& a, const Station& b, 
     return;
   }
   Knots knots;
-  const int last = knots_of(part, a, b, demands, knots);
-  convert_between(part, knots, 0, last, demands, depth + 1);
+  const int count = knots_of(part, a, b, demands, knots);
+  convert_between(part, knots, 0, count, demands, depth + 1);
 }
 
 /// The parts between some knots of a part, which is cut in the middle again and again: that rounds
@@ -204,29 +217,15 @@ void Converter::convert_between(const Bezier& part, Knots& knots, int first, int
                   {{infinity, demands.limits.end}, demands.apex && !forward}, depth);
 }
 
-/// Where to divide a part that failed, with its ends, and the number of parts: so many that all have
-/// about the tolerance as their error. Gives the last index.
-///
-/// The error of a short balanced biarc grows with the change of curvature and the square of the
-/// length; its cube root adds up along the part.
+/// Where to divide a part, with its ends, into two parts or more: so many that all have about the
+/// tolerance as their error. Gives their number.
 int Converter::knots_of(const Bezier& part, const Station& a, const Station& b, Demands demands,
-                        Knots& knots) {
-  const auto at = [&](double t) { return snapped(station_at(curve_, t, Side::before)); };
-  knots[0] = a;
-  if (is_singular(a) || is_singular(b)) {
-    knots[1] = at(0.5 * (a.t + b.t));
-    knots[2] = b;
-    return 2;
-  }
-  const double parts_per_root = std::cbrt(balanced_error / options_.tolerance);
-  const auto parts_between = [&](const Station& from, const Station& to) {
-    return parts_per_root * std::cbrt(std::abs(to.curvature - from.curvature) *
-                                      squared_norm(to.point - from.point));
-  };
-  const int samples =
-      static_cast<int>(std::clamp(std::ceil(samples_per_part * parts_between(a, b)), 4.0,
-                                  double{most_samples}));
+                        Knots& knots) const {
+  // The parts up to some places, evenly spaced in the parameter.
   Fixed<double, most_samples + 1> sum;
+  const double expected = std::min(parts_between(a, b), double{most_samples});
+  const int samples = std::clamp(static_cast<int>(std::ceil(samples_per_part * expected)),
+                                 fewest_samples, most_samples);
   sum[0] = 0;
   Station from = a;
   for (int i = 1; i <= samples; ++i) {
@@ -240,18 +239,22 @@ int Converter::knots_of(const Bezier& part, const Station& a, const Station& b, 
     from = to;
   }
   const double total = sum[samples];
-  const double saved = demands.apex ? 1 - spiral_length : 0;
-  const double wanted = std::ceil(total + saved);
-  const int count = static_cast<int>(std::clamp(wanted, 2.0, double{most_divisions}));
-  const double unit = total / (count - saved);
+  const bool even = !(total > 0 && total <= std::numeric_limits<double>::max());
+  const double saved = demands.apex && !even ? 1 - spiral_length : 0;
+  const int count =
+      even ? 2
+           : static_cast<int>(std::clamp(std::ceil(total + saved), 2.0, double{most_divisions}));
   const bool forward = std::abs(a.curvature) >= std::abs(b.curvature);
-  int sample = 0;
-  for (int i = 1; i < count; ++i) {
-    const double place = unit * (i - (forward ? saved : 0));
-    while (sample + 1 < samples && sum[sample + 1] < place) ++sample;
-    const double step = sum[sample + 1] - sum[sample];
-    const double along = std::clamp((place - sum[sample]) / step, 0.0, 1.0);
-    knots[i] = at(a.t + (sample + along) / samples * (b.t - a.t));
+  knots[0] = a;
+  for (int i = 1, sample = 0; i < count; ++i) {
+    double place = (i - (forward ? saved : 0)) / (count - saved);  // of all parts
+    if (!even) {
+      while (sample + 1 < samples && sum[sample + 1] < place * total) ++sample;
+      const double step = sum[sample + 1] - sum[sample];
+      const double along = step > 0 ? std::min((place * total - sum[sample]) / step, 1.0) : 0.5;
+      place = (sample + along) / samples;
+    }
+    knots[i] = snapped(station_at(curve_, a.t + place * (b.t - a.t), Side::before));
   }
   knots[count] = b;
   return count;
@@ -331,8 +334,8 @@ bool Converter::try_biarc(const Bezier& part, const Station& a, const Station& b
   return true;
 }
 
-/// Whether the curvatures of the arcs go from one of the curve's ends to the other, as they do for a
-/// spiral that is short enough, and are below the limit.
+/// Whether the curvatures of the arcs go from one of the curve's ends to the other, as they do for
+/// a spiral that is short enough, and are below the limit.
 bool Converter::is_spiral(const Biarc& biarc, const Station& a, const Station& b,
                           Demands demands) const {
   if (!(std::abs(biarc.first.bulge) <= largest_bulge) ||
