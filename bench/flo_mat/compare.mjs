@@ -2,20 +2,21 @@
 // node compare.mjs MEDIAL [--rounds N] [--tolerance T | equal] [--vertices LEAST MOST]
 //   [FILE.svg | FILE.wkt | FILE.wkt.gz | FOLDER ...]; see README.md.
 
-import { execFileSync, spawnSync } from 'node:child_process';
+import { execFileSync, fork, spawnSync } from 'node:child_process';
 import { existsSync, mkdtempSync, readdirSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { basename, join } from 'node:path';
-import { gunzipSync } from 'node:zlib';
 
 import { branchesOf, curvesOf, diagonalOf, Distances, evaluate, matched, nodesOf, samplesOf, spread }
   from './axes.mjs';
+import { pathsOf, polygonsOf } from './paths.mjs';
 
 let tolerances = [1e-6];   // of medial's arcs, relative to the diagonal; none: as exact as flo-mat is
 const finest = 1e-9;     // the axis that both are measured against
 const goal = 300;        // times as fast
 const samples = 2000;    // of an axis, by its length
 const rounding = 1e-14;  // of coordinates, relative to the diagonal
+const patience = 20;     // seconds for flo-mat on one shape, and some for each edge
 const near = 1e-3;       // ends of branches at the same place, relative to the diagonal
 
 // What "as exact as" may mean: which distance of medial's must not be above flo-mat's.
@@ -25,9 +26,8 @@ const accuracies = {
   'largest': errors => Math.max(errors.from.largest, errors.to.largest),
 };
 
-let flo;
 try {
-  flo = await import('flo-mat');
+  import.meta.resolve('flo-mat');
 } catch (error) {
   console.log(`skipped: flo-mat is not installed (npm install in bench/flo_mat): ${error.message}`);
   process.exit(0);
@@ -49,34 +49,12 @@ if (!medial || !existsSync(medial) || !(rounds >= 1) || !tolerances.every(t => t
   process.exit(2);
 }
 
+let child;  // where flo-mat runs
 const folder = mkdtempSync(join(tmpdir(), 'flo-mat-'));
-process.on('exit', () => rmSync(folder, { recursive: true, force: true }));
-
-/** The path data of an SVG. Both programs get it without view box and transforms. */
-function pathsOf(file) {
-  return [...readFileSync(file, 'utf8').matchAll(/\sd="([^"]+)"/g)].map(match => match[1]);
-}
-
-/** The polygons of a well-known text as path data, with as many vertices as is asked for. */
-function polygonsOf(file) {
-  const bytes = readFileSync(file);
-  const text = (file.endsWith('.gz') ? gunzipSync(bytes) : bytes).toString();
-  const polygons = text.match(/\(\s*\([^()]+\)(\s*,\s*\([^()]+\))*\s*\)/g) ?? [];
-  return polygons.map(polygon => polygon.match(/\([^()]+\)/g).map(ring => ring.slice(1, -1).split(',').slice(0, -1)))
-    .filter(rings => {
-      const count = rings.reduce((sum, ring) => sum + ring.length, 0);
-      return count >= fewest && count <= most;
-    })
-    .map(rings => rings.map((ring, i) => 'M' + (i > 0 ? turned(rings[0], ring) : ring)
-      .map(point => point.trim().replace(/\s+/g, ' ')).join('L') + 'Z').join('\n'));
-}
-
-/** A hole's ring against its polygon's: both programs fill by the non-zero rule. */
-function turned(outer, hole) {
-  const area = ring => ring.map(point => point.trim().split(/\s+/).map(Number))
-    .reduce((sum, [x, y], i, all) => sum + x * all[(i + 1) % all.length][1] - y * all[(i + 1) % all.length][0], 0);
-  return area(outer) * area(hole) > 0 ? [...hole].reverse() : hole;
-}
+process.on('exit', () => {
+  child?.kill('SIGKILL');
+  rmSync(folder, { recursive: true, force: true });
+});
 
 /** The shapes to compare: `paths` that are one shape each, by names and kinds. A file of a folder has a
  * shape in each path, any other file is one shape. */
@@ -90,7 +68,7 @@ function* inputs() {
   }
   for (const { file, kind } of files) {
     const name = basename(file).replace(/\.(svg|wkt|wkt\.gz)$/, '');
-    const paths = file.endsWith('.svg') ? pathsOf(file) : /\.wkt(\.gz)?$/.test(file) ? polygonsOf(file) : [];
+    const paths = file.endsWith('.svg') ? pathsOf(file) : /\.wkt(\.gz)?$/.test(file) ? polygonsOf(file, fewest, most) : [];
     if (kind === undefined) yield { name, kind: 'files', paths };
     else for (const [i, path] of paths.entries()) {
       yield { name: paths.length > 1 ? `${name}, ${i + 1}` : name, kind, paths: [path] };
@@ -107,30 +85,24 @@ function writeSvg(name, paths, copies) {
   return file;
 }
 
-/** The least milliseconds of processor time of all rounds but the first, which warms up, and the last result. */
-function timed(work) {
-  let least = Infinity, result;
-  for (let round = 0; round <= rounds; ++round) {
-    const begin = process.cpuUsage();
-    result = work();
-    const { user, system } = process.cpuUsage(begin);
-    if (round > 0) least = Math.min(least, 1e-3 * (user + system));
+/** flo-mat's time, curves and branches of one shape, from a process that is ended where it takes too long. */
+async function runFlo(paths) {
+  child ??= fork(new URL('flo.mjs', import.meta.url).pathname, [`${rounds}`], { serialization: 'advanced' });
+  const edges = paths.join('').match(/[A-Z]/g).length;
+  const seconds = patience + 0.02 * (rounds + 1) * edges;
+  const result = await new Promise(resolve => {
+    const exit = () => resolve({ error: 'ends' });
+    const timer = setTimeout(() => resolve({ error: `takes more than ${seconds.toFixed(0)} s` }), 1e3 * seconds);
+    child.once('exit', exit);
+    child.once('message', message => { child.off('exit', exit); clearTimeout(timer); resolve(message); });
+    child.send(paths);
+  });
+  if (!result.curves) {
+    child.kill('SIGKILL');
+    child = undefined;
+    throw new Error(result.error);
   }
-  return [least, result];
-}
-
-/** flo-mat's time, its axis' curves and branches: its default accuracy, nothing simplified or culled. */
-function runFlo(paths) {
-  const loops = flo.getPathsFromStr(paths.join('\n'));
-  const [milliseconds, mats] = timed(() => flo.findMats(loops, { applySat: false, simplify: false }));
-  const branches = mats.flatMap(({ cpNode }) => (cpNode ? flo.getBranches(cpNode) : []));
-  const center = node => node.cp.circle.center;
-  return {
-    milliseconds,
-    edges: loops.reduce((sum, loop) => sum + loop.length, 0),
-    branches: branches.map(branch => [center(branch[0]), center(branch[branch.length - 1].next)]),
-    curves: branches.flatMap(branch => branch.map(node => flo.CpNodeFs.getMatCurveToNext(node))),
-  };
+  return result;
 }
 
 /** medial's axis of one copy of a shape, and whether it is verified if that is asked for. */
@@ -195,8 +167,9 @@ function equalTolerances(paths, options, theirs, truth) {
 }
 
 /** Everything about one shape. */
-function compare(paths) {
-  const theirs = runFlo(paths);
+async function compare(paths) {
+  const theirs = await runFlo(paths);
+  if (theirs.curves.length === 0) throw new Error('finds no axis');
   const options = optionsFor(paths);
   const { native } = axisOf(paths, options, finest);
   const truth = { diagonal: diagonalOf(native), samples: samplesOf(curvesOf(native), samples) };
@@ -233,7 +206,7 @@ for (const { name, kind, paths } of inputs()) {
   const summary = kinds.get(kind);
   let result;
   try {
-    result = compare(paths);
+    result = await compare(paths);
   } catch (error) {
     const text = (error.stderr?.toString() || error.message).trim().split('\n')[0];
     (error.stderr ? summary.refused : summary.failures).push(`${name} (${text})`);
