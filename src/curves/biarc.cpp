@@ -37,22 +37,23 @@ bool in_sector(const Bezier& curve, Vec2 from, Vec2 begin, Vec2 to, Vec2 end, do
 
 using DoubleDegree = Fixed<double, 2 * max_degree + 1>;
 
+/// One level of de Casteljau's algorithm: coefficients 0 to `last` become one fewer.
+void reduce(DoubleDegree& b, int last, double t) {
+  for (int i = 0; i < last; ++i) b[i] += t * (b[i + 1] - b[i]);
+}
+
 /// A bound on a polynomial over W^2, both in Bernstein coefficients (W^2 of rational curves only),
 /// on both sides of t: a mean of the coefficients' ratios, with positive weights, is nowhere
 /// larger.
 double largest_on_parts(DoubleDegree& f, DoubleDegree* w, int degree, double t) {
   double largest = 0;
-  const auto meet = [&](int i) {
-    largest = std::max(largest, std::abs(w != nullptr ? f[i] / (*w)[i] : f[i]));
-  };
-  // De Casteljau's algorithm: the first and last ones of each level are the parts' coefficients.
+  // The first and last ones of each level are the parts' coefficients.
   for (int last = degree; last >= 0; --last) {
-    meet(0);
-    meet(last);
-    for (int i = 0; i < last; ++i) {
-      f[i] += t * (f[i + 1] - f[i]);
-      if (w != nullptr) (*w)[i] += t * ((*w)[i + 1] - (*w)[i]);
+    for (const int i : {0, last}) {
+      largest = std::max(largest, std::abs(w != nullptr ? f[i] / (*w)[i] : f[i]));
     }
+    reduce(f, last, t);
+    if (w != nullptr) reduce(*w, last, t);
   }
   return largest;
 }
@@ -77,7 +78,7 @@ double largest_circle_function(const Bezier& curve, Vec2 base, Vec2 tangent, dou
     for (int i = std::max(0, m - n); i <= std::min(m, n); ++i) {
       const int j = m - i;
       f += k * (cx[i] * cx[j] + cy[i] * cy[j]) - side[i] * w[j];
-      if (curve.rational) squared += w[i] * w[j];
+      squared += w[i] * w[j];
     }
     numerator[m] = f * binomials.inverse_double_row[m];
     denominator[m] = squared * binomials.inverse_double_row[m];
