@@ -241,9 +241,11 @@ int Converter::knots_of(const Bezier& part, const Station& a, const Station& b, 
   const double total = sum[samples];
   const bool even = !(total > 0 && total <= std::numeric_limits<double>::max());
   const double saved = demands.apex && !even ? 1 - spiral_length : 0;
-  const int count =
-      even ? 2
-           : static_cast<int>(std::clamp(std::ceil(total + saved), 2.0, double{most_divisions}));
+  const double wanted = std::ceil(total + saved);
+  // More are made in blocks that have many parts each: one of few is rounded up to one more.
+  const double fitting =
+      wanted <= most_divisions ? wanted : std::ceil(wanted / (0.5 * most_divisions));
+  const int count = even ? 2 : static_cast<int>(std::clamp(fitting, 2.0, double{most_divisions}));
   const bool forward = std::abs(a.curvature) >= std::abs(b.curvature);
   knots[0] = a;
   for (int i = 1, sample = 0; i < count; ++i) {
