@@ -7,9 +7,11 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -168,6 +170,63 @@ TEST(RandomSplines, AreVerifiedAndKeepTheirApices) {
       // What is within a distance of the curve changes no distance to it by more.
       EXPECT_NEAR(radius, deepest, report.largest_error + fine_error + 1e-14);
     }
+  }
+}
+
+/// The leaves of curves at one tolerance.
+struct Leaves {
+  std::vector<Disk> disks;
+  std::vector<ArcEdge> boundary;
+  double error = 0;
+};
+
+Leaves leaves_of(std::span<const Contour> contours, double tolerance) {
+  Leaves leaves;
+  ArcReport report;
+  const auto rings = approximate_by_arcs(contours, {.tolerance = tolerance, .threads = 1}, &report);
+  const auto shape = build_shape(*rings);
+  const auto axis = compute(*shape, {.threads = 1});
+  for (const Node& node : axis->nodes)
+    if (node.kind == NodeKind::leaf) leaves.disks.push_back(node.disk);
+  for (const Ring& ring : *rings)
+    std::ranges::copy(edges_of(ring), std::back_inserter(leaves.boundary));
+  leaves.error = report.largest_error;
+  return leaves;
+}
+
+/// How many leaves `other` has not. The boundary comes into the disk of each, by less than both
+/// errors: whether such a leaf is one of the curves' own cannot be told at these tolerances.
+int expect_undecided(const Leaves& leaves, const Leaves& other) {
+  int missing = 0;
+  for (const Disk& leaf : leaves.disks) {
+    // Osculating circles at apices are the same at every tolerance, but for how far joints slide.
+    constexpr double same = 1e-5, rounding = 1e-8;
+    const bool shared = std::ranges::any_of(other.disks, [&](const Disk& disk) {
+      return distance(disk.center, leaf.center) + std::abs(disk.radius - leaf.radius) < same;
+    });
+    if (shared) continue;
+    ++missing;
+    double clearance = std::numeric_limits<double>::infinity();
+    for (const ArcEdge& edge : other.boundary)
+      clearance = std::min(clearance, edge.distance_to(leaf.center));
+    EXPECT_GT(leaf.radius - clearance, rounding);
+    EXPECT_LE(leaf.radius - clearance, leaves.error + other.error);
+  }
+  return missing;
+}
+
+/// Of 500 random splines, nine do not have the same leaves at all tolerances: all of them here.
+TEST(RandomSplines, LeavesThatToleranceDecidesAreWithinTheError) {
+  for (const std::uint64_t seed : {29U, 194U, 252U, 282U, 318U, 333U, 397U, 408U, 458U}) {
+    SCOPED_TRACE(seed);
+    const std::vector<Contour> contours = random_splines(seed);
+    const Leaves fine = leaves_of(contours, 1e-8);
+    int differ = 0;
+    for (const double tolerance : {1e-6, 1e-4, 1e-3, 1e-2}) {
+      const Leaves coarse = leaves_of(contours, tolerance);
+      differ += expect_undecided(fine, coarse) + expect_undecided(coarse, fine);
+    }
+    EXPECT_GT(differ, 0);
   }
 }
 

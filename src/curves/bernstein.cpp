@@ -54,7 +54,7 @@ double only_root(const Part& part) {
   const int n = part.degree;
   const bool rising = part.b[n] > 0;
   double low = 0, high = 1;
-  double s = part.b[0] / (part.b[0] - part.b[n]);
+  double s = part.b[0] / (part.b[0] - part.b[n]), last_step = 1;
   Fixed<double, max_polynomial_degree + 1> b;
   for (int step = 0; step < 100; ++step) {
     std::copy_n(part.b.begin(), n + 1, b.begin());
@@ -66,9 +66,12 @@ double only_root(const Part& part) {
     if (value == 0) return s;
     ((value > 0) == rising ? high : low) = s;
     double next = s - value / slope;
-    // Newton's step must stay inside the bracket, and every third time the bracket is halved.
-    if (!(next > low && next < high) || step % 3 == 2) next = 0.5 * (low + high);
-    if (std::abs(next - s) <= std::numeric_limits<double>::epsilon() * s) return next;
+    // Newton's step must stay inside the bracket and be half of the one before at most.
+    if (!(next > low && next < high && 2 * std::abs(next - s) <= last_step)) {
+      next = 0.5 * (low + high);
+    }
+    last_step = std::abs(next - s);
+    if (last_step <= std::numeric_limits<double>::epsilon() * s) return next;
     s = next;
   }
   return s;

@@ -11,13 +11,26 @@ namespace {
 /// below 1e-16 of the curve's size.
 constexpr double singular = 1e-8;
 
-/// Value and derivatives of one coordinate at t; overwrites b.
+/// Value and derivatives of one coordinate at t.
 struct Values {
   double value = 0;
   double first = 0;
   double second = 0;
 };
-Values casteljau(Fixed<double, max_degree + 1>& b, int degree, double t) {
+
+/// Of most curves, without loops.
+Values casteljau_of_cubic(const Fixed<double, max_degree + 1>& c, double t) {
+  const double a = c[0] + t * (c[1] - c[0]);
+  const double b = c[1] + t * (c[2] - c[1]);
+  const double d = c[2] + t * (c[3] - c[2]);
+  const double before = a + t * (b - a), after = b + t * (d - b);
+  return {before + t * (after - before), 3 * (after - before), 6 * ((d - b) - (b - a))};
+}
+
+Values casteljau(const Fixed<double, max_degree + 1>& c, int degree, double t) {
+  if (degree == 3) return casteljau_of_cubic(c, t);
+  Fixed<double, max_degree + 1> b{};
+  std::copy_n(c.begin(), degree + 1, b.begin());
   const double n = degree;
   for (int level = degree; level > 2; --level) {
     for (int i = 0; i < level; ++i) b[i] += t * (b[i + 1] - b[i]);
@@ -84,10 +97,8 @@ Bezier make_bezier(std::span<const Vec2> points, std::span<const double> weights
 }
 
 Jet evaluate(const Bezier& curve, double t) {
-  Fixed<double, max_degree + 1> b{};
   const auto values = [&](const Fixed<double, max_degree + 1>& c) {
-    std::copy_n(c.begin(), curve.degree + 1, b.begin());
-    return casteljau(b, curve.degree, t);
+    return casteljau(c, curve.degree, t);
   };
   const Values x = values(curve.x), y = values(curve.y);
   if (!curve.rational) return {{x.value, y.value}, {x.first, y.first}, {x.second, y.second}};

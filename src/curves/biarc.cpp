@@ -35,8 +35,32 @@ bool in_sector(const Bezier& curve, Vec2 from, Vec2 begin, Vec2 to, Vec2 end, do
   return true;
 }
 
-/// F of the curve as a polynomial, and its denominator W^2, at least in Bernstein coefficients.
-double largest_circle_function(const Bezier& curve, Vec2 base, Vec2 tangent, double k) {
+using DoubleDegree = Fixed<double, 2 * max_degree + 1>;
+
+/// One level of de Casteljau's algorithm: coefficients 0 to `last` become one fewer.
+void reduce(DoubleDegree& b, int last, double t) {
+  for (int i = 0; i < last; ++i) b[i] += t * (b[i + 1] - b[i]);
+}
+
+/// A bound on a polynomial over W^2, both in Bernstein coefficients (W^2 of rational curves only),
+/// on both sides of t: a mean of the coefficients' ratios, with positive weights, is nowhere
+/// larger.
+double largest_on_parts(DoubleDegree& f, DoubleDegree* w, int degree, double t) {
+  double largest = 0;
+  // The first and last ones of each level are the parts' coefficients.
+  for (int last = degree; last >= 0; --last) {
+    for (const int i : {0, last}) {
+      largest = std::max(largest, std::abs(w != nullptr ? f[i] / (*w)[i] : f[i]));
+    }
+    reduce(f, last, t);
+    if (w != nullptr) reduce(*w, last, t);
+  }
+  return largest;
+}
+
+/// A bound on F of the curve, for the circle at one end of the arc.
+double largest_circle_function(const Bezier& curve, Vec2 base, Vec2 tangent, double k,
+                               bool at_begin) {
   const int n = curve.degree;
   const Binomials& binomials = binomials_of(n);
   // Coefficients times the binomials: c, its turned component, and the weight.
@@ -48,25 +72,47 @@ double largest_circle_function(const Bezier& curve, Vec2 base, Vec2 tangent, dou
     cy[i] = scale * curve.y[i] - w[i] * base.y;
     side[i] = 2 * (tangent.x * cy[i] - tangent.y * cx[i]);
   }
-  double largest = 0;
+  DoubleDegree numerator, denominator;
   for (int m = 0; m <= 2 * n; ++m) {
-    double f = 0, denominator = 0;
+    double f = 0, squared = 0;
     for (int i = std::max(0, m - n); i <= std::min(m, n); ++i) {
       const int j = m - i;
       f += k * (cx[i] * cx[j] + cy[i] * cy[j]) - side[i] * w[j];
-      if (curve.rational) denominator += w[i] * w[j];
+      squared += w[i] * w[j];
     }
-    // F / W^2 is a mean of the coefficients' ratios, with positive weights.
-    f *= curve.rational ? 1 / denominator : binomials.inverse_double_row[m];
-    largest = std::max(largest, std::abs(f));
+    numerator[m] = f * binomials.inverse_double_row[m];
+    denominator[m] = squared * binomials.inverse_double_row[m];
   }
-  return largest;
+  // Where the arc touches the curve the distance is at first like s^2 (1 - s), largest at two
+  // thirds of the way: where the two parts meet, the bound is the function itself.
+  constexpr double peak = 2.0 / 3;
+  return largest_on_parts(numerator, curve.rational ? &denominator : nullptr, 2 * n,
+                          at_begin ? peak : 1 - peak);
 }
 
-/// The certified distance of the circle through `base` along `tangent`, for a curve in its sector.
-double circle_error(const Bezier& curve, Vec2 base, Vec2 tangent, double k) {
-  const double f = largest_circle_function(curve, base, tangent, k);
+/// The certified distance of a curve in an arc's sector from its circle through one of its ends.
+double circle_error(const Bezier& curve, const Arc& arc, bool at_begin) {
+  const Vec2 base = at_begin ? arc.begin : arc.end;
+  const Vec2 tangent = at_begin ? tangent_at_begin(arc) : tangent_at_end(arc);
+  const double k = curvature(arc);
+  const double f = largest_circle_function(curve, base, tangent, k, at_begin);
   return distance_of(k > 0 ? -f : f, k);  // the larger of both sides
+}
+
+Station reversed(Station station) {
+  station.tangent = -station.tangent;
+  station.curvature = -station.curvature;
+  return station;
+}
+
+/// Where the osculating circle at `from` meets the joint circle again.
+Vec2 osculating_joint(const Station& from, const Station& to) {
+  const JointCircle circle = joint_circle(from, to);
+  const Vec2 v = from.tangent, m = circle.direction;
+  const Vec2 along = circle.curvature * v - from.curvature * m;
+  const Vec2 joint = from.point + (-2 * cross(v, m) / squared_norm(along)) * along;
+  // One Newton step onto the joint circle: rounding may slide the joint along it, not off it.
+  return joint - circle.off(joint) * circle.normal(joint);
 }
 
 }  // namespace
@@ -103,19 +149,16 @@ JointCircle joint_circle(const Station& a, const Station& b) {
 }
 
 Vec2 spiral_joint(const Station& a, const Station& b) {
-  const auto reversed = [](Station station) {
-    station.tangent = -station.tangent;
-    station.curvature = -station.curvature;
-    return station;
-  };
   const bool forward = std::abs(a.curvature) >= std::abs(b.curvature);
-  const Station high = forward ? a : reversed(b);
-  const JointCircle circle = joint_circle(high, forward ? b : reversed(a));
-  const Vec2 v = high.tangent, m = circle.direction;
-  const Vec2 along = circle.curvature * v - high.curvature * m;
-  const Vec2 joint = high.point + (-2 * cross(v, m) / squared_norm(along)) * along;
-  // One Newton step onto the joint circle: rounding may slide the joint along it, not off it.
-  return joint - circle.off(joint) * circle.normal(joint);
+  return forward ? osculating_joint(a, b) : osculating_joint(reversed(b), reversed(a));
+}
+
+Vec2 balanced_joint(const Station& a, const Station& b) {
+  Vec2 joint = 0.5 * (osculating_joint(a, b) + osculating_joint(reversed(b), reversed(a)));
+  const JointCircle circle = joint_circle(a, b);
+  // Newton's steps: the middle of a chord is off by the square of its length, not by rounding.
+  for (int step = 0; step < 3; ++step) joint = joint - circle.off(joint) * circle.normal(joint);
+  return joint;
 }
 
 Vec2 settle_joint(const JointCircle& circle, Vec2 joint, Vec2 grid, double reach) {
@@ -183,7 +226,7 @@ std::optional<double> projected_joint(const Bezier& curve, const Biarc& biarc) {
 double certified_error(const Bezier& curve, const Arc& arc, double rounding) {
   const Vec2 begin = tangent_at_begin(arc), end = tangent_at_end(arc);
   if (!in_sector(curve, arc.begin, begin, arc.end, end, rounding)) return infinity;
-  return circle_error(curve, arc.begin, begin, curvature(arc));
+  return circle_error(curve, arc, true);
 }
 
 double certified_error(const Bezier& curve, const Biarc& biarc, double rounding) {
@@ -196,8 +239,8 @@ double certified_error(const Bezier& curve, const Biarc& biarc, double rounding)
   if (!in_sector(curve, biarc.first.begin, begin, biarc.second.end, end, rounding)) {
     return infinity;
   }
-  return std::max(circle_error(before, biarc.first.begin, begin, curvature(biarc.first)),
-                  circle_error(after, biarc.second.end, end, curvature(biarc.second)));
+  return std::max(circle_error(before, biarc.first, true),
+                  circle_error(after, biarc.second, false));
 }
 
 double sampled_error(const Bezier& curve, const Biarc& biarc, int samples) {

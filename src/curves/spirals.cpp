@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/numbers.h"
 #include "curves/biarc.h"
@@ -27,6 +28,19 @@ constexpr double cusp_neighbourhood = 1e-4;
 
 /// Curvatures that differ by less are the same: roots that are there by rounding only.
 constexpr double same_curvature = 1e-8;
+
+/// A part whose curvature changes evenly by d over a chord c is d c^2 / 324 away from its balanced
+/// biarc; a little more makes up for what is uneven. From its spiral biarc it is 27/8 times that,
+/// so a spiral biarc within a tolerance is 2/3 as long.
+constexpr double balanced_error = 1.03 / 324;
+constexpr double spiral_length = 2.0 / 3;
+
+/// Places at which a part is looked at to divide it, for each part that it may have and in all; and
+/// parts that it is divided into at once.
+constexpr double samples_per_part = 2;
+constexpr int fewest_samples = 4;
+constexpr int most_samples = 32;
+constexpr int most_divisions = 64;
 
 /// A curve whose curvature goes monotonically from one value to another that differs by d, over a
 /// chord c, is less than d c^2 / 50 away from the arc between the directions at its ends (largest
@@ -68,20 +82,38 @@ class Converter {
  public:
   Converter(const Bezier& curve, const PieceFrame& frame, const SpiralOptions& options,
             ArcChain& chain)
-      : curve_(curve), frame_(frame), options_(options), chain_(chain) {}
+      : curve_(curve),
+        frame_(frame),
+        options_(options),
+        chain_(chain),
+        parts_per_root_(std::cbrt(balanced_error / options.tolerance)) {}
 
   double run();
 
  private:
-  void convert(const Bezier& part, const Station& a, const Station& b, CurvatureLimits limits,
-               int depth);
+  /// What a part of the curve has to meet at its ends.
+  struct Demands {
+    CurvatureLimits limits;
+    bool apex = false;  ///< its more curved end is that of the whole spiral
+  };
+  using Knots = Fixed<Station, most_divisions + 1>;
+
+  void convert(const Bezier& part, const Station& a, const Station& b, Demands demands, int depth);
+  void convert_between(const Bezier& part, Knots& knots, int first, int last, Demands demands,
+                       int depth);
+  int knots_of(const Bezier& part, const Station& a, const Station& b, Demands demands,
+               Knots& knots) const;
+  /// How many balanced biarcs there are on a short part. The error of one grows with the change of
+  /// curvature and the square of the length; its cube root adds up along a curve.
+  double parts_between(const Station& a, const Station& b) const {
+    return parts_per_root_ *
+           std::cbrt(std::abs(b.curvature - a.curvature) * squared_norm(b.point - a.point));
+  }
   bool try_single_arc(const Bezier& part, const Station& a, const Station& b);
   bool try_singular_end(const Bezier& part, const Station& a, const Station& b,
                         CurvatureLimits limits);
-  double fraction_to_split(const Station& a, const Station& b) const;
-  bool try_biarc(const Bezier& part, const Station& a, const Station& b, CurvatureLimits limits);
-  bool is_spiral(const Biarc& biarc, const Station& a, const Station& b,
-                 CurvatureLimits limits) const;
+  bool try_biarc(const Bezier& part, const Station& a, const Station& b, Demands demands);
+  bool is_spiral(const Biarc& biarc, const Station& a, const Station& b, Demands demands) const;
   Vec2 settled(Vec2 joint, const Station& a, const Station& b) const;
   Station snapped(Station station) const {
     station.point = frame_.snap(station.point);
@@ -97,8 +129,8 @@ class Converter {
   const PieceFrame& frame_;
   const SpiralOptions& options_;
   ArcChain& chain_;
+  const double parts_per_root_;
   double error_ = 0;
-  double failed_error_ = 0;  ///< of the last part's biarc; 0: none was measured
   int parts_ = 0;
   bool ends_osculating_ = false;  ///< the last arc is the osculating circle where it ends
   bool merge_ = false;            ///< and the next one may go on along it
@@ -130,25 +162,23 @@ double Converter::run() {
     merge_ = i > 0 && !is_singular(a) && std::abs(before_a.curvature) < std::abs(a.curvature) &&
              std::abs(b.curvature) < std::abs(a.curvature);
     ++chain_.spirals;
-    convert(part, a, b, limits, 0);
+    convert(part, a, b, {limits, true}, 0);
     before_a = a;
     a = next.kind == Split::Kind::cusp ? station(next.t, Side::after, false) : b;
   }
   return error_;
 }
 
-void Converter::convert(const Bezier& part, const Station& a, const Station& b,
-                        CurvatureLimits limits, int depth) {
-  const bool singular = is_singular(a) || is_singular(b);
+void Converter::convert(const Bezier& part, const Station& a, const Station& b, Demands demands,
+                        int depth) {
   const Vec2 chord = b.point - a.point;
-  failed_error_ = 0;
   if (!(a.point == b.point)) {
-    if (singular) {
-      if (try_singular_end(part, a, b, limits)) return;
+    if (is_singular(a) || is_singular(b)) {
+      if (try_singular_end(part, a, b, demands.limits)) return;
     } else if (std::abs(a.curvature - b.curvature) * squared_norm(chord) <=
                constant * options_.rounding) {
       if (try_single_arc(part, a, b)) return;
-    } else if (try_biarc(part, a, b, limits)) {
+    } else if (try_biarc(part, a, b, demands)) {
       return;
     }
   }
@@ -160,25 +190,76 @@ void Converter::convert(const Bezier& part, const Station& a, const Station& b,
     error_ = std::max(error_, size);
     return;
   }
-  const double fraction = fraction_to_split(a, b);
-  const double t = a.t + fraction * (b.t - a.t);
-  const Station middle = snapped(station_at(curve_, t, Side::before));
-  Bezier left, right;
-  split(part, fraction, left, right);
-  convert(left, a, middle, {limits.begin, infinity}, depth + 1);
-  const Station from = is_singular(middle) ? snapped(station_at(curve_, t, Side::after)) : middle;
-  convert(right, from, b, {infinity, limits.end}, depth + 1);
+  Knots knots;
+  const int count = knots_of(part, a, b, demands, knots);
+  convert_between(part, knots, 0, count, demands, depth + 1);
 }
 
-/// The error falls with the third power of the number of parts, so the one of the biarc that failed
-/// tells how many there will be: an odd number is not split in the middle. There are fewer parts on
-/// the side of the larger curvature, so a curve is split alike from both ends.
-double Converter::fraction_to_split(const Station& a, const Station& b) const {
-  constexpr double most = 63;  // more are told better by the halves
-  const double parts = std::ceil(std::cbrt(failed_error_ / options_.tolerance));
-  if (!(parts > 1 && parts <= most)) return 0.5;
-  const double fraction = std::floor(0.5 * parts) / parts;
-  return std::abs(a.curvature) >= std::abs(b.curvature) ? fraction : 1 - fraction;
+/// The parts between some knots of a part, which is cut in the middle again and again: that rounds
+/// control points less often than cutting off one after the other.
+void Converter::convert_between(const Bezier& part, Knots& knots, int first, int last,
+                                Demands demands, int depth) {
+  const Station& a = knots[first];
+  const Station& b = knots[last];
+  if (last == first + 1) {
+    convert(part, a, b, demands, depth);
+    return;
+  }
+  const int middle = (first + last) / 2;
+  Station& m = knots[middle];
+  Bezier left, right;
+  split(part, (m.t - a.t) / (b.t - a.t), left, right);
+  const bool forward = std::abs(a.curvature) >= std::abs(b.curvature);
+  convert_between(left, knots, first, middle,
+                  {{demands.limits.begin, infinity}, demands.apex && forward}, depth);
+  if (is_singular(m)) m = snapped(station_at(curve_, m.t, Side::after));
+  convert_between(right, knots, middle, last,
+                  {{infinity, demands.limits.end}, demands.apex && !forward}, depth);
+}
+
+/// Where to divide a part, with its ends, into two parts or more: so many that all have about the
+/// tolerance as their error. Gives their number.
+int Converter::knots_of(const Bezier& part, const Station& a, const Station& b, Demands demands,
+                        Knots& knots) const {
+  // The parts up to some places, evenly spaced in the parameter.
+  Fixed<double, most_samples + 1> sum;
+  const double expected = std::min(parts_between(a, b), double{most_samples});
+  const int samples = std::clamp(static_cast<int>(std::ceil(samples_per_part * expected)),
+                                 fewest_samples, most_samples);
+  sum[0] = 0;
+  Station from = a;
+  for (int i = 1; i <= samples; ++i) {
+    Station to = b;
+    if (i < samples) {
+      const Jet jet = evaluate(part, static_cast<double>(i) / samples);
+      to.point = jet.point;
+      to.curvature = curvature(jet);
+    }
+    sum[i] = sum[i - 1] + parts_between(from, to);
+    from = to;
+  }
+  const double total = sum[samples];
+  const bool even = !(total > 0 && total <= std::numeric_limits<double>::max());
+  const double saved = demands.apex && !even ? 1 - spiral_length : 0;
+  const double wanted = std::ceil(total + saved);
+  // More are made in blocks that have many parts each: one of few is rounded up to one more.
+  const double fitting =
+      wanted <= most_divisions ? wanted : std::ceil(wanted / (0.5 * most_divisions));
+  const int count = even ? 2 : static_cast<int>(std::clamp(fitting, 2.0, double{most_divisions}));
+  const bool forward = std::abs(a.curvature) >= std::abs(b.curvature);
+  knots[0] = a;
+  for (int i = 1, sample = 0; i < count; ++i) {
+    double place = (i - (forward ? saved : 0)) / (count - saved);  // of all parts
+    if (!even) {
+      while (sample + 1 < samples && sum[sample + 1] < place * total) ++sample;
+      const double step = sum[sample + 1] - sum[sample];
+      const double along = step > 0 ? std::min((place * total - sum[sample]) / step, 1.0) : 0.5;
+      place = (sample + along) / samples;
+    }
+    knots[i] = snapped(station_at(curve_, a.t + place * (b.t - a.t), Side::before));
+  }
+  knots[count] = b;
+  return count;
 }
 
 /// Where curvature is constant but for rounding: one arc, between the directions at both ends.
@@ -229,15 +310,12 @@ Vec2 Converter::settled(Vec2 joint, const Station& a, const Station& b) const {
   return frame_.snap(settle_joint(joint_circle(a, b), snapped, frame_.spacing(snapped), reach));
 }
 
-bool Converter::try_biarc(const Bezier& part, const Station& a, const Station& b,
-                          CurvatureLimits limits) {
-  const Biarc biarc = make_biarc(a, settled(spiral_joint(a, b), a, b), b);
-  if (!is_spiral(biarc, a, b, limits)) return false;
+bool Converter::try_biarc(const Bezier& part, const Station& a, const Station& b, Demands demands) {
+  const Vec2 joint = demands.apex ? spiral_joint(a, b) : balanced_joint(a, b);
+  const Biarc biarc = make_biarc(a, settled(joint, a, b), b);
+  if (!is_spiral(biarc, a, b, demands)) return false;
   const double error = certified_error(part, biarc, options_.rounding);
-  if (!(error <= options_.tolerance)) {
-    failed_error_ = error;
-    return false;
-  }
+  if (!(error <= options_.tolerance)) return false;
 
   const bool forward = std::abs(a.curvature) >= std::abs(b.curvature);
   if (merge_ && ends_osculating_ && forward) {
@@ -254,14 +332,14 @@ bool Converter::try_biarc(const Bezier& part, const Station& a, const Station& b
     emit(biarc.second.begin, biarc.second.bulge, error);
   }
   merge_ = false;
-  ends_osculating_ = !forward;
+  ends_osculating_ = demands.apex && !forward;
   return true;
 }
 
-/// Whether the curvatures of the arcs lie between those of the curve's ends, as they do for a
-/// spiral that is short enough, and are below the limit.
+/// Whether the curvatures of the arcs go from one of the curve's ends to the other, as they do for
+/// a spiral that is short enough, and are below the limit.
 bool Converter::is_spiral(const Biarc& biarc, const Station& a, const Station& b,
-                          CurvatureLimits limits) const {
+                          Demands demands) const {
   if (!(std::abs(biarc.first.bulge) <= largest_bulge) ||
       !(std::abs(biarc.second.bulge) <= largest_bulge)) {
     return false;
@@ -270,13 +348,16 @@ bool Converter::is_spiral(const Biarc& biarc, const Station& a, const Station& b
   const double sign = std::copysign(1.0, forward ? a.curvature : b.curvature);
   const double highest = sign * (forward ? a.curvature : b.curvature);
   const double lowest = std::max(0.0, sign * (forward ? b.curvature : a.curvature));
-  const double other = sign * curvature(forward ? biarc.second : biarc.first);
+  // At an apex it is the highest by construction, but for what the joint has slid.
+  const double high =
+      demands.apex ? highest : sign * curvature(forward ? biarc.first : biarc.second);
+  const double low = sign * curvature(forward ? biarc.second : biarc.first);
   const double shorter = std::min(squared_norm(biarc.first.end - biarc.first.begin),
                                   squared_norm(biarc.second.end - biarc.second.begin));
   // The rounding of the arcs' end points, as seen by their curvature.
   const double slack = options_.rounding / shorter;
-  return other >= lowest - slack && other <= highest + slack &&
-         other <= (forward ? limits.end : limits.begin);
+  return lowest <= low + slack && low <= high + slack && high <= highest + slack &&
+         low <= (forward ? demands.limits.end : demands.limits.begin);
 }
 
 }  // namespace
@@ -328,17 +409,24 @@ Splits find_splits(const Bezier& curve) {
   });
   std::sort(begin, end, [](const Split& a, const Split& b) { return a.t < b.t; });
 
-  // Roots that rounding has doubled: nothing happens to the curvature between them.
+  // Roots that rounding has doubled, and apices next to an end: nothing happens to the curvature
+  // between them, and an arc there would be too short to have a direction.
+  const auto is_same = [](double t, double k, double other_t, double other_k) {
+    return std::abs(t - other_t) <= cusp_neighbourhood && std::isfinite(other_k) &&
+           std::abs(k - other_k) <= same_curvature * std::max(std::abs(k), std::abs(other_k));
+  };
+  const double end_curvature = curvature(evaluate(curve, 1));
   int kept = 0;
-  double last_curvature = infinity, last_t = 0;
+  double last_curvature = curvature(evaluate(curve, 0)), last_t = 0;
   for (const Split* split = begin; split != end; ++split) {
     const double k =
         split->kind == Split::Kind::inflection ? 0 : curvature(evaluate(curve, split->t));
-    if (split->kind != Split::Kind::cusp && kept > 0 && split->t - last_t <= cusp_neighbourhood &&
-        std::abs(k - last_curvature) <=
-            same_curvature * std::max(std::abs(k), std::abs(last_curvature))) {
+    const bool apex = split->kind == Split::Kind::apex;
+    if ((kept > 0 || apex) && split->kind != Split::Kind::cusp &&
+        is_same(split->t, k, last_t, last_curvature)) {
       continue;
     }
+    if (apex && is_same(split->t, k, 1, end_curvature)) continue;
     last_curvature = k;
     last_t = split->t;
     begin[kept++] = *split;

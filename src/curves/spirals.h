@@ -1,7 +1,7 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
+#include <bit>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -29,7 +29,9 @@ struct PieceFrame {
   /// The steps around p of the points that both local and input coordinates can hold.
   Vec2 spacing(Vec2 p) const {
     const auto unit_in_last_place = [](double x) {
-      return std::ldexp(std::numeric_limits<double>::epsilon(), std::ilogb(x));
+      constexpr std::uint64_t exponent = 0x7ff0000000000000;
+      const auto power = std::bit_cast<double>(std::bit_cast<std::uint64_t>(x) & exponent);
+      return std::numeric_limits<double>::epsilon() * power;
     };
     const Vec2 input = to_input(p);
     return {std::max(local_length(unit_in_last_place(input.x)), unit_in_last_place(p.x)),
