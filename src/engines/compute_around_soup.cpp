@@ -74,6 +74,40 @@ Result<MedialAxis> run_around(const Shape& surroundings, const Options& options,
   return axis;
 }
 
+/// Whether the disks of nodes touch the sites of their edges, but for far more than rounding.
+bool touches_its_sites(const MedialAxis& axis, const std::vector<VoronoiEdge>& edges) {
+  const double slack = 0x1p20 * axis.tolerance;
+  return std::ranges::all_of(edges, [&](const VoronoiEdge& edge) {
+    return std::ranges::all_of(edge.node, [&](std::uint32_t node) {
+      const Disk& disk = axis.nodes[node].disk;
+      return std::ranges::all_of(edge.site, [&](std::uint32_t site) {
+        const Vec2 touch = foot(axis.sites[site], disk.center);
+        return std::abs(distance(touch, disk.center) - disk.radius) <= slack;
+      });
+    });
+  });
+}
+
+/// With all corners, however flat: a joint without a branch would have a straight spoke. Where the
+/// walk loses its way among flat ones, as the options have it: spokes are off by less. Of shapes
+/// with arcs, the axis has its sites.
+Result<MedialAxis> run_with_corners(const Shape& surroundings, const Options& options,
+                                    std::vector<VoronoiEdge>& edges, sites::SiteNumbers& numbers) {
+  if (surroundings.bulges.empty()) return run_around(surroundings, options, edges, numbers);
+  const auto run = [&](const Options& own) {
+    edges.clear();
+    auto axis = run_around(surroundings, own, edges, numbers);
+    if (axis) axis->sites = sites::result_sites(surroundings, numbers);
+    return axis;
+  };
+  Options all = options;
+  all.corner_angle = 0;
+  auto axis = run(all);
+  const bool misled =
+      axis ? !touches_its_sites(*axis, edges) : axis.error().code == ErrorCode::internal;
+  return misled ? run(options) : std::move(axis);
+}
+
 /// In tolerances: what is nearer to each other may be one for some disks; and what may at least
 /// have misled a walk that failed.
 constexpr double told_apart = 64, doubtful = 0x1p20;
@@ -216,16 +250,11 @@ Result<VoronoiDiagram> voronoi_diagram(const Soup& soup, const Options& options,
                            [&] { shape = around(soup, far); });
       if (close) return std::move(*close);
 
-      Options own = options;
-      own.corner_angle = 0;  // where a joint has no branch there is a spoke, which is straight
       std::vector<VoronoiEdge> edges;
       sites::SiteNumbers numbers;
-      auto axis = run_around(shape, own, edges, numbers);
+      auto axis = run_with_corners(shape, options, edges, numbers);
       if (!axis) return std::move(axis).error();
-      if (!shape.bulges.empty()) {
-        axis->sites = sites::result_sites(shape, numbers);
-        voronoi::split_long_edges(*axis, edges, false);
-      }
+      if (!shape.bulges.empty()) voronoi::split_long_edges(*axis, edges, false);
       try {
         return voronoi::diagram_of(soup, shape, numbers, std::move(axis).value(), std::move(edges),
                                    *box);
