@@ -10,35 +10,11 @@
 #include <string>
 
 #include "medial/medial.h"
-#include "support/generate.h"
 #include "support/property.h"
 #include "support/random_shapes.h"
 
 namespace medial::test {
 namespace {
-
-double rounded_to(double x, int digits) {
-  const double scale = std::pow(10.0, digits);
-  return std::round(x * scale) / scale;
-}
-
-/// The vertices of a regular n-gon in the unit circle, joined by the arcs of the circle.
-Ring arcs_of_circle(int n) {
-  constexpr double turn = 0.1;
-  Ring ring;
-  for (int i = 0; i < n; ++i) {
-    const double angle = 2 * std::numbers::pi * i / n + turn;
-    ring.points.push_back({std::cos(angle), std::sin(angle)});
-    ring.bulges.push_back(std::tan(std::numbers::pi / (2 * n)));
-  }
-  return ring;
-}
-
-Ring with_digits(Ring ring, int point_digits, int bulge_digits) {
-  for (Vec2& p : ring.points) p = {rounded_to(p.x, point_digits), rounded_to(p.y, point_digits)};
-  for (double& bulge : ring.bulges) bulge = rounded_to(bulge, bulge_digits);
-  return ring;
-}
 
 std::string failures_of(const Ring& ring) {
   std::string text;

@@ -134,6 +134,26 @@ Result<MedialAxis> run(const Shape& shape, const Options& options, bool& in_cent
   return disks::run(shape, options, &in_centers);
 }
 
+#ifdef MEDIAL_HAS_EXACT
+/// Makes the combinatorics of an axis certain. Where disks are in the centres of several arcs, the
+/// result is measured, and joints that count as smooth are taken as they stand if it fails so.
+std::optional<Error> make_certain(const Shape& shape, const Options& options, bool in_centers,
+                                  MedialAxis& axis) {
+  const auto attempt = [&](bool part_joints) -> std::optional<Error> {
+    Status certain = on_threads(options.threads,
+                                [&] { return exact::certify(shape, options, part_joints, axis); });
+    if (!certain) return std::move(certain).error();
+    return in_centers ? disks::error_if_refused(shape, options, axis) : std::nullopt;
+  };
+  if (!in_centers) return attempt(false);
+  MedialAxis copy = axis;
+  auto error = attempt(false);
+  if (!error) return error;
+  axis = std::move(copy);
+  return attempt(true);
+}
+#endif
+
 constexpr std::array<std::pair<Method, const char*>, 6> method_names = {
     {{Method::disks, "disks"},
      {Method::biarc_dc, "biarc-dc"},
@@ -174,14 +194,8 @@ Result<MedialAxis> compute(const Shape& shape, const Options& options) {
       return disks::error_of_wrong_axis(
           axis, "the axis does not have one cycle for each hole: please report this shape");
 #ifdef MEDIAL_HAS_EXACT
-    if (options.exact) {
-      Status certain =
-          on_threads(options.threads, [&] { return exact::certify(shape, options, axis); });
-      if (!certain) return std::move(certain).error();
-      if (in_centers)
-        if (auto refused = disks::error_if_refused(shape, options, axis))
-          return std::move(*refused);
-    }
+    if (options.exact)
+      if (auto error = make_certain(shape, options, in_centers, axis)) return std::move(*error);
 #endif
     if (options.progress) options.progress(1);
     return result;

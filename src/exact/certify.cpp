@@ -8,14 +8,12 @@
 #include <map>
 #include <utility>
 
-#include "axis/node_kinds.h"
 #include "base/frame.h"
-#include "base/numbers.h"
 #include "base/stopwatch.h"
 #include "exact/contact_graph.h"
 #include "exact/disk_bounds.h"
 #include "exact/divide.h"
-#include "geometry/bisector.h"
+#include "exact/replace_nodes.h"
 #include "medial/query.h"
 
 namespace medial::exact {
@@ -23,6 +21,11 @@ namespace {
 
 /// Blocks whose counts are added up in order.
 constexpr std::size_t block = 1 << 10;
+
+void sort_unique(std::vector<std::uint32_t>& numbers) {
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+}
 
 template <class Work>
 Decisions in_blocks(std::size_t count, const Work& work) {
@@ -56,14 +59,16 @@ class Certifier {
       std::vector<std::uint32_t> changed;
       if (const auto failed = resolve(doubtful, apart, changed)) return place_of(*failed);
       apart.clear();
-      doubtful = doubtful_around(changed);
+      const std::vector<std::uint32_t> around = doubtful_around(changed);
+      doubtful.insert(doubtful.end(), around.begin(), around.end());
+      sort_unique(doubtful);
     }
     std::vector<std::span<const Contact>> alive;
     for (std::uint32_t node = 0; node < states_.size(); ++node)
       if (!states_[node].gone) alive.push_back(graph_.contacts(node));
     if (const auto left_out = find_site_left_out(alive, outline_))
       return frame_.to_input(outline_.sites[*left_out].start);
-    if (changes_ > 0) rebuild();
+    if (changes_ > 0) replace_nodes(outline_, frame_, graph_, replaced(), axis_);
     return std::nullopt;
   }
 
@@ -79,6 +84,16 @@ class Certifier {
     bool gone = false;
     bool added = false;
   };
+
+  Replaced replaced() const {
+    Replaced replaced;
+    for (const State& state : states_) {
+      replaced.gone.push_back(state.gone);
+      replaced.added.push_back(state.added);
+    }
+    replaced.gone_edges = gone_edges_;
+    return replaced;
+  }
 
   Vec2 place_of(std::uint32_t node) const { return axis_.nodes[node].disk.center; }
   Disk local(std::uint32_t node) const {
@@ -101,7 +116,7 @@ class Certifier {
     if (count == 3) return std::array{contacts[0].site, contacts[1].site, contacts[2].site};
     std::vector<Vec2> toward(count);
     for (std::size_t i = 0; i < count; ++i) {
-      const Site& site = axis_.sites[contacts[i].site];
+      const Site& site = axis_.sites[outline_.name(contacts[i].site)];
       const Vec2 local_foot = frame_.to_local(medial::foot(site, frame_.to_input(disk.center)));
       toward[i] = local_foot - disk.center;
     }
@@ -144,15 +159,19 @@ class Certifier {
 
   template <class Real>
   std::optional<DiskBounds<Real>> bounds_of(std::uint32_t node) const {
-    const auto contacts = graph_.contacts(node);
+    return bounds_of<Real>(graph_.contacts(node), local(node));
+  }
+  template <class Real>
+  std::optional<DiskBounds<Real>> bounds_of(std::span<const Contact> contacts,
+                                            const Disk& near) const {
     if (is_corner(contacts, outline_)) {
       const std::uint32_t before = contacts[0].half == no_half ? 0 : 1;
       const Vec2 corner = outline_.sites[contacts[before].site].end;
       return DiskBounds<Real>{exact_vector<Bounded<Real>>(corner), Bounded<Real>(0.0)};
     }
-    const auto three = three_of(contacts, local(node));
+    const auto three = three_of(contacts, near);
     if (!three) return std::nullopt;
-    return disk_bounds<Real>(outline_, *three, local(node));
+    return disk_bounds<Real>(outline_, *three, near);
   }
 
   void check_nodes() {
@@ -226,8 +245,7 @@ class Certifier {
     for (const std::uint32_t node : nodes)
       for (const Contact& contact : graph_.contacts(node))
         if (contact.half != no_half) links.push_back(contact.half / 2);
-    std::sort(links.begin(), links.end());
-    links.erase(std::unique(links.begin(), links.end()), links.end());
+    sort_unique(links);
     std::erase_if(links, [&](std::uint32_t link) {
       const auto [from, to] = links_[link].node;
       auto direction = direction_of(link, states_[from].bounds, states_[to].bounds);
@@ -244,8 +262,9 @@ class Certifier {
     return links;
   }
 
-  /// Puts nodes and the links between them in their true order. `changed` gets the new nodes.
-  std::optional<std::uint32_t> resolve(const std::vector<std::uint32_t>& links,
+  /// Puts nodes and the links between them in their true order. `changed` gets the new nodes,
+  /// `links` those of clusters that have to be larger.
+  std::optional<std::uint32_t> resolve(std::vector<std::uint32_t>& links,
                                        const std::vector<std::uint32_t>& apart,
                                        std::vector<std::uint32_t>& changed) {
     inner_.resize(links_.size(), false);
@@ -266,10 +285,27 @@ class Certifier {
     }
     std::map<std::uint32_t, std::vector<std::uint32_t>> clusters;
     for (const auto& [node, parent] : parent_) clusters[find(node)].push_back(node);
+    std::vector<std::uint32_t> wider;
     for (const auto& [first, nodes] : clusters)
-      if (!resolve_cluster(nodes, changed)) return first;
+      if (!resolve_cluster(nodes, changed) && !widen(nodes, wider)) return first;
     for (const std::uint32_t link : links) inner_[link] = false;
+    links = std::move(wider);
     return std::nullopt;
+  }
+
+  /// Where no disk touches what a cluster is divided into, it is part of a larger one, with the
+  /// links that leave its nodes, but for those to corners. False if there are none.
+  bool widen(const std::vector<std::uint32_t>& nodes, std::vector<std::uint32_t>& wider) const {
+    bool grows = false;
+    for (const std::uint32_t node : nodes) {
+      for (const Contact& contact : graph_.contacts(node)) {
+        if (contact.half == no_half) continue;
+        if (is_corner(graph_.contacts(from_node(links_, twin(contact.half))), outline_)) continue;
+        wider.push_back(contact.half / 2);
+        grows = grows || !inner_[contact.half / 2];
+      }
+    }
+    return grows;
   }
 
   /// Where a half stands among the contacts of the node that it leaves.
@@ -330,6 +366,21 @@ class Certifier {
     return before == after;
   }
 
+  /// Whether a link inside of a cluster runs backward for certain. Beside joints that only count as
+  /// smooth it may, by as much as they are off.
+  bool runs_backward(const std::vector<std::uint32_t>& nodes) const {
+    return outline_.parted && std::ranges::any_of(nodes, [&](std::uint32_t node) {
+             return std::ranges::any_of(graph_.contacts(node), [&](const Contact& contact) {
+               if (contact.half == no_half || !inner_[contact.half / 2]) return false;
+               const std::uint32_t link = contact.half / 2;
+               const auto [from, to] = links_[link].node;
+               auto direction = direction_of(link, states_[from].bounds, states_[to].bounds);
+               if (!direction) direction = direction_in_precise(link);
+               return direction == -1;
+             });
+           });
+  }
+
   bool resolve_cluster(const std::vector<std::uint32_t>& nodes,
                        std::vector<std::uint32_t>& changed) {
     const std::vector<Contact> outer = outer_contacts(nodes);
@@ -338,9 +389,17 @@ class Certifier {
     const bool known = nodes.size() == 1 && states_[nodes[0]].divides;
     const auto divided = known ? std::move(states_[nodes[0]].divided)
                                : divide(outline_, sites_of(outer), decisions_);
-    if (is_divided_so(nodes, outer, divided)) return true;
-    ++changes_;
+    if (is_divided_so(nodes, outer, divided)) return !runs_backward(nodes);
     const std::uint32_t old = nodes.front();
+    std::vector<Placed> placed;
+    for (const auto& places : divided) {
+      std::vector<Contact> contacts;
+      for (const std::uint32_t place : places) contacts.push_back({outer[place].site, no_half});
+      auto one = place(contacts, local(old));
+      if (!one) return false;
+      placed.push_back(std::move(*one));
+    }
+    ++changes_;
     for (const std::uint32_t node : nodes) {
       states_[node].gone = true;
       for (const Contact& contact : graph_.contacts(node))
@@ -348,9 +407,11 @@ class Certifier {
           for (const Link::End end : links_[contact.half / 2].end) gone_edges_.push_back(end.edge);
     }
     std::map<std::pair<std::uint32_t, std::uint32_t>, Half> chords;  // left half for the other node
-    for (const auto& places : divided) {
+    for (std::size_t k = 0; k < divided.size(); ++k) {
+      const auto& places = divided[k];
       const auto node = static_cast<std::uint32_t>(axis_.nodes.size());
       axis_.nodes.push_back(axis_.nodes[old]);
+      axis_.nodes.back().disk = placed[k].disk;
       std::vector<Contact> contacts;
       for (std::size_t i = 0; i < places.size(); ++i) {
         const std::uint32_t here = places[i], next = places[(i + 1) % places.size()];
@@ -374,9 +435,8 @@ class Certifier {
         contacts.push_back(contact);
       }
       graph_.append(contacts);
-      states_.push_back({std::nullopt, {}, false, false, true});
+      states_.push_back({std::move(placed[k].bounds), {}, false, false, true});
       changed.push_back(node);
-      if (!move_to_bounds(node)) return false;
     }
     return true;
   }
@@ -388,92 +448,27 @@ class Certifier {
     axis_.edges[end.edge].node[end.which] = node;
   }
 
-  /// Gives a new node its disk; false where there is none.
-  bool move_to_bounds(std::uint32_t node) {
-    states_[node].bounds = bounds_of<double>(node);
+  /// A new node's disk, and its bounds in double.
+  struct Placed {
+    std::optional<DiskBounds<double>> bounds;
+    Disk disk;
+  };
+  /// None where no disk near to the given one touches all contacts.
+  std::optional<Placed> place(std::span<const Contact> contacts, const Disk& near) const {
+    const auto rough = bounds_of<double>(contacts, near);
     // Where double knows the disk to its last digits.
-    if (const auto& rough = states_[node].bounds;
-        rough && rough->center.x.error + rough->center.y.error + rough->radius.error <
-                     0x1p-50 * rough->radius.value) {
-      set_disk(node, *rough);
-      return true;
-    }
-    const auto bounds = bounds_of<Precise>(node);
-    if (!bounds) return false;
-    set_disk(node, *bounds);
-    return true;
+    if (rough && rough->center.x.error + rough->center.y.error + rough->radius.error <
+                     0x1p-50 * rough->radius.value)
+      return Placed{rough, input_disk(*rough)};
+    const auto bounds = bounds_of<Precise>(contacts, near);
+    if (!bounds) return std::nullopt;
+    return Placed{rough, input_disk(*bounds)};
   }
   template <class Real>
-  void set_disk(std::uint32_t node, const DiskBounds<Real>& bounds) {
+  Disk input_disk(const DiskBounds<Real>& bounds) const {
     const Vec2 center{static_cast<double>(bounds.center.x.value),
                       static_cast<double>(bounds.center.y.value)};
-    axis_.nodes[node].disk = {frame_.to_input(center),
-                              frame_.inverse * static_cast<double>(bounds.radius.value)};
-  }
-
-  /// The piece of a site that a disk touches.
-  geometry::Site piece_of(std::uint32_t site, Vec2 center) const {
-    const ExactSite& exact = outline_.sites[site];
-    if (exact.is_vertex()) return geometry::make_vertex(exact.start);
-    const sites::Pieces pieces = sites::pieces_of(exact.start, exact.end, exact.bulge);
-    const bool last = pieces.count > 1 && geometry::squared_distance(pieces.last(), center) <
-                                              geometry::squared_distance(pieces.first(), center);
-    return last ? pieces.last() : pieces.first();
-  }
-
-  /// The edges of dropped links; their inner nodes are gone, too.
-  std::vector<bool> find_gone_edges() {
-    std::vector<std::vector<std::uint32_t>> around(axis_.nodes.size());
-    for (std::uint32_t i = 0; i < axis_.edges.size(); ++i)
-      for (const std::uint32_t node : axis_.edges[i].node)
-        if (graph_.contacts(node).empty()) around[node].push_back(i);
-    std::vector<bool> gone(axis_.edges.size(), false);
-    std::vector<std::uint32_t> stack = gone_edges_;
-    while (!stack.empty()) {
-      const std::uint32_t edge = stack.back();
-      stack.pop_back();
-      if (gone[edge]) continue;
-      gone[edge] = true;
-      for (const std::uint32_t node : axis_.edges[edge].node) {
-        if (around[node].empty()) continue;
-        states_[node].gone = true;
-        stack.insert(stack.end(), around[node].begin(), around[node].end());
-      }
-    }
-    return gone;
-  }
-
-  /// Drops what is gone, and works out the new edges' curves and the nodes' kinds.
-  void rebuild() {
-    const std::vector<bool> edge_gone = find_gone_edges();
-    std::vector<std::uint32_t> number(axis_.nodes.size(), none);
-    std::uint32_t kept = 0;
-    for (std::uint32_t i = 0; i < axis_.nodes.size(); ++i) {
-      if (states_[i].gone) continue;
-      number[i] = kept;
-      axis_.nodes[kept++] = axis_.nodes[i];
-    }
-    axis_.nodes.resize(kept);
-    std::size_t edges = 0;
-    std::vector<std::uint32_t> degree(kept, 0);
-    for (std::size_t i = 0; i < axis_.edges.size(); ++i) {
-      if (edge_gone[i]) continue;
-      Edge edge = axis_.edges[i];
-      const bool moved = states_[edge.node[0]].added || states_[edge.node[1]].added;
-      for (std::uint32_t& node : edge.node) ++degree[node = number[node]];
-      if (moved) {
-        const Disk from = local(edge.node[0]), to = local(edge.node[1]);
-        const Vec2 middle = midpoint(from.center, to.center);
-        const geometry::Control control = geometry::control_of(
-            piece_of(edge.site[0], middle), piece_of(edge.site[1], middle), from, to);
-        edge.control = {frame_.to_input(control.point.center),
-                        frame_.inverse * control.point.radius};
-        edge.weight = control.weight;
-      }
-      axis_.edges[edges++] = edge;
-    }
-    axis_.edges.resize(edges);
-    for (std::uint32_t i = 0; i < kept; ++i) axis_.nodes[i].kind = kind_of_degree(degree[i]);
+    return {frame_.to_input(center), frame_.inverse * static_cast<double>(bounds.radius.value)};
   }
 
   const Outline& outline_;
@@ -492,11 +487,12 @@ class Certifier {
 
 }  // namespace
 
-Status certify(const Shape& shape, const Options& options, MedialAxis& axis) {
+Status certify(const Shape& shape, const Options& options, bool part_joints, MedialAxis& axis) {
   Stopwatch watch;
   const Frame frame = frame_of(bounding_box(shape));
-  const Outline outline =
+  Outline outline =
       outline_of(shape, frame, sites::number_sites(shape, frame, options.corner_angle));
+  if (part_joints) exact::part_joints(outline);
   ContactGraph graph;
   // Arcs that join smoothly only to within the tolerance, on one circle but for that, may have no
   // disk that touches all around them (docs/exact.md, Limits). Between segments nothing is rounded.

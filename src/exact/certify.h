@@ -10,7 +10,10 @@ namespace medial::exact {
 /// how, is counted in the axis' statistics (docs/exact.md). Errors, with the place: unsupported
 /// where arcs bound the shape, otherwise internal.
 ///
+/// `part_joints`: joints that count as smooth are taken as they stand. That decides next to the
+/// centres of several arcs, which the normals at such a joint may miss by more than disks differ.
+///
 /// O(n) expected; the same result for any number of threads. Call it inside of a task arena.
-Status certify(const Shape& shape, const Options& options, MedialAxis& axis);
+Status certify(const Shape& shape, const Options& options, bool part_joints, MedialAxis& axis);
 
 }  // namespace medial::exact

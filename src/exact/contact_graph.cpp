@@ -128,8 +128,11 @@ std::optional<std::uint32_t> ContactGraph::build(const MedialAxis& axis, const O
       };
       while (loop + 1 < outline.loop_begin.size() && !is_round(loop)) ++loop;
       if (loop + 1 >= outline.loop_begin.size()) return node;
-      for (std::uint32_t s = outline.loop_begin[loop]; s < outline.loop_begin[loop + 1]; ++s)
-        contacts.push_back({s, no_half});
+      std::uint32_t site = outline.loop_begin[loop];
+      do {
+        contacts.push_back({site, no_half});
+        site = outline.next[site];
+      } while (site != outline.loop_begin[loop]);
       ++loop;
     } else if (!reader.read(halves, contacts)) {
       return node;

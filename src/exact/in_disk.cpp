@@ -70,14 +70,17 @@ class Kernel {
     Three three;
     const Sign found = solve(touched, three);
     if (found != Sign::positive) return found;
-    const Sign sign = value(three, form_of<Number>(outline_.sites[fourth], three.origin, roots_));
-    return on_arc(sign, fourth, [&](const Vector<Number>& direction, const Vector<Number>& foot) {
+    const auto side = [&](const Vector<Number>& direction, const Vector<Number>& foot) {
       const Number constant = direction.x * three.point[0] + direction.y * three.point[1] +
                               dot(direction, three.origin - foot) * three.scale;
       if (!three.round) return times(sign_of(constant), three.scale_sign);
       return sign_of_linear(three, constant,
                             direction.x * three.along[0] + direction.y * three.along[1]);
-    });
+    };
+    const auto outside = [&](const ExactSite& site) {
+      return value(three, form_of<Number>(site, three.origin, roots_));
+    };
+    return clears(fourth, outside, side);
   }
 
   /// The disk that touches three sites of which no two are joined; none where it is left open.
@@ -112,8 +115,7 @@ class Kernel {
     const Sign ahead = sign_of(d.height);
     if (ahead == Sign::open) return ahead;
     if (ahead != Sign::positive) return Sign::positive;
-    return on_arc(sign_of(d.height * c.closing - c.height * d.closing), fourth,
-                  side_on(spoke, c.height, c.closing));
+    return clears(fourth, spoke, c.height, c.closing);
   }
 
   /// `a` and the site after it are joined, and so are `third` and the one after that: whether the
@@ -138,9 +140,7 @@ class Kernel {
   Sign own_circle(std::uint32_t arc, std::uint32_t fourth) {
     const ExactSite& site = outline_.sites[arc];
     const Spoke<Number> spoke = spoke_of<Number>(site, false, roots_);
-    const Reach d = reach(spoke, fourth);
-    const Number size(4 * site.bulge);
-    return on_arc(sign_of(size * d.height - d.closing), fourth, side_on(spoke, Number(1.0), size));
+    return clears(fourth, spoke, Number(1.0), Number(4 * site.bulge));
   }
 
   /// The sign of a's curvature less b's; arcs.
@@ -157,32 +157,55 @@ class Kernel {
     Number height, closing;
   };
   Reach reach(const Spoke<Number>& spoke, std::uint32_t site) {
-    const auto form = form_of<Number>(outline_.sites[site], spoke.foot, roots_);
+    return reach(spoke, outline_.sites[site]);
+  }
+  Reach reach(const Spoke<Number>& spoke, const ExactSite& site) {
+    const auto form = form_of<Number>(site, spoke.foot, roots_);
     return {form.height, form.size * spoke.size - dot(form.slope, spoke.normal)};
   }
 
-  /// Near the centre of a convex arc's own circle, a disk can reach over that circle elsewhere than
-  /// on the arc: where its centre lies beyond the normals at the arc's ends. What is beside the arc
-  /// then decides, and the arc itself stays outside. `side` tells the sign of
+  /// Whether a disk stays outside of a site. Near the centre of a convex arc's own circle it can
+  /// reach over that circle elsewhere than on the arc: where its centre lies beyond the normals at
+  /// the arc's ends, these decide. `outside` tells the sign of a site's form, `side` that of
   /// direction.(centre - point).
+  template <class Outside, class Side>
+  Sign clears(std::uint32_t fourth, const Outside& outside, const Side& side) {
+    const ExactSite& site = outline_.sites[fourth];
+    const Sign sign = outside(site);
+    if (sign != Sign::negative) return sign;
+    const Sign reached = reaches(fourth, side);
+    if (reached != Sign::negative) return reached == Sign::open ? reached : sign;
+    for (const Vec2 end : {site.start, site.end}) {
+      const Sign at_end = outside({end, end, 0});
+      if (at_end != Sign::positive) return at_end;
+    }
+    return Sign::positive;
+  }
+  /// For the disk at a spoke whose radius is height / closing of it.
+  Sign clears(std::uint32_t fourth, const Spoke<Number>& spoke, const Number& height,
+              const Number& closing) {
+    const auto outside = [&](const ExactSite& site) {
+      const Reach d = reach(spoke, site);
+      return sign_of(d.height * closing - height * d.closing);
+    };
+    const auto side = [&](const Vector<Number>& direction, const Vector<Number>& point) {
+      return sign_of(dot(direction, spoke.foot - point) * closing +
+                     height * dot(direction, spoke.normal));
+    };
+    return clears(fourth, outside, side);
+  }
+  /// Whether a disk's centre lies between the normals at a convex arc's ends; negative if not.
   template <class Side>
-  Sign on_arc(Sign sign, std::uint32_t fourth, const Side& side) {
-    const ExactSite& arc = outline_.sites[fourth];
-    if (sign != Sign::negative || !(arc.bulge > 0)) return sign;
+  Sign reaches(std::uint32_t site, const Side& side) {
+    const ExactSite& arc = outline_.sites[site];
+    if (!(arc.bulge > 0)) return Sign::positive;
     for (const bool at_end : {false, true}) {
       const auto end = spoke_of<Number>(arc, at_end, roots_);
       const Sign ahead = side(end.tangent(), end.foot);
       if (ahead == Sign::open) return ahead;
-      if (ahead == (at_end ? Sign::positive : Sign::negative)) return Sign::positive;
+      if (ahead == (at_end ? Sign::positive : Sign::negative)) return Sign::negative;
     }
-    return sign;
-  }
-  /// For the disk at a spoke whose radius is height / closing of it.
-  static auto side_on(const Spoke<Number>& spoke, const Number& height, const Number& closing) {
-    return [&spoke, height, closing](const Vector<Number>& direction, const Vector<Number>& point) {
-      return sign_of(dot(direction, spoke.foot - point) * closing +
-                     height * dot(direction, spoke.normal));
-    };
+    return Sign::positive;
   }
 
   /// Whether the disk that grows at the joint after `a` meets a site before it is as large as the

@@ -2,6 +2,12 @@
 
 namespace medial::exact {
 
+namespace {
+
+double curvature_of(const ExactSite& edge) { return curvature({edge.start, edge.end, edge.bulge}); }
+
+}  // namespace
+
 Outline outline_of(const Shape& shape, const Frame& frame, const sites::SiteNumbers& numbers) {
   Outline outline;
   outline.sites.resize(numbers.count);
@@ -32,6 +38,30 @@ Outline outline_of(const Shape& shape, const Frame& frame, const sites::SiteNumb
   }
   outline.loop_begin.push_back(numbers.count);
   return outline;
+}
+
+void part_joints(Outline& outline) {
+  const auto count = static_cast<std::uint32_t>(outline.sites.size());
+  outline.parted = true;
+  for (std::uint32_t edge = 0; edge < count; ++edge) {
+    const std::uint32_t after = outline.next[edge];
+    if (!outline.joined(edge, after) || outline.sites[edge].is_vertex() ||
+        outline.sites[after].is_vertex())
+      continue;
+    RootField field;
+    const auto arriving = spoke_of<RootNumber>(outline.sites[edge], true, field);
+    const auto leaving = spoke_of<RootNumber>(outline.sites[after], false, field);
+    const int turn = cross(arriving.normal, leaving.normal).sign();
+    if (turn > 0) outline.blunt[edge] = true;
+    if (turn >= 0) continue;
+    outline.next[edge] = static_cast<std::uint32_t>(outline.sites.size());
+    outline.sites.push_back({outline.sites[edge].end, outline.sites[edge].end, 0});
+    outline.next.push_back(after);
+    outline.passes.push_back(true);
+    outline.blunt.push_back(false);
+    outline.flatter.push_back(
+        curvature_of(outline.sites[after]) < curvature_of(outline.sites[edge]) ? after : edge);
+  }
 }
 
 }  // namespace medial::exact

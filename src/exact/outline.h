@@ -20,6 +20,16 @@ struct Outline {
   std::vector<bool> blunt;
   std::vector<std::uint32_t> loop_begin;  ///< first site of each loop, and the number of all sites
   std::vector<std::uint32_t> component;   ///< of each loop
+  bool parted = false;                    ///< see part_joints()
+  /// Of the vertices that it has added behind all other sites: the flatter of the edges that join
+  /// there, whose own centre is further away.
+  std::vector<std::uint32_t> flatter;
+
+  /// What the axis calls a site.
+  std::uint32_t name(std::uint32_t site) const {
+    return has_name(site) ? site : flatter[site + flatter.size() - sites.size()];
+  }
+  bool has_name(std::uint32_t site) const { return site < sites.size() - flatter.size(); }
 
   bool joined(std::uint32_t site, std::uint32_t after) const {
     return passes[site] && !blunt[site] && next[site] == after;
@@ -35,5 +45,9 @@ struct Outline {
 };
 
 Outline outline_of(const Shape& shape, const Frame& frame, const sites::SiteNumbers& numbers);
+
+/// Takes joints that count as smooth as they stand: as blunt where the boundary turns to the left;
+/// where it turns to the right their vertex becomes a site, added behind the others.
+void part_joints(Outline& outline);
 
 }  // namespace medial::exact

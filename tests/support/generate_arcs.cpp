@@ -1,6 +1,7 @@
 #include "support/generate_arcs.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -206,6 +207,48 @@ Rings circle_grid(std::size_t k, double radius) {
   rings[0].role = RingRole::outer;
   for (Ring& ring : rings) ring.role = RingRole::any;
   return rings;
+}
+
+Ring arcs_of_circle(int n) {
+  constexpr double turn = 0.1;
+  Ring ring;
+  for (int i = 0; i < n; ++i) {
+    ring.points.push_back(at_angle(2 * pi * i / n + turn, 1));
+    ring.bulges.push_back(std::tan(pi / (2 * n)));
+  }
+  return ring;
+}
+
+Ring with_digits(Ring ring, int point_digits, int bulge_digits) {
+  const auto rounded_to = [](double x, int digits) {
+    const double scale = std::pow(10.0, digits);
+    return std::round(x * scale) / scale;
+  };
+  for (Vec2& p : ring.points) p = {rounded_to(p.x, point_digits), rounded_to(p.y, point_digits)};
+  for (double& bulge : ring.bulges) bulge = rounded_to(bulge, bulge_digits);
+  return ring;
+}
+
+Ring near_circle(int index) {
+  constexpr std::array point_digits{3, 5, 8, 10, 12};
+  constexpr std::array bulge_digits{3, 6, 8, 9, 11, 13};
+  constexpr int rounded = static_cast<int>(point_digits.size() * bulge_digits.size());
+  const int n = 3 + index / near_circles_of_each_count, kind = index % near_circles_of_each_count;
+  Ring ring = arcs_of_circle(n);
+  if (kind < rounded) {
+    const auto i = static_cast<std::size_t>(kind);
+    return with_digits(std::move(ring), point_digits[i / bulge_digits.size()],
+                       bulge_digits[i % bulge_digits.size()]);
+  }
+  const int i = kind - rounded;
+  const double size = std::pow(10.0, -(3 + i / 3));
+  Random random(static_cast<std::uint64_t>(n * 1000 + i));
+  if (i % 3 != 1)
+    for (Vec2& p : ring.points)
+      p = p + Vec2{random.between(-size, size), random.between(-size, size)};
+  if (i % 3 != 0)
+    for (double& bulge : ring.bulges) bulge *= 1 + random.between(-size, size);
+  return ring;
 }
 
 namespace {

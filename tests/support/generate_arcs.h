@@ -39,6 +39,15 @@ Ring smooth_biarcs(Random& random, std::size_t n, int waves);
 /// touch each other and the square.
 Rings circle_grid(std::size_t k, double radius);
 
+/// The vertices of a regular n-gon in the unit circle, joined by the arcs of the circle.
+Ring arcs_of_circle(int n);
+Ring with_digits(Ring ring, int point_digits, int bulge_digits);
+
+/// Circles of 3 to 59 arcs as files have them: of few digits, and with points, bulges or both off
+/// at random by 1e-3 to 1e-14 of the radius.
+constexpr int near_circles_of_each_count = 66, near_circles = 57 * near_circles_of_each_count;
+Ring near_circle(int index);
+
 /// A random shape with arcs of any of the kinds above, some with contacts; one seed, one shape.
 RandomShape random_arc_shape(std::uint64_t seed);
 

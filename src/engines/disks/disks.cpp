@@ -23,11 +23,10 @@ namespace medial::disks {
 namespace {
 
 /// The walk tells contacts apart to a share of the tolerance, which is still some roundings: what
-/// narrow gaps leave between two contacts may be some tolerances only, and so is all of the axis of
-/// a near-circle, whose arcs are within so many tolerances of one circle. What that leaves of a tie
-/// is merged at the end. Among other arcs ties are known to the tolerance only, as their bulges
-/// round, too.
-constexpr double fine_share = 0.25, near_circle = 1 << 12;
+/// narrow gaps leave between two contacts may be some tolerances only, and so is all of the axis
+/// where arcs are within so many tolerances of one circle. What that leaves of a tie is merged at
+/// the end. Among other arcs ties are known to the tolerance only, as their bulges round, too.
+constexpr double fine_share = 0.25, in_centers_share = 0.125, near_circle = 1 << 12;
 
 /// The axis of such arcs is certified before it is given out. Of more of them that takes too long,
 /// as searches among them take O(n).
@@ -80,10 +79,10 @@ Result<Outcome> run(const Shape& shape, const Options& options, bool two_sided,
   Boundary boundary = loops_boundary(shape, numbers, frame, two_sided);
   const double near = near_circle * walk_tolerance;
   outcome.in_centers = !two_sided && is_near_circle(boundary, local, near);
-  const bool fine = !boundary.has_arcs || outcome.in_centers;
   if (outcome.in_centers && boundary.sites.size() > most_arcs_in_near_circle)
     return error_of_too_many_arcs(box);
-  walk_tolerance *= share ? *share : fine ? fine_share : 1;
+  if (outcome.in_centers && !share) return outcome;
+  walk_tolerance *= share ? *share : boundary.has_arcs ? 1 : fine_share;
   statistics.seconds_sites = watch.lap();
 
   const std::vector<Cut> cuts =
@@ -133,7 +132,7 @@ Result<MedialAxis> run(const Shape& shape, const Options& options, bool* in_cent
   std::optional<Error> error;
   // To another share of the tolerance, what misled the walk may be one contact, or two.
   std::vector<std::optional<double>> shares{std::nullopt, 1.0};
-  if (!shape.bulges.empty()) shares = {std::nullopt, 0.25, 0.0625, 0.5, 1.0};
+  if (!shape.bulges.empty()) shares = {std::nullopt, in_centers_share, 0.25, 0.0625, 0.5, 1.0};
   for (const auto& share : shares) {
     std::vector<Edge> edges;
     Result<Outcome> outcome = run(shape, options, false, share, edges);
@@ -144,6 +143,7 @@ Result<MedialAxis> run(const Shape& shape, const Options& options, bool* in_cent
     outcome->axis.edges = std::move(edges);
     if (in_centers != nullptr) *in_centers = outcome->in_centers;
     if (!outcome->in_centers || is_cancelled(options)) return std::move(outcome->axis);
+    if (!share) continue;  // a finer one is due
     error = error_if_refused(shape, options, outcome->axis);
     if (!error) return std::move(outcome->axis);
   }

@@ -200,13 +200,29 @@ class Merger {
   }
   bool nearly_touches(std::uint32_t hub, std::uint32_t node) const {
     const Disk& disk = graph_.nodes[hub].disk;
-    for (std::uint32_t end = first_end_[node]; end != none; end = next_end_[end]) {
-      for (const std::uint32_t site : graph_.links[end / 2].site) {
-        const double away = geometry::squared_distance(boundary_.sites[site], disk.center);
-        if (!(std::abs(std::sqrt(away) - disk.radius) <= hub_reach * tolerance_)) return false;
-      }
+    return all_contacts(node, [&](std::uint32_t site) {
+      const double away = geometry::squared_distance(boundary_.sites[site], disk.center);
+      return std::abs(std::sqrt(away) - disk.radius) <= hub_reach * tolerance_;
+    });
+  }
+
+  /// Whether something holds for all sites that are touched in a node: those of its edges and, at a
+  /// leaf, those on the way around it from one side of its edge to the other.
+  template <class Holds>
+  bool all_contacts(std::uint32_t node, const Holds& holds) const {
+    for (std::uint32_t end = first_end_[node]; end != none; end = next_end_[end])
+      for (const std::uint32_t site : graph_.links[end / 2].site)
+        if (!holds(site)) return false;
+    const std::uint32_t end = first_end_[node];
+    if (next_end_[end] != none) return true;
+    auto [left, right] = graph_.links[end / 2].site;
+    if (end % 2 == 0) std::swap(left, right);
+    const Boundary::Run& run = boundary_.runs[graph_.nodes[node].component];
+    for (std::uint32_t site = right;;) {
+      site = site == run.last ? run.first : site + 1;
+      if (site == left) return true;
+      if (!holds(site)) return false;
     }
-    return true;
   }
 
   /// contact_of() where the residual is small against the radius, without roots.
@@ -236,11 +252,12 @@ class Merger {
       Cluster& cluster = clusters_.emplace_back(
           Cluster{Fit(boundary_.sites, bound()), node, {}, {}, is_branching(node)});
       cluster.fit.disk = graph_.nodes[node].disk;
-      for (std::uint32_t end = first_end_[node]; end != none; end = next_end_[end]) {
+      for (std::uint32_t end = first_end_[node]; end != none; end = next_end_[end])
         cluster.ends.push_back(end);
-        for (const std::uint32_t site : graph_.links[end / 2].site)
-          add_contact(site, cluster.fit.disk, cluster.contacts);
-      }
+      all_contacts(node, [&](std::uint32_t site) {
+        add_contact(site, cluster.fit.disk, cluster.contacts);
+        return true;
+      });
       auto& contacts = cluster.contacts;
       std::sort(contacts.begin(), contacts.end());
       contacts.erase(std::unique(contacts.begin(), contacts.end()), contacts.end());
