@@ -68,14 +68,24 @@ Start start_of_outer(const Loop& loop, const SiteNumbers& numbers, bool has_arcs
   return start;
 }
 
+/// Whether the boundary faces `outreach` where two edges join, or looks the other way, as it does
+/// on the far side of edges that lie across that direction: there it is as far out but for
+/// rounding.
+bool faces_out(const Loop& loop, std::uint32_t i) {
+  if (loop.size() == 1) return true;
+  const Vec2 before = loop.edge(loop.before(i)).last().end_normal();
+  return dot(before + loop.edge(i).first().normal(), outreach) > -1;
+}
+
 /// The furthest place in the direction `outreach`, of those where a disk can touch the loop.
 Start start_of_hole(const Loop& loop, const SiteNumbers& numbers, bool has_arcs) {
   Start start;
   double furthest = -std::numeric_limits<double>::infinity();
   const auto consider = [&](Vec2 place, const Start& candidate) {
     const double here = dot(outreach, place);
-    if (here > furthest) start = candidate;
-    furthest = std::max(furthest, here);
+    if (!(here > furthest) || !(candidate.inside || faces_out(loop, candidate.point))) return;
+    start = candidate;
+    furthest = here;
   };
   for (std::uint32_t i = 0; i < loop.size(); ++i) {
     const Joint joint = numbers.joints[loop.begin() + i];
