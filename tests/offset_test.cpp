@@ -9,6 +9,7 @@
 
 #include "base/arc.h"
 #include "medial/compute.h"
+#include "medial/measure.h"
 #include "medial/query.h"
 #include "medial/verify.h"
 #include "support/computed.h"
@@ -153,6 +154,45 @@ TEST(Offset, OfAKeyholeWhoseCircleIsTwoArcs) {
     EXPECT_LE(check.largest_error, 1e-11) << k;
     EXPECT_EQ(check.fault, "") << k;
   }
+}
+
+TEST(Offset, BesideJointsThatCountAsSmooth) {
+  // Bulges a little off: arcs that were tangent meet at up to 0.009 degrees, convex or reflex.
+  const auto check = [](test::Rings rings, test::Random& numbers) {
+    for (Ring& ring : rings)
+      for (double& bulge : ring.bulges) bulge *= 1 + 8e-5 * numbers.between(-1, 1);
+    const auto shape = build_shape(rings);
+    if (!shape) return false;
+    const auto axis = compute(*shape);
+    EXPECT_TRUE(axis.ok());
+    const double deepest = deepest_disk(*axis).radius, size = diagonal(bounding_box(*shape));
+    std::vector<double> levels;
+    for (const double share : {-2.0, -0.3, 0.01, 0.3, 0.9, 0.9999, 0.9999999})
+      levels.push_back(share * deepest);
+    const auto offsets = offset_curves(*shape, levels);
+    EXPECT_TRUE(offsets.ok());
+    const test::OffsetCheck found = test::check_offsets(*shape, *offsets);
+    EXPECT_LE(found.largest_error, 1e-12 * size) << found.worst.x << " " << found.worst.y;
+    EXPECT_EQ(found.fault, "");
+    return true;
+  };
+  std::size_t checked = 0;
+  for (std::uint64_t seed = 0; seed < offset_count / 3; ++seed) {
+    SCOPED_TRACE(seed);
+    test::Random numbers(seed);
+    const double angle = numbers.between(0, 6);
+    // Nearly a circle, of arcs; a corridor around a corner; a slot; corners rounded; biarcs.
+    test::Rings round{test::bulged_polygon(3, std::tan(pi / 6))};
+    test::Rings slot{test::stadium({0, 0}, {std::cos(angle), std::sin(angle)}, 0.3)};
+    test::Rings ell{test::rounded(test::l_shape(2)[0], 1)};
+    checked += check(round, numbers);
+    checked += check(slot, numbers);
+    checked += check(ell, numbers);
+    checked += check({test::rounded(test::star(numbers, 9), 0.1)}, numbers);
+    checked += check({test::smooth_biarcs(numbers, 64, 4)}, numbers);
+    if (HasFailure()) return;
+  }
+  EXPECT_GT(checked, offset_count);
 }
 
 TEST(Offset, PassesUntilNothingIsLeft) {

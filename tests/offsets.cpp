@@ -49,8 +49,7 @@ void examine(const Shape& shape, const std::string& name, std::span<const std::s
   std::vector<double> levels;
   for (const double share : {-1.0, -0.3, -0.05, 0.02, 0.1, 0.3, 0.6, 0.95})
     levels.push_back(share * deepest);
-  // Between long arcs a joint taken for smooth moves points by more than what is measured here.
-  const auto offsets = offset_curves(shape, levels, {.corner_angle = 0});
+  const auto offsets = offset_curves(shape, levels);
   if (!offsets) return fault(to_string(offsets.error()));
   const Box box = bounding_box(shape);
   const double size = diagonal(box);

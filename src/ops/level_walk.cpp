@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "base/arc.h"
 
@@ -40,6 +41,31 @@ double clockwise(Vec2 u, Vec2 v) {
   return angle > 0.5 * std::numbers::pi ? angle - 2 * std::numbers::pi : angle;
 }
 
+BulgeArc arc_of(const Site& site) { return {site.start, site.end, site.bulge}; }
+
+/// Where the offsets of two edges meet beside a joint that turns to the left by no more than the
+/// corner angle: the branch that would lead there is not in the axis. None where they do not meet.
+///
+/// At x from the joint both have the distance d. With the edges' normals n1 and n2, curvatures k1
+/// and k2, and s = (x^2 - d^2) / 2, that is x.n1 = d + k1 s and x.n2 = d + k2 s; along the normals'
+/// bisector and across it, that leaves a quadratic in s, of which this is the smaller root. Nothing
+/// is divided by the angle, so that it may be as small as it likes.
+std::optional<Vec2> beside_joint(const Site& before, const Site& after, double d) {
+  if (before.kind == SiteKind::vertex || after.kind == SiteKind::vertex) return std::nullopt;
+  const BulgeArc one = arc_of(before), other = arc_of(after);
+  const Vec2 n1 = left_of(end_tangent(one)), n2 = left_of(start_tangent(other));
+  const double cosine = norm(n1 + n2) / 2, sine = cross(n1, n2) / (2 * cosine);
+  if (!(sine > 0)) return std::nullopt;
+  const double k1 = curvature(one), k2 = curvature(other);
+  const double square = cosine * cosine, mean = (k1 + k2) / 2, half = 1 - d * mean / square;
+  const double root = ((1 - k1 * d) * (1 - k2 * d) - sine * sine) / square;
+  if (!(root >= 0 && half > 0)) return std::nullopt;
+  const double share = d * d * sine / (square * (half + std::sqrt(root)));  // s / sine
+  const double along = (d + mean * share * sine) / cosine, across = (k1 - k2) / 2 * share;
+  const Vec2 between = (0.5 / cosine) * (n1 + n2);
+  return before.end + along * between - across * left_of(between);
+}
+
 }  // namespace
 
 /// Puts a ring together, piece by piece.
@@ -63,6 +89,7 @@ class LevelWalk::RingBuilder {
     last_ = towards;
   }
   void end(Vec2 point) {
+    if (site_ == no_site) return;  // nothing has begun
     const Site& site = axis_.sites[site_];
     switch (site.kind) {
       case SiteKind::segment:
@@ -71,7 +98,7 @@ class LevelWalk::RingBuilder {
         pass(point);
         return add_turn(site.start, point, turn_);
       case SiteKind::arc:
-        return add_offset({site.start, site.end, site.bulge}, point);
+        return add_offset(arc_of(site), point);
     }
   }
   /// The arc of a disk that touches the boundary all along, counter-clockwise; or a step of
@@ -217,7 +244,7 @@ void LevelWalk::find_faces() {
     for (HalfEdge half = start; !done[half]; half = next_[half]) {
       done[half] = true;
       face.lowest = std::min(face.lowest, lowest_[half / 2]);
-      if (right_site(half) != right_site(next_[half])) face.first = next_[half];
+      if (right_site(half) != right_site(next_[half])) face.last = half;
     }
     faces_.push_back(face);
   }
@@ -282,9 +309,9 @@ std::vector<LevelLoop> LevelWalk::loops_at(double level, std::size_t k) {
   for (const std::uint32_t e : crossed) find_crossing(e, level);
   for (const std::uint32_t e : crossed)
     for (const HalfEdge half : {2 * e, 2 * e + 1})
-      if (risen_[half]) keep(loop_from(half, level, true));
+      if (risen_[half]) keep(loop_from(half, level));
   for (const Face& face : faces_)
-    if (face.lowest > level) keep(loop_from(face.first, level, false));
+    if (face.lowest > level) keep(loop_around(face.last, level));
   for (const std::uint32_t node : alone_) {
     const Disk& disk = axis_.nodes[node].disk;
     if (!(height(node) > level)) continue;
@@ -294,58 +321,111 @@ std::vector<LevelLoop> LevelWalk::loops_at(double level, std::size_t k) {
   return loops;
 }
 
-/// The loop that begins where a half edge rises above the level, or with the face's first site.
-LevelLoop LevelWalk::loop_from(HalfEdge first, double level, bool crossed) {
-  LevelLoop loop;
-  loop.node = to(first);
-  loop.site = right_site(first);
+/// Goes on from one site to another past joints that have no branch: one that counts as smooth, or
+/// those at both ends of arcs that a disk touches all along, to the corner angle. False where the
+/// disk itself tells as much.
+bool LevelWalk::pass_joints(std::uint32_t before, std::uint32_t after, double level,
+                            RingBuilder& builder) const {
+  const auto& sites = axis_.sites;
+  const auto joined = [&](std::uint32_t a, std::uint32_t b) {
+    return std::max(a, b) < sites.size() && sites[a].end == sites[b].start;
+  };
+  if (joined(before, after)) {
+    const auto met = beside_joint(sites[before], sites[after], level);
+    if (!met) return false;
+    builder.end(*met);
+    builder.begin(after, *met);
+    return true;
+  }
+  // A loop's numbers may begin anywhere in between.
+  std::vector<std::uint32_t> run{before}, back{after};
+  const auto bulges = [&](std::uint32_t site) {
+    return site < sites.size() && sites[site].bulge > 0 &&
+           curvature(arc_of(sites[site])) * level < 1;
+  };
+  while (!joined(run.back(), back.back()) && joined(run.back(), run.back() + 1) &&
+         bulges(run.back() + 1))
+    run.push_back(run.back() + 1);
+  while (!joined(run.back(), back.back()) && joined(back.back() - 1, back.back()) &&
+         bulges(back.back() - 1))
+    back.push_back(back.back() - 1);
+  if (!joined(run.back(), back.back())) return false;
+  run.insert(run.end(), back.rbegin(), back.rend());
+  for (std::size_t i = 1; i < run.size(); ++i) {
+    const Site &a = sites[run[i - 1]], &b = sites[run[i]];
+    const auto met = beside_joint(a, b, level);
+    const Vec2 tangent =
+        a.kind == SiteKind::vertex ? start_tangent(arc_of(b)) : end_tangent(arc_of(a));
+    const Vec2 point = met ? *met : a.end + level * left_of(tangent);
+    builder.end(point);
+    builder.begin(run[i], point);
+  }
+  return true;
+}
+
+/// The offset of a site where a disk touches it. A disk that touches an arc all along has no foot
+/// of its own there: what comes before the arc goes on at its start, what comes after it at its
+/// end.
+Vec2 LevelWalk::offset_at(std::uint32_t index, const Disk& disk, double level, Part part) const {
+  const Site& site = axis_.sites[index];
+  const Vec2 touch = touches_all_of(site, disk, slack(disk))
+                         ? (part == Part::start ? site.start : site.end)
+                         : foot(site, disk.center);
+  return touch + (level / disk.radius) * (disk.center - touch);
+}
+
+/// Goes on past the node where a half edge arrives, to what is on the right of the next one.
+void LevelWalk::pass_node(HalfEdge half, double level, RingBuilder& builder) const {
+  const HalfEdge next = next_[half];
+  const std::uint32_t before = right_site(half), after = right_site(next);
+  const Disk& disk = axis_.nodes[to(half)].disk;
+  if (before == after) return builder.pass(disk.center);
+  if (pass_joints(before, after, level, builder)) return;
+  const Vec2 p = offset_at(before, disk, level, Part::end);
+  const Vec2 q = offset_at(after, disk, level, Part::start);
+  builder.end(p);
+  builder.close_gap(disk.center, p, q, twin(half) == next, slack(disk));
+  builder.begin(after, q);
+}
+
+/// The loop that begins where a half edge rises above the level.
+LevelLoop LevelWalk::loop_from(HalfEdge first, double level) {
+  LevelLoop loop{{}, to(first), right_site(first)};
   RingBuilder builder(axis_, level, loop.ring);
-  // Where feet of one disk are apart by no more than this, they are one.
-  const auto slack = [&](const Disk& disk) {
-    return std::max(4 * axis_.tolerance, 1e-9 * disk.radius);
-  };
-  // A disk that touches an arc all along has no foot of its own there: what comes before the arc
-  // goes on at its start, what comes after it at its end.
-  enum class Part : std::uint8_t { start, end };
-  const auto offset_at = [&](std::uint32_t index, const Disk& disk, Part part) {
-    const Site& site = axis_.sites[index];
-    const Vec2 touch = touches_all_of(site, disk, slack(disk))
-                           ? (part == Part::start ? site.start : site.end)
-                           : foot(site, disk.center);
-    return touch + (level / disk.radius) * (disk.center - touch);
-  };
-  const Vec2 start =
-      crossed ? rise_[first] : offset_at(loop.site, axis_.nodes[from(first)].disk, Part::start);
-  builder.begin(loop.site, start);
-  HalfEdge half = first;
-  bool risen = crossed;  // the walk goes on from where the half edge rises, not from its start
-  bool one_site = true;
-  for (;;) {
-    if (!risen && falls(half, level)) {
-      half = twin(half);
-      risen = true;
-      risen_[half] = false;
-      builder.end(rise_[half]);
-      if (half == first) return loop;
-      builder.begin(right_site(half), rise_[half]);
+  builder.begin(loop.site, rise_[first]);
+  bool risen = true;  // the walk goes on from where the half edge rises, not from its start
+  for (HalfEdge half = first;;) {
+    if (risen || !falls(half, level)) {
+      pass_node(half, level, builder);
+      half = next_[half];
+      risen = false;
       continue;
     }
-    risen = false;
-    const std::uint32_t before = right_site(half);
-    const Disk& disk = axis_.nodes[to(half)].disk;
-    const HalfEdge after = next_[half];
-    const std::uint32_t site = right_site(after);
-    if (site == before) {
-      builder.pass(disk.center);
-    } else {
-      const Vec2 p = offset_at(before, disk, Part::end), q = offset_at(site, disk, Part::start);
-      builder.end(p);
-      builder.close_gap(disk.center, p, q, twin(half) == after, slack(disk));
-      builder.begin(site, q);
-      one_site = false;
-    }
-    half = after;
-    if (!crossed && half == first) break;
+    half = twin(half);
+    risen = true;
+    risen_[half] = false;
+    builder.end(rise_[half]);
+    if (half == first) return loop;
+    builder.begin(right_site(half), rise_[half]);
+  }
+}
+
+/// The loop on the right of which a face lies that is nowhere below the level.
+LevelLoop LevelWalk::loop_around(HalfEdge last, double level) const {
+  const HalfEdge first = next_[last];
+  LevelLoop loop{{}, to(first), right_site(first)};
+  RingBuilder builder(axis_, level, loop.ring);
+  const bool one_site = right_site(last) == loop.site;
+  const Vec2 start = offset_at(loop.site, axis_.nodes[to(last)].disk, level, Part::start);
+  if (one_site) {
+    builder.begin(loop.site, start);
+  } else {  // where the first site's offset begins is known behind what comes before it
+    pass_node(last, level, builder);
+    loop.ring = {};
+  }
+  for (HalfEdge half = first;; half = next_[half]) {
+    pass_node(half, level, builder);
+    if (half == last) break;
   }
   if (one_site) builder.end(start);
   return loop;

@@ -2,6 +2,7 @@
 
 // The curves on which an axis has a given radius on its sides: the level sets of the clearance.
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -44,17 +45,25 @@ class LevelWalk {
 
  private:
   struct Face {
-    HalfEdge first;  ///< where the right site is another one than before, if that is anywhere
-    double lowest;   ///< of its edges
+    HalfEdge last;  ///< behind which the right site is another one, if that is anywhere
+    double lowest;  ///< of its edges
   };
   class RingBuilder;
+  enum class Part : std::uint8_t { start, end };
 
   void link_around(std::uint32_t node, std::span<const std::uint32_t> edges);
   void find_faces();
   void bin_crossings(std::span<const double> levels);
   std::vector<LevelLoop> loops_at(double level, std::size_t k);
   void find_crossing(std::uint32_t edge, double level);
-  LevelLoop loop_from(HalfEdge first, double level, bool crossed);
+  LevelLoop loop_from(HalfEdge first, double level);
+  LevelLoop loop_around(HalfEdge last, double level) const;
+  void pass_node(HalfEdge half, double level, RingBuilder& builder) const;
+  bool pass_joints(std::uint32_t before, std::uint32_t after, double level,
+                   RingBuilder& builder) const;
+  Vec2 offset_at(std::uint32_t site, const Disk& disk, double level, Part part) const;
+  /// Where feet of one disk are apart by no more than this, they are one.
+  double slack(const Disk& disk) const { return std::max(4 * axis_.tolerance, 1e-9 * disk.radius); }
 
   const Edge& edge(HalfEdge half) const { return axis_.edges[half / 2]; }
   std::uint32_t from(HalfEdge half) const { return edge(half).node[half % 2]; }
