@@ -146,7 +146,7 @@ Result<InputFile> read_input(const InputSwitches& input) {
   source.dataset.y_down = native->y_down;
   for (io::NativeItem& item : native->items) {
     io::Feature feature;
-    feature.rings = rings_of(item.shape);
+    feature.rings = rings_of(item.shape);  // to be checked anew: a file may hold anything
     feature.contours = std::move(item.contours);
     feature.id = static_cast<std::int64_t>(source.dataset.features.size());
     feature.attributes = std::move(item.attributes);
@@ -314,13 +314,6 @@ Result<ShapeFile> load_shapes(const InputSwitches& input, int threads, bool keep
   file.seconds_shape = shaping.seconds();
   file.processor_shape = processor_seconds() - processor;
   return file;
-}
-
-std::vector<Ring> rings_of(const Shape& shape) {
-  std::vector<Ring> rings;
-  rings.reserve(shape.loop_count());
-  for (std::size_t i = 0; i < shape.loop_count(); ++i) rings.push_back(io::ring_of(shape, i));
-  return rings;
 }
 
 void print_notes(const ShapeFile& file, const InputSwitches& input, const CommonSwitches& common) {

@@ -94,9 +94,6 @@ Result<ShapeFile> load_shapes(const InputSwitches& input, int threads, bool keep
 /// `distance` of their corners.
 Status smooth_boundaries(ShapeFile& file, double distance, const InputSwitches& input);
 
-/// The loops of a shape as rings, to be checked anew: a file may hold anything.
-std::vector<Ring> rings_of(const Shape& shape);
-
 /// Prints what a user should know of the input (geographic coordinates, repairs) on standard error,
 /// unless told to be quiet.
 void print_notes(const ShapeFile& file, const InputSwitches& input, const CommonSwitches& common);

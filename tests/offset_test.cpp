@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -333,7 +334,7 @@ TEST(Offset, CountsRingsAsPixelsDo) {
       const std::size_t pixels = 150;
       const Vec2 extent = box.high - box.low;
       const double pixel = std::max(extent.x, extent.y) / static_cast<double>(pixels);
-      if (!test::is_steady(shape, level, 3 * pixel)) continue;
+      if (!test::are_steady(shape, {&level, 1}, std::array{3 * pixel})[0]) continue;
       const auto offsets = offset_curves(shape, {&level, 1});
       ASSERT_TRUE(offsets.ok());
       const test::PixelCount count = test::count_by_pixels(shape, level, pixels);

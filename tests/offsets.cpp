@@ -4,8 +4,8 @@
 //
 //   medial_offsets [--fine] [--every N] FOLDER...
 //
-// With --every, each N-th feature of all files. With --fine, grids of up to 1200 pixels where 300
-// do not tell the number of rings of one of a file's first features.
+// With --every, each N-th feature of all files. With --fine, grids of up to 4800 pixels where 300
+// do not tell the number of rings.
 //
 // Exit status: 0; 1 where a check failed; 2 for a wrong call; 77 (what ctest takes for a skipped
 // test) where a folder does not exist.
@@ -35,8 +35,41 @@ struct Row {
   double largest_error = 0;  ///< by the size of the shape
 };
 
-/// Eight distances of a shape. Rings are counted by the first of these grids that can tell how many
-/// there are.
+/// Compares the number of rings of each level with pixels, by the first of these grids that can
+/// tell how many there are.
+template <class Fault>
+void count_rings(const Shape& shape, const Offsets& offsets, std::vector<double> levels,
+                 std::span<const std::size_t> grids, Row& row, const Fault& fault) {
+  const Box box = bounding_box(shape);
+  const double side = std::max(box.high.x - box.low.x, box.high.y - box.low.y);
+  for (const std::size_t pixels : grids) {
+    std::vector<double> slacks;
+    for (const double level : levels)  // outwards the grid is larger
+      slacks.push_back(3 * (side + 2 * std::max(-level, 0.0)) / static_cast<double>(pixels));
+    const std::vector<bool> steady = are_steady(shape, levels, slacks);
+    std::vector<double> left;
+    for (std::size_t i = 0; i < levels.size(); ++i) {
+      if (!steady[i]) {
+        left.push_back(levels[i]);
+        continue;
+      }
+      const PixelCount found = count_by_pixels(shape, levels[i], pixels);
+      std::size_t regions = 0, rings = 0;
+      for (const OffsetRegion& region : offsets.regions) {
+        if (region.clearance != levels[i]) continue;
+        ++regions;
+        rings += region.rings.size();
+      }
+      ++row.counted;
+      if (found.regions != regions || found.rings != rings)
+        fault(std::to_string(rings) + " rings, but " + std::to_string(found.rings) +
+              " by pixels at " + std::to_string(levels[i]));
+    }
+    levels = std::move(left);
+  }
+}
+
+/// Eight distances of a shape.
 void examine(const Shape& shape, const std::string& name, std::span<const std::size_t> grids,
              Row& row) {
   const auto fault = [&](const std::string& text) {
@@ -62,27 +95,7 @@ void examine(const Shape& shape, const std::string& name, std::span<const std::s
   if (!(check.largest_error <= 1e-9 * size))
     fault("a point is " + std::to_string(check.largest_error / size) + " off");
   for (const OffsetRegion& region : offsets->regions) row.rings += region.rings.size();
-  const double side = std::max(box.high.x - box.low.x, box.high.y - box.low.y);
-  for (const double level : levels) {
-    const auto tells = [&](std::size_t pixels) {
-      // Outwards the grid is larger.
-      const double wide = side + 2 * std::max(-level, 0.0);
-      return is_steady(shape, level, 3 * wide / static_cast<double>(pixels));
-    };
-    const auto pixels = std::find_if(grids.begin(), grids.end(), tells);
-    if (pixels == grids.end()) continue;
-    const PixelCount found = count_by_pixels(shape, level, *pixels);
-    std::size_t regions = 0, rings = 0;
-    for (const OffsetRegion& region : offsets->regions) {
-      if (region.clearance != level) continue;
-      ++regions;
-      rings += region.rings.size();
-    }
-    ++row.counted;
-    if (found.regions != regions || found.rings != rings)
-      fault(std::to_string(rings) + " rings, but " + std::to_string(found.rings) +
-            " by pixels at " + std::to_string(level));
-  }
+  count_rings(shape, *offsets, levels, grids, row, fault);
 }
 
 int run(const std::vector<fs::path>& folders, std::size_t every, bool fine) {
@@ -104,20 +117,12 @@ int run(const std::vector<fs::path>& folders, std::size_t every, bool fine) {
     for (const fs::path& path : files) {
       Row row;
       const std::vector<Case> cases = read_cases(path);
-      for (std::size_t i = 0; i < cases.size(); ++i) {
-        const Case& one = cases[i];
+      for (const Case& one : cases) {
         if (number++ % every != 0 || one.error) continue;
         const auto shape = build_shape(one.rings);
         if (!shape) continue;
-        constexpr std::size_t most_counted = 10, largest_counted = 20000;
-        constexpr std::array<std::size_t, 3> grids{300, 600, 1200};
-        const bool first = i < most_counted;
-        const bool small = fine || shape->points.size() < largest_counted;
-        examine(*shape, one.name,
-                std::span(grids).first(!first || !small ? 0
-                                       : fine           ? grids.size()
-                                                        : 1),
-                row);
+        constexpr std::array<std::size_t, 3> grids{300, 1200, 4800};
+        examine(*shape, one.name, std::span(grids).first(fine ? grids.size() : 1), row);
       }
       if (row.features == 0) continue;
       std::printf("%-58s %8zu %7zu %9zu %10zu %7zu %9.1e %6zu\n",

@@ -85,6 +85,10 @@ struct Shape {
   std::size_t hole_count() const;
 };
 
+/// A loop of a shape as a ring; all of its loops.
+Ring ring_of(const Shape& shape, std::size_t loop);
+std::vector<Ring> rings_of(const Shape& shape);
+
 /// The bounding box of the shape, its arcs included. O(n).
 Box bounding_box(const Shape& shape);
 

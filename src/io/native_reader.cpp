@@ -344,16 +344,6 @@ Result<NativeFile> read_native(TextSource& source) {
   return read_document(source, native_version, read_file);
 }
 
-Ring ring_of(const Shape& shape, std::size_t loop) {
-  const auto points = shape.loop(loop);
-  Ring ring{{points.begin(), points.end()}, shape.hole[loop] ? RingRole::hole : RingRole::outer};
-  if (!shape.bulges.empty()) {
-    const auto bulges = std::span(shape.bulges).subspan(shape.loop_begin[loop], points.size());
-    ring.bulges.assign(bulges.begin(), bulges.end());
-  }
-  return ring;
-}
-
 Dataset dataset_of(NativeFile file) {
   Dataset dataset;
   dataset.crs_wkt = std::move(file.crs_wkt);

@@ -12,6 +12,23 @@ std::size_t Shape::hole_count() const {
   return static_cast<std::size_t>(std::count(hole.begin(), hole.end(), true));
 }
 
+Ring ring_of(const Shape& shape, std::size_t loop) {
+  const auto points = shape.loop(loop);
+  Ring ring{{points.begin(), points.end()}, shape.hole[loop] ? RingRole::hole : RingRole::outer};
+  if (!shape.bulges.empty()) {
+    const auto bulges = std::span(shape.bulges).subspan(shape.loop_begin[loop], points.size());
+    ring.bulges.assign(bulges.begin(), bulges.end());
+  }
+  return ring;
+}
+
+std::vector<Ring> rings_of(const Shape& shape) {
+  std::vector<Ring> rings;
+  rings.reserve(shape.loop_count());
+  for (std::size_t i = 0; i < shape.loop_count(); ++i) rings.push_back(ring_of(shape, i));
+  return rings;
+}
+
 namespace {
 
 /// Calls `visit` with every edge that is not straight.

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <span>
+#include <utility>
 
 #include "base/arc.h"
 #include "base/disjoint_sets.h"
@@ -33,18 +35,6 @@ double signed_area(const Ring& ring) {
     if (edge.bulge != 0) sum += area_beside_chord(edge);
   });
   return sum;
-}
-
-std::vector<Ring> rings_of(const Shape& shape) {
-  std::vector<Ring> rings;
-  for (std::size_t i = 0; i < shape.loop_count(); ++i) {
-    const auto loop = shape.loop(i);
-    Ring& ring = rings.emplace_back();
-    ring.points.assign(loop.begin(), loop.end());
-    for (std::size_t k = 0; k < loop.size(); ++k)
-      ring.bulges.push_back(shape.bulge(shape.loop_begin[i] + k));
-  }
-  return rings;
 }
 
 /// How often an edge winds around a point, counted where it passes the ray to the right.
@@ -115,29 +105,144 @@ std::string fault_of(const Offsets& offsets, std::size_t i) {
   return "";
 }
 
+std::vector<Box> boxes_of(const OffsetRegion& region) {
+  std::vector<Box> boxes;
+  for (const Ring& ring : region.rings) {
+    Box& box = boxes.emplace_back(Box{ring.points[0], ring.points[0]});
+    for (const Vec2 p : ring.points) box.add(p);
+  }
+  return boxes;
+}
+
 /// Whether these may be the rings of one region at two clearances: as many, and each of one around
 /// the middle of one of the other. (Where a bay becomes a hole just as another hole is filled,
 /// numbers tell nothing.)
 bool may_be_same(const OffsetRegion& a, const OffsetRegion& b) {
   if (a.rings.size() != b.rings.size()) return false;
-  const auto box_of = [](const Ring& ring) {
-    Box box{ring.points[0], ring.points[0]};
-    for (const Vec2 p : ring.points) {
-      box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y)};
-      box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y)};
-    }
-    return box;
-  };
   const auto holds_middle = [](const Box& box, const Box& other) {
     const Vec2 p = midpoint(other.low, other.high);
     return p.x >= box.low.x && p.x <= box.high.x && p.y >= box.low.y && p.y <= box.high.y;
   };
-  return std::ranges::all_of(a.rings, [&](const Ring& ring) {
-    return std::ranges::any_of(b.rings, [&, box = box_of(ring)](const Ring& other) {
-      return holds_middle(box, box_of(other)) && holds_middle(box_of(other), box);
+  const std::vector<Box> others = boxes_of(b);
+  return std::ranges::all_of(boxes_of(a), [&](const Box& box) {
+    return std::ranges::any_of(others, [&](const Box& other) {
+      return holds_middle(box, other) && holds_middle(other, box);
     });
   });
 }
+
+/// The clearances at which a curve and its neighbours up to `slack` away are looked at.
+std::array<double, 5> around_level(double level, double slack) {
+  return {level - slack, level - slack / 2, level, level + slack / 2, level + slack};
+}
+
+/// Whether each region at the first of some clearances holds one at each of the others, which may
+/// be the same.
+bool is_steady_in(const Offsets& offsets, std::span<const double> levels) {
+  const auto& regions = offsets.regions;
+  const auto at = [&](double level) {
+    const auto range = std::ranges::equal_range(regions, level, {}, &OffsetRegion::clearance);
+    return std::pair(range.begin() - regions.begin(), range.end() - regions.begin());
+  };
+  for (std::size_t k = 1; k < levels.size(); ++k) {
+    const auto [below, below_end] = at(levels[k - 1]);
+    const auto [above, above_end] = at(levels[k]);
+    std::vector<bool> held(static_cast<std::size_t>(below_end - below), false);
+    if (below_end - below != above_end - above) return false;
+    for (auto i = above; i < above_end; ++i) {
+      auto parent = static_cast<std::size_t>(i);
+      while (parent != no_region && regions[parent].clearance > levels[k - 1])
+        parent = regions[parent].parent;
+      if (parent == no_region) return false;
+      const auto place = parent - static_cast<std::size_t>(below);
+      if (held[place] || !may_be_same(regions[static_cast<std::size_t>(i)], regions[parent]))
+        return false;
+      held[place] = true;
+    }
+  }
+  return true;
+}
+
+/// A grid over a shape grown by `reach`, with a rim of pixels outside on all sides.
+struct PixelGrid {
+  Vec2 low;
+  double step = 0;
+  std::size_t columns = 0, rows = 0;
+
+  PixelGrid(const Box& box, double reach, std::size_t pixels) {
+    const Vec2 size = box.high - box.low + 2 * Vec2{reach, reach};
+    step = std::max(size.x, size.y) / static_cast<double>(pixels);
+    low = box.low - Vec2{reach + step, reach + step};
+    columns = static_cast<std::size_t>(std::ceil(size.x / step)) + 3;
+    rows = static_cast<std::size_t>(std::ceil(size.y / step)) + 3;
+  }
+  Vec2 at(std::size_t x, std::size_t y) const {
+    return low + step * Vec2{static_cast<double>(x), static_cast<double>(y)};
+  }
+  /// The first place among `count` that is not below a coordinate less `room`.
+  std::size_t from(double coordinate, double origin, double room, std::size_t count) const {
+    const double place = std::ceil((coordinate - room - origin) / step);
+    return place > 0 ? std::min(static_cast<std::size_t>(place), count) : 0;
+  }
+};
+
+/// How often rings wind around the pixels of a grid, row by row.
+class WindingRows {
+ public:
+  WindingRows(const std::vector<Ring>& rings, const PixelGrid& grid)
+      : grid_(grid), in_row_(grid.rows) {
+    for (const Ring& ring : rings) {
+      for_edges(ring, [&](const BoundaryEdge& edge) {
+        const auto [low, high] = std::minmax(edge.start.y, edge.end.y);
+        const double room = room_of(edge) + grid.step;
+        const std::size_t end = grid.from(high, grid.low.y, -room, grid.rows);
+        for (std::size_t y = grid.from(low, grid.low.y, room, grid.rows); y < end; ++y)
+          in_row_[y].push_back(edge);
+      });
+    }
+  }
+  std::vector<int> row(std::size_t y) const {
+    std::vector<int> around(grid_.columns, 0), change(grid_.columns + 1, 0);
+    const double level = grid_.at(0, y).y;
+    for (const BoundaryEdge& edge : in_row_[y]) {
+      // Behind an edge it does not count, before it always as much.
+      double low = std::min(edge.start.x, edge.end.x), high = std::max(edge.start.x, edge.end.x);
+      if (edge.bulge == 0) {
+        const double share = (level - edge.start.y) / (edge.end.y - edge.start.y);
+        if (!(share >= -1 && share <= 2)) continue;
+        const double cut = edge.start.x + share * (edge.end.x - edge.start.x);
+        low = high = std::clamp(cut, low, high);
+      }
+      const double room = room_of(edge) + 2 * grid_.step;
+      const std::size_t begin = grid_.from(low, grid_.low.x, room, grid_.columns);
+      const std::size_t end = grid_.from(high, grid_.low.x, -room, grid_.columns);
+      for (std::size_t x = begin; x < end; ++x) around[x] += winding_of(edge, grid_.at(x, y));
+      if (begin > 0) {
+        const int before = winding_of(edge, grid_.at(begin - 1, y));
+        change[0] += before;
+        change[begin] -= before;
+      }
+    }
+    int sum = 0;
+    for (std::size_t x = 0; x < grid_.columns; ++x) around[x] += sum += change[x];
+    return around;
+  }
+
+ private:
+  static double room_of(const BoundaryEdge& edge) {
+    return std::abs(edge.bulge) * distance(edge.start, edge.end);
+  }
+  const PixelGrid& grid_;
+  std::vector<std::vector<BoundaryEdge>> in_row_;
+};
+
+/// Pixels side by side that are all inside, or all outside.
+struct PixelRun {
+  std::size_t begin = 0, end = 0;
+  bool in = false;
+  bool far = false;  ///< whether one of them is further than one and a half pixels from the curve
+  std::uint32_t set = 0;
+};
 
 }  // namespace
 
@@ -191,82 +296,66 @@ OffsetCheck check_offsets(const Shape& shape, const Offsets& offsets, int inside
   return check;
 }
 
-bool is_steady(const Shape& shape, double clearance, double slack) {
-  if (std::abs(clearance) <= slack) return false;
-  const std::vector<double> levels{clearance - slack, clearance - slack / 2, clearance,
-                                   clearance + slack / 2, clearance + slack};
+std::vector<bool> are_steady(const Shape& shape, std::span<const double> clearances,
+                             std::span<const double> slacks) {
+  std::vector<double> levels;
+  for (std::size_t i = 0; i < clearances.size(); ++i)
+    if (std::abs(clearances[i]) > slacks[i])
+      for (const double level : around_level(clearances[i], slacks[i])) levels.push_back(level);
   const auto offsets = offset_curves(shape, levels);
-  if (!offsets) return false;
-  std::vector<int> children(offsets->regions.size(), 0);
-  for (const OffsetRegion& region : offsets->regions) {
-    if (region.parent == no_region) continue;
-    ++children[region.parent];
-    if (!may_be_same(region, offsets->regions[region.parent])) return false;
-  }
-  for (std::size_t i = 0; i < children.size(); ++i)
-    if (offsets->regions[i].clearance < levels.back() && children[i] != 1) return false;
-  return true;
+  std::vector<bool> steady;
+  for (std::size_t i = 0; i < clearances.size(); ++i)
+    steady.push_back(offsets && std::abs(clearances[i]) > slacks[i] &&
+                     is_steady_in(*offsets, around_level(clearances[i], slacks[i])));
+  return steady;
 }
 
 PixelCount count_by_pixels(const Shape& shape, double clearance, std::size_t pixels) {
   const verify_detail::DistanceTree tree(shape);
-  const std::vector<Ring> own = rings_of(shape);
-  const Box box = bounding_box(shape);
-  const double reach = std::max(-clearance, 0.0);
-  const Vec2 low = box.low - Vec2{reach, reach}, size = box.high - box.low + 2 * Vec2{reach, reach};
-  const double step = std::max(size.x, size.y) / static_cast<double>(pixels);
-  // A rim of pixels outside on all sides.
-  const auto columns = static_cast<std::size_t>(std::ceil(size.x / step)) + 3;
-  const auto rows = static_cast<std::size_t>(std::ceil(size.y / step)) + 3;
-  std::vector<bool> in(columns * rows);
-  std::vector<double> beyond(columns * rows);  // how far from the curve, about
-  for (std::size_t y = 0; y < rows; ++y) {
-    const double level = low.y + (static_cast<double>(y) - 1) * step;
-    // Only edges that a horizontal line meets wind around its points.
-    std::vector<Ring> near;
-    for (const Ring& ring : own) {
-      for_edges(ring, [&](const BoundaryEdge& edge) {
-        const double room = std::abs(edge.bulge) * distance(edge.start, edge.end);
-        if (std::min(edge.start.y, edge.end.y) - room <= level &&
-            std::max(edge.start.y, edge.end.y) + room >= level)
-          near.push_back({{edge.start, edge.end}, RingRole::any, {edge.bulge}});
-      });
+  const PixelGrid grid(bounding_box(shape), std::max(-clearance, 0.0), pixels);
+  const WindingRows windings(rings_of(shape), grid);
+  DisjointSets sets;
+  std::vector<std::uint32_t> far_in, far_out;
+  std::vector<PixelRun> before, runs;
+  double expected = grid.step;
+  for (std::size_t y = 0; y < grid.rows; ++y) {
+    const std::vector<int> around = windings.row(y);
+    std::swap(before, runs);
+    runs.clear();
+    for (std::size_t x = 0; x < grid.columns;) {
+      expected = tree.distance(grid.at(x, y), expected + grid.step);
+      const double beyond = (around[x] != 0 ? expected : -expected) - clearance;
+      const bool in = beyond > 0, far = std::abs(beyond) > 1.5 * grid.step;
+      // As far from the curve the next pixels are on the same side of it, and nearly as far.
+      const double sure = std::floor(std::abs(beyond) / grid.step) - 2;
+      const std::size_t end =
+          sure < 1 ? x + 1 : std::min(x + 1 + static_cast<std::size_t>(sure), grid.columns);
+      if (runs.empty() || runs.back().in != in) runs.push_back({x, x, in, false, sets.add()});
+      runs.back().end = end;
+      runs.back().far |= far;
+      x = end;
     }
-    double expected = step;
-    for (std::size_t x = 0; x < columns; ++x) {
-      const Vec2 p{low.x + (static_cast<double>(x) - 1) * step, level};
-      expected = tree.distance(p, expected + step);
-      int around = 0;
-      for (const Ring& edge : near)
-        around += winding_of({edge.points[0], edge.points[1], edge.bulges[0]}, p);
-      const double of_p = around != 0 ? expected : -expected;
-      in[y * columns + x] = of_p > clearance;
-      beyond[y * columns + x] = std::abs(of_p - clearance);
+    // Inside by eight neighbours, outside by four: each region has one boundary more than holes.
+    for (std::size_t i = 0, k = 0; i < runs.size(); ++i) {
+      while (k < before.size() && before[k].end < runs[i].begin) ++k;
+      for (std::size_t j = k; j < before.size() && before[j].begin <= runs[i].end; ++j) {
+        const bool corner = before[j].end == runs[i].begin || before[j].begin == runs[i].end;
+        if (before[j].in == runs[i].in && (runs[i].in || !corner))
+          sets.join(before[j].set, runs[i].set);
+      }
     }
-  }
-  // Inside by eight neighbours, outside by four: each region has one boundary more than holes.
-  DisjointSets sets(columns * rows);
-  const auto join = [&](std::size_t a, std::size_t b) {
-    if (in[a] == in[b]) sets.join(static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b));
-  };
-  for (std::size_t y = 0; y < rows; ++y) {
-    for (std::size_t x = 0; x < columns; ++x) {
-      const std::size_t here = y * columns + x;
-      if (x + 1 < columns) join(here, here + 1);
-      if (y + 1 < rows) join(here, here + columns);
-      if (y + 1 < rows && x + 1 < columns && in[here]) join(here, here + columns + 1);
-      if (y + 1 < rows && x > 0 && in[here]) join(here, here + columns - 1);
-    }
+    for (const PixelRun& run : runs)
+      if (run.far) (run.in ? far_in : far_out).push_back(run.set);
   }
   // What pixels break off at the tip of a cusp is nowhere far from the curve.
-  std::vector<bool> counts(in.size(), false);
-  for (std::uint32_t i = 0; i < in.size(); ++i)
-    if (beyond[i] > 1.5 * step) counts[sets.find(i)] = true;
+  const auto count_sets = [&](std::vector<std::uint32_t>& far) {
+    for (std::uint32_t& set : far) set = sets.find(set);
+    std::ranges::sort(far);
+    return static_cast<std::size_t>(std::ranges::unique(far).begin() - far.begin());
+  };
   PixelCount count;
-  std::size_t outside = 0;
-  for (std::size_t i = 0; i < in.size(); ++i)
-    if (counts[i]) ++(in[i] ? count.regions : outside);
-  count.rings = count.regions + outside - 1;
+  count.regions = count_sets(far_in);
+  count.rings = count.regions + count_sets(far_out) - 1;
   return count;
 }
 

@@ -2,7 +2,9 @@
 
 // What must hold for offset curves, measured without the axis.
 
+#include <span>
 #include <string>
+#include <vector>
 
 #include "medial/offset.h"
 
@@ -31,10 +33,11 @@ int winding(const std::vector<Ring>& rings, Vec2 p);
 struct PixelCount {
   std::size_t regions = 0, rings = 0;
 };
-/// Whether every region at clearance - slack holds just one at each of some clearances up to
-/// clearance + slack, with as many rings in the same places: then pixels of a third of the slack
-/// tell how many there are.
-bool is_steady(const Shape& shape, double clearance, double slack);
+/// Of each clearance, whether every region at clearance - slack holds just one at each of some
+/// clearances up to clearance + slack, with as many rings in the same places: then pixels of a
+/// third of the slack tell how many there are.
+std::vector<bool> are_steady(const Shape& shape, std::span<const double> clearances,
+                             std::span<const double> slacks);
 
 PixelCount count_by_pixels(const Shape& shape, double clearance, std::size_t pixels);
 

@@ -106,9 +106,6 @@ struct VoronoiFile {
   bool y_down = false;  ///< the y axis points down; for pictures
 };
 
-/// A loop of a shape as a ring.
-Ring ring_of(const Shape& shape, std::size_t loop);
-
 /// Whether the file begins like medial's own JSON; and its content. Errors: as read_dataset().
 bool is_native(const std::string& path);
 Result<NativeFile> read_native(const std::string& path);
