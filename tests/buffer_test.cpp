@@ -162,6 +162,41 @@ TEST(Buffer, EveryPointHasItsDistance) {
   EXPECT_GT(regions, 3 * soup_count());
 }
 
+TEST(Buffer, MovesWithTheSoup) {
+  // Rotation, scale, shift, mirroring, the other direction, another start and order.
+  std::size_t compared = 0;
+  for (std::uint64_t seed = 0; seed < soup_count() / 4; ++seed) {
+    const Chains chains = random_soup(seed);
+    const double size = diagonal(bounding_box(*build_soup(chains)));
+    test::Random random(seed);
+    const std::vector<double> distances{random.between(0.01, 0.1), random.between(0.1, 0.4)};
+    const test::Measures expected = test::measures_of(buffers_of(chains, distances), 1);
+    for (const test::Symmetry& symmetry : test::symmetries()) {
+      SCOPED_TRACE(std::to_string(seed) + " " + symmetry.name);
+      const double scale = symmetry.scale();
+      const auto soup = build_soup(test::transformed(chains, symmetry));
+      ASSERT_TRUE(soup.ok());
+      const auto offsets =
+          offset_curves(*soup, std::vector{scale * distances[0], scale * distances[1]});
+      // What is near to each other is no longer told apart far away.
+      if (!offsets && offsets.error().code == ErrorCode::unsupported && symmetry.dx == 1e7)
+        continue;
+      ASSERT_TRUE(offsets.ok()) << to_string(offsets.error());
+      const test::Measures moved = test::measures_of(*offsets, scale);
+      ASSERT_EQ(expected.rings, moved.rings);
+      // What a shift far away rounds off.
+      const double slack = 1e-9 + 1e-13 * std::abs(symmetry.dx) / scale;
+      for (std::size_t i = 0; i < moved.areas.size(); ++i) {
+        EXPECT_NEAR(expected.areas[i], moved.areas[i], slack * (size + 1));
+        EXPECT_NEAR(expected.lengths[i], moved.lengths[i], 1e3 * slack * (size + 1));
+      }
+      ++compared;
+    }
+    if (HasFailure()) return;
+  }
+  EXPECT_GT(compared, 12 * soup_count() / 5);
+}
+
 #ifdef MEDIAL_HAS_GEOS
 /// Area and number of parts of GEOS's buffer, with many chords to a quarter of a circle.
 class Geos {

@@ -256,31 +256,6 @@ TEST(Offset, EveryPointHasItsDistance) {
   EXPECT_GT(regions, offset_count);
 }
 
-/// Sorted clearances, ring counts, areas and lengths of all regions.
-struct Measures {
-  std::vector<std::size_t> rings;
-  std::vector<double> areas, lengths;
-};
-Measures measures_of(const Offsets& offsets, double scale) {
-  struct One {
-    double clearance, area, length;
-    std::size_t rings;
-  };
-  std::vector<One> all;
-  for (const OffsetRegion& r : offsets.regions)
-    all.push_back({r.clearance, area(r) / (scale * scale), length(r) / scale, r.rings.size()});
-  std::sort(all.begin(), all.end(), [](const One& a, const One& b) {
-    return a.clearance != b.clearance ? a.clearance < b.clearance : a.area < b.area;
-  });
-  Measures out;
-  for (const One& one : all) {
-    out.rings.push_back(one.rings);
-    out.areas.push_back(one.area);
-    out.lengths.push_back(one.length);
-  }
-  return out;
-}
-
 TEST(Offset, MovesWithTheShape) {
   // Rotation, scale, another start, the other direction: the same but for rounding.
   std::size_t compared = 0;
@@ -307,7 +282,7 @@ TEST(Offset, MovesWithTheShape) {
     const auto moved =
         offset_curves(*moved_shape, std::vector{scale * levels[0], scale * levels[1]});
     ASSERT_TRUE(moved.ok()) << to_string(moved.error());
-    const Measures a = measures_of(*original, 1), b = measures_of(*moved, scale);
+    const test::Measures a = test::measures_of(*original, 1), b = test::measures_of(*moved, scale);
     if (moved_shape->component_count() != shape.component_count()) continue;
     ASSERT_EQ(a.rings, b.rings);
     for (std::size_t i = 0; i < a.areas.size(); ++i) {

@@ -511,19 +511,6 @@ TEST_P(RandomSoups, HaveRightDiagrams) {
 
 INSTANTIATE_TEST_SUITE_P(Random, RandomSoups, testing::Range<std::uint64_t>(0, 4));
 
-Chains chains_moved(const Chains& chains, const Symmetry& symmetry) {
-  Chains result;
-  for (const Chain& chain : chains) {
-    Symmetry own = symmetry;
-    if (!chain.closed) own.restart = 0;
-    Ring ring = transformed(Rings{{chain.points, RingRole::any, chain.bulges}}, own)[0];
-    result.push_back({std::move(ring.points), std::move(ring.bulges), chain.closed});
-  }
-  const auto first = static_cast<std::ptrdiff_t>(symmetry.restart % result.size());
-  std::rotate(result.begin(), result.begin() + first, result.end());
-  return result;
-}
-
 /// The disks of a soup's nodes that are away from the frame.
 std::vector<Disk> inner_nodes(const VoronoiDiagram& diagram, Vec2 middle, double within) {
   std::vector<Disk> disks;
@@ -545,7 +532,7 @@ TEST(Soup, DiagramsMoveWithTheSoup) {
     const auto expected = inner_nodes(*diagram, middle, 1.5 * size);
     for (const Symmetry& symmetry : symmetries()) {
       SCOPED_TRACE(std::to_string(seed) + " " + symmetry.name);
-      const auto moved_soup = build_soup(chains_moved(chains, symmetry));
+      const auto moved_soup = build_soup(transformed(chains, symmetry));
       // Ends on integer edges leave them as they are turned.
       if (seed % 4 == 1 && !symmetry.exact) continue;
       ASSERT_TRUE(moved_soup.ok()) << to_string(moved_soup.error());

@@ -265,6 +265,19 @@ Rings transformed(const Rings& rings, const Symmetry& symmetry) {
   return result;
 }
 
+std::vector<Chain> transformed(const std::vector<Chain>& chains, const Symmetry& symmetry) {
+  std::vector<Chain> result;
+  for (const Chain& chain : chains) {
+    Symmetry own = symmetry;
+    if (!chain.closed) own.restart = 0;
+    Ring ring = transformed(Rings{{chain.points, RingRole::any, chain.bulges}}, own)[0];
+    result.push_back({std::move(ring.points), std::move(ring.bulges), chain.closed});
+  }
+  const auto first = static_cast<std::ptrdiff_t>(symmetry.restart % result.size());
+  std::rotate(result.begin(), result.begin() + first, result.end());
+  return result;
+}
+
 Rings symmetric(const Rings& rings, std::size_t i) { return transformed(rings, symmetries()[i]); }
 
 std::string to_wkt(const Rings& rings) {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "medial/shape.h"
+#include "medial/soup.h"
 
 namespace medial::test {
 
@@ -139,6 +140,8 @@ struct Symmetry {
 /// re-started, and all together. The first is the identity.
 const std::vector<Symmetry>& symmetries();
 Rings transformed(const Rings& rings, const Symmetry& symmetry);
+/// The same of chains; open ones keep their first point, or begin with the last one.
+std::vector<Chain> transformed(const std::vector<Chain>& chains, const Symmetry& symmetry);
 /// transformed(rings, symmetries()[i]).
 Rings symmetric(const Rings& rings, std::size_t i);
 

@@ -246,6 +246,26 @@ struct PixelRun {
 
 }  // namespace
 
+Measures measures_of(const Offsets& offsets, double scale) {
+  struct One {
+    double clearance, area, length;
+    std::size_t rings;
+  };
+  std::vector<One> all;
+  for (const OffsetRegion& r : offsets.regions)
+    all.push_back({r.clearance, area(r) / (scale * scale), length(r) / scale, r.rings.size()});
+  std::sort(all.begin(), all.end(), [](const One& a, const One& b) {
+    return a.clearance != b.clearance ? a.clearance < b.clearance : a.area < b.area;
+  });
+  Measures out;
+  for (const One& one : all) {
+    out.rings.push_back(one.rings);
+    out.areas.push_back(one.area);
+    out.lengths.push_back(one.length);
+  }
+  return out;
+}
+
 int winding(const std::vector<Ring>& rings, Vec2 p) {
   int sum = 0;
   for (const Ring& ring : rings)

@@ -24,6 +24,13 @@ struct OffsetCheck {
 OffsetCheck check_offsets(const Shape& shape, const Offsets& offsets, int inside = 3,
                           int probes = 100);
 
+/// Ring counts, areas and lengths of all regions, by clearance and area; in units of `scale`.
+struct Measures {
+  std::vector<std::size_t> rings;
+  std::vector<double> areas, lengths;
+};
+Measures measures_of(const Offsets& offsets, double scale);
+
 /// How often rings wind around a point.
 int winding(const std::vector<Ring>& rings, Vec2 p);
 
