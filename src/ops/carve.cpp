@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
 
 #include "base/arc.h"
 #include "base/in_flight.h"
@@ -41,22 +42,33 @@ Vec2 point_at(const BulgeArc& edge, double share) {
                           turned(start_tangent(edge), std::cos(half), std::sin(half));
 }
 
-/// A ring as a closed path that starts at its point nearest to p.
-std::vector<ToolPoint> path_from(const Ring& ring, Vec2 p, double z) {
-  const std::size_t count = ring.points.size();
-  const auto edge_at = [&](std::size_t i) {
-    return BulgeArc{ring.points[i], ring.points[i + 1 == count ? 0 : i + 1],
-                    ring.bulges.empty() ? 0 : ring.bulges[i]};
-  };
-  std::size_t best = 0;
-  double share = 0, least = infinity;
-  for (std::size_t i = 0; i < count; ++i) {
-    const BulgeArc edge = edge_at(i);
-    const double s = nearest_share(edge, p);
-    const double d = squared_norm(point_at(edge, s) - p);
-    if (d < least) least = d, best = i, share = s;
+BulgeArc edge_of(const Ring& ring, std::size_t i) {
+  return {ring.points[i], ring.points[i + 1 == ring.points.size() ? 0 : i + 1],
+          ring.bulges.empty() ? 0 : ring.bulges[i]};
+}
+
+/// The place of a ring that is nearest to a point.
+struct RingPlace {
+  std::size_t edge = 0;
+  double share = 0;  ///< of the way along the edge
+  double squared_distance = infinity;
+};
+RingPlace nearest_place(const Ring& ring, Vec2 p) {
+  RingPlace best;
+  for (std::size_t i = 0; i < ring.points.size(); ++i) {
+    const BulgeArc edge = edge_of(ring, i);
+    const double share = nearest_share(edge, p);
+    const double d = squared_norm(point_at(edge, share) - p);
+    if (d < best.squared_distance) best = {i, share, d};
   }
-  const BulgeArc first = edge_at(best);
+  return best;
+}
+
+/// A ring as a closed path that starts at a place of it.
+std::vector<ToolPoint> path_from(const Ring& ring, const RingPlace& place, double z) {
+  const std::size_t count = ring.points.size(), best = place.edge;
+  const double share = place.share;
+  const BulgeArc first = edge_of(ring, best);
   const auto bulge_of_share = [&](double part) { return std::tan(part * std::atan(first.bulge)); };
   std::vector<ToolPoint> path;
   path.reserve(count + 2);
@@ -64,7 +76,7 @@ std::vector<ToolPoint> path_from(const Ring& ring, Vec2 p, double z) {
   if (share < 1) path.push_back({start, z, bulge_of_share(1 - share)});
   for (std::size_t k = 1; k < count + (share < 1 ? 0 : 1); ++k) {
     const std::size_t i = (best + k) % count;
-    path.push_back({ring.points[i], z, edge_at(i).bulge});
+    path.push_back({ring.points[i], z, edge_of(ring, i).bulge});
   }
   if (share > 0 && share < 1) path.push_back({first.start, z, bulge_of_share(share)});
   path.push_back({start, z, 0});
@@ -159,23 +171,44 @@ class Floors {
     std::vector<std::uint32_t> chain{root};
     while (children_[chain.back()].size() == 1) chain.push_back(children_[chain.back()][0]);
     cut_nearest(children_[chain.back()]);
-    for (std::size_t k = chain.size(); k-- > 0;) cut_rings(chain[k]);
-  }
-  void cut_rings(std::uint32_t index) {
-    const OffsetRegion& region = offsets_.regions[index];
-    const bool wall = region.parent == no_region;
-    for (std::size_t k = 0; k < region.rings.size(); ++k) {
-      const Vec2 from = planner_.started() ? planner_.at() : region.rings[k].points[0];
-      // The tool may be where the clearance is at least flat_from: around a place of clearance c
-      // within c - flat_from.
-      const double reach = last_clearance_ < 0
-                               ? -1
-                               : (last_clearance_ - flat_from_) + (region.clearance - flat_from_);
-      constexpr double rounding = 1 + 1e-9;
-      planner_.add(wall ? ToolPathKind::wall : ToolPathKind::clearing,
-                   path_from(region.rings[k], from, z_), rounding * reach);
-      last_clearance_ = region.clearance;
+    std::reverse(chain.begin(), chain.end());
+    const auto rings = [&](std::uint32_t i) { return offsets_.regions[i].rings.size(); };
+    for (auto begin = chain.begin(); begin != chain.end();) {
+      const auto end = std::find_if(begin, chain.end(),
+                                    [&](std::uint32_t i) { return rings(i) != rings(*begin); });
+      cut_rings({begin, end});
+      begin = end;
     }
+  }
+  /// Regions in each other, inner ones first, that have as many rings: all that follow each other
+  /// from one boundary to its wall, then those towards another one.
+  void cut_rings(std::span<const std::uint32_t> regions) {
+    std::vector<std::vector<const Ring*>> left;
+    for (const std::uint32_t i : regions) {
+      auto& rings = left.emplace_back();
+      for (const Ring& ring : offsets_.regions[i].rings) rings.push_back(&ring);
+    }
+    while (!left[0].empty())
+      for (std::size_t i = 0; i < regions.size(); ++i)
+        cut_nearest_ring(offsets_.regions[regions[i]], left[i]);
+  }
+  void cut_nearest_ring(const OffsetRegion& region, std::vector<const Ring*>& left) {
+    const Vec2 from = planner_.started() ? planner_.at() : left[0]->points[0];
+    std::size_t next = 0;
+    RingPlace nearest;
+    for (std::size_t k = 0; k < left.size(); ++k) {
+      const RingPlace place = nearest_place(*left[k], from);
+      if (place.squared_distance < nearest.squared_distance) nearest = place, next = k;
+    }
+    // The tool may be where the clearance is at least flat_from: around a place of clearance c
+    // within c - flat_from.
+    const double reach =
+        last_clearance_ < 0 ? -1 : (last_clearance_ - flat_from_) + (region.clearance - flat_from_);
+    constexpr double rounding = 1 + 1e-9;
+    planner_.add(region.parent == no_region ? ToolPathKind::wall : ToolPathKind::clearing,
+                 path_from(*left[next], nearest, z_), rounding * reach);
+    last_clearance_ = region.clearance;
+    left.erase(left.begin() + static_cast<std::ptrdiff_t>(next));
   }
 
   const Offsets& offsets_;
