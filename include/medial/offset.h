@@ -49,9 +49,9 @@ struct Offsets {
 /// would run back on itself (a corridor exactly as wide as twice c) it has no part of it.
 ///
 /// Every point of a ring has a distance from the boundary that is within a few tolerances of c,
-/// but beside joints that count as smooth (Options::corner_angle a): there it is up to a^2 / 8
-/// times the radius less. Rings have no more edges than sites whose cells they cross, and one for
-/// each arc that closes a gap of the contacts; an edge turns by a half circle at most.
+/// beside joints that count as smooth, too. Rings have no more edges than sites whose cells they
+/// cross, and one for each arc that closes a gap of the contacts; an edge turns by a half circle at
+/// most.
 /// O(n log m + size of the result) for n sites and m clearances.
 /// Errors: invalid_option (a clearance that is not positive and finite), unsupported (an axis that
 /// is sampled or of the exterior).
