@@ -6,14 +6,17 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
+#include "base/arc.h"
 #include "base/random.h"
 #include "medial/medial.h"
 #include "medial/voronoi.h"
@@ -382,6 +385,55 @@ TEST(Soup, CrossingsAreRefusedWithTheirPlaceOrNoded) {
   const Soup soup = soup_of(chains, {.node_crossings = true}, &report);
   EXPECT_EQ(soup.edges.size(), 4u);
   EXPECT_EQ(report.crossings, 1u);
+}
+
+/// Lines along a grid, and arcs of circles by steps of 10 degrees, which overlap as they come,
+/// turned by an angle: what they cover is counted step by step.
+TEST(Soup, OverlapsAreThereOnceIfAskedFor) {
+  std::size_t overlaps = 0;
+  for (std::uint64_t seed = 0; seed < shape_count(100); ++seed) {
+    SCOPED_TRACE(seed);
+    medial::Random random(seed);
+    const double angle = seed % 3 == 0 ? 0 : 0.1 * static_cast<double>(random.below(60));
+    const auto at = [&](double x, double y) {
+      return turned({x, y}, std::cos(angle), std::sin(angle));
+    };
+    std::set<std::array<std::uint32_t, 3>> steps;  // line across, line up or circle; which; where
+    Chains chains;
+    for (std::uint32_t i = 0, n = 2 + random.below(12); i < n; ++i) {
+      const std::uint32_t kind = random.below(seed % 2 == 0 ? 2 : 3), which = random.below(4);
+      const std::uint32_t from = random.below(10), to = from + 1 + random.below(kind == 2 ? 17 : 5);
+      for (std::uint32_t k = from; k < to; ++k) steps.insert({kind, which, kind == 2 ? k % 36 : k});
+      const auto end = [&](std::uint32_t k) {
+        if (kind == 0) return at(k, which);
+        if (kind == 1) return at(which, k);
+        const double turn = std::numbers::pi / 18 * k, radius = 20 + which;
+        return at(radius * std::cos(turn), radius * std::sin(turn));
+      };
+      const double bulge = kind == 2 ? std::tan(std::numbers::pi / 72 * (to - from)) : 0;
+      if (random.below(2) == 0)
+        chains.push_back({{end(from), end(to)}, {bulge}});
+      else
+        chains.push_back({{end(to), end(from)}, {0 - bulge}});
+    }
+    double expected = 0;
+    for (const auto& [kind, which, where] : steps)
+      expected += kind == 2 ? std::numbers::pi / 18 * (20 + which) : 1;
+    SoupReport report;
+    const Soup soup = soup_of(chains, {.node_crossings = true}, &report);
+    double length = 0;
+    for (const SoupEdge& edge : soup.edges) {
+      const double half = std::atan(edge.bulge),
+                   chord = distance(soup.points[edge.from], soup.points[edge.to]);
+      length += edge.bulge == 0 ? chord : chord * 2 * half / std::sin(2 * half);
+    }
+    ASSERT_NEAR(length, expected, 1e-10 * expected);
+    const auto diagram = voronoi_diagram(soup, {.threads = 1});
+    ASSERT_TRUE(diagram.ok()) << to_string(diagram.error());
+    ASSERT_EQ(fault_of(soup, *diagram), "");
+    overlaps += report.repeated_edges;
+  }
+  EXPECT_GT(overlaps, shape_count(100));
 }
 
 TEST(Soup, ErrorsAreTyped) {

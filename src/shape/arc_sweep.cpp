@@ -529,8 +529,9 @@ Result<SweptArcs> sweep_arcs(const Outline& outline, bool node_crossings, double
   constexpr int most_rounds = 64;
   Noding noding(outline, reach);
   if (auto error = noding.too_small()) return std::move(*error);
-  std::uint64_t crossings = 0;
+  std::uint64_t crossings = 0, repeated = 0;
   for (int round = 0; round < most_rounds; ++round) {
+    if (node_crossings && outline.open) repeated += noding.drop_repeated();
     NodedOutline noded = noding.monotone();
     const auto node_all = [&]() -> Result<bool> {
       CrossingFinder finder(noding, noded);
@@ -556,7 +557,8 @@ Result<SweptArcs> sweep_arcs(const Outline& outline, bool node_crossings, double
       }
       if (error) return std::move(*error);
       Sweep found = std::move(sweeper.found());
-      return SweptArcs{std::move(noded), std::move(found), noding.split_edges(), crossings};
+      return SweptArcs{std::move(noded), std::move(found), noding.split_edges(), crossings,
+                       repeated};
     }
     error = noding.apply(noded, sweeper.contacts(), sweeper.merges());
     if (error) return std::move(*error);

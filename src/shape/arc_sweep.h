@@ -14,6 +14,7 @@ struct SweptArcs {
   Sweep sweep;  ///< without splits: where a vertex touched an edge there are two now
   std::uint64_t split_edges = 0;
   std::uint64_t crossings = 0;
+  std::uint64_t repeated_edges = 0;  ///< of chains
 };
 
 /// What sweep() does, for outlines with arcs. Unlike there, contacts are decided to a tolerance
@@ -23,8 +24,8 @@ struct SweptArcs {
 /// round if nothing touches. Errors: crossing, overlap, no_area (a ring within the tolerance).
 ///
 /// With `node_crossings` edges are split where they cross first, which takes O(n log n + p) for p
-/// pairs of edges above each other, in each of a few rounds. A `reach` above the tolerance takes
-/// its place.
+/// pairs of edges above each other, in each of a few rounds; of chains' edges that lie on each
+/// other one is kept. A `reach` above the tolerance takes its place.
 Result<SweptArcs> sweep_arcs(const Outline& outline, bool node_crossings = false, double reach = 0);
 
 }  // namespace medial

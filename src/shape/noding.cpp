@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <tuple>
 #include <utility>
 
 #include "base/arc.h"
@@ -39,6 +41,8 @@ Noding::Noding(const Outline& outline, double reach) : begin_(outline.begin), op
   frame_ = frame_of(box);
   size_ = frame_.scale * diagonal(box);
   tolerance_ = frame_.scale * std::max(tolerance_for(box, 0), reach);
+  rings_.resize(begin_.size() - 1);
+  std::iota(rings_.begin(), rings_.end(), 0U);
   nodes_.resize(outline.points.size());
   for (std::size_t v = 0; v < nodes_.size(); ++v) {
     const Vec2 point = outline.points[v];
@@ -71,6 +75,7 @@ NodedOutline Noding::monotone() const {
   NodedOutline result;
   Outline& outline = result.outline;
   outline.open = open_;
+  result.rings = rings_;
   const std::size_t expected = nodes_.size() + nodes_.size() / 4;
   for (auto* list : {&outline.points, &result.originals}) list->reserve(expected);
   for (auto* list : {&outline.sources, &result.sources}) list->reserve(expected);
@@ -221,6 +226,55 @@ std::optional<Error> Noding::apply(const NodedOutline& noded, std::span<const Co
   nodes_ = std::move(result);
   begin_ = std::move(begin);
   return std::nullopt;
+}
+
+std::uint64_t Noding::drop_repeated() {
+  struct Edge {
+    Vec2 low, high;
+    double bulge;  ///< from low to high
+    std::uint32_t node;
+    auto key() const { return std::tuple(low.x, low.y, high.x, high.y, bulge, node); }
+  };
+  std::vector<Edge> edges;
+  for (std::uint32_t ring = 0; ring < rings_.size(); ++ring) {
+    for (std::uint32_t v = begin_[ring]; !ends_chain(ring, v); ++v) {
+      const Vec2 p = nodes_[v].original, q = nodes_[v + 1].original;
+      const double bulge = nodes_[v].bulge;
+      edges.push_back(lexicographic_less(p, q) ? Edge{p, q, bulge, v} : Edge{q, p, 0 - bulge, v});
+    }
+  }
+  std::ranges::sort(edges, {}, &Edge::key);
+  std::vector<bool> drop(nodes_.size(), false);
+  std::uint64_t dropped = 0;
+  for (std::size_t i = 1; i < edges.size(); ++i) {
+    const Edge &a = edges[i - 1], &b = edges[i];
+    if (a.low != b.low || a.high != b.high) continue;
+    const double apart = (b.bulge - a.bulge) / 2 * frame_.scale * distance(a.low, a.high);
+    if (apart > 2 * tolerance_) continue;
+    drop[b.node] = true;
+    ++dropped;
+  }
+  if (dropped == 0) return 0;
+  std::vector<Node> nodes;
+  std::vector<std::uint32_t> begin, rings;
+  for (std::uint32_t ring = 0; ring < rings_.size(); ++ring) {
+    const std::uint32_t first = begin_[ring], last = begin_[ring + 1] - 1;
+    for (std::uint32_t v = first; v <= last; ++v) {
+      const bool starts = v < last ? !drop[v] : first == last;
+      const bool ends = v > first && !drop[v - 1];
+      if (!starts && !ends) continue;
+      if (!ends) {
+        begin.push_back(static_cast<std::uint32_t>(nodes.size()));
+        rings.push_back(rings_[ring]);
+      }
+      nodes.push_back(nodes_[v]);
+    }
+  }
+  begin.push_back(static_cast<std::uint32_t>(nodes.size()));
+  nodes_ = std::move(nodes);
+  begin_ = std::move(begin);
+  rings_ = std::move(rings);
+  return dropped;
 }
 
 }  // namespace medial

@@ -24,6 +24,7 @@ struct NodedOutline {
   std::vector<double> edge_bulges;    ///< of the edge that a piece is of
   std::vector<std::uint32_t> edges;   ///< the edge that a piece is of
   std::vector<bool> passing;          ///< vertices that are there for the sweep only
+  std::vector<std::uint32_t> rings;   ///< of each ring of the outline, that of the input
 };
 
 /// An edge touches a point: a vertex of the NodedOutline, or (no_index) a point in local
@@ -64,6 +65,10 @@ class Noding {
   /// tolerance vanish. O(n + c log c). Error: no_area, if a ring vanishes.
   std::optional<Error> apply(const NodedOutline& noded, std::span<const Contact> contacts,
                              std::span<const Merge> merges);
+
+  /// Drops edges of chains that are there twice, to the tolerance; those before and after become
+  /// chains of their own. O(n log n). Returns how many.
+  std::uint64_t drop_repeated();
 
  private:
   struct Node {
@@ -114,7 +119,8 @@ class Noding {
   std::uint64_t split_edges_ = 0;
   std::vector<Node> nodes_;
   std::vector<std::uint32_t> begin_;
-  bool open_ = false;  ///< chains, see Outline
+  std::vector<std::uint32_t> rings_;  ///< of each ring: that of the input
+  bool open_ = false;                 ///< chains, see Outline
 };
 
 }  // namespace medial

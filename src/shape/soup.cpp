@@ -322,6 +322,7 @@ Soup assemble(const Input& input, const Faces& faces, const NodedOutline* noded)
   const Outline& outline = faces.outline_;
   const auto passing = [&](std::uint32_t v) { return noded != nullptr && noded->passing[v]; };
   const auto source_of_ring = [&](std::uint32_t ring) {
+    if (noded != nullptr) ring = noded->rings[ring];
     return ring < input.edges.size() ? input.edges[ring].source
                                      : input.points[ring - input.edges.size()].source;
   };
@@ -411,6 +412,7 @@ Result<Soup> build_once(const Input& input, const SoupOptions& options, SoupRepo
     report.touching_places = swept->sweep.place_count;
     report.split_edges = swept->split_edges;
     report.crossings = swept->crossings;
+    report.repeated_edges += swept->repeated_edges;
     Faces faces(swept->noded.outline, swept->sweep);
     faces.run();
     return assemble(input, faces, &swept->noded);
