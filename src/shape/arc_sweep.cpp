@@ -428,12 +428,46 @@ class ArcSweeper {
       const double at_end = a.right == b.right ? 0 : gap(last);
       const bool together = std::abs(at_begin) <= tolerance_ && std::abs(at_end) <= tolerance_;
       if (together && distance(stops[0].point, last) > 4 * tolerance_) {
+        if (outline_.open && note_overlap(lower, upper)) return std::nullopt;
         return pending_or(error_of_pieces(ErrorCode::overlap, "overlaps", lower, upper, begin));
       }
       return std::nullopt;
     }
     note_tangency(lower, upper, std::span(stops.data(), count), signs, gap);
     return std::nullopt;
+  }
+
+  /// Notes that the edges of two pieces that lie on each other pass through each other's ends,
+  /// where these are not the same. What touch() looks at is as near but for rounding.
+  bool note_overlap(const ActivePiece& lower, const ActivePiece& upper) {
+    const auto first_of = [&](const ActivePiece& piece) {
+      std::uint32_t v = piece.piece;
+      while (noded_.passing[v]) --v;
+      return v;
+    };
+    const auto pass_through = [&](std::uint32_t first, std::uint32_t end) {
+      const Vec2 p = outline_.points[end];
+      for (std::uint32_t v = first; v == first || noded_.passing[v]; ++v) {
+        const Vec2 from = outline_.points[v], to = outline_.points[v + 1];
+        if (p == from || p == to) return false;
+        const MonotoneArc arc = lexicographic_less(from, to)
+                                    ? monotone_arc(from, to, outline_.bulges[v])
+                                    : monotone_arc(to, from, -outline_.bulges[v]);
+        if (!arc.is_near(p, 4 * tolerance_)) continue;
+        contacts_.push_back({noded_.edges[v], end, {}});
+        return true;
+      }
+      return false;
+    };
+    const std::array<std::uint32_t, 2> firsts{first_of(lower), first_of(upper)};
+    bool any = false;
+    for (const std::size_t i : {0, 1}) {
+      std::uint32_t last = firsts[i] + 1;
+      while (noded_.passing[last]) ++last;
+      any = pass_through(firsts[1 - i], firsts[i]) || any;
+      any = pass_through(firsts[1 - i], last) || any;
+    }
+    return any;
   }
 
   /// Notes a contact in the inside of both pieces.
