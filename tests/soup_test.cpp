@@ -436,6 +436,33 @@ TEST(Soup, OverlapsAreThereOnceIfAskedFor) {
   EXPECT_GT(overlaps, shape_count(100));
 }
 
+TEST(Soup, EdgesThatAreNearlyTangentHaveRightDiagrams) {
+  for (std::uint64_t seed = 0; seed < shape_count(40); ++seed) {
+    medial::Random random(seed);
+    const auto between = [&](double low, double high) {
+      return low + (high - low) * 0x1p-53 * static_cast<double>(random.next() >> 11U);
+    };
+    Chain chain{{{between(0, 1), between(0, 1)}}};
+    double direction = between(0, 6);
+    for (std::uint32_t i = 0, n = 2 + random.below(3); i < n; ++i) {
+      const double bulge =
+          random.below(3) == 0 ? 0 : between(-0.6, 0.6) * std::pow(10, between(-3, 0));
+      const double half = 2 * std::atan(bulge), length = between(0.1, 1.1);
+      const Vec2 chord =
+          turned({length, 0}, std::cos(direction + half), std::sin(direction + half));
+      chain.points.push_back(chain.points.back() + chord);
+      chain.bulges.push_back(bulge);
+      // Joints of 1e-13 to 1e-4, to either side.
+      direction += 2 * half + (random.below(2) == 0 ? -1 : 1) * std::pow(10, between(-13, -4));
+    }
+    const auto soup = build_soup({&chain, 1});
+    if (!soup) continue;  // it crosses itself
+    const auto diagram = voronoi_diagram(*soup, {.threads = 1});
+    ASSERT_TRUE(diagram.ok()) << seed << to_string(diagram.error());
+    ASSERT_EQ(fault_of(*soup, *diagram), "") << seed;
+  }
+}
+
 TEST(Soup, ErrorsAreTyped) {
   const auto code = [](const Chains& chains) {
     const auto soup = build_soup(chains);

@@ -157,7 +157,9 @@ Result<VoronoiDiagram> voronoi_diagram(const Soup& soup, const Options& options,
         return of_points;
       }
       const Shape shape = around(soup, far);
-      auto axis = run_around(shape, options, false);
+      Options own = options;
+      own.corner_angle = 0;  // where a joint has no branch there is a spoke, which is straight
+      auto axis = run_around(shape, own, false);
       if (!axis) return std::move(axis).error();
       try {
         return voronoi::diagram_of(soup, shape, std::move(axis).value(), *box);

@@ -125,7 +125,7 @@ double deviation(const Control& control, const Site& a, const Site& b, const Dis
     const double radius =
         scale * (first * from.radius + middle * control.point.radius + last * to.radius);
     for (const Site* s : {&a, &b})
-      worst = std::max(worst, std::abs(carrier_distance(*s, center) - radius));
+      worst = std::max({worst, std::abs(carrier_distance(*s, center) - radius), -radius});
   };
   for (const double t : {0.0625, 0.5, 0.9375}) add(t, 1 - t);
   if (!near_focus) return worst;
@@ -203,6 +203,17 @@ Control control_with_arc(const Site& a, const Site& b, const Disk& from, const D
   if (length < long_enough * focal) return best;
   const bool near_focus = focal < curved * length;
   double strays = deviation(best, a, b, from, to, near_focus);
+  // Where the sites are as good as tangent, all disks beyond the ends touch both as well, and so do
+  // those of negative radius.
+  const Vec2 chord = to.center - from.center;
+  const auto is_between = [&](Vec2 center) {
+    const double along = dot(center - from.center, chord);
+    return along >= 0 && along <= squared_norm(chord);
+  };
+  const Control straight{middle_of(from, to), 1};
+  if ((strays > few_roundings || !is_between(best.point.center)) &&
+      deviation(straight, a, b, from, to, near_focus) <= few_roundings)
+    return straight;
   const auto take_if_better = [&](const Control& control) {
     const double now = deviation(control, a, b, from, to, near_focus);
     if (!(now < strays)) return;
@@ -215,10 +226,10 @@ Control control_with_arc(const Site& a, const Site& b, const Disk& from, const D
   const Bisector bisector(b, a);
   const Disk halfway =
       bisector.disk_at(0.5 * (bisector.position(from.center) + bisector.position(to.center)), from);
-  const Vec2 mean = midpoint(from.center, to.center);
-  if (std::isfinite(halfway.center.x) && std::isfinite(halfway.center.y))
-    take_if_better(
-        {{2 * halfway.center - mean, 2 * halfway.radius - 0.5 * (from.radius + to.radius)}, 1});
+  const Disk middle = straight.point;
+  const Disk bent{2 * halfway.center - middle.center, 2 * halfway.radius - middle.radius};
+  if (is_between(bent.center)) take_if_better({bent, 1});
+  take_if_better(straight);
   return best;
 }
 
