@@ -56,7 +56,7 @@ auto with_soup(const LooseFile& file, const InputSwitches& input, const CommonSw
   for (const double share : touching_shares) {
     if (result || !is_too_close(result.error())) break;
     auto touching = soup_of(file, input, share * size);
-    if (!touching) break;
+    if (!touching) continue;
     soup = std::move(touching).value();
     result = work();
     if (result) tell_touching(share * size, input, common);
