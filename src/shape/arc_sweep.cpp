@@ -440,32 +440,29 @@ class ArcSweeper {
   /// Notes that the edges of two pieces that lie on each other pass through each other's ends,
   /// where these are not the same. What touch() looks at is as near but for rounding.
   bool note_overlap(const ActivePiece& lower, const ActivePiece& upper) {
-    const auto first_of = [&](const ActivePiece& piece) {
-      std::uint32_t v = piece.piece;
+    const auto first_of = [&](std::uint32_t v) {
       while (noded_.passing[v]) --v;
       return v;
     };
     const auto pass_through = [&](std::uint32_t first, std::uint32_t end) {
       const Vec2 p = outline_.points[end];
       for (std::uint32_t v = first; v == first || noded_.passing[v]; ++v) {
-        const Vec2 from = outline_.points[v], to = outline_.points[v + 1];
+        Vec2 from = outline_.points[v], to = outline_.points[v + 1];
+        double bulge = outline_.bulges[v];
         if (p == from || p == to) return false;
-        const MonotoneArc arc = lexicographic_less(from, to)
-                                    ? monotone_arc(from, to, outline_.bulges[v])
-                                    : monotone_arc(to, from, -outline_.bulges[v]);
-        if (!arc.is_near(p, 4 * tolerance_)) continue;
+        if (lexicographic_less(to, from)) std::swap(from, to), bulge = -bulge;
+        if (!monotone_arc(from, to, bulge).is_near(p, 4 * tolerance_)) continue;
         contacts_.push_back({noded_.edges[v], end, {}});
         return true;
       }
       return false;
     };
-    const std::array<std::uint32_t, 2> firsts{first_of(lower), first_of(upper)};
+    const std::array<std::uint32_t, 2> firsts{first_of(lower.piece), first_of(upper.piece)};
     bool any = false;
     for (const std::size_t i : {0, 1}) {
       std::uint32_t last = firsts[i] + 1;
       while (noded_.passing[last]) ++last;
-      any = pass_through(firsts[1 - i], firsts[i]) || any;
-      any = pass_through(firsts[1 - i], last) || any;
+      for (const std::uint32_t end : {firsts[i], last}) any |= pass_through(firsts[1 - i], end);
     }
     return any;
   }
