@@ -68,6 +68,33 @@ Result<MedialAxis> run_around(const Shape& surroundings, const Options& options,
   return axis;
 }
 
+/// Whether the disks of nodes touch the sites of their edges, but for far more than rounding.
+bool touches_its_sites(const MedialAxis& axis) {
+  const double slack = 0x1p20 * axis.tolerance;
+  return std::ranges::all_of(axis.edges, [&](const Edge& edge) {
+    return std::ranges::all_of(edge.node, [&](std::uint32_t node) {
+      const Disk& disk = axis.nodes[node].disk;
+      return std::ranges::all_of(edge.site, [&](std::uint32_t site) {
+        const Vec2 touch = foot(axis.sites[site], disk.center);
+        return std::abs(distance(touch, disk.center) - disk.radius) <= slack;
+      });
+    });
+  });
+}
+
+/// With all corners, however flat: a joint without a branch would have a straight spoke. Where the
+/// walk loses its way among flat ones, as the options have it: spokes are off by less.
+Result<MedialAxis> run_with_corners(const Shape& surroundings, const Options& options) {
+  if (!surroundings.bulges.empty()) {
+    Options all = options;
+    all.corner_angle = 0;
+    auto axis = run_around(surroundings, all, false);
+    const bool failed = !axis && axis.error().code == ErrorCode::internal;
+    if (!failed && (!axis || touches_its_sites(*axis))) return axis;
+  }
+  return run_around(surroundings, options, false);
+}
+
 /// In tolerances: what is nearer to each other may be one for some disks; and what may at least
 /// have misled a walk that failed.
 constexpr double told_apart = 64, doubtful = 0x1p20;
@@ -157,9 +184,7 @@ Result<VoronoiDiagram> voronoi_diagram(const Soup& soup, const Options& options,
         return of_points;
       }
       const Shape shape = around(soup, far);
-      Options own = options;
-      own.corner_angle = 0;  // where a joint has no branch there is a spoke, which is straight
-      auto axis = run_around(shape, own, false);
+      auto axis = run_with_corners(shape, options);
       if (!axis) return std::move(axis).error();
       try {
         return voronoi::diagram_of(soup, shape, std::move(axis).value(), *box);
