@@ -476,8 +476,8 @@ TEST(Arcs, AwayFromLeavesTheAxisMovesAsLittleAsProved) {
 
 TEST(Arcs, ErrorFallsWithTheThirdPowerOfTheirNumber) {
   for (const Named& shape : six_shapes()) {
-    // Least squares of log(error) against log(arcs), from twice the arcs of 1e-5 on: a spiral that is
-    // not divided has its biarc whatever the tolerance.
+    // Least squares of log(error) against log(arcs), from twice the arcs of 1e-5 on: a spiral that
+    // is not divided has its biarc whatever the tolerance.
     double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
     std::uint64_t undivided = 0;
     for (double tolerance = 1e-5; tolerance > 0.9e-11; tolerance /= std::sqrt(10)) {
