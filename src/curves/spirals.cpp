@@ -360,6 +360,33 @@ bool Converter::is_spiral(const Biarc& biarc, const Station& a, const Station& b
          low <= (forward ? demands.limits.end : demands.limits.begin);
 }
 
+/// Leaves out roots that rounding has doubled, and apices next to an end: nothing happens to the
+/// curvature between them, and an arc there would be too short to have a direction. Gives how many
+/// stay, at the beginning.
+int drop_doubled(const Bezier& curve, Split* begin, const Split* end) {
+  const auto is_same = [](double t, double k, double other_t, double other_k) {
+    return std::abs(t - other_t) <= cusp_neighbourhood && std::isfinite(other_k) &&
+           std::abs(k - other_k) <= same_curvature * std::max(std::abs(k), std::abs(other_k));
+  };
+  const double end_curvature = curvature(evaluate(curve, 1));
+  int kept = 0;
+  double last_curvature = curvature(evaluate(curve, 0)), last_t = 0;
+  for (const Split* split = begin; split != end; ++split) {
+    const double k =
+        split->kind == Split::Kind::inflection ? 0 : curvature(evaluate(curve, split->t));
+    const bool apex = split->kind == Split::Kind::apex;
+    if ((kept > 0 || apex) && split->kind != Split::Kind::cusp &&
+        is_same(split->t, k, last_t, last_curvature)) {
+      continue;
+    }
+    if (apex && is_same(split->t, k, 1, end_curvature)) continue;
+    last_curvature = k;
+    last_t = split->t;
+    begin[kept++] = *split;
+  }
+  return kept;
+}
+
 }  // namespace
 
 Splits find_splits(const Bezier& curve) {
@@ -409,29 +436,7 @@ Splits find_splits(const Bezier& curve) {
   });
   std::sort(begin, end, [](const Split& a, const Split& b) { return a.t < b.t; });
 
-  // Roots that rounding has doubled, and apices next to an end: nothing happens to the curvature
-  // between them, and an arc there would be too short to have a direction.
-  const auto is_same = [](double t, double k, double other_t, double other_k) {
-    return std::abs(t - other_t) <= cusp_neighbourhood && std::isfinite(other_k) &&
-           std::abs(k - other_k) <= same_curvature * std::max(std::abs(k), std::abs(other_k));
-  };
-  const double end_curvature = curvature(evaluate(curve, 1));
-  int kept = 0;
-  double last_curvature = curvature(evaluate(curve, 0)), last_t = 0;
-  for (const Split* split = begin; split != end; ++split) {
-    const double k =
-        split->kind == Split::Kind::inflection ? 0 : curvature(evaluate(curve, split->t));
-    const bool apex = split->kind == Split::Kind::apex;
-    if ((kept > 0 || apex) && split->kind != Split::Kind::cusp &&
-        is_same(split->t, k, last_t, last_curvature)) {
-      continue;
-    }
-    if (apex && is_same(split->t, k, 1, end_curvature)) continue;
-    last_curvature = k;
-    last_t = split->t;
-    begin[kept++] = *split;
-  }
-  found.count = kept;
+  found.count = drop_doubled(curve, begin, end);
   return found;
 }
 
