@@ -463,6 +463,23 @@ TEST(Soup, EdgesThatAreNearlyTangentHaveRightDiagrams) {
   }
 }
 
+/// On one line but for rounding, where holes begin to be walked around: across `disks::outreach`.
+TEST(Soup, EdgesEndToEndOnOneLineHaveRightDiagrams) {
+  for (std::uint64_t seed = 0; seed < shape_count(600); ++seed) {
+    medial::Random random(seed);
+    const double cosine = std::cos(0.6), sine = std::sin(0.6), along = random.below(4);
+    std::vector<Vec2> ends;
+    for (std::uint32_t i = 0, across = random.below(10); i < 3; across += 1 + random.below(5), ++i)
+      ends.push_back(turned({along, static_cast<double>(across)}, cosine, sine));
+    if (random.below(2) == 0) std::swap(ends[0], ends[2]);
+    const auto soup = build_soup(Chains{{{ends[1], ends[0]}}, {{ends[1], ends[2]}}});
+    ASSERT_TRUE(soup.ok()) << seed;
+    const auto diagram = voronoi_diagram(*soup, {.threads = 1});
+    ASSERT_TRUE(diagram.ok()) << seed << to_string(diagram.error());
+    ASSERT_EQ(fault_of(*soup, *diagram), "") << seed;
+  }
+}
+
 TEST(Soup, ErrorsAreTyped) {
   const auto code = [](const Chains& chains) {
     const auto soup = build_soup(chains);
