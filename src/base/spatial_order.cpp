@@ -1,6 +1,9 @@
 #include "base/spatial_order.h"
 
 #include <array>
+#include <utility>
+
+#include "base/memory.h"
 
 namespace medial {
 namespace {
@@ -51,6 +54,85 @@ void sort(std::vector<Cell>& cells) {
   }
 }
 
+/// Three levels of a Hilbert curve at once: from a state times 64 and the cell's place along a
+/// Z-curve to the next state times 64 and the place along the Hilbert curve. States: bit 0, x and y
+/// swapped; bit 1, both mirrored.
+struct HilbertSteps {
+  std::array<std::uint8_t, 256> step{};
+  constexpr HilbertSteps() {
+    for (unsigned from = 0; from < step.size(); ++from) {
+      unsigned state = from >> 6U, place = 0;
+      for (unsigned shift = 6; shift > 0;) {
+        shift -= 2;
+        unsigned x = (from >> shift) & 1U, y = (from >> (shift + 1)) & 1U;
+        if ((state & 1U) != 0) std::swap(x, y);
+        if ((state & 2U) != 0) x = 1 - x, y = 1 - y;
+        const unsigned quarter = x == 0 ? y : 3 - y;
+        if (quarter == 0) state ^= 1U;
+        if (quarter == 3) state ^= 3U;
+        place = 4 * place + quarter;
+      }
+      step[from] = static_cast<std::uint8_t>((state << 6U) | place);
+    }
+  }
+};
+
+/// The place along a Hilbert curve of a cell of 4096 x 4096.
+std::uint32_t hilbert_place(std::uint32_t x, std::uint32_t y) {
+  static constexpr HilbertSteps steps;
+  const std::uint64_t cell = spread(x) | (spread(y) << 1);
+  std::uint32_t place = 0, state = 0;
+  for (unsigned shift = 24; shift > 0;) {
+    shift -= 6;
+    const std::uint32_t step = steps.step[state | ((cell >> shift) & 63U)];
+    place = (place << 6U) | (step & 63U);
+    state = step & ~63U;
+  }
+  return place;
+}
+
+/// Sorts by bits 32 to 55.
+void sort_by_place(std::vector<std::uint64_t>& keys) {
+  constexpr std::size_t few = 512;
+  if (keys.size() < few) return std::sort(keys.begin(), keys.end());
+  std::vector<std::uint64_t> other;
+  reserve_large(other, keys.size());
+  other.resize(keys.size());
+  for (unsigned shift = 32; shift < 56; shift += 8) {
+    const auto digit_of = [shift](std::uint64_t key) { return (key >> shift) & 0xFF; };
+    std::array<std::uint32_t, 257> begin{};
+    for (const std::uint64_t key : keys) ++begin[digit_of(key) + 1];
+    for (std::size_t i = 0; i < 256; ++i) begin[i + 1] += begin[i];
+    for (const std::uint64_t key : keys) other[begin[digit_of(key)]++] = key;
+    keys.swap(other);
+  }
+}
+
+/// Puts points in the order of a Hilbert curve through their box, and those of one cell in that of
+/// a curve through theirs, where they are more than a few.
+void sort_along_curve(std::span<const Vec2> points, std::span<std::uint32_t> order) {
+  Box box = Box::nothing();
+  for (const std::uint32_t i : order) box.add(points[i]);
+  const double side = std::max(box.high.x - box.low.x, box.high.y - box.low.y);
+  constexpr double smallest = 0x1p-1000, largest = 0x1p1000;
+  if (!(side > smallest && side < largest)) return;
+  const double cells = 4095 / side;
+  std::vector<std::uint64_t> keys;
+  reserve_large(keys, order.size());
+  for (const std::uint32_t i : order) {
+    const auto x = static_cast<std::uint32_t>(cells * (points[i].x - box.low.x));
+    const auto y = static_cast<std::uint32_t>(cells * (points[i].y - box.low.y));
+    keys.push_back((std::uint64_t{hilbert_place(x, y)} << 32U) | i);
+  }
+  sort_by_place(keys);
+  constexpr std::size_t few = 4;
+  for (std::size_t begin = 0, end; begin < keys.size(); begin = end) {
+    for (end = begin; end < keys.size() && (keys[end] ^ keys[begin]) >> 32U == 0; ++end)
+      order[end] = static_cast<std::uint32_t>(keys[end]);
+    if (end - begin > few) sort_along_curve(points, order.subspan(begin, end - begin));
+  }
+}
+
 }  // namespace
 
 std::vector<std::uint32_t> z_order(std::span<const Vec2> points) {
@@ -72,6 +154,13 @@ std::vector<std::uint32_t> z_order(std::span<const Vec2> points) {
   std::transform(order.begin(), order.end(), result.begin(),
                  [](const Cell& cell) { return cell.point; });
   return result;
+}
+
+std::vector<std::uint32_t> hilbert_order(std::span<const Vec2> points) {
+  std::vector<std::uint32_t> order(points.size());
+  std::iota(order.begin(), order.end(), 0U);
+  sort_along_curve(points, order);
+  return order;
 }
 
 }  // namespace medial

@@ -47,4 +47,8 @@ inline std::vector<std::uint32_t> spatial_order(std::span<const Vec2> points, st
 /// order. Several times faster than spatial_order(), and less tight. O(n).
 std::vector<std::uint32_t> z_order(std::span<const Vec2> points);
 
+/// The same along a Hilbert curve (Hilbert 1891), which never jumps, and within a cell that holds
+/// many points along another one, so that clusters of any size are in order, too.
+std::vector<std::uint32_t> hilbert_order(std::span<const Vec2> points);
+
 }  // namespace medial
