@@ -764,6 +764,14 @@ class Axis(CommandLine):
         self.write("forged.json", json.dumps(axis))
         self.succeed("rebuild", "forged.json", "--pixels", 50, "-o", "forged.png")
 
+    def test_a_forged_radius_takes_no_more_time(self):
+        self.write("frame.wkt", FRAME)
+        self.succeed("axis", "frame.wkt", "-o", "frame.json")
+        axis = json.loads(self.read("frame.json"))
+        axis["items"][0]["axis"]["nodes"][0][2] = 1e154
+        self.write("forged.json", json.dumps(axis))
+        self.succeed("draw", "forged.json", "--disks", 9, "-o", "forged.svg")
+
     def test_pipe_from_axis_to_shape(self):
         """medial axis x.svg -o - | medial prune - --angle 60 -o - | medial rebuild - -o y.svg"""
         self.write("x.svg", '<svg xmlns="http://www.w3.org/2000/svg" width="90" height="50">'
