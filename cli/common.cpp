@@ -462,12 +462,7 @@ Json to_json(const ArcReport& report) {
 Json to_json(const Box& box) { return {box.low.x, box.low.y, box.high.x, box.high.y}; }
 
 int report_error(const Error& error, bool json, const std::string& hint) {
-  std::string line = to_string(error);
-  // One line whatever a file is called, and nothing that a terminal obeys.
-  std::replace_if(
-      line.begin(), line.end(),
-      [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }, ' ');
-  say("medial: {}{}\n", line, hint);
+  say("medial: {}{}\n", to_string(error), hint);
   if (json) (void)print(to_json(error));
   return exit_error;
 }

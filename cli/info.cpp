@@ -77,7 +77,7 @@ void add_members(Json& object, const ShapeSummary& summary) {
 }
 
 std::string crs_text(const std::string& wkt, bool geographic) {
-  const std::string name = crs_name(wkt);
+  const std::string name = one_line(crs_name(wkt));
   return (name.empty() ? "unknown" : name) + (geographic ? " (longitude and latitude)" : "");
 }
 

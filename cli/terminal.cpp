@@ -1,6 +1,7 @@
 #include "cli/terminal.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -11,6 +12,7 @@
 #include <cstdlib>
 #include <ctime>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <system_error>
 #include <utility>
 
@@ -68,6 +70,20 @@ void say_text(const std::string& text) {
   (void)std::fflush(stderr);
 }
 
+std::string one_line(const std::string& text) {
+  const std::string quoted =
+      nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  std::string line = nlohmann::json::parse(quoted).get<std::string>();
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const auto byte = static_cast<unsigned char>(line[i]);
+    const bool last = byte == '\n' && i + 1 == line.size();
+    if ((byte < 0x20 && !last) || byte == 0x7f) line[i] = ' ';
+    // U+0080 to U+009F begin commands as well.
+    if (byte == 0xc2 && static_cast<unsigned char>(line[i + 1]) < 0xa0) line.replace(i, 2, " ");
+  }
+  return line;
+}
+
 bool error_is_terminal() { return isatty(STDERR_FILENO) == 1; }
 
 void be_quiet() { quiet = true; }
@@ -118,21 +134,22 @@ void Progress::redraw() {
   const double share = std::clamp(done_.load() / total_, 0.0, 1.0);
   const int filled = static_cast<int>(std::lround(share * bar_width));
   bar_visible.store(true);
-  say("\r{} [{:#<{}}{:.<{}}] {:3.0f} %", label_, "", filled, "", bar_width - filled, 100 * share);
+  say_text(fmt::format("\r{} [{:#<{}}{:.<{}}] {:3.0f} %", label_, "", filled, "",
+                       bar_width - filled, 100 * share));
 }
 
 Activity::Activity(const std::string& doing, const std::string& path) {
   if (quiet || path.empty() || !error_is_terminal()) return;
   const std::string name =
       path == "-" ? "standard " + std::string(doing == "reading" ? "input" : "output") : path;
-  auto show = [this, text = fmt::format("medial: {} {}", doing, name)] {
+  auto show = [this, text = one_line(fmt::format("medial: {} {}", doing, name))] {
     const Stopwatch watch;
     std::unique_lock lock(mutex_);
     for (double next = 1; !end_; next += 1) {
       const std::chrono::duration<double> left(next - watch.seconds());
       if (ended_.wait_for(lock, left, [this] { return end_; })) break;
       bar_visible.store(true);
-      say("\r{} ... {:.0f} s", text, next);
+      say_text(fmt::format("\r{} ... {:.0f} s", text, next));
     }
   };
   try {

@@ -29,9 +29,13 @@ bool error_is_terminal();
 /// Standard error takes what it can: a full device or a closed descriptor there changes nothing.
 void say_text(const std::string& text);
 
+/// One line of UTF-8, whatever names and bytes a file has brought into it, and nothing that a
+/// terminal obeys. Only the last line end stays.
+std::string one_line(const std::string& text);
+
 template <typename... Arguments>
 void say(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
-  say_text(fmt::format(format, std::forward<Arguments>(arguments)...));
+  say_text(one_line(fmt::format(format, std::forward<Arguments>(arguments)...)));
 }
 
 /// From here on no Activity shows itself.

@@ -764,6 +764,14 @@ class Axis(CommandLine):
         self.write("forged.json", json.dumps(axis))
         self.succeed("rebuild", "forged.json", "--pixels", 50, "-o", "forged.png")
 
+    def test_a_forged_radius_takes_no_more_time(self):
+        self.write("frame.wkt", FRAME)
+        self.succeed("axis", "frame.wkt", "-o", "frame.json")
+        axis = json.loads(self.read("frame.json"))
+        axis["items"][0]["axis"]["nodes"][0][2] = 1e154
+        self.write("forged.json", json.dumps(axis))
+        self.succeed("draw", "forged.json", "--disks", 9, "-o", "forged.svg")
+
     def test_pipe_from_axis_to_shape(self):
         """medial axis x.svg -o - | medial prune - --angle 60 -o - | medial rebuild - -o y.svg"""
         self.write("x.svg", '<svg xmlns="http://www.w3.org/2000/svg" width="90" height="50">'
@@ -1347,6 +1355,18 @@ class Errors(CommandLine):
                               cwd=self.folder.name, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         self.assertEqual(done.returncode, 2)
         self.assertEqual(json.loads(done.stdout)["error"]["code"], "crossing")
+        self.assertIn("\ufffd\ufffd.wkt", done.stderr.decode())
+
+    def test_names_in_files_command_no_terminal(self):
+        self.skip_without("DXF")
+        square = "".join(f"10\n{x}\n20\n{y}\n" for x, y in ((0, 0), (1, 0), (1, 1), (0, 1)))
+        for name in ("a\x1b]0;\ab", "a\u009b31mb", "a\x7fb"):
+            layer = f"0\nLWPOLYLINE\n8\n{name}\n90\n4\n70\n1\n{square}"
+            self.write("a.dxf", f"0\nSECTION\n2\nENTITIES\n{layer}0\nENDSEC\n0\nEOF\n")
+            told = self.refuse("invalid_option", "info", "a.dxf", "--layer", "c")
+            self.assertRegex(told, "but: a[^\\x00-\\x1f\\x7f-\\x9f]*b \\[")
+        self.write("b.dxf", b"\xff\n")
+        self.assertIn("'\ufffd' is no group code", self.refuse("malformed", "info", "b.dxf"))
 
 
 class Centrelines(CommandLine):

@@ -241,7 +241,13 @@ TEST_F(CurvedIo, FontOutlines) {
   };
   EXPECT_GT(left(data->features[1]), left(data->features[0]) + 500);
   EXPECT_EQ(read_text("  ", font).error().code, ErrorCode::empty);
-  EXPECT_EQ(read_text("\xFF", font).error().code, ErrorCode::malformed);
+  // No UTF-8: a stray byte, a surrogate, a code beyond the last, a letter in more bytes than it
+  // takes.
+  for (const char* bytes : {"\xFF", "\xED\xA0\x80", "\xF4\x90\x80\x80", "\xC1\xA1"}) {
+    const Result<Dataset> refused = read_text(bytes, font);
+    ASSERT_FALSE(refused.ok());
+    EXPECT_EQ(refused.error().text, "byte 0 of the text is not UTF-8");
+  }
   EXPECT_EQ(read_text("a\n", font).error().code, ErrorCode::malformed);
   const Result<Dataset> missing = read_text("\xF0\x93\x80\x80", font);  // a hieroglyph
   ASSERT_TRUE(missing.ok());

@@ -25,13 +25,20 @@ struct Character {
   std::string text;  ///< in UTF-8
 };
 
+/// Whether a code is a character of Unicode, in as few bytes as UTF-8 takes for it.
+bool is_character(int code, int length) {
+  const int shortest = code < 0x80 ? 1 : code < 0x800 ? 2 : code < 0x10000 ? 3 : 4;
+  const bool surrogate = code >= 0xD800 && code <= 0xDFFF;
+  return code >= 0 && code <= 0x10FFFF && !surrogate && length == shortest;
+}
+
 Result<std::vector<Character>> characters_of(const std::string& text) {
   std::vector<Character> result;
   for (std::size_t at = 0; at < text.size();) {
     int length = static_cast<int>(std::min<std::size_t>(text.size() - at, 4));
     const auto* bytes = reinterpret_cast<const unsigned char*>(text.data() + at);
     const int code = xmlGetUTF8Char(bytes, &length);
-    if (code < 0 || length <= 0) {
+    if (!is_character(code, length)) {
       return Error{ErrorCode::malformed, fmt::format("byte {} of the text is not UTF-8", at), {}};
     }
     if (code < ' ' || code == 0x7F) {

@@ -55,7 +55,7 @@ Result<PictureFrame> frame_for(const Box& box, double width, bool y_down);
 /// Goes on along an arc of the picture, within 7e-8 radii.
 void arc_to(cairo_t* context, const BulgeArc& arc);
 
-/// Adds a full circle of the picture to the path.
+/// Adds a full circle of the picture to the path, if it is not larger than any picture.
 void add_circle(cairo_t* context, Vec2 center, double radius);
 
 /// Takes what Cairo writes; `out` is an OutputStream.
