@@ -131,7 +131,7 @@ TEST(Pack, DoesNotDependOnHowTheShapeIsWritten) {
     for (std::size_t i = 0; i < test::symmetries().size(); ++i) {
       const test::Symmetry& symmetry = test::symmetries()[i];
       // Far from the origin the shape is another one: its coordinates are rounded.
-      if (norm({symmetry.dx, symmetry.dy}) > 1e4 * symmetry.scale() * size) continue;
+      if (norm(Vec2{symmetry.dx, symmetry.dy}) > 1e4 * symmetry.scale() * size) continue;
       SCOPED_TRACE(random.kind + " " + std::to_string(seed) + " " + symmetry.name);
       const auto [shape, axis] = test::computed(test::symmetric(random.rings, i));
       const double error = 3e-3 * symmetry.scale() * size;

@@ -17,7 +17,7 @@ namespace {
 using test::box_mesh;
 using test::operator+;
 
-Solid solid_of(const TriangleMesh& mesh) {
+Solid solid_from(const TriangleMesh& mesh) {
   auto solid = build_solid(mesh);
   EXPECT_TRUE(solid.ok()) << to_string(solid.error());
   return solid ? std::move(solid).value() : Solid{};
@@ -111,22 +111,23 @@ TEST(ClosestPoint, IsNoFartherThanAnyPointOfTheTriangle) {
 }
 
 TEST(Solid, ABoxIsOne) {
-  const Solid solid = solid_of(box_mesh({0, 0, 0}, {1, 2, 3}));
+  const Solid solid = solid_from(box_mesh({0, 0, 0}, {1, 2, 3}));
   EXPECT_EQ(solid.topology, (VoxelTopology{1, 0, 0}));
   EXPECT_DOUBLE_EQ(signed_volume(solid.surface), 6);
   EXPECT_EQ(solid.report.reversed_faces, 0U);
 }
 
 TEST(Solid, TopologyOfKnownSolids) {
-  EXPECT_EQ(solid_of(test::torus_mesh(2, 0.5, 20, 10)).topology, (VoxelTopology{1, 1, 0}));
-  EXPECT_EQ(solid_of(test::sphere_mesh({}, 2, 2) + test::sphere_mesh({}, 1, 1)).topology,
+  EXPECT_EQ(solid_from(test::torus_mesh(2, 0.5, 20, 10)).topology, (VoxelTopology{1, 1, 0}));
+  EXPECT_EQ(solid_from(test::sphere_mesh({}, 2, 2) + test::sphere_mesh({}, 1, 1)).topology,
             (VoxelTopology{1, 0, 1}));
-  EXPECT_EQ(solid_of(box_mesh({0, 0, 0}, {9, 9, 9}) + box_mesh({1, 1, 1}, {8, 8, 8}) +
-                     box_mesh({2, 2, 2}, {3, 3, 3}) + box_mesh({10, 0, 0}, {11, 1, 1}))
+  EXPECT_EQ(solid_from(box_mesh({0, 0, 0}, {9, 9, 9}) + box_mesh({1, 1, 1}, {8, 8, 8}) +
+                       box_mesh({2, 2, 2}, {3, 3, 3}) + box_mesh({10, 0, 0}, {11, 1, 1}))
                 .topology,
             (VoxelTopology{3, 0, 1}));
-  EXPECT_EQ(solid_of(test::letter_mesh({"#####", "#...#", "#####", "#...#", "#####"}, 2)).topology,
-            (VoxelTopology{1, 2, 0}));
+  EXPECT_EQ(
+      solid_from(test::letter_mesh({"#####", "#...#", "#####", "#...#", "#####"}, 2)).topology,
+      (VoxelTopology{1, 2, 0}));
 }
 
 TEST(Solid, JoinsCornersAndTurnsFaces) {
@@ -134,7 +135,7 @@ TEST(Solid, JoinsCornersAndTurnsFaces) {
       test::unjoined(box_mesh({0, 0, 0}, {1, 1, 1}) + box_mesh({-1, -1, -1}, {2, 2, 2}));
   for (std::size_t f = 0; f < mesh.faces.size(); f += 3)
     std::swap(mesh.faces[f][0], mesh.faces[f][1]);
-  const Solid solid = solid_of(mesh);
+  const Solid solid = solid_from(mesh);
   EXPECT_EQ(solid.surface.vertices.size(), 16U);
   EXPECT_EQ(solid.report.joined_vertices, mesh.vertices.size() - 16);
   EXPECT_DOUBLE_EQ(signed_volume(solid.surface), 26);  // the inner box is a cavity
@@ -147,14 +148,14 @@ TEST(Solid, DropsFacesThatLostACorner) {
   TriangleMesh mesh = box_mesh({0, 0, 0}, {1, 1, 1});
   mesh.faces.insert(mesh.faces.begin(), {3, 3, 5});
   mesh.vertices.push_back({7, 7, 7});
-  const Solid solid = solid_of(mesh);
+  const Solid solid = solid_from(mesh);
   EXPECT_EQ(solid.report.dropped_faces, 1U);
   EXPECT_EQ(solid.report.unused_vertices, 1U);
   EXPECT_EQ(solid.source.front(), 1U);
 }
 
 TEST(Solid, PartsSurfacesThatTouchInAVertex) {
-  const Solid solid = solid_of(box_mesh({0, 0, 0}, {1, 1, 1}) + box_mesh({1, 1, 1}, {2, 2, 2}));
+  const Solid solid = solid_from(box_mesh({0, 0, 0}, {1, 1, 1}) + box_mesh({1, 1, 1}, {2, 2, 2}));
   EXPECT_EQ(solid.report.parted_vertices, 1U);
   EXPECT_EQ(solid.surface.vertices.size(), 16U);
   EXPECT_EQ(solid.topology, (VoxelTopology{2, 0, 0}));
@@ -199,7 +200,7 @@ TEST(Solid, RefusesWhatIsNoSurface) {
 TEST(Solid, TurnedAndScaledMeshesStaySolids) {
   for (const double scale : {1e-60, 1e-3, 1.0, 1e6, 1e60}) {
     const Solid solid =
-        solid_of(test::turned(test::torus_mesh(2, 0.5, 30, 12), scale, scale * Vec3{5, -3, 1}));
+        solid_from(test::turned(test::torus_mesh(2, 0.5, 30, 12), scale, scale * Vec3{5, -3, 1}));
     EXPECT_EQ(solid.topology, (VoxelTopology{1, 1, 0})) << scale;
   }
 }

@@ -396,7 +396,7 @@ TEST(Soup, OverlapsAreThereOnceIfAskedFor) {
     medial::Random random(seed);
     const double angle = seed % 3 == 0 ? 0 : 0.1 * static_cast<double>(random.below(60));
     const auto at = [&](double x, double y) {
-      return turned({x, y}, std::cos(angle), std::sin(angle));
+      return medial::turned({x, y}, std::cos(angle), std::sin(angle));
     };
     std::set<std::array<std::uint32_t, 3>> steps;  // line across, line up or circle; which; where
     Chains chains;
@@ -449,7 +449,7 @@ TEST(Soup, EdgesThatAreNearlyTangentHaveRightDiagrams) {
           random.below(3) == 0 ? 0 : between(-0.6, 0.6) * std::pow(10, between(-3, 0));
       const double half = 2 * std::atan(bulge), length = between(0.1, 1.1);
       const Vec2 chord =
-          turned({length, 0}, std::cos(direction + half), std::sin(direction + half));
+          medial::turned({length, 0}, std::cos(direction + half), std::sin(direction + half));
       chain.points.push_back(chain.points.back() + chord);
       chain.bulges.push_back(bulge);
       // Joints of 1e-13 to 1e-4, to either side.
@@ -470,7 +470,7 @@ TEST(Soup, EdgesEndToEndOnOneLineHaveRightDiagrams) {
     const double cosine = std::cos(0.6), sine = std::sin(0.6), along = random.below(4);
     std::vector<Vec2> ends;
     for (std::uint32_t i = 0, across = random.below(10); i < 3; across += 1 + random.below(5), ++i)
-      ends.push_back(turned({along, static_cast<double>(across)}, cosine, sine));
+      ends.push_back(medial::turned({along, static_cast<double>(across)}, cosine, sine));
     if (random.below(2) == 0) std::swap(ends[0], ends[2]);
     const auto soup = build_soup(Chains{{{ends[1], ends[0]}}, {{ends[1], ends[2]}}});
     ASSERT_TRUE(soup.ok()) << seed;
