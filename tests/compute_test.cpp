@@ -12,6 +12,7 @@
 
 #include "medial/verify.h"
 #include "support/generate.h"
+#include "support/random_shapes.h"
 
 namespace medial::test {
 namespace {
@@ -125,6 +126,42 @@ TEST(Compute, NarrowSlotsBesideEachOtherAreVerified) {
 
 /// An L with rounded convex corners begins at its reflex vertex; beside it are two holes, so that
 /// for some directions the disks that connect them touch that vertex.
+/// A disk that grows in a wedge may go further than its box is wide before it touches anything.
+TEST(Compute, WedgesLongerThanTheirBoxIsWideAreVerified) {
+  const std::vector<Vec2> known{{6, -5}, {5, -3}, {8, -15}, {8, 0}};
+  const auto axis = compute(*build_shape(Rings{ring_of(known)}));
+  ASSERT_TRUE(axis.ok()) << to_string(axis.error());
+  EXPECT_EQ(axis->nodes.size(), 6U);
+  std::size_t valid = 0;
+  for (std::uint64_t seed = 0; seed < shape_count(5); ++seed) {
+    Random random(seed);
+    const double narrow = 0x1p-12 * static_cast<double>(std::uint64_t{1} << (seed % 13));
+    std::vector<Vec2> points(static_cast<std::size_t>(random.integer(4, 6)));
+    for (Vec2& p : points)
+      p = {narrow * static_cast<double>(random.integer(-8, 8)),
+           static_cast<double>(random.integer(-8, 8))};
+    const auto shape = build_shape(Rings{ring_of(points)});
+    if (!shape) continue;  // it crosses itself
+    ++valid;
+    const auto found = compute(*shape);
+    ASSERT_TRUE(found.ok()) << seed << to_string(found.error());
+    ASSERT_TRUE(verify(*shape, *found).passed) << seed;
+  }
+  EXPECT_GT(valid, shape_count(100));
+}
+
+/// A vertex that all but touches an edge: a gap of less than rounding.
+TEST(Compute, RadiiAreNotBelowZero) {
+  const auto shape = *build_shape(Rings{ring_of({{3.8180434037188689, 4},
+                                                 {3.1817028364323905, 3},
+                                                 {-2.5453622691459126, -2},
+                                                 {-2.5453622691459126, -6}})});
+  const auto axis = compute(shape);
+  ASSERT_TRUE(axis.ok()) << to_string(axis.error());
+  for (const Node& node : axis->nodes) EXPECT_GE(node.disk.radius, 0);
+  EXPECT_TRUE(verify(shape, *axis).passed);
+}
+
 TEST(Compute, HolesBesideTheOnlyVertexOfTheOuterLoop) {
   const double round = std::tan(std::numbers::pi / 8);
   const std::vector<Vec2> outer = {{4, 2},   {20, 2}, {22, 4}, {22, 8}, {20, 10}, {10, 10},

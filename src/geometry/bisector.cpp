@@ -304,11 +304,14 @@ double Bisector::last_position(const Disk& near, double limit) const {
     const double x = std::sqrt(std::max(0.0, (2 * limit - y) * y));
     return dot(direction, vertex) + x;
   }
-  // Two segments: the radius is linear along the bisector.
+  // Two segments: the radius is linear along the bisector, and so are the feet, which leave their
+  // segments in the end.
   const double slope = dot(right.normal(), direction);
-  const double reach =
-      slope > 0 ? (limit - near.radius) / slope : (slope < 0 ? near.radius / -slope : limit);
-  return position(near.center) + std::max(0.0, std::min(reach, 4 * limit));
+  const double drift = std::abs(dot(right.direction, direction));
+  double reach = (right.length + left.length) / drift;
+  if (slope > 0) reach = std::min(reach, (limit - near.radius) / slope);
+  if (slope < 0) reach = std::min(reach, near.radius / -slope);
+  return position(near.center) + std::max(0.0, reach);
 }
 
 Control control_of(const Site& a, const Site& b, const Disk& from, const Disk& to) {

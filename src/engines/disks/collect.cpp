@@ -160,6 +160,10 @@ tbb::concurrent_vector<std::uint32_t> complete(const Boundary& boundary, const F
   const auto touches = [&](const Disk& disk, const geometry::Site& site) {
     const double least = std::max(0.0, disk.radius - slack), most = disk.radius + slack;
     const double squared = geometry::squared_distance(site, disk.center);
+    // Nor does it lie behind the site, where it gets through a gap that rounding has closed.
+    if (!site.is_vertex() && !site.is_arc() &&
+        geometry::carrier_distance(site, disk.center) < -slack)
+      return false;
     return squared >= least * least && squared <= most * most;  // false for no number, too
   };
   tbb::concurrent_vector<std::uint32_t> doubtful;
@@ -192,14 +196,17 @@ tbb::concurrent_vector<std::uint32_t> complete(const Boundary& boundary, const F
         if (degree[node] < 3) ++degree[node];
   };
   tbb::parallel_invoke(count, control);
-  tbb::parallel_for(
-      tbb::blocked_range<std::size_t>(0, graph.nodes.size(), 4096), [&](const auto& range) {
-        for (std::size_t i = range.begin(); i < range.end(); ++i) {
-          Node& node = graph.nodes[i];
-          node.disk = {frame.to_input(node.disk.center), frame.inverse * node.disk.radius};
-          node.kind = kind_of_degree(degree[i]);
-        }
-      });
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, graph.nodes.size(), 4096),
+                    [&](const auto& range) {
+                      for (std::size_t i = range.begin(); i < range.end(); ++i) {
+                        Node& node = graph.nodes[i];
+                        // Where a vertex all but touches an edge, a radius may be below 0 by
+                        // rounding.
+                        node.disk = {frame.to_input(node.disk.center),
+                                     frame.inverse * std::max(0.0, node.disk.radius)};
+                        node.kind = kind_of_degree(degree[i]);
+                      }
+                    });
   graph.links = {};
   return doubtful;
 }
@@ -218,6 +225,10 @@ bool touches_its_sites(const MedialAxis& axis, const Edge& edge, double slack) {
                              : std::min(first, geometry::squared_distance(pieces.last(), c));
   };
   const auto touches = [&](const Disk& disk, const Site& site) {
+    const Vec2 along = site.end - site.start;
+    if (site.kind == SiteKind::segment &&
+        cross(along, disk.center - site.start) < -slack * norm(along))
+      return false;
     return std::abs(std::sqrt(squared_distance(site, disk.center)) - disk.radius) <= slack;
   };
   for (const std::uint32_t node : edge.node)
