@@ -459,7 +459,7 @@ class ArcSweeper {
     };
     const std::array<std::uint32_t, 2> firsts{first_of(lower.piece), first_of(upper.piece)};
     bool any = false;
-    for (const std::size_t i : {0, 1}) {
+    for (const std::size_t i : {std::size_t{0}, std::size_t{1}}) {
       std::uint32_t last = firsts[i] + 1;
       while (noded_.passing[last]) ++last;
       for (const std::uint32_t end : {firsts[i], last}) any |= pass_through(firsts[1 - i], end);

@@ -141,8 +141,9 @@ std::array<double, 5> around_level(double level, double slack) {
 bool is_steady_in(const Offsets& offsets, std::span<const double> levels) {
   const auto& regions = offsets.regions;
   const auto at = [&](double level) {
-    const auto range = std::ranges::equal_range(regions, level, {}, &OffsetRegion::clearance);
-    return std::pair(range.begin() - regions.begin(), range.end() - regions.begin());
+    const auto first = std::ranges::lower_bound(regions, level, {}, &OffsetRegion::clearance);
+    const auto last = std::ranges::upper_bound(regions, level, {}, &OffsetRegion::clearance);
+    return std::pair(first - regions.begin(), last - regions.begin());
   };
   for (std::size_t k = 1; k < levels.size(); ++k) {
     const auto [below, below_end] = at(levels[k - 1]);
@@ -371,7 +372,7 @@ PixelCount count_by_pixels(const Shape& shape, double clearance, std::size_t pix
   const auto count_sets = [&](std::vector<std::uint32_t>& far) {
     for (std::uint32_t& set : far) set = sets.find(set);
     std::ranges::sort(far);
-    return static_cast<std::size_t>(std::ranges::unique(far).begin() - far.begin());
+    return static_cast<std::size_t>(std::unique(far.begin(), far.end()) - far.begin());
   };
   PixelCount count;
   count.regions = count_sets(far_in);
