@@ -18,6 +18,7 @@
 #include "base/tolerance.h"
 #include "engines/axis_around.h"
 #include "engines/checks.h"
+#include "engines/disks/collect.h"
 #include "engines/disks/disks.h"
 #include "engines/voronoi/long_edges.h"
 #include "engines/voronoi/points_diagram.h"
@@ -74,20 +75,6 @@ Result<MedialAxis> run_around(const Shape& surroundings, const Options& options,
   return axis;
 }
 
-/// Whether the disks of nodes touch the sites of their edges, but for far more than rounding.
-bool touches_its_sites(const MedialAxis& axis, const std::vector<VoronoiEdge>& edges) {
-  const double slack = 0x1p20 * axis.tolerance;
-  return std::ranges::all_of(edges, [&](const VoronoiEdge& edge) {
-    return std::ranges::all_of(edge.node, [&](std::uint32_t node) {
-      const Disk& disk = axis.nodes[node].disk;
-      return std::ranges::all_of(edge.site, [&](std::uint32_t site) {
-        const Vec2 touch = foot(axis.sites[site], disk.center);
-        return std::abs(distance(touch, disk.center) - disk.radius) <= slack;
-      });
-    });
-  });
-}
-
 /// With all corners, however flat: a joint without a branch would have a straight spoke. Where the
 /// walk loses its way among flat ones, as the options have it: spokes are off by less. Of shapes
 /// with arcs, the axis has its sites.
@@ -103,8 +90,11 @@ Result<MedialAxis> run_with_corners(const Shape& surroundings, const Options& op
   Options all = options;
   all.corner_angle = 0;
   auto axis = run(all);
+  const auto touches = [&](const Edge& edge) {  // but for far more than rounding
+    return disks::touches_its_sites(*axis, edge, 0x1p20 * axis->tolerance);
+  };
   const bool misled =
-      axis ? !touches_its_sites(*axis, edges) : axis.error().code == ErrorCode::internal;
+      axis ? !std::ranges::all_of(edges, touches) : axis.error().code == ErrorCode::internal;
   return misled ? run(options) : std::move(axis);
 }
 
