@@ -2,18 +2,18 @@
 
 #include <memory>
 
+#include "cli/commands.h"
 #include "cli/common.h"
 #include "cli/pipeline.h"
-#include "cli/verbs.h"
 #include "medial/choose.h"
 #include "medial/curve_axis.h"
 
 namespace medial::cli {
 namespace {
 
-struct AxisSwitches {
-  InputSwitches input;
-  CommonSwitches common;
+struct AxisArguments {
+  InputOptions input;
+  CommonOptions common;
   std::string output;
   std::string format;
   io::WriteOptions write;
@@ -24,31 +24,31 @@ struct AxisSwitches {
   double fit = 0;  ///< for curve-axis: polygons become smooth within this distance; 0: they do not
 };
 
-Result<int> run_axis(const AxisSwitches& switches) {
-  const InputSwitches& input = switches.input;
-  const CommonSwitches& common = switches.common;
-  const std::string &output = switches.output, &format = switches.format;
+Result<int> run_axis(const AxisArguments& arguments) {
+  const InputOptions& input = arguments.input;
+  const CommonOptions& common = arguments.common;
+  const std::string &output = arguments.output, &format = arguments.format;
   Status writable =
       check_output(output, format, io::known_output_formats(), input.path, common.json);
   if (!writable) return std::move(writable).error();
 
-  auto shapes = load_shapes(input, common.threads, switches.curve_axis);
+  auto shapes = load_shapes(input, common.threads, arguments.curve_axis);
   if (!shapes) return std::move(shapes).error();
   print_notes(*shapes, input, common);
   Engine engine;
-  if (switches.curve_axis) {
-    if (switches.fit > 0) {
-      if (Status done = smooth_boundaries(*shapes, switches.fit, input); !done)
+  if (arguments.curve_axis) {
+    if (arguments.fit > 0) {
+      if (Status done = smooth_boundaries(*shapes, arguments.fit, input); !done)
         return std::move(done).error();
     }
     engine = [&, contours = std::move(shapes->contours)](std::size_t i, const Shape&,
                                                          const Options&) -> Result<MedialAxis> {
-      auto axis = compute_curve_axis(contours[i], switches.curve);
+      auto axis = compute_curve_axis(contours[i], arguments.curve);
       if (!axis) return std::move(axis).error();
       return std::move(axis->axis);
     };
   }
-  if (switches.automatic) {
+  if (arguments.automatic) {
     engine = [](std::size_t, const Shape& shape, const Options& options) {
       Options own = options;
       own.method = choose_method(shape, options);
@@ -60,20 +60,22 @@ Result<int> run_axis(const AxisSwitches& switches) {
       return compute(shape, own);
     };
   }
-  auto axes = compute_axes(std::move(shapes).value(), input.path, common, switches.options, engine);
+  auto axes =
+      compute_axes(std::move(shapes).value(), input.path, common, arguments.options, engine);
   if (!axes) return std::move(axes).error();
 
-  return write_and_tell(*axes, input, common, output, format, switches.write);
+  return write_and_tell(*axes, input, common, output, format, arguments.write);
 }
 
 /// Which method, and what decides its random choices.
-void add_method_switches(CLI::App& verb, AxisSwitches& switches) {
-  verb.add_option_function<std::string>(
+void add_method_options(CLI::App& command, AxisArguments& arguments) {
+  command
+      .add_option_function<std::string>(
           "--method",
-          [&switches](const std::string& name) {
-            switches.curve_axis = name == "curve-axis";
-            switches.automatic = name == "auto";
-            switches.options.method = method_from(name).value_or(Method::disks);
+          [&arguments](const std::string& name) {
+            arguments.curve_axis = name == "curve-axis";
+            arguments.automatic = name == "auto";
+            arguments.options.method = method_from(name).value_or(Method::disks);
           },
           "How the axes are computed: disks (default); biarc-dc, the published\n"
           "randomised divide and conquer, for shapes without holes; lee, the merging\n"
@@ -87,29 +89,33 @@ void add_method_switches(CLI::App& verb, AxisSwitches& switches) {
                              "curve-axis"})
                   .description(""))
       ->option_text("NAME");
-  verb.add_option("--seed", switches.options.seed,
+  command
+      .add_option("--seed", arguments.options.seed,
                   "Of the random choices of biarc-dc (default: 1). The same seed gives the\n"
                   "same result, byte for byte.")
       ->check(a_whole_number())
       ->option_text("N");
 }
 
-/// The switches of the methods that sample.
-void add_grid_switches(CLI::App& verb, Options& options) {
+/// The arguments of the methods that sample.
+void add_grid_options(CLI::App& command, Options& options) {
   constexpr char group[] = "Grids of pixels (--method ridge, brushfire)";
-  CLI::Option* resolution = verb.add_option("--resolution", options.resolution,
+  CLI::Option* resolution = command
+                                .add_option("--resolution", options.resolution,
                                             "The side of a pixel, in units of the input.")
                                 ->check(a_positive_number())
                                 ->option_text("H")
                                 ->group(group);
-  verb.add_option("--pixels", options.pixels,
+  command
+      .add_option("--pixels", options.pixels,
                   "Pixels along the longer side of the bounding box (default: 1024; of an\n"
                   "image its own pixels).")
       ->check(a_positive_number())
       ->excludes(resolution)
       ->option_text("N")
       ->group(group);
-  verb.add_option_function<std::string>(
+  command
+      .add_option_function<std::string>(
           "--brushfire",
           [&options](const std::string& name) { options.brushfire = *brushfire_from(name); },
           "How a fire is kept from burning shapes apart: simultaneous (default), from\n"
@@ -118,13 +124,15 @@ void add_grid_switches(CLI::App& verb, Options& options) {
       ->check(CLI::IsMember({"sequential", "sides", "marking", "simultaneous"}).description(""))
       ->option_text("FAMILY")
       ->group(group);
-  verb.add_option("--ridge-collinear", options.ridge_collinear,
+  command
+      .add_option("--ridge-collinear", options.ridge_collinear,
                   "Vertices that turn by less than this, in degrees, are dropped where that\n"
                   "moves the boundary by a quarter of a pixel at most (default: 5; 0 keeps\n"
                   "every edge).")
       ->option_text("A")
       ->group(group);
-  verb.add_option_function<std::string>(
+  command
+      .add_option_function<std::string>(
           "--ridge-search",
           [&options](const std::string& name) {
             options.ridge_search = name == "tree" ? RidgeSearch::tree : RidgeSearch::sorted_list;
@@ -134,7 +142,8 @@ void add_grid_switches(CLI::App& verb, Options& options) {
       ->check(CLI::IsMember({"tree", "sorted-list"}).description(""))
       ->option_text("NAME")
       ->group(group);
-  verb.add_option_function<std::string>(
+  command
+      .add_option_function<std::string>(
           "--ridge-rule",
           [&options](const std::string& name) {
             options.ridge_rule = name == "crossing" ? RidgeRule::crossing : RidgeRule::difference;
@@ -147,50 +156,56 @@ void add_grid_switches(CLI::App& verb, Options& options) {
       ->group(group);
 }
 
-/// The switches of potential.
-void add_potential_switches(CLI::App& verb, PotentialOptions& options) {
-  verb.add_option("--order", options.order,
+/// The arguments of potential.
+void add_potential_options(CLI::App& command, PotentialOptions& options) {
+  command
+      .add_option("--order", options.order,
                   "Of the potential: the n of 1 / r^n. 0 (default) chooses it for each point.")
       ->option_text("N");
-  verb.add_option("--base-order", options.base_order,
+  command
+      .add_option("--base-order", options.base_order,
                   "Of the force lines that potential follows first (default: the order, at most\n"
                   "512). 1 is the paper's.")
       ->option_text("N");
-  add_list_switch(
-      verb, "--from", 2,
+  add_list_option(
+      command, "--from", 2,
       [&options](const std::vector<double>& xy) {
         options.from = Vec2{xy[0], xy[1]};
       },
       "Potential: only the branch that the force leads to from this place, in units\n"
       "of the input.")
       ->option_text("X,Y");
-  add_list_switch(
-      verb, "--within", 4,
+  add_list_option(
+      command, "--within", 4,
       [&options](const std::vector<double>& box) {
         options.within = Box{{box[0], box[1]}, {box[2], box[3]}};
       },
       "Potential: only what lies in this box: low x, low y, high x, high y, in units\n"
       "of the input.")
       ->option_text("X,Y,X,Y");
-  verb.add_option(
+  command
+      .add_option(
           "--step", options.step,
           "Of potential: from point to point, as a share of the longer side of the bounding\n"
           "box (default: 0.01).")
       ->option_text("SHARE");
-  verb.add_option("--coarse", options.coarse,
+  command
+      .add_option("--coarse", options.coarse,
                   "Potential: first the axis of a polygon within this share of the size of the\n"
                   "boundary, then refined on finer ones: without the branches of small teeth.")
       ->option_text("SHARE");
 }
 
-/// The switches of curve-axis.
-void add_curve_switches(CLI::App& verb, AxisSwitches& switches) {
-  verb.add_option("--curve-step", switches.curve.step,
+/// The arguments of curve-axis.
+void add_curve_options(CLI::App& command, AxisArguments& arguments) {
+  command
+      .add_option("--curve-step", arguments.curve.step,
                   "Of curve-axis: the way from point to point, as a share of the diagonal\n"
                   "(default: 0.001).")
       ->check(in_range(1e-6, 0.1))
       ->option_text("SHARE");
-  verb.add_option("--fit", switches.fit,
+  command
+      .add_option("--fit", arguments.fit,
                   "For curve-axis: a smooth curve through the corners of the boundary, within\n"
                   "this distance of it, in units of the input.")
       ->check(a_positive_number())
@@ -199,30 +214,31 @@ void add_curve_switches(CLI::App& verb, AxisSwitches& switches) {
 
 }  // namespace
 
-Verb make_axis_verb(CLI::App& program) {
-  auto switches = std::make_shared<AxisSwitches>();
-  CLI::App* verb = program.add_subcommand("axis", "Compute medial axes and write them to a file.");
-  add_input_switches(*verb, switches->input);
-  add_output_switches(*verb, switches->output, switches->format, io::known_output_formats());
-  verb->add_flag("--radius-as-z", switches->write.radius_as_z,
-                 "Drawings (.dxf): splines in space, with the radius as z.");
-  add_method_switches(*verb, *switches);
-  add_exterior_switches(*verb, switches->options,
-                        "The axis of what lies around the shape and in its holes, within a frame.");
-  add_grid_switches(*verb, switches->options);
-  add_potential_switches(*verb, switches->options.potential);
-  add_curve_switches(*verb, *switches);
-  verb->add_flag("--exact", switches->options.exact,
-                 "Make every decision of the combinatorics certain: which sites a disk\n"
-                 "touches, and which nodes an edge joins. What was decided how is counted in\n"
-                 "--stats. Ties within the tolerance that are none get nodes of their own.");
-  add_picture_switches(*verb, switches->write);
-  add_common_switches(*verb, switches->common);
-  verb->footer(
+Command make_axis_command(CLI::App& program) {
+  auto arguments = std::make_shared<AxisArguments>();
+  CLI::App* command =
+      program.add_subcommand("axis", "Compute medial axes and write them to a file.");
+  add_input_options(*command, arguments->input);
+  add_output_options(*command, arguments->output, arguments->format, io::known_output_formats());
+  command->add_flag("--radius-as-z", arguments->write.radius_as_z,
+                    "Drawings (.dxf): splines in space, with the radius as z.");
+  add_method_options(*command, *arguments);
+  add_exterior_options(*command, arguments->options,
+                       "The axis of what lies around the shape and in its holes, within a frame.");
+  add_grid_options(*command, arguments->options);
+  add_potential_options(*command, arguments->options.potential);
+  add_curve_options(*command, *arguments);
+  command->add_flag("--exact", arguments->options.exact,
+                    "Make every decision of the combinatorics certain: which sites a disk\n"
+                    "touches, and which nodes an edge joins. What was decided how is counted in\n"
+                    "--stats. Ties within the tolerance that are none get nodes of their own.");
+  add_picture_options(*command, arguments->write);
+  add_common_options(*command, arguments->common);
+  command->footer(
       "Each feature gets its own axis, with its attributes. Coordinates, radii and\n"
       "lengths are in the units of the input, or in metres with --project.\n"
       "\n"
-      "Formats: .json is medial's own, lossless, and read back by every verb; .geojson,\n"
+      "Formats: .json is medial's own, lossless, and read back by every command; .geojson,\n"
       ".gpkg, .shp and .fgb hold one line a branch with the radius at both ends; .csv\n"
       "has the header edge,x,y,r; .dxf holds polylines and exact splines; pictures show\n"
       "the axis coloured by radius.\n"
@@ -238,7 +254,7 @@ Verb make_axis_verb(CLI::App& program) {
       "  medial axis plan.wkt --method ridge --pixels 2000 -o plan.png\n"
       "  medial axis part.dxf --exterior --margin 20 -o around.svg\n"
       "  cat shape.wkt | medial axis - -o - --format csv --chord 1e-4 | head");
-  return {verb, [switches] { return run_axis(*switches); }};
+  return {command, [arguments] { return run_axis(*arguments); }};
 }
 
 }  // namespace medial::cli

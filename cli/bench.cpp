@@ -14,16 +14,16 @@
 #include "cli/bench_potential.h"
 #include "cli/bench_ridge.h"
 #include "cli/bench_shapes.h"
+#include "cli/commands.h"
 #include "cli/common.h"
 #include "cli/pipeline.h"
 #include "cli/plot.h"
 #include "cli/terminal.h"
-#include "cli/verbs.h"
 
 namespace medial::cli {
 namespace {
 
-struct BenchSwitches {
+struct BenchArguments {
   BiarcOptions biarc;
   std::string output;
   std::string shapes;  ///< a directory for the shapes as SVG
@@ -32,7 +32,7 @@ struct BenchSwitches {
   bool quiet = false;
 };
 
-struct AccuracySwitches {
+struct AccuracyArguments {
   std::vector<std::string> images;
   io::ImageOptions reading;
   std::string output;
@@ -295,34 +295,34 @@ Status write_shapes(const std::string& directory) {
   return success();
 }
 
-Result<int> run_biarc(const BenchSwitches& switches) {
-  Status writable = check_output(switches.output, {}, plot_formats, {}, false);
+Result<int> run_biarc(const BenchArguments& arguments) {
+  Status writable = check_output(arguments.output, {}, plot_formats, {}, false);
   if (!writable) return std::move(writable).error();
-  if (!switches.shapes.empty()) {
-    Status written = write_shapes(switches.shapes);
+  if (!arguments.shapes.empty()) {
+    Status written = write_shapes(arguments.shapes);
     if (!written) return std::move(written).error();
     return exit_success;
   }
-  BiarcOptions options = switches.biarc;
-  if (switches.quick) {
+  BiarcOptions options = arguments.biarc;
+  if (arguments.quick) {
     options.rounds = 1;
     options.finest = std::min(options.finest, 3);
     options.largest = 4;
   }
-  const bool shown = error_is_terminal() && !switches.quiet;
+  const bool shown = error_is_terminal() && !arguments.quiet;
   const BiarcReport report = run_biarc_experiments(
       options,
       shown ? [](const std::string& name) { say("{}\n", name); } : [](const std::string&) {});
-  if (!switches.output.empty()) {
-    const std::string extension = std::filesystem::path(switches.output).extension().string();
-    Status written = extension == ".svg" ? write_plots(switches.output, report_plots(report))
+  if (!arguments.output.empty()) {
+    const std::string extension = std::filesystem::path(arguments.output).extension().string();
+    Status written = extension == ".svg" ? write_plots(arguments.output, report_plots(report))
                      : extension == ".csv"
-                         ? io::write_text(switches.output, report_csv(report))
-                         : io::write_text(switches.output, json_of(report).dump(2) + "\n");
+                         ? io::write_text(arguments.output, report_csv(report))
+                         : io::write_text(arguments.output, json_of(report).dump(2) + "\n");
     if (!written) return std::move(written).error();
   }
   Status printed =
-      switches.json ? print(json_of(report)) : print(report_text(report, options.rounds));
+      arguments.json ? print(json_of(report)) : print(report_text(report, options.rounds));
   if (!printed) return std::move(printed).error();
   return report.passed() ? exit_success : exit_failed_verdict;
 }
@@ -337,7 +337,7 @@ Result<int> run_potential(const std::vector<std::string>& files, const std::stri
   }
   std::vector<std::pair<std::string, Shape>> shapes = potential_regions();
   for (const std::string& path : files) {
-    InputSwitches input;
+    InputOptions input;
     input.path = path;
     auto file = load_shapes(input, 0);
     if (!file) return std::move(file).error();
@@ -356,15 +356,15 @@ Result<int> run_potential(const std::vector<std::string>& files, const std::stri
   return report.passed ? exit_success : exit_failed_verdict;
 }
 
-Result<int> run_accuracy(const AccuracySwitches& switches) {
-  Status writable = check_output(switches.output, {}, ".svg .csv", {}, false);
+Result<int> run_accuracy(const AccuracyArguments& arguments) {
+  Status writable = check_output(arguments.output, {}, ".svg .csv", {}, false);
   if (!writable) return std::move(writable).error();
   std::vector<AccuracyRow> rows;
   auto built_in = measure_accuracy("a shape like Fig. 14", figure_14());
   if (!built_in) return std::move(built_in).error();
   rows.push_back(std::move(built_in).value());
-  for (const std::string& path : switches.images) {
-    const auto file = io::read_image(path, switches.reading);
+  for (const std::string& path : arguments.images) {
+    const auto file = io::read_image(path, arguments.reading);
     if (!file) return file.error();
     auto row = measure_accuracy(std::filesystem::path(path).stem().string(), file->image);
     if (!row) {
@@ -374,10 +374,10 @@ Result<int> run_accuracy(const AccuracySwitches& switches) {
     }
     rows.push_back(std::move(row).value());
   }
-  if (!switches.output.empty()) {
-    Status written = io::write_text(switches.output, switches.output.ends_with(".svg")
-                                                         ? accuracy_drawing(rows.front())
-                                                         : accuracy_csv(rows));
+  if (!arguments.output.empty()) {
+    Status written = io::write_text(arguments.output, arguments.output.ends_with(".svg")
+                                                          ? accuracy_drawing(rows.front())
+                                                          : accuracy_csv(rows));
     if (!written) return std::move(written).error();
   }
   Status printed = print(accuracy_table(rows));
@@ -385,66 +385,68 @@ Result<int> run_accuracy(const AccuracySwitches& switches) {
   return exit_success;
 }
 
-CLI::App* add_accuracy(CLI::App& bench, const std::shared_ptr<AccuracySwitches>& switches) {
-  CLI::App* verb = bench.add_subcommand(
+CLI::App* add_accuracy(CLI::App& bench, const std::shared_ptr<AccuracyArguments>& arguments) {
+  CLI::App* command = bench.add_subcommand(
       "brushfire",
       "Axes of pixels, inverted: how many pixels differ (Volkmann and St. Clair 1987,\n"
       "Section II.B.3, Fig. 14), by brushfire, ridge following, and exactly.");
-  verb->add_option("IMAGES", switches->images, "Binary images beside the shape of Fig. 14's kind.")
+  command
+      ->add_option("IMAGES", arguments->images, "Binary images beside the shape of Fig. 14's kind.")
       ->option_text(" ");
-  add_image_switches(*verb, switches->reading);
-  verb->add_option("-o,--output", switches->output,
+  add_image_options(*command, arguments->reading);
+  command
+      ->add_option("-o,--output", arguments->output,
                    "The built-in shape, its axes and what they become (.svg), or all numbers\n"
                    "(.csv).")
       ->check(a_name())
       ->option_text("FILE");
-  verb->footer(
+  command->footer(
       "Example:\n"
       "  medial bench brushfire horse.png -o figure14.svg");
-  return verb;
+  return command;
 }
 
 }  // namespace
 
-Verb make_bench_verb(CLI::App& program) {
-  auto switches = std::make_shared<BenchSwitches>();
-  CLI::App* verb = program.add_subcommand("bench", "Measure published experiments anew.");
-  verb->require_subcommand(1);
+Command make_bench_command(CLI::App& program) {
+  auto arguments = std::make_shared<BenchArguments>();
+  CLI::App* command = program.add_subcommand("bench", "Measure published experiments anew.");
+  command->require_subcommand(1);
   // Its own: the label of the one that it inherits is the program's, too.
   auto formatter = std::make_shared<CLI::Formatter>();
   formatter->column_width(27);
   formatter->label("SUBCOMMAND", "EXPERIMENT");
-  verb->formatter(formatter);
-  CLI::App* biarc = verb->add_subcommand(
+  command->formatter(formatter);
+  CLI::App* biarc = command->add_subcommand(
       "biarc",
       "Shapes bounded by curves: the experiments of Aichholzer et al., Medial Axis\n"
       "Computation for Planar Free-Form Shapes (2009), Section 5.");
   biarc
-      ->add_option("-o,--output", switches->output,
+      ->add_option("-o,--output", arguments->output,
                    fmt::format("Plots (.svg) or all numbers: {}", plot_formats))
       ->check(a_name())
       ->option_text("FILE");
   biarc
-      ->add_option("--rounds", switches->biarc.rounds,
+      ->add_option("--rounds", arguments->biarc.rounds,
                    "The least time of so many rounds counts (default: 5).")
       ->check(in_range(1, 1000, true))
       ->option_text("N");
   biarc
-      ->add_option("--tolerances", switches->biarc.finest,
+      ->add_option("--tolerances", arguments->biarc.finest,
                    "How many tolerances, from 1e-3 down (default: 9).")
       ->check(in_range(1, 9, true))
       ->option_text("N");
   biarc
-      ->add_option("--published-limit", switches->biarc.published_limit,
+      ->add_option("--published-limit", arguments->biarc.published_limit,
                    "Most arcs for the paper's own method, biarc-dc (default: 200000).")
       ->option_text("ARCS");
   biarc
-      ->add_option("--shapes", switches->shapes,
+      ->add_option("--shapes", arguments->shapes,
                    "Only write the shapes into this directory, as SVG.")
       ->option_text("DIRECTORY");
-  biarc->add_flag("--quick", switches->quick, "One round of small shapes: does it run at all?");
-  biarc->add_flag("--json", switches->json, "Print one JSON object instead of tables.");
-  biarc->add_flag("--quiet,-q", switches->quiet, "No progress on standard error.");
+  biarc->add_flag("--quick", arguments->quick, "One round of small shapes: does it run at all?");
+  biarc->add_flag("--json", arguments->json, "Print one JSON object instead of tables.");
+  biarc->add_flag("--quiet,-q", arguments->quiet, "No progress on standard error.");
   biarc->footer(
       "Everything runs on one thread. Each axis is verified once. Exit status 1: one\n"
       "was refused, or a shape had other leaves at another tolerance.\n"
@@ -452,7 +454,7 @@ Verb make_bench_verb(CLI::App& program) {
       "Examples:\n"
       "  medial bench biarc --quick\n"
       "  medial bench biarc -o biarc.svg");
-  CLI::App* potential = verb->add_subcommand(
+  CLI::App* potential = command->add_subcommand(
       "potential",
       "The generalised potential field: the experiments of Ahuja and Chuang (1997), and\n"
       "the distances to the exact axis against the order.");
@@ -462,20 +464,21 @@ Verb make_bench_verb(CLI::App& program) {
   auto figures = std::make_shared<std::string>();
   potential->add_option("--figures", *figures, "Only write Fig. 13 into this directory, as SVG.")
       ->option_text("DIRECTORY");
-  potential->add_flag("--quiet,-q", switches->quiet, "No progress on standard error.");
+  potential->add_flag("--quiet,-q", arguments->quiet, "No progress on standard error.");
   potential->footer("Example:\n  medial bench potential data/plan.wkt data/gear.wkt");
-  const Verb ridge = add_ridge_bench(*verb);
-  const Verb lee = add_lee_bench(*verb);
-  const Verb curve_axis = add_curve_axis_bench(*verb);
-  auto accuracy = std::make_shared<AccuracySwitches>();
-  const CLI::App* brushfire = add_accuracy(*verb, accuracy);
-  return {verb, [switches, files, figures, potential, ridge, lee, curve_axis, accuracy, brushfire] {
+  const Command ridge = add_ridge_bench(*command);
+  const Command lee = add_lee_bench(*command);
+  const Command curve_axis = add_curve_axis_bench(*command);
+  auto accuracy = std::make_shared<AccuracyArguments>();
+  const CLI::App* brushfire = add_accuracy(*command, accuracy);
+  return {command,
+          [arguments, files, figures, potential, ridge, lee, curve_axis, accuracy, brushfire] {
             if (brushfire->parsed()) return run_accuracy(*accuracy);
-            return potential->parsed()        ? run_potential(*files, *figures, switches->quiet)
+            return potential->parsed()        ? run_potential(*files, *figures, arguments->quiet)
                    : ridge.app->parsed()      ? ridge.run()
                    : lee.app->parsed()        ? lee.run()
                    : curve_axis.app->parsed() ? curve_axis.run()
-                                              : run_biarc(*switches);
+                                              : run_biarc(*arguments);
           }};
 }
 

@@ -9,12 +9,12 @@
 
 #include "cli/bench_shapes.h"
 #include "cli/terminal.h"
-#include "engines/biarc_dc/biarc_dc.h"
 #include "medial/compute.h"
 #include "medial/error.h"
 #include "medial/query.h"
 #include "medial/shape.h"
 #include "medial/verify.h"
+#include "methods/biarc_dc/biarc_dc.h"
 
 namespace medial::cli {
 namespace {

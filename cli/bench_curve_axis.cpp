@@ -7,10 +7,10 @@
 #include <numbers>
 #include <optional>
 
+#include "cli/commands.h"
 #include "cli/figure.h"
-#include "cli/verbs.h"
-#include "engines/curve_axis/control.h"
 #include "medial/medial.h"
+#include "methods/curve_axis/control.h"
 
 namespace medial::cli {
 namespace {
@@ -504,16 +504,16 @@ Status write_curve_axis_figures(const std::string& directory) {
   return done;
 }
 
-Verb add_curve_axis_bench(CLI::App& bench) {
+Command add_curve_axis_bench(CLI::App& bench) {
   auto directory = std::make_shared<std::string>();
-  CLI::App* verb = bench.add_subcommand(
+  CLI::App* command = bench.add_subcommand(
       "curve-axis",
       "Writes the figures of Shaked and Bruckstein, The Curve Axis (1996), drawn anew.");
-  verb->add_option("--figures", *directory, "Where to: a directory.")
+  command->add_option("--figures", *directory, "Where to: a directory.")
       ->required()
       ->option_text("DIRECTORY");
-  verb->footer("Example:\n  medial bench curve-axis --figures figures");
-  return {verb, [directory]() -> Result<int> {
+  command->footer("Example:\n  medial bench curve-axis --figures figures");
+  return {command, [directory]() -> Result<int> {
             if (Status written = write_curve_axis_figures(*directory); !written)
               return std::move(written).error();
             return exit_success;

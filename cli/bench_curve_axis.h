@@ -4,8 +4,8 @@
 
 #include <string>
 
+#include "cli/commands.h"
 #include "cli/common.h"
-#include "cli/verbs.h"
 
 namespace medial::cli {
 
@@ -13,6 +13,6 @@ namespace medial::cli {
 Status write_curve_axis_figures(const std::string& directory);
 
 /// `medial bench curve-axis`.
-Verb add_curve_axis_bench(CLI::App& bench);
+Command add_curve_axis_bench(CLI::App& bench);
 
 }  // namespace medial::cli

@@ -14,11 +14,11 @@
 
 #include "base/random.h"
 #include "cli/bench_biarc.h"
+#include "cli/commands.h"
 #include "cli/plot.h"
 #include "cli/terminal.h"
-#include "cli/verbs.h"
-#include "engines/lee/lee.h"
 #include "medial/medial.h"
+#include "methods/lee/lee.h"
 
 #ifdef __GLIBC__
 #include <malloc.h>
@@ -259,7 +259,7 @@ Json json_of(const LeeRow& row) {
           {"failure", row.failure}};
 }
 
-struct LeeSwitches {
+struct LeeArguments {
   std::string output;
   std::string figures;
   int largest = 6;
@@ -267,18 +267,18 @@ struct LeeSwitches {
   bool quick = false, json = false, quiet = false;
 };
 
-Result<int> run_lee(const LeeSwitches& switches) {
-  Status writable = check_output(switches.output, {}, lee_formats, {}, false);
+Result<int> run_lee(const LeeArguments& arguments) {
+  Status writable = check_output(arguments.output, {}, lee_formats, {}, false);
   if (!writable) return std::move(writable).error();
-  if (!switches.figures.empty()) {
-    Status written = write_lee_figures(switches.figures);
+  if (!arguments.figures.empty()) {
+    Status written = write_lee_figures(arguments.figures);
     if (!written) return std::move(written).error();
     return exit_success;
   }
-  const bool shown = error_is_terminal() && !switches.quiet;
+  const bool shown = error_is_terminal() && !arguments.quiet;
   const std::vector<LeeRow> rows = run_lee_experiment(
-      switches.quick ? std::min(switches.largest, 3) : switches.largest,
-      switches.quick ? 1 : switches.rounds,
+      arguments.quick ? std::min(arguments.largest, 3) : arguments.largest,
+      arguments.quick ? 1 : arguments.rounds,
       shown ? [](const std::string& name) { say("{}\n", name); } : [](const std::string&) {});
   Json all = Json::array();
   bool passed = true;
@@ -289,14 +289,14 @@ Result<int> run_lee(const LeeSwitches& switches) {
     csv += fmt::format("{},{},{},{},{},{},{}\n", row.shape, row.vertices, row.elements, row.lee,
                        row.disks, row.crossings, row.failure.empty());
   }
-  if (!switches.output.empty()) {
-    const std::string extension = std::filesystem::path(switches.output).extension().string();
-    Status written = extension == ".svg"   ? write_plots(switches.output, plots(rows))
-                     : extension == ".csv" ? io::write_text(switches.output, csv)
-                                           : io::write_text(switches.output, all.dump(2) + "\n");
+  if (!arguments.output.empty()) {
+    const std::string extension = std::filesystem::path(arguments.output).extension().string();
+    Status written = extension == ".svg"   ? write_plots(arguments.output, plots(rows))
+                     : extension == ".csv" ? io::write_text(arguments.output, csv)
+                                           : io::write_text(arguments.output, all.dump(2) + "\n");
     if (!written) return std::move(written).error();
   }
-  Status printed = switches.json ? print(all) : print(lee_table(rows) + "\n" + fits(rows));
+  Status printed = arguments.json ? print(all) : print(lee_table(rows) + "\n" + fits(rows));
   if (!printed) return std::move(printed).error();
   return passed ? exit_success : exit_failed_verdict;
 }
@@ -318,29 +318,29 @@ std::vector<LeeRow> run_lee_experiment(int largest, int rounds,
   return rows;
 }
 
-Verb add_lee_bench(CLI::App& bench) {
-  auto switches = std::make_shared<LeeSwitches>();
+Command add_lee_bench(CLI::App& bench) {
+  auto arguments = std::make_shared<LeeArguments>();
   CLI::App* lee = bench.add_subcommand(
       "lee",
       "Polygons by divide and conquer: Lee, Medial Axis Transformation of a Planar\n"
       "Shape (1982), against the number of vertices, beside the method disks.");
-  lee->add_option("-o,--output", switches->output,
+  lee->add_option("-o,--output", arguments->output,
                   fmt::format("Plots (.svg) or all numbers: {}", lee_formats))
       ->check(a_name())
       ->option_text("FILE");
-  lee->add_option("--largest", switches->largest, "Shapes of 1e2 to 10^N vertices (default: 6).")
+  lee->add_option("--largest", arguments->largest, "Shapes of 1e2 to 10^N vertices (default: 6).")
       ->check(in_range(2, 7, true))
       ->option_text("N");
-  lee->add_option("--rounds", switches->rounds,
+  lee->add_option("--rounds", arguments->rounds,
                   "The least time of so many rounds counts (default: 3).")
       ->check(in_range(1, 1000, true))
       ->option_text("N");
-  lee->add_option("--figures", switches->figures,
+  lee->add_option("--figures", arguments->figures,
                   "Only write the paper's figures into this directory, as SVG.")
       ->option_text("DIRECTORY");
-  lee->add_flag("--quick", switches->quick, "One round of small shapes: does it run at all?");
-  lee->add_flag("--json", switches->json, "Print one JSON array instead of tables.");
-  lee->add_flag("--quiet,-q", switches->quiet, "No progress on standard error.");
+  lee->add_flag("--quick", arguments->quick, "One round of small shapes: does it run at all?");
+  lee->add_flag("--json", arguments->json, "Print one JSON array instead of tables.");
+  lee->add_flag("--quiet,-q", arguments->quiet, "No progress on standard error.");
   lee->footer(
       "Everything runs on one thread. Axes of up to 2,000,000 vertices are verified. Exit\n"
       "status 1: one was refused.\n"
@@ -349,7 +349,7 @@ Verb add_lee_bench(CLI::App& bench) {
       "  medial bench lee --quick\n"
       "  medial bench lee --largest 5 -o lee.svg\n"
       "  medial bench lee --figures figures");
-  return {lee, [switches] { return run_lee(*switches); }};
+  return {lee, [arguments] { return run_lee(*arguments); }};
 }
 
 }  // namespace medial::cli

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "cli/commands.h"
 #include "cli/common.h"
-#include "cli/verbs.h"
 
 namespace medial::cli {
 
@@ -34,6 +34,6 @@ std::vector<LeeRow> run_lee_experiment(int largest, int rounds,
 Status write_lee_figures(const std::string& directory);
 
 /// `medial bench lee`.
-Verb add_lee_bench(CLI::App& bench);
+Command add_lee_bench(CLI::App& bench);
 
 }  // namespace medial::cli

@@ -7,15 +7,15 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/frame.h"
+#include "base/local_frame.h"
 #include "cli/axis_distance.h"
 #include "cli/figure.h"
 #include "cli/terminal.h"
-#include "engines/potential/region.h"
-#include "engines/potential/skeleton.h"
-#include "engines/potential/successor.h"
 #include "medial/compute.h"
 #include "medial/query.h"
+#include "methods/potential/region.h"
+#include "methods/potential/skeleton.h"
+#include "methods/potential/successor.h"
 
 namespace medial::cli {
 namespace {
@@ -74,7 +74,7 @@ double crookedness(const MedialAxis& axis, double size) {
 /// paper's theta_min of 2.56 degrees.
 std::vector<std::pair<Vec2, int>> orders_in_rectangle() {
   const Shape shape = potential_regions()[0].second;
-  const Frame frame = frame_of(bounding_box(shape));
+  const LocalFrame frame = frame_of(bounding_box(shape));
   const auto regions = potential::regions_of(shape, frame, 0.01, 1e-3);
   const potential::Charges charges(regions[0].pieces);
   potential::SkeletonOptions tracing;

@@ -7,9 +7,9 @@
 #include <limits>
 #include <numbers>
 
-#include "engines/ridge/ridge.h"
 #include "medial/error.h"
 #include "medial/verify.h"
+#include "methods/raster/ridge/ridge.h"
 
 namespace medial::cli {
 namespace {

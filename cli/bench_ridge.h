@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "cli/commands.h"
 #include "cli/common.h"
-#include "cli/verbs.h"
 #include "medial/compute.h"
 #include "medial/shape.h"
 
@@ -63,7 +63,7 @@ std::vector<RidgeRow> run_ridge_experiments(const RidgeBenchOptions& options,
 /// The correlation of two series of numbers, as the report gives it for Figs. 19, 20 and 25.
 double correlation(const std::vector<std::pair<double, double>>& points);
 
-/// Adds the experiment `ridge` to the verb `bench`.
-Verb add_ridge_bench(CLI::App& bench);
+/// Adds the experiment `ridge` to the command `bench`.
+Command add_ridge_bench(CLI::App& bench);
 
 }  // namespace medial::cli

@@ -9,24 +9,24 @@
 #include <limits>
 #include <memory>
 
+#include "cli/commands.h"
 #include "cli/common.h"
 #include "cli/lines.h"
 #include "cli/pipeline.h"
 #include "cli/terminal.h"
-#include "cli/verbs.h"
 #include "medial/io/layers.h"
 #include "medial/query.h"
 
 namespace medial::cli {
 namespace {
 
-struct CentrelineSwitches {
-  InputSwitches input;
-  CommonSwitches common;
+struct CentrelineArguments {
+  InputOptions input;
+  CommonOptions common;
   std::string output;
   std::string format;
   io::WriteOptions write;
-  PathSwitches path;
+  PathOptions path;
   CentreLineOptions line;
   double clearance = 0;
   double collapse = 0;  ///< a width
@@ -52,9 +52,9 @@ void append(MedialAxis& all, const MedialAxis& one) {
 }
 
 /// Replaces the axes of a file by lines along the paths.
-Status make_lines(io::NativeFile& file, const Paths& paths, const CentrelineSwitches& switches) {
+Status make_lines(io::NativeFile& file, const Paths& paths, const CentrelineArguments& arguments) {
   const std::vector<double> weights(file.items.size(), 1.0);
-  return for_each_feature(weights, switches.common.threads, [&](std::size_t i, int) -> Status {
+  return for_each_feature(weights, arguments.common.threads, [&](std::size_t i, int) -> Status {
     io::NativeItem& item = file.items[i];
     MedialAxis all;
     all.method = item.axis.method;
@@ -62,7 +62,7 @@ Status make_lines(io::NativeFile& file, const Paths& paths, const CentrelineSwit
     all.sites = item.axis.sites;
     all.resolution = item.axis.resolution;
     for (const AxisPath& path : paths[i])
-      append(all, centre_line(item.shape, item.axis, path, switches.line));
+      append(all, centre_line(item.shape, item.axis, path, arguments.line));
     item.axis = std::move(all);
     return success();
   });
@@ -85,8 +85,8 @@ Json json_of(const Paths& paths, const io::NativeFile& file) {
   return features;
 }
 
-Result<int> tell(const Paths& paths, const io::NativeFile& file, const CentrelineSwitches& switches,
-                 const Json& seconds) {
+Result<int> tell(const Paths& paths, const io::NativeFile& file,
+                 const CentrelineArguments& arguments, const Json& seconds) {
   std::uint64_t count = 0;
   double length = 0, narrowest = std::numeric_limits<double>::infinity();
   for (const auto& of_feature : paths) {
@@ -97,25 +97,25 @@ Result<int> tell(const Paths& paths, const io::NativeFile& file, const Centrelin
     }
   }
   Status printed = success();
-  if (switches.common.json) {
-    Json object = {{"input", switches.input.path}};
-    if (!switches.output.empty()) object["output"] = switches.output;
+  if (arguments.common.json) {
+    Json object = {{"input", arguments.input.path}};
+    if (!arguments.output.empty()) object["output"] = arguments.output;
     object["features"] = json_of(paths, file);
-    if (switches.common.stats) object["seconds"] = seconds;
+    if (arguments.common.stats) object["seconds"] = seconds;
     printed = print(object);
-  } else if (!switches.common.quiet && (switches.output.empty() || error_is_terminal())) {
+  } else if (!arguments.common.quiet && (arguments.output.empty() || error_is_terminal())) {
     std::string line =
-        fmt::format("{}: {}, {}, length {:.10g}", switches.input.path,
+        fmt::format("{}: {}, {}, length {:.10g}", arguments.input.path,
                     counted(paths.size(), "feature"), counted(count, "line"), length);
     if (count > 0) line += fmt::format(", smallest radius {:.10g}", narrowest);
-    if (switches.output.empty()) {
+    if (arguments.output.empty()) {
       printed = print(line + "\n");
     } else {
-      say("{} -> {}\n", line, switches.output == "-" ? "standard output" : switches.output);
+      say("{} -> {}\n", line, arguments.output == "-" ? "standard output" : arguments.output);
     }
   }
   if (!printed) return std::move(printed).error();
-  if (switches.common.stats && !switches.common.json) say_text(table(Json{{"seconds", seconds}}));
+  if (arguments.common.stats && !arguments.common.json) say_text(table(Json{{"seconds", seconds}}));
   return exit_success;
 }
 
@@ -172,15 +172,15 @@ void add_lines(const MedialAxis& lines, std::uint32_t feature, double chord, io:
   }
 }
 
-Result<int> run_collapse(AxisFile axes, const CentrelineSwitches& switches) {
+Result<int> run_collapse(AxisFile axes, const CentrelineArguments& arguments) {
   std::vector<CollapsedShape> collapsed(axes.native.items.size());
   const std::vector<double> weights(collapsed.size(), 1.0);
   const Stopwatch watch;
   Status done =
-      for_each_feature(weights, switches.common.threads, [&](std::size_t i, int) -> Status {
-        auto one =
-            collapse_narrow(axes.native.items[i].axis, switches.collapse, switches.path.path.trim);
-        if (!one) return at_feature(std::move(one).error(), switches.input.path, i);
+      for_each_feature(weights, arguments.common.threads, [&](std::size_t i, int) -> Status {
+        auto one = collapse_narrow(axes.native.items[i].axis, arguments.collapse,
+                                   arguments.path.path.trim);
+        if (!one) return at_feature(std::move(one).error(), arguments.input.path, i);
         collapsed[i] = std::move(one).value();
         return success();
       });
@@ -198,41 +198,41 @@ Result<int> run_collapse(AxisFile axes, const CentrelineSwitches& switches) {
     polygons += one.polygons.component_count();
     sum_area += area(one.polygons);
     sum_length += total_length(one.lines);
-    const double chord = switches.common.chord * diagonal(bounding_box(item.shape));
+    const double chord = arguments.common.chord * diagonal(bounding_box(item.shape));
     add_polygons(one.polygons, i, chord, layers.layers[0]);
     add_lines(one.lines, i, chord, layers.layers[1]);
     layers.attributes.push_back(item.attributes);
   }
   lines = layers.layers[1].features.size();
-  const bool native = switches.format == "json" || switches.output.ends_with(".json");
-  if (!switches.output.empty()) {
-    io::WriteOptions write = switches.write;
-    write.chord = switches.common.chord;
+  const bool native = arguments.format == "json" || arguments.output.ends_with(".json");
+  if (!arguments.output.empty()) {
+    io::WriteOptions write = arguments.write;
+    write.chord = arguments.common.chord;
     for (std::size_t i = 0; i < collapsed.size(); ++i) {
       io::NativeItem& item = axes.native.items[i];
       item.axis = native ? std::move(collapsed[i].lines) : MedialAxis{};
       if (native) item.shape = std::move(collapsed[i].polygons);
     }
     Status written =
-        native ? io::write_axes(switches.output, switches.format, axes.native, write)
-               : io::write_layers(switches.output, switches.format, layers, axes.native, write);
+        native ? io::write_axes(arguments.output, arguments.format, axes.native, write)
+               : io::write_layers(arguments.output, arguments.format, layers, axes.native, write);
     if (!written) return std::move(written).error();
   }
   Status printed = success();
-  if (switches.common.json) {
-    printed = print(Json{{"input", switches.input.path},
+  if (arguments.common.json) {
+    printed = print(Json{{"input", arguments.input.path},
                          {"features", collapsed.size()},
                          {"polygons", polygons},
                          {"area", sum_area},
                          {"lines", lines},
                          {"length", sum_length},
                          {"seconds", seconds}});
-  } else if (!switches.common.quiet && (switches.output.empty() || error_is_terminal())) {
+  } else if (!arguments.common.quiet && (arguments.output.empty() || error_is_terminal())) {
     const std::string line =
-        fmt::format("{}: {}, {} of area {:.10g}, {} of length {:.10g}\n", switches.input.path,
+        fmt::format("{}: {}, {} of area {:.10g}, {} of length {:.10g}\n", arguments.input.path,
                     counted(collapsed.size(), "feature"), counted(polygons, "polygon"), sum_area,
                     counted(lines, "line"), sum_length);
-    if (switches.output.empty()) {
+    if (arguments.output.empty()) {
       printed = print(line);
     } else {
       say_text(line);
@@ -242,36 +242,37 @@ Result<int> run_collapse(AxisFile axes, const CentrelineSwitches& switches) {
   return exit_success;
 }
 
-Result<int> run_centreline(const CentrelineSwitches& switches) {
-  const auto& [input, common] = std::tie(switches.input, switches.common);
+Result<int> run_centreline(const CentrelineArguments& arguments) {
+  const auto& [input, common] = std::tie(arguments.input, arguments.common);
   Status writable =
-      check_output(switches.output, switches.format,
-                   switches.collapse > 0 ? collapse_formats : io::known_output_formats(),
+      check_output(arguments.output, arguments.format,
+                   arguments.collapse > 0 ? collapse_formats : io::known_output_formats(),
                    input.path, common.json);
   if (!writable) return std::move(writable).error();
   auto shapes = load_shapes(input, common.threads);
   if (!shapes) return std::move(shapes).error();
   print_notes(*shapes, input, common);
-  auto axes = compute_axes(std::move(shapes).value(), input.path, common, switches.options);
+  auto axes = compute_axes(std::move(shapes).value(), input.path, common, arguments.options);
   if (!axes) return std::move(axes).error();
-  if (switches.collapse > 0) return run_collapse(std::move(axes).value(), switches);
-  if (switches.clearance > 0) {
+  if (arguments.collapse > 0) return run_collapse(std::move(axes).value(), arguments);
+  if (arguments.clearance > 0) {
     for (io::NativeItem& item : axes->native.items)
-      item.axis = clearance_part(item.axis, switches.clearance);
-    return write_and_tell(*axes, input, common, switches.output, switches.format, switches.write);
+      item.axis = clearance_part(item.axis, arguments.clearance);
+    return write_and_tell(*axes, input, common, arguments.output, arguments.format,
+                          arguments.write);
   }
   const Stopwatch making;
-  auto paths = choose_paths(axes->native, switches.path, input.path, common.threads);
+  auto paths = choose_paths(axes->native, arguments.path, input.path, common.threads);
   if (!paths) return std::move(paths).error();
-  Status made = make_lines(axes->native, *paths, switches);
+  Status made = make_lines(axes->native, *paths, arguments);
   if (!made) return std::move(made).error();
   const double seconds_lines = making.seconds();
   const Stopwatch writing;
-  if (!switches.output.empty()) {
-    io::WriteOptions write = switches.write;
+  if (!arguments.output.empty()) {
+    io::WriteOptions write = arguments.write;
     write.chord = common.chord;
-    const Activity shown("writing", switches.output);
-    Status written = io::write_axes(switches.output, switches.format, axes->native, write);
+    const Activity shown("writing", arguments.output);
+    Status written = io::write_axes(arguments.output, arguments.format, axes->native, write);
     if (!written) return std::move(written).error();
   }
   const Json seconds = {{"read", axes->seconds_read},
@@ -279,32 +280,35 @@ Result<int> run_centreline(const CentrelineSwitches& switches) {
                         {"axis", axes->seconds_axis},
                         {"lines", seconds_lines},
                         {"write", writing.seconds()}};
-  return tell(*paths, axes->native, switches, seconds);
+  return tell(*paths, axes->native, arguments, seconds);
 }
 
 }  // namespace
 
-Verb make_centreline_verb(CLI::App& program) {
-  auto switches = std::make_shared<CentrelineSwitches>();
-  CLI::App* verb = program.add_subcommand(
+Command make_centreline_command(CLI::App& program) {
+  auto arguments = std::make_shared<CentrelineArguments>();
+  CLI::App* command = program.add_subcommand(
       "centreline", "Compute the centre lines of shapes, or the widest way between two places.");
-  add_input_switches(*verb, switches->input);
-  add_output_switches(*verb, switches->output, switches->format, io::known_output_formats());
-  add_path_switches(*verb, switches->path);
-  verb->add_flag("--extend", switches->line.extend, "Extend both ends to the boundary.");
-  verb->add_option("--smooth", switches->line.smooth,
+  add_input_options(*command, arguments->input);
+  add_output_options(*command, arguments->output, arguments->format, io::known_output_formats());
+  add_path_options(*command, arguments->path);
+  command->add_flag("--extend", arguments->line.extend, "Extend both ends to the boundary.");
+  command
+      ->add_option("--smooth", arguments->line.smooth,
                    "Average the line over so many of its mean radii (Gaussian weights). It\n"
                    "stays inside the shape.")
       ->check(in_range(0, 1000))
       ->option_text("RADII");
-  verb->add_option("--clearance", switches->clearance,
+  command
+      ->add_option("--clearance", arguments->clearance,
                    "Instead of a line: all of the axis where a disk of this radius has room.")
       ->check(a_positive_number())
       ->excludes("--from")
       ->excludes("--to")
       ->excludes("--widest")
       ->option_text("R");
-  verb->add_option("--collapse", switches->collapse,
+  command
+      ->add_option("--collapse", arguments->collapse,
                    "Instead: parts narrower than this become lines, the rest stays polygons;\n"
                    "as layers, or as shapes with lines in .json. Formats:\n" +
                        std::string(collapse_formats))
@@ -314,12 +318,12 @@ Verb make_centreline_verb(CLI::App& program) {
       ->excludes("--widest")
       ->excludes("--clearance")
       ->option_text("WIDTH");
-  add_exterior_switches(*verb, switches->options,
-                        "Lines of what lies around the shape and in its holes, within a frame.")
+  add_exterior_options(*command, arguments->options,
+                       "Lines of what lies around the shape and in its holes, within a frame.")
       ->excludes("--collapse");
-  add_picture_switches(*verb, switches->write);
-  add_common_switches(*verb, switches->common);
-  verb->footer(
+  add_picture_options(*command, arguments->write);
+  add_common_options(*command, arguments->common);
+  command->footer(
       "The main path of a shape joins the two ends of its axis that are farthest apart,\n"
       "measured along the axis. Each part of a feature has one; a ring without dead ends\n"
       "has a closed one. The attributes of the features are carried along.\n"
@@ -333,7 +337,7 @@ Verb make_centreline_verb(CLI::App& program) {
       "  medial centreline plan.geojson --widest 2,3 40,12 -o way.csv\n"
       "  medial centreline plan.geojson --clearance 0.6 -o reachable.svg\n"
       "  medial centreline rivers.geojson --project --collapse 50 -o rivers.gpkg");
-  return {verb, [switches] { return run_centreline(*switches); }};
+  return {command, [arguments] { return run_centreline(*arguments); }};
 }
 
 }  // namespace medial::cli

@@ -69,7 +69,7 @@ bool lists(const std::string& formats, const std::string& wanted) {
 namespace {
 
 /// With --text the font stands for INPUT; then a first word that was taken for INPUT is the second.
-void settle_input(InputSwitches& input, const std::string& second_name, std::string* second) {
+void settle_input(InputOptions& input, const std::string& second_name, std::string* second) {
   if (input.text.empty()) {
     if (!input.font.empty()) throw CLI::RequiresError("--font", "--text");
     if (input.path.empty()) throw CLI::RequiredError("INPUT");
@@ -82,23 +82,26 @@ void settle_input(InputSwitches& input, const std::string& second_name, std::str
   if (second != nullptr && second->empty()) throw CLI::RequiredError(second_name);
 }
 
-void add_shape_switches(CLI::App& verb, InputSwitches& input) {
+void add_shape_options(CLI::App& command, InputOptions& input) {
   constexpr char group[] = "Curves";
-  verb.add_option("--text", input.text,
+  command
+      .add_option("--text", input.text,
                   "Instead of INPUT: the outlines of this text, in font units; each\n"
                   "character is a feature.")
       ->option_text("TEXT")
       ->group(group);
-  verb.add_option("--font", input.font, "The font file of --text.")
+  command.add_option("--font", input.font, "The font file of --text.")
       ->option_text("FILE")
       ->group(group);
-  verb.add_option("--arc-tolerance", input.arcs.tolerance,
+  command
+      .add_option("--arc-tolerance", input.arcs.tolerance,
                   "Curves become arcs within this fraction of the diagonal of the\n"
                   "bounding box (default: 1e-6). Arcs and straight edges stay exact.")
       ->check(in_range(smallest_arc_tolerance, largest_arc_tolerance))
       ->option_text("T")
       ->group(group);
-  verb.add_option_function<double>(
+  command
+      .add_option_function<double>(
           "--arc-tolerance-absolute",
           [&input](double tolerance) {
             input.arcs.tolerance = tolerance;
@@ -109,7 +112,8 @@ void add_shape_switches(CLI::App& verb, InputSwitches& input) {
       ->excludes("--arc-tolerance")
       ->option_text("T")
       ->group(group);
-  verb.add_flag("--close{all}", input.close,
+  command
+      .add_flag("--close{all}", input.close,
                 "Loose curves (DXF): join ends that are at most GAP apart, in units of\n"
                 "the input (default: 1e-6 of the diagonal; curves that stay open are left\n"
                 "out); without GAP, close every open curve.")
@@ -125,24 +129,26 @@ void add_shape_switches(CLI::App& verb, InputSwitches& input) {
 
 }  // namespace
 
-void add_input_switches(CLI::App& verb, InputSwitches& input, const std::string& second_name,
-                        const std::string& second_help, std::string& second) {
-  add_input_switches(verb, input);
-  verb.add_option(second_name, second, second_help)->option_text(" ");
-  verb.parse_complete_callback(
+void add_input_options(CLI::App& command, InputOptions& input, const std::string& second_name,
+                       const std::string& second_help, std::string& second) {
+  add_input_options(command, input);
+  command.add_option(second_name, second, second_help)->option_text(" ");
+  command.parse_complete_callback(
       [&input, &second, second_name] { settle_input(input, second_name, &second); });
 }
 
-void add_input_switches(CLI::App& verb, InputSwitches& input) {
-  verb.parse_complete_callback([&input] { settle_input(input, {}, nullptr); });
-  verb.add_option("INPUT", input.path,
+void add_input_options(CLI::App& command, InputOptions& input) {
+  command.parse_complete_callback([&input] { settle_input(input, {}, nullptr); });
+  command
+      .add_option("INPUT", input.path,
                   "Shapes: any vector file that GDAL reads, .svg, .dxf, .wkt, plain `x y`\n"
                   "text, medial's own .json, any of them with .gz; a binary image (PNG, TIFF,\n"
                   "GeoTIFF, PGM, PBM); or - for standard input.")
       ->option_text(" ");
-  verb.add_option("--layer", input.read.layer, "Read this layer (default: the first).")
+  command.add_option("--layer", input.read.layer, "Read this layer (default: the first).")
       ->option_text("NAME");
-  verb.add_option("--where", input.read.where,
+  command
+      .add_option("--where", input.read.where,
                   "Read only the features for which this SQL condition holds,\n"
                   "for example \"population > 1000\".")
       ->option_text("SQL");
@@ -151,50 +157,54 @@ void add_input_switches(CLI::App& verb, InputSwitches& input) {
       {"make-valid", io::RepairRule::make_valid},
       {"even-odd", io::RepairRule::even_odd},
       {"non-zero", io::RepairRule::non_zero}};
-  verb.add_flag("--repair{make-valid}", input.repair,
+  command
+      .add_flag("--repair{make-valid}", input.repair,
                 "Mend crossing or overlapping rings by make-valid (the default rule),\n"
                 "even-odd or non-zero, instead of refusing them; tells what changed.")
       ->check(CLI::IsMember({"make-valid", "even-odd", "non-zero"}).description(""))
       ->each([&input](const std::string& rule) { input.read.repair = rules.at(rule); });
-  verb.add_flag("--project", input.read.project,
-                "Longitudes and latitudes: compute in a fitting local projection, in\n"
-                "metres. Formats of GIS, .wkt and .csv get longitudes and latitudes again;\n"
-                "radii and lengths stay in metres.");
-  add_image_switches(verb, input.read.image);
-  verb.add_flag("--smooth-contour", input.read.smooth_contour,
-                "Of images: a smooth curve within half a pixel instead of the pixels'\n"
-                "boundary.");
-  add_shape_switches(verb, input);
+  command.add_flag("--project", input.read.project,
+                   "Longitudes and latitudes: compute in a fitting local projection, in\n"
+                   "metres. Formats of GIS, .wkt and .csv get longitudes and latitudes again;\n"
+                   "radii and lengths stay in metres.");
+  add_image_options(command, input.read.image);
+  command.add_flag("--smooth-contour", input.read.smooth_contour,
+                   "Of images: a smooth curve within half a pixel instead of the pixels'\n"
+                   "boundary.");
+  add_shape_options(command, input);
 }
 
-void add_image_switches(CLI::App& verb, io::ImageOptions& options) {
-  verb.add_option("--threshold", options.threshold,
+void add_image_options(CLI::App& command, io::ImageOptions& options) {
+  command
+      .add_option("--threshold", options.threshold,
                   "Of images: pixels from this value on are foreground (default: half of\n"
                   "the format's range; 128 of 8 bits).")
       ->option_text("VALUE");
-  verb.add_flag("--invert", options.invert,
-                "Of images: pixels below the threshold are foreground instead.");
+  command.add_flag("--invert", options.invert,
+                   "Of images: pixels below the threshold are foreground instead.");
 }
 
 namespace {
-constexpr char common_group[] = "Common switches";
+constexpr char common_group[] = "Common options";
 }  // namespace
 
-void add_output_switches(CLI::App& verb, std::string& output, std::string& format,
-                         const std::string& formats, const std::string& piped) {
-  verb.add_option("-o,--output", output,
+void add_output_options(CLI::App& command, std::string& output, std::string& format,
+                        const std::string& formats, const std::string& piped) {
+  command
+      .add_option("-o,--output", output,
                   fmt::format("Where to write; the extension tells the format:\n{}\n"
                               "- is standard output, see --format. Without -o, only a summary is\n"
                               "printed.",
                               formats))
       ->check(a_name())
       ->option_text("OUTPUT");
-  verb.add_option("--format", format, fmt::format("The format of -o - ({}).", piped))
+  command.add_option("--format", format, fmt::format("The format of -o - ({}).", piped))
       ->option_text("NAME");
 }
 
-void add_threads_switch(CLI::App& verb, CommonSwitches& common) {
-  verb.add_option("--threads", common.threads,
+void add_threads_option(CLI::App& command, CommonOptions& common) {
+  command
+      .add_option("--threads", common.threads,
                   "Threads to use (default: 0, all of the machine). The result is the\n"
                   "same, byte for byte.")
       ->check(in_range(0, most_threads))
@@ -202,39 +212,43 @@ void add_threads_switch(CLI::App& verb, CommonSwitches& common) {
       ->group(common_group);
 }
 
-void add_report_switches(CLI::App& verb, CommonSwitches& common) {
-  verb.add_flag("--stats", common.stats,
+void add_report_options(CLI::App& command, CommonOptions& common) {
+  command
+      .add_flag("--stats", common.stats,
                 "Tell times, counts and memory: a table on standard error, or with --json\n"
                 "within the object on standard output. Times are in seconds.")
       ->group(common_group);
-  verb.add_flag("--json", common.json, "Print one JSON object on standard output; errors too.")
+  command.add_flag("--json", common.json, "Print one JSON object on standard output; errors too.")
       ->group(common_group);
-  verb.add_flag("--quiet", common.quiet, "No warnings, notes or progress; only errors.")
+  command.add_flag("--quiet", common.quiet, "No warnings, notes or progress; only errors.")
       ->group(common_group);
 }
 
-void add_common_switches(CLI::App& verb, CommonSwitches& common) {
-  add_threads_switch(verb, common);
-  verb.add_option("--tolerance", common.tolerance,
+void add_common_options(CLI::App& command, CommonOptions& common) {
+  add_threads_option(command, common);
+  command
+      .add_option("--tolerance", common.tolerance,
                   "How far a disk may miss what it touches, as a fraction of the diagonal\n"
                   "of the bounding box, at most 1e-3 (default: 4e-15, in verify 1e-14, or\n"
                   "what the coordinates' spacing allows).")
       ->check(a_tolerance())
       ->option_text("T")
       ->group(common_group);
-  verb.add_option("--corner-angle", common.corner_angle,
+  command
+      .add_option("--corner-angle", common.corner_angle,
                   "Where an arc is involved, convex joints below this angle, in degrees, are\n"
                   "smooth and no corners, at most 10 (default: 0.01).")
       ->check(in_range(0, 10))
       ->option_text("A")
       ->group(common_group);
-  verb.add_option("--chord", common.chord,
+  command
+      .add_option("--chord", common.chord,
                   "Where curves are written as points, chords stay within this fraction\n"
                   "of the diagonal of the bounding box (default: 1e-3).")
       ->check(in_range(smallest_chord, 1))
       ->option_text("C")
       ->group(common_group);
-  add_report_switches(verb, common);
+  add_report_options(command, common);
 }
 
 CLI::Validator in_range(double low, double high, bool quiet) {
@@ -279,7 +293,7 @@ std::optional<std::vector<double>> numbers_of(const std::string& text) {
 
 }  // namespace
 
-CLI::Option* add_list_switch(CLI::App& verb, const std::string& name, std::size_t count,
+CLI::Option* add_list_option(CLI::App& command, const std::string& name, std::size_t count,
                              const std::function<void(const std::vector<double>&)>& take,
                              const std::string& help) {
   const auto check = [count](const std::string& text) {
@@ -290,21 +304,21 @@ CLI::Option* add_list_switch(CLI::App& verb, const std::string& name, std::size_
       return fmt::format("'{}' is not {} with commas between them", text, wanted);
     return std::string();
   };
-  return verb
+  return command
       .add_option_function<std::string>(
           name, [take](const std::string& text) { take(*numbers_of(text)); }, help)
       ->check(CLI::Validator(check, ""));
 }
 
-std::string explain(const CLI::ParseError& error, const CLI::App& verb) {
+std::string explain(const CLI::ParseError& error, const CLI::App& command) {
   std::string text = error.what();
   const std::string name = text.substr(0, text.find(':'));
   if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
-    std::vector<std::string> extra = verb.remaining(true);
+    std::vector<std::string> extra = command.remaining(true);
     // Those without a dash are told in the reverse order.
     const auto unknown = std::ranges::find_if(
         extra, [](const std::string& word) { return word.size() > 1 && word[0] == '-'; });
-    if (unknown != extra.end()) return "no such switch: " + *unknown;
+    if (unknown != extra.end()) return "no such option: " + *unknown;
     return extra.empty() ? text : "one word too many: " + extra.back();
   }
   if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr &&
@@ -315,7 +329,7 @@ std::string explain(const CLI::ParseError& error, const CLI::App& verb) {
     const std::size_t begin = text.find(": ");
     if (equals == std::string::npos || begin == std::string::npos) return text;
     const std::string option = text.substr(begin + 2, equals - begin - 2);
-    const CLI::Option* found = verb.get_option_no_throw(option);
+    const CLI::Option* found = command.get_option_no_throw(option);
     const bool whole = found != nullptr && found->get_type_name().find("INT") != std::string::npos;
     return fmt::format("{}: '{}' is no {}", option, text.substr(equals + 3),
                        whole ? "whole number that fits" : "number");
@@ -342,8 +356,9 @@ CLI::Validator a_whole_number() {
       "");
 }
 
-void add_width_switch(CLI::App& verb, double& width) {
-  verb.add_option("--width", width,
+void add_width_option(CLI::App& command, double& width) {
+  command
+      .add_option("--width", width,
                   fmt::format("Width of a picture, in pixels (.png) or points of 1/72 inch\n"
                               "(.svg .pdf .ps) (default: {:g}).",
                               width))
@@ -352,17 +367,18 @@ void add_width_switch(CLI::App& verb, double& width) {
       ->group("Pictures");
 }
 
-void add_picture_switches(CLI::App& verb, io::WriteOptions& write) {
-  add_width_switch(verb, write.width);
-  verb.add_option("--disks", write.disks,
+void add_picture_options(CLI::App& command, io::WriteOptions& write) {
+  add_width_option(command, write.width);
+  command
+      .add_option("--disks", write.disks,
                   "Draw about N maximal disks, spread over the axis (default: 0).")
       ->check(in_range(0, most_disks))
       ->option_text("N")
       ->group("Pictures");
-  verb.add_flag("--contacts", write.contacts, "Draw where the nodes' disks touch the boundary.")
+  command.add_flag("--contacts", write.contacts, "Draw where the nodes' disks touch the boundary.")
       ->group("Pictures");
-  verb.add_flag("--nodes", write.nodes, "Draw the nodes, by kind.")->group("Pictures");
-  verb.add_flag("!--no-shape", write.shape, "Leave the shape out.")->group("Pictures");
+  command.add_flag("--nodes", write.nodes, "Draw the nodes, by kind.")->group("Pictures");
+  command.add_flag("!--no-shape", write.shape, "Leave the shape out.")->group("Pictures");
 }
 
 Status check_output(const std::string& path, const std::string& format,

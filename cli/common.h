@@ -1,6 +1,6 @@
 #pragma once
 
-// What the verbs share: their switches, and how errors and objects are printed.
+// What the commands share: their arguments, and how errors and objects are printed.
 
 #include <CLI/CLI.hpp>
 #include <functional>
@@ -23,7 +23,7 @@ constexpr int exit_failed_verdict = 1;
 constexpr int exit_error = 2;
 
 /// Where shapes come from.
-struct InputSwitches {
+struct InputOptions {
   std::string path;    ///< of a file; with a text, of the font
   std::string text;    ///< to be set in a font, instead of a file of shapes
   std::string font;    ///< as given; path tells it as well
@@ -33,8 +33,8 @@ struct InputSwitches {
   ArcOptions arcs;
 };
 
-/// What every verb takes.
-struct CommonSwitches {
+/// What every command takes.
+struct CommonOptions {
   int threads = 0;             ///< 0: all of the machine
   double tolerance = 0;        ///< relative to the diagonal; 0: the library's default
   double corner_angle = 0.01;  ///< degrees
@@ -44,35 +44,36 @@ struct CommonSwitches {
   bool quiet = false;
 };
 
-/// Each adds its switches to a verb; what they refer to must live as long as the verb. `second` is
-/// the name of a second file that the verb requires after INPUT, with the string that it fills.
-void add_input_switches(CLI::App& verb, InputSwitches& input);
-void add_input_switches(CLI::App& verb, InputSwitches& input, const std::string& second_name,
-                        const std::string& second_help, std::string& second);
-void add_common_switches(CLI::App& verb, CommonSwitches& common);
-/// -o and --format, for outputs of `formats`; without -o such a verb prints its summary only.
+/// Each adds its arguments to a command; what they refer to must live as long as the command.
+/// `second` is the name of a second file that the command requires after INPUT, with the string
+/// that it fills.
+void add_input_options(CLI::App& command, InputOptions& input);
+void add_input_options(CLI::App& command, InputOptions& input, const std::string& second_name,
+                       const std::string& second_help, std::string& second);
+void add_common_options(CLI::App& command, CommonOptions& common);
+/// -o and --format, for outputs of `formats`; without -o such a command prints its summary only.
 /// `piped` tells which format -o - has.
-void add_output_switches(CLI::App& verb, std::string& output, std::string& format,
-                         const std::string& formats, const std::string& piped = "default: json");
-/// --threads, and --stats, --json and --quiet; both are part of the common switches.
-void add_threads_switch(CLI::App& verb, CommonSwitches& common);
-void add_report_switches(CLI::App& verb, CommonSwitches& common);
+void add_output_options(CLI::App& command, std::string& output, std::string& format,
+                        const std::string& formats, const std::string& piped = "default: json");
+/// --threads, and --stats, --json and --quiet; both are part of the common arguments.
+void add_threads_option(CLI::App& command, CommonOptions& common);
+void add_report_options(CLI::App& command, CommonOptions& common);
 /// --threshold and --invert.
-void add_image_switches(CLI::App& verb, io::ImageOptions& options);
-void add_picture_switches(CLI::App& verb, io::WriteOptions& write);
+void add_image_options(CLI::App& command, io::ImageOptions& options);
+void add_picture_options(CLI::App& command, io::WriteOptions& write);
 /// --width alone. Its help tells the default, which is what `width` holds.
-void add_width_switch(CLI::App& verb, double& width);
+void add_width_option(CLI::App& command, double& width);
 
 /// A number in [low, high]; NaN is in no range. Help texts show the range unless `quiet`.
 CLI::Validator in_range(double low, double high, bool quiet = false);
 /// A finite number above 0.
 CLI::Validator a_positive_number();
-/// Adds a switch for numbers with commas between them: `count` of them, or for 0 one or more.
-CLI::Option* add_list_switch(CLI::App& verb, const std::string& name, std::size_t count,
+/// Adds a option for numbers with commas between them: `count` of them, or for 0 one or more.
+CLI::Option* add_list_option(CLI::App& command, const std::string& name, std::size_t count,
                              const std::function<void(const std::vector<double>&)>& take,
                              const std::string& help);
 /// What is wrong with a command line, in words for who typed it.
-std::string explain(const CLI::ParseError& error, const CLI::App& verb);
+std::string explain(const CLI::ParseError& error, const CLI::App& command);
 /// What the name of an output must be: not empty.
 CLI::Validator a_name();
 /// Digits that make a 64-bit number; CLI11 by itself takes -1 for the largest.

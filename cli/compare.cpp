@@ -8,12 +8,12 @@
 #include <sstream>
 
 #include "cli/axis_distance.h"
+#include "cli/commands.h"
 #include "cli/common.h"
 #include "cli/costs.h"
 #include "cli/pipeline.h"
 #include "cli/plot.h"
 #include "cli/terminal.h"
-#include "cli/verbs.h"
 #include "medial/compute.h"
 #include "medial/curve_axis.h"
 #include "medial/verify.h"
@@ -25,9 +25,9 @@ namespace {
 constexpr char all_methods[] = "disks,biarc-dc,lee,ridge,brushfire,potential,curve-axis";
 constexpr char curve_axis[] = "curve-axis";
 
-struct CompareSwitches {
-  InputSwitches input;
-  CommonSwitches common;
+struct CompareArguments {
+  InputOptions input;
+  CommonOptions common;
   std::string methods = "all";
   std::string output;
   double fit = 0;   ///< boundaries become smooth within this distance; 0: they do not
@@ -61,7 +61,7 @@ double radius_error(const Shape& shape, const MedialAxis& axis) {
 
 /// By the method of this name, which is known.
 Result<MedialAxis> compute_by(const std::string& method, const Shape& shape,
-                              const std::vector<Contour>& contours, const CommonSwitches& common,
+                              const std::vector<Contour>& contours, const CommonOptions& common,
                               Options options) {
   if (method == curve_axis) {
     if (options.exterior)
@@ -80,7 +80,7 @@ Result<MedialAxis> compute_by(const std::string& method, const Shape& shape,
 /// One method's axis beside the exact one, of a shape or of its exterior, which is the same as the
 /// axis of `region`. With `lenient` the method may refuse the kind of input.
 Row measure(const Shape& shape, const Shape& region, const std::vector<Contour>& contours,
-            const MedialAxis& exact, const std::string& method, const CommonSwitches& common,
+            const MedialAxis& exact, const std::string& method, const CommonOptions& common,
             const Options& options, bool lenient) {
   Row row;
   row.method = method;
@@ -196,8 +196,8 @@ Status write_comparison(const std::string& path, const Shape& shape, const Box& 
   return io::write_axes(path, {}, native, options);
 }
 
-Result<int> run_compare(const CompareSwitches& switches) {
-  const auto& [input, common, names, output, fit, options] = switches;
+Result<int> run_compare(const CompareArguments& arguments) {
+  const auto& [input, common, names, output, fit, options] = arguments;
   auto methods = methods_of(names);
   if (!methods) return std::move(methods).error();
   Status writable = check_output(output, {}, ".svg .pdf .png .ps", input.path, common.json);
@@ -255,28 +255,31 @@ Result<int> run_compare(const CompareSwitches& switches) {
 
 }  // namespace
 
-Verb make_compare_verb(CLI::App& program) {
-  auto switches = std::make_shared<CompareSwitches>();
-  CLI::App* verb =
+Command make_compare_command(CLI::App& program) {
+  auto arguments = std::make_shared<CompareArguments>();
+  CLI::App* command =
       program.add_subcommand("compare", "Compute axes by several methods and compare them.");
-  add_input_switches(*verb, switches->input);
-  verb->add_option("--methods", switches->methods,
+  add_input_options(*command, arguments->input);
+  command
+      ->add_option("--methods", arguments->methods,
                    "all (default), or names separated by commas, for example disks,potential.")
       ->option_text("NAMES");
-  verb->add_option("-o,--output", switches->output,
+  command
+      ->add_option("-o,--output", arguments->output,
                    "A picture of the first feature's axes side by side: .svg .pdf .png .ps")
       ->check(a_name())
       ->option_text("PICTURE");
-  verb->add_option(
-          "--fit", switches->fit,
+  command
+      ->add_option(
+          "--fit", arguments->fit,
           "First replace every boundary by a smooth curve through its corners and within D\n"
           "of it, as curve-axis wants it.")
       ->check(a_positive_number())
       ->option_text("D");
-  add_exterior_switches(*verb, switches->options,
-                        "The axes of what lies around the shape and in its holes, within a frame.");
-  add_common_switches(*verb, switches->common);
-  verb->footer(
+  add_exterior_options(*command, arguments->options,
+                       "The axes of what lies around the shape and in its holes, within a frame.");
+  add_common_options(*command, arguments->common);
+  command->footer(
       "Each method runs on one thread. Distances are to the axis of the method disks, by\n"
       "samples; Hausdorff is the larger of both directions. A method that does not take\n"
       "the input says why. An axis of pixels is unresolved if its grid is too coarse for\n"
@@ -287,7 +290,7 @@ Verb make_compare_verb(CLI::App& program) {
       "  medial compare plan.wkt\n"
       "  medial compare plan.wkt --methods disks,ridge,potential -o methods.svg --json\n"
       "  medial compare island.wkt --methods all --fit 0.5");
-  return {verb, [switches] { return run_compare(*switches); }};
+  return {command, [arguments] { return run_compare(*arguments); }};
 }
 
 }  // namespace medial::cli

@@ -9,17 +9,17 @@
 
 namespace medial::cli {
 
-Json costs_of(const CommonSwitches& common, Json seconds) {
+Json costs_of(const CommonOptions& common, Json seconds) {
   return {{"seconds", std::move(seconds)},
           {"threads", effective_threads(common.threads)},
           {"peak_bytes", peak_bytes()}};
 }
 
-void print_costs(const CommonSwitches& common, const Json& costs) {
+void print_costs(const CommonOptions& common, const Json& costs) {
   if (common.stats && !common.json) say_text(table(costs));
 }
 
-Status tell(const CommonSwitches& common, const std::string& output, Json object, const Json& costs,
+Status tell(const CommonOptions& common, const std::string& output, Json object, const Json& costs,
             const std::string& line) {
   print_costs(common, costs);
   if (common.json) {

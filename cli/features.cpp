@@ -7,19 +7,19 @@
 #include <array>
 #include <memory>
 
+#include "cli/commands.h"
 #include "cli/common.h"
 #include "cli/pipeline.h"
 #include "cli/stored_axes.h"
 #include "cli/terminal.h"
-#include "cli/verbs.h"
 #include "medial/io/features.h"
 
 namespace medial::cli {
 namespace {
 
-struct FeatureSwitches {
-  InputSwitches input;
-  CommonSwitches common;
+struct FeatureArguments {
+  InputOptions input;
+  CommonOptions common;
   std::string output;
   std::string format;
   io::FeatureWriteOptions write;
@@ -64,10 +64,10 @@ Json shares(const std::array<double, N>& lengths, double total) {
 }
 
 Status tell(const AxisFile& file, std::span<const AxisFeatures> features,
-            const FeatureSwitches& switches, double seconds_features, double seconds_write) {
-  const auto& common = switches.common;
-  const bool terminal = !switches.output.empty() && error_is_terminal() && !common.quiet;
-  if (!common.json && !common.stats && !switches.output.empty() && !terminal) return success();
+            const FeatureArguments& arguments, double seconds_features, double seconds_write) {
+  const auto& common = arguments.common;
+  const bool terminal = !arguments.output.empty() && error_is_terminal() && !common.quiet;
+  if (!common.json && !common.stats && !arguments.output.empty() && !terminal) return success();
   const FeatureSummary sum = sum_of(features);
   const Json costs = {{"seconds",
                        {{"read", file.seconds_read},
@@ -77,7 +77,7 @@ Status tell(const AxisFile& file, std::span<const AxisFeatures> features,
                         {"write", seconds_write}}},
                       {"peak_bytes", peak_bytes()}};
   if (common.json) {
-    Json object = {{"input", switches.input.path},
+    Json object = {{"input", arguments.input.path},
                    {"features", features.size()},
                    {"ends", sum.ends},
                    {"branchings", sum.branchings},
@@ -91,7 +91,7 @@ Status tell(const AxisFile& file, std::span<const AxisFeatures> features,
     return print(object);
   }
   std::string text = fmt::format(
-      "{}: {}, {}, {} ({} closed), {}\n", switches.input.path, counted(sum.ends, "end"),
+      "{}: {}, {}, {} ({} closed), {}\n", arguments.input.path, counted(sum.ends, "end"),
       counted(sum.branchings, "branching point"), counted(sum.branches, "branch", "branches"),
       sum.closed, counted(sum.runs, "primitive"));
   const auto rows = [&text, &sum]<class Kind, std::size_t N>(Kind,
@@ -104,19 +104,19 @@ Status tell(const AxisFile& file, std::span<const AxisFeatures> features,
   rows(Primitive{}, sum.primitive);
   rows(Variation{}, sum.variation);
   if (common.stats) say_text(table(costs));
-  if (switches.output.empty()) return print(text);
+  if (arguments.output.empty()) return print(text);
   if (terminal) say_text(text);
   return success();
 }
 
-Result<int> run_features(const FeatureSwitches& switches) {
-  const InputSwitches& input = switches.input;
-  const CommonSwitches& common = switches.common;
-  const std::string &output = switches.output, &format = switches.format;
+Result<int> run_features(const FeatureArguments& arguments) {
+  const InputOptions& input = arguments.input;
+  const CommonOptions& common = arguments.common;
+  const std::string &output = arguments.output, &format = arguments.format;
   Status writable =
       check_output(output, format, io::known_feature_formats(), input.path, common.json);
   if (!writable) return std::move(writable).error();
-  auto axes = load_axes(input, common, 0, switches.axis);
+  auto axes = load_axes(input, common, 0, arguments.axis);
   if (!axes) return std::move(axes).error();
   const Stopwatch watch;
   std::vector<AxisFeatures> features(axes->native.items.size());
@@ -124,28 +124,28 @@ Result<int> run_features(const FeatureSwitches& switches) {
   for (const io::NativeItem& item : axes->native.items)
     weights.push_back(static_cast<double>(item.axis.edges.size()) + 1);
   Status described = for_each_feature(weights, common.threads, [&](std::size_t i, int) {
-    features[i] = describe(axes->native.items[i].axis, switches.options);
+    features[i] = describe(axes->native.items[i].axis, arguments.options);
     return success();
   });
   if (!described) return std::move(described).error();
   const double seconds = watch.seconds();
   const Stopwatch writing;
   if (!output.empty()) {
-    io::FeatureWriteOptions own = switches.write;
+    io::FeatureWriteOptions own = arguments.write;
     own.write.chord = common.chord;
     const Activity shown("writing", output);
     Status written = io::write_features(output, format, axes->native, features, own);
     if (!written) return std::move(written).error();
   }
-  Status told = tell(*axes, features, switches, seconds, output.empty() ? 0 : writing.seconds());
+  Status told = tell(*axes, features, arguments, seconds, output.empty() ? 0 : writing.seconds());
   if (!told) return std::move(told).error();
   return exit_success;
 }
 
-void add_thresholds(CLI::App& verb, FeatureOptions& options) {
+void add_thresholds(CLI::App& command, FeatureOptions& options) {
   constexpr char group[] = "Thresholds (no unit)";
   const auto add = [&](const char* name, double& value, const char* help) {
-    verb.add_option(name, value, fmt::format("{} (default: {}).", help, value))
+    command.add_option(name, value, fmt::format("{} (default: {}).", help, value))
         ->check(in_range(0, most))
         ->option_text("X")
         ->group(group);
@@ -161,31 +161,33 @@ void add_thresholds(CLI::App& verb, FeatureOptions& options) {
 
 }  // namespace
 
-Verb make_features_verb(CLI::App& program) {
-  auto switches = std::make_shared<FeatureSwitches>();
-  CLI::App* verb = program.add_subcommand(
+Command make_features_command(CLI::App& program) {
+  auto arguments = std::make_shared<FeatureArguments>();
+  CLI::App* command = program.add_subcommand(
       "features", "Describe shapes by their branches and what these are made of.");
-  add_input_switches(*verb, switches->input);
-  add_output_switches(*verb, switches->output, switches->format, io::known_feature_formats());
-  verb->add_option_function<std::string>(
+  add_input_options(*command, arguments->input);
+  add_output_options(*command, arguments->output, arguments->format, io::known_feature_formats());
+  command
+      ->add_option_function<std::string>(
           "--table",
-          [switches](const std::string& name) {
-            switches->write.table = name == "runs"       ? io::FeatureTable::runs
-                                    : name == "branches" ? io::FeatureTable::branches
-                                                         : io::FeatureTable::points;
+          [arguments](const std::string& name) {
+            arguments->write.table = name == "runs"       ? io::FeatureTable::runs
+                                     : name == "branches" ? io::FeatureTable::branches
+                                                          : io::FeatureTable::points;
           },
           "What .geojson .shp .fgb .csv hold: runs (default), branches or points;\n"
           ".json and .gpkg hold all.")
       ->check(CLI::IsMember({"runs", "branches", "points"}).description(""))
       ->option_text("NAME");
-  verb->add_flag("!--no-names", switches->write.names, "Pictures without the names of primitives.")
+  command
+      ->add_flag("!--no-names", arguments->write.names, "Pictures without the names of primitives.")
       ->group("Pictures");
-  add_thresholds(*verb, switches->options);
-  add_exterior_switches(*verb, switches->axis,
-                        "Of what lies around the shape and in its holes, within a frame.");
-  add_picture_switches(*verb, switches->write.write);
-  add_common_switches(*verb, switches->common);
-  verb->footer(
+  add_thresholds(*command, arguments->options);
+  add_exterior_options(*command, arguments->axis,
+                       "Of what lies around the shape and in its holes, within a frame.");
+  add_picture_options(*command, arguments->write.write);
+  add_common_options(*command, arguments->common);
+  command->footer(
       "INPUT may be shapes, whose axes are then computed, or medial's own .json. A branch\n"
       "runs from its deeper end. It is cut into primitives by its radius: worm (even),\n"
       "wedge (linear), cup (bulging sides), flare (hollow sides), opening or closing; in\n"
@@ -196,7 +198,7 @@ Verb make_features_verb(CLI::App& program) {
       "  medial features leaf.svg -o leaf-features.svg\n"
       "  medial axis plan.geojson -o - --format json | medial features - -o features.gpkg\n"
       "  medial features gear.dxf -o - --format csv --table branches");
-  return {verb, [switches] { return run_features(*switches); }};
+  return {command, [arguments] { return run_features(*arguments); }};
 }
 
 }  // namespace medial::cli

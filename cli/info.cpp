@@ -5,18 +5,18 @@
 #include <algorithm>
 #include <memory>
 
+#include "cli/commands.h"
 #include "cli/common.h"
 #include "cli/costs.h"
 #include "cli/pipeline.h"
 #include "cli/terminal.h"
-#include "cli/verbs.h"
 
 namespace medial::cli {
 namespace {
 
-struct InfoSwitches {
-  InputSwitches input;
-  CommonSwitches common;
+struct InfoArguments {
+  InputOptions input;
+  CommonOptions common;
 };
 
 /// Adds lines of a name and a value.
@@ -82,7 +82,7 @@ std::string crs_text(const std::string& wkt, bool geographic) {
 }
 
 /// Prints what was found as an object or as a table, with the costs of finding it on request.
-Result<int> tell(const CommonSwitches& common, Json object, const Table& table,
+Result<int> tell(const CommonOptions& common, Json object, const Table& table,
                  const Json& seconds) {
   const Json costs = costs_of(common, seconds);
   if (common.json && common.stats) object.update(costs);
@@ -93,12 +93,12 @@ Result<int> tell(const CommonSwitches& common, Json object, const Table& table,
 }
 
 /// Of what is no shape, the error tells; main() reports it.
-Result<int> tell_shapes(const InfoSwitches& switches) {
-  auto file = load_shapes(switches.input, switches.common.threads);
+Result<int> tell_shapes(const InfoArguments& arguments) {
+  auto file = load_shapes(arguments.input, arguments.common.threads);
   if (!file) return std::move(file).error();
-  print_notes(*file, switches.input, switches.common);
+  print_notes(*file, arguments.input, arguments.common);
   const ShapeSummary summary = summarize_shapes(file->shapes);
-  Json object = {{"input", switches.input.path},
+  Json object = {{"input", arguments.input.path},
                  {"kind", "polygons"},
                  {"valid", true},
                  {"features", file->shapes.size()}};
@@ -126,7 +126,7 @@ Result<int> tell_shapes(const InfoSwitches& switches) {
                           file->arcs.largest_error));
   }
   table.row("coordinates", crs_text(file->crs_wkt, file->geographic));
-  return tell(switches.common, std::move(object), table,
+  return tell(arguments.common, std::move(object), table,
               {{"read", file->seconds_read}, {"shape", file->seconds_shape}});
 }
 
@@ -139,15 +139,15 @@ std::string common_value(const io::NativeFile& file, Get get) {
   return same ? first : "differs by feature";
 }
 
-Result<int> tell_axes(const InfoSwitches& switches) {
+Result<int> tell_axes(const InfoArguments& arguments) {
   const Stopwatch reading;
-  const auto file = io::read_native(switches.input.path);
+  const auto file = io::read_native(arguments.input.path);
   if (!file) return file.error();
   const double seconds_read = reading.seconds();
   if (file->items.empty()) {
-    return error_at(ErrorCode::empty, switches.input.path, "holds no axis");
+    return error_at(ErrorCode::empty, arguments.input.path, "holds no axis");
   }
-  if (holds_contours(*file)) return tell_shapes(switches);
+  if (holds_contours(*file)) return tell_shapes(arguments);
   const AxisSummary axes = summarize(*file);
   std::vector<std::reference_wrapper<const Shape>> shape_list;
   for (const io::NativeItem& item : file->items) shape_list.emplace_back(item.shape);
@@ -160,7 +160,7 @@ Result<int> tell_axes(const InfoSwitches& switches) {
     resolution = std::max(resolution, item.axis.resolution);
   }
 
-  Json object = {{"input", switches.input.path}, {"kind", "axis"}, {"features", axes.features}};
+  Json object = {{"input", arguments.input.path}, {"kind", "axis"}, {"features", axes.features}};
   object["method"] = method;
   object["tolerance"] = tolerance;
   object["resolution"] = resolution;
@@ -196,24 +196,24 @@ Result<int> tell_axes(const InfoSwitches& switches) {
   }
   add_rows(table, shapes);
   table.row("coordinates", crs_text(file->crs_wkt, false));
-  return tell(switches.common, std::move(object), table, {{"read", seconds_read}});
+  return tell(arguments.common, std::move(object), table, {{"read", seconds_read}});
 }
 
-Result<int> run_info(const InfoSwitches& switches) {
-  if (!switches.input.text.empty() || !io::is_native(switches.input.path)) {
-    return tell_shapes(switches);
+Result<int> run_info(const InfoArguments& arguments) {
+  if (!arguments.input.text.empty() || !io::is_native(arguments.input.path)) {
+    return tell_shapes(arguments);
   }
-  return tell_axes(switches);
+  return tell_axes(arguments);
 }
 
 }  // namespace
 
-Verb make_info_verb(CLI::App& program) {
-  auto switches = std::make_shared<InfoSwitches>();
-  CLI::App* verb = program.add_subcommand("info", "Tell what a file of polygons or axes holds.");
-  add_input_switches(*verb, switches->input);
-  add_common_switches(*verb, switches->common);
-  verb->footer(
+Command make_info_command(CLI::App& program) {
+  auto arguments = std::make_shared<InfoArguments>();
+  CLI::App* command = program.add_subcommand("info", "Tell what a file of polygons or axes holds.");
+  add_input_options(*command, arguments->input);
+  add_common_options(*command, arguments->common);
+  command->footer(
       "Of polygons: features, outer rings, holes, vertices, extent, area, what was\n"
       "cleaned, and the coordinate reference system; polygons that are not valid are an\n"
       "error (exit status 2) that names the place. Of axes: nodes by kind, edges,\n"
@@ -223,7 +223,7 @@ Verb make_info_verb(CLI::App& program) {
       "Examples:\n"
       "  medial info country.shp\n"
       "  medial info --json plan.json");
-  return {verb, [switches] { return run_info(*switches); }};
+  return {command, [arguments] { return run_info(*arguments); }};
 }
 
 }  // namespace medial::cli

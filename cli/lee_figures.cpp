@@ -9,10 +9,10 @@
 #include "base/tolerance.h"
 #include "cli/bench_lee.h"
 #include "cli/figure.h"
-#include "engines/lee/diagram.h"
-#include "engines/lee/merge.h"
-#include "geometry/bisector.h"
 #include "medial/medial.h"
+#include "methods/lee/diagram.h"
+#include "methods/lee/merge.h"
+#include "site/bisector.h"
 
 namespace medial::cli {
 namespace {
@@ -139,7 +139,7 @@ class Halves {
     const std::uint32_t middle = elements_.chains[(count + 1) / 2];
     figure.thin();
     for (std::uint32_t i = 0; i < elements_.size(); ++i) {
-      const geometry::Site& site = elements_.sites[i];
+      const site::Site& site = elements_.sites[i];
       if (site.is_vertex()) continue;
       if (half == 2 || (i < middle) == (half == 0))
         figure.ink();
@@ -151,8 +151,8 @@ class Halves {
       if ((i < middle) != (half == 0)) continue;
       figure.ink();
       // Outside of the polygon, beside the element.
-      const geometry::Site& site = elements_.sites[i];
-      const geometry::Site& beside = site.is_vertex() ? elements_.sites[i - 1] : site;
+      const site::Site& site = elements_.sites[i];
+      const site::Site& beside = site.is_vertex() ? elements_.sites[i - 1] : site;
       const Vec2 at = site.is_vertex() ? site.point : midpoint(site.point, site.end());
       figure.mark(at - 0.7 * beside.normal(), ("e" + std::to_string(i + 1)).c_str());
     }
@@ -194,7 +194,7 @@ class Halves {
   /// Whether a point's foot on an element's line lies on the element, but for rounding.
   bool is_beside(std::uint32_t i, Vec2 p) const {
     constexpr double slack = 1e-9;
-    const geometry::Site& site = elements_.sites[i];
+    const site::Site& site = elements_.sites[i];
     const Vec2 d = p - site.point;
     if (site.is_vertex())
       return dot(elements_.sites[i - 1].direction, d) >= -slack &&
@@ -206,7 +206,7 @@ class Halves {
   void draw_edge(Figure& figure, const lee::ListEdge& edge, std::uint32_t outer,
                  std::uint32_t middle) const {
     const auto [i, j] = edge.element;
-    const geometry::Site &left = elements_.sites[i], &right = elements_.sites[j];
+    const site::Site &left = elements_.sites[i], &right = elements_.sites[j];
     const bool on_curve = i < middle && j >= middle;
     if (diagram_.is_spoke(edge))
       figure.thin();
@@ -221,7 +221,7 @@ class Halves {
       figure.line({start, outer != lee::none ? end : start + 60 * normal});
       return;
     }
-    const geometry::Bisector bisector(right, left);
+    const site::Bisector bisector(right, left);
     const double from = bisector.position(start);
     const bool last = i == 0 && j + 1 == elements_.size();
     double to = from + 60;
@@ -239,7 +239,7 @@ class Halves {
     figure.line(line);
   }
 
-  Frame frame_;
+  LocalFrame frame_;
   lee::Elements elements_;
   lee::Diagram diagram_;
   lee::MergeLimits limits_;

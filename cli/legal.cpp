@@ -4,18 +4,18 @@
 
 #include <memory>
 
+#include "cli/commands.h"
 #include "cli/common.h"
 #include "cli/pipeline.h"
 #include "cli/terminal.h"
-#include "cli/verbs.h"
 #include "medial/sides.h"
 
 namespace medial::cli {
 namespace {
 
-struct LegalSwitches {
+struct LegalArguments {
   std::string path;
-  CommonSwitches common;
+  CommonOptions common;
   double slack = 1e-9;
 };
 
@@ -51,9 +51,9 @@ std::string offence(const Legality& one, std::size_t feature, std::size_t branch
       at.disk.center.x, at.disk.center.y);
 }
 
-Result<int> run_legal(const LegalSwitches& switches) {
+Result<int> run_legal(const LegalArguments& arguments) {
   const Stopwatch reading;
-  const auto file = io::read_native(switches.path);
+  const auto file = io::read_native(arguments.path);
   if (!file) return file.error();
   const double seconds_read = reading.seconds();
   const Stopwatch judging;
@@ -69,30 +69,30 @@ Result<int> run_legal(const LegalSwitches& switches) {
     for (std::size_t k = 0; k < judged[i].size(); ++k) {
       const Legality& one = judged[i][k];
       ++count;
-      if (switches.common.json) list.push_back(json_of(one, k, switches.slack));
+      if (arguments.common.json) list.push_back(json_of(one, k, arguments.slack));
       if (one.frames == 0) continue;
       ++told;
-      strict += one.strictly_legal(switches.slack) ? 1 : 0;
-      if (one.legal(switches.slack)) {
+      strict += one.strictly_legal(arguments.slack) ? 1 : 0;
+      if (one.legal(arguments.slack)) {
         ++legal;
       } else {
-        offences.push_back(offence(one, i, k, switches.slack));
+        offences.push_back(offence(one, i, k, arguments.slack));
       }
     }
-    if (switches.common.json) features.push_back({{"branches", std::move(list)}});
+    if (arguments.common.json) features.push_back({{"branches", std::move(list)}});
   }
 
   const Json costs = {{"seconds", {{"read", seconds_read}, {"legal", seconds_legal}}},
                       {"peak_bytes", peak_bytes()}};
   Status printed = success();
-  if (switches.common.json) {
-    Json object = {{"axis", switches.path},   {"legal", offences.empty()},
-                   {"branches", count},       {"judged", told},
-                   {"legal_branches", legal}, {"strictly_legal_branches", strict},
-                   {"slack", switches.slack}, {"features", std::move(features)}};
-    if (switches.common.stats) object.update(costs);
+  if (arguments.common.json) {
+    Json object = {{"axis", arguments.path},   {"legal", offences.empty()},
+                   {"branches", count},        {"judged", told},
+                   {"legal_branches", legal},  {"strictly_legal_branches", strict},
+                   {"slack", arguments.slack}, {"features", std::move(features)}};
+    if (arguments.common.stats) object.update(costs);
     printed = print(object);
-  } else if (!switches.common.quiet) {
+  } else if (!arguments.common.quiet) {
     std::string text;
     const auto row = [&text](const char* name, const std::string& value) {
       text += fmt::format("{:<16}{}\n", name, value);
@@ -118,31 +118,33 @@ Result<int> run_legal(const LegalSwitches& switches) {
     printed = print(text);
   }
   if (!printed) return std::move(printed).error();
-  if (switches.common.stats && !switches.common.json) say_text(table(costs));
+  if (arguments.common.stats && !arguments.common.json) say_text(table(costs));
   return offences.empty() ? exit_success : exit_failed_verdict;
 }
 
 }  // namespace
 
-Verb make_legal_verb(CLI::App& program) {
-  auto switches = std::make_shared<LegalSwitches>();
-  CLI::App* verb = program.add_subcommand(
+Command make_legal_command(CLI::App& program) {
+  auto arguments = std::make_shared<LegalArguments>();
+  CLI::App* command = program.add_subcommand(
       "legal", "Tell whether functions can be medial axes, branch by branch.");
-  verb->add_option("AXIS", switches->path,
+  command
+      ->add_option("AXIS", arguments->path,
                    "Axes in medial's own .json format; - is standard input.")
       ->required()
       ->option_text("REQUIRED");
-  verb->add_option("--slack", switches->slack,
+  command
+      ->add_option("--slack", arguments->slack,
                    "By how much the restrictions may be missed, no unit (default: 1e-9); more\n"
                    "for samples, whose derivatives are differences.")
       ->check(in_range(0, largest_slack))
       ->option_text("S");
-  verb->add_flag("--stats", switches->common.stats, "Tell times and memory.")->group("Output");
-  verb->add_flag("--json", switches->common.json, "Print one JSON object on standard output.")
+  command->add_flag("--stats", arguments->common.stats, "Tell times and memory.")->group("Output");
+  command->add_flag("--json", arguments->common.json, "Print one JSON object on standard output.")
       ->group("Output");
-  verb->add_flag("--quiet", switches->common.quiet, "Only the exit status, and errors.")
+  command->add_flag("--quiet", arguments->common.quiet, "Only the exit status, and errors.")
       ->group("Output");
-  verb->footer(
+  command->footer(
       "A curve with a radius function is the medial axis of some shape only if nowhere\n"
       "the radius changes faster than the way, |R'| <= 1, nor the curve bends too\n"
       "sharply, 1 - R'^2 - R R'' >= |K| R sqrt(1 - R'^2) (Shaked and Bruckstein 1996,\n"
@@ -155,7 +157,7 @@ Verb make_legal_verb(CLI::App& program) {
       "Examples:\n"
       "  medial axis plan.geojson -o plan.json && medial legal plan.json\n"
       "  medial legal --json drawn.json");
-  return {verb, [switches] { return run_legal(*switches); }};
+  return {command, [arguments] { return run_legal(*arguments); }};
 }
 
 }  // namespace medial::cli

@@ -67,7 +67,7 @@ std::optional<Vec2> point_in(const Shape& shape, const NamedPlace& place) {
 
 /// The path between the two named places in one feature.
 Result<AxisPath> path_between_named(const io::NativeItem& item, const NamedPlace& from,
-                                    const NamedPlace& to, const PathSwitches& switches) {
+                                    const NamedPlace& to, const PathOptions& arguments) {
   std::optional<EdgePlace> ends[2];
   const NamedPlace* names[2] = {&from, &to};
   for (std::size_t i = 0; i < 2; ++i) {
@@ -79,8 +79,8 @@ Result<AxisPath> path_between_named(const io::NativeItem& item, const NamedPlace
     ends[i] = place_on_axis(item.axis, *point);
     if (!ends[i]) return invalid_option("the shape's axis is a single point");
   }
-  if (!switches.widest.empty()) return widest_path(item.axis, *ends[0], *ends[1]);
-  return path_between(item.axis, *ends[0], *ends[1], switches.path.route);
+  if (!arguments.widest.empty()) return widest_path(item.axis, *ends[0], *ends[1]);
+  return path_between(item.axis, *ends[0], *ends[1], arguments.path.route);
 }
 
 /// In which feature a place lies, or nearest to which.
@@ -100,29 +100,31 @@ std::size_t feature_of(const io::NativeFile& file, const NamedPlace& place) {
 
 }  // namespace
 
-void add_path_switches(CLI::App& verb, PathSwitches& switches) {
-  CLI::Option* from =
-      verb.add_option("--from", switches.from,
-                      "Where the line begins, instead of the end that is farthest from all: at a\n"
-                      "point X,Y or in the middle of a side, as RING/VERTEX, the vertex where it\n"
-                      "starts in the input.");
-  CLI::Option* to = verb.add_option("--to", switches.to, "Where it ends, likewise.");
-  CLI::Option* widest =
-      verb.add_option("--widest", switches.widest,
-                      "The way between two places along which the largest disk can pass, and of\n"
-                      "those the shortest.");
+void add_path_options(CLI::App& command, PathOptions& arguments) {
+  CLI::Option* from = command.add_option(
+      "--from", arguments.from,
+      "Where the line begins, instead of the end that is farthest from all: at a\n"
+      "point X,Y or in the middle of a side, as RING/VERTEX, the vertex where it\n"
+      "starts in the input.");
+  CLI::Option* to = command.add_option("--to", arguments.to, "Where it ends, likewise.");
+  CLI::Option* widest = command.add_option(
+      "--widest", arguments.widest,
+      "The way between two places along which the largest disk can pass, and of\n"
+      "those the shortest.");
   for (CLI::Option* place : {from, to}) place->check(a_place())->option_text("PLACE");
   widest->check(a_place())->expected(2)->option_text("PLACE PLACE")->excludes(from)->excludes(to);
-  verb.add_option_function<std::string>(
+  command
+      .add_option_function<std::string>(
           "--route",
-          [&switches](const std::string& name) {
-            switches.path.route = name == "shortest" ? Route::shortest : Route::roomy;
+          [&arguments](const std::string& name) {
+            arguments.path.route = name == "shortest" ? Route::shortest : Route::roomy;
           },
           "Which way around holes: roomy (default), where a passage twice as wide may\n"
           "be twice as long; or shortest.")
       ->check(CLI::IsMember({"roomy", "shortest"}).description(""))
       ->option_text("NAME");
-  verb.add_option("--trim", switches.path.trim,
+  command
+      .add_option("--trim", arguments.path.trim,
                   "Ends do not run into corners: what protrudes from a disk by at most so\n"
                   "many of its radii is cut (default: 1, corners of 60 degrees and more; 0\n"
                   "cuts nothing).")
@@ -131,17 +133,17 @@ void add_path_switches(CLI::App& verb, PathSwitches& switches) {
 }
 
 Result<std::vector<std::vector<AxisPath>>> choose_paths(const io::NativeFile& file,
-                                                        const PathSwitches& switches,
+                                                        const PathOptions& arguments,
                                                         const std::string& input, int threads) {
   std::vector<std::vector<AxisPath>> paths(file.items.size());
-  const bool widest = !switches.widest.empty();
-  const std::string& from = widest ? switches.widest[0] : switches.from;
-  const std::string& to = widest ? switches.widest[1] : switches.to;
+  const bool widest = !arguments.widest.empty();
+  const std::string& from = widest ? arguments.widest[0] : arguments.from;
+  const std::string& to = widest ? arguments.widest[1] : arguments.to;
   if (from.empty() != to.empty()) return invalid_option("--from and --to go together");
   if (!from.empty()) {
     const NamedPlace begin = *named(from), end = *named(to);
     const std::size_t chosen = feature_of(file, begin);
-    auto path = path_between_named(file.items[chosen], begin, end, switches);
+    auto path = path_between_named(file.items[chosen], begin, end, arguments);
     if (!path) {
       Error error = std::move(path).error();
       error.place.file = input;
@@ -153,7 +155,7 @@ Result<std::vector<std::vector<AxisPath>>> choose_paths(const io::NativeFile& fi
   }
   const std::vector<double> weights(file.items.size(), 1.0);
   Status found = for_each_feature(weights, threads, [&](std::size_t i, int) -> Status {
-    paths[i] = main_paths(file.items[i].axis, switches.path);
+    paths[i] = main_paths(file.items[i].axis, arguments.path);
     return success();
   });
   if (!found) return std::move(found).error();

@@ -1,6 +1,6 @@
 #pragma once
 
-// Which paths along the axes of a file are meant: the switches of `centreline` and `measure`.
+// Which paths along the axes of a file are meant: the arguments of `centreline` and `measure`.
 
 #include <string>
 #include <vector>
@@ -10,7 +10,7 @@
 
 namespace medial::cli {
 
-struct PathSwitches {
+struct PathOptions {
   std::string from, to;             ///< "X,Y" or "RING/VERTEX"
   std::vector<std::string> widest;  ///< two of them, instead
   MainPathOptions path;
@@ -19,12 +19,12 @@ struct PathSwitches {
 };
 
 /// --from, --to, --widest, --route, --trim.
-void add_path_switches(CLI::App& verb, PathSwitches& switches);
+void add_path_options(CLI::App& command, PathOptions& arguments);
 
 /// The paths of every feature: the main paths, or the one between the places that were named, in
 /// the feature where the first of them lies. Errors name the feature.
 Result<std::vector<std::vector<AxisPath>>> choose_paths(const io::NativeFile& file,
-                                                        const PathSwitches& switches,
+                                                        const PathOptions& arguments,
                                                         const std::string& input, int threads);
 
 }  // namespace medial::cli

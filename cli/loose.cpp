@@ -9,7 +9,7 @@
 
 namespace medial::cli {
 
-Result<LooseFile> load_chains(const InputSwitches& input, int threads) {
+Result<LooseFile> load_chains(const InputOptions& input, int threads) {
   io::ReadOptions read = input.read;
   read.loose = true;
   read.repair = io::RepairRule::none;
@@ -35,23 +35,24 @@ Result<LooseFile> load_chains(const InputSwitches& input, int threads) {
   return file;
 }
 
-void print_notes(const LooseFile& file, const InputSwitches& input, const CommonSwitches& common) {
+void print_notes(const LooseFile& file, const InputOptions& input, const CommonOptions& common) {
   if (common.quiet) return;
   for (const std::string& note : file.notes) say("medial: {}: {}\n", input.path, note);
 }
 
-Result<Soup> soup_of(const LooseFile& file, const InputSwitches& input, double reach) {
-  auto soup = build_soup(
+Result<PlanarGraph> planar_graph_of(const LooseFile& file, const InputOptions& input,
+                                    double reach) {
+  auto planar_graph = build_planar_graph(
       file.chains, {.node_crossings = input.read.repair != io::RepairRule::none, .reach = reach});
-  if (!soup) return in_terms_of(file, std::move(soup).error(), input.path);
-  return soup;
+  if (!planar_graph) return in_terms_of(file, std::move(planar_graph).error(), input.path);
+  return planar_graph;
 }
 
 bool is_too_close(const Error& error) {
   return error.code == ErrorCode::unsupported && error.place.ring && error.place.point;
 }
 
-void tell_touching(double reach, const InputSwitches& input, const CommonSwitches& common) {
+void tell_touching(double reach, const InputOptions& input, const CommonOptions& common) {
   if (!common.quiet)
     say("medial: {}: note: points and edges within {:.2g} of each other touch, as rounding "
         "does not tell them apart\n",

@@ -1,6 +1,6 @@
 #pragma once
 
-// Files as loose points and lines, for verbs that do not need shapes.
+// Files as loose points and lines, for commands that do not need shapes.
 
 #include <array>
 #include <string>
@@ -9,7 +9,7 @@
 
 #include "cli/pipeline.h"
 #include "medial/io/attributes.h"
-#include "medial/soup.h"
+#include "medial/planar_graph.h"
 
 namespace medial::cli {
 
@@ -24,40 +24,43 @@ struct LooseFile {
 };
 
 /// Reads points, lines and boundaries as they are, without making shapes of them.
-Result<LooseFile> load_chains(const InputSwitches& input, int threads);
-void print_notes(const LooseFile& file, const InputSwitches& input, const CommonSwitches& common);
+Result<LooseFile> load_chains(const InputOptions& input, int threads);
+void print_notes(const LooseFile& file, const InputOptions& input, const CommonOptions& common);
 
-/// An error of a soup, which names a chain, in terms of the file's features.
+/// An error of a planar graph, which names a chain, in terms of the file's features.
 Error in_terms_of(const LooseFile& file, Error error, const std::string& path);
 
-/// The soup of all chains, crossings split where --repair is given. Errors in terms of the
+/// The planar graph of all chains, crossings split where --repair is given. Errors in terms of the
 /// features.
-Result<Soup> soup_of(const LooseFile& file, const InputSwitches& input, double reach = 0);
+Result<PlanarGraph> planar_graph_of(const LooseFile& file, const InputOptions& input,
+                                    double reach = 0);
 
 /// Distances, shares of the size and increasing, within which things are made to touch where
-/// rounding does not tell them apart (SoupOptions::reach).
+/// rounding does not tell them apart (PlanarGraphOptions::reach).
 inline constexpr std::array<double, 3> touching_shares{0x1p-39, 0x1p-35, 0x1p-31};
 
 /// Whether this is the error of a diagram whose points and edges are too near to each other.
 bool is_too_close(const Error& error);
 /// Tells that what is nearer than `reach` touches now.
-void tell_touching(double reach, const InputSwitches& input, const CommonSwitches& common);
+void tell_touching(double reach, const InputOptions& input, const CommonOptions& common);
 
-/// What work(soup) gives for the soup of all chains, which stays there. Where points or edges are
-/// too near to each other, they are made to touch, with a note on standard error.
+/// What work(planar graph) gives for the planar graph of all chains, which stays there. Where
+/// points or edges are too near to each other, they are made to touch, with a note on standard
+/// error.
 template <class Work>
-auto with_soup(const LooseFile& file, const InputSwitches& input, const CommonSwitches& common,
-               Soup& soup, Work&& work) -> decltype(work()) {
-  auto first = soup_of(file, input);
+auto with_planar_graph(const LooseFile& file, const InputOptions& input,
+                       const CommonOptions& common, PlanarGraph& planar_graph, Work&& work)
+    -> decltype(work()) {
+  auto first = planar_graph_of(file, input);
   if (!first) return std::move(first).error();
-  soup = std::move(first).value();
+  planar_graph = std::move(first).value();
   auto result = work();
-  const double size = diagonal(bounding_box(soup));
+  const double size = diagonal(bounding_box(planar_graph));
   for (const double share : touching_shares) {
     if (result || !is_too_close(result.error())) break;
-    auto touching = soup_of(file, input, share * size);
+    auto touching = planar_graph_of(file, input, share * size);
     if (!touching) continue;
-    soup = std::move(touching).value();
+    planar_graph = std::move(touching).value();
     result = work();
     if (result) tell_touching(share * size, input, common);
   }

@@ -1,4 +1,4 @@
-// The command line: parses, calls the library, prints. One file for each verb.
+// The command line: parses, calls the library, prints. One file for each command.
 
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/info.h>
@@ -16,9 +16,9 @@
 #include <thread>
 #include <vector>
 
+#include "cli/commands.h"
 #include "cli/common.h"
 #include "cli/terminal.h"
-#include "cli/verbs.h"
 
 namespace medial::cli {
 namespace {
@@ -75,8 +75,8 @@ class AllowedThreads {
   std::optional<oneapi::tbb::global_control> fewer_;
 };
 
-int requested_threads(const CLI::App& verb) {
-  const CLI::Option* option = verb.get_option_no_throw("--threads");
+int requested_threads(const CLI::App& command) {
+  const CLI::Option* option = command.get_option_no_throw("--threads");
   return option != nullptr && option->count() > 0 ? option->as<int>() : 0;
 }
 
@@ -91,38 +91,38 @@ int run(int argc, char** argv, bool json) {
   program.require_subcommand(1);
   program.get_formatter()->label("SUBCOMMAND", "VERB");
   program.footer(
-      "`medial VERB --help` tells each verb's switches, with examples.\n"
+      "`medial VERB --help` tells each command's options, with examples.\n"
       "\n"
       "Exit status: 0 done; 1 `verify`, `legal` or `compare` refused an axis; 2 an error, told\n"
       "in one line on standard error as `medial: FILE: feature F, ring R, vertex V at (X, Y): "
       "what\n"
       "is wrong [code]`. Features, rings and vertices count from 0. Nothing is written\n"
       "then, and an interrupted run leaves no partial file.");
-  const std::array verbs = {
-      make_axis_verb(program),        //
-      make_verify_verb(program),      //
-      make_info_verb(program),        //
-      make_legal_verb(program),       //
-      make_draw_verb(program),        //
-      make_prune_verb(program),       //
-      make_smooth_verb(program),      //
-      make_rebuild_verb(program),     //
-      make_features_verb(program),    //
-      make_match_verb(program),       //
-      make_pack_verb(program),        //
-      make_unpack_verb(program),      //
-      make_voronoi_verb(program),     //
-      make_distance_verb(program),    //
-      make_voxels_verb(program),      //
-      make_bench_verb(program),       //
-      make_field_verb(program),       //
-      make_compare_verb(program),     //
-      make_offset_verb(program),      //
-      make_centreline_verb(program),  //
-      make_measure_verb(program),     //
-      make_carve_verb(program),       //
+  const std::array commands = {
+      make_axis_command(program),        //
+      make_verify_command(program),      //
+      make_info_command(program),        //
+      make_legal_command(program),       //
+      make_draw_command(program),        //
+      make_prune_command(program),       //
+      make_smooth_command(program),      //
+      make_rebuild_command(program),     //
+      make_features_command(program),    //
+      make_match_command(program),       //
+      make_pack_command(program),        //
+      make_unpack_command(program),      //
+      make_voronoi_command(program),     //
+      make_distance_command(program),    //
+      make_voxels_command(program),      //
+      make_bench_command(program),       //
+      make_field_command(program),       //
+      make_compare_command(program),     //
+      make_offset_command(program),      //
+      make_centreline_command(program),  //
+      make_measure_command(program),     //
+      make_carve_command(program),       //
   };
-  for (const Verb& verb : verbs) verb.app->group("Verbs");
+  for (const Command& command : commands) command.app->group("Commands");
 
   try {
     program.parse(argc, argv);
@@ -136,17 +136,18 @@ int run(int argc, char** argv, bool json) {
     const std::vector<CLI::App*> chosen = program.get_subcommands();
     if (chosen.empty()) {
       const std::vector<std::string> unknown = program.remaining();
-      return report_error(
-          invalid_option(unknown.empty() ? "a verb is missing" : "no such verb: " + unknown[0]),
-          json, "; see medial --help");
+      return report_error(invalid_option(unknown.empty() ? "a command is missing"
+                                                         : "no such command: " + unknown[0]),
+                          json, "; see medial --help");
     }
     const std::string hint = "; see medial " + chosen.back()->get_name() + " --help";
     return report_error(invalid_option(explain(parse_error, *chosen.back())), json, hint);
   }
-  const auto verb = std::find_if(verbs.begin(), verbs.end(),
-                                 [](const Verb& candidate) { return candidate.app->parsed(); });
-  const AllowedThreads allowed(requested_threads(*verb->app));
-  const Result<int> status = verb->run();
+  const auto command = std::find_if(commands.begin(), commands.end(), [](const Command& candidate) {
+    return candidate.app->parsed();
+  });
+  const AllowedThreads allowed(requested_threads(*command->app));
+  const Result<int> status = command->run();
   return status ? *status : report_error(status.error(), json);
 }
 

@@ -8,11 +8,11 @@
 #include <filesystem>
 #include <memory>
 
+#include "cli/commands.h"
 #include "cli/common.h"
 #include "cli/pipeline.h"
 #include "cli/stored_axes.h"
 #include "cli/terminal.h"
-#include "cli/verbs.h"
 #include "medial/compute.h"
 
 namespace medial::cli {
@@ -20,9 +20,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct MatchSwitches {
-  InputSwitches input;
-  CommonSwitches common;
+struct MatchArguments {
+  InputOptions input;
+  CommonOptions common;
   std::string other;
   std::uint64_t best = 10;
   bool each = false;
@@ -71,8 +71,8 @@ void join_items(std::vector<io::NativeItem>& items) {
 }
 
 /// The signatures of a file's features, or of all of it as one shape.
-Result<std::vector<NamedSignature>> signatures_of(const InputSwitches& input,
-                                                  const CommonSwitches& common, bool each) {
+Result<std::vector<NamedSignature>> signatures_of(const InputOptions& input,
+                                                  const CommonOptions& common, bool each) {
   auto axes = load_axes(input, common);
   if (!axes) return std::move(axes).error();
   std::vector<io::NativeItem>& items = axes->native.items;
@@ -114,8 +114,8 @@ Result<std::vector<std::string>> files_of(const std::string& folder) {
   return files;
 }
 
-Result<int> run_match(const MatchSwitches& switches) {
-  const auto& [input, common, other, best, each] = switches;
+Result<int> run_match(const MatchArguments& arguments) {
+  const auto& [input, common, other, best, each] = arguments;
   const Stopwatch watch;
   auto asked = signatures_of(input, common, false);
   if (!asked) return std::move(asked).error();
@@ -129,9 +129,9 @@ Result<int> run_match(const MatchSwitches& switches) {
   std::vector<NamedSignature> candidates;
   std::uint64_t refused = 0;
   for (const std::string& path : paths) {
-    InputSwitches own = input;
+    InputOptions own = input;
     own.path = path;
-    CommonSwitches quiet = common;
+    CommonOptions quiet = common;
     quiet.quiet = quiet.quiet || folder;
     auto found = signatures_of(own, quiet, each);
     if (!found) {
@@ -179,21 +179,22 @@ Result<int> run_match(const MatchSwitches& switches) {
 
 }  // namespace
 
-Verb make_match_verb(CLI::App& program) {
-  auto switches = std::make_shared<MatchSwitches>();
-  CLI::App* verb = program.add_subcommand(
+Command make_match_command(CLI::App& program) {
+  auto arguments = std::make_shared<MatchArguments>();
+  CLI::App* command = program.add_subcommand(
       "match", "Rank shapes by how like another one they are, however turned or scaled.");
-  add_input_switches(*verb, switches->input, "OTHER",
-                     "A second file of shapes or axes, or a folder of such files.",
-                     switches->other);
-  verb->add_flag("--each", switches->each,
-                 "Every feature of OTHER is a shape; otherwise each file is one.");
-  verb->add_option("--best", switches->best,
+  add_input_options(*command, arguments->input, "OTHER",
+                    "A second file of shapes or axes, or a folder of such files.",
+                    arguments->other);
+  command->add_flag("--each", arguments->each,
+                    "Every feature of OTHER is a shape; otherwise each file is one.");
+  command
+      ->add_option("--best", arguments->best,
                    "Tell so many, the most like first (default: 10; 0: all).")
       ->check(a_whole_number())
       ->option_text("N");
-  add_common_switches(*verb, switches->common);
-  verb->footer(
+  add_common_options(*command, arguments->common);
+  command->footer(
       "The numbers are dissimilarities: 0 the same, about 1 two shapes at random. They come\n"
       "from distributions over the axis (thickness, distances, erosion) that rotation,\n"
       "scale and reflection leave alone, and that noise of the outline hardly moves.\n"
@@ -202,7 +203,7 @@ Verb make_match_verb(CLI::App& program) {
       "  medial match horse.png silhouettes/\n"
       "  medial match key.svg tools.geojson --each --best 3\n"
       "  medial match a.json b.json --json");
-  return {verb, [switches] { return run_match(*switches); }};
+  return {command, [arguments] { return run_match(*arguments); }};
 }
 
 }  // namespace medial::cli

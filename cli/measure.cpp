@@ -10,12 +10,12 @@
 #include <limits>
 #include <memory>
 
+#include "cli/commands.h"
 #include "cli/common.h"
 #include "cli/lines.h"
 #include "cli/pipeline.h"
 #include "cli/plot.h"
 #include "cli/terminal.h"
-#include "cli/verbs.h"
 #include "medial/io/layers.h"
 #include "medial/io/projection.h"
 #include "medial/query.h"
@@ -27,14 +27,14 @@ constexpr std::uint64_t most_transects = 1'000'000;
 constexpr std::uint64_t most_disks_told = 10'000;
 constexpr std::size_t necks_told = 5;
 
-struct MeasureSwitches {
-  InputSwitches input;
-  CommonSwitches common;
+struct MeasureArguments {
+  InputOptions input;
+  CommonOptions common;
   std::string output;
   std::string format;
   std::string plot;
   io::WriteOptions write;
-  PathSwitches path;
+  PathOptions path;
   std::uint64_t samples = 200;
   std::uint64_t transects = 0;
   double spacing = 0;
@@ -70,16 +70,16 @@ std::vector<double> even_lengths(double whole, std::uint64_t count) {
 
 /// In the middles of `count` equal parts, or at multiples of a spacing, evened out around the
 /// middle of the line.
-std::vector<double> transect_lengths(double whole, const MeasureSwitches& switches) {
+std::vector<double> transect_lengths(double whole, const MeasureArguments& arguments) {
   std::vector<double> at;
-  if (switches.spacing > 0) {
-    const double count = std::floor(whole / switches.spacing);
-    const double first = 0.5 * (whole - count * switches.spacing);
-    for (double i = 0; i <= count; ++i) at.push_back(first + i * switches.spacing);
+  if (arguments.spacing > 0) {
+    const double count = std::floor(whole / arguments.spacing);
+    const double first = 0.5 * (whole - count * arguments.spacing);
+    for (double i = 0; i <= count; ++i) at.push_back(first + i * arguments.spacing);
   } else {
-    for (std::uint64_t i = 0; i < switches.transects; ++i)
+    for (std::uint64_t i = 0; i < arguments.transects; ++i)
       at.push_back(whole * (static_cast<double>(i) + 0.5) /
-                   static_cast<double>(switches.transects));
+                   static_cast<double>(arguments.transects));
   }
   return at;
 }
@@ -99,29 +99,29 @@ std::vector<Neck> necks_of(const MedialAxis& axis, const AxisPath& path, double 
 }
 
 Result<Measured> measure(const io::NativeItem& item, const std::vector<AxisPath>& paths,
-                         const MeasureSwitches& switches) {
+                         const MeasureArguments& arguments) {
   Measured out;
   AxisPath all;
   for (const AxisPath& path : paths) {
-    if (switches.spacing > 0 &&
-        path.length / switches.spacing > static_cast<double>(most_transects))
+    if (arguments.spacing > 0 &&
+        path.length / arguments.spacing > static_cast<double>(most_transects))
       return Error{
           ErrorCode::too_large,
           fmt::format("more than {} transects on a line: the spacing is too small", most_transects),
           {}};
     Line& line = out.lines.emplace_back();
     line.path = path;
-    line.profile = widths_along(item.axis, path, even_lengths(path.length, switches.samples));
-    line.transects = widths_along(item.axis, path, transect_lengths(path.length, switches));
-    line.necks = necks_of(item.axis, path, switches.widening);
+    line.profile = widths_along(item.axis, path, even_lengths(path.length, arguments.samples));
+    line.transects = widths_along(item.axis, path, transect_lengths(path.length, arguments));
+    line.necks = necks_of(item.axis, path, arguments.widening);
     all.pieces.insert(all.pieces.end(), path.pieces.begin(), path.pieces.end());
     all.length += path.length;
   }
   out.mean = mean_width(item.axis, all);
   if (!item.axis.nodes.empty()) out.widest = deepest_disk(item.axis);
-  out.necks = necks(item.axis, switches.widening);
-  if (switches.disks > 0) {
-    auto disks = largest_disjoint_disks(item.shape, switches.disks, 0, &item.axis);
+  out.necks = necks(item.axis, arguments.widening);
+  if (arguments.disks > 0) {
+    auto disks = largest_disjoint_disks(item.shape, arguments.disks, 0, &item.axis);
     if (!disks) return std::move(disks).error();
     out.disks = std::move(disks).value();
   }
@@ -190,7 +190,7 @@ Json json_of(const Measured& measured, std::size_t necks_wanted) {
 std::string place(Vec2 p) { return fmt::format("({:.10g}, {:.10g})", p.x, p.y); }
 
 /// One feature as lines of a name and a value.
-std::string summary_of(const Measured& measured, const MeasureSwitches& switches) {
+std::string summary_of(const Measured& measured, const MeasureArguments& arguments) {
   std::string text;
   const auto row = [&text](const char* name, const std::string& value) {
     text += fmt::format("{:<24}{}\n", name, value);
@@ -211,7 +211,7 @@ std::string summary_of(const Measured& measured, const MeasureSwitches& switches
     row("narrowest neck on line", fmt::format("{:.10g} at {}, {:.10g} along", neck->width.width(),
                                               place(neck->width.disk.center), neck->width.along));
   }
-  const std::size_t told = switches.necks > 0 ? switches.necks : necks_told;
+  const std::size_t told = arguments.necks > 0 ? arguments.necks : necks_told;
   for (std::size_t i = 0; i < std::min<std::size_t>(told, measured.necks.size()); ++i) {
     const Neck& neck = measured.necks[i];
     row(i == 0 ? "necks" : "", fmt::format("{:.10g} at {}, opens to {:.10g}{}", neck.width.width(),
@@ -301,7 +301,7 @@ std::vector<Plot> profile_plots(const std::vector<Measured>& all, const std::str
 }
 
 io::LayerFile layers_of(const io::NativeFile& file, const std::vector<Measured>& all,
-                        const MeasureSwitches& switches) {
+                        const MeasureArguments& arguments) {
   io::LayerFile layers;
   layers.crs_wkt = file.crs_wkt;
   io::Layer transects{"transects", io::LayerKind::lines, {"line", "along", "width", "span"}, {}};
@@ -316,7 +316,7 @@ io::LayerFile layers_of(const io::NativeFile& file, const std::vector<Measured>&
                                       {static_cast<double>(k), at.along, at.width(), at.span()}});
       }
     }
-    for (std::size_t k = 0; k < std::min<std::size_t>(switches.necks, all[i].necks.size()); ++k) {
+    for (std::size_t k = 0; k < std::min<std::size_t>(arguments.necks, all[i].necks.size()); ++k) {
       const Neck& neck = all[i].necks[k];
       necks.features.push_back(
           {i,
@@ -328,69 +328,70 @@ io::LayerFile layers_of(const io::NativeFile& file, const std::vector<Measured>&
       disks.features.push_back({i, {{disk.center}}, {disk.radius, static_cast<double>(k)}});
     }
   }
-  if (switches.transects > 0 || switches.spacing > 0) layers.layers.push_back(std::move(transects));
-  if (switches.necks > 0) layers.layers.push_back(std::move(necks));
-  if (switches.disks > 0) layers.layers.push_back(std::move(disks));
+  if (arguments.transects > 0 || arguments.spacing > 0)
+    layers.layers.push_back(std::move(transects));
+  if (arguments.necks > 0) layers.layers.push_back(std::move(necks));
+  if (arguments.disks > 0) layers.layers.push_back(std::move(disks));
   return layers;
 }
 
 Status write_output(io::NativeFile& file, const std::vector<Measured>& all,
-                    const MeasureSwitches& switches) {
-  if (switches.output.empty()) return success();
-  if (switches.format == "csv" || switches.output.ends_with(".csv")) {
+                    const MeasureArguments& arguments) {
+  if (arguments.output.empty()) return success();
+  if (arguments.format == "csv" || arguments.output.ends_with(".csv")) {
     const auto text = profile_csv(all, file.crs_wkt);
     if (!text) return text.error();
-    return switches.output == "-" ? print(*text) : io::write_text(switches.output, *text);
+    return arguments.output == "-" ? print(*text) : io::write_text(arguments.output, *text);
   }
-  const io::LayerFile layers = layers_of(file, all, switches);
+  const io::LayerFile layers = layers_of(file, all, arguments);
   for (std::size_t i = 0; i < all.size(); ++i) {
     std::vector<PathPiece> pieces;
     for (const Line& line : all[i].lines)
       pieces.insert(pieces.end(), line.path.pieces.begin(), line.path.pieces.end());
     file.items[i].axis = part_of(file.items[i].axis, pieces);
   }
-  io::WriteOptions write = switches.write;
-  write.chord = switches.common.chord;
-  return io::write_layers(switches.output, switches.format, layers, file, write);
+  io::WriteOptions write = arguments.write;
+  write.chord = arguments.common.chord;
+  return io::write_layers(arguments.output, arguments.format, layers, file, write);
 }
 
-Result<int> run_measure(MeasureSwitches switches) {
-  const InputSwitches& input = switches.input;
-  const CommonSwitches& common = switches.common;
+Result<int> run_measure(MeasureArguments arguments) {
+  const InputOptions& input = arguments.input;
+  const CommonOptions& common = arguments.common;
   const std::string formats = ".csv " + io::known_layer_formats();
   Status writable =
-      check_output(switches.output, switches.format, formats, input.path, common.json);
+      check_output(arguments.output, arguments.format, formats, input.path, common.json);
   if (writable)
-    writable = check_output(switches.plot, {}, ".svg .png .pdf", input.path, common.json);
+    writable = check_output(arguments.plot, {}, ".svg .png .pdf", input.path, common.json);
   if (!writable) return std::move(writable).error();
   // Layers without any would be empty.
-  if (switches.transects == 0 && switches.spacing == 0 && switches.necks == 0 &&
-      switches.disks == 0 && !switches.output.empty())
-    switches.transects = 50;
+  if (arguments.transects == 0 && arguments.spacing == 0 && arguments.necks == 0 &&
+      arguments.disks == 0 && !arguments.output.empty())
+    arguments.transects = 50;
 
   auto shapes = load_shapes(input, common.threads);
   if (!shapes) return std::move(shapes).error();
   print_notes(*shapes, input, common);
-  auto axes = compute_axes(std::move(shapes).value(), input.path, common, switches.options);
+  auto axes = compute_axes(std::move(shapes).value(), input.path, common, arguments.options);
   if (!axes) return std::move(axes).error();
   const Stopwatch measuring;
   io::NativeFile& file = axes->native;
-  auto paths = choose_paths(file, switches.path, input.path, common.threads);
+  auto paths = choose_paths(file, arguments.path, input.path, common.threads);
   if (!paths) return std::move(paths).error();
   std::vector<Measured> all(file.items.size());
   const std::vector<double> weights(all.size(), 1.0);
   Status measured = for_each_feature(weights, common.threads, [&](std::size_t i, int) -> Status {
-    auto one = measure(file.items[i], (*paths)[i], switches);
+    auto one = measure(file.items[i], (*paths)[i], arguments);
     if (!one) return at_feature(std::move(one).error(), input.path, i);
     all[i] = std::move(one).value();
     return success();
   });
   if (!measured) return std::move(measured).error();
   const double seconds = measuring.seconds();
-  if (Status written = write_output(file, all, switches); !written)
+  if (Status written = write_output(file, all, arguments); !written)
     return std::move(written).error();
-  if (!switches.plot.empty()) {
-    Status plotted = write_plots(switches.plot, profile_plots(all, input.path));
+  if (!arguments.plot.empty()) {
+    Status plotted = write_plots(arguments.plot, profile_plots(all, input.path));
     if (!plotted) return std::move(plotted).error();
   }
 
@@ -403,15 +404,15 @@ Result<int> run_measure(MeasureSwitches switches) {
   if (common.json) {
     Json object = {{"input", input.path}, {"features", Json::array()}};
     for (std::size_t i = 0; i < all.size(); ++i) {
-      Json one = json_of(all[i], switches.necks > 0 ? switches.necks : necks_told);
+      Json one = json_of(all[i], arguments.necks > 0 ? arguments.necks : necks_told);
       one["attributes"] = Json::object();
       for (const auto& [name, value] : file.items[i].attributes) one["attributes"][name] = value;
       object["features"].push_back(std::move(one));
     }
     if (common.stats) object.update(costs);
     printed = print(object);
-  } else if (!common.quiet && switches.output != "-") {
-    printed = print(all.size() == 1 ? summary_of(all[0], switches) : summary_of(all));
+  } else if (!common.quiet && arguments.output != "-") {
+    printed = print(all.size() == 1 ? summary_of(all[0], arguments) : summary_of(all));
   }
   if (!printed) return std::move(printed).error();
   if (common.stats && !common.json) say_text(table(costs));
@@ -420,57 +421,64 @@ Result<int> run_measure(MeasureSwitches switches) {
 
 }  // namespace
 
-Verb make_measure_verb(CLI::App& program) {
-  auto switches = std::make_shared<MeasureSwitches>();
-  CLI::App* verb = program.add_subcommand(
+Command make_measure_command(CLI::App& program) {
+  auto arguments = std::make_shared<MeasureArguments>();
+  CLI::App* command = program.add_subcommand(
       "measure", "Measure how wide shapes are: profiles, transects, necks, largest disks.");
-  add_input_switches(*verb, switches->input);
-  verb->add_option("-o,--output", switches->output,
+  add_input_options(*command, arguments->input);
+  command
+      ->add_option("-o,--output", arguments->output,
                    "Where to write: the width profile as .csv, or transects, necks and disks as\n"
                    "layers or as a picture:\n" +
                        io::known_layer_formats() + "\n- is standard output, see --format.")
       ->check(a_name())
       ->option_text("OUTPUT");
-  verb->add_option("--format", switches->format, "The format of -o -, for example csv.")
+  command->add_option("--format", arguments->format, "The format of -o -, for example csv.")
       ->option_text("NAME");
-  verb->add_option("--plot", switches->plot, "Draw the width profiles: .svg .png .pdf.")
+  command->add_option("--plot", arguments->plot, "Draw the width profiles: .svg .png .pdf.")
       ->check(a_name())
       ->option_text("FILE");
-  verb->add_option("--samples", switches->samples,
+  command
+      ->add_option("--samples", arguments->samples,
                    "Steps of a width profile (default: 200), from end to end of the line.")
       ->check(in_range(1, most_transects, true))
       ->option_text("N");
-  CLI::Option* transects = verb->add_option("--transects", switches->transects,
+  CLI::Option* transects = command
+                               ->add_option("--transects", arguments->transects,
                                             "So many transects along each line, from foot to foot.")
                                ->check(in_range(1, most_transects, true))
                                ->option_text("N");
-  verb->add_option("--spacing", switches->spacing,
+  command
+      ->add_option("--spacing", arguments->spacing,
                    "Transects at this distance from each other, in units of the input.")
       ->check(a_positive_number())
       ->excludes(transects)
       ->option_text("D");
-  verb->add_option("--necks", switches->necks,
+  command
+      ->add_option("--necks", arguments->necks,
                    "So many necks, those first that open most on both sides.")
       ->check(in_range(1, most_transects, true))
       ->option_text("K");
-  verb->add_option("--widening", switches->widening,
+  command
+      ->add_option("--widening", arguments->widening,
                    "A neck opens on both sides to so many times its width (default: 1.1).")
       ->check(in_range(1 + 1e-9, 1e9))
       ->option_text("FACTOR");
-  verb->add_option("--disks", switches->disks,
+  command
+      ->add_option("--disks", arguments->disks,
                    "So many disks, the largest inside the shape that do not overlap, one after\n"
                    "another: they are measured, not only drawn.")
       ->check(in_range(1, most_disks_told, true))
       ->option_text("K");
-  add_path_switches(*verb, switches->path);
-  add_exterior_switches(
-      *verb, switches->options,
+  add_path_options(*command, arguments->path);
+  add_exterior_options(
+      *command, arguments->options,
       "The widths of what lies around the shape and in its holes, within a frame:\n"
       "of bays, gaps and holes. The area is that of the axis's disks.")
       ->excludes("--disks");
-  add_width_switch(*verb, switches->write.width);
-  add_common_switches(*verb, switches->common);
-  verb->footer(
+  add_width_option(*command, arguments->write.width);
+  add_common_options(*command, arguments->common);
+  command->footer(
       "Widths are diameters of maximal disks along the centre line (medial centreline).\n"
       "`mean width by length` is their mean along the line, `by area` the mean over all\n"
       "points of the shape of the width where they belong. A neck is narrower than what\n"
@@ -481,7 +489,7 @@ Verb make_measure_verb(CLI::App& program) {
       "  medial measure roads.gpkg --spacing 25 -o transects.shp\n"
       "  medial measure plan.wkt --necks 10 --disks 5 -o plan.svg\n"
       "  medial measure parcels.geojson --json | jq '.features[].mean_width.by_area'");
-  return {verb, [switches] { return run_measure(*switches); }};
+  return {command, [arguments] { return run_measure(*arguments); }};
 }
 
 }  // namespace medial::cli

@@ -25,9 +25,9 @@ struct Answer {
 };
 
 /// All points of the file of queries, vertices of lines as well.
-Status add_places(const NearestSwitches& asked, const InputSwitches& input, int threads,
+Status add_places(const NearestArguments& asked, const InputOptions& input, int threads,
                   std::vector<Answer>& answers) {
-  InputSwitches from;
+  InputOptions from;
   from.path = asked.queries;
   from.arcs = input.arcs;
   auto file = load_chains(from, threads);
@@ -72,10 +72,10 @@ Json json_of(const std::vector<Answer>& answers, const LooseFile& file) {
 
 }  // namespace
 
-void add_nearest_switches(CLI::App& verb, NearestSwitches& nearest) {
+void add_nearest_options(CLI::App& command, NearestArguments& nearest) {
   constexpr char group[] = "The nearest site, instead of the diagram";
-  add_list_switch(
-      verb, "--nearest", 2,
+  add_list_option(
+      command, "--nearest", 2,
       [&nearest](const std::vector<double>& xy) {
         nearest.places.push_back({xy[0], xy[1]});
       },
@@ -84,15 +84,16 @@ void add_nearest_switches(CLI::App& verb, NearestSwitches& nearest) {
       ->trigger_on_parse()
       ->option_text("X,Y")
       ->group(group);
-  verb.add_option("--queries", nearest.queries,
+  command
+      .add_option("--queries", nearest.queries,
                   "The same for all points of this file, in the coordinates of INPUT.")
       ->check(a_name())
       ->option_text("FILE")
       ->group(group);
 }
 
-Result<int> run_nearest(const InputSwitches& input, const CommonSwitches& common,
-                        const NearestSwitches& asked, const std::string& output,
+Result<int> run_nearest(const InputOptions& input, const CommonOptions& common,
+                        const NearestArguments& asked, const std::string& output,
                         const std::string& format) {
   if (input.read.project)
     return invalid_option("--project makes coordinates that no place can be told in beforehand");
@@ -112,11 +113,11 @@ Result<int> run_nearest(const InputSwitches& input, const CommonSwitches& common
   }
   const double seconds_read = reading.seconds();
   const Stopwatch shaping;
-  const auto soup = soup_of(*file, input);
-  if (!soup) return soup.error();
+  const auto planar_graph = planar_graph_of(*file, input);
+  if (!planar_graph) return planar_graph.error();
   const double seconds_shape = shaping.seconds();
   const Stopwatch searching;
-  const std::vector<Site> sites = sites_of(*soup);
+  const std::vector<Site> sites = sites_of(*planar_graph);
   const SiteLocator locator(sites);
   for (Answer& answer : answers) {
     answer.nearest = locator.nearest(answer.place);

@@ -10,19 +10,19 @@
 namespace medial::cli {
 
 /// What is asked for.
-struct NearestSwitches {
+struct NearestArguments {
   std::vector<Vec2> places;
   std::string queries;  ///< a file of more places; empty for none
   bool any() const { return !places.empty() || !queries.empty(); }
 };
 
 /// --nearest and --queries.
-void add_nearest_switches(CLI::App& verb, NearestSwitches& nearest);
+void add_nearest_options(CLI::App& command, NearestArguments& nearest);
 
-/// Answers for all places, the switch's before the file's: as .csv or .json to `output`, or to
+/// Answers for all places, the option's before the file's: as .csv or .json to `output`, or to
 /// standard output. No diagram is computed. Gives the exit status.
-Result<int> run_nearest(const InputSwitches& input, const CommonSwitches& common,
-                        const NearestSwitches& asked, const std::string& output,
+Result<int> run_nearest(const InputOptions& input, const CommonOptions& common,
+                        const NearestArguments& asked, const std::string& output,
                         const std::string& format);
 
 }  // namespace medial::cli

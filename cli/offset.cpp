@@ -9,21 +9,21 @@
 #include <limits>
 #include <memory>
 
+#include "cli/commands.h"
 #include "cli/common.h"
 #include "cli/costs.h"
 #include "cli/loose.h"
 #include "cli/pipeline.h"
 #include "cli/terminal.h"
-#include "cli/verbs.h"
 #include "medial/io/offsets.h"
 #include "medial/voronoi.h"
 
 namespace medial::cli {
 namespace {
 
-struct OffsetSwitches {
-  InputSwitches input;
-  CommonSwitches common;
+struct OffsetArguments {
+  InputOptions input;
+  CommonOptions common;
   std::string output;
   std::string format;
   io::WriteOptions write;
@@ -38,28 +38,28 @@ struct OffsetSwitches {
 };
 
 /// The passes step, 2 step, ... of one shape: as clearances, inside until nothing is left.
-Result<Offsets> offset_one(const Shape& shape, const OffsetSwitches& switches,
+Result<Offsets> offset_one(const Shape& shape, const OffsetArguments& arguments,
                            const Options& options) {
   std::vector<double> clearances;
-  for (const double d : switches.distances) clearances.push_back(switches.exterior ? -d : d);
-  if (switches.step == 0) return offset_curves(shape, clearances, options);
-  const double first = switches.first > 0 ? switches.first : switches.step;
-  if (!std::isfinite(switches.last)) {
+  for (const double d : arguments.distances) clearances.push_back(arguments.exterior ? -d : d);
+  if (arguments.step == 0) return offset_curves(shape, clearances, options);
+  const double first = arguments.first > 0 ? arguments.first : arguments.step;
+  if (!std::isfinite(arguments.last)) {
     auto axis = compute(shape, options);
     if (!axis) return std::move(axis).error();
-    auto passes = offset_passes(*axis, first, switches.step);
+    auto passes = offset_passes(*axis, first, arguments.step);
     if (!passes) return std::move(passes).error();
     return inward_offsets(*axis, *passes);
   }
   constexpr double most = 1e6;
-  if ((switches.last - first) / switches.step > most)
+  if ((arguments.last - first) / arguments.step > most)
     return Error{ErrorCode::too_large, "more than 1e6 passes: the step is too small", {}};
-  for (int k = 0; first + k * switches.step <= switches.last; ++k)
-    clearances.push_back((switches.exterior ? -1 : 1) * (first + k * switches.step));
+  for (int k = 0; first + k * arguments.step <= arguments.last; ++k)
+    clearances.push_back((arguments.exterior ? -1 : 1) * (first + k * arguments.step));
   return offset_curves(shape, clearances, options);
 }
 
-Status tell(const io::OffsetFile& file, const OffsetSwitches& switches, double seconds) {
+Status tell(const io::OffsetFile& file, const OffsetArguments& arguments, double seconds) {
   std::uint64_t regions = 0, rings = 0, edges = 0;
   double seconds_axis = 0, seconds_curves = 0, total = 0;
   for (const io::OffsetItem& item : file.items) {
@@ -72,7 +72,7 @@ Status tell(const io::OffsetFile& file, const OffsetSwitches& switches, double s
       for (const Ring& ring : region.rings) edges += ring.points.size();
     }
   }
-  const Json object{{"input", switches.input.path},
+  const Json object{{"input", arguments.input.path},
                     {"features", file.items.size()},
                     {"regions", regions},
                     {"rings", rings},
@@ -82,10 +82,10 @@ Status tell(const io::OffsetFile& file, const OffsetSwitches& switches, double s
       {"seconds", {{"axis", seconds_axis}, {"curves", seconds_curves}, {"all", seconds}}},
       {"peak_bytes", peak_bytes()}};
   const std::string line =
-      fmt::format("{}: {}, {}, {} of {}, length {:.6g}; {:.3g} s\n", switches.input.path,
+      fmt::format("{}: {}, {}, {} of {}, length {:.6g}; {:.3g} s\n", arguments.input.path,
                   counted(file.items.size(), "feature"), counted(regions, "region"),
                   counted(rings, "ring"), counted(edges, "edge"), total, seconds);
-  return tell(switches.common, switches.output, object, costs, line);
+  return tell(arguments.common, arguments.output, object, costs, line);
 }
 
 /// Keeps of a region's attributes those that more features of it have as well.
@@ -101,15 +101,15 @@ void keep_common(io::BufferSource& of, const io::BufferSource& more) {
 
 /// The features in each region of buffers. A chain lies in one region as a whole: where its first
 /// point does, or what that point touches and has become part of. O(n log n) expected.
-std::vector<io::BufferSource> sources_of(const LooseFile& file, const Soup& soup,
+std::vector<io::BufferSource> sources_of(const LooseFile& file, const PlanarGraph& planar_graph,
                                          const Offsets& offsets) {
-  const SiteLocator locator(sites_of(soup));
+  const SiteLocator locator(sites_of(planar_graph));
   std::vector<io::BufferSource> sources(offsets.regions.size());
   for (std::size_t i = 0; i < file.chains.size(); ++i) {
     if (file.chains[i].points.empty()) continue;
     const std::size_t site = locator.nearest(file.chains[i].points.front()).site;
-    const std::size_t count = soup.points.size();
-    const std::size_t point = site < count ? site : soup.edges[site - count].from;
+    const std::size_t count = planar_graph.points.size();
+    const std::size_t point = site < count ? site : planar_graph.edges[site - count].from;
     const std::uint32_t region = offsets.region_of_point[point], feature = file.feature[i];
     if (region != no_region) keep_common(sources[region], {{feature}, file.attributes[feature]});
   }
@@ -125,30 +125,31 @@ std::vector<io::BufferSource> sources_of(const LooseFile& file, const Soup& soup
 }
 
 /// Buffers of all points and lines of the file together.
-Result<io::OffsetFile> buffer_all(const OffsetSwitches& switches) {
-  const auto& input = switches.input;
-  auto loose = load_chains(input, switches.common.threads);
+Result<io::OffsetFile> buffer_all(const OffsetArguments& arguments) {
+  const auto& input = arguments.input;
+  auto loose = load_chains(input, arguments.common.threads);
   if (!loose) return std::move(loose).error();
-  print_notes(*loose, input, switches.common);
-  Soup soup;
-  auto offsets = with_soup(*loose, input, switches.common, soup, [&] {
+  print_notes(*loose, input, arguments.common);
+  PlanarGraph planar_graph;
+  auto offsets = with_planar_graph(*loose, input, arguments.common, planar_graph, [&] {
     return offset_curves(
-        soup, switches.distances,
-        {.tolerance = switches.common.tolerance, .threads = switches.common.threads});
+        planar_graph, arguments.distances,
+        {.tolerance = arguments.common.tolerance, .threads = arguments.common.threads});
   });
   if (!offsets) return std::move(offsets).error();
   io::OffsetFile file;
   file.crs_wkt = loose->crs_wkt;
   file.y_down = loose->y_down;
-  auto sources = sources_of(*loose, soup, *offsets);
-  file.items.push_back({{}, std::move(offsets).value(), {}, std::move(soup), std::move(sources)});
+  auto sources = sources_of(*loose, planar_graph, *offsets);
+  file.items.push_back(
+      {{}, std::move(offsets).value(), {}, std::move(planar_graph), std::move(sources)});
   return file;
 }
 
 /// The offset curves of each shape of the file.
-Result<io::OffsetFile> offset_each(const OffsetSwitches& switches) {
-  const auto& input = switches.input;
-  const auto& common = switches.common;
+Result<io::OffsetFile> offset_each(const OffsetArguments& arguments) {
+  const auto& input = arguments.input;
+  const auto& common = arguments.common;
   auto shapes = load_shapes(input, common.threads);
   if (!shapes) return std::move(shapes).error();
   print_notes(*shapes, input, common);
@@ -158,7 +159,7 @@ Result<io::OffsetFile> offset_each(const OffsetSwitches& switches) {
   file.items.resize(shapes->shapes.size());
   Status computed = for_each_shape(
       shapes->shapes, input.path, common, [&](std::size_t i, const Options& options) -> Status {
-        auto offsets = offset_one(shapes->shapes[i], switches, options);
+        auto offsets = offset_one(shapes->shapes[i], arguments, options);
         if (!offsets) return std::move(offsets).error();
         file.items[i] = {std::move(shapes->shapes[i]), std::move(offsets).value(),
                          std::move(shapes->attributes[i])};
@@ -168,75 +169,77 @@ Result<io::OffsetFile> offset_each(const OffsetSwitches& switches) {
   return file;
 }
 
-Result<int> run_offset(const OffsetSwitches& switches) {
-  const auto& input = switches.input;
-  const auto& common = switches.common;
-  if (switches.distances.empty() == (switches.step == 0))
+Result<int> run_offset(const OffsetArguments& arguments) {
+  const auto& input = arguments.input;
+  const auto& common = arguments.common;
+  if (arguments.distances.empty() == (arguments.step == 0))
     return invalid_option("give --distance or --step, one of the two");
-  if (switches.exterior && switches.step > 0 && !std::isfinite(switches.last))
+  if (arguments.exterior && arguments.step > 0 && !std::isfinite(arguments.last))
     return invalid_option("outwards nothing gets empty: give a distance to --until");
-  if (switches.loose && (switches.step > 0 || switches.exterior))
+  if (arguments.loose && (arguments.step > 0 || arguments.exterior))
     return invalid_option("--loose goes with --distance only");
-  Status writable = check_output(switches.output, switches.format, io::known_offset_formats(),
+  Status writable = check_output(arguments.output, arguments.format, io::known_offset_formats(),
                                  input.path, common.json);
   if (!writable) return std::move(writable).error();
   const Stopwatch watch;
-  auto computed = switches.loose ? buffer_all(switches) : offset_each(switches);
+  auto computed = arguments.loose ? buffer_all(arguments) : offset_each(arguments);
   if (!computed) return std::move(computed).error();
   const io::OffsetFile file = std::move(computed).value();
   const double seconds = watch.seconds();
-  if (!switches.output.empty()) {
-    io::WriteOptions write = switches.write;
+  if (!arguments.output.empty()) {
+    io::WriteOptions write = arguments.write;
     write.chord = common.chord;
-    const Activity shown("writing", switches.output);
+    const Activity shown("writing", arguments.output);
     Status written =
-        io::write_offsets(switches.output, switches.format, file, write, switches.chords);
+        io::write_offsets(arguments.output, arguments.format, file, write, arguments.chords);
     if (!written) return std::move(written).error();
   }
-  Status told = tell(file, switches, seconds);
+  Status told = tell(file, arguments, seconds);
   if (!told) return std::move(told).error();
   return exit_success;
 }
 
 }  // namespace
 
-Verb make_offset_verb(CLI::App& program) {
-  auto switches = std::make_shared<OffsetSwitches>();
-  CLI::App* verb = program.add_subcommand(
+Command make_offset_command(CLI::App& program) {
+  auto arguments = std::make_shared<OffsetArguments>();
+  CLI::App* command = program.add_subcommand(
       "offset", "Compute offset curves, inwards and outwards, with true arcs.");
-  add_input_switches(*verb, switches->input);
-  add_list_switch(
-      *verb, "--distance", 0,
-      [switches](const std::vector<double>& distances) { switches->distances = distances; },
+  add_input_options(*command, arguments->input);
+  add_list_option(
+      *command, "--distance", 0,
+      [arguments](const std::vector<double>& distances) { arguments->distances = distances; },
       "Distances from the boundary, in units of the input: inside of the shape\n"
       "where they are positive, outside where they are negative.")
       ->option_text("D[,D...]");
-  verb->add_option("--step", switches->step,
+  command
+      ->add_option("--step", arguments->step,
                    "Instead: nested passes, one every S units of the input, from --first on.")
       ->check(a_positive_number())
       ->option_text("S");
-  verb->add_option("--first", switches->first, "The first pass (default: S).")
+  command->add_option("--first", arguments->first, "The first pass (default: S).")
       ->check(a_positive_number())
       ->option_text("D");
-  verb->add_option("--until", switches->until,
+  command
+      ->add_option("--until", arguments->until,
                    "The last pass: empty (default), when nothing is left inside; or a distance.")
-      ->each([switches](const std::string& text) {
+      ->each([arguments](const std::string& text) {
         if (text == "empty") return;
-        if (!CLI::detail::lexical_cast(text, switches->last) || !(switches->last > 0))
+        if (!CLI::detail::lexical_cast(text, arguments->last) || !(arguments->last > 0))
           throw CLI::ValidationError("--until", text + " is neither empty nor a distance");
       })
       ->option_text("D");
-  verb->add_flag("--exterior", switches->exterior,
-                 "Positive distances are outside, around the shape and in its holes.");
-  verb->add_flag("--loose", switches->loose,
-                 "Buffers: all places within each distance of the file's points, lines and\n"
-                 "boundaries, taken together; --repair splits them where they cross.");
-  add_output_switches(*verb, switches->output, switches->format, io::known_offset_formats());
-  verb->add_flag("--chords", switches->chords,
-                 "Well-known text: polygons of chords (see --chord) instead of exact arcs.");
-  add_width_switch(*verb, switches->write.width);
-  add_common_switches(*verb, switches->common);
-  verb->footer(
+  command->add_flag("--exterior", arguments->exterior,
+                    "Positive distances are outside, around the shape and in its holes.");
+  command->add_flag("--loose", arguments->loose,
+                    "Buffers: all places within each distance of the file's points, lines and\n"
+                    "boundaries, taken together; --repair splits them where they cross.");
+  add_output_options(*command, arguments->output, arguments->format, io::known_offset_formats());
+  command->add_flag("--chords", arguments->chords,
+                    "Well-known text: polygons of chords (see --chord) instead of exact arcs.");
+  add_width_option(*command, arguments->write.width);
+  add_common_options(*command, arguments->common);
+  command->footer(
       "A region is a connected part of all points farther than D from the boundary\n"
       "(inside), or of the shape grown by D (outside): an outer ring, then its holes. Rings\n"
       "are lines and arcs; all distances are found in one walk along the axis. Regions of\n"
@@ -251,7 +254,7 @@ Verb make_offset_verb(CLI::App& program) {
       "  medial offset plate.dxf --step 2 --first 1 --until empty -o passes.dxf\n"
       "  medial offset plan.wkt --distance 1 -o - --format wkt\n"
       "  medial offset roads.geojson --loose --distance 5,10 -o buffers.geojson");
-  return {verb, [switches] { return run_offset(*switches); }};
+  return {command, [arguments] { return run_offset(*arguments); }};
 }
 
 }  // namespace medial::cli

@@ -7,20 +7,20 @@
 #include <array>
 #include <memory>
 
+#include "cli/commands.h"
 #include "cli/common.h"
 #include "cli/pipeline.h"
 #include "cli/stored_axes.h"
 #include "cli/terminal.h"
-#include "cli/verbs.h"
 
 namespace medial::cli {
 namespace {
 
 constexpr char pack_formats[] = ".mpk";
 
-struct PackSwitches {
-  InputSwitches input;
-  CommonSwitches common;
+struct PackArguments {
+  InputOptions input;
+  CommonOptions common;
   std::string output;
   double error = 1e-3;
   bool units = false;
@@ -41,12 +41,12 @@ double extent_of(const io::NativeFile& file) {
 constexpr std::array<std::pair<double, double>, 3> settings{{{0.3, 0.9}, {0.2, 0.9}, {0.4, 0.85}}};
 constexpr std::size_t large_pack = 32768;  // bytes
 
-Status tell(const PackSwitches& switches, Json object, const std::string& line) {
-  if (switches.common.json) return print(object);
-  if (switches.output != "-") {
-    if (switches.common.quiet) return success();
+Status tell(const PackArguments& arguments, Json object, const std::string& line) {
+  if (arguments.common.json) return print(object);
+  if (arguments.output != "-") {
+    if (arguments.common.quiet) return success();
     std::string text = line + "\n";
-    if (switches.compare)
+    if (arguments.compare)
       for (const auto& [name, value] : object["compare"].items())
         text += fmt::format("  {:<28}{:>10}\n", name, value.dump());
     return print(text);
@@ -71,39 +71,39 @@ Json compare_boundary(const io::NativeFile& file, double error) {
   return object;
 }
 
-Result<int> pack_squares(const PackSwitches& switches) {
-  auto image = io::read_image(switches.input.path, switches.input.read.image);
+Result<int> pack_squares(const PackArguments& arguments) {
+  auto image = io::read_image(arguments.input.path, arguments.input.read.image);
   if (!image) return std::move(image).error();
   io::PackFile file;
   file.kind = io::PackKind::squares;
   file.y_down = true;
   SquareReport report;
-  const double error = switches.units ? switches.error : 0;
+  const double error = arguments.units ? arguments.error : 0;
   if (!(error >= 0 && error <= 65535)) return invalid_option("--error is no number of pixels");
   file.code = encode_squares(image->image, static_cast<std::uint32_t>(error), &report);
   auto bytes = io::pack_bytes(file);
   if (!bytes) return std::move(bytes).error();
-  if (Status written = io::write_pack(switches.output, *bytes); !written)
+  if (Status written = io::write_pack(arguments.output, *bytes); !written)
     return std::move(written).error();
-  Json object = {{"input", switches.input.path},     {"output", switches.output},
+  Json object = {{"input", arguments.input.path},    {"output", arguments.output},
                  {"bytes", bytes->size()},           {"squares", report.squares},
                  {"missing_pixels", report.missing}, {"pixels", image->image.count()}};
-  if (switches.compare) object["compare"] = Json::object();
+  if (arguments.compare) object["compare"] = Json::object();
   Status told =
-      tell(switches, object,
-           fmt::format("{}: {} bytes, {}, {} missing", switches.input.path, bytes->size(),
+      tell(arguments, object,
+           fmt::format("{}: {} bytes, {}, {} missing", arguments.input.path, bytes->size(),
                        counted(report.squares, "square"), counted(report.missing, "pixel")));
   if (!told) return std::move(told).error();
   return exit_success;
 }
 
-Result<int> run_pack(const PackSwitches& switches) {
-  const auto& [input, common, output, error, units, squares, compare] = switches;
+Result<int> run_pack(const PackArguments& arguments) {
+  const auto& [input, common, output, error, units, squares, compare] = arguments;
   if (output.empty()) return invalid_option("-o needs the name of a pack");
   Status writable =
       check_output(output, output == "-" ? "mpk" : "", pack_formats, input.path, common.json);
   if (!writable) return std::move(writable).error();
-  if (squares) return pack_squares(switches);
+  if (squares) return pack_squares(arguments);
   auto axes = load_axes(input, common);
   if (!axes) return std::move(axes).error();
   const Stopwatch watch;
@@ -137,23 +137,23 @@ Result<int> run_pack(const PackSwitches& switches) {
                  {"quantum", report.quantum}, {"features", all.size()}};
   if (compare) object["compare"] = compare_boundary(axes->native, bound);
   if (common.stats) object.update({{"seconds", seconds}, {"peak_bytes", peak_bytes()}});
-  Status told = tell(switches, object,
+  Status told = tell(arguments, object,
                      fmt::format("{}: {} bytes, {} within {:.6g}", input.path, bytes.size(),
                                  counted(report.disks, "disk"), bound));
   if (!told) return std::move(told).error();
   return exit_success;
 }
 
-struct UnpackSwitches {
-  InputSwitches input;
-  CommonSwitches common;
+struct UnpackArguments {
+  InputOptions input;
+  CommonOptions common;
   std::string output;
   std::string format;
   io::WriteOptions write;
 };
 
-Result<int> run_unpack(const UnpackSwitches& switches) {
-  const auto& [input, common, output, format, write] = switches;
+Result<int> run_unpack(const UnpackArguments& arguments) {
+  const auto& [input, common, output, format, write] = arguments;
   const Stopwatch reading;
   auto pack = io::read_pack(input.path);
   if (!pack) return std::move(pack).error();
@@ -200,30 +200,33 @@ Result<int> run_unpack(const UnpackSwitches& switches) {
 
 }  // namespace
 
-Verb make_pack_verb(CLI::App& program) {
-  auto switches = std::make_shared<PackSwitches>();
-  CLI::App* verb = program.add_subcommand("pack", "Write axes as a compact code of their shapes.");
-  add_input_switches(*verb, switches->input);
-  verb->add_option("-o,--output", switches->output, "The pack: .mpk; - is standard output.")
+Command make_pack_command(CLI::App& program) {
+  auto arguments = std::make_shared<PackArguments>();
+  CLI::App* command =
+      program.add_subcommand("pack", "Write axes as a compact code of their shapes.");
+  add_input_options(*command, arguments->input);
+  command->add_option("-o,--output", arguments->output, "The pack: .mpk; - is standard output.")
       ->required()
       ->check(a_name())
       ->option_text("PACK REQUIRED");
   CLI::Option* error =
-      verb->add_option("--error", switches->error,
+      command
+          ->add_option("--error", arguments->error,
                        "How far the shape may change, as a share of the diagonal (default: 0.001).")
           ->check(in_range(0, 1e300))
           ->option_text("E");
-  verb->add_flag("--units", switches->units,
+  command
+      ->add_flag("--units", arguments->units,
                  "--error is in units of the input; of --squares, in pixels.")
       ->needs(error);
-  verb->add_flag("--squares", switches->squares,
-                 "Of an image: maximal squares of pixels instead; without loss, or with\n"
-                 "--error N --units at most N pixels away.");
-  verb->add_flag("--compare", switches->compare,
-                 "Tell what the boundary takes: within the same error, coded alike; and as\n"
-                 "text, through zstd.");
-  add_common_switches(*verb, switches->common);
-  verb->footer(
+  command->add_flag("--squares", arguments->squares,
+                    "Of an image: maximal squares of pixels instead; without loss, or with\n"
+                    "--error N --units at most N pixels away.");
+  command->add_flag("--compare", arguments->compare,
+                    "Tell what the boundary takes: within the same error, coded alike; and as\n"
+                    "text, through zstd.");
+  add_common_options(*command, arguments->common);
+  command->footer(
       "A pack holds disks along the branches that matter, in whole numbers, compressed\n"
       "by zstd. Unpacked, their union lies within the error of the shape, and the shape\n"
       "within the error of it.\n"
@@ -232,31 +235,33 @@ Verb make_pack_verb(CLI::App& program) {
       "  medial pack leaf.svg -o leaf.mpk --error 0.002 --compare\n"
       "  medial axis plan.wkt -o - --format json | medial pack - -o plan.mpk\n"
       "  medial pack scan.png -o scan.mpk --squares");
-  return {verb, [switches] { return run_pack(*switches); }};
+  return {command, [arguments] { return run_pack(*arguments); }};
 }
 
-Verb make_unpack_verb(CLI::App& program) {
-  auto switches = std::make_shared<UnpackSwitches>();
-  CLI::App* verb = program.add_subcommand("unpack", "Read packs back: axes and shapes, or images.");
-  verb->add_option("PACK", switches->input.path, "A pack; - is standard input.")
+Command make_unpack_command(CLI::App& program) {
+  auto arguments = std::make_shared<UnpackArguments>();
+  CLI::App* command =
+      program.add_subcommand("unpack", "Read packs back: axes and shapes, or images.");
+  command->add_option("PACK", arguments->input.path, "A pack; - is standard input.")
       ->required()
       ->option_text("REQUIRED");
-  verb->add_option("-o,--output", switches->output,
+  command
+      ->add_option("-o,--output", arguments->output,
                    fmt::format("Where to write the axis and its shape: {};\n"
                                "of a pack of squares the image: {}.",
                                io::known_output_formats(), image_formats))
       ->check(a_name())
       ->option_text("OUTPUT");
-  verb->add_option("--format", switches->format, "The format of -o - (default: json).")
+  command->add_option("--format", arguments->format, "The format of -o - (default: json).")
       ->option_text("NAME");
-  add_picture_switches(*verb, switches->write);
-  add_common_switches(*verb, switches->common);
-  verb->footer(
+  add_picture_options(*command, arguments->write);
+  add_common_options(*command, arguments->common);
+  command->footer(
       "Examples:\n"
       "  medial unpack leaf.mpk -o leaf.svg\n"
       "  medial unpack plan.mpk -o - --format json | medial info -\n"
       "  medial unpack scan.mpk -o scan.png");
-  return {verb, [switches] { return run_unpack(*switches); }};
+  return {command, [arguments] { return run_unpack(*arguments); }};
 }
 
 }  // namespace medial::cli

@@ -117,7 +117,7 @@ struct InputFile {
   std::vector<Shape> originals;  ///< one without points where the file holds contours
 };
 
-Result<InputFile> read_input(const InputSwitches& input) {
+Result<InputFile> read_input(const InputOptions& input) {
   InputFile source;
   if (!input.text.empty()) {
     if (!input.read.layer.empty() || !input.read.where.empty() || input.read.project ||
@@ -229,7 +229,7 @@ std::vector<Contour> contours_of(const io::Feature& feature) {
 
 /// The shape of a feature, whose boundaries are given back as soon as they are not needed any more:
 /// curves become arcs, and what crosses is mended if that is asked for.
-Result<Shape> shape_of(io::Feature& feature, const InputSwitches& input, ShapeReport& report,
+Result<Shape> shape_of(io::Feature& feature, const InputOptions& input, ShapeReport& report,
                        ArcReport& arc_report) {
   const bool curved =
       !feature.contours.empty() ||
@@ -252,7 +252,7 @@ Result<Shape> shape_of(io::Feature& feature, const InputSwitches& input, ShapeRe
 
 }  // namespace
 
-Result<ShapeFile> load_shapes(const InputSwitches& input, int threads, bool keep_contours) {
+Result<ShapeFile> load_shapes(const InputOptions& input, int threads, bool keep_contours) {
   ShapeFile file;
   const Stopwatch reading;
   double processor = processor_seconds();
@@ -316,7 +316,7 @@ Result<ShapeFile> load_shapes(const InputSwitches& input, int threads, bool keep
   return file;
 }
 
-void print_notes(const ShapeFile& file, const InputSwitches& input, const CommonSwitches& common) {
+void print_notes(const ShapeFile& file, const InputOptions& input, const CommonOptions& common) {
   if (common.quiet) return;
   for (const std::string& note : file.notes) {
     say("medial: {}: note: {}\n", input.path, note);
@@ -345,7 +345,7 @@ std::uint64_t unresolved_in(const Shape& shape, const MedialAxis& axis) {
 }  // namespace
 
 Result<AxisFile> compute_axes(ShapeFile shapes, const std::string& path,
-                              const CommonSwitches& common, Options options, const Engine& engine) {
+                              const CommonOptions& common, Options options, const Engine& engine) {
   const Stopwatch watch;
   const double processor = processor_seconds();
   AxisFile file;
@@ -400,9 +400,10 @@ Result<AxisFile> compute_axes(ShapeFile shapes, const std::string& path,
   return file;
 }
 
-CLI::Option* add_exterior_switches(CLI::App& verb, Options& options, const std::string& help) {
-  CLI::Option* exterior = verb.add_flag("--exterior", options.exterior, help);
-  verb.add_option("--margin", options.margin,
+CLI::Option* add_exterior_options(CLI::App& command, Options& options, const std::string& help) {
+  CLI::Option* exterior = command.add_flag("--exterior", options.exterior, help);
+  command
+      .add_option("--margin", options.margin,
                   "How far that frame is away from the shape's bounding box, in units of the\n"
                   "input (default: half of the box's longer side).")
       ->check(a_positive_number())
@@ -411,7 +412,7 @@ CLI::Option* add_exterior_switches(CLI::App& verb, Options& options, const std::
   return exterior;
 }
 
-Options engine_options(const CommonSwitches& common, int threads) {
+Options engine_options(const CommonOptions& common, int threads) {
   Options options;
   options.tolerance = common.tolerance;
   options.corner_angle = common.corner_angle;
@@ -420,7 +421,7 @@ Options engine_options(const CommonSwitches& common, int threads) {
 }
 
 Status for_each_shape(std::span<const Shape> shapes, const std::string& path,
-                      const CommonSwitches& common,
+                      const CommonOptions& common,
                       const std::function<Status(std::size_t i, const Options& options)>& work) {
   return for_each_feature(weights_of(shapes), common.threads,
                           [&](std::size_t i, int threads) -> Status {
@@ -490,8 +491,8 @@ Json to_json(const AxisSummary& summary) {
             {"feature", summary.deepest_feature}}}};
 }
 
-Result<int> write_and_tell(const AxisFile& file, const InputSwitches& input,
-                           const CommonSwitches& common, const std::string& output,
+Result<int> write_and_tell(const AxisFile& file, const InputOptions& input,
+                           const CommonOptions& common, const std::string& output,
                            const std::string& format, const io::WriteOptions& pictures) {
   const Stopwatch writing;
   if (!output.empty()) {
@@ -530,7 +531,7 @@ Result<int> write_and_tell(const AxisFile& file, const InputSwitches& input,
   return exit_success;
 }
 
-Status smooth_boundaries(ShapeFile& file, double distance, const InputSwitches& input) {
+Status smooth_boundaries(ShapeFile& file, double distance, const InputOptions& input) {
   for (std::size_t i = 0; i < file.contours.size(); ++i) {
     const auto fit = [&]() -> Result<Shape> {
       for (Contour& contour : file.contours[i]) {

@@ -72,7 +72,7 @@ struct AxisSummary {
 /// Whether a native file holds contours, whose axes are still to be computed.
 bool holds_contours(const io::NativeFile& file);
 
-/// Threads that a run with this switch uses: the machine's for 0.
+/// Threads that a run with this option uses: the machine's for 0.
 int effective_threads(int threads);
 
 /// How much work each shape is, for for_each_feature().
@@ -88,34 +88,34 @@ Status for_each_feature(std::span<const double> weights, int threads,
 /// Reads polygons and curves and makes shapes of them. The shapes of medial's own JSON keep their
 /// sources. Errors name the file and the feature; of several, the first one's is given.
 /// With `keep_contours` the features' boundaries are kept as they were read, rings as contours too.
-Result<ShapeFile> load_shapes(const InputSwitches& input, int threads, bool keep_contours = false);
+Result<ShapeFile> load_shapes(const InputOptions& input, int threads, bool keep_contours = false);
 
 /// Replaces the boundaries of all features, whose contours were kept, by smooth curves within
 /// `distance` of their corners.
-Status smooth_boundaries(ShapeFile& file, double distance, const InputSwitches& input);
+Status smooth_boundaries(ShapeFile& file, double distance, const InputOptions& input);
 
 /// Prints what a user should know of the input (geographic coordinates, repairs) on standard error,
 /// unless told to be quiet.
-void print_notes(const ShapeFile& file, const InputSwitches& input, const CommonSwitches& common);
+void print_notes(const ShapeFile& file, const InputOptions& input, const CommonOptions& common);
 
 /// Computes the axis of every shape, with a progress bar where that is wanted. `path` names the
-/// input in errors. Of `options`, what the common switches tell and progress are set here. `engine`
-/// computes the axis of feature i instead of compute(), if there is one.
+/// input in errors. Of `options`, what the common arguments tell and progress are set here.
+/// `engine` computes the axis of feature i instead of compute(), if there is one.
 using Engine = std::function<Result<MedialAxis>(std::size_t i, const Shape&, const Options&)>;
 Result<AxisFile> compute_axes(ShapeFile shapes, const std::string& path,
-                              const CommonSwitches& common, Options options = {},
+                              const CommonOptions& common, Options options = {},
                               const Engine& engine = {});
 
 /// --exterior, with this help, and --margin. Gives the former.
-CLI::Option* add_exterior_switches(CLI::App& verb, Options& options, const std::string& help);
+CLI::Option* add_exterior_options(CLI::App& command, Options& options, const std::string& help);
 
-/// What the common switches tell the engines.
-Options engine_options(const CommonSwitches& common, int threads);
+/// What the common arguments tell the engines.
+Options engine_options(const CommonOptions& common, int threads);
 
 /// Runs work(i, options) for every shape of a file, as for_each_feature() does. Errors are told to
 /// be in feature i of the input.
 Status for_each_shape(std::span<const Shape> shapes, const std::string& path,
-                      const CommonSwitches& common,
+                      const CommonOptions& common,
                       const std::function<Status(std::size_t i, const Options& options)>& work);
 
 AxisSummary summarize(const io::NativeFile& file);
@@ -124,9 +124,9 @@ std::string describe(const AxisSummary& summary);
 Json to_json(const AxisSummary& summary);
 
 /// The end of a run that made axes: writes them, unless `output` is empty, and tells of them as the
-/// switches ask: a summary, statistics, or both as one object. Gives the exit status.
-Result<int> write_and_tell(const AxisFile& file, const InputSwitches& input,
-                           const CommonSwitches& common, const std::string& output,
+/// arguments ask: a summary, statistics, or both as one object. Gives the exit status.
+Result<int> write_and_tell(const AxisFile& file, const InputOptions& input,
+                           const CommonOptions& common, const std::string& output,
                            const std::string& format, const io::WriteOptions& pictures);
 
 }  // namespace medial::cli

@@ -6,10 +6,10 @@
 
 #include <memory>
 
-#include "cli/prune_switches.h"
+#include "cli/commands.h"
+#include "cli/prune_options.h"
 #include "cli/stored_axes.h"
 #include "cli/terminal.h"
-#include "cli/verbs.h"
 #include "medial/io/preview.h"
 #include "medial/match.h"
 #include "medial/query.h"
@@ -51,13 +51,14 @@ const char* help_of(PruneMeasure measure) {
 
 }  // namespace
 
-void add_prune_switches(CLI::App& verb, PruneSwitches& switches) {
+void add_prune_options(CLI::App& command, PruneArguments& arguments) {
   constexpr char group[] = "What matters";
-  switches.thresholds.resize(prune_measures().size());
+  arguments.thresholds.resize(prune_measures().size());
   std::vector<CLI::Option*> options;
   for (const PruneMeasure measure : prune_measures()) {
-    CLI::Option* option = verb.add_option(fmt::format("--{}", name_of(measure)),
-                                          switches.thresholds[static_cast<std::size_t>(measure)],
+    CLI::Option* option = command
+                              .add_option(fmt::format("--{}", name_of(measure)),
+                                          arguments.thresholds[static_cast<std::size_t>(measure)],
                                           fmt::format("{} (default: {}).", help_of(measure),
                                                       default_threshold(measure)))
                               ->check(in_range(0, 1e9))
@@ -67,12 +68,14 @@ void add_prune_switches(CLI::App& verb, PruneSwitches& switches) {
     options.push_back(option);
   }
   CLI::Option* by =
-      verb.add_option("--by", switches.by,
+      command
+          .add_option("--by", arguments.by,
                       "One of these measures with its default, or for --keep (default:\n"
                       "prominence).")
           ->option_text("MEASURE")
           ->group(group);
-  CLI::Option* keep = verb.add_option("--keep", switches.keep,
+  CLI::Option* keep = command
+                          .add_option("--keep", arguments.keep,
                                       "The most important branches, so many at most for each\n"
                                       "feature, instead of a threshold.")
                           ->check(a_whole_number())
@@ -82,40 +85,42 @@ void add_prune_switches(CLI::App& verb, PruneSwitches& switches) {
     by->excludes(option);
     keep->excludes(option);
   }
-  verb.add_flag("--tips", switches.tips,
+  command
+      .add_flag("--tips", arguments.tips,
                 "What is kept runs on to its tips, along the ways that reach farthest.")
       ->group(group);
   // A flag that carries a value, as --repair is one.
-  verb.add_flag(
-          fmt::format("--specks{{{}}}", speck_share), switches.speck_share,
+  command
+      .add_flag(
+          fmt::format("--specks{{{}}}", speck_share), arguments.speck_share,
           fmt::format("Leave out specks before: holes and parts with a bounding box whose\n"
                       "diagonal is below this share of the square root of the feature's area\n"
                       "(without a value: {}). Stored axes are computed anew.",
                       speck_share))
       ->check(in_range(0, 1, true))
-      ->each([&switches](const std::string& share) {
-        CLI::detail::lexical_cast(share, switches.specks);
+      ->each([&arguments](const std::string& share) {
+        CLI::detail::lexical_cast(share, arguments.specks);
       })
       ->group(group);
 }
 
-Result<PruneOptions> prune_options(const PruneSwitches& switches) {
+Result<PruneOptions> prune_options(const PruneArguments& arguments) {
   PruneOptions options;
-  options.keep = switches.keep;
-  options.tips = switches.tips;
-  if (!switches.by.empty()) {
-    const auto measure = prune_measure_from(switches.by);
+  options.keep = arguments.keep;
+  options.tips = arguments.tips;
+  if (!arguments.by.empty()) {
+    const auto measure = prune_measure_from(arguments.by);
     if (!measure) {
       std::string names;
       for (const PruneMeasure one : prune_measures()) names += fmt::format(" {}", name_of(one));
-      return invalid_option(fmt::format("--by takes no '{}', only one of:{}", switches.by, names));
+      return invalid_option(fmt::format("--by takes no '{}', only one of:{}", arguments.by, names));
     }
     options.measure = *measure;
   }
-  for (std::size_t i = 0; i < switches.thresholds.size(); ++i) {
-    if (!switches.thresholds[i]) continue;
+  for (std::size_t i = 0; i < arguments.thresholds.size(); ++i) {
+    if (!arguments.thresholds[i]) continue;
     options.measure = prune_measures()[i];
-    options.threshold = switches.thresholds[i];
+    options.threshold = arguments.thresholds[i];
   }
   return options;
 }
@@ -147,10 +152,10 @@ Result<PruneReport> prune_all(AxisFile& file, const PruneOptions& options, int t
 
 namespace {
 
-struct PruneVerbSwitches {
-  InputSwitches input;
-  CommonSwitches common;
-  PruneSwitches prune;
+struct PruneVerbArguments {
+  InputOptions input;
+  CommonOptions common;
+  PruneArguments prune;
   std::string output;
   std::string format;
   io::WriteOptions write;
@@ -160,7 +165,7 @@ struct PruneVerbSwitches {
 
 /// The axes at thresholds around the chosen one, side by side.
 Status write_previews(const AxisFile& file, const PruneOptions& options,
-                      const PruneVerbSwitches& switches) {
+                      const PruneVerbArguments& arguments) {
   const double chosen = options.threshold.value_or(default_threshold(options.measure));
   std::vector<double> thresholds;
   for (const double factor : {0.0, 0.25, 0.5, 1.0, 2.0, 4.0}) {
@@ -184,12 +189,12 @@ Status write_previews(const AxisFile& file, const PruneOptions& options,
     for (std::size_t i = 0; i < panels.size(); ++i)
       panels[i].axes.push_back(order.at(thresholds[i]));
   }
-  return io::write_preview(switches.output, switches.format, shapes, panels, switches.write.width,
-                           file.native.y_down);
+  return io::write_preview(arguments.output, arguments.format, shapes, panels,
+                           arguments.write.width, file.native.y_down);
 }
 
-Result<int> run_prune(const PruneVerbSwitches& switches) {
-  const auto& [input, common, how, output, format, pictures, axis_options, preview] = switches;
+Result<int> run_prune(const PruneVerbArguments& arguments) {
+  const auto& [input, common, how, output, format, pictures, axis_options, preview] = arguments;
   if (preview && (output.empty() || how.keep))
     return invalid_option("--preview needs -o with the name of a picture, and no --keep");
   const auto options = prune_options(how);
@@ -201,7 +206,7 @@ Result<int> run_prune(const PruneVerbSwitches& switches) {
   auto axes = load_axes(input, common, how.specks, axis_options);
   if (!axes) return std::move(axes).error();
   if (preview) {
-    Status written = write_previews(*axes, *options, switches);
+    Status written = write_previews(*axes, *options, arguments);
     if (!written) return std::move(written).error();
     return exit_success;
   }
@@ -222,20 +227,21 @@ Result<int> run_prune(const PruneVerbSwitches& switches) {
 
 }  // namespace
 
-Verb make_prune_verb(CLI::App& program) {
-  auto switches = std::make_shared<PruneVerbSwitches>();
-  CLI::App* verb = program.add_subcommand("prune", "Remove the branches that do not matter.");
-  add_input_switches(*verb, switches->input);
-  add_output_switches(*verb, switches->output, switches->format, io::known_output_formats());
-  add_prune_switches(*verb, switches->prune);
-  add_exterior_switches(*verb, switches->options,
-                        "Of what lies around the shape and in its holes, within a frame.");
-  verb->add_flag("--preview", switches->preview,
-                 "One picture over thresholds instead: none, a quarter, a half, the chosen one,\n"
-                 "twice and four times it.");
-  add_picture_switches(*verb, switches->write);
-  add_common_switches(*verb, switches->common);
-  verb->footer(
+Command make_prune_command(CLI::App& program) {
+  auto arguments = std::make_shared<PruneVerbArguments>();
+  CLI::App* command = program.add_subcommand("prune", "Remove the branches that do not matter.");
+  add_input_options(*command, arguments->input);
+  add_output_options(*command, arguments->output, arguments->format, io::known_output_formats());
+  add_prune_options(*command, arguments->prune);
+  add_exterior_options(*command, arguments->options,
+                       "Of what lies around the shape and in its holes, within a frame.");
+  command->add_flag(
+      "--preview", arguments->preview,
+      "One picture over thresholds instead: none, a quarter, a half, the chosen one,\n"
+      "twice and four times it.");
+  add_picture_options(*command, arguments->write);
+  add_common_options(*command, arguments->common);
+  command->footer(
       "INPUT is medial's own .json with axes, or shapes, whose axes are then computed. R\n"
       "is the radius of the deepest disk of each connected part. No measure has a unit.\n"
       "Parts and cycles stay whatever the threshold, and more of a measure leaves less\n"
@@ -248,7 +254,7 @@ Verb make_prune_verb(CLI::App& program) {
       "  medial axis gear.svg -o - | medial prune - --angle 60 -o gear.pdf\n"
       "  medial prune leaf.png --keep 20 --tips -o veins.svg\n"
       "  medial prune coast.wkt.gz --preview -o thresholds.png");
-  return {verb, [switches] { return run_prune(*switches); }};
+  return {command, [arguments] { return run_prune(*arguments); }};
 }
 
 }  // namespace medial::cli

@@ -9,10 +9,10 @@
 #include <tuple>
 #include <utility>
 
-#include "cli/prune_switches.h"
+#include "cli/commands.h"
+#include "cli/prune_options.h"
 #include "cli/stored_axes.h"
 #include "cli/terminal.h"
-#include "cli/verbs.h"
 #include "medial/io/image.h"
 #include "medial/io/shapes.h"
 #include "medial/match.h"
@@ -22,10 +22,10 @@
 namespace medial::cli {
 namespace {
 
-struct RebuildSwitches {
-  InputSwitches input;
-  CommonSwitches common;
-  PruneSwitches prune;  ///< of smooth
+struct RebuildArguments {
+  InputOptions input;
+  CommonOptions common;
+  PruneArguments prune;  ///< of smooth
   std::string output;
   std::string format;
   bool tangents = false;
@@ -46,15 +46,15 @@ struct Told {
 };
 
 /// The axes of what lies around a file's shapes, in a frame. The shapes go to `before`.
-Result<AxisFile> axes_outside(const RebuildSwitches& switches, std::vector<Shape>& before) {
-  const auto& [input, common] = std::tie(switches.input, switches.common);
+Result<AxisFile> axes_outside(const RebuildArguments& arguments, std::vector<Shape>& before) {
+  const auto& [input, common] = std::tie(arguments.input, arguments.common);
   auto file = load_shapes(input, common.threads);
   if (!file) return std::move(file).error();
   print_notes(*file, input, common);
   for (std::size_t i = 0; i < file->shapes.size(); ++i) {
     Shape& shape = file->shapes[i];
-    if (switches.prune.specks > 0) shape = without_specks(shape, switches.prune.specks);
-    auto around = surroundings(shape, switches.options.margin);
+    if (arguments.prune.specks > 0) shape = without_specks(shape, arguments.prune.specks);
+    auto around = surroundings(shape, arguments.options.margin);
     if (!around) return at_feature(std::move(around).error(), input.path, i);
     before.push_back(std::exchange(shape, std::move(around).value()));
   }
@@ -73,7 +73,7 @@ Result<Shape> without_frame(const Shape& around) {
   return build_shape(rings);
 }
 
-Result<std::vector<Shape>> rebuild_all(const AxisFile& axes, const RebuildSwitches& switches,
+Result<std::vector<Shape>> rebuild_all(const AxisFile& axes, const RebuildArguments& arguments,
                                        Told& told) {
   const auto& items = axes.native.items;
   std::vector<Shape> shapes(items.size());
@@ -82,22 +82,22 @@ Result<std::vector<Shape>> rebuild_all(const AxisFile& axes, const RebuildSwitch
   for (const io::NativeItem& item : items)
     weights.push_back(static_cast<double>(item.axis.edges.size()));
   Status done =
-      for_each_feature(weights, switches.common.threads, [&](std::size_t i, int) -> Status {
+      for_each_feature(weights, arguments.common.threads, [&](std::size_t i, int) -> Status {
         const MedialAxis& axis = items[i].axis;
         RebuildOptions options;
-        if (switches.tangents) options.by = RebuildBy::tangents;
-        options.points = switches.points;
-        if (switches.polygon) {
+        if (arguments.tangents) options.by = RebuildBy::tangents;
+        options.points = arguments.points;
+        if (arguments.polygon) {
           const Shape& shape = items[i].shape;
           double size = 0;
           for (const Node& node : axis.nodes)
             size = std::max(size, distance(node.disk.center, axis.nodes[0].disk.center));
           if (!shape.points.empty()) size = diagonal(bounding_box(shape));
-          options.chord = switches.common.chord * size;
+          options.chord = arguments.common.chord * size;
         }
         auto shape = rebuild(axis, options, &reports[i]);
-        if (shape && switches.options.exterior) shape = without_frame(*shape);
-        if (!shape) return at_feature(std::move(shape).error(), switches.input.path, i);
+        if (shape && arguments.options.exterior) shape = without_frame(*shape);
+        if (!shape) return at_feature(std::move(shape).error(), arguments.input.path, i);
         shapes[i] = std::move(shape).value();
         return success();
       });
@@ -136,12 +136,13 @@ Status compare(const std::vector<Shape>& shapes, const std::vector<Shape>& other
   return success();
 }
 
-Status write_pixels(const AxisFile& axes, const RebuildSwitches& switches, Json& object) {
+Status write_pixels(const AxisFile& axes, const RebuildArguments& arguments, Json& object) {
   if (axes.native.items.size() != 1) {
-    return error_at(ErrorCode::unsupported, switches.input.path, "--pixels takes one feature only");
+    return error_at(ErrorCode::unsupported, arguments.input.path,
+                    "--pixels takes one feature only");
   }
-  auto image = rebuild_image(axes.native.items[0].axis, switches.pixels, axes.native.y_down);
-  if (!image) return at_feature(std::move(image).error(), switches.input.path, 0);
+  auto image = rebuild_image(axes.native.items[0].axis, arguments.pixels, axes.native.y_down);
+  if (!image) return at_feature(std::move(image).error(), arguments.input.path, 0);
   io::ImageFile placed;
   placed.crs_wkt = axes.native.crs_wkt;
   const double h = image->pixel;
@@ -153,12 +154,12 @@ Status write_pixels(const AxisFile& axes, const RebuildSwitches& switches, Json&
   object["pixel"] = h;
   object["pixels"] = image->image.count();
   object["area"] = static_cast<double>(image->image.count()) * h * h;
-  return io::write_image(switches.output, image->image, placed);
+  return io::write_image(arguments.output, image->image, placed);
 }
 
-Status tell(const Told& told, const RebuildSwitches& switches, Json object, const Json& seconds) {
-  const CommonSwitches& common = switches.common;
-  if (switches.pixels == 0) {
+Status tell(const Told& told, const RebuildArguments& arguments, Json object, const Json& seconds) {
+  const CommonOptions& common = arguments.common;
+  if (arguments.pixels == 0) {
     object["vertices"] = told.vertices;
     object["area"] = told.area;
     if (told.medial_points > 0) object["medial_points"] = told.medial_points;
@@ -166,7 +167,7 @@ Status tell(const Told& told, const RebuildSwitches& switches, Json object, cons
   }
   if (told.compared) {
     object["against"] = {
-        {"input", switches.against.empty() ? switches.input.path : switches.against},
+        {"input", arguments.against.empty() ? arguments.input.path : arguments.against},
         {"area", told.distance.other_area},
         {"area_error", told.distance.area - told.distance.other_area},
         {"hausdorff", told.distance.hausdorff()},
@@ -179,14 +180,14 @@ Status tell(const Told& told, const RebuildSwitches& switches, Json object, cons
     return print(object);
   }
   if (common.stats) say_text(table(costs));
-  const bool to_screen = switches.output.empty() || told.compared;
-  if (switches.output == "-" || common.quiet || !to_screen) return success();
+  const bool to_screen = arguments.output.empty() || told.compared;
+  if (arguments.output == "-" || common.quiet || !to_screen) return success();
   return print(table(object));
 }
 
-Result<int> run(const RebuildSwitches& switches, bool smooths) {
+Result<int> run(const RebuildArguments& arguments, bool smooths) {
   const auto& [input, common, how, output, format, tangents, points, polygon, pixels, against,
-               width, around] = switches;
+               width, around] = arguments;
   if (pixels > 0 && (output.empty() || output == "-"))
     return invalid_option("--pixels needs -o with the name of an image");
   if (pixels > 0 && !against.empty()) return invalid_option("--against is not for --pixels");
@@ -198,7 +199,7 @@ Result<int> run(const RebuildSwitches& switches, bool smooths) {
   if (!writable) return std::move(writable).error();
   std::vector<Shape> before;
   auto axes =
-      around.exterior ? axes_outside(switches, before) : load_axes(input, common, how.specks);
+      around.exterior ? axes_outside(arguments, before) : load_axes(input, common, how.specks);
   if (!axes) return std::move(axes).error();
   const Stopwatch watch;
   Json object = {{"input", input.path}};
@@ -215,14 +216,14 @@ Result<int> run(const RebuildSwitches& switches, bool smooths) {
   }
   Told told;
   if (pixels > 0) {
-    Status written = write_pixels(*axes, switches, object);
+    Status written = write_pixels(*axes, arguments, object);
     if (!written) return std::move(written).error();
   } else {
-    auto shapes = rebuild_all(*axes, switches, told);
+    auto shapes = rebuild_all(*axes, arguments, told);
     if (!shapes) return std::move(shapes).error();
     const double seconds = watch.seconds();
     if (!against.empty()) {
-      InputSwitches other = input;
+      InputOptions other = input;
       other.path = against;
       auto file = load_shapes(other, common.threads);
       if (!file) return std::move(file).error();
@@ -244,7 +245,7 @@ Result<int> run(const RebuildSwitches& switches, bool smooths) {
       Status written = io::write_shapes(output, format, file);
       if (!written) return std::move(written).error();
     }
-    Status printed = tell(told, switches, std::move(object),
+    Status printed = tell(told, arguments, std::move(object),
                           {{"read", axes->seconds_read},
                            {"shape", axes->seconds_shape},
                            {"axis", axes->seconds_axis},
@@ -252,7 +253,7 @@ Result<int> run(const RebuildSwitches& switches, bool smooths) {
     if (!printed) return std::move(printed).error();
     return exit_success;
   }
-  Status printed = tell(told, switches, std::move(object),
+  Status printed = tell(told, arguments, std::move(object),
                         {{"read", axes->seconds_read},
                          {"shape", axes->seconds_shape},
                          {"axis", axes->seconds_axis},
@@ -261,26 +262,29 @@ Result<int> run(const RebuildSwitches& switches, bool smooths) {
   return exit_success;
 }
 
-void add_switches(CLI::App& verb, RebuildSwitches& switches, bool smooths) {
-  add_input_switches(verb, switches.input);
-  add_output_switches(verb, switches.output, switches.format, io::known_shape_formats());
-  verb.add_flag("--polygon", switches.polygon,
-                "Straight edges only: arcs become chords within --chord.");
-  add_width_switch(verb, switches.width);
-  verb.add_option("--against", switches.against,
+void add_switches(CLI::App& command, RebuildArguments& arguments, bool smooths) {
+  add_input_options(command, arguments.input);
+  add_output_options(command, arguments.output, arguments.format, io::known_shape_formats());
+  command.add_flag("--polygon", arguments.polygon,
+                   "Straight edges only: arcs become chords within --chord.");
+  add_width_option(command, arguments.width);
+  command
+      .add_option("--against", arguments.against,
                   "Measure area and Hausdorff distance against these shapes.")
       ->check(a_name())
       ->option_text("SHAPES");
   if (!smooths) {
     CLI::Option* tangents =
-        verb.add_flag("--tangents", switches.tangents,
-                      "Polygons by tangents of disks instead, as of smooth sampled axes.");
-    verb.add_option("--points", switches.points,
+        command.add_flag("--tangents", arguments.tangents,
+                         "Polygons by tangents of disks instead, as of smooth sampled axes.");
+    command
+        .add_option("--points", arguments.points,
                     "With --tangents: points on the axis, about (default: the samples, or\n"
                     "1000 of an exact axis).")
         ->check(in_range(3, 10'000'000))
         ->option_text("N");
-    verb.add_option("--pixels", switches.pixels,
+    command
+        .add_option("--pixels", arguments.pixels,
                     fmt::format("The union of the disks as an image, its longer side so many\n"
                                 "pixels: {}",
                                 image_formats))
@@ -289,22 +293,22 @@ void add_switches(CLI::App& verb, RebuildSwitches& switches, bool smooths) {
         ->excludes(tangents);
   }
   if (smooths) {
-    add_prune_switches(verb, switches.prune);
-    add_exterior_switches(
-        verb, switches.options,
+    add_prune_options(command, arguments.prune);
+    add_exterior_options(
+        command, arguments.options,
         "Fill what sticks in instead: prune the axis of what lies around the shape and\n"
         "in its holes, within a frame.");
   }
-  add_common_switches(verb, switches.common);
+  add_common_options(command, arguments.common);
 }
 
 }  // namespace
 
-Verb make_rebuild_verb(CLI::App& program) {
-  auto switches = std::make_shared<RebuildSwitches>();
-  CLI::App* verb = program.add_subcommand("rebuild", "The shape that an axis stands for.");
-  add_switches(*verb, *switches, false);
-  verb->footer(
+Command make_rebuild_command(CLI::App& program) {
+  auto arguments = std::make_shared<RebuildArguments>();
+  CLI::App* command = program.add_subcommand("rebuild", "The shape that an axis stands for.");
+  add_switches(*command, *arguments, false);
+  command->footer(
       "From an exact axis the boundary comes back exactly, as segments and arcs; where it\n"
       "was pruned, arcs of the last disks close it. Sampled axes give polygons. INPUT is\n"
       "medial's own .json with axes; of shapes the axis is computed first.\n"
@@ -315,14 +319,14 @@ Verb make_rebuild_verb(CLI::App& program) {
       "    medial rebuild - -o smooth.svg\n"
       "  medial rebuild ridge.json --against plan.wkt --json\n"
       "  medial rebuild plan.json --pixels 2000 -o plan.png");
-  return {verb, [switches] { return run(*switches, false); }};
+  return {command, [arguments] { return run(*arguments, false); }};
 }
 
-Verb make_smooth_verb(CLI::App& program) {
-  auto switches = std::make_shared<RebuildSwitches>();
-  CLI::App* verb = program.add_subcommand("smooth", "Remove what does not matter from shapes.");
-  add_switches(*verb, *switches, true);
-  verb->footer(
+Command make_smooth_command(CLI::App& program) {
+  auto arguments = std::make_shared<RebuildArguments>();
+  CLI::App* command = program.add_subcommand("smooth", "Remove what does not matter from shapes.");
+  add_switches(*command, *arguments, true);
+  command->footer(
       "Computes the axis, prunes it as `medial prune` does, and rebuilds the shape: what\n"
       "is removed is replaced by the arcs of the disks that it stood on (Ho and Dyer).\n"
       "Only what sticks out is removed; notches stay, and with --exterior the other way\n"
@@ -333,7 +337,7 @@ Verb make_smooth_verb(CLI::App& program) {
       "  medial smooth scan.svg --significance 0.2 -o clean.svg\n"
       "  medial smooth plan.wkt --radius 0.3 --json\n"
       "  medial smooth plan.wkt --exterior --significance 0.5 -o filled.svg");
-  return {verb, [switches] { return run(*switches, true); }};
+  return {command, [arguments] { return run(*arguments, true); }};
 }
 
 }  // namespace medial::cli

@@ -7,7 +7,7 @@
 
 namespace medial::cli {
 
-Result<AxisFile> load_axes(const InputSwitches& input, const CommonSwitches& common, double specks,
+Result<AxisFile> load_axes(const InputOptions& input, const CommonOptions& common, double specks,
                            const Options& options) {
   if (specks == 0 && input.text.empty() && io::is_native(input.path)) {
     const Stopwatch reading;

@@ -7,19 +7,19 @@
 #include <algorithm>
 #include <memory>
 
+#include "cli/commands.h"
 #include "cli/common.h"
 #include "cli/costs.h"
 #include "cli/loose.h"
 #include "cli/pipeline.h"
 #include "cli/terminal.h"
-#include "cli/verbs.h"
 
 namespace medial::cli {
 namespace {
 
-struct VerifySwitches {
-  InputSwitches input;
-  CommonSwitches common;
+struct VerifyArguments {
+  InputOptions input;
+  CommonOptions common;
   std::string axis_path;
   int samples = VerifyOptions{}.samples_per_edge;
 };
@@ -175,44 +175,44 @@ std::string verdict_table(const VoronoiCertificate& c) {
 }
 
 /// A Voronoi diagram against what is loose in the input.
-Result<int> verify_voronoi(const VerifySwitches& switches) {
-  const InputSwitches& input = switches.input;
-  const CommonSwitches& common = switches.common;
+Result<int> verify_voronoi(const VerifyArguments& arguments) {
+  const InputOptions& input = arguments.input;
+  const CommonOptions& common = arguments.common;
   const Stopwatch reading;
   auto stored = [&] {
-    const Activity shown("reading", switches.axis_path);
-    return io::read_voronoi(switches.axis_path);
+    const Activity shown("reading", arguments.axis_path);
+    return io::read_voronoi(arguments.axis_path);
   }();
   if (!stored) return std::move(stored).error();
   if (stored->items.size() != 1 || !stored->items.front().diagram.frame)
-    return error_at(ErrorCode::unsupported, switches.axis_path,
+    return error_at(ErrorCode::unsupported, arguments.axis_path,
                     "is of polygons alone (--method lee); diagrams within a frame are verified");
   auto loose = load_chains(input, common.threads);
   if (!loose) return std::move(loose).error();
   print_notes(*loose, input, common);
   const VoronoiDiagram& diagram = stored->items.front().diagram;
-  auto soup = soup_of(*loose, input);
-  if (!soup) return std::move(soup).error();
+  auto planar_graph = planar_graph_of(*loose, input);
+  if (!planar_graph) return std::move(planar_graph).error();
   // Of what rounding does not tell apart, it is the diagram of what touches.
-  const double size = diagonal(bounding_box(*soup));
+  const double size = diagonal(bounding_box(*planar_graph));
   const auto fits = [&] {
-    return soup->points.size() + soup->edges.size() == diagram.sites.size();
+    return planar_graph->points.size() + planar_graph->edges.size() == diagram.sites.size();
   };
   for (const double share : touching_shares) {
     if (fits()) break;
-    auto touching = soup_of(*loose, input, share * size);
-    if (touching) soup = std::move(touching);
+    auto touching = planar_graph_of(*loose, input, share * size);
+    if (touching) planar_graph = std::move(touching);
   }
   const double seconds_read = reading.seconds();
   const Stopwatch checking;
-  const VoronoiCertificate certificate = verify(*soup, diagram,
+  const VoronoiCertificate certificate = verify(*planar_graph, diagram,
                                                 {.tolerance = common.tolerance,
-                                                 .samples_per_edge = switches.samples,
+                                                 .samples_per_edge = arguments.samples,
                                                  .threads = common.threads});
   const Json costs = costs_of(common, {{"read", seconds_read}, {"verify", checking.seconds()}});
   Status printed = success();
   if (common.json) {
-    Json object = {{"input", input.path}, {"voronoi", switches.axis_path}};
+    Json object = {{"input", input.path}, {"voronoi", arguments.axis_path}};
     if (common.stats) object.update(costs);
     object.update(json_of(certificate));
     printed = print(object);
@@ -224,14 +224,14 @@ Result<int> verify_voronoi(const VerifySwitches& switches) {
   return certificate.passed ? exit_success : exit_failed_verdict;
 }
 
-Result<int> run_verify(const VerifySwitches& switches) {
-  const InputSwitches& input = switches.input;
-  const CommonSwitches& common = switches.common;
-  const std::string& axis_path = switches.axis_path;
+Result<int> run_verify(const VerifyArguments& arguments) {
+  const InputOptions& input = arguments.input;
+  const CommonOptions& common = arguments.common;
+  const std::string& axis_path = arguments.axis_path;
   if (input.path == "-" && axis_path == "-") {
     return invalid_option("INPUT and AXIS cannot both be standard input");
   }
-  if (io::is_voronoi(axis_path)) return verify_voronoi(switches);
+  if (io::is_voronoi(axis_path)) return verify_voronoi(arguments);
   const Stopwatch reading;
   auto stored = [&] {
     const Activity shown("reading", axis_path);
@@ -263,7 +263,7 @@ Result<int> run_verify(const VerifySwitches& switches) {
         VerifyOptions options;
         options.tolerance = common.tolerance;
         options.corner_angle = common.corner_angle;
-        options.samples_per_edge = switches.samples;
+        options.samples_per_edge = arguments.samples;
         options.threads = threads;
         certificates[i] = verify(shapes->shapes[i], stored->items[i].axis, options);
         return success();
@@ -292,19 +292,20 @@ Result<int> run_verify(const VerifySwitches& switches) {
 
 }  // namespace
 
-Verb make_verify_verb(CLI::App& program) {
-  auto switches = std::make_shared<VerifySwitches>();
-  CLI::App* verb = program.add_subcommand("verify", "Check a stored axis against its shapes.");
-  add_input_switches(*verb, switches->input, "AXIS",
-                     "Axes, or a Voronoi diagram of loose pieces, in medial's own .json format.",
-                     switches->axis_path);
-  verb->add_option(
-          "--samples", switches->samples,
-          fmt::format("Points to check inside every edge (default: {}).", switches->samples))
+Command make_verify_command(CLI::App& program) {
+  auto arguments = std::make_shared<VerifyArguments>();
+  CLI::App* command = program.add_subcommand("verify", "Check a stored axis against its shapes.");
+  add_input_options(*command, arguments->input, "AXIS",
+                    "Axes, or a Voronoi diagram of loose pieces, in medial's own .json format.",
+                    arguments->axis_path);
+  command
+      ->add_option(
+          "--samples", arguments->samples,
+          fmt::format("Points to check inside every edge (default: {}).", arguments->samples))
       ->check(in_range(0, most_samples))
       ->option_text("N");
-  add_common_switches(*verb, switches->common);
-  verb->footer(
+  add_common_options(*command, arguments->common);
+  command->footer(
       "Nothing is computed anew: the stored disks are measured against the shapes by\n"
       "code that shares nothing with the engine. Features and axes are matched by their\n"
       "order. Told are the largest |distance to the boundary - radius|, the largest\n"
@@ -313,7 +314,7 @@ Verb make_verify_verb(CLI::App& program) {
       "its disk, and both areas. Lengths are in the units of the input.\n"
       "Of a diagram of `medial voronoi`: samples of every edge against the nearest of all\n"
       "sites, faces closed and the right way around, and their areas against the frame's.\n"
-      "Give the --layer, --where, --repair, --project and switches of curves that the\n"
+      "Give the --layer, --where, --repair, --project and options of curves that the\n"
       "axis was made with.\n"
       "\n"
       "Exit status: 0 passed, 1 failed, 2 an error.\n"
@@ -322,7 +323,7 @@ Verb make_verify_verb(CLI::App& program) {
       "  medial axis plan.geojson -o plan.json && medial verify plan.geojson plan.json\n"
       "  medial voronoi roads.geojson -o v.json && medial verify roads.geojson v.json\n"
       "  medial verify --json --quiet maze.wkt.gz maze.json");
-  return {verb, [switches] { return run_verify(*switches); }};
+  return {command, [arguments] { return run_verify(*arguments); }};
 }
 
 }  // namespace medial::cli

@@ -7,24 +7,24 @@
 #include <memory>
 #include <optional>
 
+#include "cli/commands.h"
 #include "cli/common.h"
 #include "cli/costs.h"
 #include "cli/loose.h"
 #include "cli/nearest.h"
 #include "cli/pipeline.h"
 #include "cli/terminal.h"
-#include "cli/verbs.h"
 
 namespace medial::cli {
 namespace {
 
-struct VoronoiSwitches {
-  InputSwitches input;
-  CommonSwitches common;
+struct VoronoiArguments {
+  InputOptions input;
+  CommonOptions common;
   std::string method = "disks";
   std::vector<double> frame;
   double margin = 0;
-  NearestSwitches nearest;
+  NearestArguments nearest;
   std::string output;
   std::string format;
   io::WriteOptions write;
@@ -33,7 +33,7 @@ struct VoronoiSwitches {
 /// What there is to tell of diagrams.
 struct Summary {
   std::uint64_t segments = 0, vertices = 0, edges = 0, spokes = 0, points = 0;
-  bool soup = false;
+  bool planar_graph = false;
 };
 
 Summary sum_of(const io::VoronoiFile& file) {
@@ -42,7 +42,7 @@ Summary sum_of(const io::VoronoiFile& file) {
     const VoronoiDiagram& diagram = item.diagram;
     for (const Site& site : diagram.sites)
       ++(site.kind == SiteKind::vertex ? sum.vertices : sum.segments);
-    sum.soup = sum.soup || diagram.frame.has_value();
+    sum.planar_graph = sum.planar_graph || diagram.frame.has_value();
     sum.edges += diagram.edges.size();
     for (const VoronoiEdge& edge : diagram.edges) sum.spokes += edge.spoke ? 1 : 0;
     for (const Node& node : diagram.nodes) sum.points += node.disk.radius > 0 ? 1 : 0;
@@ -51,7 +51,7 @@ Summary sum_of(const io::VoronoiFile& file) {
 }
 
 Result<io::VoronoiFile> compute_diagrams(ShapeFile shapes, const std::string& path,
-                                         const CommonSwitches& common) {
+                                         const CommonOptions& common) {
   io::VoronoiFile file;
   file.crs_wkt = shapes.crs_wkt;
   file.y_down = shapes.y_down;
@@ -77,24 +77,24 @@ struct Phases {
 };
 
 /// One diagram of all that the file holds.
-Result<io::VoronoiFile> compute_soup(const VoronoiSwitches& switches, Phases& seconds) {
-  const auto& input = switches.input;
+Result<io::VoronoiFile> compute_planar_graph(const VoronoiArguments& arguments, Phases& seconds) {
+  const auto& input = arguments.input;
   const Stopwatch reading;
-  auto loose = load_chains(input, switches.common.threads);
+  auto loose = load_chains(input, arguments.common.threads);
   if (!loose) return std::move(loose).error();
-  print_notes(*loose, input, switches.common);
+  print_notes(*loose, input, arguments.common);
   seconds.read = reading.seconds();
   std::optional<Box> frame;
-  if (!switches.frame.empty())
-    frame = Box{{switches.frame[0], switches.frame[1]}, {switches.frame[2], switches.frame[3]}};
-  Soup soup;
+  if (!arguments.frame.empty())
+    frame = Box{{arguments.frame[0], arguments.frame[1]}, {arguments.frame[2], arguments.frame[3]}};
+  PlanarGraph planar_graph;
   const Stopwatch watch;
-  auto diagram = with_soup(*loose, input, switches.common, soup, [&] {
+  auto diagram = with_planar_graph(*loose, input, arguments.common, planar_graph, [&] {
     const Stopwatch computing;
-    auto computed = voronoi_diagram(soup,
-                                    {.tolerance = switches.common.tolerance,
-                                     .threads = switches.common.threads,
-                                     .margin = switches.margin},
+    auto computed = voronoi_diagram(planar_graph,
+                                    {.tolerance = arguments.common.tolerance,
+                                     .threads = arguments.common.threads,
+                                     .margin = arguments.margin},
                                     frame);
     seconds.voronoi = computing.seconds();
     return computed;
@@ -108,44 +108,48 @@ Result<io::VoronoiFile> compute_soup(const VoronoiSwitches& switches, Phases& se
   return file;
 }
 
-Status tell(const io::VoronoiFile& file, const VoronoiSwitches& switches, double seconds,
+Status tell(const io::VoronoiFile& file, const VoronoiArguments& arguments, double seconds,
             const Json& costs) {
   const Summary sum = sum_of(file);
-  if (switches.common.json) {
-    Json object = {
-        {"input", switches.input.path}, {"features", file.items.size()},
-        {"segments", sum.segments},     {sum.soup ? "points" : "reflex_vertices", sum.vertices},
-        {"edges", sum.edges},           {"spokes", sum.spokes},
-        {"voronoi_points", sum.points}, {"seconds", seconds}};
-    if (switches.common.stats) object.update(costs);
+  if (arguments.common.json) {
+    Json object = {{"input", arguments.input.path},
+                   {"features", file.items.size()},
+                   {"segments", sum.segments},
+                   {sum.planar_graph ? "points" : "reflex_vertices", sum.vertices},
+                   {"edges", sum.edges},
+                   {"spokes", sum.spokes},
+                   {"voronoi_points", sum.points},
+                   {"seconds", seconds}};
+    if (arguments.common.stats) object.update(costs);
     return print(object);
   }
   const std::string line =
-      fmt::format("{}: {}, {}, {}; {} ({}), {}; {:.3g} s\n", switches.input.path,
+      fmt::format("{}: {}, {}, {}; {} ({}), {}; {:.3g} s\n", arguments.input.path,
                   counted(file.items.size(), "feature"), counted(sum.segments, "segment"),
-                  sum.soup ? counted(sum.vertices, "point")
-                           : counted(sum.vertices, "reflex vertex", "reflex vertices"),
+                  sum.planar_graph ? counted(sum.vertices, "point")
+                                   : counted(sum.vertices, "reflex vertex", "reflex vertices"),
                   counted(sum.edges, "edge"), counted(sum.spokes, "spoke"),
                   counted(sum.points, "Voronoi point"), seconds);
-  if (switches.output.empty()) return print(line);
-  if (error_is_terminal() && !switches.common.quiet) say_text(line);
+  if (arguments.output.empty()) return print(line);
+  if (error_is_terminal() && !arguments.common.quiet) say_text(line);
   return success();
 }
 
-Result<io::VoronoiFile> compute_by_lee(const VoronoiSwitches& switches, Phases& seconds) {
-  auto shapes = load_shapes(switches.input, switches.common.threads);
+Result<io::VoronoiFile> compute_by_lee(const VoronoiArguments& arguments, Phases& seconds) {
+  auto shapes = load_shapes(arguments.input, arguments.common.threads);
   if (!shapes) return std::move(shapes).error();
-  print_notes(*shapes, switches.input, switches.common);
+  print_notes(*shapes, arguments.input, arguments.common);
   seconds.read = shapes->seconds_read;
   seconds.shape = shapes->seconds_shape;
   const Stopwatch watch;
-  auto computed = compute_diagrams(std::move(shapes).value(), switches.input.path, switches.common);
+  auto computed =
+      compute_diagrams(std::move(shapes).value(), arguments.input.path, arguments.common);
   seconds.voronoi = watch.seconds();
   return computed;
 }
 
-Result<int> run_voronoi(const VoronoiSwitches& switches) {
-  const auto& [input, common, method, frame, margin, nearest, output, format, pictures] = switches;
+Result<int> run_voronoi(const VoronoiArguments& arguments) {
+  const auto& [input, common, method, frame, margin, nearest, output, format, pictures] = arguments;
   const bool by_lee = method == "lee";
   if (nearest.any()) {
     if (by_lee || !frame.empty() || margin > 0)
@@ -158,7 +162,8 @@ Result<int> run_voronoi(const VoronoiSwitches& switches) {
   if (by_lee && !(frame.empty() && margin == 0))
     return invalid_option("the method lee has no frame: polygons are it");
   Phases seconds;
-  auto diagrams = by_lee ? compute_by_lee(switches, seconds) : compute_soup(switches, seconds);
+  auto diagrams =
+      by_lee ? compute_by_lee(arguments, seconds) : compute_planar_graph(arguments, seconds);
   if (!diagrams) return std::move(diagrams).error();
   const Stopwatch writing;
   if (!output.empty()) {
@@ -172,7 +177,7 @@ Result<int> run_voronoi(const VoronoiSwitches& switches) {
                                        {"shape", seconds.shape},
                                        {"voronoi", seconds.voronoi},
                                        {"write", writing.seconds()}});
-  Status told = tell(*diagrams, switches, seconds.voronoi, costs);
+  Status told = tell(*diagrams, arguments, seconds.voronoi, costs);
   if (!told) return std::move(told).error();
   print_costs(common, costs);
   return exit_success;
@@ -180,33 +185,35 @@ Result<int> run_voronoi(const VoronoiSwitches& switches) {
 
 }  // namespace
 
-Verb make_voronoi_verb(CLI::App& program) {
-  auto switches = std::make_shared<VoronoiSwitches>();
-  CLI::App* verb = program.add_subcommand(
+Command make_voronoi_command(CLI::App& program) {
+  auto arguments = std::make_shared<VoronoiArguments>();
+  CLI::App* command = program.add_subcommand(
       "voronoi", "Compute the Voronoi diagram of points, lines, curves and polygons.");
-  add_input_switches(*verb, switches->input);
-  add_output_switches(*verb, switches->output, switches->format, io::known_voronoi_formats());
-  verb->add_option("--method", switches->method,
+  add_input_options(*command, arguments->input);
+  add_output_options(*command, arguments->output, arguments->format, io::known_voronoi_formats());
+  command
+      ->add_option("--method", arguments->method,
                    "How: disks (default), of everything in the file together, within a\n"
                    "frame; or lee, of each polygon inside of it.")
       ->check(CLI::IsMember({"disks", "lee"}).description(""))
       ->option_text("NAME");
-  verb->add_option("--margin", switches->margin,
+  command
+      ->add_option("--margin", arguments->margin,
                    "How far the frame is away from the input's bounding box, in units of the\n"
                    "input (default: half of its longer side).")
       ->check(a_positive_number())
       ->option_text("M");
-  add_list_switch(
-      *verb, "--frame", 4,
-      [switches](const std::vector<double>& frame) { switches->frame = frame; },
+  add_list_option(
+      *command, "--frame", 4,
+      [arguments](const std::vector<double>& frame) { arguments->frame = frame; },
       "The frame itself: low x, low y, high x, high y, in units of the input. It must\n"
       "hold the input.")
       ->excludes("--margin")
       ->option_text("X,Y,X,Y");
-  add_nearest_switches(*verb, switches->nearest);
-  add_picture_switches(*verb, switches->write);
-  add_common_switches(*verb, switches->common);
-  verb->footer(
+  add_nearest_options(*command, arguments->nearest);
+  add_picture_options(*command, arguments->write);
+  add_common_options(*command, arguments->common);
+  command->footer(
       "Every point, and every segment and arc between its ends, has a face: the places\n"
       "that are nearer to it than to all others, bounded by exact curves and by the\n"
       "frame. Edges may meet in ends; where they cross, --repair splits them. In plain\n"
@@ -225,7 +232,7 @@ Verb make_voronoi_verb(CLI::App& program) {
       "  medial voronoi roads.gpkg --queries houses.csv -o nearest-road.csv\n"
       "  medial voronoi parcels.geojson --where \"area > 100\" -o faces.geojson\n"
       "  medial voronoi plan.wkt -o - --format json | jq '.items[0].edges | length'");
-  return {verb, [switches] { return run_voronoi(*switches); }};
+  return {command, [arguments] { return run_voronoi(*arguments); }};
 }
 
 }  // namespace medial::cli

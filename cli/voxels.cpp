@@ -4,17 +4,17 @@
 
 #include <memory>
 
+#include "cli/commands.h"
 #include "cli/common.h"
 #include "cli/pipeline.h"
 #include "cli/terminal.h"
-#include "cli/verbs.h"
 #include "medial/io/mesh.h"
 #include "medial/volume.h"
 
 namespace medial::cli {
 namespace {
 
-struct VoxelSwitches {
+struct VoxelArguments {
   std::string input;
   std::string output;
   std::string format;
@@ -22,7 +22,7 @@ struct VoxelSwitches {
   std::string thinning = "sheets";
   double memory = 4;  ///< in GiB
   double width = 1536;
-  CommonSwitches common;
+  CommonOptions common;
   VoxelOptions options;
 };
 
@@ -102,8 +102,8 @@ std::string counts_of(const VoxelTopology& topology) {
 }
 
 /// What was mended, and where the grid is too coarse.
-void print_notes(const VoxelSwitches& switches, const Outcome& outcome) {
-  if (switches.common.quiet) return;
+void print_notes(const VoxelArguments& arguments, const Outcome& outcome) {
+  if (arguments.common.quiet) return;
   const MeshReport& report = outcome.solid.report;
   std::string mended;
   const auto mention = [&mended](std::uint64_t count, const char* noun, const char* plural) {
@@ -112,18 +112,18 @@ void print_notes(const VoxelSwitches& switches, const Outcome& outcome) {
   mention(report.dropped_faces, "dropped face without an area", "dropped faces without an area");
   mention(report.reversed_faces, "reversed face", "reversed faces");
   mention(report.parted_vertices, "parted vertex", "parted vertices");
-  if (!mended.empty()) say("medial: {}: {}\n", switches.input, mended);
+  if (!mended.empty()) say("medial: {}: {}\n", arguments.input, mended);
   if (outcome.axis.interior != outcome.solid.topology)
     say("medial: {}: the grid is too coarse for its topology: the mesh has {}; the interior "
         "voxels have {}\n",
-        switches.input, counts_of(outcome.solid.topology), counts_of(outcome.axis.interior));
+        arguments.input, counts_of(outcome.solid.topology), counts_of(outcome.axis.interior));
 }
 
-Result<int> tell(const VoxelSwitches& switches, const Outcome& outcome) {
-  const CommonSwitches& common = switches.common;
+Result<int> tell(const VoxelArguments& arguments, const Outcome& outcome) {
+  const CommonOptions& common = arguments.common;
   if (common.json) {
-    Json object = {{"input", switches.input}};
-    if (!switches.output.empty()) object["output"] = switches.output;
+    Json object = {{"input", arguments.input}};
+    if (!arguments.output.empty()) object["output"] = arguments.output;
     if (common.stats) object.update(stats(outcome));
     object.update(summary(outcome));
     Status printed = print(object);
@@ -132,100 +132,107 @@ Result<int> tell(const VoxelSwitches& switches, const Outcome& outcome) {
   }
   const VoxelAxis& axis = outcome.axis;
   const std::string line =
-      fmt::format("{}: {}, {} x {} x {} cells, {}, {}; {}; {:.3g} s", switches.input,
+      fmt::format("{}: {}, {} x {} x {} cells, {}, {}; {}; {:.3g} s", arguments.input,
                   counted(outcome.solid.surface.faces.size(), "face"), axis.cells[0], axis.cells[1],
                   axis.cells[2], counted(axis.voxels.size(), "voxel"),
                   counted(axis.links.size(), "link"), counts_of(axis.topology),
                   outcome.seconds_read + outcome.seconds_solid + axis.statistics.seconds +
                       outcome.seconds_write);
-  if (switches.output.empty()) {
+  if (arguments.output.empty()) {
     Status printed = print(line + "\n");
     if (!printed) return std::move(printed).error();
   } else if (error_is_terminal() && !common.quiet) {
-    say("{} -> {}\n", line, switches.output == "-" ? "standard output" : switches.output);
+    say("{} -> {}\n", line, arguments.output == "-" ? "standard output" : arguments.output);
   }
   if (common.stats) say_text(table(stats(outcome)));
   return exit_success;
 }
 
-Result<int> run_voxels(const VoxelSwitches& switches) {
-  const CommonSwitches& common = switches.common;
-  Status writable = check_output(switches.output, switches.format, io::known_voxel_formats(),
-                                 switches.input, common.json);
+Result<int> run_voxels(const VoxelArguments& arguments) {
+  const CommonOptions& common = arguments.common;
+  Status writable = check_output(arguments.output, arguments.format, io::known_voxel_formats(),
+                                 arguments.input, common.json);
   if (!writable) return std::move(writable).error();
   Outcome outcome;
   const Stopwatch reading;
-  auto mesh = io::read_mesh(switches.input);
+  auto mesh = io::read_mesh(arguments.input);
   if (!mesh) return std::move(mesh).error();
   outcome.seconds_read = reading.seconds();
   const Stopwatch making;
   auto solid = build_solid(std::move(mesh).value());
   if (!solid) {
-    solid.error().place.file = switches.input;
+    solid.error().place.file = arguments.input;
     return std::move(solid).error();
   }
   outcome.solid = std::move(solid).value();
   outcome.seconds_solid = making.seconds();
 
-  VoxelOptions options = switches.options;
+  VoxelOptions options = arguments.options;
   options.threads = common.threads;
-  options.search = switches.search == "tree" ? FaceSearch::tree : FaceSearch::sorted_list;
-  options.thinning = switches.thinning == "none"     ? Thinning::none
-                     : switches.thinning == "curves" ? Thinning::curves
-                                                     : Thinning::sheets;
-  options.memory = static_cast<std::uint64_t>(switches.memory * 0x1p30);
+  options.search = arguments.search == "tree" ? FaceSearch::tree : FaceSearch::sorted_list;
+  options.thinning = arguments.thinning == "none"     ? Thinning::none
+                     : arguments.thinning == "curves" ? Thinning::curves
+                                                      : Thinning::sheets;
+  options.memory = static_cast<std::uint64_t>(arguments.memory * 0x1p30);
   Progress progress("voxels", 1, error_is_terminal() && !common.quiet);
   options.progress = progress.part(1);
   auto axis = compute_voxels(outcome.solid, options);
   if (!axis) {
-    axis.error().place.file = switches.input;
+    axis.error().place.file = arguments.input;
     return std::move(axis).error();
   }
   outcome.axis = std::move(axis).value();
-  print_notes(switches, outcome);
+  print_notes(arguments, outcome);
 
-  if (!switches.output.empty()) {
+  if (!arguments.output.empty()) {
     const Stopwatch writing;
-    Status written = io::write_voxels(switches.output, switches.format, outcome.axis, outcome.solid,
-                                      switches.width);
+    Status written = io::write_voxels(arguments.output, arguments.format, outcome.axis,
+                                      outcome.solid, arguments.width);
     if (!written) return std::move(written).error();
     outcome.seconds_write = writing.seconds();
   }
-  return tell(switches, outcome);
+  return tell(arguments, outcome);
 }
 
-void add_own_switches(CLI::App& verb, VoxelSwitches& switches) {
-  VoxelOptions& options = switches.options;
-  verb.add_option("--voxels", options.voxels,
+void add_own_options(CLI::App& command, VoxelArguments& arguments) {
+  VoxelOptions& options = arguments.options;
+  command
+      .add_option("--voxels", options.voxels,
                   "Voxels along the longest side of the mesh (default: 128).")
       ->check(in_range(4, 4096, true))
       ->option_text("N");
-  verb.add_option("--resolution", options.resolution,
+  command
+      .add_option("--resolution", options.resolution,
                   "Instead of that: the edge of a voxel, in units of the input.")
       ->check(a_positive_number())
       ->excludes("--voxels")
       ->option_text("H");
-  verb.add_option("--angle", options.angle,
+  command
+      .add_option("--angle", options.angle,
                   "In degrees: two feet of a voxel count as two if they lie so far apart as\n"
                   "seen from it, 1 to 120 (default: 30). Smaller angles give the axis of\n"
                   "the faces as they are; meshes of curved surfaces need larger ones.")
       ->check(in_range(1.0, 120.0, true))
       ->option_text("A");
-  verb.add_option("--thin", switches.thinning,
+  command
+      .add_option("--thin", arguments.thinning,
                   "What the axis is thinned to: sheets, one voxel thick (default);\n"
                   "curves; or none.")
       ->check(CLI::IsMember({"sheets", "curves", "none"}).description(""))
       ->option_text("KIND");
-  verb.add_option("--search", switches.search,
+  command
+      .add_option("--search", arguments.search,
                   "How the nearest faces are found: tree (default), or sorted-list, the\n"
                   "published way, slow for many faces. Both give the same voxels.")
       ->check(CLI::IsMember({"tree", "sorted-list"}).description(""))
       ->option_text("NAME");
-  verb.add_option("--memory", switches.memory,
+  command
+      .add_option("--memory", arguments.memory,
                   "Give up before more than about G gibibytes are held (default: 4).")
       ->check(in_range(0.001, 1e6, true))
       ->option_text("G");
-  verb.add_option("--width", switches.width,
+  command
+      .add_option("--width", arguments.width,
                   "Width of a picture of three views, in pixels (default: 1536).")
       ->check(in_range(48.0, 8000.0, true))
       ->option_text("W");
@@ -233,20 +240,21 @@ void add_own_switches(CLI::App& verb, VoxelSwitches& switches) {
 
 }  // namespace
 
-Verb make_voxels_verb(CLI::App& program) {
-  auto switches = std::make_shared<VoxelSwitches>();
-  CLI::App* verb =
+Command make_voxels_command(CLI::App& program) {
+  auto arguments = std::make_shared<VoxelArguments>();
+  CLI::App* command =
       program.add_subcommand("voxels", "Compute the medial axis of a closed mesh on a grid.");
-  verb->add_option("MESH", switches->input,
+  command
+      ->add_option("MESH", arguments->input,
                    "A closed triangle mesh: " + io::known_mesh_formats() + ".")
       ->required()
       ->option_text(" ");
-  add_output_switches(*verb, switches->output, switches->format, io::known_voxel_formats(),
-                      "for example ply");
-  add_own_switches(*verb, *switches);
-  add_threads_switch(*verb, switches->common);
-  add_report_switches(*verb, switches->common);
-  verb->footer(
+  add_output_options(*command, arguments->output, arguments->format, io::known_voxel_formats(),
+                     "for example ply");
+  add_own_options(*command, *arguments);
+  add_threads_option(*command, arguments->common);
+  add_report_options(*command, arguments->common);
+  command->footer(
       "The axis is a set of voxels with radii, by ridge following: surfaces one voxel\n"
       "thick in general. It has as many parts, tunnels and cavities as the voxels inside\n"
       "of the mesh. Open meshes, edges of more than two faces and faces that cross or\n"
@@ -259,7 +267,7 @@ Verb make_voxels_verb(CLI::App& program) {
       "  medial voxels part.stl -o axis.ply --voxels 256\n"
       "  medial voxels part.stl -o part.png --resolution 0.5 --angle 10\n"
       "  medial voxels tree.obj -o skeleton.obj --thin curves --stats");
-  return {verb, [switches] { return run_voxels(*switches); }};
+  return {command, [arguments] { return run_voxels(*arguments); }};
 }
 
 }  // namespace medial::cli

@@ -1,6 +1,6 @@
 // The method biarc-dc: base cases, divisions, and agreement with the method disks.
 
-#include "engines/biarc_dc/biarc_dc.h"
+#include "methods/biarc_dc/biarc_dc.h"
 
 #include <gtest/gtest.h>
 

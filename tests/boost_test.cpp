@@ -31,8 +31,8 @@
 #pragma GCC diagnostic pop
 
 #include "medial/medial.h"
+#include "support/diagram_graph.h"
 #include "support/random_shapes.h"
-#include "support/soup_graph.h"
 
 namespace medial::test {
 namespace {
@@ -228,11 +228,11 @@ TEST_P(Integers, HaveTheSameGraph) {
 
 /// Whether at least three sites, or two of which one ends at the other, are as near to p as any:
 /// Boost takes a segment's line for the segment now and then, and such a place is no node.
-bool is_node(const Soup& soup, Vec2 p, double near) {
+bool is_node(const PlanarGraph& planar_graph, Vec2 p, double near) {
   std::vector<double> distances;
-  for (const Vec2 point : soup.points) distances.push_back(distance(p, point));
-  for (const SoupEdge& edge : soup.edges) {
-    const Vec2 from = soup.points[edge.from], along = soup.points[edge.to] - from;
+  for (const Vec2 point : planar_graph.points) distances.push_back(distance(p, point));
+  for (const PlanarGraphEdge& edge : planar_graph.edges) {
+    const Vec2 from = planar_graph.points[edge.from], along = planar_graph.points[edge.to] - from;
     const double share = dot(p - from, along) / dot(along, along);
     if (std::abs(share - 0.5) <= 0.5 + agreement)
       distances.push_back(distance(p, from + share * along));
@@ -243,37 +243,38 @@ bool is_node(const Soup& soup, Vec2 p, double near) {
 }
 
 /// The edges of Boost's diagram; nothing where one of its vertices is no node.
-std::optional<std::vector<SeparatingEdge>> edges_of_boost(const Soup& soup, const Box& frame,
-                                                          double near) {
+std::optional<std::vector<SeparatingEdge>> edges_of_boost(const PlanarGraph& planar_graph,
+                                                          const Box& frame, double near) {
   using Point = boost::polygon::point_data<std::int32_t>;
   using Segment = boost::polygon::segment_data<std::int32_t>;
   const auto integer = [&](std::uint32_t point) {
-    return Point(static_cast<std::int32_t>(soup.points[point].x),
-                 static_cast<std::int32_t>(soup.points[point].y));
+    return Point(static_cast<std::int32_t>(planar_graph.points[point].x),
+                 static_cast<std::int32_t>(planar_graph.points[point].y));
   };
   std::vector<Point> points;
   std::vector<Segment> segments;
-  for (const LonePoint& lone : soup.lone_points) points.push_back(integer(lone.point));
-  for (const SoupEdge& edge : soup.edges)
+  for (const LonePoint& lone : planar_graph.lone_points) points.push_back(integer(lone.point));
+  for (const PlanarGraphEdge& edge : planar_graph.edges)
     segments.emplace_back(integer(edge.from), integer(edge.to));
   boost::polygon::voronoi_diagram<double> diagram;
   boost::polygon::construct_voronoi(points.begin(), points.end(), segments.begin(), segments.end(),
                                     &diagram);
   const auto site_of = [&](const auto& cell) {
     const auto source = static_cast<std::uint32_t>(cell.source_index());
-    if (source < points.size()) return soup.lone_points[source].point;
+    if (source < points.size()) return planar_graph.lone_points[source].point;
     const auto edge = source - static_cast<std::uint32_t>(points.size());
-    if (cell.contains_segment()) return static_cast<std::uint32_t>(soup.points.size()) + edge;
+    if (cell.contains_segment())
+      return static_cast<std::uint32_t>(planar_graph.points.size()) + edge;
     return cell.source_category() == boost::polygon::SOURCE_CATEGORY_SEGMENT_START_POINT
-               ? soup.edges[edge].from
-               : soup.edges[edge].to;
+               ? planar_graph.edges[edge].from
+               : planar_graph.edges[edge].to;
   };
   const auto place_of = [](const auto* vertex) {
     return vertex ? Vec2{vertex->x(), vertex->y()} : nowhere;
   };
   for (const auto& vertex : diagram.vertices())
-    if (!is_node(soup, place_of(&vertex), near)) return std::nullopt;
-  EdgesInForm form(soup, frame, near);
+    if (!is_node(planar_graph, place_of(&vertex), near)) return std::nullopt;
+  EdgesInForm form(planar_graph, frame, near);
   for (const auto& edge : diagram.edges())
     if (&edge < edge.twin())
       form.add(site_of(*edge.cell()), site_of(*edge.twin()->cell()), place_of(edge.vertex0()),
@@ -282,14 +283,14 @@ std::optional<std::vector<SeparatingEdge>> edges_of_boost(const Soup& soup, cons
 }
 
 /// What one graph has and the other has not, in words; nothing where Boost errs.
-std::optional<std::string> compare_soups(const Soup& soup) {
-  const Box frame = frame_around(soup);
-  const auto diagram = voronoi_diagram(soup, {.threads = 1}, frame);
+std::optional<std::string> compare_planar_graphs(const PlanarGraph& planar_graph) {
+  const Box frame = frame_around(planar_graph);
+  const auto diagram = voronoi_diagram(planar_graph, {.threads = 1}, frame);
   if (!diagram) return "not computed: " + to_string(diagram.error());
   const double near = agreement * diagonal(frame);
-  const auto theirs = edges_of_boost(soup, frame, near);
+  const auto theirs = edges_of_boost(planar_graph, frame, near);
   if (!theirs) return std::nullopt;
-  const auto ours = edges_in_form(soup, *diagram, near);
+  const auto ours = edges_in_form(planar_graph, *diagram, near);
   if (const std::string lost = missing_edge(*theirs, ours, 2 * near); !lost.empty())
     return "ours lacks Boost's edge " + lost;
   if (const std::string lost = missing_edge(ours, *theirs, 2 * near); !lost.empty())
@@ -297,19 +298,19 @@ std::optional<std::string> compare_soups(const Soup& soup) {
   return "";
 }
 
-TEST(Boost, HasTheSameGraphOnSoups) {
+TEST(Boost, HasTheSameGraphOnPlanarGraphs) {
   const std::uint64_t count = shape_count(13);
   std::uint64_t compared = 0;
   int failed = 0;
   for (std::uint64_t seed = 0; seed < count && failed < 3; ++seed) {
-    const auto soup = build_soup(random_integer_soup(seed));
-    ASSERT_TRUE(soup.ok());
-    const auto difference = compare_soups(*soup);
+    const auto planar_graph = build_planar_graph(random_integer_planar_graph(seed));
+    ASSERT_TRUE(planar_graph.ok());
+    const auto difference = compare_planar_graphs(*planar_graph);
     if (!difference) continue;
     ++compared;
     if (difference->empty()) continue;
     ++failed;
-    ADD_FAILURE() << "soup " << seed << ": " << *difference;
+    ADD_FAILURE() << "planar graph " << seed << ": " << *difference;
   }
   EXPECT_GT(compared, count - count / 50);
 }

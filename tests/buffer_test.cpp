@@ -8,8 +8,8 @@
 
 #include "base/arc.h"
 #include "medial/offset.h"
+#include "medial/planar_graph.h"
 #include "medial/query.h"
-#include "medial/soup.h"
 #include "support/generate.h"
 #include "support/offset_check.h"
 #ifdef MEDIAL_HAS_GEOS
@@ -22,15 +22,15 @@ namespace {
 using std::numbers::pi;
 using Chains = std::vector<Chain>;
 
-std::uint64_t soup_count() {
+std::uint64_t planar_graph_count() {
   const char* text = std::getenv("MEDIAL_PROPERTY_COUNT");
   return text && *text ? std::strtoull(text, nullptr, 10) / 20 : 600;
 }
 
 Offsets buffers_of(const Chains& chains, const std::vector<double>& distances) {
-  const auto soup = build_soup(chains);
-  EXPECT_TRUE(soup.ok());
-  auto offsets = offset_curves(*soup, distances);
+  const auto planar_graph = build_planar_graph(chains);
+  EXPECT_TRUE(planar_graph.ok());
+  auto offsets = offset_curves(*planar_graph, distances);
   EXPECT_TRUE(offsets.ok()) << (offsets ? "" : to_string(offsets.error()));
   return offsets ? std::move(offsets).value() : Offsets{};
 }
@@ -79,17 +79,17 @@ TEST(Buffer, PartsJoinWhereTheyMeet) {
 }
 
 TEST(Buffer, RefusesWhatIsNoDistance) {
-  const auto soup = build_soup(Chains{{{{0, 0}}}, {{{1, 0}}}});
-  ASSERT_TRUE(soup.ok());
+  const auto planar_graph = build_planar_graph(Chains{{{{0, 0}}}, {{{1, 0}}}});
+  ASSERT_TRUE(planar_graph.ok());
   for (const double d : {0.0, -1.0, std::nan(""), HUGE_VAL, 1e9})
-    EXPECT_EQ(offset_curves(*soup, {&d, 1}).error().code, ErrorCode::invalid_option) << d;
+    EXPECT_EQ(offset_curves(*planar_graph, {&d, 1}).error().code, ErrorCode::invalid_option) << d;
   const double one = 1;
-  EXPECT_EQ(offset_curves(Soup{}, {&one, 1}).error().code, ErrorCode::empty);
-  EXPECT_TRUE(offset_curves(*soup, std::span<const double>{})->regions.empty());
+  EXPECT_EQ(offset_curves(PlanarGraph{}, {&one, 1}).error().code, ErrorCode::empty);
+  EXPECT_TRUE(offset_curves(*planar_graph, std::span<const double>{})->regions.empty());
 }
 
 /// Points, lines and arcs without crossings, some of them closed.
-Chains random_soup(std::uint64_t seed) {
+Chains random_planar_graph(std::uint64_t seed) {
   test::Random random(seed);
   const auto place = [&] { return Vec2{random.unit(), random.unit()}; };
   Chains chains;
@@ -104,18 +104,18 @@ Chains random_soup(std::uint64_t seed) {
         chain.bulges.push_back(random.unit() < 0.5 ? 0 : random.between(-1, 1));
     chain.closed = chain.points.size() > 2 && random.unit() < 0.3;
     chains.push_back(chain);
-    if (!build_soup(chains)) chains.pop_back();
+    if (!build_planar_graph(chains)) chains.pop_back();
   }
   if (chains.empty()) chains.push_back({{place()}});
   return chains;
 }
 
-double distance_to(const Soup& soup, Vec2 p) {
+double distance_to(const PlanarGraph& planar_graph, Vec2 p) {
   double least = HUGE_VAL;
-  for (const Vec2 q : soup.points) least = std::min(least, distance(p, q));
-  for (const SoupEdge& edge : soup.edges) {
-    const Site site{soup.points[edge.from],
-                    soup.points[edge.to],
+  for (const Vec2 q : planar_graph.points) least = std::min(least, distance(p, q));
+  for (const PlanarGraphEdge& edge : planar_graph.edges) {
+    const Site site{planar_graph.points[edge.from],
+                    planar_graph.points[edge.to],
                     0,
                     0,
                     edge.bulge == 0 ? SiteKind::segment : SiteKind::arc,
@@ -127,13 +127,13 @@ double distance_to(const Soup& soup, Vec2 p) {
 
 TEST(Buffer, EveryPointHasItsDistance) {
   std::size_t regions = 0;
-  for (std::uint64_t seed = 0; seed < soup_count(); ++seed) {
+  for (std::uint64_t seed = 0; seed < planar_graph_count(); ++seed) {
     SCOPED_TRACE(seed);
-    const auto soup = build_soup(random_soup(seed));
-    ASSERT_TRUE(soup.ok());
+    const auto planar_graph = build_planar_graph(random_planar_graph(seed));
+    ASSERT_TRUE(planar_graph.ok());
     test::Random random(seed);
     const std::vector<double> distances{random.between(0.001, 0.05), random.between(0.05, 0.3), 2};
-    const auto offsets = offset_curves(*soup, distances);
+    const auto offsets = offset_curves(*planar_graph, distances);
     ASSERT_TRUE(offsets.ok()) << to_string(offsets.error());
     regions += offsets->regions.size();
     for (const OffsetRegion& region : offsets->regions) {
@@ -142,7 +142,8 @@ TEST(Buffer, EveryPointHasItsDistance) {
           const BulgeArc edge{ring.points[i], ring.points[(i + 1) % ring.points.size()],
                               ring.bulges.empty() ? 0 : ring.bulges[i]};
           for (const Vec2 p : {edge.start, apex(edge)})
-            ASSERT_NEAR(distance_to(*soup, p), -region.clearance, 1e-9) << p.x << " " << p.y;
+            ASSERT_NEAR(distance_to(*planar_graph, p), -region.clearance, 1e-9)
+                << p.x << " " << p.y;
         }
       }
     }
@@ -153,31 +154,31 @@ TEST(Buffer, EveryPointHasItsDistance) {
           rings.insert(rings.end(), region.rings.begin(), region.rings.end());
       for (int i = 0; i < 40; ++i) {
         const Vec2 p{random.between(-d, 1 + d), random.between(-d, 1 + d)};
-        const double away = distance_to(*soup, p);
+        const double away = distance_to(*planar_graph, p);
         if (std::abs(away - d) < 1e-9) continue;
         ASSERT_EQ(test::winding(rings, p), away < d ? 1 : 0) << p.x << " " << p.y << " at " << d;
       }
     }
   }
-  EXPECT_GT(regions, 3 * soup_count());
+  EXPECT_GT(regions, 3 * planar_graph_count());
 }
 
-TEST(Buffer, MovesWithTheSoup) {
+TEST(Buffer, MovesWithThePlanarGraph) {
   // Rotation, scale, shift, mirroring, the other direction, another start and order.
   std::size_t compared = 0;
-  for (std::uint64_t seed = 0; seed < soup_count() / 4; ++seed) {
-    const Chains chains = random_soup(seed);
-    const double size = diagonal(bounding_box(*build_soup(chains)));
+  for (std::uint64_t seed = 0; seed < planar_graph_count() / 4; ++seed) {
+    const Chains chains = random_planar_graph(seed);
+    const double size = diagonal(bounding_box(*build_planar_graph(chains)));
     test::Random random(seed);
     const std::vector<double> distances{random.between(0.01, 0.1), random.between(0.1, 0.4)};
     const test::Measures expected = test::measures_of(buffers_of(chains, distances), 1);
     for (const test::Symmetry& symmetry : test::symmetries()) {
       SCOPED_TRACE(std::to_string(seed) + " " + symmetry.name);
       const double scale = symmetry.scale();
-      const auto soup = build_soup(test::transformed(chains, symmetry));
-      ASSERT_TRUE(soup.ok());
+      const auto planar_graph = build_planar_graph(test::transformed(chains, symmetry));
+      ASSERT_TRUE(planar_graph.ok());
       const auto offsets =
-          offset_curves(*soup, std::vector{scale * distances[0], scale * distances[1]});
+          offset_curves(*planar_graph, std::vector{scale * distances[0], scale * distances[1]});
       // What is near to each other is no longer told apart far away.
       if (!offsets && offsets.error().code == ErrorCode::unsupported && symmetry.dx == 1e7)
         continue;
@@ -194,7 +195,7 @@ TEST(Buffer, MovesWithTheSoup) {
     }
     if (HasFailure()) return;
   }
-  EXPECT_GT(compared, 12 * soup_count() / 5);
+  EXPECT_GT(compared, 12 * planar_graph_count() / 5);
 }
 
 #ifdef MEDIAL_HAS_GEOS
@@ -264,9 +265,9 @@ double simplified(const Offsets& offsets, double distance) {
 
 TEST(Buffer, AgreesWithGeosOnLinesAndPoints) {
   Geos geos;
-  for (std::uint64_t seed = 0; seed < soup_count() / 10; seed += 2) {  // straight ones
+  for (std::uint64_t seed = 0; seed < planar_graph_count() / 10; seed += 2) {  // straight ones
     SCOPED_TRACE(seed);
-    const Chains chains = random_soup(seed);
+    const Chains chains = random_planar_graph(seed);
     std::string text = "GEOMETRYCOLLECTION(";
     for (std::size_t i = 0; i < chains.size(); ++i) {
       const bool point = chains[i].points.size() == 1;
@@ -286,7 +287,7 @@ TEST(Buffer, AgreesWithGeosOnLinesAndPoints) {
 TEST(Buffer, OfPolygonsAgreesWithGeosOnBothSides) {
   Geos geos;
   std::size_t compared = 0;
-  for (std::uint64_t seed = 0; seed < soup_count() / 6; ++seed) {
+  for (std::uint64_t seed = 0; seed < planar_graph_count() / 6; ++seed) {
     const test::RandomShape random = test::random_shape(seed);
     SCOPED_TRACE(random.kind + " " + std::to_string(seed));
     const auto shape = build_shape(random.rings);
@@ -306,7 +307,7 @@ TEST(Buffer, OfPolygonsAgreesWithGeosOnBothSides) {
       ++compared;
     }
   }
-  EXPECT_GT(compared, soup_count() / 10);
+  EXPECT_GT(compared, planar_graph_count() / 10);
 }
 #endif
 

@@ -8,8 +8,8 @@
 #include <numbers>
 #include <random>
 
-#include "curves/biarc.h"
-#include "curves/spirals.h"
+#include "curve/biarc.h"
+#include "curve/spirals.h"
 #include "medial/medial.h"
 #include "support/contours.h"
 #include "support/curve_check.h"
@@ -18,7 +18,7 @@
 namespace medial {
 namespace {
 
-using namespace curves;
+using namespace curve;
 using namespace test;
 using std::numbers::pi;
 
@@ -350,8 +350,8 @@ TEST(Biarc, TheThreeErrorsAgree) {
   const std::array<Vec2, 3> points = {{{0, 0}, {0.3, 0}, {0.5, 0.1}}};
   const Bezier curve = curve_of(points);
   ASSERT_EQ(find_splits(curve).count, 0);
-  const Station a = station_at(curve, 0, curves::Side::after),
-                b = station_at(curve, 1, curves::Side::before);
+  const Station a = station_at(curve, 0, curve::Side::after),
+                b = station_at(curve, 1, curve::Side::before);
   const Biarc biarc = make_biarc(a, spiral_joint(a, b), b);
   const double high = std::max(std::abs(a.curvature), std::abs(b.curvature));
   const double low = std::min(std::abs(a.curvature), std::abs(b.curvature));
@@ -380,8 +380,8 @@ TEST(Biarc, JointsSettleOnTheJointCircle) {
   PieceFrame frame;
   double rounded = 0, settled = 0;
   for (int i = 0; i < 1000; ++i) {
-    Station a = station_at(curve, i / 1000.0, curves::Side::after);
-    Station b = station_at(curve, (i + 1) / 1000.0, curves::Side::before);
+    Station a = station_at(curve, i / 1000.0, curve::Side::after);
+    Station b = station_at(curve, (i + 1) / 1000.0, curve::Side::before);
     const Vec2 joint = frame.snap(spiral_joint(a, b));
     const auto angle_at = [&](Vec2 p) {
       const Biarc biarc = make_biarc(a, p, b);
@@ -402,8 +402,8 @@ TEST(Biarc, JointsSettleOnTheJointCircle) {
 TEST(Biarc, NoBoundWhereTheCurveLeavesTheSector) {
   const std::array<Vec2, 4> loop = {{{0, 0}, {3, 2}, {-2, 2}, {1, 0}}};
   const Bezier curve = curve_of(loop);
-  const Station a = station_at(curve, 0, curves::Side::after),
-                b = station_at(curve, 1, curves::Side::before);
+  const Station a = station_at(curve, 0, curve::Side::after),
+                b = station_at(curve, 1, curve::Side::before);
   const Biarc biarc = make_biarc(a, spiral_joint(a, b), b);
   EXPECT_TRUE(std::isinf(certified_error(curve, biarc, 1e-15)));
 }

@@ -1,6 +1,6 @@
 // Delaunay triangulations, checked triangle by triangle with exact predicates.
 
-#include "geometry/delaunay.h"
+#include "voronoi/delaunay.h"
 
 #include <gtest/gtest.h>
 
@@ -18,8 +18,8 @@
 namespace medial::test {
 namespace {
 
-using geometry::Delaunay;
-using geometry::outside;
+using voronoi::Delaunay;
+using voronoi::outside;
 
 /// What is wrong at a half-edge, if anything. Where nothing is at any of them, all of it is right:
 /// what is Delaunay and convex next to every edge is so everywhere.
@@ -42,7 +42,7 @@ std::string fault_at(const Delaunay& d, std::uint32_t h) {
 }
 
 std::string fault_of(const std::vector<Vec2>& points) {
-  const Delaunay d = geometry::triangulate(points);
+  const Delaunay d = voronoi::triangulate(points);
   if (d.triangles.size() != 2 * points.size() - 2) return "not all triangles";
   for (std::uint32_t t = 0; t < d.triangles.size(); ++t)
     for (std::uint32_t i = 0; i < 3; ++i)
@@ -116,7 +116,7 @@ TEST(Delaunay, HoldsForPointsOnCirclesLinesAndGrids) {
                                    })),
               "");
   }
-  EXPECT_TRUE(geometry::triangulate(std::vector<Vec2>{{0, 0}, {2, 2}, {1, 1}}).triangles.empty());
+  EXPECT_TRUE(voronoi::triangulate(std::vector<Vec2>{{0, 0}, {2, 2}, {1, 1}}).triangles.empty());
 }
 
 TEST(HilbertOrder, GoesFromNeighbourToNeighbour) {

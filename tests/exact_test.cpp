@@ -12,11 +12,11 @@
 #include <string>
 #include <vector>
 
-#include "exact/divide.h"
-#include "exact/in_disk.h"
-#include "exact/numbers.h"
 #include "medial/compute.h"
 #include "medial/verify.h"
+#include "methods/exact/divide.h"
+#include "methods/exact/in_disk.h"
+#include "methods/exact/numbers.h"
 #include "support/random_shapes.h"
 #include "support/same_graph.h"
 
@@ -108,7 +108,7 @@ TEST(RootNumber, TellsWhatIsNearZero) {
 // ---- Decisions.
 
 exact::Outline outline_of(const Shape& shape) {
-  const Frame frame = frame_of(bounding_box(shape));
+  const LocalFrame frame = frame_of(bounding_box(shape));
   return exact::outline_of(shape, frame, sites::number_sites(shape, frame, 0.01));
 }
 

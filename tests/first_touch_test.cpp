@@ -1,6 +1,6 @@
 // The tree that connects holes, against looking at every site.
 
-#include "index/first_touch.h"
+#include "site/first_touch.h"
 
 #include <gtest/gtest.h>
 
@@ -11,14 +11,14 @@
 #include <vector>
 
 #include "base/spatial_order.h"
-#include "geometry/tangent_disk.h"
+#include "site/tangent_disk.h"
 #include "support/generate.h"
 
 namespace medial::test {
 namespace {
 
-std::vector<geometry::Site> random_sites(Random& random, std::size_t count) {
-  std::vector<geometry::Site> sites;
+std::vector<site::Site> random_sites(Random& random, std::size_t count) {
+  std::vector<site::Site> sites;
   const auto point = [&] { return Vec2{random.between(-1, 1), random.between(-1, 1)}; };
   while (sites.size() < count) {
     const Vec2 a = point(), b = random.chance(0.2)
@@ -26,14 +26,14 @@ std::vector<geometry::Site> random_sites(Random& random, std::size_t count) {
                                     : a + random.power_of_ten(-4, -1) * (point() - Vec2{0.1, 0});
     switch (random.integer(0, 2)) {
       case 0:
-        sites.push_back(geometry::make_vertex(a));
+        sites.push_back(site::make_vertex(a));
         break;
       case 1:
-        sites.push_back(geometry::make_segment(a, b));
+        sites.push_back(site::make_segment(a, b));
         break;
       default:
-        sites.push_back(geometry::make_arc(
-            a, b, random.between(-geometry::largest_bulge, geometry::largest_bulge)));
+        sites.push_back(
+            site::make_arc(a, b, random.between(-site::largest_bulge, site::largest_bulge)));
     }
   }
   return sites;
@@ -42,13 +42,13 @@ std::vector<geometry::Site> random_sites(Random& random, std::size_t count) {
 TEST(FirstTouch, FindsWhatLookingAtEverySiteFinds) {
   Random random(1);
   for (const std::size_t count : {1U, 7U, 8U, 33U, 500U, 5000U}) {
-    const std::vector<geometry::Site> sites = random_sites(random, count);
+    const std::vector<site::Site> sites = random_sites(random, count);
     std::vector<std::uint32_t> groups;
     for (std::size_t i = 0; i < count; ++i)
       groups.push_back(static_cast<std::uint32_t>(random.integer(0, 2)));
     std::vector<std::uint32_t> all(count);
     std::iota(all.begin(), all.end(), 0U);
-    const index::FirstTouch tree(sites, all, groups);
+    const site::FirstTouch tree(sites, all, groups);
     for (int i = 0; i < 200; ++i) {
       const Vec2 foot{random.between(-1, 1), random.between(-1, 1)};
       const double angle = random.between(0, 7), largest = random.power_of_ten(-3, 0);
@@ -59,7 +59,7 @@ TEST(FirstTouch, FindsWhatLookingAtEverySiteFinds) {
       double smallest = largest;
       for (std::uint32_t k = 0; k < count; ++k)
         if (groups[k] == group && (k < first || k > last))
-          smallest = std::min(smallest, geometry::touching_radius(foot, direction, sites[k]));
+          smallest = std::min(smallest, site::touching_radius(foot, direction, sites[k]));
       const auto touch = tree.find(foot, direction, largest, group, first, last);
       EXPECT_EQ(touch.has_value(), smallest < largest) << count << " sites";
       if (!touch) continue;

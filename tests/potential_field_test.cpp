@@ -7,8 +7,8 @@
 #include <cmath>
 #include <vector>
 
-#include "engines/potential/force.h"
-#include "engines/potential/integral.h"
+#include "methods/potential/force.h"
+#include "methods/potential/integral.h"
 #include "support/generate.h"
 
 namespace medial::test {

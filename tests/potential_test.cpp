@@ -13,14 +13,14 @@
 #include <utility>
 #include <vector>
 
-#include "base/frame.h"
-#include "engines/potential/region.h"
-#include "engines/potential/skeleton.h"
+#include "base/local_frame.h"
 #include "medial/compute.h"
 #include "medial/field.h"
 #include "medial/image.h"
 #include "medial/query.h"
 #include "medial/verify.h"
+#include "methods/potential/region.h"
+#include "methods/potential/skeleton.h"
 #include "support/generate.h"
 
 namespace medial::test {

@@ -1,6 +1,6 @@
 // Ridge following: the report's parts, both searches, and the pixels against the exact axis.
 
-#include "engines/ridge/ridge.h"
+#include "methods/raster/ridge/ridge.h"
 
 #include <gtest/gtest.h>
 
@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "engines/ridge/nearest.h"
-#include "engines/ridge/outline.h"
 #include "medial/medial.h"
+#include "methods/raster/ridge/nearest.h"
+#include "methods/raster/ridge/outline.h"
 #include "support/generate.h"
 #include "support/generate_arcs.h"
 #include "support/property.h"
@@ -91,8 +91,8 @@ std::vector<double> six_vertices_rule(const std::vector<Vec2>& polygon, Vec2 p) 
       if (std::find(edges.begin(), edges.end(), e) == edges.end()) edges.push_back(e);
   std::vector<double> distances;
   for (const std::size_t e : edges)
-    distances.push_back(std::sqrt(
-        geometry::squared_distance(geometry::make_segment(polygon[e], polygon[(e + 1) % n]), p)));
+    distances.push_back(
+        std::sqrt(site::squared_distance(site::make_segment(polygon[e], polygon[(e + 1) % n]), p)));
   std::sort(distances.begin(), distances.end());
   return distances;
 }

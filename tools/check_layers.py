@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Checks that every file includes only its own layer and lower ones.
 
-Public headers include no internal ones, the core never includes what only medial::io may use, and
-verify shares nothing with the engines above geometry. The command line includes public headers and its
-own, but for the few files of EXPERIMENTS. medial.h includes all public headers of the core.
+Each public header belongs to a layer too, and counts as a file of that layer. The core includes nothing
+that only medial::io may use. The command line and the papers' programs stand above all layers; the command
+line sees public headers only. medial.h includes all public headers of the core.
 """
 
 import pathlib
@@ -11,73 +11,81 @@ import re
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-LAYERS = ["base", "raster", "geometry", "curves", "shape", "axis", "exact", "index", "engines", "ops", "verify", "volume", "io"]
-# The certificate must not repeat an engine's mistake.
-HIDDEN = {"verify": {"exact", "index", "engines", "ops"}}
-# Experiments measure and draw what happens inside of an engine (its base cases, merge curves, orders): no
-# user of the library needs that, so it stays out of the public headers. cli/CMakeLists.txt has this list too.
-EXPERIMENTS = {"bench_biarc.cpp", "bench_curve_axis.cpp", "bench_lee.cpp", "bench_potential.cpp", "bench_ridge.cpp", "lee_figures.cpp"}
+# From the lowest to the highest, each with its public headers.
+LAYERS = {
+    "base": ["vec2", "vec3", "box", "error"],
+    "shape": ["shape", "planar_graph"],
+    "curve": ["contour"],
+    "site": [],
+    "axis": ["axis", "query"],
+    "verify": ["verify", "shape_distance"],
+    "methods": ["compute", "choose", "curve_axis", "field", "brushfire"],
+    "voronoi": ["voronoi"],
+    "ops": ["carve", "centreline", "features", "match", "measure", "offset", "pack", "prune", "rebuild", "sides"],
+    "volume": ["volume"],
+    "load": ["image"],
+    "io": ["io/*"],
+    "all": ["medial"],
+}
+ORDER = list(LAYERS)
+LAYER_OF_HEADER = {f"medial/{name}.h": layer for layer, names in LAYERS.items() for name in names}
 IO_ONLY = re.compile(r"(gdal|ogr|cpl_|geos|cairo|svgpp|libxml|dl_|ft2build|simdjson|nlohmann/|CLI/|zlib\.h|sqlite3\.h|assimp)", re.IGNORECASE)
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.MULTILINE)
 
 
-def faults_of_cli(path):
-    """Yields one sentence for each include of `path` that the command line does not allow itself."""
-    for quote, name in INCLUDE.findall(path.read_text()):
-        first = name.split("/")[0]
-        if quote == "<" or first in ("cli", "medial"):
-            continue
-        if first not in LAYERS:
-            yield f'"{name}" names no layer'
-        elif path.name not in EXPERIMENTS:
-            yield f"the command line includes internal {name}"
+def layer_of_include(name):
+    """The layer of an included file of the project's own; None if it belongs to no layer."""
+    if name.startswith("medial/io/"):
+        return "io"
+    if name.startswith("medial/"):
+        return LAYER_OF_HEADER.get(name)
+    return name.split("/")[0] if name.split("/")[0] in LAYERS else None
 
 
 def faults_of(path):
     """Yields one sentence for each include of `path` that its layer does not allow."""
     relative = path.relative_to(ROOT)
-    if relative.parts[0] == "cli":
-        yield from faults_of_cli(path)
-        return
     public = relative.parts[0] == "include"
-    layer = None if public else relative.parts[1]
-    io = "io" in relative.parts[1:3]
+    layer = layer_of_include("/".join(relative.parts[1:]))
+    if layer is None:
+        yield "belongs to no layer"
+        return
     for quote, name in INCLUDE.findall(path.read_text()):
-        first = name.split("/")[0]
-        if public and quote == '"' and not name.startswith("medial/"):
-            yield f"public header includes internal {name}"
-        if not io and (IO_ONLY.match(name) or name.startswith("medial/io/")):
+        if layer != "io" and IO_ONLY.match(name):
             yield f"the core includes {name}"
-        if public or quote == "<" or first == "medial":
+        if quote == "<":
             continue
-        if first not in LAYERS:
-            yield f'"{name}" names no layer'
-        elif LAYERS.index(first) > LAYERS.index(layer):
-            yield f"{layer} includes {name} from the higher layer {first}"
-        elif first in HIDDEN.get(layer, ()):
-            yield f"{layer} must not share {name} with the engines"
+        included = layer_of_include(name)
+        if public and not name.startswith("medial/"):
+            yield f"public header includes internal {name}"
+        elif included is None:
+            yield f'"{name}" belongs to no layer'
+        elif ORDER.index(included) > ORDER.index(layer):
+            yield f"{layer} includes {name} from the higher layer {included}"
+
+
+def faults_of_cli(path):
+    """Yields one sentence for each internal header that the command line includes."""
+    for quote, name in INCLUDE.findall(path.read_text()):
+        if quote == '"' and name.split("/")[0] not in ("cli", "medial"):
+            yield f"the command line includes internal {name}"
 
 
 def main():
-    files = [p for folder in ("include", "src", "cli") for p in sorted((ROOT / folder).rglob("*"))
-             if p.suffix in (".h", ".cpp")]
-    faults = 0
+    def sources(folder):
+        return [p for p in sorted((ROOT / folder).rglob("*")) if p.suffix in (".h", ".cpp")]
+
+    faults = []
     core = ROOT / "include" / "medial"
     whole = {name for _, name in INCLUDE.findall((core / "medial.h").read_text())}
-    for path in core.glob("*.h"):
-        if path.name != "medial.h" and f"medial/{path.name}" not in whole:
-            print(f"include/medial/medial.h does not include {path.name}")
-            faults += 1
+    faults += [f"include/medial/medial.h does not include {path.name}" for path in sorted(core.glob("*.h"))
+               if path.name != "medial.h" and f"medial/{path.name}" not in whole]
+    files = sources("include") + sources("src")
     for path in files:
-        relative = path.relative_to(ROOT)
-        if relative.parts[0] == "src" and relative.parts[1] not in LAYERS:
-            print(f"{relative}: no layer of this name")
-            faults += 1
-            continue
-        for fault in faults_of(path):
-            print(f"{relative}: {fault}")
-            faults += 1
-    print(f"{len(files)} files, {faults} faults")
+        faults += [f"{path.relative_to(ROOT)}: {fault}" for fault in faults_of(path)]
+    for path in sources("cli"):
+        faults += [f"{path.relative_to(ROOT)}: {fault}" for fault in faults_of_cli(path)]
+    print("\n".join([*faults, f"{len(files)} files, {len(faults)} faults"]))
     return 1 if faults or not files else 0
 
 

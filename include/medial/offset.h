@@ -12,8 +12,8 @@
 #include "medial/axis.h"
 #include "medial/compute.h"
 #include "medial/error.h"
+#include "medial/planar_graph.h"
 #include "medial/shape.h"
-#include "medial/soup.h"
 
 namespace medial {
 
@@ -37,8 +37,8 @@ struct Offsets {
   /// have no point in common, but touching points within rounding.
   std::vector<OffsetRegion> regions;
   double tolerance = 0;  ///< of the axes: what a curve's clearance is off by, about
-  /// Of buffers: of each of the soup's points, the region of the smallest distance that it lies in;
-  /// those of larger distances are its ancestors. Else empty.
+  /// Of buffers: of each of the planar graph's points, the region of the smallest distance that it
+  /// lies in; those of larger distances are its ancestors. Else empty.
   std::vector<std::uint32_t> region_of_point = {};
   double seconds_axis = 0;    ///< to compute axes
   double seconds_curves = 0;  ///< to walk along them
@@ -66,11 +66,11 @@ Result<Offsets> offset_curves(const Shape& shape, std::span<const double> cleara
                               const Options& options = {});
 
 /// Buffers of loose points, lines and arcs: the regions of all places nearer than each of
-/// `distances` to the soup, as above; their clearance is the distance negated. Faces that lines
-/// enclose become holes where they are wider. Curves as exact as those of shapes.
-/// O(n log n) expected. Errors: those of voronoi_diagram(); invalid_option (a distance that is not
-/// positive and finite, or above 1e5 of the soup's diagonal where that is not 0).
-Result<Offsets> offset_curves(const Soup& soup, std::span<const double> distances,
+/// `distances` to the planar graph, as above; their clearance is the distance negated. Faces that
+/// lines enclose become holes where they are wider. Curves as exact as those of shapes. O(n log n)
+/// expected. Errors: those of voronoi_diagram(); invalid_option (a distance that is not positive
+/// and finite, or above 1e5 of the planar graph's diagonal where that is not 0).
+Result<Offsets> offset_curves(const PlanarGraph& planar_graph, std::span<const double> distances,
                               const Options& options = {});
 
 /// The clearances first, first + step, ... up to the last one with a region inside: passes of a

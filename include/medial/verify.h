@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "medial/axis.h"
+#include "medial/planar_graph.h"
 #include "medial/shape.h"
-#include "medial/soup.h"
 #include "medial/voronoi.h"
 
 namespace medial {
@@ -87,15 +87,15 @@ struct VoronoiCertificate {
   std::vector<std::string> failures;
 };
 
-/// Checks a soup's diagram against the soup, by the distance search of the certificate above, which
-/// the engines do not share: its sites are the soup's; every sample of an edge is at its radius
-/// from the edge's sites and no nearer to any other; edges of the frame lie on it; every face is
-/// one closed walk along edges of its site, counter-clockwise; every edge is in the faces of both
-/// of its sites; the graph is connected; and the areas of the faces add up to the frame's. So the
-/// faces fill the frame without overlap and each holds what is nearest to its site. O(n log n)
-/// expected. Of the options tolerance, samples_per_edge and threads count. A diagram without a
-/// frame (of a polygon alone) does not pass.
-VoronoiCertificate verify(const Soup& soup, const VoronoiDiagram& diagram,
+/// Checks a planar graph's diagram against the planar graph, by the distance search of the
+/// certificate above, which the engines do not share: its sites are the planar graph's; every
+/// sample of an edge is at its radius from the edge's sites and no nearer to any other; edges of
+/// the frame lie on it; every face is one closed walk along edges of its site, counter-clockwise;
+/// every edge is in the faces of both of its sites; the graph is connected; and the areas of the
+/// faces add up to the frame's. So the faces fill the frame without overlap and each holds what is
+/// nearest to its site. O(n log n) expected. Of the options tolerance, samples_per_edge and threads
+/// count. A diagram without a frame (of a polygon alone) does not pass.
+VoronoiCertificate verify(const PlanarGraph& planar_graph, const VoronoiDiagram& diagram,
                           const VerifyOptions& options = {});
 
 }  // namespace medial

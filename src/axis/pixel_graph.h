@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <span>
 
+#include "base/grid.h"
 #include "medial/axis.h"
-#include "raster/grid.h"
 
 namespace medial {
 

@@ -12,7 +12,7 @@
 namespace medial::sites {
 namespace {
 
-using geometry::Joint;
+using site::Joint;
 
 Joint joint_at(const Loop& loop, std::uint32_t i, double tolerance, double corner_angle) {
   if (loop.turns_back(i)) return Joint::reflex;
@@ -20,22 +20,20 @@ Joint joint_at(const Loop& loop, std::uint32_t i, double tolerance, double corne
   const Vec2 p = loop.point(before), q = loop.point(i), r = loop.point(after);
   if (loop.bulge(before) == 0 && loop.bulge(i) == 0)
     return orientation(p, q, r) > 0 ? Joint::corner : Joint::reflex;
-  return geometry::joint_of({p, q, loop.bulge(before)}, {q, r, loop.bulge(i)}, tolerance,
-                            corner_angle);
+  return site::joint_of({p, q, loop.bulge(before)}, {q, r, loop.bulge(i)}, tolerance, corner_angle);
 }
 
 }  // namespace
 
 Pieces pieces_of(Vec2 start, Vec2 end, double bulge) {
-  if (bulge == 0) return {{geometry::make_segment(start, end)}, 1};
-  if (std::abs(bulge) <= geometry::largest_bulge)
-    return {{geometry::make_arc(start, end, bulge)}, 1};
+  if (bulge == 0) return {{site::make_segment(start, end)}, 1};
+  if (std::abs(bulge) <= site::largest_bulge) return {{site::make_arc(start, end, bulge)}, 1};
   const Vec2 middle = apex({start, end, bulge});
   const double half = half_bulge(bulge);
-  return {{geometry::make_arc(start, middle, half), geometry::make_arc(middle, end, half)}, 2};
+  return {{site::make_arc(start, middle, half), site::make_arc(middle, end, half)}, 2};
 }
 
-SiteNumbers number_sites(const Shape& shape, const Frame& frame, double corner_angle) {
+SiteNumbers number_sites(const Shape& shape, const LocalFrame& frame, double corner_angle) {
   SiteNumbers numbers;
   numbers.edge.resize(shape.points.size());
   numbers.joints.resize(shape.points.size());

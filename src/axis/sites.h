@@ -5,11 +5,11 @@
 #include <cstdint>
 #include <vector>
 
-#include "base/frame.h"
-#include "geometry/joint.h"
-#include "geometry/site.h"
+#include "base/local_frame.h"
 #include "medial/axis.h"
 #include "medial/shape.h"
+#include "site/joint.h"
+#include "site/site.h"
 
 // From a shape's loops to sites: what all engines that return exact axes begin with, so that they
 // number their sites alike.
@@ -18,17 +18,17 @@ namespace medial::sites {
 
 /// An edge of the shape as one site, or two where an arc is longer than a quarter of a circle.
 struct Pieces {
-  std::array<geometry::Site, 2> site;
+  std::array<site::Site, 2> site;
   std::size_t count = 1;
-  const geometry::Site& first() const { return site[0]; }
-  const geometry::Site& last() const { return site[count - 1]; }
+  const site::Site& first() const { return site[0]; }
+  const site::Site& last() const { return site[count - 1]; }
 };
 Pieces pieces_of(Vec2 start, Vec2 end, double bulge);
 
 /// The edges of one loop, in the frame.
 class Loop {
  public:
-  Loop(const Shape& shape, std::size_t loop, const Frame& frame)
+  Loop(const Shape& shape, std::size_t loop, const LocalFrame& frame)
       : shape_(shape),
         frame_(frame),
         begin_(shape.loop_begin[loop]),
@@ -42,7 +42,7 @@ class Loop {
   Vec2 local(std::uint32_t i) const { return frame_.to_local(point(i)); }
   double bulge(std::uint32_t i) const { return shape_.bulge(begin_ + i); }
   /// Whether the loop goes back there on the edge that it came on: a point, or an open end, of a
-  /// soup (see shape/around.h).
+  /// planar graph (see shape/around.h).
   bool turns_back(std::uint32_t i) const {
     return point(before(i)) == point(next(i)) && bulge(before(i)) == -bulge(i);
   }
@@ -50,20 +50,20 @@ class Loop {
 
  private:
   const Shape& shape_;
-  const Frame& frame_;
+  const LocalFrame& frame_;
   std::uint32_t begin_, size_;
 };
 
 /// Which vertices are sites, and how the result numbers its sites: in the order of the shape's
 /// points, the vertex before the segment that starts there. A loop of one point has no segment.
 struct SiteNumbers {
-  std::vector<std::uint32_t> edge;      ///< of each point; the vertex's number is one less
-  std::vector<geometry::Joint> joints;  ///< at each point
+  std::vector<std::uint32_t> edge;  ///< of each point; the vertex's number is one less
+  std::vector<site::Joint> joints;  ///< at each point
   std::uint32_t count = 0;
-  bool is_site(std::size_t point) const { return joints[point] == geometry::Joint::reflex; }
+  bool is_site(std::size_t point) const { return joints[point] == site::Joint::reflex; }
 };
 /// `corner_angle` in degrees; see Options.
-SiteNumbers number_sites(const Shape& shape, const Frame& frame, double corner_angle);
+SiteNumbers number_sites(const Shape& shape, const LocalFrame& frame, double corner_angle);
 
 /// The result's sites, in units of the input.
 std::vector<Site> result_sites(const Shape& shape, const SiteNumbers& numbers);

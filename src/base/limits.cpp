@@ -49,10 +49,11 @@ std::optional<Error> beyond_limits(const Shape& shape) {
   return beyond_limits(shape.points, 0, shape.sources);
 }
 
-std::optional<Error> beyond_limits(const Soup& soup, const Box& box) {
+std::optional<Error> beyond_limits(const PlanarGraph& planar_graph, const Box& box) {
   const std::array<Vec2, 2> corners{box.low, box.high};
   // A point of the input tells more than the box that lies around it.
-  if (auto error = beyond_limits(soup.points, largest_coordinate_in(box), soup.point_sources))
+  if (auto error = beyond_limits(planar_graph.points, largest_coordinate_in(box),
+                                 planar_graph.point_sources))
     return error;
   return beyond_limits(corners, 0, {});
 }

@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "medial/error.h"
+#include "medial/planar_graph.h"
 #include "medial/shape.h"
-#include "medial/soup.h"
 
 namespace medial {
 
@@ -31,7 +31,7 @@ inline bool is_within_limits(double value) {
 /// place; none where all are within them. O(n).
 std::optional<Error> beyond_limits(const Shape& shape);
 
-/// The same of a soup and a box around it.
-std::optional<Error> beyond_limits(const Soup& soup, const Box& box);
+/// The same of a planar graph and a box around it.
+std::optional<Error> beyond_limits(const PlanarGraph& planar_graph, const Box& box);
 
 }  // namespace medial

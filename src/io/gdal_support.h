@@ -53,7 +53,7 @@ struct GeometryCounts {
 /// stay arcs.
 void add_rings(const OGRGeometry& geometry, std::vector<Ring>& rings, GeometryCounts& counts);
 
-/// The same for a soup: also its lines, open or closed, and points, as chains.
+/// The same for a planar graph: also its lines, open or closed, and points, as chains.
 void add_loose(const OGRGeometry& geometry, std::vector<Ring>& rings, std::vector<Chain>& chains,
                GeometryCounts& counts);
 

@@ -22,8 +22,9 @@ namespace {
 constexpr char offset_formats[] = ".json .geojson .wkt .dxf .svg .pdf .png .ps";
 
 Box box_of(const OffsetItem& item) {
-  if (!item.shape.points.empty() || item.soup.points.empty()) return bounding_box(item.shape);
-  return bounding_box(item.soup);
+  if (!item.shape.points.empty() || item.planar_graph.points.empty())
+    return bounding_box(item.shape);
+  return bounding_box(item.planar_graph);
 }
 
 double chord_of(const OffsetItem& item, const WriteOptions& options) {
@@ -221,15 +222,15 @@ Status write_picture(OutputStream& out, const std::string& format, const OffsetF
       canvas.color(outline);
       canvas.line_width(1.2);
       canvas.trace(item.shape);
-      for (const SoupEdge& edge : item.soup.edges)
-        canvas.trace(Ring{{item.soup.points[edge.from], item.soup.points[edge.to]},
+      for (const PlanarGraphEdge& edge : item.planar_graph.edges)
+        canvas.trace(Ring{{item.planar_graph.points[edge.from], item.planar_graph.points[edge.to]},
                           RingRole::any,
                           {edge.bulge, 0}},
                      false);
       canvas.stroke();
       const double dot = 2e-3 * diagonal(box);
-      for (const LonePoint& lone : item.soup.lone_points) {
-        canvas.circle(item.soup.points[lone.point], dot);
+      for (const LonePoint& lone : item.planar_graph.lone_points) {
+        canvas.circle(item.planar_graph.points[lone.point], dot);
         canvas.fill();
       }
     }

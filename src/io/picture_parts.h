@@ -25,7 +25,7 @@ void draw_lines_and_disks(Pen& pen, const LayerFile& file);
 
 /// Every face filled with a colour, and the spokes.
 void draw_faces(Pen& pen, const VoronoiFile& file);
-/// The sites of soups.
+/// The sites of planar graphs.
 void draw_sites(Pen& pen, const VoronoiFile& file);
 
 }  // namespace medial::io

@@ -193,7 +193,7 @@ class WktReader {
     }
   }
 
-  /// Points and lines for a soup.
+  /// Points and lines for a planar graph.
   Status read_loose(Kind kind, const std::string& name, Feature& feature) {
     const auto add_line = [&]() -> Status {
       Chain chain;

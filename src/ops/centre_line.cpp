@@ -9,9 +9,9 @@
 #include "axis/sites.h"
 #include "base/arc.h"
 #include "base/numbers.h"
-#include "index/boundary_tree.h"
 #include "medial/centreline.h"
 #include "medial/query.h"
+#include "site/boundary_tree.h"
 
 namespace medial {
 namespace {
@@ -29,8 +29,8 @@ class Boundary {
   }
 
  private:
-  static std::vector<geometry::Site> sites_of(const Shape& shape, const Frame& frame) {
-    std::vector<geometry::Site> result;
+  static std::vector<site::Site> sites_of(const Shape& shape, const LocalFrame& frame) {
+    std::vector<site::Site> result;
     result.reserve(shape.points.size());
     for (std::size_t i = 0; i < shape.loop_count(); ++i) {
       const sites::Loop loop(shape, i, frame);
@@ -42,9 +42,9 @@ class Boundary {
     return result;
   }
 
-  Frame frame_;
-  std::vector<geometry::Site> sites_;
-  index::BoundaryTree tree_;
+  LocalFrame frame_;
+  std::vector<site::Site> sites_;
+  site::BoundaryTree tree_;
 };
 
 /// Where a ray from p in a direction of length 1 meets a site first, after `least`.

@@ -9,12 +9,12 @@
 #include "base/disjoint_sets.h"
 #include "base/in_flight.h"
 #include "base/stopwatch.h"
-#include "engines/axis_around.h"
 #include "ops/level_walk.h"
 #include "ops/summits.h"
 #include "shape/around.h"
 #include "shape/clean.h"
 #include "shape/exterior.h"
+#include "voronoi/axis_around.h"
 
 namespace medial {
 namespace {
@@ -135,7 +135,7 @@ struct Surroundings {
   /// Components of the shape that touch: neighbours along the boundary of the exterior.
   std::vector<std::pair<std::uint32_t, std::uint32_t>> touching;
   std::size_t components = 0;                ///< of the shape
-  std::vector<std::uint32_t> of_point = {};  ///< of a soup's points: their components
+  std::vector<std::uint32_t> of_point = {};  ///< of a planar graph's points: their components
 };
 
 /// Sites are numbered in the order of the points, a vertex before the edge that starts there.
@@ -205,16 +205,17 @@ std::vector<std::uint32_t> add_outward(const MedialAxis& axis, const Surrounding
   return region_of_point;
 }
 
-/// The same for a soup: what its points and edges connect is a component.
-Surroundings surroundings_of(const Soup& soup, const Shape& surroundings, const MedialAxis& axis) {
-  DisjointSets sets(soup.points.size());
-  for (const SoupEdge& edge : soup.edges) sets.join(edge.from, edge.to);
+/// The same for a planar graph: what its points and edges connect is a component.
+Surroundings surroundings_of(const PlanarGraph& planar_graph, const Shape& surroundings,
+                             const MedialAxis& axis) {
+  DisjointSets sets(planar_graph.points.size());
+  for (const PlanarGraphEdge& edge : planar_graph.edges) sets.join(edge.from, edge.to);
   Surroundings around;
-  around.components = soup.points.size();
+  around.components = planar_graph.points.size();
   const auto component_of = [&](std::uint32_t point) {
     return point == no_index ? Surroundings::frame : sets.find(point);
   };
-  for (std::uint32_t point = 0; point < soup.points.size(); ++point)
+  for (std::uint32_t point = 0; point < planar_graph.points.size(); ++point)
     around.of_point.push_back(sets.find(point));
   around.of_site.reserve(axis.sites.size());
   for (const Site& site : axis.sites) around.of_site.push_back(component_of(site.ring));
@@ -305,10 +306,10 @@ Result<Offsets> offset_both_sides(const Shape& shape, std::span<const double> cl
   return offsets;
 }
 
-Result<Offsets> buffers_of(const Soup& soup, std::span<const double> given,
+Result<Offsets> buffers_of(const PlanarGraph& planar_graph, std::span<const double> given,
                            const Options& options) {
-  if (soup.points.empty()) return Error{ErrorCode::empty, "there is no point", {}};
-  const Box box = bounding_box(soup);
+  if (planar_graph.points.empty()) return Error{ErrorCode::empty, "there is no point", {}};
+  const Box box = bounding_box(planar_graph);
   const double size = diagonal(box);
   for (const double d : given) {
     if (!(d > 0) || !std::isfinite(d))
@@ -321,15 +322,15 @@ Result<Offsets> buffers_of(const Soup& soup, std::span<const double> given,
   Stopwatch computing;
   const double margin = std::max(reach * distances.back(), 0.1 * size);
   const Shape surroundings =
-      around(soup, {box.low - Vec2{margin, margin}, box.high + Vec2{margin, margin}});
-  auto axis = axis_around(soup, surroundings, options);
+      around(planar_graph, {box.low - Vec2{margin, margin}, box.high + Vec2{margin, margin}});
+  auto axis = axis_around(planar_graph, surroundings, options);
   if (!axis) return std::move(axis).error();
   offsets.seconds_axis = computing.lap();
   Stopwatch walking;
   offsets.tolerance = axis->tolerance;
   ops::divide_at_summits(*axis);
-  Regions regions(soup.points.size());
-  offsets.region_of_point = add_outward(*axis, surroundings_of(soup, surroundings, *axis),
+  Regions regions(planar_graph.points.size());
+  offsets.region_of_point = add_outward(*axis, surroundings_of(planar_graph, surroundings, *axis),
                                         distances, regions, offsets.regions);
   finish(offsets);
   offsets.seconds_curves = walking.lap();
@@ -378,9 +379,9 @@ Result<Offsets> offset_curves(const Shape& shape, std::span<const double> cleara
   return guarded([&] { return offset_both_sides(shape, clearances, options); });
 }
 
-Result<Offsets> offset_curves(const Soup& soup, std::span<const double> distances,
+Result<Offsets> offset_curves(const PlanarGraph& planar_graph, std::span<const double> distances,
                               const Options& options) {
-  return guarded([&] { return buffers_of(soup, distances, options); });
+  return guarded([&] { return buffers_of(planar_graph, distances, options); });
 }
 
 Result<std::vector<double>> offset_passes(const MedialAxis& axis, double first, double step) {

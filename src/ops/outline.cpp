@@ -4,10 +4,10 @@
 #include <optional>
 
 #include "base/arc.h"
-#include "geometry/joint.h"
 #include "medial/compute.h"
 #include "medial/sides.h"
 #include "ops/half_edges.h"
+#include "site/joint.h"
 
 namespace medial {
 namespace {
@@ -105,9 +105,9 @@ class Outliner {
     if (!(a.end == b.start)) return false;
     if (a.kind == SiteKind::vertex || b.kind == SiteKind::vertex) return true;
     if (a.kind != SiteKind::arc && b.kind != SiteKind::arc) return false;
-    const geometry::Joint joint = geometry::joint_of(
-        {a.start, a.end, a.bulge}, {b.start, b.end, b.bulge}, axis_.tolerance, corner_angle_);
-    return joint == geometry::Joint::smooth || joint == geometry::Joint::blunt;
+    const site::Joint joint = site::joint_of({a.start, a.end, a.bulge}, {b.start, b.end, b.bulge},
+                                             axis_.tolerance, corner_angle_);
+    return joint == site::Joint::smooth || joint == site::Joint::blunt;
   }
 
   /// Where the disk is that of the leaf at an arc between two sites, which it touches all along but

@@ -8,11 +8,11 @@
 
 namespace medial {
 
-Shape around(const Soup& soup, const Box& frame) {
+Shape around(const PlanarGraph& planar_graph, const Box& frame) {
   Shape shape;
-  const std::size_t count = 4 + soup.half_edges.size() + soup.lone_points.size();
-  const bool has_arcs = std::any_of(soup.edges.begin(), soup.edges.end(),
-                                    [](const SoupEdge& edge) { return edge.bulge != 0; });
+  const std::size_t count = 4 + planar_graph.half_edges.size() + planar_graph.lone_points.size();
+  const bool has_arcs = std::any_of(planar_graph.edges.begin(), planar_graph.edges.end(),
+                                    [](const PlanarGraphEdge& edge) { return edge.bulge != 0; });
   shape.points.reserve(count);
   shape.sources.reserve(count);
   if (has_arcs) shape.bulges.reserve(count);
@@ -27,10 +27,10 @@ Shape around(const Soup& soup, const Box& frame) {
     shape.hole.push_back(hole);
   };
   const auto add_loop_of = [&](std::uint32_t i) {
-    add_loop(soup.face[i], soup.hole[i]);
-    for (std::uint32_t k = soup.loop_begin[i]; k < soup.loop_begin[i + 1]; ++k) {
-      const std::uint32_t h = soup.half_edges[k], from = soup.start(h);
-      add_point(soup.points[from], soup.bulge(h), {from, h});
+    add_loop(planar_graph.face[i], planar_graph.hole[i]);
+    for (std::uint32_t k = planar_graph.loop_begin[i]; k < planar_graph.loop_begin[i + 1]; ++k) {
+      const std::uint32_t h = planar_graph.half_edges[k], from = planar_graph.start(h);
+      add_point(planar_graph.points[from], planar_graph.bulge(h), {from, h});
     }
   };
 
@@ -40,25 +40,28 @@ Shape around(const Soup& soup, const Box& frame) {
     add_point(corner, 0, {no_index, no_index});
   // Faces count from 1 in the order of their outer loops.
   std::vector<std::uint32_t> holes;
-  for (std::uint32_t i = 0; i < soup.loop_count(); ++i) {
-    if (soup.hole[i])
+  for (std::uint32_t i = 0; i < planar_graph.loop_count(); ++i) {
+    if (planar_graph.hole[i])
       holes.push_back(i);
     else
       add_loop_of(i);
   }
   std::vector<Vec2> places;
-  places.reserve(holes.size() + soup.lone_points.size());
+  places.reserve(holes.size() + planar_graph.lone_points.size());
   for (const std::uint32_t i : holes)
-    places.push_back(soup.points[soup.start(soup.half_edges[soup.loop_begin[i]])]);
-  for (const LonePoint& lone : soup.lone_points) places.push_back(soup.points[lone.point]);
+    places.push_back(
+        planar_graph
+            .points[planar_graph.start(planar_graph.half_edges[planar_graph.loop_begin[i]])]);
+  for (const LonePoint& lone : planar_graph.lone_points)
+    places.push_back(planar_graph.points[lone.point]);
   for (const std::uint32_t i : z_order(places)) {
     if (i < holes.size()) {
       add_loop_of(holes[i]);
       continue;
     }
-    const LonePoint& lone = soup.lone_points[i - holes.size()];
+    const LonePoint& lone = planar_graph.lone_points[i - holes.size()];
     add_loop(lone.face, true);
-    add_point(soup.points[lone.point], 0, {lone.point, no_index});
+    add_point(planar_graph.points[lone.point], 0, {lone.point, no_index});
   }
   shape.loop_begin.push_back(static_cast<std::uint32_t>(shape.points.size()));
   return shape;

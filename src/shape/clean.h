@@ -16,7 +16,8 @@ inline constexpr std::uint32_t no_index = std::numeric_limits<std::uint32_t>::ma
 /// it has arcs), neighbours differ, and no vertex lies in the inside of a straight run or, to
 /// rounding, of an arc of at most a half circle. No coordinate is -0.
 ///
-/// Or, of a soup, open chains: the last vertex of each begins no edge, and one vertex is a point.
+/// Or, of a planar graph, open chains: the last vertex of each begins no edge, and one vertex is a
+/// point.
 struct Outline {
   std::vector<Vec2> points;
   std::vector<double> bulges;         ///< of each edge, at most 1 in magnitude; empty: all straight

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "base/frame.h"
+#include "base/local_frame.h"
 #include "base/predicates.h"
 #include "medial/error.h"
 #include "shape/clean.h"
@@ -113,7 +113,7 @@ class Noding {
     return open_ && node + 1 == begin_[ring + 1];
   }
 
-  Frame frame_;
+  LocalFrame frame_;
   double size_ = 0;       ///< the diagonal, in local units
   double tolerance_ = 0;  ///< in local units
   std::uint64_t split_edges_ = 0;

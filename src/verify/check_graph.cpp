@@ -36,8 +36,8 @@ Joint joint_between(const BoundaryEdge& before, const BoundaryEdge& after, doubl
     const int turn = orientation(before.start, before.end, after.end);
     return turn > 0 ? Joint::corner : turn < 0 ? Joint::reflex : Joint::smooth;
   }
-  return geometry::joint_of({before.start, before.end, before.bulge},
-                            {after.start, after.end, after.bulge}, tolerance, corner_angle);
+  return site::joint_of({before.start, before.end, before.bulge},
+                        {after.start, after.end, after.bulge}, tolerance, corner_angle);
 }
 
 /// A corner or a leaf: what has to agree.

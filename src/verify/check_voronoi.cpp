@@ -37,9 +37,12 @@ struct Largest {
 
 class VoronoiCheck {
  public:
-  VoronoiCheck(const Soup& soup, const VoronoiDiagram& diagram, const VerifyOptions& options,
-               VoronoiCertificate& certificate)
-      : soup_(soup), diagram_(diagram), options_(options), certificate_(certificate) {}
+  VoronoiCheck(const PlanarGraph& planar_graph, const VoronoiDiagram& diagram,
+               const VerifyOptions& options, VoronoiCertificate& certificate)
+      : planar_graph_(planar_graph),
+        diagram_(diagram),
+        options_(options),
+        certificate_(certificate) {}
 
   void run() {
     certificate_.sites = diagram_.sites.size();
@@ -66,7 +69,7 @@ class VoronoiCheck {
     };
     const std::size_t sites = diagram_.sites.size(), nodes = diagram_.nodes.size();
     bool sound = diagram_.frame.has_value() && diagram_.face_begin.size() == sites + 1;
-    if (!diagram_.frame) fail("The diagram has no frame: it is none of a soup.");
+    if (!diagram_.frame) fail("The diagram has no frame: it is none of a planar graph.");
     for (const Node& node : diagram_.nodes)
       sound = sound && finite(node.disk) && node.disk.radius >= 0;
     for (const VoronoiEdge& edge : diagram_.edges) {
@@ -84,21 +87,21 @@ class VoronoiCheck {
     return sound;
   }
 
-  /// Whether the sites are the soup's points, then its edges, in their order.
+  /// Whether the sites are the planar graph's points, then its edges, in their order.
   bool check_sites() {
-    const std::size_t points = soup_.points.size();
-    bool same = diagram_.sites.size() == points + soup_.edges.size();
+    const std::size_t points = planar_graph_.points.size();
+    bool same = diagram_.sites.size() == points + planar_graph_.edges.size();
     for (std::size_t i = 0; same && i < diagram_.sites.size(); ++i) {
       const Site& site = diagram_.sites[i];
       if (i < points) {
-        same = site.kind == SiteKind::vertex && site.start == soup_.points[i] &&
-               site.end == soup_.points[i];
+        same = site.kind == SiteKind::vertex && site.start == planar_graph_.points[i] &&
+               site.end == planar_graph_.points[i];
         continue;
       }
-      const SoupEdge& edge = soup_.edges[i - points];
+      const PlanarGraphEdge& edge = planar_graph_.edges[i - points];
       same = site.kind == (edge.bulge == 0 ? SiteKind::segment : SiteKind::arc) &&
-             site.start == soup_.points[edge.from] && site.end == soup_.points[edge.to] &&
-             site.bulge == edge.bulge;
+             site.start == planar_graph_.points[edge.from] &&
+             site.end == planar_graph_.points[edge.to] && site.bulge == edge.bulge;
     }
     if (!same) fail("The sites are not those of the input.");
     return same;
@@ -109,10 +112,11 @@ class VoronoiCheck {
     std::vector<BoundaryEdge> edges;
     edges.reserve(diagram_.sites.size());
     bool arcs = false;
-    std::vector<bool> ends_edge(soup_.points.size());
-    for (const SoupEdge& edge : soup_.edges) ends_edge[edge.from] = ends_edge[edge.to] = true;
+    std::vector<bool> ends_edge(planar_graph_.points.size());
+    for (const PlanarGraphEdge& edge : planar_graph_.edges)
+      ends_edge[edge.from] = ends_edge[edge.to] = true;
     for (std::size_t i = 0; i < diagram_.sites.size(); ++i) {
-      if (i < soup_.points.size() && ends_edge[i]) continue;
+      if (i < planar_graph_.points.size() && ends_edge[i]) continue;
       edges.push_back(edge_of(diagram_.sites[i]));
       arcs = arcs || edges.back().bulge != 0;
     }
@@ -274,7 +278,7 @@ class VoronoiCheck {
       fail(sentence("The graph has %llu parts.", static_cast<unsigned long long>(parts)));
   }
 
-  const Soup& soup_;
+  const PlanarGraph& planar_graph_;
   const VoronoiDiagram& diagram_;
   const VerifyOptions& options_;
   VoronoiCertificate& certificate_;
@@ -285,11 +289,11 @@ class VoronoiCheck {
 }  // namespace
 }  // namespace verify_detail
 
-VoronoiCertificate verify(const Soup& soup, const VoronoiDiagram& diagram,
+VoronoiCertificate verify(const PlanarGraph& planar_graph, const VoronoiDiagram& diagram,
                           const VerifyOptions& options) {
   VoronoiCertificate certificate;
   verify_detail::certify(options.threads, certificate, [&] {
-    verify_detail::VoronoiCheck(soup, diagram, options, certificate).run();
+    verify_detail::VoronoiCheck(planar_graph, diagram, options, certificate).run();
   });
   return certificate;
 }

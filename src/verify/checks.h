@@ -10,15 +10,15 @@
 
 #include "base/threads.h"
 #include "base/tolerance.h"
-#include "geometry/joint.h"
 #include "medial/axis.h"
 #include "medial/shape.h"
 #include "medial/verify.h"
+#include "site/joint.h"
 #include "verify/boundary_edge.h"
 
 namespace medial::verify_detail {
 
-using geometry::Joint;
+using site::Joint;
 
 constexpr std::uint32_t no_index = 0xFFFFFFFF;
 

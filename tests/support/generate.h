@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "medial/planar_graph.h"
 #include "medial/shape.h"
-#include "medial/soup.h"
 
 namespace medial::test {
 

@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "base/frame.h"
-#include "exact/contact_graph.h"
+#include "base/local_frame.h"
 #include "medial/query.h"
+#include "methods/exact/contact_graph.h"
 
 namespace medial::test {
 namespace {
@@ -81,7 +81,7 @@ std::string name_of(const Link& link) {
 
 std::string difference(const Shape& shape, const MedialAxis& a, const MedialAxis& b,
                        double tolerance) {
-  const Frame frame = frame_of(bounding_box(shape));
+  const LocalFrame frame = frame_of(bounding_box(shape));
   const exact::Outline outline =
       exact::outline_of(shape, frame, sites::number_sites(shape, frame, 0.01));
   if (a.sites.size() != b.sites.size()) return "the sites differ";

@@ -17,12 +17,12 @@ struct BufferSource {
   Attributes attributes;
 };
 
-/// A shape, or a soup, and its offset curves.
+/// A shape, or a planar graph, and its offset curves.
 struct OffsetItem {
   Shape shape;
   Offsets offsets;
   Attributes attributes = {};
-  Soup soup = {};                          ///< what buffers are of, where there is no shape
+  PlanarGraph planar_graph = {};           ///< what buffers are of, where there is no shape
   std::vector<BufferSource> sources = {};  ///< of each region of a buffer; or empty
 };
 

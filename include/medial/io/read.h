@@ -10,8 +10,8 @@
 #include "medial/error.h"
 #include "medial/io/attributes.h"
 #include "medial/io/image.h"
+#include "medial/planar_graph.h"
 #include "medial/shape.h"
-#include "medial/soup.h"
 #include "medial/voronoi.h"
 
 namespace medial::io {
@@ -52,9 +52,9 @@ struct ReadOptions {
   /// bounding box.
   std::optional<double> close;
   ImageOptions image;  ///< of images: what is foreground
-  /// For soups: points, lines and open curves are kept too, lines and points as chains, open curves
-  /// as contours that say so; of a drawing (SVG) also shapes that are not filled. A plain text of
-  /// one block is a list of points, one of several has a chain or a point in each.
+  /// For planar graphs: points, lines and open curves are kept too, lines and points as chains,
+  /// open curves as contours that say so; of a drawing (SVG) also shapes that are not filled. A
+  /// plain text of one block is a list of points, one of several has a chain or a point in each.
   bool loose = false;
   bool smooth_contour = false;  ///< of images: smooth_outline() instead of pixel_outline()
 };

@@ -1,0 +1,30 @@
+#pragma once
+
+// What the commands share that prune.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/pipeline.h"
+#include "medial/prune.h"
+
+namespace medial::cli {
+
+struct PruneArguments {
+  std::vector<std::optional<double>> thresholds;  ///< by measure
+  std::string by;
+  std::optional<std::uint64_t> keep;
+  bool tips = false;
+  std::string speck_share;  ///< as given
+  double specks = 0;        ///< share of without_specks(); 0: they stay
+};
+
+/// A option for every measure, --by, --keep, --tips and --specks.
+void add_prune_options(CLI::App& command, PruneArguments& arguments);
+/// Errors: invalid_option.
+Result<PruneOptions> prune_options(const PruneArguments& arguments);
+/// Prunes all axes of a file; the report is summed, the threshold the largest.
+Result<PruneReport> prune_all(AxisFile& file, const PruneOptions& options, int threads);
+
+}  // namespace medial::cli

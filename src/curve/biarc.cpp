@@ -1,0 +1,304 @@
+#include "curve/biarc.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/numbers.h"
+#include "curve/binomials.h"
+
+namespace medial::curve {
+namespace {
+
+/// The direction `v` turned as a mirror along `axis` turns it.
+Vec2 mirror(Vec2 v, Vec2 axis) { return (2 * dot(v, axis) / squared_norm(axis)) * axis - v; }
+
+/// The distance from the circle of curvature k to a point with F = k |c|^2 - 2 (v x c).
+double distance_of(double f, double k) {
+  const double root = 1 + k * f;
+  return root > 0 ? std::abs(f) / (1 + std::sqrt(root)) : infinity;
+}
+
+double circle_function(const Arc& arc, Vec2 tangent, double k, Vec2 point) {
+  const Vec2 c = point - arc.begin;
+  return k * squared_norm(c) - 2 * cross(tangent, c);
+}
+
+/// Whether all control points lie on the inner side of the normals at `from` and `to`.
+bool in_sector(const Bezier& curve, Vec2 from, Vec2 begin, Vec2 to, Vec2 end, double rounding) {
+  const double begin_least = dot(begin, from) - rounding;
+  const double end_most = dot(end, to) + rounding;
+  for (int i = 0; i <= curve.degree; ++i) {
+    const Vec2 p = curve.point(i);
+    if (dot(begin, p) < begin_least || dot(end, p) > end_most) return false;
+  }
+  return true;
+}
+
+using DoubleDegree = Fixed<double, 2 * max_degree + 1>;
+
+/// One level of de Casteljau's algorithm: coefficients 0 to `last` become one fewer.
+void reduce(DoubleDegree& b, int last, double t) {
+  for (int i = 0; i < last; ++i) b[i] += t * (b[i + 1] - b[i]);
+}
+
+/// A bound on a polynomial over W^2, both in Bernstein coefficients (W^2 of rational curves only),
+/// on both sides of t: a mean of the coefficients' ratios, with positive weights, is nowhere
+/// larger.
+double largest_on_parts(DoubleDegree& f, DoubleDegree* w, int degree, double t) {
+  double largest = 0;
+  // The first and last ones of each level are the parts' coefficients.
+  for (int last = degree; last >= 0; --last) {
+    for (const int i : {0, last}) {
+      largest = std::max(largest, std::abs(w != nullptr ? f[i] / (*w)[i] : f[i]));
+    }
+    reduce(f, last, t);
+    if (w != nullptr) reduce(*w, last, t);
+  }
+  return largest;
+}
+
+/// A bound on F of the curve, for the circle at one end of the arc.
+double largest_circle_function(const Bezier& curve, Vec2 base, Vec2 tangent, double k,
+                               bool at_begin) {
+  const int n = curve.degree;
+  const Binomials& binomials = binomials_of(n);
+  // Coefficients times the binomials: c, its turned component, and the weight.
+  Fixed<double, max_degree + 1> cx, cy, side, w;
+  for (int i = 0; i <= n; ++i) {
+    const double scale = binomials.row[i];
+    w[i] = scale * curve.weight(i);
+    cx[i] = scale * curve.x[i] - w[i] * base.x;
+    cy[i] = scale * curve.y[i] - w[i] * base.y;
+    side[i] = 2 * (tangent.x * cy[i] - tangent.y * cx[i]);
+  }
+  DoubleDegree numerator, denominator;
+  for (int m = 0; m <= 2 * n; ++m) {
+    double f = 0, squared = 0;
+    for (int i = std::max(0, m - n); i <= std::min(m, n); ++i) {
+      const int j = m - i;
+      f += k * (cx[i] * cx[j] + cy[i] * cy[j]) - side[i] * w[j];
+      squared += w[i] * w[j];
+    }
+    numerator[m] = f * binomials.inverse_double_row[m];
+    denominator[m] = squared * binomials.inverse_double_row[m];
+  }
+  // Where the arc touches the curve the distance is at first like s^2 (1 - s), largest at two
+  // thirds of the way: where the two parts meet, the bound is the function itself.
+  constexpr double peak = 2.0 / 3;
+  return largest_on_parts(numerator, curve.rational ? &denominator : nullptr, 2 * n,
+                          at_begin ? peak : 1 - peak);
+}
+
+/// The certified distance of a curve in an arc's sector from its circle through one of its ends.
+double circle_error(const Bezier& curve, const Arc& arc, bool at_begin) {
+  const Vec2 base = at_begin ? arc.begin : arc.end;
+  const Vec2 tangent = at_begin ? tangent_at_begin(arc) : tangent_at_end(arc);
+  const double k = curvature(arc);
+  const double f = largest_circle_function(curve, base, tangent, k, at_begin);
+  return distance_of(k > 0 ? -f : f, k);  // the larger of both sides
+}
+
+Station reversed(Station station) {
+  station.tangent = -station.tangent;
+  station.curvature = -station.curvature;
+  return station;
+}
+
+/// Where the osculating circle at `from` meets the joint circle again.
+Vec2 osculating_joint(const Station& from, const Station& to) {
+  const JointCircle circle = joint_circle(from, to);
+  const Vec2 v = from.tangent, m = circle.direction;
+  const Vec2 along = circle.curvature * v - from.curvature * m;
+  const Vec2 joint = from.point + (-2 * cross(v, m) / squared_norm(along)) * along;
+  // One Newton step onto the joint circle: rounding may slide the joint along it, not off it.
+  return joint - circle.off(joint) * circle.normal(joint);
+}
+
+}  // namespace
+
+double bulge_leaving(Vec2 tangent, Vec2 chord) {
+  return cross(tangent, chord) / (norm(chord) + dot(tangent, chord));
+}
+
+double bulge_arriving(Vec2 chord, Vec2 tangent) {
+  return cross(chord, tangent) / (norm(chord) + dot(tangent, chord));
+}
+
+double curvature(const Arc& arc) {
+  return 4 * arc.bulge / (distance(arc.begin, arc.end) * (1 + arc.bulge * arc.bulge));
+}
+
+Vec2 tangent_at_begin(const Arc& arc) {
+  const double b = arc.bulge, scale = 1 / (1 + b * b);
+  const double cosine = (1 - b) * (1 + b) * scale, sine = 2 * b * scale;
+  const Vec2 d = arc.end - arc.begin;
+  return (1 / norm(d)) * Vec2{cosine * d.x + sine * d.y, cosine * d.y - sine * d.x};
+}
+
+Vec2 tangent_at_end(const Arc& arc) {
+  const Arc turned{arc.begin, arc.end, -arc.bulge};
+  return tangent_at_begin(turned);
+}
+
+JointCircle joint_circle(const Station& a, const Station& b) {
+  const Vec2 d = b.point - a.point;
+  const Vec2 m = a.tangent + mirror(b.tangent, d);
+  const Vec2 direction = (1 / norm(m)) * m;
+  return {a.point, direction, 2 * cross(direction, d) / squared_norm(d)};
+}
+
+Vec2 spiral_joint(const Station& a, const Station& b) {
+  const bool forward = std::abs(a.curvature) >= std::abs(b.curvature);
+  return forward ? osculating_joint(a, b) : osculating_joint(reversed(b), reversed(a));
+}
+
+Vec2 balanced_joint(const Station& a, const Station& b) {
+  Vec2 joint = 0.5 * (osculating_joint(a, b) + osculating_joint(reversed(b), reversed(a)));
+  const JointCircle circle = joint_circle(a, b);
+  // Newton's steps: the middle of a chord is off by the square of its length, not by rounding.
+  for (int step = 0; step < 3; ++step) joint = joint - circle.off(joint) * circle.normal(joint);
+  return joint;
+}
+
+Vec2 settle_joint(const JointCircle& circle, Vec2 joint, Vec2 grid, double reach) {
+  struct Step {
+    Vec2 way;
+    double effect;
+  };
+  const Vec2 normal = circle.normal(joint);
+  Step longer{{grid.x, 0}, normal.x * grid.x}, shorter{{0, grid.y}, normal.y * grid.y};
+  if (std::abs(longer.effect) < std::abs(shorter.effect)) std::swap(longer, shorter);
+  const double enough = 0.5 * std::numeric_limits<double>::epsilon() * norm(joint - circle.base);
+  double off = circle.off(joint);
+  Vec2 way{0, 0};
+  while (std::abs(off) > enough && shorter.effect != 0) {
+    const double count = std::round(off / shorter.effect);
+    const Vec2 next = way - count * shorter.way;
+    if (!(std::abs(next.x) + std::abs(next.y) <= reach)) break;
+    way = next;
+    off -= count * shorter.effect;
+    const double quotient = std::round(longer.effect / shorter.effect);
+    const Step remainder{longer.way - quotient * shorter.way,
+                         longer.effect - quotient * shorter.effect};
+    longer = shorter;
+    shorter = remainder;
+  }
+  return joint + way;
+}
+
+Biarc make_biarc(const Station& a, Vec2 joint, const Station& b) {
+  return {{a.point, joint, bulge_leaving(a.tangent, joint - a.point)},
+          {joint, b.point, bulge_arriving(b.point - joint, b.tangent)}};
+}
+
+std::optional<double> projected_joint(const Bezier& curve, const Biarc& biarc) {
+  const Vec2 joint = biarc.first.end;
+  const Vec2 tangent = tangent_at_end(biarc.first);
+  const int n = curve.degree;
+  Fixed<double, max_degree + 1> h, b;
+  for (int i = 0; i <= n; ++i) {
+    h[i] = tangent.x * curve.x[i] + tangent.y * curve.y[i] - curve.weight(i) * dot(tangent, joint);
+  }
+  int changes = 0;
+  for (int i = 0; i < n; ++i) changes += (h[i] < 0) != (h[i + 1] < 0);
+  if (changes != 1 || !(h[0] < 0)) return std::nullopt;
+  double low = 0, high = 1;
+  double t = h[0] / (h[0] - h[n]);
+  for (int step = 0; step < 60; ++step) {
+    std::copy_n(h.begin(), n + 1, b.begin());
+    for (int level = n; level > 1; --level) {
+      for (int i = 0; i < level; ++i) b[i] += t * (b[i + 1] - b[i]);
+    }
+    const double slope = n * (b[1] - b[0]);
+    const double value = b[0] + t * (b[1] - b[0]);
+    (value < 0 ? low : high) = t;
+    double next = t - value / slope;
+    if (!(next >= low && next <= high)) next = 0.5 * (low + high);
+    // The error at the joint is stationary there, up to the angle to the curve.
+    constexpr double precise = 1e-9;
+    if (std::abs(next - t) < precise) return next;
+    t = next;
+  }
+  return t;
+}
+
+double certified_error(const Bezier& curve, const Arc& arc, double rounding) {
+  const Vec2 begin = tangent_at_begin(arc), end = tangent_at_end(arc);
+  if (!in_sector(curve, arc.begin, begin, arc.end, end, rounding)) return infinity;
+  return circle_error(curve, arc, true);
+}
+
+double certified_error(const Bezier& curve, const Biarc& biarc, double rounding) {
+  const std::optional<double> t = projected_joint(curve, biarc);
+  if (!t) return infinity;
+  Bezier before, after;
+  split(curve, *t, before, after);
+  // Each circle through the end where it touches the curve.
+  const Vec2 begin = tangent_at_begin(biarc.first), end = tangent_at_end(biarc.second);
+  if (!in_sector(curve, biarc.first.begin, begin, biarc.second.end, end, rounding)) {
+    return infinity;
+  }
+  return std::max(circle_error(before, biarc.first, true),
+                  circle_error(after, biarc.second, false));
+}
+
+double sampled_error(const Bezier& curve, const Biarc& biarc, int samples) {
+  const std::optional<double> t = projected_joint(curve, biarc);
+  if (!t) return infinity;
+  double largest = 0;
+  const auto sample = [&](const Arc& arc, double from, double to) {
+    const Vec2 tangent = tangent_at_begin(arc);
+    const double k = curvature(arc);
+    for (int i = 0; i <= samples + 1; ++i) {
+      const double at = from + (to - from) * i / (samples + 1);
+      const double f = circle_function(arc, tangent, k, evaluate(curve, at).point);
+      largest = std::max(largest, distance_of(f, k));
+    }
+  };
+  sample(biarc.first, 0, *t);
+  sample(biarc.second, *t, 1);
+  return largest;
+}
+
+double extremal_error(const Bezier& curve, const Biarc& biarc) {
+  const std::optional<double> t = projected_joint(curve, biarc);
+  if (!t) return infinity;
+  Bezier parts[2];
+  split(curve, *t, parts[0], parts[1]);
+  double largest = 0;
+  for (int part = 0; part < 2; ++part) {
+    const Bezier& piece = parts[part];
+    const Arc& arc = part == 0 ? biarc.first : biarc.second;
+    const Vec2 tangent = tangent_at_begin(arc);
+    const double k = curvature(arc);
+    // F = N / W^2 has the derivative (N'W - 2NW') / W^3.
+    Fixed<double, max_degree + 1> cx, cy, side, w;
+    for (int i = 0; i <= piece.degree; ++i) {
+      w[i] = piece.weight(i);
+      cx[i] = piece.x[i] - w[i] * arc.begin.x;
+      cy[i] = piece.y[i] - w[i] * arc.begin.y;
+      side[i] = tangent.x * cy[i] - tangent.y * cx[i];
+    }
+    const Polynomial x = from_bernstein(cx.data(), piece.degree);
+    const Polynomial y = from_bernstein(cy.data(), piece.degree);
+    const Polynomial weight = from_bernstein(w.data(), piece.degree);
+    Polynomial n = sum(product(x, x), 1, product(y, y));
+    for (int i = 0; i <= n.degree; ++i) n.c[i] *= k;
+    n.magnitude *= std::abs(k);
+    n = sum(n, -2, product(from_bernstein(side.data(), piece.degree), weight));
+    const Polynomial slope =
+        piece.rational ? sum(product(derivative(n), weight), -2, product(n, derivative(weight)))
+                       : derivative(n);
+    Roots at = roots(slope);
+    at.add(0);
+    at.add(1);
+    for (int i = 0; i < at.count; ++i) {
+      const Vec2 point = evaluate(piece, at.t[i]).point;
+      largest = std::max(largest, distance_of(circle_function(arc, tangent, k, point), k));
+    }
+  }
+  return largest;
+}
+
+}  // namespace medial::curve

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "medial/axis.h"
+#include "medial/compute.h"
+#include "medial/shape.h"
+#include "methods/biarc_dc/subshape.h"
+
+namespace medial::biarc_dc {
+
+/// How the division went.
+struct Report {
+  std::array<std::uint64_t, base_case_count> base_cases{};  ///< by BaseCase
+  std::uint64_t random_disks = 0;                           ///< divisions by maximaldisk,
+  std::uint64_t branching_disks = 0;                        ///< and by maximaldisk*
+  std::uint64_t multi_branchings = 0;                       ///< disks with four contacts or more
+  std::uint64_t only_vertices = 0;  ///< divided sub-shapes with reflex vertices only
+};
+
+/// The method `biarc-dc` (docs/biarc-dc.md). Requires what compute() has checked: a shape without
+/// holes. Cut short, with any content, where the caller cancels. May throw std::runtime_error; see
+/// divide(). Expected O(n log n) where the diameter of the axis is proportional to n, and O(n^2) in
+/// the worst case.
+MedialAxis run(const Shape& shape, const Options& options, Report* report = nullptr);
+
+}  // namespace medial::biarc_dc

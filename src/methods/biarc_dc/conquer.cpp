@@ -1,0 +1,319 @@
+#include "methods/biarc_dc/conquer.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+#include "axis/node_kinds.h"
+#include "site/bisector.h"
+#include "site/tangent_disk.h"
+
+namespace medial::biarc_dc {
+namespace {
+
+using Bone = Skeleton::Bone;
+using site::Site;
+
+/// Evaluates base cases one by one; the first nodes are the dividing disks.
+class Evaluator {
+ public:
+  Evaluator(Context& context, const Division& division) : context_(context) {
+    skeleton.nodes = division.disks;
+    skeleton.component = division.component;
+  }
+
+  void evaluate(const BaseShape& base) {
+    const auto& [first, second, third] = base.element;
+    const std::uint32_t x = first.site, y = second.site, z = third.site;
+    const std::uint32_t after_x = first.disk_after, after_y = second.disk_after,
+                        after_z = third.disk_after;
+    switch (base.base_case) {
+      case BaseCase::cap:
+        break;
+      case BaseCase::b:
+      case BaseCase::h:
+      case BaseCase::i:
+        add_edge(after_y, after_x, x, y);
+        break;
+      case BaseCase::m:
+        add_edge(after_y, add_node({site(y).point, 0}, base), x, y);
+        break;
+      case BaseCase::d: {
+        const double radius = 1 / site(y).curvature;
+        const Disk apex{site(y).point + radius * site(y).normal(), radius};
+        add_edge(after_z, add_node(apex, base), x, z);
+        break;
+      }
+      case BaseCase::a:
+      case BaseCase::g: {
+        const std::uint32_t passage = add_meeting_node(base);
+        add_edge(after_z, passage, x, z);
+        add_edge(after_y, passage, z, y);
+        break;
+      }
+      case BaseCase::e:
+      case BaseCase::f: {
+        const std::uint32_t branching = add_meeting_node(base);
+        add_edge(after_z, branching, x, z);
+        add_edge(after_y, branching, z, y);
+        if (context_.outline.joints[x] == Joint::corner)
+          add_edge(branching, add_node({site(y).point, 0}, base), x, y);
+        break;
+      }
+      case BaseCase::c:
+      case BaseCase::j:
+      case BaseCase::k:
+      case BaseCase::l: {
+        const std::uint32_t branching = add_meeting_node(base);
+        add_edge(after_z, branching, x, z);
+        add_edge(after_x, branching, y, x);
+        add_edge(after_y, branching, z, y);
+        break;
+      }
+    }
+  }
+
+  Skeleton skeleton;
+
+ private:
+  const Site& site(std::uint32_t i) const { return context_.outline.sites[i]; }
+
+  std::uint32_t add_node(const Disk& disk, const BaseShape& base) {
+    skeleton.nodes.push_back(disk);
+    skeleton.component.push_back(base.component);
+    return static_cast<std::uint32_t>(skeleton.nodes.size() - 1);
+  }
+  void add_edge(std::uint32_t from, std::uint32_t to, std::uint32_t right, std::uint32_t left) {
+    skeleton.edges.push_back({from, to, right, left});
+  }
+
+  /// The branching of a base case, or the passage to another site: what comes first on the way from
+  /// the dividing disk after the third site.
+  std::uint32_t add_meeting_node(const BaseShape& base) {
+    const Subshape subshape{{base.element.begin(), base.element.end()}, base.component};
+    const auto meeting = branching_disk(context_, subshape, 2, skeleton.nodes);
+    return meeting ? add_node(meeting->disk, base) : base.element[2].disk_after;
+  }
+
+  Context& context_;
+};
+
+/// Nodes that turned out to be one.
+class Nodes {
+ public:
+  explicit Nodes(std::size_t count) : parent_(count) {
+    for (std::size_t i = 0; i < count; ++i) parent_[i] = static_cast<std::uint32_t>(i);
+  }
+  std::uint32_t find(std::uint32_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  /// From now on `i` counts as `j`.
+  void join(std::uint32_t i, std::uint32_t j) { parent_[find(i)] = find(j); }
+
+ private:
+  std::vector<std::uint32_t> parent_;
+};
+
+bool between_same_sites(const Bone& a, const Bone& b) {
+  return (a.right == b.right && a.left == b.left) || (a.right == b.left && a.left == b.right);
+}
+
+/// Takes out the edges without length, whose ends become one node.
+void contract(const Context& context, const Division& division, Skeleton& skeleton) {
+  Nodes nodes(skeleton.nodes.size());
+  for (const auto& [old, disk] : division.equal) nodes.join(old, disk);
+  std::erase_if(skeleton.edges, [&](Bone& edge) {
+    const std::uint32_t from = nodes.find(edge.from), to = nodes.find(edge.to);
+    if (from == to) return true;
+    const Disk &a = skeleton.nodes[from], &b = skeleton.nodes[to];
+    // A corner stays a leaf, however thin the shape is there.
+    if (!(a.radius > 0 && b.radius > 0 && context.coincide(a, b))) return false;
+    nodes.join(from, to);
+    return true;
+  });
+  for (Bone& edge : skeleton.edges) {
+    edge.from = nodes.find(edge.from);
+    edge.to = nodes.find(edge.to);
+  }
+  // A node that counts as another one is none.
+  for (std::uint32_t i = 0; i < skeleton.nodes.size(); ++i)
+    if (nodes.find(i) != i) skeleton.component[i] = none;
+}
+
+/// Nodes no further apart than so many tolerances may be one that many sites touch.
+constexpr double tie_reach = 64;
+/// A disk as large as an arc's own circle, but for this, has its foot on the arc anywhere.
+constexpr double same_circle = 1e-7;
+
+/// The disk nearest to touching all of some sites, by least squares: moving the centre by (x, y)
+/// and the radius by z makes the gap to a site larger by outward.x x + outward.y y - z. None if it
+/// misses one by more than `tolerance`.
+std::optional<Disk> disk_touching(const Context& context, const std::vector<std::uint32_t>& sites,
+                                  const Disk& near, double tolerance) {
+  const auto gap_of = [&](std::uint32_t site, const Disk& disk) {
+    return std::sqrt(site::squared_distance(context.outline.sites[site], disk.center)) -
+           disk.radius;
+  };
+  std::array<std::array<double, 4>, 3> sum{};
+  for (const std::uint32_t i : sites) {
+    const Site& site = context.outline.sites[i];
+    if (std::abs(site.curvature * near.radius - 1) <= same_circle) return std::nullopt;
+    const Vec2 outward = site::outward(site, near.center);
+    const std::array<double, 4> term{outward.x, outward.y, -1, -gap_of(i, near)};
+    for (std::size_t row = 0; row < 3; ++row)
+      for (std::size_t column = 0; column < 4; ++column)
+        sum[row][column] += term[row] * term[column];
+  }
+  const auto determinant = [&](std::size_t a, std::size_t b, std::size_t c) {
+    return sum[0][a] * (sum[1][b] * sum[2][c] - sum[1][c] * sum[2][b]) -
+           sum[0][b] * (sum[1][a] * sum[2][c] - sum[1][c] * sum[2][a]) +
+           sum[0][c] * (sum[1][a] * sum[2][b] - sum[1][b] * sum[2][a]);
+  };
+  const double all = determinant(0, 1, 2);
+  if (!(all > 0)) return std::nullopt;
+  const Disk disk{near.center + (1 / all) * Vec2{determinant(3, 1, 2), determinant(0, 3, 2)},
+                  near.radius + determinant(0, 1, 3) / all};
+  const bool touches_all = std::all_of(sites.begin(), sites.end(), [&](std::uint32_t site) {
+    return std::abs(gap_of(site, disk)) <= tolerance;
+  });
+  return touches_all ? std::optional(disk) : std::nullopt;
+}
+
+/// Makes one node of several that are some tolerances apart where one disk touches all their sites
+/// (regular polygons): each of them saw the sites of its sub-shape only.
+void join_ties(const Context& context, Skeleton& skeleton) {
+  const double reach = tie_reach * context.tolerance;
+  const auto is_short = [&](const Bone& edge) {
+    const Disk &a = skeleton.nodes[edge.from], &b = skeleton.nodes[edge.to];
+    return a.radius > 0 && b.radius > 0 && distance(a.center, b.center) <= reach &&
+           std::abs(a.radius - b.radius) <= reach;
+  };
+  Nodes nodes(skeleton.nodes.size());
+  std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> sites_of;
+  for (const Bone& edge : skeleton.edges)
+    if (is_short(edge)) nodes.join(edge.from, edge.to);
+  for (const Bone& edge : skeleton.edges)
+    if (is_short(edge)) sites_of[nodes.find(edge.from)];
+  if (sites_of.empty()) return;
+  for (const Bone& edge : skeleton.edges)
+    for (const std::uint32_t node : {edge.from, edge.to}) {
+      const auto tie = sites_of.find(nodes.find(node));
+      if (tie != sites_of.end()) tie->second.insert(tie->second.end(), {edge.right, edge.left});
+    }
+  for (auto tie = sites_of.begin(); tie != sites_of.end();) {
+    std::sort(tie->second.begin(), tie->second.end());
+    tie->second.erase(std::unique(tie->second.begin(), tie->second.end()), tie->second.end());
+    Disk& own = skeleton.nodes[tie->first];
+    const auto disk = disk_touching(context, tie->second, own, context.tolerance);
+    if (disk) own = *disk;
+    tie = disk ? std::next(tie) : sites_of.erase(tie);
+  }
+  std::erase_if(skeleton.edges, [&](Bone& edge) {
+    const std::uint32_t one = nodes.find(edge.from);
+    return one == nodes.find(edge.to) && sites_of.contains(one);
+  });
+  for (std::uint32_t i = 0; i < skeleton.nodes.size(); ++i)
+    if (nodes.find(i) != i && sites_of.contains(nodes.find(i))) skeleton.component[i] = none;
+  for (Bone& edge : skeleton.edges)
+    for (std::uint32_t* const node : {&edge.from, &edge.to})
+      if (skeleton.component[*node] == none) *node = nodes.find(*node);
+}
+
+/// Takes out the nodes that only divide an edge: both edges become one.
+void dissolve(Skeleton& skeleton) {
+  struct Ends {
+    std::array<std::uint32_t, 2> edge{none, none};
+    std::uint32_t count = 0;
+  };
+  std::vector<Ends> ends(skeleton.nodes.size());
+  for (std::uint32_t e = 0; e < skeleton.edges.size(); ++e) {
+    for (const std::uint32_t node : {skeleton.edges[e].from, skeleton.edges[e].to}) {
+      Ends& at = ends[node];
+      if (at.count < 2) at.edge[at.count] = e;
+      ++at.count;
+    }
+  }
+  for (std::uint32_t n = 0; n < skeleton.nodes.size(); ++n) {
+    if (ends[n].count != 2) continue;
+    const auto [kept, gone] = ends[n].edge;
+    Bone &first = skeleton.edges[kept], &second = skeleton.edges[gone];
+    if (kept == gone || !between_same_sites(first, second)) continue;
+    const std::uint32_t far = second.from == n ? second.to : second.from;
+    (first.from == n ? first.from : first.to) = far;
+    for (std::uint32_t& edge : ends[far].edge)
+      if (edge == gone) edge = kept;
+    second.from = second.to = none;
+    skeleton.component[n] = none;
+  }
+  std::erase_if(skeleton.edges, [](const Bone& edge) { return edge.from == none; });
+}
+
+/// Numbers the nodes that are left.
+void compact(Skeleton& skeleton) {
+  std::vector<std::uint32_t> number(skeleton.nodes.size());
+  std::uint32_t kept = 0;
+  for (std::size_t i = 0; i < skeleton.nodes.size(); ++i) {
+    if (skeleton.component[i] == none) continue;
+    number[i] = kept;
+    skeleton.nodes[kept] = skeleton.nodes[i];
+    skeleton.component[kept++] = skeleton.component[i];
+  }
+  skeleton.nodes.resize(kept);
+  skeleton.component.resize(kept);
+  for (Bone& edge : skeleton.edges) {
+    edge.from = number[edge.from];
+    edge.to = number[edge.to];
+  }
+}
+
+}  // namespace
+
+Skeleton conquer(Context& context, const Division& division) {
+  Evaluator evaluator(context, division);
+  for (const BaseShape& base : division.base_shapes) evaluator.evaluate(base);
+  Skeleton& skeleton = evaluator.skeleton;
+  contract(context, division, skeleton);
+  join_ties(context, skeleton);
+  dissolve(skeleton);
+  compact(skeleton);
+  return std::move(skeleton);
+}
+
+void add_curves(const Skeleton& skeleton, const Context& context, const LocalFrame& frame,
+                MedialAxis& axis) {
+  const Outline& outline = context.outline;
+  std::vector<std::uint8_t> degree(skeleton.nodes.size());
+  double largest_residual = 0;
+  axis.edges.reserve(skeleton.edges.size());
+  for (const Bone& edge : skeleton.edges) {
+    const Disk &from = skeleton.nodes[edge.from], &to = skeleton.nodes[edge.to];
+    for (const std::uint32_t site : {edge.left, edge.right})
+      for (const Disk* disk : {&from, &to})
+        largest_residual = std::max(
+            largest_residual,
+            std::abs(site::carrier_distance(outline.sites[site], disk->center) - disk->radius));
+    for (const std::uint32_t node : {edge.from, edge.to})
+      if (degree[node] < 3) ++degree[node];
+    const site::Control control =
+        site::control_of(outline.sites[edge.left], outline.sites[edge.right], from, to);
+    axis.edges.push_back(
+        {{edge.from, edge.to},
+         {outline.originals[edge.left], outline.originals[edge.right]},
+         {frame.to_input(control.point.center), frame.inverse * control.point.radius},
+         control.weight});
+  }
+  axis.statistics.largest_residual = frame.inverse * largest_residual;
+  axis.nodes.reserve(skeleton.nodes.size());
+  for (std::size_t i = 0; i < skeleton.nodes.size(); ++i) {
+    const Disk& disk = skeleton.nodes[i];
+    const NodeKind kind = kind_of_degree(degree[i]);
+    axis.nodes.push_back(
+        {{frame.to_input(disk.center), frame.inverse * disk.radius}, skeleton.component[i], kind});
+  }
+}
+
+}  // namespace medial::biarc_dc

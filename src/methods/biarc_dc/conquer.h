@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "base/local_frame.h"
+#include "medial/axis.h"
+#include "methods/biarc_dc/divide.h"
+
+namespace medial::biarc_dc {
+
+/// The axis before its curves are worked out: nodes, and edges between two sites of the outline.
+struct Skeleton {
+  struct Bone {
+    std::uint32_t from = 0;
+    std::uint32_t to = 0;
+    std::uint32_t right = 0;  ///< site
+    std::uint32_t left = 0;
+  };
+  std::vector<Disk> nodes;
+  std::vector<std::uint32_t> component;  ///< of each node
+  std::vector<Bone> edges;
+};
+
+/// The conquer step: evaluates the base cases and glues them together at the dividing disks. Disks
+/// that coincide become one node, and those that divide an edge none.
+Skeleton conquer(Context& context, const Division& division);
+
+/// Works out the conics and the nodes' kinds, in units of the input.
+void add_curves(const Skeleton& skeleton, const Context& context, const LocalFrame& frame,
+                MedialAxis& axis);
+
+}  // namespace medial::biarc_dc

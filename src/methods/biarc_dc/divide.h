@@ -1,0 +1,34 @@
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "methods/biarc_dc/maximal_disk.h"
+#include "methods/biarc_dc/subshape.h"
+
+namespace medial::biarc_dc {
+
+/// What the divide step leaves: the combinatorics of the axis, before any curve or branching point
+/// is worked out. Its size is O(sites).
+struct Division {
+  std::vector<Disk> disks;  ///< the dividing disks; their centres glue the base cases together
+  std::vector<std::uint32_t> component;             ///< of each disk
+  std::vector<std::array<std::uint32_t, 2>> equal;  ///< pairs of disks found to be the same one
+  std::vector<BaseShape> base_shapes;               ///< but no caps
+  std::uint64_t caps = 0;
+  std::uint64_t random_disks = 0;      ///< of maximaldisk that divided,
+  std::uint64_t branching_disks = 0;   ///< of maximaldisk*
+  std::uint64_t multi_branchings = 0;  ///< disks with four contacts or more
+  std::uint64_t only_vertices = 0;     ///< divisions of sub-shapes with reflex vertices only
+};
+
+/// Algorithm 4 up to the base cases, by a stack in place of recursion. Stops, with any content,
+/// when `cancel` is set; throws std::runtime_error where rounding leaves a sub-shape that no disk
+/// divides.
+Division divide(Context& context, std::uint64_t seed, const std::atomic<bool>* cancel,
+                const std::function<void(double)>& progress);
+
+}  // namespace medial::biarc_dc

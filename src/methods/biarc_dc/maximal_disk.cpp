@@ -1,0 +1,383 @@
+#include "methods/biarc_dc/maximal_disk.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "site/tangent_disk.h"
+
+namespace medial::biarc_dc {
+namespace {
+
+using site::Bisector;
+using site::Site;
+
+constexpr double nowhere = std::numeric_limits<double>::infinity();
+
+/// Halving an interval of doubles more often than this cannot change it.
+constexpr int most_halvings = 128;
+
+/// Arcs of one circle: their curvatures differ by rounding at most.
+constexpr double same_curvature = 1e-9;
+
+/// Rounding may put a disk a little behind the one where a bisector begins; what is further behind
+/// is another solution. Next to the centre of the arc by whose foot positions are told, a disk's
+/// error counts for more, by the radius over the distance from there.
+double slack(const Context& context, const Bisector& bisector, const Disk& from) {
+  double factor = 4;
+  if (bisector.reference != nullptr) {
+    const double size = site::view_of_arc(*bisector.reference, from.center).size;
+    factor *= bisector.reference->is_arc() ? std::abs(bisector.scale) / std::min(1.0, size) : 1.0;
+  }
+  return factor * context.tolerance + 1e-9 * from.radius;
+}
+
+/// Whether a disk reaches over a closed site by more than `slack`.
+bool overlaps(const Disk& disk, const Site& site, double slack) {
+  const double reach = disk.radius - slack;
+  return reach > 0 && site::squared_distance(site, disk.center) < reach * reach;
+}
+bool touches(const Disk& disk, const Site& site, double slack) {
+  return std::abs(std::sqrt(site::squared_distance(site, disk.center)) - disk.radius) <= slack;
+}
+
+Disk polished(Context& context, Disk disk, const Site& a, const Site& b, const Site& c) {
+  site::polish(disk, a, b, c, 0.25 * context.tolerance, context.tolerance,
+               context.statistics.precision_retries);
+  return disk;
+}
+
+/// How fast, along the bisector, the disk grows over a third site.
+double closing(const Bisector& bisector, const Disk& disk, const Site& third) {
+  return dot(site::outward(bisector.right, disk.center) - site::outward(third, disk.center),
+             bisector.tangent(disk.center));
+}
+
+/// The disk on the bisector that touches the carrier of `third`, between positions `low` and
+/// `high`: the first one that begins to reach over it.
+std::optional<Disk> contact_with_carrier(Context& context, const Bisector& bisector,
+                                         const Disk& from, double high, const Site& third) {
+  ++context.statistics.apollonius;
+  const double low = bisector.position(from.center);
+  const site::TangentDisks disks = site::tangent_disks(bisector.right, bisector.left, third);
+  std::optional<Disk> best;
+  double best_violation = slack(context, bisector, from);
+  for (std::size_t i = 0; i < disks.count; ++i) {
+    const Disk& disk = disks.disk[i];
+    if (disk.radius > context.radius_limit) continue;
+    const double position = bisector.position(disk.center);
+    const double violation = std::max({0.0, low - position, position - high});
+    const bool better = best && violation == best_violation
+                            ? closing(bisector, disk, third) > closing(bisector, *best, third)
+                            : violation <= best_violation;
+    if (!better) continue;
+    best = disk;
+    best_violation = violation;
+  }
+  if (best) *best = polished(context, *best, bisector.right, bisector.left, third);
+  if (best && bisector.position(best->center) < low) best = from;
+  return best;
+}
+
+/// The nearer end of an arc or segment.
+Site end_near(const Site& site, Vec2 center) {
+  const bool at_end = site::foot_parameter(site, center) > 0.5 * site.length;
+  return site::make_vertex(at_end ? site.end() : site.point);
+}
+
+/// Where closed forms fail: halves the way from a disk that does not overlap the site to one that
+/// does. Always ends.
+Disk bracket(Context& context, const Bisector& bisector, const Disk& from, const Site& third,
+             double high) {
+  ++context.statistics.brackets;
+  double low = bisector.position(from.center);
+  Disk disk = from;
+  for (int step = 0; step < most_halvings; ++step) {
+    const double middle = 0.5 * (low + high);
+    if (!(low < middle && middle < high)) break;
+    const Disk tried = bisector.disk_at(middle, from);
+    if (!(tried.radius <= context.radius_limit) || overlaps(tried, third, 0)) {
+      high = middle;
+    } else {
+      low = middle;
+      disk = tried;
+    }
+  }
+  const double s = third.is_vertex() ? 0 : site::carrier_parameter(third, disk.center);
+  const Site& touched = s >= 0 && s <= third.length ? third : end_near(third, disk.center);
+  const Disk better = polished(context, disk, bisector.right, bisector.left, touched);
+  return touches(better, third, context.tolerance) ? better : disk;
+}
+
+/// The disk on a bisector, ahead of `from`, that first touches a third site, which the disk
+/// `overlapping`, further on, reaches over.
+Disk first_contact(Context& context, const Bisector& bisector, const Disk& from, const Site& third,
+                   const Disk& overlapping) {
+  if (touches(from, third, context.tolerance)) return from;
+  const double high = bisector.position(overlapping.center);
+  const auto reaches = [&](const std::optional<Disk>& disk) {
+    return disk && touches(*disk, third, 2 * context.tolerance);
+  };
+  const auto on_carrier = contact_with_carrier(context, bisector, from, high, third);
+  if (reaches(on_carrier)) return *on_carrier;
+  if (!third.is_vertex()) {
+    const Disk& near = on_carrier ? *on_carrier : overlapping;
+    const auto on_end =
+        contact_with_carrier(context, bisector, from, high, end_near(third, near.center));
+    if (reaches(on_end)) return *on_end;
+  }
+  return bracket(context, bisector, from, third, high);
+}
+
+/// A disk, and whether it fits into the circles of the arcs that it touches at one place.
+struct EndDisk {
+  Disk disk;
+  bool fits = true;
+};
+
+/// The disk that touches the boundary at the last place that a foot moving on an element gets to,
+/// `forward` or backward, and touches the carrier of `other`.
+std::optional<EndDisk> disk_at_end(const Context& context, const Subshape& subshape, std::size_t i,
+                                   bool forward, const Site& other,
+                                   const std::vector<Disk>& disks) {
+  const Element& element = subshape.elements[i];
+  const Site& own = context.site(element);
+  const std::size_t neighbor = forward ? subshape.next(i) : subshape.before(i);
+  const Site& next = context.site(subshape.elements[neighbor]);
+  const Element& before_end = forward ? element : subshape.elements[neighbor];
+  const bool passes = context.joins_smoothly(before_end);
+  Vec2 foot = own.point, normal;
+  double largest = std::max(0.0, own.curvature);
+  if (!own.is_vertex()) {
+    const double end = forward ? element.to : element.from;
+    foot = own.at(end);
+    normal = own.normal_at(end);
+    // The directions of an arc whose length is some roundings are known to little: at a smooth
+    // joint the longer edge tells.
+    if (passes && next.length > own.length) normal = forward ? next.normal() : next.end_normal();
+  } else if (passes) {
+    normal = forward ? next.normal() : next.end_normal();
+  } else {
+    const Vec2 to_center = disks[before_end.disk_after].center - foot;
+    normal = (1 / norm(to_center)) * to_center;
+  }
+  if (passes) largest = std::max(largest, next.curvature);
+  const double radius = site::tangent_radius(foot, normal, other);
+  constexpr double widest = 1e-7;  // a disk fits into an arc's circle up to this
+  // In a narrow wedge the disk at the end may be far larger than the shape's.
+  constexpr double far_end = 0x1p20;
+  if (!(radius <= far_end * context.radius_limit)) return std::nullopt;
+  return EndDisk{{foot + radius * normal, radius}, radius * largest <= 1 + widest};
+}
+
+/// Where a disk touches element `k`, or its neighbour if the nearest point of both is their joint
+/// within rounding but lies inside of the neighbour.
+Place place_on(const Context& context, const Subshape& subshape, std::size_t k, const Disk& disk) {
+  int direction = 0;
+  for (std::size_t step = 0; step < subshape.size(); ++step) {
+    const Element& element = subshape.elements[k];
+    const Site& site = context.site(element);
+    const std::size_t before = subshape.before(k), next = subshape.next(k);
+    const bool joins_before = context.joins_smoothly(subshape.elements[before]),
+               joins_next = context.joins_smoothly(element);
+    bool goes_back = false, goes_on = false;
+    double s = 0;
+    if (site.is_vertex()) {
+      const auto lies_inside = [&](std::size_t i) {
+        const Site& neighbor = context.site(subshape.elements[i]);
+        const double there = site::foot_parameter(neighbor, disk.center);
+        return there > 0 && there < neighbor.length;
+      };
+      goes_on = joins_next && lies_inside(next);
+      goes_back = !goes_on && joins_before && lies_inside(before);
+    } else {
+      s = site::foot_parameter(site, disk.center);
+      goes_back = s <= 0 && joins_before;
+      goes_on = s >= site.length && joins_next;
+    }
+    if (!goes_back && !goes_on) return {k, false, std::clamp(s, element.from, element.to)};
+    if (goes_back && direction > 0) return {before, true, 0};
+    if (goes_on && direction < 0) return {k, true, 0};
+    direction = goes_on ? 1 : -1;
+    k = goes_on ? next : before;
+  }
+  return {k, false, 0};
+}
+
+/// The dividing disk, if any, beyond which a disk would touch element `k`. Where many sites are
+/// nearly touched by one disk, three that enclose small angles may ask for a disk there; the
+/// dividing disk, which they touch within the tolerance, is their branching then.
+const Disk* disk_passed(const Context& context, const Subshape& subshape, std::size_t k,
+                        const Disk& disk, const std::vector<Disk>& disks) {
+  constexpr double rounding = 0x1p-50;
+  const Element& element = subshape.elements[k];
+  const Element& before = subshape.elements[subshape.before(k)];
+  const Site& site = context.site(element);
+  if (site.is_vertex()) return nullptr;
+  const double s = site::foot_parameter(site, disk.center);
+  if (s < element.from - rounding && !before.is_joined()) return &disks[before.disk_after];
+  if (s > element.to + rounding && !element.is_joined()) return &disks[element.disk_after];
+  return nullptr;
+}
+
+}  // namespace
+
+MaximalDisk maximal_disk(Context& context, const Subshape& subshape, const Place& place) {
+  ++context.statistics.queries;
+  const std::size_t i = place.element, n = subshape.size();
+  const Element& own = subshape.elements[i];
+  const std::size_t after = subshape.next(i), before = subshape.before(i);
+  std::size_t base = i;  // the arc whose normal the disk has
+  double parameter = place.parameter;
+  if (place.at_joint) {
+    base = context.site(own).is_vertex() ? after : i;
+    parameter = base == i ? context.site(own).length : 0;
+  }
+  const Site& arc = context.site(subshape.elements[base]);
+  const Vec2 foot = arc.at(parameter), normal = arc.normal_at(parameter);
+  double radius = context.radius_limit;
+  if (arc.curvature > 0) radius = std::min(radius, 1 / arc.curvature);
+
+  // What joins the place smoothly is touched nowhere else. (Two neighbours of monotonic curvature
+  // have nested circles, and a disk that touches both sides of a reflex vertex has it inside.)
+  const auto is_beside = [&](std::size_t k) {
+    if (k == i) return true;
+    if (place.at_joint && k == after) return true;
+    if (k == after || (place.at_joint && k == subshape.next(after)))
+      return context.joins_smoothly(subshape.elements[subshape.before(k)]);
+    return k == before && context.joins_smoothly(subshape.elements[before]);
+  };
+  std::size_t touched = n;
+  Disk disk{foot + radius * normal, radius};
+  for (std::size_t step = 1, k = after; step < n; ++step, k = subshape.next(k)) {
+    const Site& site = context.site(subshape.elements[k]);
+    if (!overlaps(disk, site, context.rounding()) || is_beside(k)) continue;
+    const double smaller = site::touching_radius(foot, normal, site);
+    if (!(smaller > 0 && smaller < disk.radius)) continue;
+    disk = {foot + smaller * normal, smaller};
+    touched = k;
+  }
+  MaximalDisk result{disk, {place}};
+  if (touched < n) result.contacts.push_back(place_on(context, subshape, touched, disk));
+  return result;
+}
+
+namespace {
+
+/// How far the walk along a bisector goes: to a disk that touches a third place, or is as large as
+/// any disk in the shape.
+struct Stop {
+  Disk disk;
+  double position = nowhere;
+  std::optional<Place> third = {};
+};
+
+/// The walk from one artificial arc to what it ends at, between the two elements beside the arc.
+struct BranchWalk {
+  Context& context;
+  const Subshape& subshape;
+  const std::vector<Disk>& disks;
+  std::size_t left, right;  ///< elements
+  const Disk& from = disks[subshape.elements[left].disk_after];
+  Bisector bisector{context.site(subshape.elements[right]), context.site(subshape.elements[left])};
+  double low = bisector.position(from.center);
+  std::size_t after = subshape.next(right), before = subshape.before(left);
+  bool passes_right = context.joins_smoothly(subshape.elements[right]);
+  bool passes_left = context.joins_smoothly(subshape.elements[before]);
+
+  /// As long as both feet are on their elements, disks further on reach over all that the disks
+  /// before them do; so the scan begins where the first foot gets to its end. At a joint it passes
+  /// on to the neighbour there; elsewhere only rounding lets the disk reach over no neighbour.
+  Stop end_of_feet() const {
+    Stop stop;
+    const auto bound_by = [&](std::size_t own, std::size_t other, bool forward,
+                              const Place& place) {
+      const auto at_end = disk_at_end(context, subshape, own, forward,
+                                      context.site(subshape.elements[other]), disks);
+      if (!at_end) return;
+      const double there = bisector.position(at_end->disk.center);
+      if (there < low - slack(context, bisector, from) || !(there < stop.position)) return;
+      stop = {there < low ? from : at_end->disk, std::max(there, low), {}};
+      if (at_end->fits) stop.third = place;
+    };
+    bound_by(right, left, true, Place{passes_right ? right : after, passes_right, 0});
+    bound_by(left, right, false, Place{before, passes_left, 0});
+    if (stop.position == nowhere) {
+      stop.position = bisector.last_position(from, context.radius_limit);
+      stop.disk = bisector.disk_at(stop.position, from);
+    }
+    return stop;
+  }
+
+  /// Where arcs of one circle lie between the two, the axis ends in its centre. Joints so near to
+  /// each other would leave the disk open.
+  std::optional<Stop> apex() const {
+    const Site& next = context.site(subshape.elements[after]);
+    if (!(next.curvature > 0 && 1 / next.curvature <= context.radius_limit)) return std::nullopt;
+    for (std::size_t k = right; k != left; k = subshape.next(k)) {
+      const Element& element = subshape.elements[k];
+      const double bend = std::abs(context.site(element).curvature - next.curvature);
+      if (!(element.is_joined() && context.outline.joints[element.site] == Joint::smooth &&
+            (k == right || bend <= same_curvature * next.curvature)))
+        return std::nullopt;
+    }
+    const double radius = 1 / next.curvature;
+    const Disk disk{next.point + radius * next.normal(), radius};
+    return Stop{disk, std::max(low, bisector.position(disk.center)),
+                Place{after, false, 0.5 * next.length}};
+  }
+
+  /// The scan: whatever the disk reaches over moves it back to where it touches that.
+  void scan(Stop& stop) const {
+    for (std::size_t k = after; k != left; k = subshape.next(k)) {
+      if ((k == after && passes_right) || (k == before && passes_left)) continue;
+      const Site& site = context.site(subshape.elements[k]);
+      if (!overlaps(stop.disk, site, context.rounding())) continue;
+      stop.disk = first_contact(context, bisector, from, site, stop.disk);
+      stop.position = bisector.position(stop.disk.center);
+      stop.third = Place{k, false, site::foot_parameter(site, stop.disk.center)};
+    }
+  }
+
+  /// The disk and its places on both elements and the third one, each once.
+  MaximalDisk result(Disk disk, const Place& third) const {
+    MaximalDisk maximal{disk, {}};
+    const auto add = [&](const Place& place) {
+      for (const Place& known : maximal.contacts)
+        if (known.element == place.element && known.at_joint == place.at_joint) return;
+      maximal.contacts.push_back(place);
+    };
+    const bool right_at_joint = third.at_joint && third.element == right;
+    const bool left_at_joint = third.at_joint && third.element == before;
+    if (!right_at_joint) add(place_on(context, subshape, right, disk));
+    add(third.at_joint ? third : place_on(context, subshape, third.element, disk));
+    if (!left_at_joint) add(place_on(context, subshape, left, disk));
+    return maximal;
+  }
+};
+
+}  // namespace
+
+std::optional<MaximalDisk> branching_disk(Context& context, const Subshape& subshape, std::size_t i,
+                                          const std::vector<Disk>& disks) {
+  ++context.statistics.queries;
+  if (subshape.next(i) == i) return std::nullopt;
+  const BranchWalk walk{context, subshape, disks, i, subshape.next(i)};
+  Stop stop;
+  if (const auto apex = walk.apex()) {
+    stop = *apex;
+  } else {
+    stop = walk.end_of_feet();
+    walk.scan(stop);
+  }
+  if (!stop.third) return std::nullopt;
+  for (const std::size_t k : {walk.right, stop.third->element, walk.left}) {
+    const Disk* const passed = disk_passed(context, subshape, k, stop.disk, disks);
+    if (passed == nullptr) continue;
+    stop.disk = *passed;
+    break;
+  }
+  return walk.result(stop.disk, *stop.third);
+}
+
+}  // namespace medial::biarc_dc

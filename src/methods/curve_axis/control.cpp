@@ -1,0 +1,438 @@
+#include "methods/curve_axis/control.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace medial::curve_axis {
+namespace {
+
+/// Disks whose centres are nearer than this share of the size are one: points are zeros of (14) to
+/// rounding, so two that differ are a step apart.
+constexpr double same_disk = 1e-8;
+/// How far from the points on both sides of it a junction may lie, in steps.
+constexpr double junction_reach = 4;
+/// Parameters that differ by less are one.
+constexpr double same_parameter = 1e-7;
+/// Points that all generations together may find before the axis is given up: some 200 bytes each.
+constexpr std::size_t most_points = std::size_t{1} << 21;
+/// The most evaluations of the boundary, and those more for each of its pieces: some seconds. A
+/// boundary of 300 maxima takes a tenth.
+constexpr double most_evaluations = 2e7, most_evaluations_a_piece = 2e3;
+/// Times that generations are taken up again before the rest of the boundary is given up.
+constexpr int most_resumptions = 16;
+
+double between(double a, double b, double share) { return a + share * (b - a); }
+
+}  // namespace
+
+Control::Control(const SmoothBoundary& boundary, const CurveAxisOptions& options, double step,
+                 Observer observer)
+    : boundary_(boundary),
+      options_(options),
+      observer_(std::move(observer)),
+      generator_(boundary, step),
+      step_(step) {
+  rules_.maxima = boundary.maxima().size();
+}
+
+Status Control::run() {
+  const std::vector<double>& maxima = boundary_.maxima();
+  const std::size_t count = maxima.size();
+  if (count == 0)
+    return Error{ErrorCode::unsupported,
+                 "the boundary has no maximum of curvature to start from, as a circle: the method "
+                 "curve-axis cannot begin; use disks",
+                 {}};
+  const auto cancelled = [&] { return options_.cancel != nullptr && options_.cancel->load(); };
+  // Clockwise, as the paper has it.
+  for (std::size_t i = 0; i < count; ++i) {
+    if (cancelled()) return Error{ErrorCode::cancelled, "cancelled", {}};
+    const double u = maxima[(options_.first_maximum % count + count - i) % count];
+    if (is_scanned(u)) {
+      ++rules_.skipped;
+      continue;
+    }
+    if (grow(start(u)) == Stop::complete) return success();
+  }
+  // A branch that stopped before one that was taken back later may go on now.
+  for (int round = 0; round < most_resumptions; ++round) {
+    for (const int segment : in_use()) {
+      if (cancelled()) return Error{ErrorCode::cancelled, "cancelled", {}};
+      if (at(segment).next < 0) continue;  // merged or abandoned meanwhile
+      ++rules_.resumed;
+      if (grow(segment) == Stop::complete) return success();
+    }
+    for (const double u : maxima)
+      if (!is_scanned(u) && grow(start(u)) == Stop::complete) return success();
+  }
+  if (is_exhausted())
+    return Error{ErrorCode::too_large,
+                 "the boundary is too uneven for the method curve-axis: after a few seconds of "
+                 "work there is no axis; fit it less closely, or take longer steps",
+                 {}};
+  if (points_ > most_points)
+    return Error{ErrorCode::too_large,
+                 "the axis has more points than fit the memory: take longer steps",
+                 {}};
+  Place place;
+  if (any_ >= 0) place.point = last(any_).right.point;
+  return Error{ErrorCode::unsupported,
+               "the curve axis reaches no end here: use a smaller step, or the method disks",
+               place};
+}
+
+std::vector<int> Control::in_use() const {
+  std::vector<int> all;
+  if (any_ < 0) return all;
+  int segment = any_;
+  do {
+    all.push_back(segment);
+    segment = at(segment).next;
+  } while (segment != any_);
+  return all;
+}
+
+bool Control::is_exhausted() const {
+  return static_cast<double>(boundary_.evaluations()) >
+         most_evaluations + most_evaluations_a_piece * boundary_.period();
+}
+
+bool Control::is_scanned(double u) const {
+  if (any_ < 0) return false;
+  int segment = any_;
+  do {
+    const AxisPoint& end = last(segment);
+    if (boundary_.above(u, end.left.u) <= end.right.u) return true;
+    segment = at(segment).next;
+  } while (segment != any_);
+  return false;
+}
+
+int Control::start(double maximum) {
+  const int created = static_cast<int>(segments_.size());
+  segments_.push_back({{generator_.at_maximum(maximum)}, -1, -1, 0, created, created});
+  if (any_ < 0) {
+    any_ = created;
+    return created;
+  }
+  // Before the segment that begins next.
+  int next = any_, segment = any_;
+  do {
+    if (boundary_.above(last(segment).left.u, maximum) <
+        boundary_.above(last(next).left.u, maximum))
+      next = segment;
+    segment = at(segment).next;
+  } while (segment != any_);
+  const int previous = at(next).previous;
+  at(created).previous = previous;
+  at(created).next = next;
+  at(previous).next = created;
+  at(next).previous = created;
+  return created;
+}
+
+Control::Stop Control::grow(int segment) {
+  while (true) {
+    if (++points_ > most_points || is_exhausted()) return Stop::exhausted;
+    const AxisPoint here = last(segment);
+    const std::optional<AxisPoint> there = generator_.next(here);
+    // Feet that meet do so in the tip; next to it (14) may also end in its trivial zero, one foot
+    // on the other.
+    const bool ends =
+        !there || there->right.u >= there->left.u + boundary_.period() - same_parameter;
+    const bool alone = at(segment).next == segment || is_last_tip(at(segment).next, segment);
+    if (ends && alone && end_in_tip(segment, here)) return Stop::complete;
+    // (10) fails at a maximum, too, that a foot steps over and whose circle is smaller than the
+    // disk.
+    if (ends || steps_over_twist(here, *there)) {
+      if (const int joined = join_tip(segment, here); joined >= 0) {
+        segment = joined;
+        continue;
+      }
+      ++rules_.retreats;
+      tell({Decision::Rule::retreat, segment, there.value_or(here), -1});
+      return Stop::retreat;
+    }
+    if (!is_in_frame(there->disk.center)) {
+      ++rules_.outside_frame;
+      tell({Decision::Rule::outside_frame, segment, *there, -1});
+      return Stop::frame;
+    }
+    const int before = segment;
+    if (const std::optional<Stop> stop = resolve_conflicts(segment, here, *there)) return *stop;
+    if (segment == before) at(segment).branch.push_back(*there);
+  }
+}
+
+bool Control::is_in_frame(Vec2 p) const {
+  return p.x >= boundary_.low().x && p.x <= boundary_.high().x && p.y >= boundary_.low().y &&
+         p.y <= boundary_.high().y;
+}
+
+std::optional<Control::Stop> Control::resolve_conflicts(int& segment, const AxisPoint& here,
+                                                        const AxisPoint& there) {
+  while (const std::optional<Contact> contact = first_contact(segment, here, there)) {
+    const AxisPoint& old = last(contact->neighbour);
+    const AxisPoint& active = contact->active;
+    const bool only_two = at(at(segment).next).next == segment;
+    if (only_two && distance(active.disk.center, old.disk.center) <= same_disk * boundary_.size()) {
+      ++rules_.meetings;
+      at(segment).branch.push_back(active);
+      roots_ = {segment, contact->neighbour};
+      return Stop::complete;
+    }
+    if (active.disk.radius < old.disk.radius) {
+      ++rules_.smaller;
+      tell({Decision::Rule::smaller, segment, active, contact->neighbour});
+      shrink(contact->neighbour);
+      continue;
+    }
+    const auto junction = junction_at(*contact, here, there);
+    if (!junction) {
+      ++rules_.larger;
+      tell({Decision::Rule::larger, segment, active, contact->neighbour});
+      return Stop::conflict;
+    }
+    ++rules_.junctions;
+    if (observer_) {
+      AxisPoint third =
+          generator_.point_of(boundary_.at(junction->left), boundary_.at(junction->right));
+      third.disk = junction->disk;
+      tell({Decision::Rule::junction, segment, third, contact->neighbour});
+    }
+    segment = join(segment, *contact, *junction);
+    return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+std::optional<Generator::Junction> Control::junction_at(const Contact& contact,
+                                                        const AxisPoint& here,
+                                                        const AxisPoint& there) const {
+  const AxisPoint& old = last(contact.neighbour);
+  const AxisPoint& active = contact.active;
+  // In a tip both feet are one: the branch's next point tells where they part.
+  const bool is_tip = old.left.u == old.right.u;
+  const AxisPoint outer = is_tip ? generator_.next(old).value_or(old) : old;
+  const double left = contact.on_right
+                          ? active.left.u
+                          : boundary_.above(outer.left.u, contact.foot - boundary_.period());
+  const double right =
+      contact.on_right ? boundary_.above(outer.right.u, contact.foot) : active.right.u;
+  const double shift = contact.foot - (contact.on_right ? old.left.u : old.right.u);
+  const double middle = (contact.on_right ? outer.left.u : outer.right.u) + shift;
+  auto junction = generator_.junction(left, middle, right);
+  // The first point after a tip may be farther off than a step.
+  const auto reach = [&](const AxisPoint& last_one, const AxisPoint& next_one) {
+    return std::max(junction_reach * step_,
+                    2 * distance(last_one.disk.center, next_one.disk.center));
+  };
+  // Within a few steps of the last points of both, from before which it is reached.
+  const bool here_it_is = junction && junction->disk.radius > 0 &&
+                          junction->right < junction->left + boundary_.period() &&
+                          junction->left < junction->middle && junction->middle < junction->right &&
+                          distance(junction->disk.center, here.disk.center) <= reach(here, there) &&
+                          distance(junction->disk.center, old.disk.center) <= reach(old, outer);
+  if (!here_it_is) return std::nullopt;
+  return junction;
+}
+
+std::optional<Control::Contact> Control::first_contact(int segment, const AxisPoint& from,
+                                                       const AxisPoint& to) const {
+  if (at(segment).next == segment) return std::nullopt;
+  std::optional<Contact> first;
+  double first_share = 2;
+  {
+    const int neighbour = at(segment).next;
+    const double foot = boundary_.above(last(neighbour).left.u, from.right.u);
+    const double share = (foot - from.right.u) / (to.right.u - from.right.u);
+    if (share < 1) {
+      const auto active = generator_.with_right(between(from.left.u, to.left.u, share), foot);
+      first = Contact{neighbour, true, foot, active.value_or(to)};
+      first_share = share;
+    }
+  }
+  const int neighbour = at(segment).previous;
+  const double foot = -boundary_.above(-last(neighbour).right.u, -from.left.u);
+  const double share = (from.left.u - foot) / (from.left.u - to.left.u);
+  if (share < 1 && share < first_share) {
+    const auto active = generator_.with_left(foot, between(from.right.u, to.right.u, share));
+    first = Contact{neighbour, false, foot, active.value_or(to)};
+  }
+  return first;
+}
+
+int Control::join(int segment, const Contact& contact, const Generator::Junction& junction) {
+  // Points of both that lie beyond it are none of the axis's.
+  const auto trim = [&](int branch, bool shares_right) {
+    std::vector<AxisPoint>& points = at(branch).branch;
+    const double n = boundary_.period();
+    const auto is_beyond = [&](const AxisPoint& p) {
+      const double u = shares_right ? p.right.u : p.left.u;
+      const double apart = u - junction.middle - n * std::round((u - junction.middle) / n);
+      return shares_right ? apart >= 0 : apart <= 0;
+    };
+    while (points.size() > 1 && is_beyond(points.back())) points.pop_back();
+  };
+  trim(segment, contact.on_right);
+  trim(contact.neighbour, !contact.on_right);
+  const int created = static_cast<int>(segments_.size());
+  AxisPoint point = generator_.point_of(boundary_.at(junction.left), boundary_.at(junction.right));
+  point.disk = junction.disk;
+  const int first = contact.on_right ? segment : contact.neighbour;
+  const int second = contact.on_right ? contact.neighbour : segment;
+  const int before = at(first).previous, after = at(second).next;
+  segments_.push_back({{point}, first, second, junction.middle, before, after});
+  if (before == second) {  // there were only these two
+    at(created).previous = at(created).next = created;
+  } else {
+    at(before).next = created;
+    at(after).previous = created;
+  }
+  for (const int child : {first, second}) at(child).previous = at(child).next = -1;
+  any_ = created;
+  return created;
+}
+
+bool Control::is_last_tip(int tip, int segment) const {
+  // In needles a branch may get no further than a share of a step.
+  return at(tip).next == segment && at(segment).next == tip && at(tip).first_child < 0 &&
+         distance(at(tip).branch.front().disk.center, last(tip).disk.center) <= step_;
+}
+
+bool Control::is_tip(int segment) const {
+  return at(segment).branch.size() == 1 && at(segment).first_child < 0;
+}
+
+int Control::join_tip(int segment, const AxisPoint& here) {
+  for (const bool on_right : {true, false}) {
+    const int neighbour = on_right ? at(segment).next : at(segment).previous;
+    if (neighbour == segment || !is_tip(neighbour)) continue;
+    const AxisPoint& tip = last(neighbour);
+    const std::optional<AxisPoint> first = generator_.next(tip);
+    if (!first) continue;
+    // The feet of the tip's first point, seen from this branch's.
+    const double tip_u = on_right ? boundary_.above(tip.left.u, here.right.u)
+                                  : -boundary_.above(-tip.right.u, -here.left.u);
+    const double shift = tip_u - tip.left.u;  // both of its feet are one
+    const double near = (on_right ? first->left.u : first->right.u) + shift;
+    const double far = (on_right ? first->right.u : first->left.u) + shift;
+    const double shared = 0.5 * (near + (on_right ? here.right.u : here.left.u));
+    const auto junction = on_right ? generator_.junction(here.left.u, shared, far)
+                                   : generator_.junction(far, shared, here.right.u);
+    if (!junction || !(junction->disk.radius > 0)) continue;
+    const bool in_order = junction->left < junction->middle && junction->middle < junction->right &&
+                          junction->right < junction->left + boundary_.period() &&
+                          (on_right ? junction->middle < tip_u && tip_u < junction->right
+                                    : junction->left < tip_u && tip_u < junction->middle);
+    // This branch may have gone on beyond it, by a step or so: join() takes that back.
+    const double reach =
+        std::max(junction_reach * step_, 2 * distance(tip.disk.center, first->disk.center));
+    if (!in_order || distance(junction->disk.center, here.disk.center) > junction_reach * step_ ||
+        distance(junction->disk.center, tip.disk.center) > reach ||
+        junction->disk.radius < tip.disk.radius)
+      continue;
+    // The way from the tip to it, in steps.
+    const double left = (on_right ? junction->middle : junction->left) - shift;
+    const double right = (on_right ? junction->right : junction->middle) - shift;
+    const double way = distance(junction->disk.center, tip.disk.center);
+    const int steps = static_cast<int>(std::ceil(way / step_));
+    const AxisPoint origin = tip;  // the branch grows
+    for (int i = 1; i < steps; ++i) {
+      // Feet part like the root of the way.
+      const double share = std::sqrt(static_cast<double>(i) / steps);
+      const auto point = generator_.stabilised(between(origin.left.u, left, share),
+                                               between(origin.right.u, right, share));
+      const AxisPoint& before = last(neighbour);
+      if (point && point->left.u < before.left.u && point->right.u > before.right.u &&
+          point->left.u > left && point->right.u < right)
+        at(neighbour).branch.push_back(*point);
+    }
+    ++rules_.junctions;
+    return join(segment, {neighbour, on_right, junction->middle, here}, *junction);
+  }
+  return -1;
+}
+
+void Control::shrink(int segment) {
+  Segment& old = at(segment);
+  old.branch.pop_back();
+  if (!old.branch.empty()) return;
+  if (old.first_child < 0) {
+    ++rules_.abandoned;
+    unlink(segment);
+  } else {
+    ++rules_.dissolved;
+    replace(segment, old.first_child, old.second_child);
+  }
+}
+
+void Control::unlink(int segment) {
+  const int before = at(segment).previous, after = at(segment).next;
+  at(before).next = after;
+  at(after).previous = before;
+  if (any_ == segment) any_ = after;
+  at(segment).previous = at(segment).next = -1;
+}
+
+void Control::replace(int segment, int first, int second) {
+  const int before = at(segment).previous, after = at(segment).next;
+  at(first).previous = before;
+  at(first).next = second;
+  at(second).previous = first;
+  at(second).next = after;
+  at(before).next = first;
+  at(after).previous = second;
+  if (any_ == segment) any_ = first;
+  at(segment).previous = at(segment).next = -1;
+}
+
+bool Control::steps_over_twist(const AxisPoint& from, const AxisPoint& to) const {
+  const double radius = std::min(from.disk.radius, to.disk.radius);
+  const std::vector<double>& maxima = boundary_.maxima();
+  const auto twisted = [&](double low, double high) {
+    // The first maximum from `low` on, and its followers.
+    const double n = boundary_.period(), start = boundary_.above(low, 0);
+    auto next = std::lower_bound(maxima.begin(), maxima.end(), start);
+    for (std::size_t i = 0; i < maxima.size(); ++i, ++next) {
+      if (next == maxima.end()) next = maxima.begin();
+      double way = *next - start;
+      if (way < 0) way += n;
+      if (way >= high - low) return false;
+      if (way > 0 && boundary_.at(*next).curvature * radius > 1 && !is_scanned(*next)) return true;
+    }
+    return false;
+  };
+  return twisted(to.left.u, from.left.u) || twisted(from.right.u, to.right.u);
+}
+
+bool Control::end_in_tip(int segment, const AxisPoint& from) {
+  // What is left of the boundary has to lie along the last disk: otherwise it has axis of its own.
+  constexpr int samples = 32;
+  const double rest = from.left.u + boundary_.period() - from.right.u;
+  for (int i = 1; i < samples; ++i) {
+    const Vec2 p = boundary_.at(from.right.u + rest * i / samples).point;
+    if (std::abs(distance(p, from.disk.center) - from.disk.radius) > junction_reach * step_)
+      return false;
+  }
+  // Two tips, with circles smaller than the disk, are ends of two branches.
+  std::vector<double> tips;
+  for (const double maximum : boundary_.maxima()) {
+    const double u = boundary_.above(maximum, from.right.u);
+    if (u <= from.right.u || u >= from.left.u + boundary_.period()) continue;
+    if (boundary_.at(u).curvature * from.disk.radius >= 1) tips.push_back(u);
+  }
+  if (tips.size() > 1) return false;
+  for (const double u : tips) {
+    const AxisPoint tip = generator_.at_maximum(u);
+    if (distance(tip.disk.center, from.disk.center) > junction_reach * step_) continue;
+    ++rules_.ends;
+    tell({Decision::Rule::end, segment, tip, -1});
+    last_tip_ = tip;
+    roots_ = {segment};
+    return true;
+  }
+  return false;
+}
+
+}  // namespace medial::curve_axis

@@ -1,0 +1,117 @@
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+#include "medial/curve_axis.h"
+#include "methods/curve_axis/generate.h"
+
+namespace medial::curve_axis {
+
+/// A scanned piece of boundary, from the left foot of its last axis point to the right one, and the
+/// axis that describes it: a branch from a maximum of curvature, or from a junction of two older
+/// segments, which then stand behind it.
+struct Segment {
+  std::vector<AxisPoint> branch;  ///< the first one is the maximum's or the junction's
+  int first_child = -1;           ///< of a junction: the segment whose boundary comes first
+  int second_child = -1;
+  double middle = 0;  ///< of a junction: the foot that its children share
+  int previous = -1;  ///< neighbours along the boundary, among the segments in use
+  int next = -1;
+};
+
+class Control;
+
+/// A rule of the control process that is about to be carried out, for pictures of it.
+struct Decision {
+  enum class Rule { larger, smaller, junction, retreat, outside_frame, end };
+  Rule rule;
+  int active;          ///< the segment that grows
+  AxisPoint point;     ///< its next point; of a junction: the third branch's first one
+  int neighbour = -1;  ///< the older segment of a conflict
+};
+using Observer = std::function<void(const Control&, const Decision&)>;
+
+/// Section 5.2: decides where generations start, who wins a conflict, and when all is done.
+class Control {
+ public:
+  Control(const SmoothBoundary& boundary, const CurveAxisOptions& options, double step,
+          Observer observer = {});
+
+  /// Scans the whole boundary. Errors: cancelled, internal, too_large, unsupported (no maximum).
+  Status run();
+
+  const std::vector<Segment>& segments() const { return segments_; }
+  /// The segments in use, by increasing place along the boundary.
+  std::vector<int> in_use() const;
+  /// After run(): the segments in which the axis came to its end, the last two of a meeting.
+  const std::vector<int>& roots() const { return roots_; }
+  /// The maximum in which the last branch ends; not for a meeting.
+  const std::optional<AxisPoint>& last_tip() const { return last_tip_; }
+  const CurveAxisRules& rules() const { return rules_; }
+
+ private:
+  enum class Stop { conflict, retreat, frame, exhausted, complete };
+  /// A foot of the active segment on boundary that a neighbour has scanned.
+  struct Contact {
+    int neighbour = -1;
+    bool on_right = false;
+    double foot = 0;   ///< the neighbour's foot, in the active segment's turn of the boundary
+    AxisPoint active;  ///< the active axis point with that foot
+  };
+
+  bool is_exhausted() const;
+  bool is_scanned(double u) const;
+  int start(double maximum);
+  /// Generates axis points until a rule stops the branch, or the branches behind its junctions.
+  Stop grow(int segment);
+  bool is_in_frame(Vec2 p) const;
+  /// Conflicts of the step from `here` to `there`, by the radii on one boundary point: the older
+  /// branch gives way (Fig 5b), growth stops (Fig 5a) as told, or `segment` becomes that of a
+  /// junction (Fig 6).
+  std::optional<Stop> resolve_conflicts(int& segment, const AxisPoint& here,
+                                        const AxisPoint& there);
+  /// The junction of a contact whose radii become equal within the step.
+  std::optional<Generator::Junction> junction_at(const Contact& contact, const AxisPoint& here,
+                                                 const AxisPoint& there) const;
+  std::optional<Contact> first_contact(int segment, const AxisPoint& from,
+                                       const AxisPoint& to) const;
+  int join(int segment, const Contact& contact, const Generator::Junction& at);
+  /// Whether a segment is the point of a maximum, and no more.
+  bool is_tip(int segment) const;
+  /// Whether the only other segment is the last maximum (Fig 8), or a step of its branch.
+  bool is_last_tip(int tip, int segment) const;
+  /// The junction of a branch that can go no further with a neighbour that is a tip only: it lies
+  /// on the tip's first step, which is longer than others. The joined segment, or -1.
+  int join_tip(int segment, const AxisPoint& here);
+  void shrink(int segment);
+  void tell(const Decision& decision) const {
+    if (observer_) observer_(*this, decision);
+  }
+  void unlink(int segment);
+  void replace(int segment, int first, int last);
+  bool steps_over_twist(const AxisPoint& from, const AxisPoint& to) const;
+  bool end_in_tip(int segment, const AxisPoint& from);
+
+  const AxisPoint& last(int segment) const {
+    return segments_[static_cast<std::size_t>(segment)].branch.back();
+  }
+  Segment& at(int segment) { return segments_[static_cast<std::size_t>(segment)]; }
+  const Segment& at(int segment) const { return segments_[static_cast<std::size_t>(segment)]; }
+
+  const SmoothBoundary& boundary_;
+  const CurveAxisOptions& options_;
+  Observer observer_;
+  Generator generator_;
+  double step_;
+  std::size_t points_ = 0;
+  std::vector<Segment> segments_;
+  int any_ = -1;  ///< one of the segments in use
+  std::vector<int> roots_;
+  std::optional<AxisPoint> last_tip_;
+  CurveAxisRules rules_;
+};
+
+}  // namespace medial::curve_axis

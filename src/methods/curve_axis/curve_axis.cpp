@@ -1,0 +1,423 @@
+#include "medial/curve_axis.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "axis/node_kinds.h"
+#include "base/box_tree.h"
+#include "base/in_flight.h"
+#include "medial/shape.h"
+#include "methods/curve_axis/control.h"
+
+namespace medial {
+namespace curve_axis {
+namespace {
+
+/// The control point of a quadratic in x, y and r that has the axis's directions at both ends.
+Disk control_between(const AxisPoint& a, const AxisPoint& b) {
+  const Vec2 chord = b.disk.center - a.disk.center;
+  const Disk middle{midpoint(a.disk.center, b.disk.center), (a.disk.radius + b.disk.radius) / 2};
+  const double sine = cross(a.tangent, b.tangent);
+  const double ahead = cross(chord, b.tangent) / sine, back = cross(a.tangent, chord) / sine;
+  const double length = norm(chord);
+  // Parallel, or an inflection in between: straight.
+  if (!(ahead > 0 && back > 0 && ahead < length && back < length)) return middle;
+  const double radius =
+      (a.disk.radius + ahead * a.radius_rate + b.disk.radius - back * b.radius_rate) / 2;
+  return {a.disk.center + ahead * a.tangent, radius};
+}
+
+/// Between two points the graph's quadratic is off by less than this share of the size.
+constexpr double between_points = 1e-8;
+/// Points farther apart than so many steps get others in between.
+constexpr double longest_step = 1.5;
+/// So do points between which the boundary turns by more, in radians: next to tips the axis's own
+/// scale is the way to the tip.
+constexpr double largest_turn_between = 0.0125;
+/// So do points between which the axis's second derivatives are this share of themselves off a
+/// straight line: differences of seven points are to tell the curvatures of the boundary.
+constexpr double bend_between = 1e-4;
+/// But none where those differences lose more to rounding of the disks, a share of the size, than
+/// they gain.
+constexpr double disk_rounding = 3e-16;
+/// Points much nearer to each other than their neighbours add rounding to differences, little else.
+constexpr double shortest_step = 0.25;
+/// The least number of ways between points on a smooth run: frames_along() takes seven points.
+constexpr std::size_t smooth_run = 6;
+/// How often the way between two points of the generation is halved at most.
+constexpr int most_halvings = 12;
+/// What first points after a tip are sought with: see Generator::first_after().
+constexpr double largest_tip_turn = 0.05, least_tip_turn = 1e-4;
+
+/// How far a point of the axis between a and b lies from the quadratic that joins them, in the
+/// plane or in its radius.
+double distance_to_quadratic(const AxisPoint& a, const AxisPoint& b, const Disk& between) {
+  const Disk control = control_between(a, b);
+  const Vec2 chord = b.disk.center - a.disk.center;
+  const double length = norm(chord);
+  const auto along = [&](Vec2 p) { return dot(p - a.disk.center, chord) / length; };
+  // 2 t (1 - t) c + t^2 length = p
+  const double c = along(control.center), p = along(between.center);
+  const double t = p / (c + std::sqrt(std::max(0.0, c * c + (length - 2 * c) * p)));
+  const double u = 1 - t, two = 2 * t * u;
+  const Vec2 center = u * u * a.disk.center + two * control.center + t * t * b.disk.center;
+  const double radius = u * u * a.disk.radius + two * control.radius + t * t * b.disk.radius;
+  return std::max(distance(center, between.center), std::abs(radius - between.radius));
+}
+
+/// R_aa + K_A s and R_aa - K_A s: (7) for the left and for the right foot, solved for them. Nothing
+/// that is a number in a tip.
+std::array<double, 2> bends_of(const AxisPoint& p) {
+  const double square = (1 - p.radius_rate) * (1 + p.radius_rate), radius = p.disk.radius;
+  return {-p.left.curvature * square / (1 - p.left.curvature * radius),
+          -p.right.curvature * square / (1 - p.right.curvature * radius)};
+}
+
+/// Whether second derivatives change too much from a to b for differences of seven points to tell
+/// them, and nearer points would help; `between` lies about in the middle. Those differences are
+/// off by `disk_rounding` / h^2 for points h apart, and where a foot comes near to its centre of
+/// curvature and second derivatives grow as d^(-1/2), at the distance d to there, by about 350 x^3
+/// of them, with x their share that the middle is off the straight line between a and b.
+bool bends_unevenly(const AxisPoint& a, const AxisPoint& b, const AxisPoint& between, double size) {
+  const auto at_a = bends_of(a), at_b = bends_of(b), here = bends_of(between);
+  const double most = std::max({std::abs(here[0]), std::abs(here[1]), 1 / size});
+  double x = 0;
+  for (const std::size_t side : {0U, 1U})
+    x = std::max(x, std::abs(here[side] - 0.5 * (at_a[side] + at_b[side])) / most);
+  const double h = 0.5 * distance(a.disk.center, b.disk.center);
+  return x > bend_between && 350 * x * x * x * most * h * h > disk_rounding * size;
+}
+
+/// The segments' branches as a graph and as lists of points.
+class Assembly {
+ public:
+  Assembly(const SmoothBoundary& boundary, const Control& control, double step)
+      : boundary_(boundary), control_(control), generator_(boundary, step), step_(step) {}
+
+  CurveAxis take() {
+    const std::vector<int>& roots = control_.roots();
+    if (control_.last_tip()) {
+      add(roots[0], node_of(*control_.last_tip()), *control_.last_tip());
+    } else {
+      // Both branches of a meeting end in its disk, which is the last point of the first.
+      const AxisPoint& meeting = segment(roots[0]).branch.back();
+      const std::uint32_t node = node_of(meeting);
+      add(roots[0], node, meeting);
+      AxisPoint backwards = meeting;
+      turn_round(backwards, 0);
+      add(roots[1], node, backwards);
+    }
+    while (!waiting_.empty()) {
+      const Waiting next = waiting_.back();
+      waiting_.pop_back();
+      add(next.segment, next.node, next.end);
+    }
+    result_.rules = control_.rules();
+    finish();
+    return std::move(result_);
+  }
+
+ private:
+  struct Waiting {
+    int segment;
+    std::uint32_t node;
+    AxisPoint end;
+  };
+  const Segment& segment(int i) const { return control_.segments()[static_cast<std::size_t>(i)]; }
+
+  std::uint32_t node_of(const AxisPoint& point) {
+    result_.axis.nodes.push_back({point.disk, 0, NodeKind::leaf});
+    return static_cast<std::uint32_t>(result_.axis.nodes.size() - 1);
+  }
+
+  /// A segment's branch from its first point to a node that is there already.
+  void add(int index, std::uint32_t end_node, const AxisPoint& end) {
+    const Segment& from = segment(index);
+    std::vector<AxisPoint> points;
+    for (const AxisPoint& point : from.branch)
+      if (!(point.disk.center == end.disk.center)) points.push_back(point);
+    while (points.size() > 1 && is_close(points[points.size() - 2], points.back(), end))
+      points.pop_back();
+    points.push_back(end);
+    points = refined(points);
+    std::vector<CurveAxisPoint> list;
+    std::uint32_t before = 0, first = end_node;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const AxisPoint& point = points[i];
+      const std::uint32_t node = i + 1 == points.size() ? end_node : node_of(point);
+      double length = 0;
+      if (i == 0) {
+        first = node;
+      } else {
+        length = list.back().length + distance(points[i - 1].disk.center, point.disk.center);
+        result_.axis.edges.push_back(
+            {{before, node}, {no_site, no_site}, control_between(points[i - 1], point), 1});
+      }
+      list.push_back({length, point.disk, boundary_.above(point.left.u, 0),
+                      boundary_.above(point.right.u, 0)});
+      before = node;
+    }
+    if (list.size() > 1) result_.branches.push_back(std::move(list));
+    if (from.first_child < 0) return;
+    const AxisPoint& junction = from.branch.front();
+    waiting_.push_back({from.first_child, first, seen_between(junction, false, from.middle)});
+    waiting_.push_back({from.second_child, first, seen_between(junction, true, from.middle)});
+  }
+
+  /// Whether the way from b to c is but a rest of a step, as that from a to b.
+  static bool is_close(const AxisPoint& a, const AxisPoint& b, const AxisPoint& c) {
+    return distance(b.disk.center, c.disk.center) <
+           shortest_step * distance(a.disk.center, b.disk.center);
+  }
+
+  /// A branch with more points, where the generation's are too few for quadratics between them, and
+  /// one where a foot passes from one piece of the boundary to the next: there the axis's third
+  /// derivative jumps. Between two of those are enough for differences that cross none.
+  std::vector<AxisPoint> refined(const std::vector<AxisPoint>& points) const {
+    std::vector<AxisPoint> out{points.front()};
+    std::vector<AxisPoint> run{points.front()};
+    const auto end_run = [&] {
+      int halvings = 0;
+      while ((run.size() - 1) << halvings < smooth_run) ++halvings;
+      for (std::size_t i = 0; i + 1 < run.size(); ++i) {
+        halve(run[i], run[i + 1], 0, halvings, out);
+        out.push_back(run[i + 1]);
+      }
+      run = {run.back()};
+    };
+    for (std::size_t i = 1; i < points.size(); ++i) {
+      const AxisPoint& next = points[i];
+      const double near = shortest_step * distance(points[i - 1].disk.center, next.disk.center);
+      const auto is_near = [&](const AxisPoint& a, const AxisPoint& b) {
+        return distance(a.disk.center, b.disk.center) < near;
+      };
+      AxisPoint here = points[i - 1];
+      while (const auto joint = next_joint(here, next)) {
+        here = *joint;
+        if (run.size() > 1 && is_near(run.back(), here)) run.pop_back();
+        if (is_near(run.back(), here) || is_near(here, points.back())) continue;
+        run.push_back(here);
+        end_run();
+      }
+      if (i + 1 < points.size() && run.size() == 1 && is_near(run.back(), next)) continue;
+      run.push_back(next);
+    }
+    end_run();
+    return out;
+  }
+
+  /// The first point after a and before b with a foot where two pieces join.
+  std::optional<AxisPoint> next_joint(const AxisPoint& a, const AxisPoint& b) const {
+    const double left = left_of_end(a, b), right = right_of_end(a, b);
+    const double left_joint = std::ceil(a.left.u) - 1, right_joint = std::floor(a.right.u) + 1;
+    std::optional<AxisPoint> by_left, by_right;
+    if (left_joint > left) {
+      const double share = (a.left.u - left_joint) / (a.left.u - left);
+      by_left = generator_.with_left(left_joint, a.right.u + share * (right - a.right.u));
+      if (!is_between(by_left, a, b)) by_left = {};
+    }
+    if (right_joint < right) {
+      const double share = (right_joint - a.right.u) / (right - a.right.u);
+      by_right = generator_.with_right(a.left.u + share * (left - a.left.u), right_joint);
+      if (!is_between(by_right, a, b)) by_right = {};
+    }
+    return by_left && by_right ? (by_left->right.u < by_right->right.u ? by_left : by_right)
+           : by_left           ? by_left
+                               : by_right;
+  }
+
+  /// The feet of b in the turn of the boundary that leads there from a.
+  double left_of_end(const AxisPoint& a, const AxisPoint& b) const {
+    return -boundary_.above(-b.left.u, -a.left.u);
+  }
+  double right_of_end(const AxisPoint& a, const AxisPoint& b) const {
+    return boundary_.above(b.right.u, a.right.u);
+  }
+
+  /// Whether a point lies on the way from a to b.
+  bool is_between(const std::optional<AxisPoint>& p, const AxisPoint& a, const AxisPoint& b) const {
+    const double most = longest_step * distance(a.disk.center, b.disk.center);
+    return p && p->left.u < a.left.u && p->left.u > left_of_end(a, b) && p->right.u > a.right.u &&
+           p->right.u < right_of_end(a, b) && p->disk.radius > 0 &&
+           distance(p->disk.center, a.disk.center) <= most &&
+           distance(p->disk.center, b.disk.center) <= most;
+  }
+
+  /// Appends points between a and b until the quadratics are as near to the axis as told, but at
+  /// least so many times halved. Where none is found the way stays as it is.
+  void halve(const AxisPoint& a, const AxisPoint& b, int done, int wanted,
+             std::vector<AxisPoint>& out) const {
+    if (done == most_halvings) return;
+    const auto middle = point_between(a, b);
+    if (!middle) return;
+    const bool is_short = distance(a.disk.center, b.disk.center) <= longest_step * step_ &&
+                          std::abs(cross(a.left.tangent, b.left.tangent)) <= largest_turn_between &&
+                          std::abs(cross(a.right.tangent, b.right.tangent)) <= largest_turn_between;
+    if (done >= wanted && is_short && !bends_unevenly(a, b, *middle, boundary_.size()) &&
+        distance_to_quadratic(a, b, middle->disk) <= between_points * boundary_.size())
+      return;
+    halve(a, *middle, done + 1, wanted, out);
+    out.push_back(*middle);
+    halve(*middle, b, done + 1, wanted, out);
+  }
+
+  /// A point of the axis about half way from a to b.
+  std::optional<AxisPoint> point_between(const AxisPoint& a, const AxisPoint& b) const {
+    const double left = left_of_end(a, b), right = right_of_end(a, b);
+    // Feet at a tip part like the root of the way.
+    const bool from_tip = a.left.u == a.right.u, to_tip = b.left.u == b.right.u;
+    const double share = from_tip ? std::numbers::sqrt2 / 2
+                         : to_tip ? 1 - std::numbers::sqrt2 / 2
+                                  : 0.5;
+    auto middle = generator_.stabilised(a.left.u + share * (left - a.left.u),
+                                        a.right.u + share * (right - a.right.u));
+    if (is_between(middle, a, b)) return middle;
+    // The feet's ways differ too much for that: a step from one end.
+    if (!from_tip && !to_tip)
+      middle = Generator(boundary_, distance(a.disk.center, b.disk.center) / 2).next(a);
+    if (from_tip)
+      for (double turn = largest_tip_turn; turn > least_tip_turn && !is_between(middle, a, b);
+           turn /= 2)
+        middle = generator_.first_after(a, turn);
+    if (to_tip)
+      for (double turn = largest_tip_turn; turn > least_tip_turn && !is_between(middle, a, b);
+           turn /= 2) {
+        AxisPoint tip = b;
+        tip.left.u = tip.right.u = right;
+        middle = generator_.first_after(tip, turn);
+        if (middle) turn_round(*middle, left - right);
+      }
+    return is_between(middle, a, b) ? middle : std::nullopt;
+  }
+
+  /// The same point, seen along the axis in the other direction; its left foot's parameter is moved
+  /// by some turns of the boundary.
+  static void turn_round(AxisPoint& point, double turns) {
+    std::swap(point.left, point.right);
+    point.left.u += turns;
+    point.tangent = -point.tangent;
+    point.radius_rate = -point.radius_rate;
+  }
+
+  /// A junction as the end of one of its two older branches: with that branch's feet, of which the
+  /// middle one is the right or the left one, and with its direction.
+  AxisPoint seen_between(const AxisPoint& junction, bool is_second, double middle) const {
+    AxisPoint out = generator_.point_of(is_second ? boundary_.at(middle) : junction.left,
+                                        is_second ? junction.right : boundary_.at(middle));
+    out.disk = junction.disk;
+    return out;
+  }
+
+  void finish() {
+    MedialAxis& axis = result_.axis;
+    axis.method = "curve-axis";
+    axis.resolution = step_;
+    axis.tolerance = 0;
+    set_node_kinds(axis);
+  }
+
+  const SmoothBoundary& boundary_;
+  const Control& control_;
+  const Generator generator_;
+  double step_;
+  CurveAxis result_;
+  std::vector<Waiting> waiting_;
+};
+
+std::optional<Error> refuse(std::span<const Contour> contours, const CurveAxisOptions& options) {
+  if (!(options.step >= 1e-6 && options.step <= 0.1))
+    return Error{ErrorCode::invalid_option, "the step must be in [1e-6, 0.1]", {}};
+  if (contours.size() != 1)
+    return Error{ErrorCode::unsupported,
+                 "the method curve-axis takes one boundary without holes: use the method disks",
+                 {}};
+  if (contours[0].pieces.empty()) return Error{ErrorCode::empty, "the contour is empty", {}};
+  // Segments are looked up one by one: the time grows with the square of the maxima.
+  constexpr std::size_t most_pieces = 20000;
+  if (contours[0].pieces.size() > most_pieces)
+    return Error{ErrorCode::too_large, "the contour has more than 20,000 pieces", {}};
+  if (Status rough = find_roughness(normalized(contours[0])); !rough) return rough.error();
+  // Crossings, and whatever else makes no shape.
+  const auto rings = approximate_by_arcs(contours, {.tolerance = 1e-4});
+  if (!rings) return rings.error();
+  const auto shape = build_shape(*rings);
+  if (!shape) return shape.error();
+  return std::nullopt;
+}
+
+/// A branch that took a wrong turn, or one that is missing, leaves disks that the boundary reaches
+/// into. Success if no point of the boundary, at distances of `spacing` of the size, lies deeper
+/// inside of a node's disk than `slack` of the size; the farthest of generation and graph from the
+/// axis is far less. O((n + points) log n) but for points near a disk's box and not in the disk.
+Status check_disks(const SmoothBoundary& boundary, const MedialAxis& axis) {
+  constexpr double spacing = 1e-3, slack = 1e-5;
+  std::vector<Vec2> points;
+  std::vector<Box> boxes;
+  for (double u = 0, next = 0; u < boundary.period(); u = next) {
+    points.push_back(boundary.at(u).point);
+    boxes.push_back({points.back(), points.back()});
+    next = boundary.advanced(u, spacing * boundary.size());
+    if (!(next > u)) break;
+  }
+  const BoxTree tree(boxes);
+  for (const Node& node : axis.nodes) {
+    const Vec2 center = node.disk.center;
+    const double reach = node.disk.radius - slack * boundary.size();
+    if (!(reach > 0)) continue;
+    bool reached = false;
+    tree.find({center - Vec2{reach, reach}, center + Vec2{reach, reach}},
+              [&](std::uint32_t i) { reached = reached || distance(points[i], center) < reach; });
+    if (!reached) continue;
+    Error error{ErrorCode::unsupported,
+                "the curve axis has gone astray here, where the boundary reaches into a disk: use "
+                "the method disks",
+                {}};
+    error.place.point = center;
+    return error;
+  }
+  return success();
+}
+
+/// How often an axis that has gone astray is begun anew.
+constexpr int most_attempts = 5;
+
+Result<CurveAxis> attempt(const SmoothBoundary& boundary, const CurveAxisOptions& options) {
+  const double step = options.step * boundary.size();
+  Control control(boundary, options, step);
+  if (Status done = control.run(); !done) return std::move(done).error();
+  CurveAxis result = Assembly(boundary, control, step).take();
+  if (Status right = check_disks(boundary, result.axis); !right) return std::move(right).error();
+  return result;
+}
+
+}  // namespace
+}  // namespace curve_axis
+
+Result<CurveAxis> compute_curve_axis(std::span<const Contour> contours,
+                                     const CurveAxisOptions& options) {
+  using namespace curve_axis;
+  try {
+    if (auto error = refuse(contours, options)) return std::move(*error);
+    const SmoothBoundary boundary(normalized(contours[0]));
+    Result<CurveAxis> result = attempt(boundary, options);
+    // What has gone astray does so at some steps only, and from some maxima: again with shorter
+    // ones.
+    CurveAxisOptions again = options;
+    for (int round = 0; round < most_attempts && !result.ok() &&
+                        result.error().code == ErrorCode::unsupported && !boundary.maxima().empty();
+         ++round) {
+      again.step /= 2;
+      ++again.first_maximum;
+      Result<CurveAxis> next = attempt(boundary, again);
+      // Of errors the first one tells most.
+      if (next.ok() || next.error().code == ErrorCode::cancelled) result = std::move(next);
+    }
+    return result;
+  } catch (...) {
+    return error_in_flight();
+  }
+}
+
+}  // namespace medial

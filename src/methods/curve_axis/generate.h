@@ -1,0 +1,57 @@
+#pragma once
+
+#include <optional>
+
+#include "medial/axis.h"
+#include "methods/curve_axis/smooth_boundary.h"
+
+namespace medial::curve_axis {
+
+/// A disk tangent to the boundary at two points, a valid pair: a point of the symmetry set. Seen
+/// along the axis, the left foot moves to smaller u and the right one to larger u.
+struct AxisPoint {
+  BoundaryPoint left, right;
+  Disk disk;
+  Vec2 tangent;            ///< of the axis, in the direction of generation: (11)
+  double radius_rate = 0;  ///< R_a: (12), with its sign
+};
+
+/// Section 5.1: knows no more of the shape than the boundary around the two feet.
+class Generator {
+ public:
+  Generator(const SmoothBoundary& boundary, double step) : boundary_(boundary), step_(step) {}
+
+  /// The point at a maximum of curvature: the centre of curvature, both feet in one.
+  AxisPoint at_maximum(double u) const;
+
+  /// The next point: prediction by (13), then the zero set of (14). Nothing where the feet cannot
+  /// both advance: restriction (10) does not hold, the boundary supports no further axis.
+  std::optional<AxisPoint> next(const AxisPoint& here) const;
+
+  /// The point with these feet, corrected along the boundary to the zero set of (14) by the
+  /// shortest way.
+  std::optional<AxisPoint> stabilised(double left, double right) const;
+  /// The same with one foot held.
+  std::optional<AxisPoint> with_right(double left, double right) const;
+  std::optional<AxisPoint> with_left(double left, double right) const;
+
+  /// The disk with three feet near these: a junction.
+  struct Junction {
+    double left, middle, right;
+    Disk disk;
+  };
+  std::optional<Junction> junction(double left, double middle, double right) const;
+
+  /// The first point after a maximum, as near to it as `turn_at_most` says: half of the angle
+  /// between its normals, in radians.
+  std::optional<AxisPoint> first_after(const AxisPoint& tip, double turn_at_most) const;
+
+  /// The point of a valid pair.
+  AxisPoint point_of(const BoundaryPoint& left, const BoundaryPoint& right) const;
+
+ private:
+  const SmoothBoundary& boundary_;
+  double step_;
+};
+
+}  // namespace medial::curve_axis

@@ -1,0 +1,205 @@
+#include "methods/disks/boundary.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+#include "base/arc.h"
+
+namespace medial::disks {
+namespace {
+
+using site::Joint;
+using sites::Loop;
+using sites::Pieces;
+
+/// Where a loop's run begins.
+struct Start {
+  std::uint32_t point = 0;
+  std::optional<double> inside;  ///< parameter inside an arc of the edge that begins at the point,
+  std::size_t piece = 0;         ///< and which of its pieces
+};
+
+/// A convex corner to start from: a flat one would leave the first disks undetermined, so the first
+/// that turns by a sixth of a circle, or the one that turns most. The search starts in the middle
+/// of the order: that shares the work well on shapes that were drawn from end to end. Where there
+/// is no corner, the smooth or reflex place where the boundary is least convex, because its disk
+/// cannot be the one of an arc that touches all of it; in the end any place.
+Start start_of_outer(const Loop& loop, const SiteNumbers& numbers, bool has_arcs) {
+  constexpr double clear = 0.5;  // cosine of the turn
+  std::optional<std::uint32_t> best;
+  double best_cosine = 2;
+  for (std::uint32_t step = 0; step < loop.size(); ++step) {
+    const std::uint32_t i = (loop.size() / 2 + step) % loop.size();
+    if (numbers.joints[loop.begin() + i] != Joint::corner) continue;
+    Vec2 before, after;
+    if (has_arcs) {
+      before = -left_of(loop.edge(loop.before(i)).last().end_normal());
+      after = loop.edge(i).first().direction;
+    } else {
+      before = loop.point(i) - loop.point(loop.before(i));
+      after = loop.point(loop.next(i)) - loop.point(i);
+    }
+    const double cosine = dot(before, after) / (norm(before) * norm(after));
+    if (cosine < best_cosine) {
+      best_cosine = cosine;
+      best = i;
+    }
+    if (cosine <= clear) break;
+  }
+  if (best) return {*best, {}, 0};
+
+  double least = std::numeric_limits<double>::infinity();
+  Start start;
+  const auto curvature_of = [&](std::uint32_t i) {
+    return curvature({loop.local(i), loop.local(loop.next(i)), loop.bulge(i)});
+  };
+  double before = curvature_of(loop.size() - 1);
+  for (std::uint32_t i = 0; i < loop.size(); ++i) {
+    const double after = curvature_of(i);
+    const double larger = std::max(before, after);
+    before = after;
+    if (numbers.joints[loop.begin() + i] == Joint::blunt) continue;
+    if (larger < least) start.point = i;
+    least = std::min(least, larger);
+  }
+  return start;
+}
+
+/// Whether the boundary faces `outreach` where two edges join, or looks the other way, as it does
+/// on the far side of edges that lie across that direction: there it is as far out but for
+/// rounding.
+bool faces_out(const Loop& loop, std::uint32_t i) {
+  if (loop.size() == 1) return true;
+  const Vec2 before = loop.edge(loop.before(i)).last().end_normal();
+  return dot(before + loop.edge(i).first().normal(), outreach) > -1;
+}
+
+/// The furthest place in the direction `outreach`, of those where a disk can touch the loop.
+Start start_of_hole(const Loop& loop, const SiteNumbers& numbers, bool has_arcs) {
+  Start start;
+  double furthest = -std::numeric_limits<double>::infinity();
+  const auto consider = [&](Vec2 place, const Start& candidate) {
+    const double here = dot(outreach, place);
+    if (!(here > furthest) || !(candidate.inside || faces_out(loop, candidate.point))) return;
+    start = candidate;
+    furthest = here;
+  };
+  for (std::uint32_t i = 0; i < loop.size(); ++i) {
+    const Joint joint = numbers.joints[loop.begin() + i];
+    if (joint == Joint::reflex || joint == Joint::smooth) consider(loop.local(i), {i, {}, 0});
+    if (!has_arcs || loop.bulge(i) == 0) continue;
+    const Pieces pieces = loop.edge(i);
+    for (std::size_t piece = 0; piece < pieces.count; ++piece) {
+      const site::Site& arc = pieces.site[piece];
+      const double s =
+          -2 * dot(arc.direction, outreach) / (arc.curvature * (1 + dot(arc.normal(), outreach)));
+      if (s > 0 && s < arc.length) consider(arc.at(s), {i, s, piece});
+    }
+  }
+  return start;
+}
+
+void add_loop(const Loop& loop, const SiteNumbers& numbers, const Start& start,
+              Boundary& boundary) {
+  const auto add_vertex = [&](std::uint32_t i) {
+    if (numbers.is_site(loop.begin() + i))
+      boundary.add(site::make_vertex(loop.local(i)), Element::vertex,
+                   numbers.edge[loop.begin() + i] - 1);
+  };
+  // The joint after the last piece of an edge is that at the edge's end.
+  const auto add_edge = [&](std::uint32_t i, std::size_t from_piece, double from,
+                            std::size_t to_piece, double to) {
+    const std::uint32_t number = numbers.edge[loop.begin() + i];
+    if (loop.bulge(i) == 0) {
+      boundary.add(site::make_segment(loop.local(i), loop.local(loop.next(i))), Element::edge,
+                   number, numbers.joints[loop.begin() + loop.next(i)]);
+      return;
+    }
+    const Pieces pieces = loop.edge(i);
+    for (std::size_t piece = from_piece; piece <= std::min(to_piece, pieces.count - 1); ++piece) {
+      const site::Site& site = pieces.site[piece];
+      const bool begins_here = piece == from_piece && from > 0;
+      const bool ends_here = piece == to_piece && to < site.length;
+      const bool last = piece + 1 == pieces.count;
+      const Joint joint =
+          last && !ends_here ? numbers.joints[loop.begin() + loop.next(i)] : Joint::smooth;
+      boundary.add(begins_here || ends_here
+                       ? site::part_of(site, begins_here ? from : 0, ends_here ? to : site.length)
+                       : site,
+                   Element::edge, number, joint);
+    }
+  };
+  if (loop.size() == 1) return add_vertex(start.point);
+  constexpr std::size_t last_piece = 1;
+  constexpr double to_end = std::numeric_limits<double>::infinity();
+  if (start.inside)
+    add_edge(start.point, start.piece, *start.inside, last_piece, to_end);
+  else {
+    add_vertex(start.point);
+    add_edge(start.point, 0, 0, last_piece, to_end);
+  }
+  for (std::uint32_t i = loop.next(start.point); i != start.point; i = loop.next(i)) {
+    add_vertex(i);
+    add_edge(i, 0, 0, last_piece, to_end);
+  }
+  if (start.inside) {
+    add_vertex(start.point);
+    add_edge(start.point, 0, 0, start.piece, *start.inside);
+  }
+}
+
+}  // namespace
+
+double clockwise_turn(Vec2 from, Vec2 to) {
+  constexpr double none = 1e-9;  // a little to the left is rounding
+  const double angle = std::atan2(-cross(from, to), dot(from, to));
+  return angle >= -none ? std::max(angle, 0.0) : angle + 2 * std::numbers::pi;
+}
+
+bool faces_edge(const site::Site& edge, Vec2 c) {
+  constexpr double beyond =
+      0x1p-40;  // of the distance: what rounding may turn the foot's normal by
+  const double away = site::carrier_distance(edge, c);
+  if (!(away > 0)) return false;
+  const double s = site::carrier_parameter(edge, c), slack = beyond * away;
+  return s >= -slack && s <= edge.length + slack;
+}
+
+bool in_wedge(Vec2 first, Vec2 last, Vec2 to) {
+  constexpr double beyond = 1e-9;
+  // Sides of directions tell, without an angle, where no two are near to one line.
+  constexpr double clear = 1e-8;
+  const double whole = cross(first, last), begun = cross(first, to), left = cross(to, last);
+  const double sizes[] = {squared_norm(first), squared_norm(last), squared_norm(to)};
+  constexpr double squared = clear * clear;
+  if (whole * whole > squared * sizes[0] * sizes[1] &&
+      begun * begun > squared * sizes[0] * sizes[2] && left * left > squared * sizes[1] * sizes[2])
+    return whole < 0 ? begun < 0 && left < 0 : begun < 0 || left < 0;
+  const double angle = clockwise_turn(first, to), wedge = clockwise_turn(first, last);
+  return angle <= wedge + beyond || angle >= 2 * std::numbers::pi - beyond;
+}
+
+Boundary loops_boundary(const Shape& shape, const SiteNumbers& numbers, const LocalFrame& frame,
+                        bool two_sided) {
+  Boundary boundary;
+  boundary.has_arcs = !shape.bulges.empty();
+  boundary.two_sided = two_sided;
+  boundary.reserve(numbers.count);
+  for (std::size_t l = 0; l < shape.loop_count(); ++l) {
+    const Loop loop(shape, l, frame);
+    const Start start = shape.hole[l] ? start_of_hole(loop, numbers, boundary.has_arcs)
+                                      : start_of_outer(loop, numbers, boundary.has_arcs);
+    const auto first = static_cast<std::uint32_t>(boundary.sites.size());
+    add_loop(loop, numbers, start, boundary);
+    const Joint joint = numbers.joints[loop.begin() + start.point];
+    const bool at_corner = !shape.hole[l] && (joint == Joint::corner || joint == Joint::blunt);
+    boundary.runs.push_back(
+        {first, static_cast<std::uint32_t>(boundary.sites.size() - 1), at_corner});
+  }
+  return boundary;
+}
+
+}  // namespace medial::disks

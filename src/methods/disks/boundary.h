@@ -1,0 +1,123 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "axis/sites.h"
+#include "base/local_frame.h"
+#include "base/memory.h"
+#include "medial/axis.h"
+#include "medial/shape.h"
+#include "site/joint.h"
+#include "site/site.h"
+
+namespace medial::disks {
+
+using sites::SiteNumbers;
+
+/// The direction in which the disks that connect holes reach out: that of the angle 0.6 + pi. An
+/// angle of no meaning to anybody who draws, so that no such disk comes to lie where others are,
+/// for instance on a node of the axis.
+constexpr Vec2 outreach{-0.825335614909678297, -0.564642473395035357};
+
+enum class Element : std::uint8_t {
+  edge,    ///< a segment, or an arc of at most a quarter of a circle
+  vertex,  ///< reflex, or a straight passage through a touching vertex
+  cut,     ///< the dividing disk between a hole and what it was connected to; touches nothing
+};
+
+/// The boundary as sites in boundary order, in the local frame: what the walk goes along. Every
+/// component is one run of sites that begins and ends at a convex corner of its outer loop, or at a
+/// smooth place where it has none; its holes are spliced in where their connecting disks touch, so
+/// the run is the boundary of a simply connected shape.
+struct Boundary {
+  struct Run {
+    std::uint32_t first = 0;
+    std::uint32_t last = 0;
+    bool at_corner = true;  ///< whether it begins and ends at a convex corner
+  };
+
+  std::vector<site::Site> sites;
+  std::vector<Element> elements;         ///< of each site
+  std::vector<site::Joint> joints;       ///< of an edge with the next one; empty: all are corners
+  std::vector<std::uint32_t> originals;  ///< index among the result's sites; of a cut: its number
+  std::vector<Run> runs;                 ///< of each component
+  /// Of each cut, its two places in the order: before and after the hole.
+  std::vector<std::array<std::uint32_t, 2>> cut_places;
+  bool has_arcs = false;
+  /// Whether edges may stand there twice, once for each side: that of a planar graph. Then a disk
+  /// that touches one side is as near to the other, and where several edges meet, to all of them.
+  bool two_sided = false;
+
+  void reserve(std::size_t count) {
+    reserve_large(sites, count);
+    elements.reserve(count);
+    reserve_large(originals, count);
+    if (has_arcs) joints.reserve(count);
+  }
+  void add(const site::Site& site, Element element, std::uint32_t original,
+           site::Joint joint = site::Joint::corner) {
+    sites.push_back(site);
+    elements.push_back(element);
+    originals.push_back(original);
+    if (has_arcs) joints.push_back(joint);
+  }
+  site::Joint joint(std::uint32_t i) const {  ///< between the edges i and i + 1
+    return joints.empty() ? site::Joint::corner : joints[i];
+  }
+  bool is_corner(std::uint32_t i) const {  ///< whether i and i + 1 are edges at a convex corner
+    return elements[i] == Element::edge && elements[i + 1] == Element::edge &&
+           joint(i) == site::Joint::corner;
+  }
+  /// Whether a disk can touch i and i + 1 in one point: an edge and a vertex, or a smooth joint.
+  bool is_smooth(std::uint32_t i) const {
+    if (elements[i] == Element::cut || elements[i + 1] == Element::cut) return false;
+    if (elements[i] != elements[i + 1]) return true;
+    return elements[i] == Element::edge && joint(i) == site::Joint::smooth;
+  }
+  /// Where two sites, one after the other, join smoothly: the point and the inward unit normal.
+  struct Place {
+    Vec2 point;
+    Vec2 normal;
+  };
+  Place smooth_place(std::uint32_t before, std::uint32_t after) const {
+    // Of two edges the longer one knows its direction better. But of two arcs of almost one circle
+    // the rounder one says where a disk as round has to be; and so it does of others where that
+    // disk reaches less over the flatter one, by turn^2 / (2 bend) at most, than the longer one's
+    // disk does over the shorter edge, by turn * length.
+    const site::Site &first = sites[before], &second = sites[after];
+    const double a = first.curvature, b = second.curvature, bend = std::abs(a - b);
+    constexpr double almost = 0x1p-20;
+    const bool alike = a > 0 && b > 0 && bend > 0 && bend <= almost * a;
+    const bool edges = elements[before] == Element::edge && elements[after] == Element::edge;
+    const double shorter = std::min(first.length, second.length);
+    const bool by_rounder =
+        alike || (edges && std::max(a, b) > 0 &&
+                  std::abs(cross(first.end_normal(), second.normal())) < 2 * bend * shorter);
+    const bool by_after = by_rounder ? b > a : second.length > first.length;
+    const Vec2 point =
+        elements[before] == Element::vertex ? sites[before].point : sites[after].point;
+    return {point, by_after ? sites[after].normal() : sites[before].end_normal()};
+  }
+};
+
+/// The boundary before holes are connected: every loop a run of its own in the order of the shape's
+/// loops (so `runs` are per loop here). An outer loop begins at a convex corner if it has one, or
+/// else at the joint where its curvature is smallest; a hole at its furthest point in the direction
+/// `outreach`: a reflex vertex, or a place inside an arc, which is divided there. A loop of one
+/// point is a vertex with the shape all around it, and without a neighbour.
+Boundary loops_boundary(const Shape& shape, const SiteNumbers& numbers, const LocalFrame& frame,
+                        bool two_sided = false);
+
+/// The angle from one direction to another, clockwise, in [0, 2 pi).
+double clockwise_turn(Vec2 from, Vec2 to);
+
+/// Whether c lies on the left of an edge and over its inside, up to rounding.
+bool faces_edge(const site::Site& edge, Vec2 c);
+
+/// Whether a direction lies between two others, from the first one clockwise, up to rounding.
+bool in_wedge(Vec2 first, Vec2 last, Vec2 to);
+
+}  // namespace medial::disks

@@ -1,0 +1,238 @@
+#include "methods/disks/collect.h"
+
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <type_traits>
+
+#include "axis/node_kinds.h"
+#include "axis/sites.h"
+#include "base/memory.h"
+#include "base/numbers.h"
+#include "site/bisector.h"
+
+namespace medial::disks {
+namespace {
+
+/// A chunk in its final place: its node i > 0 is node `first_node + i - 1` of the axis, and its
+/// node 0 is node `parent`.
+struct Placed {
+  Chunk* chunk;
+  std::uint32_t parent;
+  std::uint32_t first_node;
+  std::uint32_t first_edge;
+
+  std::uint32_t node(std::uint32_t i) const { return i == 0 ? parent : first_node + i - 1; }
+};
+
+/// All chunks, parents before children, in an order that depends on the walk only.
+std::vector<Placed> place(const std::vector<std::unique_ptr<Chunk>>& chunks, std::uint32_t& nodes,
+                          std::uint32_t& edges) {
+  std::vector<Placed> placed;
+  for (const auto& root : chunks) {
+    std::vector<std::pair<Chunk*, std::uint32_t>> stack{{root.get(), none}};
+    while (!stack.empty()) {
+      const auto [chunk, parent] = stack.back();
+      stack.pop_back();
+      placed.push_back({chunk, parent, nodes, edges});
+      nodes += static_cast<std::uint32_t>(chunk->nodes.size() - 1);
+      edges += static_cast<std::uint32_t>(chunk->links.size());
+      const Placed self = placed.back();
+      for (std::size_t i = chunk->children.size(); i-- > 0;) {
+        Chunk* child = chunk->children[i].get();
+        stack.emplace_back(child, self.node(child->parent_node));
+      }
+    }
+  }
+  return placed;
+}
+
+/// How the two ends of the axis that meet at each cut are joined: two edges become one, or a node
+/// takes the other's place.
+struct Gluing {
+  std::vector<std::uint32_t> number;  ///< of each node: which one of the axis it becomes
+  std::vector<bool> node_stays;       ///< of those that become one, one
+  std::vector<bool> edge_stays;
+  std::size_t nodes = 0, edges = 0;  ///< that stay
+};
+
+Gluing glue(const std::vector<Placed>& placed, std::size_t cut_count, std::uint32_t node_count,
+            std::uint32_t edge_count) {
+  struct End {
+    std::uint32_t node = none, edge = none;
+    std::uint32_t before = none;  ///< the node that the edge comes from
+  };
+  auto ends = large_vector<std::array<End, 2>>(cut_count);
+  for (const Placed& p : placed) {
+    for (const CutEnd& end : p.chunk->cut_ends) {
+      auto& pair = ends[end.cut];
+      End& slot = pair[0].node == none ? pair[0] : pair[1];
+      slot.node = p.node(end.node);
+      if (end.edge == CutEnd::no_edge) continue;
+      slot.edge = p.first_edge + end.edge;
+      slot.before = p.node(p.chunk->links[end.edge].node[0]);
+    }
+  }
+  Gluing result;
+  std::vector<std::uint32_t>& moved = result.number;
+  moved = large_vector<std::uint32_t>(node_count);
+  std::iota(moved.begin(), moved.end(), 0U);
+  const auto target = [&](std::uint32_t node) {
+    while (moved[node] != node) node = moved[node] = moved[moved[node]];
+    return node;
+  };
+  result.edge_stays.assign(edge_count, true);
+  result.edges = edge_count;
+  // The node at the end of an edge has no other.
+  for (const auto& [a, b] : ends) {
+    if (a.node == none || b.node == none) continue;
+    if (a.edge != none && b.edge != none) {
+      moved[a.node] = moved[b.node] = b.before;
+      result.edge_stays[b.edge] = false;
+      --result.edges;
+    } else if (a.edge != none) {
+      moved[a.node] = b.node;
+    } else if (b.edge != none) {
+      moved[b.node] = a.node;
+    } else {
+      moved[target(b.node)] = target(a.node);
+    }
+  }
+  for (std::uint32_t i = 0; i < node_count; ++i) moved[i] = target(i);
+  result.node_stays.resize(node_count);
+  auto number = large_vector<std::uint32_t>(node_count);
+  std::uint32_t kept = 0;
+  for (std::uint32_t i = 0; i < node_count; ++i) {
+    if (moved[i] != i) continue;
+    result.node_stays[i] = true;
+    number[i] = kept++;
+  }
+  result.nodes = kept;
+  for (std::uint32_t& node : moved) node = number[node];
+  return result;
+}
+
+}  // namespace
+
+Graph collect(std::vector<std::unique_ptr<Chunk>>& chunks, std::size_t cut_count,
+              std::size_t spare_nodes) {
+  Graph graph;
+  std::uint32_t node_count = 0, edge_count = 0;
+  const std::vector<Placed> placed = place(chunks, node_count, edge_count);
+  const bool glued = cut_count > 0;
+  const Gluing gluing = glued ? glue(placed, cut_count, node_count, edge_count) : Gluing{};
+
+  // One after the other: what takes the time is memory that is touched for the first time.
+  const auto collect_nodes = [&] {
+    reserve_large(graph.nodes, (glued ? gluing.nodes : node_count) + spare_nodes);
+    for (const Placed& p : placed) {
+      p.chunk->nodes.drain([&](std::size_t i, const Disk& disk) {
+        if (i > 0 && (!glued || gluing.node_stays[p.first_node + i - 1]))
+          graph.nodes.push_back({disk, p.chunk->component, NodeKind::leaf});
+      });
+    }
+  };
+  const auto collect_edges = [&] {
+    reserve_large(graph.links, glued ? gluing.edges : edge_count);
+    const auto number = [&](std::uint32_t node) { return glued ? gluing.number[node] : node; };
+    for (const Placed& p : placed) {
+      p.chunk->links.drain([&](std::size_t i, const Link& link) {
+        if (!glued || gluing.edge_stays[p.first_edge + i])
+          graph.links.push_back(
+              {{number(p.node(link.node[0])), number(p.node(link.node[1]))}, link.site});
+      });
+    }
+  };
+  tbb::parallel_invoke(collect_nodes, collect_edges);
+  for (const Placed& p : placed) graph.statistics += p.chunk->statistics;
+  chunks.clear();
+  return graph;
+}
+
+template <class E>
+tbb::concurrent_vector<std::uint32_t> complete(const Boundary& boundary, const LocalFrame& frame,
+                                               double slack, Graph& graph, std::vector<E>& edges) {
+  graph.statistics.largest_residual *= frame.inverse;
+  const auto touches = [&](const Disk& disk, const site::Site& site) {
+    const double least = std::max(0.0, disk.radius - slack), most = disk.radius + slack;
+    const double squared = site::squared_distance(site, disk.center);
+    // Nor does it lie behind the site, where it gets through a gap that rounding has closed.
+    if (!site.is_vertex() && !site.is_arc() && site::carrier_distance(site, disk.center) < -slack)
+      return false;
+    return squared >= least * least && squared <= most * most;  // false for no number, too
+  };
+  tbb::concurrent_vector<std::uint32_t> doubtful;
+  const auto control = [&] {
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, graph.links.size(), 4096), [&](const auto& range) {
+          for (std::size_t i = range.begin(); i < range.end(); ++i) {
+            const Link& link = graph.links[i];
+            const site::Site &left = boundary.sites[link.site[0]],
+                             &right = boundary.sites[link.site[1]];
+            const Disk &from = graph.nodes[link.node[0]].disk, &to = graph.nodes[link.node[1]].disk;
+            if (!boundary.two_sided && !(touches(from, left) && touches(from, right) &&
+                                         touches(to, left) && touches(to, right)))
+              doubtful.push_back(static_cast<std::uint32_t>(i));
+            const site::Control found = site::control_of(left, right, from, to);
+            Edge& edge = edges[i];
+            edge.node = link.node;
+            edge.site = {boundary.originals[link.site[0]], boundary.originals[link.site[1]]};
+            edge.control = {frame.to_input(found.point.center), frame.inverse * found.point.radius};
+            edge.weight = found.weight;
+          }
+        });
+  };
+  edges.resize(graph.links.size());
+  std::vector<std::uint8_t> degree(graph.nodes.size());
+  const auto count = [&] {
+    if (std::is_same_v<E, VoronoiEdge>) return;  // spokes are still to come
+    for (const Link& link : graph.links)
+      for (const std::uint32_t node : link.node)
+        if (degree[node] < 3) ++degree[node];
+  };
+  tbb::parallel_invoke(count, control);
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, graph.nodes.size(), 4096),
+                    [&](const auto& range) {
+                      for (std::size_t i = range.begin(); i < range.end(); ++i) {
+                        Node& node = graph.nodes[i];
+                        // Where a vertex all but touches an edge, a radius may be below 0 by
+                        // rounding.
+                        node.disk = {frame.to_input(node.disk.center),
+                                     frame.inverse * std::max(0.0, node.disk.radius)};
+                        node.kind = kind_of_degree(degree[i]);
+                      }
+                    });
+  graph.links = {};
+  return doubtful;
+}
+
+template tbb::concurrent_vector<std::uint32_t> complete(const Boundary&, const LocalFrame&, double,
+                                                        Graph&, std::vector<Edge>&);
+template tbb::concurrent_vector<std::uint32_t> complete(const Boundary&, const LocalFrame&, double,
+                                                        Graph&, std::vector<VoronoiEdge>&);
+
+bool touches_its_sites(const MedialAxis& axis, const Edge& edge, double slack) {
+  const auto squared_distance = [](const Site& site, Vec2 c) {
+    if (site.start == site.end) return squared_norm(c - site.start);
+    const sites::Pieces pieces = sites::pieces_of(site.start, site.end, site.bulge);
+    const double first = site::squared_distance(pieces.first(), c);
+    return pieces.count == 1 ? first : std::min(first, site::squared_distance(pieces.last(), c));
+  };
+  const auto touches = [&](const Disk& disk, const Site& site) {
+    const Vec2 along = site.end - site.start;
+    if (site.kind == SiteKind::segment &&
+        cross(along, disk.center - site.start) < -slack * norm(along))
+      return false;
+    return std::abs(std::sqrt(squared_distance(site, disk.center)) - disk.radius) <= slack;
+  };
+  for (const std::uint32_t node : edge.node)
+    for (const std::uint32_t site : edge.site)
+      if (!touches(axis.nodes[node].disk, axis.sites[site])) return false;
+  return true;
+}
+
+}  // namespace medial::disks

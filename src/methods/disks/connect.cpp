@@ -1,0 +1,371 @@
+#include "methods/disks/connect.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <limits>
+#include <numbers>
+
+#include "base/numbers.h"
+#include "site/first_touch.h"
+
+namespace medial::disks {
+namespace {
+
+using site::Site;
+
+/// Cuts are kept where no query finds them.
+const Site far_away = site::make_vertex({1e30, 1e30});
+
+/// The loop that a site belongs to. Loops that are neighbours in the plane mostly have
+/// about the same number of sites, so a guess saves most of the search.
+std::size_t loop_of(const Boundary& loops, std::uint32_t site) {
+  const auto count = static_cast<std::uint64_t>(loops.runs.size());
+  const auto guess = static_cast<std::size_t>(count * site / loops.sites.size());
+  constexpr std::size_t around = 32;
+  const auto begin = loops.runs.begin();
+  auto from = begin, to = loops.runs.end();
+  if (guess >= around && begin[static_cast<std::ptrdiff_t>(guess - around)].first <= site)
+    from = begin + static_cast<std::ptrdiff_t>(guess - around);
+  if (guess + around < count && site < begin[static_cast<std::ptrdiff_t>(guess + around)].first)
+    to = begin + static_cast<std::ptrdiff_t>(guess + around);
+  const auto run = std::upper_bound(
+      from, to, site, [](std::uint32_t s, const Boundary::Run& r) { return s < r.first; });
+  return static_cast<std::size_t>(run - begin) - 1;
+}
+
+Boundary::Run run_of(const Boundary& loops, std::uint32_t site) {
+  return loops.runs[loop_of(loops, site)];
+}
+
+/// Of a segment touched in an end that is a vertex site, that vertex.
+std::uint32_t owner_of_foot(const Boundary& loops, const Boundary::Run& run, std::uint32_t site,
+                            Vec2 center) {
+  if (loops.elements[site] != Element::edge) return site;
+  const double s = site::foot_parameter(loops.sites[site], center);
+  const auto cyclic_next = site == run.last ? run.first : site + 1;
+  const auto cyclic_before = site == run.first ? run.last : site - 1;
+  if (s <= 0 && loops.elements[cyclic_before] == Element::vertex) return cyclic_before;
+  if (s >= loops.sites[site].length && loops.elements[cyclic_next] == Element::vertex)
+    return cyclic_next;
+  return site;
+}
+
+/// Of the sites that a disk touches in the same place as the given one, the one that it touches
+/// from inside: on its left, in its own range of directions.
+std::uint32_t facing_site(const Boundary& loops, const site::FirstTouch& first_touch,
+                          std::uint32_t group, std::uint32_t site, Vec2 center) {
+  const auto faces = [&](std::uint32_t i, const Boundary::Run& run) {
+    if (loops.elements[i] == Element::edge) return faces_edge(loops.sites[i], center);
+    if (run.first == run.last) return true;
+    const std::uint32_t before = i == run.first ? run.last : i - 1;
+    const std::uint32_t after = i == run.last ? run.first : i + 1;
+    return in_wedge(loops.sites[before].end_normal(), loops.sites[after].normal(),
+                    center - loops.sites[i].point);
+  };
+  if (loops.elements[site] == Element::edge && faces_edge(loops.sites[site], center)) return site;
+  const Vec2 foot = site::foot(loops.sites[site], center);
+  constexpr double same_place = 0x1p-46;
+  const auto is_it = [&](std::uint32_t i, const Boundary::Run& run) {
+    return site::squared_distance(loops.sites[i], foot) <= same_place * same_place && faces(i, run);
+  };
+  // A loose segment is a run of two ends and two sides.
+  constexpr std::uint32_t few = 4;
+  const Boundary::Run own = run_of(loops, site);
+  if (own.last - own.first < few)
+    for (std::uint32_t i = own.first; i <= own.last; ++i)
+      if (is_it(i, own)) return i;
+  std::uint32_t found = site;
+  first_touch.near(foot, same_place, group, [&](std::uint32_t i) {
+    const Boundary::Run run = run_of(loops, i);
+    // A vertex is the end of the edge before it.
+    for (const std::uint32_t candidate :
+         {i, i == run.last ? run.first : i + 1, i - (i > run.first ? 1 : 0)})
+      if (is_it(candidate, run)) found = candidate;
+  });
+  return found;
+}
+
+/// Finds the disks that connect holes to others, for a run of holes that lie near to each other.
+class Connector {
+ public:
+  Connector(const Shape& shape, const Boundary& loops, const site::FirstTouch& first_touch,
+            double furthest, double typical, double tolerance)
+      : shape_(shape),
+        loops_(loops),
+        first_touch_(first_touch),
+        furthest_(furthest),
+        typical_(typical),
+        tolerance_(tolerance) {}
+
+  /// Prepares for these holes.
+  void begin(std::span<const std::uint32_t> holes) {
+    if (!found_.empty()) {
+      const auto middle = found_.begin() + static_cast<std::ptrdiff_t>(found_.size() / 2);
+      std::nth_element(found_.begin(), middle, found_.end());
+      expected_ = 2 * *middle;
+    }
+    found_.clear();
+    site::Extent around;
+    for (const std::uint32_t hole : holes) {
+      const Vec2 foot = loops_.sites[loops_.runs[hole].first].point;
+      const double radius = first_radius(hole);
+      const Vec2 center = foot + radius * outreach;
+      around.add(center - Vec2{radius, radius});
+      around.add(center + Vec2{radius, radius});
+    }
+    first_touch_.look_around(around, region_);
+  }
+
+  /// The disk meets its own component first. Other components can only have vertices in common with
+  /// it, and are left out: a cut must not end there.
+  Cut connecting_disk(std::uint32_t hole) {
+    const Boundary::Run own = loops_.runs[hole];
+    const std::uint32_t component = shape_.component[hole];
+    const Vec2 foot = loops_.sites[own.first].point;
+    const double largest = largest_radius(foot);
+    double radius = first_radius(hole);
+    auto touch =
+        region_.holds(foot + radius * outreach, radius)
+            ? first_touch_.find(foot, outreach, radius, component, own.first, own.last, region_)
+            : first_touch_.find(foot, outreach, radius, component, own.first, own.last);
+    while (!touch && radius < largest) {
+      radius = std::min(largest, 8 * radius);
+      touch = first_touch_.find(foot, outreach, radius, component, own.first, own.last);
+    }
+    if (touch) radius = touch->radius;
+    found_.push_back(radius);
+    Cut cut{{foot + radius * outreach, radius}, hole, touch ? touch->site : own.first};
+    if (loops_.two_sided && touch)
+      cut.site = facing_site(loops_, first_touch_, component, cut.site, cut.disk.center);
+    cut.site = owner_of_foot(loops_, run_of(loops_, cut.site), cut.site, cut.disk.center);
+    return cut;
+  }
+
+ private:
+  /// A disk that reaches beyond the furthest point of all crosses the boundary, however its centre
+  /// is rounded.
+  double largest_radius(Vec2 foot) const {
+    return 0.5 * (furthest_ - dot(outreach, foot)) + tolerance_;
+  }
+  /// Most holes have others at about the distance at which those before had some, or at first of
+  /// their own detail.
+  double first_radius(std::uint32_t hole) const {
+    const Boundary::Run own = loops_.runs[hole];
+    const std::uint32_t edge =
+        std::min(own.last, own.first + (loops_.elements[own.first] == Element::vertex ? 1 : 0));
+    const double detail = loops_.sites[edge].length;
+    return std::min(largest_radius(loops_.sites[own.first].point), expected_ > 0 ? expected_
+                                                                   : detail > 0  ? detail
+                                                                                 : typical_);
+  }
+
+  const Shape& shape_;
+  const Boundary& loops_;
+  const site::FirstTouch& first_touch_;
+  const double furthest_, typical_, tolerance_;
+  site::FirstTouch::Region region_;
+  double expected_ = 0;        ///< radius: twice the middle one of the last run; 0 before the first
+  std::vector<double> found_;  ///< radii of the run under way
+};
+
+/// Where along its site a cut touches: the parameter on a segment; on a vertex, the angle by which
+/// the boundary's normal has turned to the right since the site before.
+double place_on_site(const Boundary& loops, std::uint32_t site, std::uint32_t site_before,
+                     Vec2 center) {
+  const Site& s = loops.sites[site];
+  if (!s.is_vertex()) return site::foot_parameter(s, center);
+  if (site_before == site) return clockwise_turn(outreach, center - s.point);
+  const Vec2 from = loops.sites[site_before].end_normal(), to = center - s.point;
+  // It lies between 0 and half a turn; rounding may add a little on both sides.
+  const double angle = std::atan2(-cross(from, to), dot(from, to));
+  return angle < -0.5 * std::numbers::pi ? angle + 2 * std::numbers::pi : angle;
+}
+
+/// Splices loops into runs, without recursion: chains of holes can be long.
+class Splicer {
+ public:
+  Splicer(const Shape& shape, const Boundary& loops, const std::vector<Cut>& cuts)
+      : shape_(shape), loops_(loops), cuts_(cuts), places_(cuts.size()) {
+    std::vector<std::uint32_t> loop(cuts.size());
+    std::vector<Place> found(cuts.size());
+    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, static_cast<std::uint32_t>(cuts.size())),
+                      [&](const auto& range) {
+                        for (std::uint32_t i = range.begin(); i < range.end(); ++i) {
+                          loop[i] = static_cast<std::uint32_t>(loop_of(loops, cuts[i].site));
+                          found[i] = place_of(i, loop[i]);
+                        }
+                      });
+    // One place further, so that while the lists are filled, each grows to where the next begins.
+    first_place_.resize(loops.runs.size() + 2);
+    for (const std::uint32_t l : loop) ++first_place_[l + 2];
+    for (std::size_t l = 2; l < first_place_.size(); ++l) first_place_[l] += first_place_[l - 1];
+    for (std::size_t i = 0; i < cuts.size(); ++i) places_[first_place_[loop[i] + 1]++] = found[i];
+    for (std::size_t l = 0; l < loops.runs.size(); ++l)
+      std::sort(places_.begin() + first_place_[l], places_.begin() + first_place_[l + 1],
+                [](const Place& p, const Place& q) {
+                  return p.site != q.site     ? p.site < q.site
+                         : p.place != q.place ? p.place < q.place
+                                              : p.cut < q.cut;
+                });
+  }
+
+  Boundary splice() {
+    result_.cut_places.resize(cuts_.size());
+    result_.has_arcs = loops_.has_arcs;
+    result_.two_sided = loops_.two_sided;
+    result_.reserve(loops_.sites.size() + 4 * cuts_.size());
+    for (std::uint32_t loop = 0; loop < loops_.runs.size(); ++loop) {
+      if (shape_.hole[loop]) continue;
+      const auto first = static_cast<std::uint32_t>(result_.sites.size());
+      add_component(loop);
+      result_.runs.push_back({first, static_cast<std::uint32_t>(result_.sites.size() - 1),
+                              loops_.runs[loop].at_corner});
+    }
+    return std::move(result_);
+  }
+
+ private:
+  /// Where a cut touches.
+  struct Place {
+    std::uint32_t site, cut;
+    double place;
+  };
+  /// A loop under way: the next site, the next place on the loop, where the next copy of a segment
+  /// starts, and the cut that led here.
+  struct Cursor {
+    std::uint32_t loop, site, place, cut;
+    double from = 0;
+  };
+
+  Place place_of(std::uint32_t cut, std::uint32_t loop) const {
+    const Boundary::Run run = loops_.runs[loop];
+    const auto [disk, hole, site] = cuts_[cut];
+    const std::uint32_t before = site == run.first ? run.last : site - 1;
+    const double place = place_on_site(loops_, site, before, disk.center);
+    // A hole's run starts in the middle of its first vertex: what is touched earlier on that
+    // vertex comes at the very end. A point's run starts and ends there, and an outer loop's at
+    // the beginning of a vertex.
+    const bool at_end =
+        shape_.hole[loop] && site == run.first && run.first < run.last &&
+        loops_.elements[site] == Element::vertex &&
+        place < place_on_site(loops_, site, before, loops_.sites[site].point + outreach);
+    return {at_end ? run.last + 1 : site, cut, place};
+  }
+
+  Cursor begin(std::uint32_t loop, std::uint32_t cut) const {
+    return {loop, loops_.runs[loop].first, first_place_[loop], cut};
+  }
+
+  void add_cut(std::uint32_t cut, std::size_t side) {
+    result_.cut_places[cut][side] = static_cast<std::uint32_t>(result_.sites.size());
+    result_.add(far_away, Element::cut, cut);
+  }
+
+  /// A copy of the cursor's site up to `to` (a segment's parameter).
+  void add_piece(const Cursor& at, double to) {
+    const std::uint32_t site =
+        at.site <= loops_.runs[at.loop].last ? at.site : loops_.runs[at.loop].first;
+    const Site& whole = loops_.sites[site];
+    const bool all = whole.is_vertex() || (at.from == 0 && to == whole.length);
+    result_.add(all ? whole : site::part_of(whole, at.from, to), loops_.elements[site],
+                loops_.originals[site], loops_.joint(site));
+  }
+
+  void add_component(std::uint32_t outer) {
+    std::vector<Cursor> stack{begin(outer, none)};
+    while (!stack.empty()) {
+      Cursor& at = stack.back();
+      const Boundary::Run run = loops_.runs[at.loop];
+      const bool here = at.place < first_place_[at.loop + 1] && places_[at.place].site == at.site;
+      if (here) {
+        const Place place = places_[at.place++];
+        add_piece(at, place.place);
+        at.from = place.place;
+        add_cut(place.cut, 0);
+        stack.push_back(begin(cuts_[place.cut].hole, place.cut));
+        continue;
+      }
+      // A hole that began at a vertex ends with a second copy of it; a point has nothing between.
+      const bool closes = shape_.hole[at.loop] && loops_.elements[run.first] == Element::vertex &&
+                          run.first < run.last;
+      if (at.site <= run.last || closes)
+        add_piece(at, at.site <= run.last ? loops_.sites[at.site].length : 0);
+      at.from = 0;
+      const std::uint32_t end = closes ? run.last + 1 : run.last;
+      if (at.site < end) {
+        ++at.site;
+        continue;
+      }
+      const std::uint32_t cut = at.cut;
+      stack.pop_back();
+      if (!stack.empty()) add_cut(cut, 1);
+    }
+  }
+
+  const Shape& shape_;
+  const Boundary& loops_;
+  const std::vector<Cut>& cuts_;
+  std::vector<Place> places_;               ///< loop after loop, in the order of each
+  std::vector<std::uint32_t> first_place_;  ///< of each loop
+  Boundary result_;
+};
+
+}  // namespace
+
+std::vector<Cut> connecting_disks(const Shape& shape, const Boundary& loops, double tolerance,
+                                  std::uint64_t& queries) {
+  std::vector<std::uint32_t> holes;
+  for (std::uint32_t loop = 0; loop < shape.loop_count(); ++loop)
+    if (shape.hole[loop]) holes.push_back(loop);
+  if (holes.empty()) return {};
+  double furthest = -std::numeric_limits<double>::infinity();
+  for (const Site& site : loops.sites) {
+    furthest = std::max(furthest, dot(outreach, site.point));
+    if (site.is_arc()) furthest = std::max(furthest, dot(outreach, site.apex()));
+  }
+  std::vector<std::uint32_t> components(loops.sites.size());
+  for (std::uint32_t loop = 0; loop < loops.runs.size(); ++loop)
+    std::fill(components.begin() + loops.runs[loop].first,
+              components.begin() + loops.runs[loop].last + 1, shape.component[loop]);
+  // Between that many holes spread evenly over a square of side 1.
+  const double typical = 1 / std::sqrt(static_cast<double>(holes.size()));
+  // A vertex ends an edge, so edges are enough, but for vertices without any.
+  std::vector<std::uint32_t> edges;
+  edges.reserve(loops.sites.size());
+  for (const Boundary::Run& run : loops.runs) {
+    // Of a loose segment or arc, one side is enough, too: a run of two ends and two sides.
+    const std::uint32_t side = run.first + 1, other = run.first + 3;
+    const bool is_loose = loops.two_sided && run.last == other &&
+                          loops.elements[run.first] == Element::vertex &&
+                          loops.elements[side + 1] == Element::vertex &&
+                          loops.sites[side].length == loops.sites[other].length &&
+                          loops.sites[side].curvature == -loops.sites[other].curvature;
+    for (std::uint32_t i = run.first; i <= run.last; ++i) {
+      if (loops.elements[i] != Element::edge && run.first < run.last) continue;
+      edges.push_back(i);
+      if (is_loose) break;
+    }
+  }
+  const site::FirstTouch first_touch(loops.sites, edges, components);
+
+  std::vector<Cut> cuts(holes.size());
+  constexpr std::size_t together = 16;
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, holes.size(), 4 * together), [&](const auto& range) {
+        Connector connector(shape, loops, first_touch, furthest, typical, tolerance);
+        for (std::size_t begin = range.begin(); begin < range.end(); begin += together) {
+          const std::size_t end = std::min(begin + together, range.end());
+          connector.begin(std::span(holes).subspan(begin, end - begin));
+          for (std::size_t i = begin; i < end; ++i) cuts[i] = connector.connecting_disk(holes[i]);
+        }
+      });
+  queries += cuts.size();
+  return cuts;
+}
+
+Boundary connect(const Shape& shape, const Boundary& loops, const std::vector<Cut>& cuts) {
+  return Splicer(shape, loops, cuts).splice();
+}
+
+}  // namespace medial::disks

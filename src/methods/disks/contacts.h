@@ -1,0 +1,140 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "medial/axis.h"
+#include "methods/disks/boundary.h"
+#include "methods/disks/connect.h"
+#include "site/boundary_tree.h"
+
+namespace medial::disks {
+
+/// What a walk goes by.
+struct WalkContext {
+  const Boundary& boundary;
+  const std::vector<Cut>& cuts;
+  const site::BoundaryTree& tree;
+  double tolerance = 0;     ///< in the local frame
+  double radius_limit = 0;  ///< no disk inside the shape is larger
+  const std::atomic<bool>* cancel = nullptr;
+  std::function<void(std::uint64_t)> finished_sites;  ///< told how many more sites are done with
+};
+
+/// A part of the boundary still to be walked: the sites between `right`, whose foot moves forward,
+/// and `left`, whose foot moves backward, both touched by the disk of `node`.
+struct Span {
+  std::uint32_t right;
+  std::uint32_t left;
+  std::uint32_t node;
+};
+
+/// Which sites of a span a disk touches: searches, and what is left to decide when the tree has
+/// answered: joints, and vertices that cuts divide into several copies.
+class Contacts {
+ public:
+  using Hit = site::BoundaryTree::Hit;
+
+  Contacts(const WalkContext& context, Statistics& statistics)
+      : context_(context), boundary_(context.boundary), statistics_(statistics) {}
+
+  const site::Site& site(std::uint32_t i) const { return boundary_.sites[i]; }
+  Element element(std::uint32_t i) const { return boundary_.elements[i]; }
+
+  /// The nearest site inside the span that the disk reaches over by more than the tolerance.
+  Hit nearest(const Disk& disk, const Span& span) {
+    ++statistics_.queries;
+    if (boundary_.two_sided)
+      return context_.tree.nearest_facing(disk.center, disk.radius - context_.tolerance,
+                                          span.right + 1, span.left - 1);
+    return context_.tree.nearest(disk.center, disk.radius - context_.tolerance, span.right + 1,
+                                 span.left - 1);
+  }
+
+  /// The site that a disk around `center` really touches where the search found site i: a segment's
+  /// end that is a vertex site of its own belongs to the vertex, and a vertex that cuts divide into
+  /// several copies is touched by the copy in whose range of directions the centre lies.
+  std::uint32_t owner(std::uint32_t i, Vec2 center, const Span& span) const;
+
+  /// Whether a site of a planar graph has c on its side and in its own range of directions: see
+  /// Boundary::two_sided.
+  bool faces(std::uint32_t i, Vec2 c) const;
+
+  /// Whether a disk that reaches site i from inside touches it there: not in the end of an edge,
+  /// where its neighbour would be nearer.
+  bool touches(std::uint32_t i, const Disk& disk, double slack) const;
+
+  /// Whether a disk touches both the site and its carrier: as touches(), but where the foot is next
+  /// to an end, on either side, as far as the disk can tell.
+  bool touches_carrier(std::uint32_t i, const Disk& disk, double slack) const {
+    return std::abs(std::sqrt(site::squared_distance(site(i), disk.center)) - disk.radius) <=
+               slack &&
+           std::abs(site::carrier_distance(site(i), disk.center) - disk.radius) <= slack;
+  }
+
+  /// Whether a disk touches all of an arc: it is the arc's circle, as far as the arc can tell.
+  bool touches_all(std::uint32_t i, const Disk& disk) const;
+
+  /// Whether a disk that touches the site's carrier touches the site itself.
+  bool reaches(std::uint32_t i, const Disk& disk) const {
+    const double reach = disk.radius + 2 * context_.tolerance;
+    return site::squared_distance(site(i), disk.center) <= reach * reach;
+  }
+
+  /// The next site in the span after the right one or before the left one, across a cut if need be.
+  std::uint32_t neighbor(const Span& span, bool of_right) const {
+    if (of_right) return span.right + (element(span.right + 1) == Element::cut ? 2 : 1);
+    return span.left - (element(span.left - 1) == Element::cut ? 2 : 1);
+  }
+
+  /// Whether the span is a short chain of smooth joints, nowhere convex, that turns by less than
+  /// half a turn: no disk touches such a chain in two places. Rounding may ask for one where the
+  /// chain is flat.
+  bool is_reflex_chain(const Span& span) const;
+
+  /// The sites strictly inside the span that a disk touches in places of their own, in order; until
+  /// the next call. `all_around`: both ends of the span are touched in one point.
+  const std::vector<std::uint32_t>& touched_between(const Span& span, const Disk& disk,
+                                                    bool all_around = false);
+
+  /// Splits the span at its node's own disk, at all sites that the disk touches, `sure` if no other
+  /// (none: not at all): a node of high degree is found with one query. `all_around` as above.
+  void split(const Span& span, const Disk& disk, std::uint32_t sure, bool all_around,
+             std::vector<Span>& parts);
+
+  /// Contacts of one disk at a smaller angle are not told apart at a node.
+  static constexpr double distinct_contacts = 1e-6;
+  /// Whether a disk cannot touch both sites but in one place for their being nearer to each other
+  /// than contacts are told apart: copies of a point or of an edge, or neighbours. Two points are
+  /// told apart at any distance.
+  bool in_one_place(std::uint32_t i, std::uint32_t j, Vec2 center, double radius) const {
+    const site::Site &a = site(i), &b = site(j);
+    if (a.is_vertex() && b.is_vertex()) return a.point == b.point;
+    const double apart = distinct_contacts * radius;
+    return squared_norm(site::foot(a, center) - site::foot(b, center)) < apart * apart;
+  }
+
+ private:
+  /// Whether a disk touches two sites in two places, that of the second one by this angle further
+  /// around it: narrow slots have walls that a large disk touches next to each other.
+  bool are_distinct(std::uint32_t first, std::uint32_t second, double angle,
+                    const Disk& disk) const;
+  std::uint32_t facing(std::uint32_t i, Vec2 center, const Span& span) const;
+  Vec2 cut_direction(std::uint32_t vertex, std::uint32_t cut) const;
+  std::uint32_t other_copy(std::uint32_t cut, std::uint32_t vertex) const;
+
+  /// Feet further apart than so many tolerances are not two copies of one place.
+  static constexpr double distinct_feet = 16;
+  /// Longer chains are not looked at: their ends are told apart well enough.
+  static constexpr std::uint32_t longest_flat_chain = 8;
+
+  const WalkContext& context_;
+  const Boundary& boundary_;
+  Statistics& statistics_;
+  std::vector<std::uint32_t> touched_;
+  mutable std::vector<std::uint32_t> together_;  ///< sites in one place
+};
+
+}  // namespace medial::disks

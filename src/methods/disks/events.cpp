@@ -1,0 +1,519 @@
+#include "methods/disks/events.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "site/tangent_disk.h"
+
+namespace medial::disks {
+namespace {
+
+using site::Site;
+using Hit = Contacts::Hit;
+
+constexpr double nowhere = std::numeric_limits<double>::infinity();
+
+/// Halving an interval of doubles more often than this cannot change it.
+constexpr int bracket_steps = 128;
+/// Of shrinking a disk by closed forms before the bracket takes over; some three are usual.
+constexpr int most_rounds = 200;
+/// How far beyond() may look, against the radius: there the bisector is still straight.
+constexpr double widest_window = 1e-7;
+/// A disk of radius r reaches by t into a gap of width sqrt(8 r t). Gaps are narrow in this unit,
+/// sqrt(r tolerance): the gap itself up to 1, a foot next to its end up to `past_end`, as the disk
+/// may have come there by a contact within the tolerance, and both together up to `widest_gap`.
+constexpr double past_end = 2, widest_gap = 1 + past_end;
+/// A disk further beside the bisector of two vertices, against their distance, is not on it but for
+/// the tolerance.
+constexpr double off_bisector = 0x1p-10;
+/// In tolerances: the radius of a disk that is as good as a point of a planar graph.
+constexpr double as_good_as_point = 8;
+
+}  // namespace
+
+std::optional<Event> EventSearch::pass_pinned() const {
+  for (const bool on_right : {true, false}) {
+    const std::uint32_t own = on_right ? span_.right : span_.left;
+    if (!end_[on_right] || !boundary_.is_smooth(on_right ? own : own - 1)) continue;
+    const double s = site::foot_parameter(site(own), from_.center);
+    if (on_right ? s >= site(own).length : s <= 0)
+      return Event{on_right ? Event::Kind::pass_right : Event::Kind::pass_left, Hit::none, from_,
+                   low_};
+  }
+  return std::nullopt;
+}
+
+Event EventSearch::local_event(bool on_right) {
+  const std::uint32_t own = on_right ? span_.right : span_.left;
+  const std::uint32_t next = on_right ? own + 1 : own - 1;
+  if (boundary_.is_smooth(on_right ? own : next)) return event_at_smooth_joint(on_right);
+  return element(next) == Element::cut ? event_across_cut(on_right) : event_at_corner(on_right);
+}
+
+Event EventSearch::event_at_smooth_joint(bool on_right) {
+  Event event;
+  if (end_[on_right]) return event;
+  auto joint = disk_at_joint(on_right);
+  if (!joint) return event;
+  if (bisector_.is_straight) {
+    // On an edge in line the feet stay where they are.
+    if (!site(span_.right).is_vertex() || !site(span_.left).is_vertex()) return event;
+    joint->disk = bisector_.disk_at(bisector_.position(joint->disk.center), from_);
+  }
+  const double position = bisector_.position(joint->disk.center);
+  // On a parabola the foot's normal may turn that far only on the way back.
+  if (is_behind(position)) return event;
+  event = {on_right ? Event::Kind::pass_right : Event::Kind::pass_left, Hit::none, joint->disk,
+           position};
+  if (!joint->fits) event.kind = Event::Kind::far;
+  return not_behind(event);
+}
+
+Event EventSearch::event_across_cut(bool on_right) {
+  const std::uint32_t own = on_right ? span_.right : span_.left;
+  const std::uint32_t other = on_right ? span_.left : span_.right;
+  Event event;
+  const std::uint32_t across = on_right ? own + 2 : own - 2;
+  const bool continues_other =
+      (on_right ? across + 1 : across - 1) == other && boundary_.is_smooth(std::min(across, other));
+  if (continues_other) return event;  // the other foot's own event
+  // Another copy of what is touched already is no third site.
+  for (const std::uint32_t touched : {span_.right, span_.left})
+    if (contacts_.in_one_place(across, touched, from_.center, from_.radius)) return event;
+  const auto contact = contact_with(across, nowhere);
+  if (boundary_.two_sided) {
+    // What is across may face elsewhere, and a point may have another copy that was just left.
+    const bool faces = contact && contacts_.faces(across, contact->disk.center);
+    return faces && reaches(*contact) ? *contact : end_of_range(on_right);
+  }
+  return contact && reaches(*contact) ? *contact : event;
+}
+
+Event EventSearch::event_at_corner(bool on_right) {
+  const std::uint32_t own = on_right ? span_.right : span_.left;
+  const std::uint32_t next = on_right ? own + 1 : own - 1;
+  const std::uint32_t other = on_right ? span_.left : span_.right;
+  Event event;
+  // At a convex corner too, before the foot gets to the corner: the disk there is not empty,
+  // unless the corner is so flat that it touches both sides within the tolerance.
+  const Vec2 foot = on_right ? site(next).point : site(own).point;
+  const Vec2 normal = on_right ? site(own).end_normal() : site(own).normal();
+  const Vec2 next_normal = on_right ? site(next).normal() : site(next).end_normal();
+  const double radius = site::tangent_radius(foot, normal, site(other));
+  const bool in_reach = radius <= context_.radius_limit;
+  // Where the disk is nearly an arc's circle, it reaches over the next arc by more than next to a
+  // segment.
+  const double intrusion = site(next).is_arc() && in_reach
+                               ? radius - site::carrier_distance(site(next), foot + radius * normal)
+                               : 0.5 * radius * squared_norm(normal - next_normal);
+  const bool flat = in_reach && intrusion <= 0.5 * context_.tolerance;
+  if (!flat) {
+    std::optional<Event> contact = contact_at_joint(next);
+    if (!contact) contact = contact_with(next, nowhere);
+    if (contact && reaches(*contact)) return *contact;
+  }
+  if (!in_reach || bisector_.is_straight || end_[on_right]) return event;
+  event.kind = flat ? Event::Kind::contact : Event::Kind::far;
+  event.site = next;
+  event.disk = {foot + radius * normal, radius};
+  event.position = bisector_.position(event.disk.center);
+  if (is_behind(event.position)) return {};  // the foot turns that far on the way back only
+  return event;
+}
+
+Event EventSearch::end_of_range(bool on_right) const {
+  const std::uint32_t own = on_right ? span_.right : span_.left;
+  const std::uint32_t next = on_right ? own + 1 : own - 1;
+  const Cut& cut = context_.cuts[boundary_.originals[next]];
+  const Vec2 foot = site::foot(site(own), cut.disk.center), to = cut.disk.center - foot;
+  const double radius =
+      site::tangent_radius(foot, (1 / norm(to)) * to, site(on_right ? span_.left : span_.right));
+  if (!(radius <= context_.radius_limit)) return {};
+  Event event{Event::Kind::far, on_right ? own + 2 : own - 2,
+              Disk{foot + (radius / norm(to)) * to, radius}, 0};
+  event.position = bisector_.position(event.disk.center);
+  return event.position < low_ - slack() ? Event{} : event;
+}
+
+bool EventSearch::comes_later(bool on_right, const Event& event) const {
+  const std::uint32_t own = on_right ? span_.right : span_.left;
+  const std::uint32_t next = on_right ? own + 1 : own - 1;
+  if (event.kind == Event::Kind::none || !boundary_.is_corner(std::min(own, next))) return false;
+  const Vec2 center = event.disk.center;
+  const double s = site::carrier_parameter(site(own), center);
+  return s >= 0 && s <= site(own).length &&
+         site::squared_distance(site(next), center) >= event.disk.radius * event.disk.radius;
+}
+
+std::optional<EventSearch::JointDisk> EventSearch::disk_at_joint(bool on_right) const {
+  const std::uint32_t own = on_right ? span_.right : span_.left;
+  const std::uint32_t next = on_right ? own + 1 : own - 1;
+  const std::uint32_t other = on_right ? span_.left : span_.right;
+  if (const auto circle = circle_of_apex(next, other)) return JointDisk{*circle};
+  const auto [foot, normal] = boundary_.smooth_place(std::min(own, next), std::max(own, next));
+  const double radius = site::tangent_radius(foot, normal, site(other));
+  if (!(radius <= context_.radius_limit)) return std::nullopt;
+  const double largest = std::max(site(own).curvature, site(next).curvature);
+  return JointDisk{{foot + radius * normal, radius}, radius * largest <= 1 + widest_window};
+}
+
+std::optional<Disk> EventSearch::circle_of_apex(std::uint32_t next, std::uint32_t other) const {
+  const Site& arc = site(next);
+  if (!(arc.curvature > 0) || !(1 / arc.curvature <= context_.radius_limit)) return std::nullopt;
+  for (std::uint32_t i = std::min(next, other); i < std::max(next, other); ++i) {
+    const Site& inner = next < other ? site(i) : site(i + 1);
+    const bool same = std::abs(1 / inner.curvature - 1 / arc.curvature) <= context_.tolerance;
+    if (element(i) != Element::edge || !boundary_.is_smooth(i) || !same) return std::nullopt;
+  }
+  const double radius = 1 / arc.curvature;
+  return Disk{arc.point + radius * arc.normal(), radius};
+}
+
+std::optional<Event> EventSearch::contact_at_joint(std::uint32_t third) const {
+  for (const bool on_right : {true, false}) {
+    const std::uint32_t own = on_right ? span_.right : span_.left;
+    if (third != (on_right ? own + 1 : own - 1) || !boundary_.is_smooth(std::min(own, third)))
+      continue;
+    const auto joint = disk_at_joint(on_right);
+    if (!joint || !joint->fits) continue;
+    const Disk& disk = joint->disk;
+    return not_behind({Event::Kind::contact, third, disk, bisector_.position(disk.center)});
+  }
+  return std::nullopt;
+}
+
+std::optional<Event> EventSearch::contact_with(const Site& touched, std::uint32_t third,
+                                               double high) {
+  ++statistics_.apollonius;
+  if (bisector_.is_straight) return contact_over_gap(touched, third, high);
+  const site::TangentDisks disks = site::tangent_disks(bisector_.right, bisector_.left, touched);
+  Event best;
+  double best_violation = nowhere;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(disks.count); ++i) {
+    const Disk& disk = disks.disk[i];
+    if (disk.radius > context_.radius_limit) continue;
+    const double position = bisector_.position(disk.center);
+    double violation = std::max({0.0, low_ - position, position - high});
+    // Circles go on behind arcs: what touches them there is the last choice.
+    if (bisector_.reference != nullptr && disks.count == 2 && violation == 0 &&
+        !(contacts_.reaches(span_.right, disk) && contacts_.reaches(span_.left, disk)))
+      violation = slack();
+    // Of two, the one where the disk begins to reach over the site, not where it ceases to.
+    const bool better = violation != best_violation
+                            ? violation < best_violation
+                            : closing(disk, touched) > closing(best.disk, touched);
+    if (better) {
+      best_violation = violation;
+      best = {Event::Kind::contact, third, disk, position};
+    }
+  }
+  if (best_violation > slack()) return std::nullopt;
+  polish(best.disk, touched);
+  best.position = bisector_.position(best.disk.center);
+  return not_behind(best);
+}
+
+bool EventSearch::at_narrow_gap() const {
+  const Vec2 between =
+      site::foot(site(span_.left), from_.center) - site::foot(site(span_.right), from_.center);
+  return from_.radius > 0 &&
+         squared_norm(between) <= widest_gap * widest_gap * context_.tolerance * from_.radius;
+}
+
+bool EventSearch::in_line(Vec2 gap) const {
+  const Site &right = site(span_.right), &left = site(span_.left);
+  if (right.is_arc() || left.is_arc() || (right.is_vertex() && left.is_vertex())) return false;
+  const double width = squared_norm(gap);
+  if (!(width <= context_.tolerance * from_.radius &&
+        dot(gap, right.direction + left.direction) > 0))
+    return false;
+  if (right.is_vertex() || left.is_vertex()) {
+    const Site& segment = right.is_vertex() ? left : right;
+    const Vec2 vertex = right.is_vertex() ? right.point : left.point;
+    return std::abs(site::carrier_distance(segment, vertex)) <= 0.5 * context_.tolerance;
+  }
+  const double turn = cross(right.direction, left.direction);
+  return dot(right.direction, left.direction) > 0 &&
+         turn * turn * context_.radius_limit <= context_.tolerance;
+}
+
+site::Bisector EventSearch::bisector() const {
+  site::Bisector result(touched_part(true), touched_part(false));
+  if (!at_narrow_gap_) return result;
+  const Site &right = result.right, &left = result.left;
+  if (right.is_vertex() && left.is_vertex()) {
+    const Vec2 chord = left.point - right.point,
+               to = from_.center - midpoint(right.point, left.point);
+    const bool leaves = dot(result.direction, to) > 0;
+    if (leaves && std::abs(dot(chord, to)) > off_bisector * squared_norm(chord))
+      result.straighten(result.direction);
+  } else if (in_line(right.point - left.end())) {
+    result.straighten(right.is_vertex()  ? left.normal()
+                      : left.is_vertex() ? right.normal()
+                                         : result.direction);
+  }
+  return result;
+}
+
+std::optional<Event> EventSearch::pass_into_gap() {
+  const Site &right = site(span_.right), &left = site(span_.left);
+  if (span_.left - span_.right > 2 && !boundary_.two_sided) {
+    const auto& touched = contacts_.touched_between(span_, from_);
+    if (!touched.empty()) return at_node(touched.front());
+  }
+  if (!in_line(left.point - right.end())) return std::nullopt;
+  for (const bool on_right : {true, false}) {
+    const Site& own = on_right ? right : left;
+    if (own.is_vertex() || !boundary_.is_smooth(on_right ? span_.right : span_.left - 1)) continue;
+    const Vec2 end = on_right ? right.end() : left.point;
+    const double along = dot(own.direction, from_.center - end);
+    if (along * along <= past_end * past_end * context_.tolerance * from_.radius)
+      return Event{on_right ? Event::Kind::pass_right : Event::Kind::pass_left, Hit::none, from_,
+                   low_};
+  }
+  return std::nullopt;
+}
+
+std::optional<Event> EventSearch::contact_over_gap(const Site& touched, std::uint32_t third,
+                                                   double high) const {
+  const Vec2 normal = bisector_.direction, foot = from_.center - from_.radius * normal;
+  const double radius = site::tangent_radius(foot, normal, touched);
+  if (!(radius <= context_.radius_limit)) return std::nullopt;
+  const Disk disk{foot + radius * normal, radius};
+  const double position = bisector_.position(disk.center);
+  if (std::max(low_ - position, position - high) > slack()) return std::nullopt;
+  return not_behind({Event::Kind::contact, third, disk, position});
+}
+
+Event EventSearch::not_behind(Event event) const {
+  if (event.position < low_) {
+    event.disk = from_;
+    event.position = low_;
+  }
+  return event;
+}
+
+void EventSearch::polish(Disk& disk, const Site& third) {
+  site::polish(disk, bisector_.right, bisector_.left, third, 0.25 * context_.tolerance,
+               context_.tolerance, statistics_.precision_retries);
+}
+
+Event EventSearch::next() {
+  if (const auto passed = pass_over_circle()) return *passed;
+  if (const auto passed = pass_pinned()) return *passed;
+  if (at_narrow_gap_)
+    if (const auto passed = pass_into_gap()) return *passed;
+  // A foot that passes on smoothly is found at little cost, and makes most corners' events
+  // needless.
+  const bool right_first = boundary_.is_smooth(span_.right) || !boundary_.is_smooth(span_.left - 1);
+  Event event = local_event(right_first);
+  if (!comes_later(!right_first, event)) {
+    const Event other = local_event(!right_first);
+    if (other.position < event.position || (!right_first && other.position == event.position))
+      event = other;
+  }
+  if (event.kind == Event::Kind::none) {
+    event.kind = Event::Kind::far;
+    event.position = bisector_.last_position(from_, context_.radius_limit);
+    event.disk = bisector_.disk_at(event.position, from_);
+  }
+  if (event.kind == Event::Kind::contact) {
+    if (is_at_node(event.site)) return at_node(event.site);
+    // The only site in between is the one found; but a circle may be touched in the wrong place.
+    const bool straight = bisector_.reference == nullptr && !site(event.site).is_arc();
+    if (span_.left - span_.right == 2 && straight) return event;
+  }
+  return first_contact(event);
+}
+
+std::optional<Event> EventSearch::pass_over_circle() const {
+  if (!boundary_.has_arcs) return std::nullopt;
+  for (const bool on_right : {true, false}) {
+    const std::uint32_t own = on_right ? span_.right : span_.left;
+    if (!(site(own).curvature > 0) || !boundary_.is_smooth(on_right ? own : own - 1)) continue;
+    // Not on to a rounder arc, whose circle is still to come.
+    const std::uint32_t next = on_right ? own + 1 : own - 1;
+    const bool rounder = site(next).curvature > site(own).curvature;
+    if (contacts_.touches_all(own, from_) && !(rounder && !contacts_.touches_all(next, from_)))
+      return Event{on_right ? Event::Kind::pass_right : Event::Kind::pass_left, Hit::none, from_,
+                   low_};
+  }
+  return std::nullopt;
+}
+
+bool EventSearch::is_at_node(std::uint32_t touched) const {
+  return from_.radius > 0 && contacts_.touches(touched, from_, context_.tolerance) &&
+         (!boundary_.two_sided || contacts_.faces(touched, from_.center));
+}
+
+Event EventSearch::at_node(std::uint32_t touched) const {
+  return {Event::Kind::at_node, touched, from_, low_};
+}
+
+Event EventSearch::first_contact(Event event) {
+  Event intruded = event;
+  bool look_beyond = true;
+  // Every round but one that looked beyond comes earlier; rounding could make rounds repeat.
+  for (int round = 0; round < most_rounds; ++round) {
+    if (boundary_.two_sided) event = short_of_point(event);
+    Event asked = event;
+    if (event.kind == Event::Kind::contact && look_beyond) asked = beyond(event);
+    const Hit hit = contacts_.nearest(asked.disk, span_);
+    if (!hit) {
+      if (boundary_.two_sided && event.kind == Event::Kind::contact)
+        event.site = contacts_.owner(event.site, event.disk.center, span_);
+      // Only the carrier was touched, short of the site.
+      if (event.kind == Event::Kind::contact && !reaches(event))
+        return bracket(event.disk, intruded);
+      // The disk at a corner, where the neighbour is too short to reach into it.
+      const bool at_corner = event.kind == Event::Kind::far && event.site != Hit::none;
+      if (at_corner && reaches(event)) event.kind = Event::Kind::contact;
+      // A foot has left its site: events on flat corners come in doubtful order.
+      if (event.kind == Event::Kind::far || !contacts_.reaches(span_.right, event.disk) ||
+          !contacts_.reaches(span_.left, event.disk))
+        return bracket(from_, event);
+      if (event.kind == Event::Kind::contact)
+        event.site = contacts_.owner(event.site, event.disk.center, span_);
+      return event;
+    }
+    const std::uint32_t intruder = contacts_.owner(hit.site, asked.disk.center, span_);
+    if (is_at_node(intruder)) return at_node(intruder);
+    asked.site = intruder;
+    intruded = asked;
+    const std::optional<Event> earlier = contact_before(asked);
+    if (!earlier || !(earlier->position < asked.position)) {
+      // A disk that is empty, and touched by what is beyond it, will do.
+      if (event.kind == Event::Kind::contact && look_beyond) {
+        look_beyond = false;
+        continue;
+      }
+      return bracket(from_, asked);
+    }
+    // A disk too far ahead may reach a point whose other copy was touched before.
+    if (boundary_.two_sided && element(earlier->site) == Element::vertex &&
+        earlier->position <= low_ + slack() &&
+        !contacts_.faces(earlier->site, earlier->disk.center))
+      return bracket(from_, asked);
+    look_beyond = earlier->position < event.position;
+    event = *earlier;
+  }
+  return bracket(from_, intruded);
+}
+
+Event EventSearch::short_of_point(Event event) {
+  const bool in_point = event.disk.radius <= as_good_as_point * context_.tolerance &&
+                        span_.left - span_.right > 2 && from_.radius > 0;
+  if (!in_point) return event;
+  double way = event.position - low_;
+  for (int step = 0; step < bracket_steps; ++step) {
+    way *= 0.5;
+    const double position = event.position - way;
+    if (!(low_ < position && position < event.position)) break;
+    const Disk disk = bisector_.disk_at(position, from_);
+    if (contacts_.nearest(disk, span_)) return {Event::Kind::far, Hit::none, disk, position};
+  }
+  return event;
+}
+
+Event EventSearch::beyond(const Event& contact) const {
+  const double speed = closing(contact.disk, site(contact.site));
+  const double furthest = widest_window * contact.disk.radius;
+  const double step = speed > 0 ? std::min(furthest, 0.5 * context_.tolerance / speed) : 0;
+  Event event = contact;
+  if (!(step > 0)) return event;
+  const Vec2 along = bisector_.tangent(contact.disk.center);
+  event.disk.center = contact.disk.center + step * along;
+  event.disk.radius = std::min(site::carrier_distance(bisector_.right, event.disk.center),
+                               site::carrier_distance(bisector_.left, event.disk.center));
+  event.position = bisector_.position(event.disk.center);
+  return event;
+}
+
+double EventSearch::closing(const Disk& disk, const Site& third) const {
+  return dot(site::outward(bisector_.right, disk.center) - site::outward(third, disk.center),
+             bisector_.tangent(disk.center));
+}
+
+std::optional<Event> EventSearch::contact_before(const Event& intruded) {
+  const std::uint32_t i = intruded.site;
+  const Site& intruder = site(i);
+  if (const auto at_joint = contact_at_joint(i)) return at_joint;
+  std::optional<Event> contact = contact_with(i, intruded.position);
+  if (intruder.is_vertex() || (contact && reaches(*contact))) return contact;
+  // The disk reaches across an edge of a planar graph: its other side is touched first.
+  if (boundary_.two_sided) {
+    auto behind = contact_with(site::reversed(intruder), i, intruded.position);
+    if (behind && contacts_.reaches(i, behind->disk)) {
+      behind->site = contacts_.owner(i, behind->disk.center, span_);
+      if (contacts_.faces(behind->site, behind->disk.center)) return behind;
+    }
+  }
+  // The carrier is touched short of the edge: one of its neighbours comes first.
+  std::optional<Event> earliest;
+  for (const std::uint32_t next : {i - 1, i + 1}) {
+    if (next <= span_.right || next >= span_.left || element(next) == Element::cut) continue;
+    const auto on_next = contact_with(next, intruded.position);
+    if (on_next && reaches(*on_next) &&
+        on_next->position < (earliest ? *earliest : intruded).position)
+      earliest = on_next;
+  }
+  if (earliest) return earliest;
+  // Any disk that passes through the intruder comes earlier than one that it intrudes.
+  const Vec2 place = site::foot(intruder, intruded.disk.center);
+  const auto on_place = contact_with(site::make_vertex(place), i, intruded.position);
+  return on_place ? on_place : contact;
+}
+
+std::uint32_t EventSearch::obstacle(const Disk& disk) {
+  if (!(disk.radius <= context_.radius_limit)) return contacts_.neighbor(span_, true);
+  const Hit hit = contacts_.nearest(disk, span_);
+  if (hit) return contacts_.owner(hit.site, disk.center, span_);
+  if (!contacts_.reaches(span_.right, disk)) return contacts_.neighbor(span_, true);
+  if (!contacts_.reaches(span_.left, disk)) return contacts_.neighbor(span_, false);
+  return Hit::none;
+}
+
+std::optional<Event> EventSearch::pass_at_node() const {
+  if (!(from_.radius > 0)) return std::nullopt;
+  for (const bool on_right : {true, false}) {
+    const std::uint32_t own = on_right ? span_.right : span_.left;
+    const std::uint32_t next = on_right ? own + 1 : own - 1;
+    if (boundary_.is_smooth(std::min(own, next)) &&
+        contacts_.touches_carrier(next, from_, context_.tolerance))
+      return Event{on_right ? Event::Kind::pass_right : Event::Kind::pass_left, Hit::none, from_,
+                   low_};
+  }
+  return std::nullopt;
+}
+
+Event EventSearch::bracket(const Disk& start, const Event& event) {
+  if (const auto passed = pass_at_node()) return *passed;
+  ++statistics_.brackets;
+  Event found{Event::Kind::contact, event.site, start, bisector_.position(start.center)};
+  if (found.site == Hit::none || found.site <= span_.right || found.site >= span_.left)
+    found.site = contacts_.neighbor(span_, true);
+  double high = event.position;
+  for (int step = 0; step < bracket_steps; ++step) {
+    const double middle = 0.5 * (found.position + high);
+    if (!(found.position < middle && middle < high)) break;
+    const Disk disk = bisector_.disk_at(middle, start);
+    const std::uint32_t site = obstacle(disk);
+    if (site == Hit::none) {
+      found.position = middle;
+      found.disk = disk;
+    } else {
+      high = middle;
+      found.site = site;
+    }
+  }
+  Event polished = found;
+  polish(polished.disk, site(found.site));
+  polished.position = bisector_.position(polished.disk.center);
+  const bool holds = polished.position >= bisector_.position(start.center) && reaches(polished) &&
+                     contacts_.reaches(span_.right, polished.disk) &&
+                     contacts_.reaches(span_.left, polished.disk) &&
+                     !contacts_.nearest(polished.disk, span_);
+  return holds ? polished : found;
+}
+
+}  // namespace medial::disks

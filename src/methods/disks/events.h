@@ -1,0 +1,179 @@
+#pragma once
+
+#include <array>
+#include <limits>
+#include <optional>
+
+#include "methods/disks/contacts.h"
+#include "site/bisector.h"
+
+namespace medial::disks {
+
+/// What happens next on a bisector.
+struct Event {
+  enum class Kind : std::uint8_t {
+    none,
+    pass_right,  ///< the foot passes from `right` on to the next site
+    pass_left,   ///< the foot passes from `left` on to the site before
+    contact,     ///< the disk touches `site`
+    at_node,     ///< the disk of the current node touches `site`
+    far,         ///< the disk has outgrown the shape
+  };
+  Kind kind = Kind::none;
+  std::uint32_t site = Contacts::Hit::none;
+  Disk disk;
+  double position = std::numeric_limits<double>::infinity();
+};
+
+/// Finds what ends an edge of the axis: the first event on the bisector of a span's two sites after
+/// the disk `from`.
+class EventSearch {
+ public:
+  EventSearch(const WalkContext& context, Contacts& contacts, Statistics& statistics,
+              const Span& span, const Disk& from)
+      : context_(context),
+        boundary_(context.boundary),
+        contacts_(contacts),
+        statistics_(statistics),
+        span_(span),
+        from_(from),
+        end_{pinned_end(span.left), pinned_end(span.right)},
+        at_narrow_gap_(at_narrow_gap()),
+        bisector_(bisector()),
+        low_(bisector_.position(from.center)) {}
+
+  /// The event; never `none` or `far`.
+  Event next();
+
+ private:
+  /// A disk that touches a smooth joint. It does not fit if it is larger than the circle of an arc
+  /// there.
+  struct JointDisk {
+    Disk disk;
+    bool fits = true;
+  };
+
+  const site::Site& site(std::uint32_t i) const { return boundary_.sites[i]; }
+  Element element(std::uint32_t i) const { return boundary_.elements[i]; }
+  /// Where the node's disk is larger than the own circle of an arc, the end in which it touches it:
+  /// next to a joint that is smooth but for some tolerances.
+  std::optional<site::Site> pinned_end(std::uint32_t i) const {
+    if (!(overreach(site(i), from_.radius) > 0.5 * context_.tolerance)) return std::nullopt;
+    return site::make_vertex(site::foot(site(i), from_.center));
+  }
+  /// By how much a disk that touches a convex arc at one end reaches over it, at most.
+  static double overreach(const site::Site& arc, double radius) {
+    if (!(arc.curvature * radius > 1)) return 0;
+    return 0.5 * (radius - 1 / arc.curvature) * squared_norm(arc.normal() - arc.end_normal());
+  }
+  /// What the disks after the node touch of `right` or `left`: all of it, or one end of it.
+  const site::Site& touched_part(bool on_right) const {
+    return end_[on_right] ? *end_[on_right] : site(on_right ? span_.right : span_.left);
+  }
+  /// Where a pinned foot is at the end of its site, it passes on at once.
+  std::optional<Event> pass_pinned() const;
+  /// Whether a contact lies on the site itself, not only on its carrier, and on its inner side.
+  bool reaches(const Event& event) const {
+    return contacts_.reaches(event.site, event.disk) &&
+           site::carrier_distance(site(event.site), event.disk.center) >= 0;
+  }
+  /// Rounding may put a disk a little behind the place where it should be; what is further behind
+  /// is another solution.
+  double slack() const {
+    constexpr double tolerances = 4, of_radius = 1e-12;
+    return tolerances * context_.tolerance + of_radius * from_.radius;
+  }
+  bool is_behind(double position) const { return position < low_ && position < low_ - slack(); }
+
+  /// The event at which the foot leaves `right` or `left` for its neighbour, by the sites alone.
+  Event local_event(bool on_right);
+  Event event_at_smooth_joint(bool on_right);
+  /// Across a cut, the neighbour is touched as a third site.
+  Event event_across_cut(bool on_right);
+  Event event_at_corner(bool on_right);
+  /// The disk whose foot on the right or left is where a cut ends the range of a site of a planar
+  /// graph: the walk gets no further, as the cut's disk reaches across.
+  Event end_of_range(bool on_right) const;
+  /// Whether the foot on the right or left meets a convex corner only after this event. Of two
+  /// disks of a bisector that keep clear of a site, so do all in between.
+  bool comes_later(bool on_right, const Event& event) const;
+  /// The disk where the foot on the right or left passes on to its neighbour, if there is one.
+  std::optional<JointDisk> disk_at_joint(bool on_right) const;
+  /// Where the sites from `next` on to `other` are arcs of one circle that continue each other and
+  /// `other` smoothly, that circle: the axis ends in its centre. Joints so near to each other would
+  /// leave the disk that touches both open.
+  std::optional<Disk> circle_of_apex(std::uint32_t next, std::uint32_t other) const;
+  /// The contact with a site that continues one of the two smoothly: where the two meet. The three
+  /// carriers would leave the place to the square root of a rounding error.
+  std::optional<Event> contact_at_joint(std::uint32_t third) const;
+  /// The disk on the bisector that touches a third site, at or before position `high`; of several
+  /// the first one ahead of `from`.
+  std::optional<Event> contact_with(const site::Site& touched, std::uint32_t third, double high);
+  /// Whether the node's disk touches its two sites so near to each other that it reaches into a gap
+  /// between them by some tolerances at most.
+  bool at_narrow_gap() const;
+  /// Whether the two sites lie in one line, as far as a disk can tell, with this gap between them,
+  /// so narrow that the node's disk does not reach into it by the tolerance.
+  bool in_line(Vec2 gap) const;
+  /// The bisector of the two sites; a straightened one where the walk comes out of a gap between
+  /// sites in line, or between two vertices but not where their bisector is.
+  site::Bisector bisector() const;
+  /// At a narrow gap: what else the node's disk touches there. Where the walk goes into a gap
+  /// between sites in line: when the foot passes on to the vertex there is left to rounding, so it
+  /// does at once.
+  std::optional<Event> pass_into_gap();
+  /// contact_with() on a straightened bisector.
+  std::optional<Event> contact_over_gap(const site::Site& touched, std::uint32_t third,
+                                        double high) const;
+  /// An event that rounding put behind the node happens at the node.
+  Event not_behind(Event event) const;
+  /// Brings a disk's residual below the tolerance: by Newton's method, and where that fails in
+  /// higher precision.
+  void polish(Disk& disk, const site::Site& third);
+  /// Where the disk of the node is the circle of an arc, it touches all of it: the foot passes on.
+  std::optional<Event> pass_over_circle() const;
+  /// Where the node's disk touches the smooth neighbour of one of the two sites as well, within the
+  /// tolerance: the foot may pass on to it at once.
+  std::optional<Event> pass_at_node() const;
+  bool is_at_node(std::uint32_t touched) const;
+  Event at_node(std::uint32_t touched) const;
+  /// Shortens the way to `event` until the disk there is empty: each intruder gives a disk
+  /// that comes earlier.
+  Event first_contact(Event event);
+  /// Where edges of a planar graph meet, a disk of no radius touches them all, and those between
+  /// the two sites reach into the disks before. Such an event becomes one of those disks.
+  Event short_of_point(Event event);
+  /// The disk a little further, where the touched site intrudes by half of the tolerance. A flat
+  /// contact leaves its position open: many neighbours on a circle are touched by one disk within
+  /// the tolerance, although each three of them ask for another one. Looking from beyond finds the
+  /// sites that settle the position.
+  Event beyond(const Event& contact) const;
+  /// How fast, along the walk, the disk grows over a third site.
+  double closing(const Disk& disk, const site::Site& third) const;
+  /// A contact with the intruder of a disk that comes earlier: with its carrier, with its neighbour
+  /// where the carrier is touched short of it, or with a point of it.
+  std::optional<Event> contact_before(const Event& intruded);
+  /// The site that keeps a disk of the bisector from being a maximal one: an intruder, or the
+  /// neighbour to which a foot has passed on. None for a maximal disk.
+  std::uint32_t obstacle(const Disk& disk);
+  /// Where closed forms fail: halves the way from the node's disk, which is maximal, to that of
+  /// `event`, which is not, until nothing is left in between. Always ends.
+  Event bracket(const Disk& start, const Event& event);
+  std::optional<Event> contact_with(std::uint32_t third, double high) {
+    return contact_with(site(third), third, high);
+  }
+
+  const WalkContext& context_;
+  const Boundary& boundary_;
+  Contacts& contacts_;
+  Statistics& statistics_;
+  const Span span_;
+  const Disk from_;
+  /// The end of `left` and `right` where that is all of it that can be touched, as a vertex.
+  const std::array<std::optional<site::Site>, 2> end_;
+  const bool at_narrow_gap_;
+  const site::Bisector bisector_;
+  const double low_;  ///< position of `from`
+};
+
+}  // namespace medial::disks

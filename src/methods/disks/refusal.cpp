@@ -1,0 +1,43 @@
+#include "methods/disks/refusal.h"
+
+#include <algorithm>
+
+#include "medial/verify.h"
+
+namespace medial::disks {
+
+std::optional<Error> error_if_refused(const Shape& shape, const Options& options,
+                                      const MedialAxis& axis) {
+  constexpr std::size_t most = 1 << 13;
+  VerifyOptions demands;
+  const auto samples = static_cast<int>(most / (axis.edges.size() + 1));
+  demands.samples_per_edge = std::clamp(samples, 1, demands.samples_per_edge);
+  demands.corner_angle = options.corner_angle;
+  demands.threads = options.threads;
+  const Certificate certificate = verify(shape, axis, demands);
+  if (certificate.passed) return std::nullopt;
+  Error error{ErrorCode::unsupported,
+              "rounding alone tells which of the arcs here, of almost one circle, a disk touches",
+              {}};
+  error.place.point = Vec2{certificate.worst_x, certificate.worst_y};
+  return error;
+}
+
+Error error_of_wrong_axis(const MedialAxis& axis, const char* text) {
+  // In tolerances: disks that are smaller cannot always be told from rounding.
+  constexpr double narrow = 16;
+  const Node* narrowest = nullptr;
+  for (const Node& node : axis.nodes)
+    if (node.kind != NodeKind::leaf &&
+        (narrowest == nullptr || node.disk.radius < narrowest->disk.radius))
+      narrowest = &node;
+  if (narrowest == nullptr || narrowest->disk.radius > narrow * axis.tolerance)
+    return {ErrorCode::internal, text, {}};
+  Error error{ErrorCode::unsupported,
+              "the shape is too narrow here for its sides to be told from rounding",
+              {}};
+  error.place.point = narrowest->disk.center;
+  return error;
+}
+
+}  // namespace medial::disks

@@ -1,0 +1,261 @@
+#include "methods/disks/walk.h"
+
+#include <tbb/task_group.h>
+
+#include "methods/disks/events.h"
+#include "site/tangent_disk.h"
+
+namespace medial::disks {
+namespace {
+
+using site::Site;
+using Hit = Contacts::Hit;
+
+/// Spans of at least so many sites become tasks of their own, if another such span is at hand:
+/// small enough for the threads to share the work evenly, large enough for the lists of a task.
+std::uint32_t fork_size_of(const Boundary& boundary) {
+  return std::clamp(static_cast<std::uint32_t>(boundary.sites.size() / 64), 1024u, 8192u);
+}
+
+class Walker {
+ public:
+  Walker(const WalkContext& context, std::uint32_t fork_size, tbb::task_group& tasks, Chunk& chunk)
+      : context_(context),
+        fork_size_(fork_size),
+        boundary_(context.boundary),
+        tasks_(tasks),
+        chunk_(chunk),
+        contacts_(context, chunk.statistics) {}
+
+  /// Walks all of a run: from the convex corner between its last and first site, or from a disk
+  /// that touches the boundary where the two join smoothly.
+  void walk_run(const Boundary::Run& run) {
+    chunk_.nodes.push_back({site(run.first).point, 0});  // stands for no parent
+    if (run.at_corner) {
+      const std::uint32_t corner = add_node({site(run.first).point, 0});
+      stack_.push_back({run.first, run.last, corner});
+    } else {
+      start_at_smooth_place(run);
+    }
+    walk_stack();
+  }
+
+  /// Walks one span and all that branches off it.
+  void walk_span(const Span& span) {
+    stack_.push_back(span);
+    walk_stack();
+  }
+
+ private:
+  void walk_stack() {
+    while (!stack_.empty()) {
+      const Span next = stack_.back();
+      stack_.pop_back();
+      if (context_.cancel != nullptr && context_.cancel->load(std::memory_order_relaxed)) break;
+      follow(next);
+    }
+    report_progress(true);
+  }
+
+  const Site& site(std::uint32_t i) const { return boundary_.sites[i]; }
+  Element element(std::uint32_t i) const { return boundary_.elements[i]; }
+
+  /// Follows the bisectors from one node until the axis branches or ends.
+  void follow(Span span) {
+    if (!is_open(span)) return;
+    for (;;) {
+      const Disk from = chunk_.nodes[span.node];
+      const Event event = EventSearch(context_, contacts_, chunk_.statistics, span, from).next();
+      switch (event.kind) {
+        case Event::Kind::pass_right:
+        case Event::Kind::pass_left: {
+          span.node = arrive(span, from, event.disk);
+          event.kind == Event::Kind::pass_right ? ++span.right : --span.left;
+          if (!is_open(span)) return;
+          break;
+        }
+        case Event::Kind::at_node:
+          split(span, from, event.site, false);
+          return;
+        default: {
+          // On a shape that crosses itself nothing may be left to touch.
+          if (event.site <= span.right || event.site >= span.left) return;
+          const std::uint32_t node = arrive(span, from, event.disk);
+          push({event.site, span.left, node}, {span.right, event.site, node});
+          return;
+        }
+      }
+    }
+  }
+
+  /// The disk that grows at the smooth place where a run begins and ends, until it touches
+  /// something: a node of the axis, from which all of the run is walked. A circle has no more.
+  void start_at_smooth_place(const Boundary::Run& run) {
+    const auto place = boundary_.smooth_place(run.last, run.first);
+    const Vec2 foot = place.point, normal = place.normal;
+    double radius = context_.radius_limit;
+    for (const std::uint32_t i : {run.first, run.last})
+      if (site(i).curvature > 0) radius = std::min(radius, 1 / site(i).curvature);
+    const auto disk_of = [&](double r) { return Disk{foot + r * normal, r}; };
+    const Span whole{run.first, run.last, 0};
+    // The edge behind the vertex at which the run begins, behind the holes connected there, if any.
+    std::uint32_t behind = Hit::none;
+    if (element(run.first) == Element::vertex)
+      for (behind = run.first + 1; element(behind) == Element::cut;)
+        behind = boundary_.cut_places[boundary_.originals[behind]][1] + 2;
+    std::uint32_t touched = Hit::none;
+    while (const Hit hit = contacts_.nearest(disk_of(radius), whole)) {
+      // The edge behind a reflex vertex bends into the disk, if at all, up to its end.
+      const Site& hindrance = site(hit.site);
+      const double smaller = site::touching_radius(
+          foot, normal, hit.site == behind ? site::make_vertex(hindrance.end()) : hindrance);
+      touched = hit.site;
+      if (!(smaller < radius)) break;
+      radius = smaller;
+    }
+    const Disk disk = disk_of(radius);
+    const std::uint32_t node = add_node(disk);
+    if (touched != Hit::none) touched = contacts_.owner(touched, disk.center, whole);
+    split({run.first, run.last, node}, disk, touched, true);
+  }
+
+  /// Whether a walk is needed between the two sites; where they are neighbours, ends the axis
+  /// there.
+  bool is_open(const Span& span) {
+    const std::uint32_t between = span.left - span.right;
+    if (between == 1) {
+      if (boundary_.is_corner(span.right)) {
+        const std::uint32_t leaf = add_node({site(span.left).point, 0});
+        add_edge(span, leaf);
+      }
+      finished(2);
+      return false;
+    }
+    if (between == 2 && element(span.right + 1) == Element::cut) {
+      end_at_cut(span, boundary_.originals[span.right + 1]);
+      finished(2);
+      return false;
+    }
+    return !contacts_.is_reflex_chain(span);
+  }
+
+  void end_at_cut(const Span& span, std::uint32_t cut) {
+    const Disk& disk = context_.cuts[cut].disk;
+    if (coincide(chunk_.nodes[span.node], disk)) {
+      chunk_.cut_ends.push_back({cut, span.node, CutEnd::no_edge});
+      return;
+    }
+    const auto edge = static_cast<std::uint32_t>(chunk_.links.size());
+    const std::uint32_t node = add_node(disk);
+    add_edge(span, node);
+    chunk_.cut_ends.push_back({cut, node, edge});
+  }
+
+  bool coincide(const Disk& a, const Disk& b) const {
+    return squared_norm(a.center - b.center) <= context_.tolerance * context_.tolerance &&
+           std::abs(a.radius - b.radius) <= context_.tolerance;
+  }
+
+  std::uint32_t add_node(const Disk& disk) {
+    chunk_.nodes.push_back(disk);
+    return static_cast<std::uint32_t>(chunk_.nodes.size() - 1);
+  }
+
+  void add_edge(const Span& span, std::uint32_t to) {
+    chunk_.links.push_back({{span.node, to}, {span.left, span.right}});
+  }
+
+  /// The node of `disk`, with the edge that leads there; the old node where that edge has no
+  /// length.
+  std::uint32_t arrive(const Span& span, const Disk& from, const Disk& disk) {
+    // A corner stays a leaf, however thin the shape is there.
+    if (from.radius > 0 && coincide(from, disk)) return span.node;
+    double& largest = chunk_.statistics.largest_residual;
+    for (const std::uint32_t i : {span.right, span.left})
+      largest =
+          std::max(largest, std::abs(site::carrier_distance(site(i), disk.center) - disk.radius));
+    const std::uint32_t node = add_node(disk);
+    add_edge(span, node);
+    return node;
+  }
+
+  /// Queues two spans, the larger to be walked later, so that the stack stays as shallow as log n;
+  /// large ones apart, as tasks of their own.
+  void push(const Span& a, const Span& b) {
+    const bool a_larger = a.left - a.right > b.left - b.right;
+    const Span& larger = a_larger ? a : b;
+    const Span& smaller = a_larger ? b : a;
+    if (smaller.left - smaller.right >= fork_size_)
+      fork(larger);
+    else
+      stack_.push_back(larger);
+    stack_.push_back(smaller);
+  }
+
+  void fork(const Span& span) {
+    chunk_.children.push_back(std::make_unique<Chunk>());
+    Chunk& child = *chunk_.children.back();
+    child.component = chunk_.component;
+    child.parent_node = span.node;
+    child.nodes.push_back(chunk_.nodes[span.node]);
+    tasks_.run([&context = context_, fork_size = fork_size_, &tasks = tasks_, &child, span] {
+      Walker(context, fork_size, tasks, child).walk_span({span.right, span.left, 0});
+    });
+  }
+
+  void split(const Span& span, const Disk& disk, std::uint32_t sure, bool all_around) {
+    contacts_.split(span, disk, sure, all_around, parts_);
+    stack_.insert(stack_.end(), parts_.begin(), parts_.end());
+  }
+
+  void finished(std::uint32_t sites) {
+    finished_ += sites;
+    if (finished_ >= 1 << 14) report_progress(false);
+  }
+
+  void report_progress(bool all) {
+    if ((all || finished_ > 0) && context_.finished_sites) context_.finished_sites(finished_);
+    finished_ = 0;
+  }
+
+  const WalkContext& context_;
+  std::uint32_t fork_size_;
+  const Boundary& boundary_;
+  tbb::task_group& tasks_;
+  Chunk& chunk_;
+  Contacts contacts_;
+  std::vector<Span> stack_;
+  std::vector<Span> parts_;
+  std::uint64_t finished_ = 0;
+};
+
+}  // namespace
+
+std::vector<std::unique_ptr<Chunk>> walk(const WalkContext& context) {
+  std::vector<std::unique_ptr<Chunk>> chunks;
+  tbb::task_group tasks;
+  // Small components share a task.
+  const std::uint32_t fork_size = fork_size_of(context.boundary);
+  std::size_t next = 0;
+  const auto& runs = context.boundary.runs;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    chunks.push_back(std::make_unique<Chunk>());
+    chunks.back()->component = static_cast<std::uint32_t>(i);
+  }
+  while (next < runs.size()) {
+    const std::size_t begin = next;
+    std::uint64_t sites = 0;
+    while (next < runs.size() && sites < fork_size) {
+      sites += runs[next].last - runs[next].first + 1;
+      ++next;
+    }
+    tasks.run([&context, fork_size, &tasks, &chunks, &runs, begin, end = next] {
+      for (std::size_t i = begin; i < end; ++i)
+        Walker(context, fork_size, tasks, *chunks[i]).walk_run(runs[i]);
+    });
+  }
+  tasks.wait();
+  return chunks;
+}
+
+}  // namespace medial::disks

@@ -1,0 +1,98 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <memory>
+#include <vector>
+
+#include "base/memory.h"
+#include "medial/axis.h"
+#include "methods/disks/contacts.h"
+
+namespace medial::disks {
+
+/// A growing list that never moves its elements and frees block by block. Blocks begin small and
+/// double: a shape may have many components, each with lists of its own. At most half is unused.
+template <class T>
+class BlockList {
+ public:
+  void push_back(const T& value) {
+    if (size_ == capacity_) {
+      const std::size_t count = size_of(blocks_.size());
+      blocks_.push_back(std::make_unique_for_overwrite<T[]>(count));
+      next_ = blocks_.back().get();
+      capacity_ += count;
+    }
+    *next_++ = value;
+    ++size_;
+  }
+  std::size_t size() const { return size_; }
+  const T& operator[](std::size_t i) const {
+    if (i >= doubling_end)
+      return blocks_[doublings + (i - doubling_end) / most][(i - doubling_end) % most];
+    const std::size_t block = static_cast<std::size_t>(std::bit_width(i / least + 1)) - 1;
+    return blocks_[block][i - ((least << block) - least)];
+  }
+  /// Calls take(i, element) for all elements in order and frees each block once it is done.
+  template <class Take>
+  void drain(Take&& take) {
+    std::size_t i = 0;
+    for (std::size_t block = 0; i < size_; ++block) {
+      const T* element = blocks_[block].get();
+      const std::size_t end = std::min(size_, i + size_of(block));
+      for (; i < end; ++i) take(i, *element++);
+      give_back_pages(blocks_[block].get(), size_of(block) * sizeof(T));
+      blocks_[block].reset();
+    }
+    *this = {};
+  }
+
+ private:
+  static constexpr std::size_t least = 64;  // elements of the first block
+  static constexpr std::size_t doublings = 7;
+  static constexpr std::size_t most = least << doublings;
+  /// Where the doubling ends: block k before that begins at least * (2^k - 1).
+  static constexpr std::size_t doubling_end = most - least;
+  static std::size_t size_of(std::size_t block) { return least << std::min(block, doublings); }
+
+  std::vector<std::unique_ptr<T[]>> blocks_;
+  T* next_ = nullptr;  ///< where the next element goes, unless the last block is full
+  std::size_t size_ = 0;
+  std::size_t capacity_ = 0;
+};
+
+/// An edge before its curve is worked out: nodes of the chunk, sites of the boundary.
+struct Link {
+  std::array<std::uint32_t, 2> node;  ///< from, to
+  std::array<std::uint32_t, 2> site;  ///< on the left and on the right
+};
+
+/// Where the axis meets a connecting disk, on one of its two sides.
+struct CutEnd {
+  static constexpr std::uint32_t no_edge = ~std::uint32_t{0};
+  std::uint32_t cut = 0;
+  std::uint32_t node = 0;  ///< of the chunk: at the cut's centre
+  std::uint32_t edge =
+      no_edge;  ///< the edge that leads there; none: the node is a node of the axis
+};
+
+/// What one task of the walk found. Node 0 stands for the node of the parent at which the task
+/// began.
+struct Chunk {
+  std::uint32_t component = 0;
+  std::uint32_t parent_node = 0;
+  BlockList<Disk> nodes;
+  BlockList<Link> links;
+  std::vector<CutEnd> cut_ends;
+  std::vector<std::unique_ptr<Chunk>> children;  ///< in the order in which they were forked
+  Statistics statistics;
+};
+
+/// Walks the axis of every run of the boundary (docs/disks.md, step 4), from a convex corner, or
+/// from the disk at a smooth place of a component that has no corner: one chunk for each component,
+/// whose children were forked at branching nodes. The chunks, their order and their content depend
+/// on the boundary only, never on the number of threads. O(n log n) expected.
+std::vector<std::unique_ptr<Chunk>> walk(const WalkContext& context);
+
+}  // namespace medial::disks

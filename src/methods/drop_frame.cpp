@@ -1,0 +1,40 @@
+#include "methods/drop_frame.h"
+
+#include <algorithm>
+
+#include "axis/node_kinds.h"
+
+namespace medial {
+
+void drop_frame(const std::vector<bool>& site_of_frame, MedialAxis& axis) {
+  std::vector<std::uint32_t> site(axis.sites.size()), node(axis.nodes.size());
+  std::uint32_t count = 0;
+  for (std::size_t i = 0; i < axis.sites.size(); ++i) {
+    site[i] = count;
+    if (!site_of_frame[i]) axis.sites[count++] = axis.sites[i];
+  }
+  axis.sites.resize(count);
+
+  std::vector<bool> lost(axis.nodes.size(), false), needed(axis.nodes.size(), false);
+  const auto touches_frame = [&](const Edge& edge) {
+    return std::any_of(edge.site.begin(), edge.site.end(),
+                       [&](std::uint32_t s) { return s != no_site && site_of_frame[s]; });
+  };
+  for (const Edge& edge : axis.edges)
+    for (const std::uint32_t n : edge.node) (touches_frame(edge) ? lost : needed)[n] = true;
+  std::erase_if(axis.edges, touches_frame);
+  count = 0;
+  for (std::size_t i = 0; i < axis.nodes.size(); ++i) {
+    node[i] = count;
+    if (needed[i] || !lost[i]) axis.nodes[count++] = axis.nodes[i];
+  }
+  axis.nodes.resize(count);
+  for (Edge& edge : axis.edges) {
+    for (std::uint32_t& n : edge.node) n = node[n];
+    for (std::uint32_t& s : edge.site)
+      if (s != no_site) s = site[s];
+  }
+  set_node_kinds(axis);
+}
+
+}  // namespace medial

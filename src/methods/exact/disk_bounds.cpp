@@ -1,0 +1,176 @@
+#include "methods/exact/disk_bounds.h"
+
+#include <algorithm>
+#include <type_traits>
+
+#include "methods/exact/in_disk.h"
+
+namespace medial::exact {
+namespace {
+
+/// The disk on a spoke whose radius is `times` the spoke.
+template <class Real>
+std::optional<DiskBounds<Real>> disk_on(const Spoke<Bounded<Real>>& spoke,
+                                        const Bounded<Real>& times) {
+  if (!times.positive()) return std::nullopt;
+  return DiskBounds<Real>{spoke.foot + times * spoke.normal, times * spoke.size};
+}
+
+/// How often Newton's method is asked for a better start.
+constexpr int most_steps = 3;
+
+double size_of(const Vector<Bounded<double>>& v) { return v.x.most() + v.y.most(); }
+
+std::optional<DiskBounds<double>> three_apart(const Outline& outline,
+                                              const std::array<std::uint32_t, 3>& sites,
+                                              const Disk& start) {
+  using Number = Bounded<double>;
+  ApproximateRoots<double> roots;
+  double x = start.center.x, y = start.center.y, r = start.radius;
+  for (int step = 0;; ++step) {
+    const Vector<Number> center{Number(x), Number(y)};
+    const Number radius(r);
+    std::array<Vector<Number>, 3> u;
+    std::array<Number, 3> f;
+    double residual = 0, noise = 0, bend = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto form = form_of<Number>(outline.sites[sites[i]], center, roots);
+      const Number turn = form.round * radius;
+      const Number slope = form.size + turn + turn;  // against the radius
+      if (!slope.positive()) return std::nullopt;
+      const Number inverse = Number(1.0) / slope;
+      u[i] = inverse * form.slope;
+      f[i] = inverse * (form.height - radius * (form.size + turn));
+      residual = std::max(residual, f[i].most());
+      noise = std::max(noise, f[i].error);
+      bend = std::max(bend, (inverse * form.round).most());
+    }
+    const Vector<Number> b = u[1] - u[0], c = u[2] - u[0];
+    const Number area = cross(b, c);
+    if (!area.positive()) return std::nullopt;
+    if (residual > 4 * noise && step < most_steps) {
+      const double fb = f[0].value - f[1].value, fc = f[0].value - f[2].value;
+      const double dx = (fb * c.y.value - fc * b.y.value) / area.value;
+      const double dy = (b.x.value * fc - c.x.value * fb) / area.value;
+      x += dx;
+      y += dy;
+      r += u[0].x.value * dx + u[0].y.value * dy + f[0].value;
+      continue;
+    }
+    const double spread = 2 * (size_of(b) + size_of(c)) / area.least() + 1;
+    // The factor beyond 2 is for the rounding of the bounds.
+    const double within = 2.001 * spread * residual;
+    if (!(4 * bend * spread * within < 1)) return std::nullopt;
+    const DiskBounds<double> result{{{x, within}, {y, within}}, {r, within}};
+    if (!result.radius.positive()) return std::nullopt;
+    return result;
+  }
+}
+
+}  // namespace
+
+template <class Real>
+std::optional<DiskBounds<Real>> disk_bounds(const Outline& outline,
+                                            const std::array<std::uint32_t, 3>& sites,
+                                            const Disk& start) {
+  using Number = Bounded<Real>;
+  ApproximateRoots<Real> roots;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::uint32_t a = sites[i], b = sites[(i + 1) % 3], c = sites[(i + 2) % 3];
+    if (!outline.joined(a, b) || !outline.joined(b, c)) continue;
+    const ExactSite& arc = outline.sites[b];
+    if (!(arc.bulge > 0)) continue;
+    const auto own = spoke_of<Number>(arc, false, roots);
+    // Its own circle is clear of the neighbours where these bend no more.
+    for (const std::uint32_t neighbor : {a, c}) {
+      const ExactSite& site = outline.sites[neighbor];
+      if (!(site.bulge > 0)) continue;
+      const auto other = spoke_of<Number>(site, false, roots);
+      if ((Number(site.bulge) * own.size - Number(arc.bulge) * other.size).positive())
+        return std::nullopt;
+    }
+    return disk_on(own, Number(1.0) / Number(4 * arc.bulge));
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::uint32_t a = sites[i], b = sites[(i + 1) % 3], c = sites[(i + 2) % 3];
+    if (!outline.joined(a, b)) continue;
+    if (outline.joined(b, c) || outline.joined(c, a)) return std::nullopt;
+    const auto spoke = outline.template spoke_after<Number>(a, roots);
+    const auto form = form_of<Number>(outline.sites[c], spoke.foot, roots);
+    const auto closing_on = [&](const Spoke<Number>& at) {
+      return form.size * at.size - dot(form.slope, at.normal);
+    };
+    const Number closing = closing_on(spoke);
+    if (!closing.positive()) return std::nullopt;
+    auto disk = disk_on(spoke, form.height / closing);
+    if (!disk) return std::nullopt;
+    // It is smaller than the circles of all three: those of the joined ones on their own normals.
+    for (const std::uint32_t site : {a, b}) {
+      const Number four_bulges(4 * outline.sites[site].bulge);
+      if (!(outline.sites[site].bulge > 0)) continue;
+      const auto own = spoke_of<Number>(outline.sites[site], site == a, roots);
+      if (!(closing_on(own) - four_bulges * form.height).positive()) return std::nullopt;
+    }
+    if (const double bulge = outline.sites[c].bulge; bulge > 0) {
+      const auto own = spoke_of<Number>(outline.sites[c], false, roots);
+      if (!(own.size - Number(4 * bulge) * disk->radius).positive()) return std::nullopt;
+    }
+    return disk;
+  }
+  if constexpr (std::is_same_v<Real, Precise>)
+    return disk_of_three(outline, sites);
+  else
+    return three_apart(outline, sites, start);
+}
+
+template <class Real>
+std::optional<int> further_along(const ExactSite& site, const DiskBounds<Real>& from,
+                                 const DiskBounds<Real>& to) {
+  using Number = Bounded<Real>;
+  const auto start = exact_vector<Number>(site.start);
+  if (site.is_vertex()) {
+    // Round a reflex vertex, normals turn to the right.
+    return cross(to.center - start, from.center - start).sign();
+  }
+  if (!site.is_arc())
+    return dot(exact_vector<Number>(site.end) - start, to.center - from.center).sign();
+  ApproximateRoots<Real> roots;
+  const auto normal = spoke_of<Number>(site, false, roots).normal;
+  const Number factor(-4 * site.bulge);
+  const auto normal_at = [&](const DiskBounds<Real>& disk) {
+    return normal + factor * (disk.center - start);
+  };
+  const auto before = normal_at(from), after = normal_at(to);
+  // An arc can turn by a half circle: on different sides of its middle feet are told apart first.
+  const auto middle = left_of(exact_vector<Number>(site.end) - start);
+  const auto from_side = cross(middle, before).sign(), to_side = cross(middle, after).sign();
+  const int left = site.bulge > 0 ? 1 : -1;
+  if (from_side && to_side && *from_side * *to_side < 0) return *to_side * left;
+  const auto turn = cross(before, after);
+  return (left > 0 ? turn : -turn).sign();
+}
+
+bool may_reach(const ExactSite& site, const DiskBounds<Precise>& disk) {
+  if (!(site.bulge > 0)) return true;
+  using Number = Bounded<Precise>;
+  ApproximateRoots<Precise> roots;
+  const auto first = spoke_of<Number>(site, false, roots).normal;
+  const auto last = spoke_of<Number>(site, true, roots).normal;
+  const auto toward =
+      first + Number(-4 * site.bulge) * (disk.center - exact_vector<Number>(site.start));
+  const auto before = cross(first, toward).sign(), after = cross(toward, last).sign();
+  return !(before && *before < 0) && !(after && *after < 0);
+}
+
+template std::optional<DiskBounds<double>> disk_bounds(const Outline&,
+                                                       const std::array<std::uint32_t, 3>&,
+                                                       const Disk&);
+template std::optional<DiskBounds<Precise>> disk_bounds(const Outline&,
+                                                        const std::array<std::uint32_t, 3>&,
+                                                        const Disk&);
+template std::optional<int> further_along(const ExactSite&, const DiskBounds<double>&,
+                                          const DiskBounds<double>&);
+template std::optional<int> further_along(const ExactSite&, const DiskBounds<Precise>&,
+                                          const DiskBounds<Precise>&);
+
+}  // namespace medial::exact

@@ -1,0 +1,66 @@
+#include "methods/exact/divide.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "methods/exact/disk_bounds.h"
+
+namespace medial::exact {
+namespace {
+
+/// Whether one disk may touch three sites in this counter-clockwise order, on convex arcs between
+/// their ends. Of joined sites it touches the joint.
+bool may_touch(const Outline& outline, const std::array<std::uint32_t, 3>& sites) {
+  const auto disk = disk_bounds<Precise>(outline, sites, {});
+  if (!disk) return false;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::uint32_t site = sites[k];
+    if (outline.joined(site, sites[(k + 1) % 3]) || outline.joined(sites[(k + 2) % 3], site))
+      continue;
+    if (!may_reach(outline.sites[site], *disk)) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::vector<std::vector<std::uint32_t>> divide(const Outline& outline,
+                                               std::span<const std::uint32_t> sites,
+                                               Decisions& decisions) {
+  std::vector<std::vector<std::uint32_t>> nodes;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> sides{
+      {0, static_cast<std::uint32_t>(sites.size() - 1)}};
+  // Convex arcs are not touched by disks larger than their own circles: not every three sites have
+  // a disk then.
+  const bool some_fit_into_circles = std::any_of(
+      sites.begin(), sites.end(), [&](std::uint32_t i) { return outline.sites[i].bulge > 0; });
+  while (!sides.empty()) {
+    const auto [low, high] = sides.back();
+    sides.pop_back();
+    if (high < low + 2) continue;
+    std::vector<std::uint32_t> first;  // those met first, all by one disk
+    for (std::uint32_t i = low + 1; i < high; ++i) {
+      if (some_fit_into_circles && high > low + 2) {
+        if (!may_touch(outline, {sites[low], sites[i], sites[high]})) continue;
+      }
+      if (first.empty()) {
+        first.push_back(i);
+        continue;
+      }
+      const Sign sign =
+          in_disk(outline, sites[low], sites[first[0]], sites[i], sites[high], decisions);
+      if (sign == Sign::positive) first.clear();
+      if (sign == Sign::positive || sign == Sign::zero) first.push_back(i);
+    }
+    if (first.empty()) first.push_back(low + 1);
+    std::vector<std::uint32_t> node{low};
+    node.insert(node.end(), first.begin(), first.end());
+    node.push_back(high);
+    for (std::size_t i = 1; i < node.size(); ++i) sides.emplace_back(node[i - 1], node[i]);
+    nodes.push_back(std::move(node));
+  }
+  return nodes;
+}
+
+}  // namespace medial::exact

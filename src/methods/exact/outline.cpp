@@ -1,0 +1,67 @@
+#include "methods/exact/outline.h"
+
+namespace medial::exact {
+
+namespace {
+
+double curvature_of(const ExactSite& edge) { return curvature({edge.start, edge.end, edge.bulge}); }
+
+}  // namespace
+
+Outline outline_of(const Shape& shape, const LocalFrame& frame, const sites::SiteNumbers& numbers) {
+  Outline outline;
+  outline.sites.resize(numbers.count);
+  outline.next.resize(numbers.count);
+  outline.passes.assign(numbers.count, false);
+  outline.blunt.assign(numbers.count, false);
+  outline.component = shape.component;
+  for (std::size_t l = 0; l < shape.loop_count(); ++l) {
+    const sites::Loop loop(shape, l, frame);
+    const auto first_of = [&](std::uint32_t i) {
+      const std::size_t point = loop.begin() + i;
+      return numbers.edge[point] - (numbers.is_site(point) ? 1 : 0);
+    };
+    outline.loop_begin.push_back(first_of(0));
+    for (std::uint32_t i = 0; i < loop.size(); ++i) {
+      const std::size_t point = loop.begin() + i, after = loop.begin() + loop.next(i);
+      const std::uint32_t edge = numbers.edge[point];
+      if (numbers.is_site(point)) {
+        outline.sites[edge - 1] = {loop.local(i), loop.local(i), 0};
+        outline.next[edge - 1] = edge;
+        outline.passes[edge - 1] = true;
+      }
+      outline.sites[edge] = {loop.local(i), loop.local(loop.next(i)), loop.bulge(i)};
+      outline.next[edge] = first_of(loop.next(i));
+      outline.passes[edge] = numbers.joints[after] != site::Joint::corner;
+      outline.blunt[edge] = numbers.joints[after] == site::Joint::blunt;
+    }
+  }
+  outline.loop_begin.push_back(numbers.count);
+  return outline;
+}
+
+void part_joints(Outline& outline) {
+  const auto count = static_cast<std::uint32_t>(outline.sites.size());
+  outline.parted = true;
+  for (std::uint32_t edge = 0; edge < count; ++edge) {
+    const std::uint32_t after = outline.next[edge];
+    if (!outline.joined(edge, after) || outline.sites[edge].is_vertex() ||
+        outline.sites[after].is_vertex())
+      continue;
+    RootField field;
+    const auto arriving = spoke_of<RootNumber>(outline.sites[edge], true, field);
+    const auto leaving = spoke_of<RootNumber>(outline.sites[after], false, field);
+    const int turn = cross(arriving.normal, leaving.normal).sign();
+    if (turn > 0) outline.blunt[edge] = true;
+    if (turn >= 0) continue;
+    outline.next[edge] = static_cast<std::uint32_t>(outline.sites.size());
+    outline.sites.push_back({outline.sites[edge].end, outline.sites[edge].end, 0});
+    outline.next.push_back(after);
+    outline.passes.push_back(true);
+    outline.blunt.push_back(false);
+    outline.flatter.push_back(
+        curvature_of(outline.sites[after]) < curvature_of(outline.sites[edge]) ? after : edge);
+  }
+}
+
+}  // namespace medial::exact

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "axis/sites.h"
+#include "methods/exact/site_form.h"
+
+namespace medial::exact {
+
+/// The boundary as loops of sites, numbered as in MedialAxis::sites.
+struct Outline {
+  std::vector<ExactSite> sites;
+  std::vector<std::uint32_t> next;  ///< the site that follows on the loop
+  /// Whether a foot can pass on from the site to the next one: at a reflex vertex's ends and at a
+  /// smooth joint, but not at a corner.
+  std::vector<bool> passes;
+  /// Whether the site ends in a blunt joint: disks touch the edges on both sides of it as they do
+  /// at a corner, only that no edge of the axis leads there.
+  std::vector<bool> blunt;
+  std::vector<std::uint32_t> loop_begin;  ///< first site of each loop, and the number of all sites
+  std::vector<std::uint32_t> component;   ///< of each loop
+  bool parted = false;                    ///< see part_joints()
+  /// Of the vertices that it has added behind all other sites: the flatter of the edges that join
+  /// there, whose own centre is further away.
+  std::vector<std::uint32_t> flatter;
+
+  /// What the axis calls a site.
+  std::uint32_t name(std::uint32_t site) const {
+    return has_name(site) ? site : flatter[site + flatter.size() - sites.size()];
+  }
+  bool has_name(std::uint32_t site) const { return site < sites.size() - flatter.size(); }
+
+  bool joined(std::uint32_t site, std::uint32_t after) const {
+    return passes[site] && !blunt[site] && next[site] == after;
+  }
+  /// The disks that touch the boundary where `site` ends and the next one begins: on the normal of
+  /// the edge that ends there, or, after a vertex, of the edge that begins. So where two edges join
+  /// smoothly only to rounding, the first one's normal counts for both.
+  template <class Number, class Roots>
+  Spoke<Number> spoke_after(std::uint32_t site, Roots& roots) const {
+    if (sites[site].is_vertex()) return spoke_of<Number>(sites[next[site]], false, roots);
+    return spoke_of<Number>(sites[site], true, roots);
+  }
+};
+
+Outline outline_of(const Shape& shape, const LocalFrame& frame, const sites::SiteNumbers& numbers);
+
+/// Takes joints that count as smooth as they stand: as blunt where the boundary turns to the left;
+/// where it turns to the right their vertex becomes a site, added behind the others.
+void part_joints(Outline& outline);
+
+}  // namespace medial::exact

@@ -1,0 +1,141 @@
+#pragma once
+
+// A site as the exact decisions see it: as it stands in the shape, with the contact of a disk as an
+// equation whose coefficients are rational but for one square root.
+
+#include <cmath>
+
+#include "medial/vec2.h"
+#include "methods/exact/numbers.h"
+
+namespace medial::exact {
+
+/// A site in the local frame, where coordinates are those of the input, exactly, but for a shift
+/// and a power of two.
+struct ExactSite {
+  Vec2 start;
+  Vec2 end;  ///< a vertex has end == start
+  double bulge = 0;
+
+  bool is_vertex() const { return start == end; }
+  bool is_arc() const { return bulge != 0; }
+};
+
+/// Roots of numbers without error bounds of their own: what differs between the kinds of numbers.
+template <class Real>
+struct ApproximateRoots {
+  Bounded<Real> root(const Bounded<Real>& square) { return root_of(square); }
+};
+
+template <class Number>
+struct Vector {
+  Number x, y;
+
+  friend Vector operator+(const Vector& a, const Vector& b) { return {a.x + b.x, a.y + b.y}; }
+  friend Vector operator-(const Vector& a, const Vector& b) { return {a.x - b.x, a.y - b.y}; }
+  friend Vector operator*(const Number& s, const Vector& a) { return {s * a.x, s * a.y}; }
+};
+template <class Number>
+Number dot(const Vector<Number>& a, const Vector<Number>& b) {
+  return a.x * b.x + a.y * b.y;
+}
+template <class Number>
+Number cross(const Vector<Number>& a, const Vector<Number>& b) {
+  return a.x * b.y - a.y * b.x;
+}
+template <class Number>
+Vector<Number> left_of(const Vector<Number>& a) {
+  return {-a.y, a.x};
+}
+template <class Number>
+Vector<Number> exact_vector(Vec2 p) {
+  return {Number(p.x), Number(p.y)};
+}
+
+/// A disk whose centre and radius are known within bounds.
+template <class Real>
+struct DiskBounds {
+  Vector<Bounded<Real>> center;
+  Bounded<Real> radius;
+};
+
+/// The inward normal at an end of an edge, of length `size`. It is the line of centres of all disks
+/// that touch the edge there.
+template <class Number>
+struct Spoke {
+  Vector<Number> foot;
+  Vector<Number> normal;
+  Number size;
+
+  /// Forward along the boundary.
+  Vector<Number> tangent() const { return {normal.y, -normal.x}; }
+};
+
+/// Whether the coordinates of both points differ by the same, exactly: a chord along a diagonal.
+inline bool is_diagonal(Vec2 a, Vec2 b) {
+  const double x = b.x - a.x, y = b.y - a.y;
+  return std::abs(x) == std::abs(y) && Rounding<double>::of_sum(b.x, -a.x, x) == 0 &&
+         Rounding<double>::of_sum(b.y, -a.y, y) == 0;
+}
+
+/// The normals of an edge at its start and end, of one length: for a segment that of its chord; for
+/// an arc of bulge b, whose tangents are the chord turned by half of its angle, 1 + b^2 times it.
+/// Where the chord is parallel to an axis or a diagonal its length is left out, so that no root, or
+/// the same for all, is needed.
+template <class Number, class Roots>
+Spoke<Number> spoke_of(const ExactSite& edge, bool at_end, Roots& roots) {
+  const Vec2 from = edge.start, to = edge.end;
+  const auto sign = [](double a, double b) { return Number(b > a ? 1.0 : b < a ? -1.0 : 0.0); };
+  const bool diagonal = is_diagonal(from, to);
+  Vector<Number> along;
+  Number size;
+  if (!edge.is_arc() && (diagonal || from.x == to.x || from.y == to.y)) {
+    along = {sign(from.x, to.x), sign(from.y, to.y)};
+    size = diagonal ? roots.root(Number(2.0)) : Number(1.0);
+  } else {
+    along = exact_vector<Number>(to) - exact_vector<Number>(from);
+    size = roots.root(dot(along, along));
+  }
+  Vector<Number> normal = left_of(along);
+  if (edge.is_arc()) {
+    const Number bulge(edge.bulge), twice(2.0 * edge.bulge);
+    const Number squared = bulge * bulge, cosine = Number(1.0) - squared;
+    normal = at_end ? cosine * normal - twice * along : cosine * normal + twice * along;
+    size = (Number(1.0) + squared) * size;
+  }
+  return {exact_vector<Number>(at_end ? to : from), normal, size};
+}
+
+/// The contact of a disk with a site: round (x.x - r r) + slope.x - size r + height is zero, with x
+/// the centre as seen from an origin; positive where the disk does not reach the site's carrier.
+/// With d = x - point it is N.d - |N| r for a segment of inward normal N, and the same less
+/// 2 b (d.d - r r) for an arc of bulge b; d.d - r r for a vertex.
+template <class Number>
+struct Form {
+  Number round;
+  Vector<Number> slope;
+  Number size;
+  Number height;
+
+  /// The form at a disk.
+  Number at(const Vector<Number>& center, const Number& radius) const {
+    return round * (dot(center, center) - radius * radius) + dot(slope, center) - size * radius +
+           height;
+  }
+};
+
+template <class Number, class Roots>
+Form<Number> form_of(const ExactSite& site, const Vector<Number>& origin, Roots& roots) {
+  const Vector<Number> d = origin - exact_vector<Number>(site.start);
+  if (site.is_vertex()) return {Number(1.0), Number(2.0) * d, Number(0.0), dot(d, d)};
+  const Spoke<Number> spoke = spoke_of<Number>(site, false, roots);
+  Form<Number> form{Number(0.0), spoke.normal, spoke.size, dot(spoke.normal, d)};
+  if (site.is_arc()) {
+    form.round = Number(-2.0 * site.bulge);
+    form.slope = form.slope + Number(2.0) * form.round * d;
+    form.height = form.height + form.round * dot(d, d);
+  }
+  return form;
+}
+
+}  // namespace medial::exact

@@ -1,0 +1,92 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "base/local_frame.h"
+#include "medial/axis.h"
+#include "medial/voronoi.h"
+#include "methods/lee/diagram.h"
+
+namespace medial::lee {
+
+/// The diagram of whole polygons as a graph, in place and in the local frame: a tree for every
+/// loop, in which every edge knows the one that begins at its outer end. So a node is named by the
+/// place of the edge that begins there; both spokes of a reflex vertex begin at the first one's,
+/// and a loop's last corner, where no edge begins, takes a free place.
+class Graph {
+ public:
+  /// `last_edges`: what conquer() returned. Throws std::runtime_error where a diagram is not one of
+  /// a whole polygon: every loop of N elements must have 2 N - 3 edges (Lemma 3), of which only the
+  /// terminating bisector ends in a corner. The stacks of earlier elements are gone afterwards.
+  /// O(N).
+  Graph(Diagram& diagram, const std::vector<std::uint32_t>& last_edges, double tolerance);
+
+  const Elements& elements() const { return diagram_.elements; }
+  const ListEdge& operator[](std::uint32_t edge) const { return diagram_.edges[edge]; }
+  /// The number of places: every node and every edge is less.
+  std::size_t places() const { return diagram_.edges.size(); }
+  bool is_spoke(std::uint32_t edge) const { return diagram_.is_spoke(diagram_.edges[edge]); }
+
+  std::uint32_t from(std::uint32_t edge) const {
+    const std::uint32_t first = diagram_.edges[edge].element[0];
+    return is_spoke(edge) && elements().is_vertex(first) ? 2 * (first - 1) : edge;
+  }
+  std::uint32_t to(std::uint32_t edge) const { return diagram_.edges[edge].inward[1]; }
+  void set_to(std::uint32_t edge, std::uint32_t node) { diagram_.edges[edge].inward[1] = node; }
+  const Disk& disk(std::uint32_t node) const { return diagram_.edges[node].inner; }
+  void set_disk(std::uint32_t node, const Disk& disk) { diagram_.edges[node].inner = disk; }
+  /// The elements whose polygons meet in a Voronoi point: of the edge that begins there, and of
+  /// those that end there.
+  std::array<std::uint32_t, 3> touched(std::uint32_t node) const {
+    const ListEdge& edge = diagram_.edges[node];
+    return {edge.element[0], edge.element[1], diagram_.edges[edge.inward[0]].element[1]};
+  }
+
+  /// The first element of the loop that an element is of, and the end.
+  std::array<std::uint32_t, 2> loop_around(std::uint32_t element) const;
+
+  /// The edges between Voronoi points that could be one: closer together than `furthest` radii, or
+  /// than the tolerance; or with a foot that moves the wrong way by more than the tolerance, as
+  /// between segments nearly on one line, which leave open where along it a disk touches them.
+  const std::vector<std::uint32_t>& doubtful_edges() const { return doubtful_edges_; }
+  static constexpr double furthest = 1e-4;
+  /// Whether the foot of an edge's disks moves the wrong way on one of its elements by more than
+  /// `slack`, from its inner to its outer end.
+  bool runs_backward(std::uint32_t edge, double slack) const;
+
+  /// Calls work(edge) for all edges of a loop, in the order of their first elements, and in the
+  /// order of the foot on each.
+  template <class Work>
+  void for_edges(const Elements::Loop& loop, const Work& work) const {
+    for (std::uint32_t i = begin_of(loop), end = end_of(loop); i < end; ++i)
+      for (std::uint32_t edge = diagram_.top[i][0]; edge != none;
+           edge = diagram_.edges[edge].inward[0])
+        work(edge);
+  }
+
+ private:
+  std::uint32_t begin_of(const Elements::Loop& loop) const {
+    return elements().chains[loop.first_chain];
+  }
+  std::uint32_t end_of(const Elements::Loop& loop) const {
+    return elements().chains[loop.end_chain];
+  }
+  void close(const Elements::Loop& loop, std::uint32_t last_edge);
+  void find_doubtful_edge(std::uint32_t edge);
+
+  Diagram& diagram_;
+  double tolerance_;
+  std::vector<std::uint32_t> doubtful_edges_;
+};
+
+/// The result in units of the input: all of the graph, with faces.
+void complete(const Graph& graph, const LocalFrame& frame, VoronoiDiagram& diagram);
+
+/// The medial axis: the graph less its spokes (Corollary 3). Edges without length, of cocircular
+/// elements, become one node: ends whose disks agree within `tolerance`. Such edges are lost from
+/// the graph.
+void complete(Graph& graph, const LocalFrame& frame, double tolerance, MedialAxis& axis);
+
+}  // namespace medial::lee

@@ -1,0 +1,301 @@
+#include "methods/lee/merge.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+
+#include "site/bisector.h"
+#include "site/tangent_disk.h"
+
+namespace medial::lee {
+namespace {
+
+using site::Site;
+
+/// The order of disks on a bisector.
+struct Along {
+  Vec2 direction;
+  Along(const Site& right, const Site& left) : direction(site::direction_along(right, left)) {}
+  double position(Vec2 center) const { return dot(direction, center); }
+};
+
+/// Where the merge curve leaves a Voronoi polygon.
+struct Crossing {
+  Disk disk;
+  double position = 0;   ///< on the current bisector
+  std::size_t side = 0;  ///< of the edge that it crosses
+};
+
+/// The merge curve's way through two diagrams (Section II): the current bisector B(e_a, e_b), with
+/// a on side 0, the earlier list, and b on side 1. On side s, the edges still to be crossed are in
+/// the stack of the current element in which it is element[1 - s].
+class MergeCurve {
+ public:
+  MergeCurve(Diagram& diagram, Diagram::FreePlaces& free, const MergeLimits& limits,
+             Statistics& statistics)
+      : diagram_(diagram), free_(free), limits_(limits), statistics_(statistics) {}
+
+  std::uint32_t follow(std::uint32_t first, std::uint32_t middle, std::uint32_t end) {
+    current_ = {middle - 1, middle};
+    middle_ = middle;
+    may_undo_ = end - first;
+    disk_ = {site(middle).point, 0};
+    std::uint32_t edge = add_edge();
+    for (;;) {
+      const Along bisector(site(current_[1]), site(current_[0]));
+      const double reached = bisector.position(disk_.center);
+      State state = drop_covered(0);
+      if (state == State::inside) state = drop_covered(1);
+      if (state == State::outside) return edge;
+      if (state == State::tied_wrongly) {
+        edge = go_back(edge);
+        continue;
+      }
+      const auto crossing = first_crossing(bisector, reached);
+      if (!crossing) return edge;
+      ++statistics_.queries;
+      const std::size_t side = crossing->side;
+      const std::uint32_t crossed = top(side);
+      if (!is_same(disk_, crossing->disk))
+        is_stored_ = is_same(diagram_.edges[crossed].inner, crossing->disk);
+      disk_ = crossing->disk;
+      // The curve runs below an edge or crosses it, as long as its disks are inside the shape.
+      if (top(1 - side) != none && is_behind(1 - side, diagram_.edges[top(1 - side)])) return edge;
+      current_[side] = diagram_.edges[crossed].element[side];
+      if (diagram_.top[current_[side]][side] != crossed)
+        throw std::runtime_error("two Voronoi edges cross");
+      edge = add_edge();
+    }
+  }
+
+ private:
+  /// What the other edges tell of the current disk.
+  enum class State {
+    inside,
+    tied_wrongly,  ///< a stored disk, taken for a tie, that reaches over the boundary
+    outside        ///< not inside the shape: the merge curve ends
+  };
+
+  const Site& site(std::uint32_t i) const { return diagram_.elements.sites[i]; }
+  std::uint32_t& top(std::size_t side) { return diagram_.top[current_[side]][1 - side]; }
+  /// Begins the edge between the current elements.
+  std::uint32_t add_edge() {
+    const std::uint32_t place = free_.first;
+    if (place == none) throw std::runtime_error("a Voronoi diagram has too many edges");
+    ListEdge& edge = diagram_.edges[place];
+    free_.first = edge.inward[0];
+    edge = {current_, {}, disk_};
+    for (const std::size_t k : {0u, 1u}) {
+      std::uint32_t& outermost = diagram_.top[current_[k]][k];
+      edge.inward[k] = outermost;
+      outermost = place;
+    }
+    return place;
+  }
+
+  /// Drops the outermost edges of one side of which no disk is inside the shape: those where the
+  /// disk at the inner end reaches over the element on the other side, and those that lie behind,
+  /// in the part that the current disk cuts off. Drops nothing where it is the current disk that is
+  /// not inside the shape: the first edge that does not lie behind tells.
+  State drop_covered(std::size_t side) {
+    std::uint32_t kept = top(side);
+    for (; kept != none; kept = diagram_.edges[kept].inward[1 - side]) {
+      const ListEdge& edge = diagram_.edges[kept];
+      const double distance_to_third = gap(edge.element[side], disk_);
+      if (is_stored_ && may_undo_ > 0 && distance_to_third < -tie() &&
+          distance_to_third >= -vagueness())
+        return State::tied_wrongly;
+      if (edge.inner.radius > 0 && gap(current_[1 - side], edge.inner) < -tie()) continue;
+      if (distance_to_third < -vagueness()) return State::outside;
+      if (distance_to_third <= vagueness() || !is_behind(side, edge)) break;
+    }
+    while (top(side) != kept) drop(top(side));
+    return State::inside;
+  }
+
+  /// Takes the merge curve back, from its last edge, to before it came to a stored disk, and drops
+  /// the edges that begin in that. Returns the edge that is the last one then. Of O(1) for every
+  /// edge that goes, and they are no more than the elements of both lists.
+  std::uint32_t go_back(std::uint32_t last) {
+    const Disk wrong = disk_;
+    is_stored_ = false;
+    for (;;) {
+      // An edge of the merge curve begins where another one crosses an edge of one list.
+      const ListEdge& edge = diagram_.edges[last];
+      const std::size_t side = diagram_.edges[edge.inward[0]].element[1] < middle_ ? 0 : 1;
+      const std::uint32_t crossed = edge.inward[side], before = edge.inward[1 - side];
+      drop(last);
+      may_undo_ -= may_undo_ > 0 ? 1 : 0;
+      current_ = diagram_.edges[before].element;
+      disk_ = diagram_.edges[before].inner;
+      last = before;
+      if (!is_same(diagram_.edges[crossed].inner, wrong)) continue;
+      while (top(side) != none && is_same(diagram_.edges[top(side)].inner, wrong)) drop(top(side));
+      return last;
+    }
+  }
+
+  void drop(std::uint32_t place) {
+    ListEdge& edge = diagram_.edges[place];
+    for (const std::size_t k : {0u, 1u}) {
+      std::uint32_t& outermost = diagram_.top[edge.element[k]][k];
+      if (outermost != place) throw std::runtime_error("two Voronoi edges cross");
+      outermost = edge.inward[k];
+    }
+    edge.inward[0] = free_.first;
+    free_.first = place;
+  }
+
+  /// How far Voronoi points of three elements that hardly determine one may be off: a rounding
+  /// divided by the square of the angle between their feet, for up to 1e6 of them around a disk.
+  double vagueness() const { return limits_.tolerance + 1e-5 * disk_.radius; }
+
+  /// By how far a disk's foot on its element of one side has passed an edge's inner end, and so all
+  /// of the edge; negative where it has not. No edge passes the ends of its elements.
+  double passed(std::size_t side, const Disk& disk, const ListEdge& edge) const {
+    if (edge.inner.radius == 0) return -disk.radius;
+    const Site& own = site(current_[side]);
+    const Vec2 way = edge.inner.center - disk.center;
+    const double ahead = own.is_vertex() ? cross(way, disk.center - own.point) / edge.inner.radius
+                                         : dot(own.direction, way);
+    return side == 0 ? ahead : -ahead;
+  }
+  bool is_behind(std::size_t side, const ListEdge& edge) const {
+    return passed(side, disk_, edge) > vagueness();
+  }
+
+  /// What a stored disk touches: far less than ties.h allows, which then joins such disks.
+  double tie() const { return 0.0625 * limits_.tolerance; }
+  /// Whether a stored disk touches an element, and not only the end of a segment, maybe from
+  /// behind.
+  bool is_tied(std::uint32_t i, const Disk& disk) const {
+    return std::abs(gap(i, disk)) <= tie() &&
+           std::abs(site::carrier_distance(site(i), disk.center) - disk.radius) <=
+               limits_.tolerance;
+  }
+  double gap(std::uint32_t i, const Disk& disk) const {
+    return std::sqrt(site::squared_distance(site(i), disk.center)) - disk.radius;
+  }
+
+  /// Where the current bisector crosses the outermost edge on one side, if it does.
+  std::optional<Crossing> crossing_with(std::size_t side, const Along& bisector, double reached) {
+    const ListEdge& edge = diagram_.edges[top(side)];
+    const std::uint32_t third = edge.element[side], other = current_[1 - side];
+    // A disk that is behind by rounding only is not: ties.h looks after it.
+    const auto not_behind = [&](const Disk& disk) -> std::optional<Crossing> {
+      const double position = bisector.position(disk.center);
+      if (position > reached) return Crossing{disk, position, side};
+      if (disk_.radius > 0 && distance(disk.center, disk_.center) <= vagueness())
+        return Crossing{is_tied(third, disk_) ? disk_ : disk, reached, side};
+      return std::nullopt;
+    };
+    if (diagram_.is_spoke(edge)) {
+      const bool own_vertex = site(current_[side]).is_vertex();
+      const Site& vertex = site(own_vertex ? current_[side] : third);
+      const Site& segment = site(own_vertex ? third : current_[side]);
+      const Vec2 normal = segment.normal();
+      const double radius = site::tangent_radius(vertex.point, normal, site(other));
+      if (!(radius <= limits_.radius_limit)) return std::nullopt;
+      const Disk disk{vertex.point + radius * normal, radius};
+      if (!touches(other, disk)) return std::nullopt;
+      return not_behind(disk);
+    }
+    if (edge.inner.radius > 0 && is_tied(other, edge.inner)) return not_behind(edge.inner);
+    if (disk_.radius > 0 && is_tied(third, disk_)) return not_behind(disk_);
+
+    ++statistics_.apollonius;
+    const std::uint32_t own = current_[side];
+    const site::TangentDisks disks =
+        site::tangent_disks(site(current_[1]), site(current_[0]), site(third));
+    std::optional<Crossing> best;
+    for (std::size_t i = 0; i < disks.count; ++i) {
+      Disk disk = disks.disk[i];
+      if (!(disk.radius <= limits_.radius_limit)) continue;
+      polish(disk, own, other, third);
+      const auto crossing = not_behind(disk);
+      if (!crossing || (best && best->position <= crossing->position)) continue;
+      if (!touches(third, disk) || !touches(own, disk) || !touches(other, disk)) continue;
+      if (!is_outward(edge, disk)) continue;
+      best = crossing;
+    }
+    return best;
+  }
+
+  /// Where the curve leaves a polygon first. Where the positions are not known well, the other
+  /// side's element tells: it must not reach into the disk.
+  std::optional<Crossing> first_crossing(const Along& bisector, double reached) {
+    std::array<std::optional<Crossing>, 2> crossing;
+    const auto reach_over = [&](std::size_t side) {
+      const std::uint32_t third = diagram_.edges[top(1 - side)].element[1 - side];
+      return -gap(third, crossing[side]->disk);
+    };
+    for (const std::size_t side : {0u, 1u}) {
+      if (top(side) == none) continue;
+      crossing[side] = crossing_with(side, bisector, reached);
+      if (side == 1 || !crossing[0] || top(1) == none) continue;
+      // Most often the other edge has clearly not been reached: that spares its disk.
+      const ListEdge& edge = diagram_.edges[top(1)];
+      if (!diagram_.is_spoke(edge) && reach_over(0) <= -tie() &&
+          passed(1, crossing[0]->disk, edge) <= 0)
+        return crossing[0];
+    }
+    if (!crossing[0] || !crossing[1]) return crossing[0] ? crossing[0] : crossing[1];
+    const std::size_t first = crossing[1]->position < crossing[0]->position ? 1 : 0;
+    return reach_over(first) > tie() && reach_over(1 - first) <= tie() ? crossing[1 - first]
+                                                                       : crossing[first];
+  }
+
+  /// Whether a disk that touches an edge's elements lies outward of its inner end, but for
+  /// rounding.
+  bool is_outward(const ListEdge& edge, const Disk& disk) const {
+    const Along bisector(site(edge.element[1]), site(edge.element[0]));
+    return bisector.position(disk.center) >= bisector.position(edge.inner.center) ||
+           distance(disk.center, edge.inner.center) <= vagueness();
+  }
+
+  /// Whether a disk that touches the carrier of an element touches the element: its foot lies on a
+  /// segment, in the wedge of a reflex vertex, or beyond it within the tolerance.
+  bool touches(std::uint32_t i, const Disk& disk) const {
+    const Site& s = site(i);
+    if (!s.is_vertex()) {
+      const double foot = dot(s.direction, disk.center - s.point);
+      if (foot >= 0 && foot <= s.length) return true;
+      return std::abs(gap(i, disk)) <= limits_.tolerance;
+    }
+    const Vec2 d = disk.center - s.point;
+    if (dot(site(i - 1).direction, d) >= 0 && dot(site(i + 1).direction, d) <= 0) return true;
+    return gap(i - 1, disk) >= -limits_.tolerance && gap(i + 1, disk) >= -limits_.tolerance;
+  }
+
+  void polish(Disk& disk, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    site::polish(disk, site(a), site(b), site(c), tie(), limits_.tolerance,
+                 statistics_.precision_retries);
+  }
+
+  Diagram& diagram_;
+  Diagram::FreePlaces& free_;
+  const MergeLimits& limits_;
+  Statistics& statistics_;
+  std::array<std::uint32_t, 2> current_{};
+  std::uint32_t middle_ = 0;  ///< the first element of the later list
+  Disk disk_;
+  bool is_stored_ = false;      ///< whether the current disk is one of an edge that was crossed
+  std::uint32_t may_undo_ = 0;  ///< so many edges yet
+};
+
+}  // namespace
+
+std::uint32_t merge(Diagram& diagram, std::uint32_t first, std::uint32_t middle, std::uint32_t end,
+                    const MergeLimits& limits, Statistics& statistics) {
+  Diagram::FreePlaces& free = diagram.free[first];
+  const Diagram::FreePlaces& more = diagram.free[middle];
+  // A chain of k elements has k - 1 edges and k + 1 free places: there are always some.
+  diagram.edges[free.last].inward[0] = more.first;
+  free.last = more.last;
+  const auto& chains = diagram.elements.chains;
+  return MergeCurve(diagram, free, limits, statistics)
+      .follow(chains[first], chains[middle], chains[end]);
+}
+
+}  // namespace medial::lee

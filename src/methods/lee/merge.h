@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstdint>
+
+#include "medial/axis.h"
+#include "methods/lee/diagram.h"
+
+namespace medial::lee {
+
+/// What all merges of a shape share.
+struct MergeLimits {
+  double tolerance = 0;     ///< in the local frame
+  double radius_limit = 0;  ///< no disk inside the shape is larger
+};
+
+/// Merges the diagrams of two lists of chains, [first, middle) and [middle, end), along their merge
+/// curve, which starts at the convex vertex between them. Requires first < middle < end, chains of
+/// one loop. Every step leaves one Voronoi polygon for good, and every edge is dropped at most
+/// once: O(elements of both). Returns the last edge of the merge curve. May throw
+/// std::runtime_error where a diagram is broken.
+std::uint32_t merge(Diagram& diagram, std::uint32_t first, std::uint32_t middle, std::uint32_t end,
+                    const MergeLimits& limits, Statistics& statistics);
+
+}  // namespace medial::lee

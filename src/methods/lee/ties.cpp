@@ -1,0 +1,203 @@
+#include "methods/lee/ties.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <vector>
+
+#include "site/bisector.h"
+
+namespace medial::lee {
+namespace {
+
+/// Voronoi points that may be one, with what tells how well each is known.
+class Ties {
+ public:
+  Ties(Graph& graph, double slack) : graph_(graph), elements_(graph.elements()), slack_(slack) {
+    const auto could_be_empty = [&](std::uint32_t edge) {
+      const std::uint32_t end = graph.to(edge);
+      const Disk &from = graph.disk(edge), &to = graph.disk(end);
+      return !is_same(from, to) && (touches(end, from) || touches(edge, to));
+    };
+    const auto& all = graph.doubtful_edges();
+    if (std::any_of(all.begin(), all.end(), could_be_empty)) edges_ = all;
+  }
+
+  bool empty() const { return edges_.empty(); }
+
+  /// From the best known point outward, all that its disk touches become its disk. O(points).
+  void join() {
+    number_points();
+    const std::vector<std::uint32_t> order = best_known_first();
+    std::vector<bool> is_joined(points_.size(), false);
+    std::vector<std::uint32_t> open;
+    for (const std::uint32_t start : order) {
+      if (is_joined[start]) continue;
+      is_joined[start] = true;
+      const Disk disk = graph_.disk(points_[start]);
+      open.assign(1, start);
+      while (!open.empty()) {
+        const std::uint32_t point = open.back();
+        open.pop_back();
+        for (std::uint32_t i = first_[point]; i < first_[point + 1]; ++i) {
+          const std::uint32_t next = neighbours_[i];
+          if (is_joined[next]) continue;
+          if (!is_same(graph_.disk(points_[next]), disk)) {
+            if (!touches(points_[next], disk)) continue;
+            graph_.set_disk(points_[next], disk);
+          }
+          is_joined[next] = true;
+          open.push_back(next);
+        }
+      }
+    }
+  }
+
+  /// Where the borders of such sets have changed places, so that an edge runs backward, its inner
+  /// end moves to its outer one, or else the other way, with a little more slack; and then the
+  /// edges around it are looked at again. O(edges).
+  void straighten(double more_slack) {
+    slack_ = more_slack;
+    constexpr std::size_t most_moves = 16;  // of an edge, on average
+    std::vector<std::uint32_t> open(points_.size());
+    std::iota(open.begin(), open.end(), 0u);
+    for (std::size_t moves = 0; !open.empty() && moves < most_moves * edges_.size();) {
+      const std::uint32_t point = open.back();
+      open.pop_back();
+      for (std::uint32_t i = first_[point]; i < first_[point + 1]; ++i) {
+        const std::uint32_t next = neighbours_[i];
+        const bool is_inner = graph_.to(points_[point]) == points_[next];
+        const std::uint32_t inner = is_inner ? point : next, outer = is_inner ? next : point;
+        if (!runs_backward(points_[inner])) continue;
+        const Disk from = graph_.disk(points_[inner]), to = graph_.disk(points_[outer]);
+        const bool inner_moves = touches(points_[inner], to);
+        if (!inner_moves && !touches(points_[outer], from)) continue;
+        const std::uint32_t moved = inner_moves ? inner : outer;
+        graph_.set_disk(points_[moved], inner_moves ? to : from);
+        open.push_back(moved);
+        ++moves;
+        if (moved == point) break;
+      }
+    }
+  }
+
+ private:
+  bool runs_backward(std::uint32_t edge) const {
+    const Disk &from = graph_.disk(edge), &to = graph_.disk(graph_.to(edge));
+    if (from.center == to.center) return false;
+    const auto& [first, second] = graph_[edge].element;
+    const Vec2 along = site::direction_along(elements_.sites[second], elements_.sites[first]);
+    return dot(along, from.center) > dot(along, to.center);
+  }
+
+  /// Numbers the ends of the edges, and lists the neighbours of each.
+  void number_points() {
+    constexpr std::uint32_t unused = ~std::uint32_t{0};
+    std::vector<std::uint32_t> number(graph_.places(), unused);
+    const auto for_ends = [&](const auto& work) {
+      for (const std::uint32_t edge : edges_) {
+        work(edge, graph_.to(edge));
+        work(graph_.to(edge), edge);
+      }
+    };
+    first_.assign(2, 0);
+    for_ends([&](std::uint32_t node, std::uint32_t) {
+      if (number[node] == unused) {
+        number[node] = static_cast<std::uint32_t>(points_.size());
+        points_.push_back(node);
+        first_.push_back(0);
+      }
+      ++first_[number[node] + 2];
+    });
+    for (std::size_t i = 2; i < first_.size(); ++i) first_[i] += first_[i - 1];
+    neighbours_.resize(first_.back());
+    for_ends([&](std::uint32_t node, std::uint32_t other) {
+      neighbours_[first_[number[node] + 1]++] = number[other];
+    });
+  }
+
+  /// The points, in steps of a power of two of how well they are known.
+  std::vector<std::uint32_t> best_known_first() const {
+    constexpr int worst = 127;
+    std::vector<std::uint8_t> rank(points_.size());
+    std::array<std::uint32_t, worst + 2> begin{};
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      const double known = spread(points_[i]);
+      rank[i] = static_cast<std::uint8_t>(known > 0 ? std::clamp(2 - std::ilogb(known), 0, worst)
+                                                    : worst);
+      ++begin[rank[i] + 1u];
+    }
+    for (std::size_t i = 1; i < begin.size(); ++i) begin[i] += begin[i - 1];
+    std::vector<std::uint32_t> order(points_.size());
+    for (std::uint32_t i = 0; i < points_.size(); ++i) order[begin[rank[i]]++] = i;
+    return order;
+  }
+
+  /// Whether a disk could stand for a Voronoi point: it touches the elements, and their carriers,
+  /// so that no edge is bent.
+  bool touches(std::uint32_t node, const Disk& disk) const {
+    const auto touched = graph_.touched(node);
+    return std::all_of(touched.rbegin(), touched.rend(), [&](std::uint32_t element) {
+      const site::Site& site = elements_.sites[element];
+      const double squared = site::squared_distance(site, disk.center);
+      return std::abs(std::sqrt(squared) - disk.radius) <= slack_ &&
+             std::abs(site::carrier_distance(site, disk.center) - disk.radius) <= slack_;
+    });
+  }
+
+  /// Twice the area of the triangle of the unit vectors to a Voronoi point's feet: the determinant
+  /// of its equations.
+  double spread(std::uint32_t node) const {
+    std::array<Vec2, 3> g;
+    const auto touched = graph_.touched(node);
+    for (std::size_t k = 0; k < 3; ++k)
+      g[k] = site::outward(elements_.sites[touched[k]], graph_.disk(node).center);
+    return std::abs(cross(g[1] - g[0], g[2] - g[0]));
+  }
+
+  Graph& graph_;
+  const Elements& elements_;
+  double slack_;
+  std::vector<std::uint32_t> edges_;   ///< that may have no length
+  std::vector<std::uint32_t> points_;  ///< their ends, numbered
+  std::vector<std::uint32_t> first_, neighbours_;
+};
+
+}  // namespace
+
+void join_ties(Graph& graph, double tolerance) {
+  Ties ties(graph, 0.5 * tolerance);
+  if (ties.empty()) return;
+  ties.join();
+  ties.straighten(tolerance);
+}
+
+std::optional<Disk> find_overreach(const Graph& graph, double slack) {
+  constexpr double close = 0.1;            // radii from an element to the next
+  constexpr std::uint32_t first_step = 4;  // nearer ones, merges have seen
+  const Elements& elements = graph.elements();
+  for (const std::uint32_t node : graph.doubtful_edges()) {
+    const Disk& disk = graph.disk(node);
+    if (graph.runs_backward(node, slack)) return disk;
+    const auto touched = graph.touched(node);
+    const auto is_far = [&](std::uint32_t element) {
+      const double reach = close * disk.radius;
+      return squared_norm(elements.sites[element].point - elements.sites[touched[0]].point) >
+             reach * reach;
+    };
+    if (is_far(touched[1]) || is_far(touched[2])) continue;
+    const auto [begin, end] = graph.loop_around(touched[0]);
+    const std::uint32_t size = end - begin;
+    const double inner = std::max(0.0, disk.radius - slack);
+    for (std::uint32_t step = first_step; step < size; step *= 2)
+      for (const std::uint32_t far : {step, size - step})
+        if (site::squared_distance(elements.sites[begin + (touched[0] - begin + far) % size],
+                                   disk.center) < inner * inner)
+          return disk;
+  }
+  return std::nullopt;
+}
+
+}  // namespace medial::lee

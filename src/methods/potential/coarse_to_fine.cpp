@@ -1,0 +1,159 @@
+#include "methods/potential/coarse_to_fine.h"
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "medial/shape.h"
+#include "methods/potential/successor.h"
+
+namespace medial::potential {
+namespace {
+
+/// Which points of a closed line to keep, so that no other is further than `tolerance` from what
+/// they make (Douglas and Peucker): at least three, in order.
+std::vector<std::uint32_t> kept_points(const std::vector<Vec2>& points, double tolerance) {
+  const auto count = static_cast<std::uint32_t>(points.size());
+  const auto furthest = [&](std::uint32_t first, std::uint32_t last, const auto& away) {
+    std::pair<double, std::uint32_t> best{-1, first};
+    for (std::uint32_t i = first + 1; i < last; ++i)
+      best = std::max(best, {away(points[i % count]), i});
+    return best;
+  };
+  const auto from_start = [&](Vec2 p) { return distance(p, points[0]); };
+  const std::uint32_t opposite = furthest(0, count, from_start).second;
+  std::vector<std::uint32_t> kept = {0, opposite};
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> stack = {{0, opposite}, {opposite, count}};
+  std::pair<double, std::uint32_t> aside{-1, 0};  // the furthest of those that were left out
+  while (!stack.empty()) {
+    const auto [first, last] = stack.back();
+    stack.pop_back();
+    const Vec2 a = points[first], along = points[last % count] - a;
+    const auto away = [&](Vec2 p) {
+      const double t = std::clamp(dot(p - a, along) / squared_norm(along), 0.0, 1.0);
+      return distance(p, a + t * along);
+    };
+    const auto [far, i] = furthest(first, last, away);
+    if (far <= tolerance) {
+      aside = std::max(aside, {far, i});
+      continue;
+    }
+    kept.push_back(i);
+    stack.push_back({first, i});
+    stack.push_back({i, last});
+  }
+  if (kept.size() < 3) kept.push_back(aside.second);
+  std::sort(kept.begin(), kept.end());
+  return kept;
+}
+
+/// The polygon within `tolerance` of a region's border; nothing where it crosses itself.
+std::optional<Region> approximation(const Region& region, double tolerance) {
+  Region result;
+  std::vector<Ring> rings;
+  for (const Region::Loop& loop : region.loops) {
+    std::vector<Vec2> points;
+    for (std::uint32_t i = loop.begin; i < loop.end; ++i) points.push_back(region.pieces[i].start);
+    const std::vector<std::uint32_t> kept = kept_points(points, tolerance);
+    Region::Loop range = loop;
+    range.begin = static_cast<std::uint32_t>(result.pieces.size());
+    Ring& ring = rings.emplace_back();
+    for (std::size_t k = 0; k < kept.size(); ++k) {
+      const Vec2 before = points[kept[(k + kept.size() - 1) % kept.size()]];
+      const Vec2 here = points[kept[k]], next = points[kept[(k + 1) % kept.size()]];
+      if (cross(here - before, next - here) > 0)
+        result.corners.push_back(static_cast<std::uint32_t>(result.pieces.size()));
+      result.pieces.push_back({here, next, region.pieces[loop.begin + kept[k]].site});
+      ring.points.push_back(here);
+    }
+    range.end = static_cast<std::uint32_t>(result.pieces.size());
+    result.loops.push_back(range);
+  }
+  const auto shape = build_shape(rings);
+  if (!shape || shape->component_count() != 1 || shape->loop_count() != region.loops.size())
+    return std::nullopt;
+  result.size = region.size;
+  return result;
+}
+
+/// Moves a skeleton to the valleys of another border. Points that are outside of it go: what is
+/// next to them downward takes their links.
+void move_to(const Region& region, const Charges& charges, double step, Skeleton& skeleton) {
+  SuccessorOptions search;
+  search.order = skeleton.order;
+  search.step = 0.25 * step;
+  search.accuracy = step / 64;
+  const std::size_t count = skeleton.points.size();
+  std::vector<std::uint32_t> instead(count);
+  for (std::uint32_t i = 0; i < count; ++i) instead[i] = i;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 16), [&](const auto& range) {
+    Evaluator evaluator(charges);
+    for (std::size_t i = range.begin(); i < range.end(); ++i) {
+      ValleyPoint& point = skeleton.points[i];
+      if (point.kind == ValleyPoint::Kind::corner) continue;
+      if (!encloses(region, point.place)) {
+        instead[i] = static_cast<std::uint32_t>(count);
+        continue;
+      }
+      point.radius = evaluator.place(point.place).distance;
+      const Vec2 moved = point.kind == ValleyPoint::Kind::minimum
+                             ? minimum_near(evaluator, point, search)
+                             : successor(evaluator, point, search.order, search);
+      if (encloses(region, moved)) point.place = moved;
+      point.radius = evaluator.place(point.place).distance;
+    }
+  });
+  const std::vector<bool> outside = [&] {
+    std::vector<bool> flags(count);
+    for (std::size_t i = 0; i < count; ++i) flags[i] = instead[i] == count;
+    return flags;
+  }();
+  for (const auto& [from, to] : skeleton.links)
+    if (outside[from]) instead[from] = to;
+  const auto settled = [&](std::uint32_t i) {
+    for (std::size_t k = 0; k < count && i < count && outside[i]; ++k) i = instead[i];
+    return i;
+  };
+  std::vector<std::uint32_t> number(count, static_cast<std::uint32_t>(count));
+  std::vector<ValleyPoint> points;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (outside[i]) continue;
+    number[i] = static_cast<std::uint32_t>(points.size());
+    points.push_back(skeleton.points[i]);
+  }
+  std::vector<std::array<std::uint32_t, 2>> links;
+  for (const auto& [from, to] : skeleton.links) {
+    const std::uint32_t a = settled(from), b = settled(to);
+    if (a < count && b < count && a != b && number[a] < count && number[b] < count)
+      links.push_back({number[a], number[b]});
+  }
+  skeleton.points = std::move(points);
+  skeleton.links = std::move(links);
+}
+
+}  // namespace
+
+Skeleton trace_coarse_to_fine(const Region& region, const Charges& charges,
+                              const SkeletonOptions& options, double coarse) {
+  // Below this a polygon's valleys are where the border's are, but for a search's accuracy.
+  const double least = options.step / 64;
+  std::optional<Skeleton> skeleton;
+  for (double tolerance = coarse; tolerance > least; tolerance /= 2) {
+    const std::optional<Region> polygon = approximation(region, tolerance);
+    if (!polygon) continue;
+    const Charges charged(polygon->pieces);
+    if (skeleton) {
+      move_to(*polygon, charged, options.step, *skeleton);
+      continue;
+    }
+    skeleton = trace_valleys(*polygon, charged, options);
+    if (!skeleton->whole) skeleton.reset();
+  }
+  if (!skeleton) return trace_valleys(region, charges, options);
+  move_to(region, charges, options.step, *skeleton);
+  return *skeleton;
+}
+
+}  // namespace medial::potential

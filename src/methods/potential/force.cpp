@@ -1,0 +1,327 @@
+#include "methods/potential/force.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace medial::potential {
+namespace {
+
+/// The force of one piece and its derivatives, from its integral J and its ends' r^-order.
+void add_piece(double order, Vec2 t, double x1, double x2, double y, double integral, double p1,
+               double p2, Force& sum) {
+  const double s1 = p1 / (x1 * x1 + y * y), s2 = p2 / (x2 * x2 + y * y);
+  const double along = (p2 - p1) / order, across = y * integral;
+  const double a = x2 * s2 - x1 * s1, b = -y * (s2 - s1), c = -order * integral - a;
+  // (a, b; b, c) turned into the frame of the plane.
+  const double xx = t.x * t.x, xy = t.x * t.y, yy = t.y * t.y;
+  sum.force = sum.force + along * t + across * left_of(t);
+  sum.xx += a * xx - 2 * b * xy + c * yy;
+  sum.yy += a * yy + 2 * b * xy + c * xx;
+  sum.xy += (a - c) * xy + b * (xx - yy);
+}
+
+/// Some pieces side by side, with r^-n, r^-2 at both ends and J(n) of each, for an order n that
+/// rises by two.
+struct Block {
+  using Lanes = std::array<double, Charges::leaf_size>;
+
+  /// The ends of the pieces as seen from a place, in units of the nearest charge's distance.
+  void load(const Charges& charges, std::uint32_t begin, std::uint32_t end, Vec2 place,
+            double inverse) {
+    count = end - begin;
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::size_t i = begin + k;
+      tx[k] = charges.tangent_x[i];
+      ty[k] = charges.tangent_y[i];
+      const double dx = place.x - charges.start_x[i], dy = place.y - charges.start_y[i];
+      x1[k] = -(dx * tx[k] + dy * ty[k]) * inverse;
+      x2[k] = x1[k] + charges.lengths[i] * inverse;
+      y[k] = (dy * tx[k] - dx * ty[k]) * inverse;
+    }
+  }
+
+  /// To order 1, with (6) without a difference.
+  void start_at_one() {
+    for (std::size_t k = 0; k < count; ++k) {
+      const double length = x2[k] - x1[k], square = y[k] * y[k];
+      const double r1 = std::sqrt(x1[k] * x1[k] + square);
+      const double r2 = std::sqrt(x2[k] * x2[k] + square);
+      const double size1 = std::abs(x1[k]) + r1, size2 = std::abs(x2[k]) + r2;
+      const double before = x1[k] < 0 ? square / size1 : size1;
+      const double behind = x2[k] > 0 ? square / size2 : size2;
+      const double excess = before + behind;
+      p1[k] = 1 / r1;
+      p2[k] = 1 / r2;
+      j[k] = 2 * length * (p1[k] + p2[k]) / (excess * (excess + 2 * length));
+      q1[k] = p1[k] * p1[k];
+      q2[k] = p2[k] * p2[k];
+      inverse_square[k] = 1 / std::max(square, 1e-300);
+    }
+  }
+
+  /// To order 0, with an angle, or to that of `series`.
+  void start_at(double order, const std::optional<LowOrder>& series) {
+    for (std::size_t k = 0; k < count; ++k) {
+      const double square = y[k] * y[k];
+      q1[k] = 1 / (x1[k] * x1[k] + square);
+      q2[k] = 1 / (x2[k] * x2[k] + square);
+      p1[k] = order == 0 ? 1 : std::pow(q1[k], 0.5 * order);
+      p2[k] = order == 0 ? 1 : std::pow(q2[k], 0.5 * order);
+      if (order == 0) j[k] = x1[k] == x2[k] ? 0 : segment_integral(0, x1[k], x2[k], y[k]);
+      inverse_square[k] = 1 / std::max(square, 1e-300);
+    }
+    if (order == 0) return;
+    const auto of = [&](Lanes& lane) { return std::span<double>(lane).first(count); };
+    series->integrals(of(x1), of(x2), of(y), of(p1), of(p2), of(j));
+  }
+
+  /// (5) of order n and its derivatives, of all pieces.
+  void add_force(double n, Force& total) const {
+    Force add;
+    const double inverse_n = 1 / n;
+    for (std::size_t k = 0; k < count; ++k) {
+      const double along = (p2[k] - p1[k]) * inverse_n, across = y[k] * j[k];
+      add.force.x += tx[k] * along - ty[k] * across;
+      add.force.y += ty[k] * along + tx[k] * across;
+      const double s1 = p1[k] * q1[k], s2 = p2[k] * q2[k];
+      const double a = x2[k] * s2 - x1[k] * s1;
+      const double b = -y[k] * (s2 - s1);
+      const double c = -n * j[k] - a;
+      // (a, b; b, c) turned into the frame of the plane.
+      const double xx = tx[k] * tx[k], xy = tx[k] * ty[k], yy = ty[k] * ty[k];
+      add.xx += a * xx - 2 * b * xy + c * yy;
+      add.yy += a * yy + 2 * b * xy + c * xx;
+      add.xy += (a - c) * xy + b * (xx - yy);
+    }
+    total.force = total.force + add.force;
+    total.xx += add.xx;
+    total.xy += add.xy;
+    total.yy += add.yy;
+  }
+
+  /// (9): from order n to n + 2.
+  void rise_from(double n) {
+    const double inverse_next = 1 / (n + 2);
+    for (std::size_t k = 0; k < count; ++k) {
+      p1[k] *= q1[k];
+      p2[k] *= q2[k];
+      j[k] = inverse_square[k] * (x2[k] * p2[k] - x1[k] * p1[k] + (n + 1) * j[k]) * inverse_next;
+    }
+  }
+
+  std::size_t count = 0;
+  alignas(32) Lanes x1, x2, y, tx, ty, j, p1, p2, q1, q2, inverse_square;
+};
+
+}  // namespace
+
+Charges::Nearest Evaluator::place(Vec2 p) {
+  place_ = p;
+  const Charges::Nearest nearest = charges_.nearest(p);
+  inverse_ = 1 / nearest.distance;
+  return nearest;
+}
+
+void Evaluator::gather(double low, double high) {
+  near_.clear();
+  far_.clear();
+  // The logarithm of what a unit of charge may be off.
+  const double logarithm_share = std::log(far_field / (charges_.length() * inverse_));
+  std::array<std::uint32_t, 64> stack{};
+  std::size_t depth = 1;
+  while (depth > 0) {
+    const std::uint32_t index = stack[--depth];
+    const Charges::Node& node = charges_.nodes[index];
+    const double distance = medial::distance(place_, node.center) * inverse_;
+    const double radius = node.radius * inverse_;
+    // No charge of the node is nearer than this.
+    const double gap = distance - radius;
+    if (gap > 1) {
+      const double logarithm = std::log(gap);
+      if (-(low + 1) * logarithm < logarithm_share) continue;
+      // The remainder of Taylor's expansion to the second order, where it is largest.
+      const double order = std::clamp(3 / logarithm - 2, low, high);
+      const double remainder = std::log((order + 1) * (order + 2) * (order + 3) / 6) +
+                               3 * std::log(radius) - (order + 4) * logarithm;
+      if (remainder < logarithm_share) {
+        far_.push_back(index);
+        continue;
+      }
+    }
+    if (node.right != 0) {
+      stack[depth++] = node.right;
+      stack[depth++] = index + 1;
+    } else {
+      near_.push_back({node.begin, node.end});
+    }
+  }
+}
+
+void Evaluator::add_far(double order, Force& total) const {
+  for (const std::uint32_t index : far_) {
+    const Charges::Node& node = charges_.nodes[index];
+    const Vec2 v = inverse_ * (place_ - node.center);
+    const double scale = inverse_ * inverse_ * inverse_;
+    const double xx = scale * node.xx, xy = scale * node.xy, yy = scale * node.yy;
+    const double square = squared_norm(v), charge = node.length * inverse_;
+    const double power = std::pow(square, -0.5 * order - 1);
+    const double first = (order + 2) * power / square;
+    const Vec2 moved{xx * v.x + xy * v.y, xy * v.x + yy * v.y};
+    const double second = (order + 4) * dot(v, moved) / square;
+    total.force =
+        total.force + (charge * power + 0.5 * first * (second - xx - yy)) * v - first * moved;
+    total.xx += charge * (power - first * v.x * v.x);
+    total.xy -= charge * first * v.x * v.y;
+    total.yy += charge * (power - first * v.y * v.y);
+  }
+}
+
+void Evaluator::sum(double start, double low, std::span<Force> forces) {
+  if (start != 0 && start != 1 && !(start_ && start_->order() == start)) start_.emplace(start);
+  const double high = low + static_cast<double>(forces.size()) - 1;
+  // Upward, the recurrence multiplies errors by 1 / |y| an order: up to 1e7 is borne.
+  const double flat = start == 1 && high < 3 ? 0 : std::pow(1e-7, 1 / high);
+  Block block;
+  for (const Range& range : near_) {
+    block.load(charges_, range.begin, range.end, place_, inverse_);
+    for (std::size_t k = 0; flat > 0 && k < block.count; ++k) {
+      if (std::abs(block.y[k]) >= flat) continue;
+      if (block.x1[k] < 0 && block.x2[k] > 0) continue;  // as near as the nearest: |y| >= 1
+      sum_steep(static_cast<std::uint32_t>(range.begin + k), start, low, forces);
+      block.x1[k] = block.x2[k] = block.y[k] = 1;  // nothing
+    }
+    if (start == 1) {
+      block.start_at_one();
+    } else {
+      block.start_at(start, start_);
+    }
+    for (double n = start;; n += 2) {
+      if (n > low - 0.5 && n > 0)
+        block.add_force(n, forces[static_cast<std::size_t>(std::lround(n - low))]);
+      if (n + 2 > high + 0.5) break;
+      block.rise_from(n);
+    }
+  }
+}
+
+void Evaluator::sum_steep(std::uint32_t piece, double start, double low,
+                          std::span<Force> forces) const {
+  const double high = low + static_cast<double>(forces.size()) - 1;
+  const Vec2 t = charges_.tangent(piece), d = place_ - charges_.start(piece);
+  const double first = -dot(d, t) * inverse_;
+  const double last = first + charges_.lengths[piece] * inverse_;
+  const double y = cross(t, d) * inverse_, square = y * y;
+  const bool ahead = first >= 0;
+  const double x1 = ahead ? first : -last, x2 = ahead ? last : -first;
+  const double r1 = std::sqrt(x1 * x1 + square), r2 = std::sqrt(x2 * x2 + square);
+  // The recurrence is taken downward, from where its start no longer matters: each two orders
+  // shrink an error by y^2 / r1^2.
+  double top = start;
+  while (top + 2 < high + 0.5) top += 2;
+  const double last_order = top;
+  const double ratio = 2 * std::log(r1 / std::max(std::abs(y), 1e-150));
+  const double steps = std::ceil((32 - high * std::log(r1)) / ratio);
+  top += 2 * std::clamp(steps, 1.0, 80.0);
+  double p1 = std::pow(r1, -top), p2 = std::pow(r2, -top);
+  double j = (p1 / x1 - p2 / x2) / top;
+  for (double n = top; n > start; n -= 2) {
+    // From order n to n - 2.
+    j = (n * square * j + x1 * p1 - x2 * p2) / (n - 1);
+    p1 *= r1 * r1;
+    p2 *= r2 * r2;
+    const double order = n - 2;
+    if (order > last_order + 0.5 || order < low - 0.5 || order <= 0) continue;
+    // Mirrored where the piece lies behind.
+    const Vec2 forward = ahead ? t : -t;
+    add_piece(order, forward, x1, x2, ahead ? y : -y, j, p1, p2,
+              forces[static_cast<std::size_t>(std::lround(order - low))]);
+  }
+}
+
+void Evaluator::sum_high(double order, Force& total) const {
+  const HighOrder high(order);
+  // What lies further away than the square root of this adds less than the far field may.
+  const double nothing =
+      std::pow(charges_.length() * inverse_ / far_field, 2 / (order + 1)) / (inverse_ * inverse_);
+  for (const Range& range : near_) {
+    std::array<double, Charges::leaf_size> squares;
+    charges_.squared_distances(place_, range.begin, range.end, squares);
+    for (std::uint32_t i = range.begin; i < range.end; ++i) {
+      if (squares[i - range.begin] > nothing) continue;
+      const Vec2 t = charges_.tangent(i), d = place_ - charges_.start(i);
+      const double x1 = -dot(d, t) * inverse_, x2 = x1 + charges_.lengths[i] * inverse_;
+      const double y = cross(t, d) * inverse_;
+      const double square1 = x1 * x1 + y * y, square2 = x2 * x2 + y * y;
+      const double p1 = high.power(square1), p2 = high.power(square2);
+      add_piece(order, t, x1, x2, y, high.integral(x1, x2, y, p1, p2), p1, p2, total);
+    }
+  }
+}
+
+Force Evaluator::force(double order) {
+  Force result;
+  gather(order, order);
+  if (order >= HighOrder::least_order) {
+    sum_high(order, result);
+  } else {
+    sum(std::fmod(order, 2), order, std::span(&result, 1));
+  }
+  add_far(order, result);
+  return result;
+}
+
+void Evaluator::forces(int first, std::span<Force> forces) {
+  const int last = first + static_cast<int>(forces.size()) - 1;
+  std::fill(forces.begin(), forces.end(), Force{});
+  gather(first, last);
+  sum(1, first, forces);
+  if (last > 1) sum(0, first, forces);
+  for (int order = first; order <= last; ++order)
+    add_far(order, forces[static_cast<std::size_t>(order - first)]);
+}
+
+Evaluator::Field Evaluator::field(double order) {
+  if (order <= 2) return {force(order), low_log_potential(order)};
+  // The potential follows from the derivatives of the force two orders below.
+  Field result;
+  Force lower;
+  if (order < HighOrder::least_order) {
+    std::array<Force, 3> both;
+    gather(order - 2, order);
+    sum(std::fmod(order, 2), order - 2, both);
+    result.force = both[2];
+    lower = both[0];
+    add_far(order, result.force);
+    add_far(order - 2, lower);
+  } else {
+    lower = force(order - 2);
+    result.force = force(order);
+  }
+  result.log_potential = std::log(lower.potential(order - 2)) - (1 - order) * std::log(inverse_);
+  return result;
+}
+
+double Evaluator::low_log_potential(double order) const {
+  double total = 0;
+  for (std::size_t i = 0; i < charges_.size(); ++i) {
+    const Vec2 t = charges_.tangent(i), d = place_ - charges_.start(i);
+    const double x1 = -dot(d, t) * inverse_, x2 = x1 + charges_.lengths[i] * inverse_;
+    const double y = cross(t, d) * inverse_;
+    if (order == 1) {
+      total += first_potential(x1, x2, y);
+    } else if (order == 2) {
+      total += segment_integral(0, x1, x2, y);
+    } else {
+      // (n - 1) J(n - 2) is what (9) leaves of the next order.
+      const double r1 = std::hypot(x1, y), r2 = std::hypot(x2, y);
+      total += (order * y * y * segment_integral(order, x1, x2, y) - x2 * std::pow(r2, -order) +
+                x1 * std::pow(r1, -order)) /
+               (order - 1);
+    }
+  }
+  return std::log(total) - (1 - order) * std::log(inverse_);
+}
+
+}  // namespace medial::potential

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "methods/potential/charges.h"
+#include "methods/potential/integral.h"
+
+namespace medial::potential {
+
+constexpr int largest_order = 4096;
+
+/// The n-force at a point and its derivatives by the point's coordinates, in units in which the
+/// distance d to the nearest charge is 1: the force itself is `force` / d^n, its derivatives are
+/// (xx, xy; xy, yy) / d^(n + 1). So no order overflows. The force is minus the gradient of the
+/// potential (7) divided by n, so the derivatives are symmetric, and their trace is -n times the
+/// potential of order n + 2.
+struct Force {
+  Vec2 force;
+  double xx = 0, xy = 0, yy = 0;
+
+  /// The potential of order + 2, in the same units; about the force beside one side alone.
+  double potential(double order) const { return -(xx + yy) / order; }
+  double determinant() const { return xx * yy - xy * xy; }
+  Vec2 derivative(Vec2 v) const { return {xx * v.x + xy * v.y, xy * v.x + yy * v.y}; }
+};
+
+/// Forces of all charges together ([ahuja1997], (5), (6), (8), (9)).
+///
+/// Each piece adds, with x along it, y across it, r^2 = x^2 + y^2 and n the order,
+/// ([r^-n] / n, y J(n)), where J(n), the integral of dx / r^(n + 2), follows from J(n - 2) by the
+/// recurrence (9), or at one high order alone from HighOrder, in the same time for any. The
+/// recurrence is stable upward while |y| is not small against the distance to the nearest charge;
+/// other pieces are passed sideways (they lie on the point's own line, nearly), and take the
+/// recurrence downward. Pieces far away add as moments (charge and quadrupole about its centre) or
+/// not at all, as their bounds allow: what that changes is below `far_field` in the units of Force.
+/// Keeps a reference to the charges and scratch memory of its own: one evaluator a thread.
+class Evaluator {
+ public:
+  explicit Evaluator(const Charges& charges) : charges_(charges) {}
+
+  /// Where the next forces are asked for. Returns the nearest charge.
+  Charges::Nearest place(Vec2 p);
+
+  /// The n-force at the place. Requires a place on no charge and order in [1, largest_order].
+  Force force(double order);
+  /// Those of the whole orders first, first + 1, ... as many as `forces` holds. One pass for all.
+  void forces(int first, std::span<Force> forces);
+  struct Field {
+    Force force;
+    double log_potential = 0;  ///< the logarithm of the potential (7)
+  };
+  /// Both at the place, of one order. Requires order in [1, largest_order].
+  Field field(double order);
+
+  static constexpr double far_field = 1e-7;
+
+ private:
+  /// Which pieces to sum one by one, and which sets by their moments, for orders in [low, high].
+  void gather(double low, double high);
+  void add_far(double order, Force& sum) const;
+  /// The logarithm of the potential of an order up to 2, piece by piece.
+  double low_log_potential(double order) const;
+  /// Adds the near pieces' forces of the orders start, start + 2, ... from `low` on; forces[i]
+  /// takes that of order low + i.
+  void sum(double start, double low, std::span<Force> forces);
+  /// The near pieces' forces of one high order, from the integral itself.
+  void sum_high(double order, Force& sum) const;
+  void sum_steep(std::uint32_t piece, double start, double low, std::span<Force> forces) const;
+
+  struct Range {
+    std::uint32_t begin, end;
+  };
+  const Charges& charges_;
+  Vec2 place_;
+  double inverse_ = 1;             ///< of the distance to the nearest charge
+  std::optional<LowOrder> start_;  ///< of the recurrence at orders that are no whole numbers
+  std::vector<Range> near_;
+  std::vector<std::uint32_t> far_;
+};
+
+}  // namespace medial::potential

@@ -1,0 +1,363 @@
+#include "methods/potential/force_lines.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace medial::potential {
+namespace {
+
+/// The unit direction of the valley at a place near its floor: the eigenvector of the derivatives'
+/// larger eigenvalue, after what is but growth along the force. The other one, across the valley,
+/// is negative.
+Vec2 valley_direction(const Force& force, double order) {
+  // The Hessian of V^(-1/n), nearly a distance, is that of the potential and this.
+  const double growth = (order + 1) / force.potential(order);
+  const Vec2 f = force.force;
+  const double half = 0.5 * (force.xx - force.yy + growth * (f.x * f.x - f.y * f.y));
+  const double angle = 0.5 * std::atan2(force.xy + growth * f.x * f.y, half);
+  return {std::cos(angle), std::sin(angle)};
+}
+
+Vec2 blend(Vec2 direction, Vec2 force) {
+  const Vec2 sum = direction + unit(force);
+  return norm(sum) > 0.2 ? unit(sum) : unit(force);
+}
+
+}  // namespace
+
+bool contains(const Box& box, Vec2 p) {
+  return p.x >= box.low.x && p.x <= box.high.x && p.y >= box.low.y && p.y <= box.high.y;
+}
+
+Vec2 unit(Vec2 v) {
+  const double length = norm(v);
+  return length > 0 ? (1 / length) * v : Vec2{};
+}
+
+bool ForceLines::advance(Vec2 p, Vec2 direction, double step, Vec2& q, Force& force,
+                         double& radius) {
+  constexpr double sine_enough = 0.01;
+  const Vec2 aside = left_of(direction);
+  double t = 0;
+  for (int i = 0; i < 7; ++i) {
+    q = p + step * direction + t * aside;
+    force = force_at(q, radius);
+    if (!(radius > 0)) return false;
+    const Vec2 moved = q - p;
+    const double size = norm(force.force) * norm(moved);
+    if (!(size > 0) || (options_.through_flats && lost(force))) return true;
+    const double g = cross(moved, force.force);
+    if (std::abs(g) <= sine_enough * size) return true;
+    const double slope = cross(aside, force.force) + cross(moved, force.derivative(aside)) / radius;
+    if (!(slope < 0)) {
+      // Lines part here, so an explicit step is a stable one.
+      const Vec2 halfway = p + 0.5 * step * direction;
+      const Vec2 way = unit(force_at(halfway, radius).force);
+      if (!(radius > 0) || dot(way, direction) < 0.5) return false;
+      q = p + step * way;
+      force = force_at(q, radius);
+      return radius > 0;
+    }
+    t -= g / slope;
+    if (!(std::abs(t) <= 0.6 * step)) return false;
+  }
+  return false;
+}
+
+std::optional<ValleyPoint> ForceLines::critical_point(Vec2 p, bool minimum) {
+  for (int i = 0; i < 60; ++i) {
+    double radius = 0;
+    const Force force = force_at(p, radius);
+    if (!(radius > 0)) return std::nullopt;
+    const double determinant = force.determinant();
+    Vec2 move;
+    if (minimum ? determinant > 0 : determinant < 0) {
+      move = {-radius * (force.yy * force.force.x - force.xy * force.force.y) / determinant,
+              -radius * (force.xx * force.force.y - force.xy * force.force.x) / determinant};
+    } else if (minimum) {
+      move = 0.3 * radius * unit(force.force);
+    } else {
+      return std::nullopt;
+    }
+    const double size = norm(move);
+    const double longest = 0.4 * reach(radius);
+    if (size > longest) move = (longest / size) * move;
+    // Back and forth: a valley floor too flat for the arithmetic.
+    if (i > 30) move = 0.5 * move;
+    if (size <= 1e-8 * radius || (i == 59 && size <= 0.01 * radius)) {
+      if (minimum ? determinant > 0 : determinant < 0)
+        return ValleyPoint{p, radius, valley_direction(force, options_.order),
+                           minimum ? ValleyPoint::Kind::minimum : ValleyPoint::Kind::saddle};
+      return std::nullopt;
+    }
+    p = p + move;
+    if (!minimum && i > 40) return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+/// One line while it is followed.
+class ForceLines::Walk {
+ public:
+  Walk(ForceLines& lines, Vec2 p, Vec2 direction, double share, Start start)
+      : lines_(lines), share_(share), direction_(direction), climbing_(start == Start::either) {
+    here_.p = p;
+    here_.force = lines_.force_at(p, here_.radius);
+  }
+
+  Trail run() {
+    Next next = Next::on;
+    for (int count = 0; count < most_steps && !lines_.exhausted() && next != Next::stuck; ++count) {
+      begins_ = count == 0;
+      if (!begins_ && has_left_box()) return std::move(trail_);
+      if (settles()) continue;
+      next = propose();
+      if (next == Next::on) next = judge();
+      if (next == Next::on) next = go();
+      if (next == Next::ended) return std::move(trail_);
+    }
+    if (!lines_.exhausted()) trail_.end = minimum_here();
+    return std::move(trail_);
+  }
+
+ private:
+  enum class Next : std::uint8_t {
+    on,     ///< with what is told of the step
+    again,  ///< with another step
+    ended,  ///< the trail is whole
+    stuck,  ///< no step leads on
+  };
+  struct Spot {
+    Vec2 p;
+    double radius = 0;
+    Force force;
+  };
+  static constexpr int most_steps = 10000;
+  static constexpr double longest = 0.8, least = longest / 64;
+
+  double step() const { return scale_ * lines_.reach(here_.radius); }
+  /// Where the force along a valley is lost, the line goes on as it went.
+  bool is_flat(const Force& force) const {
+    return lines_.options_.through_flats && lines_.lost(force);
+  }
+  bool has_left_box() const {
+    return lines_.options_.within && !contains(*lines_.options_.within, here_.p);
+  }
+  std::uint32_t minimum_here() {
+    return lines_.graph_.minimum_at(
+        {here_.p, here_.radius, direction_, ValleyPoint::Kind::minimum});
+  }
+  void record(ValleyPoint::Kind kind) {
+    trail_.points.push_back({here_.p, here_.radius, direction_, kind});
+  }
+
+  /// Down to the floor, where steps so short would zigzag across the valley.
+  bool settles() {
+    const Vec2 before = direction_;
+    if (!(scale_ < 0.15 && !settled_ &&
+          lines_.settle(here_.p, here_.radius, here_.force, direction_)))
+      return false;
+    settled_ = true;
+    if ((climbing_ || is_flat(here_.force)) && dot(direction_, before) < 0)
+      direction_ = -direction_;
+    record(ValleyPoint::Kind::valley);
+    scale_ = 0.4;
+    return true;
+  }
+
+  /// A step along the force, or a shorter one; an explicit one at last.
+  Next propose() {
+    const bool good =
+        lines_.advance(here_.p, direction_, step(), there_.p, there_.force, there_.radius);
+    if (!good && scale_ > least) {
+      scale_ = std::max(scale_ / 2, least);
+      if (!climbing_ && !is_flat(here_.force) && (!begins_ || norm(here_.force.force) > 1e-9))
+        direction_ = blend(direction_, here_.force.force);
+      return Next::again;
+    }
+    if (!good && (climbing_ || !step_explicitly())) return Next::ended;
+    moved_ = unit(there_.p - here_.p);
+    turn_ = dot(moved_, direction_);
+    if (turn_ < 0.8 && scale_ > 0.1) {
+      scale_ /= 2;
+      return Next::again;
+    }
+    return Next::on;
+  }
+
+  /// False on the border.
+  bool step_explicitly() {
+    there_.p = here_.p + step() * unit(here_.force.force);
+    there_.force = lines_.force_at(there_.p, there_.radius);
+    return there_.radius > 0;
+  }
+
+  /// What the force at the end of the step tells: a saddle climbed, a minimum, an end.
+  Next judge() {
+    flat_ = is_flat(there_.force);
+    if (climbing_ && !flat_ && dot(there_.force.force, moved_) > 0) {
+      climbing_ = false;
+      if (!trail_.points.empty()) trail_.points.back().kind = ValleyPoint::Kind::saddle;
+    }
+    const bool turned = !flat_ && dot(there_.force.force, moved_) < 0;
+    // A floor without slope between rising ones stands for a minimum.
+    if (turned && flat_since_ != no_point && share_ > 0) {
+      trail_.end = minimum_here();
+      return Next::ended;
+    }
+    // Up to the border: no saddle is ahead. Necks wider than this are passed.
+    constexpr double narrowest = 1e-4;
+    if (climbing_ && here_.radius < narrowest * lines_.options_.step) return Next::ended;
+    return turned && !climbing_ ? meet_turned_force() : Next::on;
+  }
+
+  /// The force has turned: a minimum or a saddle lies near, or the step was too long.
+  Next meet_turned_force() {
+    if (there_.force.determinant() > 0 || here_.force.determinant() > 0) {
+      const auto minimum =
+          lines_.critical_point(there_.force.determinant() > 0 ? there_.p : here_.p, true);
+      if (minimum && is_near(*minimum)) {
+        trail_.end = lines_.graph_.minimum_at(*minimum);
+        return Next::ended;
+      }
+    }
+    if (scale_ > 0.2) {
+      scale_ /= 2;
+      return Next::again;
+    }
+    const int most_stalls = lines_.options_.through_flats ? 3 : 40;
+    const auto saddle = lines_.critical_point(here_.p, false);
+    if (saddle && is_near(*saddle) && stalls_ < most_stalls) {
+      ++stalls_;
+      pass(*saddle);
+      return Next::again;
+    }
+    if (scale_ > least) {
+      scale_ /= 2;
+      return Next::again;
+    }
+    if (++stalls_ > most_stalls) return Next::stuck;
+    return step_explicitly() ? Next::on : Next::ended;
+  }
+
+  bool is_near(const ValleyPoint& point) const {
+    return distance(point.place, here_.p) <= 2 * lines_.reach(here_.radius);
+  }
+
+  /// The line all but meets a saddle: on, to the side that the line is on.
+  void pass(const ValleyPoint& saddle) {
+    trail_.weakest = 0;
+    trail_.place = saddle.place;
+    direction_ = dot(here_.force.force, saddle.tangent) < 0 ? -saddle.tangent : saddle.tangent;
+    trail_.points.push_back({saddle.place, saddle.radius, direction_, ValleyPoint::Kind::valley});
+    here_.p = saddle.place + 0.25 * lines_.reach(saddle.radius) * direction_;
+    here_.force = lines_.force_at(here_.p, here_.radius);
+    record(ValleyPoint::Kind::valley);
+  }
+
+  /// Takes the step, and ends in a valley that is known.
+  Next go() {
+    if (scale_ >= 0.15) settled_ = false;
+    const Vec2 way = there_.p - here_.p;
+    here_ = there_;
+    direction_ = unit(way);
+    // Other valleys may begin where a floor without slope does: a corridor's end.
+    const bool level = flat_ != (flat_since_ != no_point);
+    if (level && !trail_.points.empty() && trail_.points.back().kind == ValleyPoint::Kind::valley)
+      trail_.points.back().kind = ValleyPoint::Kind::level;
+    record(level ? ValleyPoint::Kind::level : ValleyPoint::Kind::valley);
+    if (here_.force.determinant() < 0 && norm(here_.force.force) < trail_.weakest) {
+      trail_.weakest = norm(here_.force.force);
+      trail_.place = here_.p;
+    }
+    if ((share_ > 0 && joins(way)) || comes_round()) return Next::ended;
+    if (turn_ > 0.98) scale_ = std::min(longest, scale_ * 1.6);
+    return Next::on;
+  }
+
+  bool joins(Vec2 way) {
+    const ValleyGraph& graph = lines_.graph_;
+    const bool any_way = flat_ || climbing_;
+    trail_.end = graph.joined(here_.p, here_.radius, direction_, share_, any_way);
+    if (trail_.end == no_point && any_way)
+      trail_.end = graph.crossed(here_.p - way, here_.p, here_.radius);
+    return trail_.end != no_point;
+  }
+
+  /// To where the floor without slope that it is on began.
+  bool comes_round() {
+    const auto last = static_cast<std::uint32_t>(trail_.points.size() - 1);
+    if (!flat_) {
+      flat_since_ = no_point;
+    } else if (flat_since_ == no_point) {
+      flat_since_ = last;
+    } else if (last >= flat_since_ + 8 && distance(trail_.points[flat_since_].place, here_.p) <
+                                              0.8 * lines_.reach(here_.radius)) {
+      trail_.closes = flat_since_;
+    }
+    return trail_.closes != no_point;
+  }
+
+  ForceLines& lines_;
+  const double share_;
+  Trail trail_;
+  Spot here_, there_;  ///< there: the end of the step
+  Vec2 direction_;
+  Vec2 moved_;              ///< the direction of the step
+  double turn_ = 1;         ///< between it and the last one's: the cosine
+  bool flat_ = false;       ///< is_flat() there
+  double scale_ = longest;  ///< of the step, in units of the longest here
+  bool begins_ = true;
+  bool climbing_;
+  bool settled_ = false;  ///< since the last good step
+  int stalls_ = 0;
+  std::uint32_t flat_since_ = no_point;
+};
+
+Trail ForceLines::follow(Vec2 p, Vec2 direction, double share, Start start) {
+  return Walk(*this, p, direction, share, start).run();
+}
+
+bool ForceLines::settle(Vec2& p, double& radius, Force& force, Vec2& direction) {
+  for (int i = 0; i < 8; ++i) {
+    const Vec2 along = valley_direction(force, options_.order), across = left_of(along);
+    const double gentle = dot(along, force.derivative(along));
+    const double steep = dot(across, force.derivative(across));
+    if (!(steep < 0 && std::abs(gentle) < 0.4 * -steep)) return false;
+    const double move = radius * dot(force.force, across) / -steep;
+    if (!(std::abs(move) <= 0.5 * radius)) return false;
+    p = p + move * across;
+    force = force_at(p, radius);
+    if (std::abs(move) > 0.01 * reach(radius)) continue;
+    const Vec2 floor = valley_direction(force, options_.order);
+    direction = dot(floor, force.force) < 0 ? -floor : floor;
+    return true;
+  }
+  return false;
+}
+
+Label ForceLines::label_of(const Trail& trail) const {
+  if (trail.end == no_point) return {};
+  if (graph_.labels[trail.end].minimum != trail.end) return graph_.labels[trail.end];
+  const Vec2 valley = graph_.skeleton.points[trail.end].tangent;
+  const Vec2 last = trail.points.empty() ? Vec2{} : trail.points.back().tangent;
+  return {trail.end, dot(valley, last) > 0};
+}
+
+Label ForceLines::keep(std::uint32_t from, const Trail& trail) {
+  const Label label = label_of(trail);
+  const auto first = static_cast<std::uint32_t>(graph_.skeleton.points.size());
+  std::uint32_t last = from;
+  for (const ValleyPoint& point : trail.points) {
+    // A minimum may be made of the last point.
+    if (trail.end != no_point && point.place == graph_.skeleton.points[trail.end].place) break;
+    const std::uint32_t index = graph_.add_point(point, label);
+    graph_.add_link(last, index);
+    last = index;
+  }
+  if (trail.end != no_point) graph_.add_link(last, trail.end);
+  if (trail.closes != no_point) graph_.add_link(last, first + trail.closes);
+  return label;
+}
+
+}  // namespace medial::potential

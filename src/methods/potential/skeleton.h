@@ -1,0 +1,61 @@
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "methods/potential/force.h"
+#include "methods/potential/region.h"
+
+namespace medial::potential {
+
+/// A point of a potential valley.
+struct ValleyPoint {
+  enum class Kind : std::uint8_t {
+    corner,
+    valley,
+    minimum,
+    saddle,
+    level  ///< where a floor without slope begins or ends
+  };
+  Vec2 place;
+  double radius = 0;  ///< distance to the border
+  Vec2 tangent;       ///< unit vector along the valley; (0, 0) at a corner
+  Kind kind = Kind::valley;
+};
+
+/// Valleys of the potential as a graph.
+struct Skeleton {
+  std::vector<ValleyPoint> points;
+  std::vector<std::array<std::uint32_t, 2>> links;  ///< from the higher potential to the lower
+  std::uint64_t minima = 0;
+  std::uint64_t saddles = 0;
+  std::uint64_t forces = 0;  ///< computed
+  double order = 1;          ///< of the potential
+  bool whole = true;         ///< connected, with one cycle for each hole
+};
+
+struct SkeletonOptions {
+  double order = 1;  ///< of the potential
+  double step = 0;   ///< longest, in units of the frame
+  /// Goes on through valleys where the force is lost in the arithmetic. Their ends are not sought.
+  bool through_flats = false;
+  double bend = 0;            ///< the slope of a valley's floor that chords of arcs may make
+  std::optional<Vec2> from;   ///< only the branch that the force leads to from here
+  std::optional<Box> within;  ///< only what lies in this box
+  std::uint64_t spent = 0;    ///< forces that orders before this one have taken
+  const std::atomic<bool>* cancel = nullptr;  ///< ends the work early: the skeleton is not whole
+};
+
+/// MAT-Newtonian-Polygon ([ahuja1997], Section 4.1.3): force lines from the convex corners down to
+/// the minima of the potential, and from the saddles between the minima down to both sides. The
+/// potential has no maxima, so minima and saddles make a connected graph with one cycle for each
+/// hole: the paper's traversal from every minimum, taken from the other end, where following the
+/// force is stable. Saddles are sought where neighbouring places of the border belong to different
+/// minima.
+Skeleton trace_valleys(const Region& region, const Charges& charges,
+                       const SkeletonOptions& options);
+
+}  // namespace medial::potential

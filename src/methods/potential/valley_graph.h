@@ -1,0 +1,79 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <unordered_map>
+#include <vector>
+
+#include "methods/potential/skeleton.h"
+
+namespace medial::potential {
+
+constexpr std::uint32_t no_point = std::numeric_limits<std::uint32_t>::max();
+
+/// To what a place of the border belongs: a minimum, and the side on which its line arrives.
+struct Label {
+  std::uint32_t minimum = no_point;
+  bool side = false;
+  friend bool operator==(const Label&, const Label&) = default;
+};
+
+/// Links of a skeleton near a place: a hash of cells whose size follows the distance to the border,
+/// because steps do.
+class LinkIndex {
+ public:
+  void add(std::uint32_t link, Vec2 a, Vec2 b, double scale);
+  /// The links in the cells that `reach` around p meets, some more than once.
+  template <class Take>
+  void near(Vec2 p, double reach, double scale, const Take& take) const;
+
+ private:
+  template <class Visit>
+  static void visit(int level, Vec2 low, Vec2 high, const Visit& act);
+  std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_;
+};
+
+/// A skeleton that grows: its points by place, its connected parts, what belongs to which minimum.
+class ValleyGraph {
+ public:
+  /// `step`: the longest.
+  explicit ValleyGraph(double step) : limit_(step) {}
+
+  /// How long a step is where the border is `radius` away.
+  double reach(double radius) const { return std::min(limit_, radius); }
+
+  std::uint32_t add_point(const ValleyPoint& point, Label label = {});
+  void add_link(std::uint32_t from, std::uint32_t to);
+  /// The minimum at this place, known or new.
+  std::uint32_t minimum_at(const ValleyPoint& point);
+
+  /// The valley that a line at q joins if it comes nearer to one than `share` of a step: its next
+  /// point downward. Only one that leads the same way, unless `any_way`.
+  std::uint32_t joined(Vec2 q, double radius, Vec2 direction, double share, bool any_way) const;
+
+  /// The valley that a step from p to q crosses: the nearer end of its link.
+  std::uint32_t crossed(Vec2 p, Vec2 q, double radius) const;
+
+  /// The places along a way between two connected points, both ends included. O(points).
+  std::vector<Vec2> way(std::uint32_t from, std::uint32_t to) const;
+  bool connected(std::uint32_t a, std::uint32_t b) { return find(a) == find(b); }
+  std::size_t parts() const { return parts_; }
+  std::size_t cycles() const { return skeleton.links.size() + parts_ - skeleton.points.size(); }
+
+  Skeleton skeleton;
+  std::vector<Label> labels;  ///< of each point
+
+ private:
+  std::uint32_t find(std::uint32_t i);
+
+  double limit_;
+  LinkIndex links_;
+  std::vector<std::uint32_t> first_;   ///< of each point, an end of a link: 2 link + side
+  std::vector<std::uint32_t> next_;    ///< of each end of a link, the next one at its point
+  std::vector<std::uint32_t> parent_;  ///< of each point, in the forest of connected parts
+  std::size_t parts_ = 0;
+  std::vector<std::uint32_t> minima_;
+};
+
+}  // namespace medial::potential

@@ -1,0 +1,121 @@
+#include "methods/raster/brushfire/brushfire.h"
+
+#include <cmath>
+
+#include "axis/pixel_graph.h"
+#include "axis/sites.h"
+#include "base/stopwatch.h"
+#include "base/tolerance.h"
+#include "medial/brushfire.h"
+#include "methods/raster/brushfire/fill.h"
+#include "methods/raster/ridge/digitize.h"
+#include "site/boundary_tree.h"
+
+namespace medial::brushfire {
+namespace {
+
+/// The boundary's edges in the local frame.
+std::vector<site::Site> boundary_of(const Shape& shape, const LocalFrame& frame) {
+  std::vector<site::Site> edges;
+  for (std::size_t i = 0; i < shape.loop_count(); ++i) {
+    const sites::Loop loop(shape, i, frame);
+    for (std::uint32_t k = 0; k < loop.size(); ++k) {
+      const sites::Pieces pieces = loop.edge(k);
+      edges.insert(edges.end(), pieces.site.begin(),
+                   pieces.site.begin() + static_cast<std::ptrdiff_t>(pieces.count));
+    }
+  }
+  return edges;
+}
+
+/// Exact distances from the boundary, of one place after another.
+class Radius {
+ public:
+  Radius(const Shape& shape, const LocalFrame& frame)
+      : frame_(frame), edges_(boundary_of(shape, frame)), tree_(edges_) {}
+
+  double at(Vec2 point) {
+    const Vec2 local = frame_.to_local(point);
+    // The distance changes by no more than the way from the place before.
+    const double reach = (before_.radius + norm(local - before_.center)) * (1 + 1e-9);
+    const auto hit = tree_.nearest(local, reach, 0, static_cast<std::uint32_t>(edges_.size() - 1));
+    const double squared = hit ? hit.squared_distance : reach * reach;
+    before_ = {local, std::sqrt(squared)};
+    return frame_.inverse * before_.radius;
+  }
+
+ private:
+  const LocalFrame& frame_;
+  std::vector<site::Site> edges_;
+  site::BoundaryTree tree_;
+  Disk before_{{0, 0}, 16};  // farther than anything in the frame
+};
+
+/// The pixels of the axis in the order of increasing x within increasing y.
+std::vector<MedialPixel> pixels_of(const Image& axis, const std::vector<Run>& runs,
+                                   const raster::Grid& grid, Radius& radius) {
+  std::vector<MedialPixel> pixels;
+  pixels.reserve(axis.count());
+  for (const Run& run : runs) {
+    const std::span<const std::uint64_t> row = axis.row(run.row);
+    for (std::size_t w = run.first / 64; w <= run.last / 64; ++w) {
+      for (std::uint64_t bits = row[w]; bits != 0; bits &= bits - 1) {
+        const auto column =
+            static_cast<std::uint32_t>(w * 64) + static_cast<std::uint32_t>(std::countr_zero(bits));
+        if (column < run.first || column > run.last) continue;
+        const raster::Pixel pixel{column, run.row};
+        pixels.push_back({pixel, radius.at(grid.center(pixel)), run.component, {no_site, no_site}});
+      }
+    }
+  }
+  return pixels;
+}
+
+}  // namespace
+
+std::optional<Error> refuse(const Shape& shape, const Options& options) {
+  const auto grid = ridge::grid_for(bounding_box(shape), options);
+  if (!grid) return grid.error();
+  if (!fits_image(grid->columns, grid->rows))
+    return Error{ErrorCode::too_large, "the diagonal of the grid is above 2^16 pixels", {}};
+  return std::nullopt;
+}
+
+Result<MedialAxis> run(const Shape& shape, const Options& options) {
+  MedialAxis axis;
+  axis.method = name_of(Method::brushfire);
+  Statistics& statistics = axis.statistics;
+  Stopwatch all, watch;
+  const Box box = bounding_box(shape);
+  const LocalFrame frame = frame_of(box);
+  axis.tolerance = tolerance_for(box, options.tolerance);
+
+  const raster::Grid grid = ridge::grid_for(box, options).value();
+  const std::vector<Run> runs = runs_inside(shape, grid);
+  if (runs.empty())
+    return Error{ErrorCode::unsupported,
+                 "no pixel's centre lies inside the shape: the resolution is too low",
+                 {}};
+  const Image inside = image_of(runs, grid);
+  statistics.seconds_sites = watch.lap();
+
+  BrushfireOptions fire;
+  fire.family = options.brushfire;
+  fire.progress = options.progress;
+  fire.cancel = options.cancel;
+  const Result<Image> burnt = thin(inside, fire);
+  if (!burnt) return burnt.error();
+  statistics.seconds_walk = watch.lap();
+
+  Radius radius(shape, frame);
+  statistics.seconds_tree = watch.lap();
+  const std::vector<MedialPixel> pixels = pixels_of(*burnt, runs, grid, radius);
+  statistics.queries = pixels.size();
+  axis.sites = sites::result_sites(shape, sites::number_sites(shape, frame, options.corner_angle));
+  link_pixels(grid, pixels, nullptr, axis);
+  statistics.seconds_collect = watch.lap();
+  statistics.seconds = all.lap();
+  return axis;
+}
+
+}  // namespace medial::brushfire

@@ -1,0 +1,327 @@
+#include "site/bisector.h"
+
+#include <optional>
+
+namespace medial::site {
+namespace {
+
+/// The disk that touches segment `s` at parameter `at` and the vertex.
+Disk disk_over(const Site& s, double at, Vec2 vertex) {
+  const Vec2 foot = s.point + at * s.direction;
+  const Vec2 d = vertex - foot;
+  const double r = squared_norm(d) / (2 * dot(s.normal(), d));
+  return {foot + r * s.normal(), r};
+}
+
+/// A difference of disks, and the product that contact equations are made of.
+struct DiskVector {
+  Vec2 c;
+  double r;
+};
+double product(const DiskVector& u, const DiskVector& v) { return dot(u.c, v.c) - u.r * v.r; }
+
+Disk middle_of(const Disk& from, const Disk& to) {
+  return {midpoint(from.center, to.center), 0.5 * (from.radius + to.radius)};
+}
+
+/// The control point of an edge between two vertices. Along the line of centres the radius is a
+/// hyperbola: with h measured from the middle of the vertices, r = d cosh u and h = d sinh u, and
+/// the shoulder point lies at the mean u. Its weight is cosh of half the difference of u, which the
+/// two e^u = (r + h) / d = d / (r - h) tell without cancellation.
+Control control_of_vertices(Vec2 a, Vec2 b, const Disk& from, const Disk& to) {
+  const Disk middle = middle_of(from, to);
+  const Vec2 foot = midpoint(a, b), across = 0.5 * (b - a);
+  const double squared = squared_norm(across);
+  if (!(squared > 0)) return {middle, 1};
+  const Vec2 along = (1 / std::sqrt(squared)) * left_of(across);
+  const auto exponential = [&](const Disk& disk) {  // times d
+    const double h = dot(along, disk.center - foot);
+    return h >= 0 ? disk.radius + h : squared / (disk.radius - h);
+  };
+  const double growth = exponential(to) / exponential(from);
+  const double weight_squared = 0.25 * (growth + 1) * (1 / growth + 1);
+  return {{foot + (1 / weight_squared) * (middle.center - foot), middle.radius / weight_squared},
+          std::sqrt(weight_squared)};
+}
+
+/// The control point of an edge between a segment and a vertex, a parabola: polynomial in the
+/// foot's parameter, so it is the blossom at both ends. With x and y the vertex seen from the
+/// segment, r(s) = ((s - x)^2 + y^2) / (2 y) has the blossom ((s - x)(t - x) + y^2) / (2 y).
+Control control_of_parabola(const Site& segment, Vec2 vertex, const Disk& from, const Disk& to) {
+  const double y = cross(segment.direction, vertex - segment.point);
+  const double s = dot(segment.direction, from.center - vertex);
+  const double t = dot(segment.direction, to.center - vertex);
+  if (!(y > 0)) return {middle_of(from, to), 1};
+  // Far from a vertex that is next to the segment, the radius knows better how far, as (s - x)^2 +
+  // y^2 = 2 y r: what is lost in y then cancels. The feet stay between those of the ends.
+  constexpr double next_to = 0x1p-4;
+  const auto by_radius = [&](double way, double radius) {
+    return y < next_to * std::abs(way) ? std::copysign(std::sqrt(y * (2 * radius - y)), way) : way;
+  };
+  const double r = (by_radius(s, from.radius) * by_radius(t, to.radius) + y * y) / (2 * y);
+  // Centres lie at height r over the line; the vertex at height y.
+  const Vec2 center = vertex + (0.5 * (s + t)) * segment.direction + (r - y) * segment.normal();
+  return {{center, r}, 1};
+}
+
+/// The control point of an edge with an arc. With P(u, v) = u.v - u_r v_r, a contact equation is
+/// round P(d, d) = 2 flat (n.d - r) for the disk seen from the site's point, and its polar form at
+/// both ends holds for the control point, the pole of the edge's chord: it lies in the plane of the
+/// edge, P-perpendicular to the chord over its middle. Of the two sites the rounder one gives the
+/// height over the chord and the weight.
+Control pole_of_chord(const Site& a, const Site& b, const Disk& from, const Disk& to) {
+  const Disk middle = middle_of(from, to);
+  // An edge this short against its radius, its arcs' and the distances to their centres (its foci)
+  // is straight to rounding; its plane would be lost.
+  constexpr double straight = 1e-8;
+  double size = middle.radius;
+  for (const Site* s : {&a, &b})
+    if (s->is_arc())
+      size =
+          std::min({size, 1 / std::abs(s->curvature), std::abs(1 / s->curvature - middle.radius)});
+  size *= straight;
+  if (squared_norm(to.center - from.center) <= size * size) return {middle, 1};
+  // Scaled so that round and flat add up to one in size.
+  const auto flat_of = [](const Site& s) {
+    return s.is_vertex() ? 0 : 1 / (1 + std::abs(s.curvature));
+  };
+  const auto round_of = [&](const Site& s) {
+    return s.is_vertex() ? 1 : s.curvature / (1 + std::abs(s.curvature));
+  };
+  const bool by_a = std::abs(round_of(a)) >= std::abs(round_of(b));
+  const Site &site = by_a ? a : b, &other = by_a ? b : a;
+  const double round = round_of(site), flat = flat_of(site), ratio = round_of(other) / round;
+  // The plane of the edge: g.c + s r = constant. Points seen from the middle keep their digits.
+  const Vec2 p = site.point - middle.center, q = other.point - middle.center;
+  const Vec2 g =
+      round_of(other) * (q - p) + flat_of(other) * other.normal() - (ratio * flat) * site.normal();
+  const double s = ratio * flat - flat_of(other);
+  const DiskVector chord{to.center - from.center, to.radius - from.radius};
+  // In the plane, and P-perpendicular to the chord.
+  const DiskVector across{{-g.y * chord.r - s * chord.c.y, s * chord.c.x + g.x * chord.r},
+                          cross(g, chord.c)};
+  // The gradient of the site's contact equation, the mean of both ends.
+  const DiskVector gradient{round * (middle.center - site.point) - flat * site.normal(),
+                            round * middle.radius - flat};
+  const double squared = product(chord, chord);
+  const double height = round * squared / (4 * product(across, gradient));
+  const double weight_squared = squared / (squared + 4 * height * height * product(across, across));
+  if (!(std::isfinite(height) && weight_squared > 0 && std::isfinite(weight_squared)))
+    return {middle, 1};
+  return {{middle.center + height * across.c, middle.radius + height * across.r},
+          std::sqrt(weight_squared)};
+}
+
+/// How far the edge with this control point strays from touching both sites: in its middle, and
+/// next to its ends, where it may be bent most; next to a focus, on all scales down to rounding.
+double deviation(const Control& control, const Site& a, const Site& b, const Disk& from,
+                 const Disk& to, bool near_focus) {
+  double worst = 0;
+  const auto add = [&](double t, double rest) {
+    const double first = rest * rest, last = t * t, middle = 2 * t * rest * control.weight;
+    const double scale = 1 / (first + middle + last);
+    const Vec2 center =
+        scale * (first * from.center + middle * control.point.center + last * to.center);
+    const double radius =
+        scale * (first * from.radius + middle * control.point.radius + last * to.radius);
+    for (const Site* s : {&a, &b})
+      worst = std::max({worst, std::abs(carrier_distance(*s, center) - radius), -radius});
+  };
+  for (const double t : {0.0625, 0.5, 0.9375}) add(t, 1 - t);
+  if (!near_focus) return worst;
+  for (double t = 0x1p-6; t > 0x1p-26; t *= 0x1p-2) {
+    add(t, 1 - t);
+    add(1 - t, t);
+  }
+  return worst;
+}
+
+/// The least distance of a disk from the centres of arcs among two sites, and its radius.
+double focal_distance(const Site& a, const Site& b, const Disk& disk) {
+  double least = disk.radius;
+  for (const Site* s : {&a, &b})
+    if (s->is_arc()) least = std::min(least, std::abs(1 / s->curvature - disk.radius));
+  return least;
+}
+
+/// The unit tangent (x, y) at a disk of the bisector of a and b, with the growth of the radius
+/// along it; in either direction.
+DiskVector tangent_at(const Site& a, const Site& b, const Disk& disk) {
+  const Vec2 to_a = outward(a, disk.center), to_b = outward(b, disk.center);
+  const Vec2 sum = to_a + to_b, difference = left_of(to_a - to_b);
+  const Vec2 along = squared_norm(sum) > squared_norm(difference) ? sum : difference;
+  const Vec2 unit = (1 / norm(along)) * along;
+  return {unit, 0.5 * dot(sum, unit)};
+}
+
+/// The same control point, where the tangents at both ends meet. Their parts up to there, u and v,
+/// have one product P(u, u) = P(v, v), and the weight is the square root of P(chord, chord) /
+/// (4 P(v, v)). That keeps the digits that the pole loses where centre and radius change almost
+/// alike. None where an end is the centre of an arc, or the tangents are as good as
+/// parallel.
+std::optional<Control> meeting_of_tangents(const Site& a, const Site& b, const Disk& from,
+                                           const Disk& to) {
+  const DiskVector first = tangent_at(a, b, from), last = tangent_at(a, b, to);
+  const DiskVector chord{to.center - from.center, to.radius - from.radius};
+  // The common perpendicular of the two tangents is short: least squares, in each case without the
+  // part along the other tangent, which is where digits would cancel.
+  const auto inner = [](const DiskVector& u, const DiskVector& v) {
+    return dot(u.c, v.c) + u.r * v.r;
+  };
+  const auto without = [](const DiskVector& u, double share, const DiskVector& v) {
+    return DiskVector{u.c - share * v.c, u.r - share * v.r};
+  };
+  const double aa = inner(first, first), ab = inner(first, last), bb = inner(last, last);
+  const double ca = inner(chord, first), cb = inner(chord, last);
+  const DiskVector first_across = without(first, ab / bb, last);
+  const DiskVector last_across = without(last, ab / aa, first);
+  const double s =
+      inner(without(chord, cb / bb, last), first_across) / inner(first_across, first_across);
+  const double t =
+      -inner(without(chord, ca / aa, first), last_across) / inner(last_across, last_across);
+  const bool from_first = std::abs(s) * std::sqrt(aa) < std::abs(t) * std::sqrt(bb);
+  const Disk& end = from_first ? from : to;
+  const DiskVector& along = from_first ? first : last;
+  const double way = from_first ? s : t;
+  const double weight_squared =
+      product(chord, chord) / (4 * way * way * ((1 - along.r) * (1 + along.r)));
+  // On the way from the one end to the other.
+  const bool between = s * ca > 0 && t * cb < 0;
+  if (!(between && weight_squared > 0 && std::isfinite(weight_squared))) return std::nullopt;
+  return Control{{end.center + way * along.c, end.radius + way * along.r},
+                 std::sqrt(weight_squared)};
+}
+
+/// The control point of an edge with an arc: the pole, or where that strays, the meeting of
+/// tangents. What is left where that does not help is so nearly straight that a parabola through
+/// the disk halfway does better.
+Control control_with_arc(const Site& a, const Site& b, const Disk& from, const Disk& to) {
+  constexpr double few_roundings = 0x1p-50, long_enough = 0x1p-7, curved = 0x1p-3;
+  Control best = pole_of_chord(a, b, from, to);
+  const double length = distance(from.center, to.center);
+  const double focal = std::min(focal_distance(a, b, from), focal_distance(a, b, to));
+  if (length < long_enough * focal) return best;
+  const bool near_focus = focal < curved * length;
+  double strays = deviation(best, a, b, from, to, near_focus);
+  // Where the sites are as good as tangent, all disks beyond the ends touch both as well, and so do
+  // those of negative radius.
+  const Vec2 chord = to.center - from.center;
+  const auto is_between = [&](Vec2 center) {
+    const double along = dot(center - from.center, chord);
+    return along >= 0 && along <= squared_norm(chord);
+  };
+  const Control straight{middle_of(from, to), 1};
+  if ((strays > few_roundings || !is_between(best.point.center)) &&
+      deviation(straight, a, b, from, to, near_focus) <= few_roundings)
+    return straight;
+  const auto take_if_better = [&](const Control& control) {
+    const double now = deviation(control, a, b, from, to, near_focus);
+    if (!(now < strays)) return;
+    strays = now;
+    best = control;
+  };
+  if (strays <= few_roundings) return best;
+  if (const auto meeting = meeting_of_tangents(a, b, from, to)) take_if_better(*meeting);
+  if (strays <= few_roundings) return best;
+  const Bisector bisector(b, a);
+  const Disk halfway =
+      bisector.disk_at(0.5 * (bisector.position(from.center) + bisector.position(to.center)), from);
+  const Disk middle = straight.point;
+  const Disk bent{2 * halfway.center - middle.center, 2 * halfway.radius - middle.radius};
+  if (is_between(bent.center)) take_if_better({bent, 1});
+  take_if_better(straight);
+  return best;
+}
+
+/// Of a convex arc that both disks touch in one end only, being larger than its own circle: the
+/// end.
+std::optional<Site> pinned_end(const Site& site, const Disk& from, const Disk& to) {
+  if (!(site.curvature * std::min(from.radius, to.radius) > 1)) return std::nullopt;
+  const auto gap = [&](Vec2 end) {
+    return std::max(std::abs(distance(end, from.center) - from.radius),
+                    std::abs(distance(end, to.center) - to.radius));
+  };
+  return make_vertex(gap(site.point) <= gap(site.end()) ? site.point : site.end());
+}
+
+}  // namespace
+
+Vec2 Bisector::tangent(Vec2 center) const {
+  if (is_straight) return direction;
+  if (!right.is_vertex() && !left.is_vertex() && reference == nullptr) return direction;
+  const Vec2 along = left_of(outward(left, center) - outward(right, center));
+  const double size = norm(along);
+  return (reference == nullptr && dot(along, direction) < 0 ? -1 / size : 1 / size) * along;
+}
+
+Disk Bisector::disk_at(double position, const Disk& near) const {
+  if (is_straight) {
+    const double way = position - dot(direction, near.center);
+    return {near.center + way * direction, near.radius + way};
+  }
+  if (reference != nullptr) {
+    const double s = position / scale;
+    const Vec2 foot = reference->at(s), normal = reference->normal_at(s);
+    const double radius = tangent_radius(foot, normal, reference == &right ? left : right);
+    return {foot + radius * normal, radius};
+  }
+  if (right.is_vertex() && left.is_vertex()) {
+    const Vec2 middle = midpoint(right.point, left.point);
+    const Vec2 center = middle + (position - dot(direction, middle)) * direction;
+    return {center, distance(center, right.point)};
+  }
+  if (left.is_vertex())
+    return disk_over(right, dot(right.direction, position * direction - right.point), left.point);
+  if (right.is_vertex())
+    return disk_over(left, dot(left.direction, position * direction - left.point), right.point);
+  const Vec2 center = near.center + (position - dot(direction, near.center)) * direction;
+  return {center, carrier_distance(right, center)};
+}
+
+double Bisector::last_position(const Disk& near, double limit) const {
+  if (is_straight) return position(near.center) + std::max(0.0, limit - near.radius);
+  if (reference != nullptr) {
+    const double end = reference == &right ? scale * right.length : 0;
+    double low = position(near.center), high = end;
+    if (!(low < high) || disk_at(end, near).radius <= limit) return end;
+    constexpr int halvings = 40;  // what is left of the interval is no matter
+    for (int i = 0; i < halvings; ++i) {
+      const double middle = 0.5 * (low + high);
+      (disk_at(middle, near).radius <= limit ? low : high) = middle;
+    }
+    return low;
+  }
+  if (right.is_vertex() && left.is_vertex()) {
+    const double half = 0.5 * distance(right.point, left.point);
+    const double height = std::sqrt(std::max(0.0, limit * limit - half * half));
+    return dot(direction, midpoint(right.point, left.point)) + height;
+  }
+  if (right.is_vertex() || left.is_vertex()) {
+    const Site& segment = right.is_vertex() ? left : right;
+    const Vec2 vertex = right.is_vertex() ? right.point : left.point;
+    // Over the segment's line, a vertex at height y is reached by r = (x^2 + y^2) / (2 y).
+    const double y = cross(segment.direction, vertex - segment.point);
+    const double x = std::sqrt(std::max(0.0, (2 * limit - y) * y));
+    return dot(direction, vertex) + x;
+  }
+  // Two segments: the radius is linear along the bisector, and so are the feet, which leave their
+  // segments in the end.
+  const double slope = dot(right.normal(), direction);
+  const double drift = std::abs(dot(right.direction, direction));
+  double reach = (right.length + left.length) / drift;
+  if (slope > 0) reach = std::min(reach, (limit - near.radius) / slope);
+  if (slope < 0) reach = std::min(reach, near.radius / -slope);
+  return position(near.center) + std::max(0.0, reach);
+}
+
+Control control_of(const Site& a, const Site& b, const Disk& from, const Disk& to) {
+  if (const auto end = pinned_end(a, from, to)) return control_of(*end, b, from, to);
+  if (const auto end = pinned_end(b, from, to)) return control_of(a, *end, from, to);
+  if (a.is_arc() || b.is_arc()) return control_with_arc(a, b, from, to);
+  if (a.is_vertex() && b.is_vertex()) return control_of_vertices(a.point, b.point, from, to);
+  if (a.is_vertex()) return control_of_parabola(b, a.point, from, to);
+  if (b.is_vertex()) return control_of_parabola(a, b.point, from, to);
+  return {middle_of(from, to), 1};
+}
+
+}  // namespace medial::site

@@ -1,0 +1,369 @@
+#include "site/boundary_tree.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "base/memory.h"
+
+namespace medial::site {
+namespace {
+
+using site::Site;
+
+/// Beyond this a site belongs to no box.
+constexpr double outside = 64;
+
+/// What single precision (u = 2^-24) may add to the distance from a box, for local coordinates
+/// below 2 and distances below 4. Along each axis: the query's centre rounded, 2 u; the difference,
+/// below 4, rounded, 4 u; the box is rounded outward, which is the safe side. Both axes together: 6
+/// sqrt(2) u < 8.5 u. The squares and their sum round by 2 u of the squared distance, u of the
+/// distance: 4 u; the limit's square by half of that. In all less than 14.5 u; this is 16 u.
+constexpr double single_precision_slack = 0x1p-20;
+
+/// What rounding (u = 2^-53) may do to a height above a chord, or to a position along it. A sum of
+/// two products with a local point below 2 in both coordinates: 4 sqrt(2) u < 6 u, once for the
+/// boundary's point and once for the query's centre; the end of a site, 4 roundings below 2: 8 u; a
+/// direction that is a unit vector up to 3 u, times a distance below 4: 12 u. That makes 32 u.
+constexpr double chord_rounding = 0x1p-48;
+/// Chord boxes pay where the boundary strays from the chord by no more than this share of it,
+constexpr double flat_enough = 1.0 / 16;
+/// and on the levels of nodes of 8 to 512 sites: larger ones are few.
+constexpr std::size_t chord_levels = 4;
+/// where at least one node in so many has one.
+constexpr std::size_t rare = 16;
+
+struct Waiting {
+  std::uint32_t index;
+  std::uint32_t level;  ///< 0: a block
+  float squared;
+};
+
+}  // namespace
+
+BoundaryTree::BoundaryTree(std::span<const Site> sites)
+    : sites_(sites),
+      has_arcs_(
+          std::any_of(sites.begin(), sites.end(), [](const Site& site) { return site.is_arc(); })) {
+  const auto nodes_over = [](std::size_t count) { return (count + fan - 1) / fan; };
+  constexpr std::size_t grain = 1024;
+
+  levels_.push_back(large_vector<Boxes>(nodes_over((sites.size() + block_size - 1) / block_size)));
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, levels_[0].size(), grain),
+                    [&](const auto& range) {
+                      for (std::size_t node = range.begin(); node < range.end(); ++node) {
+                        for (std::size_t lane = 0; lane < fan; ++lane) {
+                          const std::size_t begin = (node * fan + lane) * block_size;
+                          const std::size_t end = std::min(begin + block_size, sites.size());
+                          Extent extent;
+                          for (std::size_t i = begin; i < end; ++i)
+                            if (std::abs(sites[i].point.x) <= outside) extent.add(sites[i]);
+                          levels_[0][node].set(lane, extent);
+                        }
+                      }
+                    });
+  while (levels_.back().size() > 1) {
+    const std::vector<Boxes>& lower = levels_.back();
+    auto upper = large_vector<Boxes>(nodes_over(lower.size()));
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, lower.size(), grain),
+                      [&](const auto& range) {
+                        for (std::size_t child = range.begin(); child < range.end(); ++child)
+                          upper[child / fan].set(child % fan, lower[child]);
+                      });
+    levels_.push_back(std::move(upper));
+  }
+  build_chord_boxes();
+}
+
+void BoundaryTree::build_chord_boxes() {
+  for (std::uint32_t level = 0; level < std::min<std::size_t>(chord_levels, levels_.size());
+       ++level) {
+    const std::size_t span = std::size_t{block_size} << (2 * level);
+    const std::size_t nodes = levels_[level].size();
+    auto boxes = large_vector<ChordBoxes>(nodes);
+    std::atomic<std::size_t> count = 0;
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, nodes, 256), [&](const auto& range) {
+      std::size_t fitting = 0;
+      for (std::size_t node = range.begin(); node < range.end(); ++node) {
+        for (std::size_t lane = 0; lane < fan; ++lane) {
+          const std::size_t begin = (node * fan + lane) * span;
+          const std::size_t end = std::min(begin + span, sites_.size());
+          std::optional<ChordBox> box;
+          if (begin < end) box = chord_box(sites_.subspan(begin, end - begin));
+          if (box) {
+            ++fitting;
+          } else {
+            constexpr double all = std::numeric_limits<double>::infinity();
+            box = ChordBox{{1, 0}, -all, all, -all, all};
+          }
+          boxes[node].normal_x[lane] = box->normal.x;
+          boxes[node].normal_y[lane] = box->normal.y;
+          boxes[node].low[lane] = box->low;
+          boxes[node].high[lane] = box->high;
+          boxes[node].begin[lane] = box->begin;
+          boxes[node].end[lane] = box->end;
+        }
+      }
+      count += fitting;
+    });
+    if (count * rare * span < sites_.size()) boxes = {};  // its memory, too
+    chords_.push_back(std::move(boxes));
+  }
+}
+
+/// The direction of the line that a boundary with reflex vertices shows to what lies before it, or
+/// else of its chord. Of a staircase no box in another direction tells the corners apart.
+Vec2 BoundaryTree::chord_of(std::span<const Site> sites) {
+  const auto is_vertex = [](const Site& site) { return site.is_vertex(); };
+  const auto first = std::find_if(sites.begin(), sites.end(), is_vertex);
+  const auto last = std::find_if(sites.rbegin(), sites.rend(), is_vertex);
+  if (first != sites.end() && first->point != last->point) return last->point - first->point;
+  return sites.back().end() - sites.front().point;
+}
+
+std::optional<BoundaryTree::ChordBox> BoundaryTree::chord_box(std::span<const Site> sites) {
+  constexpr double infinity_d = std::numeric_limits<double>::infinity();
+  const Vec2 chord = chord_of(sites);
+  const double length = norm(chord);
+  if (!(length > 0 && length < outside)) return std::nullopt;
+  const Vec2 along = (1 / length) * chord;
+  // Most that do not fit are told by a few of their points.
+  for (std::size_t i = 1; i < 4; ++i) {
+    const Vec2 p = sites[i * sites.size() / 4].point - sites.front().point;
+    if (std::abs(cross(along, p)) > flat_enough * length) return std::nullopt;
+  }
+  ChordBox box{left_of(along), infinity_d, -infinity_d, infinity_d, -infinity_d};
+  const auto add = [&](Vec2 p) {
+    const double height = dot(box.normal, p), position = dot(along, p);
+    box.low = std::min(box.low, height);
+    box.high = std::max(box.high, height);
+    box.begin = std::min(box.begin, position);
+    box.end = std::max(box.end, position);
+  };
+  for (const Site& site : sites) {
+    if (std::abs(site.point.x) > outside) return std::nullopt;
+    add(site.point);
+    if (!site.is_vertex()) add(site.end());  // a loop may end here
+    if (site.is_arc()) add(site.apex());
+  }
+  if (box.high - box.low > flat_enough * length) return std::nullopt;
+  box.low -= chord_rounding;
+  box.high += chord_rounding;
+  box.begin -= chord_rounding;
+  box.end += chord_rounding;
+  return box;
+}
+
+/// The lanes whose chord boxes lie beyond the reach from c.
+std::uint32_t BoundaryTree::beyond(const ChordBoxes& boxes, Vec2 c, double reach) {
+  std::uint32_t lanes = 0;
+#if defined(__SSE2__)
+  const __m128d cx = _mm_set1_pd(c.x), cy = _mm_set1_pd(c.y), zero = _mm_setzero_pd();
+  const __m128d squared_reach = _mm_set1_pd(reach * reach);
+  for (std::uint32_t i = 0; i < fan; i += 2) {
+    const __m128d nx = _mm_load_pd(&boxes.normal_x[i]), ny = _mm_load_pd(&boxes.normal_y[i]);
+    const __m128d height = _mm_add_pd(_mm_mul_pd(nx, cx), _mm_mul_pd(ny, cy));
+    const __m128d position = _mm_sub_pd(_mm_mul_pd(ny, cx), _mm_mul_pd(nx, cy));
+    const __m128d across = _mm_max_pd(_mm_max_pd(_mm_sub_pd(height, _mm_load_pd(&boxes.high[i])),
+                                                 _mm_sub_pd(_mm_load_pd(&boxes.low[i]), height)),
+                                      zero);
+    const __m128d along = _mm_max_pd(_mm_max_pd(_mm_sub_pd(position, _mm_load_pd(&boxes.end[i])),
+                                                _mm_sub_pd(_mm_load_pd(&boxes.begin[i]), position)),
+                                     zero);
+    const __m128d squared = _mm_add_pd(_mm_mul_pd(across, across), _mm_mul_pd(along, along));
+    lanes |= static_cast<std::uint32_t>(_mm_movemask_pd(_mm_cmpge_pd(squared, squared_reach))) << i;
+  }
+#else
+  for (std::uint32_t i = 0; i < fan; ++i) {
+    const double height = boxes.normal_x[i] * c.x + boxes.normal_y[i] * c.y;
+    const double position = boxes.normal_y[i] * c.x - boxes.normal_x[i] * c.y;
+    const double across = std::max({height - boxes.high[i], boxes.low[i] - height, 0.0});
+    const double along = std::max({position - boxes.end[i], boxes.begin[i] - position, 0.0});
+    if (across * across + along * along >= reach * reach) lanes |= 1u << i;
+  }
+#endif
+  return lanes;
+}
+
+template <class Visit>
+[[gnu::always_inline]] inline void BoundaryTree::visit_blocks(Vec2 c, double& reach,
+                                                              std::uint32_t first,
+                                                              std::uint32_t last,
+                                                              Visit&& visit) const {
+  // Boxes cost about as much as a few sites.
+  constexpr std::uint32_t short_range = 2 * block_size;
+  if (last - first < short_range) {
+    visit(first, last);
+    return;
+  }
+  const auto x = static_cast<float>(c.x), y = static_cast<float>(c.y);
+  const auto squared_reach = [&] {
+    const double r = reach + single_precision_slack;
+    return static_cast<float>(r * r);
+  };
+  float limit = squared_reach();
+
+  // Start at the lowest node over the whole range.
+  const std::uint32_t first_block = first / block_size, last_block = last / block_size;
+  const auto common = static_cast<std::uint32_t>(std::bit_width(first_block ^ last_block) + 1) / 2;
+  const auto chord_count = static_cast<std::uint32_t>(chords_.size());
+
+  std::array<Waiting, 4 * 16 + 4> stack;
+  std::size_t size = 0;
+  Waiting top{first_block >> (2 * common), common, 0};
+  for (;;) {
+    if (top.level == 0) {
+      visit(std::max(first, top.index * block_size),
+            std::min(last, top.index * block_size + block_size - 1));
+      limit = squared_reach();
+    } else {
+      const std::uint32_t below = top.level - 1;
+      const Boxes& boxes = levels_[below][top.index];
+      const std::uint32_t child = top.index * fan;
+      // Of the four lanes those that the range reaches; without branches, which nobody could guess.
+      const auto skipped = [](std::uint32_t from, std::uint32_t to) {
+        return std::max(static_cast<std::int32_t>(to - from), 0);
+      };
+      std::uint32_t mask = (0xFu << skipped(child, first_block >> (2 * below))) &
+                           (0xFu >> skipped(last_block >> (2 * below), child + 3));
+
+      Lanes squared;
+      mask &= nearer(boxes, x, y, limit, squared);
+      if (below < chord_count && mask != 0 && !chords_[below].empty())
+        mask &= ~beyond(chords_[below][top.index], c, reach);
+      if (mask != 0) {
+        // Go on with the nearest; the others wait, the farthest at the bottom.
+        auto lane = static_cast<std::uint32_t>(std::countr_zero(mask));
+        top = {child + lane, below, squared[lane]};
+        const std::size_t bottom = size;
+        for (mask &= mask - 1; mask != 0; mask &= mask - 1) {
+          lane = static_cast<std::uint32_t>(std::countr_zero(mask));
+          Waiting later{child + lane, below, squared[lane]};
+          if (later.squared < top.squared) std::swap(later, top);
+          std::size_t at = size++;
+          for (; at > bottom && stack[at - 1].squared < later.squared; --at)
+            stack[at] = stack[at - 1];
+          stack[at] = later;
+        }
+        continue;
+      }
+    }
+    do {
+      if (size == 0) return;
+      top = stack[--size];
+    } while (!(top.squared < limit));
+  }
+}
+
+BoundaryTree::Hit BoundaryTree::nearest(Vec2 c, double reach, std::uint32_t first,
+                                        std::uint32_t last) const {
+  Hit hit;
+  if (first > last || !(reach > 0)) return hit;
+  hit.squared_distance = reach * reach;
+  const auto take_if_nearer = [&](std::uint32_t i, double squared) {
+    if (squared < hit.squared_distance) hit = {i, squared};
+  };
+  visit_blocks(c, reach, first, last, [&](std::uint32_t from, std::uint32_t to) {
+    const double before = hit.squared_distance;
+    const Site* site = &sites_[from];
+    if (!has_arcs_) {
+      // Two at a time; rarely is one of them near enough.
+      for (; from < to; from += 2, site += 2) {
+        if (!one_is_nearer(site[0], site[1], c, hit.squared_distance)) continue;
+        take_if_nearer(from, site::squared_distance(site[0], c));
+        take_if_nearer(from + 1, site::squared_distance(site[1], c));
+      }
+    }
+    for (; from <= to; ++from, ++site) take_if_nearer(from, site::squared_distance(*site, c));
+    if (hit.squared_distance < before) reach = std::sqrt(hit.squared_distance);
+  });
+  return hit;
+}
+
+BoundaryTree::Hit BoundaryTree::nearest_facing(Vec2 c, double reach, std::uint32_t first,
+                                               std::uint32_t last) const {
+  Hit front, back;
+  if (first > last || !(reach > 0)) return front;
+  // What two distances to one place may differ by.
+  constexpr double rounding = 0x1p-48;
+  front.squared_distance = back.squared_distance = reach * reach;
+  double limit = reach * reach;
+  const auto faces = [&](const Site& site) {
+    if (site.is_vertex()) return true;
+    const double s = site::carrier_parameter(site, c);
+    return site::carrier_distance(site, c) > 0 && s >= 0 && s <= site.length;
+  };
+  const auto look_at = [&](std::uint32_t i) {
+    const double squared = site::squared_distance(sites_[i], c);
+    if (!(squared < limit)) return;
+    Hit& hit = faces(sites_[i]) ? front : back;
+    if (squared < hit.squared_distance) hit = {i, squared};
+    const double near = std::sqrt(back.squared_distance) + rounding;
+    limit = std::min({front.squared_distance, near * near, limit});
+  };
+  visit_blocks(c, reach, first, last, [&](std::uint32_t from, std::uint32_t to) {
+    const double before = limit;
+    if (!has_arcs_) {
+      for (; from < to; from += 2) {
+        if (!one_is_nearer(sites_[from], sites_[from + 1], c, limit)) continue;
+        look_at(from);
+        look_at(from + 1);
+      }
+    }
+    for (; from <= to; ++from) look_at(from);
+    if (limit < before) reach = std::sqrt(limit);
+  });
+  if (!back) return front;
+  if (!front) return back;
+  return std::sqrt(front.squared_distance) <= std::sqrt(back.squared_distance) + rounding ? front
+                                                                                          : back;
+}
+
+BoundaryTree::Hit BoundaryTree::nearest_lowest(Vec2 c, double reach) const {
+  Hit hit;
+  if (sites_.empty() || !(reach > 0)) return hit;
+  // Boxes at the distance of the best so far must still be looked into.
+  constexpr double a_little_more = 1 + 0x1p-40;
+  double squared = reach * reach;
+  reach *= a_little_more;
+  const auto take_if_nearer = [&](std::uint32_t i) {
+    const double d = site::squared_distance(sites_[i], c);
+    if (d < squared || (d == squared && i < hit.site)) {
+      squared = d;
+      hit = {i, d};
+    }
+  };
+  visit_blocks(c, reach, 0, static_cast<std::uint32_t>(sites_.size() - 1),
+               [&](std::uint32_t from, std::uint32_t to) {
+                 const double before = squared;
+                 if (!has_arcs_)
+                   for (; from < to; from += 2) {
+                     const double or_equal =
+                         a_little_more * squared + std::numeric_limits<double>::min();
+                     if (!one_is_nearer(sites_[from], sites_[from + 1], c, or_equal)) continue;
+                     take_if_nearer(from);
+                     take_if_nearer(from + 1);
+                   }
+                 for (; from <= to; ++from) take_if_nearer(from);
+                 if (squared < before) reach = a_little_more * std::sqrt(squared);
+               });
+  return hit;
+}
+
+void BoundaryTree::within(Vec2 c, double reach, std::uint32_t first, std::uint32_t last,
+                          std::vector<std::uint32_t>& found) const {
+  found.clear();
+  if (first > last || !(reach > 0)) return;
+  const double squared = reach * reach;
+  visit_blocks(c, reach, first, last, [&](std::uint32_t from, std::uint32_t to) {
+    for (std::uint32_t i = from; i <= to; ++i)
+      if (site::squared_distance(sites_[i], c) < squared) found.push_back(i);
+  });
+  std::sort(found.begin(), found.end());
+}
+
+}  // namespace medial::site

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "site/lanes.h"
+#include "site/site.h"
+
+namespace medial::site {
+
+/// An implicit tree over sites in boundary order. A block holds eight consecutive sites; a node
+/// holds the boxes of four consecutive blocks or nodes, in single precision rounded outward: one
+/// cache line. Because the order is the boundary's, an index range is a sub-shape, and the tree
+/// over the whole boundary is the tree of every sub-shape as well.
+///
+/// Sites must lie in the local frame (coordinates below 2 in size). Sites far away from it
+/// belong to no box and are never found: cuts are stored so.
+class BoundaryTree {
+ public:
+  explicit BoundaryTree(std::span<const site::Site> sites);
+
+  struct Hit {
+    static constexpr std::uint32_t none = ~std::uint32_t{0};
+    std::uint32_t site = none;
+    double squared_distance = 0;
+    explicit operator bool() const { return site != none; }
+  };
+
+  /// The site nearest to c among the sites first..last, both included, if one is nearer than
+  /// `reach`. O(log n) expected. Of sites at equal distance, any.
+  Hit nearest(Vec2 c, double reach, std::uint32_t first, std::uint32_t last) const;
+
+  /// The same where sites may lie upon each other: of those at equal distance, up to rounding, one
+  /// that has c on its left and over its inside, if there is any; vertices count as such.
+  Hit nearest_facing(Vec2 c, double reach, std::uint32_t first, std::uint32_t last) const;
+
+  /// The same over all sites, and of sites at equal distance the lowest index.
+  Hit nearest_lowest(Vec2 c, double reach) const;
+
+  /// All sites among first..last nearer than `reach`, by increasing index.
+  void within(Vec2 c, double reach, std::uint32_t first, std::uint32_t last,
+              std::vector<std::uint32_t>& found) const;
+
+ private:
+  static constexpr std::uint32_t block_size = 8;
+  static constexpr std::uint32_t fan = 4;
+
+  /// Boxes along the chords of a node's four lanes: all points p of a lane's sites have normal . p
+  /// in [low, high] and, with `along` the normal turned to the right, along . p in [begin, end]. A
+  /// lane without such a box has infinite bounds.
+  struct alignas(64) ChordBoxes {
+    std::array<double, fan> normal_x, normal_y, low, high, begin, end;
+  };
+  struct ChordBox {
+    Vec2 normal;
+    double low, high, begin, end;
+  };
+
+  void build_chord_boxes();
+  static Vec2 chord_of(std::span<const site::Site> sites);
+  static std::optional<ChordBox> chord_box(std::span<const site::Site> sites);
+  static std::uint32_t beyond(const ChordBoxes& boxes, Vec2 c, double reach);
+
+  template <class Visit>
+  void visit_blocks(Vec2 c, double& reach, std::uint32_t first, std::uint32_t last,
+                    Visit&& visit) const;
+
+  std::span<const site::Site> sites_;
+  bool has_arcs_;
+  std::vector<std::vector<Boxes>> levels_;       ///< levels_[0] holds the boxes of blocks
+  std::vector<std::vector<ChordBoxes>> chords_;  ///< of the lowest levels; empty where rare
+};
+
+}  // namespace medial::site

@@ -1,0 +1,135 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "site/lanes.h"
+#include "site/site.h"
+
+namespace medial::site {
+
+/// Answers: which site does a disk reach first that touches a given point and grows away from it?
+///
+/// A box tree over the sites in spatial order: the boxes of loops that are nested in each other all
+/// overlap in boundary order, and every search would have to look into each of them. Smaller disks
+/// of the family lie inside larger ones, so one descent finds the answer: what is beyond a disk
+/// stays beyond while it shrinks. O(n) to build, O(log n) expected for each answer.
+class FirstTouch {
+ public:
+  /// A tree of the sites with the given indices; site i belongs to group groups[i]. Sites must lie
+  /// in the local frame. `groups` must outlive the tree.
+  FirstTouch(std::span<const site::Site> sites, std::span<const std::uint32_t> indices,
+             std::span<const std::uint32_t> groups);
+
+  struct Touch {
+    std::uint32_t site = 0;
+    double radius = 0;
+  };
+  /// The first site that the disk of radius r around foot + r direction reaches, from either side,
+  /// while r grows from 0 to `largest`, of all sites of the group but those from first to last,
+  /// both included; none where it reaches none. Of sites that it reaches at the same radius, any.
+  /// The foot must lie in the local frame, `largest` be below 4.
+  std::optional<Touch> find(Vec2 foot, Vec2 direction, double largest, std::uint32_t group,
+                            std::uint32_t first, std::uint32_t last) const;
+
+  /// The lowest nodes of the tree whose boxes meet a region: one descent for many searches in it.
+  /// Of a region with very many of them, none.
+  class Region {
+   public:
+    /// Whether all of a disk lies in the region, so that a search may begin here.
+    bool holds(Vec2 center, double radius) const {
+      return center.x - radius >= box_.low.x && center.y - radius >= box_.low.y &&
+             center.x + radius <= box_.high.x && center.y + radius <= box_.high.y;
+    }
+
+   private:
+    friend FirstTouch;
+    struct Block {
+      std::uint32_t index;
+      float from_foot;
+    };
+    Extent box_;  ///< of nothing where there are too many nodes
+    std::vector<std::uint32_t> nodes_;
+    std::vector<Block> waiting_;  ///< of the search under way
+  };
+  void look_around(const Extent& box, Region& region) const;
+  /// find() of a disk that the region holds.
+  std::optional<Touch> find(Vec2 foot, Vec2 direction, double largest, std::uint32_t group,
+                            std::uint32_t first, std::uint32_t last, Region& region) const;
+
+  /// Calls visit(site) for all sites of the group within `reach` of a point of the local frame.
+  template <class Visit>
+  void near(Vec2 point, double reach, std::uint32_t group, Visit&& visit) const;
+
+ private:
+  static constexpr std::size_t fan = 4;
+  static constexpr std::size_t block_size = 8;
+
+  struct Entry {
+    site::Site site;
+    std::uint32_t index;
+  };
+  /// Of four sets of sites side by side: slabs low <= normal . p <= high along each set's longest
+  /// segment, which hold slanted segments tighter than boxes do, in single precision. Without a
+  /// normal, a slab is everything.
+  struct alignas(64) Slabs {
+    Lanes normal_x{}, normal_y{}, low, high;
+    Slabs();
+  };
+  struct Bounds {
+    Boxes boxes;
+    Slabs slabs;
+  };
+
+  /// A search under way: the disk so far, and the site that it touches.
+  struct Search {
+    Vec2 foot, direction;
+    std::uint32_t group, first, last;
+    double radius;
+    Vec2 center;
+    std::optional<Touch> found = {};
+  };
+
+  void build_level(std::size_t run);
+  void search_block(std::uint32_t block, Search& search) const;
+
+  static std::uint32_t beside(const Slabs& slabs, float x, float y, float reach);
+
+  std::span<const std::uint32_t> groups_;
+  bool has_arcs_ = false;
+  std::vector<Entry> entries_;               ///< in spatial order
+  std::vector<std::vector<Bounds>> levels_;  ///< levels_[0] bounds blocks of entries
+};
+
+template <class Visit>
+void FirstTouch::near(Vec2 point, double reach, std::uint32_t group, Visit&& visit) const {
+  constexpr double rounding = 0x1p-20;  // of single precision
+  const auto x = static_cast<float>(point.x), y = static_cast<float>(point.y);
+  const auto limit = static_cast<float>((reach + rounding) * (reach + rounding));
+  struct Waiting {
+    std::uint32_t level, index;
+  };
+  std::vector<Waiting> stack{{static_cast<std::uint32_t>(levels_.size()), 0}};
+  while (!stack.empty()) {
+    const Waiting top = stack.back();
+    stack.pop_back();
+    if (top.level == 0) {
+      const std::size_t begin = top.index * block_size;
+      for (std::size_t i = begin; i < std::min(begin + block_size, entries_.size()); ++i)
+        if (groups_[entries_[i].index] == group &&
+            site::squared_distance(entries_[i].site, point) <= reach * reach)
+          visit(entries_[i].index);
+      continue;
+    }
+    Lanes squared;
+    const std::uint32_t mask =
+        nearer(levels_[top.level - 1][top.index].boxes, x, y, limit, squared);
+    for (std::uint32_t lane = 0; lane < fan; ++lane)
+      if ((mask >> lane & 1) != 0)
+        stack.push_back({top.level - 1, top.index * static_cast<std::uint32_t>(fan) + lane});
+  }
+}
+
+}  // namespace medial::site

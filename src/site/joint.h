@@ -1,0 +1,51 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "base/arc.h"
+
+namespace medial::site {
+
+/// How two edges of a boundary join.
+enum class Joint : std::uint8_t {
+  corner,  ///< at a convex angle: a leaf of the axis
+  blunt,   ///< at a convex angle below the corner angle: no leaf
+  smooth,  ///< with one tangent: a disk may touch both edges there
+  reflex,  ///< at a reflex angle: the vertex is a site
+};
+
+/// The joint where `before` ends and `after` begins, of which at least one is an arc.
+///
+/// Directions count as one below the angle that rounding of the coordinates leaves open: 1e-12, and
+/// four times `tolerance` (that of the coordinates, in their units) against the chords; but no more
+/// than 1e-7, where a disk as large as the shape that touches one edge reaches over the other by
+/// 1e-14 of its size. At a cusp the interior is inside or around it as the edges lie next to each
+/// other half a chord away, where they are (sine - (sum of the curvatures) s / 2) s apart, s from
+/// the cusp. `corner_angle` in radians.
+inline Joint joint_of(const BulgeArc& before, const BulgeArc& after, double tolerance,
+                      double corner_angle) {
+  constexpr double least = 1e-12, most = 1e-7;
+  const Vec2 arriving = end_tangent(before), leaving = start_tangent(after);
+  const double sine = cross(arriving, leaving), cosine = dot(arriving, leaving);
+  const double chord_before = distance(before.start, before.end);
+  const double chord_after = distance(after.start, after.end);
+  const double rounding = 4 * tolerance * (1 / chord_before + 1 / chord_after);
+  const auto keeps_clear = [&] {
+    const double bend = std::abs(curvature(before) - curvature(after)), angle = std::abs(sine);
+    return angle * angle <= tolerance * bend ||
+           angle * std::min(chord_before, chord_after) <= 0.5 * tolerance;
+  };
+  if (cosine > 0 && std::abs(sine) <= std::min(least + rounding, most) && keeps_clear())
+    return Joint::smooth;
+  if (cosine < 0 && std::abs(sine) <= least + rounding) {
+    const double away = 0.5 * std::min(chord_before, chord_after);
+    const double bend = 0.5 * (curvature(before) + curvature(after)) * away;
+    return sine > bend ? Joint::corner : Joint::reflex;
+  }
+  if (sine < 0) return Joint::reflex;
+  return std::atan2(sine, cosine) <= corner_angle ? Joint::blunt : Joint::corner;
+}
+
+}  // namespace medial::site

@@ -1,0 +1,107 @@
+#include "voronoi/clip.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace medial::voronoi {
+namespace {
+
+/// A point with its weight: curves between such are polynomials.
+struct Weighted {
+  Vec2 center;
+  double radius = 0, weight = 1;
+};
+Weighted weighted(const Disk& disk, double w) { return {w * disk.center, w * disk.radius, w}; }
+Weighted sum(double a, const Weighted& u, double b, const Weighted& v, double c,
+             const Weighted& w) {
+  return {a * u.center + b * v.center + c * w.center, a * u.radius + b * v.radius + c * w.radius,
+          a * u.weight + b * v.weight + c * w.weight};
+}
+
+/// The curve's polar form: its points at s = t, and the control point of the part from s to t.
+Weighted blossom(const ConicEdge& edge, double s, double t) {
+  return sum((1 - s) * (1 - t), weighted(edge.from, 1), (1 - s) * t + s * (1 - t),
+             weighted(edge.control, edge.weight), s * t, weighted(edge.to, 1));
+}
+Disk disk_of(const Weighted& w) { return {(1 / w.weight) * w.center, w.radius / w.weight}; }
+
+/// Roots in (0, 1) of a (1-t)^2 + 2 b t (1-t) + c t^2.
+void add_roots(double a, double b, double c, std::vector<double>& roots) {
+  const auto add = [&](double numerator, double denominator) {
+    // t / (1 - t) = numerator / denominator
+    const double sum = numerator + denominator;
+    const double t = numerator / sum;
+    if (t > 0 && t < 1) roots.push_back(t);
+  };
+  // In u = t / (1 - t): a + 2 b u + c u^2 = 0.
+  const double discriminant = b * b - a * c;
+  if (discriminant < 0) return;
+  const double q = -(b + std::copysign(std::sqrt(discriminant), b));
+  add(q, c);
+  add(a, q);
+}
+
+}  // namespace
+
+Disk ConicEdge::at(double t) const {
+  return t == 0 ? from : t == 1 ? to : disk_of(blossom(*this, t, t));
+}
+
+ConicEdge ConicEdge::part(double begin, double end) const {
+  if (begin == 0 && end == 1) return *this;
+  const Weighted first = blossom(*this, begin, begin), last = blossom(*this, end, end);
+  const Weighted middle = blossom(*this, begin, end);
+  return {at(begin), disk_of(middle), at(end),
+          middle.weight / std::sqrt(first.weight * last.weight)};
+}
+
+void clip(const ConicEdge& edge, const Box& box, std::vector<ClippedPart>& parts) {
+  parts.clear();
+  const std::array<Vec2, 3> hull{edge.from.center, edge.control.center, edge.to.center};
+  const auto all = [&](auto&& holds) { return std::all_of(hull.begin(), hull.end(), holds); };
+  // By its weights, a curve stays in the hull of its control points.
+  if (all([&](Vec2 p) { return is_inside(box, p); })) {
+    parts.push_back({0, 1});
+    return;
+  }
+  if (all([&](Vec2 p) { return p.x <= box.low.x; }) ||
+      all([&](Vec2 p) { return p.x >= box.high.x; }) ||
+      all([&](Vec2 p) { return p.y <= box.low.y; }) ||
+      all([&](Vec2 p) { return p.y >= box.high.y; }))
+    return;
+  std::vector<double> stops{0, 1};
+  for (const double x : {box.low.x, box.high.x})
+    add_roots(hull[0].x - x, edge.weight * (hull[1].x - x), hull[2].x - x, stops);
+  for (const double y : {box.low.y, box.high.y})
+    add_roots(hull[0].y - y, edge.weight * (hull[1].y - y), hull[2].y - y, stops);
+  std::sort(stops.begin(), stops.end());
+  for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
+    if (!(stops[i] < stops[i + 1])) continue;
+    if (!is_inside(box, edge.at(0.5 * (stops[i] + stops[i + 1])).center)) continue;
+    if (!parts.empty() && parts.back().to == stops[i])
+      parts.back().to = stops[i + 1];
+    else
+      parts.push_back({stops[i], stops[i + 1]});
+  }
+}
+
+double place_on_border(const Box& box, Vec2 p) {
+  const double width = box.high.x - box.low.x, height = box.high.y - box.low.y;
+  if (p.y == box.low.y) return (p.x - box.low.x) / width;
+  if (p.x == box.high.x) return 1 + (p.y - box.low.y) / height;
+  if (p.y == box.high.y) return 2 + (box.high.x - p.x) / width;
+  return 3 + (box.high.y - p.y) / height;
+}
+
+Vec2 onto_border(const Box& box, Vec2 p) {
+  p = {std::clamp(p.x, box.low.x, box.high.x), std::clamp(p.y, box.low.y, box.high.y)};
+  const double left = p.x - box.low.x, right = box.high.x - p.x;
+  const double below = p.y - box.low.y, above = box.high.y - p.y;
+  const double least = std::min({left, right, below, above});
+  if (least == below) return {p.x, box.low.y};
+  if (least == right) return {box.high.x, p.y};
+  if (least == above) return {p.x, box.high.y};
+  return {box.low.x, p.y};
+}
+
+}  // namespace medial::voronoi

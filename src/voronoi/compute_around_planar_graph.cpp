@@ -1,0 +1,273 @@
+#include <tbb/parallel_invoke.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "base/box_tree.h"
+#include "base/in_flight.h"
+#include "base/limits.h"
+#include "base/numbers.h"
+#include "base/spatial_order.h"
+#include "base/threads.h"
+#include "base/tolerance.h"
+#include "medial/query.h"
+#include "medial/voronoi.h"
+#include "methods/checks.h"
+#include "methods/disks/collect.h"
+#include "methods/disks/disks.h"
+#include "shape/around.h"
+#include "shape/exterior.h"
+#include "voronoi/axis_around.h"
+#include "voronoi/long_edges.h"
+#include "voronoi/planar_graph_diagram.h"
+#include "voronoi/points_diagram.h"
+
+namespace medial {
+namespace {
+
+/// The frame that a planar graph's diagram is cut off at; an error where it does not hold the
+/// planar graph.
+Result<Box> frame_for(const PlanarGraph& planar_graph, const Options& options,
+                      const std::optional<Box>& frame) {
+  constexpr double most = 1e6;  // of the planar graph's size, or of its coordinates'
+  const Box box = bounding_box(planar_graph);
+  const double size = diagonal(box);
+  const double largest = std::max(largest_coordinate_in(box), size);
+  if (frame) {
+    const bool holds = frame->low.x < box.low.x && frame->low.y < box.low.y &&
+                       frame->high.x > box.high.x && frame->high.y > box.high.y;
+    if (!holds || !(diagonal(*frame) <= most * std::max(largest, 1.0)))
+      return Error{ErrorCode::invalid_option, "the frame must hold all of the input inside", {}};
+    return *frame;
+  }
+  double margin = margin_for(box, options.margin);
+  if (margin == 0) margin = largest > 0 ? 0.5 * largest : 1;
+  if (!(options.margin >= 0 && margin >= 1e-6 * size && margin <= most * std::max(largest, 1.0)))
+    return Error{ErrorCode::invalid_option,
+                 "the margin must be 0 or in [1e-6, 1e6] of the input's diagonal",
+                 {}};
+  return Box{box.low - Vec2{margin, margin}, box.high + Vec2{margin, margin}};
+}
+
+std::optional<Error> refuse(const PlanarGraph& planar_graph, const Options& options) {
+  if (auto error = refuse(options)) return error;
+  if (planar_graph.points.empty()) return Error{ErrorCode::empty, "there is no point", {}};
+  if (planar_graph.half_edges.size() + planar_graph.lone_points.size() >
+      std::numeric_limits<std::uint32_t>::max() / 16)
+    return Error{ErrorCode::too_large, "there are more than 2^28 edges and points", {}};
+  return std::nullopt;
+}
+
+/// The axis, but for its edges, which stand apart, and its sites.
+template <class E>
+Result<MedialAxis> run_around(const Shape& surroundings, const Options& options,
+                              std::vector<E>& edges, sites::SiteNumbers& numbers) {
+  MedialAxis axis = disks::run_two_sided(surroundings, options, edges, numbers);
+  if (is_cancelled(options)) return Error{ErrorCode::cancelled, "cancelled", {}};
+  if (!has_right_topology(surroundings, axis.nodes.size(), edges.size()))
+    return Error{ErrorCode::internal,
+                 "the diagram is not connected as it should be: please report this input",
+                 {}};
+  return axis;
+}
+
+/// With all corners, however flat: a joint without a branch would have a straight spoke. Where the
+/// walk loses its way among flat ones, as the options have it: spokes are off by less. Of shapes
+/// with arcs, the axis has its sites.
+Result<MedialAxis> run_with_corners(const Shape& surroundings, const Options& options,
+                                    std::vector<VoronoiEdge>& edges, sites::SiteNumbers& numbers) {
+  if (surroundings.bulges.empty()) return run_around(surroundings, options, edges, numbers);
+  const auto run = [&](const Options& own) {
+    edges.clear();
+    auto axis = run_around(surroundings, own, edges, numbers);
+    if (axis) axis->sites = sites::result_sites(surroundings, numbers);
+    return axis;
+  };
+  Options all = options;
+  all.corner_angle = 0;
+  auto axis = run(all);
+  const auto touches = [&](const Edge& edge) {  // but for far more than rounding
+    return disks::touches_its_sites(*axis, edge, 0x1p20 * axis->tolerance);
+  };
+  const bool misled =
+      axis ? !std::ranges::all_of(edges, touches) : axis.error().code == ErrorCode::internal;
+  return misled ? run(options) : std::move(axis);
+}
+
+/// In tolerances: what is nearer to each other may be one for some disks; and what may at least
+/// have misled a walk that failed.
+constexpr double told_apart = 64, doubtful = 0x1p20;
+
+/// The ends of an edge, the lower one in the direction that it mostly runs in first.
+std::array<std::uint32_t, 2> ends_by_place(const PlanarGraph& planar_graph,
+                                           const PlanarGraphEdge& edge) {
+  const Vec2 along = planar_graph.points[edge.to] - planar_graph.points[edge.from];
+  const bool forward = std::abs(along.x) > std::abs(along.y) ? along.x > 0 : along.y > 0;
+  return forward ? std::array{edge.from, edge.to} : std::array{edge.to, edge.from};
+}
+
+/// Calls visit(points, box around them) for all points of a planar graph, each once, in groups that
+/// lie close together. `order` is a spatial one of the edges and, counted on, the lone points; of
+/// some neighbouring edges the first ends are a group and the last ones are another, as edges may
+/// be long.
+template <class Visit>
+void for_each_group(const PlanarGraph& planar_graph, const std::vector<std::uint32_t>& order,
+                    Visit&& visit) {
+  constexpr std::size_t together = 8;
+  const std::size_t edges = planar_graph.edges.size();
+  std::vector<bool> seen(planar_graph.points.size());
+  std::vector<std::uint32_t> points;
+  for (std::size_t begin = 0; begin < order.size(); begin += together) {
+    for (const std::size_t end : {0UL, 1UL}) {
+      points.clear();
+      Box around = Box::nothing();
+      for (std::size_t i = begin; i < std::min(begin + together, order.size()); ++i) {
+        const std::uint32_t one = order[i];
+        const std::uint32_t point = one < edges
+                                        ? ends_by_place(planar_graph, planar_graph.edges[one])[end]
+                                        : planar_graph.lone_points[one - edges].point;
+        if (seen[point]) continue;
+        seen[point] = true;
+        points.push_back(point);
+        around.add(planar_graph.points[point]);
+      }
+      if (!points.empty()) visit(points, around);
+    }
+  }
+}
+
+Error error_of_close_point(const PlanarGraph& planar_graph, std::uint32_t point) {
+  const VertexSource source = planar_graph.point_sources[point];
+  Error error{ErrorCode::unsupported,
+              "a point is nearer to another one, or to an edge, than rounding tells apart",
+              {}};
+  error.place.ring = source.ring;
+  error.place.vertex = source.vertex;
+  error.place.point = planar_graph.points[point];
+  return error;
+}
+
+/// An error that names the first point which is nearer than that to another one, or to an edge that
+/// does not end there, if there is one and edges. O(n log n).
+std::optional<Error> too_close(const PlanarGraph& planar_graph, double least) {
+  const auto edges = static_cast<std::uint32_t>(planar_graph.edges.size());
+  std::vector<Box> boxes;  // of edges, then of lone points
+  boxes.reserve(edges + planar_graph.lone_points.size());
+  const auto add = [&](Vec2 a, Vec2 b, double beside) {
+    boxes.push_back({{std::min(a.x, b.x) - beside, std::min(a.y, b.y) - beside},
+                     {std::max(a.x, b.x) + beside, std::max(a.y, b.y) + beside}});
+  };
+  for (const PlanarGraphEdge& edge : planar_graph.edges) {
+    const Vec2 a = planar_graph.points[edge.from], b = planar_graph.points[edge.to];
+    add(a, b, edge.bulge == 0 ? least : 0.5 * std::abs(edge.bulge) * distance(a, b) + least);
+  }
+  for (const LonePoint& lone : planar_graph.lone_points)
+    add(planar_graph.points[lone.point], planar_graph.points[lone.point], least);
+  const std::vector<std::uint32_t> order = z_order(BoxTree::places_of(boxes));
+  const BoxTree tree(boxes, order);
+  std::uint32_t first = none;
+  const auto look_at = [&](std::uint32_t point, std::uint32_t k) {
+    const Vec2 p = planar_graph.points[point];
+    const auto& [low, high] = boxes[k];
+    if (point >= first || p.x < low.x || p.x > high.x || p.y < low.y || p.y > high.y) return;
+    const std::uint32_t other = k < edges ? k : planar_graph.lone_points[k - edges].point;
+    if (k < edges ? planar_graph.edges[k].from == point || planar_graph.edges[k].to == point
+                  : other == point)
+      return;
+    const std::uint32_t site =
+        k < edges ? static_cast<std::uint32_t>(planar_graph.points.size()) + k : other;
+    if (distance(foot(voronoi::site_of_planar_graph(planar_graph, site), p), p) < least)
+      first = point;
+  };
+  for_each_group(planar_graph, order,
+                 [&](const std::vector<std::uint32_t>& points, const Box& around) {
+                   tree.find(around, [&](std::uint32_t k) {
+                     for (const std::uint32_t point : points) look_at(point, k);
+                   });
+                 });
+  if (first == none) return std::nullopt;
+  return error_of_close_point(planar_graph, first);
+}
+
+/// An internal error where points are so near to others that they may have misled the walk, as an
+/// error that names one of them.
+Error explained(Error error, const PlanarGraph& planar_graph, double tolerance) {
+  if (error.code == ErrorCode::internal)
+    if (auto close = too_close(planar_graph, doubtful * tolerance)) return std::move(*close);
+  return error;
+}
+
+}  // namespace
+
+Result<MedialAxis> axis_around(const PlanarGraph& planar_graph, const Shape& surroundings,
+                               const Options& options) {
+  try {
+    if (auto error = refuse(planar_graph, options)) return std::move(*error);
+    if (auto error = beyond_limits(surroundings)) return std::move(*error);
+    const double tolerance = tolerance_for(bounding_box(surroundings), options.tolerance);
+    if (auto error = too_close(planar_graph, told_apart * tolerance)) return std::move(*error);
+    std::vector<Edge> edges;
+    sites::SiteNumbers numbers;
+    auto axis = on_threads(options.threads,
+                           [&] { return run_around(surroundings, options, edges, numbers); });
+    if (!axis) return explained(std::move(axis).error(), planar_graph, tolerance);
+    axis->sites = sites::result_sites(surroundings, numbers);
+    voronoi::split_long_edges(*axis, edges, true);
+    axis->edges = std::move(edges);
+    return axis;
+  } catch (...) {
+    return error_in_flight();
+  }
+}
+
+Result<VoronoiDiagram> voronoi_diagram(const PlanarGraph& planar_graph, const Options& options,
+                                       const std::optional<Box>& frame) {
+  try {
+    if (auto error = refuse(planar_graph, options)) return std::move(*error);
+    auto box = frame_for(planar_graph, options, frame);
+    if (!box) return std::move(box).error();
+    const Box far = voronoi::far_frame(*box);
+    if (auto error = beyond_limits(planar_graph, far)) return std::move(*error);
+    const double tolerance = tolerance_for(far, options.tolerance);
+
+    Result<VoronoiDiagram> diagram = on_threads(options.threads, [&]() -> Result<VoronoiDiagram> {
+      if (planar_graph.edges.empty()) {
+        VoronoiDiagram of_points = voronoi::diagram_of_points(planar_graph, options, *box);
+        if (is_cancelled(options)) return Error{ErrorCode::cancelled, "cancelled", {}};
+        return of_points;
+      }
+      std::optional<Error> close;
+      Shape shape;
+      tbb::parallel_invoke([&] { close = too_close(planar_graph, told_apart * tolerance); },
+                           [&] { shape = around(planar_graph, far); });
+      if (close) return std::move(*close);
+
+      std::vector<VoronoiEdge> edges;
+      sites::SiteNumbers numbers;
+      auto axis = run_with_corners(shape, options, edges, numbers);
+      if (!axis) return std::move(axis).error();
+      if (!shape.bulges.empty()) voronoi::split_long_edges(*axis, edges, false);
+      try {
+        return voronoi::diagram_of(planar_graph, shape, numbers, std::move(axis).value(),
+                                   std::move(edges), *box);
+      } catch (const std::runtime_error& error) {
+        return Error{ErrorCode::internal, error.what(), {}};
+      }
+    });
+
+    if (!diagram) return explained(std::move(diagram).error(), planar_graph, tolerance);
+    diagram->statistics.threads = effective_threads(options.threads);
+    if (options.progress) options.progress(1);
+    return diagram;
+  } catch (...) {
+    return error_in_flight();
+  }
+}
+
+}  // namespace medial

@@ -1,0 +1,103 @@
+#include "voronoi/long_edges.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "axis/sites.h"
+#include "base/arc.h"
+#include "site/bisector.h"
+#include "site/site.h"
+#include "site/tangent_disk.h"
+
+namespace medial::voronoi {
+namespace {
+
+bool is_vertex(const MedialAxis& axis, std::uint32_t own) {
+  return axis.sites[own].kind == SiteKind::vertex;
+}
+
+/// A site seen from an origin; of an arc longer than a quarter of a circle, the half next to a
+/// place.
+site::Site seen_from(const Site& site, Vec2 origin, Vec2 near) {
+  if (site.kind == SiteKind::vertex) return site::make_vertex(site.start - origin);
+  const sites::Pieces pieces = sites::pieces_of(site.start - origin, site.end - origin, site.bulge);
+  const bool first = pieces.count == 1 || site::squared_distance(pieces.first(), near) <=
+                                              site::squared_distance(pieces.last(), near);
+  return first ? pieces.first() : pieces.last();
+}
+
+/// The disk through a point that grows in a direction until it touches an arc.
+Disk disk_towards(const MedialAxis& axis, Vec2 point, Vec2 direction, std::uint32_t own) {
+  const Site& site = axis.sites[own];
+  const sites::Pieces pieces = sites::pieces_of(site.start - point, site.end - point, site.bulge);
+  const double radius = site::tangent_radius({0, 0}, direction, pieces.first());
+  if (!std::isfinite(radius)) throw std::runtime_error("a Voronoi edge has no middle");
+  return {point + radius * direction, radius};
+}
+
+template <class E>
+void add_piece(const MedialAxis& axis, std::vector<E>& edges, std::size_t e, bool first, E edge,
+               std::uint32_t from, std::uint32_t to) {
+  edge.node = {from, to};
+  ConicEdge curve{axis.nodes[from].disk, {}, axis.nodes[to].disk, 1};
+  take_control(axis.sites[edge.site[0]], axis.sites[edge.site[1]], curve);
+  edge.control = curve.control;
+  edge.weight = curve.weight;
+  if (first)
+    edges[e] = edge;
+  else
+    edges.push_back(edge);
+}
+
+}  // namespace
+
+void take_control(const Site& left, const Site& right, ConicEdge& part) {
+  const Vec2 origin = part.from.center, middle = midpoint({0, 0}, part.to.center - origin);
+  const site::Control control =
+      site::control_of(seen_from(left, origin, middle), seen_from(right, origin, middle),
+                       {{0, 0}, part.from.radius}, {part.to.center - origin, part.to.radius});
+  part.control = {control.point.center + origin, control.point.radius};
+  part.weight = control.weight;
+}
+
+template <class E>
+void split_long_edges(MedialAxis& axis, std::vector<E>& edges, bool parabolas) {
+  const auto is_arc = [](const Site& site) { return site.kind == SiteKind::arc; };
+  if (!parabolas && std::ranges::none_of(axis.sites, is_arc)) return;
+  const std::size_t count = edges.size();
+  for (std::size_t e = 0; e < count; ++e) {
+    const E edge = edges[e];
+    const std::size_t side = is_vertex(axis, edge.site[0]) ? 0 : 1;
+    const Site& other = axis.sites[edge.site[1 - side]];
+    if (!is_vertex(axis, edge.site[side]) || !(is_arc(other) || parabolas)) continue;
+    if (other.kind == SiteKind::vertex) continue;
+    const Vec2 point = axis.sites[edge.site[side]].start;
+    const Vec2 from = axis.nodes[edge.node[0]].disk.center - point;
+    const Vec2 to = axis.nodes[edge.node[1]].disk.center - point;
+    // The foot on the right goes forward, around a vertex clockwise; on the left it is the other
+    // way around.
+    const double sign = side == 1 ? -1 : 1;
+    double turn = sign * std::atan2(cross(from, to), dot(from, to));
+    constexpr double backward = 1e-6;  // by rounding
+    if (turn < -backward) turn += 2 * std::numbers::pi;
+    const double pieces = std::ceil(turn / (0.5 * std::numbers::pi));
+    std::uint32_t last = edge.node[0];
+    for (double k = 1; k < pieces; ++k) {
+      const double angle = sign * turn * k / pieces, size = norm(from);
+      const Vec2 direction = (1 / size) * turned(from, std::cos(angle), std::sin(angle));
+      const auto node = static_cast<std::uint32_t>(axis.nodes.size());
+      axis.nodes.push_back({disk_towards(axis, point, direction, edge.site[1 - side]),
+                            axis.nodes[edge.node[0]].component, NodeKind::site_change});
+      add_piece(axis, edges, e, k == 1, edge, last, node);
+      last = node;
+    }
+    if (pieces > 1) add_piece(axis, edges, e, false, edge, last, edge.node[1]);
+  }
+}
+
+template void split_long_edges(MedialAxis&, std::vector<Edge>&, bool);
+template void split_long_edges(MedialAxis&, std::vector<VoronoiEdge>&, bool);
+
+}  // namespace medial::voronoi
