@@ -21,7 +21,7 @@ Input coast(const std::string& name, std::size_t vertices) {
   return {name, Family::coast, vertices, [name]() -> Result<std::vector<Ring>> {
             auto dataset = io::read_dataset(coast_path(name));
             if (!dataset) return dataset.error();
-            std::vector<Ring> rings = std::move(dataset->features.at(0).rings);
+            std::vector<Ring> rings = std::move(dataset->items.at(0).rings);
             for (Ring& ring : rings) {  // the peers want no closing point
               if (ring.points.size() > 1 && ring.points.front() == ring.points.back()) {
                 ring.points.pop_back();

@@ -89,7 +89,7 @@ int main(int argc, char** argv) {
     std::printf("%s\n", to_string(dataset.error()).c_str());
     return 1;
   }
-  const auto shape = build_shape(dataset->features.at(0).rings);
+  const auto shape = build_shape(dataset->items.at(0).rings);
   if (!shape) return 1;
   // From a few hundred metres to half of the largest inscribed circle, of a coastline in degrees.
   const double size = diagonal(bounding_box(*shape));

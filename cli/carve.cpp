@@ -31,7 +31,7 @@ struct CarveArguments {
   double scale = 1;
 };
 
-Status tell(const io::CarveFile& file, const CarveArguments& arguments, double seconds) {
+Status tell(const Document<io::CarveItem>& file, const CarveArguments& arguments, double seconds) {
   std::uint64_t paths = 0, moves = 0;
   double cut = 0, travel = 0, unordered = 0, deepest = 0;
   for (const io::CarveItem& item : file.items) {
@@ -73,7 +73,7 @@ Result<int> run_carve(const CarveArguments& arguments) {
   if (!shapes) return std::move(shapes).error();
   print_notes(*shapes, input, common);
   const Stopwatch watch;
-  io::CarveFile file;
+  Document<io::CarveItem> file;
   file.y_down = shapes->y_down;
   file.items.resize(shapes->shapes.size());
   Status computed = for_each_shape(

@@ -52,10 +52,11 @@ void append(MedialAxis& all, const MedialAxis& one) {
 }
 
 /// Replaces the axes of a file by lines along the paths.
-Status make_lines(io::NativeFile& file, const Paths& paths, const CentrelineArguments& arguments) {
+Status make_lines(Document<AxisItem>& file, const Paths& paths,
+                  const CentrelineArguments& arguments) {
   const std::vector<double> weights(file.items.size(), 1.0);
   return for_each_feature(weights, arguments.common.threads, [&](std::size_t i, int) -> Status {
-    io::NativeItem& item = file.items[i];
+    AxisItem& item = file.items[i];
     MedialAxis all;
     all.method = item.axis.method;
     all.tolerance = item.axis.tolerance;
@@ -68,7 +69,7 @@ Status make_lines(io::NativeFile& file, const Paths& paths, const CentrelineArgu
   });
 }
 
-Json json_of(const Paths& paths, const io::NativeFile& file) {
+Json json_of(const Paths& paths, const Document<AxisItem>& file) {
   Json features = Json::array();
   for (std::size_t i = 0; i < paths.size(); ++i) {
     Json list = Json::array();
@@ -85,7 +86,7 @@ Json json_of(const Paths& paths, const io::NativeFile& file) {
   return features;
 }
 
-Result<int> tell(const Paths& paths, const io::NativeFile& file,
+Result<int> tell(const Paths& paths, const Document<AxisItem>& file,
                  const CentrelineArguments& arguments, const Json& seconds) {
   std::uint64_t count = 0;
   double length = 0, narrowest = std::numeric_limits<double>::infinity();
@@ -194,7 +195,7 @@ Result<int> run_collapse(AxisFile axes, const CentrelineArguments& arguments) {
                    {"lines", io::LayerKind::lines, {"length", "width_min"}, {}}};
   for (std::uint32_t i = 0; i < collapsed.size(); ++i) {
     const CollapsedShape& one = collapsed[i];
-    const io::NativeItem& item = axes.native.items[i];
+    const AxisItem& item = axes.native.items[i];
     polygons += one.polygons.component_count();
     sum_area += area(one.polygons);
     sum_length += total_length(one.lines);
@@ -209,7 +210,7 @@ Result<int> run_collapse(AxisFile axes, const CentrelineArguments& arguments) {
     io::WriteOptions write = arguments.write;
     write.chord = arguments.common.chord;
     for (std::size_t i = 0; i < collapsed.size(); ++i) {
-      io::NativeItem& item = axes.native.items[i];
+      AxisItem& item = axes.native.items[i];
       item.axis = native ? std::move(collapsed[i].lines) : MedialAxis{};
       if (native) item.shape = std::move(collapsed[i].polygons);
     }
@@ -256,7 +257,7 @@ Result<int> run_centreline(const CentrelineArguments& arguments) {
   if (!axes) return std::move(axes).error();
   if (arguments.collapse > 0) return run_collapse(std::move(axes).value(), arguments);
   if (arguments.clearance > 0) {
-    for (io::NativeItem& item : axes->native.items)
+    for (AxisItem& item : axes->native.items)
       item.axis = clearance_part(item.axis, arguments.clearance);
     return write_and_tell(*axes, input, common, arguments.output, arguments.format,
                           arguments.write);

@@ -165,7 +165,7 @@ Result<std::vector<std::string>> methods_of(const std::string& names) {
 /// below.
 Status write_comparison(const std::string& path, const Shape& shape, const Box& box,
                         std::vector<Row>& rows, const ShapeFile& file) {
-  io::NativeFile native;
+  Document<AxisItem> native;
   native.crs_wkt = file.crs_wkt;
   native.y_down = file.y_down;
   const Vec2 size = box.high - box.low;
@@ -177,7 +177,7 @@ Status write_comparison(const std::string& path, const Shape& shape, const Box& 
     const Vec2 move{static_cast<double>(count % columns) * pitch.x,
                     (file.y_down ? 1 : -1) * static_cast<double>(count / columns) * pitch.y};
     ++count;
-    io::NativeItem item;
+    AxisItem item;
     item.shape = shape;
     item.axis = row.axis;
     item.attributes = {{"title", row.method}};

@@ -121,7 +121,7 @@ Result<int> run_features(const FeatureArguments& arguments) {
   const Stopwatch watch;
   std::vector<AxisFeatures> features(axes->native.items.size());
   std::vector<double> weights;
-  for (const io::NativeItem& item : axes->native.items)
+  for (const AxisItem& item : axes->native.items)
     weights.push_back(static_cast<double>(item.axis.edges.size()) + 1);
   Status described = for_each_feature(weights, common.threads, [&](std::size_t i, int) {
     features[i] = describe(axes->native.items[i].axis, arguments.options);

@@ -132,7 +132,7 @@ Result<int> tell_shapes(const InfoArguments& arguments) {
 
 /// One value if all axes agree, or else how many there are.
 template <class Get>
-std::string common_value(const io::NativeFile& file, Get get) {
+std::string common_value(const Document<AxisItem>& file, Get get) {
   const std::string first = get(file.items.front().axis);
   const bool same = std::all_of(file.items.begin(), file.items.end(),
                                 [&](const auto& item) { return get(item.axis) == first; });
@@ -150,12 +150,12 @@ Result<int> tell_axes(const InfoArguments& arguments) {
   if (holds_contours(*file)) return tell_shapes(arguments);
   const AxisSummary axes = summarize(*file);
   std::vector<std::reference_wrapper<const Shape>> shape_list;
-  for (const io::NativeItem& item : file->items) shape_list.emplace_back(item.shape);
+  for (const AxisItem& item : file->items) shape_list.emplace_back(item.shape);
   const ShapeSummary shapes = summarize_shapes(shape_list);
   const std::string method = common_value(*file, [](const MedialAxis& a) { return a.method; });
   double tolerance = 0;
   double resolution = 0;
-  for (const io::NativeItem& item : file->items) {
+  for (const AxisItem& item : file->items) {
     tolerance = std::max(tolerance, item.axis.tolerance);
     resolution = std::max(resolution, item.axis.resolution);
   }

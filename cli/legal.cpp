@@ -58,7 +58,7 @@ Result<int> run_legal(const LegalArguments& arguments) {
   const double seconds_read = reading.seconds();
   const Stopwatch judging;
   std::vector<std::vector<Legality>> judged;
-  for (const io::NativeItem& item : file->items) judged.push_back(legality(item.axis));
+  for (const AxisItem& item : file->items) judged.push_back(legality(item.axis));
   const double seconds_legal = judging.seconds();
 
   std::uint64_t count = 0, told = 0, legal = 0, strict = 0;
@@ -109,7 +109,7 @@ Result<int> run_legal(const LegalArguments& arguments) {
     if (offences.size() > most_branches_told) {
       row("illegal", fmt::format("and {} more", offences.size() - most_branches_told));
     }
-    for (const io::NativeItem& item : file->items)
+    for (const AxisItem& item : file->items)
       if (item.axis.method == "pack")
         row("within", fmt::format("{:.6g}, the error of the pack", item.axis.resolution));
     row("verdict", !offences.empty() ? "ILLEGAL"

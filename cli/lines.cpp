@@ -66,7 +66,7 @@ std::optional<Vec2> point_in(const Shape& shape, const NamedPlace& place) {
 }
 
 /// The path between the two named places in one feature.
-Result<AxisPath> path_between_named(const io::NativeItem& item, const NamedPlace& from,
+Result<AxisPath> path_between_named(const AxisItem& item, const NamedPlace& from,
                                     const NamedPlace& to, const PathOptions& arguments) {
   std::optional<EdgePlace> ends[2];
   const NamedPlace* names[2] = {&from, &to};
@@ -84,7 +84,7 @@ Result<AxisPath> path_between_named(const io::NativeItem& item, const NamedPlace
 }
 
 /// In which feature a place lies, or nearest to which.
-std::size_t feature_of(const io::NativeFile& file, const NamedPlace& place) {
+std::size_t feature_of(const Document<AxisItem>& file, const NamedPlace& place) {
   std::size_t best = 0;
   double deepest = -std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < file.items.size(); ++i) {
@@ -132,7 +132,7 @@ void add_path_options(CLI::App& command, PathOptions& arguments) {
       ->option_text("RADII");
 }
 
-Result<std::vector<std::vector<AxisPath>>> choose_paths(const io::NativeFile& file,
+Result<std::vector<std::vector<AxisPath>>> choose_paths(const Document<AxisItem>& file,
                                                         const PathOptions& arguments,
                                                         const std::string& input, int threads) {
   std::vector<std::vector<AxisPath>> paths(file.items.size());

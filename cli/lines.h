@@ -23,7 +23,7 @@ void add_path_options(CLI::App& command, PathOptions& arguments);
 
 /// The paths of every feature: the main paths, or the one between the places that were named, in
 /// the feature where the first of them lies. Errors name the feature.
-Result<std::vector<std::vector<AxisPath>>> choose_paths(const io::NativeFile& file,
+Result<std::vector<std::vector<AxisPath>>> choose_paths(const Document<AxisItem>& file,
                                                         const PathOptions& arguments,
                                                         const std::string& input, int threads);
 

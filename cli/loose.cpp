@@ -23,14 +23,14 @@ Result<LooseFile> load_chains(const InputOptions& input, int threads) {
   file.notes = std::move(dataset->notes);
   ArcOptions arcs = input.arcs;
   arcs.threads = threads;
-  for (std::uint32_t i = 0; i < dataset->features.size(); ++i) {
-    auto chains = io::chains_of(dataset->features[i], arcs);
+  for (std::uint32_t i = 0; i < dataset->items.size(); ++i) {
+    auto chains = io::chains_of(dataset->items[i], arcs);
     if (!chains) return at_feature(std::move(chains).error(), input.path, i);
     for (Chain& chain : *chains) {
       file.chains.push_back(std::move(chain));
       file.feature.push_back(i);
     }
-    file.attributes.push_back(std::move(dataset->features[i].attributes));
+    file.attributes.push_back(std::move(dataset->items[i].attributes));
   }
   return file;
 }

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "cli/pipeline.h"
-#include "medial/io/attributes.h"
+#include "medial/document.h"
 #include "medial/planar_graph.h"
 
 namespace medial::cli {
@@ -17,7 +17,7 @@ namespace medial::cli {
 struct LooseFile {
   std::vector<Chain> chains;
   std::vector<std::uint32_t> feature;
-  std::vector<io::Attributes> attributes;  ///< of each feature
+  std::vector<Attributes> attributes;  ///< of each feature
   std::string crs_wkt;
   bool y_down = false;
   std::vector<std::string> notes;

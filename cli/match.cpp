@@ -35,7 +35,7 @@ struct NamedSignature {
 };
 
 /// Makes one shape with one axis of all items, in the first.
-void join_items(std::vector<io::NativeItem>& items) {
+void join_items(std::vector<AxisItem>& items) {
   for (std::size_t i = 1; i < items.size(); ++i) {
     MedialAxis& axis = items[0].axis;
     const auto nodes = static_cast<std::uint32_t>(axis.nodes.size());
@@ -75,7 +75,7 @@ Result<std::vector<NamedSignature>> signatures_of(const InputOptions& input,
                                                   const CommonOptions& common, bool each) {
   auto axes = load_axes(input, common);
   if (!axes) return std::move(axes).error();
-  std::vector<io::NativeItem>& items = axes->native.items;
+  std::vector<AxisItem>& items = axes->native.items;
   std::vector<NamedSignature> out(each ? items.size() : std::min<std::size_t>(items.size(), 1));
   if (!each) join_items(items);
   std::vector<double> weights;

@@ -98,7 +98,7 @@ std::vector<Neck> necks_of(const MedialAxis& axis, const AxisPath& path, double 
   return found;
 }
 
-Result<Measured> measure(const io::NativeItem& item, const std::vector<AxisPath>& paths,
+Result<Measured> measure(const AxisItem& item, const std::vector<AxisPath>& paths,
                          const MeasureArguments& arguments) {
   Measured out;
   AxisPath all;
@@ -300,7 +300,7 @@ std::vector<Plot> profile_plots(const std::vector<Measured>& all, const std::str
   return plots;
 }
 
-io::LayerFile layers_of(const io::NativeFile& file, const std::vector<Measured>& all,
+io::LayerFile layers_of(const Document<AxisItem>& file, const std::vector<Measured>& all,
                         const MeasureArguments& arguments) {
   io::LayerFile layers;
   layers.crs_wkt = file.crs_wkt;
@@ -335,7 +335,7 @@ io::LayerFile layers_of(const io::NativeFile& file, const std::vector<Measured>&
   return layers;
 }
 
-Status write_output(io::NativeFile& file, const std::vector<Measured>& all,
+Status write_output(Document<AxisItem>& file, const std::vector<Measured>& all,
                     const MeasureArguments& arguments) {
   if (arguments.output.empty()) return success();
   if (arguments.format == "csv" || arguments.output.ends_with(".csv")) {
@@ -375,7 +375,7 @@ Result<int> run_measure(MeasureArguments arguments) {
   auto axes = compute_axes(std::move(shapes).value(), input.path, common, arguments.options);
   if (!axes) return std::move(axes).error();
   const Stopwatch measuring;
-  io::NativeFile& file = axes->native;
+  Document<AxisItem>& file = axes->native;
   auto paths = choose_paths(file, arguments.path, input.path, common.threads);
   if (!paths) return std::move(paths).error();
   std::vector<Measured> all(file.items.size());

@@ -59,7 +59,8 @@ Result<Offsets> offset_one(const Shape& shape, const OffsetArguments& arguments,
   return offset_curves(shape, clearances, options);
 }
 
-Status tell(const io::OffsetFile& file, const OffsetArguments& arguments, double seconds) {
+Status tell(const Document<io::OffsetItem>& file, const OffsetArguments& arguments,
+            double seconds) {
   std::uint64_t regions = 0, rings = 0, edges = 0;
   double seconds_axis = 0, seconds_curves = 0, total = 0;
   for (const io::OffsetItem& item : file.items) {
@@ -125,7 +126,7 @@ std::vector<io::BufferSource> sources_of(const LooseFile& file, const PlanarGrap
 }
 
 /// Buffers of all points and lines of the file together.
-Result<io::OffsetFile> buffer_all(const OffsetArguments& arguments) {
+Result<Document<io::OffsetItem>> buffer_all(const OffsetArguments& arguments) {
   const auto& input = arguments.input;
   auto loose = load_chains(input, arguments.common.threads);
   if (!loose) return std::move(loose).error();
@@ -137,7 +138,7 @@ Result<io::OffsetFile> buffer_all(const OffsetArguments& arguments) {
         {.tolerance = arguments.common.tolerance, .threads = arguments.common.threads});
   });
   if (!offsets) return std::move(offsets).error();
-  io::OffsetFile file;
+  Document<io::OffsetItem> file;
   file.crs_wkt = loose->crs_wkt;
   file.y_down = loose->y_down;
   auto sources = sources_of(*loose, planar_graph, *offsets);
@@ -147,13 +148,13 @@ Result<io::OffsetFile> buffer_all(const OffsetArguments& arguments) {
 }
 
 /// The offset curves of each shape of the file.
-Result<io::OffsetFile> offset_each(const OffsetArguments& arguments) {
+Result<Document<io::OffsetItem>> offset_each(const OffsetArguments& arguments) {
   const auto& input = arguments.input;
   const auto& common = arguments.common;
   auto shapes = load_shapes(input, common.threads);
   if (!shapes) return std::move(shapes).error();
   print_notes(*shapes, input, common);
-  io::OffsetFile file;
+  Document<io::OffsetItem> file;
   file.crs_wkt = shapes->crs_wkt;
   file.y_down = shapes->y_down;
   file.items.resize(shapes->shapes.size());
@@ -184,7 +185,7 @@ Result<int> run_offset(const OffsetArguments& arguments) {
   const Stopwatch watch;
   auto computed = arguments.loose ? buffer_all(arguments) : offset_each(arguments);
   if (!computed) return std::move(computed).error();
-  const io::OffsetFile file = std::move(computed).value();
+  const Document<io::OffsetItem> file = std::move(computed).value();
   const double seconds = watch.seconds();
   if (!arguments.output.empty()) {
     io::WriteOptions write = arguments.write;

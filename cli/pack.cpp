@@ -29,9 +29,9 @@ struct PackArguments {
 };
 
 /// The diagonal of all shapes together.
-double extent_of(const io::NativeFile& file) {
+double extent_of(const Document<AxisItem>& file) {
   Box all = Box::nothing();
-  for (const io::NativeItem& item : file.items)
+  for (const AxisItem& item : file.items)
     if (!item.shape.points.empty()) all.add(bounding_box(item.shape));
   return all.is_nothing() ? 0 : diagonal(all);
 }
@@ -55,10 +55,10 @@ Status tell(const PackArguments& arguments, Json object, const std::string& line
 }
 
 /// The boundary, packed in the same way and as it was: to compare.
-Json compare_boundary(const io::NativeFile& file, double error) {
+Json compare_boundary(const Document<AxisItem>& file, double error) {
   std::vector<Shape> shapes;
   std::string text;
-  for (const io::NativeItem& item : file.items) {
+  for (const AxisItem& item : file.items) {
     shapes.push_back(item.shape);
     for (const Vec2 p : item.shape.points) text += fmt::format("{:.17g} {:.17g},", p.x, p.y);
   }
@@ -110,7 +110,7 @@ Result<int> run_pack(const PackArguments& arguments) {
   const double size = extent_of(axes->native);
   const double bound = units ? error : error * size;
   std::vector<MedialAxis> all;
-  for (io::NativeItem& item : axes->native.items) all.push_back(std::move(item.axis));
+  for (AxisItem& item : axes->native.items) all.push_back(std::move(item.axis));
   std::vector<std::uint8_t> bytes;
   PackReport report;
   for (const auto& [quantum, prune] : settings) {

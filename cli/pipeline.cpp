@@ -113,7 +113,7 @@ void apply_rule(io::RepairRule rule, std::vector<Ring>& rings) {
 
 /// What a file holds, and where it is in medial's own format, the shapes they were.
 struct InputFile {
-  io::Dataset dataset;
+  Document<Feature> dataset;
   std::vector<Shape> originals;  ///< one without points where the file holds contours
 };
 
@@ -144,13 +144,13 @@ Result<InputFile> read_input(const InputOptions& input) {
   if (!native) return std::move(native).error();
   source.dataset.crs_wkt = native->crs_wkt;
   source.dataset.y_down = native->y_down;
-  for (io::NativeItem& item : native->items) {
-    io::Feature feature;
+  for (AxisItem& item : native->items) {
+    Feature feature;
     feature.rings = rings_of(item.shape);  // to be checked anew: a file may hold anything
     feature.contours = std::move(item.contours);
-    feature.id = static_cast<std::int64_t>(source.dataset.features.size());
+    feature.id = static_cast<std::int64_t>(source.dataset.items.size());
     feature.attributes = std::move(item.attributes);
-    source.dataset.features.push_back(std::move(feature));
+    source.dataset.items.push_back(std::move(feature));
     source.originals.push_back(std::move(item.shape));
   }
   return source;
@@ -164,9 +164,9 @@ Error at_feature(Error error, const std::string& path, std::size_t feature) {
   return error;
 }
 
-bool holds_contours(const io::NativeFile& file) {
+bool holds_contours(const Document<AxisItem>& file) {
   return std::ranges::any_of(file.items,
-                             [](const io::NativeItem& item) { return !item.contours.empty(); });
+                             [](const AxisItem& item) { return !item.contours.empty(); });
 }
 
 int effective_threads(int threads) {
@@ -220,7 +220,7 @@ Status for_each_feature(std::span<const double> weights, int threads,
 namespace {
 
 /// The boundary of a feature as contours, whatever it was read as.
-std::vector<Contour> contours_of(const io::Feature& feature) {
+std::vector<Contour> contours_of(const Feature& feature) {
   std::vector<Contour> contours = feature.contours;
   for (const Ring& ring : feature.rings)
     if (!ring.points.empty()) contours.push_back(contour_of(ring.points, ring.bulges, true));
@@ -229,7 +229,7 @@ std::vector<Contour> contours_of(const io::Feature& feature) {
 
 /// The shape of a feature, whose boundaries are given back as soon as they are not needed any more:
 /// curves become arcs, and what crosses is mended if that is asked for.
-Result<Shape> shape_of(io::Feature& feature, const InputOptions& input, ShapeReport& report,
+Result<Shape> shape_of(Feature& feature, const InputOptions& input, ShapeReport& report,
                        ArcReport& arc_report) {
   const bool curved =
       !feature.contours.empty() ||
@@ -265,8 +265,8 @@ Result<ShapeFile> load_shapes(const InputOptions& input, int threads, bool keep_
     if (error.place.file.empty()) error.place.file = input.path;
     return error;
   }
-  io::Dataset& dataset = source->dataset;
-  if (dataset.features.empty()) {
+  Document<Feature>& dataset = source->dataset;
+  if (dataset.items.empty()) {
     return error_at(ErrorCode::empty, input.path, "holds no polygon");
   }
   file.crs_wkt = std::move(dataset.crs_wkt);
@@ -279,9 +279,9 @@ Result<ShapeFile> load_shapes(const InputOptions& input, int threads, bool keep_
 
   const Stopwatch shaping;
   processor = processor_seconds();
-  const std::size_t count = dataset.features.size();
+  const std::size_t count = dataset.items.size();
   std::vector<double> weights;
-  for (io::Feature& feature : dataset.features) {
+  for (Feature& feature : dataset.items) {
     std::size_t points = 1;
     for (const Ring& ring : feature.rings) points += ring.points.size();
     for (const Contour& contour : feature.contours) points += contour.points.size();
@@ -293,7 +293,7 @@ Result<ShapeFile> load_shapes(const InputOptions& input, int threads, bool keep_
   std::vector<ShapeReport> reports(count);
   std::vector<ArcReport> arc_reports(count);
   Status built = for_each_feature(weights, threads, [&](std::size_t i, int) -> Status {
-    auto shape = shape_of(dataset.features[i], input, reports[i], arc_reports[i]);
+    auto shape = shape_of(dataset.items[i], input, reports[i], arc_reports[i]);
     if (!shape) return at_feature(std::move(shape).error(), input.path, i);
     file.shapes[i] = std::move(shape).value();
     if (!source->originals.empty() && !source->originals[i].points.empty()) {
@@ -366,7 +366,7 @@ Result<AxisFile> compute_axes(ShapeFile shapes, const std::string& path,
         own.progress = progress.part(weights[i]);
         auto axis = engine ? engine(i, shapes.shapes[i], own) : compute(shapes.shapes[i], own);
         if (!axis) return at_feature(std::move(axis).error(), path, i);
-        io::NativeItem& item = file.native.items[i];
+        AxisItem& item = file.native.items[i];
         item.axis = std::move(axis).value();
         item.shape = std::move(shapes.shapes[i]);
         item.attributes = std::move(shapes.attributes[i]);
@@ -375,7 +375,7 @@ Result<AxisFile> compute_axes(ShapeFile shapes, const std::string& path,
       });
   if (!computed) return std::move(computed).error();
 
-  for (io::NativeItem& item : file.native.items) {
+  for (AxisItem& item : file.native.items) {
     Statistics& part = item.axis.statistics;
     file.statistics += part;
     file.unresolved += unresolved_in(item.shape, item.axis);
@@ -431,7 +431,7 @@ Status for_each_shape(std::span<const Shape> shapes, const std::string& path,
                           });
 }
 
-AxisSummary summarize(const io::NativeFile& file) {
+AxisSummary summarize(const Document<AxisItem>& file) {
   AxisSummary summary;
   summary.features = file.items.size();
   summary.deepest.radius = -1;

@@ -10,7 +10,7 @@
 
 #include "cli/common.h"
 #include "medial/compute.h"
-#include "medial/io/attributes.h"
+#include "medial/document.h"
 #include "medial/io/read.h"
 
 namespace medial::cli {
@@ -21,7 +21,7 @@ Error at_feature(Error error, const std::string& path, std::size_t feature);
 /// The shapes of a file, one for each feature, in the file's order.
 struct ShapeFile {
   std::vector<Shape> shapes;
-  std::vector<io::Attributes> attributes;
+  std::vector<Attributes> attributes;
   std::vector<std::vector<Contour>>
       contours;        ///< as read, where load_shapes() is told to keep them
   ShapeReport report;  ///< summed over the features
@@ -39,7 +39,7 @@ struct ShapeFile {
 
 /// The axes of a file.
 struct AxisFile {
-  io::NativeFile native;
+  Document<AxisItem> native;
   Statistics statistics;  ///< summed over the features
   ShapeReport cleaned;    ///< of the input
   ArcReport arcs;         ///< of the input's curves
@@ -70,7 +70,7 @@ struct AxisSummary {
 };
 
 /// Whether a native file holds contours, whose axes are still to be computed.
-bool holds_contours(const io::NativeFile& file);
+bool holds_contours(const Document<AxisItem>& file);
 
 /// Threads that a run with this option uses: the machine's for 0.
 int effective_threads(int threads);
@@ -118,7 +118,7 @@ Status for_each_shape(std::span<const Shape> shapes, const std::string& path,
                       const CommonOptions& common,
                       const std::function<Status(std::size_t i, const Options& options)>& work);
 
-AxisSummary summarize(const io::NativeFile& file);
+AxisSummary summarize(const Document<AxisItem>& file);
 /// "1 feature, 12 sites, 20 nodes, 19 edges, 7 branches; deepest disk: radius 3 at (1, 2)"
 std::string describe(const AxisSummary& summary);
 Json to_json(const AxisSummary& summary);

@@ -127,7 +127,7 @@ Result<PruneOptions> prune_options(const PruneArguments& arguments) {
 
 Result<PruneReport> prune_all(AxisFile& file, const PruneOptions& options, int threads) {
   std::vector<double> weights;
-  for (const io::NativeItem& item : file.native.items)
+  for (const AxisItem& item : file.native.items)
     weights.push_back(static_cast<double>(item.axis.edges.size()));
   std::vector<PruneReport> reports(weights.size());
   Status done = for_each_feature(weights, threads, [&](std::size_t i, int) -> Status {
@@ -183,7 +183,7 @@ Status write_previews(const AxisFile& file, const PruneOptions& options,
   for (const double threshold : thresholds)
     panels.push_back({fmt::format("{} {:.3g}", name_of(options.measure), threshold), {}});
   std::vector<Shape> shapes;
-  for (const io::NativeItem& item : file.native.items) {
+  for (const AxisItem& item : file.native.items) {
     shapes.push_back(item.shape);
     const PruneOrder order(item.axis, options.measure, options.tips);
     for (std::size_t i = 0; i < panels.size(); ++i)

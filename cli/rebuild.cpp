@@ -79,8 +79,7 @@ Result<std::vector<Shape>> rebuild_all(const AxisFile& axes, const RebuildArgume
   std::vector<Shape> shapes(items.size());
   std::vector<RebuildReport> reports(items.size());
   std::vector<double> weights;
-  for (const io::NativeItem& item : items)
-    weights.push_back(static_cast<double>(item.axis.edges.size()));
+  for (const AxisItem& item : items) weights.push_back(static_cast<double>(item.axis.edges.size()));
   Status done =
       for_each_feature(weights, arguments.common.threads, [&](std::size_t i, int) -> Status {
         const MedialAxis& axis = items[i].axis;
@@ -206,7 +205,7 @@ Result<int> run(const RebuildArguments& arguments, bool smooths) {
   if (!output.empty()) object["output"] = output;
   if (smooths) {
     if (!around.exterior)
-      for (const io::NativeItem& item : axes->native.items) before.push_back(item.shape);
+      for (const AxisItem& item : axes->native.items) before.push_back(item.shape);
     const auto report = prune_all(*axes, *options, common.threads);
     if (!report) return report.error();
     object["measure"] = name_of(options->measure);

@@ -36,7 +36,7 @@ struct Summary {
   bool planar_graph = false;
 };
 
-Summary sum_of(const io::VoronoiFile& file) {
+Summary sum_of(const Document<io::VoronoiItem>& file) {
   Summary sum;
   for (const io::VoronoiItem& item : file.items) {
     const VoronoiDiagram& diagram = item.diagram;
@@ -50,9 +50,9 @@ Summary sum_of(const io::VoronoiFile& file) {
   return sum;
 }
 
-Result<io::VoronoiFile> compute_diagrams(ShapeFile shapes, const std::string& path,
-                                         const CommonOptions& common) {
-  io::VoronoiFile file;
+Result<Document<io::VoronoiItem>> compute_diagrams(ShapeFile shapes, const std::string& path,
+                                                   const CommonOptions& common) {
+  Document<io::VoronoiItem> file;
   file.crs_wkt = shapes.crs_wkt;
   file.y_down = shapes.y_down;
   file.items.resize(shapes.shapes.size());
@@ -77,7 +77,8 @@ struct Phases {
 };
 
 /// One diagram of all that the file holds.
-Result<io::VoronoiFile> compute_planar_graph(const VoronoiArguments& arguments, Phases& seconds) {
+Result<Document<io::VoronoiItem>> compute_planar_graph(const VoronoiArguments& arguments,
+                                                       Phases& seconds) {
   const auto& input = arguments.input;
   const Stopwatch reading;
   auto loose = load_chains(input, arguments.common.threads);
@@ -101,15 +102,15 @@ Result<io::VoronoiFile> compute_planar_graph(const VoronoiArguments& arguments, 
   });
   if (!diagram) return std::move(diagram).error();
   seconds.shape = watch.seconds() - seconds.voronoi;
-  io::VoronoiFile file;
+  Document<io::VoronoiItem> file;
   file.crs_wkt = loose->crs_wkt;
   file.y_down = loose->y_down;
   file.items.push_back({{}, std::move(diagram).value(), {}});
   return file;
 }
 
-Status tell(const io::VoronoiFile& file, const VoronoiArguments& arguments, double seconds,
-            const Json& costs) {
+Status tell(const Document<io::VoronoiItem>& file, const VoronoiArguments& arguments,
+            double seconds, const Json& costs) {
   const Summary sum = sum_of(file);
   if (arguments.common.json) {
     Json object = {{"input", arguments.input.path},
@@ -135,7 +136,8 @@ Status tell(const io::VoronoiFile& file, const VoronoiArguments& arguments, doub
   return success();
 }
 
-Result<io::VoronoiFile> compute_by_lee(const VoronoiArguments& arguments, Phases& seconds) {
+Result<Document<io::VoronoiItem>> compute_by_lee(const VoronoiArguments& arguments,
+                                                 Phases& seconds) {
   auto shapes = load_shapes(arguments.input, arguments.common.threads);
   if (!shapes) return std::move(shapes).error();
   print_notes(*shapes, arguments.input, arguments.common);

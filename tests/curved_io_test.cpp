@@ -29,7 +29,7 @@ class CurvedDxf : public CurvedIo {
  protected:
   void SetUp() override {
     CurvedIo::SetUp();
-    const Result<Dataset> data = read_dataset(write("empty.dxf", ""));
+    const Result<Document<Feature>> data = read_dataset(write("empty.dxf", ""));
     if (!data && to_string(data.error()).find("without DXF") != std::string::npos)
       GTEST_SKIP() << "built without DXF";
   }
@@ -59,14 +59,14 @@ std::string dxf_line(double x0, double y0, double x1, double y1, const std::stri
 
 TEST_F(CurvedDxf, JoinsLooseCurves) {
   // A stadium: lines and half circles in any order and direction.
-  const Dataset data =
+  const Document<Feature> data =
       read("a.dxf", dxf(dxf_line(0, 0, 4, 0) + "0 ARC\n8 A\n10 0\n20 1\n40 1\n50 90\n51 270\n" +
                         dxf_line(0, 2, 4, 2) + "0 ARC\n8 A\n10 4\n20 1\n40 1\n50 270\n51 90\n"));
-  ASSERT_EQ(data.features.size(), 1U);
-  EXPECT_EQ(data.features[0].attributes[0], (std::pair<std::string, std::string>{"layer", "A"}));
+  ASSERT_EQ(data.items.size(), 1U);
+  EXPECT_EQ(data.items[0].attributes[0], (std::pair<std::string, std::string>{"layer", "A"}));
   EXPECT_FALSE(data.y_down);
   EXPECT_EQ(count(data), (Counts{1, 2, 2, 0, 0, 0}));
-  const Contour& loop = data.features[0].contours[0];
+  const Contour& loop = data.items[0].contours[0];
   EXPECT_EQ(loop.points.front(), loop.points.back());
   double turn = 0;
   for (const CurvePiece& piece : loop.pieces) turn += 4 * std::atan(piece.bulge);
@@ -74,7 +74,7 @@ TEST_F(CurvedDxf, JoinsLooseCurves) {
 }
 
 TEST_F(CurvedDxf, ReadsClosedEntities) {
-  const Dataset data = read(
+  const Document<Feature> data = read(
       "a.dxf",
       dxf("0 CIRCLE\n8 A\n10 1\n20 2\n40 3\n"
           "0 ELLIPSE\n8 B\n10 0\n20 0\n11 4\n21 0\n40 0.5\n41 0\n42 6.283185307179586\n"
@@ -85,14 +85,13 @@ TEST_F(CurvedDxf, ReadsClosedEntities) {
           "3\n40 3\n10 0\n20 0\n10 4\n20 0\n10 4\n20 4\n10 0\n20 4\n10 0\n20 0\n"
           "0 LWPOLYLINE\n8 F\n90 1\n70 1\n10 0\n20 0\n42 1\n"
           "0 TEXT\n8 A\n1 hello\n0 HATCH\n8 A\n91 99999999\n"));
-  ASSERT_EQ(data.features.size(), 5U);
-  expect_circle(data.features[0].contours[0], {1, 2}, 3, true);
-  EXPECT_EQ(data.features[1].contours[0].points.front(),
-            data.features[1].contours[0].points.back());
-  expect_circle(data.features[2].contours[0], {1, 0}, 1, true);
-  EXPECT_EQ(data.features[3].contours[0].pieces[1].bulge, 0.5);
-  EXPECT_EQ(data.features[3].contours[0].pieces.size(), 3U);
-  const Contour& spline = data.features[4].contours[0];
+  ASSERT_EQ(data.items.size(), 5U);
+  expect_circle(data.items[0].contours[0], {1, 2}, 3, true);
+  EXPECT_EQ(data.items[1].contours[0].points.front(), data.items[1].contours[0].points.back());
+  expect_circle(data.items[2].contours[0], {1, 0}, 1, true);
+  EXPECT_EQ(data.items[3].contours[0].pieces[1].bulge, 0.5);
+  EXPECT_EQ(data.items[3].contours[0].pieces.size(), 3U);
+  const Contour& spline = data.items[4].contours[0];
   EXPECT_EQ(spline.pieces.size(), 3U);  // one a knot interval
   EXPECT_EQ(spline.pieces[0].degree, 2U);
   ASSERT_EQ(data.notes.size(), 1U);
@@ -102,19 +101,19 @@ TEST_F(CurvedDxf, ReadsClosedEntities) {
 TEST_F(CurvedDxf, BlocksAndMirrors) {
   const std::string block =
       "0 BLOCK\n8 0\n2 B\n70 0\n10 1\n20 0\n0 CIRCLE\n8 0\n10 1\n20 0\n40 1\n0 ENDBLK\n8 0\n";
-  const Dataset data = read(
+  const Document<Feature> data = read(
       "a.dxf", dxf("0 INSERT\n8 A\n2 B\n10 10\n20 0\n41 2\n42 2\n50 90\n70 2\n71 1\n44 5\n45 0\n"
                    "0 INSERT\n8 B\n2 B\n10 0\n20 0\n41 2\n42 1\n"
                    "0 CIRCLE\n8 C\n10 5\n20 0\n40 1\n210 0\n220 0\n230 -1\n"
                    "0 INSERT\n8 D\n2 missing\n10 0\n20 0\n",
                    block));
-  ASSERT_EQ(data.features.size(), 3U);
+  ASSERT_EQ(data.items.size(), 3U);
   // What stands in the drawing itself comes before what is inserted.
-  expect_circle(data.features[0].contours[0], {-5, 0}, 1, false);
-  ASSERT_EQ(data.features[1].contours.size(), 2U);
-  expect_circle(data.features[1].contours[0], {10, 0}, 2, true);
-  expect_circle(data.features[1].contours[1], {10, 5}, 2, true);
-  EXPECT_FALSE(data.features[2].contours[0].weights.empty());  // stretched to an ellipse
+  expect_circle(data.items[0].contours[0], {-5, 0}, 1, false);
+  ASSERT_EQ(data.items[1].contours.size(), 2U);
+  expect_circle(data.items[1].contours[0], {10, 0}, 2, true);
+  expect_circle(data.items[1].contours[1], {10, 5}, 2, true);
+  EXPECT_FALSE(data.items[2].contours[0].weights.empty());  // stretched to an ellipse
 }
 
 TEST_F(CurvedDxf, GapsAndOpenCurves) {
@@ -126,17 +125,18 @@ TEST_F(CurvedDxf, GapsAndOpenCurves) {
   options.close = 0.02;
   EXPECT_EQ(count(read("a.dxf", dxf(open), options)), (Counts{1, 3, 0, 0, 0, 0}));
   options.close = std::numeric_limits<double>::infinity();
-  const Dataset closed = read("a.dxf", dxf(open), options);
+  const Document<Feature> closed = read("a.dxf", dxf(open), options);
   EXPECT_EQ(count(closed), (Counts{1, 3, 0, 0, 0, 0}));
-  EXPECT_FALSE(closed.features[0].contours[0].points.front() ==
-               closed.features[0].contours[0].points.back());
+  EXPECT_FALSE(closed.items[0].contours[0].points.front() ==
+               closed.items[0].contours[0].points.back());
   // Dangling lines do not spoil the loop that they touch.
-  const Dataset dangling = read("a.dxf", dxf(dxf_line(0, 0, -1, -1) + dxf_line(0, 0, 4, 0) +
-                                             dxf_line(4, 0, 4, 3) + dxf_line(4, 3, 0, 0)));
+  const Document<Feature> dangling =
+      read("a.dxf", dxf(dxf_line(0, 0, -1, -1) + dxf_line(0, 0, 4, 0) + dxf_line(4, 0, 4, 3) +
+                        dxf_line(4, 3, 0, 0)));
   EXPECT_EQ(count(dangling), (Counts{1, 3, 0, 0, 0, 0}));
   EXPECT_NE(dangling.notes[0].find("1 curve stays open"), std::string::npos);
   // Two triangles with a common corner.
-  const Dataset touching =
+  const Document<Feature> touching =
       read("a.dxf", dxf(dxf_line(0, 0, 4, 0) + dxf_line(4, 0, 4, 3) + dxf_line(4, 3, 0, 0) +
                         dxf_line(0, 0, -4, 0) + dxf_line(-4, 0, -4, -3) + dxf_line(-4, -3, 0, 0)));
   EXPECT_EQ(count(touching).lines, 6U);
@@ -145,12 +145,12 @@ TEST_F(CurvedDxf, GapsAndOpenCurves) {
 
 TEST_F(CurvedDxf, Layers) {
   const std::string two = "0 CIRCLE\n8 A\n10 0\n20 0\n40 1\n0 CIRCLE\n8 B\n10 9\n20 0\n40 2\n";
-  EXPECT_EQ(read("a.dxf", dxf(two)).features.size(), 2U);
+  EXPECT_EQ(read("a.dxf", dxf(two)).items.size(), 2U);
   ReadOptions options;
   options.layer = "B";
-  const Dataset one = read("a.dxf", dxf(two), options);
-  ASSERT_EQ(one.features.size(), 1U);
-  expect_circle(one.features[0].contours[0], {9, 0}, 2, true);
+  const Document<Feature> one = read("a.dxf", dxf(two), options);
+  ASSERT_EQ(one.items.size(), 1U);
+  expect_circle(one.items[0].contours[0], {9, 0}, 2, true);
   options.layer = "C";
   EXPECT_EQ(refused("a.dxf", dxf(two), options).code, ErrorCode::invalid_option);
 }
@@ -204,7 +204,7 @@ TEST_F(CurvedDxf, OfTheDataFolder) {
     if (!fs::exists(data / folder)) continue;
     for (const auto& entry : fs::directory_iterator(data / folder)) {
       const std::string name = entry.path().filename().string();
-      const Result<Dataset> drawing = read_dataset(entry.path().string());
+      const Result<Document<Feature>> drawing = read_dataset(entry.path().string());
       ++files;
       if (std::ranges::find(nothing, name) != nothing.end()) {
         ASSERT_FALSE(drawing.ok()) << name;
@@ -222,14 +222,14 @@ TEST_F(CurvedDxf, OfTheDataFolder) {
 TEST_F(CurvedIo, FontOutlines) {
   const std::string font = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
   if (!fs::exists(font)) GTEST_SKIP() << font << " is not here";
-  const Result<Dataset> data = read_text("i \xC3\xA4V", font);
+  const Result<Document<Feature>> data = read_text("i \xC3\xA4V", font);
   ASSERT_TRUE(data.ok()) << to_string(data.error());
-  ASSERT_EQ(data->features.size(), 3U);
-  EXPECT_EQ(data->features[0].contours.size(), 2U);  // the dot
-  EXPECT_EQ(data->features[1].contours.size(), 4U);  // two dots, a bowl and its counter
-  EXPECT_EQ(data->features[1].attributes[0].second, "\xC3\xA4");
-  EXPECT_EQ(data->features[1].attributes[1].second, "2");
-  EXPECT_EQ(data->features[0].contours[0].role, RingRole::winding);
+  ASSERT_EQ(data->items.size(), 3U);
+  EXPECT_EQ(data->items[0].contours.size(), 2U);  // the dot
+  EXPECT_EQ(data->items[1].contours.size(), 4U);  // two dots, a bowl and its counter
+  EXPECT_EQ(data->items[1].attributes[0].second, "\xC3\xA4");
+  EXPECT_EQ(data->items[1].attributes[1].second, "2");
+  EXPECT_EQ(data->items[0].contours[0].role, RingRole::winding);
   EXPECT_FALSE(data->y_down);
   // Advances place what follows to the right.
   const auto left = [](const Feature& feature) {
@@ -239,17 +239,17 @@ TEST_F(CurvedIo, FontOutlines) {
     }
     return x;
   };
-  EXPECT_GT(left(data->features[1]), left(data->features[0]) + 500);
+  EXPECT_GT(left(data->items[1]), left(data->items[0]) + 500);
   EXPECT_EQ(read_text("  ", font).error().code, ErrorCode::empty);
   // No UTF-8: a stray byte, a surrogate, a code beyond the last, a letter in more bytes than it
   // takes.
   for (const char* bytes : {"\xFF", "\xED\xA0\x80", "\xF4\x90\x80\x80", "\xC1\xA1"}) {
-    const Result<Dataset> refused = read_text(bytes, font);
+    const Result<Document<Feature>> refused = read_text(bytes, font);
     ASSERT_FALSE(refused.ok());
     EXPECT_EQ(refused.error().text, "byte 0 of the text is not UTF-8");
   }
   EXPECT_EQ(read_text("a\n", font).error().code, ErrorCode::malformed);
-  const Result<Dataset> missing = read_text("\xF0\x93\x80\x80", font);  // a hieroglyph
+  const Result<Document<Feature>> missing = read_text("\xF0\x93\x80\x80", font);  // a hieroglyph
   ASSERT_TRUE(missing.ok());
   EXPECT_EQ(missing->notes.size(), 1U);
 }
@@ -264,31 +264,31 @@ TEST_F(CurvedIo, FontsThatAreNone) {
 // --- curve geometries ----------------------------------------------------------------------------
 
 TEST_F(CurvedIo, CurveGeometriesAreArcs) {
-  const Dataset data =
+  const Document<Feature> data =
       read("a.wkt",
            "CURVEPOLYGON(CIRCULARSTRING(0 0,1 1,2 0,1 -1,0 0),(0.5 0,1 0.2,1 0,0.5 0))\n"
            "MULTISURFACE(CURVEPOLYGON(COMPOUNDCURVE((0 0,4 0),CIRCULARSTRING(4 0,5 1,4 2),(4 2,0 "
            "2),CIRCULARSTRING(0 2,-1 1,0 0))),((9 0,10 0,10 1,9 0)))\n"
            "CURVEPOLYGON(CIRCULARSTRING(0 0,6 8,0 0))\n"
            "CURVEPOLYGON(CIRCULARSTRING(0 0,1 0,2 0,3 3,0 0))\n");
-  ASSERT_EQ(data.features.size(), 4U);
-  const Ring& circle = data.features[0].rings[0];
+  ASSERT_EQ(data.items.size(), 4U);
+  const Ring& circle = data.items[0].rings[0];
   ASSERT_EQ(circle.points.size(), 3U);
   ASSERT_EQ(circle.bulges.size(), 3U);
   EXPECT_DOUBLE_EQ(circle.bulges[0], -1);
   EXPECT_DOUBLE_EQ(circle.bulges[1], -1);
-  EXPECT_EQ(data.features[0].rings[1].role, RingRole::hole);
-  EXPECT_TRUE(data.features[0].rings[1].bulges.empty());
-  const Ring& stadium = data.features[1].rings[0];
+  EXPECT_EQ(data.items[0].rings[1].role, RingRole::hole);
+  EXPECT_TRUE(data.items[0].rings[1].bulges.empty());
+  const Ring& stadium = data.items[1].rings[0];
   ASSERT_EQ(stadium.points.size(), 5U);
   EXPECT_EQ(stadium.bulges[0], 0);
   EXPECT_DOUBLE_EQ(stadium.bulges[1], 1);
   EXPECT_EQ(stadium.bulges[2], 0);
   EXPECT_DOUBLE_EQ(stadium.bulges[3], 1);
-  EXPECT_EQ(data.features[1].rings.size(), 2U);
-  EXPECT_EQ(data.features[2].rings[0].bulges, (std::vector<double>{1, 1, 0}));
-  EXPECT_EQ(data.features[2].rings[0].points[1], (Vec2{6, 8}));
-  EXPECT_EQ(data.features[3].rings[0].bulges[0], 0);  // three points in a row
+  EXPECT_EQ(data.items[1].rings.size(), 2U);
+  EXPECT_EQ(data.items[2].rings[0].bulges, (std::vector<double>{1, 1, 0}));
+  EXPECT_EQ(data.items[2].rings[0].points[1], (Vec2{6, 8}));
+  EXPECT_EQ(data.items[3].rings[0].bulges[0], 0);  // three points in a row
   EXPECT_TRUE(data.notes.empty());
 }
 
@@ -316,15 +316,15 @@ TEST_F(CurvedIo, ProjectsCurves) {
          << " 48," << center.x + radius << " 48))\nPOLYGON((" << points.str() << "))";
     ReadOptions options;
     options.project = true;
-    const Dataset data = read("round.wkt", text.str(), options);
-    ASSERT_EQ(data.features.size(), 2U);
-    ASSERT_EQ(data.features[0].contours.size(), 1U);
-    ASSERT_EQ(data.features[1].rings.size(), 1U);
+    const Document<Feature> data = read("round.wkt", text.str(), options);
+    ASSERT_EQ(data.items.size(), 2U);
+    ASSERT_EQ(data.items[0].contours.size(), 1U);
+    ASSERT_EQ(data.items[1].rings.size(), 1U);
     ArcReport report;
-    const auto rings = approximate_by_arcs(data.features[0].contours, {.tolerance = 1e-9}, &report);
+    const auto rings = approximate_by_arcs(data.items[0].contours, {.tolerance = 1e-9}, &report);
     ASSERT_TRUE(rings.ok());
     double furthest = 0;
-    for (const Vec2 point : data.features[1].rings[0].points) {
+    for (const Vec2 point : data.items[1].rings[0].points) {
       double nearest = 1e300;
       for (const auto& edge : test::edges_of((*rings)[0]))
         nearest = std::min(nearest, edge.distance_to(point));
@@ -347,7 +347,7 @@ TEST_F(CurvedIo, NativeContours) {
   const std::string text = R"({"medial":2,"items":[{"attributes":[["name","a"]],"contours":[
     {"role":"hole","start":[0,0],"pieces":[["line",4,0],["arc",4,4,1],["bezier",3,5,2,5,1,4],
      ["rational",0,4,0.5,0,3,1]]}]}]})";
-  const Result<NativeFile> file = read_native(write("a.json", text));
+  const Result<Document<AxisItem>> file = read_native(write("a.json", text));
   ASSERT_TRUE(file.ok()) << to_string(file.error());
   ASSERT_EQ(file->items.size(), 1U);
   const Contour& contour = file->items[0].contours[0];
@@ -357,10 +357,10 @@ TEST_F(CurvedIo, NativeContours) {
   EXPECT_EQ(contour.pieces[2].degree, 3U);
   EXPECT_EQ(contour.weights.back(), 1);
   EXPECT_EQ(contour.weights[contour.weights.size() - 2], 0.5);
-  const Dataset data = read("a.json", text);
-  EXPECT_EQ(data.features[0].contours.size(), 1U);
+  const Document<Feature> data = read("a.json", text);
+  EXPECT_EQ(data.items[0].contours.size(), 1U);
   const auto bad = [this](const std::string& contours) {
-    const Result<NativeFile> broken =
+    const Result<Document<AxisItem>> broken =
         read_native(write("b.json", R"({"medial":2,"items":[{"contours":[)" + contours + "]}]}"));
     EXPECT_FALSE(broken.ok()) << contours;
     return broken.ok() ? ErrorCode::internal : broken.error().code;
@@ -376,8 +376,8 @@ TEST_F(CurvedIo, NativeContours) {
 }
 
 /// A lens of two arcs, with an axis that names its sites in every way there is.
-NativeFile lens() {
-  NativeItem item;
+Document<AxisItem> lens() {
+  AxisItem item;
   item.shape.points = {{0, 0}, {2, 0}};
   item.shape.bulges = {0.3, 0.1 + 0.2};
   item.shape.sources = {{0, 0}, {0, 5}};
@@ -390,19 +390,19 @@ NativeFile lens() {
                      {{2, 0}, {0.5, 0.25}, 0, 5, SiteKind::arc, 0.125}};
   item.axis.nodes = {{{{0, 0}, 0}, 0, NodeKind::leaf}, {{{2, 0}, 0}, 0, NodeKind::leaf}};
   item.axis.edges = {{{0, 1}, {0, 1}, {{1, 0}, 0.7}, 1.25}};
-  NativeFile file;
+  Document<AxisItem> file;
   file.items.push_back(item);
   return file;
 }
 
 TEST_F(CurvedIo, NativeArcsWithoutLoss) {
-  NativeFile file = lens();
+  Document<AxisItem> file = lens();
   file.y_down = true;
   ASSERT_TRUE(write_axes(path("a.json"), "", file).ok());
-  const Result<NativeFile> again = read_native(path("a.json"));
+  const Result<Document<AxisItem>> again = read_native(path("a.json"));
   ASSERT_TRUE(again.ok()) << to_string(again.error());
   EXPECT_TRUE(again->y_down);
-  const NativeItem& item = again->items[0];
+  const AxisItem& item = again->items[0];
   EXPECT_EQ(item.shape.bulges, file.items[0].shape.bulges);
   ASSERT_EQ(item.axis.sites.size(), 3U);
   for (std::size_t i = 0; i < 3; ++i) {
@@ -414,8 +414,8 @@ TEST_F(CurvedIo, NativeArcsWithoutLoss) {
   EXPECT_EQ(content("a.json"), content("b.json"));
   EXPECT_NE(content("a.json").find("[2,0]"), std::string::npos);  // an arc told by its vertex
   EXPECT_EQ(content("a.json").find("\"medial\":2"), 1U);
-  const Dataset data = read("c.json", content("a.json"));
-  EXPECT_EQ(data.features[0].rings[0].bulges, file.items[0].shape.bulges);
+  const Document<Feature> data = read("c.json", content("a.json"));
+  EXPECT_EQ(data.items[0].rings[0].bulges, file.items[0].shape.bulges);
   EXPECT_TRUE(data.y_down);
 }
 
@@ -434,7 +434,7 @@ std::vector<double> values(const std::string& drawing, const std::string& entity
 }
 
 TEST_F(CurvedDxf, DrawingsHoldExactEdges) {
-  NativeFile file = lens();
+  Document<AxisItem> file = lens();
   ASSERT_TRUE(write_axes(path("a.dxf"), "", file).ok());
   const std::string flat = content("a.dxf");
   EXPECT_EQ(values(flat, "SPLINE", 10), (std::vector<double>{0, 1, 2}));
@@ -455,13 +455,13 @@ TEST_F(CurvedDxf, DrawingsHoldExactEdges) {
 }
 
 TEST_F(CurvedIo, PicturesOfArcs) {
-  NativeFile file = lens();
+  Document<AxisItem> file = lens();
   ASSERT_TRUE(write_axes(path("a.svg"), "", file).ok());
   const std::string arcs = content("a.svg");
   EXPECT_NE(arcs.find(" C "), std::string::npos);
   // A shape whose y axis points down, and its mirror image, whose does not, look alike.
-  NativeFile mirrored = lens();
-  NativeItem& item = mirrored.items[0];
+  Document<AxisItem> mirrored = lens();
+  AxisItem& item = mirrored.items[0];
   for (Vec2& p : item.shape.points) p.y = -p.y;
   for (double& bulge : item.shape.bulges) bulge = -bulge;
   file.y_down = true;
@@ -475,7 +475,7 @@ TEST_F(CurvedIo, PicturesOfArcs) {
 
 TEST_F(CurvedIo, PicturesAreReadBackAsCircles) {
   // A disk's outline in a vector picture stays within 1e-6 of the circle.
-  NativeFile file = lens();
+  Document<AxisItem> file = lens();
   file.items[0].shape.points = {{-1, 0}, {0, -1}, {1, 0}, {0, 1}};
   file.items[0].shape.bulges.assign(4, std::tan(std::numbers::pi / 8));
   file.items[0].shape.sources.resize(4);
@@ -485,10 +485,10 @@ TEST_F(CurvedIo, PicturesAreReadBackAsCircles) {
   WriteOptions options;
   options.width = 1000;
   ASSERT_TRUE(write_axes(path("a.svg"), "", file, options).ok());
-  const Result<Dataset> picture = read_dataset(path("a.svg"));
+  const Result<Document<Feature>> picture = read_dataset(path("a.svg"));
   ASSERT_TRUE(picture.ok()) << to_string(picture.error());
   const Contour* outline = nullptr;
-  for (const Feature& feature : picture->features) {
+  for (const Feature& feature : picture->items) {
     for (const Contour& contour : feature.contours) {
       if (contour.pieces.size() >= 16) outline = &contour;
     }
@@ -549,7 +549,7 @@ TEST_F(CurvedIo, DamagedFilesAreReadOrRefused) {
             text.resize(random() % 8 == 0 ? at : text.size());
         }
       }
-      const Result<Dataset> data = read_dataset(write(name, text));
+      const Result<Document<Feature>> data = read_dataset(write(name, text));
       ++(data ? read : refusals);
       if (data) continue;
       EXPECT_NE(data.error().code, ErrorCode::internal) << to_string(data.error());

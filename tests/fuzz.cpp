@@ -143,7 +143,7 @@ std::vector<Sample> samples(const fs::path& folder) {
        R"([[3,2],[3,4],[6,4],[6,2],[3,2]]]}},{"type":"Feature","properties":null,"geometry":)"
        R"({"type":"MultiPolygon","coordinates":[[[[20,0],[24,0],[22,3],[20,0]]]]}}]})"}};
 
-  io::NativeFile file;
+  Document<AxisItem> file;
   const Rings rings{ring_of({{0, 0}, {9, 0}, {9, 6}, {0, 6}}),
                     ring_of({{3, 2}, {3, 4}, {6, 4}, {6, 2}})};
   Result<Shape> shape = build_shape(rings);
@@ -301,7 +301,7 @@ std::optional<std::string> fault_of_pack(const std::string& path) {
   if (!native)
     return is_refusal(native.error().code) ? std::nullopt
                                            : std::optional(to_string(native.error()));
-  for (const io::NativeItem& item : native->items)
+  for (const AxisItem& item : native->items)
     if (item.shape.points.empty() && notes.empty()) return "no shape, and nothing told";
   return std::nullopt;
 }
@@ -312,7 +312,7 @@ std::optional<std::string> fault_of_file(const std::string& path) {
   const auto dataset = io::read_dataset(path);
   if (!dataset && !is_refusal(dataset.error().code)) return to_string(dataset.error());
   if (dataset) {
-    for (const io::Feature& feature : dataset->features) {
+    for (const Feature& feature : dataset->items) {
       const Outcome outcome = examine(feature.rings);
       if (outcome.verdict == Verdict::failed) return outcome.reasons[0];
     }
@@ -323,7 +323,7 @@ std::optional<std::string> fault_of_file(const std::string& path) {
   const auto native = io::read_native(path);
   if (!native && !is_refusal(native.error().code)) return to_string(native.error());
   if (!native) return std::nullopt;
-  for (const io::NativeItem& item : native->items) {
+  for (const AxisItem& item : native->items) {
     const Certificate certificate = verify(item.shape, item.axis, {.threads = 1});
     if (certificate.passed != certificate.failures.empty()) return "a verdict without reasons";
   }

@@ -103,7 +103,7 @@ Outcome refused_or_failed(const Error& error) {
       is_refusal(error.code) ? Verdict::refused : Verdict::failed, error.code, {to_string(error)}};
 }
 
-void examine_feature(const io::Feature& feature, const std::string& name, const Settings& settings,
+void examine_feature(const Feature& feature, const std::string& name, const Settings& settings,
                      Row& row) {
   const auto begin = std::chrono::steady_clock::now();
   std::vector<Ring> rings = feature.rings;
@@ -142,10 +142,10 @@ void examine_feature(const io::Feature& feature, const std::string& name, const 
   }
 }
 
-void examine_dataset(const Result<io::Dataset>& dataset, const std::string& name,
+void examine_dataset(const Result<Document<Feature>>& dataset, const std::string& name,
                      const Settings& settings, Row& row) {
   if (dataset) {
-    for (const io::Feature& feature : dataset->features)
+    for (const Feature& feature : dataset->items)
       examine_feature(feature, name + "_" + std::to_string(feature.id), settings, row);
     return;
   }

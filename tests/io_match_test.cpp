@@ -48,7 +48,7 @@ double first_ranks(const std::vector<Sample>& samples, const std::string& what) 
 }
 
 /// The signature of a feature; nothing where it has no valid shape.
-std::optional<ShapeSignature> sign(const io::Feature& feature) {
+std::optional<ShapeSignature> sign(const Feature& feature) {
   std::vector<Ring> rings = feature.rings;
   if (!feature.contours.empty()) {
     auto arcs = approximate_by_arcs(feature.contours, {.tolerance = 1e-4});
@@ -72,9 +72,9 @@ TEST(MatchKinds, LettersOfDifferentFonts) {
     if (!fs::exists(path)) continue;
     const auto text = io::read_text(letters, path);
     ASSERT_TRUE(text.ok());
-    ASSERT_EQ(text->features.size(), letters.size());
+    ASSERT_EQ(text->items.size(), letters.size());
     for (std::size_t i = 0; i < letters.size(); ++i) {
-      const auto signature = sign(text->features[i]);
+      const auto signature = sign(text->items[i]);
       ASSERT_TRUE(signature.has_value()) << letters[i] << " " << font;
       samples.push_back(
           {letters.substr(i, 1), letters.substr(i, 1) + "(" + font + ")", *signature});
@@ -139,7 +139,7 @@ TEST(MatchKinds, Silhouettes) {
       const Image image = image_of(file->image, way.angle, way.mirror, way.scale, way.noise);
       auto outline = smooth_outline(image);
       ASSERT_TRUE(outline.ok());
-      io::Feature feature;
+      Feature feature;
       feature.contours = std::move(outline).value();
       const auto signature = sign(feature);
       ASSERT_TRUE(signature.has_value()) << name << way.name;

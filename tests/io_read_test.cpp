@@ -31,7 +31,7 @@ namespace {
 namespace fs = std::filesystem;
 
 TEST_F(Io, ReadsEveryKindOfWellKnownText) {
-  const Result<Dataset> data =
+  const Result<Document<Feature>> data =
       read_dataset(write("a.wkt",
                          "SRID=4326;polygon z((0 0 9,1 0 9,1 1e0 9,0 0 9))\r\n"
                          "MULTIPOLYGON M (((0 0 1,+1 0 2,.5 -1. 3)),EMPTY,"
@@ -41,32 +41,32 @@ TEST_F(Io, ReadsEveryKindOfWellKnownText) {
                          "LINESTRING(0 0,1 1))\n"
                          "POLYGON EMPTY\n"));
   ASSERT_TRUE(data.ok()) << to_string(data.error());
-  ASSERT_EQ(data->features.size(), 3U);
+  ASSERT_EQ(data->items.size(), 3U);
   EXPECT_TRUE(data->geographic);
   EXPECT_NE(data->crs_wkt.find("WGS 84"), std::string::npos);
-  EXPECT_EQ(data->features[0].rings.size(), 1U);
-  EXPECT_EQ(data->features[0].rings[0].points.size(), 4U);
-  EXPECT_TRUE(same(data->features[0].rings[0].points[2], {1, 1}));
-  ASSERT_EQ(data->features[1].rings.size(), 3U);
-  EXPECT_EQ(data->features[1].rings[1].role, RingRole::outer);
-  EXPECT_EQ(data->features[1].rings[2].role, RingRole::hole);
-  EXPECT_TRUE(same(data->features[1].rings[0].points[2], {0.5, -1}));
-  EXPECT_EQ(data->features[2].id, 2);
+  EXPECT_EQ(data->items[0].rings.size(), 1U);
+  EXPECT_EQ(data->items[0].rings[0].points.size(), 4U);
+  EXPECT_TRUE(same(data->items[0].rings[0].points[2], {1, 1}));
+  ASSERT_EQ(data->items[1].rings.size(), 3U);
+  EXPECT_EQ(data->items[1].rings[1].role, RingRole::outer);
+  EXPECT_EQ(data->items[1].rings[2].role, RingRole::hole);
+  EXPECT_TRUE(same(data->items[1].rings[0].points[2], {0.5, -1}));
+  EXPECT_EQ(data->items[2].id, 2);
   ASSERT_EQ(data->notes.size(), 2U);
   EXPECT_NE(data->notes[0].find("2 geometries are no polygons"), std::string::npos);
   EXPECT_NE(data->notes[1].find("1 features are empty"), std::string::npos);
 }
 
 TEST_F(Io, ReadsPlainCoordinates) {
-  const Result<Dataset> data = read_dataset(
+  const Result<Document<Feature>> data = read_dataset(
       write("a.txt", "# outer\n0 0\n4,0\n 4 ; 3 # corner\r\n\t0\t3\n\n\n# hole\n1 1\n2 1\n2 2"));
   ASSERT_TRUE(data.ok()) << to_string(data.error());
-  ASSERT_EQ(data->features.size(), 1U);
-  ASSERT_EQ(data->features[0].rings.size(), 2U);
-  EXPECT_EQ(data->features[0].rings[0].points.size(), 4U);
-  EXPECT_TRUE(same(data->features[0].rings[0].points[2], {4, 3}));
-  EXPECT_EQ(data->features[0].rings[1].role, RingRole::any);
-  EXPECT_EQ(data->features[0].rings[1].points.size(), 3U);
+  ASSERT_EQ(data->items.size(), 1U);
+  ASSERT_EQ(data->items[0].rings.size(), 2U);
+  EXPECT_EQ(data->items[0].rings[0].points.size(), 4U);
+  EXPECT_TRUE(same(data->items[0].rings[0].points[2], {4, 3}));
+  EXPECT_EQ(data->items[0].rings[1].role, RingRole::any);
+  EXPECT_EQ(data->items[0].rings[1].points.size(), 3U);
 }
 
 TEST_F(Io, NumbersAreRoundedCorrectly) {
@@ -80,9 +80,9 @@ TEST_F(Io, NumbersAreRoundedCorrectly) {
     values.push_back(value);
     text << value << (i % 2 == 0 ? " " : "\n");
   }
-  const Result<Dataset> data = read_dataset(write("a.xy", text.str()));
+  const Result<Document<Feature>> data = read_dataset(write("a.xy", text.str()));
   ASSERT_TRUE(data.ok()) << to_string(data.error());
-  const auto& points = data->features[0].rings[0].points;
+  const auto& points = data->items[0].rings[0].points;
   ASSERT_EQ(points.size(), values.size() / 2);
   for (std::size_t i = 0; i < points.size(); ++i) {
     EXPECT_TRUE(same(points[i], {values[2 * i], values[2 * i + 1]})) << values[2 * i];
@@ -96,9 +96,9 @@ TEST_F(Io, NumbersMayStandAcrossTheWindowsOfTheReader) {
             "-7.5e-1,";
   }
   text += "0 0))";
-  const Result<Dataset> data = read_dataset(write("a.wkt", text));
+  const Result<Document<Feature>> data = read_dataset(write("a.wkt", text));
   ASSERT_TRUE(data.ok()) << to_string(data.error());
-  const auto& points = data->features[0].rings[0].points;
+  const auto& points = data->items[0].rings[0].points;
   ASSERT_EQ(points.size(), 60001U);
   for (std::size_t i = 0; i < 60000; ++i) {
     ASSERT_TRUE(same(points[i], {std::stod(std::to_string(i) + ".123456789"), -0.75})) << i;
@@ -107,7 +107,7 @@ TEST_F(Io, NumbersMayStandAcrossTheWindowsOfTheReader) {
 
 TEST_F(Io, ErrorsOfTextsNameTheLine) {
   const auto refused = [this](const std::string& name, const std::string& text) {
-    const Result<Dataset> data = read_dataset(write(name, text));
+    const Result<Document<Feature>> data = read_dataset(write(name, text));
     EXPECT_FALSE(data.ok()) << text;
     return data.ok() ? Error{} : data.error();
   };
@@ -198,7 +198,7 @@ TEST_F(Io, FormatsWithoutAttributesRefuseFilters) {
 void expect_typed_errors(const std::string& name, const std::string& content, std::size_t whole) {
   for (std::size_t size = 0; size <= content.size(); ++size) {
     std::ofstream(name, std::ios::binary | std::ios::trunc) << content.substr(0, size);
-    const Result<Dataset> data = read_dataset(name);
+    const Result<Document<Feature>> data = read_dataset(name);
     if (size >= whole) {
       EXPECT_TRUE(data.ok()) << size << " " << to_string(data.error());
     } else {
@@ -237,9 +237,9 @@ TEST_F(Io, EveryDamagedByteOfNativeFilesIsReadOrRefused) {
   for (std::size_t i = 0; i < text.size(); ++i) {
     std::string damaged = text;
     damaged[i] = static_cast<char>(random());
-    const Result<NativeFile> file = read_native(write("b.json", damaged));
+    const Result<Document<AxisItem>> file = read_native(write("b.json", damaged));
     if (file.ok()) {
-      for (const NativeItem& item : file->items) {
+      for (const AxisItem& item : file->items) {
         for (const Edge& edge : item.axis.edges) EXPECT_LT(edge.node[0], item.axis.nodes.size());
       }
     } else {
@@ -260,25 +260,25 @@ constexpr const char* collection =
 {"type":"Feature","id":7,"properties":{"name":"c","n":3},"geometry":null}]})";
 
 TEST_F(Io, ReadsFeaturesWithAttributes) {
-  const Result<Dataset> data = read_dataset(write("a.geojson", collection));
+  const Result<Document<Feature>> data = read_dataset(write("a.geojson", collection));
   ASSERT_TRUE(data.ok()) << to_string(data.error());
-  ASSERT_EQ(data->features.size(), 2U);
+  ASSERT_EQ(data->items.size(), 2U);
   EXPECT_TRUE(data->geographic);
-  EXPECT_EQ(data->features[0].id, 5);
+  EXPECT_EQ(data->items[0].id, 5);
   const std::vector<std::pair<std::string, std::string>> expected{
       {"name", "a"}, {"n", "1"}, {"x", "0.1"}};
-  EXPECT_EQ(data->features[0].attributes, expected);
-  EXPECT_EQ(data->features[1].attributes.size(), 2U);
-  ASSERT_EQ(data->features[1].rings.size(), 3U);
-  EXPECT_EQ(data->features[1].rings[1].role, RingRole::hole);
-  EXPECT_EQ(data->features[1].rings[2].role, RingRole::outer);
+  EXPECT_EQ(data->items[0].attributes, expected);
+  EXPECT_EQ(data->items[1].attributes.size(), 2U);
+  ASSERT_EQ(data->items[1].rings.size(), 3U);
+  EXPECT_EQ(data->items[1].rings[1].role, RingRole::hole);
+  EXPECT_EQ(data->items[1].rings[2].role, RingRole::outer);
   EXPECT_EQ(data->notes.size(), 2U);
 
   ReadOptions options;
   options.where = "n = 2";
-  const Result<Dataset> filtered = read_dataset(path("a.geojson"), options);
+  const Result<Document<Feature>> filtered = read_dataset(path("a.geojson"), options);
   ASSERT_TRUE(filtered.ok());
-  EXPECT_EQ(filtered->features.size(), 1U);
+  EXPECT_EQ(filtered->items.size(), 1U);
   options.where = "n = 9";
   EXPECT_EQ(code_of(read_dataset(path("a.geojson"), options)), ErrorCode::empty);
   options.where = "no such thing";
@@ -335,10 +335,10 @@ TEST_F(Io, StandardInputIsRecognised) {
   for (const auto& [name, text] : inputs) {
     const std::string result = in_child(write(name, text), [] {
       const bool native = is_native("-");
-      const Result<Dataset> data = read_dataset("-");
+      const Result<Document<Feature>> data = read_dataset("-");
       std::printf(
           "%d %s", native ? 1 : 0,
-          data.ok() ? std::to_string(data->features.size()).c_str() : name_of(data.error().code));
+          data.ok() ? std::to_string(data->items.size()).c_str() : name_of(data.error().code));
     });
     if (name == "garbage") {
       EXPECT_EQ(result, "0 unsupported");
@@ -374,13 +374,13 @@ TEST_F(Io, LocalProjectionsMeasureMetresAndGoBack) {
                                    {20.0, 10.0, 30.0},
                                    {100.0, 89.0, 0.5}}) {
     const std::string file = write("a.wkt", degrees(x, y, size));
-    const Result<Dataset> plain = read_dataset(file);
-    const Result<Dataset> data = read_dataset(file, options);
+    const Result<Document<Feature>> plain = read_dataset(file);
+    const Result<Document<Feature>> data = read_dataset(file, options);
     ASSERT_TRUE(data.ok()) << to_string(data.error());
     EXPECT_FALSE(data->geographic);
     EXPECT_TRUE(is_local_projection(data->crs_wkt));
     ASSERT_EQ(data->notes.size(), 1U);
-    std::vector<Vec2> points = data->features[0].rings[0].points;
+    std::vector<Vec2> points = data->items[0].rings[0].points;
     if (size < 1) {
       const double meridian = distance(points[0], points[2]);
       EXPECT_NEAR(meridian / size, 111200, 600);  // metres a degree of latitude, on the ellipsoid
@@ -391,8 +391,8 @@ TEST_F(Io, LocalProjectionsMeasureMetresAndGoBack) {
     ASSERT_TRUE(back->transform(points).ok());
     for (std::size_t i = 0; i < points.size(); ++i) {
       // 2 mm, in degrees: as good as the series of the equal-area projection.
-      EXPECT_NEAR(points[i].x, plain->features[0].rings[0].points[i].x, 2e-8);
-      EXPECT_NEAR(points[i].y, plain->features[0].rings[0].points[i].y, 2e-8);
+      EXPECT_NEAR(points[i].x, plain->items[0].rings[0].points[i].x, 2e-8);
+      EXPECT_NEAR(points[i].y, plain->items[0].rings[0].points[i].y, 2e-8);
     }
   }
   EXPECT_FALSE(BackToGeographic::make("").ok());
@@ -403,12 +403,13 @@ TEST_F(Io, WhatIsNotGeographicIsNotProjected) {
   options.project = true;
   EXPECT_EQ(code_of(read_dataset(write("a.wkt", "POLYGON((0 0,1000 0,1000 1000))"), options)),
             ErrorCode::invalid_option);
-  const Result<Dataset> utm =
+  const Result<Document<Feature>> utm =
       read_dataset(write("b.wkt", "SRID=32633;POLYGON((0 0,1000 0,1000 1000))"), options);
   ASSERT_TRUE(utm.ok());
-  EXPECT_TRUE(same(utm->features[0].rings[0].points[2], {1000, 1000}));
+  EXPECT_TRUE(same(utm->items[0].rings[0].points[2], {1000, 1000}));
   EXPECT_EQ(utm->notes.size(), 1U);
-  const Result<Dataset> bare = read_dataset(write("c.wkt", "POLYGON((0 0,1 0,1 1))"), options);
+  const Result<Document<Feature>> bare =
+      read_dataset(write("c.wkt", "POLYGON((0 0,1 0,1 1))"), options);
   ASSERT_TRUE(bare.ok());
   EXPECT_EQ(bare->notes.size(), 2U);  // taken as degrees; projected
 }
@@ -449,9 +450,9 @@ TEST_F(Io, RepairFollowsTheRule) {
                                          {RepairRule::non_zero, c.nonzero}}) {
       ReadOptions options;
       options.repair = rule;
-      const Result<Dataset> data = read_dataset(file, options);
+      const Result<Document<Feature>> data = read_dataset(file, options);
       ASSERT_TRUE(data.ok()) << to_string(data.error());
-      EXPECT_NEAR(area_of(data->features[0]), expected, 1e-12) << static_cast<int>(rule);
+      EXPECT_NEAR(area_of(data->items[0]), expected, 1e-12) << static_cast<int>(rule);
     }
   }
 }
@@ -459,10 +460,10 @@ TEST_F(Io, RepairFollowsTheRule) {
 TEST_F(Io, RepairTellsWhatItChangedAndLeavesTheRest) {
   ReadOptions options;
   options.repair = RepairRule::make_valid;
-  const Result<Dataset> data = read_dataset(
+  const Result<Document<Feature>> data = read_dataset(
       write("a.wkt", "POLYGON((0.1 0,1 0,1 1.7,0.1 0))\nPOLYGON((0 0,2 2,2 0,0 2,0 0))"), options);
   ASSERT_TRUE(data.ok());
-  EXPECT_EQ(data->features[0].rings[0].points,
+  EXPECT_EQ(data->items[0].rings[0].points,
             (std::vector<Vec2>{{0.1, 0}, {1, 0}, {1, 1.7}, {0.1, 0}}));
   ASSERT_EQ(data->notes.size(), 1U);
   EXPECT_EQ(data->notes[0],
@@ -473,10 +474,10 @@ TEST_F(Io, RepairTellsWhatItChangedAndLeavesTheRest) {
             ErrorCode::no_area);
 
   options.repair = RepairRule::even_odd;
-  const Result<Dataset> loose =
+  const Result<Document<Feature>> loose =
       read_dataset(write("c.txt", "0 0\n4 0\n4 4\n0 4\n\n1 1\n2 1\n2 2\n1 2\n"), options);
   ASSERT_TRUE(loose.ok());
-  EXPECT_NEAR(area_of(loose->features[0]), 15, 1e-12);
+  EXPECT_NEAR(area_of(loose->items[0]), 15, 1e-12);
 }
 
 // -------------------------------------------------------------------------------------- real data
@@ -484,15 +485,15 @@ TEST_F(Io, RepairTellsWhatItChangedAndLeavesTheRest) {
 TEST_F(Io, CompressedTextIsReadAndItsTruncationNoticed) {
   const fs::path file = data_folder() / "packaged" / "A_gis" / "gshhg" / "sao_tome.wkt.gz";
   if (!fs::exists(file)) GTEST_SKIP() << "no data folder: set MEDIAL_DATA";
-  const Result<Dataset> data = read_dataset(file.string());
+  const Result<Document<Feature>> data = read_dataset(file.string());
   ASSERT_TRUE(data.ok()) << to_string(data.error());
-  ASSERT_EQ(data->features.size(), 1U);
-  EXPECT_EQ(data->features[0].rings.at(0).points.size(), 999U);
+  ASSERT_EQ(data->items.size(), 1U);
+  EXPECT_EQ(data->items[0].rings.at(0).points.size(), 999U);
 
   std::ifstream stream(file, std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
   for (std::size_t size = 0; size < bytes.size(); size += size < 64 ? 1 : 97) {
-    const Result<Dataset> part = read_dataset(write("a.wkt.gz", bytes.substr(0, size)));
+    const Result<Document<Feature>> part = read_dataset(write("a.wkt.gz", bytes.substr(0, size)));
     ASSERT_FALSE(part.ok()) << size;
     EXPECT_TRUE(part.error().code == ErrorCode::malformed || part.error().code == ErrorCode::empty)
         << size;
@@ -507,7 +508,7 @@ TEST_F(Io, EveryFileOfTheDataFolderIsReadOrRefused) {
   std::size_t read = 0;
   for (const auto& entry : fs::recursive_directory_iterator(data_folder())) {
     if (!entry.is_regular_file() || entry.file_size() > (std::uintmax_t{2} << 20)) continue;
-    const Result<Dataset> data = read_dataset(entry.path().string());
+    const Result<Document<Feature>> data = read_dataset(entry.path().string());
     if (data.ok()) {
       ++read;
     } else {

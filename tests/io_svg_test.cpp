@@ -18,16 +18,16 @@ namespace {
 namespace fs = std::filesystem;
 
 TEST_F(CurvedIo, SvgReadsEveryPathCommand) {
-  const Dataset data = svg(
+  const Document<Feature> data = svg(
       "<path id='p' d='M0 0 L10 0 l10 0 H30 h10 V10 v10 C40 30 30 40 20 40 c-5 0 -5 0 -10 -5"
       " S5 30 5 25 s-1 -1 -2 -2 Q2 20 2 18 q0 -2 -1 -4 T1 10 t-1 -2 A4 4 0 0 1 0 4 a2 2 0 0 0 0 -2"
       " z m50 50 1 0 0 1z'/>");
-  ASSERT_EQ(data.features.size(), 1U);
+  ASSERT_EQ(data.items.size(), 1U);
   EXPECT_EQ(count(data), (Counts{2, 6 + 2, 2, 4, 4, 0}));
-  EXPECT_EQ(data.features[0].attributes,
+  EXPECT_EQ(data.items[0].attributes,
             (std::vector<std::pair<std::string, std::string>>{{"id", "p"}}));
   EXPECT_TRUE(data.y_down);
-  const Contour& contour = data.features[0].contours[0];
+  const Contour& contour = data.items[0].contours[0];
   EXPECT_EQ(contour.role, RingRole::winding);
   const std::vector<Vec2> ends{{10, 0},  {20, 0},  {30, 0}, {40, 0}, {40, 10}, {40, 20},
                                {20, 40}, {10, 35}, {5, 25}, {3, 23}, {2, 18},  {1, 14},
@@ -41,47 +41,47 @@ TEST_F(CurvedIo, SvgReadsEveryPathCommand) {
   // T mirrors, too: (2, 16) about (1, 14).
   expect_near(contour.points[contour.pieces[12].first + 1], {0, 12});
   // A relative move after z counts from the start of the subpath.
-  expect_near(data.features[0].contours[1].points[0], {50, 50});
+  expect_near(data.items[0].contours[1].points[0], {50, 50});
 }
 
 TEST_F(CurvedIo, SvgReadsBasicShapes) {
-  const Dataset data =
+  const Document<Feature> data =
       svg("<rect x='1' y='2' width='10' height='5'/><rect width='8' height='4' rx='1'/>"
           "<circle cx='5' cy='6' r='2'/><ellipse cx='1' cy='1' rx='4' ry='2'/>"
           "<polygon points='0,0 4,0 4,3'/><polyline points='0,0 4,0 4,3'/>"
           "<line x1='0' y1='0' x2='1' y2='1'/><path d=''/><circle r='0'/>");
-  ASSERT_EQ(data.features.size(), 6U);
-  EXPECT_EQ(data.features[0].contours[0].points.front(), (Vec2{1, 2}));
-  for (const CurvePiece& piece : data.features[1].contours[0].pieces) {
+  ASSERT_EQ(data.items.size(), 6U);
+  EXPECT_EQ(data.items[0].contours[0].points.front(), (Vec2{1, 2}));
+  for (const CurvePiece& piece : data.items[1].contours[0].pieces) {
     if (piece.bulge == 0) continue;
     EXPECT_NEAR(piece.bulge, std::tan(std::numbers::pi / 8), 1e-15);
   }
-  expect_circle(data.features[2].contours[0], {5, 6}, 2, true);
-  const Contour& ellipse = data.features[3].contours[0];
+  expect_circle(data.items[2].contours[0], {5, 6}, 2, true);
+  const Contour& ellipse = data.items[3].contours[0];
   ASSERT_EQ(ellipse.weights.size(), ellipse.points.size());
   EXPECT_EQ(ellipse.points.front(), ellipse.points.back());
-  EXPECT_EQ(data.features[5].contours[0].pieces.size(), 2U);  // closed by definition
+  EXPECT_EQ(data.items[5].contours[0].pieces.size(), 2U);  // closed by definition
 }
 
 TEST_F(CurvedIo, SvgArcsAreExact) {
   // Large and small, both ways round; radii too small are enlarged; zero radii are a line.
-  const Dataset data =
+  const Document<Feature> data =
       svg("<path d='M0 0A5 5 0 1 1 6 8Z'/><path d='M0 0A5 5 0 0 0 6 8Z'/>"
           "<path d='M0 0A1 1 0 0 1 6 8Z'/><path d='M0 0A0 1 0 0 1 6 8L9 0Z'/>"
           "<path d='M0 0A6 3 30 1 0 5 5Z'/>");
-  ASSERT_EQ(data.features.size(), 5U);
+  ASSERT_EQ(data.items.size(), 5U);
   for (int i = 0; i < 3; ++i) {
-    for (const CurvePiece& piece : data.features[static_cast<std::size_t>(i)].contours[0].pieces) {
+    for (const CurvePiece& piece : data.items[static_cast<std::size_t>(i)].contours[0].pieces) {
       EXPECT_NEAR(std::fabs(piece.bulge), 1, 1e-15);  // the chord is a diameter
       EXPECT_EQ(piece.bulge > 0, i != 1);
     }
   }
-  EXPECT_EQ(data.features[3].contours[0].pieces[0].bulge, 0);
-  EXPECT_FALSE(data.features[4].contours[0].weights.empty());
+  EXPECT_EQ(data.items[3].contours[0].pieces[0].bulge, 0);
+  EXPECT_FALSE(data.items[4].contours[0].weights.empty());
 }
 
 TEST_F(CurvedIo, SvgTransformsViewBoxAndUse) {
-  const Dataset data =
+  const Document<Feature> data =
       svg("<defs><g id='d'><circle id='c' cx='1' cy='1' r='1'/></g>"
           "<symbol id='s' viewBox='0 0 2 2'><circle cx='1' cy='1' r='1'/></symbol></defs>"
           "<use href='#d' x='12' y='2'/>"
@@ -92,17 +92,17 @@ TEST_F(CurvedIo, SvgTransformsViewBoxAndUse) {
           "<svg x='1' y='1' width='4' height='4' viewBox='0 0 8 8'><circle r='2'/></svg>"
           "<use href='#nowhere'/>",
           "width='200' height='100' viewBox='0 0 20 10'");
-  ASSERT_EQ(data.features.size(), 6U);
-  expect_circle(data.features[0].contours[0], {130, 30}, 10, true);
-  expect_circle(data.features[1].contours[0], {-10, 10}, 10, true);
-  expect_circle(data.features[2].contours[0], {30, 40}, 20, false);
-  EXPECT_FALSE(data.features[3].contours[0].weights.empty());  // an ellipse now
-  expect_circle(data.features[4].contours[0], {70, 70}, 30, true);
-  expect_circle(data.features[5].contours[0], {10, 10}, 10, true);
+  ASSERT_EQ(data.items.size(), 6U);
+  expect_circle(data.items[0].contours[0], {130, 30}, 10, true);
+  expect_circle(data.items[1].contours[0], {-10, 10}, 10, true);
+  expect_circle(data.items[2].contours[0], {30, 40}, 20, false);
+  EXPECT_FALSE(data.items[3].contours[0].weights.empty());  // an ellipse now
+  expect_circle(data.items[4].contours[0], {70, 70}, 30, true);
+  expect_circle(data.items[5].contours[0], {10, 10}, 10, true);
 }
 
 TEST_F(CurvedIo, SvgStyleSheets) {
-  const Dataset data = svg(
+  const Document<Feature> data = svg(
       "<style type='text/css'><![CDATA[ /* a } */ @import url('x;y.css'); @media print "
       "{.a{fill:red}}"
       " .hole, .other { fill-rule: evenodd; stroke: 'a;b' }"
@@ -122,10 +122,10 @@ TEST_F(CurvedIo, SvgStyleSheets) {
       "<defs><rect id='d' class='other' width='11' height='11'/></defs><use href='#d'/>"
       "<rect style='display:none' width='12' height='12'/>");
   std::vector<double> widths;
-  for (const Feature& feature : data.features) widths.push_back(feature.contours[0].points[1].x);
+  for (const Feature& feature : data.items) widths.push_back(feature.contours[0].points[1].x);
   EXPECT_EQ(widths, (std::vector<double>{1, 3, 4, 8, 10, 11}));
-  EXPECT_EQ(data.features[0].contours[0].role, RingRole::any);
-  EXPECT_EQ(data.features[5].contours[0].role, RingRole::any);
+  EXPECT_EQ(data.items[0].contours[0].role, RingRole::any);
+  EXPECT_EQ(data.items[5].contours[0].role, RingRole::any);
   ASSERT_EQ(data.notes.size(), 2U);
   EXPECT_NE(data.notes[1].find("1 selectors"), std::string::npos) << data.notes[1];
 }
@@ -149,18 +149,18 @@ TEST_F(CurvedIo, SvgStyleSheetsEnd) {
 
 TEST_F(CurvedIo, SvgSizesThatAViewBoxTells) {
   const std::string circle = "<circle cx='4' cy='3' r='2'/>";
-  expect_circle(svg(circle, "viewBox='0 0 24 12'").features[0].contours[0], {4, 3}, 2, true);
-  expect_circle(svg(circle, "viewBox='2 1 24 12' width='100%'").features[0].contours[0], {2, 2}, 2,
+  expect_circle(svg(circle, "viewBox='0 0 24 12'").items[0].contours[0], {4, 3}, 2, true);
+  expect_circle(svg(circle, "viewBox='2 1 24 12' width='100%'").items[0].contours[0], {2, 2}, 2,
                 true);
-  expect_circle(svg(circle, "viewBox='0 0 24 12' width='48'").features[0].contours[0], {8, 6}, 4,
+  expect_circle(svg(circle, "viewBox='0 0 24 12' width='48'").items[0].contours[0], {8, 6}, 4,
                 true);
-  expect_circle(svg(circle, "viewBox='0 0 24 12' height='1in'").features[0].contours[0], {32, 24},
+  expect_circle(svg(circle, "viewBox='0 0 24 12' height='1in'").items[0].contours[0], {32, 24},
                 16, true);
-  expect_circle(svg(circle).features[0].contours[0], {4, 3}, 2, true);
+  expect_circle(svg(circle).items[0].contours[0], {4, 3}, 2, true);
 }
 
 TEST_F(CurvedIo, SvgFillRulesAndWhatIsPainted) {
-  const Dataset data = svg(
+  const Document<Feature> data = svg(
       "<g fill='none'><rect width='1' height='1'/><rect width='2' height='2' fill='red'/></g>"
       "<g fill-rule='evenodd'><rect width='3' height='3'/>"
       "<rect width='4' height='4' style='fill-rule:nonzero;fill:url(#g)'/></g>"
@@ -172,7 +172,7 @@ TEST_F(CurvedIo, SvgFillRulesAndWhatIsPainted) {
       "<text>no</text><unheard-of/><rect width='10' height='10' style='fill:oddity(3)'/>");
   std::vector<double> widths;
   std::vector<RingRole> roles;
-  for (const Feature& feature : data.features) {
+  for (const Feature& feature : data.items) {
     widths.push_back(feature.contours[0].points[1].x);
     roles.push_back(feature.contours[0].role);
   }
@@ -184,8 +184,8 @@ TEST_F(CurvedIo, SvgFillRulesAndWhatIsPainted) {
 }
 
 TEST_F(CurvedIo, SvgWithoutNamespaceAndCompressedNames) {
-  EXPECT_EQ(read("a.svg", "<svg><rect width='1' height='1'/></svg>").features.size(), 1U);
-  EXPECT_EQ(read("a.svgz", "<svg><rect width='1' height='1'/></svg>").features.size(), 1U);
+  EXPECT_EQ(read("a.svg", "<svg><rect width='1' height='1'/></svg>").items.size(), 1U);
+  EXPECT_EQ(read("a.svgz", "<svg><rect width='1' height='1'/></svg>").items.size(), 1U);
 }
 
 TEST_F(CurvedIo, SvgRefusesWhatIsBroken) {
@@ -226,7 +226,7 @@ TEST_F(CurvedIo, SvgBombsAreBounded) {
   // Entities of the usual kind work; files are not read.
   EXPECT_EQ(
       read("ok.svg", "<!DOCTYPE svg [<!ENTITY w '3'>]><svg><rect width='&w;' height='1'/></svg>")
-          .features[0]
+          .items[0]
           .contours[0]
           .points[1],
       (Vec2{3, 0}));
@@ -261,12 +261,12 @@ TEST_F(CurvedIo, SvgOfTheDataFolderCountsAsListed) {
     std::string name;
     std::size_t paths = 0, subpaths = 0, lines = 0, arcs = 0, cubics = 0, quadratics = 0;
     fields >> name >> paths >> subpaths >> lines >> arcs >> cubics >> quadratics;
-    const Result<Dataset> data = read_dataset((folder / name).string());
+    const Result<Document<Feature>> data = read_dataset((folder / name).string());
     ASSERT_TRUE(data.ok()) << to_string(data.error());
     ++files;
     if (!data->notes.empty()) continue;  // something is not filled
     const Counts counts = count(*data);
-    EXPECT_EQ(data->features.size(), paths) << name;
+    EXPECT_EQ(data->items.size(), paths) << name;
     EXPECT_EQ(counts.cubics, cubics) << name;
     EXPECT_EQ(counts.quadratics, quadratics) << name;
     EXPECT_GE(counts.arcs + counts.rationals, arcs) << name;  // over half a turn makes two

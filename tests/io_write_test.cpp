@@ -40,7 +40,7 @@ std::size_t entries(const fs::path& directory) {
 // -------------------------------------------------------------------------------------- writers
 
 TEST_F(Io, NativeFilesLoseNothing) {
-  NativeFile file = two_items();
+  Document<AxisItem> file = two_items();
   file.crs_wkt = "LOCAL_CS[\"any\"]";
   std::mt19937_64 random(11);
   const auto any = [&random] {
@@ -49,7 +49,7 @@ TEST_F(Io, NativeFilesLoseNothing) {
       if (std::isfinite(value)) return value;
     }
   };
-  NativeItem wild = rectangle();  // numbers of any size, sites that are no edges of the shape
+  AxisItem wild = rectangle();  // numbers of any size, sites that are no edges of the shape
   wild.shape.points[1].x = -0.0;
   for (Site& site : wild.axis.sites) site.start = {any(), any()};
   for (Node& node : wild.axis.nodes) node.disk = {{any(), any()}, std::fabs(any())};
@@ -64,7 +64,7 @@ TEST_F(Io, NativeFilesLoseNothing) {
   const Status written = write_axes(path("a.json"), "", file);
   ASSERT_TRUE(written.ok()) << to_string(written.error());
   EXPECT_TRUE(is_native(path("a.json")));
-  const Result<NativeFile> read = read_native(path("a.json"));
+  const Result<Document<AxisItem>> read = read_native(path("a.json"));
   ASSERT_TRUE(read.ok()) << to_string(read.error());
   EXPECT_EQ(read->crs_wkt, file.crs_wkt);
   ASSERT_EQ(read->items.size(), file.items.size());
@@ -73,15 +73,15 @@ TEST_F(Io, NativeFilesLoseNothing) {
   ASSERT_TRUE(write_axes(path("b.json"), "", *read).ok());
   EXPECT_EQ(content("a.json"), content("b.json"));
 
-  const Result<Dataset> data = read_dataset(path("a.json"));
+  const Result<Document<Feature>> data = read_dataset(path("a.json"));
   ASSERT_TRUE(data.ok()) << to_string(data.error());
-  EXPECT_EQ(data->features.size(), 3U);
-  EXPECT_EQ(data->features[0].rings[0].points, file.items[0].shape.points);
+  EXPECT_EQ(data->items.size(), 3U);
+  EXPECT_EQ(data->items[0].rings[0].points, file.items[0].shape.points);
 }
 
 TEST_F(Io, NativeFilesAreChecked) {
   const auto refused = [this](const std::string& text) {
-    const Result<NativeFile> file = read_native(write("a.json", text));
+    const Result<Document<AxisItem>> file = read_native(write("a.json", text));
     EXPECT_FALSE(file.ok()) << text;
     return file.ok() ? ErrorCode::internal : file.error().code;
   };
@@ -111,13 +111,14 @@ TEST_F(Io, NativeFilesAreChecked) {
   EXPECT_EQ(refused("{\"medial\":1}"), ErrorCode::malformed);
   EXPECT_EQ(refused("{\"type\":\"FeatureCollection\"}"), ErrorCode::malformed);
 
-  const Result<NativeFile> file = read_native(write("a.json", with("[0,4,3,0]", "[0,4,3,0,x]")));
+  const Result<Document<AxisItem>> file =
+      read_native(write("a.json", with("[0,4,3,0]", "[0,4,3,0,x]")));
   ASSERT_FALSE(file.ok());
   EXPECT_TRUE(file.error().place.line.has_value());
 }
 
 TEST_F(Io, AnAxisThatIsNotFiniteIsNotWritten) {
-  NativeFile file = two_items();
+  Document<AxisItem> file = two_items();
   file.items[0].axis.nodes[2].disk.radius = std::numeric_limits<double>::infinity();
   const Status status = write_axes(path("a.json"), "", file);
   ASSERT_FALSE(status.ok());
@@ -163,7 +164,7 @@ TEST_F(Io, CsvHoldsEveryEdgeWithNodesPrintedAlike) {
 TEST_F(Io, WktHoldsALineForEachItem) {
   WriteOptions options;
   options.chord = 1;
-  NativeFile file = two_items();
+  Document<AxisItem> file = two_items();
   file.items.push_back({});
   ASSERT_TRUE(write_axes(path("a.wkt"), "", file, options).ok());
   const std::string text = content("a.wkt");
@@ -261,7 +262,7 @@ TEST_F(Io, InterruptedWritesLeaveNothing) {
   EXPECT_EXIT(
       {
         // A signal in the midst of a large write.
-        NativeFile file;
+        Document<AxisItem> file;
         file.items.assign(50000, parabola());
         std::signal(SIGALRM, [](int) {
           remove_partial_files();
@@ -363,8 +364,8 @@ TEST_F(Io, SpatialIndexesAreWholeAndFindWhatIsThere) {
       const double angle = 2 * std::numbers::pi * i / corners, radius = i % 2 == 0 ? 1 : 0.9;
       star.points.push_back({-radius * std::cos(angle), radius * std::sin(angle)});
     }
-    NativeFile file;
-    NativeItem& item = file.items.emplace_back();
+    Document<AxisItem> file;
+    AxisItem& item = file.items.emplace_back();
     item.shape = build_shape(std::vector<Ring>{star}).value();
     item.axis = compute(item.shape).value();
     const std::string name = path("index.gpkg");
@@ -416,7 +417,7 @@ TEST_F(Io, SpatialIndexesAreWholeAndFindWhatIsThere) {
 }
 
 TEST_F(Io, AttributesNeverHideTheFieldsOfTheAxis) {
-  NativeFile file;
+  Document<AxisItem> file;
   file.items = {parabola()};
   file.items[0].attributes = {{"length", "far"}, {"FID", "9"}, {"length_1", "x"}};
   for (const char* name : {"a.gpkg", "a.geojson"}) {
@@ -432,7 +433,7 @@ TEST_F(Io, AttributesNeverHideTheFieldsOfTheAxis) {
 }
 
 TEST_F(Io, ReferenceSystemsAndKindsOfNumbersComeBackFromGeojsonAndGeoPackages) {
-  NativeFile file = two_items();
+  Document<AxisItem> file = two_items();
   OGRSpatialReference reference;
   ASSERT_EQ(reference.importFromEPSG(32633), OGRERR_NONE);
   char* wkt = nullptr;
@@ -489,15 +490,15 @@ TEST_F(Io, LayersOfAFileAreChosenByName) {
   ReadOptions options;
   for (const char* layer : {"", "one", "two"}) {
     options.layer = layer;
-    const Result<Dataset> data = read_dataset(path("a.gpkg"), options);
+    const Result<Document<Feature>> data = read_dataset(path("a.gpkg"), options);
     ASSERT_TRUE(data.ok()) << to_string(data.error());
-    ASSERT_EQ(data->features.size(), 1U);
+    ASSERT_EQ(data->items.size(), 1U);
     EXPECT_FALSE(data->geographic);
     EXPECT_NE(data->crs_wkt.find("32633"), std::string::npos);
-    for (const Vec2 p : data->features[0].rings.at(0).points) {
+    for (const Vec2 p : data->items[0].rings.at(0).points) {
       EXPECT_NEAR(norm(p), options.layer == "two" ? 2 : 1, 1e-12);
     }
-    EXPECT_FALSE(data->features[0].rings[0].bulges.empty());
+    EXPECT_FALSE(data->items[0].rings[0].bulges.empty());
     EXPECT_EQ(data->notes.size(), options.layer.empty() ? 1U : 0U);
   }
 }
@@ -505,12 +506,13 @@ TEST_F(Io, LayersOfAFileAreChosenByName) {
 TEST_F(Io, GisFormatsOfProjectedAxesAreInDegreesWithRadiiInMetres) {
   ReadOptions options;
   options.project = true;
-  const Result<Dataset> data = read_dataset(write("a.wkt", degrees(10, 50, 0.1)), options);
+  const Result<Document<Feature>> data =
+      read_dataset(write("a.wkt", degrees(10, 50, 0.1)), options);
   ASSERT_TRUE(data.ok());
-  NativeFile file = two_items();  // its units are metres around the middle of the triangle
+  Document<AxisItem> file = two_items();  // its units are metres around the middle of the triangle
   file.crs_wkt = data->crs_wkt;
   ASSERT_TRUE(write_axes(path("a.json"), "", file).ok());
-  const Result<NativeFile> again = read_native(path("a.json"));
+  const Result<Document<AxisItem>> again = read_native(path("a.json"));
   ASSERT_TRUE(again.ok());
   for (const char* name : {"a.geojson", "a.gpkg"}) {
     ASSERT_TRUE(write_axes(path(name), "", *again).ok());
@@ -546,7 +548,7 @@ TEST_F(Io, PicturesAreOfTheirKindAndSize) {
 }
 
 TEST_F(Io, VectorPicturesHoldTheParabolaAsCubics) {
-  NativeFile file;
+  Document<AxisItem> file;
   file.items = {parabola()};
   WriteOptions options;
   options.shape = false;
@@ -584,19 +586,19 @@ TEST_F(Io, VectorPicturesHoldTheParabolaAsCubics) {
 }
 
 TEST_F(Io, PicturesOfAnythingAreDrawn) {
-  NativeFile empty;
-  NativeFile point;
+  Document<AxisItem> empty;
+  Document<AxisItem> point;
   point.items.emplace_back();
   point.items[0].shape = shape_of({{{1, 1}, {1, 1}, {1, 1}}});
-  NativeFile needle;
+  Document<AxisItem> needle;
   needle.items = {rectangle()};
   for (Vec2& p : needle.items[0].shape.points) p.y *= 1e9;
-  NativeFile large;
+  Document<AxisItem> large;
   large.items = {rectangle()};
   for (Vec2& p : large.items[0].shape.points) p = 1e300 * p;
   WriteOptions options;
   options.disks = 5;
-  for (const NativeFile& file : {empty, point, needle, large}) {
+  for (const Document<AxisItem>& file : {empty, point, needle, large}) {
     for (const char* name : {"a.png", "a.svg", "a.pdf", "a.ps"}) {
       const Status status = write_axes(path(name), "", file, options);
       EXPECT_TRUE(status.ok()) << name << to_string(status.error());

@@ -42,7 +42,7 @@ struct Row {
 /// Coordinates have 53 bits, and an axis is good to a few thousand times the last.
 constexpr double bound = 1e-9;
 
-void examine(const io::Feature& feature, const std::string& name, Row& row) {
+void examine(const Feature& feature, const std::string& name, Row& row) {
   ++row.features;
   const auto fail = [&](const std::string& reason) {
     ++row.failed;
@@ -89,13 +89,13 @@ bool is_font(const fs::path& path) {
   return ending == ".ttf" || ending == ".otf" || ending == ".ttc";
 }
 
-void examine_all(const Result<io::Dataset>& dataset, const std::string& name, Row& row) {
+void examine_all(const Result<Document<Feature>>& dataset, const std::string& name, Row& row) {
   if (!dataset) {
     if (dataset.error().code != ErrorCode::unsupported) ++row.refused;
     return;
   }
-  for (std::size_t i = 0; i < dataset->features.size(); ++i)
-    examine(dataset->features[i], name + " " + std::to_string(i), row);
+  for (std::size_t i = 0; i < dataset->items.size(); ++i)
+    examine(dataset->items[i], name + " " + std::to_string(i), row);
 }
 
 void examine_font(const fs::path& font, std::size_t every, Row& row) {

@@ -23,7 +23,7 @@ LAYERS = {
     "voronoi": ["voronoi"],
     "ops": ["carve", "centreline", "features", "match", "measure", "offset", "pack", "prune", "rebuild", "sides"],
     "volume": ["volume"],
-    "load": ["image"],
+    "load": ["document", "image"],
     "io": ["io/*"],
     "all": ["medial"],
 }

@@ -25,7 +25,7 @@ struct Contour {
   std::vector<double> weights;  ///< of each control point, positive; empty: all 1
   std::vector<CurvePiece> pieces;
   RingRole role = RingRole::any;
-  bool open = false;  ///< of a loose curve: nothing closes it (see io::Feature::chains)
+  bool open = false;  ///< of a loose curve: nothing closes it (see Feature::chains)
 
   /// Starts an empty contour.
   void start_at(Vec2 point);

@@ -10,6 +10,7 @@
 #include "medial/compute.h"
 #include "medial/contour.h"
 #include "medial/curve_axis.h"
+#include "medial/document.h"
 #include "medial/error.h"
 #include "medial/features.h"
 #include "medial/field.h"

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "io/tables.h"
-#include "medial/io/attributes.h"
+#include "medial/document.h"
 
 namespace medial::io {
 

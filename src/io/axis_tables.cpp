@@ -34,9 +34,9 @@ const std::vector<Column>& node_columns() {
 }
 
 /// The input's attributes, named apart from the columns of both tables.
-AttributeColumns attribute_columns(const NativeFile& file) {
+AttributeColumns attribute_columns(const Document<AxisItem>& file) {
   std::vector<const Attributes*> items;
-  for (const NativeItem& item : file.items) items.push_back(&item.attributes);
+  for (const AxisItem& item : file.items) items.push_back(&item.attributes);
   std::vector<std::string> own;
   for (const auto* columns : {&branch_columns(), &node_columns()})
     for (const Column& column : *columns) own.push_back(column.name);
@@ -49,7 +49,7 @@ std::string site_text(const MedialAxis& axis, std::uint32_t site) {
   return fmt::format("{}/{}", axis.sites[site].ring, axis.sites[site].vertex);
 }
 
-Status add_branches(TableSink& sink, std::size_t index, const NativeItem& item,
+Status add_branches(TableSink& sink, std::size_t index, const AxisItem& item,
                     std::span<const Value> attributes, const WriteOptions& options) {
   const MedialAxis& axis = item.axis;
   const double chord = chord_of(item, options);
@@ -87,7 +87,7 @@ Status add_branches(TableSink& sink, std::size_t index, const NativeItem& item,
   return success();
 }
 
-Status add_nodes(TableSink& sink, std::size_t index, const NativeItem& item,
+Status add_nodes(TableSink& sink, std::size_t index, const AxisItem& item,
                  std::span<const Value> attributes) {
   constexpr std::array<const char*, 3> kinds{"leaf", "site_change", "branching"};
   std::array<std::vector<Vec2>, 1> parts;
@@ -106,7 +106,7 @@ Status add_nodes(TableSink& sink, std::size_t index, const NativeItem& item,
 
 }  // namespace
 
-TableSource axis_tables(const NativeFile& file, const std::string& format,
+TableSource axis_tables(const Document<AxisItem>& file, const std::string& format,
                         const WriteOptions& options) {
   const bool nodes = format == "gpkg";
   const AttributeColumns attributes = attribute_columns(file);
@@ -117,7 +117,7 @@ TableSource axis_tables(const NativeFile& file, const std::string& format,
   for (Table& table : source.tables) attributes.append_to(table.columns);
   source.fill = [&file, &options, attributes, nodes](TableSink& sink) {
     for (std::size_t i = 0; i < file.items.size(); ++i) {
-      const NativeItem& item = file.items[i];
+      const AxisItem& item = file.items[i];
       const std::vector<Value> values = attributes.values_of(item.attributes);
       if (Status added = add_branches(sink, i, item, values, options); !added) return added;
       if (!nodes) continue;

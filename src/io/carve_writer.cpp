@@ -108,7 +108,8 @@ class GCode {
   double feed_ = 0;
 };
 
-void write_gcode(OutputStream& out, const CarveFile& file, const MachineOptions& machine) {
+void write_gcode(OutputStream& out, const Document<CarveItem>& file,
+                 const MachineOptions& machine) {
   GCode program(out, machine);
   program.begin();
   for (const CarveItem& item : file.items)
@@ -116,7 +117,7 @@ void write_gcode(OutputStream& out, const CarveFile& file, const MachineOptions&
   program.end();
 }
 
-void write_csv(OutputStream& out, const CarveFile& file, const MachineOptions& machine) {
+void write_csv(OutputStream& out, const Document<CarveItem>& file, const MachineOptions& machine) {
   out.put("path,kind,x,y,z\n");
   std::uint64_t id = 0;
   for (const CarveItem& item : file.items) {
@@ -144,7 +145,7 @@ void write_csv(OutputStream& out, const CarveFile& file, const MachineOptions& m
 }
 
 #ifdef MEDIAL_DXF
-Status write_dxf(OutputStream& out, const CarveFile& file) {
+Status write_dxf(OutputStream& out, const Document<CarveItem>& file) {
   DxfDrawing drawing(out, {"CLEARING", "WALL", "GROOVE"});
   constexpr std::array<const char*, 3> layers{"CLEARING", "WALL", "GROOVE"};
   for (const CarveItem& item : file.items) {
@@ -195,7 +196,7 @@ Ring line_of(const ToolPath& path) {
 
 /// The cut from above, the deeper the darker, level by level; then the paths, and the ways through
 /// the air.
-Status write_picture(OutputStream& out, const std::string& format, const CarveFile& file,
+Status write_picture(OutputStream& out, const std::string& format, const Document<CarveItem>& file,
                      const WriteOptions& options) {
   Extent extent;
   double deepest = 0;
@@ -278,8 +279,9 @@ Status write_picture(OutputStream& out, const std::string& format, const CarveFi
 
 std::string known_carve_formats() { return carve_formats; }
 
-Status write_carving(const std::string& path, const std::string& format, const CarveFile& file,
-                     const MachineOptions& machine, const WriteOptions& options) {
+Status write_carving(const std::string& path, const std::string& format,
+                     const Document<CarveItem>& file, const MachineOptions& machine,
+                     const WriteOptions& options) {
   const Result<std::string> known = output_format(path, format, "nc", carve_formats);
   if (!known) return known.error();
   for (const double value : {machine.safe, machine.feed, machine.plunge})

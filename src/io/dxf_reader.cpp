@@ -359,11 +359,12 @@ std::string listed(const std::map<std::string, std::uint64_t>& counts) {
   return text;
 }
 
-Result<Dataset> dataset_of(Collector& found, std::map<std::string, std::uint64_t> others,
-                           const std::string& wanted, std::optional<double> close, bool loose) {
+Result<Document<Feature>> dataset_of(Collector& found, std::map<std::string, std::uint64_t> others,
+                                     const std::string& wanted, std::optional<double> close,
+                                     bool loose) {
   Unfolded drawing(found);
   drawing.add("", {}, "", 0);
-  Dataset dataset;
+  Document<Feature> dataset;
   std::uint64_t open = 0;
   std::uint64_t hidden = 0;
   double smallest_gap = std::numeric_limits<double>::infinity();
@@ -384,9 +385,9 @@ Result<Dataset> dataset_of(Collector& found, std::map<std::string, std::uint64_t
         feature.contours.push_back(std::move(contour));
       }
       if (feature.contours.empty()) continue;
-      feature.id = static_cast<std::int64_t>(dataset.features.size());
+      feature.id = static_cast<std::int64_t>(dataset.items.size());
       feature.attributes.emplace_back("layer", layer.name);
-      dataset.features.push_back(std::move(feature));
+      dataset.items.push_back(std::move(feature));
       continue;
     }
     std::erase_if(layer.open, [](const Contour& contour) { return contour.pieces.empty(); });
@@ -399,9 +400,9 @@ Result<Dataset> dataset_of(Collector& found, std::map<std::string, std::uint64_t
     std::ranges::move(joined.loops, std::back_inserter(feature.contours));
     std::erase_if(feature.contours, is_degenerate);
     if (feature.contours.empty()) continue;
-    feature.id = static_cast<std::int64_t>(dataset.features.size());
+    feature.id = static_cast<std::int64_t>(dataset.items.size());
     feature.attributes.emplace_back("layer", layer.name);
-    dataset.features.push_back(std::move(feature));
+    dataset.items.push_back(std::move(feature));
   }
   if (!seen && !found.layers.contains(wanted)) {
     std::string names;
@@ -426,7 +427,7 @@ Result<Dataset> dataset_of(Collector& found, std::map<std::string, std::uint64_t
     dataset.notes.push_back("left out, being no outlines: " + listed(others));
   }
   if (hidden > 0) dataset.notes.push_back(fmt::format("{} hidden layers were left out", hidden));
-  if (dataset.features.empty()) {
+  if (dataset.items.empty()) {
     std::string text = "there is no closed curve";
     for (const std::string& note : dataset.notes) text += "; " + note;
     return Error{ErrorCode::empty, text, {}};
@@ -436,8 +437,8 @@ Result<Dataset> dataset_of(Collector& found, std::map<std::string, std::uint64_t
 
 }  // namespace
 
-Result<Dataset> read_dxf(TextSource& source, const std::string& layer, std::optional<double> close,
-                         bool loose) {
+Result<Document<Feature>> read_dxf(TextSource& source, const std::string& layer,
+                                   std::optional<double> close, bool loose) {
   Result<DxfText> text = read_dxf_text(source);
   if (!text) return text.error();
   try {

@@ -14,7 +14,7 @@ namespace medial::io {
 /// are left out, unless `layer` names the layer.
 /// Errors: unreadable, malformed, not_finite, unsupported, too_large (blocks that unfold to more
 /// than they may), empty, invalid_option (no such layer).
-Result<Dataset> read_dxf(TextSource& source, const std::string& layer, std::optional<double> close,
-                         bool loose = false);
+Result<Document<Feature>> read_dxf(TextSource& source, const std::string& layer,
+                                   std::optional<double> close, bool loose = false);
 
 }  // namespace medial::io

@@ -66,9 +66,9 @@ void write_branch(DxfDrawing& drawing, const MedialAxis& axis, const Branch& bra
 
 }  // namespace
 
-Status write_dxf(OutputStream& out, const NativeFile& file, const WriteOptions& options) {
+Status write_dxf(OutputStream& out, const Document<AxisItem>& file, const WriteOptions& options) {
   DxfDrawing drawing(out, {layer_name});
-  for (const NativeItem& item : file.items) {
+  for (const AxisItem& item : file.items) {
     for (const Branch& branch : branches(item.axis)) {
       write_branch(drawing, item.axis, branch, options.radius_as_z);
     }

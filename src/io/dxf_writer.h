@@ -10,6 +10,6 @@ namespace medial::io {
 /// straight edges as polylines and every other edge as the rational spline of degree 2 that it is,
 /// without loss. With options.radius_as_z every edge is a spline whose z is the radius.
 /// Errors: internal (a number is not finite).
-Status write_dxf(OutputStream& out, const NativeFile& file, const WriteOptions& options);
+Status write_dxf(OutputStream& out, const Document<AxisItem>& file, const WriteOptions& options);
 
 }  // namespace medial::io

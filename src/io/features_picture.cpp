@@ -46,7 +46,7 @@ std::string words_for(const PrimitiveRun& run) {
 
 class FeaturesPicture {
  public:
-  FeaturesPicture(cairo_t* context, const PictureFrame& frame, const NativeFile& axes,
+  FeaturesPicture(cairo_t* context, const PictureFrame& frame, const Document<AxisItem>& axes,
                   std::span<const AxisFeatures> features, const FeatureWriteOptions& options)
       : context_(context),
         frame_(frame),
@@ -59,7 +59,7 @@ class FeaturesPicture {
   void draw() {
     cairo_set_line_cap(context_, CAIRO_LINE_CAP_BUTT);
     if (options_.write.shape)
-      for (const NativeItem& item : axes_.items) draw_shape(item.shape);
+      for (const AxisItem& item : axes_.items) draw_shape(item.shape);
     for (std::size_t i = 0; i < features_.size(); ++i)
       collect_runs(axes_.items[i].axis, features_[i]);
     draw_runs();
@@ -272,7 +272,7 @@ class FeaturesPicture {
 
   cairo_t* context_;
   const PictureFrame& frame_;
-  const NativeFile& axes_;
+  const Document<AxisItem>& axes_;
   std::span<const AxisFeatures> features_;
   const FeatureWriteOptions& options_;
   double line_;
@@ -286,7 +286,8 @@ class FeaturesPicture {
 
 }  // namespace
 
-Status write_features_picture(OutputStream& out, const std::string& format, const NativeFile& axes,
+Status write_features_picture(OutputStream& out, const std::string& format,
+                              const Document<AxisItem>& axes,
                               std::span<const AxisFeatures> features,
                               const FeatureWriteOptions& options) {
   const Result<PictureFrame> frame = frame_for(box_of(axes), options.write.width, axes.y_down);

@@ -7,9 +7,9 @@ namespace medial::io {
 namespace {
 
 /// The input's attributes, named apart from the columns of every table.
-AttributeColumns feature_attribute_columns(const NativeFile& axes) {
+AttributeColumns feature_attribute_columns(const Document<AxisItem>& axes) {
   std::vector<const Attributes*> items;
-  for (const NativeItem& item : axes.items) items.push_back(&item.attributes);
+  for (const AxisItem& item : axes.items) items.push_back(&item.attributes);
   std::vector<std::string> own;
   for (const FeatureTable table :
        {FeatureTable::runs, FeatureTable::branches, FeatureTable::points})
@@ -40,7 +40,7 @@ std::vector<Column> columns_of(FeatureTable table) {
   return {{"feature", whole}, {"node", whole}, {"kind", text}, {"degree", whole}, {"r", real}};
 }
 
-TableSource features_tables(const NativeFile& axes, std::span<const AxisFeatures> features,
+TableSource features_tables(const Document<AxisItem>& axes, std::span<const AxisFeatures> features,
                             const std::string& format, const FeatureWriteOptions& options) {
   std::vector<FeatureTable> wanted{options.table};
   if (format == "gpkg") wanted = {FeatureTable::runs, FeatureTable::branches, FeatureTable::points};
@@ -55,7 +55,7 @@ TableSource features_tables(const NativeFile& axes, std::span<const AxisFeatures
   }
   source.fill = [&axes, features, &options, attributes, wanted](TableSink& sink) {
     for (std::size_t i = 0; i < features.size(); ++i) {
-      const NativeItem& item = axes.items[i];
+      const AxisItem& item = axes.items[i];
       const std::vector<Value> values = attributes.values_of(item.attributes);
       const double chord = chord_of(item, options.write);
       for (std::size_t table = 0; table < wanted.size(); ++table) {

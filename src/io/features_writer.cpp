@@ -198,7 +198,8 @@ void put_branch(OutputStream& out, const BranchFeatures& branch, const AxisFeatu
   out.put("]}");
 }
 
-void write_json(OutputStream& out, const NativeFile& axes, std::span<const AxisFeatures> features) {
+void write_json(OutputStream& out, const Document<AxisItem>& axes,
+                std::span<const AxisFeatures> features) {
   out.put("{\"medial_features\":1,\n\"items\":[");
   for (std::size_t i = 0; i < features.size(); ++i) {
     const AxisFeatures& item = features[i];
@@ -271,7 +272,7 @@ void put_csv(OutputStream& out, const Value& value) {
 }
 
 /// The table without lines: their ends, or the point.
-Status write_table(OutputStream& out, const NativeFile& axes,
+Status write_table(OutputStream& out, const Document<AxisItem>& axes,
                    std::span<const AxisFeatures> features, FeatureTable table) {
   const Result<OutputCrs> crs = OutputCrs::make(axes.crs_wkt);
   if (!crs) return crs.error();
@@ -393,8 +394,9 @@ Status for_each_row(FeatureTable table, std::size_t item, const MedialAxis& axis
 
 std::string known_feature_formats() { return feature_formats; }
 
-Status write_features(const std::string& path, const std::string& format, const NativeFile& axes,
-                      std::span<const AxisFeatures> features, const FeatureWriteOptions& options) {
+Status write_features(const std::string& path, const std::string& format,
+                      const Document<AxisItem>& axes, std::span<const AxisFeatures> features,
+                      const FeatureWriteOptions& options) {
   const Result<std::string> known = output_format(path, format, "json", feature_formats);
   if (!known) return known.error();
   if (holds_tables(*known))

@@ -37,11 +37,12 @@ std::vector<std::vector<Disk>> lines_of(const MedialAxis& axis, const AxisFeatur
 
 /// The tables of a format: all of them in a GeoPackage, else the one of the options. The source
 /// refers to the arguments.
-TableSource features_tables(const NativeFile& axes, std::span<const AxisFeatures> features,
+TableSource features_tables(const Document<AxisItem>& axes, std::span<const AxisFeatures> features,
                             const std::string& format, const FeatureWriteOptions& options);
 
 /// A picture by Cairo. Errors: invalid_option (the width), unwritable.
-Status write_features_picture(OutputStream& out, const std::string& format, const NativeFile& axes,
+Status write_features_picture(OutputStream& out, const std::string& format,
+                              const Document<AxisItem>& axes,
                               std::span<const AxisFeatures> features,
                               const FeatureWriteOptions& options);
 

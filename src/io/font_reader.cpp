@@ -111,10 +111,10 @@ Result<Face> open_face(FT_Library library, const std::string& path) {
   return result;
 }
 
-Result<Dataset> set_text(const std::vector<Character>& characters, FT_Face face) {
+Result<Document<Feature>> set_text(const std::vector<Character>& characters, FT_Face face) {
   static const FT_Outline_Funcs functions{
       &GlyphPen::move_to, &GlyphPen::line_to, &GlyphPen::conic_to, &GlyphPen::cubic_to, 0, 0};
-  Dataset dataset;
+  Document<Feature> dataset;
   std::set<std::string> missing;
   double x = 0;
   FT_UInt before = 0;
@@ -143,7 +143,7 @@ Result<Dataset> set_text(const std::vector<Character>& characters, FT_Face face)
       }
       std::erase_if(pen.contours, is_degenerate);
       if (!pen.contours.empty()) {
-        Feature& feature = dataset.features.emplace_back();
+        Feature& feature = dataset.items.emplace_back();
         feature.contours = std::move(pen.contours);
         feature.id = static_cast<std::int64_t>(i);
         feature.attributes = {{"character", characters[i].text},
@@ -156,7 +156,7 @@ Result<Dataset> set_text(const std::vector<Character>& characters, FT_Face face)
   for (const std::string& text : missing) {
     dataset.notes.push_back(fmt::format("the font has no '{}' and draws its replacement", text));
   }
-  if (dataset.features.empty()) {
+  if (dataset.items.empty()) {
     return Error{ErrorCode::empty, "no character of the text has an outline", {}};
   }
   return dataset;
@@ -164,8 +164,8 @@ Result<Dataset> set_text(const std::vector<Character>& characters, FT_Face face)
 
 }  // namespace
 
-Result<Dataset> read_text(const std::string& text, const std::string& font) {
-  return guarded(font, [&]() -> Result<Dataset> {
+Result<Document<Feature>> read_text(const std::string& text, const std::string& font) {
+  return guarded(font, [&]() -> Result<Document<Feature>> {
     Result<std::vector<Character>> characters = characters_of(text);
     if (!characters) return characters.error();
     FT_Library raw = nullptr;

@@ -62,7 +62,7 @@ class GdalReader {
   GdalReader(std::string shown, const ReadOptions& options)
       : shown_(std::move(shown)), options_(options) {}
 
-  Result<Dataset> read(const std::string& name) {
+  Result<Document<Feature>> read(const std::string& name) {
     register_gdal();
     const GdalMessages messages;
     const unsigned flags = GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR;
@@ -162,12 +162,12 @@ class GdalReader {
         feature.attributes.emplace_back(utf8(source->GetFieldDefnRef(i)->GetNameRef()),
                                         field_text(*source, i));
       }
-      dataset_.features.push_back(std::move(feature));
+      dataset_.items.push_back(std::move(feature));
     }
   }
 
-  Result<Dataset> summarised() {
-    if (dataset_.features.empty()) {
+  Result<Document<Feature>> summarised() {
+    if (dataset_.items.empty()) {
       if (counts_.others > 0) {
         return error(
             ErrorCode::unsupported,
@@ -189,7 +189,7 @@ class GdalReader {
 
   std::string shown_;
   const ReadOptions& options_;
-  Dataset dataset_;
+  Document<Feature> dataset_;
   GeometryCounts counts_;
   std::uint64_t without_geometry_ = 0;
   bool latitude_first_ = false;
@@ -197,13 +197,13 @@ class GdalReader {
 
 }  // namespace
 
-Result<Dataset> read_gdal(const std::string& name, const std::string& shown,
-                          const ReadOptions& options) {
+Result<Document<Feature>> read_gdal(const std::string& name, const std::string& shown,
+                                    const ReadOptions& options) {
   return GdalReader(shown, options).read(name);
 }
 
-Result<Dataset> read_gdal_bytes(const std::string& bytes, const std::string& shown,
-                                const ReadOptions& options) {
+Result<Document<Feature>> read_gdal_bytes(const std::string& bytes, const std::string& shown,
+                                          const ReadOptions& options) {
   const std::string name = fmt::format("/vsimem/medial_{}", static_cast<const void*>(&bytes));
   auto* data = const_cast<GByte*>(reinterpret_cast<const GByte*>(bytes.data()));
   VSILFILE* file = VSIFileFromMemBuffer(name.c_str(), data, bytes.size(), FALSE);
@@ -211,7 +211,7 @@ Result<Dataset> read_gdal_bytes(const std::string& bytes, const std::string& sho
     return Error{ErrorCode::unreadable, "cannot be kept in memory", in_file(shown)};
   }
   VSIFCloseL(file);
-  Result<Dataset> result = read_gdal(name, shown, options);
+  Result<Document<Feature>> result = read_gdal(name, shown, options);
   VSIUnlink(name.c_str());
   return result;
 }

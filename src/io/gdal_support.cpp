@@ -218,7 +218,7 @@ Status add_chains_of_wkt(const std::string& text, std::vector<Chain>& chains) {
   return add_of_wkt(text, rings, &chains);
 }
 
-void set_crs(const OGRSpatialReference& reference, Dataset& dataset) {
+void set_crs(const OGRSpatialReference& reference, Document<Feature>& dataset) {
   char* text = nullptr;
   const char* const options[] = {"FORMAT=WKT2_2019", "MULTILINE=NO", nullptr};
   if (reference.exportToWkt(&text, options) == OGRERR_NONE && text != nullptr) {
@@ -228,7 +228,7 @@ void set_crs(const OGRSpatialReference& reference, Dataset& dataset) {
   CPLFree(text);
 }
 
-void read_crs_of_epsg(int code, Dataset& dataset) {
+void read_crs_of_epsg(int code, Document<Feature>& dataset) {
   const GdalMessages messages;
   OGRSpatialReference reference;
   if (reference.importFromEPSG(code) == OGRERR_NONE) {
@@ -238,7 +238,7 @@ void read_crs_of_epsg(int code, Dataset& dataset) {
   }
 }
 
-void read_crs_of_wkt(const std::string& wkt, Dataset& dataset) {
+void read_crs_of_wkt(const std::string& wkt, Document<Feature>& dataset) {
   if (wkt.empty()) return;
   const GdalMessages messages;
   dataset.crs_wkt = wkt;

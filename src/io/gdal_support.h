@@ -62,8 +62,8 @@ Status add_rings_of_wkt(const std::string& text, std::vector<Ring>& rings);
 Status add_chains_of_wkt(const std::string& text, std::vector<Chain>& chains);
 
 /// Sets crs_wkt and geographic; a reference system that cannot be told becomes a note.
-void set_crs(const OGRSpatialReference& reference, Dataset& dataset);
-void read_crs_of_epsg(int code, Dataset& dataset);
-void read_crs_of_wkt(const std::string& wkt, Dataset& dataset);
+void set_crs(const OGRSpatialReference& reference, Document<Feature>& dataset);
+void read_crs_of_epsg(int code, Document<Feature>& dataset);
+void read_crs_of_wkt(const std::string& wkt, Document<Feature>& dataset);
 
 }  // namespace medial::io

@@ -264,7 +264,7 @@ Result<ImageFile> read_raster(const std::string& name, const ImageOptions& optio
     file.placement = placement;
   }
   if (const OGRSpatialReference* reference = dataset->GetSpatialRef()) {
-    Dataset described;
+    Document<Feature> described;
     set_crs(*reference, described);
     file.crs_wkt = std::move(described.crs_wkt);
     file.geographic = described.geographic;

@@ -14,8 +14,8 @@
 
 #include "io/text_source.h"
 #include "medial/axis.h"
+#include "medial/document.h"
 #include "medial/error.h"
-#include "medial/io/attributes.h"
 
 // What the readers of medial's own JSON have in common: rows of numbers, and errors.
 

@@ -88,7 +88,7 @@ Status write_layers_wkt(OutputStream& out, const LayerFile& file) {
 std::string known_layer_formats() { return layer_formats; }
 
 Status write_layers(const std::string& path, const std::string& format, const LayerFile& file,
-                    const NativeFile& background, const WriteOptions& options) {
+                    const Document<AxisItem>& background, const WriteOptions& options) {
   const Result<std::string> known = output_format(path, format, "geojson", known_layer_formats());
   if (!known) return known.error();
   const auto refused = [&path](ErrorCode code, std::string text) {

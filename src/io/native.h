@@ -19,18 +19,18 @@ bool begins_like_voronoi(std::string_view text);
 
 /// Reads and checks: every index is in its range, every number finite.
 /// Errors: unreadable, malformed, unsupported (a newer version), too_large (4 GiB or more).
-Result<NativeFile> read_native(TextSource& source);
+Result<Document<AxisItem>> read_native(TextSource& source);
 
 /// Reads and checks Voronoi diagrams. Errors as read_native().
-Result<VoronoiFile> read_voronoi(TextSource& source);
+Result<Document<VoronoiItem>> read_voronoi(TextSource& source);
 
 /// Writes without loss. Errors: internal (a number is not finite; the stream may hold a part then).
-Status write_native(OutputStream& out, const NativeFile& file);
+Status write_native(OutputStream& out, const Document<AxisItem>& file);
 
 /// The control point of a straight edge whose radius runs evenly: files leave it out.
 Disk middle_of(const Disk& a, const Disk& b);
 
 /// The shapes of a native file as a dataset: their loops are the rings.
-Dataset dataset_of(NativeFile file);
+Document<Feature> dataset_of(Document<AxisItem> file);
 
 }  // namespace medial::io

@@ -270,8 +270,8 @@ Contour read_contour(json::value value) {
   return contour;
 }
 
-NativeItem read_item(json::value value) {
-  NativeItem item;
+AxisItem read_item(json::value value) {
+  AxisItem item;
   Unresolved unresolved;
   for (json::field field : value.get_object()) {
     const std::string_view key = field.unescaped_key();
@@ -294,8 +294,8 @@ NativeItem read_item(json::value value) {
   return item;
 }
 
-NativeFile read_file(json::document& document) {
-  NativeFile file;
+Document<AxisItem> read_file(json::document& document) {
+  Document<AxisItem> file;
   bool versioned = false;
   bool itemized = false;
   for (json::field field : document.get_object()) {
@@ -340,17 +340,17 @@ bool begins_like_voronoi(std::string_view text) {
   return begins_with_member(text, "\"medial_voronoi\"");
 }
 
-Result<NativeFile> read_native(TextSource& source) {
+Result<Document<AxisItem>> read_native(TextSource& source) {
   return read_document(source, native_version, read_file);
 }
 
-Dataset dataset_of(NativeFile file) {
-  Dataset dataset;
+Document<Feature> dataset_of(Document<AxisItem> file) {
+  Document<Feature> dataset;
   dataset.crs_wkt = std::move(file.crs_wkt);
   dataset.y_down = file.y_down;
   std::int64_t id = 0;
-  for (NativeItem& item : file.items) {
-    Feature& feature = dataset.features.emplace_back();
+  for (AxisItem& item : file.items) {
+    Feature& feature = dataset.items.emplace_back();
     feature.id = id++;
     feature.attributes = std::move(item.attributes);
     feature.contours = std::move(item.contours);

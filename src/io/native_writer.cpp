@@ -81,9 +81,9 @@ class NativeWriter {
  public:
   explicit NativeWriter(OutputStream& out) : out_(out) {}
 
-  Status write(const NativeFile& file) {
+  Status write(const Document<AxisItem>& file) {
     const bool arcs = std::ranges::any_of(
-        file.items, [](const NativeItem& item) { return !item.shape.bulges.empty(); });
+        file.items, [](const AxisItem& item) { return !item.shape.bulges.empty(); });
     out_.put("{\"medial\":");
     out_.put(arcs ? native_version : 1);
     if (!file.crs_wkt.empty()) {
@@ -239,7 +239,7 @@ Disk middle_of(const Disk& a, const Disk& b) {
   return {midpoint(a.center, b.center), a.radius + 0.5 * (b.radius - a.radius)};
 }
 
-Status write_native(OutputStream& out, const NativeFile& file) {
+Status write_native(OutputStream& out, const Document<AxisItem>& file) {
   return NativeWriter(out).write(file);
 }
 

@@ -40,7 +40,7 @@ void put_attributes(OutputStream& out, const Attributes& attributes) {
                         quoted(attributes[k].second)));
 }
 
-void write_json(OutputStream& out, const OffsetFile& file) {
+void write_json(OutputStream& out, const Document<OffsetItem>& file) {
   out.put("{\"medial_offsets\":1,\n\"items\":[");
   for (std::size_t i = 0; i < file.items.size(); ++i) {
     const OffsetItem& item = file.items[i];
@@ -99,7 +99,7 @@ void for_levels(const std::vector<OffsetRegion>& regions, const Each& each) {
 }
 
 /// Circular strings do not survive a projection: of longitudes and latitudes there are chords.
-Status write_wkt(OutputStream& out, const OffsetFile& file, const WriteOptions& options,
+Status write_wkt(OutputStream& out, const Document<OffsetItem>& file, const WriteOptions& options,
                  bool chords) {
   const Result<OutputCrs> crs = OutputCrs::make(file.crs_wkt);
   if (!crs) return crs.error();
@@ -131,7 +131,8 @@ Status write_wkt(OutputStream& out, const OffsetFile& file, const WriteOptions& 
   return status;
 }
 
-Status write_geojson(OutputStream& out, const OffsetFile& file, const WriteOptions& options) {
+Status write_geojson(OutputStream& out, const Document<OffsetItem>& file,
+                     const WriteOptions& options) {
   const Result<OutputCrs> crs = OutputCrs::make(file.crs_wkt);
   if (!crs) return crs.error();
   GeojsonCollection collection(out, {}, crs->reference());
@@ -182,7 +183,7 @@ Status write_geojson(OutputStream& out, const OffsetFile& file, const WriteOptio
 #ifdef MEDIAL_DXF
 std::string layer_of(double clearance) { return fmt::format("OFFSET {}", clearance); }
 
-Status write_dxf(OutputStream& out, const OffsetFile& file) {
+Status write_dxf(OutputStream& out, const Document<OffsetItem>& file) {
   std::set<double> clearances;
   for (const OffsetItem& item : file.items)
     for (const OffsetRegion& region : item.offsets.regions) clearances.insert(region.clearance);
@@ -197,7 +198,7 @@ Status write_dxf(OutputStream& out, const OffsetFile& file) {
 }
 #endif
 
-Status write_picture(OutputStream& out, const std::string& format, const OffsetFile& file,
+Status write_picture(OutputStream& out, const std::string& format, const Document<OffsetItem>& file,
                      const WriteOptions& options) {
   Extent extent;
   double deepest = 0;
@@ -252,8 +253,8 @@ Status write_picture(OutputStream& out, const std::string& format, const OffsetF
 
 std::string known_offset_formats() { return offset_formats; }
 
-Status write_offsets(const std::string& path, const std::string& format, const OffsetFile& file,
-                     const WriteOptions& options, bool chords) {
+Status write_offsets(const std::string& path, const std::string& format,
+                     const Document<OffsetItem>& file, const WriteOptions& options, bool chords) {
   const Result<std::string> known = output_format(path, format, "json", offset_formats);
   if (!known) return known.error();
   if (!(options.chord > 0) || !std::isfinite(options.chord))

@@ -232,14 +232,14 @@ Result<PackFile> read_pack(const std::string& path) {
   });
 }
 
-Result<NativeFile> native_of(const PackFile& file, std::vector<std::string>* notes) {
+Result<Document<AxisItem>> native_of(const PackFile& file, std::vector<std::string>* notes) {
   auto axes = decode_axes(file.code);
   if (!axes) return std::move(axes).error();
-  NativeFile native;
+  Document<AxisItem> native;
   native.crs_wkt = file.crs_wkt;
   native.y_down = file.y_down;
   for (MedialAxis& axis : *axes) {
-    NativeItem& item = native.items.emplace_back();
+    AxisItem& item = native.items.emplace_back();
     auto shape = rebuild(axis);
     if (shape) {
       item.shape = std::move(shape).value();

@@ -12,13 +12,13 @@ namespace {
 constexpr Color inside_color{0.945, 0.945, 0.925};
 
 /// Draws what there is, from below: `diagrams` and `layers` may be null.
-Status draw_picture(OutputStream& out, const std::string& format, const NativeFile& file,
-                    const WriteOptions& options, const VoronoiFile* diagrams,
+Status draw_picture(OutputStream& out, const std::string& format, const Document<AxisItem>& file,
+                    const WriteOptions& options, const Document<VoronoiItem>* diagrams,
                     const LayerFile* layers = nullptr) {
   const Result<PictureFrame> frame = frame_for(box_of(file), options.width, file.y_down);
   if (!frame) return frame.error();
   double largest = 0, edges = 0;
-  for (const NativeItem& item : file.items) {
+  for (const AxisItem& item : file.items) {
     for (const Node& node : item.axis.nodes) largest = std::max(largest, node.disk.radius);
     edges += static_cast<double>(item.axis.edges.size());
   }
@@ -32,10 +32,10 @@ Status draw_picture(OutputStream& out, const std::string& format, const NativeFi
       if (!options.shape) return;
       pen.color(outline_color);
       pen.line_width(0.8);
-      for (const NativeItem& item : file.items) pen.stroke_shape(item.shape);
+      for (const AxisItem& item : file.items) pen.stroke_shape(item.shape);
     };
     if (options.shape)
-      for (const NativeItem& item : file.items) pen.fill_shape(item.shape, inside_color);
+      for (const AxisItem& item : file.items) pen.fill_shape(item.shape, inside_color);
     outlines();
     if (layers != nullptr) draw_polygons(pen, *layers);
     if (diagrams != nullptr) {
@@ -54,23 +54,23 @@ Status draw_picture(OutputStream& out, const std::string& format, const NativeFi
 
 }  // namespace
 
-Status write_picture(OutputStream& out, const std::string& format, const NativeFile& file,
+Status write_picture(OutputStream& out, const std::string& format, const Document<AxisItem>& file,
                      const WriteOptions& options) {
   return draw_picture(out, format, file, options, nullptr);
 }
 
 Status write_layers_picture(OutputStream& out, const std::string& format, const LayerFile& file,
-                            const NativeFile& background, const WriteOptions& options) {
+                            const Document<AxisItem>& background, const WriteOptions& options) {
   return draw_picture(out, format, background, options, nullptr, &file);
 }
 
-Status write_voronoi_picture(OutputStream& out, const std::string& format, const VoronoiFile& file,
-                             const WriteOptions& options) {
+Status write_voronoi_picture(OutputStream& out, const std::string& format,
+                             const Document<VoronoiItem>& file, const WriteOptions& options) {
   // Less its spokes, the diagram is the axis.
-  NativeFile axes;
+  Document<AxisItem> axes;
   axes.y_down = file.y_down;
   for (const VoronoiItem& item : file.items) {
-    NativeItem& own = axes.items.emplace_back();
+    AxisItem& own = axes.items.emplace_back();
     own.shape = item.shape;
     own.axis.sites = item.diagram.sites;
     own.axis.nodes = item.diagram.nodes;

@@ -79,11 +79,11 @@ void cut(const MedialAxis& axis, const Edge& edge, const PictureFrame& frame, do
 
 }  // namespace
 
-void draw_axes(Pen& pen, const NativeFile& file, double largest) {
+void draw_axes(Pen& pen, const Document<AxisItem>& file, double largest) {
   // Few changes of colour: pieces are counted, then sorted by shade, then stroked in batches.
   std::array<std::vector<Piece>, shade_count> pieces;
   std::vector<Cells> cells(shade_count, Cells(pen.cell()));
-  for (const NativeItem& item : file.items) {
+  for (const AxisItem& item : file.items) {
     for (const Edge& edge : item.axis.edges) {
       cut(item.axis, edge, pen.frame(), largest, [&](int index, const Piece& piece) {
         const auto i = static_cast<std::size_t>(index);
@@ -104,16 +104,16 @@ void draw_axes(Pen& pen, const NativeFile& file, double largest) {
   }
 }
 
-void draw_disks(Pen& pen, const NativeFile& file, int count) {
+void draw_disks(Pen& pen, const Document<AxisItem>& file, int count) {
   double total = 0;
-  for (const NativeItem& item : file.items) total += total_length(item.axis);
+  for (const AxisItem& item : file.items) total += total_length(item.axis);
   if (!(total > 0)) return;
   const double step = total / count;
   double next = 0.5 * step;
   double walked = 0;
   pen.color(disk_color, 0.6);
   pen.line_width(0.6);
-  for (const NativeItem& item : file.items) {
+  for (const AxisItem& item : file.items) {
     for (const Edge& edge : item.axis.edges) {
       const double along = length(item.axis, edge);
       for (; next <= walked + along && along > 0; next += step) {
@@ -126,12 +126,12 @@ void draw_disks(Pen& pen, const NativeFile& file, int count) {
   }
 }
 
-void draw_contacts(Pen& pen, const NativeFile& file) {
+void draw_contacts(Pen& pen, const Document<AxisItem>& file) {
   const PictureFrame& frame = pen.frame();
   pen.line_width(0.35);
   for (const bool feet : {false, true}) {
     pen.color(contact_color, feet ? 1.0 : 0.35);
-    for (const NativeItem& item : file.items) {
+    for (const AxisItem& item : file.items) {
       for (const Edge& edge : item.axis.edges) {
         for (const std::uint32_t node : edge.node) {
           const Disk& disk = item.axis.nodes[node].disk;
@@ -154,11 +154,11 @@ void draw_contacts(Pen& pen, const NativeFile& file) {
   }
 }
 
-void draw_nodes(Pen& pen, const NativeFile& file) {
+void draw_nodes(Pen& pen, const Document<AxisItem>& file) {
   for (const NodeKind kind : {NodeKind::site_change, NodeKind::leaf, NodeKind::branching}) {
     pen.color(node_colors[static_cast<std::size_t>(kind)]);
     const double radius = pen.thickness(kind == NodeKind::site_change ? 1.5 : 2.6);
-    for (const NativeItem& item : file.items) {
+    for (const AxisItem& item : file.items) {
       for (const Node& node : item.axis.nodes) {
         if (node.kind != kind) continue;
         pen.circle(pen.frame()(node.disk.center), radius);
@@ -169,10 +169,10 @@ void draw_nodes(Pen& pen, const NativeFile& file) {
   }
 }
 
-void draw_titles(Pen& pen, const NativeFile& file) {
+void draw_titles(Pen& pen, const Document<AxisItem>& file) {
   constexpr double height = 12;  // thousandths of the longer side
   pen.color(outline_color);
-  for (const NativeItem& item : file.items) {
+  for (const AxisItem& item : file.items) {
     Extent extent;
     extent.add(item.shape);
     for (const Node& node : item.axis.nodes) extent.add(node.disk.center);  // of exteriors

@@ -34,9 +34,9 @@ void Extent::add(const Shape& shape) {
 
 Box Extent::box() const { return box_.is_nothing() ? Box{{0, 0}, {1, 1}} : box_; }
 
-Box box_of(const NativeFile& file) {
+Box box_of(const Document<AxisItem>& file) {
   Extent extent;
-  for (const NativeItem& item : file.items) {
+  for (const AxisItem& item : file.items) {
     extent.add(item.shape);
     for (const Node& node : item.axis.nodes) extent.add(node.disk.center);
     for (const Site& site : item.axis.sites) extent.add(site.start);

@@ -27,7 +27,7 @@ class Extent {
 };
 
 /// The box around shapes, axes and sites.
-Box box_of(const NativeFile& file);
+Box box_of(const Document<AxisItem>& file);
 
 /// How the plane lies in a picture: in its middle, aspect kept.
 struct PictureFrame {

@@ -40,7 +40,7 @@ void trace_edge(Pen& pen, const VoronoiDiagram& diagram, const VoronoiEdge& edge
 
 }  // namespace
 
-void draw_faces(Pen& pen, const VoronoiFile& file) {
+void draw_faces(Pen& pen, const Document<VoronoiItem>& file) {
   const PictureFrame& frame = pen.frame();
   for (const VoronoiItem& item : file.items) {
     const VoronoiDiagram& diagram = item.diagram;
@@ -72,7 +72,7 @@ void draw_faces(Pen& pen, const VoronoiFile& file) {
   pen.stroke();
 }
 
-void draw_sites(Pen& pen, const VoronoiFile& file) {
+void draw_sites(Pen& pen, const Document<VoronoiItem>& file) {
   const PictureFrame& frame = pen.frame();
   pen.color(outline_color);
   pen.line_width(1.6);

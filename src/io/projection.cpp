@@ -93,8 +93,8 @@ Direction direction_of(Vec2 position) {
 }
 
 template <class Action>
-void for_each_point(const Dataset& dataset, Action action) {
-  for (const Feature& feature : dataset.features) {
+void for_each_point(const Document<Feature>& dataset, Action action) {
+  for (const Feature& feature : dataset.items) {
     for (const Ring& ring : feature.rings) {
       for (const Vec2 point : ring.points) action(point);
     }
@@ -115,7 +115,7 @@ struct GlobeExtent {
   double reach = 0;
 };
 
-GlobeExtent extent_of(const Dataset& dataset) {
+GlobeExtent extent_of(const Document<Feature>& dataset) {
   Direction sum;
   for_each_point(dataset, [&sum](Vec2 point) {
     const Direction d = direction_of(point);
@@ -133,7 +133,7 @@ GlobeExtent extent_of(const Dataset& dataset) {
           degrees(std::acos(std::clamp(cosine, -1.0, 1.0)))};
 }
 
-bool can_be_degrees(const Dataset& dataset) {
+bool can_be_degrees(const Document<Feature>& dataset) {
   bool possible = true;
   for_each_point(dataset, [&possible](Vec2 point) {
     if (!(std::fabs(point.x) <= 360 && std::fabs(point.y) <= 90)) possible = false;
@@ -143,7 +143,7 @@ bool can_be_degrees(const Dataset& dataset) {
 
 }  // namespace
 
-Status project_to_local(Dataset& dataset) {
+Status project_to_local(Document<Feature>& dataset) {
   const GdalMessages messages;
   OGRSpatialReference geographic;
   if (dataset.crs_wkt.empty()) {
@@ -187,8 +187,8 @@ Status project_to_local(Dataset& dataset) {
   constexpr double relative_tolerance = 1e-12, least_tolerance = 2e-8, earth_radius = 6.371e6;
   const double tolerance =
       std::max(relative_tolerance * 2 * radians(extent.reach) * earth_radius, least_tolerance);
-  for (std::size_t i = 0; i < dataset.features.size(); ++i) {
-    if (!transform_feature(*transformation, tolerance, dataset.features[i])) return failed(i);
+  for (std::size_t i = 0; i < dataset.items.size(); ++i) {
+    if (!transform_feature(*transformation, tolerance, dataset.items[i])) return failed(i);
   }
   set_crs(local, dataset);
   dataset.notes.push_back(fmt::format("projected to metres by the {} projection at {:.4f}, {:.4f}",
@@ -227,7 +227,7 @@ Result<BackToGeographic> BackToGeographic::make(const std::string& crs_wkt) {
   if (!result->transformer) {
     return Error{ErrorCode::unsupported, "the local projection cannot be undone", {}};
   }
-  Dataset named;
+  Document<Feature> named;
   set_crs(geographic, named);
   result->crs_wkt = std::move(named.crs_wkt);
   return BackToGeographic(std::move(result));

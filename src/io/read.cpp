@@ -52,10 +52,10 @@ Format format_of_text(std::string_view text) {
   return Format::gdal;
 }
 
-Result<Dataset> read_native_dataset(TextSource& source) {
-  Result<NativeFile> file = read_native(source);
+Result<Document<Feature>> read_native_dataset(TextSource& source) {
+  Result<Document<AxisItem>> file = read_native(source);
   if (!file) return file.error();
-  Dataset dataset = dataset_of(std::move(*file));
+  Document<Feature> dataset = dataset_of(std::move(*file));
   read_crs_of_wkt(std::string(dataset.crs_wkt), dataset);
   return dataset;
 }
@@ -64,8 +64,8 @@ Error nothing_to_close(const std::string& path) {
   return {ErrorCode::invalid_option, "this format has no loose curves to close", in_file(path)};
 }
 
-Result<Dataset> read_own(TextSource& source, Format format, const std::string& path,
-                         const ReadOptions& options) {
+Result<Document<Feature>> read_own(TextSource& source, Format format, const std::string& path,
+                                   const ReadOptions& options) {
   if (options.close && format != Format::dxf) return nothing_to_close(path);
   if ((!options.layer.empty() && format != Format::dxf) || !options.where.empty()) {
     return Error{ErrorCode::invalid_option,
@@ -96,7 +96,7 @@ std::string gdal_name(const std::string& path) {
 }
 
 /// The outline of an image's foreground as one feature.
-Result<Dataset> read_outline(const std::string& path, const ReadOptions& options) {
+Result<Document<Feature>> read_outline(const std::string& path, const ReadOptions& options) {
   if (!options.layer.empty() || !options.where.empty() || options.close ||
       options.repair != RepairRule::none) {
     return Error{ErrorCode::invalid_option,
@@ -109,7 +109,7 @@ Result<Dataset> read_outline(const std::string& path, const ReadOptions& options
     if (!placed) return;
     for (Vec2& p : points) p = {t[0] + p.x * t[1] + p.y * t[2], t[3] + p.x * t[4] + p.y * t[5]};
   };
-  Dataset dataset;
+  Document<Feature> dataset;
   Feature feature;
   if (options.smooth_contour) {
     Result<std::vector<Contour>> contours = smooth_outline(file->image);
@@ -122,7 +122,7 @@ Result<Dataset> read_outline(const std::string& path, const ReadOptions& options
     feature.rings = std::move(*rings);
     for (Ring& ring : feature.rings) place(ring.points);
   }
-  dataset.features.push_back(std::move(feature));
+  dataset.items.push_back(std::move(feature));
   dataset.crs_wkt = std::move(file->crs_wkt);
   dataset.geographic = file->geographic;
   dataset.y_down = !file->placed();
@@ -132,7 +132,7 @@ Result<Dataset> read_outline(const std::string& path, const ReadOptions& options
   return dataset;
 }
 
-Result<Dataset> read_any(const std::string& path, const ReadOptions& options) {
+Result<Document<Feature>> read_any(const std::string& path, const ReadOptions& options) {
   if (is_image(path)) return read_outline(path, options);
   if (path == "-") {
     Result<std::shared_ptr<TextSource>> source = TextSource::open(path);
@@ -193,7 +193,7 @@ std::optional<std::size_t> not_finite(const std::vector<double>& numbers) {
   return static_cast<std::size_t>(bad - numbers.begin());
 }
 
-std::optional<Error> find_not_finite(const Dataset& dataset) {
+std::optional<Error> find_not_finite(const Document<Feature>& dataset) {
   const auto error = [](std::size_t feature, std::size_t ring, std::size_t vertex,
                         const char* text) {
     Error result{ErrorCode::not_finite, text, in_feature(feature)};
@@ -210,8 +210,8 @@ std::optional<Error> find_not_finite(const Dataset& dataset) {
     }
     return std::nullopt;
   };
-  for (std::size_t i = 0; i < dataset.features.size(); ++i) {
-    const Feature& feature = dataset.features[i];
+  for (std::size_t i = 0; i < dataset.items.size(); ++i) {
+    const Feature& feature = dataset.items[i];
     if (auto bad = look_at(i, feature.rings)) return bad;
     if (auto bad = look_at(i, feature.chains)) return bad;
     for (std::size_t k = 0; k < feature.contours.size(); ++k) {
@@ -237,7 +237,7 @@ bool has_curves(const Feature& feature) {
          std::ranges::any_of(feature.rings, [](const Ring& ring) { return !ring.bulges.empty(); });
 }
 
-void drop_empty_features(Dataset& dataset) {
+void drop_empty_features(Document<Feature>& dataset) {
   const auto has_no_point = [](const Feature& feature) {
     return std::ranges::all_of(feature.rings,
                                [](const Ring& ring) { return ring.points.empty(); }) &&
@@ -246,31 +246,31 @@ void drop_empty_features(Dataset& dataset) {
                [](const Contour& contour) { return contour.pieces.empty() && !contour.open; }) &&
            feature.chains.empty();
   };
-  const std::size_t dropped = std::erase_if(dataset.features, has_no_point);
-  if (dropped > 0 && !dataset.features.empty()) {
+  const std::size_t dropped = std::erase_if(dataset.items, has_no_point);
+  if (dropped > 0 && !dataset.items.empty()) {
     dataset.notes.push_back(fmt::format("{} features are empty and were left out", dropped));
   }
 }
 
-Result<Dataset> finish(Dataset dataset, const ReadOptions& options) {
+Result<Document<Feature>> finish(Document<Feature> dataset, const ReadOptions& options) {
   if (auto error = find_not_finite(dataset)) return *error;
   drop_empty_features(dataset);
-  if (dataset.features.empty())
+  if (dataset.items.empty())
     return Error{ErrorCode::empty, options.loose ? "there is nothing" : "there is no polygon", {}};
   if (options.project) {
     if (Status status = project_to_local(dataset); !status) return status.error();
   }
   if (options.repair != RepairRule::none) {
-    for (std::size_t i = 0; i < dataset.features.size(); ++i) {
-      if (has_curves(dataset.features[i])) continue;  // see ReadOptions
-      Status status = repair(dataset.features[i], i, options.repair, dataset.notes);
+    for (std::size_t i = 0; i < dataset.items.size(); ++i) {
+      if (has_curves(dataset.items[i])) continue;  // see ReadOptions
+      Status status = repair(dataset.items[i], i, options.repair, dataset.notes);
       if (!status) return status.error();
     }
   }
   return dataset;
 }
 
-Result<NativeFile> read_native_path(const std::string& path) {
+Result<Document<AxisItem>> read_native_path(const std::string& path) {
   Result<std::shared_ptr<TextSource>> source = TextSource::open(path);
   if (!source) return source.error();
   if (!begins_like_native((*source)->lookahead(sniffed))) {
@@ -281,9 +281,9 @@ Result<NativeFile> read_native_path(const std::string& path) {
 
 }  // namespace
 
-Result<Dataset> read_dataset(const std::string& path, const ReadOptions& options) {
-  return guarded(path, [&]() -> Result<Dataset> {
-    Result<Dataset> dataset = read_any(path, options);
+Result<Document<Feature>> read_dataset(const std::string& path, const ReadOptions& options) {
+  return guarded(path, [&]() -> Result<Document<Feature>> {
+    Result<Document<Feature>> dataset = read_any(path, options);
     if (!dataset) return dataset;
     return finish(std::move(*dataset), options);
   });
@@ -294,7 +294,7 @@ bool is_native(const std::string& path) {
   return source && begins_like_native((*source)->lookahead(sniffed));
 }
 
-Result<NativeFile> read_native(const std::string& path) {
+Result<Document<AxisItem>> read_native(const std::string& path) {
   return guarded(path, [&] { return read_native_path(path); });
 }
 
@@ -303,8 +303,8 @@ bool is_voronoi(const std::string& path) {
   return source && begins_like_voronoi((*source)->lookahead(sniffed));
 }
 
-Result<VoronoiFile> read_voronoi(const std::string& path) {
-  return guarded(path, [&]() -> Result<VoronoiFile> {
+Result<Document<VoronoiItem>> read_voronoi(const std::string& path) {
+  return guarded(path, [&]() -> Result<Document<VoronoiItem>> {
     Result<std::shared_ptr<TextSource>> source = TextSource::open(path);
     if (!source) return source.error();
     return read_voronoi(**source);

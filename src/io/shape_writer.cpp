@@ -194,7 +194,7 @@ Status write_stream(OutputStream& out, const std::string& format, const ShapesFi
   } else if (format == "dxf") {
     status = write_dxf(out, file);
   } else {
-    NativeFile native;
+    Document<AxisItem> native;
     native.crs_wkt = file.crs_wkt;
     native.y_down = file.y_down;
     for (const ShapeItem& item : file.items) {

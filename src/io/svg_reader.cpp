@@ -49,7 +49,7 @@ struct Refused {
 /// What is gathered while the document is walked.
 struct Drawing {
   const SvgDocument& document;
-  Dataset dataset;
+  Document<Feature> dataset;
   bool loose = false;
   std::uint64_t copies = 0;
   std::uint64_t copied_points = 0;
@@ -291,11 +291,11 @@ void Element::add_feature() {
   Feature feature;
   feature.contours = contours();
   if (feature.contours.empty()) return;
-  feature.id = static_cast<std::int64_t>(drawing_.dataset.features.size());
+  feature.id = static_cast<std::int64_t>(drawing_.dataset.items.size());
   if (std::string id = attribute(node_, "id"); !id.empty()) {
     feature.attributes.emplace_back("id", std::move(id));
   }
-  drawing_.dataset.features.push_back(std::move(feature));
+  drawing_.dataset.items.push_back(std::move(feature));
 }
 
 void Element::on_exit_element() {
@@ -418,7 +418,7 @@ bool begins_like_svg(std::string_view text) {
   return text.find("<svg") != std::string_view::npos;
 }
 
-Result<Dataset> read_svg(TextSource& source, bool loose) {
+Result<Document<Feature>> read_svg(TextSource& source, bool loose) {
   const Result<SvgDocument> document = SvgDocument::read(source);
   if (!document) return document.error();
   Drawing drawing{*document, {}, loose};
@@ -432,9 +432,9 @@ Result<Dataset> read_svg(TextSource& source, bool loose) {
   } catch (const Refused& refused) {
     return error(refused.error);
   }
-  Dataset& dataset = drawing.dataset;
+  Document<Feature>& dataset = drawing.dataset;
   dataset.y_down = true;
-  if (dataset.features.empty()) {
+  if (dataset.items.empty()) {
     return error({ErrorCode::empty,
                   drawing.unfilled > 0 ? "no shape is filled, and a stroke alone has no inside"
                                        : "there is no filled shape",

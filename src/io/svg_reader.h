@@ -15,6 +15,6 @@ bool begins_like_svg(std::string_view text);
 /// down, as in the document (docs/format.md).
 /// Errors: unreadable, malformed, unsupported (nested too deeply), too_large (a document that
 /// unfolds to more than it may), empty.
-Result<Dataset> read_svg(TextSource& source, bool loose = false);
+Result<Document<Feature>> read_svg(TextSource& source, bool loose = false);
 
 }  // namespace medial::io

@@ -23,7 +23,7 @@ bool is_nearly_straight(const MedialAxis& axis, const Edge& edge, double chord) 
 
 }  // namespace
 
-double chord_of(const NativeItem& item, const WriteOptions& options) {
+double chord_of(const AxisItem& item, const WriteOptions& options) {
   return options.chord * diagonal(bounding_box(item.shape));
 }
 
@@ -46,13 +46,13 @@ std::vector<Disk> sample(const MedialAxis& axis, const Branch& branch, double ch
   return result;
 }
 
-Status write_csv(OutputStream& out, const NativeFile& file, const WriteOptions& options) {
+Status write_csv(OutputStream& out, const Document<AxisItem>& file, const WriteOptions& options) {
   const Result<OutputCrs> crs = OutputCrs::make(file.crs_wkt);
   if (!crs) return crs.error();
   out.put("edge,x,y,r\n");
   std::uint64_t id = 0;
   std::vector<Disk> samples;
-  for (const NativeItem& item : file.items) {
+  for (const AxisItem& item : file.items) {
     const double chord = chord_of(item, options);
     for (const Edge& edge : item.axis.edges) {
       sample(item.axis, edge, chord, samples);
@@ -71,10 +71,10 @@ Status write_csv(OutputStream& out, const NativeFile& file, const WriteOptions& 
   return success();
 }
 
-Status write_wkt(OutputStream& out, const NativeFile& file, const WriteOptions& options) {
+Status write_wkt(OutputStream& out, const Document<AxisItem>& file, const WriteOptions& options) {
   const Result<OutputCrs> crs = OutputCrs::make(file.crs_wkt);
   if (!crs) return crs.error();
-  for (const NativeItem& item : file.items) {
+  for (const AxisItem& item : file.items) {
     const double chord = chord_of(item, options);
     out.put("MULTILINESTRING ");
     const char* separator = "(";

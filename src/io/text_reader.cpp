@@ -66,19 +66,19 @@ class WktReader {
  public:
   WktReader(TextSource& source, bool loose) : source_(source), loose_(loose) {}
 
-  Result<Dataset> read() {
+  Result<Document<Feature>> read() {
     for (;;) {
       skip_separators();
       if (source_.peek() < 0) break;
       Feature feature;
       feature.id = static_cast<std::int64_t>(feature_);
       if (Status status = read_feature(feature); !status) return located(status.error());
-      dataset_.features.push_back(std::move(feature));
+      dataset_.items.push_back(std::move(feature));
       ++feature_;
     }
     if (source_.failure()) return *source_.failure();
     if (others_ > 0) {
-      const bool polygons = std::ranges::any_of(dataset_.features, [](const Feature& feature) {
+      const bool polygons = std::ranges::any_of(dataset_.items, [](const Feature& feature) {
         return !feature.rings.empty() || !feature.chains.empty();
       });
       if (!polygons) {
@@ -321,7 +321,7 @@ class WktReader {
 
   TextSource& source_;
   const bool loose_;
-  Dataset dataset_;
+  Document<Feature> dataset_;
   std::uint64_t feature_ = 0;
   std::uint64_t others_ = 0;
   std::optional<int> srid_;
@@ -422,10 +422,12 @@ Result<Line> read_line(TextSource& source, Vec2& vertex) {
 
 }  // namespace
 
-Result<Dataset> read_wkt(TextSource& source, bool loose) { return WktReader(source, loose).read(); }
+Result<Document<Feature>> read_wkt(TextSource& source, bool loose) {
+  return WktReader(source, loose).read();
+}
 
-Result<Dataset> read_xy(TextSource& source, bool loose) {
-  Dataset dataset;
+Result<Document<Feature>> read_xy(TextSource& source, bool loose) {
+  Document<Feature> dataset;
   Feature feature;
   bool in_ring = false;
   constexpr std::size_t longest_header = 4096;
@@ -460,7 +462,7 @@ Result<Dataset> read_xy(TextSource& source, bool loose) {
     }
     feature.rings.clear();
   }
-  dataset.features.push_back(std::move(feature));
+  dataset.items.push_back(std::move(feature));
   return dataset;
 }
 

@@ -100,8 +100,8 @@ VoronoiItem read_item(json::value value) {
   return item;
 }
 
-VoronoiFile read_file(json::document& document) {
-  VoronoiFile file;
+Document<VoronoiItem> read_file(json::document& document) {
+  Document<VoronoiItem> file;
   bool versioned = false;
   for (json::field field : document.get_object()) {
     const std::string_view key = field.unescaped_key();
@@ -122,7 +122,7 @@ VoronoiFile read_file(json::document& document) {
 
 }  // namespace
 
-Result<VoronoiFile> read_voronoi(TextSource& source) {
+Result<Document<VoronoiItem>> read_voronoi(TextSource& source) {
   return read_document(source, newest_version, read_file);
 }
 

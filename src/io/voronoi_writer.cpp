@@ -94,8 +94,8 @@ std::vector<Vec2> ring_of_face(const VoronoiDiagram& diagram, std::uint32_t k, d
 }
 
 /// A row for each sample of an edge.
-Status write_voronoi_csv(OutputStream& out, const VoronoiFile& file, const WriteOptions& options,
-                         const OutputCrs& crs) {
+Status write_voronoi_csv(OutputStream& out, const Document<VoronoiItem>& file,
+                         const WriteOptions& options, const OutputCrs& crs) {
   out.put("edge,part,left,right,x,y,r\n");
   std::uint64_t number = 0;
   for (const VoronoiItem& item : file.items) {
@@ -120,8 +120,8 @@ Status write_voronoi_csv(OutputStream& out, const VoronoiFile& file, const Write
 }
 
 /// A polygon for each face, a line of text each, in the order of the sites.
-Status write_voronoi_wkt(OutputStream& out, const VoronoiFile& file, const WriteOptions& options,
-                         const OutputCrs& crs) {
+Status write_voronoi_wkt(OutputStream& out, const Document<VoronoiItem>& file,
+                         const WriteOptions& options, const OutputCrs& crs) {
   for (const VoronoiItem& item : file.items) {
     const double chord = chord_of(item, options);
     for (std::uint32_t k = 0; k < item.diagram.sites.size(); ++k) {
@@ -136,7 +136,7 @@ Status write_voronoi_wkt(OutputStream& out, const VoronoiFile& file, const Write
   return success();
 }
 
-void write_voronoi_json(OutputStream& out, const VoronoiFile& file) {
+void write_voronoi_json(OutputStream& out, const Document<VoronoiItem>& file) {
   out.put("{\"medial_voronoi\":1,\n\"items\":[");
   for (std::size_t i = 0; i < file.items.size(); ++i) {
     const auto& diagram = file.items[i].diagram;
@@ -189,7 +189,7 @@ void write_voronoi_json(OutputStream& out, const VoronoiFile& file) {
   out.put("\n]}\n");
 }
 
-Status write_voronoi_geojson(OutputStream& out, const VoronoiFile& file,
+Status write_voronoi_geojson(OutputStream& out, const Document<VoronoiItem>& file,
                              const WriteOptions& options, const OutputCrs& crs) {
   GeojsonCollection collection(out, {}, crs.reference());
   const auto number = [&](std::string_view key, auto value) {
@@ -241,7 +241,7 @@ Status write_voronoi_geojson(OutputStream& out, const VoronoiFile& file,
   return success();
 }
 
-Status put_voronoi(OutputStream& out, const std::string& format, const VoronoiFile& file,
+Status put_voronoi(OutputStream& out, const std::string& format, const Document<VoronoiItem>& file,
                    const WriteOptions& options) {
   if (format == "json") {
     write_voronoi_json(out, file);
@@ -259,8 +259,8 @@ Status put_voronoi(OutputStream& out, const std::string& format, const VoronoiFi
 
 std::string known_voronoi_formats() { return diagram_formats; }
 
-Status write_voronoi(const std::string& path, const std::string& format, const VoronoiFile& file,
-                     const WriteOptions& options) {
+Status write_voronoi(const std::string& path, const std::string& format,
+                     const Document<VoronoiItem>& file, const WriteOptions& options) {
   const Result<std::string> known = output_format(path, format, "json", diagram_formats);
   if (!known) return known.error();
   return write_whole(

@@ -19,7 +19,7 @@ constexpr char axis_formats[] = ".json .geojson .gpkg .shp .fgb .wkt .csv .dxf .
 constexpr char axis_formats[] = ".json .geojson .gpkg .shp .fgb .wkt .csv .svg .pdf .png .ps";
 #endif
 
-Status put_axes(OutputStream& out, const std::string& format, const NativeFile& file,
+Status put_axes(OutputStream& out, const std::string& format, const Document<AxisItem>& file,
                 const WriteOptions& options) {
   if (format == "json") return write_native(out, file);
   if (format == "csv") return write_csv(out, file, options);
@@ -34,8 +34,8 @@ Status put_axes(OutputStream& out, const std::string& format, const NativeFile& 
 
 std::string known_output_formats() { return axis_formats; }
 
-Status write_axes(const std::string& path, const std::string& format, const NativeFile& file,
-                  const WriteOptions& options) {
+Status write_axes(const std::string& path, const std::string& format,
+                  const Document<AxisItem>& file, const WriteOptions& options) {
   const Result<std::string> known = output_format(path, format, "json", axis_formats);
   if (!known) return known.error();
   if (!(options.chord > 0) || !std::isfinite(options.chord))

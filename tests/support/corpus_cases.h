@@ -104,11 +104,11 @@ inline std::vector<Case> read_cases(const std::filesystem::path& path) {
   if (!dataset && dataset.error().code == ErrorCode::unsupported) return {};
   if (!dataset) return {{"file", {}, dataset.error(), {}}};
   std::vector<Case> cases;
-  for (std::size_t i = 0; i < dataset->features.size(); ++i) {
+  for (std::size_t i = 0; i < dataset->items.size(); ++i) {
     Case& one = cases.emplace_back();
     one.name = std::to_string(i);
-    one.rings = std::move(dataset->features[i].rings);
-    const auto arcs = approximate_by_arcs(dataset->features[i].contours, {.threads = 1});
+    one.rings = std::move(dataset->items[i].rings);
+    const auto arcs = approximate_by_arcs(dataset->items[i].contours, {.threads = 1});
     if (arcs)
       one.rings.insert(one.rings.end(), arcs->begin(), arcs->end());
     else

@@ -17,19 +17,19 @@ namespace medial::io {
 
 class CurvedIo : public test::ScratchFolder {
  protected:
-  Dataset read(const std::string& name, const std::string& text,
-               const ReadOptions& options = {}) const {
-    Result<Dataset> data = read_dataset(write(name, text), options);
+  Document<Feature> read(const std::string& name, const std::string& text,
+                         const ReadOptions& options = {}) const {
+    Result<Document<Feature>> data = read_dataset(write(name, text), options);
     EXPECT_TRUE(data.ok()) << to_string(data.error());
-    return data ? *data : Dataset{};
+    return data ? *data : Document<Feature>{};
   }
-  Dataset svg(const std::string& body, const std::string& attributes = "") const {
+  Document<Feature> svg(const std::string& body, const std::string& attributes = "") const {
     return read("a.svg", "<svg xmlns='http://www.w3.org/2000/svg' " + attributes + ">\n" + body +
                              "\n</svg>");
   }
   Error refused(const std::string& name, const std::string& text,
                 const ReadOptions& options = {}) const {
-    const Result<Dataset> data = read_dataset(write(name, text), options);
+    const Result<Document<Feature>> data = read_dataset(write(name, text), options);
     EXPECT_FALSE(data.ok()) << text.substr(0, 200);
     if (data) return {};
     EXPECT_EQ(data.error().place.file, path(name));
@@ -48,9 +48,9 @@ inline std::ostream& operator<<(std::ostream& out, const Counts& c) {
              << " rationals";
 }
 
-inline Counts count(const Dataset& data) {
+inline Counts count(const Document<Feature>& data) {
   Counts counts;
-  for (const Feature& feature : data.features) {
+  for (const Feature& feature : data.items) {
     for (const Contour& contour : feature.contours) {
       ++counts.contours;
       for (const CurvePiece& piece : contour.pieces) {

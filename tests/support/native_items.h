@@ -21,7 +21,7 @@ namespace medial::io {
 
 class Io : public test::ScratchFolder {};
 
-inline ErrorCode code_of(const Result<Dataset>& result) {
+inline ErrorCode code_of(const Result<Document<Feature>>& result) {
   EXPECT_FALSE(result.ok());
   return result.ok() ? ErrorCode::internal : result.error().code;
 }
@@ -47,8 +47,8 @@ inline Disk middle(const Disk& a, const Disk& b) {
 }
 
 /// The rectangle [0, 4] x [0, 2]: four leaves, two branching nodes, five edges.
-inline NativeItem rectangle() {
-  NativeItem item;
+inline AxisItem rectangle() {
+  AxisItem item;
   item.shape = shape_of({{{0, 0}, {4, 0}, {4, 2}, {0, 2}}});
   MedialAxis& axis = item.axis;
   axis.method = "hand";
@@ -77,8 +77,8 @@ inline NativeItem rectangle() {
 }
 
 /// One parabola, between the vertex (0, 1) of a notch and the line below it. Not the whole axis.
-inline NativeItem parabola() {
-  NativeItem item;
+inline AxisItem parabola() {
+  AxisItem item;
   item.shape = shape_of({{{-2, 0}, {2, 0}, {2, 2}, {0, 1}, {-2, 2}}});
   MedialAxis& axis = item.axis;
   axis.method = "hand";
@@ -91,8 +91,8 @@ inline NativeItem parabola() {
   return item;
 }
 
-inline NativeFile two_items() {
-  NativeFile file;
+inline Document<AxisItem> two_items() {
+  Document<AxisItem> file;
   file.items = {rectangle(), parabola()};
   return file;
 }
@@ -105,7 +105,7 @@ inline bool same(const Disk& a, const Disk& b) {
   return same(a.center, b.center) && same_bits(a.radius, b.radius);
 }
 
-inline void expect_same(const NativeItem& a, const NativeItem& b) {
+inline void expect_same(const AxisItem& a, const AxisItem& b) {
   EXPECT_EQ(a.attributes, b.attributes);
   ASSERT_EQ(a.shape.points.size(), b.shape.points.size());
   for (std::size_t i = 0; i < a.shape.points.size(); ++i) {

@@ -16,11 +16,6 @@ struct CarveItem {
   Carving carving;
 };
 
-struct CarveFile {
-  std::vector<CarveItem> items;
-  bool y_down = false;  ///< the y axis points down; for pictures, and turned over for machines
-};
-
 /// What a machine is told besides the paths. Lengths in units of the input, taken for millimetres.
 struct MachineOptions {
   double safe = 5;      ///< height of moves between paths, positive
@@ -37,8 +32,9 @@ struct MachineOptions {
 /// polylines on a layer for each kind; passes at one depth as polylines with bulges and elevation),
 /// .svg .pdf .png .ps (the cut: walls and bottoms shaded by depth, and the paths). Errors:
 /// unsupported, unwritable, invalid_option.
-Status write_carving(const std::string& path, const std::string& format, const CarveFile& file,
-                     const MachineOptions& machine = {}, const WriteOptions& options = {});
+Status write_carving(const std::string& path, const std::string& format,
+                     const Document<CarveItem>& file, const MachineOptions& machine = {},
+                     const WriteOptions& options = {});
 
 /// The extensions write_carving() takes, for help texts.
 std::string known_carve_formats();

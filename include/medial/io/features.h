@@ -29,8 +29,8 @@ struct FeatureWriteOptions {
 /// with their runs coloured by primitive, and their names). Tables through GDAL and .json have the
 /// attributes of the items, too. Errors: unsupported, unwritable,
 /// invalid_option.
-Status write_features(const std::string& path, const std::string& format, const NativeFile& axes,
-                      std::span<const AxisFeatures> features,
+Status write_features(const std::string& path, const std::string& format,
+                      const Document<AxisItem>& axes, std::span<const AxisFeatures> features,
                       const FeatureWriteOptions& options = {});
 
 /// The extensions write_features() takes, for help texts.

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "medial/document.h"
 #include "medial/error.h"
-#include "medial/io/attributes.h"
 #include "medial/io/read.h"
 #include "medial/io/write.h"
 #include "medial/vec2.h"
@@ -46,7 +46,7 @@ struct LayerFile {
 /// local projection go back to longitude and latitude, values stay as they are. Errors:
 /// unsupported, unwritable.
 Status write_layers(const std::string& path, const std::string& format, const LayerFile& file,
-                    const NativeFile& background, const WriteOptions& options = {});
+                    const Document<AxisItem>& background, const WriteOptions& options = {});
 
 /// The extensions write_layers() takes, for help texts.
 std::string known_layer_formats();

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "medial/document.h"
 #include "medial/error.h"
-#include "medial/io/attributes.h"
 #include "medial/io/write.h"
 #include "medial/offset.h"
 
@@ -26,12 +26,6 @@ struct OffsetItem {
   std::vector<BufferSource> sources = {};  ///< of each region of a buffer; or empty
 };
 
-struct OffsetFile {
-  std::vector<OffsetItem> items;
-  std::string crs_wkt;  ///< as in NativeFile
-  bool y_down = false;  ///< the y axis points down; for pictures
-};
-
 /// Writes offset curves by the extension of `path`, as write_axes() does: .json (lossless;
 /// docs/format.md); .wkt (a multi-surface with exact circular strings for each clearance of a
 /// feature, or a multi-polygon of chords with `chords`); .geojson (a polygon of chords for each
@@ -39,8 +33,9 @@ struct OffsetFile {
 /// .wkt then with chords); .dxf (closed polylines with bulges, a layer for each clearance); .svg
 /// .pdf .png .ps. Chords stay within options.chord. Errors: unsupported, unwritable,
 /// invalid_option.
-Status write_offsets(const std::string& path, const std::string& format, const OffsetFile& file,
-                     const WriteOptions& options = {}, bool chords = false);
+Status write_offsets(const std::string& path, const std::string& format,
+                     const Document<OffsetItem>& file, const WriteOptions& options = {},
+                     bool chords = false);
 
 /// The extensions write_offsets() takes, for help texts.
 std::string known_offset_formats();

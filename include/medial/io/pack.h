@@ -37,7 +37,8 @@ Result<PackFile> read_pack(const std::string& path);
 /// The shapes and axes of a pack of axes: each shape is what its disks cover. `notes` (may be null)
 /// tells of shapes that could not be built: those stay without points. Errors: malformed,
 /// unsupported.
-Result<NativeFile> native_of(const PackFile& file, std::vector<std::string>* notes = nullptr);
+Result<Document<AxisItem>> native_of(const PackFile& file,
+                                     std::vector<std::string>* notes = nullptr);
 
 /// How many bytes zstd makes of a text or of a code, each at the level that packs have: to compare.
 std::size_t compressed_size(std::span<const std::uint8_t> bytes);

@@ -15,7 +15,7 @@ namespace medial::io {
 /// without a reference system counts as WGS 84 if its coordinates can be degrees; one that is
 /// projected already only gets a note. Errors: invalid_option (coordinates that are no degrees),
 /// unsupported (points that cannot be projected).
-Status project_to_local(Dataset& dataset);
+Status project_to_local(Document<Feature>& dataset);
 
 /// Whether a reference system is one that project_to_local() made.
 bool is_local_projection(const std::string& crs_wkt);

@@ -7,36 +7,14 @@
 
 #include "medial/axis.h"
 #include "medial/contour.h"
+#include "medial/document.h"
 #include "medial/error.h"
-#include "medial/io/attributes.h"
 #include "medial/io/image.h"
 #include "medial/planar_graph.h"
 #include "medial/shape.h"
 #include "medial/voronoi.h"
 
 namespace medial::io {
-
-/// One polygon or multipolygon of an input file, one painted path, one glyph. Straight edges and
-/// circular arcs come as rings, free-form curves as contours; approximate_by_arcs() makes rings of
-/// them.
-struct Feature {
-  std::vector<Ring> rings;
-  std::vector<Contour> contours;
-  std::vector<Chain> chains;  ///< loose points and lines, with ReadOptions::loose
-  std::int64_t id = 0;        ///< of the source, or its index
-  /// Name and value as text, in order.
-  Attributes attributes;
-};
-
-/// What a file holds.
-struct Dataset {
-  std::vector<Feature> features;
-  std::string crs_wkt;             ///< coordinate reference system as WKT, empty if none
-  bool geographic = false;         ///< coordinates are longitude and latitude
-  bool y_down = false;             ///< the y axis points down, as in SVG; for pictures
-  std::vector<std::string> notes;  ///< what repair or reprojection changed, one sentence each
-  double pixel = 0;                ///< of an image: the side of its pixels, where they are squares
-};
 
 enum class RepairRule : std::uint8_t { none, make_valid, even_odd, non_zero };
 
@@ -65,7 +43,7 @@ struct ReadOptions {
 /// first bytes) become one feature, the outline of their foreground with y downwards, or placed
 /// where the file says; all else by GDAL. Any may be compressed by gzip. Errors: unreadable,
 /// malformed, unsupported, empty, not_finite, no_area, too_large, invalid_option, out_of_memory.
-Result<Dataset> read_dataset(const std::string& path, const ReadOptions& options = {});
+Result<Document<Feature>> read_dataset(const std::string& path, const ReadOptions& options = {});
 
 /// All that a feature holds as chains, free-form curves approximated. Errors: those of
 /// approximate_by_arcs().
@@ -76,22 +54,7 @@ Result<std::vector<Chain>> chains_of(const Feature& feature, const ArcOptions& o
 /// scalable font file (TrueType, OpenType, Type 1). A character that the font lacks is drawn as
 /// its replacement and told in a note.
 /// Errors: unreadable, malformed (text), unsupported (bitmap fonts), empty, out_of_memory.
-Result<Dataset> read_text(const std::string& text, const std::string& font);
-
-/// One shape of a native file, and its axis.
-struct NativeItem {
-  Shape shape;
-  MedialAxis axis;
-  Attributes attributes;
-  std::vector<Contour> contours = {};  ///< instead of a shape: what is still to be made into one
-};
-
-/// medial's own JSON (docs/format.md): lossless.
-struct NativeFile {
-  std::vector<NativeItem> items;
-  std::string crs_wkt;
-  bool y_down = false;  ///< the y axis points down; for pictures
-};
+Result<Document<Feature>> read_text(const std::string& text, const std::string& font);
 
 /// A shape and its Voronoi diagram.
 struct VoronoiItem {
@@ -100,20 +63,14 @@ struct VoronoiItem {
   Attributes attributes;
 };
 
-struct VoronoiFile {
-  std::vector<VoronoiItem> items;
-  std::string crs_wkt;  ///< as in NativeFile
-  bool y_down = false;  ///< the y axis points down; for pictures
-};
-
 /// Whether the file begins like medial's own JSON; and its content. Errors: as read_dataset().
 bool is_native(const std::string& path);
-Result<NativeFile> read_native(const std::string& path);
+Result<Document<AxisItem>> read_native(const std::string& path);
 
 /// Whether the file is a .json of Voronoi diagrams as write_voronoi() makes it; and its diagrams,
 /// without shapes and reference system. Errors: unreadable, malformed, unsupported (a newer
 /// version), too_large (4 GiB or more), out_of_memory.
 bool is_voronoi(const std::string& path);
-Result<VoronoiFile> read_voronoi(const std::string& path);
+Result<Document<VoronoiItem>> read_voronoi(const std::string& path);
 
 }  // namespace medial::io

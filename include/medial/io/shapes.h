@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "medial/document.h"
 #include "medial/error.h"
-#include "medial/io/attributes.h"
 #include "medial/shape.h"
 
 namespace medial::io {

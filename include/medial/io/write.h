@@ -25,8 +25,8 @@ struct WriteOptions {
 /// system is a local projection (medial/io/projection.h). Writes to a temporary name beside the
 /// target and renames: never a partial file. Errors: unsupported, unwritable, invalid_option
 /// (chord, width), out_of_memory.
-Status write_axes(const std::string& path, const std::string& format, const NativeFile& file,
-                  const WriteOptions& options = {});
+Status write_axes(const std::string& path, const std::string& format,
+                  const Document<AxisItem>& file, const WriteOptions& options = {});
 
 /// The extensions write_axes() takes, for help texts.
 std::string known_output_formats();
@@ -34,8 +34,8 @@ std::string known_output_formats();
 /// Writes Voronoi diagrams by the extension of `path`, as write_axes() does: .json (lossless;
 /// docs/format.md) .geojson (faces as polygons and edges as lines) .svg .pdf .png .ps. Errors:
 /// unsupported, unwritable.
-Status write_voronoi(const std::string& path, const std::string& format, const VoronoiFile& file,
-                     const WriteOptions& options = {});
+Status write_voronoi(const std::string& path, const std::string& format,
+                     const Document<VoronoiItem>& file, const WriteOptions& options = {});
 
 /// The extensions write_voronoi() takes, for help texts.
 std::string known_voronoi_formats();

@@ -1,0 +1,60 @@
+#pragma once
+
+// What a file holds, as plain values: the same carrier for features, shapes, axes and all else.
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "medial/axis.h"
+#include "medial/contour.h"
+#include "medial/planar_graph.h"
+#include "medial/shape.h"
+
+namespace medial {
+
+/// The unit of length of a document's coordinates.
+enum class Unit : std::uint8_t { unknown, millimetre, inch, css_pixel, metre, degree };
+
+/// Items of one kind, and what holds for all of them.
+template <class T>
+struct Document {
+  std::vector<T> items;
+  std::string crs_wkt;             ///< coordinate reference system as WKT, empty if none
+  bool geographic = false;         ///< coordinates are longitude and latitude
+  bool y_down = false;             ///< the y axis points down, as in SVG; for pictures
+  Unit unit = Unit::unknown;       ///< of lengths
+  double pixel = 0;                ///< of an image: the side of its pixels, where they are squares
+  std::vector<std::string> notes;  ///< what repair or reprojection changed, one sentence each
+};
+
+/// Everything but the items.
+template <class To, class From>
+Document<To> same_frame(const Document<From>& from) {
+  return {{}, from.crs_wkt, from.geographic, from.y_down, from.unit, from.pixel, from.notes};
+}
+
+/// What a file says of a feature besides its geometry: names and values as text, in their order.
+using Attributes = std::vector<std::pair<std::string, std::string>>;
+
+/// One polygon or multipolygon of an input file, one painted path, one glyph. Straight edges and
+/// circular arcs come as rings, free-form curves as contours; approximate_by_arcs() makes rings of
+/// them.
+struct Feature {
+  std::vector<Ring> rings;
+  std::vector<Contour> contours;
+  std::vector<Chain> chains;  ///< loose points and lines, where they are asked for
+  std::int64_t id = 0;        ///< of the source, or its index
+  Attributes attributes;
+};
+
+/// A shape and its axis.
+struct AxisItem {
+  Shape shape;
+  MedialAxis axis;
+  Attributes attributes;
+  std::vector<Contour> contours = {};  ///< instead of a shape: what is still to be made into one
+};
+
+}  // namespace medial
