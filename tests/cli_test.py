@@ -1459,8 +1459,8 @@ class Help(CommandLine):
         self.assertRegex(self.succeed("--version").stdout.decode(), r"^medial \d+\.\d+\.\d+\n$")
 
     def test_no_such_verb(self):
-        self.assertIn("no such verb: axes", self.refuse("invalid_option", "axes"))
-        self.assertIn("a verb is missing", self.refuse("invalid_option"))
+        self.assertIn("no such command: axes", self.refuse("invalid_option", "axes"))
+        self.assertIn("a command is missing", self.refuse("invalid_option"))
 
 
 class Bench(CommandLine):
@@ -1589,7 +1589,7 @@ class Words(CommandLine):
     def test_switches(self):
         self.write("r.wkt", RECTANGLE)
         for words, *line in (
-                ("no such switch: --foo", "axis", "r.wkt", "--foo"),
+                ("no such option: --foo", "axis", "r.wkt", "--foo"),
                 ("--chord needs a value", "axis", "r.wkt", "--chord"),
                 ("one word too many: more", "axis", "r.wkt", "more"),
                 ("--threads: '1.5' is no whole number", "axis", "r.wkt", "--threads", "1.5"),

@@ -9,8 +9,8 @@ int main(int argc, char** argv) {
   if (argc != 3) return std::puts("usage: file_to_picture POLYGONS PICTURE");
   const auto dataset = medial::io::read_dataset(argv[1]);
   if (!dataset) return std::puts(medial::to_string(dataset.error()).c_str());
-  medial::Document<AxisItem> axes;
-  for (const medial::Feature& feature : dataset->features) {
+  medial::Document<medial::AxisItem> axes;
+  for (const medial::Feature& feature : dataset->items) {
     const auto shape = medial::build_shape(feature.rings);
     if (!shape) return std::puts(medial::to_string(shape.error()).c_str());
     const auto axis = medial::compute(*shape);
