@@ -45,8 +45,17 @@ struct Feature {
   std::vector<Ring> rings;
   std::vector<Contour> contours;
   std::vector<Chain> chains;  ///< loose points and lines, where they are asked for
-  std::int64_t id = 0;        ///< of the source, or its index
+  /// Where the rings' points come from, ring after ring; empty: from themselves.
+  std::vector<VertexSource> sources;
+  std::int64_t id = 0;  ///< of the source, or its index
   Attributes attributes;
+};
+
+/// A shape, and what its file says of it.
+struct ShapeItem {
+  Shape shape;
+  Attributes attributes;
+  std::vector<Contour> contours = {};  ///< its boundary before curves became arcs, if asked for
 };
 
 /// A shape and its axis.

@@ -9,12 +9,6 @@
 
 namespace medial::io {
 
-/// A shape to be written.
-struct ShapeItem {
-  Shape shape;
-  Attributes attributes;
-};
-
 /// What write_shapes() writes.
 struct ShapesFile {
   std::vector<ShapeItem> items;
