@@ -1,0 +1,85 @@
+"""`medial centreline` and `medial measure`."""
+
+import json
+import sqlite3
+
+from support import FORMATS, FRAME, GEOGRAPHIC, RECTANGLE, CommandLine
+
+
+class Centreline(CommandLine):
+    def test_main_path(self):
+        self.write("rectangle.wkt", RECTANGLE)
+        report = json.loads(self.succeed("centreline", "rectangle.wkt", "--json").stdout)
+        self.assertAlmostEqual(report["features"][0]["lines"][0]["length"], 2)
+        text = self.succeed("centreline", "rectangle.wkt", "--extend", "-o", "-", "--format", "wkt").stdout
+        for end in (b"0 1", b"4 1"):
+            self.assertIn(end, text)
+        for extension in FORMATS:
+            with self.subTest(extension=extension):
+                if extension == "dxf":
+                    self.skip_without("DXF")
+                self.succeed("centreline", "rectangle.wkt", "--extend", "-o", "line." + extension)
+                self.succeed("centreline", "rectangle.wkt", "--smooth", "1", "-o", "smooth." + extension)
+        for name in ("line.json", "smooth.json"):
+            self.succeed("draw", name, "-o", "again.svg")
+
+    def test_between_places(self):
+        self.write("frame.wkt", FRAME)
+        path = json.loads(self.succeed("centreline", "frame.wkt", "--from", "0/3", "--to=1,1", "--json").stdout)
+        self.assertGreater(path["features"][0]["lines"][0]["length"], 0.5)
+        wide = self.succeed("centreline", "frame.wkt", "--widest", "1,3", "8,3", "--json")
+        self.assertAlmostEqual(json.loads(wide.stdout)["features"][0]["lines"][0]["narrowest_radius"], 1)
+        self.refuse("invalid_option", "centreline", "frame.wkt", "--from", "1,1")
+        self.refuse("invalid_option", "centreline", "frame.wkt", "--from", "1", "--to", "2,2")
+        self.refuse("invalid_option", "centreline", "frame.wkt", "--from", "9/9", "--to", "2,2")
+        self.refuse("invalid_option", "centreline", "frame.wkt", "--widest", "1,1", "2,2", "--clearance", "1")
+        self.refuse("invalid_option", "centreline", "frame.wkt", "--collapse", "0")
+
+    def test_clearance_and_collapse(self):
+        self.write("frame.wkt", FRAME)
+        report = json.loads(self.succeed("centreline", "frame.wkt", "--clearance", "1.1", "--json").stdout)
+        self.assertGreater(report["length"], 1)
+        for extension in ("json", "geojson", "gpkg", "wkt", "svg", "pdf", "png", "ps"):
+            with self.subTest(extension=extension):
+                self.succeed("centreline", "frame.wkt", "--collapse", "2.5", "-o", "parts." + extension)
+        layers = [f["properties"]["layer"] for f in json.loads(self.read("parts.geojson"))["features"]]
+        self.assertEqual(layers, sorted(layers, reverse=True))
+        self.assertEqual(set(layers), {"polygons", "lines"})
+        database = sqlite3.connect(self.path("parts.gpkg"))
+        self.assertEqual(database.execute("select count(*) from polygons").fetchone()[0],
+                         layers.count("polygons"))
+        database.close()
+        self.refuse("unsupported", "centreline", "frame.wkt", "--collapse", "2.5", "-o", "parts.dxf")
+
+    def test_several_features_with_attributes(self):
+        self.write("places.geojson", GEOGRAPHIC)
+        self.succeed("centreline", "places.geojson", "--project", "-o", "lines.geojson")
+        names = [f["properties"]["name"] for f in json.loads(self.read("lines.geojson"))["features"]]
+        self.assertEqual(names, ["west", "east"])
+        self.succeed("measure", "places.geojson", "--project", "--transects", "2", "-o", "t.geojson")
+        names = [f["properties"]["name"] for f in json.loads(self.read("t.geojson"))["features"]]
+        self.assertEqual(names, ["west", "west", "east", "east"])
+
+
+class Measure(CommandLine):
+    def test_measure(self):
+        self.write("rectangle.wkt", RECTANGLE)
+        table = self.succeed("measure", "rectangle.wkt").stdout.decode()
+        self.assertIn("widest", table)
+        report = json.loads(self.succeed("measure", "rectangle.wkt", "--disks", "3", "--json").stdout)["features"][0]
+        self.assertAlmostEqual(report["area"], 8)
+        self.assertAlmostEqual(report["mean_width"]["by_length"], 2)
+        self.assertEqual([round(disk["r"], 6) for disk in report["disks"]], [1, 1, 0.25])
+        rows = self.rows(self.succeed("measure", "rectangle.wkt", "--samples", "4", "-o", "-",
+                                      "--format", "csv").stdout)
+        self.assertEqual([float(row["along"]) for row in rows], [0, 0.5, 1, 1.5, 2])
+        self.assertEqual({round(float(row["width"]), 9) for row in rows}, {2})
+        self.succeed("measure", "rectangle.wkt", "--spacing", "0.5", "-o", "transects.shp")
+        for extension in ("geojson", "gpkg", "wkt", "svg", "pdf", "png", "ps"):
+            self.succeed("measure", "rectangle.wkt", "--transects", "7", "--disks", "2", "-o", "m." + extension)
+        self.assertEqual(len(json.loads(self.read("m.geojson"))["features"]), 9)
+        for extension in ("svg", "png", "pdf"):
+            self.succeed("measure", "rectangle.wkt", "--plot", "plot." + extension)
+        self.refuse("unsupported", "measure", "rectangle.wkt", "--transects", "7", "--disks", "2", "-o", "m.fgb",
+                    nothing_new=True)
+        self.refuse("invalid_option", "measure", "rectangle.wkt", "--widening", "1")

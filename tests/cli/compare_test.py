@@ -1,0 +1,64 @@
+"""`medial compare` and `medial legal`."""
+
+import json
+
+from support import FRAME, CommandLine
+
+
+class Compare(CommandLine):
+    def test_compare(self):
+        """Every method that takes the input takes part, curve-axis on a smooth boundary."""
+        self.write("island.wkt", "POLYGON((0 0,10 0,14 5,10 9,4 8,0 6))")
+        report = json.loads(self.succeed("compare", "island.wkt", "--json").stdout)["features"][0]
+        self.assertEqual([row["method"] for row in report],
+                         ["disks", "biarc-dc", "lee", "ridge", "brushfire", "potential", "curve-axis"])
+        self.assertIn("refused", report[-1])
+        for row in report[:3]:
+            self.assertTrue(row["passed"], row)
+            self.assertLess(row["hausdorff"], 1e-9)
+        report = json.loads(self.succeed("compare", "island.wkt", "--fit", "0.5", "--methods", "disks,curve-axis",
+                                         "--arc-tolerance", "1e-9", "--json", "-o", "both.svg").stdout)["features"][0]
+        self.assertEqual(report[0]["branches"], report[1]["branches"])
+        self.assertLess(report[1]["largest_distance"], 1e-5)
+        picture = self.read("both.svg")
+        self.assertTrue(picture.startswith(b"<?xml"))
+        self.assertEqual(picture.count(b"#glyph"), len("disks" + "curve-axis"))  # letters
+        self.refuse("invalid_option", "compare", "island.wkt", "--methods", "magic")
+
+    def test_failures_set_the_exit_status(self):
+        """A method that does not take the input fails only where it was asked for by name."""
+        self.write("frame.wkt", FRAME)
+        report = json.loads(self.succeed("compare", "frame.wkt", "--json").stdout)["features"][0]
+        self.assertIn("refused", next(row for row in report if row["method"] == "lee"))
+        self.assertEqual(self.run_medial("compare", "frame.wkt", "--methods", "disks,lee").returncode, 1)
+        self.assertEqual(self.run_medial("compare", "frame.wkt", "--methods", "disks").returncode, 0)
+        # Holes closer to each other than pixels are one to brushfire: a note, no failure.
+        self.write("near.wkt", "POLYGON((0 0,100 0,100 60,0 60),(50 20,70 20,70 40,50 40),"
+                               "(70.01 20,90 20,90 40,70.01 40))")
+        report = json.loads(self.succeed("compare", "near.wkt", "--methods", "disks,ridge,brushfire",
+                                         "--json").stdout)["features"][0]
+        self.assertEqual([row["passed"] for row in report], [True, True, False])
+        self.assertEqual([row["unresolved"] for row in report], [False, False, True])
+
+
+class Legal(CommandLine):
+    def test_legal(self):
+        """The axis of a shape is legal; a radius that grows faster than the way is not, and is named."""
+        self.write("frame.wkt", FRAME)
+        self.succeed("axis", "frame.wkt", "-o", "frame.json")
+        report = json.loads(self.succeed("legal", "frame.json", "--json").stdout)
+        self.assertTrue(report["legal"])
+        self.assertEqual(report["judged"], report["legal_branches"])
+        self.assertGreater(report["judged"], 0)
+        stored = json.loads(self.read("frame.json"))
+        for node in stored["items"][0]["axis"]["nodes"]:
+            node[2] *= 3
+        for edge in stored["items"][0]["axis"]["edges"]:
+            if len(edge) > 4:  # a straight edge has no control point
+                edge[6] *= 3
+        self.write("steep.json", json.dumps(stored))
+        done = self.run_medial("legal", "steep.json")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn(b"too steep a radius", done.stdout)
+        self.refuse("unreadable", "legal", "nothing.json")
+        self.refuse("invalid_option", "legal", "frame.json", "--slack", "nan")

@@ -1,0 +1,152 @@
+"""Repair, projection, curves, drawings, texts and tables: options that every command shares."""
+
+import csv
+import json
+import math
+import os
+import re
+
+from support import BOW_TIE, GEOGRAPHIC, CommandLine
+
+
+class Inputs(CommandLine):
+    def test_geographic_coordinates_are_warned_about_once(self):
+        self.write("places.geojson", GEOGRAPHIC)
+        warned = self.succeed("axis", "places.geojson", "-o", "a.csv").stderr.decode()
+        self.assertEqual(warned.count("warning"), 1)
+        self.assertIn("--project", warned)
+        self.assertEqual(
+            self.succeed("axis", "places.geojson", "-o", "a.csv", "--quiet").stderr, b"")
+        projected = self.succeed("axis", "places.geojson", "-o", "p.geojson", "--project", "--json")
+        self.assertNotIn("warning", projected.stderr.decode())
+        # 0.05 degrees of latitude are 5.56 km: half of it is the largest radius.
+        self.assertAlmostEqual(json.loads(projected.stdout)["deepest"]["radius"], 2780, delta=10)
+        # Back in longitudes and latitudes, in text as well; radii stay in metres.
+        self.succeed("axis", "places.geojson", "-o", "p.csv", "--project")
+        rows = list(csv.DictReader(self.read("p.csv").decode().splitlines()))
+        for row in rows:
+            self.assertTrue(8.99 < float(row["x"]) < 9.41 and 46.99 < float(row["y"]) < 47.06, row)
+        self.assertAlmostEqual(max(float(row["r"]) for row in rows), 2780, delta=10)
+        self.succeed("axis", "places.geojson", "-o", "p.json", "--project")
+        self.write("wells.geojson", json.dumps({"type": "MultiPoint", "coordinates": [[9, 47], [9.1, 47.1]]}))
+        for command, source, output in (
+                ("axis", "places.geojson", "q.wkt"), ("rebuild", "p.json", "r.geojson"),
+                ("rebuild", "p.json", "r.wkt"), ("voronoi", "wells.geojson", "v.geojson"),
+                ("voronoi", "places.geojson", "v.wkt"), ("voronoi", "places.geojson", "v.csv"),
+                ("features", "p.json", "f.csv"), ("measure", "places.geojson", "m.csv"),
+                ("offset", "places.geojson", "o.wkt"), ("offset", "places.geojson", "o.geojson")):
+            more = [] if source == "p.json" else ["--project"]
+            more += ["--distance", "100"] if command == "offset" else []
+            more += ["--margin", "50"] if command == "voronoi" else []
+            self.succeed(command, source, "-o", output, *more)
+            text = self.read(output).decode()
+            if output.endswith(".csv"):
+                rows = list(csv.DictReader(text.splitlines()))
+                names = [name for name in rows[0] if name[0] in "xy" or name.endswith(("_x", "_y"))]
+                places = [(float(row[x]), float(row[y])) for row in rows
+                          for x, y in zip(names[::2], names[1::2])]
+            else:
+                number = r"(-?[0-9][-+.0-9e]*)"
+                between = r"\[%s,%s\]" if output.endswith(".geojson") else "%s %s"
+                places = [(float(x), float(y))
+                          for x, y in re.findall(between % (number, number), text)]
+            self.assertGreater(len(places), 3, output)
+            for x, y in places:
+                self.assertTrue(8.9 < x < 9.5 and 46.9 < y < 47.2, (output, x, y))
+        # Back in longitudes and latitudes.
+        for feature in json.loads(self.read("p.geojson"))["features"]:
+            if feature["geometry"]["type"] == "LineString":
+                for x, y, *_ in feature["geometry"]["coordinates"]:
+                    self.assertTrue(8.99 < x < 9.41 and 46.99 < y < 47.06, (x, y))
+
+    def test_repair(self):
+        self.write("bow.wkt", BOW_TIE)
+        for option in ("--repair", "--repair=make-valid", "--repair=even-odd", "--repair=non-zero"):
+            done = self.succeed("axis", option, "bow.wkt", "--json")
+            self.assertGreater(json.loads(done.stdout)["nodes"], 5)
+            self.assertIn(b"note", done.stderr)
+            self.assertEqual(self.succeed("axis", option, "bow.wkt", "--quiet").stderr, b"")
+
+    def test_curves_of_every_kind_of_file(self):
+        stadium = (
+            '{"medial":2,"items":[{"contours":[{"start":[0,0],"pieces":'
+            '[["line",4,0],["arc",4,2,1],["line",0,2],["arc",0,0,1]]}]}]}'
+        )
+        self.write("a.json", stadium)
+        self.write("a.svg", '<svg><rect width="6" height="2" rx="1" id="r"/></svg>')
+        drawing = "0 SECTION 2 ENTITIES 0 LWPOLYLINE 8 A 90 4 70 1 10 0 20 0 10 4 20 0 42 1 "
+        drawing += "10 4 20 2 10 0 20 2 42 1 0 ENDSEC 0 EOF"
+        self.write("a.dxf", drawing.replace(" ", "\n") + "\n")
+        self.write(
+            "a.wkt",
+            "CURVEPOLYGON(COMPOUNDCURVE((0 0,4 0),CIRCULARSTRING(4 0,5 1,4 2),(4 2,0 2),"
+            "CIRCULARSTRING(0 2,-1 1,0 0)))",
+        )
+        for name in self.supported("a.json", "a.svg", "a.dxf", "a.wkt"):
+            report = json.loads(self.succeed("axis", name, "--json").stdout)
+            self.assertEqual(report["features"], 1, name)
+            self.assertAlmostEqual(report["deepest"]["radius"], 1, 12, name)
+            self.assertAlmostEqual(report["length"], 4, 9, name)
+        report = json.loads(self.succeed("info", "--json", "a.svg").stdout)
+        self.assertEqual(report["arcs"]["pieces"], 8)
+        self.assertAlmostEqual(report["area"], 8 + math.pi, 12)
+
+    def test_options_of_curves(self):
+        self.write("ellipse.svg", '<svg><ellipse rx="4" ry="2"/></svg>')
+        few = json.loads(self.succeed("info", "--json", "ellipse.svg", "--arc-tolerance", "1e-2").stdout)
+        many = json.loads(self.succeed("info", "--json", "ellipse.svg").stdout)
+        self.assertLess(few["arcs"]["arcs"], many["arcs"]["arcs"])
+        absolute = json.loads(
+            self.succeed("info", "--json", "ellipse.svg", "--arc-tolerance-absolute", "0.25").stdout
+        )
+        self.assertEqual(absolute["arcs"]["tolerance"], 0.25)
+        for wrong in ("0", "nan", "2", "x"):
+            self.refuse("invalid_option", "info", "ellipse.svg", "--arc-tolerance", wrong)
+        self.refuse("invalid_option", "info", "ellipse.svg", "--close")
+        self.write("moons.svg", '<svg><path d="M0 5a5 5 0 1 1 10 0a5 5 0 1 1-10 0zM6 5a5 5 0 1 1 10 0'
+                   'a5 5 0 1 1-10 0z"/></svg>')
+        self.refuse("crossing", "info", "moons.svg")
+        for rule, parts in (("--repair", 1), ("--repair=non-zero", 1), ("--repair=even-odd", 2)):
+            mended = self.succeed("info", rule, "moons.svg", "--json")
+            self.assertEqual(json.loads(mended.stdout)["components"], parts, rule)
+            self.assertIn(b"cross in 2 places", mended.stderr)
+
+    def test_options_of_drawings(self):
+        self.skip_without("DXF")
+        lines = "0 SECTION 2 ENTITIES 0 LINE 8 A 10 0 20 0 11 4 21 0 0 LINE 8 A 10 4 20 0 11 4 21 3 "
+        lines += "0 LINE 8 A 10 4 20 3 11 0 21 0.1 0 ENDSEC 0 EOF"
+        self.write("open.dxf", lines.replace(" ", "\n") + "\n")
+        self.refuse("empty", "info", "open.dxf")
+        self.succeed("info", "open.dxf", "--close")
+        self.succeed("info", "open.dxf", "--close=0.2")
+        self.refuse("empty", "info", "open.dxf", "--close=0.05")
+        self.refuse("invalid_option", "info", "open.dxf", "--close=-1")
+        self.refuse("invalid_option", "info", "open.dxf", "--layer", "B")
+
+    def test_texts(self):
+        font = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf"
+        if not os.path.exists(font):
+            self.skipTest(font + " is not here")
+        self.succeed("axis", "--text", "il", "--font", font, "-o", "a.json")
+        self.succeed("verify", "--text", "il", "--font", font, "a.json")
+        self.refuse("invalid_option", "axis", "--text", "i")
+        self.refuse("invalid_option", "axis", "--font", font)
+        self.refuse("invalid_option", "axis")
+        self.refuse("invalid_option", "axis", "a.wkt", "--text", "i", "--font", font)
+        self.refuse("unreadable", "axis", "--text", "i", "--font", "missing.ttf")
+
+    def test_tables(self):
+        """Two columns are vertices, with names above them or without; other columns are GDAL's."""
+        corners = "0,0\n4,0\n4,2\n0,2\n"
+        for name, text in (("a.csv", corners), ("b.csv", "x,y\n" + corners), ("c.txt", "x y\n" + corners),
+                           ("d.csv", "easting;northing\r\n" + corners.replace(",", ";").replace("\n", "\r\n"))):
+            self.write(name, text)
+            self.assertEqual(json.loads(self.succeed("axis", name, "--json").stdout)["sites"], 4)
+            self.assertEqual(json.loads(self.succeed("voronoi", name, "--json").stdout)["points"], 4)
+        given = ("x,y\n" + corners).encode()
+        self.assertEqual(json.loads(self.succeed("axis", "-", "--json", given=given).stdout)["sites"], 4)
+        self.write("wells.csv", "id,x,y,name\n1,0,0,a\n2,4,0,b\n3,4,2,c\n")
+        self.assertEqual(json.loads(self.succeed("voronoi", "wells.csv", "--json").stdout)["points"], 3)
+        self.assertIn("no polygons", self.refuse("unsupported", "axis", "wells.csv"))
+        self.write("names.txt", "x y\nwords only\n")
+        self.refuse("malformed", "axis", "names.txt")

@@ -1,0 +1,88 @@
+"""`medial axis --method`: each method, its options and its limits."""
+
+import json
+
+from support import FRAME, CommandLine, comb
+
+
+class Methods(CommandLine):
+    def test_methods(self):
+        """Both methods find the same axis; biarc-dc refuses holes and names a method that takes them."""
+        self.write("teeth.wkt", comb(20))
+        self.write("ring.wkt", FRAME)
+        by_disks = json.loads(self.succeed("axis", "teeth.wkt", "--json").stdout)
+        published = ["axis", "teeth.wkt", "--json", "--method", "biarc-dc", "--seed", "7"]
+        by_division = json.loads(self.succeed(*published, "-o", "division.json").stdout)
+        for count in ("sites", "leaves", "branches"):
+            if count in by_disks:
+                self.assertEqual(by_division[count], by_disks[count], count)
+        self.assertAlmostEqual(by_division["length"] / by_disks["length"], 1, places=12)
+        written = self.succeed("info", "division.json", "--json").stdout
+        self.assertEqual(json.loads(written)["method"], "biarc-dc")
+        refused = self.refuse("unsupported", "axis", "ring.wkt", "--method", "biarc-dc")
+        self.refuse("[a-z_]+", "axis", "teeth.wkt", "--method", "magic")
+
+    def test_lee(self):
+        """Lee's method finds the axis of disks; its diagram less the spokes is that axis."""
+        self.write("teeth.wkt", comb(20))
+        self.write("ring.wkt", FRAME)
+        self.write("half.svg", '<svg xmlns="http://www.w3.org/2000/svg"><path d="M0 0H20A10 10 0 0 1 0 0Z"/></svg>')
+        self.succeed("axis", "teeth.wkt", "--method", "lee", "-o", "lee.json")
+        self.succeed("verify", "teeth.wkt", "lee.json")
+        by_lee = json.loads(self.succeed("info", "lee.json", "--json").stdout)
+        self.succeed("axis", "teeth.wkt", "-o", "disks.json")
+        by_disks = json.loads(self.succeed("info", "disks.json", "--json").stdout)
+        self.assertEqual(by_lee["method"], "lee")
+        self.assertEqual(by_lee["nodes"], by_disks["nodes"])
+        self.assertAlmostEqual(by_lee["length"] / by_disks["length"], 1, places=12)
+        self.write("convex.wkt", "POLYGON((0 0,10 0,14 5,10 9,4 8,0 6))")
+        for shape, method in (("convex.wkt", "lee"), ("teeth.wkt", "disks"), ("ring.wkt", "disks"), ("half.svg", "disks")):
+            self.succeed("axis", shape, "--method", "auto", "-o", "auto.json")
+            self.assertEqual(json.loads(self.succeed("info", "auto.json", "--json").stdout)["method"], method)
+        if not self.lacks("exact decisions"):
+            self.succeed("axis", "convex.wkt", "--method", "auto", "--exact", "-o", "auto.json")
+            self.assertEqual(json.loads(self.succeed("info", "auto.json", "--json").stdout)["method"], "disks")
+        for shape in ("ring.wkt", "half.svg"):
+            text = self.refuse("unsupported", "axis", shape, "--method", "lee", "-o", "x.json")
+            self.assertIn("disks", text)
+
+    def test_ridge_and_exterior(self):
+        """Ridge following and the exterior, with their options and what verify finds."""
+        self.write("frame.wkt", FRAME)
+        for rule in ("crossing", "difference"):
+            report = []
+            for search in ("tree", "sorted-list"):
+                self.succeed("axis", "frame.wkt", "--method", "ridge", "--pixels", "60", "--ridge-rule", rule,
+                             "--ridge-search", search, "--ridge-collinear", "0", "-o", search + ".json")
+                report.append(self.read(search + ".json").split(b'"statistics"')[0])
+            self.assertEqual(report[0], report[1])
+        verdict = json.loads(self.succeed("verify", "frame.wkt", "tree.json", "--json").stdout)
+        self.assertTrue(verdict["passed"])
+        self.assertGreater(verdict["resolution"], 0)
+        for method in ("disks", "ridge"):
+            self.succeed("axis", "frame.wkt", "--exterior", "--margin", "2", "--method", method, "-o", "around.json")
+            self.succeed("verify", "frame.wkt", "around.json")
+        # A hole that touches its outer ring leaves one loop, but an exterior of two parts.
+        self.write("touching.wkt", "POLYGON ((0 0, 10 0, 10 10, 0 10), (0 5, 3 7, 3 3))")
+        self.succeed("axis", "touching.wkt", "--exterior", "-o", "around.json")
+        self.succeed("verify", "touching.wkt", "around.json")
+        self.refuse("invalid_option", "axis", "frame.wkt", "--method", "brushfire", "--exact")
+        self.refuse("too_large", "axis", "frame.wkt", "--method", "ridge", "--resolution", "1e-9")
+        self.refuse("invalid_option", "axis", "frame.wkt", "--method", "ridge", "--pixels", "9", "--resolution", "1")
+        self.refuse("invalid_option", "axis", "frame.wkt", "--exterior", "--margin", "0")
+
+    def test_curve_axis(self):
+        """One smooth curve is followed; corners are refused, and fitted on request."""
+        self.write("ellipse.svg", '<svg xmlns="http://www.w3.org/2000/svg">'
+                                  '<ellipse cx="20" cy="10" rx="18" ry="8"/></svg>')
+        self.succeed("axis", "ellipse.svg", "--method", "curve-axis", "-o", "curve.json")
+        report = json.loads(self.succeed("info", "curve.json", "--json").stdout)
+        self.assertEqual(report["method"], "curve-axis")
+        self.assertEqual(report["nodes"]["leaf"], 2)
+        self.assertAlmostEqual(report["length"], 2 * (18 - 64 / 18), places=6)  # between the centres of curvature
+        self.succeed("legal", "curve.json")
+        self.write("triangle.wkt", "POLYGON((0 0,10 0,0 8))")
+        text = self.refuse("unsupported", "axis", "triangle.wkt", "--method", "curve-axis", "-o", "t.json")
+        self.assertIn("corner", text)
+        self.succeed("axis", "triangle.wkt", "--method", "curve-axis", "--fit", "1", "-o", "t.json")
+        self.assertEqual(self.run_medial("legal", "t.json").returncode, 0)

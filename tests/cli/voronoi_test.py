@@ -1,0 +1,113 @@
+"""`medial voronoi`: diagrams and nearest sites."""
+
+import json
+
+from support import FRAME, CommandLine, comb
+
+
+class Voronoi(CommandLine):
+    def test_voronoi(self):
+        """Lemma 3: 2 N - 3 edges and N - 2 points; every format; holes are refused."""
+        self.write("teeth.wkt", comb(20))
+        self.write("ring.wkt", FRAME)
+        report = json.loads(self.succeed("voronoi", "teeth.wkt", "--method", "lee", "--json").stdout)
+        elements = report["segments"] + report["reflex_vertices"]
+        self.assertEqual(report["edges"], 2 * elements - 3)
+        self.assertEqual(report["voronoi_points"], elements - 2)
+        self.assertEqual(report["spokes"], 4 * report["reflex_vertices"] // 2)
+        for name, start in (("v.json", b"{"), ("v.geojson", b"{"), ("v.svg", b"<?xml"), ("v.png", b"\x89PNG"),
+                            ("v.pdf", b"%PDF")):
+            self.succeed("voronoi", "teeth.wkt", "--method", "lee", "-o", name)
+            self.assertTrue(self.read(name).startswith(start), name)
+        stored = json.loads(self.read("v.json"))
+        self.assertEqual(len(stored["items"][0]["edges"]), report["edges"])
+        piped = self.succeed("voronoi", "-", "--method", "lee", "-o", "-", "--format", "geojson", given=comb(20).encode()).stdout
+        kinds = {f["geometry"]["type"] for f in json.loads(piped)["features"]}
+        self.assertIn("Polygon", kinds)
+        self.refuse("unsupported", "voronoi", "ring.wkt", "--method", "lee", "-o", "x.json")
+        self.refuse("[a-z_]+", "voronoi", "teeth.wkt", "--method", "magic")
+
+    def test_voronoi_of_loose_pieces(self):
+        loose = b"POINT(1 3);LINESTRING(0 0,2 0,2 2);POLYGON((5 0,7 0,7 2,5 2,5 0));MULTIPOINT((4 4),(5 5))"
+        report = json.loads(self.succeed("voronoi", "-", "--json", given=loose).stdout)
+        self.assertEqual((report["segments"], report["points"]), (6, 10))
+        made = json.loads(self.succeed("voronoi", "-", "-o", "-", given=loose).stdout)
+        item = made["items"][0]
+        self.assertEqual(len(item["faces"]), 16)
+        self.assertEqual(item["frame"], [-3.5, -3.5, 10.5, 8.5])
+        framed = self.succeed("voronoi", "-", "--frame", "-1,-1,9,9", "-o", "-", "--format", "geojson", given=loose)
+        faces = [f for f in json.loads(framed.stdout)["features"] if f["properties"]["part"] == "face"]
+        area = 0
+        for face in faces:
+            ring = face["geometry"]["coordinates"][0]
+            area += sum(a[0] * b[1] - a[1] * b[0] for a, b in zip(ring, ring[1:])) / 2
+        self.assertAlmostEqual(area, 100, delta=0.1)
+        crossing = b"LINESTRING(0 0,2 2);LINESTRING(0 2,2 0)"
+        self.assertIn("(1, 1)", self.refuse("crossing", "voronoi", "-", given=crossing))
+        report = json.loads(self.succeed("voronoi", "-", "--repair", "--json", given=crossing).stdout)
+        self.assertEqual((report["segments"], report["points"]), (4, 5))
+        points = json.loads(self.succeed("voronoi", "-", "--json", given=b"0 0\n1 0\n0 1\n").stdout)
+        self.assertEqual((points["segments"], points["points"]), (0, 3))
+        # Verified as stored; with a face without edges, where lines cross; and not once it is damaged.
+        self.write("loose.wkt", loose.decode())
+        self.write("outline.wkt", comb(3))
+        self.write("crossing.wkt", crossing.decode())
+        for name, repair in (("loose.wkt", []), ("crossing.wkt", ["--repair"])):
+            self.succeed("voronoi", name, *repair, "-o", "v.json")
+            verdict = json.loads(self.succeed("verify", name, "v.json", "--json", *repair).stdout)
+            self.assertTrue(verdict["passed"])
+            self.assertLess(verdict["largest_residual"], verdict["tolerance"])
+        stored = json.loads(self.read("v.json"))
+        self.assertIn([], stored["items"][0]["faces"])
+        stored["items"][0]["nodes"][0][2] += 1e-6
+        self.write("damaged.json", json.dumps(stored))
+        done = self.run_medial("verify", "crossing.wkt", "damaged.json", "--repair")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn(b"FAILED", done.stdout)
+        self.succeed("voronoi", "outline.wkt", "--method", "lee", "-o", "lee.json")
+        self.refuse("unsupported", "verify", "outline.wkt", "lee.json")
+        self.write("cut.json", json.dumps(stored)[:-9])
+        self.refuse("malformed", "verify", "crossing.wkt", "cut.json", "--repair")
+
+    def test_nearest_sites(self):
+        """Site, feature, distance and foot point for places on the command line and in a file."""
+        def feature(name, kind, coordinates):
+            return {"type": "Feature", "properties": {"name": name}, "geometry": {"type": kind, "coordinates": coordinates}}
+        self.write("map.geojson", json.dumps({"type": "FeatureCollection", "features": [
+            feature("road", "LineString", [[0, 0], [10, 0], [10, 8]]), feature("well", "Point", [3, 4])]}))
+        self.write("places.csv", "x,y\n1,1\n3,3\n")
+        asked = ("voronoi", "map.geojson", "--nearest", "12,5", "--nearest=-3,-4", "--queries", "places.csv")
+        rows = self.rows(self.succeed(*asked).stdout)
+        self.assertEqual([row["kind"] for row in rows], ["segment", "point", "segment", "point"])
+        self.assertEqual([int(row["feature"]) for row in rows], [0, 0, 0, 1])
+        self.assertEqual([float(row["distance"]) for row in rows], [2, 5, 1, 1])
+        self.assertEqual([(float(row["foot_x"]), float(row["foot_y"])) for row in rows], [(10, 5), (0, 0), (1, 0), (3, 4)])
+        # The sites are those of the diagram.
+        self.succeed("voronoi", "map.geojson", "-o", "v.json")
+        sites = json.loads(self.read("v.json"))["items"][0]["sites"]
+        for row in rows:
+            kind = sites[int(row["site"])][0]
+            self.assertEqual(kind == 1, row["kind"] == "point")
+        report = json.loads(self.succeed(*asked, "--json").stdout)["nearest"]
+        self.assertEqual([one["attributes"]["name"] for one in report], ["road", "road", "road", "well"])
+        self.assertEqual([one["foot"] for one in report], [{"x": x, "y": y} for x, y in ((10, 5), (0, 0), (1, 0), (3, 4))])
+        self.succeed(*asked, "-o", "n.json")
+        self.assertEqual(json.loads(self.read("n.json"))["nearest"], report)
+        self.succeed(*asked, "-o", "n.csv")
+        self.assertEqual(self.rows(self.read("n.csv")), rows)
+        self.refuse("invalid_option", *asked, "--method", "lee")
+        self.refuse("invalid_option", *asked, "--frame", "-9,-9,20,20")
+        self.refuse("unsupported", *asked, "-o", "n.svg", nothing_new=True)
+        self.refuse("[a-z_]+", "voronoi", "map.geojson", "--nearest", "12")
+
+    def test_what_touches_but_for_rounding(self):
+        """Ends next to an edge, points next to points: they touch, which is noted and verified."""
+        self.write("near.wkt", "LINESTRING(0 0,3 1);LINESTRING(1.5 0.50000000000000011,1 2);POINT(2 2);"
+                               "POINT(2.0000000000000004 2);POINT(0.30000000000000004 0.1)".replace(";", "\n"))
+        done = self.succeed("voronoi", "near.wkt", "-o", "v.json")
+        self.assertIn(b"rounding does not tell them apart", done.stderr)
+        self.assertTrue(json.loads(self.succeed("verify", "near.wkt", "v.json", "--json").stdout)["passed"])
+        self.assertIn(b"rounding", self.succeed("offset", "near.wkt", "--loose", "--distance", "0.5", "-o", "b.wkt").stderr)
+        self.write("apart.wkt", "LINESTRING(0 0,3 1)\nLINESTRING(1.5 0.5000000001,1 2)\nPOINT(2 2)\nPOINT(2.0000000001 2)")
+        self.assertEqual(self.succeed("voronoi", "apart.wkt", "-o", "v.json").stderr, b"")
+        self.assertTrue(json.loads(self.succeed("verify", "apart.wkt", "v.json", "--json").stdout)["passed"])
