@@ -16,6 +16,7 @@
 #include <system_error>
 
 #include "cli/terminal.h"
+#include "medial/threads.h"
 
 namespace medial::cli {
 namespace {
@@ -27,7 +28,6 @@ constexpr double smallest_chord = 1e-9;
 constexpr double largest_tolerance = 1e-3;
 constexpr double smallest_arc_tolerance = 1e-13;
 constexpr double largest_arc_tolerance = 0.1;
-constexpr int most_threads = 1024;
 constexpr int most_disks = 1'000'000;
 constexpr double narrowest_picture = 16;
 constexpr double widest_picture = 8000;  // what medial::io draws

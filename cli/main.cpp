@@ -1,24 +1,19 @@
 // The command line: parses, calls the library, prints. One file for each command.
 
-#include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/info.h>
-
 #include <algorithm>
 #include <array>
 #include <cstring>
 #include <exception>
-#include <mutex>
 #include <new>
-#include <optional>
 #include <sstream>
 #include <string>
 #include <system_error>
-#include <thread>
 #include <vector>
 
 #include "cli/commands.h"
 #include "cli/common.h"
 #include "cli/terminal.h"
+#include "medial/threads.h"
 
 namespace medial::cli {
 namespace {
@@ -38,41 +33,6 @@ class HelpFormatter : public CLI::Formatter {
     if (negative) return name;
     return name + (name == "--close" ? "[=GAP]" : name == "--specks" ? "[=SHARE]" : "[=RULE]");
   }
-};
-
-/// How many threads the system starts beside this one, at most `wanted`.
-std::size_t startable_threads(std::size_t wanted) {
-  std::vector<std::thread> threads;
-  std::mutex all_started;
-  {
-    const std::lock_guard<std::mutex> hold(all_started);
-    try {
-      threads.reserve(wanted);
-      while (threads.size() < wanted)
-        threads.emplace_back([&] { const std::lock_guard<std::mutex> wait(all_started); });
-    } catch (const std::exception&) {  // no thread, or no memory for one
-    }
-  }
-  for (std::thread& thread : threads) thread.join();
-  return threads.size();
-}
-
-/// oneTBB ends the process, or never returns, where the system refuses it a thread: where address
-/// space or the number of processes is limited. So they are tried out first, and no more allowed
-/// than there are. The C library keeps some of their stacks for those to come.
-class AllowedThreads {
- public:
-  explicit AllowedThreads(int requested) {
-    const int all = requested > 0 ? requested : oneapi::tbb::info::default_concurrency();
-    if (all <= 1) return;
-    const auto wanted = static_cast<std::size_t>(all) - 1;
-    const std::size_t started = startable_threads(wanted);
-    if (started < wanted)
-      fewer_.emplace(oneapi::tbb::global_control::max_allowed_parallelism, started + 1);
-  }
-
- private:
-  std::optional<oneapi::tbb::global_control> fewer_;
 };
 
 int requested_threads(const CLI::App& command) {
@@ -146,7 +106,7 @@ int run(int argc, char** argv, bool json) {
   const auto command = std::find_if(commands.begin(), commands.end(), [](const Command& candidate) {
     return candidate.app->parsed();
   });
-  const AllowedThreads allowed(requested_threads(*command->app));
+  allow_startable_threads(requested_threads(*command->app));
   const Result<int> status = command->run();
   return status ? *status : report_error(status.error(), json);
 }

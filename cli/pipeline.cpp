@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <tbb/global_control.h>
-#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -167,10 +166,6 @@ Error at_feature(Error error, const std::string& path, std::size_t feature) {
 bool holds_contours(const Document<AxisItem>& file) {
   return std::ranges::any_of(file.items,
                              [](const AxisItem& item) { return !item.contours.empty(); });
-}
-
-int effective_threads(int threads) {
-  return threads > 0 ? threads : std::max(1, tbb::info::default_concurrency());
 }
 
 std::vector<double> weights_of(std::span<const Shape> shapes) {

@@ -12,6 +12,7 @@
 #include "medial/compute.h"
 #include "medial/document.h"
 #include "medial/io/read.h"
+#include "medial/threads.h"
 
 namespace medial::cli {
 
@@ -71,9 +72,6 @@ struct AxisSummary {
 
 /// Whether a native file holds contours, whose axes are still to be computed.
 bool holds_contours(const Document<AxisItem>& file);
-
-/// Threads that a run with this option uses: the machine's for 0.
-int effective_threads(int threads);
 
 /// How much work each shape is, for for_each_feature().
 std::vector<double> weights_of(std::span<const Shape> shapes);

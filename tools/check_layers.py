@@ -13,7 +13,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 # From the lowest to the highest, each with its public headers.
 LAYERS = {
-    "base": ["vec2", "vec3", "box", "error"],
+    "base": ["vec2", "vec3", "box", "error", "threads"],
     "shape": ["shape", "planar_graph"],
     "curve": ["contour"],
     "site": [],

@@ -26,6 +26,7 @@
 #include "medial/shape.h"
 #include "medial/shape_distance.h"
 #include "medial/sides.h"
+#include "medial/threads.h"
 #include "medial/vec2.h"
 #include "medial/vec3.h"
 #include "medial/verify.h"

@@ -1,12 +1,11 @@
 #include "axis/sites.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <numbers>
 
 #include "base/memory.h"
 #include "base/predicates.h"
+#include "base/threads.h"
 #include "base/tolerance.h"
 
 namespace medial::sites {
@@ -40,18 +39,16 @@ SiteNumbers number_sites(const Shape& shape, const LocalFrame& frame, double cor
   const double tolerance = tolerance_for(bounding_box(shape), 0);
   const double radians = corner_angle * std::numbers::pi / 180;
   constexpr std::size_t grain = 4096;
-  tbb::parallel_for(
-      tbb::blocked_range<std::size_t>(0, shape.points.size(), grain), [&](const auto& range) {
-        const auto after =
-            std::upper_bound(shape.loop_begin.begin(), shape.loop_begin.end(), range.begin());
-        auto l = static_cast<std::size_t>(after - shape.loop_begin.begin()) - 1;
-        for (std::size_t i = range.begin(); i < range.end(); ++l) {
-          const Loop loop(shape, l, frame);
-          for (; i < std::min<std::size_t>(range.end(), loop.begin() + loop.size()); ++i)
-            numbers.joints[i] =
-                joint_at(loop, static_cast<std::uint32_t>(i) - loop.begin(), tolerance, radians);
-        }
-      });
+  parallel_ranges(shape.points.size(), grain, [&](std::size_t i, std::size_t end) {
+    const auto after = std::upper_bound(shape.loop_begin.begin(), shape.loop_begin.end(), i);
+    auto l = static_cast<std::size_t>(after - shape.loop_begin.begin()) - 1;
+    for (; i < end; ++l) {
+      const Loop loop(shape, l, frame);
+      for (; i < std::min<std::size_t>(end, loop.begin() + loop.size()); ++i)
+        numbers.joints[i] =
+            joint_at(loop, static_cast<std::uint32_t>(i) - loop.begin(), tolerance, radians);
+    }
+  });
   for (std::size_t loop = 0; loop < shape.loop_count(); ++loop) {
     const std::size_t begin = shape.loop_begin[loop], end = shape.loop_begin[loop + 1];
     for (std::size_t i = begin; i < end; ++i) {

@@ -1,9 +1,6 @@
 // Contours to rings: each piece on its own, straight pieces and arcs as they are, curves as
 // spirals.
 
-#include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,6 +8,7 @@
 
 #include "base/local_frame.h"
 #include "base/numbers.h"
+#include "base/threads.h"
 #include "curve/biarc.h"
 #include "curve/spirals.h"
 #include "medial/box.h"
@@ -351,9 +349,7 @@ Result<std::vector<Ring>> approximate_by_arcs(std::span<const Contour> contours,
   if (chunks.size() == 1 || options.threads == 1) {
     for (std::size_t i = 0; i < chunks.size(); ++i) convert_chunk(i);
   } else {
-    const int threads = options.threads > 0 ? options.threads : oneapi::tbb::task_arena::automatic;
-    oneapi::tbb::task_arena(threads).execute(
-        [&] { oneapi::tbb::parallel_for(std::size_t{0}, chunks.size(), convert_chunk); });
+    on_threads(options.threads, [&] { parallel_for(chunks.size(), convert_chunk); });
   }
 
   std::vector<Ring> rings(contours.size());

@@ -1,11 +1,10 @@
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <vector>
 
+#include "base/threads.h"
 #include "io/canvas.h"
 #include "io/output.h"
 #include "medial/io/field.h"
@@ -23,7 +22,7 @@ std::vector<std::uint32_t> brightness(std::span<const PotentialField> fields,
   const auto columns = static_cast<std::size_t>(canvas.width());
   const auto rows = static_cast<std::size_t>(canvas.height());
   std::vector<double> values(columns * rows, std::numeric_limits<double>::quiet_NaN());
-  tbb::parallel_for(std::size_t{0}, rows, [&](std::size_t row) {
+  parallel_for(rows, [&](std::size_t row) {
     for (std::size_t column = 0; column < columns; ++column) {
       const Vec2 p =
           canvas.plane_at({static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5});

@@ -1,7 +1,5 @@
 #include "site/boundary_tree.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <atomic>
 #include <bit>
@@ -9,6 +7,7 @@
 #include <limits>
 
 #include "base/memory.h"
+#include "base/threads.h"
 
 namespace medial::site {
 namespace {
@@ -53,27 +52,24 @@ BoundaryTree::BoundaryTree(std::span<const Site> sites)
   constexpr std::size_t grain = 1024;
 
   levels_.push_back(large_vector<Boxes>(nodes_over((sites.size() + block_size - 1) / block_size)));
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, levels_[0].size(), grain),
-                    [&](const auto& range) {
-                      for (std::size_t node = range.begin(); node < range.end(); ++node) {
-                        for (std::size_t lane = 0; lane < fan; ++lane) {
-                          const std::size_t begin = (node * fan + lane) * block_size;
-                          const std::size_t end = std::min(begin + block_size, sites.size());
-                          Extent extent;
-                          for (std::size_t i = begin; i < end; ++i)
-                            if (std::abs(sites[i].point.x) <= outside) extent.add(sites[i]);
-                          levels_[0][node].set(lane, extent);
-                        }
-                      }
-                    });
+  parallel_ranges(levels_[0].size(), grain, [&](std::size_t node, std::size_t last) {
+    for (; node < last; ++node) {
+      for (std::size_t lane = 0; lane < fan; ++lane) {
+        const std::size_t begin = (node * fan + lane) * block_size;
+        const std::size_t end = std::min(begin + block_size, sites.size());
+        Extent extent;
+        for (std::size_t i = begin; i < end; ++i)
+          if (std::abs(sites[i].point.x) <= outside) extent.add(sites[i]);
+        levels_[0][node].set(lane, extent);
+      }
+    }
+  });
   while (levels_.back().size() > 1) {
     const std::vector<Boxes>& lower = levels_.back();
     auto upper = large_vector<Boxes>(nodes_over(lower.size()));
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, lower.size(), grain),
-                      [&](const auto& range) {
-                        for (std::size_t child = range.begin(); child < range.end(); ++child)
-                          upper[child / fan].set(child % fan, lower[child]);
-                      });
+    parallel_ranges(lower.size(), grain, [&](std::size_t child, std::size_t last) {
+      for (; child < last; ++child) upper[child / fan].set(child % fan, lower[child]);
+    });
     levels_.push_back(std::move(upper));
   }
   build_chord_boxes();
@@ -86,9 +82,9 @@ void BoundaryTree::build_chord_boxes() {
     const std::size_t nodes = levels_[level].size();
     auto boxes = large_vector<ChordBoxes>(nodes);
     std::atomic<std::size_t> count = 0;
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, nodes, 256), [&](const auto& range) {
+    parallel_ranges(nodes, 256, [&](std::size_t node, std::size_t last) {
       std::size_t fitting = 0;
-      for (std::size_t node = range.begin(); node < range.end(); ++node) {
+      for (; node < last; ++node) {
         for (std::size_t lane = 0; lane < fan; ++lane) {
           const std::size_t begin = (node * fan + lane) * span;
           const std::size_t end = std::min(begin + span, sites_.size());

@@ -1,12 +1,11 @@
 #include "site/first_touch.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <bit>
 #include <limits>
 
 #include "base/spatial_order.h"
+#include "base/threads.h"
 #include "site/tangent_disk.h"
 
 namespace medial::site {
@@ -64,8 +63,8 @@ void FirstTouch::build_level(std::size_t run) {
   const std::size_t sets = (entries_.size() + run - 1) / run;
   const std::vector<Bounds>* lower = levels_.empty() ? nullptr : &levels_.back();
   std::vector<Bounds> level(std::max<std::size_t>(1, (sets + fan - 1) / fan));
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, sets, 256), [&](const auto& range) {
-    for (std::size_t set = range.begin(); set < range.end(); ++set) {
+  parallel_ranges(sets, 256, [&](std::size_t set, std::size_t last) {
+    for (; set < last; ++set) {
       Bounds& bounds = level[set / fan];
       const std::size_t lane = set % fan;
       const std::span<const Entry> entries =

@@ -70,7 +70,7 @@ Stretches collect(const Problem& problem) {
       out.all[next[place]++] = stretch;
     }
   }
-  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+  parallel_for(count, [&](std::size_t i) {
     std::sort(out.all.begin() + out.first[i], out.all.begin() + out.first[i + 1],
               [](const Stretch& a, const Stretch& b) {
                 return std::tie(a.begin, a.turn, a.end) < std::tie(b.begin, b.turn, b.end);
@@ -341,7 +341,7 @@ struct Swept {
 std::vector<Swept> swept_by_edges(const Problem& problem) {
   const MedialAxis& axis = problem.axis;
   std::vector<Swept> edges(axis.edges.size());
-  tbb::parallel_for(std::size_t{0}, edges.size(), [&](std::size_t i) {
+  parallel_for(edges.size(), [&](std::size_t i) {
     const Edge& edge = axis.edges[i];
     for (std::size_t side = 0; side < 2; ++side)
       for (std::size_t end = 0; end < 2; ++end)

@@ -136,10 +136,10 @@ double turned_by(const Problem& problem, const Edge& edge, const Curve& curve) {
 void check_sampled_disks(const Problem& problem, Certificate& certificate) {
   const DistanceTree boundary(problem.shape);
   Findings nodes;
-  for (const Findings& run :
-       in_runs<Findings>(problem.axis.nodes.size(), [&](std::size_t i, Findings&findings) {
-         measure(problem, boundary, problem.axis.nodes[i].disk, i, findings);
-       }))
+  for (const Findings& run : in_blocks<Findings>(
+           problem.axis.nodes.size(), block_size, [&](std::size_t i, Findings&findings) {
+             measure(problem, boundary, problem.axis.nodes[i].disk, i, findings);
+           }))
     nodes.add(run);
   certificate.disks_checked = nodes.disks;
   certificate.largest_residual = nodes.residual.value;
@@ -163,12 +163,12 @@ void check_disks(const Problem& problem, int samples_per_edge, Certificate& cert
 
   Findings nodes, edges;
   for (const Findings& run :
-       in_runs<Findings>(axis.nodes.size(), [&](std::size_t i, Findings&findings) {
+       in_blocks<Findings>(axis.nodes.size(), block_size, [&](std::size_t i, Findings&findings) {
          measure(problem, boundary, axis.nodes[i].disk, i, findings);
        }))
     nodes.add(run);
   for (const Findings& run :
-       in_runs<Findings>(axis.edges.size(), [&](std::size_t i, Findings&findings) {
+       in_blocks<Findings>(axis.edges.size(), block_size, [&](std::size_t i, Findings&findings) {
          const Edge& edge = axis.edges[i];
          const Curve curve = curve_of(axis, edge);
          for (const std::uint32_t node : edge.node)

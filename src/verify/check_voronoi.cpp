@@ -127,7 +127,7 @@ class VoronoiCheck {
     };
     const int parts = 1 + std::clamp(options_.samples_per_edge, 0, 1 << 20);
     const auto findings =
-        in_runs<Findings>(diagram_.edges.size(), [&](std::size_t e, Findings& found) {
+        in_blocks<Findings>(diagram_.edges.size(), block_size, [&](std::size_t e, Findings& found) {
           const VoronoiEdge& edge = diagram_.edges[e];
           for (int k = 0; k <= parts; ++k) {
             const Disk disk = disk_on(edge, static_cast<double>(k) / parts);
@@ -219,8 +219,8 @@ class VoronoiCheck {
     std::vector<std::uint8_t> used(2 * diagram_.edges.size());
     const double whole = (frame_.high.x - frame_.low.x) * (frame_.high.y - frame_.low.y);
     constexpr double relative = 1e-9;
-    const auto findings =
-        in_runs<Findings>(diagram_.sites.size(), [&](std::size_t site, Findings& found) {
+    const auto findings = in_blocks<Findings>(
+        diagram_.sites.size(), block_size, [&](std::size_t site, Findings& found) {
           const auto face = diagram_.face(site);
           if (face.empty()) return;
           ++found.faces;

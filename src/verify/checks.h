@@ -1,7 +1,5 @@
 #pragma once
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cstdint>
 #include <exception>
@@ -51,18 +49,8 @@ struct Problem {
 /// A sentence in printf's manner.
 std::string sentence(const char* format, ...) __attribute__((format(printf, 1, 2)));
 
-/// Works on [0, count) in runs of fixed size, in parallel, and hands the runs' findings back in
-/// order: what is made of them does not depend on the number of threads.
-template <class Findings, class Work>
-std::vector<Findings> in_runs(std::size_t count, const Work& work) {
-  constexpr std::size_t run = 1024;
-  std::vector<Findings> findings((count + run - 1) / run);
-  tbb::parallel_for(std::size_t{0}, findings.size(), [&](std::size_t i) {
-    const std::size_t end = std::min(count, (i + 1) * run);
-    for (std::size_t j = i * run; j < end; ++j) work(j, findings[i]);
-  });
-  return findings;
-}
+/// How many places a check works on before it hands its findings back.
+constexpr std::size_t block_size = 1024;
 
 /// Runs a check on so many threads; what it throws is a failure, and none at all a pass.
 template <class OneCertificate, class Run>

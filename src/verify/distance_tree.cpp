@@ -1,7 +1,5 @@
 #include "verify/distance_tree.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,6 +7,7 @@
 #include <numbers>
 
 #include "base/spatial_order.h"
+#include "base/threads.h"
 
 namespace medial::verify_detail {
 namespace {
@@ -111,7 +110,7 @@ DistanceTree::DistanceTree(std::span<const BoundaryEdge> edges, const Box& box, 
   while (true) {
     const std::size_t bounds = (pieces.size() + run - 1) / run;
     std::vector<Bounds> level((bounds + fan_out - 1) / fan_out);
-    tbb::parallel_for(std::size_t{0}, level.size() * fan_out, [&](std::size_t i) {
+    parallel_for(level.size() * fan_out, [&](std::size_t i) {
       const std::size_t begin = std::min(i * run, pieces.size());
       bound({pieces.data() + begin, std::min(run, pieces.size() - begin)}, level[i / fan_out],
             i % fan_out);

@@ -1,12 +1,11 @@
 #include "volume/digitize.h"
 
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
 #include "base/predicates.h"
+#include "base/threads.h"
 
 namespace medial::volume {
 namespace {
@@ -137,7 +136,8 @@ Digitized digitize(const Grid& grid, const std::function<bool()>& stop) {
   const auto slabs = result.surface.slab_count();
   // Few faces are many voxels each, or many faces few voxels each: either way a slab of layers
   // looks through all faces once.
-  tbb::parallel_for(std::uint32_t{0}, slabs, [&](std::uint32_t slab) {
+  parallel_for(slabs, [&](std::size_t s) {
+    const auto slab = static_cast<std::uint32_t>(s);
     if (stop()) return;
     const std::uint32_t low = slab * 8, high = std::min(grid.size[2], low + 8);
     std::vector<Crossing> crossings;

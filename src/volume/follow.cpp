@@ -1,8 +1,5 @@
 #include "volume/follow.h"
 
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -43,13 +40,13 @@ const std::vector<Feet>& RidgeFollower::test(const std::vector<Candidate>& batch
   control_.check(bytes());
   feet_.resize(batch.size());
   constexpr std::size_t grain = 64;
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, batch.size(), grain),
-                    [&](const tbb::blocked_range<std::size_t>& range) {
-                      FeetFinder::Scratch& scratch = scratch_.local();
-                      for (std::size_t i = range.begin(); i < range.end(); ++i)
-                        feet_[i] = finder_.feet(center_of(cell_of(batch[i].rank, grid_.size)),
-                                                batch[i].hint, scratch);
-                    });
+  parallel_ranges(batch.size(), grain, [&](std::size_t begin, std::size_t end) {
+    scratch_.with_one([&](FeetFinder::Scratch& scratch) {
+      for (std::size_t i = begin; i < end; ++i)
+        feet_[i] =
+            finder_.feet(center_of(cell_of(batch[i].rank, grid_.size)), batch[i].hint, scratch);
+    });
+  });
   tested_ += batch.size();
   return feet_;
 }
@@ -132,15 +129,15 @@ void RidgeFollower::find_islands() {
     control_.check(bytes() + outer.capacity() * sizeof(Cell));
     const std::size_t count = std::min(batch_size, outer.size() - first);
     found.assign(count, none);
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, grain),
-                      [&](const tbb::blocked_range<std::size_t>& range) {
-                        FeetFinder::Scratch& scratch = scratch_.local();
-                        std::uint32_t hint = 0;
-                        for (std::size_t i = range.begin(); i < range.end(); ++i) {
-                          const auto cell = missed(outer[first + i], hint, scratch);
-                          if (cell) found[i] = rank_of(*cell, grid_.size);
-                        }
-                      });
+    parallel_ranges(count, grain, [&](std::size_t begin, std::size_t end) {
+      scratch_.with_one([&](FeetFinder::Scratch& scratch) {
+        std::uint32_t hint = 0;
+        for (std::size_t i = begin; i < end; ++i) {
+          const auto cell = missed(outer[first + i], hint, scratch);
+          if (cell) found[i] = rank_of(*cell, grid_.size);
+        }
+      });
+    });
     for (const std::uint64_t rank : found)
       if (rank != none) ranks.push_back(rank);
   }
@@ -196,7 +193,7 @@ bool RidgeFollower::add_bridges(const std::vector<std::uint64_t>& ranks) {
 
 std::uint64_t RidgeFollower::distances() const {
   std::uint64_t total = 0;
-  for (const FeetFinder::Scratch& scratch : scratch_) total += scratch.distances;
+  for (const FeetFinder::Scratch& scratch : scratch_.all()) total += scratch.distances;
   return total;
 }
 

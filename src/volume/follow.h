@@ -3,12 +3,11 @@
 // Ridge following in space: the first medial voxel of a bounded set, then all that are connected
 // with it over neighbours (report, Section V.B.3).
 
-#include <oneapi/tbb/enumerable_thread_specific.h>
-
 #include <cstdint>
 #include <optional>
 #include <vector>
 
+#include "base/threads.h"
 #include "volume/control.h"
 #include "volume/digitize.h"
 #include "volume/feet.h"
@@ -79,7 +78,7 @@ class RidgeFollower {
   std::vector<Candidate> batch_;
   std::vector<Feet> feet_;
   std::uint64_t tested_ = 0;
-  tbb::enumerable_thread_specific<FeetFinder::Scratch> scratch_;
+  Pool<FeetFinder::Scratch> scratch_;
 };
 
 }  // namespace medial::volume

@@ -1,4 +1,3 @@
-#include <tbb/parallel_invoke.h>
 
 #include <algorithm>
 #include <array>
@@ -244,8 +243,8 @@ Result<VoronoiDiagram> voronoi_diagram(const PlanarGraph& planar_graph, const Op
       }
       std::optional<Error> close;
       Shape shape;
-      tbb::parallel_invoke([&] { close = too_close(planar_graph, told_apart * tolerance); },
-                           [&] { shape = around(planar_graph, far); });
+      in_parallel([&] { close = too_close(planar_graph, told_apart * tolerance); },
+                  [&] { shape = around(planar_graph, far); });
       if (close) return std::move(*close);
 
       std::vector<VoronoiEdge> edges;

@@ -1,8 +1,5 @@
 #include "voronoi/planar_graph_diagram.h"
 
-#include <tbb/parallel_for.h>
-#include <tbb/parallel_invoke.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -20,6 +17,7 @@
 #include "base/local_frame.h"
 #include "base/memory.h"
 #include "base/numbers.h"
+#include "base/threads.h"
 #include "site/bisector.h"
 #include "site/site.h"
 #include "site/tangent_disk.h"
@@ -63,7 +61,7 @@ class Assembly {
     make_nodes();
     cut_off();
     cut_.close();
-    tbb::parallel_invoke([&] { make_faces(); }, [&] { set_kinds(diagram_); });
+    in_parallel([&] { make_faces(); }, [&] { set_kinds(diagram_); });
     diagram_.method = std::move(axis_.method);
     diagram_.tolerance = axis_.tolerance;
     diagram_.statistics = axis_.statistics;
@@ -124,17 +122,16 @@ class Assembly {
     }
     first_ = large_vector(count, none);
     last_ = large_vector(count, none);
-    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, static_cast<std::uint32_t>(count), 4096),
-                      [&](const auto& range) {
-                        for (std::uint32_t own = range.begin(); own < range.end(); ++own) {
-                          if (is_frame(own)) continue;
-                          const std::span<Step> steps = chain(own);
-                          if (steps.empty()) continue;
-                          put_in_order(steps);
-                          first_[own] = steps.front().from;
-                          last_[own] = steps.back().to;
-                        }
-                      });
+    parallel_ranges(count, 4096, [&](std::size_t begin, std::size_t end) {
+      for (auto own = static_cast<std::uint32_t>(begin); own < end; ++own) {
+        if (is_frame(own)) continue;
+        const std::span<Step> steps = chain(own);
+        if (steps.empty()) continue;
+        put_in_order(steps);
+        first_[own] = steps.front().from;
+        last_[own] = steps.back().to;
+      }
+    });
   }
 
   std::span<Step> chain(std::uint32_t own) const {
@@ -297,7 +294,7 @@ class Assembly {
     place_.resize(edge_count_);
     constexpr std::uint32_t block = 1 << 14;
     std::vector<std::vector<std::uint32_t>> others((edge_count_ + block - 1) / block);
-    tbb::parallel_for(std::size_t{0}, others.size(), [&](std::size_t i) {
+    parallel_for(others.size(), [&](std::size_t i) {
       const auto begin = static_cast<std::uint32_t>(i * block);
       for (std::uint32_t e = begin; e < std::min(begin + block, edge_count_); ++e) {
         place_[e] = e;
@@ -376,7 +373,7 @@ class Assembly {
     face_begin = large_vector(count + 1, 0U);
     diagram_.sites = large_vector<Site>(count);
     const auto for_each_block = [&](auto&& visit) {
-      tbb::parallel_for(std::size_t{0}, edges.size(), [&](std::size_t i) {
+      parallel_for(edges.size(), [&](std::size_t i) {
         const auto first = static_cast<std::uint32_t>(i) * block;
         visit(edges[i], first, std::min(first + block, count));
       });

@@ -1,8 +1,5 @@
 #include "methods/disks/collect.h"
 
-#include <tbb/parallel_for.h>
-#include <tbb/parallel_invoke.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,6 +10,7 @@
 #include "axis/sites.h"
 #include "base/memory.h"
 #include "base/numbers.h"
+#include "base/threads.h"
 #include "site/bisector.h"
 
 namespace medial::disks {
@@ -147,15 +145,15 @@ Graph collect(std::vector<std::unique_ptr<Chunk>>& chunks, std::size_t cut_count
       });
     }
   };
-  tbb::parallel_invoke(collect_nodes, collect_edges);
+  in_parallel(collect_nodes, collect_edges);
   for (const Placed& p : placed) graph.statistics += p.chunk->statistics;
   chunks.clear();
   return graph;
 }
 
 template <class E>
-tbb::concurrent_vector<std::uint32_t> complete(const Boundary& boundary, const LocalFrame& frame,
-                                               double slack, Graph& graph, std::vector<E>& edges) {
+std::vector<std::uint32_t> complete(const Boundary& boundary, const LocalFrame& frame, double slack,
+                                    Graph& graph, std::vector<E>& edges) {
   graph.statistics.largest_residual *= frame.inverse;
   const auto touches = [&](const Disk& disk, const site::Site& site) {
     const double least = std::max(0.0, disk.radius - slack), most = disk.radius + slack;
@@ -165,25 +163,24 @@ tbb::concurrent_vector<std::uint32_t> complete(const Boundary& boundary, const L
       return false;
     return squared >= least * least && squared <= most * most;  // false for no number, too
   };
-  tbb::concurrent_vector<std::uint32_t> doubtful;
-  const auto control = [&] {
-    tbb::parallel_for(
-        tbb::blocked_range<std::size_t>(0, graph.links.size(), 4096), [&](const auto& range) {
-          for (std::size_t i = range.begin(); i < range.end(); ++i) {
-            const Link& link = graph.links[i];
-            const site::Site &left = boundary.sites[link.site[0]],
-                             &right = boundary.sites[link.site[1]];
-            const Disk &from = graph.nodes[link.node[0]].disk, &to = graph.nodes[link.node[1]].disk;
-            if (!boundary.two_sided && !(touches(from, left) && touches(from, right) &&
-                                         touches(to, left) && touches(to, right)))
-              doubtful.push_back(static_cast<std::uint32_t>(i));
-            const site::Control found = site::control_of(left, right, from, to);
-            Edge& edge = edges[i];
-            edge.node = link.node;
-            edge.site = {boundary.originals[link.site[0]], boundary.originals[link.site[1]]};
-            edge.control = {frame.to_input(found.point.center), frame.inverse * found.point.radius};
-            edge.weight = found.weight;
-          }
+  std::vector<std::vector<std::uint32_t>> doubtful;
+  const auto fill_edges = [&] {
+    doubtful = in_blocks<std::vector<std::uint32_t>>(
+        graph.links.size(), 4096, [&](std::size_t i, std::vector<std::uint32_t>& found) {
+          const Link& link = graph.links[i];
+          const site::Site &left = boundary.sites[link.site[0]],
+                           &right = boundary.sites[link.site[1]];
+          const Disk &from = graph.nodes[link.node[0]].disk, &to = graph.nodes[link.node[1]].disk;
+          if (!boundary.two_sided && !(touches(from, left) && touches(from, right) &&
+                                       touches(to, left) && touches(to, right)))
+            found.push_back(static_cast<std::uint32_t>(i));
+          const site::Control control = site::control_of(left, right, from, to);
+          Edge& edge = edges[i];
+          edge.node = link.node;
+          edge.site = {boundary.originals[link.site[0]], boundary.originals[link.site[1]]};
+          edge.control = {frame.to_input(control.point.center),
+                          frame.inverse * control.point.radius};
+          edge.weight = control.weight;
         });
   };
   edges.resize(graph.links.size());
@@ -194,26 +191,26 @@ tbb::concurrent_vector<std::uint32_t> complete(const Boundary& boundary, const L
       for (const std::uint32_t node : link.node)
         if (degree[node] < 3) ++degree[node];
   };
-  tbb::parallel_invoke(count, control);
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, graph.nodes.size(), 4096),
-                    [&](const auto& range) {
-                      for (std::size_t i = range.begin(); i < range.end(); ++i) {
-                        Node& node = graph.nodes[i];
-                        // Where a vertex all but touches an edge, a radius may be below 0 by
-                        // rounding.
-                        node.disk = {frame.to_input(node.disk.center),
-                                     frame.inverse * std::max(0.0, node.disk.radius)};
-                        node.kind = kind_of_degree(degree[i]);
-                      }
-                    });
+  in_parallel(count, fill_edges);
+  parallel_ranges(graph.nodes.size(), 4096, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      Node& node = graph.nodes[i];
+      // Where a vertex all but touches an edge, a radius may be below 0 by rounding.
+      node.disk = {frame.to_input(node.disk.center),
+                   frame.inverse * std::max(0.0, node.disk.radius)};
+      node.kind = kind_of_degree(degree[i]);
+    }
+  });
   graph.links = {};
-  return doubtful;
+  std::vector<std::uint32_t> all;
+  for (const auto& found : doubtful) all.insert(all.end(), found.begin(), found.end());
+  return all;
 }
 
-template tbb::concurrent_vector<std::uint32_t> complete(const Boundary&, const LocalFrame&, double,
-                                                        Graph&, std::vector<Edge>&);
-template tbb::concurrent_vector<std::uint32_t> complete(const Boundary&, const LocalFrame&, double,
-                                                        Graph&, std::vector<VoronoiEdge>&);
+template std::vector<std::uint32_t> complete(const Boundary&, const LocalFrame&, double, Graph&,
+                                             std::vector<Edge>&);
+template std::vector<std::uint32_t> complete(const Boundary&, const LocalFrame&, double, Graph&,
+                                             std::vector<VoronoiEdge>&);
 
 bool touches_its_sites(const MedialAxis& axis, const Edge& edge, double slack) {
   const auto squared_distance = [](const Site& site, Vec2 c) {

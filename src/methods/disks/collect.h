@@ -1,7 +1,5 @@
 #pragma once
 
-#include <tbb/concurrent_vector.h>
-
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -27,13 +25,13 @@ Graph collect(std::vector<std::unique_ptr<Chunk>>& chunks, std::size_t cut_count
               std::size_t spare_nodes);
 
 /// Makes edges of the links, with their curves, works out an axis' nodes' kinds, and goes back to
-/// the result's numbers of sites and to the input's units. Returns the edges, in any order, with an
+/// the result's numbers of sites and to the input's units. Returns the edges with an
 /// end that does not touch one of the edge's two sites, give or take `slack` in local units: where
 /// cuts divide a site, the piece of it that the edge names. Of planar graphs none are looked for. E
 /// is Edge or VoronoiEdge.
 template <class E>
-tbb::concurrent_vector<std::uint32_t> complete(const Boundary& boundary, const LocalFrame& frame,
-                                               double slack, Graph& graph, std::vector<E>& edges);
+std::vector<std::uint32_t> complete(const Boundary& boundary, const LocalFrame& frame, double slack,
+                                    Graph& graph, std::vector<E>& edges);
 
 /// Whether both ends of an edge touch the edge's two sites, give or take `slack`, in the input's
 /// units.

@@ -1,12 +1,11 @@
 #include "methods/disks/connect.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <limits>
 #include <numbers>
 
 #include "base/numbers.h"
+#include "base/threads.h"
 #include "site/first_touch.h"
 
 namespace medial::disks {
@@ -189,13 +188,10 @@ class Splicer {
       : shape_(shape), loops_(loops), cuts_(cuts), places_(cuts.size()) {
     std::vector<std::uint32_t> loop(cuts.size());
     std::vector<Place> found(cuts.size());
-    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, static_cast<std::uint32_t>(cuts.size())),
-                      [&](const auto& range) {
-                        for (std::uint32_t i = range.begin(); i < range.end(); ++i) {
-                          loop[i] = static_cast<std::uint32_t>(loop_of(loops, cuts[i].site));
-                          found[i] = place_of(i, loop[i]);
-                        }
-                      });
+    parallel_for(cuts.size(), [&](std::size_t i) {
+      loop[i] = static_cast<std::uint32_t>(loop_of(loops, cuts[i].site));
+      found[i] = place_of(static_cast<std::uint32_t>(i), loop[i]);
+    });
     // One place further, so that while the lists are filled, each grows to where the next begins.
     first_place_.resize(loops.runs.size() + 2);
     for (const std::uint32_t l : loop) ++first_place_[l + 2];
@@ -351,15 +347,14 @@ std::vector<Cut> connecting_disks(const Shape& shape, const Boundary& loops, dou
 
   std::vector<Cut> cuts(holes.size());
   constexpr std::size_t together = 16;
-  tbb::parallel_for(
-      tbb::blocked_range<std::size_t>(0, holes.size(), 4 * together), [&](const auto& range) {
-        Connector connector(shape, loops, first_touch, furthest, typical, tolerance);
-        for (std::size_t begin = range.begin(); begin < range.end(); begin += together) {
-          const std::size_t end = std::min(begin + together, range.end());
-          connector.begin(std::span(holes).subspan(begin, end - begin));
-          for (std::size_t i = begin; i < end; ++i) cuts[i] = connector.connecting_disk(holes[i]);
-        }
-      });
+  parallel_ranges(holes.size(), 4 * together, [&](std::size_t begin, std::size_t last) {
+    Connector connector(shape, loops, first_touch, furthest, typical, tolerance);
+    for (; begin < last; begin += together) {
+      const std::size_t end = std::min(begin + together, last);
+      connector.begin(std::span(holes).subspan(begin, end - begin));
+      for (std::size_t i = begin; i < end; ++i) cuts[i] = connector.connecting_disk(holes[i]);
+    }
+  });
   queries += cuts.size();
   return cuts;
 }

@@ -1,7 +1,5 @@
 #include "methods/disks/merge_ties.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,6 +10,7 @@
 #include "base/fill_gaps.h"
 #include "base/memory.h"
 #include "base/numbers.h"
+#include "base/threads.h"
 #include "methods/disks/tie_fit.h"
 #include "site/bisector.h"
 
@@ -97,7 +96,7 @@ class Merger {
   static std::vector<std::uint32_t> filter(std::size_t count, Holds&& holds) {
     constexpr std::size_t block = 1 << 12;
     std::vector<std::vector<std::uint32_t>> found((count + block - 1) / block);
-    tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t i) {
+    parallel_for(found.size(), [&](std::size_t i) {
       std::array<std::uint32_t, block> some;
       std::size_t size = 0;
       for (std::size_t k = i * block; k < std::min(count, (i + 1) * block); ++k) {

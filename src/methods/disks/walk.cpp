@@ -1,7 +1,6 @@
 #include "methods/disks/walk.h"
 
-#include <tbb/task_group.h>
-
+#include "base/threads.h"
 #include "methods/disks/events.h"
 #include "site/tangent_disk.h"
 
@@ -19,7 +18,7 @@ std::uint32_t fork_size_of(const Boundary& boundary) {
 
 class Walker {
  public:
-  Walker(const WalkContext& context, std::uint32_t fork_size, tbb::task_group& tasks, Chunk& chunk)
+  Walker(const WalkContext& context, std::uint32_t fork_size, TaskGroup& tasks, Chunk& chunk)
       : context_(context),
         fork_size_(fork_size),
         boundary_(context.boundary),
@@ -221,7 +220,7 @@ class Walker {
   const WalkContext& context_;
   std::uint32_t fork_size_;
   const Boundary& boundary_;
-  tbb::task_group& tasks_;
+  TaskGroup& tasks_;
   Chunk& chunk_;
   Contacts contacts_;
   std::vector<Span> stack_;
@@ -233,7 +232,7 @@ class Walker {
 
 std::vector<std::unique_ptr<Chunk>> walk(const WalkContext& context) {
   std::vector<std::unique_ptr<Chunk>> chunks;
-  tbb::task_group tasks;
+  TaskGroup tasks;
   // Small components share a task.
   const std::uint32_t fork_size = fork_size_of(context.boundary);
   std::size_t next = 0;

@@ -1,8 +1,5 @@
 #include "methods/exact/certify.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -10,6 +7,7 @@
 
 #include "base/local_frame.h"
 #include "base/stopwatch.h"
+#include "base/threads.h"
 #include "medial/query.h"
 #include "methods/exact/contact_graph.h"
 #include "methods/exact/disk_bounds.h"
@@ -28,14 +26,9 @@ void sort_unique(std::vector<std::uint32_t>& numbers) {
 }
 
 template <class Work>
-Decisions in_blocks(std::size_t count, const Work& work) {
-  std::vector<Decisions> parts((count + block - 1) / block);
-  tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t p) {
-    const std::size_t end = std::min(count, (p + 1) * block);
-    for (std::size_t i = p * block; i < end; ++i) work(i, parts[p]);
-  });
+Decisions sum_in_blocks(std::size_t count, const Work& work) {
   Decisions all;
-  for (const Decisions& part : parts) all.add(part);
+  for (const Decisions& part : in_blocks<Decisions>(count, block, work)) all.add(part);
   return all;
 }
 
@@ -176,7 +169,7 @@ class Certifier {
 
   void check_nodes() {
     states_.resize(graph_.node_count());
-    decisions_.add(in_blocks(states_.size(), [&](std::size_t i, Decisions& decisions) {
+    decisions_.add(sum_in_blocks(states_.size(), [&](std::size_t i, Decisions& decisions) {
       const auto node = static_cast<std::uint32_t>(i);
       const auto contacts = graph_.contacts(node);
       if (contacts.size() > 3 && axis_.nodes[node].disk.radius > 0) {
@@ -212,7 +205,7 @@ class Certifier {
 
   std::vector<std::uint32_t> doubtful_links() {
     std::vector<std::vector<std::uint32_t>> found((links_.size() + block - 1) / block);
-    decisions_.add(in_blocks(links_.size(), [&](std::size_t i, Decisions& decisions) {
+    decisions_.add(sum_in_blocks(links_.size(), [&](std::size_t i, Decisions& decisions) {
       const auto link = static_cast<std::uint32_t>(i);
       const auto [from, to] = links_[i].node;
       if (states_[from].divides || states_[to].divides) {

@@ -1,13 +1,12 @@
 #include "methods/lee/conquer.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <atomic>
 #include <bit>
 #include <mutex>
 
 #include "base/stopwatch.h"
+#include "base/threads.h"
 #include "methods/lee/fan.h"
 
 namespace medial::lee {
@@ -97,12 +96,12 @@ class Conquest {
     int block_level = 0;
     while ((halving.count >> block_level) > block_size) ++block_level;
     const Lists lists = solve_fans(halving, block_level);
-    tbb::parallel_for(std::uint64_t{0}, std::uint64_t{1} << block_level, [&](std::uint64_t i) {
+    parallel_for(std::size_t{1} << block_level, [&](std::uint64_t i) {
       if (!lists.solved[Lists::number(block_level, i)])
         merge_below(halving, block_level, i, lists.of_blocks[i]);
     });
     for (int level = block_level - 1; level >= 0 && !cancelled(); --level) {
-      tbb::parallel_for(std::uint64_t{0}, std::uint64_t{1} << level, [&](std::uint64_t i) {
+      parallel_for(std::size_t{1} << level, [&](std::uint64_t i) {
         if (lists.solved[Lists::number(level, i)]) return;
         Statistics own;
         merge_halves(halving, level, i, own);

@@ -1,11 +1,10 @@
 #include "methods/potential/coarse_to_fine.h"
 
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
+#include "base/threads.h"
 #include "medial/shape.h"
 #include "methods/potential/successor.h"
 
@@ -88,9 +87,9 @@ void move_to(const Region& region, const Charges& charges, double step, Skeleton
   const std::size_t count = skeleton.points.size();
   std::vector<std::uint32_t> instead(count);
   for (std::uint32_t i = 0; i < count; ++i) instead[i] = i;
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 16), [&](const auto& range) {
+  parallel_ranges(count, 16, [&](std::size_t i, std::size_t end) {
     Evaluator evaluator(charges);
-    for (std::size_t i = range.begin(); i < range.end(); ++i) {
+    for (; i < end; ++i) {
       ValleyPoint& point = skeleton.points[i];
       if (point.kind == ValleyPoint::Kind::corner) continue;
       if (!encloses(region, point.place)) {

@@ -1,7 +1,5 @@
 #include "methods/potential/potential.h"
 
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -12,6 +10,7 @@
 #include "base/disjoint_sets.h"
 #include "base/local_frame.h"
 #include "base/stopwatch.h"
+#include "base/threads.h"
 #include "base/tolerance.h"
 #include "methods/checks.h"
 #include "methods/potential/charges.h"
@@ -107,36 +106,32 @@ Refined successors_of(const Skeleton& skeleton, const Charges& charges,
   result.points.resize(skeleton.points.size());
   const std::vector<ValleyPoint> points = shifted(skeleton, charges, options);
   constexpr std::size_t grain = 16;
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, skeleton.points.size(), grain),
-                    [&](const auto& range) {
-                      Evaluator evaluator(charges);
-                      for (std::size_t i = range.begin(); i < range.end(); ++i)
-                        result.points[i] = generalized_successor(evaluator, points[i], options);
-                    });
+  parallel_ranges(skeleton.points.size(), grain, [&](std::size_t i, std::size_t end) {
+    Evaluator evaluator(charges);
+    for (; i < end; ++i) result.points[i] = generalized_successor(evaluator, points[i], options);
+  });
   std::vector<std::vector<Successor>> between(skeleton.links.size());
-  tbb::parallel_for(
-      tbb::blocked_range<std::size_t>(0, skeleton.links.size(), grain), [&](const auto& range) {
-        Evaluator evaluator(charges);
-        for (std::size_t i = range.begin(); i < range.end(); ++i) {
-          const auto [from, to] = skeleton.links[i];
-          const auto halve = [&](const auto& self, const ValleyPoint& a, const Successor& at_a,
-                                 const ValleyPoint& b, const Successor& at_b, int depth) -> void {
-            if (depth == 0 || distance(at_a.place, at_b.place) <= widest_gap * options.step) return;
-            ValleyPoint middle = a.kind == ValleyPoint::Kind::corner ? b : a;
-            middle.kind = ValleyPoint::Kind::valley;
-            middle.place = midpoint(a.place, b.place);
-            const Vec2 along = b.place - a.place;
-            if (norm(along) > 0) middle.tangent = (1 / norm(along)) * along;
-            middle.radius = evaluator.place(middle.place).distance;
-            const Successor found = generalized_successor(evaluator, middle, options);
-            self(self, a, at_a, middle, found, depth - 1);
-            between[i].push_back(found);
-            self(self, middle, found, b, at_b, depth - 1);
-          };
-          halve(halve, points[from], result.points[from], points[to], result.points[to],
-                most_halvings);
-        }
-      });
+  parallel_ranges(skeleton.links.size(), grain, [&](std::size_t i, std::size_t end) {
+    Evaluator evaluator(charges);
+    for (; i < end; ++i) {
+      const auto [from, to] = skeleton.links[i];
+      const auto halve = [&](const auto& self, const ValleyPoint& a, const Successor& at_a,
+                             const ValleyPoint& b, const Successor& at_b, int depth) -> void {
+        if (depth == 0 || distance(at_a.place, at_b.place) <= widest_gap * options.step) return;
+        ValleyPoint middle = a.kind == ValleyPoint::Kind::corner ? b : a;
+        middle.kind = ValleyPoint::Kind::valley;
+        middle.place = midpoint(a.place, b.place);
+        const Vec2 along = b.place - a.place;
+        if (norm(along) > 0) middle.tangent = (1 / norm(along)) * along;
+        middle.radius = evaluator.place(middle.place).distance;
+        const Successor found = generalized_successor(evaluator, middle, options);
+        self(self, a, at_a, middle, found, depth - 1);
+        between[i].push_back(found);
+        self(self, middle, found, b, at_b, depth - 1);
+      };
+      halve(halve, points[from], result.points[from], points[to], result.points[to], most_halvings);
+    }
+  });
   for (std::size_t i = 0; i < skeleton.links.size(); ++i) {
     std::uint32_t last = skeleton.links[i][0];
     for (const Successor& point : between[i]) {

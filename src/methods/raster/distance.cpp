@@ -1,5 +1,3 @@
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
@@ -42,7 +40,7 @@ void scan_columns(const Image& image, std::size_t first, std::size_t last, bool 
   const ColumnDistance* above = before.data();
   for (std::uint32_t y = 0; y < image.height(); ++y) {
     ColumnDistance* const here = distances + y * stride + first * 64;
-    const std::span<const std::uint64_t> row = image.row(y);
+    const std::span<const std::uint64_t> row = image.row(static_cast<std::uint32_t>(y));
     for (std::size_t word = first; word < last; ++word) {
       for (std::size_t byte = 0; byte < 8; ++byte) {
         const auto& mask = masks[(row[word] >> (8 * byte)) & 255];
@@ -166,23 +164,24 @@ DistanceMap transform(const Image& image, const DistanceOptions& options) {
   const std::size_t words = image.row(0).size();
   const auto columns = std::make_unique_for_overwrite<ColumnDistance[]>(words * 64 * map.height);
   const std::size_t strips = (words + strip_words - 1) / strip_words;
-  tbb::parallel_for(std::size_t{0}, strips, [&](std::size_t strip) {
+  parallel_for(strips, [&](std::size_t strip) {
     scan_columns(image, strip * strip_words, std::min(words, (strip + 1) * strip_words), frame,
                  columns.get());
   });
   const std::int64_t width = map.width;
-  tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, map.height, 16), [&](const auto& rows) {
+  parallel_ranges(map.height, 16, [&](std::size_t y, std::size_t last) {
     Envelope envelope(map.width + std::size_t{2});
-    for (std::uint32_t y = rows.begin(); y != rows.end(); ++y) {
+    for (; y != last; ++y) {
       const ColumnDistance* const column = columns.get() + y * words * 64;
-      std::uint32_t* const out = map.squared.data() + std::size_t{y} * map.width;
-      for_each_run(image.row(y), width, [&](std::int64_t begin, std::int64_t end) {
-        if (options.to == DistanceTo::cracks) {
-          measure_cracks(column, begin, end, envelope, out);
-        } else {
-          measure_pixels(column, begin, end, width, frame, envelope, out);
-        }
-      });
+      std::uint32_t* const out = map.squared.data() + y * map.width;
+      for_each_run(image.row(static_cast<std::uint32_t>(y)), width,
+                   [&](std::int64_t begin, std::int64_t end) {
+                     if (options.to == DistanceTo::cracks) {
+                       measure_cracks(column, begin, end, envelope, out);
+                     } else {
+                       measure_pixels(column, begin, end, width, frame, envelope, out);
+                     }
+                   });
     }
   });
   return map;
