@@ -84,9 +84,10 @@ tsan: setup     ## the engine's tests under the thread sanitizer
 format: setup   ## rewrite the sources in the house's format
 	@clang-format -i $(SOURCES)
 
-lint: setup     ## check the layers, run clang-tidy
+lint: setup     ## check layers and sizes, run clang-tidy
 	@tools/setup.sh lint
 	@tools/check_layers.py
+	@tools/check_sizes.py
 	@cmake --preset debug > /dev/null
 	@tools/lint.sh $(DEBUG) $(JOBS)
 
