@@ -25,33 +25,6 @@ void keep_sources(Shape& shape, const Shape& original) {
   }
 }
 
-/// How many branches() there are, in eight bytes a node: a branch has two ends at nodes without two
-/// edges, or is a closed chain of nodes with two.
-std::uint64_t branch_count(const MedialAxis& axis) {
-  std::vector<std::uint32_t> degree(axis.nodes.size(), 0);
-  for (const Edge& edge : axis.edges) {
-    for (const std::uint32_t node : edge.node) ++degree[node];
-  }
-  std::uint64_t ends = 0;
-  for (const std::uint32_t d : degree) ends += d == 2 ? 0 : d;
-  // Chains, as sets of nodes with two edges: an edge within one set closes it.
-  std::vector<std::uint32_t> parent(axis.nodes.size());
-  std::iota(parent.begin(), parent.end(), 0U);
-  const auto root = [&parent](std::uint32_t node) {
-    while (parent[node] != node) node = parent[node] = parent[parent[node]];
-    return node;
-  };
-  std::uint64_t closed = 0;
-  for (const Edge& edge : axis.edges) {
-    if (degree[edge.node[0]] != 2 || degree[edge.node[1]] != 2) continue;
-    const std::uint32_t a = root(edge.node[0]);
-    const std::uint32_t b = root(edge.node[1]);
-    if (a == b) ++closed;
-    parent[a] = b;
-  }
-  return ends / 2 + closed;
-}
-
 /// What --stats tells.
 Json stats(const AxisFile& file, const AxisSummary& summary, double seconds_write) {
   const Statistics& counted_by_engine = file.statistics;

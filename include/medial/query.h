@@ -58,6 +58,8 @@ struct Branch {
 
 /// All branches, each edge in exactly one; ordered by their lowest edge. O(edges).
 std::vector<Branch> branches(const MedialAxis& axis);
+/// How many branches() there are, in a few bytes per node. O(edges).
+std::uint64_t branch_count(const MedialAxis& axis);
 
 /// The node of the largest radius (the lowest index among equals): its disk is the maximum
 /// inscribed circle if no arc bounds the shape; see deepest_disk() otherwise. Requires a node.

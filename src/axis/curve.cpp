@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/arc.h"
+#include "base/quadrature.h"
 #include "medial/query.h"
 
 namespace medial {
@@ -29,15 +30,11 @@ struct Basis {
 /// The integral of |velocity(t)| over [0, 1] by Gauss and Legendre's rule of eight points.
 template <class Velocity>
 double gauss_sum(const Velocity& velocity) {
-  static constexpr std::array<double, 4> abscissa{0.1834346424956498, 0.5255324099163290,
-                                                  0.7966664774136267, 0.9602898564975363};
-  static constexpr std::array<double, 4> factor{0.3626837833783620, 0.3137066458778873,
-                                                0.2223810344533745, 0.1012285362903763};
   double sum = 0;
-  for (std::size_t i = 0; i < 4; ++i) {
-    const Vec2 before = velocity(0.5 - 0.5 * abscissa[i]);
-    const Vec2 after = velocity(0.5 + 0.5 * abscissa[i]);
-    sum += factor[i] * (std::hypot(before.x, before.y) + std::hypot(after.x, after.y));
+  for (const auto& [place, weight] : gauss8) {
+    const Vec2 before = velocity(0.5 - 0.5 * place);
+    const Vec2 after = velocity(0.5 + 0.5 * place);
+    sum += weight * (std::hypot(before.x, before.y) + std::hypot(after.x, after.y));
   }
   return 0.5 * sum;
 }

@@ -1,14 +1,20 @@
 #include <algorithm>
 
 #include "axis/node_kinds.h"
+#include "base/disjoint_sets.h"
 #include "medial/query.h"
 
 namespace medial {
 
-void set_node_kinds(MedialAxis& axis) {
+std::vector<std::uint32_t> degrees_of(const MedialAxis& axis) {
   std::vector<std::uint32_t> degree(axis.nodes.size(), 0);
   for (const Edge& edge : axis.edges)
     for (const std::uint32_t node : edge.node) ++degree[node];
+  return degree;
+}
+
+void set_node_kinds(MedialAxis& axis) {
+  const std::vector<std::uint32_t> degree = degrees_of(axis);
   for (std::size_t i = 0; i < degree.size(); ++i) axis.nodes[i].kind = kind_of_degree(degree[i]);
 }
 
@@ -70,6 +76,18 @@ std::vector<Branch> branches(const MedialAxis& axis) {
     out.push_back(std::move(branch));
   }
   return out;
+}
+
+std::uint64_t branch_count(const MedialAxis& axis) {
+  // A branch has two ends at nodes without two edges, or is a closed chain of nodes with two.
+  const std::vector<std::uint32_t> degree = degrees_of(axis);
+  std::uint64_t ends = 0, closed = 0;
+  for (const std::uint32_t d : degree) ends += d == 2 ? 0 : d;
+  DisjointSets chains(axis.nodes.size());
+  for (const Edge& edge : axis.edges)
+    if (degree[edge.node[0]] == 2 && degree[edge.node[1]] == 2)
+      closed += chains.join(edge.node[0], edge.node[1]) ? 0 : 1;
+  return ends / 2 + closed;
 }
 
 std::uint32_t deepest_node(const MedialAxis& axis) {

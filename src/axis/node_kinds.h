@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <vector>
 
 #include "medial/axis.h"
 
@@ -10,6 +12,9 @@ namespace medial {
 constexpr NodeKind kind_of_degree(std::size_t degree) {
   return degree <= 1 ? NodeKind::leaf : degree == 2 ? NodeKind::site_change : NodeKind::branching;
 }
+
+/// The number of edges at each node; an edge from a node to itself counts twice. O(nodes + edges).
+std::vector<std::uint32_t> degrees_of(const MedialAxis& axis);
 
 /// Sets the kind of every node from the number of its edges. O(nodes + edges).
 void set_node_kinds(MedialAxis& axis);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <numeric>
 #include <vector>
 
 namespace medial {
@@ -9,25 +10,33 @@ namespace medial {
 /// Disjoint sets of numbers from 0, each named by its lowest number.
 class DisjointSets {
  public:
-  explicit DisjointSets(std::size_t count = 0) {
-    while (parent_.size() < count) add();
+  explicit DisjointSets(std::size_t size = 0) : parent_(size), count_(size) {
+    std::iota(parent_.begin(), parent_.end(), 0U);
   }
+  /// How many sets there are.
+  std::size_t count() const { return count_; }
   std::uint32_t add() {
     parent_.push_back(static_cast<std::uint32_t>(parent_.size()));
+    ++count_;
     return parent_.back();
   }
   std::uint32_t find(std::uint32_t i) {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;
   }
-  void join(std::uint32_t i, std::uint32_t j) {
+  /// Whether the two were in different sets until now.
+  bool join(std::uint32_t i, std::uint32_t j) {
     i = find(i);
     j = find(j);
+    if (i == j) return false;
     parent_[std::max(i, j)] = std::min(i, j);
+    --count_;
+    return true;
   }
 
  private:
   std::vector<std::uint32_t> parent_;
+  std::size_t count_;
 };
 
 }  // namespace medial

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "axis/curve.h"
+#include "base/quadrature.h"
 #include "medial/query.h"
 #include "medial/sides.h"
 #include "ops/measure.h"
@@ -61,16 +62,12 @@ Sums at(const Curve& curve, double t) {
 }
 
 Sums gauss(const Curve& curve, double low, double high) {
-  static constexpr std::array<double, 4> abscissa{0.1834346424956498, 0.5255324099163290,
-                                                  0.7966664774136267, 0.9602898564975363};
-  static constexpr std::array<double, 4> factor{0.3626837833783620, 0.3137066458778873,
-                                                0.2223810344533745, 0.1012285362903763};
   const double middle = 0.5 * (low + high), half = 0.5 * (high - low);
   Sums sum;
-  for (std::size_t i = 0; i < 4; ++i) {
-    for (const double side : {-1.0, 1.0}) {
-      const Sums one = at(curve, middle + side * half * abscissa[i]);
-      const double f = half * factor[i];
+  for (const auto& [place, weight] : gauss8) {
+    for (const double side : {-half, half}) {
+      const Sums one = at(curve, middle + side * place);
+      const double f = half * weight;
       sum += {f * one.diameter, f * one.area, f * one.area_diameter};
     }
   }

@@ -6,6 +6,7 @@
 
 #include "axis/curve.h"
 #include "base/numbers.h"
+#include "base/quadrature.h"
 
 namespace medial {
 namespace ops {
@@ -14,15 +15,13 @@ namespace {
 /// The integral of ds / r by Gauss and Legendre's rule of three points: the radius of an edge is
 /// that of nearly the same disks, or the cost is large anyway.
 double room_cost(const MedialAxis& axis, const PathPiece& piece) {
-  static constexpr std::array<double, 3> abscissa{-0.7745966692414834, 0, 0.7745966692414834};
-  static constexpr std::array<double, 3> factor{5.0 / 9, 8.0 / 9, 5.0 / 9};
   const Curve curve = curve_of(axis, axis.edges[piece.edge]);
   const double middle = 0.5 * (piece.from + piece.to), half = 0.5 * (piece.to - piece.from);
   double sum = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const double t = middle + half * abscissa[i];
+  for (const auto& [place, weight] : gauss3) {
+    const double t = middle + half * place;
     const double speed = norm(curve.derivatives(t).first);
-    if (speed > 0) sum += factor[i] * speed / curve.at(t).radius;
+    if (speed > 0) sum += weight * speed / curve.at(t).radius;
   }
   return std::abs(half) * sum;
 }

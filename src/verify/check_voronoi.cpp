@@ -1,9 +1,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
+#include "base/disjoint_sets.h"
+#include "base/quadrature.h"
 #include "medial/query.h"
 #include "verify/checks.h"
 #include "verify/distance_tree.h"
@@ -186,12 +187,10 @@ class VoronoiCheck {
     const double k = (1 - w) * (1 + w);
     if (w < 0.5) return w * (std::acos(w) / (k * std::sqrt(k)) - w / k);
     if (w > 2) return w * (std::acosh(w) / (k * std::sqrt(-k)) - w / k);
-    constexpr std::array<std::pair<double, double>, 3> rule{
-        {{-0.7745966692414834, 5.0 / 9}, {0, 8.0 / 9}, {0.7745966692414834, 5.0 / 9}}};
     constexpr int parts = 64;
     double sum = 0;
     for (int i = 0; i < parts; ++i) {
-      for (const auto& [place, weight] : rule) {
+      for (const auto& [place, weight] : gauss3) {
         const double t = (i + 0.5 + 0.5 * place) / parts, s = 1 - t;
         const double scale = s * s + 2 * w * s * t + t * t;
         sum += weight * t * t / (scale * scale);
@@ -265,17 +264,10 @@ class VoronoiCheck {
   }
 
   void check_connected() {
-    std::vector<std::uint32_t> parent(diagram_.nodes.size());
-    std::iota(parent.begin(), parent.end(), 0U);
-    const auto root = [&](std::uint32_t node) {
-      while (parent[node] != node) node = parent[node] = parent[parent[node]];
-      return node;
-    };
-    for (const VoronoiEdge& edge : diagram_.edges) parent[root(edge.node[0])] = root(edge.node[1]);
-    std::uint64_t parts = 0;
-    for (std::uint32_t node = 0; node < parent.size(); ++node) parts += parent[node] == node;
-    if (parts != 1)
-      fail(sentence("The graph has %llu parts.", static_cast<unsigned long long>(parts)));
+    DisjointSets sets(diagram_.nodes.size());
+    for (const VoronoiEdge& edge : diagram_.edges) sets.join(edge.node[0], edge.node[1]);
+    if (sets.count() != 1)
+      fail(sentence("The graph has %llu parts.", static_cast<unsigned long long>(sets.count())));
   }
 
   const PlanarGraph& planar_graph_;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/quadrature.h"
+
 namespace medial::potential {
 namespace {
 
@@ -72,16 +74,11 @@ double cosine_power(double order, double sine, double cosine) {
 
 /// By Gauss's rule of eight points, for a segment that is short against its distance.
 double short_integral(double order, double x1, double x2, double y) {
-  constexpr std::array<double, 4> nodes = {0.1834346424956498, 0.5255324099163290,
-                                           0.7966664774136267, 0.9602898564975363};
-  constexpr std::array<double, 4> weights = {0.3626837833783620, 0.3137066458778873,
-                                             0.2223810344533745, 0.1012285362903763};
   const double middle = 0.5 * (x1 + x2), half = 0.5 * (x2 - x1);
   double sum = 0;
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    for (const double x : {middle - half * nodes[i], middle + half * nodes[i]})
-      sum += weights[i] * std::pow(x * x + y * y, -0.5 * order - 1);
-  }
+  for (const auto& [place, weight] : gauss8)
+    for (const double x : {middle - half * place, middle + half * place})
+      sum += weight * std::pow(x * x + y * y, -0.5 * order - 1);
   return half * sum;
 }
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "base/disjoint_sets.h"
 #include "base/runs.h"
 #include "medial/image.h"
 
@@ -11,36 +12,13 @@ struct Run {
   std::int64_t end;
 };
 
-/// Sets of runs that touch each other.
-class Sets {
- public:
-  std::uint32_t add() {
-    parent_.push_back(static_cast<std::uint32_t>(parent_.size()));
-    return parent_.back();
-  }
-  /// Whether the two were different sets until now.
-  bool unite(std::uint32_t a, std::uint32_t b) {
-    a = root(a);
-    b = root(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-    return a != b;
-  }
-
- private:
-  std::uint32_t root(std::uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  std::vector<std::uint32_t> parent_;
-};
-
 }  // namespace
 
 Topology topology(const Image& image) {
   // Runs, and places where runs of neighbouring rows touch, are a graph: its parts are the
   // components. A bounded face of it is a hole; where two runs touch there is just one place.
   Topology result;
-  Sets sets;
+  DisjointSets sets;
   std::uint64_t touching = 0, runs = 0;
   std::vector<Run> above, here;
   std::uint32_t above_first = 0, here_first = 0;
@@ -58,7 +36,7 @@ Topology topology(const Image& image) {
       while (k < above.size() && above[k].end < begin) ++k;
       for (std::size_t i = k; i < above.size() && above[i].begin <= end; ++i) {
         ++touching;
-        if (sets.unite(above_first + static_cast<std::uint32_t>(i), self)) --result.components;
+        if (sets.join(above_first + static_cast<std::uint32_t>(i), self)) --result.components;
       }
     });
   }
