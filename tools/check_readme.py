@@ -1,13 +1,16 @@
 #!/usr/bin/env python3
-"""Checks that what README.md tells a newcomer to type is true.
+"""Checks that what the documents say holds.
 
     tools/check_readme.py PROGRAM
 
-Runs its `medial` commands in a scratch folder with data/, in their order; looks up its `make` verbs in
-the Makefile; compares its C++ with the example that the install test builds; looks for the files it
-links to.
+Runs the `medial` commands of every page's sh blocks, and those of the manual's examples, in a scratch folder
+with data/, page by page in their order. Looks for what the pages link to and cite, for the paths that they
+name, for the `make` targets, and for the options of the manual in `--help`; compares README.md's C++ with the
+example that the install test builds; counts the words of the pages in docs.
 """
 
+import concurrent.futures
+import itertools
 import os
 import pathlib
 import re
@@ -16,61 +19,128 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-README = (ROOT / "README.md").read_text()
+PAGES = sorted([*ROOT.glob("*.md"), *ROOT.glob("docs/*.md"), *ROOT.glob("data/*.md"), *ROOT.glob("bench/**/*.md"),
+                *ROOT.glob("papers/**/*.md")])
+MANUAL = ROOT / "docs" / "medial.1"
+MOST_WORDS = 1600  # of a page in docs
 
 
-def blocks(language):
-    return re.findall(rf"^```{language}\n(.*?)^```$", README, re.MULTILINE | re.DOTALL)
+def blocks(page, language):
+    return re.findall(rf"^```{language}\n(.*?)^```$", page.read_text(), re.MULTILINE | re.DOTALL)
 
 
-def check_commands(program):
-    """Runs every line of the sh blocks that calls medial."""
+def commands_of(page):
+    """The lines of a page that call medial or write a small input; those that end in a backslash are joined."""
+    if page == MANUAL:
+        text = re.search(r"^\.SH EXAMPLES\n\.nf\n(.*?)^\.fi$", page.read_text(), re.MULTILINE | re.DOTALL)[1]
+        text = text.replace(r"\-", "-").replace(r"\(dq", '"')
+    else:
+        text = "\n".join(blocks(page, "sh"))
+    lines = text.replace("\\\n", " ").splitlines()
+    return [line for line in lines if re.search(r"^(echo|printf) |(^|[|&] *)medial ", line)]
+
+
+def faults_of_commands(page, program):
+    """Runs a page's commands one after the other."""
     faults = []
-    commands = [line for block in blocks("sh") for line in block.splitlines()
-                if re.search(r"(^|\| *)medial ", line) and not line.startswith("#")]
-    if not commands:
-        faults.append("README.md has no command of medial")
     with tempfile.TemporaryDirectory() as scratch:
         os.symlink(ROOT / "data", pathlib.Path(scratch) / "data")
         os.symlink(pathlib.Path(program).resolve(), pathlib.Path(scratch) / "medial")
         environment = dict(os.environ, PATH=scratch + os.pathsep + os.environ["PATH"])
-        for command in commands:
+        for command in commands_of(page):
             # Of a pipe, every part but one that `head` cuts short has to succeed.
-            done = subprocess.run(["bash", "-c", command], cwd=scratch, env=environment, text=True,
+            pipe = "" if "| head" in command else "set -o pipefail; "
+            done = subprocess.run(["bash", "-c", pipe + command], cwd=scratch, env=environment, text=True,
                                   capture_output=True, check=False)
             if done.returncode != 0:
                 faults.append(f"{command}\n  exit status {done.returncode}: {done.stderr.strip()}")
-            output = re.search(r"-o (\S+\.\w+)", command)
-            if output and not (pathlib.Path(scratch) / output[1]).is_file():
-                faults.append(f"{command}\n  wrote no {output[1]}")
-            if "-o -" in command and not done.stdout.strip():
+            for output in re.findall(r" -o ([^\s-]\S*)", command):
+                if not (pathlib.Path(scratch) / output).is_file():
+                    faults.append(f"{command}\n  wrote no {output}")
+            if command.rstrip().endswith("-o -") and not done.stdout.strip():
                 faults.append(f"{command}\n  printed nothing")
     return faults
 
 
-def check_verbs():
-    known = set(re.findall(r"^([a-z]+):", (ROOT / "Makefile").read_text(), re.MULTILINE))
-    told = set(re.findall(r"^make ([a-z]+)", "\n".join(blocks("sh")), re.MULTILINE))
-    told |= set(re.findall(r"`make ([a-z]+)", README))
-    return [f"make {verb}: no such verb" for verb in sorted(told - known)]
+def faults_of_links(page):
+    targets = re.findall(r"\]\(([^)#:\s]+)(?:#[^)]*)?\)", page.read_text())
+    return [f"{target}: no such file" for target in targets if not (page.parent / target).exists()
+            and ("papers/" not in target or (ROOT / "papers").exists())]
 
 
-def check_example():
+def faults_of_targets(page):
+    known = set(re.findall(r"^([a-z-]+):", (ROOT / "Makefile").read_text(), re.MULTILINE))
+    named = set(re.findall(r"^make ([a-z-]+)", "\n".join(blocks(page, "sh")), re.MULTILINE))
+    named |= set(re.findall(r"`make ([a-z-]+)", page.read_text()))
+    return [f"make {target}: no such target" for target in sorted(named - known)]
+
+
+def faults_of_citations(page):
+    known = set(re.findall(r"^@\w+\{(\w+)", (ROOT / "docs" / "references.bib").read_text(), re.MULTILINE))
+    cited = set(re.findall(r"\b[a-z]+(?:19|20)\d\d\b", " ".join(re.findall(r"\[([^\]]*)\]", page.read_text()))))
+    return [f"[{key}]: not in references.bib" for key in sorted(cited - known)]
+
+
+def faults_of_length(page):
+    words = sum(any(map(str.isalpha, word)) for word in page.read_text().split())
+    return [f"{words} words, {MOST_WORDS} at most"] if page.parent.name == "docs" and words > MOST_WORDS and "experiments" not in page.name else []
+
+
+def expanded(path):
+    """Every path that braces stand for: a/{b,c}.h is a/b.h and a/c.h."""
+    parts = [re.split(",", part[1:-1]) if part.startswith("{") else [part]
+             for part in re.findall(r"\{[^}]*\}|[^{}]+", path)]
+    return ["".join(choice) for choice in itertools.product(*parts)]
+
+
+def faults_of_paths(page):
+    """Paths in backquotes, from the root of the repository; NAME in capitals stands for any name."""
+    named = re.findall(r"`((?:src|include|cli|tests|tools|bench|papers|docs|data|examples|cmake)/[^`\s]*)`",
+                       page.read_text())
+    return [f"{path}: no such file" for name in named for path in expanded(name)
+            if not any(ROOT.glob(re.sub(r"[A-Z]{3,}", "*", path.rstrip("/"))))]
+
+
+def faults_of_example(page):
     example = (ROOT / "examples" / "consumer" / "main.cpp").read_text()
-    return [] if blocks("cpp") == [example] else ["the C++ is not that of examples/consumer/main.cpp"]
+    return [] if blocks(page, "cpp") == [example] else ["the C++ is not that of examples/consumer/main.cpp"]
 
 
-def check_links():
-    targets = re.findall(r"\]\(([^)#:]+)\)", README)
-    return [f"{target}: no such file" for target in targets if not (ROOT / target).exists()]
+def help_of(program, *command):
+    return subprocess.run([program, *command, "--help"], capture_output=True, text=True, check=True).stdout
+
+
+def faults_of_manual(program):
+    """Commands and options that either the manual or the help lacks."""
+    manual = MANUAL.read_text().replace(r"\-", "-")
+    listed = re.findall(r"^  ([a-z]+) {3,}", help_of(program), re.MULTILINE)
+    help_texts = [help_of(program)] + [help_of(program, command) for command in listed]
+    known = set(re.findall(r"--[a-z][a-z-]*", "\n".join(help_texts)))
+    named = set(re.findall(r"--[a-z][a-z-]*[a-z]", manual))
+    return ([f"the command {command} is missing" for command in listed
+             if not re.search(rf"^\.B {command}$", manual, re.MULTILINE)] +
+            [f"{option}: no command has it" for option in sorted(named - known)])
+
+
+def faults_of(page, program):
+    if page == MANUAL:
+        return faults_of_commands(page, program) + faults_of_manual(program)
+    checks = [faults_of_links, faults_of_targets, faults_of_citations, faults_of_length, faults_of_paths]
+    if page == ROOT / "README.md":
+        checks.append(faults_of_example)
+    return faults_of_commands(page, program) + [fault for check in checks for fault in check(page)]
 
 
 def main():
-    faults = check_commands(sys.argv[1]) + check_verbs() + check_example() + check_links()
-    for fault in faults:
-        print(fault)
-    print(f"README.md: {len(faults)} faults")
-    return 1 if faults else 0
+    pages = [*PAGES, MANUAL]
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        found = list(pool.map(lambda page: faults_of(page, sys.argv[1]), pages))
+    for page, faults in zip(pages, found):
+        for fault in faults:
+            print(f"{page.relative_to(ROOT)}: {fault}")
+    count = sum(map(len, found))
+    print(f"{len(pages)} pages, {sum(len(commands_of(page)) for page in pages)} commands, {count} faults")
+    return 1 if count or not commands_of(ROOT / "README.md") else 0
 
 
 if __name__ == "__main__":
