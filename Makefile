@@ -1,4 +1,4 @@
-# The verbs of the house. `make` alone lists them.
+# The targets of the project. `make` alone lists them.
 
 JOBS ?= $(shell nproc)
 PREFIX ?= /usr/local

@@ -1,6 +1,7 @@
 // medial_check_planar_graphs [COUNT [FIRST]]: the Voronoi diagrams of random planar graphs of
 // points and segments beside CGAL's segment Delaunay graph, whose decisions are exact: the same
-// edges, told by the sites that they separate and by their ends. Exit status 1 where one differs.
+// edges, identified by the sites that they separate and by their ends. Exit status 1 where one
+// differs.
 
 #include <CGAL/Segment_Delaunay_graph_2.h>
 #include <CGAL/Segment_Delaunay_graph_filtered_traits_2.h>
@@ -70,7 +71,7 @@ std::optional<std::vector<test::SeparatingEdge>> edges_of_cgal(const PlanarGraph
   return form.edges();
 }
 
-/// The number of edges compared, 0 where CGAL has none; -1 where they differ, which is told.
+/// The number of edges compared, 0 where CGAL has none; -1 where they differ, which is printed.
 long compare(std::uint64_t seed) {
   const auto planar_graph = build_planar_graph(test::random_integer_planar_graph(seed));
   if (!planar_graph) std::abort();

@@ -28,7 +28,7 @@ using namespace medial;
 using Point = boost::polygon::point_data<std::int32_t>;
 using Segment = boost::polygon::segment_data<std::int32_t>;
 
-/// Tells the least time on the clock of some runs.
+/// Prints the least time on the clock of some runs.
 template <class Work>
 void tell(const char* what, int rounds, Work&& work) {
   double least = std::numeric_limits<double>::infinity();

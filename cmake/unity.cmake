@@ -2,7 +2,7 @@
 # is read, and the templates that they share are compiled, once for all of them. Sources that are
 # compiled together lie in one directory, so that only names without linkage of neighbours can clash.
 
-# Compiles `target`'s sources `size` at a time. Call it after all sources are told, in their folder.
+# Compiles `target`'s sources `size` at a time. Call it after all sources are added, in their folder.
 function(medial_compile_together target size)
   if(NOT MEDIAL_UNITY)
     return()

@@ -195,7 +195,7 @@ Leaves leaves_of(std::span<const Contour> contours, double tolerance) {
 }
 
 /// How many leaves `other` has not. The boundary comes into the disk of each, by less than both
-/// errors: whether such a leaf is one of the curves' own cannot be told at these tolerances.
+/// errors: whether such a leaf is one of the curves' own is open at these tolerances.
 int expect_undecided(const Leaves& leaves, const Leaves& other) {
   int missing = 0;
   for (const Disk& leaf : leaves.disks) {

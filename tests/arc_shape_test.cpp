@@ -153,7 +153,7 @@ TEST(ArcCleaning, BulgesBelowRoundingAreStraight) {
   EXPECT_EQ(area(shape), 1);
 }
 
-/// Their joint is no corner, though they meet at an angle; that of segments is as it is told.
+/// Their joint is no corner, though they meet at an angle; that of segments is taken as it is.
 TEST(ArcCleaning, ArcsThatBecomeStraightAreOneSegment) {
   Ring ring{{{30, 0}, {31, 0}, {31 + 4e-6, -1e-14}, {31 + 1.2e-5, 0}, {33, 4}, {30, 4}},
             RingRole::any,

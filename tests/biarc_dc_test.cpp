@@ -199,7 +199,7 @@ TEST(BiarcDc, NodesOfHighDegreeAreOneDisk) {
 }
 
 /// Corners rounded by 1e-9 of the size, a disk that 21 arcs touch, arcs of almost one circle: the
-/// axis is certified, begun anew from other places, or refused with the place.
+/// axis is certified, restarted from other places, or refused with the place.
 TEST(BiarcDc, DoubtfulAxesAreVerifiedOrUnsupported) {
   const auto is_right = [](const Rings& rings) {
     const auto shape = build_shape(rings);
@@ -264,7 +264,7 @@ TEST(BiarcDc, TheSeedDecides) {
 
 #ifdef MEDIAL_BENCH_SHAPES
 /// Many of a fine tree's disks are nearly their arcs' own circles, where positions along a bisector
-/// are told by feet that turn fast.
+/// are found by feet that turn fast.
 TEST(BiarcDc, AgreesOnATreeOfFineArcs) {
   ArcOptions fine;
   fine.tolerance = 1e-6;

@@ -226,7 +226,7 @@ TEST_P(Integers, HaveTheSameGraph) {
   }
 }
 
-/// Whether at least three sites, or two of which one ends at the other, are as near to p as any:
+/// Whether at least three sites, or two, one of which ends at the other, are as near to p as any:
 /// Boost takes a segment's line for the segment now and then, and such a place is no node.
 bool is_node(const PlanarGraph& planar_graph, Vec2 p, double near) {
   std::vector<double> distances;

@@ -179,7 +179,7 @@ TEST(Buffer, MovesWithThePlanarGraph) {
       ASSERT_TRUE(planar_graph.ok());
       const auto offsets =
           offset_curves(*planar_graph, std::vector{scale * distances[0], scale * distances[1]});
-      // What is near to each other is no longer told apart far away.
+      // What is near to each other is no longer distinct far away.
       if (!offsets && offsets.error().code == ErrorCode::unsupported && symmetry.dx == 1e7)
         continue;
       ASSERT_TRUE(offsets.ok()) << to_string(offsets.error());

@@ -251,7 +251,7 @@ TEST(Carve, CutsTheSameUnderSymmetries) {
       for (int i = 0; i < 4; ++i) {
         const Vec2 p{numbers.between(box.low.x, box.high.x),
                      numbers.between(box.low.y, box.high.y)};
-        // At the edge of a mill's bottom rounding tells.
+        // At the edge of a mill's bottom rounding shows.
         if (plain.slope == 0 && std::abs(clearance(shape, p)) < rounding) continue;
         EXPECT_NEAR(cutter.depth_at((1 / scale) * symmetry(p), other.paths),
                     cutter.depth_at(p, plain.paths), left + rounding)

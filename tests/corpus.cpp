@@ -1,6 +1,6 @@
 // Runs every polygon file of a data folder through read_dataset, build_shape, compute and verify,
 // and prints a table. A folder can have a README.md with a table `| file | what | size | ...` whose
-// third column tells how many features are invalid: what is valid must be verified.
+// third column counts the invalid features: what is valid must be verified.
 //
 //   medial_corpus [--save DIR] FOLDER...
 //

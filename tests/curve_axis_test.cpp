@@ -154,7 +154,7 @@ TEST(CurveAxis, DoesNotDependOnTheMaximumItStartsFrom) {
   }
 }
 
-/// (7): the curvature of both sides, told by the axis alone, is the spline's.
+/// (7): the curvature of both sides, from the axis alone, is the spline's.
 TEST(CurveAxis, TellsTheCurvaturesOfItsBoundary) {
   const Contour contour = ellipse(2, 1);
   const auto result = compute_curve_axis({&contour, 1});
@@ -188,7 +188,7 @@ std::vector<CurvatureError> curvature_errors(const Contour& contour) {
   const auto result = compute_curve_axis({&contour, 1});
   EXPECT_TRUE(result.ok());
   if (!result) return errors;
-  // The foot as the axis tells it, and as index and parameter of the contour's piece.
+  // The foot as the axis gives it, and as index and parameter of the contour's piece.
   const auto curvature_at = [&](double u) {
     const auto whole = std::min(static_cast<std::size_t>(u), contour.pieces.size() - 1);
     const Vec2* p = contour.points.data() + contour.pieces[whole].first;

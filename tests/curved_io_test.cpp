@@ -412,7 +412,7 @@ TEST_F(CurvedIo, NativeArcsWithoutLoss) {
   }
   ASSERT_TRUE(write_axes(path("b.json"), "", *again).ok());
   EXPECT_EQ(content("a.json"), content("b.json"));
-  EXPECT_NE(content("a.json").find("[2,0]"), std::string::npos);  // an arc told by its vertex
+  EXPECT_NE(content("a.json").find("[2,0]"), std::string::npos);  // an arc by its vertex
   EXPECT_EQ(content("a.json").find("\"medial\":2"), 1U);
   const Document<Feature> data = read("c.json", content("a.json"));
   EXPECT_EQ(data.items[0].rings[0].bulges, file.items[0].shape.bulges);

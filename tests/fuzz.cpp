@@ -5,7 +5,7 @@
 //
 // Each seed is one random_shape(seed), which must be verified, and one small file with random
 // mutations, which must be read or refused; what is read must be verified or refused, and packs
-// must unpack or be refused, their shapes be built or be told of. One line for
+// must unpack or be refused, their shapes be built or have a note. One line for
 // each failure: `shape SEED KIND: reason: WKT`, where the WKT is a small part of the shape that
 // still fails, or `file SEED NAME: reason: "bytes"`. --from SEED --count 1 repeats one. Exit
 // status: 0; 1 where something failed, crashed or hung; 2 for a wrong call.
@@ -302,7 +302,7 @@ std::optional<std::string> fault_of_pack(const std::string& path) {
     return is_refusal(native.error().code) ? std::nullopt
                                            : std::optional(to_string(native.error()));
   for (const AxisItem& item : native->items)
-    if (item.shape.points.empty() && notes.empty()) return "no shape, and nothing told";
+    if (item.shape.points.empty() && notes.empty()) return "no shape, and no note";
   return std::nullopt;
 }
 

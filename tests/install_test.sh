@@ -28,12 +28,12 @@ expected="9 edges, length 20.5252, deepest disk of radius 1.7574"
 cmake -S "$root/examples/consumer" -B "$scratch/build" -G Ninja -DCMAKE_BUILD_TYPE=Release \
   -DCMAKE_PREFIX_PATH="$prefix" > "$scratch/log" || { cat "$scratch/log"; exit 1; }
 cmake --build "$scratch/build" > "$scratch/log" || { cat "$scratch/log"; exit 1; }
-told=$("$scratch/build/consumer")
-[ "$told" = "$expected" ] || fail "the consumer told '$told'"
+printed=$("$scratch/build/consumer")
+[ "$printed" = "$expected" ] || fail "the consumer printed '$printed'"
 
 # The core needs no library of formats or pictures.
 readelf -d "$scratch/build/consumer" | grep NEEDED > "$scratch/needed"
-[ -s "$scratch/needed" ] || fail "readelf told nothing"
+[ -s "$scratch/needed" ] || fail "readelf printed nothing"
 ! grep -iE 'gdal|geos|cairo|proj|json|png|libz' "$scratch/needed" || fail "the core links io's libraries"
 
 # medial::io.
@@ -51,24 +51,24 @@ for package in medial:main medial-io:file_to_picture; do
   "${CXX:-c++}" -std=c++20 "$root/examples/consumer/$source.cpp" -o "$scratch/$source" \
     $(pkg-config --cflags --libs "$name") -Wl,-rpath,"$libdir"
 done
-told=$("$scratch/main")
-[ "$told" = "$expected" ] || fail "the consumer of pkg-config told '$told'"
+printed=$("$scratch/main")
+[ "$printed" = "$expected" ] || fail "the consumer of pkg-config printed '$printed'"
 "$scratch/file_to_picture" "$root/data/gear.wkt" "$scratch/gear.svg"
 grep -q '<svg' "$scratch/gear.svg" || fail "file_to_picture of pkg-config drew nothing"
 
 # The command line, from where it is installed, and its manual page.
-told=$(cd / && "$prefix/bin/medial" --version)
-[ "$told" = "medial $(pkg-config --modversion medial)" ] || fail "the program is '$told'"
+printed=$(cd / && "$prefix/bin/medial" --version)
+[ "$printed" = "medial $(pkg-config --modversion medial)" ] || fail "the program is '$printed'"
 page=$(find "$prefix" -name medial.1)
 [ -n "$page" ] || fail "no manual page"
 sed 's/\\-/-/g' "$page" > "$scratch/page"
 
-# The manual page names every verb and switch that --help tells.
-for verb in "" axis verify info draw; do
+# The manual page names every command and option that --help lists.
+for command in "" axis verify info draw; do
   # shellcheck disable=SC2086
-  "$prefix/bin/medial" $verb --help
-done | grep -oE '(^|[ ,])--[a-z-]+' | tr -d ' ,' | sort -u | while read -r switch; do
-  grep -q -e "$switch" "$scratch/page" || fail "the manual page does not tell $switch"
+  "$prefix/bin/medial" $command --help
+done | grep -oE '(^|[ ,])--[a-z-]+' | tr -d ' ,' | sort -u | while read -r option; do
+  grep -q -e "$option" "$scratch/page" || fail "the manual page lacks $option"
 done
 
 echo "installed, found, built and run: $expected"

@@ -1,5 +1,5 @@
 // Likeness of real shapes: does the same kind rank first? Letters of different fonts, and
-// silhouettes of the data folder turned, mirrored, made smaller and noisy, as pixels anew.
+// silhouettes of the data folder turned, mirrored, made smaller and noisy, digitised again.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -140,7 +140,7 @@ TEST_F(CurvedIo, SvgStyleSheetsEnd) {
   for (int i = 0; i < 300; ++i) text += "<g>";
   text += "<rect width='1' height='1'/>";
   for (int i = 0; i < 300; ++i) text += "</g>";
-  read("deep.svg", text + "</svg>");  // no g is in a b, which the nearest b tells
+  read("deep.svg", text + "</svg>");  // no g is in a b, as the nearest b shows
   std::string hard = text;
   hard.replace(hard.find("g g "), 4, "b g ");
   hard.replace(hard.find(" b rect"), 7, " rect");

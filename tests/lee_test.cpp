@@ -365,7 +365,7 @@ TEST(LeeRefuses, QuartersOfACircleThatAreNearlyTied) {
   }
 }
 
-/// Between the two long sides, nearly on one line, hardly anything tells where along them a disk
+/// Between the two long sides, nearly on one line, hardly anything decides where along them a disk
 /// touches: one was taken for a tie, and the foot on one of them moved backward.
 TEST(LeeTies, OfSidesNearlyOnOneLineMoveNoFootBackward) {
   const Ring ring{{{-119, 36.699999999999996},

@@ -30,7 +30,7 @@ TEST(Match, ImagesOfAShapeAreTheSame) {
     if (!random.rigid) continue;  // contacts and needles are others once coordinates are rounded
     const ShapeSignature one = sign(random.rings);
     EXPECT_EQ(dissimilarity(one, one), 0);
-    for (const std::size_t i : {1U, 3U, 6U, 7U, 8U}) {  // turned, scaled, mirrored, written anew
+    for (const std::size_t i : {1U, 3U, 6U, 7U, 8U}) {  // turned, scaled, mirrored, written again
       SCOPED_TRACE(random.kind + " " + std::to_string(seed) + " " + test::symmetries()[i].name);
       // The places of pairs are taken along the axis in the order of its edges.
       EXPECT_LE(dissimilarity(one, sign(test::symmetric(random.rings, i))), 0.03);

@@ -135,7 +135,7 @@ TEST(Offset, IslandsJoinOutwards) {
 }
 
 TEST(Offset, OfAKeyholeWhoseCircleIsTwoArcs) {
-  // The disk in the circle touches both arcs all along: no foot of it tells where they are left.
+  // The disk in the circle touches both arcs all along: no foot of it shows where they are left.
   for (int k = 0; k < 60; ++k) {
     const double angle = 0.1 * k + 1e-3;
     const auto at = [&](double x, double y) {

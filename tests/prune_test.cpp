@@ -163,7 +163,7 @@ TEST(Prune, DoesNotDependOnHowTheShapeIsWritten) {
     if (!random.rigid) continue;
     SCOPED_TRACE(random.kind + " " + std::to_string(seed));
     const MedialAxis axis = axis_of(random.rings);
-    // Where two disks are about as deep, which one is the centre hangs on the last digits.
+    // Where two disks are about as deep, which one is the centre depends on the last digits.
     std::vector<double> radii;
     for (const Node& node : axis.nodes) radii.push_back(node.disk.radius);
     std::sort(radii.rbegin(), radii.rend());

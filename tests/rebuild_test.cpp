@@ -156,7 +156,7 @@ TEST(Rebuild, OfAPrunedAxisIsTheUnionOfItsDisks) {
   EXPECT_GT(smaller, shape_count / 8);
 }
 
-/// The measure `area` tells what is lost.
+/// The measure `area` states what is lost.
 TEST(Rebuild, OneEndCutOffLosesTheAreaThatItsMeasureTells) {
   // A house: one roof corner of 90 degrees.
   const Case one = case_of({{0, 0}, {4, 0}, {4, 4}, {2, 6}, {0, 4}});
@@ -234,7 +234,7 @@ TEST(Rebuild, TangentsOfAnyShapeGiveOne) {
   }
 }
 
-/// A circle of arcs that rounding tells apart: its axis is as long as rounding.
+/// A circle of arcs that rounding makes distinct: its axis is as long as rounding.
 TEST(Rebuild, TangentsOfANearCircle) {
   for (const double off : {1e-13, 1e-11, 1e-9, 1e-6}) {
     SCOPED_TRACE(off);

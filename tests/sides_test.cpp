@@ -52,7 +52,8 @@ TEST(Sides, OfExactEdgesAreTheirSites) {
     for (const Edge& edge : axis.edges) {
       for (const double t : {0.25, 0.5, 0.75}) {
         const AxisFrame frame = frame_at(axis, edge, t);
-        // Where a foot is hardly told from the other, or the edge is but rounding, so is the rate.
+        // Where a foot is hardly distinct from the other, or the edge is but rounding, so is the
+        // rate.
         if (length(axis, edge) < 1e-5 * size || std::abs(frame.radius_rate) > 1 - 1e-6) continue;
         for (const Side side : {Side::left, Side::right}) {
           const Site& site = axis.sites[edge.site[side == Side::left ? 0 : 1]];

@@ -4,7 +4,7 @@
     tools/bench_match.py PROGRAM DATA
 
 DATA is a folder like ../shared/data. Each shape asked for is turned, mirrored, scaled, made coarser or noisy;
-told is how often it ranks first, and among the first ten, of all shapes of its kind as they were.
+printed is how often it ranks first, and among the first ten, of all shapes of its kind as they were.
 """
 
 import gzip

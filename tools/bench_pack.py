@@ -39,24 +39,24 @@ def main(program, data):
         for kind, (folder, patterns) in KINDS.items():
             files = sorted({f for p in patterns for f in (data / folder).glob(p)})
             for error in ERRORS:
-                told = [run(program, "pack", str(f), "-o", pack, "--error", str(error), "--compare", "--json",
-                            "--quiet", "--repair") for f in files]
-                told = [t for t in told if t and "boundary_within_error" in t["compare"]]
-                if not told:
+                packed = [run(program, "pack", str(f), "-o", pack, "--error", str(error), "--compare", "--json",
+                              "--quiet", "--repair") for f in files]
+                packed = [t for t in packed if t and "boundary_within_error" in t["compare"]]
+                if not packed:
                     continue
                 sums = [sum(v) for v in zip(*((t["bytes"], t["compare"]["boundary_within_error"],
                                                 t["bytes"] < t["compare"]["boundary_within_error"],
-                                                t["compare"]["boundary_text_zstd"]) for t in told))]
-                print(f"| {kind} | {len(told)} | {error:g} | {sums[0]:,} | {sums[1]:,} | {sums[2]} | "
+                                                t["compare"]["boundary_text_zstd"]) for t in packed))]
+                print(f"| {kind} | {len(packed)} | {error:g} | {sums[0]:,} | {sums[1]:,} | {sums[2]} | "
                       f"{sums[3]:,} |", flush=True)
         print("\n| image | pixels | squares | pack | PNG |\n| --- | --- | --- | --- | --- |")
         whole = [0, 0]
         for image in sorted((data / "packaged/C_images").glob("*.png")):
-            told = run(program, "pack", str(image), "-o", pack, "--squares", "--json", "--quiet")
-            if told:
+            packed = run(program, "pack", str(image), "-o", pack, "--squares", "--json", "--quiet")
+            if packed:
                 size = image.stat().st_size
-                whole = [whole[0] + told["bytes"], whole[1] + size]
-                print(f"| {image.stem} | {told['pixels']:,} | {told['squares']:,} | {told['bytes']:,} | {size:,} |")
+                whole = [whole[0] + packed["bytes"], whole[1] + size]
+                print(f"| {image.stem} | {packed['pixels']:,} | {packed['squares']:,} | {packed['bytes']:,} | {size:,} |")
         print(f"| all | | | {whole[0]:,} | {whole[1]:,} |")
 
 

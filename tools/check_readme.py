@@ -115,11 +115,12 @@ def faults_of_manual(program):
     manual = MANUAL.read_text().replace(r"\-", "-")
     listed = re.findall(r"^  ([a-z]+) {3,}", help_of(program), re.MULTILINE)
     help_texts = [help_of(program)] + [help_of(program, command) for command in listed]
-    known = set(re.findall(r"--[a-z][a-z-]*", "\n".join(help_texts)))
+    known = set(re.findall(r"(?<!\S)(?:-[a-z],)?(--[a-z][a-z-]*[a-z])", "\n".join(help_texts)))
     named = set(re.findall(r"--[a-z][a-z-]*[a-z]", manual))
     return ([f"the command {command} is missing" for command in listed
              if not re.search(rf"^\.B {command}$", manual, re.MULTILINE)] +
-            [f"{option}: no command has it" for option in sorted(named - known)])
+            [f"{option}: no command has it" for option in sorted(named - known)] +
+            [f"{option} is missing" for option in sorted(known - named)])
 
 
 def faults_of(page, program):

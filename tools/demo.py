@@ -13,7 +13,7 @@ import subprocess
 import sys
 
 DATA = pathlib.Path(__file__).resolve().parent.parent / "data"
-# What the shape is, its file, and the switches of its axis and of its picture.
+# What the shape is, its file, and the options of its axis and of its picture.
 SHAPES = [
     ("an island with its lakes", "newfoundland.wkt.gz", [], ["--width=1600"]),
     ("a country on a map", "switzerland.geojson", ["--project"], ["--disks=60"]),

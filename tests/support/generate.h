@@ -113,7 +113,7 @@ Rings touching_holes(Random& random, std::size_t k);
 struct RandomShape {
   std::string kind;
   Rings rings;
-  /// Nothing about its axis hangs on the last digits of a coordinate: no flat corners, needles or
+  /// Nothing about its axis depends on the last digits of a coordinate: no flat corners, needles or
   /// exact contacts inside of edges.
   bool rigid = false;
 };

@@ -40,7 +40,7 @@ std::vector<std::string> check_axis(const Rings& rings);
 std::vector<std::string> check_threads(const Rings& rings);
 
 /// Under every symmetry: the same deepest radius; under exact ones the same number of leaves; where
-/// nothing about the shape hangs on the last digits (`rigid`) the same graph and length.
+/// nothing about the shape depends on the last digits (`rigid`) the same graph and length.
 std::vector<std::string> check_symmetries(const RandomShape& shape);
 
 }  // namespace medial::test

@@ -1,6 +1,6 @@
 #pragma once
 
-// Closed meshes for tests. All are valid input for medial::build_solid() unless told otherwise.
+// Closed meshes for tests. All are valid input for medial::build_solid() unless stated otherwise.
 
 #include <functional>
 #include <string>
