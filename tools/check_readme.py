@@ -5,8 +5,9 @@
 
 Runs the `medial` commands of every page's sh blocks, and those of the manual's examples, in a scratch folder
 with data/, page by page in their order. Looks for what the pages link to and cite, for the paths that they
-name, for the `make` targets, and for the options of the manual in `--help`; compares README.md's C++ with the
-example that the install test builds; counts the words of the pages in docs.
+name, for the `make` targets, and for the functions and options that the pages in docs name; compares the
+manual with `--help`, and README.md's C++ with the example that the install test builds; counts the words of
+the pages in docs.
 """
 
 import concurrent.futures
@@ -81,6 +82,22 @@ def faults_of_citations(page):
     return [f"[{key}]: not in references.bib" for key in sorted(cited - known)]
 
 
+def identifiers():
+    """Every name in the sources."""
+    sources = [path for folder in ("include", "src", "cli", "papers", "tests") for path in (ROOT / folder).rglob("*")
+               if path.suffix in (".h", ".cpp")]
+    return set(re.findall(r"\w+", " ".join(path.read_text(errors="replace") for path in sources)))
+
+
+def faults_of_names(page, names, options):
+    """Functions and options in backquotes that do not exist (any more)."""
+    quoted = re.findall(r"`([^`\n]+)`", re.sub(r"^```.*?^```$", "", page.read_text(), flags=re.MULTILINE | re.DOTALL))
+    functions = {match[1] for text in quoted for match in [re.fullmatch(r"(?:\w+::)*(\w+)\(\)", text)] if match}
+    named = {match[0] for text in quoted for match in [re.match(r"--[a-z][a-z-]*[a-z]", text)] if match}
+    return ([f"`{name}()`: no such function" for name in sorted(functions - names)] +
+            [f"`{option}`: no command has it" for option in sorted(named - options)])
+
+
 def faults_of_length(page):
     words = sum(any(map(str.isalpha, word)) for word in page.read_text().split())
     return [f"{words} words, {MOST_WORDS} at most"] if page.parent.name == "docs" and words > MOST_WORDS and "experiments" not in page.name else []
@@ -95,8 +112,9 @@ def expanded(path):
 
 def faults_of_paths(page):
     """Paths in backquotes, from the root of the repository; NAME in capitals stands for any name."""
-    named = re.findall(r"`((?:src|include|cli|tests|tools|bench|papers|docs|data|examples|cmake)/[^`\s]*)`",
-                       page.read_text())
+    text = page.read_text()
+    named = re.findall(r"`((?:src|include|cli|tests|tools|bench|papers|docs|data|examples|cmake)/[^`\s]*)`", text)
+    named += ["include/" + name for name in re.findall(r"`(medial/[^`\s]*\.h)`", text)]
     return [f"{path}: no such file" for name in named for path in expanded(name)
             if not any(ROOT.glob(re.sub(r"[A-Z]{3,}", "*", path.rstrip("/"))))]
 
@@ -110,12 +128,15 @@ def help_of(program, *command):
     return subprocess.run([program, *command, "--help"], capture_output=True, text=True, check=True).stdout
 
 
-def faults_of_manual(program):
-    """Commands and options that either the manual or the help lacks."""
-    manual = MANUAL.read_text().replace(r"\-", "-")
+def commands_and_options(program):
     listed = re.findall(r"^  ([a-z]+) {3,}", help_of(program), re.MULTILINE)
     help_texts = [help_of(program)] + [help_of(program, command) for command in listed]
-    known = set(re.findall(r"(?<!\S)(?:-[a-z],)?(--[a-z][a-z-]*[a-z])", "\n".join(help_texts)))
+    return listed, set(re.findall(r"(?<!\S)(?:-[a-z],)?(--[a-z][a-z-]*[a-z])", "\n".join(help_texts)))
+
+
+def faults_of_manual(listed, known):
+    """Commands and options that either the manual or the help lacks."""
+    manual = MANUAL.read_text().replace(r"\-", "-")
     named = set(re.findall(r"--[a-z][a-z-]*[a-z]", manual))
     return ([f"the command {command} is missing" for command in listed
              if not re.search(rf"^\.B {command}$", manual, re.MULTILINE)] +
@@ -123,19 +144,21 @@ def faults_of_manual(program):
             [f"{option} is missing" for option in sorted(known - named)])
 
 
-def faults_of(page, program):
+def faults_of(page, program, names, listed, options):
     if page == MANUAL:
-        return faults_of_commands(page, program) + faults_of_manual(program)
+        return faults_of_commands(page, program) + faults_of_manual(listed, options)
     checks = [faults_of_links, faults_of_targets, faults_of_citations, faults_of_length, faults_of_paths]
     if page == ROOT / "README.md":
         checks.append(faults_of_example)
-    return faults_of_commands(page, program) + [fault for check in checks for fault in check(page)]
+    faults = faults_of_commands(page, program) + [fault for check in checks for fault in check(page)]
+    return faults + (faults_of_names(page, names, options) if page.parent.name == "docs" and "experiments" not in page.name else [])
 
 
 def main():
-    pages = [*PAGES, MANUAL]
+    pages, program = [*PAGES, MANUAL], sys.argv[1]
+    known = (identifiers(), *commands_and_options(program))
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        found = list(pool.map(lambda page: faults_of(page, sys.argv[1]), pages))
+        found = list(pool.map(lambda page: faults_of(page, program, *known), pages))
     for page, faults in zip(pages, found):
         for fault in faults:
             print(f"{page.relative_to(ROOT)}: {fault}")
