@@ -92,7 +92,7 @@ struct MainPathOptions {
 /// gives the cycle. A path that trimming would use up is not trimmed.
 ///
 /// Without holes O(n). With holes: one search of O(n log n) for each of the ends that can not be
-/// ruled out by what is known already, but at most 100; then `gap` tells what is not proven.
+/// ruled out by what is known already, but at most 100; then `gap` is what is not proven.
 std::vector<AxisPath> main_paths(const MedialAxis& axis, const MainPathOptions& options = {});
 
 struct CentreLineOptions {

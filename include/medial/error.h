@@ -25,7 +25,7 @@ enum class ErrorCode : std::uint8_t {
   empty,           ///< no ring, no feature, nothing to do
   unreadable,      ///< a file cannot be opened or read
   malformed,       ///< a file's content is not what its format says
-  unsupported,     ///< a format, geometry or option that this build or verb does not know
+  unsupported,     ///< a format, geometry or option that this build or command does not know
   unwritable,      ///< an output cannot be written
   invalid_option,  ///< an option's value is out of its range
   cancelled,       ///< the caller asked to stop

@@ -1,6 +1,6 @@
 #pragma once
 
-// What an axis tells of a shape's features: its points, its branches, and the primitives that
+// What an axis says of a shape's features: its points, its branches, and the primitives that
 // branches are made of, after Blum and Nagel (Pattern Recognition 10, 1978), as Volkmann and St.
 // Clair report them (Section II.A.1, Figs 4 to 7). For the axis of any engine, pruned or not.
 
@@ -117,7 +117,7 @@ struct BranchFeatures {
   double turning = 0;           ///< radians, positive to the left
   double absolute_turning = 0;  ///< without signs: how much it bends in all
   double area = 0;  ///< of the shape's part whose nearest boundary the branch stands for
-  /// How far the branch, and all that hangs on it, reaches beyond the disk at its base, in radii of
+  /// How far the branch, and all beyond it, reaches beyond the disk at its base, in radii of
   /// that disk: the erosion thickness there (Liu et al. 2011) over the radius. 0: the disk covers
   /// all of it. Infinite for branches of cycles and between them.
   double significance = 0;

@@ -13,7 +13,7 @@ namespace medial {
 
 /// A shape in a few numbers without units, the same for its rotated, scaled and mirrored images:
 /// distributions over the axis, each by its quantiles. Every piece of the axis counts by its
-/// length, less where erosion thickness tells that it stands for hardly more than noise of the
+/// length, less where by erosion thickness it stands for hardly more than noise of the
 /// boundary. Lengths are over the root of the mean square of distances from the axis's centre.
 struct ShapeSignature {
   static constexpr std::size_t quantiles = 24;

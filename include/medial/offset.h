@@ -2,7 +2,7 @@
 
 // Offset curves with true arcs, by walking the medial axis: where the axis has the radius D, the
 // offsets of the boundary on its two sides meet; in between, the offset of each site is a straight
-// line or an arc. The axis tells which pieces there are and how they join, so nothing is
+// line or an arc. The axis decides which pieces there are and how they join, so nothing is
 // intersected with anything and nothing is thrown away (Persson 1978; Held 1991, chapter 4).
 
 #include <cstdint>

@@ -27,8 +27,8 @@ struct PackOptions {
   /// this distance of the original, and the original within this distance of it; and what lies
   /// deeper than this inside of the original is in it.
   double error = 0;
-  /// Of `error`: what quantisation takes (below 15/16), and what of the rest dropping branches may
-  /// take (in (0, 15/16]).
+  /// Of `error`: what quantisation takes (below 15/16), and the share of the rest that dropping
+  /// branches may take (in (0, 15/16]).
   double quantum_share = 0.3;
   double prune_share = 0.9;
 };
@@ -41,8 +41,8 @@ struct PackReport {
 };
 
 /// Codes axes. Branches are dropped as far as the disk at their base, grown by a part of the error,
-/// covers what hangs on them (erosion thickness); the others become polylines of disks; numbers are
-/// whole multiples of one quantum. O(n log n). Errors: invalid_option (an error that is not
+/// covers what is beyond them (erosion thickness); the others become polylines of disks; numbers
+/// are whole multiples of one quantum. O(n log n). Errors: invalid_option (an error that is not
 /// positive, or below 2^-40 of the coordinates), not_finite.
 Result<ShapeCode> encode_axes(std::span<const MedialAxis> axes, const PackOptions& options,
                               PackReport* report = nullptr);

@@ -2,7 +2,7 @@
 
 // Pruning: the part of an axis that matters, by one of several measures from the literature, each
 // without a unit. For the axis of any engine; edges of an exact axis are cut exactly.
-// docs/prune.md tells which measure is whose.
+// docs/prune.md lists the source of each measure.
 
 #include <cstdint>
 #include <memory>
@@ -15,13 +15,13 @@
 
 namespace medial {
 
-/// What tells how much a point of the axis matters. Beyond a point means: what removing it would
+/// How much a point of the axis matters. Beyond a point means: what removing it would
 /// cut off, away from the centre (the deepest disk of a tree, or the cycles). R is the radius of
 /// the deepest disk of the connected part.
 ///
 /// Measures of points: an edge is cut where it passes the threshold.
 /// Measures of branches: a branch stays or goes as a whole, judged where it begins, at the disk of
-/// its inner end with the radius r; what hangs on a branch that goes, goes too.
+/// its inner end with the radius r; what lies beyond a branch that goes, goes too.
 enum class PruneMeasure : std::uint8_t {
   prominence,    ///< branches: the geometric mean of significance and of the same by R
   significance,  ///< branches: how far the shape reaches out beyond the disk, by r (Ho and Dyer)
@@ -88,7 +88,8 @@ class PruneOrder {
   double of_edge(std::uint32_t edge) const;
   /// What matters at least `threshold`, by increasing edge. O(n).
   std::vector<EdgePart> parts(double threshold) const;
-  /// The same as an axis: nodes and edges in their order, all sites, the kinds of nodes anew. O(n).
+  /// The same as an axis: nodes and edges in their order, all sites, the kinds of nodes set again.
+  /// O(n).
   MedialAxis at(double threshold) const;
   /// Of at(threshold).
   std::uint64_t branches_at(double threshold) const;

@@ -49,9 +49,9 @@ struct Solid {
 };
 
 /// Makes a solid of a mesh. What lies in an odd number of closed surfaces is inside, whatever their
-/// orientation; all decisions are exact. Mended and told in the report: equal vertices are joined,
-/// faces without an area for want of a third corner dropped, faces turned, and vertices in which
-/// otherwise separate fans of faces touch parted.
+/// orientation; all decisions are exact. Repaired, and counted in the report: equal vertices are
+/// joined, faces without an area for want of a third corner dropped, faces turned, and vertices in
+/// which otherwise separate fans of faces touch parted.
 ///
 /// Errors, with the place: empty, not_finite, too_large (2^31 vertices or faces), unsupported
 /// (coordinates above 1e100 in size), malformed (an index out of range), open_surface (an edge with

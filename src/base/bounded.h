@@ -23,7 +23,7 @@ struct Bounded {
   explicit Bounded(double exact) : value(exact) {}
   Bounded(Real approximate, Real bound) : value(std::move(approximate)), error(std::move(bound)) {}
 
-  /// -1, 0 or 1, where the bound tells.
+  /// -1, 0 or 1, where the bound decides.
   std::optional<int> sign() const {
     if (value > error) return 1;
     if (value < -error) return -1;

@@ -51,7 +51,7 @@ std::optional<Error> beyond_limits(const Shape& shape) {
 
 std::optional<Error> beyond_limits(const PlanarGraph& planar_graph, const Box& box) {
   const std::array<Vec2, 2> corners{box.low, box.high};
-  // A point of the input tells more than the box that lies around it.
+  // A point of the input says more than the box that lies around it.
   if (auto error = beyond_limits(planar_graph.points, largest_coordinate_in(box),
                                  planar_graph.point_sources))
     return error;

@@ -9,7 +9,7 @@ namespace medial {
 /// it then takes a fraction of the time to fill for the first time. Advice only.
 void prefer_large_pages(const void* begin, std::size_t bytes);
 
-/// Tells the system that the content of an array is not needed any more: its pages can be used
+/// Informs the system that the content of an array is not needed any more: its pages can be used
 /// for other arrays before it is freed, and where the allocator would keep it. Advice only; the
 /// content is lost.
 void give_back_pages(void* begin, std::size_t bytes);

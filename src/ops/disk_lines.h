@@ -32,7 +32,7 @@ DiskGraph disk_lines(const MedialAxis& axis, double prune, double error);
 
 /// Which of the points 0 .. n - 1 to keep, first and last included, so that `excess(i, first,
 /// last)` is not positive for any i between neighbours that are kept (Douglas and Peucker).
-/// `excess` tells by how much point i is too far from the segment.
+/// `excess` is by how much point i is too far from the segment.
 template <class Excess>
 std::vector<std::uint32_t> simplified(std::uint32_t n, const Excess& excess) {
   std::vector<std::uint32_t> kept{0};

@@ -105,7 +105,7 @@ class CrossingFinder {
     BoxTree(boxes).find_pairs([this](std::uint32_t i, std::uint32_t j) {
       const Piece &a = pieces_[i], &b = pieces_[j];
       if (a.edge == b.edge) return;
-      // What is found does not hang on where rings begin.
+      // What is found does not depend on where rings begin.
       if (lexicographic_less(b.arc.left, a.arc.left)) {
         meet(b, a);
       } else {
@@ -154,7 +154,7 @@ class CrossingFinder {
 
   /// Whether two pieces have an end in common and stay within the tolerance of each other from
   /// there to the point: as good as tangent there, they meet in the end alone. (The order of pieces
-  /// at an end is told by where they part, too.)
+  /// at an end follows from where they part, too.)
   bool is_beside_common_end(const Piece& a, const Piece& b, Vec2 point) const {
     for (const std::uint32_t end : a.ends) {
       const Vec2 p = noded_.outline.points[end];
@@ -369,7 +369,7 @@ class ArcSweeper {
     }
     return error_at(
         ErrorCode::unsupported,
-        "edges are too near to each other here for their order to be told from rounding",
+        "edges are too near to each other here for their order to be certain beyond rounding",
         noding_.edge_source(noded_.edges[vertex]), noding_.to_input(point));
   }
 
@@ -572,7 +572,7 @@ Result<SweptArcs> sweep_arcs(const Outline& outline, bool node_crossings, double
       if (auto error = noding.apply(noded, contacts, {})) return std::move(*error);
       return true;
     };
-    // Once all crossings have been noded, the sweep tells whether one is left, which is faster.
+    // Once all crossings have been noded, the sweep finds whether one is left, which is faster.
     if (node_crossings && round == 0) {
       const Result<bool> any = node_all();
       if (!any) return any.error();

@@ -139,7 +139,7 @@ class Winder {
         fill(first, end.below, seen, group);
       }
     }
-    // Dropped edges without a left end hang on others.
+    // Dropped edges without a left end depend on others.
     for (std::uint32_t e = 0; e < count; ++e) {
       if (arrangement_.dropped[e] && !seen[e]) fill(e, no_index, seen, group);
     }

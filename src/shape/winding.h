@@ -8,7 +8,7 @@
 
 namespace medial {
 
-/// Where a ring has the role `winding`, decides anew what is interior: the points about which the
+/// Where a ring has the role `winding`, decides again what is interior: the points about which the
 /// rings of that role wind a number of times that is not 0, the even-odd rule for other rings
 /// changing that. Edges with the interior on both sides are dropped. Returns the number of rings of
 /// which nothing is left. O(n + t log t) for t touching vertices, and as much again for each

@@ -112,7 +112,7 @@ void BoundaryTree::build_chord_boxes() {
 }
 
 /// The direction of the line that a boundary with reflex vertices shows to what lies before it, or
-/// else of its chord. Of a staircase no box in another direction tells the corners apart.
+/// else of its chord. Of a staircase no box in another direction separates the corners.
 Vec2 BoundaryTree::chord_of(std::span<const Site> sites) {
   const auto is_vertex = [](const Site& site) { return site.is_vertex(); };
   const auto first = std::find_if(sites.begin(), sites.end(), is_vertex);
@@ -127,7 +127,7 @@ std::optional<BoundaryTree::ChordBox> BoundaryTree::chord_box(std::span<const Si
   const double length = norm(chord);
   if (!(length > 0 && length < outside)) return std::nullopt;
   const Vec2 along = (1 / length) * chord;
-  // Most that do not fit are told by a few of their points.
+  // Most that do not fit are recognised by a few of their points.
   for (std::size_t i = 1; i < 4; ++i) {
     const Vec2 p = sites[i * sites.size() / 4].point - sites.front().point;
     if (std::abs(cross(along, p)) > flat_enough * length) return std::nullopt;

@@ -235,8 +235,8 @@ struct Circle {
   Vector<Real> center;
 };
 
-/// Whether two arcs are nearly of one circle, so that seen from their points most digits of what
-/// tells them apart are lost.
+/// Whether two arcs are nearly of one circle, so that seen from their points most digits of
+/// their difference are lost.
 template <class Real>
 bool nearly_concentric(const Carrier<Real>& a, const Carrier<Real>& b) {
   if (a.vertex || b.vertex || !(a.round * b.round > Real(0))) return false;
@@ -304,7 +304,7 @@ Solutions<Real> about_center(const Carrier<Real>& arc,
   return result;
 }
 
-/// Three carriers of which one is an arc: the equation of the roundest eliminates the quadric from
+/// Three carriers, one of which is an arc: the equation of the roundest eliminates the quadric from
 /// the other two, which leaves two planes in (x, y, r); their line meets the roundest.
 template <class Real>
 Solutions<Real> three_carriers(std::array<const Carrier<Real>*, 3> carriers) {
@@ -438,7 +438,7 @@ std::optional<Disk> tangent_disk_in_high_precision(const Site& a, const Site& b,
     const auto& s = solved.disk[i];
     const Disk candidate{{static_cast<double>(s.center.x), static_cast<double>(s.center.y)},
                          static_cast<double>(s.radius)};
-    // The circle of an arc is touched from its other side at the same place; the residual tells.
+    // The circle of an arc is touched from its other side at the same place; the residual decides.
     const double off =
         std::max(distance(candidate.center, near.center), residual(candidate, a, b, c));
     if (off < best) {

@@ -28,7 +28,7 @@ class Control {
                          "more",
                          {}}};
   }
-  /// Tells the share of the work that is done; never less than before.
+  /// Reports the share of the work that is done; never less than before.
   void report(double share) {
     done_ = std::max(done_, std::min(share, 1.0));
     if (options_.progress) options_.progress(done_);

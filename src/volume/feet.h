@@ -26,7 +26,7 @@ struct Feet {
   bool medial() const { return face[1] != Voxel::no_face; }
 };
 
-/// Tells the feet of voxels. With f the nearest point of the surface, at the distance r, and u the
+/// Finds the feet of voxels. With f the nearest point of the surface, at the distance r, and u the
 /// direction from f to the voxel's centre p, a face's nearest point x at the distance s counts as a
 /// second foot if
 ///  - s - r is below the tolerance (the report's quality);

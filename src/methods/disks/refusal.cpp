@@ -17,14 +17,14 @@ std::optional<Error> error_if_refused(const Shape& shape, const Options& options
   const Certificate certificate = verify(shape, axis, demands);
   if (certificate.passed) return std::nullopt;
   Error error{ErrorCode::unsupported,
-              "rounding alone tells which of the arcs here, of almost one circle, a disk touches",
+              "rounding alone decides which of the arcs here, of almost one circle, a disk touches",
               {}};
   error.place.point = Vec2{certificate.worst_x, certificate.worst_y};
   return error;
 }
 
 Error error_of_wrong_axis(const MedialAxis& axis, const char* text) {
-  // In tolerances: disks that are smaller cannot always be told from rounding.
+  // In tolerances: disks that are smaller cannot always be distinguished from rounding.
   constexpr double narrow = 16;
   const Node* narrowest = nullptr;
   for (const Node& node : axis.nodes)
@@ -34,7 +34,7 @@ Error error_of_wrong_axis(const MedialAxis& axis, const char* text) {
   if (narrowest == nullptr || narrowest->disk.radius > narrow * axis.tolerance)
     return {ErrorCode::internal, text, {}};
   Error error{ErrorCode::unsupported,
-              "the shape is too narrow here for its sides to be told from rounding",
+              "the shape is too narrow here for its sides to differ by more than rounding",
               {}};
   error.place.point = narrowest->disk.center;
   return error;
