@@ -18,7 +18,7 @@ BENCH := build/bench
 BENCH_BOOST := build/boost-1.81
 SOURCES = $(shell git ls-files '*.h' '*.cpp')
 
-.PHONY: help setup build demo test bench bench-flo-mat bench-images fuzz corpus offsets tsan format lint clean install
+.PHONY: help setup build demo test papers bench bench-flo-mat bench-images fuzz corpus offsets tsan format lint clean install
 .DEFAULT_GOAL := help
 
 help:     ## this list
@@ -41,6 +41,10 @@ test: setup     ## all tests, in release and under the address and undefined-beh
 	@cmake --preset asan -DMEDIAL_UNITY=$(UNITY)
 	@cmake --build $(ASAN) -j $(JOBS)
 	@tools/test.sh $(JOBS) $(CURDIR)/$(ASAN) $(CURDIR)/$(RELEASE)
+
+papers: build   ## the figures and tables of the papers, drawn and measured again: out/papers
+	@cmake --build $(RELEASE) -j $(JOBS) --target medial_papers
+	@$(RELEASE)/papers/medial_papers out/papers
 
 bench: setup    ## compare with Boost.Polygon and CGAL
 	@tools/setup.sh bench

@@ -74,7 +74,6 @@ int run(int argc, char** argv, bool json) {
       make_voronoi_command(program),     //
       make_distance_command(program),    //
       make_voxels_command(program),      //
-      make_bench_command(program),       //
       make_field_command(program),       //
       make_compare_command(program),     //
       make_offset_command(program),      //

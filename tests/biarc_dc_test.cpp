@@ -15,7 +15,7 @@
 
 #include "medial/medial.h"
 #ifdef MEDIAL_BENCH_SHAPES
-#include "cli/bench_shapes.h"
+#include "papers/aichholzer_2009/shapes.h"
 #endif
 #include "support/generate.h"
 #include "support/generate_arcs.h"
@@ -268,7 +268,7 @@ TEST(BiarcDc, TheSeedDecides) {
 TEST(BiarcDc, AgreesOnATreeOfFineArcs) {
   ArcOptions fine;
   fine.tolerance = 1e-6;
-  const auto rings = approximate_by_arcs(cli::tree(4), fine);
+  const auto rings = approximate_by_arcs(papers::tree(4), fine);
   ASSERT_TRUE(rings.ok());
   const auto shape = build_shape(*rings);
   ASSERT_TRUE(shape.ok());
@@ -278,7 +278,7 @@ TEST(BiarcDc, AgreesOnATreeOfFineArcs) {
 
 /// A disk that touches both ends of the arc of largest curvature, but not its middle, is no leaf.
 TEST(BiarcDc, EndsInTheCentreOfTheArcOfLargestCurvature) {
-  const auto rings = approximate_by_arcs(cli::border(10), {.tolerance = 1e-3});
+  const auto rings = approximate_by_arcs(papers::border(10), {.tolerance = 1e-3});
   ASSERT_TRUE(rings.ok());
   const auto shape = build_shape(*rings);
   ASSERT_TRUE(shape.ok());

@@ -6,7 +6,7 @@ from support import CommandLine
 class Help(CommandLine):
     def test_help_and_version(self):
         text = self.succeed("--help").stdout.decode()
-        for command in ("axis", "verify", "info", "draw", "bench"):
+        for command in ("axis", "verify", "info", "draw"):
             self.assertIn(f"  {command} ", text)
         for command in ("axis", "verify", "info", "draw"):
             own = self.succeed(command, "--help").stdout.decode()

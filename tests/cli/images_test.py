@@ -2,7 +2,6 @@
 
 import json
 import math
-import xml.etree.ElementTree as ElementTree
 
 from support import CommandLine
 
@@ -51,11 +50,3 @@ class Images(CommandLine):
             info = json.loads(self.succeed("info", "axis.json", "--json").stdout)
             self.assertEqual((info["method"], info["resolution"]), ("brushfire", 1))
         self.refuse("invalid_option", "axis", "l.pbm", "--brushfire", "forest")
-
-    def test_experiment(self):
-        self.write("l.pbm", self.PICTURE)
-        table = self.succeed("bench", "brushfire", "l.pbm", "-o", "figure.svg").stdout.decode()
-        self.assertEqual(len(table.splitlines()), 4)
-        self.assertRegex(table, r"\| l \| 19 \|.* 0 \(0 %\) \|$")  # the exact axis loses nothing
-        ElementTree.fromstring(self.read("figure.svg"))
-        self.succeed("bench", "brushfire", "-o", "figure.csv")

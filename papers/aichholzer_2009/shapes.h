@@ -9,7 +9,7 @@
 
 #include "medial/contour.h"
 
-namespace medial::cli {
+namespace medial::papers {
 
 /// A closed uniform cubic B-spline whose control polygon is a twig with three twigs on it, `depth`
 /// times over: 2 (3^(depth + 1) - 1) cubics, nowhere a corner.
@@ -30,4 +30,4 @@ std::vector<Contour> border(int level);
 /// The contours as one SVG path of M, L, C and Z.
 std::string svg_document(const std::vector<Contour>& contours);
 
-}  // namespace medial::cli
+}  // namespace medial::papers

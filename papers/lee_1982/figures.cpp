@@ -1,4 +1,4 @@
-// The figures of Lee's paper, drawn anew.
+// Lee (1982): Figs. 1 to 6, drawn again.
 
 #include <array>
 #include <cmath>
@@ -7,14 +7,15 @@
 #include <string>
 
 #include "base/tolerance.h"
-#include "cli/bench_lee.h"
-#include "cli/figure.h"
 #include "medial/medial.h"
 #include "methods/lee/diagram.h"
 #include "methods/lee/merge.h"
+#include "papers/figure.h"
+#include "papers/lee_1982/experiment.h"
 #include "site/bisector.h"
 
-namespace medial::cli {
+namespace medial::papers {
+
 namespace {
 
 /// The components of a bisector, each in its colour.
@@ -330,7 +331,7 @@ Status figure_of_lemmas(const std::filesystem::path& path) {
 Status figures_of_merge(const std::filesystem::path& directory) {
   const Shape shape = polygon();
   Halves halves(shape);
-  for (const auto& [half, name] : {std::pair{0, "lee-fig6a.svg"}, {1, "lee-fig6b.svg"}}) {
+  for (const auto& [half, name] : {std::pair{0, "fig6a.svg"}, {1, "fig6b.svg"}}) {
     Figure figure(with_room(shape, 2.5));
     halves.draw(figure, half);
     Status written = figure.write(directory / name);
@@ -339,26 +340,19 @@ Status figures_of_merge(const std::filesystem::path& directory) {
   halves.merge_last();
   Figure figure(with_room(shape, 2.5));
   halves.draw(figure, 2);
-  return figure.write(directory / "lee-fig6c.svg");
+  return figure.write(directory / "fig6c.svg");
 }
 
 }  // namespace
 
-Status write_lee_figures(const std::string& directory) {
-  const auto made = make_directory(directory);
-  if (!made) return made.error();
-  const std::filesystem::path& to = *made;
-  using Draw = std::function<Status()>;
-  for (const Draw& draw : {Draw([&] { return figure_of_point_and_segment(to / "lee-fig1.svg"); }),
-                           Draw([&] { return figure_of_two_segments(to / "lee-fig2.svg"); }),
-                           Draw([&] { return figure_of_diagram(to / "lee-fig3.svg", true); }),
-                           Draw([&] { return figure_of_diagram(to / "lee-fig4.svg", false); }),
-                           Draw([&] { return figure_of_lemmas(to / "lee-fig5.svg"); }),
-                           Draw([&] { return figures_of_merge(to); })}) {
-    Status drawn = draw();
-    if (!drawn) return drawn;
-  }
-  return success();
+Status draw_lee_figures(const Request& request) {
+  const std::filesystem::path& to = request.to;
+  return in_order([&] { return figure_of_point_and_segment(to / "fig1.svg"); },
+                  [&] { return figure_of_two_segments(to / "fig2.svg"); },
+                  [&] { return figure_of_diagram(to / "fig3.svg", true); },
+                  [&] { return figure_of_diagram(to / "fig4.svg", false); },
+                  [&] { return figure_of_lemmas(to / "fig5.svg"); },
+                  [&] { return figures_of_merge(to); });
 }
 
-}  // namespace medial::cli
+}  // namespace medial::papers

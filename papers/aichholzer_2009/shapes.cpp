@@ -1,4 +1,4 @@
-#include "cli/bench_shapes.h"
+#include "papers/aichholzer_2009/shapes.h"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 #include <numbers>
 #include <random>
 
-namespace medial::cli {
+namespace medial::papers {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -195,4 +195,4 @@ std::string svg_document(const std::vector<Contour>& contours) {
       box.low.x, box.low.y, box.high.x - box.low.x, box.high.y - box.low.y, path);
 }
 
-}  // namespace medial::cli
+}  // namespace medial::papers

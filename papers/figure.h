@@ -13,7 +13,7 @@
 #include "medial/error.h"
 #include "medial/shape.h"
 
-namespace medial::cli {
+namespace medial::papers {
 
 /// An SVG picture 480 wide, y upwards.
 class Figure {
@@ -50,7 +50,4 @@ class Figure {
   std::unique_ptr<cairo_t, decltype(&cairo_destroy)> cairo_{nullptr, cairo_destroy};
 };
 
-/// A directory for figures, made if it is not there. Errors: unwritable.
-Result<std::filesystem::path> make_directory(const std::string& name);
-
-}  // namespace medial::cli
+}  // namespace medial::papers

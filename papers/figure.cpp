@@ -1,4 +1,4 @@
-#include "cli/figure.h"
+#include "papers/figure.h"
 
 #include <cairo-svg.h>
 
@@ -6,10 +6,10 @@
 #include <numbers>
 #include <system_error>
 
-#include "cli/common.h"
 #include "medial/io/write.h"
 
-namespace medial::cli {
+namespace medial::papers {
+
 namespace {
 
 constexpr double width = 480, margin = 20;
@@ -104,11 +104,4 @@ Vec2 Figure::place(Vec2 p) const {
   return {margin + (p.x - box_.low.x) * scale_, height_ - margin - (p.y - box_.low.y) * scale_};
 }
 
-Result<std::filesystem::path> make_directory(const std::string& name) {
-  std::error_code problem;
-  std::filesystem::create_directories(name, problem);
-  if (problem) return error_at(ErrorCode::unwritable, name, problem.message());
-  return std::filesystem::path(name);
-}
-
-}  // namespace medial::cli
+}  // namespace medial::papers

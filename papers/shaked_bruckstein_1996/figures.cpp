@@ -1,18 +1,19 @@
-#include "cli/bench_curve_axis.h"
+// Shaked and Bruckstein (1996): Figs. 1 to 9 of "The Curve Axis", drawn again. The states of the
+// control process are its own, just before a rule is carried out.
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
 #include <numbers>
 #include <optional>
 
-#include "cli/commands.h"
-#include "cli/figure.h"
 #include "medial/medial.h"
 #include "methods/curve_axis/control.h"
+#include "papers/experiment.h"
+#include "papers/figure.h"
 
-namespace medial::cli {
+namespace medial::papers {
+
 namespace {
 
 using curve_axis::AxisPoint;
@@ -483,41 +484,20 @@ Status result(const std::filesystem::path& path, const Contour& contour) {
 
 }  // namespace
 
-Status write_curve_axis_figures(const std::string& directory) {
-  const auto to = make_directory(directory);
-  if (!to) return to.error();
-  const auto file = [&](const char* name) {
-    return *to / (std::string("curve-axis-fig") + name + ".svg");
-  };
-  Status done = azimuth(file("1"));
-  if (done) done = beginning(file("2"));
-  if (done) done = junction(file("3"), false);
-  if (done) done = intermediate(file("4"));
-  if (done) done = decision(file("5a"), Rule::larger);
-  if (done) done = decision(file("5b"), Rule::smaller);
-  if (done) done = junction(file("6"), true);
-  if (done) done = decision(file("7a"), Rule::retreat);
-  if (done) done = decision(file("7b"), Rule::outside_frame);
-  if (done) done = ending(file("8"));
-  if (done) done = result(file("9a"), animal());
-  if (done) done = result(file("9b"), bean());
-  return done;
+Result<bool> run_shaked_bruckstein_1996(const Request& request) {
+  const auto at = [&](const char* name) { return request.to / name; };
+  const Status drawn = in_order(
+      [&] { return azimuth(at("fig1.svg")); }, [&] { return beginning(at("fig2.svg")); },
+      [&] { return junction(at("fig3.svg"), false); }, [&] { return intermediate(at("fig4.svg")); },
+      [&] { return decision(at("fig5a.svg"), Rule::larger); },
+      [&] { return decision(at("fig5b.svg"), Rule::smaller); },
+      [&] { return junction(at("fig6.svg"), true); },
+      [&] { return decision(at("fig7a.svg"), Rule::retreat); },
+      [&] { return decision(at("fig7b.svg"), Rule::outside_frame); },
+      [&] { return ending(at("fig8.svg")); }, [&] { return result(at("fig9a.svg"), animal()); },
+      [&] { return result(at("fig9b.svg"), bean()); });
+  if (!drawn) return drawn.error();
+  return true;
 }
 
-Command add_curve_axis_bench(CLI::App& bench) {
-  auto directory = std::make_shared<std::string>();
-  CLI::App* command = bench.add_subcommand(
-      "curve-axis",
-      "Writes the figures of Shaked and Bruckstein, The Curve Axis (1996), drawn anew.");
-  command->add_option("--figures", *directory, "Where to: a directory.")
-      ->required()
-      ->option_text("DIRECTORY");
-  command->footer("Example:\n  medial bench curve-axis --figures figures");
-  return {command, [directory]() -> Result<int> {
-            if (Status written = write_curve_axis_figures(*directory); !written)
-              return std::move(written).error();
-            return exit_success;
-          }};
-}
-
-}  // namespace medial::cli
+}  // namespace medial::papers

@@ -1,0 +1,339 @@
+// Ahuja and Chuang (1997): skeletons in a generalised potential field, their distance to the exact
+// axis, and the paper's figures.
+
+#include "papers/experiment.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "base/local_frame.h"
+#include "cli/axis_distance.h"
+#include "medial/compute.h"
+#include "medial/io/field.h"
+#include "medial/io/write.h"
+#include "medial/query.h"
+#include "methods/potential/region.h"
+#include "methods/potential/skeleton.h"
+#include "methods/potential/successor.h"
+#include "papers/figure.h"
+#include "papers/table.h"
+
+namespace medial::papers {
+namespace {
+
+using NamedShape = std::pair<std::string, Shape>;
+
+/// 0 stands for the adaptive order.
+constexpr std::array orders = {1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0, 0.0};
+
+// ---- Shapes -------------------------------------------------------------------------------------
+
+Shape shape_of(std::vector<Vec2> points) {
+  Ring ring;
+  ring.points = std::move(points);
+  return *build_shape(std::vector<Ring>{ring});
+}
+
+/// The paper's regions of Fig. 3: a rectangle, an L, and a shape like that of [20], Fig. 19.
+std::vector<NamedShape> regions() {
+  return {{"rectangle", shape_of({{0, 0}, {20, 0}, {20, 10}, {0, 10}})},
+          {"L", shape_of({{0, 0}, {20, 0}, {20, 8}, {8, 8}, {8, 20}, {0, 20}})},
+          {"hand", shape_of({{0, 0},
+                             {10, 0},
+                             {12, 5},
+                             {20, 4},
+                             {20, 7},
+                             {13, 9},
+                             {19, 15},
+                             {17, 17},
+                             {11, 12},
+                             {8, 20},
+                             {5, 20},
+                             {6, 12},
+                             {-1, 15},
+                             {-3, 12},
+                             {3, 8}})}};
+}
+
+/// A band with teeth of noise on its long sides, `edges` edges in all.
+Shape noisy_band(int teeth, double height) {
+  std::vector<Vec2> points;
+  const double step = 10.0 / teeth;
+  std::uint32_t state = 7;
+  const auto noise = [&] {
+    state = state * 1664525U + 1013904223U;
+    return height * (static_cast<double>(state >> 8U) / 16777216.0 - 0.5);
+  };
+  for (int i = 0; i <= teeth; ++i) points.push_back({i * step, -1 + noise()});
+  for (int i = teeth; i >= 0; --i) points.push_back({i * step, 1 + noise()});
+  return shape_of(points);
+}
+
+double size_of(const Shape& shape) {
+  const Box box = bounding_box(shape);
+  return std::max(box.high.x - box.low.x, box.high.y - box.low.y);
+}
+
+/// The sum of all turns along the edges between nodes of degree two, in degrees, over the length in
+/// units of the size: how crooked an axis is.
+double crookedness(const MedialAxis& axis, double size) {
+  const Incidence incidence(axis);
+  double turns = 0;
+  for (std::uint32_t i = 0; i < axis.nodes.size(); ++i) {
+    if (incidence.degree(i) != 2) continue;
+    const auto edges = incidence.edges(i);
+    const auto other = [&](std::uint32_t e) {
+      const Edge& edge = axis.edges[e];
+      return axis.nodes[edge.node[0] == i ? edge.node[1] : edge.node[0]].disk.center;
+    };
+    const Vec2 in = axis.nodes[i].disk.center - other(edges[0]);
+    const Vec2 out = other(edges[1]) - axis.nodes[i].disk.center;
+    turns += std::abs(std::atan2(cross(in, out), dot(in, out)));
+  }
+  return turns * 180 / std::numbers::pi / (total_length(axis) / size);
+}
+
+Options options_of(double order) {
+  Options options{.method = Method::potential, .threads = 1};
+  options.potential.order = order;
+  return options;
+}
+
+std::string order_name(double order) {
+  return order == 0 ? "adaptive" : fmt::format("n={:g}", order);
+}
+
+// ---- Tables -------------------------------------------------------------------------------------
+
+/// Of each file the shape with the most vertices.
+Result<std::vector<NamedShape>> largest_shapes(const std::vector<std::string>& files) {
+  std::vector<NamedShape> shapes;
+  for (const std::string& path : files) {
+    const auto file = io::read_dataset(path);
+    if (!file) return file.error();
+    Shape largest;
+    for (const Feature& feature : file->items) {
+      auto shape = build_shape(feature.rings);
+      if (!shape) return shape.error();
+      if (shape->points.size() > largest.points.size()) largest = std::move(shape).value();
+    }
+    shapes.emplace_back(std::filesystem::path(path).stem().string(), std::move(largest));
+  }
+  return shapes;
+}
+
+std::vector<Table::Column> distance_columns(const char* format) {
+  std::vector<Table::Column> columns{{"shape"}, {"edges"}};
+  for (const double order : orders) columns.push_back({order_name(order), format});
+  columns.push_back({"away from leaves", "{:.3f}"});
+  columns.push_back({"falls"});
+  return columns;
+}
+
+/// Largest and mean distances from a shape's skeletons to its exact axis, in hundredths of the
+/// size. False if a skeleton is missing.
+bool add_distances(const NamedShape& named, Table& largest, Table& mean) {
+  const auto& [name, shape] = named;
+  progress(name);
+  const auto exact = compute(shape);
+  if (!exact) return false;
+  const double size = size_of(shape);
+  std::vector<Table::Cell> largest_cells{name, shape.points.size()}, mean_cells = largest_cells;
+  double away = 0, before = 1;
+  bool falls = true, complete = true;
+  for (const double order : orders) {
+    const auto axis = compute(shape, options_of(order));
+    if (!axis) {
+      largest_cells.emplace_back("-");
+      mean_cells.emplace_back("-");
+      complete = false;
+      continue;
+    }
+    const cli::AxisDistance distance =
+        cli::distance_between(*axis, *exact, 0.005 * size, 0.05 * size);
+    largest_cells.emplace_back(100 * distance.largest / size);
+    mean_cells.emplace_back(100 * distance.mean / size);
+    if (order > 0) falls = falls && distance.mean / size <= before;
+    before = distance.mean / size;
+    away = distance.away / size;
+  }
+  for (auto [cells, table] : {std::pair{&largest_cells, &largest}, {&mean_cells, &mean}}) {
+    cells->insert(cells->end(), {100 * away, falls ? "yes" : "NO"});
+    table->add(std::move(*cells));
+  }
+  return complete;
+}
+
+/// The adaptive order at each point of the rectangle's Newtonian skeleton but its corners, for the
+/// paper's theta_min of 2.56 degrees.
+std::vector<std::pair<Vec2, int>> orders_in_rectangle() {
+  const Shape shape = regions()[0].second;
+  const LocalFrame frame = frame_of(bounding_box(shape));
+  const auto regions = potential::regions_of(shape, frame, 0.01, 1e-3);
+  const potential::Charges charges(regions[0].pieces);
+  potential::SkeletonOptions tracing;
+  tracing.step = 0.01 * regions[0].size;
+  const auto skeleton = potential::trace_valleys(regions[0], charges, tracing);
+  potential::Evaluator evaluator(charges);
+  std::vector<std::pair<Vec2, int>> orders_there;
+  for (const auto& point : skeleton.points) {
+    if (point.radius == 0) continue;
+    evaluator.place(point.place);
+    orders_there.emplace_back(
+        frame.to_input(point.place),
+        potential::adaptive_order(evaluator, std::acos(0.999), potential::most_searched_order));
+  }
+  return orders_there;
+}
+
+double exponent_of(int order) { return 0.5 * (order + 2); }
+
+std::string orders_along_rectangle() {
+  std::vector<std::pair<double, int>> along;
+  for (const auto& [p, order] : orders_in_rectangle())
+    if (p.x <= 10 && p.y <= 5.001) along.emplace_back(p.x, order);
+  std::sort(along.begin(), along.end());
+  Table table({{"x", "{:.2f}"}, {"N", "{:.0f}"}, {"p = (N + 2) / 2"}});
+  double next = 0;
+  for (const auto& [x, order] : along) {
+    if (x < next) continue;
+    table.add({x, static_cast<double>(order), exponent_of(order)});
+    next = x + 0.5;
+  }
+  return table.markdown();
+}
+
+/// Fig. 8's kind: the time against the edges of a noisy band.
+std::string times_table(const Request& request) {
+  Table table(
+      {{"edges"}, {"convex corners"}, {"points"}, {"axis, ms", "{:.2f}"}, {"ms / edge", "{:.4f}"}});
+  for (const int teeth : {24, 49, 99, 199, 399}) {
+    if (request.quick && teeth > 49) break;
+    const Shape shape = noisy_band(teeth, 0.3);
+    const auto exact = compute(shape);
+    const auto corners = std::count_if(exact->nodes.begin(), exact->nodes.end(),
+                                       [](const Node& node) { return node.disk.radius == 0; });
+    double least = 0;
+    const auto axis = timed(request.rounds, least, [&] { return compute(shape, options_of(0)); });
+    table.add({shape.points.size(), static_cast<std::uint64_t>(corners),
+               axis ? axis->nodes.size() : std::size_t{0}, 1e3 * least,
+               1e3 * least / static_cast<double>(shape.points.size())});
+  }
+  return table.markdown();
+}
+
+std::string noise_table() {
+  Table table({{"axis"}, {"turns, degrees a size", "{:.0f}"}});
+  const Shape shape = noisy_band(60, 0.2);
+  for (const double order : {1.0, 4.0, 16.0, 64.0})
+    if (const auto axis = compute(shape, options_of(order)))
+      table.add({order_name(order), crookedness(*axis, size_of(shape))});
+  return table.markdown();
+}
+
+// ---- Figures ------------------------------------------------------------------------------------
+
+/// Fig. 13: the exponents that the adaptive order stands for, written along the rectangle's axis.
+Status draw_orders(const Request& request) {
+  const Shape shape = regions()[0].second;
+  Figure figure(bounding_box(shape));
+  figure.ink();
+  figure.line(shape.points);
+  figure.line({shape.points.back(), shape.points.front()});
+  // As dense as the numbers can be read.
+  constexpr double apart = 0.75, largest_shown = 9;
+  std::vector<Vec2> shown = shape.points;
+  for (const auto& [p, order] : orders_in_rectangle()) {
+    if (std::any_of(shown.begin(), shown.end(),
+                    [&, q = p](Vec2 other) { return distance(q, other) < apart; }))
+      continue;
+    shown.push_back(p);
+    const double exponent = exponent_of(order);
+    figure.mark(p, exponent > largest_shown ? "x" : fmt::format("{:g}", exponent).c_str());
+  }
+  return figure.write(request.to / "fig13.svg");
+}
+
+/// The potential of a region's border, or force lines in it, `lines` along the longer side.
+Status draw_field(const Request& request, const char* name, const Shape& shape, double order,
+                  int lines, double width) {
+  std::vector<PotentialField> fields;
+  auto field = PotentialField::make(shape, order);
+  if (!field) return field.error();
+  fields.push_back(std::move(field).value());
+  return io::write_field((request.to / name).string(), {}, {&shape, 1}, fields,
+                         {.width = width, .lines = lines, .brightness = lines == 0});
+}
+
+Status draw_axis(const Request& request, const std::string& name, const Shape& shape,
+                 const Options& options, double width = 1024) {
+  auto axis = compute(shape, options);
+  if (!axis) return axis.error();
+  Document<AxisItem> file;
+  file.items.push_back({shape, std::move(axis).value(), {}});
+  io::WriteOptions picture;
+  picture.width = width;
+  return io::write_axes((request.to / name).string(), {}, file, picture);
+}
+
+/// Figs. 6 and 12: skeletons of the regions by order.
+Status draw_skeletons(const Request& request) {
+  for (const auto& [name, shape] : regions())
+    for (const double order : {1.0, 4.0, 8.0}) {
+      const std::string file = fmt::format("fig{}-{}-{:g}.svg", order == 1 ? 6 : 12, name, order);
+      if (Status drawn = draw_axis(request, file, shape, options_of(order)); !drawn) return drawn;
+    }
+  return success();
+}
+
+Status draw_figures(const Request& request) {
+  const std::vector<NamedShape> shapes = regions();
+  const Shape &rectangle = shapes[0].second, &l = shapes[1].second, &hand = shapes[2].second;
+  const Shape band = noisy_band(60, 0.2), noisy = noisy_band(49, 0.3);
+  Options coarse = options_of(0);
+  coarse.potential.coarse = 0.03;
+  return in_order([&] { return draw_field(request, "fig3-rectangle.png", rectangle, 1, 0, 360); },
+                  [&] { return draw_field(request, "fig3-L.png", l, 1, 0, 360); },
+                  [&] { return draw_field(request, "fig4.png", hand, 1, 40, 400); },
+                  [&] { return draw_skeletons(request); },
+                  [&] { return draw_axis(request, "fig7a.png", band, {.threads = 1}, 900); },
+                  [&] { return draw_axis(request, "fig7b.png", band, options_of(1), 900); },
+                  [&] { return draw_axis(request, "fig8-all.png", noisy, options_of(0), 900); },
+                  [&] { return draw_axis(request, "fig8-coarse.png", noisy, coarse, 900); },
+                  [&] { return draw_field(request, "fig10-1.png", rectangle, 1, 30, 360); },
+                  [&] { return draw_field(request, "fig10-2.png", rectangle, 2, 30, 360); },
+                  [&] { return draw_field(request, "fig10-8.png", rectangle, 8, 30, 360); },
+                  [&] { return draw_orders(request); });
+}
+
+}  // namespace
+
+Result<bool> run_ahuja_chuang_1997(const Request& request) {
+  const auto further = largest_shapes(request.files);
+  if (!further) return further.error();
+  std::vector<NamedShape> shapes = regions();
+  shapes.insert(shapes.end(), further->begin(), further->end());
+  Table largest(distance_columns("{:.3f}")), mean(distance_columns("{:.4f}"));
+  bool passed = true;
+  for (const NamedShape& shape : shapes) passed = add_distances(shape, largest, mean) && passed;
+  const std::string text = fmt::format(
+      "Distances in hundredths of the size (the larger side of the bounding box).\n\n"
+      "## Largest distance from the skeleton to the exact axis\n\n{}\n"
+      "## Mean distance\n\n{}\n## Orders along half a rectangle (Fig. 13)\n\n{}\n"
+      "## Time of a noisy band (Fig. 8's kind), processor time of one thread\n\n{}\n"
+      "## Smoothness against a noisy border (Fig. 7)\n\n{}",
+      largest.markdown(), mean.markdown(), orders_along_rectangle(), times_table(request),
+      noise_table());
+  const Status written = in_order([&] { return write(request, "tables.md", text); },
+                                  [&] { return write(request, "largest.csv", largest.csv()); },
+                                  [&] { return write(request, "mean.csv", mean.csv()); },
+                                  [&] { return draw_figures(request); });
+  if (!written) return written.error();
+  return passed;
+}
+
+}  // namespace medial::papers
