@@ -44,7 +44,7 @@ test: setup     ## all tests, in release and under the address and undefined-beh
 
 papers: build   ## the figures and tables of the papers, drawn and measured again: out/papers
 	@cmake --build $(RELEASE) -j $(JOBS) --target medial_papers
-	@$(RELEASE)/papers/medial_papers out/papers
+	@$(RELEASE)/papers/medial_papers --output out/papers
 
 bench: setup    ## compare with Boost.Polygon and CGAL
 	@tools/setup.sh bench
@@ -54,6 +54,7 @@ bench: setup    ## compare with Boost.Polygon and CGAL
 	@$(BENCH)/bench/medial_bench
 
 bench-flo-mat: build    ## compare with flo-mat (npm): see bench/flo_mat/README.md
+	@cmake --build $(RELEASE) -j $(JOBS) --target medial_papers
 	@cd bench/flo_mat && npm install --no-audit --no-fund || true
 	@node bench/flo_mat/compare.mjs $(RELEASE)/cli/medial
 

@@ -5,7 +5,7 @@
 import { execFileSync, fork, spawnSync } from 'node:child_process';
 import { existsSync, mkdtempSync, readdirSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
-import { basename, join } from 'node:path';
+import { basename, dirname, join } from 'node:path';
 
 import { branchesOf, curvesOf, diagonalOf, Distances, evaluate, matched, nodesOf, samplesOf, spread }
   from './axes.mjs';
@@ -63,8 +63,10 @@ function* inputs() {
     ? readdirSync(word).sort().map(name => ({ file: join(word, name), kind: basename(word) }))
     : [{ file: word }]);
   if (words.length === 0) {
-    execFileSync(medial, ['bench', 'biarc', '--shapes', folder]);
-    files.push(...['tree', 'snowflake', 'lettering', 'border'].map(name => ({ file: join(folder, `${name}.svg`) })));
+    const papers = join(dirname(medial), '..', 'papers', 'medial_papers');
+    execFileSync(papers, ['aichholzer_2009', '--quick', '--output', folder]);
+    files.push(...['tree', 'snowflake', 'lettering', 'border'].map(
+      name => ({ file: join(folder, 'aichholzer_2009', `${name}.svg`) })));
   }
   for (const { file, kind } of files) {
     const name = basename(file).replace(/\.(svg|wkt|wkt\.gz)$/, '');
