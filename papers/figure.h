@@ -1,6 +1,6 @@
 #pragma once
 
-// A figure of a paper, drawn anew: lines, dots, circles and labels on a part of the plane.
+// A figure of a paper, drawn again: lines, dots, circles and labels on a part of the plane.
 
 #include <cairo.h>
 

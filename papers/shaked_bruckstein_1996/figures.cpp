@@ -67,7 +67,7 @@ Contour bean() {
                          {-1.1, 1.1}});
 }
 
-/// A star of smooth waves: `seed` tells their phases.
+/// A star of smooth waves: `seed` sets their phases.
 Contour waves(int seed) {
   std::vector<Vec2> corners;
   constexpr int count = 26;
