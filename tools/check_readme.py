@@ -65,8 +65,7 @@ def faults_of_commands(page, program):
 
 def faults_of_links(page):
     targets = re.findall(r"\]\(([^)#:\s]+)(?:#[^)]*)?\)", page.read_text())
-    return [f"{target}: no such file" for target in targets if not (page.parent / target).exists()
-            and ("papers/" not in target or (ROOT / "papers").exists())]
+    return [f"{target}: no such file" for target in targets if not (page.parent / target).exists()]
 
 
 def faults_of_targets(page):
@@ -100,7 +99,7 @@ def faults_of_names(page, names, options):
 
 def faults_of_length(page):
     words = sum(any(map(str.isalpha, word)) for word in page.read_text().split())
-    return [f"{words} words, {MOST_WORDS} at most"] if page.parent.name == "docs" and words > MOST_WORDS and "experiments" not in page.name else []
+    return [f"{words} words, {MOST_WORDS} at most"] if page.parent.name == "docs" and words > MOST_WORDS else []
 
 
 def expanded(path):
@@ -151,7 +150,7 @@ def faults_of(page, program, names, listed, options):
     if page == ROOT / "README.md":
         checks.append(faults_of_example)
     faults = faults_of_commands(page, program) + [fault for check in checks for fault in check(page)]
-    return faults + (faults_of_names(page, names, options) if page.parent.name == "docs" and "experiments" not in page.name else [])
+    return faults + (faults_of_names(page, names, options) if page.parent.name == "docs" else [])
 
 
 def main():
