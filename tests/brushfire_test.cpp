@@ -8,6 +8,7 @@
 #include <random>
 
 #include "medial/compute.h"
+#include "medial/raster.h"
 #include "medial/verify.h"
 
 namespace medial {

@@ -9,6 +9,7 @@
 #include "medial/compute.h"
 #include "medial/io/read.h"
 #include "medial/match.h"
+#include "medial/raster.h"
 #include "support/generate.h"
 
 namespace medial {

@@ -16,7 +16,7 @@
 #include "base/local_frame.h"
 #include "medial/compute.h"
 #include "medial/field.h"
-#include "medial/image.h"
+#include "medial/raster.h"
 #include "medial/query.h"
 #include "medial/verify.h"
 #include "methods/potential/region.h"

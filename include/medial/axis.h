@@ -5,15 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "medial/disk.h"
 #include "medial/vec2.h"
 
 namespace medial {
-
-/// A centre and a radius, in units of the input.
-struct Disk {
-  Vec2 center;
-  double radius = 0;
-};
 
 enum class SiteKind : std::uint8_t {
   segment,  ///< a straight edge of the shape, both ends included

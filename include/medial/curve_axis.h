@@ -70,10 +70,4 @@ struct CurveAxis {
 Result<CurveAxis> compute_curve_axis(std::span<const Contour> contours,
                                      const CurveAxisOptions& options = {});
 
-/// A closed curve with continuous curvature through the points of a polygon: the periodic cubic
-/// spline over the length of the chords, with points added on edges until it is within `tolerance`
-/// (units of the input) of the polygon and back. Errors: not_finite, too_few_points,
-/// invalid_option, unsupported (no such curve with 2^20 points).
-Result<Contour> fit_smooth_contour(std::span<const Vec2> polygon, double tolerance);
-
 }  // namespace medial

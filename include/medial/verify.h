@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "medial/axis.h"
+#include "medial/diagram.h"
 #include "medial/planar_graph.h"
 #include "medial/shape.h"
-#include "medial/voronoi.h"
 
 namespace medial {
 

@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/limits.h"
+#include "shape/limits.h"
 #include "base/predicates.h"
 
 namespace medial::io {

@@ -19,7 +19,7 @@
 #include "io/repair.h"
 #include "io/svg_reader.h"
 #include "io/text_reader.h"
-#include "medial/image.h"
+#include "medial/raster.h"
 #include "medial/io/projection.h"
 
 namespace medial::io {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/arc.h"
-#include "base/limits.h"
+#include "shape/limits.h"
 #include "base/threads.h"
 #include "methods/potential/force.h"
 #include "methods/raster/brushfire/brushfire.h"

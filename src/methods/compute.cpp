@@ -12,7 +12,6 @@
 #include "base/in_flight.h"
 #include "base/threads.h"
 #include "base/tolerance.h"
-#include "medial/voronoi.h"
 #include "methods/biarc_dc/biarc_dc.h"
 #include "methods/checks.h"
 #include "methods/disks/disks.h"
@@ -199,22 +198,6 @@ Result<MedialAxis> compute(const Shape& shape, const Options& options) {
 #endif
     if (options.progress) options.progress(1);
     return result;
-  } catch (...) {
-    return error_in_flight();
-  }
-}
-
-Result<VoronoiDiagram> voronoi_diagram(const Shape& shape, const Options& options) {
-  try {
-    Options own = options;
-    own.method = Method::lee;
-    if (auto error = refuse(shape, own)) return std::move(*error);
-    auto diagram = on_threads(own.threads, [&] { return lee::voronoi_diagram(shape, own); });
-    if (!diagram) return diagram;
-    diagram->statistics.threads = effective_threads(own.threads);
-    if (is_cancelled(own)) return Error{ErrorCode::cancelled, "cancelled", {}};
-    if (own.progress) own.progress(1);
-    return diagram;
   } catch (...) {
     return error_in_flight();
   }

@@ -12,6 +12,7 @@
 #include "base/numbers.h"
 #include "medial/compute.h"
 #include "medial/query.h"
+#include "medial/raster.h"
 #include "medial/sides.h"
 #include "ops/half_edges.h"
 #include "ops/hull_outline.h"

@@ -3,7 +3,7 @@
 #include <numeric>
 
 #include "base/disjoint_sets.h"
-#include "base/limits.h"
+#include "shape/limits.h"
 #include "base/predicates.h"
 #include "base/tolerance.h"
 #include "verify/checks.h"

@@ -10,7 +10,7 @@
 
 #include "base/box_tree.h"
 #include "base/in_flight.h"
-#include "base/limits.h"
+#include "shape/limits.h"
 #include "base/numbers.h"
 #include "base/spatial_order.h"
 #include "base/threads.h"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "medial/planar_graph.h"
-#include "medial/voronoi.h"
+#include "medial/diagram.h"
 #include "voronoi/clip.h"
 
 namespace medial::voronoi {

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "medial/axis.h"
-#include "medial/voronoi.h"
+#include "medial/diagram.h"
 #include "voronoi/clip.h"
 
 namespace medial::voronoi {

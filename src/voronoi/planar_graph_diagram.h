@@ -6,7 +6,7 @@
 #include "medial/axis.h"
 #include "medial/planar_graph.h"
 #include "medial/shape.h"
-#include "medial/voronoi.h"
+#include "medial/diagram.h"
 
 namespace medial::voronoi {
 

@@ -3,7 +3,7 @@
 #include "medial/compute.h"
 #include "medial/planar_graph.h"
 #include "medial/shape.h"
-#include "medial/voronoi.h"
+#include "medial/diagram.h"
 
 namespace medial::voronoi {
 

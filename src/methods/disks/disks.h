@@ -3,7 +3,7 @@
 #include "axis/sites.h"
 #include "medial/compute.h"
 #include "medial/shape.h"
-#include "medial/voronoi.h"
+#include "medial/diagram.h"
 
 namespace medial::disks {
 

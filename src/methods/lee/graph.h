@@ -6,7 +6,7 @@
 
 #include "base/local_frame.h"
 #include "medial/axis.h"
-#include "medial/voronoi.h"
+#include "medial/diagram.h"
 #include "methods/lee/diagram.h"
 
 namespace medial::lee {

@@ -5,7 +5,7 @@
 #include "medial/axis.h"
 #include "medial/compute.h"
 #include "medial/shape.h"
-#include "medial/voronoi.h"
+#include "medial/diagram.h"
 #include "methods/lee/conquer.h"
 
 namespace medial::lee {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "base/limits.h"
+#include "shape/limits.h"
 #include "base/local_frame.h"
 #include "methods/potential/force.h"
 #include "methods/potential/region.h"

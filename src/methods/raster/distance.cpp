@@ -7,7 +7,7 @@
 #include "base/in_flight.h"
 #include "base/runs.h"
 #include "base/threads.h"
-#include "medial/image.h"
+#include "medial/raster.h"
 
 namespace medial {
 namespace {

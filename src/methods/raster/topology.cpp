@@ -2,7 +2,7 @@
 
 #include "base/disjoint_sets.h"
 #include "base/runs.h"
-#include "medial/image.h"
+#include "medial/raster.h"
 
 namespace medial {
 namespace {

@@ -1,7 +1,8 @@
+#include "medial/diagram.h"
+
 #include <algorithm>
 
 #include "medial/query.h"
-#include "medial/voronoi.h"
 
 namespace medial {
 

@@ -1,4 +1,4 @@
-#include "base/limits.h"
+#include "shape/limits.h"
 
 #include <algorithm>
 #include <array>
