@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "base/compat.h"
 #include "curve/bezier.h"
 #include "medial/vec2.h"
 
@@ -30,7 +31,7 @@ struct PieceFrame {
   Vec2 spacing(Vec2 p) const {
     const auto unit_in_last_place = [](double x) {
       constexpr std::uint64_t exponent = 0x7ff0000000000000;
-      const auto power = std::bit_cast<double>(std::bit_cast<std::uint64_t>(x) & exponent);
+      const auto power = bit_cast<double>(bit_cast<std::uint64_t>(x) & exponent);
       return std::numeric_limits<double>::epsilon() * power;
     };
     const Vec2 input = to_input(p);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/arc.h"
+#include "base/compat.h"
 #include "base/in_flight.h"
 #include "base/threads.h"
 #include "base/tolerance.h"
@@ -87,7 +88,7 @@ std::optional<Vec2> doubtful_place(const Shape& shape) {
 bool has_large_ties(const MedialAxis& axis) {
   constexpr std::uint32_t many = 8;
   std::vector<std::uint32_t> degree(axis.nodes.size());
-  return std::ranges::any_of(axis.edges, [&](const Edge& edge) {
+  return ranges::any_of(axis.edges, [&](const Edge& edge) {
     return ++degree[edge.node[0]] > many || ++degree[edge.node[1]] > many;
   });
 }

@@ -9,6 +9,7 @@
 
 #include "axis/curve.h"
 #include "base/arc.h"
+#include "base/compat.h"
 #include "base/numbers.h"
 #include "medial/compute.h"
 #include "medial/query.h"
@@ -141,8 +142,8 @@ MedialAxis contracted(const MedialAxis& axis, double slack) {
   const Incidence incidence(axis);
   std::vector<std::uint32_t> order(axis.nodes.size()), waiting;
   std::iota(order.begin(), order.end(), 0U);
-  std::ranges::stable_sort(order, std::ranges::greater{},
-                           [&](std::uint32_t i) { return axis.nodes[i].disk.radius; });
+  ranges::stable_sort(order, std::greater<>(),
+                      [&](std::uint32_t i) { return axis.nodes[i].disk.radius; });
   MedialAxis out;
   out.tolerance = axis.tolerance;
   out.resolution = axis.resolution;

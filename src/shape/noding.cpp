@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/arc.h"
+#include "base/compat.h"
 #include "base/predicates.h"
 #include "base/tolerance.h"
 #include "shape/errors.h"
@@ -212,7 +213,7 @@ std::optional<Error> Noding::apply(const NodedOutline& noded, std::span<const Co
       }
       const auto next_cut =
           std::find_if(cut, cuts.end(), [v](const Cut& c) { return c.edge != v; });
-      append_parts(v, next(ring, v), {cut, next_cut}, moves, result);
+      append_parts(v, next(ring, v), span_between(cut, next_cut), moves, result);
       cut = next_cut;
     }
     const std::size_t size = result.size() - first;
@@ -243,7 +244,7 @@ std::uint64_t Noding::drop_repeated() {
       edges.push_back(lexicographic_less(p, q) ? Edge{p, q, bulge, v} : Edge{q, p, 0 - bulge, v});
     }
   }
-  std::ranges::sort(edges, {}, &Edge::key);
+  ranges::sort(edges, {}, &Edge::key);
   std::vector<bool> drop(nodes_.size(), false);
   std::uint64_t dropped = 0;
   for (std::size_t i = 1; i < edges.size(); ++i) {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/compat.h"
 #include "base/predicates.h"
 #include "shape/errors.h"
 #include "shape/monotone_arc.h"
@@ -301,7 +302,7 @@ Result<Loops> splice(std::span<const Ring> rings, const Arrangement& arrangement
   for (auto first = arrangement.touches.begin(); first != arrangement.touches.end();) {
     auto last = first;
     while (last != arrangement.touches.end() && last->place == first->place) ++last;
-    const std::span<const Touch> touches(first, last);
+    const std::span<const Touch> touches = span_between(first, last);
     star.assign(arrangement, touches);
     if (!star.join(result.successor)) {
       // Edges that cross by little more than the tolerance can end in the wrong order.

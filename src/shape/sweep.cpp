@@ -10,6 +10,7 @@
 #include <string>
 #include <utility>
 
+#include "base/compat.h"
 #include "base/predicates.h"
 #include "shape/errors.h"
 
@@ -56,7 +57,7 @@ Vec2 crossing_point(const ActiveEdge& a, const ActiveEdge& b) {
 /// An integer that grows with the number. Requires a finite number that is not -0.
 std::uint64_t sort_key(double x) {
   constexpr std::uint64_t sign = std::uint64_t{1} << 63;
-  const auto bits = std::bit_cast<std::uint64_t>(x);
+  const auto bits = bit_cast<std::uint64_t>(x);
   return bits & sign ? ~bits : bits | sign;
 }
 

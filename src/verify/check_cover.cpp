@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "axis/curve.h"
+#include "base/compat.h"
 #include "medial/query.h"
 #include "verify/checks.h"
 
@@ -292,10 +293,10 @@ struct Spoke {
 bool all_paired(std::vector<Spoke>& spokes) {
   // By their bits feet have an order, whatever numbers they are; -0 becomes 0.
   const auto place = [](const Spoke& spoke) {
-    return std::pair(std::bit_cast<std::uint64_t>(spoke.foot.x + 0.0),
-                     std::bit_cast<std::uint64_t>(spoke.foot.y + 0.0));
+    return std::pair(bit_cast<std::uint64_t>(spoke.foot.x + 0.0),
+                     bit_cast<std::uint64_t>(spoke.foot.y + 0.0));
   };
-  std::ranges::sort(spokes, {}, place);
+  ranges::sort(spokes, {}, place);
   std::int64_t unpaired = 0;
   for (std::size_t i = 0; i < spokes.size(); ++i) {
     unpaired += spokes[i].counter_clockwise ? 1 : -1;

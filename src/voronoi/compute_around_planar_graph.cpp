@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "base/box_tree.h"
+#include "base/compat.h"
 #include "base/in_flight.h"
-#include "shape/limits.h"
 #include "base/numbers.h"
 #include "base/spatial_order.h"
 #include "base/threads.h"
@@ -22,6 +22,7 @@
 #include "methods/disks/disks.h"
 #include "shape/around.h"
 #include "shape/exterior.h"
+#include "shape/limits.h"
 #include "voronoi/axis_around.h"
 #include "voronoi/long_edges.h"
 #include "voronoi/planar_graph_diagram.h"
@@ -95,7 +96,7 @@ Result<MedialAxis> run_with_corners(const Shape& surroundings, const Options& op
     return disks::touches_its_sites(*axis, edge, 0x1p20 * axis->tolerance);
   };
   const bool misled =
-      axis ? !std::ranges::all_of(edges, touches) : axis.error().code == ErrorCode::internal;
+      axis ? !ranges::all_of(edges, touches) : axis.error().code == ErrorCode::internal;
   return misled ? run(options) : std::move(axis);
 }
 

@@ -7,6 +7,7 @@
 
 #include "axis/sites.h"
 #include "base/arc.h"
+#include "base/compat.h"
 #include "site/bisector.h"
 #include "site/site.h"
 #include "site/tangent_disk.h"
@@ -65,7 +66,7 @@ void take_control(const Site& left, const Site& right, ConicEdge& part) {
 template <class E>
 void split_long_edges(MedialAxis& axis, std::vector<E>& edges, bool parabolas) {
   const auto is_arc = [](const Site& site) { return site.kind == SiteKind::arc; };
-  if (!parabolas && std::ranges::none_of(axis.sites, is_arc)) return;
+  if (!parabolas && ranges::none_of(axis.sites, is_arc)) return;
   const std::size_t count = edges.size();
   for (std::size_t e = 0; e < count; ++e) {
     const E edge = edges[e];

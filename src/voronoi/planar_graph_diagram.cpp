@@ -13,6 +13,7 @@
 #include "axis/node_kinds.h"
 #include "axis/sites.h"
 #include "base/arc.h"
+#include "base/compat.h"
 #include "base/fill_gaps.h"
 #include "base/local_frame.h"
 #include "base/memory.h"
@@ -113,7 +114,7 @@ class Assembly {
     for (const Edge& edge : diagram_.edges)
       for (const std::uint32_t own : edge.site) ++chain_begin_[own + 2];
     for (std::size_t i = 1; i <= count; ++i) chain_begin_[i + 1] += chain_begin_[i];
-    chains_ = std::make_unique_for_overwrite<Step[]>(2 * diagram_.edges.size());
+    chains_ = uninitialized<Step[]>(2 * diagram_.edges.size());
     prefer_large_pages(chains_.get(), 2 * diagram_.edges.size() * sizeof(Step));
     for (std::uint32_t e = 0; e < diagram_.edges.size(); ++e) {
       const Edge& edge = diagram_.edges[e];

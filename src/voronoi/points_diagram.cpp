@@ -5,6 +5,7 @@
 #include <numeric>
 #include <utility>
 
+#include "base/compat.h"
 #include "base/disjoint_sets.h"
 #include "base/local_frame.h"
 #include "base/memory.h"
@@ -347,7 +348,7 @@ class Dual {
     to_make_.resize(begin + count);
     if (whole) return;
     take_cut_face(v, cut_face_);
-    std::ranges::copy(cut_face_, out);
+    ranges::copy(cut_face_, out);
   }
   void make_edge(const NewEdge& edge) {
     const std::array<std::uint32_t, 2> node{node_at(triangulation_.twin(edge.half_edge)),

@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "base/compat.h"
 #include "base/memory.h"
 #include "medial/axis.h"
 #include "methods/disks/contacts.h"
@@ -20,7 +21,7 @@ class BlockList {
   void push_back(const T& value) {
     if (size_ == capacity_) {
       const std::size_t count = size_of(blocks_.size());
-      blocks_.push_back(std::make_unique_for_overwrite<T[]>(count));
+      blocks_.push_back(uninitialized<T[]>(count));
       next_ = blocks_.back().get();
       capacity_ += count;
     }

@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include "base/compat.h"
 #include "base/local_frame.h"
 #include "base/stopwatch.h"
 #include "base/threads.h"
@@ -362,8 +363,8 @@ class Certifier {
   /// Whether a link inside of a cluster runs backward for certain. Beside joints that only count as
   /// smooth it may, by as much as they are off.
   bool runs_backward(const std::vector<std::uint32_t>& nodes) const {
-    return outline_.parted && std::ranges::any_of(nodes, [&](std::uint32_t node) {
-             return std::ranges::any_of(graph_.contacts(node), [&](const Contact& contact) {
+    return outline_.parted && ranges::any_of(nodes, [&](std::uint32_t node) {
+             return ranges::any_of(graph_.contacts(node), [&](const Contact& contact) {
                if (contact.half == no_half || !inner_[contact.half / 2]) return false;
                const std::uint32_t link = contact.half / 2;
                const auto [from, to] = links_[link].node;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "axis/node_kinds.h"
+#include "base/compat.h"
 #include "base/numbers.h"
 #include "site/bisector.h"
 
@@ -106,9 +107,8 @@ class Replacer {
     };
     for (std::size_t i = 0; i < axis_.edges.size(); ++i) {
       const Edge& edge = axis_.edges[i];
-      if (edge_gone[i] || std::ranges::all_of(edge.site, [&](std::uint32_t site) {
-            return outline_.has_name(site);
-          }))
+      if (edge_gone[i] ||
+          ranges::all_of(edge.site, [&](std::uint32_t site) { return outline_.has_name(site); }))
         continue;
       const std::uint32_t a = find(edge.node[0]), b = find(edge.node[1]);
       if (a == b ||

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory>
 
+#include "base/compat.h"
 #include "base/in_flight.h"
 #include "base/runs.h"
 #include "base/threads.h"
@@ -162,7 +163,7 @@ DistanceMap transform(const Image& image, const DistanceOptions& options) {
   const bool frame = options.frame || options.to == DistanceTo::cracks;
 
   const std::size_t words = image.row(0).size();
-  const auto columns = std::make_unique_for_overwrite<ColumnDistance[]>(words * 64 * map.height);
+  const auto columns = uninitialized<ColumnDistance[]>(words * 64 * map.height);
   const std::size_t strips = (words + strip_words - 1) / strip_words;
   parallel_for(strips, [&](std::size_t strip) {
     scan_columns(image, strip * strip_words, std::min(words, (strip + 1) * strip_words), frame,
