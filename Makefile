@@ -13,12 +13,13 @@ RELEASE := build/release
 DEBUG := build/debug
 ASAN := build/asan
 TSAN := build/tsan
+SERIAL := build/serial
 BENCH := build/bench
 # Debian 12 has two versions of Boost, one of which can be installed; CGAL and GDAL ask for the older.
 BENCH_BOOST := build/boost-1.81
 SOURCES = $(shell git ls-files '*.h' '*.cpp')
 
-.PHONY: help setup build demo test papers bench bench-flo-mat bench-images fuzz corpus offsets tsan format lint clean install
+.PHONY: help setup build demo test papers bench bench-flo-mat bench-images fuzz corpus offsets tsan serial portable format lint clean install
 .DEFAULT_GOAL := help
 
 help:     ## this list
@@ -85,6 +86,17 @@ offsets: setup  ## eight offsets of every polygon below DATA, measured, rings co
 
 tsan: setup     ## the engine's tests under the thread sanitizer
 	@tools/tsan.sh $(TSAN) $(JOBS)
+
+serial: setup   ## build the core without threads and compare its results with those of threads
+	@cmake --preset release -DMEDIAL_UNITY=$(UNITY)
+	@cmake --build $(RELEASE) -j $(JOBS) --target medial_hashes
+	@cmake --preset release -B $(SERIAL) -DMEDIAL_UNITY=$(UNITY) -DMEDIAL_THREADS=OFF -DMEDIAL_IO=OFF
+	@cmake --build $(SERIAL) -j $(JOBS) --target medial_hashes
+	@$(RELEASE)/tests/medial_hashes > $(RELEASE)/hashes.txt
+	@$(SERIAL)/tests/medial_hashes | diff $(RELEASE)/hashes.txt - && echo "the same results without threads"
+
+portable: setup ## read the core's sources with libc++ 13, clang 14 and for 32 bits, where installed
+	@tools/check_portable.sh $(JOBS)
 
 format: setup   ## rewrite the sources in the house's format
 	@clang-format -i $(SOURCES)
