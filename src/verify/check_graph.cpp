@@ -3,9 +3,9 @@
 #include <numeric>
 
 #include "base/disjoint_sets.h"
-#include "shape/limits.h"
 #include "base/predicates.h"
 #include "base/tolerance.h"
+#include "shape/limits.h"
 #include "verify/checks.h"
 
 namespace medial::verify_detail {
@@ -13,7 +13,7 @@ namespace {
 
 bool finite(Vec2 p) { return std::isfinite(p.x) && std::isfinite(p.y); }
 
-/// Counts offences and keeps the first: one sentence tells of all.
+/// Counts offences and keeps the first: one sentence is about all.
 struct Offences {
   std::size_t count = 0;
   std::size_t first = 0;

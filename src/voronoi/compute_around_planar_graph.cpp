@@ -145,7 +145,7 @@ void for_each_group(const PlanarGraph& planar_graph, const std::vector<std::uint
 Error error_of_close_point(const PlanarGraph& planar_graph, std::uint32_t point) {
   const VertexSource source = planar_graph.point_sources[point];
   Error error{ErrorCode::unsupported,
-              "a point is nearer to another one, or to an edge, than rounding tells apart",
+              "a point is nearer to another one, or to an edge, than rounding can separate",
               {}};
   error.place.ring = source.ring;
   error.place.vertex = source.vertex;
