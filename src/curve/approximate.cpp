@@ -49,7 +49,7 @@ struct Piece {
   double bulge = 0;
   double rounding = 0;  ///< in units of the input
   // Of curves:
-  PieceFrame frame;
+  PieceCoordinates frame;
   Bezier curve;
   // In units of the input:
   Vec2 begin_tangent;
@@ -98,7 +98,7 @@ bool is_straight(const Bezier& curve, double rounding) {
   return true;
 }
 
-PieceFrame frame_of_piece(std::span<const Vec2> points) {
+PieceCoordinates frame_of_piece(std::span<const Vec2> points) {
   Box half = Box::nothing();
   for (const Vec2 p : points) half.add(0.5 * p);
   const auto [low, high] = half;
@@ -215,7 +215,7 @@ void convert(const PieceSource& source, double tolerance, Chunk& chunk) {
     source.load((i + 1) % n, *after);
     ArcChain& chain = chunk.chain;
     if (piece->kind == Piece::Kind::curve) {
-      const PieceFrame& frame = piece->frame;
+      const PieceCoordinates& frame = piece->frame;
       const double rounding = frame.local_length(piece->rounding);
       SpiralOptions options;
       options.rounding = rounding;

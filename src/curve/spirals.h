@@ -13,8 +13,8 @@
 namespace medial::curve {
 
 /// The coordinates in which one piece is converted: close to the origin, and about 1 large. Going
-/// there and back is exact for points of the input's grid (see base/frame.h).
-struct PieceFrame {
+/// there and back is exact for points of the input's grid (see base/local_frame.h).
+struct PieceCoordinates {
   Vec2 half_origin;    ///< halves: the difference of two coordinates may be too large for a double
   double scale = 1;    ///< local units per half an input unit: a power of two
   double inverse = 1;  ///< 1 / scale
@@ -71,8 +71,8 @@ struct ArcChain {
 /// until the biarc of Algorithm 1 is valid and within the tolerance. Along each spiral the arcs'
 /// curvature is monotone; two spirals that meet in an apex of largest curvature share one arc,
 /// which is their osculating circle there. No allocation but for the result.
-double append_spirals(const Bezier& curve, const PieceFrame& frame, const SpiralOptions& options,
-                      ArcChain& chain);
+double append_spirals(const Bezier& curve, const PieceCoordinates& frame,
+                      const SpiralOptions& options, ArcChain& chain);
 
 /// The parameters in (0, 1), increasing, at which a curve is split into spirals.
 struct Split {

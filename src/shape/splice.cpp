@@ -38,10 +38,10 @@ void renumber_touches(Arrangement& result, const std::vector<std::uint32_t>& new
 
 }  // namespace
 
-Arrangement insert_splits(Outline outline, Sweep sweep) {
-  const auto edge_count = static_cast<std::uint32_t>(outline.points.size());
+Arrangement insert_splits(CleanRings cleaned, Sweep sweep) {
+  const auto edge_count = static_cast<std::uint32_t>(cleaned.points.size());
   const auto split_count = static_cast<std::uint32_t>(sweep.splits.size());
-  const std::size_t total = outline.points.size() + sweep.splits.size();
+  const std::size_t total = cleaned.points.size() + sweep.splits.size();
 
   // The splits of each edge one after another, from left to right.
   std::vector<std::uint32_t> order(split_count);
@@ -53,7 +53,7 @@ Arrangement insert_splits(Outline outline, Sweep sweep) {
   Arrangement result;
   result.points.reserve(total);
   result.sources.reserve(total);
-  result.begin.reserve(outline.begin.size());
+  result.begin.reserve(cleaned.begin.size());
   result.next.resize(total);
   result.interior_left.reserve(total);
   result.place_count = sweep.place_count;
@@ -63,15 +63,15 @@ Arrangement insert_splits(Outline outline, Sweep sweep) {
 
   std::uint32_t done = 0;  // of the splits
   const auto append = [&](std::uint32_t vertex, std::uint32_t piece, bool rightward) {
-    result.points.push_back(outline.points[vertex]);
-    result.sources.push_back(outline.sources[vertex]);
+    result.points.push_back(cleaned.points[vertex]);
+    result.sources.push_back(cleaned.sources[vertex]);
     result.interior_left.push_back(sweep.interior_above[piece] == rightward);
   };
   for (std::uint32_t e = 0; e < edge_count; ++e) {
     const auto index = static_cast<std::uint32_t>(result.points.size());
-    if (e == outline.begin[result.begin.size()]) result.begin.push_back(index);
+    if (e == cleaned.begin[result.begin.size()]) result.begin.push_back(index);
     new_vertex[e] = index;
-    const bool rightward = lexicographic_less(outline.points[e], outline.points[outline.next(e)]);
+    const bool rightward = lexicographic_less(cleaned.points[e], cleaned.points[cleaned.next(e)]);
     std::uint32_t end = done;
     while (end < split_count && sweep.splits[order[end]].edge == e) ++end;
     const std::uint32_t count = end - done;
@@ -99,7 +99,7 @@ Arrangement insert_splits(Outline outline, Sweep sweep) {
     if (piece == no_index) return no_index;
     if (piece >= edge_count) return new_edge_of_split[piece - edge_count];
     // The leftmost piece is the last one of an edge walked leftward.
-    if (lexicographic_less(outline.points[piece], outline.points[outline.next(piece)])) {
+    if (lexicographic_less(cleaned.points[piece], cleaned.points[cleaned.next(piece)])) {
       return new_vertex[piece];
     }
     const std::uint32_t after =
@@ -115,9 +115,9 @@ Arrangement insert_splits(Outline outline, Sweep sweep) {
 }
 
 Arrangement arrange_arcs(SweptArcs swept) {
-  NodedOutline& noded = swept.noded;
-  std::vector<double> bulges = noded.outline.bulges;
-  Arrangement result = insert_splits(std::move(noded.outline), std::move(swept.sweep));
+  NodedRings& noded = swept.noded;
+  std::vector<double> bulges = noded.cleaned.bulges;
+  Arrangement result = insert_splits(std::move(noded.cleaned), std::move(swept.sweep));
   result.sources = std::move(noded.sources);
   result.bulges = std::move(bulges);
   result.edge_bulges = std::move(noded.edge_bulges);
@@ -261,11 +261,11 @@ Ray ray_out_of(const Arrangement& arrangement, std::uint32_t edge) {
 }
 
 /// Walks the loop of an edge and notes what it is.
-Loop walk(const Arrangement& arrangement, Loops& result, std::uint32_t start) {
+SplicedLoop walk(const Arrangement& arrangement, SplicedLoops& result, std::uint32_t start) {
   const std::vector<Vec2>& points = arrangement.points;
   const std::vector<VertexSource>& sources = arrangement.sources;
   const auto index = static_cast<std::uint32_t>(result.loops.size());
-  Loop loop{.first_edge = start, .size = 0, .leftmost = tail(arrangement, start)};
+  SplicedLoop loop{.first_edge = start, .size = 0, .leftmost = tail(arrangement, start)};
   VertexSource lowest = sources[loop.leftmost];
   std::uint32_t edge = start;
   std::uint32_t vertex = tail(arrangement, result.successor[edge]);
@@ -295,8 +295,8 @@ Loop walk(const Arrangement& arrangement, Loops& result, std::uint32_t start) {
 
 }  // namespace
 
-Result<Loops> splice(std::span<const Ring> rings, const Arrangement& arrangement) {
-  Loops result;
+Result<SplicedLoops> splice(std::span<const Ring> rings, const Arrangement& arrangement) {
+  SplicedLoops result;
   result.successor = successors_in_rings(arrangement);
   Star star;
   for (auto first = arrangement.touches.begin(); first != arrangement.touches.end();) {

@@ -31,20 +31,20 @@
 namespace medial {
 namespace {
 
-/// The frame that a planar graph's diagram is cut off at; an error where it does not hold the
+/// The enclosure that a planar graph's diagram is cut off at; an error where it does not hold the
 /// planar graph.
-Result<Box> frame_for(const PlanarGraph& planar_graph, const Options& options,
-                      const std::optional<Box>& frame) {
+Result<Box> enclosure_for(const PlanarGraph& planar_graph, const Options& options,
+                          const std::optional<Box>& enclosure) {
   constexpr double most = 1e6;  // of the planar graph's size, or of its coordinates'
   const Box box = bounding_box(planar_graph);
   const double size = diagonal(box);
   const double largest = std::max(largest_coordinate_in(box), size);
-  if (frame) {
-    const bool holds = frame->low.x < box.low.x && frame->low.y < box.low.y &&
-                       frame->high.x > box.high.x && frame->high.y > box.high.y;
-    if (!holds || !(diagonal(*frame) <= most * std::max(largest, 1.0)))
+  if (enclosure) {
+    const bool holds = enclosure->low.x < box.low.x && enclosure->low.y < box.low.y &&
+                       enclosure->high.x > box.high.x && enclosure->high.y > box.high.y;
+    if (!holds || !(diagonal(*enclosure) <= most * std::max(largest, 1.0)))
       return Error{ErrorCode::invalid_option, "the frame must hold all of the input inside", {}};
-    return *frame;
+    return *enclosure;
   }
   double margin = margin_for(box, options.margin);
   if (margin == 0) margin = largest > 0 ? 0.5 * largest : 1;
@@ -67,7 +67,7 @@ std::optional<Error> refuse(const PlanarGraph& planar_graph, const Options& opti
 /// The axis, but for its edges, which stand apart, and its sites.
 template <class E>
 Result<MedialAxis> run_around(const Shape& surroundings, const Options& options,
-                              std::vector<E>& edges, sites::SiteNumbers& numbers) {
+                              std::vector<E>& edges, site::SiteNumbers& numbers) {
   MedialAxis axis = disks::run_two_sided(surroundings, options, edges, numbers);
   if (is_cancelled(options)) return Error{ErrorCode::cancelled, "cancelled", {}};
   if (!has_right_topology(surroundings, axis.nodes.size(), edges.size()))
@@ -81,12 +81,12 @@ Result<MedialAxis> run_around(const Shape& surroundings, const Options& options,
 /// walk loses its way among flat ones, as the options have it: spokes are off by less. Of shapes
 /// with arcs, the axis has its sites.
 Result<MedialAxis> run_with_corners(const Shape& surroundings, const Options& options,
-                                    std::vector<VoronoiEdge>& edges, sites::SiteNumbers& numbers) {
+                                    std::vector<VoronoiEdge>& edges, site::SiteNumbers& numbers) {
   if (surroundings.bulges.empty()) return run_around(surroundings, options, edges, numbers);
   const auto run = [&](const Options& own) {
     edges.clear();
     auto axis = run_around(surroundings, own, edges, numbers);
-    if (axis) axis->sites = sites::result_sites(surroundings, numbers);
+    if (axis) axis->sites = site::result_sites(surroundings, numbers);
     return axis;
   };
   Options all = options;
@@ -213,11 +213,11 @@ Result<MedialAxis> axis_around(const PlanarGraph& planar_graph, const Shape& sur
     const double tolerance = tolerance_for(bounding_box(surroundings), options.tolerance);
     if (auto error = too_close(planar_graph, told_apart * tolerance)) return std::move(*error);
     std::vector<Edge> edges;
-    sites::SiteNumbers numbers;
+    site::SiteNumbers numbers;
     auto axis = on_threads(options.threads,
                            [&] { return run_around(surroundings, options, edges, numbers); });
     if (!axis) return explained(std::move(axis).error(), planar_graph, tolerance);
-    axis->sites = sites::result_sites(surroundings, numbers);
+    axis->sites = site::result_sites(surroundings, numbers);
     voronoi::split_long_edges(*axis, edges, true);
     axis->edges = std::move(edges);
     return axis;
@@ -227,12 +227,12 @@ Result<MedialAxis> axis_around(const PlanarGraph& planar_graph, const Shape& sur
 }
 
 Result<VoronoiDiagram> voronoi_diagram(const PlanarGraph& planar_graph, const Options& options,
-                                       const std::optional<Box>& frame) {
+                                       const std::optional<Box>& enclosure) {
   try {
     if (auto error = refuse(planar_graph, options)) return std::move(*error);
-    auto box = frame_for(planar_graph, options, frame);
+    auto box = enclosure_for(planar_graph, options, enclosure);
     if (!box) return std::move(box).error();
-    const Box far = voronoi::far_frame(*box);
+    const Box far = voronoi::far_enclosure(*box);
     if (auto error = beyond_limits(planar_graph, far)) return std::move(*error);
     const double tolerance = tolerance_for(far, options.tolerance);
 
@@ -249,7 +249,7 @@ Result<VoronoiDiagram> voronoi_diagram(const PlanarGraph& planar_graph, const Op
       if (close) return std::move(*close);
 
       std::vector<VoronoiEdge> edges;
-      sites::SiteNumbers numbers;
+      site::SiteNumbers numbers;
       auto axis = run_with_corners(shape, options, edges, numbers);
       if (!axis) return std::move(axis).error();
       if (!shape.bulges.empty()) voronoi::split_long_edges(*axis, edges, false);

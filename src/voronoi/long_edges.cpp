@@ -23,7 +23,7 @@ bool is_vertex(const MedialAxis& axis, std::uint32_t own) {
 /// place.
 site::Site seen_from(const Site& site, Vec2 origin, Vec2 near) {
   if (site.kind == SiteKind::vertex) return site::make_vertex(site.start - origin);
-  const sites::Pieces pieces = sites::pieces_of(site.start - origin, site.end - origin, site.bulge);
+  const site::Pieces pieces = site::pieces_of(site.start - origin, site.end - origin, site.bulge);
   const bool first = pieces.count == 1 || site::squared_distance(pieces.first(), near) <=
                                               site::squared_distance(pieces.last(), near);
   return first ? pieces.first() : pieces.last();
@@ -32,7 +32,7 @@ site::Site seen_from(const Site& site, Vec2 origin, Vec2 near) {
 /// The disk through a point that grows in a direction until it touches an arc.
 Disk disk_towards(const MedialAxis& axis, Vec2 point, Vec2 direction, std::uint32_t own) {
   const Site& site = axis.sites[own];
-  const sites::Pieces pieces = sites::pieces_of(site.start - point, site.end - point, site.bulge);
+  const site::Pieces pieces = site::pieces_of(site.start - point, site.end - point, site.bulge);
   const double radius = site::tangent_radius({0, 0}, direction, pieces.first());
   if (!std::isfinite(radius)) throw std::runtime_error("a Voronoi edge has no middle");
   return {point + radius * direction, radius};

@@ -23,7 +23,7 @@
 #include "site/site.h"
 #include "site/tangent_disk.h"
 #include "voronoi/clip.h"
-#include "voronoi/frame_cut.h"
+#include "voronoi/enclosure_cut.h"
 #include "voronoi/long_edges.h"
 
 namespace medial::voronoi {
@@ -42,19 +42,19 @@ constexpr std::uint32_t largest_edge = none >> 1U;
 class Assembly {
  public:
   Assembly(const PlanarGraph& planar_graph, const Shape& shape, MedialAxis& axis,
-           std::vector<VoronoiEdge>& edges, const Box& frame)
+           std::vector<VoronoiEdge>& edges, const Box& enclosure)
       : planar_graph_(planar_graph),
         shape_(shape),
         axis_(axis),
-        frame_(frame),
+        enclosure_(enclosure),
         point_count_(static_cast<std::uint32_t>(planar_graph.points.size())),
         edge_count_(static_cast<std::uint32_t>(edges.size())),
-        cut_(planar_graph, frame, axis.tolerance, diagram_) {
+        cut_(planar_graph, enclosure, axis.tolerance, diagram_) {
     diagram_.nodes = std::move(axis.nodes);
     diagram_.edges = std::move(edges);
   }
 
-  VoronoiDiagram run(const sites::SiteNumbers& numbers) {
+  VoronoiDiagram run(const site::SiteNumbers& numbers) {
     make_own_sites(numbers);
     make_chains();
     find_ends();
@@ -66,7 +66,7 @@ class Assembly {
     diagram_.method = std::move(axis_.method);
     diagram_.tolerance = axis_.tolerance;
     diagram_.statistics = axis_.statistics;
-    diagram_.frame = frame_;
+    diagram_.frame = enclosure_;
     return std::move(diagram_);
   }
 
@@ -80,16 +80,18 @@ class Assembly {
     std::uint32_t point, node;
     std::array<std::uint32_t, 2> site;  ///< of the diagram
   };
-  bool is_frame(std::uint32_t own) const { return own_[own] == none; }
-  bool is_vertex(std::uint32_t own) const { return !is_frame(own) && (own_[own] & edge_side) == 0; }
+  bool is_enclosure(std::uint32_t own) const { return own_[own] == none; }
+  bool is_vertex(std::uint32_t own) const {
+    return !is_enclosure(own) && (own_[own] & edge_side) == 0;
+  }
   std::uint32_t half_edge(std::uint32_t own) const { return own_[own] & ~edge_side; }
   /// The site of the diagram.
   std::uint32_t site_of(std::uint32_t own) const {
-    if (is_frame(own)) return no_site;
+    if (is_enclosure(own)) return no_site;
     return is_vertex(own) ? own_[own] : point_count_ + half_edge(own) / 2;
   }
 
-  void make_own_sites(const sites::SiteNumbers& numbers) {
+  void make_own_sites(const site::SiteNumbers& numbers) {
     own_ = large_vector(numbers.count, none);
     for (std::size_t i = 0; i < shape_.points.size(); ++i) {
       const auto [point, half_edge] = shape_.sources[i];
@@ -125,7 +127,7 @@ class Assembly {
     last_ = large_vector(count, none);
     parallel_ranges(count, 4096, [&](std::size_t begin, std::size_t end) {
       for (auto own = static_cast<std::uint32_t>(begin); own < end; ++own) {
-        if (is_frame(own)) continue;
+        if (is_enclosure(own)) continue;
         const std::span<Step> steps = chain(own);
         if (steps.empty()) continue;
         put_in_order(steps);
@@ -249,8 +251,8 @@ class Assembly {
     });
   }
 
-  /// Keeps the nodes inside of the frame; the planar graph's points among them once they are asked
-  /// for.
+  /// Keeps the nodes inside of the enclosure; the planar graph's points among them once they are
+  /// asked for.
   void make_nodes() {
     node_of_point_ = large_vector(planar_graph_.points.size(), none);
     std::vector<Node>& nodes = diagram_.nodes;
@@ -287,8 +289,8 @@ class Assembly {
     return node;
   }
 
-  /// Keeps the edges that are clearly all in the frame, as their triangles of control points are;
-  /// adds the parts of others, and the spokes or their parts.
+  /// Keeps the edges that are clearly all in the enclosure, as their triangles of control points
+  /// are; adds the parts of others, and the spokes or their parts.
   void cut_off() {
     std::vector<VoronoiEdge>& edges = diagram_.edges;
     reserve_large(place_, edge_count_ + spokes_.size());
@@ -319,7 +321,7 @@ class Assembly {
     }
     for (const Spoke& spoke : spokes_) add_spoke(spoke);
   }
-  /// Makes an edge of the axis one of the diagram, unless it may leave the frame.
+  /// Makes an edge of the axis one of the diagram, unless it may leave the enclosure.
   bool keep_whole(Edge& edge) const {
     const auto [from, to] = edge.node;
     const std::array<std::uint32_t, 2> site{site_of(edge.site[0]), site_of(edge.site[1])};
@@ -419,7 +421,7 @@ class Assembly {
       cut_.add_to_face(forward ? begin + i : end - 1 - i, forward, face);
   }
 
-  /// Of an edge or a node, that it is not, or not all, in the frame.
+  /// Of an edge or a node, that it is not, or not all, in the enclosure.
   static constexpr std::uint32_t is_cut = none - largest_edge;
   /// Of an own site, that it is a side of an edge: a half-edge's number follows, else a point's.
   static constexpr std::uint32_t edge_side = none - largest_edge;
@@ -427,11 +429,11 @@ class Assembly {
   const PlanarGraph& planar_graph_;
   const Shape& shape_;
   MedialAxis& axis_;
-  const Box frame_;
+  const Box enclosure_;
   const std::uint32_t point_count_;
   const std::uint32_t edge_count_;  ///< of the axis
   VoronoiDiagram diagram_;
-  FrameCut cut_;
+  EnclosureCut cut_;
   std::vector<std::uint32_t> own_;          ///< what each own site is
   std::vector<std::uint32_t> chain_begin_;  ///< of each own site
   std::unique_ptr<Step[]> chains_;
@@ -474,17 +476,17 @@ void set_kinds(VoronoiDiagram& diagram) {
   for (std::size_t i = 0; i < degree.size(); ++i) diagram.nodes[i].kind = kind_of_degree(degree[i]);
 }
 
-Box far_frame(const Box& frame) {
-  // Everything inside of the frame is nearer than its diagonal to the planar graph, which is
+Box far_enclosure(const Box& enclosure) {
+  // Everything inside of the enclosure is nearer than its diagonal to the planar graph, which is
   // inside.
-  const double away = 1.0625 * diagonal(frame);
-  return {frame.low - Vec2{away, away}, frame.high + Vec2{away, away}};
+  const double away = 1.0625 * diagonal(enclosure);
+  return {enclosure.low - Vec2{away, away}, enclosure.high + Vec2{away, away}};
 }
 
 VoronoiDiagram diagram_of(const PlanarGraph& planar_graph, const Shape& shape,
-                          const sites::SiteNumbers& numbers, MedialAxis axis,
-                          std::vector<VoronoiEdge> edges, const Box& frame) {
-  return Assembly(planar_graph, shape, axis, edges, frame).run(numbers);
+                          const site::SiteNumbers& numbers, MedialAxis axis,
+                          std::vector<VoronoiEdge> edges, const Box& enclosure) {
+  return Assembly(planar_graph, shape, axis, edges, enclosure).run(numbers);
 }
 
 }  // namespace medial::voronoi
