@@ -14,12 +14,12 @@ DEBUG := build/debug
 ASAN := build/asan
 TSAN := build/tsan
 SERIAL := build/serial
-BENCH := build/bench
+CHECK := build/check
 # Debian 12 has two versions of Boost, one of which can be installed; CGAL and GDAL ask for the older.
 BENCH_BOOST := build/boost-1.81
 SOURCES = $(shell git ls-files '*.h' '*.cpp')
 
-.PHONY: help setup build demo test papers bench bench-flo-mat bench-images fuzz corpus offsets tsan serial portable format lint clean install
+.PHONY: help setup build demo check test papers bench bench-flo-mat bench-images fuzz corpus offsets tsan serial portable format lint clean install
 .DEFAULT_GOAL := help
 
 help:     ## this list
@@ -36,6 +36,11 @@ build: setup    ## build the library and the command line
 demo: build     ## medial axes of maps, a plan, a maze, drawings: out/demo
 	@tools/demo.py $(RELEASE)/cli/medial out/demo
 
+check: setup    ## after a change: compile it, run the quick tests
+	@cmake --preset check > /dev/null
+	@cmake --build $(CHECK) -j $(JOBS) --target core_tests io_tests medial_cli
+	@ctest --preset check --parallel $(JOBS)
+
 test: setup     ## all tests, in release and under the address and undefined-behaviour sanitizers
 	@cmake --preset release -DMEDIAL_UNITY=$(UNITY)
 	@cmake --build $(RELEASE) -j $(JOBS)
@@ -50,9 +55,9 @@ papers: build   ## the figures and tables of the papers, drawn and measured agai
 bench: setup    ## compare with Boost.Polygon and CGAL
 	@tools/setup.sh bench
 	@tools/unpack.sh libboost1.81-dev $(BENCH_BOOST)
-	@cmake --preset bench -DMEDIAL_BENCH_BOOST=$(CURDIR)/$(BENCH_BOOST)/usr/include
-	@cmake --build $(BENCH) -j $(JOBS)
-	@$(BENCH)/bench/medial_bench
+	@cmake --preset release -DMEDIAL_UNITY=$(UNITY) -DMEDIAL_BENCH=ON -DMEDIAL_BENCH_BOOST=$(CURDIR)/$(BENCH_BOOST)/usr/include
+	@cmake --build $(RELEASE) -j $(JOBS) --target medial_bench
+	@$(RELEASE)/bench/medial_bench
 
 bench-flo-mat: build    ## compare with flo-mat (npm): see bench/flo_mat/README.md
 	@cmake --build $(RELEASE) -j $(JOBS) --target medial_papers
@@ -61,11 +66,11 @@ bench-flo-mat: build    ## compare with flo-mat (npm): see bench/flo_mat/README.
 
 bench-images: setup    ## compare brushfire with scikit-image and OpenCV (PyPI)
 	@tools/setup.sh bench
-	@cmake --preset bench
-	@cmake --build $(BENCH) -j $(JOBS) --target medial_bench_images
-	@python3 -m venv $(BENCH)/python
-	@$(BENCH)/python/bin/pip install --quiet scikit-image opencv-contrib-python-headless
-	@$(BENCH)/python/bin/python bench/images/compare.py $(BENCH)/bench/medial_bench_images out/images
+	@cmake --preset release -DMEDIAL_UNITY=$(UNITY) -DMEDIAL_BENCH=ON
+	@cmake --build $(RELEASE) -j $(JOBS) --target medial_bench_images
+	@python3 -m venv $(RELEASE)/python
+	@$(RELEASE)/python/bin/pip install --quiet scikit-image opencv-contrib-python-headless
+	@$(RELEASE)/python/bin/python bench/images/compare.py $(RELEASE)/bench/medial_bench_images out/images
 
 fuzz: setup     ## random polygons and mutated files with new seeds: make fuzz SECONDS=60 [FROM=seed]
 	@cmake --preset release

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/disjoint_sets.h"
 #include "base/local_frame.h"
 #include "medial/compute.h"
 #include "medial/field.h"
@@ -21,6 +22,7 @@
 #include "medial/verify.h"
 #include "methods/potential/region.h"
 #include "methods/potential/skeleton.h"
+#include "support/environment.h"
 #include "support/generate.h"
 
 namespace medial::test {
@@ -85,22 +87,11 @@ std::vector<std::pair<std::string, Rings>> families() {
   return shapes;
 }
 
-/// Of all edges, whether each leads on from what the others reach.
+/// How many connected parts the graph has.
 std::size_t parts(const MedialAxis& axis) {
-  std::vector<std::uint32_t> parent(axis.nodes.size());
-  for (std::uint32_t i = 0; i < parent.size(); ++i) parent[i] = i;
-  const auto find = [&](std::uint32_t i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-  };
-  std::size_t count = parent.size();
-  for (const Edge& edge : axis.edges) {
-    const std::uint32_t a = find(edge.node[0]), b = find(edge.node[1]);
-    if (a == b) continue;
-    parent[a] = b;
-    --count;
-  }
-  return count;
+  DisjointSets sets(axis.nodes.size());
+  for (const Edge& edge : axis.edges) sets.join(edge.node[0], edge.node[1]);
+  return sets.count();
 }
 
 TEST(Potential, IsConnectedWithOneCycleForEachHole) {
@@ -373,8 +364,7 @@ TEST(Potential, RingsOfOneWidthAreConnectedWithoutLongSearches) {
 TEST(Potential, AlwaysEndsWithAnAxisOrATypedError) {
   Random random(77);
   std::size_t refused = 0, shapes = 0;
-  const char* text = std::getenv("MEDIAL_PROPERTY_COUNT");
-  const int rounds = std::clamp(text == nullptr ? 80 : std::atoi(text) / 250, 8, 80);
+  const int rounds = std::clamp(static_cast<int>(test::shape_count(250)), 8, 80);
   for (int i = 0; i < rounds; ++i) {
     const auto size = static_cast<std::int64_t>(random.power_of_ten(1, 5));
     Rings rings = untangled(random, 4 + random.next() % 40, size);
