@@ -11,7 +11,7 @@
 namespace medial::test {
 
 /// Whether sanitizers watch: what takes a second otherwise may take twenty then.
-#ifdef __SANITIZE_ADDRESS__
+#ifdef MEDIAL_SANITIZED
 inline constexpr bool sanitized = true;
 #else
 inline constexpr bool sanitized = false;
