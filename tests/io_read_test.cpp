@@ -303,6 +303,7 @@ TEST_F(Io, FilesThatHoldNoPolygonsAreUnsupported) {
 std::string in_child(const std::string& input, const std::function<void()>& action) {
   int output[2];
   EXPECT_EQ(pipe(output), 0);
+  std::fflush(stdout);  // or the child writes what the tests before have printed
   const pid_t child = fork();
   if (child == 0) {
     std::FILE* file = std::freopen(input.c_str(), "rb", stdin);

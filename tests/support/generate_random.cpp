@@ -295,7 +295,8 @@ Rings touching_holes(Random& random, std::size_t k) {
       if (contact[1] && column + 1 == k) met.push_back(outer);
       if (contact[2] && row + 1 == k) met.push_back(outer);
       if (contact[3] && column == 0) met.push_back(outer);
-      if (contact[0] && row > 0 && kinds[kind[cell - k]].contact[2]) met.push_back(static_cast<std::uint32_t>(cell - k));
+      if (contact[0] && row > 0 && kinds[kind[cell - k]].contact[2])
+        met.push_back(static_cast<std::uint32_t>(cell - k));
       if (contact[3] && column > 0 && kinds[kind[cell - 1]].contact[1]) met.push_back(cell - 1);
       std::set<std::uint32_t> parts;
       for (const std::uint32_t other : met) parts.insert(sets.find(other));
