@@ -17,12 +17,12 @@ struct VoronoiEdge : Edge {
   /// Separates sites that have a point in common, from that point on: straight, perpendicular to an
   /// edge. All other edges are the medial axis (Lee, Corollary 3).
   bool spoke = false;
-  /// Lies on the frame, which it goes around counter-clockwise; site[1] is no_site. Its radius is
-  /// the distance from its site.
+  /// Lies on the enclosure, which it goes around counter-clockwise; site[1] is no_site. Its radius
+  /// is the distance from its site.
   bool frame = false;
 };
 
-/// A Voronoi diagram, of a polygon inside of it, or of a planar graph within a frame.
+/// A Voronoi diagram, of a polygon inside of it, or of a planar graph within an enclosure.
 ///
 /// Of a polygon: of its segments and its reflex vertices, a face for each (Lee, Definition 6).
 /// Cocircular elements give edges without length, so that every loop with n segments and m reflex
@@ -32,8 +32,8 @@ struct VoronoiEdge : Edge {
 ///
 /// Of a planar graph: sites are its points, in their order, then its edges without their ends. A
 /// point's face can be empty: where the edges around it leave no place that is nearest to it. The
-/// nodes of radius 0 are points that edges begin at. Edges that begin in one corner of the frame's
-/// and end in another lie on it.
+/// nodes of radius 0 are points that edges begin at. Edges that begin in one corner of the
+/// enclosure's and end in another lie on it.
 struct VoronoiDiagram {
   std::string method;
   double tolerance = 0;
