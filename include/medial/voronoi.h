@@ -15,7 +15,7 @@
 namespace medial {
 
 /// The Voronoi diagram of a shape of straight edges without holes, by Lee's divide and conquer.
-/// O(n log n). Errors: as compute() with Method::lee.
+/// O(n log n). Errors: as compute() with method::Lee.
 Result<VoronoiDiagram> voronoi_diagram(const Shape& shape, const Options& options = {});
 
 /// The Voronoi diagram of a planar graph within a frame, by the engine `disks` (docs/voronoi.md):

@@ -98,9 +98,7 @@ double crookedness(const MedialAxis& axis, double size) {
 }
 
 Options options_of(double order) {
-  Options options{.method = Method::potential, .threads = 1};
-  options.potential.order = order;
-  return options;
+  return {.method = method::Potential{.order = order}, .threads = 1};
 }
 
 std::string order_name(double order) {
@@ -173,7 +171,7 @@ bool add_distances(const NamedShape& named, Table& largest, Table& mean) {
 std::vector<std::pair<Vec2, int>> orders_in_rectangle() {
   const Shape shape = regions()[0].second;
   const LocalFrame frame = frame_of(bounding_box(shape));
-  const auto regions = potential::regions_of(shape, frame, 0.01, 1e-3);
+  const auto regions = potential::regions_of(Problem(shape, Options{}), 1e-3);
   const potential::Charges charges(regions[0].pieces);
   potential::SkeletonOptions tracing;
   tracing.step = 0.01 * regions[0].size;

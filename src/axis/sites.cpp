@@ -6,7 +6,6 @@
 #include "base/memory.h"
 #include "base/predicates.h"
 #include "base/threads.h"
-#include "base/tolerance.h"
 
 namespace medial::site {
 namespace {
@@ -30,11 +29,11 @@ Pieces pieces_of(Vec2 start, Vec2 end, double bulge) {
   return {{make_arc(start, middle, half), make_arc(middle, end, half)}, 2};
 }
 
-SiteNumbers number_sites(const Shape& shape, const LocalFrame& frame, double corner_angle) {
+SiteNumbers number_sites(const Shape& shape, const LocalFrame& frame, double tolerance,
+                         double corner_angle) {
   SiteNumbers numbers;
   numbers.edge.resize(shape.points.size());
   numbers.joints.resize(shape.points.size());
-  const double tolerance = tolerance_for(bounding_box(shape), 0);
   const double radians = corner_angle * std::numbers::pi / 180;
   constexpr std::size_t grain = 4096;
   parallel_ranges(shape.points.size(), grain, [&](std::size_t i, std::size_t end) {

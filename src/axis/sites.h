@@ -62,8 +62,9 @@ struct SiteNumbers {
   std::uint32_t count = 0;
   bool is_site(std::size_t point) const { return joints[point] == Joint::reflex; }
 };
-/// `corner_angle` in degrees; see Options.
-SiteNumbers number_sites(const Shape& shape, const LocalFrame& frame, double corner_angle);
+/// `tolerance` in units of the input, `corner_angle` in degrees; see Options.
+SiteNumbers number_sites(const Shape& shape, const LocalFrame& frame, double tolerance,
+                         double corner_angle);
 
 /// The result's sites, in units of the input.
 std::vector<medial::Site> result_sites(const Shape& shape, const SiteNumbers& numbers);

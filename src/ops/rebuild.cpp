@@ -362,9 +362,8 @@ Result<Shape> rebuild(const MedialAxis& axis, const RebuildOptions& options,
   std::vector<Ring> rings;
   RebuildReport own;
   const bool unpacked = axis.method == "pack" && options.by == RebuildBy::outline;
-  const bool of_pixels =
-      (axis.method == name_of(Method::ridge) || axis.method == name_of(Method::brushfire)) &&
-      axis.resolution > 0 && options.by == RebuildBy::outline && options.points == 0;
+  const bool of_pixels = is_of_pixels(axis.method) && axis.resolution > 0 &&
+                         options.by == RebuildBy::outline && options.points == 0;
   if (options.by == RebuildBy::hulls || unpacked || of_pixels) {
     auto shape = of_pixels ? shape_of_hulls(spaced(axis), axis.resolution, options, own)
                            : shape_of_hulls(axis, axis.resolution, options, own);

@@ -12,7 +12,7 @@ struct Exterior {
   Shape shape;
   /// Of each point: whether it is one of the enclosure's. The sources of the others are those of
   /// the original shape's points.
-  std::vector<bool> of_frame;
+  std::vector<bool> of_enclosure;
   /// Of each point: the loop of the original shape that it was on; 0xFFFFFFFF for the enclosure's.
   std::vector<std::uint32_t> of_loop;
 };

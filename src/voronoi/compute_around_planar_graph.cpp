@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -66,11 +65,10 @@ std::optional<Error> refuse(const PlanarGraph& planar_graph, const Options& opti
 
 /// The axis, but for its edges, which stand apart, and its sites.
 template <class E>
-Result<MedialAxis> run_around(const Shape& surroundings, const Options& options,
-                              std::vector<E>& edges, site::SiteNumbers& numbers) {
-  MedialAxis axis = disks::run_two_sided(surroundings, options, edges, numbers);
-  if (is_cancelled(options)) return Error{ErrorCode::cancelled, "cancelled", {}};
-  if (!has_right_topology(surroundings, axis.nodes.size(), edges.size()))
+Result<MedialAxis> run_around(const Problem& surroundings, std::vector<E>& edges) {
+  MedialAxis axis = disks::run_two_sided(surroundings, edges);
+  if (surroundings.is_cancelled()) return Error{ErrorCode::cancelled, "cancelled", {}};
+  if (!has_right_topology(surroundings.shape, axis.nodes.size(), edges.size()))
     return Error{ErrorCode::internal,
                  "the diagram is not connected as it should be: please report this input",
                  {}};
@@ -82,13 +80,15 @@ Result<MedialAxis> run_around(const Shape& surroundings, const Options& options,
 /// with arcs, the axis has its sites.
 Result<MedialAxis> run_with_corners(const Shape& surroundings, const Options& options,
                                     std::vector<VoronoiEdge>& edges, site::SiteNumbers& numbers) {
-  if (surroundings.bulges.empty()) return run_around(surroundings, options, edges, numbers);
   const auto run = [&](const Options& own) {
     edges.clear();
-    auto axis = run_around(surroundings, own, edges, numbers);
-    if (axis) axis->sites = site::result_sites(surroundings, numbers);
+    Problem problem(surroundings, own);
+    auto axis = run_around(problem, edges);
+    if (axis && !surroundings.bulges.empty()) axis->sites = problem.result_sites();
+    numbers = std::move(problem).numbers();
     return axis;
   };
+  if (surroundings.bulges.empty()) return run(options);
   Options all = options;
   all.corner_angle = 0;
   auto axis = run(all);
@@ -210,15 +210,15 @@ Result<MedialAxis> axis_around(const PlanarGraph& planar_graph, const Shape& sur
   try {
     if (auto error = refuse(planar_graph, options)) return std::move(*error);
     if (auto error = beyond_limits(surroundings)) return std::move(*error);
-    const double tolerance = tolerance_for(bounding_box(surroundings), options.tolerance);
+    const Problem problem(surroundings, options);
+    const double tolerance = problem.tolerance;
     if (auto error = too_close(planar_graph, told_apart * tolerance)) return std::move(*error);
     std::vector<Edge> edges;
-    site::SiteNumbers numbers;
-    auto axis = on_threads(options.threads,
-                           [&] { return run_around(surroundings, options, edges, numbers); });
+    auto axis = on_threads(options.threads, [&] { return run_around(problem, edges); });
     if (!axis) return explained(std::move(axis).error(), planar_graph, tolerance);
-    axis->sites = site::result_sites(surroundings, numbers);
-    voronoi::split_long_edges(*axis, edges, true);
+    axis->sites = problem.result_sites();
+    if (Status split = voronoi::split_long_edges(*axis, edges, true); !split)
+      return std::move(split).error();
     axis->edges = std::move(edges);
     return axis;
   } catch (...) {
@@ -238,8 +238,9 @@ Result<VoronoiDiagram> voronoi_diagram(const PlanarGraph& planar_graph, const Op
 
     Result<VoronoiDiagram> diagram = on_threads(options.threads, [&]() -> Result<VoronoiDiagram> {
       if (planar_graph.edges.empty()) {
-        VoronoiDiagram of_points = voronoi::diagram_of_points(planar_graph, options, *box);
-        if (is_cancelled(options)) return Error{ErrorCode::cancelled, "cancelled", {}};
+        auto of_points = voronoi::diagram_of_points(planar_graph, options, *box);
+        if (options.cancel != nullptr && options.cancel->load())
+          return Error{ErrorCode::cancelled, "cancelled", {}};
         return of_points;
       }
       std::optional<Error> close;
@@ -252,13 +253,11 @@ Result<VoronoiDiagram> voronoi_diagram(const PlanarGraph& planar_graph, const Op
       site::SiteNumbers numbers;
       auto axis = run_with_corners(shape, options, edges, numbers);
       if (!axis) return std::move(axis).error();
-      if (!shape.bulges.empty()) voronoi::split_long_edges(*axis, edges, false);
-      try {
-        return voronoi::diagram_of(planar_graph, shape, numbers, std::move(axis).value(),
-                                   std::move(edges), *box);
-      } catch (const std::runtime_error& error) {
-        return Error{ErrorCode::internal, error.what(), {}};
-      }
+      if (!shape.bulges.empty())
+        if (Status split = voronoi::split_long_edges(*axis, edges, false); !split)
+          return std::move(split).error();
+      return voronoi::diagram_of(planar_graph, shape, numbers, std::move(axis).value(),
+                                 std::move(edges), *box);
     });
 
     if (!diagram) return explained(std::move(diagram).error(), planar_graph, tolerance);

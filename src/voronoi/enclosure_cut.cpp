@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 
 #include "axis/sites.h"
 #include "base/numbers.h"
@@ -48,7 +47,7 @@ std::uint32_t EnclosureCut::add_node(const Disk& disk, NodeKind kind) {
   return static_cast<std::uint32_t>(diagram_.nodes.size() - 1);
 }
 
-void EnclosureCut::close() {
+Status EnclosureCut::close() {
   std::sort(crossings_.begin(), crossings_.end(),
             [](const Crossing& a, const Crossing& b) { return a.place < b.place; });
   settle_ties();
@@ -69,7 +68,7 @@ void EnclosureCut::close() {
     enclosure_begin_.push_back(static_cast<std::uint32_t>(diagram_.edges.size()));
     for (std::size_t k = 0; k < 4; ++k)
       add_enclosure_edge(corner[k], corner[(k + 1) % 4], whole_enclosure_);
-    return;
+    return success();
   }
   // The edges before each crossing, from the one before.
   const std::size_t count = crossings_.size();
@@ -78,7 +77,7 @@ void EnclosureCut::close() {
     const std::size_t previous = i == 0 ? count - 1 : i - 1;
     const std::uint32_t site = crossings_[i].before;
     if (crossings_[previous].after != site)
-      throw std::runtime_error("the enclosure's edges do not close a Voronoi face");
+      return Error{ErrorCode::internal, "the enclosure's edges do not close a Voronoi face", {}};
     double from = crossings_[previous].place;
     const double to = crossings_[i].place + (i == 0 ? 4 : 0);
     std::uint32_t node = first_crossing_ + static_cast<std::uint32_t>(previous);
@@ -90,6 +89,7 @@ void EnclosureCut::close() {
     add_enclosure_edge(node, first_crossing_ + static_cast<std::uint32_t>(i), site);
   }
   enclosure_begin_.push_back(static_cast<std::uint32_t>(diagram_.edges.size()));
+  return success();
 }
 
 /// Where several edges cross the enclosure in one place, puts them in an order in which each site

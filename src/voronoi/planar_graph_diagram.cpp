@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <memory>
 #include <numbers>
 #include <span>
-#include <stdexcept>
 #include <utility>
 
 #include "axis/node_kinds.h"
@@ -54,14 +54,15 @@ class Assembly {
     diagram_.edges = std::move(edges);
   }
 
-  VoronoiDiagram run(const site::SiteNumbers& numbers) {
+  Result<VoronoiDiagram> run(const site::SiteNumbers& numbers) {
+    const auto broken = [](const char* text) { return Error{ErrorCode::internal, text, {}}; };
     make_own_sites(numbers);
-    make_chains();
-    find_ends();
-    make_spokes();
+    if (!make_chains()) return broken("a Voronoi face is not connected");
+    if (!find_ends()) return broken("a Voronoi face has no edge");
+    if (!make_spokes()) return broken("a Voronoi face has a gap");
     make_nodes();
     cut_off();
-    cut_.close();
+    if (Status closed = cut_.close(); !closed) return std::move(closed).error();
     in_parallel([&] { make_faces(); }, [&] { set_kinds(diagram_); });
     diagram_.method = std::move(axis_.method);
     diagram_.tolerance = axis_.tolerance;
@@ -109,7 +110,9 @@ class Assembly {
     return site;
   }
 
-  void make_chains() {
+  /// False where the edges along one own site do not make a chain.
+  bool make_chains() {
+    std::atomic<bool> connected = true;
     const std::size_t count = own_.size();
     // One place further, so that while the chains are filled, each grows to where the next begins.
     chain_begin_ = large_vector(count + 2, 0U);
@@ -130,20 +133,22 @@ class Assembly {
         if (is_enclosure(own)) continue;
         const std::span<Step> steps = chain(own);
         if (steps.empty()) continue;
-        put_in_order(steps);
+        if (!put_in_order(steps)) connected = false;
         first_[own] = steps.front().from;
         last_[own] = steps.back().to;
       }
     });
+    return connected;
   }
 
   std::span<Step> chain(std::uint32_t own) const {
     return {chains_.get() + chain_begin_[own], chains_.get() + chain_begin_[own + 1]};
   }
 
-  /// From the step that no other leads to, or where they make a cycle, any one.
-  static void put_in_order(std::span<Step> steps) {
-    if (steps.size() == 1) return;
+  /// From the step that no other leads to, or where they make a cycle, any one. False where they
+  /// are not connected.
+  static bool put_in_order(std::span<Step> steps) {
+    if (steps.size() == 1) return true;
     constexpr std::size_t few = 24;
     if (steps.size() > few) return put_many_in_order(steps);
     for (std::size_t i = 0; i < steps.size(); ++i) {
@@ -158,11 +163,12 @@ class Assembly {
       const auto next =
           std::find_if(steps.begin() + static_cast<std::ptrdiff_t>(i), steps.end(),
                        [&](const Step& other) { return other.from == steps[i - 1].to; });
-      if (next == steps.end()) throw std::runtime_error("a Voronoi face is not connected");
+      if (next == steps.end()) return false;
       std::swap(steps[i], *next);
     }
+    return true;
   }
-  static void put_many_in_order(std::span<Step> steps) {
+  static bool put_many_in_order(std::span<Step> steps) {
     std::vector<Step> sorted(steps.begin(), steps.end());
     std::sort(sorted.begin(), sorted.end(),
               [](const Step& a, const Step& b) { return a.from < b.from; });
@@ -179,10 +185,10 @@ class Assembly {
       const auto next =
           std::lower_bound(sorted.begin(), sorted.end(), at.to,
                            [](const Step& step, std::uint32_t node) { return step.from < node; });
-      if (next == sorted.end() || next->from != at.to)
-        throw std::runtime_error("a Voronoi face is not connected");
+      if (next == sorted.end() || next->from != at.to) return false;
       at = *next;
     }
+    return true;
   }
 
   /// Calls visit(first, last) for the own sites of every loop of the planar graph: [first, last).
@@ -200,8 +206,10 @@ class Assembly {
     }
   }
 
-  /// Of own sites without edges, the node that they are touched in: that of the site before.
-  void find_ends() {
+  /// Of own sites without edges, the node that they are touched in: that of the site before. False
+  /// where there is none.
+  bool find_ends() {
+    bool found = true;
     std::vector<std::uint32_t> lone(shape_.component_count(), none);
     std::vector<bool> used(diagram_.nodes.size());
     for (const Edge& edge : diagram_.edges) used[edge.node[0]] = used[edge.node[1]] = true;
@@ -214,9 +222,10 @@ class Assembly {
       for (std::uint32_t own = first; own < last; ++own) {
         if (first_[own] == none) first_[own] = last_[own] = node;
         node = last_[own];
-        if (node == none) throw std::runtime_error("a Voronoi face has no edge");
+        found = found && node != none;
       }
     });
+    return found;
   }
 
   bool is_empty_vertex(std::uint32_t own) const {
@@ -224,8 +233,9 @@ class Assembly {
   }
 
   /// Spokes wherever one own site follows another but in a corner, and the nodes of the planar
-  /// graph's points.
-  void make_spokes() {
+  /// graph's points. False where one does not end where the next begins.
+  bool make_spokes() {
+    bool closed = true;
     spoke_before_ = large_vector(own_.size(), none);
     spoke_after_ = large_vector(own_.size(), none);
     node_of_axis_ = large_vector(diagram_.nodes.size(), none);
@@ -237,7 +247,7 @@ class Assembly {
       for (std::uint32_t own = first; own < last; ++own) {
         if (is_empty_vertex(own)) continue;
         const std::uint32_t node = first_[own];
-        if (last_[before] != node) throw std::runtime_error("a Voronoi face has a gap");
+        closed = closed && last_[before] == node;
         const std::uint32_t point =
             is_vertex(own) ? own_[own] : planar_graph_.start(half_edge(own));
         if (diagram_.nodes[node].disk.radius == 0) {
@@ -249,6 +259,7 @@ class Assembly {
         before = own;
       }
     });
+    return closed;
   }
 
   /// Keeps the nodes inside of the enclosure; the planar graph's points among them once they are
@@ -483,9 +494,9 @@ Box far_enclosure(const Box& enclosure) {
   return {enclosure.low - Vec2{away, away}, enclosure.high + Vec2{away, away}};
 }
 
-VoronoiDiagram diagram_of(const PlanarGraph& planar_graph, const Shape& shape,
-                          const site::SiteNumbers& numbers, MedialAxis axis,
-                          std::vector<VoronoiEdge> edges, const Box& enclosure) {
+Result<VoronoiDiagram> diagram_of(const PlanarGraph& planar_graph, const Shape& shape,
+                                  const site::SiteNumbers& numbers, MedialAxis axis,
+                                  std::vector<VoronoiEdge> edges, const Box& enclosure) {
   return Assembly(planar_graph, shape, axis, edges, enclosure).run(numbers);
 }
 

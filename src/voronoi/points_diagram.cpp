@@ -67,11 +67,11 @@ class Dual {
         reach_(2 * local_.scale * diagonal(enclosure)),
         cut_(planar_graph, enclosure, tolerance_, diagram_) {}
 
-  VoronoiDiagram run() {
+  Result<VoronoiDiagram> run() {
     Stopwatch all, watch;
     triangulate();
     diagram_.statistics.seconds_walk = watch.lap();
-    if (is_cancelled(options_)) return std::move(diagram_);
+    if (options_.cancel != nullptr && options_.cancel->load()) return std::move(diagram_);
     if (triangulation_.triangles.empty()) {
       add_edges_of_line();
     } else {
@@ -80,7 +80,7 @@ class Dual {
       make_cut_edges();
     }
     enclosure_edges_ = static_cast<std::uint32_t>(diagram_.edges.size());
-    cut_.close();
+    if (Status closed = cut_.close(); !closed) return std::move(closed).error();
     make_sites();
     if (triangulation_.triangles.empty())
       make_faces_of_line();
@@ -438,8 +438,8 @@ class Dual {
 
 }  // namespace
 
-VoronoiDiagram diagram_of_points(const PlanarGraph& planar_graph, const Options& options,
-                                 const Box& enclosure) {
+Result<VoronoiDiagram> diagram_of_points(const PlanarGraph& planar_graph, const Options& options,
+                                         const Box& enclosure) {
   return Dual(planar_graph, options, enclosure).run();
 }
 

@@ -11,7 +11,8 @@ namespace medial::voronoi {
 /// Delaunay triangulation. Which edges there are is exact; nodes closer together than the tolerance
 /// are one. Centres are off by a few roundings of their distance from their sites, and of their own
 /// coordinates. O(n log n) expected, some 3 n edges. Cancelled, it is incomplete.
-VoronoiDiagram diagram_of_points(const PlanarGraph& planar_graph, const Options& options,
-                                 const Box& enclosure);
+/// Error: internal, where rounding breaks it.
+Result<VoronoiDiagram> diagram_of_points(const PlanarGraph& planar_graph, const Options& options,
+                                         const Box& enclosure);
 
 }  // namespace medial::voronoi

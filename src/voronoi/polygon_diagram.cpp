@@ -9,12 +9,13 @@ namespace medial {
 Result<VoronoiDiagram> voronoi_diagram(const Shape& shape, const Options& options) {
   try {
     Options own = options;
-    own.method = Method::lee;
+    own.method = method::Lee{};
     if (auto error = refuse(shape, own)) return std::move(*error);
-    auto diagram = on_threads(own.threads, [&] { return lee::voronoi_diagram(shape, own); });
+    const Problem problem(shape, own);
+    auto diagram = on_threads(own.threads, [&] { return lee::voronoi_diagram(problem); });
     if (!diagram) return diagram;
     diagram->statistics.threads = effective_threads(own.threads);
-    if (is_cancelled(own)) return Error{ErrorCode::cancelled, "cancelled", {}};
+    if (problem.is_cancelled()) return Error{ErrorCode::cancelled, "cancelled", {}};
     if (own.progress) own.progress(1);
     return diagram;
   } catch (...) {

@@ -2,8 +2,9 @@
 
 namespace medial::biarc_dc {
 
-Outline outline_of(const Shape& shape, const sites::SiteNumbers& numbers, const LocalFrame& frame) {
-  Outline outline;
+SiteOutline outline_of(const Problem& problem) {
+  const sites::SiteNumbers& numbers = problem.numbers();
+  SiteOutline outline;
   outline.sites.reserve(numbers.count);
   outline.joints.reserve(numbers.count);
   outline.originals.reserve(numbers.count);
@@ -12,8 +13,8 @@ Outline outline_of(const Shape& shape, const sites::SiteNumbers& numbers, const 
     outline.originals.push_back(original);
     outline.joints.push_back(joint);
   };
-  for (std::size_t l = 0; l < shape.loop_count(); ++l) {
-    const sites::Loop loop(shape, l, frame);
+  for (std::size_t l = 0; l < problem.shape.loop_count(); ++l) {
+    const sites::Loop loop(problem.shape, l, problem.frame);
     const auto first = static_cast<std::uint32_t>(outline.sites.size());
     for (std::uint32_t i = 0; i < loop.size(); ++i) {
       const std::uint32_t number = numbers.edge[loop.begin() + i];

@@ -182,14 +182,15 @@ bool in_wedge(Vec2 first, Vec2 last, Vec2 to) {
   return angle <= wedge + beyond || angle >= 2 * std::numbers::pi - beyond;
 }
 
-Boundary loops_boundary(const Shape& shape, const SiteNumbers& numbers, const LocalFrame& frame,
-                        bool two_sided) {
+Boundary loops_boundary(const Problem& problem, bool two_sided) {
+  const Shape& shape = problem.shape;
+  const SiteNumbers& numbers = problem.numbers();
   Boundary boundary;
   boundary.has_arcs = !shape.bulges.empty();
   boundary.two_sided = two_sided;
   boundary.reserve(numbers.count);
   for (std::size_t l = 0; l < shape.loop_count(); ++l) {
-    const Loop loop(shape, l, frame);
+    const Loop loop(shape, l, problem.frame);
     const Start start = shape.hole[l] ? start_of_hole(loop, numbers, boundary.has_arcs)
                                       : start_of_outer(loop, numbers, boundary.has_arcs);
     const auto first = static_cast<std::uint32_t>(boundary.sites.size());

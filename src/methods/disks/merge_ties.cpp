@@ -217,7 +217,7 @@ class Merger {
     if (next_end_[end] != none) return true;
     auto [left, right] = graph_.links[end / 2].site;
     if (end % 2 == 0) std::swap(left, right);
-    const Boundary::Run& run = boundary_.runs[graph_.nodes[node].component];
+    const Boundary::SiteRange& run = boundary_.runs[graph_.nodes[node].component];
     for (std::uint32_t site = right;;) {
       site = site == run.last ? run.first : site + 1;
       if (site == left) return true;
@@ -373,7 +373,7 @@ class Merger {
   }
 
   bool is_empty(const Disk& disk, std::uint32_t component) const {
-    const Boundary::Run& run = boundary_.runs[component];
+    const Boundary::SiteRange& run = boundary_.runs[component];
     return !tree_.nearest(disk.center, disk.radius - tolerance_, run.first, run.last);
   }
 

@@ -53,7 +53,8 @@ bool is_in_centers(const Boundary& boundary, const Graph& graph, double slack) {
           is_own_circle(boundary.sites[i], from, slack))
         return true;
     // The walk leads from where the run's ends are into the range between the two sites.
-    const Boundary::Run& run = *ranges::lower_bound(boundary.runs, left, {}, &Boundary::Run::last);
+    const Boundary::SiteRange& run =
+        *ranges::lower_bound(boundary.runs, left, {}, &Boundary::SiteRange::last);
     const std::uint32_t behind = left < run.last ? left + 1 : run.first,
                         before = right > run.first ? right - 1 : run.last;
     return (right + 1 < left && ends_in_several_arcs(boundary, right + 1, left - 1, to, slack)) ||

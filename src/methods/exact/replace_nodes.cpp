@@ -14,7 +14,7 @@ namespace {
 
 class Replacer {
  public:
-  Replacer(const Outline& outline, const LocalFrame& frame, const ContactGraph& graph,
+  Replacer(const SiteLoops& outline, const LocalFrame& frame, const ContactGraph& graph,
            Replaced replaced, MedialAxis& axis)
       : outline_(outline),
         frame_(frame),
@@ -122,7 +122,7 @@ class Replacer {
     return same;
   }
 
-  const Outline& outline_;
+  const SiteLoops& outline_;
   const LocalFrame& frame_;
   const ContactGraph& graph_;
   Replaced replaced_;
@@ -131,7 +131,7 @@ class Replacer {
 
 }  // namespace
 
-void replace_nodes(const Outline& outline, const LocalFrame& frame, const ContactGraph& graph,
+void replace_nodes(const SiteLoops& outline, const LocalFrame& frame, const ContactGraph& graph,
                    Replaced replaced, MedialAxis& axis) {
   Replacer(outline, frame, graph, std::move(replaced), axis).run();
 }

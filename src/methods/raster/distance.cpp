@@ -86,7 +86,7 @@ class Envelope {
     parabolas_[size_++] = next;
   }
 
-  /// Starts anew with a sweep of value_at() to the right.
+  /// Restarts with a sweep of value_at() to the right.
   void rewind() { lowest_ = 0; }
   /// The lowest value at x, which never decreases from call to call.
   std::int64_t value_at(std::int64_t x) {

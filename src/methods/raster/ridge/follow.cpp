@@ -46,7 +46,7 @@ constexpr double farthest = 1;
 
 }  // namespace
 
-Follower::Follower(const Outline& outline, const LocalGrid& local, const BitMap& boundary,
+Follower::Follower(const EdgeOutline& outline, const LocalGrid& local, const BitMap& boundary,
                    NearestEdges& search, RidgeRule rule, const std::atomic<bool>* cancel)
     : outline_(outline),
       local_(local),
