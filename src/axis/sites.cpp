@@ -29,6 +29,19 @@ Pieces pieces_of(Vec2 start, Vec2 end, double bulge) {
   return {{make_arc(start, middle, half), make_arc(middle, end, half)}, 2};
 }
 
+std::vector<site::Site> edge_sites(const Shape& shape, const LocalFrame& frame) {
+  std::vector<site::Site> edges;
+  edges.reserve(shape.points.size());
+  for (std::size_t i = 0; i < shape.loop_count(); ++i) {
+    const Loop loop(shape, i, frame);
+    for (std::uint32_t k = 0; k < loop.size(); ++k) {
+      const Pieces pieces = loop.edge(k);
+      for (std::size_t j = 0; j < pieces.count; ++j) edges.push_back(pieces.site[j]);
+    }
+  }
+  return edges;
+}
+
 SiteNumbers number_sites(const Shape& shape, const LocalFrame& frame, double tolerance,
                          double corner_angle) {
   SiteNumbers numbers;

@@ -54,6 +54,9 @@ class LoopEdges {
   std::uint32_t begin_, size_;
 };
 
+/// The edges of all loops in the frame, in boundary order.
+std::vector<site::Site> edge_sites(const Shape& shape, const LocalFrame& frame);
+
 /// Which vertices are sites, and how the result numbers its sites: in the order of the shape's
 /// points, the vertex before the segment that starts there. A loop of one point has no segment.
 struct SiteNumbers {

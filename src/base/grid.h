@@ -14,6 +14,10 @@ struct Pixel {
   std::uint32_t column = 0;
   std::uint32_t row = 0;
   friend constexpr bool operator==(Pixel, Pixel) = default;
+  /// By increasing x within increasing y.
+  friend constexpr bool operator<(Pixel a, Pixel b) {
+    return a.row != b.row ? a.row < b.row : a.column < b.column;
+  }
 };
 
 /// Pixels first..last of a row, which belong to one set.

@@ -75,13 +75,13 @@ const std::array<MethodRow, std::variant_size_v<Method>> rows = {{
 
 const auto infos = [] {
   std::array<MethodInfo, rows.size()> all{};
-  std::ranges::transform(rows, all.begin(), &MethodRow::info);
+  std::transform(rows.begin(), rows.end(), all.begin(), [](const MethodRow& r) { return r.info; });
   return all;
 }();
 
 const MethodRow* find_row(std::string_view name) {
-  const auto row = std::ranges::find(
-      rows, name, [](const MethodRow& one) { return std::string_view(one.info.name); });
+  const auto row = std::find_if(rows.begin(), rows.end(),
+                                [&](const MethodRow& one) { return name == one.info.name; });
   return row == rows.end() ? nullptr : &*row;
 }
 

@@ -57,7 +57,7 @@ std::optional<Vec2> doubtful_place(const Problem& problem) {
 bool has_large_ties(const MedialAxis& axis) {
   constexpr std::uint32_t many = 8;
   std::vector<std::uint32_t> degree(axis.nodes.size());
-  return std::ranges::any_of(axis.edges, [&](const Edge& edge) {
+  return std::any_of(axis.edges.begin(), axis.edges.end(), [&](const Edge& edge) {
     return ++degree[edge.node[0]] > many || ++degree[edge.node[1]] > many;
   });
 }

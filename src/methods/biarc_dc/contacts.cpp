@@ -97,7 +97,9 @@ std::optional<std::vector<Seam>> contacts_of(const Context& context, const Subsh
                                              const MaximalDisk& maximal) {
   const std::vector<Touch> touches = touched_elements(context, subshape, maximal);
   const std::size_t count = touches.size();
-  const bool all = count == subshape.size() && std::ranges::all_of(touches, &Touch::on_circle);
+  const bool all =
+      count == subshape.size() &&
+      std::all_of(touches.begin(), touches.end(), [](const Touch& t) { return t.on_circle; });
   if (all) return std::nullopt;
   std::vector<Seam> seams;
   if (count == 0) return seams;

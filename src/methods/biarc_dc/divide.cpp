@@ -130,7 +130,7 @@ std::optional<Division> divide(Context& context, std::uint64_t seed,
     if (!base) {
       auto parts = divider.parts_of(subshape);
       if (!parts) return std::nullopt;
-      std::ranges::move(*parts, std::back_inserter(stack));
+      std::move(parts->begin(), parts->end(), std::back_inserter(stack));
       continue;
     }
     if (base->base_case == BaseCase::cap)

@@ -13,25 +13,11 @@
 namespace medial::brushfire {
 namespace {
 
-/// The boundary's edges in the local frame.
-std::vector<site::Site> boundary_of(const Shape& shape, const LocalFrame& frame) {
-  std::vector<site::Site> edges;
-  for (std::size_t i = 0; i < shape.loop_count(); ++i) {
-    const sites::Loop loop(shape, i, frame);
-    for (std::uint32_t k = 0; k < loop.size(); ++k) {
-      const sites::Pieces pieces = loop.edge(k);
-      edges.insert(edges.end(), pieces.site.begin(),
-                   pieces.site.begin() + static_cast<std::ptrdiff_t>(pieces.count));
-    }
-  }
-  return edges;
-}
-
 /// Exact distances from the boundary, of one place after another.
 class Radius {
  public:
   Radius(const Shape& shape, const LocalFrame& frame)
-      : frame_(frame), edges_(boundary_of(shape, frame)), tree_(edges_) {}
+      : frame_(frame), edges_(sites::edge_sites(shape, frame)), tree_(edges_) {}
 
   double at(Vec2 point) {
     const Vec2 local = frame_.to_local(point);

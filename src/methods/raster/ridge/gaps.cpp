@@ -73,7 +73,7 @@ std::vector<Wall> walls_beside(const BitMap& gaps, const MedialMap& map) {
       walls.push_back({found.quality, found.pixel});
   std::sort(walls.begin(), walls.end(), [](const Wall& a, const Wall& b) {
     if (a.quality != b.quality) return a.quality > b.quality;
-    return a.pixel.row != b.pixel.row ? a.pixel.row > b.pixel.row : a.pixel.column > b.pixel.column;
+    return b.pixel < a.pixel;
   });
   return walls;
 }

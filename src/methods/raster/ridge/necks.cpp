@@ -310,8 +310,7 @@ void Cells::build() {
   for (std::uint32_t i = 0; i < chains.size(); ++i) chains[i] = i;
   std::sort(chains.begin(), chains.end(), [&](std::uint32_t i, std::uint32_t j) {
     const Pixel a = all[i].square, b = all[j].square;
-    if (a.row != b.row) return a.row < b.row;
-    return a.column != b.column ? a.column < b.column : i < j;
+    return a != b ? a < b : i < j;
   });
   // The pixels of the boundary map that lie inside, of a row of squares' lower and upper pixels.
   const std::uint32_t words = boundary_.words_per_row();
@@ -601,8 +600,7 @@ Necks find_necks(const EdgeOutline& outline, const LocalGrid& local, const BitMa
   complex.collapse();
   complex.prune(shortest_branch);
   complex.result(cells.corners, necks);
-  std::sort(cells.surrounded.begin(), cells.surrounded.end(),
-            [](Pixel a, Pixel b) { return a.row != b.row ? a.row < b.row : a.column < b.column; });
+  std::sort(cells.surrounded.begin(), cells.surrounded.end());
   for (std::size_t i = 0; i + 3 < cells.surrounded.size(); ++i)
     if (cells.surrounded[i] == cells.surrounded[i + 3])
       necks.undrawn.push_back(cells.surrounded[i]);

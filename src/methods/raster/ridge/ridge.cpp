@@ -57,7 +57,7 @@ std::vector<Pixel> seeds_of(const EdgeOutline& outline, const LocalGrid& local,
     if (!sets.inside.contains(pixel.column, pixel.row) || !sets.inside.at(pixel)) continue;
     const auto run = std::upper_bound(sets.runs.begin(), sets.runs.end(), pixel,
                                       [](Pixel a, const PixelRun& b) {
-                                        return a.row != b.row ? a.row < b.row : a.column < b.first;
+                                        return a < Pixel{b.first, b.row};
                                       }) -
                      1;
     seeds[run->set] = pixel;
@@ -119,10 +119,8 @@ void add_passages(const Passages& passages, const EdgeOutline& outline, const Lo
                           NodeKind::leaf});
   const auto node_of = [&](const Passages::End& end) {
     if (end.point != Passages::End::none) return first_point + end.point;
-    const auto pixel = std::lower_bound(
-        pixels.begin(), pixels.end(), end.pixel, [](const MedialPixel& a, Pixel b) {
-          return a.pixel.row != b.row ? a.pixel.row < b.row : a.pixel.column < b.column;
-        });
+    const auto pixel = std::lower_bound(pixels.begin(), pixels.end(), end.pixel,
+                                        [](const MedialPixel& a, Pixel b) { return a.pixel < b; });
     return static_cast<std::uint32_t>(pixel - pixels.begin());
   };
   for (const auto& link : passages.links) {

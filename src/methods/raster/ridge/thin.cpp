@@ -25,7 +25,7 @@ Candidate candidate_of(const Found& found) { return {found.quality, found.pixel}
 /// Whether one pixel is worse than another; no two are equal.
 bool is_worse(const Candidate& a, const Candidate& b) {
   if (a.quality != b.quality) return a.quality > b.quality;
-  return a.pixel.row != b.pixel.row ? a.pixel.row > b.pixel.row : a.pixel.column > b.pixel.column;
+  return b.pixel < a.pixel;
 }
 
 /// All medial pixels but the pinned ones, by increasing x within increasing y.
