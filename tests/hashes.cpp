@@ -123,16 +123,17 @@ std::vector<Line> lines() {
                 }};
   };
   Random random(5);
-  return {axis("maze", maze(40000), method::Disks{}),
-          axis("holes", hole_grid(60), method::Disks{}),
-          axis("star with holes", star_with_holes(random, 2000, 6), method::Disks{}),
-          axis("blob", blob(20000), method::Disks{}),
-          axis("comb by lee", comb(3000), method::Lee{}),
-          axis("star by potential", {star(random, 40)}, method::Potential{}),
-          {"arcs", [](int threads) { return hash_of_axis(arcs(threads), method::Disks{}, threads); }},
-          {"points", [](int threads) { return hash_of_diagram(false, threads); }},
-          {"segments", [](int threads) { return hash_of_diagram(true, threads); }},
-          {"distances", [](int threads) { return hash_of_distances(threads); }}};
+  return {
+      axis("maze", maze(40000), method::Disks{}),
+      axis("holes", hole_grid(60), method::Disks{}),
+      axis("star with holes", star_with_holes(random, 2000, 6), method::Disks{}),
+      axis("blob", blob(20000), method::Disks{}),
+      axis("comb by lee", comb(3000), method::Lee{}),
+      axis("star by potential", {star(random, 40)}, method::Potential{}),
+      {"arcs", [](int threads) { return hash_of_axis(arcs(threads), method::Disks{}, threads); }},
+      {"points", [](int threads) { return hash_of_diagram(false, threads); }},
+      {"segments", [](int threads) { return hash_of_diagram(true, threads); }},
+      {"distances", [](int threads) { return hash_of_distances(threads); }}};
 }
 
 }  // namespace

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "base/arc.h"
-#include "shape/limits.h"
 #include "base/threads.h"
+#include "shape/limits.h"
 
 namespace medial {
 namespace {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <utility>
 
-#include "shape/limits.h"
 #include "methods/potential/force.h"
 #include "methods/potential/region.h"
+#include "shape/limits.h"
 
 namespace medial {
 
