@@ -33,7 +33,7 @@ std::vector<site::Site> edge_sites(const Shape& shape, const LocalFrame& frame) 
   std::vector<site::Site> edges;
   edges.reserve(shape.points.size());
   for (std::size_t i = 0; i < shape.loop_count(); ++i) {
-    const Loop loop(shape, i, frame);
+    const LoopEdges loop(shape, i, frame);
     for (std::uint32_t k = 0; k < loop.size(); ++k) {
       const Pieces pieces = loop.edge(k);
       for (std::size_t j = 0; j < pieces.count; ++j) edges.push_back(pieces.site[j]);

@@ -72,10 +72,4 @@ SiteNumbers number_sites(const Shape& shape, const LocalFrame& frame, double tol
 /// The result's sites, in units of the input.
 std::vector<medial::Site> result_sites(const Shape& shape, const SiteNumbers& numbers);
 
-using Loop = LoopEdges;
-
 }  // namespace medial::site
-
-namespace medial {
-namespace sites = site;
-}  // namespace medial

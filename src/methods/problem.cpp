@@ -18,13 +18,12 @@ Problem::Problem(const Shape& a_shape, const Options& some_options,
       fine_tolerance(tolerance_for(local_box(), options.tolerance)),
       radius_limit(medial::radius_limit(box, frame)) {}
 
-const sites::SiteNumbers& Problem::numbers() const& {
-  if (!numbers_)
-    numbers_ = sites::number_sites(shape, frame, joint_tolerance, options.corner_angle);
+const site::SiteNumbers& Problem::numbers() const& {
+  if (!numbers_) numbers_ = site::number_sites(shape, frame, joint_tolerance, options.corner_angle);
   return *numbers_;
 }
 
-sites::SiteNumbers Problem::numbers() && {
+site::SiteNumbers Problem::numbers() && {
   numbers();
   return std::move(*numbers_);
 }

@@ -35,10 +35,10 @@ struct Problem {
   double local_tolerance() const { return frame.scale * tolerance; }
   Box local_box() const { return {frame.to_local(box.low), frame.to_local(box.high)}; }
   /// The numbers of the sites, computed by the first call. Not thread-safe. O(n).
-  const sites::SiteNumbers& numbers() const&;
-  sites::SiteNumbers numbers() &&;
+  const site::SiteNumbers& numbers() const&;
+  site::SiteNumbers numbers() &&;
   /// The sites as the result lists them.
-  std::vector<Site> result_sites() const { return sites::result_sites(shape, numbers()); }
+  std::vector<Site> result_sites() const { return site::result_sites(shape, numbers()); }
   /// The options of the method, which must be this one.
   template <class Own>
   const Own& own() const {
@@ -47,7 +47,7 @@ struct Problem {
   bool is_cancelled() const { return options.cancel != nullptr && options.cancel->load(); }
 
  private:
-  mutable std::optional<sites::SiteNumbers> numbers_;
+  mutable std::optional<site::SiteNumbers> numbers_;
 };
 
 /// What a method makes of a problem.

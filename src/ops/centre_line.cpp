@@ -21,7 +21,7 @@ class Boundary {
  public:
   explicit Boundary(const Shape& shape)
       : frame_(frame_of(bounding_box(shape))),
-        sites_(sites::edge_sites(shape, frame_)),
+        sites_(site::edge_sites(shape, frame_)),
         tree_(sites_) {}
 
   double distance_from(Vec2 p) const {

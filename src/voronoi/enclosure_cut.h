@@ -65,8 +65,8 @@ class EnclosureCut {
   template <class NodeAt>
   void add_bisector(Vec2 from, Vec2 to, std::array<std::uint32_t, 2> site, NodeAt&& node_at);
 
-  /// Adds the enclosure's own edges, from crossing to crossing and corner to corner. An internal error
-  /// where what was added does not go around the enclosure.
+  /// Adds the enclosure's own edges, from crossing to crossing and corner to corner. An internal
+  /// error where what was added does not go around the enclosure.
   Status close();
 
   /// Appends an edge of the diagram to a face, and where it leaves the enclosure

@@ -23,8 +23,8 @@ void set_kinds(VoronoiDiagram& diagram);
 /// The Voronoi diagram of a planar graph within `enclosure`, of the axis of what lies around it in
 /// a farther enclosure, whose sites are numbered so and whose edges stand apart: the axis with its
 /// spokes, by the faces of the planar graph's sites, cut off. `shape` is around(planar graph,
-/// far_enclosure(enclosure)). Error: internal, where rounding leaves a face that does not close. O(n)
-/// expected.
+/// far_enclosure(enclosure)). Error: internal, where rounding leaves a face that does not close.
+/// O(n) expected.
 Result<VoronoiDiagram> diagram_of(const PlanarGraph& planar_graph, const Shape& shape,
                                   const site::SiteNumbers& numbers, MedialAxis axis,
                                   std::vector<VoronoiEdge> edges, const Box& enclosure);

@@ -12,7 +12,7 @@
 
 namespace medial::disks {
 
-using sites::SiteNumbers;
+using site::SiteNumbers;
 
 /// The direction in which the disks that connect holes reach out: that of the angle 0.6 + pi. An
 /// angle of no meaning to anybody who draws, so that no such disk comes to lie where others are,

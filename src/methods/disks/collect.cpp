@@ -215,7 +215,7 @@ template std::vector<std::uint32_t> complete(const Boundary&, const LocalFrame&,
 bool touches_its_sites(const MedialAxis& axis, const Edge& edge, double slack) {
   const auto squared_distance = [](const Site& site, Vec2 c) {
     if (site.start == site.end) return squared_norm(c - site.start);
-    const sites::Pieces pieces = sites::pieces_of(site.start, site.end, site.bulge);
+    const site::Pieces pieces = site::pieces_of(site.start, site.end, site.bulge);
     const double first = site::squared_distance(pieces.first(), c);
     return pieces.count == 1 ? first : std::min(first, site::squared_distance(pieces.last(), c));
   };

@@ -9,7 +9,7 @@ double curvature_of(const ExactSite& edge) { return curvature({edge.start, edge.
 }  // namespace
 
 SiteLoops outline_of(const Problem& problem) {
-  const sites::SiteNumbers& numbers = problem.numbers();
+  const site::SiteNumbers& numbers = problem.numbers();
   SiteLoops outline;
   outline.sites.resize(numbers.count);
   outline.next.resize(numbers.count);
@@ -17,7 +17,7 @@ SiteLoops outline_of(const Problem& problem) {
   outline.blunt.assign(numbers.count, false);
   outline.component = problem.shape.component;
   for (std::size_t l = 0; l < problem.shape.loop_count(); ++l) {
-    const sites::Loop loop(problem.shape, l, problem.frame);
+    const site::LoopEdges loop(problem.shape, l, problem.frame);
     const auto first_of = [&](std::uint32_t i) {
       const std::size_t point = loop.begin() + i;
       return numbers.edge[point] - (numbers.is_site(point) ? 1 : 0);

@@ -68,7 +68,7 @@ class Replacer {
   site::Site piece_of(std::uint32_t site, Vec2 center) const {
     const ExactSite& exact = outline_.sites[site];
     if (exact.is_vertex()) return site::make_vertex(exact.start);
-    const sites::Pieces pieces = sites::pieces_of(exact.start, exact.end, exact.bulge);
+    const site::Pieces pieces = site::pieces_of(exact.start, exact.end, exact.bulge);
     const bool last = pieces.count > 1 && site::squared_distance(pieces.last(), center) <
                                               site::squared_distance(pieces.first(), center);
     return last ? pieces.last() : pieces.first();

@@ -3,12 +3,12 @@
 namespace medial::lee {
 
 std::optional<Elements> elements_of(const Problem& problem) {
-  const sites::SiteNumbers& numbers = problem.numbers();
+  const site::SiteNumbers& numbers = problem.numbers();
   Elements elements;
   elements.sites.reserve(numbers.count);
   elements.originals.reserve(numbers.count);
   for (std::size_t l = 0; l < problem.shape.loop_count(); ++l) {
-    const sites::Loop loop(problem.shape, l, problem.frame);
+    const site::LoopEdges loop(problem.shape, l, problem.frame);
     const auto is_reflex = [&](std::uint32_t i) { return numbers.is_site(loop.begin() + i); };
     std::uint32_t start = 0;
     while (start < loop.size() && is_reflex(start)) ++start;

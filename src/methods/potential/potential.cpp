@@ -23,7 +23,7 @@ namespace {
 /// Which sites the pieces of a region are, by the numbers of the result.
 class SiteNames {
  public:
-  SiteNames(const Shape& shape, const sites::SiteNumbers& numbers)
+  SiteNames(const Shape& shape, const site::SiteNumbers& numbers)
       : shape_(shape), numbers_(numbers) {}
 
   /// The site that is nearest to p, of which `piece` is known to be the nearest charge.
@@ -45,7 +45,7 @@ class SiteNames {
     return point + 1 == *loop ? *(loop - 1) : point + 1;
   }
   const Shape& shape_;
-  const sites::SiteNumbers& numbers_;
+  const site::SiteNumbers& numbers_;
 };
 
 /// The order of the force lines, by default: valleys of lower ones join where branches

@@ -51,14 +51,14 @@ bool encloses(const Region& region, Vec2 p) {
 
 std::vector<Region> regions_of(const Problem& problem, double chord) {
   const Shape& shape = problem.shape;
-  const sites::SiteNumbers& numbers = problem.numbers();
+  const site::SiteNumbers& numbers = problem.numbers();
   std::vector<Region> regions(shape.component_count());
   // Outer loops first.
   for (const bool hole : {false, true}) {
     for (std::size_t l = 0; l < shape.loop_count(); ++l) {
       if (shape.hole[l] != hole) continue;
       Region& region = regions[shape.component[l]];
-      const sites::Loop loop(shape, l, problem.frame);
+      const site::LoopEdges loop(shape, l, problem.frame);
       Region::PieceLoop range;
       range.begin = static_cast<std::uint32_t>(region.pieces.size());
       range.inside = loop.local(0);

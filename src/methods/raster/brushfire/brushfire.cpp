@@ -17,7 +17,7 @@ namespace {
 class Radius {
  public:
   Radius(const Shape& shape, const LocalFrame& frame)
-      : frame_(frame), edges_(sites::edge_sites(shape, frame)), tree_(edges_) {}
+      : frame_(frame), edges_(site::edge_sites(shape, frame)), tree_(edges_) {}
 
   double at(Vec2 point) {
     const Vec2 local = frame_.to_local(point);

@@ -322,14 +322,14 @@ bool EdgeOutline::lie_on_one_curve(const Touch& a, const Touch& b, double disk) 
 
 EdgeOutline outline_of(const Problem& problem, double step) {
   const Shape& shape = problem.shape;
-  const sites::SiteNumbers& numbers = problem.numbers();
+  const site::SiteNumbers& numbers = problem.numbers();
   constexpr double chord_share = 1.0 / 16, combined_share = 1.0 / 4;
   EdgeOutline outline;
   if (!shape.bulges.empty()) outline.sagitta = chord_share * step;
   outline.margin = step * (std::numbers::sqrt2 / 2 + 1.01 * chord_share);
   const double straight = std::sin(problem.own<method::Ridge>().collinear * std::numbers::pi / 180);
   for (std::size_t l = 0; l < shape.loop_count(); ++l) {
-    const sites::Loop loop(shape, l, problem.frame);
+    const site::LoopEdges loop(shape, l, problem.frame);
     std::vector<Vertex> vertices;
     for (std::uint32_t i = 0; i < loop.size(); ++i)
       add_pieces({loop.local(i), loop.local(loop.next(i)), loop.bulge(i)},
