@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "axis/node_kinds.h"
+#include "axis/steps.h"
 #include "base/disjoint_sets.h"
 #include "medial/query.h"
 
@@ -31,14 +32,9 @@ Incidence::Incidence(const MedialAxis& axis)
 
 namespace {
 
-/// The node where a step begins or ends.
-std::uint32_t head(const MedialAxis& axis, Step step) {
-  return axis.edges[step.edge].node[step.forward ? 1 : 0];
-}
-
 /// The step that continues a chain through a node of degree two.
 Step next_step(const MedialAxis& axis, const Incidence& incidence, Step step) {
-  const std::uint32_t node = head(axis, step);
+  const std::uint32_t node = head_of(axis, step);
   const auto around = incidence.edges(node);
   const std::uint32_t edge = around[0] == step.edge ? around[1] : around[0];
   if (edge == step.edge) return step;  // an edge from the node to itself
@@ -58,7 +54,7 @@ std::vector<Branch> branches(const MedialAxis& axis) {
     Branch branch;
     // Backward from the lowest edge, then turned round; then forward from it.
     const auto extend = [&](Step step) {
-      while (incidence.degree(head(axis, step)) == 2) {
+      while (incidence.degree(head_of(axis, step)) == 2) {
         step = next_step(axis, incidence, step);
         if (used[step.edge]) break;  // once around
         used[step.edge] = true;
@@ -66,27 +62,34 @@ std::vector<Branch> branches(const MedialAxis& axis) {
       }
     };
     extend({lowest.edge, false});
-    std::reverse(branch.steps.begin(), branch.steps.end());
-    for (Step& step : branch.steps) step.forward = !step.forward;
+    reverse(branch.steps);
     branch.steps.push_back(lowest);
     extend(lowest);
-    const Step first = branch.steps.front();
-    branch.from = axis.edges[first.edge].node[first.forward ? 0 : 1];
-    branch.to = head(axis, branch.steps.back());
+    branch.from = tail_of(axis, branch.steps.front());
+    branch.to = head_of(axis, branch.steps.back());
     out.push_back(std::move(branch));
   }
   return out;
 }
 
 std::uint64_t branch_count(const MedialAxis& axis) {
+  return branch_count(axis, [](std::uint32_t) { return true; });
+}
+
+std::uint64_t branch_count(const MedialAxis& axis,
+                           const std::function<bool(std::uint32_t edge)>& counts) {
   // A branch has two ends at nodes without two edges, or is a closed chain of nodes with two.
-  const std::vector<std::uint32_t> degree = degrees_of(axis);
+  std::vector<std::uint32_t> degree(axis.nodes.size(), 0);
+  for (std::uint32_t e = 0; e < axis.edges.size(); ++e)
+    if (counts(e))
+      for (const std::uint32_t node : axis.edges[e].node) ++degree[node];
   std::uint64_t ends = 0, closed = 0;
   for (const std::uint32_t d : degree) ends += d == 2 ? 0 : d;
   DisjointSets chains(axis.nodes.size());
-  for (const Edge& edge : axis.edges)
-    if (degree[edge.node[0]] == 2 && degree[edge.node[1]] == 2)
-      closed += chains.join(edge.node[0], edge.node[1]) ? 0 : 1;
+  for (std::uint32_t e = 0; e < axis.edges.size(); ++e) {
+    const auto [a, b] = axis.edges[e].node;
+    if (degree[a] == 2 && degree[b] == 2 && counts(e)) closed += chains.join(a, b) ? 0 : 1;
+  }
   return ends / 2 + closed;
 }
 

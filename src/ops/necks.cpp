@@ -11,7 +11,6 @@
 #include "base/disjoint_sets.h"
 #include "medial/measure.h"
 #include "medial/query.h"
-#include "ops/measure.h"
 #include "ops/routes.h"
 
 namespace medial {
@@ -43,7 +42,7 @@ EdgePlace middle_of_flat(const MedialAxis& axis, const Incidence& incidence, Edg
                           ranges::any_of(chain, [edge](Step step) { return step.edge == edge; });
         if (seen || !is_flat(axis, edge)) continue;
         chain.push_back({edge, axis.edges[edge].node[0] == node});
-        node = ops::head_of(axis, chain.back());
+        node = head_of(axis, chain.back());
         before = edge;
         more = true;
         break;
@@ -53,8 +52,7 @@ EdgePlace middle_of_flat(const MedialAxis& axis, const Incidence& incidence, Edg
   const Edge& own = axis.edges[place.edge];
   if (is_flat(axis, place.edge)) {
     follow(own.node[0], place.edge);
-    ranges::reverse(chain);
-    for (Step& step : chain) step.forward = !step.forward;
+    reverse(chain);
     chain.push_back({place.edge, true});
     follow(own.node[1], place.edge);
   } else {

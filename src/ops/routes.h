@@ -1,16 +1,19 @@
 #pragma once
 
-// Searches on the graph of an axis.
+// Searches on the graph of an axis, and parts of its edges.
 
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <queue>
 #include <span>
 #include <vector>
 
+#include "axis/steps.h"
 #include "base/numbers.h"
 #include "medial/axis.h"
 #include "medial/centreline.h"
+#include "medial/measure.h"
 #include "medial/query.h"
 
 namespace medial::ops {
@@ -24,14 +27,19 @@ struct Start {
   double cost = 0;
 };
 
+/// The cost of a way, of what it costs up to an edge and of that edge.
+enum class Adding : std::uint8_t { sum, most };
+
 /// Least costs from a set of starts (Dijkstra's algorithm, with a heap), on the edges that have a
 /// finite cost. Kept for use again, so that a search costs what it visits.
 class Search {
  public:
-  Search(const MedialAxis& axis, const Incidence& incidence, std::span<const double> costs)
+  Search(const MedialAxis& axis, const Incidence& incidence, std::span<const double> costs,
+         Adding adding = Adding::sum)
       : axis_(axis),
         incidence_(incidence),
         edge_costs_(costs),
+        adding_(adding),
         cost_(axis.nodes.size(), std::numeric_limits<double>::infinity()),
         via_(axis.nodes.size(), none) {}
 
@@ -47,22 +55,14 @@ class Search {
   const MedialAxis& axis_;
   const Incidence& incidence_;
   std::span<const double> edge_costs_;
+  Adding adding_;
   std::vector<double> cost_;
   std::vector<std::uint32_t> via_;
   std::vector<std::uint32_t> reached_;
-  std::vector<std::pair<double, std::uint32_t>> heap_;
+  std::priority_queue<std::pair<double, std::uint32_t>,
+                      std::vector<std::pair<double, std::uint32_t>>, std::greater<>>
+      heap_;
 };
-
-/// The node at the other end of an edge.
-inline std::uint32_t other_end(const Edge& edge, std::uint32_t node) {
-  return edge.node[0] == node ? edge.node[1] : edge.node[0];
-}
-inline std::uint32_t tail_of(const MedialAxis& axis, Step step) {
-  return axis.edges[step.edge].node[step.forward ? 0 : 1];
-}
-inline std::uint32_t head_of(const MedialAxis& axis, Step step) {
-  return axis.edges[step.edge].node[step.forward ? 1 : 0];
-}
 
 /// Whole edges as a path, with its length and narrowest radius.
 AxisPath path_of(const MedialAxis& axis, std::span<const Step> steps);
@@ -71,5 +71,12 @@ void measure(const MedialAxis& axis, AxisPath& path);
 
 /// The smallest radius on a part of an edge.
 double narrowest_radius(const MedialAxis& axis, const PathPiece& piece);
+
+/// The parts of an edge where the radius is at least `clearance`, from node to node: at most two,
+/// none of them a single point.
+std::vector<PathPiece> wide_pieces(const MedialAxis& axis, std::uint32_t edge, double clearance);
+
+/// The width at a place, with the feet as seen along the edge or against it.
+LocalWidth width_at(const MedialAxis& axis, EdgePlace place, bool forward = true);
 
 }  // namespace medial::ops

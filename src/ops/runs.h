@@ -4,9 +4,11 @@
 // class. See medial/features.h for what decides.
 
 #include <cstdint>
+#include <queue>
 #include <span>
 #include <vector>
 
+#include "medial/centreline.h"
 #include "medial/features.h"
 #include "medial/query.h"
 
@@ -17,15 +19,9 @@ struct Moments {
   double zero = 0, first = 0, second = 0, square = 0;
 };
 
-/// A place on a branch before anything is rounded to a node.
-struct Spot {
-  std::uint32_t edge = 0;
-  double t = 0;
-};
-
 /// A part of a branch with what adds up along it.
 struct Run {
-  Spot from, to;
+  EdgePlace from, to;
   double length = 0;
   Moments radius;
   Moments direction;            ///< of the angle against the tangent at the start
@@ -100,7 +96,7 @@ class RunCutter {
   std::vector<Run> runs_;
   std::vector<Run> pieces_;  ///< of samples, before they were taken together
   std::vector<std::uint32_t> next_, previous_, version_;
-  std::vector<Entry> heap_;
+  std::priority_queue<Entry> heap_;
   std::vector<double> cuts_;
   double length_ = 0, radius_integral_ = 0, smallest_ = 0, turning_ = 0, bending_ = 0;
 };

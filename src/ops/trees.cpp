@@ -2,39 +2,14 @@
 
 #include <algorithm>
 
-#include "axis/curve.h"
 #include "base/disjoint_sets.h"
+#include "medial/centreline.h"
 
 namespace medial::ops {
-namespace {
-
-/// The largest radius inside an edge, or 0 where none exceeds those of its ends.
-double largest_inside(const MedialAxis& axis, const Edge& edge) {
-  const Curve curve = curve_of(axis, edge);
-  // The radius stays in the hull of its control points.
-  if (curve.r1 <= std::max(curve.r0, curve.r2)) return 0;
-  double low = 0, high = 1;
-  if (curve.derivatives(low).radius_first <= 0 || curve.derivatives(high).radius_first >= 0)
-    return 0;
-  constexpr int halvings = 40;
-  for (int i = 0; i < halvings; ++i) {
-    const double middle = 0.5 * (low + high);
-    (curve.derivatives(middle).radius_first > 0 ? low : high) = middle;
-  }
-  return curve.at(low).radius;
-}
-
-}  // namespace
-
 Trees::Trees(const MedialAxis& axis) : inwards(axis.nodes.size(), none), part(axis.nodes.size()) {
   const std::size_t n = axis.nodes.size();
   DisjointSets sets(n);
-  std::vector<std::uint32_t> degree(n, 0);
-  for (const Edge& edge : axis.edges) {
-    sets.join(edge.node[0], edge.node[1]);
-    ++degree[edge.node[0]];
-    ++degree[edge.node[1]];
-  }
+  for (const Edge& edge : axis.edges) sets.join(edge.node[0], edge.node[1]);
   // A part is named by its lowest node, which comes first.
   for (std::uint32_t i = 0; i < n; ++i) {
     const std::uint32_t lowest = sets.find(i);
@@ -54,7 +29,9 @@ Trees::Trees(const MedialAxis& axis) : inwards(axis.nodes.size(), none), part(ax
   for (std::uint32_t e = 0; e < axis.edges.size(); ++e) {
     const std::uint32_t p = part[axis.edges[e].node[0]];
     ++edges[p];
-    const double inside = largest_inside(axis, axis.edges[e]);
+    // The radius stays in the hull of its control points.
+    if (axis.edges[e].control.radius <= radius[p]) continue;
+    const double inside = disk_at(axis, axis.edges[e], widest_place(axis, e).t).radius;
     if (inside <= radius[p] * (1 + 1e-9)) continue;
     radius[p] = inside;
     deepest_edge[p] = e;
@@ -69,28 +46,12 @@ Trees::Trees(const MedialAxis& axis) : inwards(axis.nodes.size(), none), part(ax
       for (const std::uint32_t node : axis.edges[deepest_edge[p]].node) stays[node] = true;
     }
   }
-  // The sum of the edges at a node is the last one left when its degree is 1.
-  std::vector<std::uint32_t> last(n, 0);
-  for (std::uint32_t e = 0; e < axis.edges.size(); ++e)
-    for (const std::uint32_t node : axis.edges[e].node) last[node] ^= e;
-  std::vector<std::uint32_t> leaves;
-  const auto consider = [&](std::uint32_t node) {
-    if (degree[node] == 1 && !stays[node]) leaves.push_back(node);
-  };
-  for (std::uint32_t i = 0; i < n; ++i) consider(i);
-  while (!leaves.empty()) {
-    const std::uint32_t node = leaves.back();
-    leaves.pop_back();
-    const std::uint32_t e = last[node];
-    const auto& ends = axis.edges[e].node;
-    const std::uint32_t inner = ends[0] == node ? ends[1] : ends[0];
-    order.push_back(e);
-    inwards[node] = e;
-    degree[node] = 0;
-    last[inner] ^= e;
-    --degree[inner];
-    consider(inner);
-  }
+  take_off_leaves(
+      axis, [&](std::uint32_t node) { return stays[node]; },
+      [&](std::uint32_t edge, std::uint32_t leaf, std::uint32_t) {
+        order.push_back(edge);
+        inwards[leaf] = edge;
+      });
 }
 
 }  // namespace medial::ops
