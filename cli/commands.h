@@ -1,9 +1,10 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <functional>
+#include <memory>
+#include <type_traits>
 
-#include "medial/error.h"
+#include "cli/common.h"
 
 namespace medial::cli {
 
@@ -13,6 +14,19 @@ struct Command {
   CLI::App* app = nullptr;
   std::function<Result<int>()> run;
 };
+/// Errors that name a feature, but no file, are of the command's input.
+template <class Arguments>
+Command command_of(CLI::App* app, std::shared_ptr<Arguments> arguments,
+                   Result<int> (*run)(const Arguments&)) {
+  return {app, [arguments, run] {
+            Result<int> status = run(*arguments);
+            if constexpr (std::is_base_of_v<FileArguments, Arguments>) {
+              if (!status && status.error().place.feature && status.error().place.file.empty())
+                status.error().place.file = arguments->input.path;
+            }
+            return status;
+          }};
+}
 
 /// Each adds its command to the program; each has a file of its own.
 Command make_axis_command(CLI::App& program);

@@ -7,12 +7,10 @@
 #include <new>
 #include <sstream>
 #include <string>
-#include <system_error>
 #include <vector>
 
 #include "cli/commands.h"
 #include "cli/common.h"
-#include "cli/terminal.h"
 #include "medial/threads.h"
 
 namespace medial::cli {
@@ -49,15 +47,14 @@ int run(int argc, char** argv, bool json) {
   program.set_version_flag("--version", "medial " MEDIAL_VERSION, "Print the version.");
   program.set_help_flag("--help,-h", "Print this help.");
   program.require_subcommand(1);
-  program.get_formatter()->label("SUBCOMMAND", "VERB");
+  program.get_formatter()->label("SUBCOMMAND", "COMMAND");
   program.footer(
-      "`medial VERB --help` tells each command's options, with examples.\n"
+      "Run `medial COMMAND --help` for its options and examples.\n"
       "\n"
-      "Exit status: 0 done; 1 `verify`, `legal` or `compare` refused an axis; 2 an error, told\n"
-      "in one line on standard error as `medial: FILE: feature F, ring R, vertex V at (X, Y): "
-      "what\n"
-      "is wrong [code]`. Features, rings and vertices count from 0. Nothing is written\n"
-      "then, and an interrupted run leaves no partial file.");
+      "Exit status: 0 for success; 1 if `verify`, `legal` or `compare` rejects an axis; 2 for an\n"
+      "error, printed as one line on standard error: `medial: FILE: feature F, ring R, vertex V\n"
+      "at (X, Y): what is wrong [code]`. Features, rings and vertices count from 0. No output is\n"
+      "written then, and an interrupted run leaves no partial file.");
   const std::array commands = {
       make_axis_command(program),        //
       make_verify_command(program),      //

@@ -1,0 +1,70 @@
+#include <cstdlib>
+#include <numeric>
+#include <string>
+#include <utility>
+
+#include "base/threads.h"
+#include "load/progress.h"
+#include "medial/load.h"
+
+namespace medial {
+namespace {
+
+/// How far an axis of pixels of an interior is from one part for each component and one cycle for
+/// each hole of its shape, by the Euler characteristic.
+std::uint64_t unresolved_in(const AxisItem& item) {
+  const auto& [shape, axis, attributes, contours] = item;
+  const bool pixels =
+      axis.method == name_of(Method::ridge) || axis.method == name_of(Method::brushfire);
+  if (!pixels || axis.exterior > 0) return 0;
+  const auto count = [](std::size_t n) { return static_cast<std::int64_t>(n); };
+  return static_cast<std::uint64_t>(std::abs(count(axis.nodes.size()) - count(axis.edges.size()) -
+                                             count(shape.component_count()) +
+                                             count(shape.hole_count())));
+}
+
+/// What differs from run to run is no part of a document.
+void forget_times(Statistics& statistics) {
+  statistics.threads = 1;
+  statistics.seconds_sites = statistics.seconds_tree = statistics.seconds_connect = 0;
+  statistics.seconds_walk = statistics.seconds_collect = statistics.seconds_exact = 0;
+  statistics.seconds = 0;
+}
+
+}  // namespace
+
+Result<Document<AxisItem>> compute_axes(Document<ShapeItem> shapes, Options options,
+                                        AxesReport* report, const AxisEngine& engine) {
+  if (options.resolution == 0 && options.pixels == 0) options.resolution = shapes.pixel;
+  Document<AxisItem> axes = same_frame<AxisItem>(shapes);
+  axes.items.resize(shapes.items.size());
+  std::vector<double> weights;
+  for (const ShapeItem& item : shapes.items)
+    weights.push_back(static_cast<double>(item.shape.points.size()));
+  SharedProgress progress(options.progress, std::accumulate(weights.begin(), weights.end(), 0.0));
+  const auto compute_one = [&](std::size_t i, int threads) -> Status {
+    ShapeItem& from = shapes.items[i];
+    Options own = options;
+    own.threads = threads;
+    own.progress = progress.part(weights[i]);
+    auto axis = engine ? engine(from, own) : compute(from.shape, own);
+    if (!axis) return std::move(axis).error();
+    axes.items[i] = {std::move(from.shape), std::move(axis).value(), std::move(from.attributes)};
+    if (own.progress) own.progress(1.0);
+    return success();
+  };
+  Status computed = for_each_item(weights, options.threads, compute_one, options.cancel);
+  if (!computed) return std::move(computed).error();
+
+  AxesReport sum;
+  for (AxisItem& item : axes.items) {
+    sum.statistics += item.axis.statistics;
+    sum.unresolved += unresolved_in(item);
+    forget_times(item.axis.statistics);
+  }
+  sum.statistics.threads = effective_threads(options.threads);
+  if (report != nullptr) *report = sum;
+  return axes;
+}
+
+}  // namespace medial
