@@ -80,16 +80,13 @@ Result<int> run_carve(const CarveArguments& arguments) {
   auto shapes = load_shapes(arguments.input, common);
   if (!shapes) return std::move(shapes).error();
   Document<io::CarveItem> file = same_frame<io::CarveItem>(shapes->file);
-  file.items.resize(shapes->file.items.size());
-  const auto carve_item = [&](std::size_t i, int threads) -> Status {
-    auto item = carve_one(std::move(shapes->file.items[i].shape), arguments,
-                          engine_options(common, threads));
-    if (!item) return std::move(item).error();
-    file.items[i] = std::move(item).value();
-    return success();
-  };
-  Status computed = for_each_item(weights_of(shapes->file), common.threads, carve_item);
-  if (!computed) return std::move(computed).error();
+  auto items = map_items<io::CarveItem>(
+      weights_of(shapes->file), common.threads, [&](std::size_t i, int threads) {
+        return carve_one(std::move(shapes->file.items[i].shape), arguments,
+                         engine_options(common, threads));
+      });
+  if (!items) return std::move(items).error();
+  file.items = std::move(items).value();
   shapes->phases.end("carve");
   Status written =
       write_output(arguments, shapes->phases, [&](const auto& path, const auto& format) {

@@ -158,16 +158,13 @@ struct Collapse {
 Result<Collapse> collapse_all(const Document<AxisItem>& file,
                               const CentrelineArguments& arguments) {
   Collapse out;
-  out.shapes.resize(file.items.size());
-  const auto collapse = [&](std::size_t i, int) -> Status {
-    auto one = collapse_narrow(file.items[i].axis, arguments.collapse, arguments.path.path.trim);
-    if (!one) return std::move(one).error();
-    out.shapes[i] = std::move(one).value();
-    return success();
-  };
-  Status done = for_each_item(std::vector<double>(out.shapes.size(), 1.0), arguments.common.threads,
-                              collapse);
-  if (!done) return std::move(done).error();
+  auto shapes = map_items<CollapsedShape>(
+      std::vector<double>(file.items.size(), 1.0), arguments.common.threads,
+      [&](std::size_t i, int) {
+        return collapse_narrow(file.items[i].axis, arguments.collapse, arguments.path.path.trim);
+      });
+  if (!shapes) return std::move(shapes).error();
+  out.shapes = std::move(shapes).value();
   out.layers.crs_wkt = file.crs_wkt;
   out.layers.layers = {{"polygons", io::LayerKind::polygons, {}, {}},
                        {"lines", io::LayerKind::lines, {"length", "width_min"}, {}}};

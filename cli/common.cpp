@@ -291,7 +291,7 @@ CLI::Validator a_positive_number() {
 
 namespace {
 
-/// Numbers with commas between them; nothing where there is an empty one, or what is no number.
+/// Numbers separated by commas; nothing where there is an empty one, or what is no number.
 std::optional<std::vector<double>> numbers_of(const std::string& text) {
   std::vector<double> numbers;
   for (std::size_t at = 0;;) {
@@ -315,7 +315,7 @@ CLI::Option* add_list_option(CLI::App& command, const std::string& name, std::si
     const std::string wanted =
         count == 0 ? std::string("numbers") : fmt::format("{} numbers", count);
     if (!numbers || (count > 0 && numbers->size() != count))
-      return fmt::format("'{}' is not {} with commas between them", text, wanted);
+      return fmt::format("'{}' is not {} separated by commas", text, wanted);
     return std::string();
   };
   return command
@@ -332,7 +332,7 @@ std::string explain(const CLI::ParseError& error, const CLI::App& command) {
     // Those without a dash come in reverse order.
     const auto unknown = std::ranges::find_if(
         extra, [](const std::string& word) { return word.size() > 1 && word[0] == '-'; });
-    if (unknown != extra.end()) return "no such option: " + *unknown;
+    if (unknown != extra.end()) return "unknown option: " + *unknown;
     return extra.empty() ? text : "unexpected argument: " + extra.back();
   }
   if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr &&

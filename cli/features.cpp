@@ -92,21 +92,19 @@ Result<int> run_features(const FeatureArguments& arguments) {
   if (!writable) return std::move(writable).error();
   auto axes = load_axes(arguments.input, common, 0, arguments.axis);
   if (!axes) return std::move(axes).error();
-  std::vector<AxisFeatures> features(axes->file.items.size());
-  const auto describe_one = [&](std::size_t i, int) -> Status {
-    features[i] = medial::describe(axes->file.items[i].axis, arguments.options);
-    return success();
-  };
-  Status described = for_each_item(edge_weights_of(axes->file), common.threads, describe_one);
-  if (!described) return std::move(described).error();
+  const auto features =
+      map_items<AxisFeatures>(edge_weights_of(axes->file), common.threads, [&](std::size_t i, int) {
+        return medial::describe(axes->file.items[i].axis, arguments.options);
+      });
+  if (!features) return features.error();
   axes->phases.end("features");
   Status written = write_output(arguments, axes->phases, [&](const auto& path, const auto& format) {
     io::FeatureWriteOptions own = arguments.table;
     own.write = write_options(arguments);
-    return io::write_features(path, format, axes->file, features, own);
+    return io::write_features(path, format, axes->file, *features, own);
   });
   if (!written) return std::move(written).error();
-  return finish_features(*axes, features, arguments);
+  return finish_features(*axes, *features, arguments);
 }
 
 void add_thresholds(CLI::App& command, FeatureOptions& options) {

@@ -88,8 +88,8 @@ Result<int> summarize_polygons(const FileArguments& arguments) {
   add_rows(table, summary);
   table.add("as read", fmt::format("{}, {}", counted(cleaned.input_rings, "ring"),
                                    counted(cleaned.input_points, "point")));
-  const std::string mended = describe(cleaned);
-  table.add("cleaned", mended.empty() ? "nothing" : mended);
+  const std::string cleaned_text = describe(cleaned);
+  table.add("cleaned", cleaned_text.empty() ? "nothing" : cleaned_text);
   if (arcs.pieces > 0) {
     table.add("curves", fmt::format("{} as {} and {}, within {:.3g}", counted(arcs.pieces, "piece"),
                                     counted(arcs.arcs, "arc"), counted(arcs.segments, "segment"),

@@ -141,13 +141,9 @@ Result<std::vector<std::vector<AxisPath>>> choose_paths(const Document<AxisItem>
     paths[chosen].push_back(std::move(path).value());
     return paths;
   }
-  const auto find = [&](std::size_t i, int) -> Status {
-    paths[i] = main_paths(file.items[i].axis, arguments.path);
-    return success();
-  };
-  Status found = for_each_item(std::vector<double>(file.items.size(), 1.0), threads, find);
-  if (!found) return std::move(found).error();
-  return paths;
+  return map_items<std::vector<AxisPath>>(
+      std::vector<double>(paths.size(), 1.0), threads,
+      [&](std::size_t i, int) { return main_paths(file.items[i].axis, arguments.path); });
 }
 
 }  // namespace medial::cli

@@ -93,7 +93,7 @@ int run(int argc, char** argv, bool json) {
     if (chosen.empty()) {
       const std::vector<std::string> unknown = program.remaining();
       return report_error(invalid_option(unknown.empty() ? "a command is missing"
-                                                         : "no such command: " + unknown[0]),
+                                                         : "unknown command: " + unknown[0]),
                           json, "; see medial --help");
     }
     const std::string hint = "; see medial " + chosen.back()->get_name() + " --help";

@@ -91,16 +91,12 @@ Result<std::vector<NamedSignature>> signatures_of(const InputOptions& input,
     join_items(items);
     items.resize(std::min<std::size_t>(items.size(), 1));
   }
-  std::vector<NamedSignature> out(items.size());
-  const auto sign = [&](std::size_t i, int) -> Status {
+  const auto sign = [&](std::size_t i, int) -> Result<NamedSignature> {
     auto signature = signature_of(items[i]);
     if (!signature) return std::move(signature).error();
-    out[i] = {each ? fmt::format("{}#{}", input.path, i) : input.path, *signature};
-    return success();
+    return NamedSignature{each ? fmt::format("{}#{}", input.path, i) : input.path, *signature};
   };
-  Status signed_all = for_each_item(edge_weights_of(axes->file), common.threads, sign);
-  if (!signed_all) return std::move(signed_all).error();
-  return out;
+  return map_items<NamedSignature>(edge_weights_of(axes->file), common.threads, sign);
 }
 
 /// The files of a folder, those below it included, by name.

@@ -350,17 +350,9 @@ Result<std::vector<Measured>> measure_all(const Document<AxisItem>& file,
                                           const MeasureArguments& arguments) {
   auto paths = choose_paths(file, arguments.path, arguments.common.threads);
   if (!paths) return std::move(paths).error();
-  std::vector<Measured> all(file.items.size());
-  const auto measure_one = [&](std::size_t i, int) -> Status {
-    auto one = measure(file.items[i], (*paths)[i], arguments);
-    if (!one) return std::move(one).error();
-    all[i] = std::move(one).value();
-    return success();
-  };
-  Status measured =
-      for_each_item(std::vector<double>(all.size(), 1.0), arguments.common.threads, measure_one);
-  if (!measured) return std::move(measured).error();
-  return all;
+  return map_items<Measured>(
+      std::vector<double>(paths->size(), 1.0), arguments.common.threads,
+      [&](std::size_t i, int) { return measure(file.items[i], (*paths)[i], arguments); });
 }
 
 Result<int> finish_measure(const std::vector<Measured>& all, const LoadedAxes& axes,

@@ -149,16 +149,15 @@ Result<Document<io::OffsetItem>> offset_each(const OffsetArguments& arguments) {
   if (!shapes) return std::move(shapes).error();
   std::vector<ShapeItem>& items = shapes->file.items;
   Document<io::OffsetItem> file = same_frame<io::OffsetItem>(shapes->file);
-  file.items.resize(items.size());
-  const auto offset_item = [&](std::size_t i, int threads) -> Status {
+  const auto offset_item = [&](std::size_t i, int threads) -> Result<io::OffsetItem> {
     auto offsets = offset_one(items[i].shape, arguments, engine_options(common, threads));
     if (!offsets) return std::move(offsets).error();
-    file.items[i] = {std::move(items[i].shape), std::move(offsets).value(),
-                     std::move(items[i].attributes)};
-    return success();
+    return io::OffsetItem{std::move(items[i].shape), std::move(offsets).value(),
+                          std::move(items[i].attributes)};
   };
-  Status computed = for_each_item(weights_of(shapes->file), common.threads, offset_item);
+  auto computed = map_items<io::OffsetItem>(weights_of(shapes->file), common.threads, offset_item);
   if (!computed) return std::move(computed).error();
+  file.items = std::move(computed).value();
   return file;
 }
 

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <memory>
 
 #include "cli/commands.h"
@@ -16,36 +17,22 @@ namespace medial::cli {
 
 namespace {
 
-const char* help_of(PruneMeasure measure) {
-  switch (measure) {
-    case PruneMeasure::prominence:
-      return "Branches by the geometric mean of significance and of the same by R";
-    case PruneMeasure::significance:
-      return "Branches by how far the shape reaches out beyond the disk where they\n"
-             "begin, by that disk's radius (Ho and Dyer)";
-    case PruneMeasure::length:
-      return "Branches by their longest way to an end, by that radius";
-    case PruneMeasure::ratio:
-      return "Branches by the boundary beyond that disk, by its chord";
-    case PruneMeasure::radius:
-      return "Points by their radius, by R";
-    case PruneMeasure::angle:
-      return "Points by the angle between the radii to the boundary, in degrees";
-    case PruneMeasure::erosion:
-      return "Points by erosion thickness: how far the shape reaches out, by R";
-    case PruneMeasure::potential:
-      return "Points by the length of the boundary beyond, by 2 pi R";
-    case PruneMeasure::residual:
-      return "Points by that length minus its chord, by 2 R";
-    case PruneMeasure::area:
-      return "Points by the area that would be lost, by that of the shape";
-    case PruneMeasure::lambda:
-      return "The lambda medial axis: the smallest circle around the feet, by R";
-    case PruneMeasure::scale:
-      return "The scale axis: the growth that hides a disk in another, from 1 up";
-  }
-  return "";
-}
+/// What each measure judges, in the order of PruneMeasure.
+constexpr std::array measure_helps = {
+    "Branches by the geometric mean of significance and of the same by R",
+    "Branches by how far the shape reaches out beyond the disk where they\n"
+    "begin, by that disk's radius (Ho and Dyer)",
+    "Branches by their longest way to an end, by that radius",
+    "Branches by the boundary beyond that disk, by its chord",
+    "Points by their radius, by R",
+    "Points by the angle between the radii to the boundary, in degrees",
+    "Points by erosion thickness: how far the shape reaches out, by R",
+    "Points by the length of the boundary beyond, by 2 pi R",
+    "Points by that length minus its chord, by 2 R",
+    "Points by the area that would be lost, by that of the shape",
+    "The lambda medial axis: the smallest circle around the feet, by R",
+    "The scale axis: the growth that hides a disk in another, from 1 up",
+};
 
 }  // namespace
 
@@ -54,10 +41,11 @@ void add_prune_options(CLI::App& command, PruneArguments& arguments) {
   arguments.thresholds.resize(prune_measures().size());
   std::vector<CLI::Option*> options;
   for (const PruneMeasure measure : prune_measures()) {
-    CLI::Option* option =
-        add_value(command, fmt::format("--{}", name_of(measure)),
-                  arguments.thresholds[static_cast<std::size_t>(measure)], "T", in_range(0, 1e9),
-                  fmt::format("{} (default: {}).", help_of(measure), default_threshold(measure)));
+    const auto index = static_cast<std::size_t>(measure);
+    CLI::Option* option = add_value(
+        command, fmt::format("--{}", name_of(measure)), arguments.thresholds[index], "T",
+        in_range(0, 1e9),
+        fmt::format("{} (default: {}).", measure_helps.at(index), default_threshold(measure)));
     for (CLI::Option* other : options) option->excludes(other);
     options.push_back(option);
   }

@@ -87,16 +87,12 @@ Result<Shape> rebuild_one(const AxisItem& item, const RebuildArguments& argument
 
 Result<Rebuilt> rebuild_all(const Document<AxisItem>& file, const RebuildArguments& arguments) {
   Rebuilt out;
-  out.shapes.resize(file.items.size());
   std::vector<RebuildReport> reports(file.items.size());
-  const auto rebuild_item = [&](std::size_t i, int) -> Status {
-    auto shape = rebuild_one(file.items[i], arguments, reports[i]);
-    if (!shape) return std::move(shape).error();
-    out.shapes[i] = std::move(shape).value();
-    return success();
-  };
-  Status done = for_each_item(edge_weights_of(file), arguments.common.threads, rebuild_item);
-  if (!done) return std::move(done).error();
+  auto shapes = map_items<Shape>(
+      edge_weights_of(file), arguments.common.threads,
+      [&](std::size_t i, int) { return rebuild_one(file.items[i], arguments, reports[i]); });
+  if (!shapes) return std::move(shapes).error();
+  out.shapes = std::move(shapes).value();
   for (const RebuildReport& report : reports) {
     out.medial_points += report.medial_points;
     out.crossings += report.crossings;
@@ -113,17 +109,14 @@ Status compare(Rebuilt& rebuilt, const std::vector<Shape>& others, const std::st
                     fmt::format("holds {}, but {} were rebuilt", counted(others.size(), "feature"),
                                 shapes.size()));
   }
-  std::vector<ShapeDistance> distances(shapes.size());
   std::vector<double> weights;
   for (const Shape& shape : shapes) weights.push_back(static_cast<double>(shape.points.size()));
-  Status done = for_each_item(weights, threads, [&](std::size_t i, int) -> Status {
-    distances[i] = shape_distance(shapes[i], others[i]);
-    return success();
-  });
-  if (!done) return done;
+  const auto distances = map_items<ShapeDistance>(
+      weights, threads, [&](std::size_t i, int) { return shape_distance(shapes[i], others[i]); });
+  if (!distances) return distances.error();
   rebuilt.compared_with = path;
   ShapeDistance& sum = rebuilt.distance;
-  for (const ShapeDistance& one : distances) {
+  for (const ShapeDistance& one : *distances) {
     if (one.hausdorff() >= sum.hausdorff()) sum.worst = one.worst;
     sum.area += one.area;
     sum.other_area += one.other_area;

@@ -24,37 +24,47 @@ struct VerifyArguments : FileArguments {
 constexpr int most_samples = 1000;
 constexpr std::size_t most_failures_shown = 20;
 
-/// The worst of all certificates where it is a distance, the sum where it is a count or an area.
+/// Calls visit(name, number, is_sum) for every number of a Certificate, and whether that of a whole
+/// file is the sum over its features or else the largest.
+template <class Visit>
+void each_number(const Visit& visit) {
+  using C = Certificate;
+  visit("tolerance", &C::tolerance, false);
+  visit("resolution", &C::resolution, false);
+  visit("largest_residual", &C::largest_residual, false);
+  visit("largest_intrusion", &C::largest_intrusion, false);
+  visit("largest_contact_gap", &C::largest_contact_gap, false);
+  visit("largest_uncovered", &C::largest_uncovered, false);
+  visit("worst_legality", &C::worst_legality, false);
+  visit("shape_area", &C::shape_area, true);
+  visit("disks_area", &C::disks_area, true);
+  visit("disks_checked", &C::disks_checked, true);
+  visit("components", &C::components, true);
+  visit("graph_parts", &C::graph_parts, true);
+  visit("holes", &C::holes, true);
+  visit("cycles", &C::cycles, true);
+  visit("convex_corners", &C::convex_corners, true);
+  visit("corners_without_leaf", &C::corners_without_leaf, true);
+  visit("curvature_leaves", &C::curvature_leaves, true);
+  visit("blunt_joints", &C::blunt_joints, true);
+  visit("largest_blunt_angle", &C::largest_blunt_angle, false);
+  visit("reflex_vertices", &C::reflex_vertices, true);
+  visit("reflex_without_contact", &C::reflex_without_contact, true);
+}
+
+/// The certificate of a whole file.
 Certificate merge(const std::vector<Certificate>& certificates) {
   Certificate all;
   all.passed = true;
   for (std::size_t i = 0; i < certificates.size(); ++i) {
     const Certificate& one = certificates[i];
     if (one.largest_residual >= all.largest_residual) {
-      all.largest_residual = one.largest_residual;
       all.worst_x = one.worst_x;
       all.worst_y = one.worst_y;
     }
-    all.tolerance = std::max(all.tolerance, one.tolerance);
-    all.resolution = std::max(all.resolution, one.resolution);
-    all.largest_intrusion = std::max(all.largest_intrusion, one.largest_intrusion);
-    all.largest_contact_gap = std::max(all.largest_contact_gap, one.largest_contact_gap);
-    all.largest_uncovered = std::max(all.largest_uncovered, one.largest_uncovered);
-    all.worst_legality = std::max(all.worst_legality, one.worst_legality);
-    all.shape_area += one.shape_area;
-    all.disks_area += one.disks_area;
-    all.disks_checked += one.disks_checked;
-    all.components += one.components;
-    all.graph_parts += one.graph_parts;
-    all.holes += one.holes;
-    all.cycles += one.cycles;
-    all.convex_corners += one.convex_corners;
-    all.corners_without_leaf += one.corners_without_leaf;
-    all.curvature_leaves += one.curvature_leaves;
-    all.blunt_joints += one.blunt_joints;
-    all.largest_blunt_angle = std::max(all.largest_blunt_angle, one.largest_blunt_angle);
-    all.reflex_vertices += one.reflex_vertices;
-    all.reflex_without_contact += one.reflex_without_contact;
+    each_number([&](const char*, auto number, bool is_sum) {
+      all.*number = is_sum ? all.*number + one.*number : std::max(all.*number, one.*number);
+    });
     all.passed = all.passed && one.passed;
     for (const std::string& failure : one.failures) {
       all.failures.push_back(certificates.size() == 1 ? failure
@@ -65,30 +75,10 @@ Certificate merge(const std::vector<Certificate>& certificates) {
 }
 
 Json json_of(const Certificate& c) {
-  return {{"passed", c.passed},
-          {"failures", c.failures},
-          {"tolerance", c.tolerance},
-          {"resolution", c.resolution},
-          {"largest_residual", c.largest_residual},
-          {"largest_intrusion", c.largest_intrusion},
-          {"largest_contact_gap", c.largest_contact_gap},
-          {"largest_uncovered", c.largest_uncovered},
-          {"worst_legality", c.worst_legality},
-          {"worst", {{"x", c.worst_x}, {"y", c.worst_y}}},
-          {"shape_area", c.shape_area},
-          {"disks_area", c.disks_area},
-          {"disks_checked", c.disks_checked},
-          {"components", c.components},
-          {"graph_parts", c.graph_parts},
-          {"holes", c.holes},
-          {"cycles", c.cycles},
-          {"convex_corners", c.convex_corners},
-          {"corners_without_leaf", c.corners_without_leaf},
-          {"curvature_leaves", c.curvature_leaves},
-          {"blunt_joints", c.blunt_joints},
-          {"largest_blunt_angle", c.largest_blunt_angle},
-          {"reflex_vertices", c.reflex_vertices},
-          {"reflex_without_contact", c.reflex_without_contact}};
+  Json object = {{"passed", c.passed}, {"failures", c.failures}};
+  each_number([&](const char* name, auto number, bool) { object[name] = c.*number; });
+  object["worst"] = {{"x", c.worst_x}, {"y", c.worst_y}};
+  return object;
 }
 
 std::string worst_text(double residual, double x, double y) {
@@ -227,19 +217,15 @@ Result<std::vector<Certificate>> verify_all(const Document<ShapeItem>& shapes,
                                             const Document<AxisItem>& stored,
                                             const VerifyArguments& arguments) {
   const CommonOptions& common = arguments.common;
-  std::vector<Certificate> certificates(shapes.items.size());
-  const auto verify_one = [&](std::size_t i, int threads) -> Status {
+  const auto verify_one = [&](std::size_t i, int threads) {
     VerifyOptions options;
     options.tolerance = common.tolerance;
     options.corner_angle = common.corner_angle;
     options.samples_per_edge = arguments.samples;
     options.threads = threads;
-    certificates[i] = verify(shapes.items[i].shape, stored.items[i].axis, options);
-    return success();
+    return verify(shapes.items[i].shape, stored.items[i].axis, options);
   };
-  Status done = for_each_item(weights_of(shapes), common.threads, verify_one);
-  if (!done) return std::move(done).error();
-  return certificates;
+  return map_items<Certificate>(weights_of(shapes), common.threads, verify_one);
 }
 
 Result<int> run_verify(const VerifyArguments& arguments) {

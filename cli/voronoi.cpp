@@ -63,17 +63,16 @@ Result<Diagrams> compute_by_lee(const VoronoiArguments& arguments) {
   if (!shapes) return std::move(shapes).error();
   std::vector<ShapeItem>& items = shapes->file.items;
   Diagrams out{same_frame<io::VoronoiItem>(shapes->file), std::move(shapes->phases)};
-  out.file.items.resize(items.size());
-  const auto compute_one = [&](std::size_t i, int threads) -> Status {
+  const auto compute_one = [&](std::size_t i, int threads) -> Result<io::VoronoiItem> {
     auto diagram =
         voronoi_diagram(items[i].shape, {.tolerance = common.tolerance, .threads = threads});
     if (!diagram) return std::move(diagram).error();
-    out.file.items[i] = {std::move(items[i].shape), std::move(diagram).value(),
-                         std::move(items[i].attributes)};
-    return success();
+    return io::VoronoiItem{std::move(items[i].shape), std::move(diagram).value(),
+                           std::move(items[i].attributes)};
   };
-  Status computed = for_each_item(weights_of(shapes->file), common.threads, compute_one);
+  auto computed = map_items<io::VoronoiItem>(weights_of(shapes->file), common.threads, compute_one);
   if (!computed) return std::move(computed).error();
+  out.file.items = std::move(computed).value();
   out.phases.end("voronoi");
   return out;
 }

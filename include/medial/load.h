@@ -27,6 +27,23 @@ Status for_each_item(std::span<const double> weights, int threads,
                      const std::function<Status(std::size_t i, int threads)>& work,
                      const std::atomic<bool>* cancel = nullptr);
 
+/// What work(i, threads) gives for every item, as for_each_item() runs it.
+template <class T>
+Result<std::vector<T>> map_items(std::span<const double> weights, int threads,
+                                 const std::function<Result<T>(std::size_t i, int threads)>& work,
+                                 const std::atomic<bool>* cancel = nullptr) {
+  std::vector<T> results(weights.size());
+  const auto keep = [&](std::size_t i, int own_threads) -> Status {
+    Result<T> result = work(i, own_threads);
+    if (!result) return std::move(result).error();
+    results[i] = std::move(result).value();
+    return success();
+  };
+  Status done = for_each_item(weights, threads, keep, cancel);
+  if (!done) return std::move(done).error();
+  return results;
+}
+
 /// What is inside where rings cross or overlap.
 enum class RepairRule : std::uint8_t {
   none,        ///< nothing: such rings are an error

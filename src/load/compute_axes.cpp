@@ -23,7 +23,7 @@ std::uint64_t unresolved_in(const AxisItem& item) {
                                              count(shape.hole_count())));
 }
 
-/// What differs from run to run is no part of a document.
+/// Documents hold nothing that differs from run to run.
 void forget_times(Statistics& statistics) {
   statistics.threads = 1;
   statistics.seconds_sites = statistics.seconds_tree = statistics.seconds_connect = 0;
@@ -37,24 +37,23 @@ Result<Document<AxisItem>> compute_axes(Document<ShapeItem> shapes, Options opti
                                         AxesReport* report, const AxisEngine& engine) {
   if (options.resolution == 0 && options.pixels == 0) options.resolution = shapes.pixel;
   Document<AxisItem> axes = same_frame<AxisItem>(shapes);
-  axes.items.resize(shapes.items.size());
   std::vector<double> weights;
   for (const ShapeItem& item : shapes.items)
     weights.push_back(static_cast<double>(item.shape.points.size()));
   SharedProgress progress(options.progress, std::accumulate(weights.begin(), weights.end(), 0.0));
-  const auto compute_one = [&](std::size_t i, int threads) -> Status {
+  const auto compute_one = [&](std::size_t i, int threads) -> Result<AxisItem> {
     ShapeItem& from = shapes.items[i];
     Options own = options;
     own.threads = threads;
     own.progress = progress.part(weights[i]);
     auto axis = engine ? engine(from, own) : compute(from.shape, own);
     if (!axis) return std::move(axis).error();
-    axes.items[i] = {std::move(from.shape), std::move(axis).value(), std::move(from.attributes)};
     if (own.progress) own.progress(1.0);
-    return success();
+    return AxisItem{std::move(from.shape), std::move(axis).value(), std::move(from.attributes)};
   };
-  Status computed = for_each_item(weights, options.threads, compute_one, options.cancel);
-  if (!computed) return std::move(computed).error();
+  auto items = map_items<AxisItem>(weights, options.threads, compute_one, options.cancel);
+  if (!items) return std::move(items).error();
+  axes.items = std::move(items).value();
 
   AxesReport sum;
   for (AxisItem& item : axes.items) {

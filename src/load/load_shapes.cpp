@@ -138,20 +138,18 @@ Result<Document<ShapeItem>> load_shapes(Document<Feature> features, const LoadOp
   const std::size_t count = features.items.size();
   if (count == 0) return Error{ErrorCode::empty, "holds no polygon", {}};
   Document<ShapeItem> shapes = same_frame<ShapeItem>(features);
-  shapes.items.resize(count);
   std::vector<LoadReport> reports(count);
   std::vector<double> weights;
   for (const Feature& feature : features.items) weights.push_back(weight_of(feature));
   SharedProgress progress(options.progress, std::accumulate(weights.begin(), weights.end(), 0.0));
-  const auto load = [&](std::size_t i, int) -> Status {
+  const auto load = [&](std::size_t i, int) {
     auto item = load_shape(features.items[i], options, reports[i]);
-    if (!item) return std::move(item).error();
-    shapes.items[i] = std::move(item).value();
     if (const auto done = progress.part(weights[i])) done(1);
-    return success();
+    return item;
   };
-  Status loaded = for_each_item(weights, options.threads, load, options.cancel);
-  if (!loaded) return std::move(loaded).error();
+  auto items = map_items<ShapeItem>(weights, options.threads, load, options.cancel);
+  if (!items) return std::move(items).error();
+  shapes.items = std::move(items).value();
   LoadReport sum;
   for (std::size_t i = 0; i < count; ++i) {
     const ShapeReport& one = reports[i].shapes;
