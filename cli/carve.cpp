@@ -98,6 +98,45 @@ Result<int> run_carve(const CarveArguments& arguments) {
   return finish_carve(file, arguments, shapes->phases);
 }
 
+void add_length(CLI::App& command, const char* name, double& value, const char* text,
+                const char* help) {
+  add_value(command, name, value, text, a_positive_number(), help);
+}
+
+void add_tool_options(CLI::App& command, CarveOptions& carve) {
+  add_value(command, "--angle", carve.angle, "A REQUIRED", in_range(0, 170),
+            "Between the sides of the V-shaped tool, in degrees, in [1, 170]; or 0 for an\n"
+            "end mill, which clears pockets.")
+      ->required();
+  add_length(command, "--depth", carve.depth, "Z",
+             "The largest depth: what is wider gets a flat bottom (default: as deep as the\n"
+             "tool reaches).");
+  add_length(command, "--tool", carve.tool, "D",
+             "The tool's diameter; of a V its largest, which limits the depth.");
+  add_length(command, "--tip", carve.tip, "D",
+             "The diameter of a V's flat tip (default: a point).");
+  add_length(command, "--pass-depth", carve.pass_depth, "Z",
+             "The depth of one pass: several, from the surface down (default: all in one).");
+  add_length(command, "--step", carve.step, "S",
+             "Between the passes that clear a flat bottom (default: half of the tip's\n"
+             "diameter, which leaves nothing; of a pointed tool a 20th of its radius at the\n"
+             "bottom, which leaves ridges).");
+  add_length(command, "--path-tolerance", carve.chord, "T",
+             "How far straight moves may be off the axis's curves, always upwards (default:\n"
+             "1e-5 of the diagonal), and in .csv off arcs, always inwards (default: 1e-6 of\n"
+             "the tool's radius at the bottom).");
+}
+
+void add_machine_options(CLI::App& command, io::MachineOptions& machine) {
+  const OptionGroup group(command, "G-code");
+  add_length(command, "--feed", machine.feed, "F", "Of cutting moves, mm/min (default: 1000).");
+  add_length(command, "--plunge", machine.plunge, "F",
+             "Straight downwards, mm/min (default: 300).");
+  add_length(command, "--safe", machine.safe, "Z", "The height of other moves, mm (default: 5).");
+  add_length(command, "--spindle", machine.spindle, "S",
+             "Turns per minute (default: not started).");
+}
+
 }  // namespace
 
 Command make_carve_command(CLI::App& program) {
@@ -105,30 +144,7 @@ Command make_carve_command(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "carve", "Plan tool paths: V-carving along the axis, pockets along offsets.");
   add_input_options(*command, arguments->input);
-  const auto length = [command](const char* name, double& value, const char* text,
-                                const char* help) {
-    return add_value(*command, name, value, text, a_positive_number(), help);
-  };
-  add_value(*command, "--angle", arguments->carve.angle, "A REQUIRED", in_range(0, 170),
-            "Between the sides of the V-shaped tool, in degrees, in [1, 170]; or 0 for an\n"
-            "end mill, which clears pockets.")
-      ->required();
-  length("--depth", arguments->carve.depth, "Z",
-         "The largest depth: what is wider gets a flat bottom (default: as deep as the\n"
-         "tool reaches).");
-  length("--tool", arguments->carve.tool, "D",
-         "The tool's diameter; of a V its largest, which limits the depth.");
-  length("--tip", arguments->carve.tip, "D", "The diameter of a V's flat tip (default: a point).");
-  length("--pass-depth", arguments->carve.pass_depth, "Z",
-         "The depth of one pass: several, from the surface down (default: all in one).");
-  length("--step", arguments->carve.step, "S",
-         "Between the passes that clear a flat bottom (default: half of the tip's\n"
-         "diameter, which leaves nothing; of a pointed tool a 20th of its radius at the\n"
-         "bottom, which leaves ridges).");
-  length("--path-tolerance", arguments->carve.chord, "T",
-         "How far straight moves may be off the axis's curves, always upwards (default:\n"
-         "1e-5 of the diagonal), and in .csv off arcs, always inwards (default: 1e-6 of\n"
-         "the tool's radius at the bottom).");
+  add_tool_options(*command, arguments->carve);
   add_exterior_options(
       *command, arguments->options,
       "Cut what lies around the shape and in its holes, up to a rectangle, so that the\n"
@@ -136,14 +152,7 @@ Command make_carve_command(CLI::App& program) {
   add_value(*command, "--scale", arguments->scale, "S", in_range(1e-6, 1e6),
             "Millimetres per unit of the input (default: 1); all options are in\n"
             "millimetres.");
-  {
-    const OptionGroup group(*command, "G-code");
-    io::MachineOptions& machine = arguments->machine;
-    length("--feed", machine.feed, "F", "Of cutting moves, mm/min (default: 1000).");
-    length("--plunge", machine.plunge, "F", "Straight downwards, mm/min (default: 300).");
-    length("--safe", machine.safe, "Z", "The height of other moves, mm (default: 5).");
-    length("--spindle", machine.spindle, "S", "Turns per minute (default: not started).");
-  }
+  add_machine_options(*command, arguments->machine);
   add_output_options(*command, *arguments, io::known_carve_formats(), "for example nc");
   add_width_option(*command, arguments->write.width);
   add_common_options(*command, arguments->common);
