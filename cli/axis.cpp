@@ -29,7 +29,7 @@ Result<int> run_axis(const AxisArguments& arguments) {
   const CommonOptions& common = arguments.common;
   const std::string &output = arguments.output, &format = arguments.format;
   Status writable =
-      check_output(output, format, io::known_output_formats(), input.path, common.json);
+      check_output(output, format, io::formats_of(io::DocumentKind::axes), input.path, common.json);
   if (!writable) return std::move(writable).error();
 
   auto shapes = load_shapes(input, common.threads, arguments.curve_axis);
@@ -219,7 +219,8 @@ Command make_axis_command(CLI::App& program) {
   CLI::App* command =
       program.add_subcommand("axis", "Compute medial axes and write them to a file.");
   add_input_options(*command, arguments->input);
-  add_output_options(*command, arguments->output, arguments->format, io::known_output_formats());
+  add_output_options(*command, arguments->output, arguments->format,
+                     io::formats_of(io::DocumentKind::axes));
   command->add_flag("--radius-as-z", arguments->write.radius_as_z,
                     "Drawings (.dxf): splines in space, with the radius as z.");
   add_method_options(*command, *arguments);

@@ -11,7 +11,7 @@
 #include "cli/costs.h"
 #include "cli/pipeline.h"
 #include "cli/terminal.h"
-#include "medial/io/carve.h"
+#include "medial/io/write.h"
 
 namespace medial::cli {
 namespace {
@@ -66,8 +66,9 @@ Status tell(const Document<io::CarveItem>& file, const CarveArguments& arguments
 Result<int> run_carve(const CarveArguments& arguments) {
   const auto& input = arguments.input;
   const auto& common = arguments.common;
-  Status writable = check_output(arguments.output, arguments.format, io::known_carve_formats(),
-                                 input.path, common.json);
+  Status writable =
+      check_output(arguments.output, arguments.format, io::formats_of(io::DocumentKind::carving),
+                   input.path, common.json);
   if (!writable) return std::move(writable).error();
   auto shapes = load_shapes(input, common.threads);
   if (!shapes) return std::move(shapes).error();
@@ -162,8 +163,8 @@ Command make_carve_command(CLI::App& program) {
       ->group(group);
   length("--spindle", arguments->machine.spindle, "Turns a minute (default: not started).", "S")
       ->group(group);
-  add_output_options(*command, arguments->output, arguments->format, io::known_carve_formats(),
-                     "for example nc");
+  add_output_options(*command, arguments->output, arguments->format,
+                     io::formats_of(io::DocumentKind::carving), "for example nc");
   add_width_option(*command, arguments->write.width);
   add_common_options(*command, arguments->common);
   command->footer(

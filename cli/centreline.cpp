@@ -14,7 +14,7 @@
 #include "cli/lines.h"
 #include "cli/pipeline.h"
 #include "cli/terminal.h"
-#include "medial/io/layers.h"
+#include "medial/io/write.h"
 #include "medial/query.h"
 
 namespace medial::cli {
@@ -189,10 +189,9 @@ Result<int> run_collapse(AxisFile axes, const CentrelineArguments& arguments) {
   const double seconds = watch.seconds();
   std::uint64_t polygons = 0, lines = 0;
   double sum_area = 0, sum_length = 0;
-  io::LayerFile layers;
-  layers.crs_wkt = axes.native.crs_wkt;
-  layers.layers = {{"polygons", io::LayerKind::polygons, {}, {}},
-                   {"lines", io::LayerKind::lines, {"length", "width_min"}, {}}};
+  auto layers = same_frame<io::Layer>(axes.native);
+  layers.items = {{"polygons", io::LayerKind::polygons, {}, {}},
+                  {"lines", io::LayerKind::lines, {"length", "width_min"}, {}}};
   for (std::uint32_t i = 0; i < collapsed.size(); ++i) {
     const CollapsedShape& one = collapsed[i];
     const AxisItem& item = axes.native.items[i];
@@ -200,11 +199,10 @@ Result<int> run_collapse(AxisFile axes, const CentrelineArguments& arguments) {
     sum_area += area(one.polygons);
     sum_length += total_length(one.lines);
     const double chord = arguments.common.chord * diagonal(bounding_box(item.shape));
-    add_polygons(one.polygons, i, chord, layers.layers[0]);
-    add_lines(one.lines, i, chord, layers.layers[1]);
-    layers.attributes.push_back(item.attributes);
+    add_polygons(one.polygons, i, chord, layers.items[0]);
+    add_lines(one.lines, i, chord, layers.items[1]);
   }
-  lines = layers.layers[1].features.size();
+  lines = layers.items[1].features.size();
   const bool native = arguments.format == "json" || arguments.output.ends_with(".json");
   if (!arguments.output.empty()) {
     io::WriteOptions write = arguments.write;
@@ -245,10 +243,10 @@ Result<int> run_collapse(AxisFile axes, const CentrelineArguments& arguments) {
 
 Result<int> run_centreline(const CentrelineArguments& arguments) {
   const auto& [input, common] = std::tie(arguments.input, arguments.common);
-  Status writable =
-      check_output(arguments.output, arguments.format,
-                   arguments.collapse > 0 ? collapse_formats : io::known_output_formats(),
-                   input.path, common.json);
+  Status writable = check_output(
+      arguments.output, arguments.format,
+      arguments.collapse > 0 ? collapse_formats : io::formats_of(io::DocumentKind::axes),
+      input.path, common.json);
   if (!writable) return std::move(writable).error();
   auto shapes = load_shapes(input, common.threads);
   if (!shapes) return std::move(shapes).error();
@@ -291,7 +289,8 @@ Command make_centreline_command(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "centreline", "Compute the centre lines of shapes, or the widest way between two places.");
   add_input_options(*command, arguments->input);
-  add_output_options(*command, arguments->output, arguments->format, io::known_output_formats());
+  add_output_options(*command, arguments->output, arguments->format,
+                     io::formats_of(io::DocumentKind::axes));
   add_path_options(*command, arguments->path);
   command->add_flag("--extend", arguments->line.extend, "Extend both ends to the boundary.");
   command

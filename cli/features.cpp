@@ -12,7 +12,7 @@
 #include "cli/pipeline.h"
 #include "cli/stored_axes.h"
 #include "cli/terminal.h"
-#include "medial/io/features.h"
+#include "medial/io/write.h"
 
 namespace medial::cli {
 namespace {
@@ -113,8 +113,8 @@ Result<int> run_features(const FeatureArguments& arguments) {
   const InputOptions& input = arguments.input;
   const CommonOptions& common = arguments.common;
   const std::string &output = arguments.output, &format = arguments.format;
-  Status writable =
-      check_output(output, format, io::known_feature_formats(), input.path, common.json);
+  Status writable = check_output(output, format, io::formats_of(io::DocumentKind::features),
+                                 input.path, common.json);
   if (!writable) return std::move(writable).error();
   auto axes = load_axes(input, common, 0, arguments.axis);
   if (!axes) return std::move(axes).error();
@@ -166,7 +166,8 @@ Command make_features_command(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "features", "Describe shapes by their branches and what these are made of.");
   add_input_options(*command, arguments->input);
-  add_output_options(*command, arguments->output, arguments->format, io::known_feature_formats());
+  add_output_options(*command, arguments->output, arguments->format,
+                     io::formats_of(io::DocumentKind::features));
   command
       ->add_option_function<std::string>(
           "--table",

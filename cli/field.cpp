@@ -10,7 +10,7 @@
 #include "cli/costs.h"
 #include "cli/pipeline.h"
 #include "cli/terminal.h"
-#include "medial/io/field.h"
+#include "medial/io/write.h"
 
 namespace medial::cli {
 namespace {
@@ -24,7 +24,7 @@ struct FieldArguments {
 };
 
 Result<int> run_field(const FieldArguments& arguments) {
-  Status writable = check_output(arguments.output, {}, io::known_field_formats(),
+  Status writable = check_output(arguments.output, {}, io::formats_of(io::DocumentKind::field),
                                  arguments.input.path, arguments.common.json);
   if (!writable) return std::move(writable).error();
   auto file = load_shapes(arguments.input, arguments.common.threads);
@@ -62,8 +62,9 @@ Command make_field_command(CLI::App& program) {
       "field", "Draw the potential of a charged border and its force lines.");
   add_input_options(*command, arguments->input);
   command
-      ->add_option("-o,--output", arguments->output,
-                   "The picture; its extension tells the format: " + io::known_field_formats())
+      ->add_option(
+          "-o,--output", arguments->output,
+          "The picture; its extension tells the format: " + io::formats_of(io::DocumentKind::field))
       ->required()
       ->check(a_name())
       ->option_text("PICTURE REQUIRED");

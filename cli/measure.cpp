@@ -16,8 +16,8 @@
 #include "cli/pipeline.h"
 #include "cli/plot.h"
 #include "cli/terminal.h"
-#include "medial/io/layers.h"
 #include "medial/io/projection.h"
+#include "medial/io/write.h"
 #include "medial/query.h"
 
 namespace medial::cli {
@@ -300,15 +300,13 @@ std::vector<Plot> profile_plots(const std::vector<Measured>& all, const std::str
   return plots;
 }
 
-io::LayerFile layers_of(const Document<AxisItem>& file, const std::vector<Measured>& all,
-                        const MeasureArguments& arguments) {
-  io::LayerFile layers;
-  layers.crs_wkt = file.crs_wkt;
+Document<io::Layer> layers_of(const Document<AxisItem>& file, const std::vector<Measured>& all,
+                              const MeasureArguments& arguments) {
+  auto layers = same_frame<io::Layer>(file);
   io::Layer transects{"transects", io::LayerKind::lines, {"line", "along", "width", "span"}, {}};
   io::Layer necks{"necks", io::LayerKind::lines, {"width", "opens_to", "around_hole"}, {}};
   io::Layer disks{"disks", io::LayerKind::disks, {"r", "rank"}, {}};
   for (std::uint32_t i = 0; i < all.size(); ++i) {
-    layers.attributes.push_back(file.items[i].attributes);
     for (std::size_t k = 0; k < all[i].lines.size(); ++k) {
       for (const LocalWidth& at : all[i].lines[k].transects) {
         transects.features.push_back({i,
@@ -329,9 +327,9 @@ io::LayerFile layers_of(const Document<AxisItem>& file, const std::vector<Measur
     }
   }
   if (arguments.transects > 0 || arguments.spacing > 0)
-    layers.layers.push_back(std::move(transects));
-  if (arguments.necks > 0) layers.layers.push_back(std::move(necks));
-  if (arguments.disks > 0) layers.layers.push_back(std::move(disks));
+    layers.items.push_back(std::move(transects));
+  if (arguments.necks > 0) layers.items.push_back(std::move(necks));
+  if (arguments.disks > 0) layers.items.push_back(std::move(disks));
   return layers;
 }
 
@@ -343,7 +341,7 @@ Status write_output(Document<AxisItem>& file, const std::vector<Measured>& all,
     if (!text) return text.error();
     return arguments.output == "-" ? print(*text) : io::write_text(arguments.output, *text);
   }
-  const io::LayerFile layers = layers_of(file, all, arguments);
+  const Document<io::Layer> layers = layers_of(file, all, arguments);
   for (std::size_t i = 0; i < all.size(); ++i) {
     std::vector<PathPiece> pieces;
     for (const Line& line : all[i].lines)
@@ -358,7 +356,7 @@ Status write_output(Document<AxisItem>& file, const std::vector<Measured>& all,
 Result<int> run_measure(MeasureArguments arguments) {
   const InputOptions& input = arguments.input;
   const CommonOptions& common = arguments.common;
-  const std::string formats = ".csv " + io::known_layer_formats();
+  const std::string formats = ".csv " + io::formats_of(io::DocumentKind::layers);
   Status writable =
       check_output(arguments.output, arguments.format, formats, input.path, common.json);
   if (writable)
@@ -430,7 +428,8 @@ Command make_measure_command(CLI::App& program) {
       ->add_option("-o,--output", arguments->output,
                    "Where to write: the width profile as .csv, or transects, necks and disks as\n"
                    "layers or as a picture:\n" +
-                       io::known_layer_formats() + "\n- is standard output, see --format.")
+                       io::formats_of(io::DocumentKind::layers) +
+                       "\n- is standard output, see --format.")
       ->check(a_name())
       ->option_text("OUTPUT");
   command->add_option("--format", arguments->format, "The format of -o -, for example csv.")

@@ -8,7 +8,7 @@
 #include "cli/costs.h"
 #include "cli/loose.h"
 #include "cli/terminal.h"
-#include "medial/io/layers.h"
+#include "medial/io/write.h"
 #include "medial/voronoi.h"
 
 namespace medial::cli {

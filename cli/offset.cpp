@@ -15,7 +15,7 @@
 #include "cli/loose.h"
 #include "cli/pipeline.h"
 #include "cli/terminal.h"
-#include "medial/io/offsets.h"
+#include "medial/io/write.h"
 #include "medial/voronoi.h"
 
 namespace medial::cli {
@@ -179,8 +179,9 @@ Result<int> run_offset(const OffsetArguments& arguments) {
     return invalid_option("outwards nothing gets empty: give a distance to --until");
   if (arguments.loose && (arguments.step > 0 || arguments.exterior))
     return invalid_option("--loose goes with --distance only");
-  Status writable = check_output(arguments.output, arguments.format, io::known_offset_formats(),
-                                 input.path, common.json);
+  Status writable =
+      check_output(arguments.output, arguments.format, io::formats_of(io::DocumentKind::offsets),
+                   input.path, common.json);
   if (!writable) return std::move(writable).error();
   const Stopwatch watch;
   auto computed = arguments.loose ? buffer_all(arguments) : offset_each(arguments);
@@ -235,7 +236,8 @@ Command make_offset_command(CLI::App& program) {
   command->add_flag("--loose", arguments->loose,
                     "Buffers: all places within each distance of the file's points, lines and\n"
                     "boundaries, taken together; --repair splits them where they cross.");
-  add_output_options(*command, arguments->output, arguments->format, io::known_offset_formats());
+  add_output_options(*command, arguments->output, arguments->format,
+                     io::formats_of(io::DocumentKind::offsets));
   command->add_flag("--chords", arguments->chords,
                     "Well-known text: polygons of chords (see --chord) instead of exact arcs.");
   add_width_option(*command, arguments->write.width);

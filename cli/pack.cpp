@@ -180,7 +180,7 @@ Result<int> run_unpack(const UnpackArguments& arguments) {
     return exit_success;
   }
   Status writable =
-      check_output(output, format, io::known_output_formats(), input.path, common.json);
+      check_output(output, format, io::formats_of(io::DocumentKind::axes), input.path, common.json);
   if (!writable) return std::move(writable).error();
   std::vector<std::string> notes;
   auto native = io::native_of(*pack, &notes);
@@ -249,7 +249,7 @@ Command make_unpack_command(CLI::App& program) {
       ->add_option("-o,--output", arguments->output,
                    fmt::format("Where to write the axis and its shape: {};\n"
                                "of a pack of squares the image: {}.",
-                               io::known_output_formats(), image_formats))
+                               io::formats_of(io::DocumentKind::axes), image_formats))
       ->check(a_name())
       ->option_text("OUTPUT");
   command->add_option("--format", arguments->format, "The format of -o - (default: json).")

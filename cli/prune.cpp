@@ -10,7 +10,7 @@
 #include "cli/prune_options.h"
 #include "cli/stored_axes.h"
 #include "cli/terminal.h"
-#include "medial/io/preview.h"
+#include "medial/io/write.h"
 #include "medial/match.h"
 #include "medial/query.h"
 
@@ -199,9 +199,10 @@ Result<int> run_prune(const PruneVerbArguments& arguments) {
     return invalid_option("--preview needs -o with the name of a picture, and no --keep");
   const auto options = prune_options(how);
   if (!options) return options.error();
-  Status writable = check_output(output, format,
-                                 preview ? io::known_preview_formats() : io::known_output_formats(),
-                                 input.path, common.json);
+  Status writable = check_output(
+      output, format,
+      preview ? io::formats_of(io::DocumentKind::preview) : io::formats_of(io::DocumentKind::axes),
+      input.path, common.json);
   if (!writable) return std::move(writable).error();
   auto axes = load_axes(input, common, how.specks, axis_options);
   if (!axes) return std::move(axes).error();
@@ -231,7 +232,8 @@ Command make_prune_command(CLI::App& program) {
   auto arguments = std::make_shared<PruneVerbArguments>();
   CLI::App* command = program.add_subcommand("prune", "Remove the branches that do not matter.");
   add_input_options(*command, arguments->input);
-  add_output_options(*command, arguments->output, arguments->format, io::known_output_formats());
+  add_output_options(*command, arguments->output, arguments->format,
+                     io::formats_of(io::DocumentKind::axes));
   add_prune_options(*command, arguments->prune);
   add_exterior_options(*command, arguments->options,
                        "Of what lies around the shape and in its holes, within a frame.");

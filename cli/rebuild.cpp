@@ -14,7 +14,7 @@
 #include "cli/stored_axes.h"
 #include "cli/terminal.h"
 #include "medial/io/image.h"
-#include "medial/io/shapes.h"
+#include "medial/io/write.h"
 #include "medial/match.h"
 #include "medial/query.h"
 #include "medial/shape_distance.h"
@@ -192,9 +192,9 @@ Result<int> run(const RebuildArguments& arguments, bool smooths) {
   if (pixels > 0 && !against.empty()) return invalid_option("--against is not for --pixels");
   const auto options = prune_options(how);
   if (!options) return options.error();
-  Status writable =
-      check_output(output, format, pixels > 0 ? image_formats : io::known_shape_formats(),
-                   input.path, common.json);
+  Status writable = check_output(
+      output, format, pixels > 0 ? image_formats : io::formats_of(io::DocumentKind::shapes),
+      input.path, common.json);
   if (!writable) return std::move(writable).error();
   std::vector<Shape> before;
   auto axes =
@@ -233,15 +233,14 @@ Result<int> run(const RebuildArguments& arguments, bool smooths) {
       if (!done) return std::move(done).error();
     }
     if (!output.empty()) {
-      io::ShapesFile file;
-      file.crs_wkt = axes->native.crs_wkt;
-      file.y_down = axes->native.y_down;
-      file.chord = common.chord;
-      file.width = width;
+      auto file = same_frame<ShapeItem>(axes->native);
+      io::WriteOptions write;
+      write.chord = common.chord;
+      write.width = width;
       for (std::size_t i = 0; i < shapes->size(); ++i)
         file.items.push_back(
             {std::move((*shapes)[i]), std::move(axes->native.items[i].attributes)});
-      Status written = io::write_shapes(output, format, file);
+      Status written = io::write_shapes(output, format, file, write);
       if (!written) return std::move(written).error();
     }
     Status printed = tell(told, arguments, std::move(object),
@@ -263,7 +262,8 @@ Result<int> run(const RebuildArguments& arguments, bool smooths) {
 
 void add_switches(CLI::App& command, RebuildArguments& arguments, bool smooths) {
   add_input_options(command, arguments.input);
-  add_output_options(command, arguments.output, arguments.format, io::known_shape_formats());
+  add_output_options(command, arguments.output, arguments.format,
+                     io::formats_of(io::DocumentKind::shapes));
   command.add_flag("--polygon", arguments.polygon,
                    "Straight edges only: arcs become chords within --chord.");
   add_width_option(command, arguments.width);

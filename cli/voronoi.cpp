@@ -158,8 +158,8 @@ Result<int> run_voronoi(const VoronoiArguments& arguments) {
       return invalid_option("the nearest site is that of the whole plane: no frame, not by lee");
     return run_nearest(input, common, nearest, output, format);
   }
-  Status writable =
-      check_output(output, format, io::known_voronoi_formats(), input.path, common.json);
+  Status writable = check_output(output, format, io::formats_of(io::DocumentKind::voronoi),
+                                 input.path, common.json);
   if (!writable) return std::move(writable).error();
   if (by_lee && !(frame.empty() && margin == 0))
     return invalid_option("the method lee has no frame: polygons are it");
@@ -192,7 +192,8 @@ Command make_voronoi_command(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "voronoi", "Compute the Voronoi diagram of points, lines, curves and polygons.");
   add_input_options(*command, arguments->input);
-  add_output_options(*command, arguments->output, arguments->format, io::known_voronoi_formats());
+  add_output_options(*command, arguments->output, arguments->format,
+                     io::formats_of(io::DocumentKind::voronoi));
   command
       ->add_option("--method", arguments->method,
                    "How: disks (default), of everything in the file together, within a\n"

@@ -150,8 +150,9 @@ Result<int> tell(const VoxelArguments& arguments, const Outcome& outcome) {
 
 Result<int> run_voxels(const VoxelArguments& arguments) {
   const CommonOptions& common = arguments.common;
-  Status writable = check_output(arguments.output, arguments.format, io::known_voxel_formats(),
-                                 arguments.input, common.json);
+  Status writable =
+      check_output(arguments.output, arguments.format, io::formats_of(io::DocumentKind::voxels),
+                   arguments.input, common.json);
   if (!writable) return std::move(writable).error();
   Outcome outcome;
   const Stopwatch reading;
@@ -246,11 +247,11 @@ Command make_voxels_command(CLI::App& program) {
       program.add_subcommand("voxels", "Compute the medial axis of a closed mesh on a grid.");
   command
       ->add_option("MESH", arguments->input,
-                   "A closed triangle mesh: " + io::known_mesh_formats() + ".")
+                   "A closed triangle mesh: " + io::formats_of(io::DocumentKind::mesh) + ".")
       ->required()
       ->option_text(" ");
-  add_output_options(*command, arguments->output, arguments->format, io::known_voxel_formats(),
-                     "for example ply");
+  add_output_options(*command, arguments->output, arguments->format,
+                     io::formats_of(io::DocumentKind::voxels), "for example ply");
   add_own_options(*command, *arguments);
   add_threads_option(*command, arguments->common);
   add_report_options(*command, arguments->common);

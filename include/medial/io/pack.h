@@ -6,7 +6,6 @@
 
 #include "medial/error.h"
 #include "medial/image.h"
-#include "medial/io/read.h"
 #include "medial/pack.h"
 
 namespace medial::io {
