@@ -227,7 +227,7 @@ Status OutputStream::finish() {
   return success();
 }
 
-std::string quoted(std::string_view text) {
+std::string json_quoted(const std::string& text) {
   using Json = nlohmann::json;
   return Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
 }
@@ -261,7 +261,7 @@ Status write_text(const std::string& path, const std::string& text) {
 void put_quoted(OutputStream& out, std::string_view text) {
   const bool plain = std::ranges::all_of(
       text, [](char c) { return c >= ' ' && c < 0x7f && c != '"' && c != '\\'; });
-  if (!plain) return out.put(std::string_view(quoted(text)));
+  if (!plain) return out.put(std::string_view(json_quoted(std::string(text))));
   out.put('"');
   out.put(text);
   out.put('"');

@@ -94,7 +94,7 @@ class OutputStream {
 };
 
 /// A text as a JSON string; bytes that are no UTF-8 are replaced.
-std::string quoted(std::string_view text);
+std::string json_quoted(const std::string& text);
 void put_quoted(OutputStream& out, std::string_view text);
 
 /// Writes a file all at once, or to a stream: `write` puts the bytes. Exceptions become errors, and

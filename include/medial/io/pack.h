@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "medial/document.h"
 #include "medial/error.h"
 #include "medial/image.h"
 #include "medial/pack.h"

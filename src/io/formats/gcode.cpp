@@ -13,7 +13,7 @@ namespace medial::io {
 namespace {
 
 /// A number without useless digits: "12.5", "-0.25", "0".
-std::string number(double value) {
+std::string decimal(double value) {
   std::string text = fmt::format("{:.6f}", value);
   while (text.back() == '0') text.pop_back();
   if (text.back() == '.') text.pop_back();
@@ -27,8 +27,8 @@ class GCode {
   void begin() {
     line("(medial carve: millimetres, z 0 on the surface)");
     line("G21 G90 G17 G94");
-    if (machine_.spindle > 0) line("M3 S" + number(machine_.spindle));
-    line("G0 Z" + number(machine_.safe));
+    if (machine_.spindle > 0) line("M3 S" + decimal(machine_.spindle));
+    line("G0 Z" + decimal(machine_.safe));
   }
   void end() {
     if (down_) lift();
@@ -40,8 +40,8 @@ class GCode {
     const ToolPoint& first = points.front();
     if (!down_ || !(first.point == at_.point) || first.z != at_.z) {
       if (down_) lift();
-      line("G0 X" + number(first.point.x) + " Y" + number(first.point.y));
-      line("G1 Z" + number(first.z) + " F" + number(machine_.plunge));
+      line("G0 X" + decimal(first.point.x) + " Y" + decimal(first.point.y));
+      line("G1 Z" + decimal(first.z) + " F" + decimal(machine_.plunge));
       feed_ = machine_.plunge;
       down_ = true;
     }
@@ -58,13 +58,13 @@ class GCode {
     out_.put('\n');
   }
   void lift() {
-    line("G0 Z" + number(machine_.safe));
+    line("G0 Z" + decimal(machine_.safe));
     down_ = false;
   }
   void move(double bulge, const ToolPoint& to) {
-    const std::string x = number(to.point.x), y = number(to.point.y), z = number(to.z);
-    const bool same_place = x == number(at_.point.x) && y == number(at_.point.y);
-    const bool same_height = z == number(at_.z);
+    const std::string x = decimal(to.point.x), y = decimal(to.point.y), z = decimal(to.z);
+    const bool same_place = x == decimal(at_.point.x) && y == decimal(at_.point.y);
+    const bool same_height = z == decimal(at_.z);
     if (same_place && same_height && std::abs(bulge) < 1) return;
     std::string text;
     // Six decimals do not hold the centre of an arc that is hardly longer than they resolve.
@@ -72,15 +72,15 @@ class GCode {
     if (bulge != 0 && distance(at_.point, to.point) > shortest) {
       const BulgeArc arc{at_.point, to.point, bulge};
       const Vec2 center = (1 / curvature(arc)) * left_of(start_tangent(arc));
-      text = (bulge > 0 ? "G3 X" : "G2 X") + x + " Y" + y + " I" + number(center.x) + " J" +
-             number(center.y);
+      text = (bulge > 0 ? "G3 X" : "G2 X") + x + " Y" + y + " I" + decimal(center.x) + " J" +
+             decimal(center.y);
     } else {
       text = "G1";
       if (!same_place) text += " X" + x + " Y" + y;
       if (!same_height) text += " Z" + z;
     }
     const double feed = same_place && to.z < at_.z ? machine_.plunge : machine_.feed;
-    if (feed != feed_) text += " F" + number(feed);
+    if (feed != feed_) text += " F" + decimal(feed);
     feed_ = feed;
     line(text);
   }

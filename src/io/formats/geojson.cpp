@@ -48,12 +48,12 @@ class Collection {
  public:
   explicit Collection(Target& target, bool named = false) : target_(target), out_(*target.out) {
     out_.put("{\"type\":\"FeatureCollection\",");
-    if (named) out_.put(fmt::format("\"name\":{},", quoted(target.name)));
+    if (named) out_.put(fmt::format("\"name\":{},", json_quoted(target.name)));
     const auto* reference = target.crs.reference();
     const std::string urn = reference == nullptr ? std::string() : urn_of(*reference);
     if (!urn.empty())
       out_.put(fmt::format("\"crs\":{{\"type\":\"name\",\"properties\":{{\"name\":{}}}}},",
-                           quoted(urn)));
+                           json_quoted(urn)));
     out_.put("\"features\":[");
   }
   void start() {
@@ -76,7 +76,7 @@ class Collection {
   }
   void attributes(const Attributes& attributes) {
     for (const auto& [name, value] : attributes) {
-      key(quoted(name));
+      key(json_quoted(name));
       put_quoted(out_, value);
     }
   }
@@ -111,7 +111,7 @@ class GeojsonTables final : public TableSink {
       : TableSink(target), out_(*target.out), tables_(source.tables), collection_(target, true) {
     for (const Table& table : tables_) {
       auto& keys = keys_.emplace_back();
-      for (const Column& column : table.columns) keys.push_back(quoted(column.name));
+      for (const Column& column : table.columns) keys.push_back(json_quoted(column.name));
     }
   }
   Status finish() { return collection_.finish(); }

@@ -113,10 +113,8 @@ Status create_layers(GDALDataset& dataset, const Target& target, const TableSour
   return success();
 }
 
-/// A dataset with its layers, and what `fill` puts into it.
-template <class Fill>
-Status make_dataset(const std::string& path, const Target& target, const TableSource& source,
-                    const Fill& fill) {
+/// A dataset with its layers and what fills them.
+Status make_dataset(const std::string& path, Target& target, const TableSource& source) {
   register_gdal();
   GDALDriver* driver = GetGDALDriverManager()->GetDriverByName(driver_of(target.format));
   if (driver == nullptr)
@@ -126,13 +124,17 @@ Status make_dataset(const std::string& path, const Target& target, const TableSo
   GDALDatasetUniquePtr dataset(driver->Create(path.c_str(), 0, 0, 0, GDT_Unknown, nullptr));
   if (!dataset) return cannot_write(messages);
   if (Status created = create_layers(*dataset, target, source, messages); !created) return created;
-  if (Status filled = fill(*dataset, messages); !filled) return filled;
-  dataset.reset();  // closing writes, too
+  GdalTables tables(target, source, *dataset, messages);
+  const bool transactions = dataset->TestCapability(ODsCTransactions) != 0;
+  if (transactions) dataset->StartTransaction();
+  if (Status filled = source.fill(tables); !filled) return filled;
+  if (transactions) dataset->CommitTransaction();  // a failure is among the messages
+  dataset.reset();                                 // closing writes, too
   return messages.failure().empty() ? success() : cannot_write(messages);
 }
 
 Status put_gdal_tables(Target& target, const TableSource& source) {
-  if (source.tables.size() != 1)
+  if (source.tables.size() != 1 && target.format != "gpkg")
     return Error{ErrorCode::unsupported,
                  fmt::format(".{} holds one layer only, and there are {}; .gpkg and .geojson hold "
                              "several",
@@ -141,18 +143,8 @@ Status put_gdal_tables(Target& target, const TableSource& source) {
   if (target.out != nullptr && target.format == "shp")
     return Error{
         ErrorCode::unsupported, "a shapefile is several files and cannot go to a stream", {}};
-  return make_file(target, [&](const std::string& path) {
-    return make_dataset(path, target, source,
-                        [&](GDALDataset& dataset, const GdalMessages& messages) -> Status {
-                          GdalTables tables(target, source, dataset, messages);
-                          const bool transactions = dataset.TestCapability(ODsCTransactions) != 0;
-                          if (transactions) dataset.StartTransaction();
-                          if (Status filled = source.fill(tables); !filled) return filled;
-                          // A failure is among the messages.
-                          if (transactions) dataset.CommitTransaction();
-                          return success();
-                        });
-  });
+  return make_file(target,
+                   [&](const std::string& path) { return make_dataset(path, target, source); });
 }
 
 }  // namespace
@@ -194,11 +186,6 @@ Status OutputCrs::transform(std::vector<Disk>& disks) const {
   return success();
 }
 
-Status create_by_gdal(const std::string& path, const Target& target, const TableSource& source) {
-  return make_dataset(path, target, source,
-                      [](GDALDataset&, const GdalMessages&) { return success(); });
-}
-
 Status make_file(Target& target, const std::function<Status(const std::string&)>& make) {
   if (target.out == nullptr) return make(target.path);
   const auto folder = std::filesystem::temp_directory_path();
@@ -212,6 +199,12 @@ Status make_file(Target& target, const std::function<Status(const std::string&)>
     target.out->put(std::string_view(bytes.data(), static_cast<std::size_t>(file.gcount())));
   return file.bad() ? Status(Error{ErrorCode::unwritable, "cannot read what was made", {}})
                     : success();
+}
+
+Format gpkg_format() {
+  Format format{".gpkg"};
+  format.own_files = true;
+  return with_tables<put_gdal_tables>(format);
 }
 
 Format shp_format() {

@@ -9,9 +9,7 @@ namespace medial::io {
 namespace {
 
 void put_disk(OutputStream& out, const Disk& disk) {
-  put_member(out, ",\"x\":", disk.center.x);
-  put_member(out, ",\"y\":", disk.center.y);
-  put_member(out, ",\"r\":", disk.radius);
+  put_members<double>(out, {{"x", disk.center.x}, {"y", disk.center.y}, {"r", disk.radius}});
   out.put('}');
 }
 
@@ -38,12 +36,12 @@ void put_section(OutputStream& out, const BoundarySection& section) {
 void put_run(OutputStream& out, const PrimitiveRun& run) {
   put_member(out, "{\"primitive\":", name_of(run.primitive));
   put_member(out, ",\"variation\":", name_of(run.variation));
-  put_member(out, ",\"length\":", run.length);
-  put_member(out, ",\"mean_width\":", 2 * run.mean_radius);
-  put_member(out, ",\"slope\":", run.slope);
-  put_member(out, ",\"bend\":", run.bend);
-  put_member(out, ",\"turning\":", run.turning);
-  put_member(out, ",\"spiral\":", run.spiral);
+  put_members<double>(out, {{"length", run.length},
+                            {"mean_width", 2 * run.mean_radius},
+                            {"slope", run.slope},
+                            {"bend", run.bend},
+                            {"turning", run.turning},
+                            {"spiral", run.spiral}});
   out.put(",\"from\":");
   put_place(out, run.from);
   out.put(",\"to\":");
@@ -53,20 +51,19 @@ void put_run(OutputStream& out, const PrimitiveRun& run) {
 
 void put_branch(OutputStream& out, const BranchFeatures& branch, const AxisFeatures& features) {
   put_member(out, "{\"branch\":", branch.branch);
-  put_member(out, ",\"reversed\":", branch.reversed);
-  put_member(out, ",\"closed\":", branch.closed);
+  put_members<bool>(out, {{"reversed", branch.reversed}, {"closed", branch.closed}});
   put_member(out, ",\"from\":", branch.from);
   put_member(out, ",\"from_kind\":", name_of(branch.from_kind));
   put_member(out, ",\"to\":", branch.to);
   put_member(out, ",\"to_kind\":", name_of(branch.to_kind));
-  put_member(out, ",\"length\":", branch.length);
-  put_member(out, ",\"smallest_radius\":", branch.smallest_radius);
-  put_member(out, ",\"largest_radius\":", branch.largest_radius);
-  put_member(out, ",\"mean_width\":", branch.mean_width);
-  put_member(out, ",\"turning\":", branch.turning);
-  put_member(out, ",\"absolute_turning\":", branch.absolute_turning);
-  put_member(out, ",\"area\":", branch.area);
-  put_member(out, ",\"significance\":", branch.significance);
+  put_members<double>(out, {{"length", branch.length},
+                            {"smallest_radius", branch.smallest_radius},
+                            {"largest_radius", branch.largest_radius},
+                            {"mean_width", branch.mean_width},
+                            {"turning", branch.turning},
+                            {"absolute_turning", branch.absolute_turning},
+                            {"area", branch.area},
+                            {"significance", branch.significance}});
   out.put(",\"left\":");
   put_section(out, branch.side[0]);
   out.put(",\"right\":");
@@ -108,16 +105,16 @@ void put_item(OutputStream& out, std::size_t index, const AxisItem& axis,
   put_member(out, index == 0 ? "\n{\"feature\":" : ",\n{\"feature\":", index);
   out.put(",\"attributes\":");
   put_attributes(out, axis.attributes);
-  put_member(out, ",\"components\":", item.components);
-  put_member(out, ",\"cycles\":", item.cycles);
-  put_member(out, ",\"ends\":", item.ends);
-  put_member(out, ",\"branchings\":", item.branchings);
-  put_member(out, ",\"closed_branches\":", item.closed_branches);
-  put_member(out, ",\"length\":", item.length);
-  put_member(out, ",\"area\":", item.area);
-  put_member(out, ",\"boundary\":", item.boundary);
-  put_member(out, ",\"largest_radius\":", item.largest_radius);
-  put_member(out, ",\"mean_width\":", item.mean_width);
+  put_members<std::uint64_t>(out, {{"components", item.components},
+                                   {"cycles", item.cycles},
+                                   {"ends", item.ends},
+                                   {"branchings", item.branchings},
+                                   {"closed_branches", item.closed_branches}});
+  put_members<double>(out, {{"length", item.length},
+                            {"area", item.area},
+                            {"boundary", item.boundary},
+                            {"largest_radius", item.largest_radius},
+                            {"mean_width", item.mean_width}});
   put_shares(out, item);
   out.put("},\n\"points\":[");
   put_points(out, axis.axis, item);

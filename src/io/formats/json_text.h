@@ -34,6 +34,16 @@ void put_member(OutputStream& out, std::string_view before, const V& value) {
   put_json(out, value);
 }
 
+/// Several members of one type: ,"x":1,"y":2
+template <class V>
+void put_members(OutputStream& out, std::initializer_list<std::pair<std::string_view, V>> members) {
+  for (const auto& [name, value] : members) {
+    out.put(",\"");
+    out.put(name);
+    put_member(out, "\":", value);
+  }
+}
+
 /// Finite numbers in brackets: [1,2.5,3].
 template <class... Values>
 void put_row(OutputStream& out, Values... values) {

@@ -10,7 +10,7 @@ namespace {
 
 constexpr int newest_version = 1;
 
-Site read_site(json::value value) {
+Site read_voronoi_site(json::value value) {
   Row row(value);
   Site site;
   site.kind = site_kind(row.index<std::uint32_t>());
@@ -19,7 +19,7 @@ Site read_site(json::value value) {
   return site;
 }
 
-VoronoiEdge read_edge(json::value value) {
+VoronoiEdge read_voronoi_edge(json::value value) {
   Row row(value);
   VoronoiEdge edge;
   edge.node[0] = row.index<std::uint32_t>();
@@ -59,38 +59,38 @@ void read_faces(json::value value, VoronoiDiagram& diagram) {
   });
 }
 
-VoronoiItem read_item(json::value value) {
+VoronoiItem read_voronoi_item(json::value value) {
   VoronoiItem item;
   VoronoiDiagram& diagram = item.diagram;
-  read_members(value.get_object(),
-               Member{"method", [&](json::value v) { diagram.method = text_of(v); }},
-               Member{"tolerance",
-                      [&](json::value v) {
-                        diagram.tolerance = number(v);
-                        demand(diagram.tolerance >= 0, "the tolerance is negative");
-                      }},
-               Member{"frame",
-                      [&](json::value v) {
-                        Row row(v);
-                        const Vec2 low = row.point();
-                        diagram.frame = Box{low, row.point()};
-                        row.end();
-                      }},
-               Member{"attributes",
-                      [&](json::value v) {
-                        read_attributes(v, "an attribute is a name and a value", item.attributes);
-                      }},
-               Member{"sites", [&](json::value v) { append_all(v, diagram.sites, read_site); }},
-               Member{"nodes", [&](json::value v) { append_all(v, diagram.nodes, read_node); }},
-               Member{"edges", [&](json::value v) { append_all(v, diagram.edges, read_edge); }},
-               Member{"faces", [&](json::value v) { read_faces(v, diagram); }});
+  read_members(
+      value.get_object(), Member{"method", [&](json::value v) { diagram.method = text_of(v); }},
+      Member{"tolerance",
+             [&](json::value v) {
+               diagram.tolerance = number(v);
+               demand(diagram.tolerance >= 0, "the tolerance is negative");
+             }},
+      Member{"frame",
+             [&](json::value v) {
+               Row row(v);
+               const Vec2 low = row.point();
+               diagram.frame = Box{low, row.point()};
+               row.end();
+             }},
+      Member{"attributes",
+             [&](json::value v) {
+               read_attributes(v, "an attribute is a name and a value", item.attributes);
+             }},
+      Member{"sites", [&](json::value v) { append_all(v, diagram.sites, read_voronoi_site); }},
+      Member{"nodes", [&](json::value v) { append_all(v, diagram.nodes, read_node); }},
+      Member{"edges", [&](json::value v) { append_all(v, diagram.edges, read_voronoi_edge); }},
+      Member{"faces", [&](json::value v) { read_faces(v, diagram); }});
   check(diagram);
   return item;
 }
 
-Document<VoronoiItem> read_file(json::document& document) {
+Document<VoronoiItem> read_voronoi_file(json::document& document) {
   Document<VoronoiItem> file;
-  file.items = read_items(document, "medial_voronoi", newest_version, read_item);
+  file.items = read_items(document, "medial_voronoi", newest_version, read_voronoi_item);
   return file;
 }
 
@@ -131,7 +131,7 @@ bool begins_like_voronoi(std::string_view text) {
 }
 
 Result<Document<VoronoiItem>> read_voronoi(TextSource& source) {
-  return read_document(source, newest_version, read_file);
+  return read_document(source, newest_version, read_voronoi_file);
 }
 
 Status write_json(Target& target, const VoronoiOutput& output) {

@@ -4,13 +4,12 @@
 #include <zstd.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <memory>
 #include <new>
 
 #include "io/guarded.h"
-#include "io/output.h"
-#include "io/place.h"
+#include "io/text_source.h"
+#include "medial/io/write.h"
 #include "medial/rebuild.h"
 #include "ops/code_bytes.h"
 
@@ -192,44 +191,18 @@ Result<PackFile> unpack_bytes(std::span<const std::uint8_t> bytes) {
 }
 
 Status write_pack(const std::string& path, const std::vector<std::uint8_t>& bytes) {
-  return guarded(path, [&]() -> Status {
-    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    if (is_stream(path)) {
-      Result<OutputStream> out = OutputStream::open(path);
-      if (!out) return out.error();
-      out->put(text);
-      return out->finish();
-    }
-    Result<PendingFile> pending = PendingFile::create(path);
-    if (!pending) return pending.error();
-    Result<OutputStream> out = OutputStream::open(pending->path());
-    if (!out) return out.error();
-    out->put(text);
-    if (Status status = out->finish(); !status) return status;
-    return pending->commit();
-  });
+  return write_text(path, {bytes.begin(), bytes.end()});
 }
 
 Result<PackFile> read_pack(const std::string& path) {
   return guarded(path, [&]() -> Result<PackFile> {
-    struct Close {
-      void operator()(std::FILE* file) const {
-        if (file != stdin) std::fclose(file);
-      }
-    };
-    const std::unique_ptr<std::FILE, Close> file(path == "-" ? stdin
-                                                             : std::fopen(path.c_str(), "rb"));
-    if (!file) return Error{ErrorCode::unreadable, "cannot open", in_file(path)};
-    Bytes bytes;
-    std::array<std::uint8_t, 65536> buffer{};
-    for (;;) {
-      const std::size_t got = std::fread(buffer.data(), 1, buffer.size(), file.get());
-      append(bytes, std::span(buffer).first(got));
-      if (got < buffer.size()) break;
-    }
-    if (std::ferror(file.get()) != 0)
-      return Error{ErrorCode::unreadable, "cannot read", in_file(path)};
-    return unpack_bytes(bytes);
+    constexpr std::size_t longest_pack = std::size_t{1} << 32U;
+    Result<std::shared_ptr<TextSource>> source = TextSource::open(path);
+    if (!source) return source.error();
+    std::string text;
+    (*source)->read_all(text, longest_pack);
+    if ((*source)->failure()) return *(*source)->failure();
+    return unpack_bytes({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
   });
 }
 

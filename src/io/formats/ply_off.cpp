@@ -28,7 +28,7 @@ constexpr std::uint64_t most_corners = 1024;
 // ---- Polygons.
 
 /// What a file holds: vertices, and polygons one after the other.
-struct Table {
+struct Polygons {
   std::vector<Vec3> vertices;
   std::vector<std::uint32_t> corners;
   std::vector<std::uint32_t> sides;  ///< of each polygon
@@ -108,7 +108,7 @@ class EarCutter {
   std::vector<std::size_t> next_, before_;  ///< of the corners that are left
 };
 
-Result<TriangleMesh> mesh_of(Table table, const TextSource& source) {
+Result<TriangleMesh> mesh_of(Polygons table, const TextSource& source) {
   TriangleMesh mesh;
   std::vector<std::uint32_t> polygon;
   auto corner = table.corners.begin();
@@ -377,7 +377,7 @@ class PlyReader {
   TextSource& source_;
   Form form_ = Form::text;
   std::vector<Element> elements_;
-  Table table_;
+  Polygons table_;
 };
 
 // ---- OFF.
@@ -421,7 +421,7 @@ Result<TriangleMesh> read_off(const Input& input) {
     count = *value;
   }
   rest_of_line(source);
-  Table table;
+  Polygons table;
   table.vertices.reserve(std::min<std::uint64_t>(counts[0], most_reserved));
   table.sides.reserve(std::min<std::uint64_t>(counts[1], most_reserved));
   for (std::uint32_t i = 0; i < counts[0]; ++i) {

@@ -10,9 +10,9 @@ namespace medial::io {
 
 namespace {
 
-constexpr Color inside{0.945, 0.945, 0.925};
-constexpr Color outline{0.55, 0.55, 0.57};
-constexpr Color text{0.10, 0.10, 0.12};
+constexpr Color shape_color{0.945, 0.945, 0.925};
+constexpr Color edge_color{0.55, 0.55, 0.57};
+constexpr Color text_color{0.10, 0.10, 0.12};
 constexpr Color end_color{0.20, 0.55, 0.25};
 constexpr Color branching{0.80, 0.15, 0.20};
 
@@ -25,9 +25,9 @@ constexpr std::array<Color, primitive_count> primitive_colors{{{0.30, 0.32, 0.36
                                                                {0.72, 0.50, 0.80},
                                                                {0.47, 0.18, 0.58}}};
 
-constexpr double legend = 0.025;      // height of the legend below, of the picture's width
+constexpr double legend_height = 0.025;      // height of the legend below, of the picture's width
 constexpr double width_share = 1e-3;  // line widths, of the picture's larger side
-constexpr double mark = 3.2;          // radius of the marks, in line widths
+constexpr double mark_radius = 3.2;          // radius of the marks, in line widths
 constexpr int most_names = 60;
 
 /// The words for a run: "closing wedge", "worm, left circular".
@@ -93,9 +93,9 @@ class FeaturesPicture {
       }
       canvas_.close();
     }
-    canvas_.color(inside);
+    canvas_.color(shape_color);
     canvas_.fill_even_odd(true);
-    canvas_.color(outline);
+    canvas_.color(edge_color);
     cairo_set_line_width(context_, 0.8 * line_);
     canvas_.stroke();
   }
@@ -105,7 +105,7 @@ class FeaturesPicture {
     const std::vector<Branch> all = branches(axis);
     const double chord = 0.1 / frame_.scale;  // a tenth of a pixel
     // What is shorter than the marks at its ends has none: they would hide everything.
-    const double shortest = 2 * mark * line_ / frame_.scale;
+    const double shortest = 2 * mark_radius * line_ / frame_.scale;
     std::vector<bool>& marked = marked_.emplace_back(axis.nodes.size(), false);
     for (const BranchFeatures& branch : features.branches) {
       const Branch& chain = all[branch.branch];
@@ -191,11 +191,11 @@ class FeaturesPicture {
         if (features.points[i] == drawn && marked[i])
           places.push_back(frame_(axis.nodes[i].disk.center));
       once(places);
-      draw_dots(places, mark, drawn == PointKind::end ? end_color : branching);
+      draw_dots(places, mark_radius, drawn == PointKind::end ? end_color : branching);
     }
     // Cuts inside of branches: rings.
     once(cuts_);
-    draw_dots(cuts_, 3.5, text);
+    draw_dots(cuts_, 3.5, text_color);
     draw_dots(cuts_, 2.5, paper_color);
     cuts_.clear();
   }
@@ -226,7 +226,7 @@ class FeaturesPicture {
       cairo_set_line_width(context_, 4 * line_);
       canvas_.color(paper_color);
       cairo_stroke_preserve(context_);
-      canvas_.color(text);
+      canvas_.color(text_color);
       cairo_fill(context_);
     }
   }
@@ -243,7 +243,7 @@ class FeaturesPicture {
       canvas_.color(primitive_colors[i]);
       cairo_rectangle(context_, x, y - 0.5 * font_size(), 1.5 * font_size(), 0.35 * font_size());
       cairo_fill(context_);
-      canvas_.color(text);
+      canvas_.color(text_color);
       cairo_move_to(context_, x + 1.8 * font_size(), y);
       cairo_show_text(context_, words.c_str());
       cairo_text_extents_t extents;
@@ -271,7 +271,7 @@ Status write_picture(Target& target, const FeaturesOutput& output) {
   const Document<AxisItem>& axes = output.document;
   const Result<PictureFrame> frame = frame_for(box_of(axes), output.options.width, axes.y_down);
   if (!frame) return frame.error();
-  const double height = frame->height + std::ceil(legend * frame->width);
+  const double height = frame->height + std::ceil(legend_height * frame->width);
   return write_surface(*target.out, target.format, frame->width, height, [&](cairo_t* context) {
     Canvas canvas(context, *frame);
     FeaturesPicture(canvas, output).draw();
