@@ -47,7 +47,7 @@ struct AxisArguments : FileArguments {
 };
 
 Result<int> run_axis(const AxisArguments& arguments) {
-  Status writable = check_output(arguments, io::known_output_formats());
+  Status writable = check_output(arguments, io::formats_of(io::DocumentKind::axes));
   if (!writable) return std::move(writable).error();
   Options options = arguments.options;
   options.method = arguments.methods.method();
@@ -177,7 +177,7 @@ Command make_axis_command(CLI::App& program) {
   CLI::App* command =
       program.add_subcommand("axis", "Compute medial axes and write them to a file.");
   add_input_options(*command, arguments->input);
-  add_output_options(*command, *arguments, io::known_output_formats());
+  add_output_options(*command, *arguments, io::formats_of(io::DocumentKind::axes));
   command->add_flag("--radius-as-z", arguments->write.radius_as_z,
                     "Drawings (.dxf): splines in space, with the radius as z.");
   add_method_options(*command, arguments->methods);

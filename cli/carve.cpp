@@ -9,7 +9,7 @@
 #include "cli/commands.h"
 #include "cli/common.h"
 #include "cli/pipeline.h"
-#include "medial/io/carve.h"
+#include "medial/io/write.h"
 
 namespace medial::cli {
 namespace {
@@ -75,7 +75,7 @@ Result<int> finish_carve(const Document<io::CarveItem>& file, const CarveArgumen
 
 Result<int> run_carve(const CarveArguments& arguments) {
   const CommonOptions& common = arguments.common;
-  Status writable = check_output(arguments, io::known_carve_formats());
+  Status writable = check_output(arguments, io::formats_of(io::DocumentKind::carving));
   if (!writable) return std::move(writable).error();
   auto shapes = load_shapes(arguments.input, common);
   if (!shapes) return std::move(shapes).error();
@@ -153,7 +153,8 @@ Command make_carve_command(CLI::App& program) {
             "Millimetres per unit of the input (default: 1); all options are in\n"
             "millimetres.");
   add_machine_options(*command, arguments->machine);
-  add_output_options(*command, *arguments, io::known_carve_formats(), "for example nc");
+  add_output_options(*command, *arguments, io::formats_of(io::DocumentKind::carving),
+                     "for example nc");
   add_width_option(*command, arguments->write.width);
   add_common_options(*command, arguments->common);
   command->footer(

@@ -13,7 +13,7 @@
 #include "cli/common.h"
 #include "cli/lines.h"
 #include "cli/pipeline.h"
-#include "medial/io/layers.h"
+#include "medial/io/write.h"
 #include "medial/query.h"
 
 namespace medial::cli {
@@ -152,7 +152,7 @@ void add_lines(const MedialAxis& lines, std::uint32_t feature, double chord, io:
 /// What became of the shapes of a file.
 struct Collapse {
   std::vector<CollapsedShape> shapes;
-  io::LayerFile layers;  ///< polygons, lines
+  Document<io::Layer> layers;  ///< polygons, lines
 };
 
 Result<Collapse> collapse_all(const Document<AxisItem>& file,
@@ -165,15 +165,14 @@ Result<Collapse> collapse_all(const Document<AxisItem>& file,
       });
   if (!shapes) return std::move(shapes).error();
   out.shapes = std::move(shapes).value();
-  out.layers.crs_wkt = file.crs_wkt;
-  out.layers.layers = {{"polygons", io::LayerKind::polygons, {}, {}},
-                       {"lines", io::LayerKind::lines, {"length", "width_min"}, {}}};
+  out.layers = same_frame<io::Layer>(file);
+  out.layers.items = {{"polygons", io::LayerKind::polygons, {}, {}},
+                      {"lines", io::LayerKind::lines, {"length", "width_min"}, {}}};
   for (std::uint32_t i = 0; i < out.shapes.size(); ++i) {
     const AxisItem& item = file.items[i];
     const double chord = arguments.common.chord * diagonal(bounding_box(item.shape));
-    add_polygons(out.shapes[i].polygons, i, chord, out.layers.layers[0]);
-    add_lines(out.shapes[i].lines, i, chord, out.layers.layers[1]);
-    out.layers.attributes.push_back(item.attributes);
+    add_polygons(out.shapes[i].polygons, i, chord, out.layers.items[0]);
+    add_lines(out.shapes[i].lines, i, chord, out.layers.items[1]);
   }
   return out;
 }
@@ -202,7 +201,7 @@ Result<int> run_collapse(LoadedAxes axes, const CentrelineArguments& arguments) 
   });
   if (!written) return std::move(written).error();
   const std::size_t features = axes.file.items.size();
-  const std::size_t lines = collapse->layers.layers[1].features.size();
+  const std::size_t lines = collapse->layers.items[1].features.size();
   const std::string line =
       fmt::format("{}: {}, {} of area {:.10g}, {} of length {:.10g}", arguments.input.path,
                   counted(features, "feature"), counted(polygons, "polygon"), sum_area,
@@ -220,8 +219,9 @@ Result<int> run_collapse(LoadedAxes axes, const CentrelineArguments& arguments) 
 
 Result<int> run_centreline(const CentrelineArguments& arguments) {
   const auto& [input, common] = std::tie(arguments.input, arguments.common);
-  Status writable = check_output(
-      arguments, arguments.collapse > 0 ? collapse_formats : io::known_output_formats());
+  Status writable =
+      check_output(arguments, arguments.collapse > 0 ? collapse_formats
+                                                     : io::formats_of(io::DocumentKind::axes));
   if (!writable) return std::move(writable).error();
   auto shapes = load_shapes(input, common);
   if (!shapes) return std::move(shapes).error();
@@ -252,7 +252,7 @@ Command make_centreline_command(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "centreline", "Compute the centre lines of shapes, or the widest way between two places.");
   add_input_options(*command, arguments->input);
-  add_output_options(*command, *arguments, io::known_output_formats());
+  add_output_options(*command, *arguments, io::formats_of(io::DocumentKind::axes));
   add_path_options(*command, arguments->path);
   command->add_flag("--extend", arguments->line.extend, "Extend both ends to the boundary.");
   add_value(*command, "--smooth", arguments->line.smooth, "RADII", in_range(0, 1000),

@@ -10,7 +10,7 @@
 #include "cli/commands.h"
 #include "cli/common.h"
 #include "cli/pipeline.h"
-#include "medial/io/features.h"
+#include "medial/io/write.h"
 
 namespace medial::cli {
 namespace {
@@ -88,7 +88,7 @@ Result<int> finish_features(const LoadedAxes& axes, std::span<const AxisFeatures
 
 Result<int> run_features(const FeatureArguments& arguments) {
   const CommonOptions& common = arguments.common;
-  Status writable = check_output(arguments, io::known_feature_formats());
+  Status writable = check_output(arguments, io::formats_of(io::DocumentKind::features));
   if (!writable) return std::move(writable).error();
   auto axes = load_axes(arguments.input, common, 0, arguments.axis);
   if (!axes) return std::move(axes).error();
@@ -129,7 +129,7 @@ Command make_features_command(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "features", "Describe shapes by their branches and what these are made of.");
   add_input_options(*command, arguments->input);
-  add_output_options(*command, *arguments, io::known_feature_formats());
+  add_output_options(*command, *arguments, io::formats_of(io::DocumentKind::features));
   add_choice<io::FeatureTable>(
       *command, "--table", arguments->table.table,
       {{"runs", io::FeatureTable::runs},

@@ -8,7 +8,7 @@
 #include "cli/commands.h"
 #include "cli/common.h"
 #include "cli/pipeline.h"
-#include "medial/io/field.h"
+#include "medial/io/write.h"
 
 namespace medial::cli {
 namespace {
@@ -19,7 +19,7 @@ struct FieldArguments : FileArguments {
 };
 
 Result<int> run_field(const FieldArguments& arguments) {
-  Status writable = check_output(arguments, io::known_field_formats());
+  Status writable = check_output(arguments, io::formats_of(io::DocumentKind::field));
   if (!writable) return std::move(writable).error();
   auto file = load_shapes(arguments.input, arguments.common);
   if (!file) return std::move(file).error();
@@ -50,8 +50,9 @@ Command make_field_command(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "field", "Draw the potential of a charged border and its force lines.");
   add_input_options(*command, arguments->input);
-  add_output_option(*command, arguments->output, "PICTURE REQUIRED",
-                    "The picture; its extension chooses the format: " + io::known_field_formats())
+  add_output_option(
+      *command, arguments->output, "PICTURE REQUIRED",
+      "The picture; its extension chooses the format: " + io::formats_of(io::DocumentKind::field))
       ->required();
   add_value(*command, "--order", arguments->order, "N", in_range(1.0, 256.0, true),
             "The n of the potential 1 / r^n (default: 1).");

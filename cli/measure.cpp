@@ -15,8 +15,8 @@
 #include "cli/lines.h"
 #include "cli/pipeline.h"
 #include "cli/plot.h"
-#include "medial/io/layers.h"
 #include "medial/io/projection.h"
+#include "medial/io/write.h"
 #include "medial/query.h"
 
 namespace medial::cli {
@@ -292,15 +292,13 @@ std::vector<Plot> profile_plots(const std::vector<Measured>& all, const std::str
   return plots;
 }
 
-io::LayerFile layers_of(const Document<AxisItem>& file, const std::vector<Measured>& all,
-                        const MeasureArguments& arguments) {
-  io::LayerFile layers;
-  layers.crs_wkt = file.crs_wkt;
+Document<io::Layer> layers_of(const Document<AxisItem>& file, const std::vector<Measured>& all,
+                              const MeasureArguments& arguments) {
+  auto layers = same_frame<io::Layer>(file);
   io::Layer transects{"transects", io::LayerKind::lines, {"line", "along", "width", "span"}, {}};
   io::Layer necks{"necks", io::LayerKind::lines, {"width", "opens_to", "around_hole"}, {}};
   io::Layer disks{"disks", io::LayerKind::disks, {"r", "rank"}, {}};
   for (std::uint32_t i = 0; i < all.size(); ++i) {
-    layers.attributes.push_back(file.items[i].attributes);
     for (std::size_t k = 0; k < all[i].lines.size(); ++k) {
       for (const LocalWidth& at : all[i].lines[k].transects) {
         transects.features.push_back({i,
@@ -321,9 +319,9 @@ io::LayerFile layers_of(const Document<AxisItem>& file, const std::vector<Measur
     }
   }
   if (arguments.transects > 0 || arguments.spacing > 0)
-    layers.layers.push_back(std::move(transects));
-  if (arguments.necks > 0) layers.layers.push_back(std::move(necks));
-  if (arguments.disks > 0) layers.layers.push_back(std::move(disks));
+    layers.items.push_back(std::move(transects));
+  if (arguments.necks > 0) layers.items.push_back(std::move(necks));
+  if (arguments.disks > 0) layers.items.push_back(std::move(disks));
   return layers;
 }
 
@@ -335,7 +333,7 @@ Status write_measures(Document<AxisItem>& file, const std::vector<Measured>& all
     if (!text) return text.error();
     return arguments.output == "-" ? print(*text) : io::write_text(arguments.output, *text);
   }
-  const io::LayerFile layers = layers_of(file, all, arguments);
+  const Document<io::Layer> layers = layers_of(file, all, arguments);
   for (std::size_t i = 0; i < all.size(); ++i) {
     std::vector<PathPiece> pieces;
     for (const Line& line : all[i].lines)
@@ -376,7 +374,7 @@ Result<int> run_measure(const MeasureArguments& given) {
   MeasureArguments arguments = given;
   const InputOptions& input = arguments.input;
   const CommonOptions& common = arguments.common;
-  Status writable = check_output(arguments, ".csv " + io::known_layer_formats());
+  Status writable = check_output(arguments, ".csv " + io::formats_of(io::DocumentKind::layers));
   if (writable)
     writable = check_output(arguments.plot, {}, ".svg .png .pdf", input.path, common.json);
   if (!writable) return std::move(writable).error();
@@ -410,7 +408,8 @@ Command make_measure_command(CLI::App& program) {
   add_output_option(*command, arguments->output, "OUTPUT",
                     "The output file: the width profile as .csv, or transects, necks and disks\n"
                     "as layers or as a picture:\n" +
-                        io::known_layer_formats() + "\n- is standard output, see --format.");
+                        io::formats_of(io::DocumentKind::layers) +
+                        "\n- is standard output, see --format.");
   add_format_option(*command, arguments->format, "for example csv");
   command->add_option("--plot", arguments->plot, "Draw the width profiles: .svg .png .pdf.")
       ->check(a_name())

@@ -12,7 +12,7 @@
 #include "cli/commands.h"
 #include "cli/common.h"
 #include "cli/pipeline.h"
-#include "medial/io/offsets.h"
+#include "medial/io/write.h"
 #include "medial/voronoi.h"
 
 namespace medial::cli {
@@ -168,7 +168,7 @@ Result<int> run_offset(const OffsetArguments& arguments) {
     return invalid_option("outward passes never end: give a distance to --until");
   if (arguments.loose && (arguments.step > 0 || arguments.exterior))
     return invalid_option("--loose goes with --distance only");
-  Status writable = check_output(arguments, io::known_offset_formats());
+  Status writable = check_output(arguments, io::formats_of(io::DocumentKind::offsets));
   if (!writable) return std::move(writable).error();
   Phases phases;
   const auto file = arguments.loose ? buffer_all(arguments) : offset_each(arguments);
@@ -212,7 +212,7 @@ Command make_offset_command(CLI::App& program) {
   command->add_flag("--loose", arguments->loose,
                     "Buffers: all places within each distance of the file's points, lines and\n"
                     "boundaries, taken together; --repair splits them where they cross.");
-  add_output_options(*command, *arguments, io::known_offset_formats());
+  add_output_options(*command, *arguments, io::formats_of(io::DocumentKind::offsets));
   command->add_flag("--chords", arguments->chords,
                     "Well-known text: polygons of chords (see --chord) instead of exact arcs.");
   add_width_option(*command, arguments->write.width);

@@ -178,7 +178,7 @@ Result<int> run_unpack(const FileArguments& arguments) {
   auto pack = io::read_pack(input.path);
   if (!pack) return std::move(pack).error();
   if (pack->kind == io::PackKind::squares) return unpack_squares(arguments, pack->code);
-  Status writable = check_output(arguments, io::known_output_formats());
+  Status writable = check_output(arguments, io::formats_of(io::DocumentKind::axes));
   if (!writable) return std::move(writable).error();
   std::vector<std::string> notes;
   auto native = io::native_of(*pack, &notes);
@@ -239,7 +239,7 @@ Command make_unpack_command(CLI::App& program) {
   add_output_option(*command, arguments->output, "OUTPUT",
                     fmt::format("The output file for the axis and its shape: {};\n"
                                 "of a pack of squares for the image: {}.",
-                                io::known_output_formats(), image_formats));
+                                io::formats_of(io::DocumentKind::axes), image_formats));
   add_format_option(*command, arguments->format, "default: json");
   add_picture_options(*command, arguments->write);
   add_common_options(*command, arguments->common);

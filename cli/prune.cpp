@@ -9,7 +9,7 @@
 
 #include "cli/commands.h"
 #include "cli/prune_options.h"
-#include "medial/io/preview.h"
+#include "medial/io/write.h"
 #include "medial/match.h"
 #include "medial/query.h"
 
@@ -165,8 +165,9 @@ Result<int> run_prune(const PruneCommandArguments& arguments) {
     return invalid_option("--preview needs -o with the name of a picture, and no --keep");
   const auto options = prune_options(arguments.prune);
   if (!options) return options.error();
-  Status writable = check_output(
-      arguments, arguments.preview ? io::known_preview_formats() : io::known_output_formats());
+  Status writable =
+      check_output(arguments, arguments.preview ? io::formats_of(io::DocumentKind::preview)
+                                                : io::formats_of(io::DocumentKind::axes));
   if (!writable) return std::move(writable).error();
   auto axes = load_axes(arguments.input, common, arguments.prune.specks, arguments.options);
   if (!axes) return std::move(axes).error();
@@ -194,7 +195,7 @@ Command make_prune_command(CLI::App& program) {
   auto arguments = std::make_shared<PruneCommandArguments>();
   CLI::App* command = program.add_subcommand("prune", "Remove the branches that do not matter.");
   add_input_options(*command, arguments->input);
-  add_output_options(*command, *arguments, io::known_output_formats());
+  add_output_options(*command, *arguments, io::formats_of(io::DocumentKind::axes));
   add_prune_options(*command, arguments->prune);
   add_exterior_options(*command, arguments->options,
                        "Prune the axis of what lies around the shape and in its holes, within a\n"

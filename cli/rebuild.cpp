@@ -12,7 +12,7 @@
 #include "cli/commands.h"
 #include "cli/prune_options.h"
 #include "medial/io/image.h"
-#include "medial/io/shapes.h"
+#include "medial/io/write.h"
 #include "medial/match.h"
 #include "medial/query.h"
 #include "medial/shape_distance.h"
@@ -185,14 +185,12 @@ void add_measures(const Rebuilt& rebuilt, Json& object) {
 
 Status write_rebuilt(Rebuilt& rebuilt, Document<AxisItem>& axes,
                      const RebuildArguments& arguments) {
-  io::ShapesFile file;
-  file.crs_wkt = axes.crs_wkt;
-  file.y_down = axes.y_down;
-  file.chord = arguments.common.chord;
-  file.width = arguments.write.width;
+  auto file = same_frame<ShapeItem>(axes);
+  io::WriteOptions write = arguments.write;
+  write.chord = arguments.common.chord;
   for (std::size_t i = 0; i < rebuilt.shapes.size(); ++i)
     file.items.push_back({std::move(rebuilt.shapes[i]), std::move(axes.items[i].attributes)});
-  return io::write_shapes(arguments.output, arguments.format, file);
+  return io::write_shapes(arguments.output, arguments.format, file, write);
 }
 
 Result<int> finish_rebuild(const RebuildArguments& arguments, Json object, const Phases& phases,
@@ -208,7 +206,7 @@ Status check(const RebuildArguments& arguments) {
   if (pixels && (arguments.output.empty() || arguments.output == "-"))
     return invalid_option("--pixels needs -o with the name of an image");
   if (pixels && !arguments.against.empty()) return invalid_option("--against is not for --pixels");
-  return check_output(arguments, pixels ? image_formats : io::known_shape_formats());
+  return check_output(arguments, pixels ? image_formats : io::formats_of(io::DocumentKind::shapes));
 }
 
 Result<int> run(const RebuildArguments& arguments, bool smooths) {
@@ -274,7 +272,7 @@ void add_rebuild_options(CLI::App& command, RebuildArguments& arguments) {
 
 void add_options(CLI::App& command, RebuildArguments& arguments, bool smooths) {
   add_input_options(command, arguments.input);
-  add_output_options(command, arguments, io::known_shape_formats());
+  add_output_options(command, arguments, io::formats_of(io::DocumentKind::shapes));
   command.add_flag("--polygon", arguments.polygon,
                    "Straight edges only: arcs become chords within --chord.");
   add_width_option(command, arguments.write.width);

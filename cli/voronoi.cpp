@@ -115,7 +115,7 @@ Result<int> run_voronoi(const VoronoiArguments& arguments) {
       return invalid_option("the nearest site is that of the whole plane: no frame, not by lee");
     return run_nearest(arguments, arguments.nearest);
   }
-  Status writable = check_output(arguments, io::known_voronoi_formats());
+  Status writable = check_output(arguments, io::formats_of(io::DocumentKind::voronoi));
   if (!writable) return std::move(writable).error();
   if (by_lee && framed) return invalid_option("the method lee has no frame but its polygons");
   auto diagrams = by_lee ? compute_by_lee(arguments) : compute_together(arguments);
@@ -135,7 +135,7 @@ Command make_voronoi_command(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "voronoi", "Compute the Voronoi diagram of points, lines, curves and polygons.");
   add_input_options(*command, arguments->input);
-  add_output_options(*command, *arguments, io::known_voronoi_formats());
+  add_output_options(*command, *arguments, io::formats_of(io::DocumentKind::voronoi));
   command
       ->add_option("--method", arguments->method,
                    "The method: disks (default), of everything in the file together, within a\n"

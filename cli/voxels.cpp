@@ -139,7 +139,7 @@ Result<Outcome> compute_outcome(const VoxelArguments& arguments) {
 }
 
 Result<int> run_voxels(const VoxelArguments& arguments) {
-  Status writable = check_output(arguments, io::known_voxel_formats());
+  Status writable = check_output(arguments, io::formats_of(io::DocumentKind::voxels));
   if (!writable) return std::move(writable).error();
   auto outcome = compute_outcome(arguments);
   if (!outcome) return std::move(outcome).error();
@@ -196,10 +196,11 @@ Command make_voxels_command(CLI::App& program) {
       program.add_subcommand("voxels", "Compute the medial axis of a closed mesh on a grid.");
   command
       ->add_option("MESH", arguments->input.path,
-                   "A closed triangle mesh: " + io::known_mesh_formats() + ".")
+                   "A closed triangle mesh: " + io::formats_of(io::DocumentKind::mesh) + ".")
       ->required()
       ->option_text(" ");
-  add_output_options(*command, *arguments, io::known_voxel_formats(), "for example ply");
+  add_output_options(*command, *arguments, io::formats_of(io::DocumentKind::voxels),
+                     "for example ply");
   add_own_options(*command, *arguments);
   add_threads_option(*command, arguments->common.threads);
   add_report_options(*command, arguments->common);

@@ -29,7 +29,7 @@ LAYERS = {
 }
 ORDER = list(LAYERS)
 LAYER_OF_HEADER = {f"medial/{name}.h": layer for layer, names in LAYERS.items() for name in names}
-IO_ONLY = re.compile(r"(gdal|ogr|cpl_|geos|cairo|svgpp|libxml|dl_|ft2build|simdjson|nlohmann/|CLI/|zlib\.h|sqlite3\.h|assimp)", re.IGNORECASE)
+IO_ONLY = re.compile(r"(gdal|ogr|cpl_|geos|cairo|svgpp|libxml|dl_|ft2build|simdjson|nlohmann/|CLI/|zlib\.h|assimp)", re.IGNORECASE)
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.MULTILINE)
 
 

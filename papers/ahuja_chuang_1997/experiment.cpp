@@ -13,7 +13,6 @@
 #include "base/local_frame.h"
 #include "cli/axis_distance.h"
 #include "medial/compute.h"
-#include "medial/io/field.h"
 #include "medial/io/write.h"
 #include "medial/query.h"
 #include "methods/potential/region.h"

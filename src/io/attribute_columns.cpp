@@ -10,6 +10,8 @@
 #include <set>
 #include <string_view>
 
+#include "io/format_name.h"
+
 namespace medial::io {
 namespace {
 
@@ -24,18 +26,12 @@ bool spells(const std::string& text, Number& value) {
          text;
 }
 
-std::string lower(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
-
 }  // namespace
 
-AttributeColumns::AttributeColumns(std::span<const Attributes* const> items,
-                                   std::span<const std::string> own) {
+AttributeColumns::AttributeColumns(const Document<AxisItem>& file, std::span<const Column> own) {
   std::map<std::string, std::size_t> index;
-  for (const Attributes* item : items) {
-    for (const auto& [name, value] : *item) {
+  for (const AxisItem& item : file.items) {
+    for (const auto& [name, value] : item.attributes) {
       const auto [found, inserted] = index.try_emplace(name, columns_.size());
       if (inserted) {
         names_.push_back(name);
@@ -51,16 +47,17 @@ AttributeColumns::AttributeColumns(std::span<const Attributes* const> items,
       }
     }
   }
-  std::set<std::string> taken(own.begin(), own.end());
-  for (const char* name : {"fid", "ogc_fid", "geom"}) taken.insert(name);
+  std::set<std::string> taken{"fid", "ogc_fid", "geom"};
+  for (const Column& column : own) taken.insert(column.name);
   for (std::size_t k = 0; k < columns_.size(); ++k) {
-    for (int i = 1; !taken.insert(lower(columns_[k].name)).second; ++i)
+    for (int i = 1; !taken.insert(lower_case(columns_[k].name)).second; ++i)
       columns_[k].name = fmt::format("{}_{}", names_[k], i);
   }
 }
 
-void AttributeColumns::append_to(std::vector<Column>& columns) const {
+std::vector<Column> AttributeColumns::appended_to(std::vector<Column> columns) const {
   columns.insert(columns.end(), columns_.begin(), columns_.end());
+  return columns;
 }
 
 std::vector<Value> AttributeColumns::values_of(const Attributes& item) const {

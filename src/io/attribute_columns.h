@@ -13,12 +13,12 @@ namespace medial::io {
 /// every value is the usual spelling of a number becomes numbers again (so "007" stays a text).
 class AttributeColumns {
  public:
-  /// `own`: the names that the writer's own columns have, in lower case; an attribute of such a
-  /// name gets another one.
-  AttributeColumns(std::span<const Attributes* const> items, std::span<const std::string> own);
+  /// Of the items of a document; an attribute that is named as one of the writer's `own` columns
+  /// gets another name.
+  AttributeColumns(const Document<AxisItem>& file, std::span<const Column> own);
 
-  /// Appends the columns to those of a table.
-  void append_to(std::vector<Column>& columns) const;
+  /// The columns of a table, and these.
+  std::vector<Column> appended_to(std::vector<Column> columns) const;
   /// The values of one item in these columns.
   std::vector<Value> values_of(const Attributes& item) const;
 

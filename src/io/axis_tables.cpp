@@ -1,5 +1,3 @@
-#include "io/axis_tables.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,7 +5,8 @@
 #include <limits>
 
 #include "io/attribute_columns.h"
-#include "io/table_writer.h"
+#include "io/axis_samples.h"
+#include "io/tables.h"
 #include "medial/centreline.h"
 #include "medial/query.h"
 
@@ -31,16 +30,6 @@ const std::vector<Column>& node_columns() {
   static const std::vector<Column> columns{
       {"feature", whole}, {"node", whole}, {"r", real}, {"kind", text}};
   return columns;
-}
-
-/// The input's attributes, named apart from the columns of both tables.
-AttributeColumns attribute_columns(const Document<AxisItem>& file) {
-  std::vector<const Attributes*> items;
-  for (const AxisItem& item : file.items) items.push_back(&item.attributes);
-  std::vector<std::string> own;
-  for (const auto* columns : {&branch_columns(), &node_columns()})
-    for (const Column& column : *columns) own.push_back(column.name);
-  return {items, own};
 }
 
 /// "ring/vertex" (a colon would make readers take it for a time of day); empty for no site.
@@ -106,20 +95,20 @@ Status add_nodes(TableSink& sink, std::size_t index, const AxisItem& item,
 
 }  // namespace
 
-TableSource axis_tables(const Document<AxisItem>& file, const std::string& format,
-                        const WriteOptions& options) {
+TableSource tables_of(const AxesOutput& output, const std::string& format) {
   const bool nodes = format == "gpkg";
-  const AttributeColumns attributes = attribute_columns(file);
+  std::vector<Column> own = branch_columns();
+  own.insert(own.end(), node_columns().begin(), node_columns().end());
+  const AttributeColumns attributes(output.document, own);
   TableSource source;
-  source.crs_wkt = file.crs_wkt;
-  source.tables.push_back({"axis", GeometryKind::line, branch_columns()});
-  if (nodes) source.tables.push_back({"nodes", GeometryKind::point, node_columns()});
-  for (Table& table : source.tables) attributes.append_to(table.columns);
-  source.fill = [&file, &options, attributes, nodes](TableSink& sink) {
-    for (std::size_t i = 0; i < file.items.size(); ++i) {
-      const AxisItem& item = file.items[i];
+  source.tables.push_back({"axis", GeometryKind::line, attributes.appended_to(branch_columns())});
+  if (nodes)
+    source.tables.push_back({"nodes", GeometryKind::point, attributes.appended_to(node_columns())});
+  source.fill = [&output, attributes, nodes](TableSink& sink) {
+    for (std::size_t i = 0; i < output.document.items.size(); ++i) {
+      const AxisItem& item = output.document.items[i];
       const std::vector<Value> values = attributes.values_of(item.attributes);
-      if (Status added = add_branches(sink, i, item, values, options); !added) return added;
+      if (Status added = add_branches(sink, i, item, values, output.options); !added) return added;
       if (!nodes) continue;
       if (Status added = add_nodes(sink, i, item, values); !added) return added;
     }

@@ -13,8 +13,6 @@
 #include <mutex>
 #include <string_view>
 
-#include "io/output.h"
-
 namespace medial::io {
 
 namespace {
@@ -83,6 +81,20 @@ void register_gdal() {
   std::call_once(once, [] { GDALAllRegister(); });
 }
 
+MemoryFile::MemoryFile(std::string& bytes)
+    : name_(fmt::format("/vsimem/medial_{}", static_cast<const void*>(&bytes))) {
+  VSILFILE* file = VSIFileFromMemBuffer(name_.c_str(), reinterpret_cast<GByte*>(bytes.data()),
+                                        bytes.size(), FALSE);
+  if (file == nullptr)
+    name_.clear();
+  else
+    VSIFCloseL(file);
+}
+
+MemoryFile::~MemoryFile() {
+  if (!name_.empty()) VSIUnlink(name_.c_str());
+}
+
 GdalMessages::GdalMessages() { CPLPushErrorHandlerEx(&GdalMessages::collect, this); }
 
 GdalMessages::~GdalMessages() {
@@ -134,13 +146,12 @@ bool add_chain(const OGRGeometry& part, std::vector<Chain>& chains) {
 
 }  // namespace
 
-void add_loose(const OGRGeometry& geometry, std::vector<Ring>& rings, std::vector<Chain>& chains,
-               GeometryCounts& counts) {
+void add_loose(const OGRGeometry& geometry, Feature& feature, GeometryCounts& counts) {
   std::vector<const OGRGeometry*> waiting{&geometry};
   while (!waiting.empty()) {
     const OGRGeometry* part = waiting.back();
     waiting.pop_back();
-    if (add_chain(*part, chains)) continue;
+    if (add_chain(*part, feature.chains)) continue;
     const OGRwkbGeometryType type = wkbFlatten(part->getGeometryType());
     if (type == wkbMultiPoint || type == wkbMultiLineString || type == wkbMultiCurve ||
         type == wkbGeometryCollection) {
@@ -149,7 +160,7 @@ void add_loose(const OGRGeometry& geometry, std::vector<Ring>& rings, std::vecto
         waiting.push_back(collection->getGeometryRef(i - 1));
       continue;
     }
-    add_rings(*part, rings, counts);
+    add_rings(*part, feature.rings, counts);
   }
 }
 
@@ -179,9 +190,7 @@ void add_rings(const OGRGeometry& geometry, std::vector<Ring>& rings, GeometryCo
   }
 }
 
-namespace {
-
-Status add_of_wkt(const std::string& text, std::vector<Ring>& rings, std::vector<Chain>* chains) {
+Status add_wkt(const std::string& text, bool loose, Feature& feature) {
   constexpr std::ptrdiff_t deepest_bracket = 8;  // GDAL reads nested brackets by recursion
   std::ptrdiff_t depth = 0;
   for (const char c : text) {
@@ -200,30 +209,31 @@ Status add_of_wkt(const std::string& text, std::vector<Ring>& rings, std::vector
                  {}};
   }
   GeometryCounts counts;
-  if (chains != nullptr)
-    add_loose(*geometry, rings, *chains, counts);
+  if (loose)
+    add_loose(*geometry, feature, counts);
   else
-    add_rings(*geometry, rings, counts);
+    add_rings(*geometry, feature.rings, counts);
   return success();
 }
 
+namespace {
+
+void describe_units(const OGRSpatialReference& reference, Document<Feature>& dataset) {
+  dataset.geographic = reference.IsGeographic() != 0;
+  if (dataset.geographic)
+    dataset.unit = Unit::degree;
+  else
+    dataset.unit = reference.GetLinearUnits() == 1 ? Unit::metre : Unit::unknown;
+}
+
 }  // namespace
-
-Status add_rings_of_wkt(const std::string& text, std::vector<Ring>& rings) {
-  return add_of_wkt(text, rings, nullptr);
-}
-
-Status add_chains_of_wkt(const std::string& text, std::vector<Chain>& chains) {
-  std::vector<Ring> rings;
-  return add_of_wkt(text, rings, &chains);
-}
 
 void set_crs(const OGRSpatialReference& reference, Document<Feature>& dataset) {
   char* text = nullptr;
   const char* const options[] = {"FORMAT=WKT2_2019", "MULTILINE=NO", nullptr};
   if (reference.exportToWkt(&text, options) == OGRERR_NONE && text != nullptr) {
     dataset.crs_wkt = text;
-    dataset.geographic = reference.IsGeographic() != 0;
+    describe_units(reference, dataset);
   }
   CPLFree(text);
 }
@@ -244,29 +254,10 @@ void read_crs_of_wkt(const std::string& wkt, Document<Feature>& dataset) {
   dataset.crs_wkt = wkt;
   OGRSpatialReference reference;
   if (reference.importFromWkt(wkt.c_str()) == OGRERR_NONE) {
-    dataset.geographic = reference.IsGeographic() != 0;
+    describe_units(reference, dataset);
   } else {
     dataset.notes.push_back("the reference system is not understood");
   }
-}
-
-Status put_gdal_file(OutputStream& out, const std::string& name, const std::string& format,
-                     const std::function<Status(const std::string& path)>& write) {
-  if (format == "shp") {
-    return Error{
-        ErrorCode::unsupported, "a shapefile is several files and cannot go to a stream", {}};
-  }
-  // The folder tells streams of this process apart.
-  const std::string folder = fmt::format("/vsimem/{}", static_cast<const void*>(&out));
-  const std::string path = fmt::format("{}/{}.{}", folder, name, format);
-  Status status = write(path);
-  if (status) {
-    vsi_l_offset size = 0;
-    const GByte* bytes = VSIGetMemFileBuffer(path.c_str(), &size, FALSE);
-    out.put(std::string_view(reinterpret_cast<const char*>(bytes), static_cast<std::size_t>(size)));
-  }
-  VSIRmdirRecursive(folder.c_str());
-  return status;
 }
 
 }  // namespace medial::io

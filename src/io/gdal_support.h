@@ -2,7 +2,6 @@
 
 #include <cpl_error.h>
 
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -12,8 +11,6 @@ class OGRGeometry;
 class OGRSpatialReference;
 
 namespace medial::io {
-
-class OutputStream;
 
 /// Registers GDAL's drivers, once.
 void register_gdal();
@@ -37,12 +34,19 @@ class GdalMessages {
   std::vector<std::string> warnings_;
 };
 
-/// Lets `write` make a file of one format through GDAL in memory, and its bytes go on to the
-/// stream: because a stream cannot seek, or because some drivers of GDAL (GeoJSON) do not notice a
-/// full disk. The file is called `name`, which may stand in the bytes. Errors: unsupported (a
-/// shapefile is several files), and those of `write`.
-Status put_gdal_file(OutputStream& out, const std::string& name, const std::string& format,
-                     const std::function<Status(const std::string& path)>& write);
+/// Bytes as a file in memory, as long as both live.
+class MemoryFile {
+ public:
+  explicit MemoryFile(std::string& bytes);
+  ~MemoryFile();
+  MemoryFile(const MemoryFile&) = delete;
+  MemoryFile& operator=(const MemoryFile&) = delete;
+  /// Empty where there is none.
+  const std::string& name() const { return name_; }
+
+ private:
+  std::string name_;
+};
 
 /// What a geometry held besides polygons.
 struct GeometryCounts {
@@ -54,14 +58,12 @@ struct GeometryCounts {
 void add_rings(const OGRGeometry& geometry, std::vector<Ring>& rings, GeometryCounts& counts);
 
 /// The same for a planar graph: also its lines, open or closed, and points, as chains.
-void add_loose(const OGRGeometry& geometry, std::vector<Ring>& rings, std::vector<Chain>& chains,
-               GeometryCounts& counts);
+void add_loose(const OGRGeometry& geometry, Feature& feature, GeometryCounts& counts);
 
-/// The same for a geometry as well-known text. Errors: malformed, unsupported (nested too deeply).
-Status add_rings_of_wkt(const std::string& text, std::vector<Ring>& rings);
-Status add_chains_of_wkt(const std::string& text, std::vector<Chain>& chains);
+/// Both for a geometry as well-known text. Errors: malformed, unsupported (nested too deeply).
+Status add_wkt(const std::string& text, bool loose, Feature& feature);
 
-/// Sets crs_wkt and geographic; a reference system that cannot be told becomes a note.
+/// Sets crs_wkt, geographic and the unit; a reference system that is not understood becomes a note.
 void set_crs(const OGRSpatialReference& reference, Document<Feature>& dataset);
 void read_crs_of_epsg(int code, Document<Feature>& dataset);
 void read_crs_of_wkt(const std::string& wkt, Document<Feature>& dataset);

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <unordered_map>
 
+#include "base/disjoint_sets.h"
 #include "io/path_builder.h"
 #include "medial/box.h"
 
@@ -28,7 +28,7 @@ Vec2 place_of(const std::vector<Contour>& curves, End end) {
 double direction_of(const Contour& curve, bool at_end) {
   const std::size_t last = curve.points.size() - 1;
   const Vec2 from = curve.points[at_end ? last : 0];
-  // Halfway along an arc is a good point as well, and tells apart two arcs with one tangent.
+  // Halfway along an arc is a good point as well, and differs for two arcs with one tangent.
   const CurvePiece& piece = at_end ? curve.pieces.back() : curve.pieces.front();
   if (piece.bulge != 0) {
     const Vec2 a = curve.points[piece.first];
@@ -43,68 +43,51 @@ double direction_of(const Contour& curve, bool at_end) {
   return 0;
 }
 
-/// Sets of ends that are one place.
-class Places {
- public:
-  Places(const std::vector<Contour>& curves, double tolerance) : parent_(2 * curves.size()) {
-    std::iota(parent_.begin(), parent_.end(), 0U);
-    // In a square cell of this width all points are within the tolerance of each other.
-    const double cell = tolerance / std::sqrt(2.0);
-    double extent = 0;
-    for (End end = 0; end < parent_.size(); ++end) {
-      const Vec2 p = place_of(curves, end);
-      extent = std::max({extent, std::fabs(p.x), std::fabs(p.y)});
-    }
-    constexpr double most_cells = 9e15;  // what a double counts
-    const bool exact = !(cell > 0) || extent / cell > most_cells;
-    const auto key = [&](Vec2 p, int dx, int dy) {
-      if (exact) return Key{p.x + 0.0, p.y + 0.0};  // -0 becomes 0
-      return Key{std::floor(p.x / cell) + dx, std::floor(p.y / cell) + dy};
-    };
-    std::unordered_map<Key, End, KeyHash> first;
-    for (End end = 0; end < parent_.size(); ++end) {
-      const auto [found, added] = first.try_emplace(key(place_of(curves, end), 0, 0), end);
-      if (!added) unite(found->second, end);
-    }
-    if (exact) return;
-    // A cell stands for its first end: ends hardly ever share a cell with another place.
-    for (const auto& [own, end] : first) {
-      const Vec2 p = place_of(curves, end);
-      for (int dx = -2; dx <= 2; ++dx) {
-        for (int dy = -2; dy <= 2; ++dy) {
-          const auto other = first.find(key(p, dx, dy));
-          if (other == first.end()) continue;
-          if (distance(p, place_of(curves, other->second)) <= tolerance) unite(end, other->second);
-        }
-      }
-    }
-  }
-
-  End operator[](End end) {
-    while (parent_[end] != end) end = parent_[end] = parent_[parent_[end]];
-    return end;
-  }
-
- private:
-  struct Key {
-    double x, y;
-    bool operator==(const Key&) const = default;
-  };
-  struct KeyHash {
-    std::size_t operator()(const Key& key) const {
-      constexpr std::size_t mixer = 0x9E3779B97F4A7C15U;  // 2^64 / golden ratio
-      const std::hash<double> hash;
-      return (hash(key.x) * mixer) ^ hash(key.y);
-    }
-  };
-  /// The lowest end stands for a place, whatever the order of joining.
-  void unite(End a, End b) {
-    a = (*this)[a];
-    b = (*this)[b];
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-  std::vector<End> parent_;
+struct Cell {
+  double x, y;
+  bool operator==(const Cell&) const = default;
 };
+struct CellHash {
+  std::size_t operator()(const Cell& cell) const {
+    constexpr std::size_t mixer = 0x9E3779B97F4A7C15U;  // 2^64 / golden ratio
+    const std::hash<double> hash;
+    return (hash(cell.x) * mixer) ^ hash(cell.y);
+  }
+};
+
+/// The place of each end, named by its lowest end.
+std::vector<End> places_of(const std::vector<Contour>& curves, double tolerance) {
+  const auto count = static_cast<End>(2 * curves.size());
+  DisjointSets sets(count);
+  // In a square cell of this width all points are within the tolerance of each other.
+  const double width = tolerance / std::sqrt(2.0);
+  double extent = 0;
+  for (End end = 0; end < count; ++end) {
+    const Vec2 p = place_of(curves, end);
+    extent = std::max({extent, std::fabs(p.x), std::fabs(p.y)});
+  }
+  constexpr double most_cells = 9e15;  // what a double counts
+  const bool exact = !(width > 0) || extent / width > most_cells;
+  const auto cell = [&](Vec2 p, int dx, int dy) {
+    if (exact) return Cell{p.x + 0.0, p.y + 0.0};  // -0 becomes 0
+    return Cell{std::floor(p.x / width) + dx, std::floor(p.y / width) + dy};
+  };
+  std::unordered_map<Cell, End, CellHash> first;
+  for (End end = 0; end < count; ++end)
+    sets.join(first.try_emplace(cell(place_of(curves, end), 0, 0), end).first->second, end);
+  // A cell stands for its first end: ends hardly ever share a cell with another place.
+  for (const auto& [own, end] : first) {
+    const Vec2 p = place_of(curves, end);
+    for (int i = 0; i < 25 && !exact; ++i) {
+      const auto other = first.find(cell(p, i / 5 - 2, i % 5 - 2));
+      if (other != first.end() && distance(p, place_of(curves, other->second)) <= tolerance)
+        sets.join(end, other->second);
+    }
+  }
+  std::vector<End> places(count);
+  for (End end = 0; end < count; ++end) places[end] = sets.find(end);
+  return places;
+}
 
 /// Takes away, again and again, curves with an end where no other curve is.
 std::vector<bool> in_loops(const std::vector<End>& place) {
@@ -184,9 +167,7 @@ JoinedCurves join_curves(std::vector<Contour> curves, std::optional<double> gap)
   JoinedCurves result;
   const bool close_all = gap && std::isinf(*gap);
   result.tolerance = gap && !close_all ? *gap : default_gap * diagonal_of(curves);
-  Places places(curves, result.tolerance);
-  std::vector<End> place(2 * curves.size());
-  for (End end = 0; end < place.size(); ++end) place[end] = places[end];
+  const std::vector<End> place = places_of(curves, result.tolerance);
   // A curve that a tolerance swallows whole would close on itself and take the place of another.
   const std::vector<bool> kept =
       close_all ? std::vector<bool>(curves.size(), true) : in_loops(place);

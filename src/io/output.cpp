@@ -14,9 +14,7 @@
 #include <cstring>
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
-#include "io/format_name.h"
 #include "io/guarded.h"
 #include "io/place.h"
 #include "medial/io/write.h"
@@ -181,6 +179,7 @@ OutputStream::OutputStream(OutputStream&& other) noexcept
       descriptor_(std::exchange(other.descriptor_, -1)),
       owned_(std::exchange(other.owned_, false)),
       problem_(other.problem_),
+      finite_(other.finite_),
       buffer_(std::move(other.buffer_)),
       used_(std::exchange(other.used_, 0)) {}
 
@@ -224,10 +223,11 @@ Status OutputStream::finish() {
     if (::close(descriptor_) != 0 && problem_ == 0) problem_ = errno;
   }
   if (problem_ != 0) return unwritable(path_, problem_);
+  if (!finite_) return Error{ErrorCode::internal, "a number of the result is not finite", {}};
   return success();
 }
 
-std::string quoted(const std::string& text) {
+std::string json_quoted(const std::string& text) {
   using Json = nlohmann::json;
   return Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
 }
@@ -258,17 +258,13 @@ Status write_text(const std::string& path, const std::string& text) {
   });
 }
 
-Result<std::string> output_format(const std::string& path, const std::string& name,
-                                  const std::string& standard, const std::string& known) {
-  const std::string format = path == "-" && name.empty() ? standard : format_name(path, name);
-  std::istringstream words(known);
-  for (std::string word; words >> word;)
-    if (word == "." + format) return format;
-  Error error{ErrorCode::unsupported,
-              "'" + format + "' is no format to write here; known are " + known,
-              {}};
-  error.place.file = path;
-  return error;
+void put_quoted(OutputStream& out, std::string_view text) {
+  const bool plain = std::ranges::all_of(
+      text, [](char c) { return c >= ' ' && c < 0x7f && c != '"' && c != '\\'; });
+  if (!plain) return out.put(std::string_view(json_quoted(std::string(text))));
+  out.put('"');
+  out.put(text);
+  out.put('"');
 }
 
 }  // namespace medial::io

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <charconv>
+#include <cmath>
 #include <cstddef>
 #include <functional>
 #include <string>
@@ -39,7 +40,7 @@ class PendingFile {
 bool is_stream(const std::string& path);
 
 /// A buffered stream of bytes to a file. After a failure everything is swallowed and finish()
-/// tells.
+/// reports it.
 class OutputStream {
  public:
   /// Creates a file; `-` is standard output; a device or a pipe is opened as it is.
@@ -53,8 +54,10 @@ class OutputStream {
     buffer_[used_++] = c;
   }
   void put(std::string_view text);
-  /// The shortest decimal number that reads back as the same double. Requires a finite value.
+  /// The shortest decimal number that reads back as the same double. Where it is not finite,
+  /// finish() fails.
   void put(double value) {
+    finite_ = finite_ && std::isfinite(value);
     reserve(longest_number);
     used_ = static_cast<std::size_t>(
         std::to_chars(buffer_.data() + used_, buffer_.data() + buffer_.size(), value).ptr -
@@ -69,7 +72,7 @@ class OutputStream {
         buffer_.data());
   }
   bool failed() const { return problem_ != 0; }
-  /// Writes what is left and closes. Errors: unwritable.
+  /// Writes what is left and closes. Errors: unwritable, internal (a number was not finite).
   Status finish();
 
  private:
@@ -85,20 +88,17 @@ class OutputStream {
   int descriptor_ = -1;
   bool owned_ = false;
   int problem_ = 0;  ///< errno of the first failure
+  bool finite_ = true;
   std::vector<char> buffer_;
   std::size_t used_ = 0;
 };
 
 /// A text as a JSON string; bytes that are no UTF-8 are replaced.
-std::string quoted(const std::string& text);
+std::string json_quoted(const std::string& text);
+void put_quoted(OutputStream& out, std::string_view text);
 
 /// Writes a file all at once, or to a stream: `write` puts the bytes. Exceptions become errors, and
 /// errors name the file.
 Status write_whole(const std::string& path, const std::function<Status(OutputStream&)>& write);
-
-/// The format by name, or where that is empty by the extension of `path` (`standard` for "-"), in
-/// small letters. Errors: unsupported, where it is none of the words in `known`.
-Result<std::string> output_format(const std::string& path, const std::string& name,
-                                  const std::string& standard, const std::string& known);
 
 }  // namespace medial::io

@@ -15,6 +15,36 @@ Vec2 next_point(const Ring& ring, std::size_t i) {
 
 }  // namespace
 
+std::vector<std::vector<Ring>> polygons_of(const Shape& shape) {
+  std::vector<std::vector<Ring>> polygons(shape.component_count());
+  for (const bool holes : {false, true})
+    for (std::size_t i = 0; i < shape.loop_count(); ++i)
+      if (shape.hole[i] == holes) polygons[shape.component[i]].push_back(ring_of(shape, i));
+  return polygons;
+}
+
+bool has_arcs(const Shape& shape) {
+  return std::ranges::any_of(shape.bulges, [](double bulge) { return bulge != 0; });
+}
+
+Box box_of(const OffsetItem& item) {
+  if (!item.shape.points.empty() || item.planar_graph.points.empty())
+    return bounding_box(item.shape);
+  return bounding_box(item.planar_graph);
+}
+
+double chord_of(const ShapeItem& item, const WriteOptions& options) {
+  return item.shape.points.empty() ? 1 : options.chord * diagonal(bounding_box(item.shape));
+}
+
+double chord_of(const OffsetItem& item, const WriteOptions& options) {
+  const double size = diagonal(box_of(item));
+  double reach = size;
+  for (const OffsetRegion& region : item.offsets.regions)
+    reach = std::max(reach, size - 2 * region.clearance);
+  return options.chord * reach;
+}
+
 double bulge_after(const Ring& ring, std::size_t i) {
   return ring.bulges.empty() ? 0 : ring.bulges[i];
 }

@@ -1,13 +1,25 @@
 #pragma once
 
-// Rings as text, shared by the writers of shapes and of offset curves.
+// Rings, shared by the writers of shapes and of offset curves.
 
 #include <vector>
 
 #include "io/output.h"
+#include "medial/io/write.h"
 #include "medial/shape.h"
 
 namespace medial::io {
+
+/// The rings of each part of a shape: the outer one first, then its holes.
+std::vector<std::vector<Ring>> polygons_of(const Shape& shape);
+bool has_arcs(const Shape& shape);
+
+/// What offset curves are of: a shape or a planar graph.
+Box box_of(const OffsetItem& item);
+
+/// The allowed deviation of chords for an item, in units of the input.
+double chord_of(const ShapeItem& item, const WriteOptions& options);
+double chord_of(const OffsetItem& item, const WriteOptions& options);
 
 /// The bulge of the edge that begins at point i; 0: it is straight.
 double bulge_after(const Ring& ring, std::size_t i);

@@ -1,6 +1,7 @@
 #pragma once
 
-// Tables whose rows have a geometry and a value for each column, and the files that hold them.
+// Tables whose rows have a geometry and a value for each column: what formats of GIS and GeoJSON
+// hold.
 
 #include <cstdint>
 #include <functional>
@@ -9,7 +10,7 @@
 #include <variant>
 #include <vector>
 
-#include "medial/error.h"
+#include "io/format.h"
 #include "medial/vec2.h"
 
 namespace medial::io {
@@ -28,8 +29,7 @@ struct Column {
 enum class GeometryKind : std::uint8_t { point, line, polygon };
 
 struct Table {
-  std::string name;  ///< of its layer in a GeoPackage; the one layer of other files is named after
-                     ///< the file
+  std::string name;  ///< of its layer in a GeoPackage; in other files the layer is named after them
   GeometryKind kind;
   std::vector<Column> columns;
 };
@@ -37,34 +37,56 @@ struct Table {
 /// Takes the rows of tables.
 class TableSink {
  public:
-  TableSink() = default;
+  explicit TableSink(Target& target) : target_(target) {}
   TableSink(const TableSink&) = delete;
   TableSink& operator=(const TableSink&) = delete;
   virtual ~TableSink() = default;
 
   /// Adds a row to a table: the values of its columns, `first` before `rest`; and a point, a line,
-  /// or the rings of a polygon with the outer one first, each with a point at least. Where the
-  /// reference system is a local projection, the points become longitudes and latitudes in place.
-  /// Errors: unwritable, unsupported (points that cannot be projected).
-  virtual Status add(std::size_t table, std::span<const Value> first, std::span<const Value> rest,
+  /// or the rings of a polygon with the outer one first, each with a point at least. The points
+  /// become points of the output in place. Errors: unwritable, unsupported (points that cannot be
+  /// projected).
+  Status add(std::size_t table, std::span<const Value> first, std::span<const Value> rest,
+             std::span<std::vector<Vec2>> parts) {
+    for (std::vector<Vec2>& part : parts) target_.place(part);
+    return target_.status() ? put(table, first, rest, parts) : target_.status();
+  }
+
+ protected:
+  virtual Status put(std::size_t table, std::span<const Value> first, std::span<const Value> rest,
                      std::span<std::vector<Vec2>> parts) = 0;
+
+ private:
+  Target& target_;
 };
 
-/// What a file of tables holds.
+/// What a file of tables holds. Refers to what is written.
 struct TableSource {
   std::vector<Table> tables;
-  std::string crs_wkt;
   std::function<Status(TableSink& sink)> fill;  ///< adds all rows
 };
 
-/// Whether a format holds tables: geojson, gpkg, shp, fgb.
-bool holds_tables(const std::string& format);
+/// Of axes: a line for each branch, and for a GeoPackage the nodes as a second table. Of features:
+/// for a GeoPackage all tables, else the one of the options. Of layers: a table each. Lengths and
+/// radii are in the units of the document.
+TableSource tables_of(const AxesOutput& output, const std::string& format);
+TableSource tables_of(const FeaturesOutput& output, const std::string& format);
+TableSource tables_of(const LayersOutput& output, const std::string& format);
 
-/// Writes tables all at once, or to a stream: GeoJSON as one collection (all tables one after
-/// another), a GeoPackage with a layer for each; of shapefiles and FlatGeobuf one table only.
-/// `name` is what the layer of a stream is called. Errors: unsupported, unwritable, and those of
-/// `fill`; they name the file.
-Status write_tables(const std::string& path, const std::string& format, const std::string& name,
-                    const TableSource& source);
+using PutTables = Status (*)(Target& target, const TableSource& source);
+
+template <PutTables put, class Output>
+Status write_tables(Target& target, const Output& output) {
+  return put(target, tables_of(output, target.format));
+}
+
+/// A format that holds tables, written by `put`.
+template <PutTables put>
+Format with_tables(Format format) {
+  format.geographic = true;
+  return format.writes<AxesOutput, FeaturesOutput, LayersOutput>(write_tables<put, AxesOutput>,
+                                                                 write_tables<put, FeaturesOutput>,
+                                                                 write_tables<put, LayersOutput>);
+}
 
 }  // namespace medial::io

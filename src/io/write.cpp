@@ -1,48 +1,140 @@
 #include "medial/io/write.h"
 
-#include <cmath>
+#include <fmt/format.h>
 
-#include "io/axis_tables.h"
-#include "io/dxf_writer.h"
-#include "io/native.h"
-#include "io/picture.h"
+#include <cmath>
+#include <filesystem>
+
+#include "io/format.h"
+#include "io/format_name.h"
+#include "io/guarded.h"
 #include "io/place.h"
-#include "io/table_writer.h"
 
 namespace medial::io {
 
 namespace {
 
-#ifdef MEDIAL_DXF
-constexpr char axis_formats[] = ".json .geojson .gpkg .shp .fgb .wkt .csv .dxf .svg .pdf .png .ps";
-#else
-constexpr char axis_formats[] = ".json .geojson .gpkg .shp .fgb .wkt .csv .svg .pdf .png .ps";
-#endif
+/// What a document of one kind is called where its file has no name, and its format.
+struct Standard {
+  const char* format;
+  const char* name = "medial";
+};
 
-Status put_axes(OutputStream& out, const std::string& format, const Document<AxisItem>& file,
-                const WriteOptions& options) {
-  if (format == "json") return write_native(out, file);
-  if (format == "csv") return write_csv(out, file, options);
-  if (format == "wkt") return write_wkt(out, file, options);
-#ifdef MEDIAL_DXF
-  if (format == "dxf") return write_dxf(out, file, options);
-#endif
-  return write_picture(out, format, file, options);
+/// The one way from a document to a file: looks the format up, decides on the reference system,
+/// opens, writes, and puts the file in its place.
+template <class Output>
+Status write_document(const std::string& path, const std::string& asked, const Standard& standard,
+                      const std::string& crs_wkt, const Output& output) {
+  Target target;
+  target.format = path == "-" && asked.empty() ? standard.format : format_name(path, asked);
+  const Format* format = find_format(target.format, Output::kind);
+  if (format == nullptr)
+    return Error{ErrorCode::unsupported,
+                 fmt::format("'{}' is no format to write here; known are {}", target.format,
+                             formats_of(Output::kind)),
+                 in_file(path)};
+  const bool stream = is_stream(path);
+  target.name = stream ? standard.name : std::filesystem::path(path).stem().string();
+  const auto write = [&]() -> Status {
+    if (format->geographic) {
+      Result<OutputCrs> crs = OutputCrs::make(crs_wkt);
+      if (!crs) return std::move(crs).error();
+      target.crs = std::move(*crs);
+    }
+    Status written = std::get<Writer<Output>>(format->writers)(target, output);
+    return target.status() ? written : target.status();
+  };
+  if (!format->own_files || stream)
+    return write_whole(path, [&](OutputStream& out) {
+      target.out = &out;
+      return write();
+    });
+  return guarded(path, [&]() -> Status {
+    Result<PendingFile> pending = PendingFile::create(path);
+    if (!pending) return std::move(pending).error();
+    target.path = pending->path();
+    Status written = write();
+    return written ? pending->commit() : written;
+  });
+}
+
+/// The same for documents with options, which are checked.
+template <class Output>
+Status write_checked(const std::string& path, const std::string& asked, const Standard& standard,
+                     const Output& output) {
+  if (!(output.options.chord > 0) || !std::isfinite(output.options.chord))
+    return Error{ErrorCode::invalid_option, "chord is not a positive number", in_file(path)};
+  return write_document(path, asked, standard, output.document.crs_wkt, output);
 }
 
 }  // namespace
 
-std::string known_output_formats() { return axis_formats; }
-
 Status write_axes(const std::string& path, const std::string& format,
                   const Document<AxisItem>& file, const WriteOptions& options) {
-  const Result<std::string> known = output_format(path, format, "json", axis_formats);
-  if (!known) return known.error();
-  if (!(options.chord > 0) || !std::isfinite(options.chord))
-    return Error{ErrorCode::invalid_option, "chord is not a positive number", in_file(path)};
-  if (holds_tables(*known))
-    return write_tables(path, *known, "medial", axis_tables(file, *known, options));
-  return write_whole(path, [&](OutputStream& out) { return put_axes(out, *known, file, options); });
+  return write_checked(path, format, {"json"}, AxesOutput{file, options});
+}
+
+Status write_shapes(const std::string& path, const std::string& format,
+                    const Document<ShapeItem>& file, const WriteOptions& options) {
+  return write_checked(path, format, {"json"}, ShapesOutput{file, options});
+}
+
+Status write_voronoi(const std::string& path, const std::string& format,
+                     const Document<VoronoiItem>& file, const WriteOptions& options) {
+  return write_checked(path, format, {"json"}, VoronoiOutput{file, options});
+}
+
+Status write_offsets(const std::string& path, const std::string& format,
+                     const Document<OffsetItem>& file, const WriteOptions& options, bool chords) {
+  return write_checked(path, format, {"json"}, OffsetsOutput{{file, options}, chords});
+}
+
+Status write_carving(const std::string& path, const std::string& format,
+                     const Document<CarveItem>& file, const MachineOptions& machine,
+                     const WriteOptions& options) {
+  for (const double value : {machine.safe, machine.feed, machine.plunge})
+    if (!(value > 0) || !std::isfinite(value) || !(machine.chord >= 0))
+      return Error{ErrorCode::invalid_option, "heights, feeds and chords must be positive", {}};
+  return write_checked(path, format, {"nc"}, CarvingOutput{{file, options}, machine});
+}
+
+Status write_features(const std::string& path, const std::string& format,
+                      const Document<AxisItem>& axes, std::span<const AxisFeatures> features,
+                      const FeatureWriteOptions& options) {
+  return write_checked(path, format, {"json", "features"},
+                       FeaturesOutput{{axes, options.write}, features, options});
+}
+
+Status write_layers(const std::string& path, const std::string& format,
+                    const Document<Layer>& layers, const Document<AxisItem>& background,
+                    const WriteOptions& options) {
+  return write_checked(path, format, {"geojson"}, LayersOutput{{layers, options}, background});
+}
+
+Status write_field(const std::string& path, const std::string& format,
+                   std::span<const Shape> shapes, std::span<const PotentialField> fields,
+                   const FieldPictureOptions& options) {
+  return write_document(path, format, {"svg"}, {}, FieldOutput{shapes, fields, options});
+}
+
+Status write_preview(const std::string& path, const std::string& format,
+                     std::span<const Shape> shapes, std::span<const PreviewPanel> panels,
+                     double width, bool y_down) {
+  return write_document(path, format, {"svg"}, {}, PreviewOutput{shapes, panels, width, y_down});
+}
+
+Status write_voxels(const std::string& path, const std::string& format, const VoxelAxis& axis,
+                    const Solid& solid, double width) {
+  return write_document(path, format, {"ply"}, {}, VoxelsOutput{axis, solid, width});
+}
+
+Status write_distances(const std::string& path, const DistanceMap& distances,
+                       const ImageFile& source, const DistanceFormat& format) {
+  return write_document(path, {}, {"pgm"}, {}, DistancesOutput{distances, source, format});
+}
+
+Status write_image(const std::string& path, const Image& image, const ImageFile& source) {
+  return write_document(path, {}, {"pbm"}, {}, ImageOutput{image, source});
 }
 
 }  // namespace medial::io

@@ -13,9 +13,6 @@ namespace medial::io {
 /// unsupported (another format, faces of more than 1,024 corners, or a build without Assimp).
 Result<TriangleMesh> read_mesh(const std::string& path);
 
-/// The extensions read_mesh() takes, for help texts.
-std::string known_mesh_formats();
-
 /// Writes an axis of voxels by the extension of `path`; `-` is standard output and takes `format`
 /// (an extension without its dot). .ply (binary) has vertices with radius and quality, and edges;
 /// .vtk (legacy, text) points with radius and quality, and lines; .obj points and lines; .png shows
@@ -23,8 +20,5 @@ std::string known_mesh_formats();
 /// invalid_option (the width).
 Status write_voxels(const std::string& path, const std::string& format, const VoxelAxis& axis,
                     const Solid& solid, double width = 1536);
-
-/// The extensions write_voxels() takes, for help texts.
-std::string known_voxel_formats();
 
 }  // namespace medial::io

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "medial/document.h"
 #include "medial/error.h"
 #include "medial/image.h"
-#include "medial/io/read.h"
 #include "medial/pack.h"
 
 namespace medial::io {

@@ -1,11 +1,47 @@
 #pragma once
 
-#include <string>
+// Documents as files and pictures.
 
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "medial/carve.h"
+#include "medial/document.h"
 #include "medial/error.h"
+#include "medial/features.h"
+#include "medial/field.h"
 #include "medial/io/read.h"
+#include "medial/offset.h"
 
 namespace medial::io {
+
+// Every function here writes by the extension of `path`; `-` is standard output and takes `format`
+// (an extension without its dot), which elsewhere stands in place of the extension. A file is
+// written under a temporary name beside the target and renamed: there is never a partial one.
+// Formats of GIS, .wkt and .csv get longitudes and latitudes again where the reference system is a
+// local projection (medial/io/projection.h); radii and lengths stay in metres. Errors of all:
+// unsupported, unwritable, invalid_option (chord, width), out_of_memory.
+
+enum class DocumentKind : std::uint8_t {
+  axes,
+  shapes,
+  voronoi,
+  offsets,
+  carving,
+  features,
+  layers,
+  field,
+  preview,
+  voxels,
+  distances,
+  image,
+  mesh,  ///< which is read
+};
+
+/// The extensions of the formats that hold a kind of document, as ".json .svg".
+std::string formats_of(DocumentKind kind);
 
 struct WriteOptions {
   double chord = 1e-3;       ///< chords stay within this share (> 0) of the bounding box diagonal
@@ -19,29 +55,139 @@ struct WriteOptions {
   bool titles = false;    ///< write each item's attribute "title" below its shape
 };
 
-/// Writes axes by the extension of `path`: .json (native) .geojson .gpkg .shp .fgb .wkt .csv
-/// .dxf .svg .pdf .png .ps; `-` is standard output and takes `format` (an extension without its
-/// dot). Formats of GIS, .wkt and .csv get longitudes and latitudes again where the reference
-/// system is a local projection (medial/io/projection.h). Writes to a temporary name beside the
-/// target and renames: never a partial file. Errors: unsupported, unwritable, invalid_option
-/// (chord, width), out_of_memory.
+/// Axes. .json (native, docs/format.md) and .dxf have the curves themselves, other files chords; a
+/// .gpkg has a layer of nodes, too.
 Status write_axes(const std::string& path, const std::string& format,
                   const Document<AxisItem>& file, const WriteOptions& options = {});
 
-/// The extensions write_axes() takes, for help texts.
-std::string known_output_formats();
+/// Shapes. .json (native), .svg (but for the shift of its viewport), .dxf (polylines with bulges)
+/// and .wkt (a geometry per line; with arcs a MULTISURFACE) are lossless, .geojson has chords.
+Status write_shapes(const std::string& path, const std::string& format,
+                    const Document<ShapeItem>& file, const WriteOptions& options = {});
 
-/// Writes Voronoi diagrams by the extension of `path`, as write_axes() does: .json (lossless;
-/// docs/format.md) .geojson (faces as polygons and edges as lines) .svg .pdf .png .ps. Errors:
-/// unsupported, unwritable.
+/// Voronoi diagrams: .json is lossless (docs/format.md), .geojson and .wkt have the faces as
+/// polygons, .geojson and .csv the edges.
 Status write_voronoi(const std::string& path, const std::string& format,
                      const Document<VoronoiItem>& file, const WriteOptions& options = {});
 
-/// The extensions write_voronoi() takes, for help texts.
-std::string known_voronoi_formats();
+/// What the features that lie in one region of a buffer have in common.
+struct BufferSource {
+  std::vector<std::uint32_t> features;  ///< in their order in the input
+  Attributes attributes;                ///< of the first feature: those on which all agree
+};
 
-/// Writes a text to a new file that appears all at once, or to `-` or a device as it is. Errors:
-/// unwritable, out_of_memory.
+/// A shape, or a planar graph, and its offset curves.
+struct OffsetItem {
+  Shape shape;
+  Offsets offsets;
+  Attributes attributes = {};
+  PlanarGraph planar_graph = {};           ///< what buffers are of, where there is no shape
+  std::vector<BufferSource> sources = {};  ///< of each region of a buffer; or empty
+};
+
+/// Offset curves: .json is lossless; .wkt has a multi-surface with exact circular strings for each
+/// clearance of a feature, or a multi-polygon of chords with `chords`; .geojson a polygon of chords
+/// for each region; .dxf closed polylines with bulges, a layer for each clearance.
+Status write_offsets(const std::string& path, const std::string& format,
+                     const Document<OffsetItem>& file, const WriteOptions& options = {},
+                     bool chords = false);
+
+/// A shape and the paths that carve it.
+struct CarveItem {
+  Shape shape;
+  Carving carving;
+};
+
+/// What a machine needs besides the paths. Lengths in units of the input, taken for millimetres.
+struct MachineOptions {
+  double safe = 5;      ///< height of moves between paths, positive
+  double feed = 1000;   ///< of cutting moves, mm/min
+  double plunge = 300;  ///< downwards, mm/min
+  double spindle = 0;   ///< turns a minute; 0: the program does not set it
+  /// How far chords may be off arcs where a format has none (.csv), see without_arcs(); 0: 1e-6 of
+  /// the tool's radius at the bottom.
+  double chord = 0;
+};
+
+/// Tool paths: .nc .gcode .ngc (plain G-code: G0 G1 G2 G3, absolute, millimetres, XY plane, arcs by
+/// I and J, six decimals), .csv (path, kind, x, y, z), .dxf (space polylines on a layer for each
+/// kind; passes at one depth as polylines with bulges and elevation), pictures of the cut.
+Status write_carving(const std::string& path, const std::string& format,
+                     const Document<CarveItem>& file, const MachineOptions& machine = {},
+                     const WriteOptions& options = {});
+
+/// What a format of one table holds; .json and .gpkg hold all three.
+enum class FeatureTable : std::uint8_t {
+  runs,      ///< a line for each primitive
+  branches,  ///< a line for each medial branch
+  points,    ///< the end and branching points
+};
+
+struct FeatureWriteOptions {
+  FeatureTable table = FeatureTable::runs;
+  WriteOptions write;  ///< chords, and how pictures are
+  bool names = true;   ///< pictures: write the names beside the longest runs
+};
+
+/// One of `features` for each item of `axes`; docs/features.md has the columns. Tables of GIS and
+/// .json have the attributes of the items, too.
+Status write_features(const std::string& path, const std::string& format,
+                      const Document<AxisItem>& axes, std::span<const AxisFeatures> features,
+                      const FeatureWriteOptions& options = {});
+
+enum class LayerKind : std::uint8_t {
+  disks,     ///< points; the first value is the radius
+  lines,     ///< one part: the points of the line
+  polygons,  ///< the parts are rings, the outer one first
+};
+
+/// A geometry with values: what measuring a shape gives besides axes.
+struct LayerFeature {
+  std::uint32_t feature = 0;             ///< of the input, whose attributes it gets
+  std::vector<std::vector<Vec2>> parts;  ///< as the layer's kind says
+  std::vector<double> values;            ///< one for each field of the layer
+};
+
+struct Layer {
+  std::string name;
+  LayerKind kind = LayerKind::lines;
+  std::vector<std::string> fields;
+  std::vector<LayerFeature> features;
+};
+
+/// Layers of measurements: .geojson and .wkt (all layers one after another, .geojson with a member
+/// "layer"), .gpkg (a layer each), .shp and .fgb (one layer only), pictures drawn over the shapes
+/// and axes of `background`, whose items are the features of the input.
+Status write_layers(const std::string& path, const std::string& format,
+                    const Document<Layer>& layers, const Document<AxisItem>& background,
+                    const WriteOptions& options = {});
+
+/// How a potential is drawn.
+struct FieldPictureOptions {
+  double width = 800;      ///< of the picture, in pixels or points, in [16, 8000]
+  int lines = 40;          ///< force lines start on a grid, so many along the longer side; 0: none
+  bool brightness = true;  ///< the lower the potential, by its logarithm, the brighter a point
+  bool y_down = false;     ///< the y axis points down
+};
+
+/// Pictures of shapes with the potential of their borders, `fields` in the order of the shapes.
+/// Samples the potential once for each pixel, on all threads.
+Status write_field(const std::string& path, const std::string& format,
+                   std::span<const Shape> shapes, std::span<const PotentialField> fields,
+                   const FieldPictureOptions& options = {});
+
+/// One of several pictures of the same shapes: with other axes in them.
+struct PreviewPanel {
+  std::string title;
+  std::vector<MedialAxis> axes;
+};
+
+/// Pictures of the shapes, once for each panel, in rows, each with its axes and its title below.
+Status write_preview(const std::string& path, const std::string& format,
+                     std::span<const Shape> shapes, std::span<const PreviewPanel> panels,
+                     double width, bool y_down);
+
+/// Writes a text as it is.
 Status write_text(const std::string& path, const std::string& text);
 
 /// Removes temporary files of writes under way; safe to call from a signal handler.

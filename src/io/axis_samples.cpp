@@ -1,0 +1,47 @@
+#include "io/axis_samples.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace medial::io {
+
+namespace {
+
+/// Whether the straight chord between the nodes stays within `chord` of an edge for certain: a
+/// rational quadratic curve with weight w lies within w / (1 + w) of the control point's distance
+/// from the chord's middle, in each of its coordinates taken together.
+bool is_nearly_straight(const MedialAxis& axis, const Edge& edge, double chord) {
+  const Disk& a = axis.nodes[edge.node[0]].disk;
+  const Disk& b = axis.nodes[edge.node[1]].disk;
+  const Vec2 aside = edge.control.center - midpoint(a.center, b.center);
+  const double radius = edge.control.radius - (a.radius + 0.5 * (b.radius - a.radius));
+  const double factor = edge.weight / (1 + edge.weight);
+  return factor * (norm(aside) + std::fabs(radius)) <= chord;
+}
+
+}  // namespace
+
+double chord_of(const AxisItem& item, const WriteOptions& options) {
+  return options.chord * diagonal(bounding_box(item.shape));
+}
+
+void sample(const MedialAxis& axis, const Edge& edge, double chord, std::vector<Disk>& samples) {
+  if (is_nearly_straight(axis, edge, chord)) {
+    samples.assign({axis.nodes[edge.node[0]].disk, axis.nodes[edge.node[1]].disk});
+  } else {
+    samples = sample_by_chord(axis, edge, chord);
+  }
+}
+
+std::vector<Disk> sample(const MedialAxis& axis, const Branch& branch, double chord) {
+  std::vector<Disk> result;
+  std::vector<Disk> samples;
+  for (const Step& step : branch.steps) {
+    sample(axis, axis.edges[step.edge], chord, samples);
+    if (!step.forward) std::ranges::reverse(samples);
+    result.insert(result.end(), samples.begin() + (result.empty() ? 0 : 1), samples.end());
+  }
+  return result;
+}
+
+}  // namespace medial::io

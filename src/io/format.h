@@ -1,0 +1,181 @@
+#pragma once
+
+// The table of formats: what each of them reads and writes. A new format is a file in formats/ and
+// a line in formats.cpp.
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <vector>
+
+#include "io/output.h"
+#include "io/output_crs.h"
+#include "io/text_source.h"
+#include "medial/io/image.h"
+#include "medial/io/mesh.h"
+#include "medial/io/read.h"
+#include "medial/io/write.h"
+
+namespace medial::io {
+
+/// A file to be read.
+struct Input {
+  std::string path;
+  std::shared_ptr<TextSource> source;  ///< at the beginning; null for GDAL's own names
+};
+
+/// A document of one kind, on its way to a file.
+template <class Item, DocumentKind own_kind>
+struct DocumentOutput {
+  static constexpr DocumentKind kind = own_kind;
+  const Document<Item>& document;
+  const WriteOptions& options;
+};
+using AxesOutput = DocumentOutput<AxisItem, DocumentKind::axes>;
+using ShapesOutput = DocumentOutput<ShapeItem, DocumentKind::shapes>;
+using VoronoiOutput = DocumentOutput<VoronoiItem, DocumentKind::voronoi>;
+struct OffsetsOutput : DocumentOutput<OffsetItem, DocumentKind::offsets> {
+  bool chords;
+};
+struct CarvingOutput : DocumentOutput<CarveItem, DocumentKind::carving> {
+  const MachineOptions& machine;
+};
+struct FeaturesOutput : DocumentOutput<AxisItem, DocumentKind::features> {
+  std::span<const AxisFeatures> features;
+  const FeatureWriteOptions& own;
+};
+struct LayersOutput : DocumentOutput<Layer, DocumentKind::layers> {
+  const Document<AxisItem>& background;
+};
+struct FieldOutput {
+  static constexpr DocumentKind kind = DocumentKind::field;
+  std::span<const Shape> shapes;
+  std::span<const PotentialField> fields;
+  const FieldPictureOptions& options;
+};
+struct PreviewOutput {
+  static constexpr DocumentKind kind = DocumentKind::preview;
+  std::span<const Shape> shapes;
+  std::span<const PreviewPanel> panels;
+  double width;
+  bool y_down;
+};
+struct VoxelsOutput {
+  static constexpr DocumentKind kind = DocumentKind::voxels;
+  const VoxelAxis& axis;
+  const Solid& solid;
+  double width;
+};
+struct DistancesOutput {
+  static constexpr DocumentKind kind = DocumentKind::distances;
+  const DistanceMap& distances;
+  const ImageFile& source;
+  const DistanceFormat& format;
+};
+struct ImageOutput {
+  static constexpr DocumentKind kind = DocumentKind::image;
+  const Image& image;
+  const ImageFile& source;
+};
+
+/// Where a document goes: a stream, or the path of a file that the format makes by itself.
+class Target {
+ public:
+  std::string format;           ///< the extension without its dot
+  std::string name;             ///< of the file without its extension
+  OutputStream* out = nullptr;  ///< null: the format makes the file `path`
+  std::string path;
+  OutputCrs crs;
+
+  /// Points of the document become points of the output. Where one cannot be projected, the error
+  /// is the document's, see status().
+  template <class Points>
+  void place(Points& points) {
+    if (status_) status_ = crs.transform(points);
+  }
+  const Status& status() const { return status_; }
+
+ private:
+  Status status_ = success();
+};
+
+template <class Output>
+using Writer = Status (*)(Target& target, const Output& output);
+using Reader = Result<Document<Feature>> (*)(const Input& input, const ReadOptions& options);
+using MeshReader = Result<TriangleMesh> (*)(const Input& input);
+using Sniff = bool (*)(std::string_view beginning);
+
+struct Format {
+  std::string_view extensions;  ///< each with its dot, apart by blanks
+
+  // Reading.
+  std::string_view also_read = "";  ///< extensions that are not written
+  Reader read = nullptr;
+  MeshReader read_mesh = nullptr;
+  Sniff sniff = nullptr;    ///< whether a text without a name begins like this format
+  Sniff accepts = nullptr;  ///< what a file of this extension must begin like; GDAL reads others
+  bool has_layers = false;
+  bool has_filters = false;
+  bool has_loose_curves = false;
+
+  // Writing.
+  bool geographic = false;  ///< longitudes and latitudes instead of a local projection
+  bool own_files = false;   ///< a library makes the file, maybe with companions
+  std::tuple<Writer<AxesOutput>, Writer<ShapesOutput>, Writer<VoronoiOutput>, Writer<OffsetsOutput>,
+             Writer<CarvingOutput>, Writer<FeaturesOutput>, Writer<LayersOutput>,
+             Writer<FieldOutput>, Writer<PreviewOutput>, Writer<VoxelsOutput>,
+             Writer<DistancesOutput>, Writer<ImageOutput>>
+      writers{};
+  unsigned kinds = 0;  ///< of documents that are written, a bit each
+
+  /// Adds writers: functions of (Target&, const SomeOutput&).
+  template <class... Outputs>
+  Format writes(Writer<Outputs>... each) const {
+    Format result = *this;
+    ((std::get<Writer<Outputs>>(result.writers) = each), ...);
+    ((result.kinds |= 1U << static_cast<unsigned>(Outputs::kind)), ...);
+    return result;
+  }
+  bool holds(DocumentKind kind) const {
+    return kind == DocumentKind::mesh ? read_mesh != nullptr
+                                      : (kinds >> static_cast<unsigned>(kind) & 1U) != 0;
+  }
+};
+
+const std::vector<Format>& formats();
+
+/// Whether a list of extensions has one (without its dot).
+bool lists_extension(std::string_view extensions, std::string_view extension);
+
+/// The row that has an extension (without its dot) and holds a kind of document; null: none.
+const Format* find_format(std::string_view extension, DocumentKind kind);
+
+// The rows of the table, each in its own file.
+Format json_format();
+Format geojson_format();
+Format gpkg_format();
+Format shp_format();
+Format fgb_format();
+Format wkt_format();
+Format csv_format();
+Format xy_format();
+Format gcode_format();
+Format dxf_format();
+Format svg_format();
+Format pdf_format();
+Format png_format();
+Format ps_format();
+Format ply_format();
+Format vtk_format();
+Format obj_format();
+Format stl_format();
+Format off_format();
+Format tif_format();
+Format pgm_format();
+Format pbm_format();
+Format gdal_format();   ///< whatever else GDAL reads
+Format image_format();  ///< images, by their first bytes
+
+}  // namespace medial::io

@@ -1,0 +1,46 @@
+#include <algorithm>
+
+#include "io/format.h"
+#include "io/format_name.h"
+
+namespace medial::io {
+
+const std::vector<Format>& formats() {
+  static const std::vector<Format> all{
+      json_format(), geojson_format(), gpkg_format(), shp_format(),   fgb_format(),
+      wkt_format(),  csv_format(),     xy_format(),   gcode_format(),
+#ifdef MEDIAL_DXF
+      dxf_format(),
+#endif
+      svg_format(),  pdf_format(),     png_format(),  ps_format(),    ply_format(),
+      vtk_format(),  obj_format(),
+#ifdef MEDIAL_MESH
+      stl_format(),
+#endif
+      off_format(),  tif_format(),     pgm_format(),  pbm_format()};
+  return all;
+}
+
+bool lists_extension(std::string_view extensions, std::string_view extension) {
+  while (!extensions.empty()) {
+    const std::size_t end = std::min(extensions.find(' '), extensions.size());
+    if (extensions.substr(1, end - 1) == extension) return true;
+    extensions.remove_prefix(std::min(end + 1, extensions.size()));
+  }
+  return false;
+}
+
+const Format* find_format(std::string_view extension, DocumentKind kind) {
+  for (const Format& format : formats())
+    if (format.holds(kind) && lists_extension(format.extensions, extension)) return &format;
+  return nullptr;
+}
+
+std::string formats_of(DocumentKind kind) {
+  std::string list;
+  for (const Format& format : formats())
+    if (format.holds(kind)) (list += list.empty() ? "" : " ") += format.extensions;
+  return list;
+}
+
+}  // namespace medial::io

@@ -1,0 +1,154 @@
+// Comma-separated values: samples of axes and diagrams, tables of features, tool paths.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "io/axis_samples.h"
+#include "io/features_tables.h"
+#include "io/formats/text.h"
+#include "io/ring_text.h"
+#include "io/tool_paths.h"
+#include "io/voronoi_parts.h"
+
+namespace medial::io {
+
+namespace {
+
+/// A row: `before`, and the numbers behind it, each after a comma.
+void put_values(OutputStream& out, std::string_view before, std::initializer_list<double> values) {
+  out.put(before);
+  for (const double value : values) {
+    out.put(',');
+    out.put(value);
+  }
+  out.put('\n');
+}
+
+void put_disks(OutputStream& out, const std::string& before, const std::vector<Disk>& disks) {
+  for (const Disk& disk : disks)
+    put_values(out, before, {disk.center.x, disk.center.y, disk.radius});
+}
+
+/// A row for each sample; edges count through all items. Samples of an edge follow each other, the
+/// nodes first and last.
+Status write_csv(Target& target, const AxesOutput& output) {
+  target.out->put("edge,x,y,r\n");
+  std::uint64_t id = 0;
+  std::vector<Disk> samples;
+  for (const AxisItem& item : output.document.items) {
+    const double chord = chord_of(item, output.options);
+    for (const Edge& edge : item.axis.edges) {
+      sample(item.axis, edge, chord, samples);
+      target.place(samples);
+      put_disks(*target.out, fmt::format_int(id++).str(), samples);
+    }
+  }
+  return success();
+}
+
+Status write_csv(Target& target, const VoronoiOutput& output) {
+  target.out->put("edge,part,left,right,x,y,r\n");
+  std::uint64_t number = 0;
+  for (const VoronoiItem& item : output.document.items) {
+    const double chord = chord_of(item, output.options);
+    for (const VoronoiEdge& edge : item.diagram.edges) {
+      std::vector<Disk> line = sample_by_chord(item.diagram, edge, chord);
+      target.place(line);
+      put_disks(*target.out,
+                fmt::format("{},{},{},{}", number++, name_of(edge), number_of(edge.site[0]),
+                            number_of(edge.site[1])),
+                line);
+    }
+  }
+  return success();
+}
+
+void put_csv(OutputStream& out, const Value& value) {
+  if (const auto* number = std::get_if<std::int64_t>(&value)) {
+    out.put(*number);
+  } else if (const auto* decimal = std::get_if<double>(&value)) {
+    out.put(*decimal);
+  } else if (const auto* words = std::get_if<std::string>(&value)) {
+    out.put(*words);  // names: no comma, no quote
+  }
+}
+
+/// The table without lines: their ends, or the point.
+Status write_csv(Target& target, const FeaturesOutput& output) {
+  OutputStream& out = *target.out;
+  const bool points = output.own.table == FeatureTable::points;
+  for (const Column& column : columns_of(output.own.table)) {
+    out.put(column.name);
+    out.put(',');
+  }
+  out.put(points ? "x,y\n" : "x_from,y_from,x_to,y_to\n");
+  const auto put_row = [&](TableRow& row) {
+    for (const Value& value : row.values) {
+      put_csv(out, value);
+      out.put(',');
+    }
+    std::vector<Vec2> places{row.points.front()};
+    if (!points) places.push_back(row.points.back());
+    target.place(places);
+    for (const Vec2 p : places) {
+      put_point(out, p, ',');
+      out.put(&p == &places.back() ? '\n' : ',');
+    }
+    return target.status();
+  };
+  for (std::size_t i = 0; i < output.features.size(); ++i) {
+    // The ends are all that is wanted: any chord does.
+    const double chord = std::numeric_limits<double>::max();
+    const Status written = for_each_row(output.own.table, i, output.document.items[i].axis,
+                                        output.features[i], chord, put_row);
+    if (!written) return written;
+  }
+  return success();
+}
+
+Status write_csv(Target& target, const CarvingOutput& output) {
+  target.out->put("path,kind,x,y,z\n");
+  std::uint64_t id = 0;
+  for (const CarveItem& item : output.document.items) {
+    // Next to where offsets of two sides meet, a tangent may come nearer to the other side than its
+    // arc does, by as much as it is away from that.
+    constexpr double fine = 1e-6;
+    const Carving& carving = item.carving;
+    const double chord = output.machine.chord > 0
+                             ? output.machine.chord
+                             : fine * std::max(carving.tip_radius, carving.slope * carving.deepest);
+    for (const ToolPath& path : item.carving.paths) {
+      const std::string before = fmt::format("{},{}", id++, name_of(path.kind));
+      for (const ToolPoint& point : without_arcs(path, chord))
+        put_values(*target.out, before, {point.point.x, point.point.y, point.z});
+    }
+  }
+  return success();
+}
+
+Result<Document<Feature>> read_vertices(const Input& input, const ReadOptions& options) {
+  return read_xy(*input.source, options.loose);
+}
+
+}  // namespace
+
+/// Files of two columns hold the vertices of rings; other tables are GDAL's.
+Format csv_format() {
+  Format format{".csv"};
+  format.read = read_vertices;
+  format.accepts = has_two_columns;
+  format.geographic = true;
+  return format.writes<AxesOutput, VoronoiOutput, FeaturesOutput, CarvingOutput>(
+      write_csv, write_csv, write_csv, write_csv);
+}
+
+Format xy_format() {
+  Format format{".txt .xy"};
+  format.read = read_vertices;
+  format.sniff = begins_like_xy;
+  return format;
+}
+
+}  // namespace medial::io

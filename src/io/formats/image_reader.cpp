@@ -1,0 +1,373 @@
+#include <fmt/format.h>
+#include <gdal_priv.h>
+#include <ogr_spatialref.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string_view>
+
+#include "io/format.h"
+#include "io/gdal_support.h"
+#include "io/guarded.h"
+#include "io/place.h"
+#include "io/text_source.h"
+#include "medial/io/image.h"
+
+namespace medial::io {
+
+namespace {
+
+constexpr std::size_t image_sniffed = 8;
+constexpr std::size_t longest_image = std::size_t{1} << 32U;
+
+bool begins_like_pnm(std::string_view text) {
+  return text.size() > 2 && text[0] == 'P' &&
+         (text[1] == '1' || text[1] == '2' || text[1] == '4' || text[1] == '5') &&
+         (text[2] == '#' || std::isspace(static_cast<unsigned char>(text[2])));
+}
+
+bool begins_like_raster(std::string_view text) {
+  using namespace std::string_view_literals;
+  return text.starts_with("\x89PNG\r\n\x1a\n"sv) || text.starts_with("II*\0"sv) ||
+         text.starts_with("MM\0*"sv) || text.starts_with("II+\0"sv) || text.starts_with("MM\0+"sv);
+}
+
+Error too_large_image(std::uint64_t width, std::uint64_t height) {
+  return {ErrorCode::too_large,
+          fmt::format("{} x {} pixels: the diagonal must be below 2^16 pixels", width, height),
+          {}};
+}
+
+/// Portable bitmaps and graymaps, plain and raw.
+class PnmReader {
+ public:
+  PnmReader(TextSource& source, const ImageOptions& options) : source_(source), options_(options) {}
+
+  Result<Image> read() {
+    source_.skip();
+    const char kind = static_cast<char>(source_.peek());
+    source_.skip();
+    const bool bits = kind == '1' || kind == '4';
+    std::uint64_t width = 0, height = 0, largest = 1;
+    if (!read_count(width) || !read_count(height) || (!bits && !read_count(largest)))
+      return source_.error(ErrorCode::malformed, "the header is broken");
+    if (width == 0 || height == 0) return source_.error(ErrorCode::malformed, "without any pixel");
+    if (!fits_image(width, height)) return too_large_image(width, height);
+    if (largest == 0 || largest > 65535)
+      return source_.error(ErrorCode::malformed, "the largest value must be in [1, 65535]");
+    threshold_ = options_.threshold.value_or(0.5 * static_cast<double>(largest + 1));
+    Image image(static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height));
+    if (kind == '1' || kind == '2') return read_plain(std::move(image), bits, largest);
+    return read_raw(std::move(image), bits, largest);
+  }
+
+ private:
+  bool is_foreground(double value) const { return (value >= threshold_) != options_.invert; }
+
+  void skip_space_and_comments() {
+    source_.skip_space();
+    while (source_.peek() == '#') {
+      while (source_.peek() != -1 && source_.peek() != '\n') source_.skip();
+      source_.skip_space();
+    }
+  }
+
+  bool read_count(std::uint64_t& value) {
+    skip_space_and_comments();
+    if (source_.peek() < '0' || source_.peek() > '9') return false;
+    value = 0;
+    while (source_.peek() >= '0' && source_.peek() <= '9') {
+      value = value * 10 + static_cast<std::uint64_t>(source_.peek() - '0');
+      if (value > 1'000'000'000) return false;
+      source_.skip();
+    }
+    return true;
+  }
+
+  Result<Image> read_plain(Image image, bool bits, std::uint64_t largest) {
+    for (std::uint32_t y = 0; y < image.height(); ++y) {
+      for (std::uint32_t x = 0; x < image.width(); ++x) {
+        std::uint64_t value = 0;
+        if (bits) {  // digits need nothing between them
+          skip_space_and_comments();
+          if (source_.peek() != '0' && source_.peek() != '1')
+            return source_.error(ErrorCode::malformed,
+                                 "expected 0 or 1 instead of " + source_.next_as_text());
+          value = source_.peek() == '1';
+          source_.skip();
+        } else if (!read_count(value) || value > largest) {
+          return source_.error(ErrorCode::malformed, "expected a value up to the largest one");
+        }
+        if (is_foreground(static_cast<double>(value))) image.set(x, y);
+      }
+    }
+    return image;
+  }
+
+  Result<Image> read_raw(Image image, bool bits, std::uint64_t largest) {
+    if (source_.peek() == -1)
+      return source_.error(ErrorCode::malformed, "the file ends in its header");
+    source_.skip();
+    const std::size_t value_bytes = bits ? 0 : largest > 255 ? 2 : 1;
+    const std::size_t row_bytes =
+        bits ? (std::size_t{image.width()} + 7) / 8 : value_bytes * image.width();
+    std::string bytes;
+    source_.read_all(bytes, row_bytes * image.height());
+    if (source_.failure()) return *source_.failure();
+    if (bytes.size() < row_bytes * image.height())
+      return source_.error(ErrorCode::malformed, "the file ends before its last pixel");
+    for (std::uint32_t y = 0; y < image.height(); ++y) {
+      const auto* const row = reinterpret_cast<const unsigned char*>(bytes.data()) + y * row_bytes;
+      for (std::uint32_t x = 0; x < image.width(); ++x) {
+        const unsigned value = bits               ? row[x / 8] >> (7 - x % 8) & 1U
+                               : value_bytes == 1 ? row[x]
+                                                  : row[2UL * x] * 256U + row[2UL * x + 1];
+        if (is_foreground(value)) image.set(x, y);
+      }
+    }
+    return image;
+  }
+
+  TextSource& source_;
+  const ImageOptions& options_;
+  double threshold_ = 0;
+};
+
+/// The bands of a raster, and how they tell foreground.
+class Bands {
+ public:
+  Bands(GDALDataset& dataset, const ImageOptions& options) : options_(options) {
+    const int count = dataset.GetRasterCount();
+    for (int i = 1; i <= count; ++i) {
+      GDALRasterBand* const band = dataset.GetRasterBand(i);
+      if (band->GetColorInterpretation() == GCI_AlphaBand) {
+        alpha_ = band;
+      } else if (colors_.size() < 3) {
+        colors_.push_back(band);
+      }
+    }
+    if (colors_.size() == 2) colors_.pop_back();
+    if (colors_.empty()) return;
+    table_ = colors_[0]->GetColorTable();
+    nodata_ = colors_[0]->GetNoDataValue(&has_nodata_);
+    threshold_ = options.threshold.value_or(default_threshold());
+  }
+
+  bool usable() const {
+    return !colors_.empty() && GDALDataTypeIsComplex(colors_[0]->GetRasterDataType()) == 0;
+  }
+
+  /// Whether the rows [y, y + count) could be read into the image.
+  bool read(int y, int count, Image& image) {
+    const auto width = static_cast<int>(image.width());
+    const std::size_t pixels = image.width() * static_cast<std::size_t>(count);
+    values_.resize(pixels);
+    if (colors_.size() == 1) {
+      if (!read_band(*colors_[0], y, count, width, values_)) return false;
+    } else {
+      std::fill(values_.begin(), values_.end(), 0);
+      constexpr std::array luminance = {0.299, 0.587, 0.114};
+      for (std::size_t c = 0; c < colors_.size(); ++c) {
+        if (!read_band(*colors_[c], y, count, width, part_)) return false;
+        for (std::size_t i = 0; i < pixels; ++i) values_[i] += luminance[c] * part_[i];
+      }
+    }
+    if (alpha_ != nullptr && !read_band(*alpha_, y, count, width, part_)) return false;
+    for (std::size_t i = 0; i < pixels; ++i) {
+      if (!is_foreground(values_[i]) || (alpha_ != nullptr && part_[i] < half_alpha())) continue;
+      image.set(static_cast<std::uint32_t>(i % image.width()),
+                static_cast<std::uint32_t>(y) + static_cast<std::uint32_t>(i / image.width()));
+    }
+    return true;
+  }
+
+  double threshold() const { return threshold_; }
+
+ private:
+  static bool read_band(GDALRasterBand& band, int y, int count, int width,
+                        std::vector<double>& values) {
+    values.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(count));
+    return band.RasterIO(GF_Read, 0, y, width, count, values.data(), width, count, GDT_Float64, 0,
+                         0, nullptr) == CE_None;
+  }
+
+  /// Half of one more than the largest value of a type.
+  static double half_range(GDALRasterBand& band) {
+    if (const char* bits = band.GetMetadataItem("NBITS", "IMAGE_STRUCTURE"))
+      return std::ldexp(0.5, std::clamp(std::atoi(bits), 1, 32));
+    switch (band.GetRasterDataType()) {
+      case GDT_Byte:
+        return 128;
+      case GDT_UInt16:
+      case GDT_Int16:
+        return 32768 / (band.GetRasterDataType() == GDT_Int16 ? 2.0 : 1.0);
+      case GDT_UInt32:
+        return 2147483648.0;
+      case GDT_Int32:
+        return 1073741824.0;
+      default:
+        return 0.5;
+    }
+  }
+  double default_threshold() const { return table_ != nullptr ? 128 : half_range(*colors_[0]); }
+  double half_alpha() const { return half_range(*alpha_); }
+
+  bool is_foreground(double value) const {
+    if (has_nodata_ != 0 && value == nodata_ && table_ == nullptr) return false;
+    if (std::isnan(value)) return false;
+    if (table_ != nullptr) {
+      if (!(value >= 0 && value < table_->GetColorEntryCount())) return false;
+      const GDALColorEntry* entry = table_->GetColorEntry(static_cast<int>(value));
+      if (entry->c4 < 128) return false;
+      value = 0.299 * entry->c1 + 0.587 * entry->c2 + 0.114 * entry->c3;
+    }
+    return (value >= threshold_) != options_.invert;
+  }
+
+  const ImageOptions& options_;
+  std::vector<GDALRasterBand*> colors_;
+  GDALRasterBand* alpha_ = nullptr;
+  const GDALColorTable* table_ = nullptr;
+  double nodata_ = 0;
+  int has_nodata_ = 0;
+  double threshold_ = 0;
+  std::vector<double> values_, part_;
+};
+
+Result<ImageFile> read_raster(const std::string& name, const ImageOptions& options) {
+  register_gdal();
+  const GdalMessages messages;
+  const auto failure = [&messages](const char* otherwise) {
+    return messages.failure().empty() ? std::string(otherwise) : messages.failure();
+  };
+  const char* const drivers[] = {"PNG", "GTiff", nullptr};
+  const std::unique_ptr<GDALDataset> dataset(GDALDataset::Open(
+      name.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, drivers));
+  if (!dataset) return Error{ErrorCode::malformed, failure("this is no image"), {}};
+  const auto width = static_cast<std::uint64_t>(dataset->GetRasterXSize());
+  const auto height = static_cast<std::uint64_t>(dataset->GetRasterYSize());
+  if (!fits_image(width, height)) return too_large_image(width, height);
+  ImageFile file;
+  Bands bands(*dataset, options);
+  if (!bands.usable()) return Error{ErrorCode::unsupported, "its pixels are no numbers", {}};
+  file.image = Image(static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height));
+  constexpr int rows_at_once = 64;
+  for (int y = 0; y < static_cast<int>(height); y += rows_at_once) {
+    if (!bands.read(y, std::min(rows_at_once, static_cast<int>(height) - y), file.image) ||
+        !messages.failure().empty())
+      return Error{ErrorCode::malformed, failure("its pixels cannot be read"), {}};
+  }
+  PixelPlacement placement = unplaced;
+  if (dataset->GetGeoTransform(placement.data()) == CE_None) {
+    if (!std::ranges::all_of(placement, [](double t) { return std::isfinite(t); }) ||
+        placement[1] * placement[5] == placement[2] * placement[4])
+      return Error{ErrorCode::malformed, "its pixels lie nowhere: the placement is degenerate", {}};
+    file.placement = placement;
+  }
+  if (const OGRSpatialReference* reference = dataset->GetSpatialRef()) {
+    Document<Feature> described;
+    set_crs(*reference, described);
+    file.crs_wkt = std::move(described.crs_wkt);
+    file.geographic = described.geographic;
+  }
+  file.notes = messages.warnings();
+  return file;
+}
+
+bool begins_like_image(std::string_view text) {
+  return begins_like_pnm(text) || begins_like_raster(text);
+}
+
+Result<ImageFile> read_source(const Input& input, const ImageOptions& options) {
+  TextSource& source = *input.source;
+  const std::string_view beginning = source.lookahead(image_sniffed);
+  if (source.failure()) return *source.failure();
+  if (begins_like_pnm(beginning)) {
+    Result<Image> image = PnmReader(source, options).read();
+    if (!image) return image.error();
+    ImageFile file;
+    file.image = std::move(*image);
+    return file;
+  }
+  if (beginning.empty()) return Error{ErrorCode::empty, "there is nothing to read", {}};
+  if (!begins_like_raster(beginning))
+    return Error{ErrorCode::unsupported, "this is no PNG, TIFF, PBM or PGM", {}};
+  if (input.path != "-") return read_raster(input.path, options);
+  std::string bytes;
+  source.read_all(bytes, longest_image);
+  if (bytes.size() > longest_image)
+    return Error{ErrorCode::too_large, "more than 4 GiB on standard input", {}};
+  const MemoryFile file(bytes);
+  if (file.name().empty()) return Error{ErrorCode::unreadable, "cannot be kept in memory", {}};
+  return read_raster(file.name(), options);
+}
+
+/// An image with a foreground.
+Result<ImageFile> read_foreground(const Input& input, const ImageOptions& options) {
+  return guarded(input.path, [&]() -> Result<ImageFile> {
+    Result<ImageFile> file = read_source(input, options);
+    if (file && file->image.count() == 0) {
+      return Error{ErrorCode::empty,
+                   options.invert ? "no pixel is below the threshold, so there is no foreground"
+                                  : "no pixel reaches the threshold, so there is no foreground",
+                   {}};
+    }
+    return file;
+  });
+}
+
+/// The outline of an image's foreground as one feature.
+Result<Document<Feature>> read_outline(const Input& input, const ReadOptions& options) {
+  if (options.repair != RepairRule::none)
+    return Error{ErrorCode::invalid_option, "an image has nothing to repair", in_file(input.path)};
+  Result<ImageFile> file = read_foreground(input, options.image);
+  if (!file) return file.error();
+  const PixelPlacement& t = file->placement;
+  const auto place = [&t, placed = file->placed()](std::vector<Vec2>& points) {
+    if (!placed) return;
+    for (Vec2& p : points) p = {t[0] + p.x * t[1] + p.y * t[2], t[3] + p.x * t[4] + p.y * t[5]};
+  };
+  Document<Feature> dataset;
+  dataset.crs_wkt = std::move(file->crs_wkt);
+  dataset.geographic = file->geographic;
+  dataset.y_down = !file->placed();
+  dataset.notes = std::move(file->notes);
+  Feature& feature = dataset.items.emplace_back();
+  if (options.smooth_contour) {
+    Result<std::vector<Contour>> contours = smooth_outline(file->image);
+    if (!contours) return contours.error();
+    feature.contours = std::move(*contours);
+    for (Contour& contour : feature.contours) place(contour.points);
+  } else {
+    Result<std::vector<Ring>> rings = pixel_outline(file->image);
+    if (!rings) return rings.error();
+    feature.rings = std::move(*rings);
+    for (Ring& ring : feature.rings) place(ring.points);
+  }
+  const bool square = t[2] == 0 && t[4] == 0 && std::abs(t[1]) == std::abs(t[5]);
+  if (square && !options.project) dataset.pixel = std::abs(t[1]);
+  return dataset;
+}
+
+}  // namespace
+
+Format image_format() {
+  Format format;
+  format.read = read_outline;
+  format.sniff = begins_like_image;
+  return format;
+}
+
+Result<ImageFile> read_image(const std::string& path, const ImageOptions& options) {
+  Result<std::shared_ptr<TextSource>> source = TextSource::open(path);
+  if (!source) return source.error();
+  return read_foreground({path, *source}, options);
+}
+
+bool is_image(const std::string& path) {
+  const Result<std::shared_ptr<TextSource>> source = TextSource::open(path);
+  return source && begins_like_image((*source)->lookahead(image_sniffed));
+}
+
+}  // namespace medial::io

@@ -1,0 +1,42 @@
+#pragma once
+
+// Medial's own formats in JSON (docs/format.md).
+
+#include <string_view>
+
+#include "io/format.h"
+
+namespace medial::io {
+
+/// The highest version of the native format that is read. A file is written in the lowest version
+/// that holds it: 1, or 2 where there are arcs.
+inline constexpr int native_version = 2;
+
+/// Whether a text begins like medial's own JSON: an object whose first member is "medial".
+bool begins_like_native(std::string_view text);
+/// The same of a Voronoi diagram: the first member is "medial_voronoi".
+bool begins_like_voronoi(std::string_view text);
+
+/// Reads and checks: every index is in its range, every number finite.
+/// Errors: unreadable, malformed, unsupported (a newer version), too_large (4 GiB or more).
+Result<Document<AxisItem>> read_native(TextSource& source);
+Result<Document<VoronoiItem>> read_voronoi(TextSource& source);
+
+/// A row that reads the shapes of native files.
+Format native_reading(const char* extensions);
+
+// Without loss, but for features.
+Status write_json(Target& target, const AxesOutput& output);
+Status write_json(Target& target, const ShapesOutput& output);
+Status write_json(Target& target, const VoronoiOutput& output);
+Status write_json(Target& target, const OffsetsOutput& output);
+Status write_json(Target& target, const FeaturesOutput& output);
+
+/// The rows of a site and a node.
+void put_site(OutputStream& out, const Site& site);
+void put_node(OutputStream& out, const Node& node);
+
+/// The control point of a straight edge whose radius runs evenly: files leave it out.
+Disk middle_of(const Disk& a, const Disk& b);
+
+}  // namespace medial::io

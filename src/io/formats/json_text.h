@@ -1,0 +1,103 @@
+#pragma once
+
+// JSON written number by number: through a library's objects it takes several times as long.
+
+#include <cmath>
+#include <string_view>
+#include <type_traits>
+
+#include "io/output.h"
+#include "medial/document.h"
+
+namespace medial::io {
+
+/// A value; null for a number that is not finite. Texts become JSON strings, enumerations numbers.
+template <class V>
+void put_json(OutputStream& out, const V& value) {
+  if constexpr (std::is_same_v<V, double>) {
+    std::isfinite(value) ? out.put(value) : out.put("null");
+  } else if constexpr (std::is_same_v<V, bool>) {
+    out.put(value ? "true" : "false");
+  } else if constexpr (std::is_enum_v<V>) {
+    out.put(static_cast<std::uint32_t>(value));
+  } else if constexpr (std::is_integral_v<V>) {
+    out.put(value);
+  } else {
+    put_quoted(out, std::string_view(value));
+  }
+}
+
+/// `before` as it is, then the value: such as ,"length":2.5
+template <class V>
+void put_member(OutputStream& out, std::string_view before, const V& value) {
+  out.put(before);
+  put_json(out, value);
+}
+
+/// Several members of one type: ,"x":1,"y":2
+template <class V>
+void put_members(OutputStream& out, std::initializer_list<std::pair<std::string_view, V>> members) {
+  for (const auto& [name, value] : members) {
+    out.put(",\"");
+    out.put(name);
+    put_member(out, "\":", value);
+  }
+}
+
+/// Finite numbers in brackets: [1,2.5,3].
+template <class... Values>
+void put_row(OutputStream& out, Values... values) {
+  char separator = '[';
+  const auto one = [&](auto value) {
+    out.put(separator);
+    separator = ',';
+    if constexpr (std::is_enum_v<decltype(value)>) {
+      out.put(static_cast<std::uint32_t>(value));
+    } else {
+      out.put(value);
+    }
+  };
+  (one(values), ...);
+  out.put(']');
+}
+
+/// Brackets around what put(element) writes for each element, with `between` between, `first` in
+/// front where there is any, and `last` behind.
+template <class Range, class Put>
+void put_list(OutputStream& out, const Range& range, const Put& put, std::string_view first = "",
+              std::string_view between = ",", std::string_view last = "") {
+  out.put('[');
+  std::string_view separator = first;
+  for (const auto& element : range) {
+    out.put(separator);
+    separator = between;
+    put(element);
+  }
+  out.put(last);
+  out.put(']');
+}
+
+/// The same, an element per line.
+template <class Range, class Put>
+void put_lines(OutputStream& out, const Range& range, const Put& put) {
+  put_list(out, range, put, "\n", ",\n");
+}
+
+/// The items of a document, and the end of its file.
+template <class Range, class Put>
+void put_items(OutputStream& out, const Range& items, const Put& put) {
+  put_list(out, items, put, "\n", ",\n", "\n");
+  out.put("}\n");
+}
+
+inline void put_attributes(OutputStream& out, const Attributes& attributes) {
+  put_list(out, attributes, [&](const auto& attribute) {
+    out.put('[');
+    put_quoted(out, attribute.first);
+    out.put(',');
+    put_quoted(out, attribute.second);
+    out.put(']');
+  });
+}
+
+}  // namespace medial::io

@@ -1,0 +1,165 @@
+#include "io/pictures/canvas.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace medial::io {
+
+void Canvas::edge_to(Vec2 from, Vec2 to, double bulge) {
+  const Vec2 end = frame_(to);
+  bulge == 0 ? line_to(end) : arc_to({frame_(from), end, frame_.bulge(bulge)});
+}
+
+void Canvas::trace(const Ring& ring, bool closed) {
+  const std::size_t count = ring.points.size();
+  if (count == 0) return;
+  move_to(frame_(ring.points[0]));
+  for (std::size_t i = 0; i + (closed ? 0 : 1) < count; ++i)
+    edge_to(ring.points[i], ring.points[i + 1 == count ? 0 : i + 1],
+            ring.bulges.empty() ? 0 : ring.bulges[i]);
+  if (closed) close();
+}
+
+void Canvas::trace(const Shape& shape) {
+  for (std::size_t i = 0; i < shape.loop_count(); ++i) trace(ring_of(shape, i));
+}
+
+void Canvas::trace(std::span<const Vec2> line) {
+  for (std::size_t i = 0; i < line.size(); ++i)
+    i == 0 ? move_to(frame_(line[i])) : line_to(frame_(line[i]));
+}
+
+void Canvas::tapered(Vec2 a, double radius_a, Vec2 b, double radius_b) {
+  const double way = distance(a, b);
+  if (way <= std::abs(radius_a - radius_b)) {
+    circle(radius_a > radius_b ? a : b, std::max(radius_a, radius_b));
+    return;
+  }
+  // Both tangents touch at this angle from the way back.
+  const Vec2 from = frame_(a), to = frame_(b);
+  const double along = std::atan2(to.y - from.y, to.x - from.x);
+  const double aside = std::acos((radius_a - radius_b) / way);
+  cairo_new_sub_path(context_);
+  cairo_arc(context_, from.x, from.y, radius_a * frame_.scale, along + aside,
+            along - aside + 2 * std::numbers::pi);
+  cairo_arc(context_, to.x, to.y, radius_b * frame_.scale, along - aside, along + aside);
+  cairo_close_path(context_);
+}
+
+void Canvas::fill_even_odd(bool keep_path) {
+  cairo_set_fill_rule(context_, CAIRO_FILL_RULE_EVEN_ODD);
+  keep_path ? cairo_fill_preserve(context_) : cairo_fill(context_);
+  cairo_set_fill_rule(context_, CAIRO_FILL_RULE_WINDING);
+}
+
+/// Goes along all edges of a loop, as one path; calls each(end) for every edge drawn.
+template <class Each>
+void Canvas::trace_coarsely(const Shape& shape, std::size_t loop, Each each) {
+  const std::size_t begin = shape.loop_begin[loop];
+  const std::size_t end = shape.loop_begin[loop + 1];
+  const double smallest = cell();
+  Vec2 last = frame_(shape.points[begin]);
+  move_to(last);
+  for (std::size_t k = begin; k < end; ++k) {
+    const Vec2 p = frame_(shape.points[k + 1 == end ? begin : k + 1]);
+    const double bulge = shape.bulge(k);
+    if (distance(p, last) < smallest) continue;
+    if (bulge == 0) {
+      line_to(p);
+    } else {
+      arc_to({frame_(shape.points[k]), p, frame_.bulge(bulge)});
+    }
+    last = p;
+    each(p);
+  }
+}
+
+void Canvas::fill_shape(const Shape& shape, const Color& inside) {
+  color(inside);
+  for (std::size_t i = 0; i < shape.loop_count(); ++i) {
+    trace_coarsely(shape, i, [](Vec2) {});
+    close();
+  }
+  fill_even_odd();
+}
+
+void Canvas::stroke_shape(const Shape& shape) {
+  int batch = 0;
+  for (std::size_t i = 0; i < shape.loop_count(); ++i) {
+    trace_coarsely(shape, i, [&](Vec2 p) {
+      if (++batch % pieces_per_stroke != 0) return;
+      stroke();
+      move_to(p);
+    });
+  }
+  stroke();
+}
+
+/// A quadratic Bezier curve (weight 1) is one cubic exactly; other conics come very near to one
+/// once they are cut so often that their weights are nearly 1, which each cut in halves makes
+/// them four times as nearly: a circle's 16th turn stays within 7e-8 radii.
+void Canvas::piece_to(const Piece& piece) {
+  if (piece.straight) return line_to(piece.to);
+  const double nearly_one = 0.0192;  // 1 - cos(turn / 2) of a 16th turn
+  const double w = piece.weight;
+  if (std::fabs(1 - w) > nearly_one) {
+    const Vec2 left = 1 / (1 + w) * (piece.from + w * piece.control);
+    const Vec2 right = 1 / (1 + w) * (piece.to + w * piece.control);
+    const Vec2 middle = midpoint(left, right);
+    const double half = std::sqrt(0.5 * (1 + w));
+    piece_to({piece.from, left, middle, half, false});
+    piece_to({middle, right, piece.to, half, false});
+    return;
+  }
+  const double share = 4 * w / (3 * (1 + w));
+  const Vec2 a = piece.from + share * (piece.control - piece.from);
+  const Vec2 b = piece.to + share * (piece.control - piece.to);
+  cairo_curve_to(context_, a.x, a.y, b.x, b.y, piece.to.x, piece.to.y);
+}
+
+void Canvas::image(std::vector<std::uint32_t> pixels) {
+  const int columns = static_cast<int>(frame_.width), rows = static_cast<int>(frame_.height);
+  cairo_surface_t* surface =
+      cairo_image_surface_create_for_data(reinterpret_cast<unsigned char*>(pixels.data()),
+                                          CAIRO_FORMAT_RGB24, columns, rows, 4 * columns);
+  cairo_set_source_surface(context_, surface, 0, 0);
+  cairo_paint(context_);
+  // A vector picture keeps the image until it is finished, and then copies the pixels.
+  cairo_set_source_rgb(context_, 0, 0, 0);
+  cairo_surface_flush(cairo_get_target(context_));
+  cairo_surface_finish(surface);
+  cairo_surface_destroy(surface);
+}
+
+void Canvas::use_font(double size) {
+  cairo_select_font_face(context_, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
+  cairo_set_font_size(context_, size);
+}
+
+void Canvas::text(Vec2 at, double thousandths, const std::string& words) {
+  use_font(1e-3 * thousandths * longer_side());
+  move_to(frame_(at));
+  cairo_show_text(context_, words.c_str());
+}
+
+void Canvas::centred_text(Vec2 middle, double thousandths, const std::string& words) {
+  use_font(1e-3 * thousandths * longer_side());
+  cairo_text_extents_t extents;
+  cairo_text_extents(context_, words.c_str(), &extents);
+  move_to({middle.x - 0.5 * extents.width - extents.x_bearing, middle.y});
+  cairo_show_text(context_, words.c_str());
+  cairo_new_path(context_);
+}
+
+Status write_canvas(OutputStream& out, const std::string& format, const Box& box, double width,
+                    bool y_down, const std::function<void(Canvas&)>& draw, double fineness) {
+  const Result<PictureFrame> frame = frame_for(box, width, y_down);
+  if (!frame) return frame.error();
+  return write_surface(out, format, frame->width, frame->height, [&](cairo_t* context) {
+    Canvas canvas(context, *frame, fineness);
+    draw(canvas);
+  });
+}
+
+}  // namespace medial::io

@@ -1,0 +1,138 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <unordered_set>
+#include <vector>
+
+#include "io/pictures/color.h"
+#include "io/pictures/frame.h"
+#include "medial/shape.h"
+
+namespace medial::io {
+
+inline constexpr Color outline_color{0.25, 0.25, 0.27};
+
+inline constexpr int pieces_per_stroke = 2000;  ///< of a path: long ones are slow to stroke
+
+/// A piece of an edge, in units of the picture: a rational quadratic curve with weights 1, w, 1.
+struct Piece {
+  Vec2 from, control, to;
+  double weight = 1;
+  bool straight = true;
+};
+
+/// Which pieces smaller than a cell add nothing to a picture: those in a cell where one of the same
+/// shade is drawn already.
+class Cells {
+ public:
+  explicit Cells(double size) : size_(size) {}
+
+  bool add(const Piece& piece) {
+    const double extent =
+        std::max(std::fabs(piece.to.x - piece.from.x), std::fabs(piece.to.y - piece.from.y));
+    if (!(extent <= size_)) return true;
+    // A file may hold curves that leave the picture.
+    const auto index = [this](double place) {
+      return static_cast<std::uint64_t>(std::clamp(place / size_, 0.0, farthest));
+    };
+    return drawn_.insert(index(piece.from.y) << 32U | index(piece.from.x)).second;
+  }
+
+ private:
+  static constexpr double farthest = 1e9;  // more cells than any picture has
+  double size_;
+  std::unordered_set<std::uint64_t> drawn_;
+};
+
+/// A picture of curves in the plane, drawn through Cairo: aspect kept. Line widths are in
+/// thousandths of the picture's longer side.
+class Canvas {
+ public:
+  /// `fineness`: a factor of all line widths.
+  Canvas(cairo_t* context, const PictureFrame& frame, double fineness = 1)
+      : context_(context),
+        frame_(frame),
+        fineness_(fineness),
+        pixels_(cairo_surface_get_type(cairo_get_target(context)) == CAIRO_SURFACE_TYPE_IMAGE) {}
+
+  cairo_t* context() { return context_; }
+  const PictureFrame& frame() const { return frame_; }
+  /// How far apart places are that can be told apart: a fraction of a pixel, or in pictures that
+  /// can be enlarged, of the thinnest line, which hides what is smaller at any size.
+  double cell() const { return pixels_ ? 0.25 : thickness(0.1); }
+  /// Of lines: in thousandths of the longer side.
+  double thickness(double thousandths) const {
+    return thousandths * 1e-3 * fineness_ * longer_side();
+  }
+  double longer_side() const { return std::max(frame_.width, frame_.height); }
+  void line_width(double thousandths) { cairo_set_line_width(context_, thickness(thousandths)); }
+  void width_in_units(double units) { cairo_set_line_width(context_, units * frame_.scale); }
+  void color(const Color& c, double alpha = 1) {
+    cairo_set_source_rgba(context_, c.red, c.green, c.blue, alpha);
+  }
+
+  // The path, in places of the picture.
+  void move_to(Vec2 p) { cairo_move_to(context_, p.x, p.y); }
+  void line_to(Vec2 p) { cairo_line_to(context_, p.x, p.y); }
+  void arc_to(const BulgeArc& arc) { io::arc_to(context_, arc); }
+  void dot(Vec2 center, double radius) { add_circle(context_, center, radius); }
+  /// Goes on along a piece, from where it begins.
+  void piece_to(const Piece& piece);
+  void close() { cairo_close_path(context_); }
+
+  // The path, in the plane.
+  /// Goes on along an edge.
+  void edge_to(Vec2 from, Vec2 to, double bulge);
+  /// Adds a ring, without its last edge if it is open; all loops of a shape; or a polyline.
+  void trace(const Ring& ring, bool closed = true);
+  void trace(const Shape& shape);
+  void trace(std::span<const Vec2> line);
+  void circle(Vec2 center, double radius) { dot(frame_(center), radius * frame_.scale); }
+  /// Adds the convex hull of two disks.
+  void tapered(Vec2 a, double radius_a, Vec2 b, double radius_b);
+
+  void stroke() { cairo_stroke(context_); }
+  /// Fills all that any part of the path goes around, or what is inside by the even-odd rule.
+  void fill() { cairo_fill(context_); }
+  void fill_even_odd(bool keep_path = false);
+  /// Strokes or fills once so many pieces have come that the path gets slow; whether it did.
+  bool count_piece(bool filled) {
+    if (++batch_ % pieces_per_stroke != 0) return false;
+    filled ? fill() : stroke();
+    return true;
+  }
+  /// The same for shapes, without edges shorter than a cell.
+  void fill_shape(const Shape& shape, const Color& inside);
+  void stroke_shape(const Shape& shape);
+
+  /// Covers all of the picture with pixels 0xRRGGBB, as many in a row as it is wide.
+  void image(std::vector<std::uint32_t> pixels);
+  /// Words from a point of the plane on, so many thousandths of the longer side high.
+  void text(Vec2 at, double thousandths, const std::string& words);
+  /// Words whose base line has its middle at a place of the picture.
+  void centred_text(Vec2 middle, double thousandths, const std::string& words);
+  /// `size`: in units of the picture.
+  void use_font(double size);
+
+ private:
+  template <class Each>
+  void trace_coarsely(const Shape& shape, std::size_t loop, Each each);
+
+  cairo_t* context_;
+  PictureFrame frame_;
+  double fineness_;
+  bool pixels_;
+  int batch_ = 0;
+};
+
+/// Draws a picture of a box of the plane as svg, pdf, ps or png. Errors: invalid_option (width),
+/// unwritable.
+Status write_canvas(OutputStream& out, const std::string& format, const Box& box, double width,
+                    bool y_down, const std::function<void(Canvas&)>& draw, double fineness = 1);
+
+}  // namespace medial::io

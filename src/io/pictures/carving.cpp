@@ -1,0 +1,113 @@
+#include <algorithm>
+#include <array>
+
+#include "io/pictures/pictures.h"
+#include "io/tool_paths.h"
+
+namespace medial::io {
+
+namespace {
+
+using Walls = std::vector<std::vector<const ToolPath*>>;  // of each pass
+
+Walls walls_of(const Carving& carving) {
+  Walls walls;
+  for (const ToolPath& path : carving.paths) {
+    if (path.kind != ToolPathKind::wall) continue;
+    walls.resize(std::max<std::size_t>(walls.size(), path.pass + 1));
+    walls[path.pass].push_back(&path);
+  }
+  return walls;
+}
+
+/// Adds what of a groove is deeper than a level: around each move as much as the cone is wide
+/// there.
+void add_groove(Canvas& canvas, const Carving& carving, const ToolPath& path, double depth) {
+  const auto wide = [&carving](double over) {
+    return over >= 0 ? carving.tip_radius + carving.slope * over : 0;
+  };
+  for (std::size_t i = 0; i + 1 < path.points.size(); ++i) {
+    const ToolPoint &from = path.points[i], &to = path.points[i + 1];
+    const double over0 = -from.z - depth, over1 = -to.z - depth;
+    if (!(over0 > 0 || over1 > 0)) continue;
+    // Where the move rises through the level the cut ends before it does.
+    const double share0 = over0 < 0 ? over0 / (over0 - over1) : 0;
+    const double share1 = over1 < 0 ? over0 / (over0 - over1) : 1;
+    canvas.tapered(from.point + share0 * (to.point - from.point), wide(over0),
+                   from.point + share1 * (to.point - from.point), wide(over1));
+  }
+}
+
+/// What is deeper than a level: flat bottoms within their walls, and around each path as much as
+/// the cone is wide there.
+void fill_level(Canvas& canvas, const Carving& carving, const Walls& walls, double depth) {
+  for (const auto& of_pass : walls) {
+    for (const ToolPath* wall : of_pass)
+      if (-wall->points.front().z > depth) canvas.trace(line_of(wall->points));
+    canvas.fill_even_odd();
+  }
+  for (const ToolPath& path : carving.paths) {
+    const double over = -path.points.front().z - depth;
+    if (path.kind != ToolPathKind::wall || !(over > 0)) continue;
+    canvas.width_in_units(2 * (carving.tip_radius + carving.slope * over));
+    canvas.trace(line_of(path.points), false);
+    canvas.stroke();
+  }
+  for (const ToolPath& path : carving.paths)
+    if (path.kind == ToolPathKind::groove) add_groove(canvas, carving, path, depth);
+  canvas.fill();
+}
+
+/// The paths, and the ways through the air between them.
+void draw_paths(Canvas& canvas, const std::vector<ToolPath>& paths) {
+  canvas.line_width(0.8);
+  for (const ToolPath& path : paths) {
+    canvas.color(
+        path.kind == ToolPathKind::groove ? Color{0.95, 0.95, 1.0} : Color{0.55, 0.8, 0.95},
+        path.kind == ToolPathKind::clearing ? 0.5 : 0.9);
+    canvas.trace(line_of(path.points), false);
+    canvas.stroke();
+  }
+  canvas.color({0.85, 0.2, 0.2}, 0.8);
+  canvas.line_width(0.6);
+  for (std::size_t k = 0; k + 1 < paths.size(); ++k) {
+    const std::array<Vec2, 2> way{paths[k].points.back().point, paths[k + 1].points.front().point};
+    canvas.trace(std::span<const Vec2>(way));
+    canvas.stroke();
+  }
+}
+
+}  // namespace
+
+Status write_picture(Target& target, const CarvingOutput& output) {
+  const auto& items = output.document.items;
+  Extent extent;
+  double deepest = 0;
+  for (const CarveItem& item : items) {
+    extent.add(item.shape);
+    deepest = std::max(deepest, item.carving.deepest);
+  }
+  const auto draw = [&](Canvas& canvas) {
+    constexpr Color wood{0.93, 0.86, 0.74}, bottom{0.36, 0.22, 0.12}, outline{0.25, 0.25, 0.3};
+    const int levels = target.format == "png" ? 32 : 12;
+    for (const CarveItem& item : items) {
+      const Walls walls = walls_of(item.carving);
+      for (int level = 0; level < levels; ++level) {
+        const double t = (level + 0.5) / levels;
+        canvas.color({wood.red + t * (bottom.red - wood.red),
+                      wood.green + t * (bottom.green - wood.green),
+                      wood.blue + t * (bottom.blue - wood.blue)});
+        fill_level(canvas, item.carving, walls, deepest * level / levels);
+      }
+      draw_paths(canvas, item.carving.paths);
+      canvas.color(outline);
+      canvas.line_width(1.2);
+      canvas.trace(item.shape);
+      canvas.stroke();
+    }
+  };
+  return write_canvas(*target.out, target.format, extent.box(), output.options.width,
+                      output.document.y_down, draw);
+}
+
+}  // namespace medial::io

@@ -1,0 +1,91 @@
+#include <algorithm>
+#include <cmath>
+
+#include "io/pictures/pictures.h"
+
+namespace medial::io {
+
+namespace {
+
+/// Draws what there is, from below: `diagrams` and `layers` may be null.
+Status draw_picture(Target& target, const Document<AxisItem>& file, const WriteOptions& options,
+                    const Document<VoronoiItem>* diagrams, const Document<Layer>* layers) {
+  double largest = 0, edges = 0;
+  for (const AxisItem& item : file.items) {
+    for (const Node& node : item.axis.nodes) largest = std::max(largest, node.disk.radius);
+    edges += static_cast<double>(item.axis.edges.size());
+  }
+  // The more there is to see, the finer the lines: down to a third.
+  constexpr double many_edges = 5000;
+  const double fineness =
+      std::clamp(std::pow(many_edges / std::max(edges, 1.0), 0.2), 1.0 / 3, 1.0);
+  const auto draw = [&](Canvas& canvas) {
+    constexpr Color inside{0.945, 0.945, 0.925};
+    const auto outlines = [&] {
+      if (!options.shape) return;
+      canvas.color(outline_color);
+      canvas.line_width(0.8);
+      for (const AxisItem& item : file.items) canvas.stroke_shape(item.shape);
+    };
+    if (options.shape)
+      for (const AxisItem& item : file.items) canvas.fill_shape(item.shape, inside);
+    outlines();
+    if (layers != nullptr) draw_polygons(canvas, *layers);
+    if (diagrams != nullptr) {
+      draw_faces(canvas, *diagrams);
+      outlines();
+      if (options.shape) draw_sites(canvas, *diagrams);
+    }
+    if (options.disks > 0) draw_disks(canvas, file, options.disks);
+    if (options.contacts) draw_feet(canvas, file);
+    draw_axes(canvas, file, largest);
+    if (layers != nullptr) draw_lines_and_disks(canvas, *layers);
+    if (options.nodes) draw_nodes(canvas, file);
+    if (options.titles) draw_titles(canvas, file);
+  };
+  return write_canvas(*target.out, target.format, box_of(file), options.width, file.y_down, draw,
+                      fineness);
+}
+
+}  // namespace
+
+Status write_picture(Target& target, const AxesOutput& output) {
+  return draw_picture(target, output.document, output.options, nullptr, nullptr);
+}
+
+Status write_picture(Target& target, const ShapesOutput& output) {
+  auto axes = same_frame<AxisItem>(output.document);
+  for (const ShapeItem& item : output.document.items) axes.items.push_back({item.shape, {}, {}});
+  return draw_picture(target, axes, output.options, nullptr, nullptr);
+}
+
+Status write_picture(Target& target, const LayersOutput& output) {
+  return draw_picture(target, output.background, output.options, nullptr, &output.document);
+}
+
+Status write_picture(Target& target, const VoronoiOutput& output) {
+  // Less its spokes, the diagram is the axis.
+  auto axes = same_frame<AxisItem>(output.document);
+  for (const VoronoiItem& item : output.document.items) {
+    AxisItem& own = axes.items.emplace_back();
+    own.shape = item.shape;
+    own.axis.sites = item.diagram.sites;
+    own.axis.nodes = item.diagram.nodes;
+    for (const VoronoiEdge& edge : item.diagram.edges)
+      if (!edge.spoke && !edge.frame) own.axis.edges.push_back(edge);
+  }
+  return draw_picture(target, axes, output.options, &output.document, nullptr);
+}
+
+Format picture_format(const char* extension) {
+  return Format{extension}
+      .writes<AxesOutput, ShapesOutput, VoronoiOutput, LayersOutput, OffsetsOutput, CarvingOutput,
+              FeaturesOutput, FieldOutput, PreviewOutput>(
+          write_picture, write_picture, write_picture, write_picture, write_picture, write_picture,
+          write_picture, write_picture, write_picture);
+}
+
+Format pdf_format() { return picture_format(".pdf"); }
+Format ps_format() { return picture_format(".ps"); }
+
+}  // namespace medial::io
