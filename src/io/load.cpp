@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "io/native.h"
+#include "io/formats/json.h"
 #include "io/place.h"
 
 namespace medial::io {
@@ -27,7 +27,7 @@ Result<Document<Feature>> read_source(const std::string& path, const SourceOptio
 }
 
 template <class T>
-Result<T> in_file(Result<T> result, const std::string& path) {
+Result<T> naming_file(Result<T> result, const std::string& path) {
   if (!result && result.error().place.file.empty()) result.error().place.file = path;
   return result;
 }
@@ -35,7 +35,7 @@ Result<T> in_file(Result<T> result, const std::string& path) {
 }  // namespace
 
 Result<Document<Feature>> read_features(const std::string& path, const SourceOptions& options) {
-  return in_file(read_source(path, options), path);
+  return naming_file(read_source(path, options), path);
 }
 
 Result<Document<ShapeItem>> load_shapes(const std::string& path, const SourceOptions& options,
@@ -44,7 +44,7 @@ Result<Document<ShapeItem>> load_shapes(const std::string& path, const SourceOpt
   if (!features) return std::move(features).error();
   LoadOptions load = options.load;
   load.repair = options.read.repair;
-  return in_file(medial::load_shapes(std::move(features).value(), load, report), path);
+  return naming_file(medial::load_shapes(std::move(features).value(), load, report), path);
 }
 
 Result<LoosePieces> load_loose(const std::string& path, const SourceOptions& options) {
@@ -55,7 +55,7 @@ Result<LoosePieces> load_loose(const std::string& path, const SourceOptions& opt
   if (!features) return std::move(features).error();
   ArcOptions arcs = options.load.arcs;
   arcs.threads = options.load.threads;
-  return in_file(medial::load_loose(std::move(features).value(), arcs), path);
+  return naming_file(medial::load_loose(std::move(features).value(), arcs), path);
 }
 
 }  // namespace medial::io

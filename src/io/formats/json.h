@@ -22,6 +22,9 @@ bool begins_like_voronoi(std::string_view text);
 Result<Document<AxisItem>> read_native(TextSource& source);
 Result<Document<VoronoiItem>> read_voronoi(TextSource& source);
 
+/// The shapes of a native file as features: their loops are the rings, with their sources.
+Document<Feature> dataset_of(Document<AxisItem> file);
+
 /// A row that reads the shapes of native files.
 Format native_reading(const char* extensions);
 

@@ -17,7 +17,7 @@ Vec2 read_point(json::value value) {
   return point;
 }
 
-VertexSource read_source(json::value value) {
+VertexSource read_vertex_source(json::value value) {
   Row row(value);
   const auto ring = row.index<std::uint32_t>();
   const VertexSource source{ring, row.index<std::uint32_t>()};
@@ -30,7 +30,8 @@ void read_shape(json::value value, Shape& shape) {
     return Member{name, [&values, read](json::value v) { append_all(v, values, read); }};
   };
   read_members(value.get_object(), list("points", shape.points, read_point),
-               list("bulges", shape.bulges, number), list("sources", shape.sources, read_source),
+               list("bulges", shape.bulges, number),
+               list("sources", shape.sources, read_vertex_source),
                list("loop_begin", shape.loop_begin, integer<std::uint32_t>),
                list("component", shape.component, integer<std::uint32_t>),
                list("hole", shape.hole, [](json::value v) -> bool { return v.get_bool(); }));
@@ -272,9 +273,6 @@ Result<Document<AxisItem>> read_native(TextSource& source) {
   return read_document(source, native_version, read_file);
 }
 
-namespace {
-
-/// The shapes of a native file as features: their loops are the rings.
 Document<Feature> dataset_of(Document<AxisItem> file) {
   auto dataset = same_frame<Feature>(file);
   std::int64_t id = 0;
@@ -299,6 +297,8 @@ Document<Feature> dataset_of(Document<AxisItem> file) {
   }
   return dataset;
 }
+
+namespace {
 
 Result<Document<Feature>> read_native_features(const Input& input, const ReadOptions&) {
   Result<Document<AxisItem>> file = read_native(*input.source);
