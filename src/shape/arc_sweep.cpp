@@ -373,28 +373,14 @@ class ArcSweeper {
         noding_.edge_source(noded_.edges[vertex]), noding_.to_input(point));
   }
 
-  /// Notes where two neighbours touch behind their common left end. Error if they cross or overlap.
-  std::optional<Error> compare(const ActivePiece& lower, const ActivePiece& upper) {
-    if (lower.high + tolerance_ < upper.low) return std::nullopt;
-    bool touches = touch(lower, upper.left_vertex);
-    touches = touch(lower, upper.right_vertex) || touches;
-    touches = touch(upper, lower.left_vertex) || touches;
-    touches = touch(upper, lower.right_vertex) || touches;
-    if (touches) return std::nullopt;  // noded first, then compared
-
-    const MonotoneArc& a = lower.arc;
-    const MonotoneArc& b = upper.arc;
-    const Vec2 begin = lexicographic_less(a.left, b.left) ? b.left : a.left;
-    const Vec2 end = lexicographic_less(a.right, b.right) ? a.right : b.right;
-    if (!lexicographic_less(begin, end)) return std::nullopt;
-
-    // The circles' meetings cut the common range into intervals. In each of them the sign of the
-    // gap is that at its middle.
-    struct Stop {
-      Vec2 point;  ///< on the lower piece
-      double along;
-    };
-    std::array<Stop, 4> stops;
+  struct Stop {
+    Vec2 point;  ///< on the lower piece
+    double along;
+  };
+  /// The circles' meetings cut the common range of two pieces, from `begin` to `end`, into
+  /// intervals. In each of them the sign of the gap is that at its middle. Returns how many stops.
+  static std::size_t stops_between(const MonotoneArc& a, const MonotoneArc& b, Vec2 begin, Vec2 end,
+                                   std::array<Stop, 4>& stops) {
     std::size_t count = 0;
     const Vec2 chord = a.right - a.left;
     const auto add = [&](Vec2 p) { stops[count++] = {p, dot(chord, p - a.left)}; };
@@ -411,6 +397,27 @@ class ArcSweeper {
     }
     if (count == 3 && stops[2].along < stops[1].along) std::swap(stops[1], stops[2]);
     add(last);
+    return count;
+  }
+
+  /// Notes where two neighbours touch behind their common left end. Error if they cross or overlap.
+  std::optional<Error> compare(const ActivePiece& lower, const ActivePiece& upper) {
+    if (lower.high + tolerance_ < upper.low) return std::nullopt;
+    bool touches = touch(lower, upper.left_vertex);
+    touches = touch(lower, upper.right_vertex) || touches;
+    touches = touch(upper, lower.left_vertex) || touches;
+    touches = touch(upper, lower.right_vertex) || touches;
+    if (touches) return std::nullopt;  // noded first, then compared
+
+    const MonotoneArc& a = lower.arc;
+    const MonotoneArc& b = upper.arc;
+    const Vec2 begin = lexicographic_less(a.left, b.left) ? b.left : a.left;
+    const Vec2 end = lexicographic_less(a.right, b.right) ? a.right : b.right;
+    if (!lexicographic_less(begin, end)) return std::nullopt;
+
+    std::array<Stop, 4> stops;
+    const std::size_t count = stops_between(a, b, begin, end, stops);
+    const Vec2 last = stops[count - 1].point;
 
     const auto gap = [&](Vec2 on_lower) { return -b.above(on_lower); };
     std::array<int, 3> signs{};

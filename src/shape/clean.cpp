@@ -94,12 +94,10 @@ std::optional<Error> append_with_arcs(const Ring& ring, std::uint32_t index, Cle
     const VertexSource source{index, static_cast<std::uint32_t>(i)};
     const Vec2 point = ring.points[i];
     const double bulge = i < ring.bulges.size() ? ring.bulges[i] : 0;
-    if (!std::isfinite(point.x) || !std::isfinite(point.y)) {
+    if (!std::isfinite(point.x) || !std::isfinite(point.y))
       return error_at(ErrorCode::not_finite, "a coordinate is not a finite number", source, point);
-    }
-    if (!std::isfinite(bulge)) {
+    if (!std::isfinite(bulge))
       return error_at(ErrorCode::not_finite, "a bulge is not a finite number", source, point);
-    }
     if (point == ring.points[i + 1 < count ? i + 1 : 0]) {
       ++report.repeated_points;
       continue;

@@ -316,6 +316,31 @@ class Faces {
   std::vector<std::uint32_t> order_;
 };
 
+/// Of a link the result's edge, and whether it is the edge's first and last piece.
+struct Part {
+  std::uint32_t edge = no_index;
+  bool first = false, last = false;
+};
+
+/// Numbers the faces' loops as the result does.
+void add_loops(const Faces& faces, const std::vector<Part>& parts, PlanarGraph& planar_graph) {
+  planar_graph.face_count = faces.face_count;
+  planar_graph.half_edges.reserve(2 * planar_graph.edges.size());
+  for (std::size_t i = 0; i < faces.loop_start.size(); ++i) {
+    planar_graph.loop_begin.push_back(static_cast<std::uint32_t>(planar_graph.half_edges.size()));
+    planar_graph.face.push_back(faces.face[i]);
+    planar_graph.hole.push_back(faces.hole[i]);
+    std::uint32_t h = faces.loop_start[i];
+    do {
+      const Part& part = parts[h / 2];
+      if (h % 2 == 0 ? part.first : part.last)
+        planar_graph.half_edges.push_back(2 * part.edge + h % 2);
+      h = faces.next[h];
+    } while (h != faces.loop_start[i]);
+  }
+  planar_graph.loop_begin.push_back(static_cast<std::uint32_t>(planar_graph.half_edges.size()));
+}
+
 /// Numbers points and edges as the result does: without the places that are there for the sweep
 /// only, where an arc has an upright tangent.
 PlanarGraph assemble(const Input& input, const Faces& faces, const NodedRings* noded) {
@@ -341,11 +366,6 @@ PlanarGraph assemble(const Input& input, const Faces& faces, const NodedRings* n
     if (point[at] == no_index) add_point(at);
     return point[at];
   };
-  // Of each link the result's edge, and whether it is the edge's first and last piece.
-  struct Part {
-    std::uint32_t edge = no_index;
-    bool first = false, last = false;
-  };
   std::vector<Part> parts(faces.links.size());
   for (std::uint32_t l = 0; l < faces.links.size(); ++l) {
     const Faces::Link& link = faces.links[l];
@@ -363,21 +383,7 @@ PlanarGraph assemble(const Input& input, const Faces& faces, const NodedRings* n
     planar_graph.edges.push_back(
         {from, to, bulge, source_of_ring(cleaned.sources[link.edge].ring)});
   }
-  planar_graph.face_count = faces.face_count;
-  planar_graph.half_edges.reserve(2 * planar_graph.edges.size());
-  for (std::size_t i = 0; i < faces.loop_start.size(); ++i) {
-    planar_graph.loop_begin.push_back(static_cast<std::uint32_t>(planar_graph.half_edges.size()));
-    planar_graph.face.push_back(faces.face[i]);
-    planar_graph.hole.push_back(faces.hole[i]);
-    std::uint32_t h = faces.loop_start[i];
-    do {
-      const Part& part = parts[h / 2];
-      if (h % 2 == 0 ? part.first : part.last)
-        planar_graph.half_edges.push_back(2 * part.edge + h % 2);
-      h = faces.next[h];
-    } while (h != faces.loop_start[i]);
-  }
-  planar_graph.loop_begin.push_back(static_cast<std::uint32_t>(planar_graph.half_edges.size()));
+  add_loops(faces, parts, planar_graph);
   for (const LonePoint& lone : faces.lone)
     planar_graph.lone_points.push_back({point_at(lone.point), lone.face});
   return planar_graph;

@@ -38,24 +38,45 @@ void renumber_touches(Arrangement& result, const std::vector<std::uint32_t>& new
 
 }  // namespace
 
+namespace {
+
+/// The splits of each edge one after another, from left to right.
+std::vector<std::uint32_t> in_order_of_edges(const std::vector<Split>& splits) {
+  std::vector<std::uint32_t> order(splits.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return splits[a].edge < splits[b].edge;
+  });
+  return order;
+}
+
+Arrangement with_room(std::size_t vertices, std::size_t rings) {
+  Arrangement result;
+  result.points.reserve(vertices);
+  result.sources.reserve(vertices);
+  result.begin.reserve(rings);
+  result.next.resize(vertices);
+  result.interior_left.reserve(vertices);
+  return result;
+}
+
+/// Links each vertex to the next one of its ring.
+void link_rings(Arrangement& arrangement) {
+  const auto& begin = arrangement.begin;
+  std::iota(arrangement.next.begin(), arrangement.next.end(), 1U);
+  for (std::size_t ring = 0; ring + 1 < begin.size(); ++ring)
+    arrangement.next[begin[ring + 1] - 1] = begin[ring];
+}
+
+}  // namespace
+
 Arrangement insert_splits(CleanRings cleaned, Sweep sweep) {
   const auto edge_count = static_cast<std::uint32_t>(cleaned.points.size());
   const auto split_count = static_cast<std::uint32_t>(sweep.splits.size());
   const std::size_t total = cleaned.points.size() + sweep.splits.size();
+  const std::vector<std::uint32_t> order = in_order_of_edges(sweep.splits);
 
-  // The splits of each edge one after another, from left to right.
-  std::vector<std::uint32_t> order(split_count);
-  std::iota(order.begin(), order.end(), 0U);
-  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return sweep.splits[a].edge < sweep.splits[b].edge;
-  });
-
-  Arrangement result;
-  result.points.reserve(total);
-  result.sources.reserve(total);
-  result.begin.reserve(cleaned.begin.size());
-  result.next.resize(total);
-  result.interior_left.reserve(total);
+  Arrangement result = with_room(total, cleaned.begin.size());
   result.place_count = sweep.place_count;
   result.touches = std::move(sweep.touches);
   std::vector<std::uint32_t> new_vertex(edge_count);
@@ -89,19 +110,14 @@ Arrangement insert_splits(CleanRings cleaned, Sweep sweep) {
     done = end;
   }
   result.begin.push_back(static_cast<std::uint32_t>(total));
-  std::iota(result.next.begin(), result.next.end(), 1U);
-  for (std::size_t ring = 0; ring + 1 < result.begin.size(); ++ring) {
-    result.next[result.begin[ring + 1] - 1] = result.begin[ring];
-  }
-
+  link_rings(result);
   renumber_touches(result, new_vertex, split_count);
   const auto new_edge = [&](std::uint32_t piece) {
     if (piece == no_index) return no_index;
     if (piece >= edge_count) return new_edge_of_split[piece - edge_count];
     // The leftmost piece is the last one of an edge walked leftward.
-    if (lexicographic_less(cleaned.points[piece], cleaned.points[cleaned.next(piece)])) {
+    if (lexicographic_less(cleaned.points[piece], cleaned.points[cleaned.next(piece)]))
       return new_vertex[piece];
-    }
     const std::uint32_t after =
         piece + 1 < edge_count ? new_vertex[piece + 1] : static_cast<std::uint32_t>(total);
     return after - 1;
