@@ -24,8 +24,8 @@ Result<VoronoiDiagram> voronoi_diagram(const Shape& shape, const Options& option
 /// box, 0 for half of its longer side. Inside of the frame the diagram is that of the whole plane.
 /// O(n log n) expected. Errors: invalid_option (also a frame that the planar graph touches or
 /// leaves), cancelled, empty, too_large, unsupported (coordinates, as in compute(); among edges, a
-/// point that is nearer to another one or to an edge than rounding tells apart, 64 tolerances, with
-/// its place: see PlanarGraphOptions::reach), out_of_memory, internal.
+/// point that is nearer to another one or to an edge than rounding can separate, 64 tolerances,
+/// with its place: see PlanarGraphOptions::reach), out_of_memory, internal.
 Result<VoronoiDiagram> voronoi_diagram(const PlanarGraph& planar_graph, const Options& options = {},
                                        const std::optional<Box>& frame = {});
 

@@ -291,8 +291,7 @@ Status draw_figures(const Request& request) {
   const std::vector<NamedShape> shapes = regions();
   const Shape &rectangle = shapes[0].second, &l = shapes[1].second, &hand = shapes[2].second;
   const Shape band = noisy_band(60, 0.2), noisy = noisy_band(49, 0.3);
-  Options coarse = options_of(0);
-  coarse.potential.coarse = 0.03;
+  const Options coarse{.method = method::Potential{.coarse = 0.03}, .threads = 1};
   return in_order([&] { return draw_field(request, "fig3-rectangle.png", rectangle, 1, 0, 360); },
                   [&] { return draw_field(request, "fig3-L.png", l, 1, 0, 360); },
                   [&] { return draw_field(request, "fig4.png", hand, 1, 40, 400); },
