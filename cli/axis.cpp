@@ -9,7 +9,6 @@
 #include "cli/commands.h"
 #include "cli/common.h"
 #include "cli/pipeline.h"
-#include "medial/curve_axis.h"
 
 namespace medial::cli {
 namespace {
@@ -41,38 +40,28 @@ struct MethodArguments {
   }
 };
 
-struct AxisArguments {
-  InputOptions input;
-  CommonOptions common;
-  std::string output;
-  std::string format;
-  io::WriteOptions write;
+struct AxisArguments : FileArguments {
   Options options;
   MethodArguments methods;
   double fit = 0;  ///< for curve-axis: polygons become smooth within this distance; 0: they do not
 };
 
 Result<int> run_axis(const AxisArguments& arguments) {
-  const InputOptions& input = arguments.input;
   const CommonOptions& common = arguments.common;
-  const std::string &output = arguments.output, &format = arguments.format;
-  Status writable =
-      check_output(output, format, io::known_output_formats(), input.path, common.json);
+  Status writable = check_output(arguments, io::known_output_formats());
   if (!writable) return std::move(writable).error();
-
   Options options = arguments.options;
   options.method = arguments.methods.method();
-  const bool contours = info_of(options.method).contours;
-  auto shapes = load_shapes(input, common.threads, contours);
+  InputOptions input = arguments.input;
+  if (info_of(options.method).contours) {
+    input.source.load.keep_contours = true;
+    input.source.load.fit = arguments.fit;
+  }
+  auto shapes = load_shapes(input, common);
   if (!shapes) return std::move(shapes).error();
-  print_notes(*shapes, input, common);
-  if (contours && arguments.fit > 0)
-    if (Status done = smooth_boundaries(*shapes, arguments.fit, input); !done)
-      return std::move(done).error();
-  auto axes = compute_axes(std::move(shapes).value(), input.path, common, options);
+  auto axes = compute_axes(std::move(shapes).value(), input, common, options);
   if (!axes) return std::move(axes).error();
-
-  return write_and_tell(*axes, input, common, output, format, arguments.write);
+  return finish_axes(*axes, arguments);
 }
 
 /// Which method, and what decides its random choices.
@@ -89,129 +78,99 @@ void add_method_options(CLI::App& command, MethodArguments& arguments) {
           [&arguments](const std::string& name) { arguments.chosen = *method_from(name); }, help)
       ->check(CLI::IsMember(names).description(""))
       ->option_text("NAME");
-  command
-      .add_option("--seed", arguments.of<method::BiarcDc>().seed,
-                  "Of the random choices of biarc-dc (default: 1). The same seed gives the\n"
-                  "same result, byte for byte.")
-      ->check(a_whole_number())
-      ->option_text("N");
+  add_value(command, "--seed", arguments.of<method::BiarcDc>().seed, "N", a_whole_number(),
+            "Seed of the random choices of biarc-dc (default: 1). The same seed gives the\n"
+            "same result, byte for byte.");
 }
 
-/// The arguments of the methods that sample.
+/// The options of the methods that sample.
 void add_grid_options(CLI::App& command, MethodArguments& arguments) {
   auto& ridge = arguments.of<method::Ridge>();
-  auto& brushfire = arguments.of<method::Brushfire>();
-  constexpr char group[] = "Grids of pixels (--method ridge, brushfire)";
-  CLI::Option* resolution = command
-                                .add_option("--resolution", arguments.grid.resolution,
-                                            "The side of a pixel, in units of the input.")
-                                ->check(a_positive_number())
-                                ->option_text("H")
-                                ->group(group);
-  command
-      .add_option("--pixels", arguments.grid.pixels,
-                  "Pixels along the longer side of the bounding box (default: 1024; of an\n"
-                  "image its own pixels).")
-      ->check(a_positive_number())
-      ->excludes(resolution)
-      ->option_text("N")
-      ->group(group);
-  command
-      .add_option_function<std::string>(
-          "--brushfire",
-          [&brushfire](const std::string& name) { brushfire.family = *brushfire_from(name); },
-          "How a fire is kept from burning shapes apart: simultaneous (default), from\n"
-          "all sides at once; marking, of two kinds in turn; sides, in turn; or\n"
-          "sequential, pixel by pixel.")
-      ->check(CLI::IsMember({"sequential", "sides", "marking", "simultaneous"}).description(""))
-      ->option_text("FAMILY")
-      ->group(group);
+  const OptionGroup group(command, "Grids of pixels (--method ridge, brushfire)");
+  CLI::Option* resolution =
+      add_value(command, "--resolution", arguments.grid.resolution, "H", a_positive_number(),
+                "The side of a pixel, in units of the input.");
+  add_value(command, "--pixels", arguments.grid.pixels, "N", a_positive_number(),
+            "Pixels along the longer side of the bounding box (default: 1024; of an\n"
+            "image its own pixels).")
+      ->excludes(resolution);
+  add_choice<Brushfire>(command, "--brushfire", arguments.of<method::Brushfire>().family,
+                        {{"sequential", *brushfire_from("sequential")},
+                         {"sides", *brushfire_from("sides")},
+                         {"marking", *brushfire_from("marking")},
+                         {"simultaneous", *brushfire_from("simultaneous")}},
+                        "How thinning keeps shapes connected: simultaneous (default), from\n"
+                        "all sides at once; marking, of two kinds in turn; sides, in turn; or\n"
+                        "sequential, pixel by pixel.")
+      ->option_text("FAMILY");
   command
       .add_option("--ridge-collinear", ridge.collinear,
                   "Vertices that turn by less than this, in degrees, are dropped where that\n"
                   "moves the boundary by a quarter of a pixel at most (default: 5; 0 keeps\n"
                   "every edge).")
-      ->option_text("A")
-      ->group(group);
-  command
-      .add_option_function<std::string>(
-          "--ridge-search",
-          [&ridge](const std::string& name) {
-            ridge.search = name == "tree" ? RidgeSearch::tree : RidgeSearch::sorted_list;
-          },
-          "How the nearest edges are found: tree (default) or sorted-list, the\n"
-          "report's own. The pixels are the same.")
-      ->check(CLI::IsMember({"tree", "sorted-list"}).description(""))
-      ->option_text("NAME")
-      ->group(group);
-  command
-      .add_option_function<std::string>(
-          "--ridge-rule",
-          [&ridge](const std::string& name) {
-            ridge.rule = name == "crossing" ? RidgeRule::crossing : RidgeRule::difference;
-          },
-          "Which pixels are medial: crossing (default), where the axis passes between\n"
-          "two pixels; or difference, the report's rule: where the distances to two\n"
-          "edges differ by less than a pixel.")
-      ->check(CLI::IsMember({"crossing", "difference"}).description(""))
-      ->option_text("NAME")
-      ->group(group);
+      ->option_text("A");
+  add_choice<RidgeSearch>(
+      command, "--ridge-search", ridge.search,
+      {{"tree", RidgeSearch::tree}, {"sorted-list", RidgeSearch::sorted_list}},
+      "How the nearest edges are found: tree (default) or sorted-list, as in the\n"
+      "report. The pixels are the same.");
+  add_choice<RidgeRule>(
+      command, "--ridge-rule", ridge.rule,
+      {{"crossing", RidgeRule::crossing}, {"difference", RidgeRule::difference}},
+      "Which pixels are medial: crossing (default), where the axis passes between\n"
+      "two pixels; or difference, the report's rule: where the distances to two\n"
+      "edges differ by less than a pixel.");
 }
 
-/// The arguments of potential.
+/// The options of potential.
 void add_potential_options(CLI::App& command, method::Potential& options) {
+  const OptionGroup group(command, "Potential fields (--method potential)");
   command
       .add_option("--order", options.order,
-                  "Of the potential: the n of 1 / r^n. 0 (default) chooses it for each point.")
+                  "The n of the potential 1 / r^n; 0 (default) chooses it for each point.")
       ->option_text("N");
   command
       .add_option("--base-order", options.base_order,
-                  "Of the force lines that potential follows first (default: the order, at most\n"
-                  "512). 1 is the paper's.")
+                  "The order of the force lines that are followed first (default: the order, at\n"
+                  "most 512). 1 is the paper's.")
       ->option_text("N");
   add_list_option(
       command, "--from", 2,
       [&options](const std::vector<double>& xy) {
         options.from = Vec2{xy[0], xy[1]};
       },
-      "Potential: only the branch that the force leads to from this place, in units\n"
-      "of the input.")
+      "Only the branch that the force leads to from this place, in units of the\n"
+      "input.")
       ->option_text("X,Y");
   add_list_option(
       command, "--within", 4,
       [&options](const std::vector<double>& box) {
         options.within = Box{{box[0], box[1]}, {box[2], box[3]}};
       },
-      "Potential: only what lies in this box: low x, low y, high x, high y, in units\n"
-      "of the input.")
+      "Only what lies in this box: low x, low y, high x, high y, in units of the\n"
+      "input.")
       ->option_text("X,Y,X,Y");
   command
-      .add_option(
-          "--step", options.step,
-          "Of potential: from point to point, as a share of the longer side of the bounding\n"
-          "box (default: 0.01).")
+      .add_option("--step", options.step,
+                  "The step from point to point, as a share of the longer side of the bounding\n"
+                  "box (default: 0.01).")
       ->option_text("SHARE");
   command
       .add_option("--coarse", options.coarse,
-                  "Potential: first the axis of a polygon within this share of the size of the\n"
-                  "boundary, then refined on finer ones: without the branches of small teeth.")
+                  "First the axis of a polygon within this share of the size of the boundary,\n"
+                  "then refined on finer ones: without the branches of small teeth.")
       ->option_text("SHARE");
 }
 
-/// The arguments of curve-axis.
+/// The options of curve-axis.
 void add_curve_options(CLI::App& command, AxisArguments& arguments) {
-  command
-      .add_option("--curve-step", arguments.methods.of<method::CurveAxis>().step,
-                  "Of curve-axis: the way from point to point, as a share of the diagonal\n"
-                  "(default: 0.001).")
-      ->check(in_range(1e-6, 0.1))
-      ->option_text("SHARE");
-  command
-      .add_option("--fit", arguments.fit,
-                  "For curve-axis: a smooth curve through the corners of the boundary, within\n"
-                  "this distance of it, in units of the input.")
-      ->check(a_positive_number())
-      ->option_text("D");
+  const OptionGroup group(command, "Smooth boundaries (--method curve-axis)");
+  add_value(command, "--curve-step", arguments.methods.of<method::CurveAxis>().step, "SHARE",
+            in_range(1e-6, 0.1),
+            "The step from point to point, as a share of the diagonal (default: 0.001).");
+  add_value(command, "--fit", arguments.fit, "D", a_positive_number(),
+            "First replace the boundary by a smooth curve through its corners, within this\n"
+            "distance of it, in units of the input.");
 }
 
 }  // namespace
@@ -221,19 +180,20 @@ Command make_axis_command(CLI::App& program) {
   CLI::App* command =
       program.add_subcommand("axis", "Compute medial axes and write them to a file.");
   add_input_options(*command, arguments->input);
-  add_output_options(*command, arguments->output, arguments->format, io::known_output_formats());
+  add_output_options(*command, *arguments, io::known_output_formats());
   command->add_flag("--radius-as-z", arguments->write.radius_as_z,
                     "Drawings (.dxf): splines in space, with the radius as z.");
   add_method_options(*command, arguments->methods);
-  add_exterior_options(*command, arguments->options,
-                       "The axis of what lies around the shape and in its holes, within a frame.");
+  add_exterior_options(
+      *command, arguments->options,
+      "The axis of what lies around the shape and in its holes, within a rectangle.");
   add_grid_options(*command, arguments->methods);
   add_potential_options(*command, arguments->methods.of<method::Potential>());
   add_curve_options(*command, *arguments);
   command->add_flag("--exact", arguments->options.exact,
-                    "Make every decision of the combinatorics certain: which sites a disk\n"
-                    "touches, and which nodes an edge joins. What was decided how is counted in\n"
-                    "--stats. Ties within the tolerance that are none get nodes of their own.");
+                    "Make every combinatorial decision certain: which sites a disk touches, and\n"
+                    "which nodes an edge joins. --stats counts how it was decided. Ties within\n"
+                    "the tolerance that are not exact get nodes of their own.");
   add_picture_options(*command, arguments->write);
   add_common_options(*command, arguments->common);
   command->footer(
@@ -241,7 +201,7 @@ Command make_axis_command(CLI::App& program) {
       "lengths are in the units of the input, or in metres with --project.\n"
       "\n"
       "Formats: .json is medial's own, lossless, and read back by every command; .geojson,\n"
-      ".gpkg, .shp and .fgb hold one line a branch with the radius at both ends; .csv\n"
+      ".gpkg, .shp and .fgb hold one line per branch with the radius at both ends; .csv\n"
       "has the header edge,x,y,r; .dxf holds polylines and exact splines; pictures show\n"
       "the axis coloured by radius.\n"
       "\n"
@@ -256,7 +216,7 @@ Command make_axis_command(CLI::App& program) {
       "  medial axis plan.wkt --method ridge --pixels 2000 -o plan.png\n"
       "  medial axis part.dxf --exterior --margin 20 -o around.svg\n"
       "  cat shape.wkt | medial axis - -o - --format csv --chord 1e-4 | head");
-  return {command, [arguments] { return run_axis(*arguments); }};
+  return command_of(command, arguments, run_axis);
 }
 
 }  // namespace medial::cli

@@ -13,19 +13,13 @@
 #include "cli/common.h"
 #include "cli/lines.h"
 #include "cli/pipeline.h"
-#include "cli/terminal.h"
 #include "medial/io/layers.h"
 #include "medial/query.h"
 
 namespace medial::cli {
 namespace {
 
-struct CentrelineArguments {
-  InputOptions input;
-  CommonOptions common;
-  std::string output;
-  std::string format;
-  io::WriteOptions write;
+struct CentrelineArguments : FileArguments {
   PathOptions path;
   CentreLineOptions line;
   double clearance = 0;
@@ -54,8 +48,7 @@ void append(MedialAxis& all, const MedialAxis& one) {
 /// Replaces the axes of a file by lines along the paths.
 Status make_lines(Document<AxisItem>& file, const Paths& paths,
                   const CentrelineArguments& arguments) {
-  const std::vector<double> weights(file.items.size(), 1.0);
-  return for_each_feature(weights, arguments.common.threads, [&](std::size_t i, int) -> Status {
+  const auto make = [&](std::size_t i, int) -> Status {
     AxisItem& item = file.items[i];
     MedialAxis all;
     all.method = item.axis.method;
@@ -66,58 +59,41 @@ Status make_lines(Document<AxisItem>& file, const Paths& paths,
       append(all, centre_line(item.shape, item.axis, path, arguments.line));
     item.axis = std::move(all);
     return success();
-  });
+  };
+  return for_each_item(std::vector<double>(file.items.size(), 1.0), arguments.common.threads, make);
 }
 
-Json json_of(const Paths& paths, const Document<AxisItem>& file) {
-  Json features = Json::array();
-  for (std::size_t i = 0; i < paths.size(); ++i) {
-    Json list = Json::array();
-    for (const AxisPath& path : paths[i]) {
-      list.push_back({{"length", path.length},
-                      {"narrowest_radius", path.narrowest},
-                      {"closed", path.closed},
-                      {"gap", path.gap}});
-    }
-    Json attributes = Json::object();
-    for (const auto& [name, value] : file.items[i].attributes) attributes[name] = value;
-    features.push_back({{"lines", std::move(list)}, {"attributes", std::move(attributes)}});
+Json json_of(const std::vector<AxisPath>& paths, const Attributes& attributes) {
+  Json list = Json::array();
+  for (const AxisPath& path : paths) {
+    list.push_back({{"length", path.length},
+                    {"narrowest_radius", path.narrowest},
+                    {"closed", path.closed},
+                    {"gap", path.gap}});
   }
-  return features;
+  return {{"lines", std::move(list)}, {"attributes", to_json(attributes)}};
 }
 
-Result<int> tell(const Paths& paths, const Document<AxisItem>& file,
-                 const CentrelineArguments& arguments, const Json& seconds) {
+Result<int> finish_lines(const Paths& paths, const LoadedAxes& axes,
+                         const CentrelineArguments& arguments) {
   std::uint64_t count = 0;
   double length = 0, narrowest = std::numeric_limits<double>::infinity();
-  for (const auto& of_feature : paths) {
-    for (const AxisPath& path : of_feature) {
+  Json object = {{"input", arguments.input.path}};
+  if (!arguments.output.empty()) object["output"] = arguments.output;
+  object["features"] = Json::array();
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    for (const AxisPath& path : paths[i]) {
       ++count;
       length += path.length;
       narrowest = std::min(narrowest, path.narrowest);
     }
+    object["features"].push_back(json_of(paths[i], axes.file.items[i].attributes));
   }
-  Status printed = success();
-  if (arguments.common.json) {
-    Json object = {{"input", arguments.input.path}};
-    if (!arguments.output.empty()) object["output"] = arguments.output;
-    object["features"] = json_of(paths, file);
-    if (arguments.common.stats) object["seconds"] = seconds;
-    printed = print(object);
-  } else if (!arguments.common.quiet && (arguments.output.empty() || error_is_terminal())) {
-    std::string line =
-        fmt::format("{}: {}, {}, length {:.10g}", arguments.input.path,
-                    counted(paths.size(), "feature"), counted(count, "line"), length);
-    if (count > 0) line += fmt::format(", smallest radius {:.10g}", narrowest);
-    if (arguments.output.empty()) {
-      printed = print(line + "\n");
-    } else {
-      say("{} -> {}\n", line, arguments.output == "-" ? "standard output" : arguments.output);
-    }
-  }
-  if (!printed) return std::move(printed).error();
-  if (arguments.common.stats && !arguments.common.json) say_text(table(Json{{"seconds", seconds}}));
-  return exit_success;
+  std::string line = fmt::format("{}: {}, {}, length {:.10g}", arguments.input.path,
+                                 counted(paths.size(), "feature"), counted(count, "line"), length);
+  if (count > 0) line += fmt::format(", smallest radius {:.10g}", narrowest);
+  return finish(arguments, std::move(object), axes.phases,
+                arguments.common.quiet ? std::string() : line);
 }
 
 /// The polygons of a shape, one for each component, as rings of points: arcs within a chord.
@@ -173,115 +149,100 @@ void add_lines(const MedialAxis& lines, std::uint32_t feature, double chord, io:
   }
 }
 
-Result<int> run_collapse(AxisFile axes, const CentrelineArguments& arguments) {
-  std::vector<CollapsedShape> collapsed(axes.native.items.size());
-  const std::vector<double> weights(collapsed.size(), 1.0);
-  const Stopwatch watch;
-  Status done =
-      for_each_feature(weights, arguments.common.threads, [&](std::size_t i, int) -> Status {
-        auto one = collapse_narrow(axes.native.items[i].axis, arguments.collapse,
-                                   arguments.path.path.trim);
-        if (!one) return at_feature(std::move(one).error(), arguments.input.path, i);
-        collapsed[i] = std::move(one).value();
-        return success();
+/// What became of the shapes of a file.
+struct Collapse {
+  std::vector<CollapsedShape> shapes;
+  io::LayerFile layers;  ///< polygons, lines
+};
+
+Result<Collapse> collapse_all(const Document<AxisItem>& file,
+                              const CentrelineArguments& arguments) {
+  Collapse out;
+  auto shapes = map_items<CollapsedShape>(
+      std::vector<double>(file.items.size(), 1.0), arguments.common.threads,
+      [&](std::size_t i, int) {
+        return collapse_narrow(file.items[i].axis, arguments.collapse, arguments.path.path.trim);
       });
-  if (!done) return std::move(done).error();
-  const double seconds = watch.seconds();
-  std::uint64_t polygons = 0, lines = 0;
+  if (!shapes) return std::move(shapes).error();
+  out.shapes = std::move(shapes).value();
+  out.layers.crs_wkt = file.crs_wkt;
+  out.layers.layers = {{"polygons", io::LayerKind::polygons, {}, {}},
+                       {"lines", io::LayerKind::lines, {"length", "width_min"}, {}}};
+  for (std::uint32_t i = 0; i < out.shapes.size(); ++i) {
+    const AxisItem& item = file.items[i];
+    const double chord = arguments.common.chord * diagonal(bounding_box(item.shape));
+    add_polygons(out.shapes[i].polygons, i, chord, out.layers.layers[0]);
+    add_lines(out.shapes[i].lines, i, chord, out.layers.layers[1]);
+    out.layers.attributes.push_back(item.attributes);
+  }
+  return out;
+}
+
+Result<int> run_collapse(LoadedAxes axes, const CentrelineArguments& arguments) {
+  auto collapse = collapse_all(axes.file, arguments);
+  if (!collapse) return std::move(collapse).error();
+  axes.phases.end("collapse");
+  std::uint64_t polygons = 0;
   double sum_area = 0, sum_length = 0;
-  io::LayerFile layers;
-  layers.crs_wkt = axes.native.crs_wkt;
-  layers.layers = {{"polygons", io::LayerKind::polygons, {}, {}},
-                   {"lines", io::LayerKind::lines, {"length", "width_min"}, {}}};
-  for (std::uint32_t i = 0; i < collapsed.size(); ++i) {
-    const CollapsedShape& one = collapsed[i];
-    const AxisItem& item = axes.native.items[i];
+  for (const CollapsedShape& one : collapse->shapes) {
     polygons += one.polygons.component_count();
     sum_area += area(one.polygons);
     sum_length += total_length(one.lines);
-    const double chord = arguments.common.chord * diagonal(bounding_box(item.shape));
-    add_polygons(one.polygons, i, chord, layers.layers[0]);
-    add_lines(one.lines, i, chord, layers.layers[1]);
-    layers.attributes.push_back(item.attributes);
   }
-  lines = layers.layers[1].features.size();
   const bool native = arguments.format == "json" || arguments.output.ends_with(".json");
-  if (!arguments.output.empty()) {
-    io::WriteOptions write = arguments.write;
-    write.chord = arguments.common.chord;
-    for (std::size_t i = 0; i < collapsed.size(); ++i) {
-      AxisItem& item = axes.native.items[i];
-      item.axis = native ? std::move(collapsed[i].lines) : MedialAxis{};
-      if (native) item.shape = std::move(collapsed[i].polygons);
-    }
-    Status written =
-        native ? io::write_axes(arguments.output, arguments.format, axes.native, write)
-               : io::write_layers(arguments.output, arguments.format, layers, axes.native, write);
-    if (!written) return std::move(written).error();
+  for (std::size_t i = 0; i < collapse->shapes.size(); ++i) {
+    AxisItem& item = axes.file.items[i];
+    item.axis = native ? std::move(collapse->shapes[i].lines) : MedialAxis{};
+    if (native) item.shape = std::move(collapse->shapes[i].polygons);
   }
-  Status printed = success();
-  if (arguments.common.json) {
-    printed = print(Json{{"input", arguments.input.path},
-                         {"features", collapsed.size()},
-                         {"polygons", polygons},
-                         {"area", sum_area},
-                         {"lines", lines},
-                         {"length", sum_length},
-                         {"seconds", seconds}});
-  } else if (!arguments.common.quiet && (arguments.output.empty() || error_is_terminal())) {
-    const std::string line =
-        fmt::format("{}: {}, {} of area {:.10g}, {} of length {:.10g}\n", arguments.input.path,
-                    counted(collapsed.size(), "feature"), counted(polygons, "polygon"), sum_area,
-                    counted(lines, "line"), sum_length);
-    if (arguments.output.empty()) {
-      printed = print(line);
-    } else {
-      say_text(line);
-    }
-  }
-  if (!printed) return std::move(printed).error();
-  return exit_success;
+  Status written = write_output(arguments, axes.phases, [&](const auto& path, const auto& format) {
+    const io::WriteOptions write = write_options(arguments);
+    return native ? io::write_axes(path, format, axes.file, write)
+                  : io::write_layers(path, format, collapse->layers, axes.file, write);
+  });
+  if (!written) return std::move(written).error();
+  const std::size_t features = axes.file.items.size();
+  const std::size_t lines = collapse->layers.layers[1].features.size();
+  const std::string line =
+      fmt::format("{}: {}, {} of area {:.10g}, {} of length {:.10g}", arguments.input.path,
+                  counted(features, "feature"), counted(polygons, "polygon"), sum_area,
+                  counted(lines, "line"), sum_length);
+  return finish(arguments,
+                {{"input", arguments.input.path},
+                 {"features", features},
+                 {"polygons", polygons},
+                 {"area", sum_area},
+                 {"lines", lines},
+                 {"length", sum_length},
+                 {"seconds", axes.phases.seconds("collapse")}},
+                axes.phases, arguments.common.quiet ? std::string() : line);
 }
 
 Result<int> run_centreline(const CentrelineArguments& arguments) {
   const auto& [input, common] = std::tie(arguments.input, arguments.common);
-  Status writable =
-      check_output(arguments.output, arguments.format,
-                   arguments.collapse > 0 ? collapse_formats : io::known_output_formats(),
-                   input.path, common.json);
+  Status writable = check_output(
+      arguments, arguments.collapse > 0 ? collapse_formats : io::known_output_formats());
   if (!writable) return std::move(writable).error();
-  auto shapes = load_shapes(input, common.threads);
+  auto shapes = load_shapes(input, common);
   if (!shapes) return std::move(shapes).error();
-  print_notes(*shapes, input, common);
-  auto axes = compute_axes(std::move(shapes).value(), input.path, common, arguments.options);
+  auto axes = compute_axes(std::move(shapes).value(), input, common, arguments.options);
   if (!axes) return std::move(axes).error();
   if (arguments.collapse > 0) return run_collapse(std::move(axes).value(), arguments);
   if (arguments.clearance > 0) {
-    for (AxisItem& item : axes->native.items)
+    for (AxisItem& item : axes->file.items)
       item.axis = clearance_part(item.axis, arguments.clearance);
-    return write_and_tell(*axes, input, common, arguments.output, arguments.format,
-                          arguments.write);
+    return finish_axes(*axes, arguments);
   }
-  const Stopwatch making;
-  auto paths = choose_paths(axes->native, arguments.path, input.path, common.threads);
+  auto paths = choose_paths(axes->file, arguments.path, common.threads);
   if (!paths) return std::move(paths).error();
-  Status made = make_lines(axes->native, *paths, arguments);
+  Status made = make_lines(axes->file, *paths, arguments);
   if (!made) return std::move(made).error();
-  const double seconds_lines = making.seconds();
-  const Stopwatch writing;
-  if (!arguments.output.empty()) {
-    io::WriteOptions write = arguments.write;
-    write.chord = common.chord;
-    const Activity shown("writing", arguments.output);
-    Status written = io::write_axes(arguments.output, arguments.format, axes->native, write);
-    if (!written) return std::move(written).error();
-  }
-  const Json seconds = {{"read", axes->seconds_read},
-                        {"shape", axes->seconds_shape},
-                        {"axis", axes->seconds_axis},
-                        {"lines", seconds_lines},
-                        {"write", writing.seconds()}};
-  return tell(*paths, axes->native, arguments, seconds);
+  axes->phases.end("lines");
+  Status written = write_output(arguments, axes->phases, [&](const auto& path, const auto& format) {
+    return io::write_axes(path, format, axes->file, write_options(arguments));
+  });
+  if (!written) return std::move(written).error();
+  return finish_lines(*paths, *axes, arguments);
 }
 
 }  // namespace
@@ -291,37 +252,26 @@ Command make_centreline_command(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "centreline", "Compute the centre lines of shapes, or the widest way between two places.");
   add_input_options(*command, arguments->input);
-  add_output_options(*command, arguments->output, arguments->format, io::known_output_formats());
+  add_output_options(*command, *arguments, io::known_output_formats());
   add_path_options(*command, arguments->path);
   command->add_flag("--extend", arguments->line.extend, "Extend both ends to the boundary.");
-  command
-      ->add_option("--smooth", arguments->line.smooth,
-                   "Average the line over so many of its mean radii (Gaussian weights). It\n"
-                   "stays inside the shape.")
-      ->check(in_range(0, 1000))
-      ->option_text("RADII");
-  command
-      ->add_option("--clearance", arguments->clearance,
-                   "Instead of a line: all of the axis where a disk of this radius has room.")
-      ->check(a_positive_number())
-      ->excludes("--from")
-      ->excludes("--to")
-      ->excludes("--widest")
-      ->option_text("R");
-  command
-      ->add_option("--collapse", arguments->collapse,
-                   "Instead: parts narrower than this become lines, the rest stays polygons;\n"
-                   "as layers, or as shapes with lines in .json. Formats:\n" +
-                       std::string(collapse_formats))
-      ->check(a_positive_number())
-      ->excludes("--from")
-      ->excludes("--to")
-      ->excludes("--widest")
-      ->excludes("--clearance")
-      ->option_text("WIDTH");
+  add_value(*command, "--smooth", arguments->line.smooth, "RADII", in_range(0, 1000),
+            "Average the line over so many of its mean radii (Gaussian weights). It\n"
+            "stays inside the shape.");
+  CLI::Option* clearance =
+      add_value(*command, "--clearance", arguments->clearance, "R", a_positive_number(),
+                "Instead of a line: all of the axis where a disk of this radius has room.");
+  CLI::Option* collapse =
+      add_value(*command, "--collapse", arguments->collapse, "WIDTH", a_positive_number(),
+                "Instead: parts narrower than this become lines, the rest stays polygons;\n"
+                "as layers, or as shapes with lines in .json. Formats:\n" +
+                    std::string(collapse_formats))
+          ->excludes(clearance);
+  for (CLI::Option* option : {clearance, collapse})
+    for (const char* place : {"--from", "--to", "--widest"}) option->excludes(place);
   add_exterior_options(*command, arguments->options,
-                       "Lines of what lies around the shape and in its holes, within a frame.")
-      ->excludes("--collapse");
+                       "Lines of what lies around the shape and in its holes, within a rectangle.")
+      ->excludes(collapse);
   add_picture_options(*command, arguments->write);
   add_common_options(*command, arguments->common);
   command->footer(
@@ -338,7 +288,7 @@ Command make_centreline_command(CLI::App& program) {
       "  medial centreline plan.geojson --widest 2,3 40,12 -o way.csv\n"
       "  medial centreline plan.geojson --clearance 0.6 -o reachable.svg\n"
       "  medial centreline rivers.geojson --project --collapse 50 -o rivers.gpkg");
-  return {command, [arguments] { return run_centreline(*arguments); }};
+  return command_of(command, arguments, run_centreline);
 }
 
 }  // namespace medial::cli

@@ -1,9 +1,10 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <functional>
+#include <memory>
+#include <type_traits>
 
-#include "medial/error.h"
+#include "cli/common.h"
 
 namespace medial::cli {
 
@@ -13,29 +14,27 @@ struct Command {
   CLI::App* app = nullptr;
   std::function<Result<int>()> run;
 };
+/// Errors that name a feature, but no file, are of the command's input.
+template <class Arguments>
+Command command_of(CLI::App* app, std::shared_ptr<Arguments> arguments,
+                   Result<int> (*run)(const Arguments&)) {
+  return {app, [arguments, run] {
+            Result<int> status = run(*arguments);
+            if constexpr (std::is_base_of_v<FileArguments, Arguments>) {
+              if (!status && status.error().place.feature && status.error().place.file.empty())
+                status.error().place.file = arguments->input.path;
+            }
+            return status;
+          }};
+}
 
 /// Each adds its command to the program; each has a file of its own.
-Command make_axis_command(CLI::App& program);
-Command make_verify_command(CLI::App& program);
-Command make_info_command(CLI::App& program);
-Command make_legal_command(CLI::App& program);
-Command make_draw_command(CLI::App& program);
-Command make_prune_command(CLI::App& program);
-Command make_smooth_command(CLI::App& program);
-Command make_rebuild_command(CLI::App& program);
-Command make_features_command(CLI::App& program);
-Command make_match_command(CLI::App& program);
-Command make_pack_command(CLI::App& program);
-Command make_unpack_command(CLI::App& program);
-Command make_voronoi_command(CLI::App& program);
-Command make_distance_command(CLI::App& program);
-Command make_voxels_command(CLI::App& program);
-Command make_methods_command(CLI::App& program);
-Command make_field_command(CLI::App& program);
-Command make_compare_command(CLI::App& program);
-Command make_offset_command(CLI::App& program);
-Command make_centreline_command(CLI::App& program);
-Command make_measure_command(CLI::App& program);
-Command make_carve_command(CLI::App& program);
+using MakeCommand = Command(CLI::App& program);
+MakeCommand make_axis_command, make_verify_command, make_info_command, make_legal_command,
+    make_draw_command, make_prune_command, make_smooth_command, make_rebuild_command,
+    make_features_command, make_match_command, make_pack_command, make_unpack_command,
+    make_voronoi_command, make_distance_command, make_voxels_command, make_field_command,
+    make_compare_command, make_methods_command, make_offset_command, make_centreline_command,
+    make_measure_command, make_carve_command;
 
 }  // namespace medial::cli

@@ -15,7 +15,6 @@
 #include <optional>
 #include <system_error>
 
-#include "cli/terminal.h"
 #include "medial/threads.h"
 
 namespace medial::cli {
@@ -64,13 +63,9 @@ bool lists(const std::string& formats, const std::string& wanted) {
   return false;
 }
 
-}  // namespace
-
-namespace {
-
 /// With --text the font stands for INPUT; then a first word that was taken for INPUT is the second.
 void settle_input(InputOptions& input, const std::string& second_name, std::string* second) {
-  if (input.text.empty()) {
+  if (input.source.text.empty()) {
     if (!input.font.empty()) throw CLI::RequiresError("--font", "--text");
     if (input.path.empty()) throw CLI::RequiredError("INPUT");
   } else {
@@ -82,36 +77,30 @@ void settle_input(InputOptions& input, const std::string& second_name, std::stri
   if (second != nullptr && second->empty()) throw CLI::RequiredError(second_name);
 }
 
-void add_shape_options(CLI::App& command, InputOptions& input) {
-  constexpr char group[] = "Curves";
+void add_curve_options(CLI::App& command, InputOptions& input) {
+  const OptionGroup group(command, "Curves");
   command
-      .add_option("--text", input.text,
+      .add_option("--text", input.source.text,
                   "Instead of INPUT: the outlines of this text, in font units; each\n"
                   "character is a feature.")
-      ->option_text("TEXT")
-      ->group(group);
-  command.add_option("--font", input.font, "The font file of --text.")
-      ->option_text("FILE")
-      ->group(group);
-  command
-      .add_option("--arc-tolerance", input.arcs.tolerance,
-                  "Curves become arcs within this fraction of the diagonal of the\n"
-                  "bounding box (default: 1e-6). Arcs and straight edges stay exact.")
-      ->check(in_range(smallest_arc_tolerance, largest_arc_tolerance))
-      ->option_text("T")
-      ->group(group);
+      ->option_text("TEXT");
+  command.add_option("--font", input.font, "The font file of --text.")->option_text("FILE");
+  ArcOptions& arcs = input.source.load.arcs;
+  add_value(command, "--arc-tolerance", arcs.tolerance, "T",
+            in_range(smallest_arc_tolerance, largest_arc_tolerance),
+            "Curves become arcs within this fraction of the diagonal of the\n"
+            "bounding box (default: 1e-6). Arcs and straight edges stay exact.");
   command
       .add_option_function<double>(
           "--arc-tolerance-absolute",
-          [&input](double tolerance) {
-            input.arcs.tolerance = tolerance;
-            input.arcs.relative = false;
+          [&arcs](double tolerance) {
+            arcs.tolerance = tolerance;
+            arcs.relative = false;
           },
           "The same in units of the input.")
       ->check(a_positive_number())
       ->excludes("--arc-tolerance")
-      ->option_text("T")
-      ->group(group);
+      ->option_text("T");
   command
       .add_flag("--close{all}", input.close,
                 "Loose curves (DXF): join ends that are at most GAP apart, in units of\n"
@@ -120,14 +109,20 @@ void add_shape_options(CLI::App& command, InputOptions& input) {
       ->each([&input](const std::string& text) {
         double gap = std::numeric_limits<double>::infinity();
         if (text != "all" && (!CLI::detail::lexical_cast(text, gap) || !(gap >= 0))) {
-          throw CLI::ValidationError("--close", text + " is no distance");
+          throw CLI::ValidationError("--close", text + " is not a distance");
         }
-        input.read.close = gap;
-      })
-      ->group(group);
+        input.source.read.close = gap;
+      });
 }
 
 }  // namespace
+
+OptionGroup::OptionGroup(CLI::App& command, const std::string& name)
+    : command_(command), before_(command.option_defaults()->get_group()) {
+  command.option_defaults()->group(name);
+}
+
+OptionGroup::~OptionGroup() { command_.option_defaults()->group(before_); }
 
 void add_input_options(CLI::App& command, InputOptions& input, const std::string& second_name,
                        const std::string& second_help, std::string& second) {
@@ -139,116 +134,133 @@ void add_input_options(CLI::App& command, InputOptions& input, const std::string
 
 void add_input_options(CLI::App& command, InputOptions& input) {
   command.parse_complete_callback([&input] { settle_input(input, {}, nullptr); });
+  io::ReadOptions& read = input.source.read;
   command
       .add_option("INPUT", input.path,
                   "Shapes: any vector file that GDAL reads, .svg, .dxf, .wkt, plain `x y`\n"
                   "text, medial's own .json, any of them with .gz; a binary image (PNG, TIFF,\n"
                   "GeoTIFF, PGM, PBM); or - for standard input.")
       ->option_text(" ");
-  command.add_option("--layer", input.read.layer, "Read this layer (default: the first).")
+  command.add_option("--layer", read.layer, "Read this layer (default: the first).")
       ->option_text("NAME");
   command
-      .add_option("--where", input.read.where,
+      .add_option("--where", read.where,
                   "Read only the features for which this SQL condition holds,\n"
                   "for example \"population > 1000\".")
       ->option_text("SQL");
   // A flag that carries a value: as an option, `--repair FILE` would take the file for the rule.
-  static const std::map<std::string, io::RepairRule> rules = {
-      {"make-valid", io::RepairRule::make_valid},
-      {"even-odd", io::RepairRule::even_odd},
-      {"non-zero", io::RepairRule::non_zero}};
+  static const std::map<std::string, RepairRule> rules = {{"make-valid", RepairRule::make_valid},
+                                                          {"even-odd", RepairRule::even_odd},
+                                                          {"non-zero", RepairRule::non_zero}};
   command
       .add_flag("--repair{make-valid}", input.repair,
-                "Mend crossing or overlapping rings by make-valid (the default rule),\n"
-                "even-odd or non-zero, instead of refusing them; tells what changed.")
+                "Repair crossing or overlapping rings by make-valid (the default rule),\n"
+                "even-odd or non-zero instead of refusing them; a note says what changed.")
       ->check(CLI::IsMember({"make-valid", "even-odd", "non-zero"}).description(""))
-      ->each([&input](const std::string& rule) { input.read.repair = rules.at(rule); });
-  command.add_flag("--project", input.read.project,
+      ->each([&read](const std::string& rule) { read.repair = rules.at(rule); });
+  command.add_flag("--project", read.project,
                    "Longitudes and latitudes: compute in a fitting local projection, in\n"
                    "metres. Formats of GIS, .wkt and .csv get longitudes and latitudes again;\n"
                    "radii and lengths stay in metres.");
-  add_image_options(command, input.read.image);
-  command.add_flag("--smooth-contour", input.read.smooth_contour,
-                   "Of images: a smooth curve within half a pixel instead of the pixels'\n"
+  add_image_options(command, read.image);
+  command.add_flag("--smooth-contour", read.smooth_contour,
+                   "Images: a smooth curve within half a pixel instead of the pixels'\n"
                    "boundary.");
-  add_shape_options(command, input);
+  add_curve_options(command, input);
 }
 
 void add_image_options(CLI::App& command, io::ImageOptions& options) {
   command
       .add_option("--threshold", options.threshold,
-                  "Of images: pixels from this value on are foreground (default: half of\n"
+                  "Images: pixels from this value on are foreground (default: half of\n"
                   "the format's range; 128 of 8 bits).")
       ->option_text("VALUE");
   command.add_flag("--invert", options.invert,
-                   "Of images: pixels below the threshold are foreground instead.");
+                   "Images: pixels below the threshold are foreground instead.");
+}
+
+CLI::Option* add_output_option(CLI::App& command, std::string& output, const std::string& kind,
+                               const std::string& help) {
+  return command.add_option("-o,--output", output, help)->check(a_name())->option_text(kind);
+}
+
+void add_format_option(CLI::App& command, std::string& format, const std::string& piped) {
+  command.add_option("--format", format, fmt::format("The format of -o - ({}).", piped))
+      ->option_text("NAME");
+}
+
+void add_output_options(CLI::App& command, FileArguments& arguments, const std::string& formats,
+                        const std::string& piped) {
+  add_output_option(
+      command, arguments.output, "OUTPUT",
+      fmt::format("The output file; its extension chooses the format:\n{}\n"
+                  "- is standard output, see --format. Without -o, only a summary is\n"
+                  "printed.",
+                  formats));
+  add_format_option(command, arguments.format, piped);
 }
 
 namespace {
 constexpr char common_group[] = "Common options";
 }  // namespace
 
-void add_output_options(CLI::App& command, std::string& output, std::string& format,
-                        const std::string& formats, const std::string& piped) {
-  command
-      .add_option("-o,--output", output,
-                  fmt::format("Where to write; the extension tells the format:\n{}\n"
-                              "- is standard output, see --format. Without -o, only a summary is\n"
-                              "printed.",
-                              formats))
-      ->check(a_name())
-      ->option_text("OUTPUT");
-  command.add_option("--format", format, fmt::format("The format of -o - ({}).", piped))
-      ->option_text("NAME");
-}
-
-void add_threads_option(CLI::App& command, CommonOptions& common) {
-  command
-      .add_option("--threads", common.threads,
-                  "Threads to use (default: 0, all of the machine). The result is the\n"
-                  "same, byte for byte.")
-      ->check(in_range(0, most_threads))
-      ->option_text("N")
-      ->group(common_group);
+void add_threads_option(CLI::App& command, int& threads) {
+  const OptionGroup group(command, common_group);
+  add_value(command, "--threads", threads, "N", in_range(0, most_threads),
+            "Threads to use (default: 0, all of the machine). The result is the\n"
+            "same, byte for byte.");
 }
 
 void add_report_options(CLI::App& command, CommonOptions& common) {
-  command
-      .add_flag("--stats", common.stats,
-                "Tell times, counts and memory: a table on standard error, or with --json\n"
-                "within the object on standard output. Times are in seconds.")
-      ->group(common_group);
-  command.add_flag("--json", common.json, "Print one JSON object on standard output; errors too.")
-      ->group(common_group);
-  command.add_flag("--quiet", common.quiet, "No warnings, notes or progress; only errors.")
-      ->group(common_group);
+  const OptionGroup group(command, common_group);
+  command.add_flag("--stats", common.stats,
+                   "Report times in seconds, counts and memory: as a table on standard error,\n"
+                   "or with --json within the object on standard output.");
+  command.add_flag("--json", common.json, "Print one JSON object on standard output; errors too.");
+  command.add_flag("--quiet", common.quiet, "No warnings, notes or progress; only errors.");
 }
 
 void add_common_options(CLI::App& command, CommonOptions& common) {
-  add_threads_option(command, common);
-  command
-      .add_option("--tolerance", common.tolerance,
-                  "How far a disk may miss what it touches, as a fraction of the diagonal\n"
-                  "of the bounding box, at most 1e-3 (default: 4e-15, in verify 1e-14, or\n"
-                  "what the coordinates' spacing allows).")
-      ->check(a_tolerance())
-      ->option_text("T")
-      ->group(common_group);
-  command
-      .add_option("--corner-angle", common.corner_angle,
-                  "Where an arc is involved, convex joints below this angle, in degrees, are\n"
-                  "smooth and no corners, at most 10 (default: 0.01).")
-      ->check(in_range(0, 10))
-      ->option_text("A")
-      ->group(common_group);
-  command
-      .add_option("--chord", common.chord,
-                  "Where curves are written as points, chords stay within this fraction\n"
-                  "of the diagonal of the bounding box (default: 1e-3).")
-      ->check(in_range(smallest_chord, 1))
-      ->option_text("C")
-      ->group(common_group);
+  add_threads_option(command, common.threads);
+  const OptionGroup group(command, common_group);
+  add_value(command, "--tolerance", common.tolerance, "T", a_tolerance(),
+            "How far a disk may miss what it touches, as a fraction of the diagonal\n"
+            "of the bounding box, at most 1e-3 (default: 4e-15, in verify 1e-14, or\n"
+            "what the coordinates' spacing allows).");
+  add_value(command, "--corner-angle", common.corner_angle, "A", in_range(0, 10),
+            "Where an arc is involved, convex joints below this angle, in degrees, are\n"
+            "smooth and not corners, at most 10 (default: 0.01).");
+  add_value(command, "--chord", common.chord, "C", in_range(smallest_chord, 1),
+            "Where curves are written as points, chords stay within this fraction\n"
+            "of the diagonal of the bounding box (default: 1e-3).");
   add_report_options(command, common);
+}
+
+void add_width_option(CLI::App& command, double& width) {
+  const OptionGroup group(command, "Pictures");
+  add_value(command, "--width", width, "W", in_range(narrowest_picture, widest_picture),
+            fmt::format("Width of a picture, in pixels (.png) or points of 1/72 inch\n"
+                        "(.svg .pdf .ps) (default: {:g}).",
+                        width));
+}
+
+void add_picture_options(CLI::App& command, io::WriteOptions& write) {
+  add_width_option(command, write.width);
+  const OptionGroup group(command, "Pictures");
+  add_value(command, "--disks", write.disks, "N", in_range(0, most_disks),
+            "Draw about N maximal disks, spread over the axis (default: 0).");
+  command.add_flag("--contacts", write.contacts, "Draw where the nodes' disks touch the boundary.");
+  command.add_flag("--nodes", write.nodes, "Draw the nodes, by kind.");
+  command.add_flag("!--no-shape", write.shape, "Leave the shape out.");
+}
+
+CLI::Option* add_exterior_options(CLI::App& command, Options& options, const std::string& help) {
+  CLI::Option* exterior = command.add_flag("--exterior", options.exterior, help);
+  add_value(command, "--margin", options.margin, "D", a_positive_number(),
+            "The distance from the shape's bounding box to that rectangle, in units of\n"
+            "the input (default: half of the box's longer side).")
+      ->needs(exterior);
+  return exterior;
 }
 
 CLI::Validator in_range(double low, double high, bool quiet) {
@@ -256,7 +268,8 @@ CLI::Validator in_range(double low, double high, bool quiet) {
   return CLI::Validator(
       [=](const std::string& text) {
         double value = 0;
-        if (!CLI::detail::lexical_cast(text, value)) return fmt::format("'{}' is no number", text);
+        if (!CLI::detail::lexical_cast(text, value))
+          return fmt::format("'{}' is not a number", text);
         return value >= low && value <= high ? std::string()
                                              : fmt::format("{} is not in {}", text, range);
       },
@@ -267,17 +280,18 @@ CLI::Validator a_positive_number() {
   return CLI::Validator(
       [](const std::string& text) {
         double value = 0;
-        if (!CLI::detail::lexical_cast(text, value)) return fmt::format("'{}' is no number", text);
+        if (!CLI::detail::lexical_cast(text, value))
+          return fmt::format("'{}' is not a number", text);
         return value > 0 && std::isfinite(value)
                    ? std::string()
-                   : fmt::format("{} is no finite number above 0", text);
+                   : fmt::format("{} is not a finite number above 0", text);
       },
       "");
 }
 
 namespace {
 
-/// Numbers with commas between them; nothing where there is an empty one, or what is no number.
+/// Numbers separated by commas; nothing where there is an empty one, or what is no number.
 std::optional<std::vector<double>> numbers_of(const std::string& text) {
   std::vector<double> numbers;
   for (std::size_t at = 0;;) {
@@ -301,7 +315,7 @@ CLI::Option* add_list_option(CLI::App& command, const std::string& name, std::si
     const std::string wanted =
         count == 0 ? std::string("numbers") : fmt::format("{} numbers", count);
     if (!numbers || (count > 0 && numbers->size() != count))
-      return fmt::format("'{}' is not {} with commas between them", text, wanted);
+      return fmt::format("'{}' is not {} separated by commas", text, wanted);
     return std::string();
   };
   return command
@@ -315,11 +329,11 @@ std::string explain(const CLI::ParseError& error, const CLI::App& command) {
   const std::string name = text.substr(0, text.find(':'));
   if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
     std::vector<std::string> extra = command.remaining(true);
-    // Those without a dash are told in the reverse order.
+    // Those without a dash come in reverse order.
     const auto unknown = std::ranges::find_if(
         extra, [](const std::string& word) { return word.size() > 1 && word[0] == '-'; });
-    if (unknown != extra.end()) return "no such option: " + *unknown;
-    return extra.empty() ? text : "one word too many: " + extra.back();
+    if (unknown != extra.end()) return "unknown option: " + *unknown;
+    return extra.empty() ? text : "unexpected argument: " + extra.back();
   }
   if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr &&
       text.find(" required ") != std::string::npos)
@@ -331,8 +345,8 @@ std::string explain(const CLI::ParseError& error, const CLI::App& command) {
     const std::string option = text.substr(begin + 2, equals - begin - 2);
     const CLI::Option* found = command.get_option_no_throw(option);
     const bool whole = found != nullptr && found->get_type_name().find("INT") != std::string::npos;
-    return fmt::format("{}: '{}' is no {}", option, text.substr(equals + 3),
-                       whole ? "whole number that fits" : "number");
+    return fmt::format("{}: '{}' is not a {}", option, text.substr(equals + 3),
+                       whole ? "whole number in range" : "number");
   }
   return text;
 }
@@ -351,87 +365,73 @@ CLI::Validator a_whole_number() {
         const auto parsed = std::from_chars(text.data(), end, value);
         return parsed.ec == std::errc() && parsed.ptr == end
                    ? std::string()
-                   : fmt::format("{} is no whole number in [0, 2^64)", text);
+                   : fmt::format("{} is not a whole number in [0, 2^64)", text);
       },
       "");
 }
 
-void add_width_option(CLI::App& command, double& width) {
-  command
-      .add_option("--width", width,
-                  fmt::format("Width of a picture, in pixels (.png) or points of 1/72 inch\n"
-                              "(.svg .pdf .ps) (default: {:g}).",
-                              width))
-      ->check(in_range(narrowest_picture, widest_picture))
-      ->option_text("W")
-      ->group("Pictures");
-}
+namespace {
 
-void add_picture_options(CLI::App& command, io::WriteOptions& write) {
-  add_width_option(command, write.width);
-  command
-      .add_option("--disks", write.disks,
-                  "Draw about N maximal disks, spread over the axis (default: 0).")
-      ->check(in_range(0, most_disks))
-      ->option_text("N")
-      ->group("Pictures");
-  command.add_flag("--contacts", write.contacts, "Draw where the nodes' disks touch the boundary.")
-      ->group("Pictures");
-  command.add_flag("--nodes", write.nodes, "Draw the nodes, by kind.")->group("Pictures");
-  command.add_flag("!--no-shape", write.shape, "Leave the shape out.")->group("Pictures");
-}
-
-Status check_output(const std::string& path, const std::string& format,
-                    const std::string& known_formats, const std::string& input, bool json) {
-  if (path.empty() && format.empty()) return success();
-  if (path == "-") {
-    // Without a format, a pipe takes medial's own.
-    const bool native = format.empty() && lists(known_formats, "json");
-    if (format.empty() && !native)
-      return invalid_option("-o - needs --format, for example --format csv");
-    if (native || lists(known_formats, lower(format))) {
-      if (!json) return success();
-      return invalid_option("--json and -o - both claim standard output");
-    }
-    return error_at(ErrorCode::unsupported, {},
-                    fmt::format("no such format: {}; known are {}", format, known_formats));
-  }
-  if (!format.empty()) {
-    return invalid_option("--format goes with -o -; a file's extension tells its format");
-  }
+/// Checks a path that is not standard output.
+Status check_file(const std::string& path, const std::string& known_formats,
+                  const std::string& input) {
+  const auto unwritable = [&path](std::string text) {
+    return error_at(ErrorCode::unwritable, path, std::move(text));
+  };
   const fs::path target(path);
   std::string extension = lower(target.extension().string());
   if (!extension.empty()) extension.erase(0, 1);
   std::error_code ignored;
-  if (fs::is_directory(target, ignored)) {
-    return error_at(ErrorCode::unwritable, path, "is a directory");
-  }
+  if (fs::is_directory(target, ignored)) return unwritable("is a directory");
   if (!lists(known_formats, extension)) {
     return error_at(ErrorCode::unsupported, path,
-                    fmt::format("{}; known are {}",
+                    fmt::format("{}; use one of {}",
                                 extension.empty() ? "an output needs an extension"
-                                                  : "no such output format: ." + extension,
+                                                  : "unknown output format: ." + extension,
                                 known_formats));
   }
   const fs::path parent = target.has_parent_path() ? target.parent_path() : fs::path(".");
-  if (!fs::is_directory(parent, ignored)) {
-    return error_at(ErrorCode::unwritable, path, "its directory does not exist");
-  }
-  if (access(parent.c_str(), W_OK | X_OK) != 0) {
-    return error_at(ErrorCode::unwritable, path,
-                    fmt::format("its directory takes no files ({})", std::strerror(errno)));
-  }
+  if (!fs::is_directory(parent, ignored)) return unwritable("its directory does not exist");
+  if (access(parent.c_str(), W_OK | X_OK) != 0)
+    return unwritable(
+        fmt::format("cannot create files in its directory ({})", std::strerror(errno)));
   if (!fs::exists(target, ignored)) return success();
-  if (!fs::is_regular_file(target, ignored)) {
-    return error_at(ErrorCode::unwritable, path, "exists and is no regular file");
-  }
-  if (access(target.c_str(), W_OK) != 0) {
-    return error_at(ErrorCode::unwritable, path, std::strerror(errno));
-  }
-  if (input != "-" && fs::equivalent(target, input, ignored)) {
-    return error_at(ErrorCode::unwritable, path, "is the input itself");
-  }
+  if (!fs::is_regular_file(target, ignored)) return unwritable("exists and is not a regular file");
+  if (access(target.c_str(), W_OK) != 0) return unwritable(std::strerror(errno));
+  if (input != "-" && fs::equivalent(target, input, ignored))
+    return unwritable("is the input itself");
   return success();
+}
+
+}  // namespace
+
+Status check_output(const std::string& path, const std::string& format,
+                    const std::string& known_formats, const std::string& input, bool json) {
+  if (path.empty() && format.empty()) return success();
+  if (path != "-") {
+    if (!format.empty())
+      return invalid_option("--format is for -o -; a file's extension chooses its format");
+    return check_file(path, known_formats, input);
+  }
+  // Without a format, a pipe takes medial's own.
+  const bool native = format.empty() && lists(known_formats, "json");
+  if (format.empty() && !native)
+    return invalid_option("-o - needs --format, for example --format csv");
+  if (!native && !lists(known_formats, lower(format)))
+    return error_at(ErrorCode::unsupported, {},
+                    fmt::format("unknown format: {}; use one of {}", format, known_formats));
+  return json ? invalid_option("--json and -o - both need standard output") : success();
+}
+
+Status check_output(const FileArguments& arguments, const std::string& known_formats) {
+  return check_output(arguments.output, arguments.format, known_formats, arguments.input.path,
+                      arguments.common.json);
+}
+
+io::WriteOptions write_options(const FileArguments& arguments) {
+  io::WriteOptions write = arguments.write;
+  write.chord = arguments.common.chord;
+  return write;
 }
 
 Error error_at(ErrorCode code, const std::string& file, std::string text) {
@@ -515,43 +515,93 @@ std::string table(const Json& object) {
   return text;
 }
 
-std::string describe(const ShapeReport& report) {
+void Rows::add(std::string_view name, const std::string& value) {
+  text_ += fmt::format("{:<{}}{}\n", name, width_, value);
+}
+
+void Rows::add(std::string_view name, std::uint64_t count) { add(name, std::to_string(count)); }
+
+void Phases::end(const std::string& name) {
+  const double processor_now = processor_seconds();
+  seconds_[name] = watch_.seconds();
+  processor_[name] = processor_now - processor_begin_;
+  watch_ = Stopwatch();
+  processor_begin_ = processor_now;
+}
+
+double Phases::seconds() const {
+  double sum = 0;
+  for (const Json& phase : seconds_) sum += phase.get<double>();
+  return sum;
+}
+
+Result<int> finish(const CommonOptions& common, Json object, const Phases& phases,
+                   const std::string& text, const Json& more, int status) {
+  Json costs;
+  if (common.stats) {
+    costs = {{"seconds", phases.by_clock()},
+             {"threads", effective_threads(common.threads)},
+             {"peak_bytes", peak_bytes()}};
+    if (!more.is_null()) costs.update(more);
+  }
+  if (common.json && common.stats) object.update(costs);
+  Status printed = success();
+  if (common.json)
+    printed = print(object);
+  else if (!text.empty())
+    printed = print(text);
+  if (!printed) return std::move(printed).error();
+  if (common.stats && !common.json) say_text(table(costs));
+  return status;
+}
+
+Result<int> finish(const FileArguments& arguments, Json object, const Phases& phases,
+                   const std::string& line, const Json& more) {
+  const auto& [input, common, output, format, write] = arguments;
   std::string text;
-  const auto mention = [&text](std::uint64_t count, const char* noun, const char* plural = "") {
+  if (!common.json && !line.empty()) text = fmt::format("{}; {:.3g} s", line, phases.seconds());
+  if (output.empty()) {
+    if (!text.empty()) text += '\n';
+    return finish(common, std::move(object), phases, text, more);
+  }
+  if (!text.empty() && error_is_terminal() && !common.quiet)
+    say("{} -> {}\n", text, output == "-" ? "standard output" : output);
+  return finish(common, std::move(object), phases, {}, more);
+}
+
+bool is_talkative(const FileArguments& arguments) {
+  const CommonOptions& common = arguments.common;
+  return common.json || common.stats || arguments.output.empty() ||
+         (error_is_terminal() && !common.quiet);
+}
+
+Json to_json(const Attributes& attributes) {
+  Json object = Json::object();
+  for (const auto& [name, value] : attributes) object[name] = value;
+  return object;
+}
+
+Json to_json(const Disk& disk) {
+  return {{"x", disk.center.x}, {"y", disk.center.y}, {"r", disk.radius}};
+}
+
+std::string enumerate(std::span<const CountedNoun> counts) {
+  std::string text;
+  for (const auto& [count, noun, plural] : counts)
     if (count > 0) text += (text.empty() ? "" : ", ") + counted(count, noun, plural);
-  };
-  mention(report.unclosed_rings, "unclosed ring");
-  mention(report.repeated_points, "repeated point");
-  mention(report.collinear_points, "collinear point");
-  mention(report.reversed_rings, "reversed ring");
-  mention(report.touching_vertices, "touching vertex", "touching vertices");
-  mention(report.split_edges, "split edge");
-  mention(report.crossings, "crossing");
-  mention(report.dropped_rings, "dropped ring");
   return text;
 }
 
-void add(ArcReport& sum, const ArcReport& part) {
-  sum.pieces += part.pieces;
-  sum.spirals += part.spirals;
-  sum.arcs += part.arcs;
-  sum.segments += part.segments;
-  sum.tolerance = std::max(sum.tolerance, part.tolerance);
-  sum.largest_error = std::max(sum.largest_error, part.largest_error);
-}
-
-void add(ShapeReport& sum, const ShapeReport& part) {
-  sum.input_rings += part.input_rings;
-  sum.input_points += part.input_points;
-  sum.closing_points += part.closing_points;
-  sum.unclosed_rings += part.unclosed_rings;
-  sum.repeated_points += part.repeated_points;
-  sum.collinear_points += part.collinear_points;
-  sum.reversed_rings += part.reversed_rings;
-  sum.touching_vertices += part.touching_vertices;
-  sum.split_edges += part.split_edges;
-  sum.crossings += part.crossings;
-  sum.dropped_rings += part.dropped_rings;
+std::string describe(const ShapeReport& report) {
+  const CountedNoun counts[] = {{report.unclosed_rings, "unclosed ring"},
+                                {report.repeated_points, "repeated point"},
+                                {report.collinear_points, "collinear point"},
+                                {report.reversed_rings, "reversed ring"},
+                                {report.touching_vertices, "touching vertex", "touching vertices"},
+                                {report.split_edges, "split edge"},
+                                {report.crossings, "crossing"},
+                                {report.dropped_rings, "dropped ring"}};
+  return enumerate(counts);
 }
 
 std::string counted(std::uint64_t count, const std::string& noun, const std::string& plural) {

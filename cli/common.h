@@ -4,12 +4,19 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <memory>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
 
-#include "medial/contour.h"
+#include "cli/terminal.h"
+#include "medial/compute.h"
 #include "medial/error.h"
-#include "medial/io/read.h"
+#include "medial/io/load.h"
 #include "medial/io/write.h"
 #include "medial/shape.h"
 
@@ -25,12 +32,10 @@ constexpr int exit_error = 2;
 /// Where shapes come from.
 struct InputOptions {
   std::string path;    ///< of a file; with a text, of the font
-  std::string text;    ///< to be set in a font, instead of a file of shapes
-  std::string font;    ///< as given; path tells it as well
-  std::string repair;  ///< the name of read.repair
-  std::string close;   ///< read.close as text
-  io::ReadOptions read;
-  ArcOptions arcs;
+  std::string font;    ///< as given
+  std::string repair;  ///< the name of source.read.repair
+  std::string close;   ///< source.read.close as text
+  io::SourceOptions source;
 };
 
 /// What every command takes.
@@ -44,7 +49,16 @@ struct CommonOptions {
   bool quiet = false;
 };
 
-/// Each adds its arguments to a command; what they refer to must live as long as the command.
+/// The arguments of a command that reads shapes and may write a file.
+struct FileArguments {
+  InputOptions input;
+  CommonOptions common;
+  std::string output;  ///< a path; - for standard output; or empty
+  std::string format;
+  io::WriteOptions write;
+};
+
+/// Each adds its options to a command; what they refer to must live as long as the command.
 /// `second` is the name of a second file that the command requires after INPUT, with the string
 /// that it fills.
 void add_input_options(CLI::App& command, InputOptions& input);
@@ -52,39 +66,84 @@ void add_input_options(CLI::App& command, InputOptions& input, const std::string
                        const std::string& second_help, std::string& second);
 void add_common_options(CLI::App& command, CommonOptions& common);
 /// -o and --format, for outputs of `formats`; without -o such a command prints its summary only.
-/// `piped` tells which format -o - has.
-void add_output_options(CLI::App& command, std::string& output, std::string& format,
-                        const std::string& formats, const std::string& piped = "default: json");
-/// --threads, and --stats, --json and --quiet; both are part of the common arguments.
-void add_threads_option(CLI::App& command, CommonOptions& common);
+/// `piped` says which format -o - has.
+void add_output_options(CLI::App& command, FileArguments& arguments, const std::string& formats,
+                        const std::string& piped = "default: json");
+/// -o alone, with this help, for a file of this kind; and --format, with the format of -o -.
+CLI::Option* add_output_option(CLI::App& command, std::string& output, const std::string& kind,
+                               const std::string& help);
+void add_format_option(CLI::App& command, std::string& format, const std::string& piped);
+/// --threads, and --stats, --json and --quiet; both are part of the common options.
+void add_threads_option(CLI::App& command, int& threads);
 void add_report_options(CLI::App& command, CommonOptions& common);
 /// --threshold and --invert.
 void add_image_options(CLI::App& command, io::ImageOptions& options);
 void add_picture_options(CLI::App& command, io::WriteOptions& write);
-/// --width alone. Its help tells the default, which is what `width` holds.
+/// --width alone. Its help gives the default, which is what `width` holds.
 void add_width_option(CLI::App& command, double& width);
+/// --exterior, with this help, and --margin. Returns the former.
+CLI::Option* add_exterior_options(CLI::App& command, Options& options, const std::string& help);
 
 /// A number in [low, high]; NaN is in no range. Help texts show the range unless `quiet`.
 CLI::Validator in_range(double low, double high, bool quiet = false);
 /// A finite number above 0.
 CLI::Validator a_positive_number();
-/// Adds a option for numbers with commas between them: `count` of them, or for 0 one or more.
-CLI::Option* add_list_option(CLI::App& command, const std::string& name, std::size_t count,
-                             const std::function<void(const std::vector<double>&)>& take,
-                             const std::string& help);
-/// What is wrong with a command line, in words for who typed it.
-std::string explain(const CLI::ParseError& error, const CLI::App& command);
-/// What the name of an output must be: not empty.
+/// What the name of a file must be: not empty.
 CLI::Validator a_name();
 /// Digits that make a 64-bit number; CLI11 by itself takes -1 for the largest.
 CLI::Validator a_whole_number();
 
+/// Adds an option with one value, which help texts call `value`.
+template <class T>
+CLI::Option* add_value(CLI::App& command, const std::string& name, T& variable, const char* value,
+                       const CLI::Validator& check, const std::string& help) {
+  return command.add_option(name, variable, help)->check(check)->option_text(value);
+}
+/// Adds an option for one of several names.
+template <class T>
+CLI::Option* add_choice(CLI::App& command, const std::string& name, T& variable,
+                        const std::vector<std::pair<std::string, T>>& choices,
+                        const std::string& help) {
+  std::vector<std::string> names;
+  for (const auto& [choice, meaning] : choices) names.push_back(choice);
+  const auto take = [&variable, choices](const std::string& chosen) {
+    for (const auto& [choice, meaning] : choices)
+      if (choice == chosen) variable = meaning;
+  };
+  return command.add_option_function<std::string>(name, take, help)
+      ->check(CLI::IsMember(names).description(""))
+      ->option_text("NAME");
+}
+/// Adds an option for numbers with commas between them: `count` of them, or for 0 one or more.
+CLI::Option* add_list_option(CLI::App& command, const std::string& name, std::size_t count,
+                             const std::function<void(const std::vector<double>&)>& take,
+                             const std::string& help);
+
+/// The options that are added while it lives form a group of help texts.
+class OptionGroup {
+ public:
+  OptionGroup(CLI::App& command, const std::string& name);
+  ~OptionGroup();
+  OptionGroup(const OptionGroup&) = delete;
+  OptionGroup& operator=(const OptionGroup&) = delete;
+
+ private:
+  CLI::App& command_;
+  std::string before_;
+};
+
+/// What is wrong with a command line, in words for whoever typed it.
+std::string explain(const CLI::ParseError& error, const CLI::App& command);
+
 /// Checks that `path` can be written later, before any long work: a known format, a directory that
 /// takes files, nothing there but a regular file that may be replaced, and not the input itself.
-/// An empty path is no output, which can always be had. With `json` standard output is taken.
+/// An empty path is no output, which is always possible. With `json` standard output is taken.
 /// `known_formats` lists extensions, separated by anything that is neither letter nor digit.
 Status check_output(const std::string& path, const std::string& format,
                     const std::string& known_formats, const std::string& input, bool json);
+Status check_output(const FileArguments& arguments, const std::string& known_formats);
+/// Options for writing: --chord is a common one.
+io::WriteOptions write_options(const FileArguments& arguments);
 
 /// An error of a file as a whole.
 Error error_at(ErrorCode code, const std::string& file, std::string text);
@@ -109,15 +168,64 @@ int report_error(const Error& error, bool json, const std::string& hint = {});
 Status print(const std::string& text);
 Status print(const Json& object);
 
-/// The members of an object as a table, one a line; objects inside are indented. Names and values
-/// tell all: "seconds", "precision_retries", "peak_bytes".
+/// The members of an object as a table, one on each line; objects inside are indented. Names and
+/// values say it all: "seconds", "precision_retries", "peak_bytes".
 std::string table(const Json& object);
+/// Lines of a name and a value.
+class Rows {
+ public:
+  explicit Rows(int width) : width_(width) {}
+  void add(std::string_view name, const std::string& value);
+  void add(std::string_view name, std::uint64_t count);
+  const std::string& text() const { return text_; }
+
+ private:
+  int width_;  ///< of the names
+  std::string text_;
+};
+
+/// The phases of a run, by the clock and by the processor.
+class Phases {
+ public:
+  /// Ends a phase, which began with the end of the one before.
+  void end(const std::string& name);
+  /// Of all phases, or of one.
+  double seconds() const;
+  double seconds(const std::string& name) const { return seconds_.value(name, 0.0); }
+  const Json& by_clock() const { return seconds_; }
+  const Json& by_processor() const { return processor_; }
+
+ private:
+  Stopwatch watch_;
+  double processor_begin_ = processor_seconds();
+  Json seconds_ = Json::object(), processor_ = Json::object();
+};
+
+/// The end of a command: prints the object for --json, or the text on standard output unless it is
+/// empty. --stats adds the costs, which are seconds by phase, threads, memory and `more`: as
+/// members of the object, or as a table on standard error. Returns the status.
+Result<int> finish(const CommonOptions& common, Json object, const Phases& phases,
+                   const std::string& text, const Json& more = {}, int status = exit_success);
+/// The same for a command that writes a file, with a line that ends with the seconds of all phases:
+/// on standard output where there is no other output, and else only on a terminal.
+Result<int> finish(const FileArguments& arguments, Json object, const Phases& phases,
+                   const std::string& line, const Json& more = {});
+/// Whether that would print anything.
+bool is_talkative(const FileArguments& arguments);
+
+/// {name: value, ...}
+Json to_json(const Attributes& attributes);
+/// {"x": ..., "y": ..., "r": ...}
+Json to_json(const Disk& disk);
 
 /// What build_shape() mended, as "2 repeated points, 1 reversed ring"; empty if nothing.
 std::string describe(const ShapeReport& report);
-/// Adds up the reports of several features.
-void add(ShapeReport& sum, const ShapeReport& part);
-void add(ArcReport& sum, const ArcReport& part);
+/// "2 points, 1 ring" of the counts that are not 0, each with its noun and plural.
+struct CountedNoun {
+  std::uint64_t count;
+  const char *noun, *plural = "";
+};
+std::string enumerate(std::span<const CountedNoun> counts);
 
 /// "1 edge", "2 edges"; `plural` where an s does not do.
 std::string counted(std::uint64_t count, const std::string& noun, const std::string& plural = {});

@@ -10,21 +10,16 @@
 #include "cli/axis_distance.h"
 #include "cli/commands.h"
 #include "cli/common.h"
-#include "cli/costs.h"
 #include "cli/pipeline.h"
-#include "cli/plot.h"
-#include "cli/terminal.h"
 #include "medial/compute.h"
+#include "medial/query.h"
 #include "medial/verify.h"
 
 namespace medial::cli {
 namespace {
 
-struct CompareArguments {
-  InputOptions input;
-  CommonOptions common;
+struct CompareArguments : FileArguments {
   std::string methods = "all";
-  std::string output;
   double fit = 0;   ///< boundaries become smooth within this distance; 0: they do not
   Options options;  ///< exterior and margin
 };
@@ -54,30 +49,54 @@ double radius_error(const Shape& shape, const MedialAxis& axis) {
   return largest;
 }
 
-/// One method's axis beside the exact one, of a shape or of its exterior, which is the same as the
-/// axis of `region`. With `lenient` the method may refuse the kind of input.
-Row measure(const Shape& shape, const Shape& region, const std::vector<Contour>& contours,
-            const MedialAxis& exact, const CommonOptions& common, const Options& options,
-            bool lenient) {
+/// What the axes of all methods are measured against.
+struct Reference {
+  Shape region;  ///< the shape, or its surroundings, whose axis is that of the exterior
+  MedialAxis axis;
+  Options options;
+  bool lenient = false;  ///< methods may refuse the kind of input
+};
+
+Result<Reference> reference_of(const Shape& shape, const CompareArguments& arguments) {
+  Reference reference;
+  reference.options = engine_options(arguments.common, 0, arguments.options);
+  reference.lenient = arguments.methods == "all";
+  auto exact = compute(shape, reference.options);
+  if (!exact) return std::move(exact).error();
+  reference.axis = std::move(exact).value();
+  reference.region = shape;
+  if (arguments.options.exterior) {
+    auto around = surroundings(shape, arguments.options.margin);
+    if (!around) return std::move(around).error();
+    reference.region = std::move(around).value();
+  }
+  return reference;
+}
+
+/// One method's axis of a shape beside the exact one.
+Row measure(const ShapeItem& item, const Reference& reference, const Method& method) {
   Row row;
-  row.method = name_of(options.method);
+  row.method = name_of(method);
+  Options options = reference.options;
+  options.method = method;
+  options.threads = 1;
   const Stopwatch watch;
-  auto axis = compute(shape, options, contours);
+  auto axis = compute(item.shape, options, item.contours);
   row.seconds = watch.seconds();
   if (!axis) {
     row.refused = axis.error().text;
-    row.failed = axis.error().code != ErrorCode::unsupported || !lenient;
+    row.failed = axis.error().code != ErrorCode::unsupported || !reference.lenient;
     return row;
   }
   row.axis = std::move(axis).value();
   row.nodes = row.axis.nodes.size();
-  row.branches = branches(row.axis).size();
-  const Box box = bounding_box(region);
+  row.branches = branch_count(row.axis);
+  const Box box = bounding_box(reference.region);
   const double size = std::max(box.high.x - box.low.x, box.high.y - box.low.y);
-  row.distance = distance_between(row.axis, exact, 0.005 * size, 0.05 * size);
-  row.radius_error = radius_error(region, row.axis);
-  const Certificate certificate =
-      verify(shape, row.axis, {.tolerance = common.tolerance, .corner_angle = common.corner_angle});
+  row.distance = distance_between(row.axis, reference.axis, 0.005 * size, 0.05 * size);
+  row.radius_error = radius_error(reference.region, row.axis);
+  const Certificate certificate = verify(
+      item.shape, row.axis, {.tolerance = options.tolerance, .corner_angle = options.corner_angle});
   row.parts = certificate.graph_parts;
   row.cycles = certificate.cycles;
   row.passed = certificate.passed;
@@ -137,33 +156,27 @@ Result<std::vector<Method>> methods_of(const std::string& names) {
   std::istringstream list(names);
   for (std::string name; std::getline(list, name, ',');) {
     const auto method = method_from(name);
-    if (!method) return invalid_option("no such method: " + name);
+    if (!method) return invalid_option("unknown method: " + name);
     chosen.push_back(*method);
   }
   if (chosen.empty()) return invalid_option("--methods needs a name");
   return chosen;
 }
 
-/// One picture of all axes: each in a frame of its own, side by side in the plane, with its method
-/// below.
+/// One picture of all axes: each in a rectangle of its own, side by side in the plane, with its
+/// method below.
 Status write_comparison(const std::string& path, const Shape& shape, const Box& box,
-                        std::vector<Row>& rows, const ShapeFile& file) {
-  Document<AxisItem> native;
-  native.crs_wkt = file.crs_wkt;
-  native.y_down = file.y_down;
+                        const std::vector<Row>& rows, const Document<ShapeItem>& file) {
+  Document<AxisItem> axes = same_frame<AxisItem>(file);
   const Vec2 size = box.high - box.low;
   const Vec2 pitch{1.1 * size.x, size.y + 0.1 * std::max(size.x, size.y)};
-  std::size_t count = 0;
   constexpr std::size_t columns = 3;
-  for (Row& row : rows) {
+  for (const Row& row : rows) {
     if (!row.refused.empty()) continue;
+    const std::size_t count = axes.items.size();
     const Vec2 move{static_cast<double>(count % columns) * pitch.x,
                     (file.y_down ? 1 : -1) * static_cast<double>(count / columns) * pitch.y};
-    ++count;
-    AxisItem item;
-    item.shape = shape;
-    item.axis = row.axis;
-    item.attributes = {{"title", row.method}};
+    AxisItem item{shape, row.axis, {{"title", row.method}}};
     for (Vec2& p : item.shape.points) p = p + move;
     for (Site& site : item.axis.sites) {
       site.start = site.start + move;
@@ -171,73 +184,55 @@ Status write_comparison(const std::string& path, const Shape& shape, const Box& 
     }
     for (Node& node : item.axis.nodes) node.disk.center = node.disk.center + move;
     for (Edge& edge : item.axis.edges) edge.control.center = edge.control.center + move;
-    native.items.push_back(std::move(item));
+    axes.items.push_back(std::move(item));
   }
   io::WriteOptions options;
   options.width = 1500;
   options.titles = true;
-  return io::write_axes(path, {}, native, options);
+  return io::write_axes(path, {}, axes, options);
 }
 
 Result<int> run_compare(const CompareArguments& arguments) {
-  const auto& [input, common, names, output, fit, options] = arguments;
-  auto methods = methods_of(names);
+  const CommonOptions& common = arguments.common;
+  auto methods = methods_of(arguments.methods);
   if (!methods) return std::move(methods).error();
-  Status writable = check_output(output, {}, ".svg .pdf .png .ps", input.path, common.json);
+  Status writable = check_output(arguments, ".svg .pdf .png .ps");
   if (!writable) return std::move(writable).error();
-  const bool smooth = std::any_of(methods->begin(), methods->end(),
-                                  [](const Method& one) { return info_of(one).contours; });
-  auto file = load_shapes(input, common.threads, smooth || fit > 0);
-  if (!file) return std::move(file).error();
-  if (fit > 0)
-    if (Status done = smooth_boundaries(*file, fit, input); !done) return std::move(done).error();
-  const std::vector<Contour> nothing;
+  InputOptions input = arguments.input;
+  input.source.load.keep_contours =
+      std::ranges::any_of(*methods, [](const Method& one) { return info_of(one).contours; });
+  input.source.load.fit = arguments.fit;
+  auto loaded = load_shapes(input, common);
+  if (!loaded) return std::move(loaded).error();
+  const Document<ShapeItem>& file = loaded->file;
   bool failed = false;
-  print_notes(*file, input, common);
-  const Stopwatch comparing;
   Json features = Json::array();
   std::string text;
-  for (std::size_t i = 0; i < file->shapes.size(); ++i) {
-    const Shape& shape = file->shapes[i];
-    Options own = options;
-    own.tolerance = common.tolerance;
-    own.corner_angle = common.corner_angle;
-    const auto exact = compute(shape, own);
-    if (!exact) return at_feature(exact.error(), input.path, i);
-    Shape around;
-    if (options.exterior) {
-      auto found = surroundings(shape, options.margin);
-      if (!found) return at_feature(std::move(found).error(), input.path, i);
-      around = std::move(found).value();
+  for (std::size_t i = 0; i < file.items.size(); ++i) {
+    const ShapeItem& item = file.items[i];
+    auto reference = reference_of(item.shape, arguments);
+    if (!reference) {
+      reference.error().place.feature = i;
+      return std::move(reference).error();
     }
-    const Shape& region = options.exterior ? around : shape;
     std::vector<Row> rows;
-    own.threads = 1;
-    for (const Method& method : *methods) {
-      own.method = method;
-      rows.push_back(measure(shape, region, i < file->contours.size() ? file->contours[i] : nothing,
-                             *exact, common, own, names == "all"));
-    }
-    if (file->shapes.size() > 1) text += fmt::format("feature {}\n", i);
+    for (const Method& method : *methods) rows.push_back(measure(item, *reference, method));
+    if (file.items.size() > 1) text += fmt::format("feature {}\n", i);
     text += table_of(rows);
-    for (const Row& row : rows) failed = failed || row.failed;
-    Json list = Json::array();
-    for (const Row& row : rows) list.push_back(json_of(row));
-    features.push_back(std::move(list));
-    if (i == 0 && !output.empty()) {
-      Status written = write_comparison(output, shape, bounding_box(region), rows, *file);
+    Json& list = features.emplace_back(Json::array());
+    for (const Row& row : rows) {
+      failed = failed || row.failed;
+      list.push_back(json_of(row));
+    }
+    if (i == 0 && !arguments.output.empty()) {
+      Status written = write_comparison(arguments.output, item.shape,
+                                        bounding_box(reference->region), rows, file);
       if (!written) return std::move(written).error();
     }
   }
-  const Json costs = costs_of(common, {{"read", file->seconds_read},
-                                       {"shape", file->seconds_shape},
-                                       {"compare", comparing.seconds()}});
-  Json object = {{"features", std::move(features)}};
-  if (common.stats) object.update(costs);
-  Status printed = common.json ? print(object) : print(text);
-  if (!printed) return std::move(printed).error();
-  print_costs(common, costs);
-  return failed ? exit_failed_verdict : exit_success;
+  loaded->phases.end("compare");
+  return finish(common, {{"features", std::move(features)}}, loaded->phases, text, {},
+                failed ? exit_failed_verdict : exit_success);
 }
 
 }  // namespace
@@ -251,33 +246,27 @@ Command make_compare_command(CLI::App& program) {
       ->add_option("--methods", arguments->methods,
                    "all (default), or names separated by commas, for example disks,potential.")
       ->option_text("NAMES");
-  command
-      ->add_option("-o,--output", arguments->output,
-                   "A picture of the first feature's axes side by side: .svg .pdf .png .ps")
-      ->check(a_name())
-      ->option_text("PICTURE");
-  command
-      ->add_option(
-          "--fit", arguments->fit,
-          "First replace every boundary by a smooth curve through its corners and within D\n"
-          "of it, as curve-axis wants it.")
-      ->check(a_positive_number())
-      ->option_text("D");
+  add_output_option(*command, arguments->output, "PICTURE",
+                    "A picture of the first feature's axes side by side: .svg .pdf .png .ps");
+  add_value(*command, "--fit", arguments->fit, "D", a_positive_number(),
+            "First replace every boundary by a smooth curve through its corners, within D\n"
+            "of it, as curve-axis needs it.");
   add_exterior_options(*command, arguments->options,
-                       "The axes of what lies around the shape and in its holes, within a frame.");
+                       "The axes of what lies around the shape and in its holes, within a\n"
+                       "rectangle.");
   add_common_options(*command, arguments->common);
   command->footer(
       "Each method runs on one thread. Distances are to the axis of the method disks, by\n"
       "samples; Hausdorff is the larger of both directions. A method that does not take\n"
       "the input says why. An axis of pixels is unresolved if its grid is too coarse for\n"
-      "parts or holes of the shape. Exit status 1: an axis is not verified otherwise, a\n"
-      "method failed, or one that --methods names does not take the input.\n"
+      "parts or holes of the shape. Exit status 1: an axis is wrong in another way, a\n"
+      "method failed, or one named by --methods does not take the input.\n"
       "\n"
       "Examples:\n"
       "  medial compare plan.wkt\n"
       "  medial compare plan.wkt --methods disks,ridge,potential -o methods.svg --json\n"
       "  medial compare island.wkt --methods all --fit 0.5");
-  return {command, [arguments] { return run_compare(*arguments); }};
+  return command_of(command, arguments, run_compare);
 }
 
 }  // namespace medial::cli

@@ -6,30 +6,23 @@
 
 #include "cli/commands.h"
 #include "cli/common.h"
-#include "cli/stored_axes.h"
+#include "cli/pipeline.h"
 
 namespace medial::cli {
 namespace {
 
 constexpr char picture_formats[] = ".svg .pdf .png .ps";
 
-struct DrawArguments {
-  InputOptions input;
-  CommonOptions common;
-  std::string output;
-  std::string format;
-  io::WriteOptions write;
+struct DrawArguments : FileArguments {
   Options options;  ///< exterior and margin
 };
 
 Result<int> run_draw(const DrawArguments& arguments) {
-  const auto& [input, common, output, format, pictures, options] = arguments;
-  if (output.empty()) return invalid_option("-o needs the name of a picture");
-  Status writable = check_output(output, format, picture_formats, input.path, common.json);
+  Status writable = check_output(arguments, picture_formats);
   if (!writable) return std::move(writable).error();
-  auto axes = load_axes(input, common, 0, options);
+  auto axes = load_axes(arguments.input, arguments.common, 0, arguments.options);
   if (!axes) return std::move(axes).error();
-  return write_and_tell(*axes, input, common, output, format, pictures);
+  return finish_axes(*axes, arguments);
 }
 
 }  // namespace
@@ -38,18 +31,15 @@ Command make_draw_command(CLI::App& program) {
   auto arguments = std::make_shared<DrawArguments>();
   CLI::App* command = program.add_subcommand("draw", "Draw shapes and their medial axes.");
   add_input_options(*command, arguments->input);
-  command
-      ->add_option("-o,--output", arguments->output,
-                   fmt::format("The picture; its extension tells the format: {}\n"
-                               "- is standard output, see --format.",
-                               picture_formats))
-      ->required()
-      ->check(a_name())
-      ->option_text("PICTURE REQUIRED");
-  command->add_option("--format", arguments->format, "The format of -o -, for example svg.")
-      ->option_text("NAME");
-  add_exterior_options(*command, arguments->options,
-                       "The axis of what lies around the shape and in its holes, within a frame.");
+  add_output_option(*command, arguments->output, "PICTURE REQUIRED",
+                    fmt::format("The picture; its extension chooses the format: {}\n"
+                                "- is standard output, see --format.",
+                                picture_formats))
+      ->required();
+  add_format_option(*command, arguments->format, "for example svg");
+  add_exterior_options(
+      *command, arguments->options,
+      "The axis of what lies around the shape and in its holes, within a rectangle.");
   add_picture_options(*command, arguments->write);
   add_common_options(*command, arguments->common);
   command->footer(
@@ -61,7 +51,7 @@ Command make_draw_command(CLI::App& program) {
       "  medial draw plan.json -o plan.pdf --disks 100 --nodes\n"
       "  medial draw country.wkt.gz -o country.png --width 3000\n"
       "  medial draw gear.json -o - --format svg --no-shape > gear.svg");
-  return {command, [arguments] { return run_draw(*arguments); }};
+  return command_of(command, arguments, run_draw);
 }
 
 }  // namespace medial::cli

@@ -10,26 +10,20 @@
 #include "cli/commands.h"
 #include "cli/common.h"
 #include "cli/pipeline.h"
-#include "cli/stored_axes.h"
-#include "cli/terminal.h"
 #include "medial/io/features.h"
 
 namespace medial::cli {
 namespace {
 
-struct FeatureArguments {
-  InputOptions input;
-  CommonOptions common;
-  std::string output;
-  std::string format;
-  io::FeatureWriteOptions write;
+struct FeatureArguments : FileArguments {
+  io::FeatureWriteOptions table;  ///< but for `write`
   FeatureOptions options;
   Options axis;
 };
 
 constexpr double most = 1e3;  // of a threshold
 
-/// What there is to tell of all items together.
+/// The sums over all items.
 struct FeatureSummary {
   std::uint64_t ends = 0, branchings = 0, branches = 0, closed = 0, runs = 0;
   double length = 0;
@@ -63,92 +57,61 @@ Json shares(const std::array<double, N>& lengths, double total) {
   return object;
 }
 
-Status tell(const AxisFile& file, std::span<const AxisFeatures> features,
-            const FeatureArguments& arguments, double seconds_features, double seconds_write) {
-  const auto& common = arguments.common;
-  const bool terminal = !arguments.output.empty() && error_is_terminal() && !common.quiet;
-  if (!common.json && !common.stats && !arguments.output.empty() && !terminal) return success();
+Result<int> finish_features(const LoadedAxes& axes, std::span<const AxisFeatures> features,
+                            const FeatureArguments& arguments) {
+  if (!is_talkative(arguments)) return exit_success;
   const FeatureSummary sum = sum_of(features);
-  const Json costs = {{"seconds",
-                       {{"read", file.seconds_read},
-                        {"shape", file.seconds_shape},
-                        {"axis", file.seconds_axis},
-                        {"features", seconds_features},
-                        {"write", seconds_write}}},
-                      {"peak_bytes", peak_bytes()}};
-  if (common.json) {
-    Json object = {{"input", arguments.input.path},
-                   {"features", features.size()},
-                   {"ends", sum.ends},
-                   {"branchings", sum.branchings},
-                   {"branches", sum.branches},
-                   {"closed_branches", sum.closed},
-                   {"runs", sum.runs},
-                   {"length", sum.length}};
-    object["primitives"] = shares<Primitive>(sum.primitive, sum.length);
-    object["variations"] = shares<Variation>(sum.variation, sum.length);
-    if (common.stats) object.update(costs);
-    return print(object);
-  }
+  Json object = {{"input", arguments.input.path},
+                 {"features", features.size()},
+                 {"ends", sum.ends},
+                 {"branchings", sum.branchings},
+                 {"branches", sum.branches},
+                 {"closed_branches", sum.closed},
+                 {"runs", sum.runs},
+                 {"length", sum.length}};
+  object["primitives"] = shares<Primitive>(sum.primitive, sum.length);
+  object["variations"] = shares<Variation>(sum.variation, sum.length);
   std::string text = fmt::format(
       "{}: {}, {}, {} ({} closed), {}\n", arguments.input.path, counted(sum.ends, "end"),
       counted(sum.branchings, "branching point"), counted(sum.branches, "branch", "branches"),
       sum.closed, counted(sum.runs, "primitive"));
-  const auto rows = [&text, &sum]<class Kind, std::size_t N>(Kind,
-                                                             const std::array<double, N>& lengths) {
-    for (std::size_t i = 0; i < N; ++i)
-      if (lengths[i] > 0)
-        text += fmt::format("  {:<18}{:>6.1f} %\n", name_of(static_cast<Kind>(i)),
-                            100 * lengths[i] / sum.length);
-  };
-  rows(Primitive{}, sum.primitive);
-  rows(Variation{}, sum.variation);
-  if (common.stats) say_text(table(costs));
-  if (arguments.output.empty()) return print(text);
-  if (terminal) say_text(text);
-  return success();
+  for (const char* kind : {"primitives", "variations"})
+    for (const auto& [name, share] : object[kind].items())
+      text += fmt::format("  {:<18}{:>6.1f} %\n", name, 100 * share.get<double>());
+  const CommonOptions& common = arguments.common;
+  if (!arguments.output.empty()) {
+    if (!common.json && !common.quiet && error_is_terminal()) say_text(text);
+    text.clear();
+  }
+  return finish(common, std::move(object), axes.phases, text);
 }
 
 Result<int> run_features(const FeatureArguments& arguments) {
-  const InputOptions& input = arguments.input;
   const CommonOptions& common = arguments.common;
-  const std::string &output = arguments.output, &format = arguments.format;
-  Status writable =
-      check_output(output, format, io::known_feature_formats(), input.path, common.json);
+  Status writable = check_output(arguments, io::known_feature_formats());
   if (!writable) return std::move(writable).error();
-  auto axes = load_axes(input, common, 0, arguments.axis);
+  auto axes = load_axes(arguments.input, common, 0, arguments.axis);
   if (!axes) return std::move(axes).error();
-  const Stopwatch watch;
-  std::vector<AxisFeatures> features(axes->native.items.size());
-  std::vector<double> weights;
-  for (const AxisItem& item : axes->native.items)
-    weights.push_back(static_cast<double>(item.axis.edges.size()) + 1);
-  Status described = for_each_feature(weights, common.threads, [&](std::size_t i, int) {
-    features[i] = describe(axes->native.items[i].axis, arguments.options);
-    return success();
+  const auto features =
+      map_items<AxisFeatures>(edge_weights_of(axes->file), common.threads, [&](std::size_t i, int) {
+        return medial::describe(axes->file.items[i].axis, arguments.options);
+      });
+  if (!features) return features.error();
+  axes->phases.end("features");
+  Status written = write_output(arguments, axes->phases, [&](const auto& path, const auto& format) {
+    io::FeatureWriteOptions own = arguments.table;
+    own.write = write_options(arguments);
+    return io::write_features(path, format, axes->file, *features, own);
   });
-  if (!described) return std::move(described).error();
-  const double seconds = watch.seconds();
-  const Stopwatch writing;
-  if (!output.empty()) {
-    io::FeatureWriteOptions own = arguments.write;
-    own.write.chord = common.chord;
-    const Activity shown("writing", output);
-    Status written = io::write_features(output, format, axes->native, features, own);
-    if (!written) return std::move(written).error();
-  }
-  Status told = tell(*axes, features, arguments, seconds, output.empty() ? 0 : writing.seconds());
-  if (!told) return std::move(told).error();
-  return exit_success;
+  if (!written) return std::move(written).error();
+  return finish_features(*axes, *features, arguments);
 }
 
 void add_thresholds(CLI::App& command, FeatureOptions& options) {
-  constexpr char group[] = "Thresholds (no unit)";
+  const OptionGroup group(command, "Thresholds (no unit)");
   const auto add = [&](const char* name, double& value, const char* help) {
-    command.add_option(name, value, fmt::format("{} (default: {}).", help, value))
-        ->check(in_range(0, most))
-        ->option_text("X")
-        ->group(group);
+    add_value(command, name, value, "X", in_range(0, most),
+              fmt::format("{} (default: {}).", help, value));
   };
   add("--parallel", options.parallel, "A worm's radius changes by at most this times its length,");
   add("--even", options.even, "and by at most this times its mean radius");
@@ -166,26 +129,21 @@ Command make_features_command(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "features", "Describe shapes by their branches and what these are made of.");
   add_input_options(*command, arguments->input);
-  add_output_options(*command, arguments->output, arguments->format, io::known_feature_formats());
+  add_output_options(*command, *arguments, io::known_feature_formats());
+  add_choice<io::FeatureTable>(
+      *command, "--table", arguments->table.table,
+      {{"runs", io::FeatureTable::runs},
+       {"branches", io::FeatureTable::branches},
+       {"points", io::FeatureTable::points}},
+      "What .geojson .shp .fgb .csv hold: runs (default), branches or points;\n"
+      ".json and .gpkg hold all.");
   command
-      ->add_option_function<std::string>(
-          "--table",
-          [arguments](const std::string& name) {
-            arguments->write.table = name == "runs"       ? io::FeatureTable::runs
-                                     : name == "branches" ? io::FeatureTable::branches
-                                                          : io::FeatureTable::points;
-          },
-          "What .geojson .shp .fgb .csv hold: runs (default), branches or points;\n"
-          ".json and .gpkg hold all.")
-      ->check(CLI::IsMember({"runs", "branches", "points"}).description(""))
-      ->option_text("NAME");
-  command
-      ->add_flag("!--no-names", arguments->write.names, "Pictures without the names of primitives.")
+      ->add_flag("!--no-names", arguments->table.names, "Pictures without the names of primitives.")
       ->group("Pictures");
   add_thresholds(*command, arguments->options);
   add_exterior_options(*command, arguments->axis,
-                       "Of what lies around the shape and in its holes, within a frame.");
-  add_picture_options(*command, arguments->write.write);
+                       "Describe what lies around the shape and in its holes, within a rectangle.");
+  add_picture_options(*command, arguments->write);
   add_common_options(*command, arguments->common);
   command->footer(
       "INPUT may be shapes, whose axes are then computed, or medial's own .json. A branch\n"
@@ -198,7 +156,7 @@ Command make_features_command(CLI::App& program) {
       "  medial features leaf.svg -o leaf-features.svg\n"
       "  medial axis plan.geojson -o - --format json | medial features - -o features.gpkg\n"
       "  medial features gear.dxf -o - --format csv --table branches");
-  return {command, [arguments] { return run_features(*arguments); }};
+  return command_of(command, arguments, run_features);
 }
 
 }  // namespace medial::cli

@@ -7,51 +7,40 @@
 
 #include "cli/commands.h"
 #include "cli/common.h"
-#include "cli/costs.h"
 #include "cli/pipeline.h"
-#include "cli/terminal.h"
 #include "medial/io/field.h"
 
 namespace medial::cli {
 namespace {
 
-struct FieldArguments {
-  InputOptions input;
-  CommonOptions common;
-  std::string output;
+struct FieldArguments : FileArguments {
   double order = 1;
   io::FieldPictureOptions picture;
 };
 
 Result<int> run_field(const FieldArguments& arguments) {
-  Status writable = check_output(arguments.output, {}, io::known_field_formats(),
-                                 arguments.input.path, arguments.common.json);
+  Status writable = check_output(arguments, io::known_field_formats());
   if (!writable) return std::move(writable).error();
-  auto file = load_shapes(arguments.input, arguments.common.threads);
+  auto file = load_shapes(arguments.input, arguments.common);
   if (!file) return std::move(file).error();
-  print_notes(*file, arguments.input, arguments.common);
-  const Stopwatch drawing;
+  std::vector<Shape> shapes;
   std::vector<PotentialField> fields;
-  for (std::size_t i = 0; i < file->shapes.size(); ++i) {
-    auto field = PotentialField::make(file->shapes[i], arguments.order);
-    if (!field) return at_feature(std::move(field).error(), arguments.input.path, i);
+  for (ShapeItem& item : file->file.items) {
+    auto field = PotentialField::make(item.shape, arguments.order);
+    if (!field) {
+      field.error().place.feature = fields.size();
+      return std::move(field).error();
+    }
     fields.push_back(std::move(field).value());
+    shapes.push_back(std::move(item.shape));
   }
   io::FieldPictureOptions picture = arguments.picture;
-  picture.y_down = file->y_down;
-  Status written = io::write_field(arguments.output, {}, file->shapes, fields, picture);
+  picture.y_down = file->file.y_down;
+  Status written = io::write_field(arguments.output, {}, shapes, fields, picture);
   if (!written) return std::move(written).error();
-  const Json costs = costs_of(
-      arguments.common,
-      {{"read", file->seconds_read}, {"shape", file->seconds_shape}, {"draw", drawing.seconds()}});
-  if (arguments.common.json) {
-    Json object = {{"input", arguments.input.path}, {"output", arguments.output}};
-    if (arguments.common.stats) object.update(costs);
-    Status printed = print(object);
-    if (!printed) return std::move(printed).error();
-  }
-  print_costs(arguments.common, costs);
-  return exit_success;
+  file->phases.end("draw");
+  return finish(arguments.common, {{"input", arguments.input.path}, {"output", arguments.output}},
+                file->phases, {});
 }
 
 }  // namespace
@@ -61,20 +50,13 @@ Command make_field_command(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "field", "Draw the potential of a charged border and its force lines.");
   add_input_options(*command, arguments->input);
-  command
-      ->add_option("-o,--output", arguments->output,
-                   "The picture; its extension tells the format: " + io::known_field_formats())
-      ->required()
-      ->check(a_name())
-      ->option_text("PICTURE REQUIRED");
-  command->add_option("--order", arguments->order, "The n of the potential 1 / r^n (default: 1).")
-      ->check(in_range(1.0, 256.0, true))
-      ->option_text("N");
-  command
-      ->add_option("--lines", arguments->picture.lines,
-                   "Force lines begin on a grid, so many along the longer side (default: 40).")
-      ->check(in_range(0, 1000, true))
-      ->option_text("N");
+  add_output_option(*command, arguments->output, "PICTURE REQUIRED",
+                    "The picture; its extension chooses the format: " + io::known_field_formats())
+      ->required();
+  add_value(*command, "--order", arguments->order, "N", in_range(1.0, 256.0, true),
+            "The n of the potential 1 / r^n (default: 1).");
+  add_value(*command, "--lines", arguments->picture.lines, "N", in_range(0, 1000, true),
+            "Force lines begin on a grid, so many along the longer side (default: 40).");
   add_width_option(*command, arguments->picture.width);
   command->add_flag("!--no-brightness", arguments->picture.brightness, "Draw the lines only.");
   add_common_options(*command, arguments->common);
@@ -86,7 +68,7 @@ Command make_field_command(CLI::App& program) {
       "Examples:\n"
       "  medial field plan.wkt -o field.png\n"
       "  medial field plan.wkt -o lines.svg --order 8 --no-brightness");
-  return {command, [arguments] { return run_field(*arguments); }};
+  return command_of(command, arguments, run_field);
 }
 
 }  // namespace medial::cli

@@ -7,30 +7,10 @@
 
 #include "cli/commands.h"
 #include "cli/common.h"
-#include "cli/costs.h"
 #include "cli/pipeline.h"
-#include "cli/terminal.h"
 
 namespace medial::cli {
 namespace {
-
-struct InfoArguments {
-  InputOptions input;
-  CommonOptions common;
-};
-
-/// Adds lines of a name and a value.
-class Table {
- public:
-  void row(const char* name, const std::string& value) {
-    text_ += fmt::format("{:<20}{}\n", name, value);
-  }
-  void row(const char* name, std::uint64_t count) { row(name, fmt::format("{}", count)); }
-  const std::string& text() const { return text_; }
-
- private:
-  std::string text_;
-};
 
 struct ShapeSummary {
   std::uint64_t components = 0;
@@ -41,11 +21,12 @@ struct ShapeSummary {
   Box extent;
 };
 
-template <class Shapes>
-ShapeSummary summarize_shapes(const Shapes& shapes) {
+template <class Item>
+ShapeSummary summarize_shapes(const Document<Item>& file) {
   ShapeSummary summary;
   Box extent = Box::nothing();
-  for (const Shape& shape : shapes) {
+  for (const Item& item : file.items) {
+    const Shape& shape = item.shape;
     summary.components += shape.component_count();
     summary.loops += shape.loop_count();
     summary.holes += shape.hole_count();
@@ -57,14 +38,14 @@ ShapeSummary summarize_shapes(const Shapes& shapes) {
   return summary;
 }
 
-void add_rows(Table& table, const ShapeSummary& summary) {
-  table.row("outer rings", summary.loops - summary.holes);
-  table.row("holes", summary.holes);
-  table.row("vertices", summary.vertices);
-  table.row("extent",
+void add_rows(Rows& table, const ShapeSummary& summary) {
+  table.add("outer rings", summary.loops - summary.holes);
+  table.add("holes", summary.holes);
+  table.add("vertices", summary.vertices);
+  table.add("extent",
             fmt::format("x {:.10g} to {:.10g}, y {:.10g} to {:.10g}", summary.extent.low.x,
                         summary.extent.high.x, summary.extent.low.y, summary.extent.high.y));
-  table.row("area", fmt::format("{:.10g}", summary.area));
+  table.add("area", fmt::format("{:.10g}", summary.area));
 }
 
 void add_members(Json& object, const ShapeSummary& summary) {
@@ -81,53 +62,41 @@ std::string crs_text(const std::string& wkt, bool geographic) {
   return (name.empty() ? "unknown" : name) + (geographic ? " (longitude and latitude)" : "");
 }
 
-/// Prints what was found as an object or as a table, with the costs of finding it on request.
-Result<int> tell(const CommonOptions& common, Json object, const Table& table,
-                 const Json& seconds) {
-  const Json costs = costs_of(common, seconds);
-  if (common.json && common.stats) object.update(costs);
-  Status printed = common.json ? print(object) : print(table.text());
-  if (!printed) return std::move(printed).error();
-  print_costs(common, costs);
-  return exit_success;
-}
-
-/// Of what is no shape, the error tells; main() reports it.
-Result<int> tell_shapes(const InfoArguments& arguments) {
-  auto file = load_shapes(arguments.input, arguments.common.threads);
-  if (!file) return std::move(file).error();
-  print_notes(*file, arguments.input, arguments.common);
-  const ShapeSummary summary = summarize_shapes(file->shapes);
+/// Invalid polygons are an error, which main() reports.
+Result<int> summarize_polygons(const FileArguments& arguments) {
+  auto loaded = load_shapes(arguments.input, arguments.common);
+  if (!loaded) return std::move(loaded).error();
+  const auto& [file, report, phases] = *loaded;
+  const auto& [cleaned, arcs] = report;
+  const ShapeSummary summary = summarize_shapes(file);
   Json object = {{"input", arguments.input.path},
                  {"kind", "polygons"},
                  {"valid", true},
-                 {"features", file->shapes.size()}};
+                 {"features", file.items.size()}};
   add_members(object, summary);
-  object["input_rings"] = file->report.input_rings;
-  object["input_points"] = file->report.input_points;
-  object["cleaned"] = to_json(file->report);
-  if (file->arcs.pieces > 0) object["arcs"] = to_json(file->arcs);
-  object["notes"] = file->notes;
-  object["crs"] = crs_name(file->crs_wkt);
-  object["geographic"] = file->geographic;
+  object["input_rings"] = cleaned.input_rings;
+  object["input_points"] = cleaned.input_points;
+  object["cleaned"] = to_json(cleaned);
+  if (arcs.pieces > 0) object["arcs"] = to_json(arcs);
+  object["notes"] = file.notes;
+  object["crs"] = crs_name(file.crs_wkt);
+  object["geographic"] = file.geographic;
 
-  Table table;
-  table.row("polygons", "valid");
-  table.row("features", file->shapes.size());
+  Rows table(20);
+  table.add("polygons", "valid");
+  table.add("features", file.items.size());
   add_rows(table, summary);
-  table.row("as read", fmt::format("{}, {}", counted(file->report.input_rings, "ring"),
-                                   counted(file->report.input_points, "point")));
-  const std::string mended = describe(file->report);
-  table.row("cleaned", mended.empty() ? "nothing" : mended);
-  if (file->arcs.pieces > 0) {
-    table.row("curves",
-              fmt::format("{} as {} and {}, within {:.3g}", counted(file->arcs.pieces, "piece"),
-                          counted(file->arcs.arcs, "arc"), counted(file->arcs.segments, "segment"),
-                          file->arcs.largest_error));
+  table.add("as read", fmt::format("{}, {}", counted(cleaned.input_rings, "ring"),
+                                   counted(cleaned.input_points, "point")));
+  const std::string cleaned_text = describe(cleaned);
+  table.add("cleaned", cleaned_text.empty() ? "nothing" : cleaned_text);
+  if (arcs.pieces > 0) {
+    table.add("curves", fmt::format("{} as {} and {}, within {:.3g}", counted(arcs.pieces, "piece"),
+                                    counted(arcs.arcs, "arc"), counted(arcs.segments, "segment"),
+                                    arcs.largest_error));
   }
-  table.row("coordinates", crs_text(file->crs_wkt, file->geographic));
-  return tell(arguments.common, std::move(object), table,
-              {{"read", file->seconds_read}, {"shape", file->seconds_shape}});
+  table.add("coordinates", crs_text(file.crs_wkt, file.geographic));
+  return finish(arguments.common, std::move(object), phases, table.text());
 }
 
 /// One value if all axes agree, or else how many there are.
@@ -139,19 +108,30 @@ std::string common_value(const Document<AxisItem>& file, Get get) {
   return same ? first : "differs by feature";
 }
 
-Result<int> tell_axes(const InfoArguments& arguments) {
-  const Stopwatch reading;
+std::string nodes_text(const AxisSummary& axes) {
+  return fmt::format("{} ({}, {}, {})", axes.nodes(), counted(axes.leaves, "leaf", "leaves"),
+                     counted(axes.site_changes, "change of sites", "changes of sites"),
+                     counted(axes.branchings, "branching"));
+}
+
+std::string deepest_text(const AxisSummary& axes) {
+  const Disk& disk = axes.deepest;
+  return fmt::format(
+      "radius {:.10g} at ({:.10g}, {:.10g}){}", disk.radius, disk.center.x, disk.center.y,
+      axes.features > 1 ? fmt::format(", feature {}", axes.deepest_feature) : std::string());
+}
+
+Result<int> summarize_axes(const FileArguments& arguments) {
+  Phases phases;
   const auto file = io::read_native(arguments.input.path);
   if (!file) return file.error();
-  const double seconds_read = reading.seconds();
-  if (file->items.empty()) {
-    return error_at(ErrorCode::empty, arguments.input.path, "holds no axis");
-  }
-  if (holds_contours(*file)) return tell_shapes(arguments);
+  phases.end("read");
+  if (file->items.empty()) return error_at(ErrorCode::empty, arguments.input.path, "holds no axis");
+  // Contours are shapes whose axes are still to be computed.
+  if (std::ranges::any_of(file->items, [](const auto& item) { return !item.contours.empty(); }))
+    return summarize_polygons(arguments);
   const AxisSummary axes = summarize(*file);
-  std::vector<std::reference_wrapper<const Shape>> shape_list;
-  for (const AxisItem& item : file->items) shape_list.emplace_back(item.shape);
-  const ShapeSummary shapes = summarize_shapes(shape_list);
+  const ShapeSummary shapes = summarize_shapes(*file);
   const std::string method = common_value(*file, [](const MedialAxis& a) { return a.method; });
   double tolerance = 0;
   double resolution = 0;
@@ -174,56 +154,46 @@ Result<int> tell_axes(const InfoArguments& arguments) {
   add_members(object["shape"], shapes);
   object["crs"] = crs_name(file->crs_wkt);
 
-  Table table;
-  table.row("medial axes", axes.features);
-  table.row("method", method);
-  table.row("tolerance", fmt::format("{:.3g}", tolerance));
-  if (resolution > 0) table.row("resolution", fmt::format("{:.3g}", resolution));
-  table.row("sites", axes.sites);
-  table.row("nodes",
-            fmt::format("{} ({}, {}, {})", axes.nodes(), counted(axes.leaves, "leaf", "leaves"),
-                        counted(axes.site_changes, "change of sites", "changes of sites"),
-                        counted(axes.branchings, "branching")));
-  table.row("edges", axes.edges);
-  table.row("branches", axes.branches);
-  table.row("length", fmt::format("{:.10g}", axes.length));
-  if (axes.deepest.radius >= 0) {
-    const std::string where =
-        axes.features > 1 ? fmt::format(", feature {}", axes.deepest_feature) : std::string();
-    table.row("deepest disk",
-              fmt::format("radius {:.10g} at ({:.10g}, {:.10g}){}", axes.deepest.radius,
-                          axes.deepest.center.x, axes.deepest.center.y, where));
-  }
+  Rows table(20);
+  table.add("medial axes", axes.features);
+  table.add("method", method);
+  table.add("tolerance", fmt::format("{:.3g}", tolerance));
+  if (resolution > 0) table.add("resolution", fmt::format("{:.3g}", resolution));
+  table.add("sites", axes.sites);
+  table.add("nodes", nodes_text(axes));
+  table.add("edges", axes.edges);
+  table.add("branches", axes.branches);
+  table.add("length", fmt::format("{:.10g}", axes.length));
+  if (axes.deepest.radius >= 0) table.add("deepest disk", deepest_text(axes));
   add_rows(table, shapes);
-  table.row("coordinates", crs_text(file->crs_wkt, false));
-  return tell(arguments.common, std::move(object), table, {{"read", seconds_read}});
+  table.add("coordinates", crs_text(file->crs_wkt, false));
+  return finish(arguments.common, std::move(object), phases, table.text());
 }
 
-Result<int> run_info(const InfoArguments& arguments) {
-  if (!arguments.input.text.empty() || !io::is_native(arguments.input.path)) {
-    return tell_shapes(arguments);
-  }
-  return tell_axes(arguments);
+Result<int> run_info(const FileArguments& arguments) {
+  const InputOptions& input = arguments.input;
+  const bool shapes = !input.source.text.empty() || !io::is_native(input.path);
+  return shapes ? summarize_polygons(arguments) : summarize_axes(arguments);
 }
 
 }  // namespace
 
 Command make_info_command(CLI::App& program) {
-  auto arguments = std::make_shared<InfoArguments>();
-  CLI::App* command = program.add_subcommand("info", "Tell what a file of polygons or axes holds.");
+  auto arguments = std::make_shared<FileArguments>();
+  CLI::App* command = program.add_subcommand("info", "Summarise a file of polygons or axes.");
   add_input_options(*command, arguments->input);
   add_common_options(*command, arguments->common);
   command->footer(
-      "Of polygons: features, outer rings, holes, vertices, extent, area, what was\n"
-      "cleaned, and the coordinate reference system; polygons that are not valid are an\n"
-      "error (exit status 2) that names the place. Of axes: nodes by kind, edges,\n"
-      "branches, length and the deepest disk, which is the maximum inscribed circle.\n"
+      "For polygons: features, outer rings, holes, vertices, extent, area, what was\n"
+      "cleaned, and the coordinate reference system; invalid polygons are an error (exit\n"
+      "status 2) that names the place. For axes: nodes by kind, edges, branches, length\n"
+      "and the deepest disk, which is the maximum inscribed circle.\n"
       "Lengths are in the units of the file.\n"
       "\n"
       "Examples:\n"
       "  medial info country.shp\n"
       "  medial info --json plan.json");
-  return {command, [arguments] { return run_info(*arguments); }};
+  return command_of(command, arguments, run_info);
 }
 
 }  // namespace medial::cli

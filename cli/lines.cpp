@@ -113,28 +113,18 @@ void add_path_options(CLI::App& command, PathOptions& arguments) {
       "those the shortest.");
   for (CLI::Option* place : {from, to}) place->check(a_place())->option_text("PLACE");
   widest->check(a_place())->expected(2)->option_text("PLACE PLACE")->excludes(from)->excludes(to);
-  command
-      .add_option_function<std::string>(
-          "--route",
-          [&arguments](const std::string& name) {
-            arguments.path.route = name == "shortest" ? Route::shortest : Route::roomy;
-          },
-          "Which way around holes: roomy (default), where a passage twice as wide may\n"
-          "be twice as long; or shortest.")
-      ->check(CLI::IsMember({"roomy", "shortest"}).description(""))
-      ->option_text("NAME");
-  command
-      .add_option("--trim", arguments.path.trim,
-                  "Ends do not run into corners: what protrudes from a disk by at most so\n"
-                  "many of its radii is cut (default: 1, corners of 60 degrees and more; 0\n"
-                  "cuts nothing).")
-      ->check(in_range(0, 1e6))
-      ->option_text("RADII");
+  add_choice<Route>(command, "--route", arguments.path.route,
+                    {{"roomy", Route::roomy}, {"shortest", Route::shortest}},
+                    "Which way around holes: roomy (default), where a passage twice as wide may\n"
+                    "be twice as long; or shortest.");
+  add_value(command, "--trim", arguments.path.trim, "RADII", in_range(0, 1e6),
+            "Ends do not run into corners: what protrudes from a disk by at most so\n"
+            "many of its radii is cut (default: 1, corners of 60 degrees and more; 0\n"
+            "cuts nothing).");
 }
 
 Result<std::vector<std::vector<AxisPath>>> choose_paths(const Document<AxisItem>& file,
-                                                        const PathOptions& arguments,
-                                                        const std::string& input, int threads) {
+                                                        const PathOptions& arguments, int threads) {
   std::vector<std::vector<AxisPath>> paths(file.items.size());
   const bool widest = !arguments.widest.empty();
   const std::string& from = widest ? arguments.widest[0] : arguments.from;
@@ -145,21 +135,15 @@ Result<std::vector<std::vector<AxisPath>>> choose_paths(const Document<AxisItem>
     const std::size_t chosen = feature_of(file, begin);
     auto path = path_between_named(file.items[chosen], begin, end, arguments);
     if (!path) {
-      Error error = std::move(path).error();
-      error.place.file = input;
-      error.place.feature = chosen;
-      return error;
+      path.error().place.feature = chosen;
+      return std::move(path).error();
     }
     paths[chosen].push_back(std::move(path).value());
     return paths;
   }
-  const std::vector<double> weights(file.items.size(), 1.0);
-  Status found = for_each_feature(weights, threads, [&](std::size_t i, int) -> Status {
-    paths[i] = main_paths(file.items[i].axis, arguments.path);
-    return success();
-  });
-  if (!found) return std::move(found).error();
-  return paths;
+  return map_items<std::vector<AxisPath>>(
+      std::vector<double>(paths.size(), 1.0), threads,
+      [&](std::size_t i, int) { return main_paths(file.items[i].axis, arguments.path); });
 }
 
 }  // namespace medial::cli

@@ -1,6 +1,6 @@
 #pragma once
 
-// Which paths along the axes of a file are meant: the arguments of `centreline` and `measure`.
+// The options of `centreline` and `measure` that choose paths along the axes of a file.
 
 #include <string>
 #include <vector>
@@ -21,10 +21,9 @@ struct PathOptions {
 /// --from, --to, --widest, --route, --trim.
 void add_path_options(CLI::App& command, PathOptions& arguments);
 
-/// The paths of every feature: the main paths, or the one between the places that were named, in
-/// the feature where the first of them lies. Errors name the feature.
+/// The paths of every feature: the main paths, or the one between the named places, in the feature
+/// where the first of them lies. Errors name the feature.
 Result<std::vector<std::vector<AxisPath>>> choose_paths(const Document<AxisItem>& file,
-                                                        const PathOptions& arguments,
-                                                        const std::string& input, int threads);
+                                                        const PathOptions& arguments, int threads);
 
 }  // namespace medial::cli

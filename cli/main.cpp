@@ -7,12 +7,10 @@
 #include <new>
 #include <sstream>
 #include <string>
-#include <system_error>
 #include <vector>
 
 #include "cli/commands.h"
 #include "cli/common.h"
-#include "cli/terminal.h"
 #include "medial/threads.h"
 
 namespace medial::cli {
@@ -40,68 +38,65 @@ int requested_threads(const CLI::App& command) {
   return option != nullptr && option->count() > 0 ? option->as<int>() : 0;
 }
 
-int run(int argc, char** argv, bool json) {
-  CLI::App program(
-      "Exact medial axis transform of shapes with holes: all centres of the largest\n"
-      "disks inside a shape, with their radii.");
+/// In the order of the help.
+constexpr MakeCommand* makers[] = {
+    make_axis_command,     make_verify_command,   make_info_command,   make_legal_command,
+    make_draw_command,     make_prune_command,    make_smooth_command, make_rebuild_command,
+    make_features_command, make_match_command,    make_pack_command,   make_unpack_command,
+    make_voronoi_command,  make_distance_command, make_voxels_command, make_field_command,
+    make_compare_command,  make_methods_command,  make_offset_command, make_centreline_command,
+    make_measure_command,  make_carve_command};
+
+void describe_program(CLI::App& program) {
   program.name("medial");
   program.formatter(std::make_shared<HelpFormatter>());
   program.set_version_flag("--version", "medial " MEDIAL_VERSION, "Print the version.");
   program.set_help_flag("--help,-h", "Print this help.");
   program.require_subcommand(1);
-  program.get_formatter()->label("SUBCOMMAND", "VERB");
+  program.get_formatter()->label("SUBCOMMAND", "COMMAND");
   program.footer(
-      "`medial VERB --help` tells each command's options, with examples.\n"
+      "Run `medial COMMAND --help` for its options and examples.\n"
       "\n"
-      "Exit status: 0 done; 1 `verify`, `legal` or `compare` refused an axis; 2 an error, told\n"
-      "in one line on standard error as `medial: FILE: feature F, ring R, vertex V at (X, Y): "
-      "what\n"
-      "is wrong [code]`. Features, rings and vertices count from 0. Nothing is written\n"
-      "then, and an interrupted run leaves no partial file.");
-  const std::array commands = {
-      make_axis_command(program),        //
-      make_verify_command(program),      //
-      make_info_command(program),        //
-      make_legal_command(program),       //
-      make_draw_command(program),        //
-      make_prune_command(program),       //
-      make_smooth_command(program),      //
-      make_rebuild_command(program),     //
-      make_features_command(program),    //
-      make_match_command(program),       //
-      make_pack_command(program),        //
-      make_unpack_command(program),      //
-      make_voronoi_command(program),     //
-      make_distance_command(program),    //
-      make_voxels_command(program),      //
-      make_field_command(program),       //
-      make_compare_command(program),     //
-      make_methods_command(program),     //
-      make_offset_command(program),      //
-      make_centreline_command(program),  //
-      make_measure_command(program),     //
-      make_carve_command(program),       //
-  };
-  for (const Command& command : commands) command.app->group("Commands");
+      "Exit status: 0 for success; 1 if `verify`, `legal` or `compare` rejects an axis; 2 for an\n"
+      "error, printed as one line on standard error: `medial: FILE: feature F, ring R, vertex V\n"
+      "at (X, Y): what is wrong [code]`. Features, rings and vertices count from 0. No output is\n"
+      "written then, and an interrupted run leaves no partial file.");
+}
 
+/// Prints the help or the version, or what is wrong with the command line.
+int explain_and_exit(const CLI::App& program, const CLI::ParseError& parse_error, bool json) {
+  if (parse_error.get_exit_code() == 0) {
+    std::ostringstream text;
+    program.exit(parse_error, text, text);
+    const Status printed = print(text.str());
+    return printed ? exit_success : report_error(printed.error(), json);
+  }
+  const std::vector<const CLI::App*> chosen =
+      program.get_subcommands([](const CLI::App* command) { return command->parsed(); });
+  if (!chosen.empty()) {
+    const std::string hint = "; see medial " + chosen.back()->get_name() + " --help";
+    return report_error(invalid_option(explain(parse_error, *chosen.back())), json, hint);
+  }
+  const std::vector<std::string> unknown = program.remaining();
+  return report_error(
+      invalid_option(unknown.empty() ? "a command is missing" : "unknown command: " + unknown[0]),
+      json, "; see medial --help");
+}
+
+int run(int argc, char** argv, bool json) {
+  CLI::App program(
+      "Exact medial axis transform of shapes with holes: all centres of the largest\n"
+      "disks inside a shape, with their radii.");
+  describe_program(program);
+  std::vector<Command> commands;
+  for (MakeCommand* make : makers) {
+    commands.push_back(make(program));
+    commands.back().app->group("Commands");
+  }
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& parse_error) {
-    if (parse_error.get_exit_code() == 0) {  // help and version
-      std::ostringstream text;
-      program.exit(parse_error, text, text);
-      const Status printed = print(text.str());
-      return printed ? exit_success : report_error(printed.error(), json);
-    }
-    const std::vector<CLI::App*> chosen = program.get_subcommands();
-    if (chosen.empty()) {
-      const std::vector<std::string> unknown = program.remaining();
-      return report_error(invalid_option(unknown.empty() ? "a command is missing"
-                                                         : "no such command: " + unknown[0]),
-                          json, "; see medial --help");
-    }
-    const std::string hint = "; see medial " + chosen.back()->get_name() + " --help";
-    return report_error(invalid_option(explain(parse_error, *chosen.back())), json, hint);
+    return explain_and_exit(program, parse_error, json);
   }
   const auto command = std::find_if(commands.begin(), commands.end(), [](const Command& candidate) {
     return candidate.app->parsed();

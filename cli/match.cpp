@@ -1,4 +1,4 @@
-// medial match: how like shapes are.
+// medial match: how similar shapes are.
 
 #include "medial/match.h"
 
@@ -11,8 +11,6 @@
 #include "cli/commands.h"
 #include "cli/common.h"
 #include "cli/pipeline.h"
-#include "cli/stored_axes.h"
-#include "cli/terminal.h"
 #include "medial/compute.h"
 
 namespace medial::cli {
@@ -20,9 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct MatchArguments {
-  InputOptions input;
-  CommonOptions common;
+struct MatchArguments : FileArguments {
   std::string other;
   std::uint64_t best = 10;
   bool each = false;
@@ -70,36 +66,37 @@ void join_items(std::vector<AxisItem>& items) {
   }
 }
 
+/// The signature of a shape without its specks.
+Result<ShapeSignature> signature_of(AxisItem& item) {
+  MedialAxis& axis = item.axis;
+  const Shape kept = without_specks(item.shape);
+  // An exact axis of the interior is computed again where specks were left out.
+  if (kept.loop_count() < item.shape.loop_count() && axis.resolution == 0 && axis.exterior == 0) {
+    Options options;
+    options.threads = 1;
+    auto again = compute(kept, options);
+    if (!again) return std::move(again).error();
+    axis = std::move(again).value();
+  }
+  return medial::signature_of(axis, medial::describe(axis));
+}
+
 /// The signatures of a file's features, or of all of it as one shape.
 Result<std::vector<NamedSignature>> signatures_of(const InputOptions& input,
                                                   const CommonOptions& common, bool each) {
   auto axes = load_axes(input, common);
   if (!axes) return std::move(axes).error();
-  std::vector<AxisItem>& items = axes->native.items;
-  std::vector<NamedSignature> out(each ? items.size() : std::min<std::size_t>(items.size(), 1));
-  if (!each) join_items(items);
-  std::vector<double> weights;
-  for (std::size_t i = 0; i < out.size(); ++i)
-    weights.push_back(static_cast<double>(items[i].axis.edges.size()) + 1);
-  Status signed_all = for_each_feature(weights, common.threads, [&](std::size_t i, int) -> Status {
-    MedialAxis& axis = items[i].axis;
-    const Shape kept = without_specks(items[i].shape);
-    // An exact axis of the interior is computed again where specks were left out.
-    if (kept.loop_count() < items[i].shape.loop_count() && axis.resolution == 0 &&
-        axis.exterior == 0) {
-      Options options;
-      options.threads = 1;
-      auto again = compute(kept, options);
-      if (!again) return std::move(again).error();
-      axis = std::move(again).value();
-    }
-    out[i].signature = signature_of(axis, describe(axis));
-    return success();
-  });
-  if (!signed_all) return std::move(signed_all).error();
-  for (std::size_t i = 0; i < out.size(); ++i)
-    out[i].name = each ? fmt::format("{}#{}", input.path, i) : input.path;
-  return out;
+  std::vector<AxisItem>& items = axes->file.items;
+  if (!each) {
+    join_items(items);
+    items.resize(std::min<std::size_t>(items.size(), 1));
+  }
+  const auto sign = [&](std::size_t i, int) -> Result<NamedSignature> {
+    auto signature = signature_of(items[i]);
+    if (!signature) return std::move(signature).error();
+    return NamedSignature{each ? fmt::format("{}#{}", input.path, i) : input.path, *signature};
+  };
+  return map_items<NamedSignature>(edge_weights_of(axes->file), common.threads, sign);
 }
 
 /// The files of a folder, those below it included, by name.
@@ -114,67 +111,64 @@ Result<std::vector<std::string>> files_of(const std::string& folder) {
   return files;
 }
 
-Result<int> run_match(const MatchArguments& arguments) {
-  const auto& [input, common, other, best, each] = arguments;
-  const Stopwatch watch;
-  auto asked = signatures_of(input, common, false);
-  if (!asked) return std::move(asked).error();
-  const bool folder = fs::is_directory(other);
-  std::vector<std::string> paths{other};
-  if (folder) {
-    auto files = files_of(other);
-    if (!files) return std::move(files).error();
-    paths = std::move(files).value();
-  }
-  std::vector<NamedSignature> candidates;
-  std::uint64_t refused = 0;
-  for (const std::string& path : paths) {
-    InputOptions own = input;
-    own.path = path;
-    CommonOptions quiet = common;
-    quiet.quiet = quiet.quiet || folder;
-    auto found = signatures_of(own, quiet, each);
-    if (!found) {
-      // In a folder, other files are not at fault.
-      if (!folder) return std::move(found).error();
-      ++refused;
-      continue;
-    }
-    std::ranges::move(*found, std::back_inserter(candidates));
-  }
-  if (candidates.empty()) return error_at(ErrorCode::empty, other, "holds no shape");
+/// What the first shape is compared with.
+struct Candidates {
+  std::vector<NamedSignature> shapes;
+  std::uint64_t refused = 0;  ///< files of a folder without shapes
+};
 
-  struct Ranked {
-    double value;
-    const NamedSignature* named;
-  };
-  std::vector<Ranked> ranked;
-  for (const NamedSignature& named : candidates)
-    ranked.push_back({dissimilarity(asked->front().signature, named.signature), &named});
-  std::ranges::stable_sort(ranked, {}, &Ranked::value);
-  const std::size_t shown = best == 0 ? ranked.size() : std::min<std::size_t>(best, ranked.size());
-  if (common.json) {
-    Json list = Json::array();
-    for (std::size_t i = 0; i < shown; ++i)
-      list.push_back({{"shape", ranked[i].named->name}, {"dissimilarity", ranked[i].value}});
-    Json object = {{"input", input.path},
-                   {"candidates", candidates.size()},
-                   {"refused", refused},
-                   {"matches", std::move(list)}};
-    if (common.stats) object.update({{"seconds", watch.seconds()}, {"peak_bytes", peak_bytes()}});
-    Status printed = print(object);
-    if (!printed) return std::move(printed).error();
-    return exit_success;
+Result<Candidates> candidates_of(const MatchArguments& arguments) {
+  const bool folder = fs::is_directory(arguments.other);
+  Result<std::vector<std::string>> paths = std::vector{arguments.other};
+  if (folder) paths = files_of(arguments.other);
+  if (!paths) return std::move(paths).error();
+  Candidates out;
+  for (const std::string& path : *paths) {
+    InputOptions own = arguments.input;
+    own.path = path;
+    CommonOptions common = arguments.common;
+    common.quiet = common.quiet || folder;
+    auto found = signatures_of(own, common, arguments.each);
+    if (found) {
+      std::ranges::move(*found, std::back_inserter(out.shapes));
+    } else if (folder) {  // other files are not at fault
+      ++out.refused;
+    } else {
+      return std::move(found).error();
+    }
   }
+  if (out.shapes.empty()) return error_at(ErrorCode::empty, arguments.other, "holds no shape");
+  return out;
+}
+
+Result<int> run_match(const MatchArguments& arguments) {
+  const std::string& path = arguments.input.path;
+  Phases phases;
+  auto asked = signatures_of(arguments.input, arguments.common, false);
+  if (!asked) return std::move(asked).error();
+  const auto candidates = candidates_of(arguments);
+  if (!candidates) return candidates.error();
+  using Ranked = std::pair<double, const NamedSignature*>;
+  std::vector<Ranked> ranked;
+  for (const NamedSignature& named : candidates->shapes)
+    ranked.emplace_back(dissimilarity(asked->front().signature, named.signature), &named);
+  std::ranges::stable_sort(ranked, {}, &Ranked::first);
+  if (arguments.best > 0) ranked.resize(std::min<std::size_t>(arguments.best, ranked.size()));
+  phases.end("match");
   std::string text;
-  for (std::size_t i = 0; i < shown; ++i)
-    text += fmt::format("{:8.4f}  {}\n", ranked[i].value, ranked[i].named->name);
-  if (common.stats) say_text(table({{"seconds", watch.seconds()}, {"peak_bytes", peak_bytes()}}));
-  if (refused > 0 && !common.quiet)
-    say("medial: {}: {} without a shape\n", other, counted(refused, "file"));
-  Status printed = print(text);
-  if (!printed) return std::move(printed).error();
-  return exit_success;
+  Json list = Json::array();
+  for (const auto& [value, named] : ranked) {
+    list.push_back({{"shape", named->name}, {"dissimilarity", value}});
+    text += fmt::format("{:8.4f}  {}\n", value, named->name);
+  }
+  if (candidates->refused > 0 && !arguments.common.json && !arguments.common.quiet)
+    say("medial: {}: {} without a shape\n", arguments.other, counted(candidates->refused, "file"));
+  return finish(arguments.common,
+                {{"input", path},
+                 {"candidates", candidates->shapes.size()},
+                 {"refused", candidates->refused},
+                 {"matches", std::move(list)}},
+                phases, text);
 }
 
 }  // namespace
@@ -182,28 +176,25 @@ Result<int> run_match(const MatchArguments& arguments) {
 Command make_match_command(CLI::App& program) {
   auto arguments = std::make_shared<MatchArguments>();
   CLI::App* command = program.add_subcommand(
-      "match", "Rank shapes by how like another one they are, however turned or scaled.");
+      "match", "Rank shapes by their similarity to another one, however turned or scaled.");
   add_input_options(*command, arguments->input, "OTHER",
                     "A second file of shapes or axes, or a folder of such files.",
                     arguments->other);
   command->add_flag("--each", arguments->each,
                     "Every feature of OTHER is a shape; otherwise each file is one.");
-  command
-      ->add_option("--best", arguments->best,
-                   "Tell so many, the most like first (default: 10; 0: all).")
-      ->check(a_whole_number())
-      ->option_text("N");
+  add_value(*command, "--best", arguments->best, "N", a_whole_number(),
+            "Print so many, the most similar first (default: 10; 0: all).");
   add_common_options(*command, arguments->common);
   command->footer(
       "The numbers are dissimilarities: 0 the same, about 1 two shapes at random. They come\n"
       "from distributions over the axis (thickness, distances, erosion) that rotation,\n"
-      "scale and reflection leave alone, and that noise of the outline hardly moves.\n"
+      "scale and reflection do not change, and noise of the outline hardly.\n"
       "\n"
       "Examples:\n"
       "  medial match horse.png silhouettes/\n"
       "  medial match key.svg tools.geojson --each --best 3\n"
       "  medial match a.json b.json --json");
-  return {command, [arguments] { return run_match(*arguments); }};
+  return command_of(command, arguments, run_match);
 }
 
 }  // namespace medial::cli

@@ -15,7 +15,6 @@
 #include "cli/lines.h"
 #include "cli/pipeline.h"
 #include "cli/plot.h"
-#include "cli/terminal.h"
 #include "medial/io/layers.h"
 #include "medial/io/projection.h"
 #include "medial/query.h"
@@ -24,16 +23,11 @@ namespace medial::cli {
 namespace {
 
 constexpr std::uint64_t most_transects = 1'000'000;
-constexpr std::uint64_t most_disks_told = 10'000;
-constexpr std::size_t necks_told = 5;
+constexpr std::uint64_t most_measured_disks = 10'000;
+constexpr std::size_t default_necks = 5;
 
-struct MeasureArguments {
-  InputOptions input;
-  CommonOptions common;
-  std::string output;
-  std::string format;
+struct MeasureArguments : FileArguments {
   std::string plot;
-  io::WriteOptions write;
   PathOptions path;
   std::uint64_t samples = 200;
   std::uint64_t transects = 0;
@@ -146,10 +140,6 @@ double narrowest_of(const Measured& measured) {
 
 Json point(Vec2 p) { return {{"x", p.x}, {"y", p.y}}; }
 
-Json json_of(const Disk& disk) {
-  return {{"x", disk.center.x}, {"y", disk.center.y}, {"r", disk.radius}};
-}
-
 Json json_of(const Neck& neck, bool on_line) {
   Json object = {{"x", neck.width.disk.center.x},     {"y", neck.width.disk.center.y},
                  {"width", neck.width.width()},       {"opens_to", 2 * neck.opens_to},
@@ -175,57 +165,59 @@ Json json_of(const Measured& measured, std::size_t necks_wanted) {
                   {{"by_length", measured.mean.by_length},
                    {"by_area", measured.mean.by_area},
                    {"area_by_length", measured.mean.area_by_length}}},
-                 {"widest", json_of(measured.widest)},
+                 {"widest", to_json(measured.widest)},
                  {"lines", std::move(lines)}};
   object["necks"] = Json::array();
   for (std::size_t i = 0; i < std::min(necks_wanted, measured.necks.size()); ++i)
     object["necks"].push_back(json_of(measured.necks[i], false));
   if (!measured.disks.empty()) {
     object["disks"] = Json::array();
-    for (const Disk& disk : measured.disks) object["disks"].push_back(json_of(disk));
+    for (const Disk& disk : measured.disks) object["disks"].push_back(to_json(disk));
   }
   return object;
 }
 
 std::string place(Vec2 p) { return fmt::format("({:.10g}, {:.10g})", p.x, p.y); }
+std::string number(double value) { return fmt::format("{:.10g}", value); }
 
 /// One feature as lines of a name and a value.
 std::string summary_of(const Measured& measured, const MeasureArguments& arguments) {
-  std::string text;
-  const auto row = [&text](const char* name, const std::string& value) {
-    text += fmt::format("{:<24}{}\n", name, value);
-  };
-  row("area", fmt::format("{:.10g}", measured.mean.area));
-  row("length",
-      fmt::format("{:.10g}{}", measured.mean.length,
-                  measured.lines.size() > 1 ? fmt::format(" ({} lines)", measured.lines.size())
-                                            : std::string()));
-  if (measured.mean.length > 0) {
-    row("mean width by length", fmt::format("{:.10g}", measured.mean.by_length));
-    row("area by length", fmt::format("{:.10g}", measured.mean.area_by_length));
+  Rows rows(24);
+  const MeanWidth& mean = measured.mean;
+  rows.add("area", number(mean.area));
+  rows.add("length", number(mean.length) + (measured.lines.size() > 1
+                                                ? fmt::format(" ({} lines)", measured.lines.size())
+                                                : std::string()));
+  if (mean.length > 0) {
+    rows.add("mean width by length", number(mean.by_length));
+    rows.add("area by length", number(mean.area_by_length));
   }
-  row("mean width by area", fmt::format("{:.10g}", measured.mean.by_area));
-  row("widest",
-      fmt::format("{:.10g} at {}", 2 * measured.widest.radius, place(measured.widest.center)));
+  rows.add("mean width by area", number(mean.by_area));
+  rows.add("widest",
+           fmt::format("{:.10g} at {}", 2 * measured.widest.radius, place(measured.widest.center)));
   if (const Neck* neck = narrowest_neck(measured)) {
-    row("narrowest neck on line", fmt::format("{:.10g} at {}, {:.10g} along", neck->width.width(),
-                                              place(neck->width.disk.center), neck->width.along));
+    rows.add("narrowest neck on line",
+             fmt::format("{:.10g} at {}, {:.10g} along", neck->width.width(),
+                         place(neck->width.disk.center), neck->width.along));
   }
-  const std::size_t told = arguments.necks > 0 ? arguments.necks : necks_told;
-  for (std::size_t i = 0; i < std::min<std::size_t>(told, measured.necks.size()); ++i) {
+  const std::size_t shown = std::min<std::size_t>(
+      arguments.necks > 0 ? arguments.necks : default_necks, measured.necks.size());
+  for (std::size_t i = 0; i < shown; ++i) {
     const Neck& neck = measured.necks[i];
-    row(i == 0 ? "necks" : "", fmt::format("{:.10g} at {}, opens to {:.10g}{}", neck.width.width(),
-                                           place(neck.width.disk.center), 2 * neck.opens_to,
-                                           neck.around_hole ? ", around a hole" : ""));
+    rows.add(i == 0 ? "necks" : "",
+             fmt::format("{:.10g} at {}, opens to {:.10g}{}", neck.width.width(),
+                         place(neck.width.disk.center), 2 * neck.opens_to,
+                         neck.around_hole ? ", around a hole" : ""));
   }
   for (std::size_t i = 0; i < measured.disks.size(); ++i) {
-    row(i == 0 ? "largest disks" : "",
-        fmt::format("r {:.10g} at {}", measured.disks[i].radius, place(measured.disks[i].center)));
+    const Disk& disk = measured.disks[i];
+    rows.add(i == 0 ? "largest disks" : "",
+             fmt::format("r {:.10g} at {}", disk.radius, place(disk.center)));
   }
-  return text;
+  return rows.text();
 }
 
-/// Several features, a line each.
+/// Several features, one line each.
 std::string summary_of(const std::vector<Measured>& all) {
   std::string text =
       fmt::format("{:>7} {:>12} {:>12} {:>12} {:>12} {:>12} {:>12} {:>12}\n", "feature", "area",
@@ -245,8 +237,8 @@ std::string summary_of(const std::vector<Measured>& all) {
   return text;
 }
 
-/// feature,line,along,x,y,width,span and both feet.
-/// Places of a local projection become longitudes and latitudes again; widths stay in metres.
+/// feature,line,along,x,y,width,span and both feet. Places of a local projection become longitudes
+/// and latitudes again; widths stay in metres.
 Result<std::string> profile_csv(const std::vector<Measured>& all, const std::string& crs_wkt) {
   std::optional<io::BackToGeographic> back;
   if (io::is_local_projection(crs_wkt)) {
@@ -335,8 +327,8 @@ io::LayerFile layers_of(const Document<AxisItem>& file, const std::vector<Measur
   return layers;
 }
 
-Status write_output(Document<AxisItem>& file, const std::vector<Measured>& all,
-                    const MeasureArguments& arguments) {
+Status write_measures(Document<AxisItem>& file, const std::vector<Measured>& all,
+                      const MeasureArguments& arguments) {
   if (arguments.output.empty()) return success();
   if (arguments.format == "csv" || arguments.output.ends_with(".csv")) {
     const auto text = profile_csv(all, file.crs_wkt);
@@ -350,17 +342,41 @@ Status write_output(Document<AxisItem>& file, const std::vector<Measured>& all,
       pieces.insert(pieces.end(), line.path.pieces.begin(), line.path.pieces.end());
     file.items[i].axis = part_of(file.items[i].axis, pieces);
   }
-  io::WriteOptions write = arguments.write;
-  write.chord = arguments.common.chord;
-  return io::write_layers(arguments.output, arguments.format, layers, file, write);
+  return io::write_layers(arguments.output, arguments.format, layers, file,
+                          write_options(arguments));
 }
 
-Result<int> run_measure(MeasureArguments arguments) {
+Result<std::vector<Measured>> measure_all(const Document<AxisItem>& file,
+                                          const MeasureArguments& arguments) {
+  auto paths = choose_paths(file, arguments.path, arguments.common.threads);
+  if (!paths) return std::move(paths).error();
+  return map_items<Measured>(
+      std::vector<double>(paths->size(), 1.0), arguments.common.threads,
+      [&](std::size_t i, int) { return measure(file.items[i], (*paths)[i], arguments); });
+}
+
+Result<int> finish_measure(const std::vector<Measured>& all, const LoadedAxes& axes,
+                           const MeasureArguments& arguments) {
+  const CommonOptions& common = arguments.common;
+  Json object = {{"input", arguments.input.path}, {"features", Json::array()}};
+  std::string text;
+  if (common.json) {
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      Json one = json_of(all[i], arguments.necks > 0 ? arguments.necks : default_necks);
+      one["attributes"] = to_json(axes.file.items[i].attributes);
+      object["features"].push_back(std::move(one));
+    }
+  } else if (!common.quiet && arguments.output != "-") {
+    text = all.size() == 1 ? summary_of(all[0], arguments) : summary_of(all);
+  }
+  return finish(common, std::move(object), axes.phases, text);
+}
+
+Result<int> run_measure(const MeasureArguments& given) {
+  MeasureArguments arguments = given;
   const InputOptions& input = arguments.input;
   const CommonOptions& common = arguments.common;
-  const std::string formats = ".csv " + io::known_layer_formats();
-  Status writable =
-      check_output(arguments.output, arguments.format, formats, input.path, common.json);
+  Status writable = check_output(arguments, ".csv " + io::known_layer_formats());
   if (writable)
     writable = check_output(arguments.plot, {}, ".svg .png .pdf", input.path, common.json);
   if (!writable) return std::move(writable).error();
@@ -368,55 +384,20 @@ Result<int> run_measure(MeasureArguments arguments) {
   if (arguments.transects == 0 && arguments.spacing == 0 && arguments.necks == 0 &&
       arguments.disks == 0 && !arguments.output.empty())
     arguments.transects = 50;
-
-  auto shapes = load_shapes(input, common.threads);
+  auto shapes = load_shapes(input, common);
   if (!shapes) return std::move(shapes).error();
-  print_notes(*shapes, input, common);
-  auto axes = compute_axes(std::move(shapes).value(), input.path, common, arguments.options);
+  auto axes = compute_axes(std::move(shapes).value(), input, common, arguments.options);
   if (!axes) return std::move(axes).error();
-  const Stopwatch measuring;
-  Document<AxisItem>& file = axes->native;
-  auto paths = choose_paths(file, arguments.path, input.path, common.threads);
-  if (!paths) return std::move(paths).error();
-  std::vector<Measured> all(file.items.size());
-  const std::vector<double> weights(all.size(), 1.0);
-  Status measured = for_each_feature(weights, common.threads, [&](std::size_t i, int) -> Status {
-    auto one = measure(file.items[i], (*paths)[i], arguments);
-    if (!one) return at_feature(std::move(one).error(), input.path, i);
-    all[i] = std::move(one).value();
-    return success();
-  });
-  if (!measured) return std::move(measured).error();
-  const double seconds = measuring.seconds();
-  if (Status written = write_output(file, all, arguments); !written)
+  const auto all = measure_all(axes->file, arguments);
+  if (!all) return all.error();
+  axes->phases.end("measure");
+  if (Status written = write_measures(axes->file, *all, arguments); !written)
     return std::move(written).error();
   if (!arguments.plot.empty()) {
-    Status plotted = write_plots(arguments.plot, profile_plots(all, input.path));
+    Status plotted = write_plots(arguments.plot, profile_plots(*all, input.path));
     if (!plotted) return std::move(plotted).error();
   }
-
-  const Json costs = {{"seconds",
-                       {{"read", axes->seconds_read},
-                        {"shape", axes->seconds_shape},
-                        {"axis", axes->seconds_axis},
-                        {"measure", seconds}}}};
-  Status printed = success();
-  if (common.json) {
-    Json object = {{"input", input.path}, {"features", Json::array()}};
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      Json one = json_of(all[i], arguments.necks > 0 ? arguments.necks : necks_told);
-      one["attributes"] = Json::object();
-      for (const auto& [name, value] : file.items[i].attributes) one["attributes"][name] = value;
-      object["features"].push_back(std::move(one));
-    }
-    if (common.stats) object.update(costs);
-    printed = print(object);
-  } else if (!common.quiet && arguments.output != "-") {
-    printed = print(all.size() == 1 ? summary_of(all[0], arguments) : summary_of(all));
-  }
-  if (!printed) return std::move(printed).error();
-  if (common.stats && !common.json) say_text(table(costs));
-  return exit_success;
+  return finish_measure(*all, *axes, arguments);
 }
 
 }  // namespace
@@ -426,55 +407,33 @@ Command make_measure_command(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "measure", "Measure how wide shapes are: profiles, transects, necks, largest disks.");
   add_input_options(*command, arguments->input);
-  command
-      ->add_option("-o,--output", arguments->output,
-                   "Where to write: the width profile as .csv, or transects, necks and disks as\n"
-                   "layers or as a picture:\n" +
-                       io::known_layer_formats() + "\n- is standard output, see --format.")
-      ->check(a_name())
-      ->option_text("OUTPUT");
-  command->add_option("--format", arguments->format, "The format of -o -, for example csv.")
-      ->option_text("NAME");
+  add_output_option(*command, arguments->output, "OUTPUT",
+                    "The output file: the width profile as .csv, or transects, necks and disks\n"
+                    "as layers or as a picture:\n" +
+                        io::known_layer_formats() + "\n- is standard output, see --format.");
+  add_format_option(*command, arguments->format, "for example csv");
   command->add_option("--plot", arguments->plot, "Draw the width profiles: .svg .png .pdf.")
       ->check(a_name())
       ->option_text("FILE");
-  command
-      ->add_option("--samples", arguments->samples,
-                   "Steps of a width profile (default: 200), from end to end of the line.")
-      ->check(in_range(1, most_transects, true))
-      ->option_text("N");
-  CLI::Option* transects = command
-                               ->add_option("--transects", arguments->transects,
-                                            "So many transects along each line, from foot to foot.")
-                               ->check(in_range(1, most_transects, true))
-                               ->option_text("N");
-  command
-      ->add_option("--spacing", arguments->spacing,
-                   "Transects at this distance from each other, in units of the input.")
-      ->check(a_positive_number())
-      ->excludes(transects)
-      ->option_text("D");
-  command
-      ->add_option("--necks", arguments->necks,
-                   "So many necks, those first that open most on both sides.")
-      ->check(in_range(1, most_transects, true))
-      ->option_text("K");
-  command
-      ->add_option("--widening", arguments->widening,
-                   "A neck opens on both sides to so many times its width (default: 1.1).")
-      ->check(in_range(1 + 1e-9, 1e9))
-      ->option_text("FACTOR");
-  command
-      ->add_option("--disks", arguments->disks,
-                   "So many disks, the largest inside the shape that do not overlap, one after\n"
-                   "another: they are measured, not only drawn.")
-      ->check(in_range(1, most_disks_told, true))
-      ->option_text("K");
+  add_value(*command, "--samples", arguments->samples, "N", in_range(1, most_transects, true),
+            "Steps of a width profile (default: 200), from end to end of the line.");
+  CLI::Option* transects = add_value(*command, "--transects", arguments->transects, "N",
+                                     in_range(1, most_transects, true),
+                                     "So many transects along each line, from foot to foot.");
+  add_value(*command, "--spacing", arguments->spacing, "D", a_positive_number(),
+            "Transects at this distance from each other, in units of the input.")
+      ->excludes(transects);
+  add_value(*command, "--necks", arguments->necks, "K", in_range(1, most_transects, true),
+            "So many necks, first those that open most on both sides.");
+  add_value(*command, "--widening", arguments->widening, "FACTOR", in_range(1 + 1e-9, 1e9),
+            "A neck opens on both sides to so many times its width (default: 1.1).");
+  add_value(*command, "--disks", arguments->disks, "K", in_range(1, most_measured_disks, true),
+            "So many disks, the largest inside the shape that do not overlap, one after\n"
+            "another: they are measured, not only drawn.");
   add_path_options(*command, arguments->path);
-  add_exterior_options(
-      *command, arguments->options,
-      "The widths of what lies around the shape and in its holes, within a frame:\n"
-      "of bays, gaps and holes. The area is that of the axis's disks.")
+  add_exterior_options(*command, arguments->options,
+                       "The widths of what lies around the shape and in its holes, within a\n"
+                       "rectangle: of bays, gaps and holes. The area is that of the axis's disks.")
       ->excludes("--disks");
   add_width_option(*command, arguments->write.width);
   add_common_options(*command, arguments->common);
@@ -489,7 +448,7 @@ Command make_measure_command(CLI::App& program) {
       "  medial measure roads.gpkg --spacing 25 -o transects.shp\n"
       "  medial measure plan.wkt --necks 10 --disks 5 -o plan.svg\n"
       "  medial measure parcels.geojson --json | jq '.features[].mean_width.by_area'");
-  return {command, [arguments] { return run_measure(*arguments); }};
+  return command_of(command, arguments, run_measure);
 }
 
 }  // namespace medial::cli

@@ -5,10 +5,7 @@
 #include <cmath>
 #include <iterator>
 
-#include "cli/costs.h"
-#include "cli/loose.h"
-#include "cli/terminal.h"
-#include "medial/io/layers.h"
+#include "cli/pipeline.h"
 #include "medial/voronoi.h"
 
 namespace medial::cli {
@@ -25,14 +22,16 @@ struct Answer {
 };
 
 /// All points of the file of queries, vertices of lines as well.
-Status add_places(const NearestArguments& asked, const InputOptions& input, int threads,
-                  std::vector<Answer>& answers) {
+Status add_places(const NearestArguments& asked, const InputOptions& input,
+                  const CommonOptions& common, std::vector<Answer>& answers) {
   InputOptions from;
   from.path = asked.queries;
-  from.arcs = input.arcs;
-  auto file = load_chains(from, threads);
-  if (!file) return std::move(file).error();
-  for (const Chain& chain : file->chains)
+  from.source.load.arcs = input.source.load.arcs;
+  CommonOptions quiet = common;
+  quiet.quiet = true;
+  auto pieces = load_loose(from, quiet);
+  if (!pieces) return std::move(pieces).error();
+  for (const Chain& chain : pieces->chains)
     for (const Vec2 place : chain.points) answers.push_back({place});
   for (const Answer& answer : answers)
     if (!std::isfinite(answer.place.x) || !std::isfinite(answer.place.y))
@@ -53,11 +52,9 @@ std::string csv_of(const std::vector<Answer>& answers) {
   return text;
 }
 
-Json json_of(const std::vector<Answer>& answers, const LooseFile& file) {
+Json json_of(const std::vector<Answer>& answers, const LoosePieces& pieces) {
   Json all = Json::array();
   for (const auto& [place, nearest, kind, feature] : answers) {
-    Json attributes = Json::object();
-    for (const auto& [name, value] : file.attributes[feature]) attributes[name] = value;
     all.push_back({{"x", place.x},
                    {"y", place.y},
                    {"site", nearest.site},
@@ -65,7 +62,7 @@ Json json_of(const std::vector<Answer>& answers, const LooseFile& file) {
                    {"feature", feature},
                    {"distance", nearest.distance},
                    {"foot", {{"x", nearest.foot.x}, {"y", nearest.foot.y}}},
-                   {"attributes", std::move(attributes)}});
+                   {"attributes", to_json(pieces.features.items[feature])}});
   }
   return all;
 }
@@ -73,7 +70,7 @@ Json json_of(const std::vector<Answer>& answers, const LooseFile& file) {
 }  // namespace
 
 void add_nearest_options(CLI::App& command, NearestArguments& nearest) {
-  constexpr char group[] = "The nearest site, instead of the diagram";
+  const OptionGroup group(command, "The nearest site, instead of the diagram");
   add_list_option(
       command, "--nearest", 2,
       [&nearest](const std::vector<double>& xy) {
@@ -82,69 +79,60 @@ void add_nearest_options(CLI::App& command, NearestArguments& nearest) {
       "What is nearest to this place: the site, its kind and feature, the distance and\n"
       "the nearest point. May be repeated. As .csv or .json to -o or standard output.")
       ->trigger_on_parse()
-      ->option_text("X,Y")
-      ->group(group);
+      ->option_text("X,Y");
   command
       .add_option("--queries", nearest.queries,
                   "The same for all points of this file, in the coordinates of INPUT.")
       ->check(a_name())
-      ->option_text("FILE")
-      ->group(group);
+      ->option_text("FILE");
 }
 
-Result<int> run_nearest(const InputOptions& input, const CommonOptions& common,
-                        const NearestArguments& asked, const std::string& output,
-                        const std::string& format) {
-  if (input.read.project)
-    return invalid_option("--project makes coordinates that no place can be told in beforehand");
-  Status writable = check_output(output, format, answer_formats, input.path, common.json);
+Result<int> run_nearest(const FileArguments& arguments, const NearestArguments& asked) {
+  const auto& [input, common, output, format, write] = arguments;
+  if (input.source.read.project)
+    return invalid_option("--project is not for places: their projection is not known beforehand");
+  Status writable = check_output(arguments, answer_formats);
   if (writable && !asked.queries.empty())
     writable = check_output(output, format, answer_formats, asked.queries, common.json);
   if (!writable) return std::move(writable).error();
-  const Stopwatch reading;
-  auto file = load_chains(input, common.threads);
-  if (!file) return std::move(file).error();
-  print_notes(*file, input, common);
+  Phases phases;
+  auto pieces = load_loose(input, common);
+  if (!pieces) return std::move(pieces).error();
   std::vector<Answer> answers;
   for (const Vec2 place : asked.places) answers.push_back({place});
   if (!asked.queries.empty()) {
-    if (Status added = add_places(asked, input, common.threads, answers); !added)
+    if (Status added = add_places(asked, input, common, answers); !added)
       return std::move(added).error();
   }
-  const double seconds_read = reading.seconds();
-  const Stopwatch shaping;
-  const auto planar_graph = planar_graph_of(*file, input);
-  if (!planar_graph) return planar_graph.error();
-  const double seconds_shape = shaping.seconds();
-  const Stopwatch searching;
-  const std::vector<Site> sites = sites_of(*planar_graph);
+  phases.end("read");
+  const bool repair = input.source.read.repair != RepairRule::none;
+  const auto graph = planar_graph_of(*pieces, {.node_crossings = repair});
+  if (!graph) return graph.error();
+  phases.end("shape");
+  const std::vector<Site> sites = sites_of(*graph);
   const SiteLocator locator(sites);
   for (Answer& answer : answers) {
     answer.nearest = locator.nearest(answer.place);
     const Site& site = sites[answer.nearest.site];
     answer.kind = site.kind;
-    answer.feature = file->feature[site.ring];
+    answer.feature = pieces->feature[site.ring];
   }
-  const Json costs = costs_of(
-      common, {{"read", seconds_read}, {"shape", seconds_shape}, {"search", searching.seconds()}});
-  const auto object = [&] {
-    return Json{{"input", input.path}, {"nearest", json_of(answers, *file)}};
-  };
-  Status told = success();
-  if (!output.empty() && output != "-") {
-    // .json or .csv, as check_output() has seen to.
-    const bool as_json = output.back() == 'n' || output.back() == 'N';
-    told = io::write_text(output, as_json ? object().dump(2) + "\n" : csv_of(answers));
-  } else if (common.json || (output == "-" && format != "csv")) {
-    Json all = object();
-    if (common.json && common.stats) all.update(costs);
-    told = print(all);
-  } else {
-    told = print(csv_of(answers));
-  }
-  if (!told) return std::move(told).error();
-  print_costs(common, costs);
-  return exit_success;
+  phases.end("search");
+  // .json or .csv, as check_output() has seen to.
+  const bool to_file = !output.empty() && output != "-";
+  const bool as_json = to_file ? output.ends_with('n') || output.ends_with('N')
+                               : common.json || (output == "-" && format != "csv");
+  Json object = {{"input", input.path}};
+  if (as_json) object["nearest"] = json_of(answers, *pieces);
+  CommonOptions report = common;
+  report.json = as_json;
+  if (!to_file)
+    return finish(report, std::move(object), phases, as_json ? std::string() : csv_of(answers));
+  Status written = io::write_text(output, as_json ? object.dump(2) + "\n" : csv_of(answers));
+  if (!written) return std::move(written).error();
+  report.stats = common.stats && !common.json;
+  report.json = false;
+  return finish(report, {}, phases, {});
 }
 
 }  // namespace medial::cli

@@ -19,10 +19,8 @@ struct NearestArguments {
 /// --nearest and --queries.
 void add_nearest_options(CLI::App& command, NearestArguments& nearest);
 
-/// Answers for all places, the option's before the file's: as .csv or .json to `output`, or to
-/// standard output. No diagram is computed. Gives the exit status.
-Result<int> run_nearest(const InputOptions& input, const CommonOptions& common,
-                        const NearestArguments& asked, const std::string& output,
-                        const std::string& format);
+/// Answers for all places, the option's before the file's: as .csv or .json to the output, or to
+/// standard output. No diagram is computed. Returns the exit status.
+Result<int> run_nearest(const FileArguments& arguments, const NearestArguments& asked);
 
 }  // namespace medial::cli

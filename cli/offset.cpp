@@ -11,27 +11,19 @@
 
 #include "cli/commands.h"
 #include "cli/common.h"
-#include "cli/costs.h"
-#include "cli/loose.h"
 #include "cli/pipeline.h"
-#include "cli/terminal.h"
 #include "medial/io/offsets.h"
 #include "medial/voronoi.h"
 
 namespace medial::cli {
 namespace {
 
-struct OffsetArguments {
-  InputOptions input;
-  CommonOptions common;
-  std::string output;
-  std::string format;
-  io::WriteOptions write;
+struct OffsetArguments : FileArguments {
   std::vector<double> distances;
   double step = 0;   ///< 0: no passes
   double first = 0;  ///< of the passes; 0: the step
   std::string until = "empty";
-  double last = std::numeric_limits<double>::infinity();  ///< of the passes, as `until` tells
+  double last = std::numeric_limits<double>::infinity();  ///< of the passes, by `until`
   bool exterior = false;
   bool loose = false;
   bool chords = false;
@@ -59,8 +51,8 @@ Result<Offsets> offset_one(const Shape& shape, const OffsetArguments& arguments,
   return offset_curves(shape, clearances, options);
 }
 
-Status tell(const Document<io::OffsetItem>& file, const OffsetArguments& arguments,
-            double seconds) {
+Result<int> finish_offsets(const Document<io::OffsetItem>& file, const OffsetArguments& arguments,
+                           const Phases& phases) {
   std::uint64_t regions = 0, rings = 0, edges = 0;
   double seconds_axis = 0, seconds_curves = 0, total = 0;
   for (const io::OffsetItem& item : file.items) {
@@ -73,20 +65,23 @@ Status tell(const Document<io::OffsetItem>& file, const OffsetArguments& argumen
       for (const Ring& ring : region.rings) edges += ring.points.size();
     }
   }
-  const Json object{{"input", arguments.input.path},
-                    {"features", file.items.size()},
-                    {"regions", regions},
-                    {"rings", rings},
-                    {"edges", edges},
-                    {"length", total}};
-  const Json costs{
-      {"seconds", {{"axis", seconds_axis}, {"curves", seconds_curves}, {"all", seconds}}},
-      {"peak_bytes", peak_bytes()}};
-  const std::string line =
-      fmt::format("{}: {}, {}, {} of {}, length {:.6g}; {:.3g} s\n", arguments.input.path,
-                  counted(file.items.size(), "feature"), counted(regions, "region"),
-                  counted(rings, "ring"), counted(edges, "edge"), total, seconds);
-  return tell(arguments.common, arguments.output, object, costs, line);
+  const Json seconds = {{"axis", seconds_axis},
+                        {"curves", seconds_curves},
+                        {"all", phases.seconds("offset")},
+                        {"write", phases.seconds("write")}};
+  const std::string& input = arguments.input.path;
+  return finish(arguments,
+                {{"input", input},
+                 {"features", file.items.size()},
+                 {"regions", regions},
+                 {"rings", rings},
+                 {"edges", edges},
+                 {"length", total}},
+                phases,
+                fmt::format("{}: {}, {}, {} of {}, length {:.6g}", input,
+                            counted(file.items.size(), "feature"), counted(regions, "region"),
+                            counted(rings, "ring"), counted(edges, "edge"), total),
+                {{"seconds", seconds}});
 }
 
 /// Keeps of a region's attributes those that more features of it have as well.
@@ -102,7 +97,7 @@ void keep_common(io::BufferSource& of, const io::BufferSource& more) {
 
 /// The features in each region of buffers. A chain lies in one region as a whole: where its first
 /// point does, or what that point touches and has become part of. O(n log n) expected.
-std::vector<io::BufferSource> sources_of(const LooseFile& file, const PlanarGraph& planar_graph,
+std::vector<io::BufferSource> sources_of(const LoosePieces& file, const PlanarGraph& planar_graph,
                                          const Offsets& offsets) {
   const SiteLocator locator(sites_of(planar_graph));
   std::vector<io::BufferSource> sources(offsets.regions.size());
@@ -112,7 +107,8 @@ std::vector<io::BufferSource> sources_of(const LooseFile& file, const PlanarGrap
     const std::size_t count = planar_graph.points.size();
     const std::size_t point = site < count ? site : planar_graph.edges[site - count].from;
     const std::uint32_t region = offsets.region_of_point[point], feature = file.feature[i];
-    if (region != no_region) keep_common(sources[region], {{feature}, file.attributes[feature]});
+    if (region != no_region)
+      keep_common(sources[region], {{feature}, file.features.items[feature]});
   }
   // Parents come before their children.
   for (std::size_t region = sources.size(); region-- > 0;) {
@@ -127,77 +123,62 @@ std::vector<io::BufferSource> sources_of(const LooseFile& file, const PlanarGrap
 
 /// Buffers of all points and lines of the file together.
 Result<Document<io::OffsetItem>> buffer_all(const OffsetArguments& arguments) {
-  const auto& input = arguments.input;
-  auto loose = load_chains(input, arguments.common.threads);
-  if (!loose) return std::move(loose).error();
-  print_notes(*loose, input, arguments.common);
-  PlanarGraph planar_graph;
-  auto offsets = with_planar_graph(*loose, input, arguments.common, planar_graph, [&] {
-    return offset_curves(
-        planar_graph, arguments.distances,
-        {.tolerance = arguments.common.tolerance, .threads = arguments.common.threads});
+  const CommonOptions& common = arguments.common;
+  auto pieces = load_loose(arguments.input, common);
+  if (!pieces) return std::move(pieces).error();
+  io::OffsetItem item;
+  Status computed = with_planar_graph(*pieces, arguments, [&](PlanarGraph& graph) -> Status {
+    auto offsets = offset_curves(graph, arguments.distances,
+                                 {.tolerance = common.tolerance, .threads = common.threads});
+    if (!offsets) return std::move(offsets).error();
+    item.offsets = std::move(offsets).value();
+    item.planar_graph = std::move(graph);
+    return success();
   });
-  if (!offsets) return std::move(offsets).error();
-  Document<io::OffsetItem> file;
-  file.crs_wkt = loose->crs_wkt;
-  file.y_down = loose->y_down;
-  auto sources = sources_of(*loose, planar_graph, *offsets);
-  file.items.push_back(
-      {{}, std::move(offsets).value(), {}, std::move(planar_graph), std::move(sources)});
+  if (!computed) return std::move(computed).error();
+  item.sources = sources_of(*pieces, item.planar_graph, item.offsets);
+  Document<io::OffsetItem> file = same_frame<io::OffsetItem>(pieces->features);
+  file.items.push_back(std::move(item));
   return file;
 }
 
 /// The offset curves of each shape of the file.
 Result<Document<io::OffsetItem>> offset_each(const OffsetArguments& arguments) {
-  const auto& input = arguments.input;
-  const auto& common = arguments.common;
-  auto shapes = load_shapes(input, common.threads);
+  const CommonOptions& common = arguments.common;
+  auto shapes = load_shapes(arguments.input, common);
   if (!shapes) return std::move(shapes).error();
-  print_notes(*shapes, input, common);
-  Document<io::OffsetItem> file;
-  file.crs_wkt = shapes->crs_wkt;
-  file.y_down = shapes->y_down;
-  file.items.resize(shapes->shapes.size());
-  Status computed = for_each_shape(
-      shapes->shapes, input.path, common, [&](std::size_t i, const Options& options) -> Status {
-        auto offsets = offset_one(shapes->shapes[i], arguments, options);
-        if (!offsets) return std::move(offsets).error();
-        file.items[i] = {std::move(shapes->shapes[i]), std::move(offsets).value(),
-                         std::move(shapes->attributes[i])};
-        return success();
-      });
+  std::vector<ShapeItem>& items = shapes->file.items;
+  Document<io::OffsetItem> file = same_frame<io::OffsetItem>(shapes->file);
+  const auto offset_item = [&](std::size_t i, int threads) -> Result<io::OffsetItem> {
+    auto offsets = offset_one(items[i].shape, arguments, engine_options(common, threads));
+    if (!offsets) return std::move(offsets).error();
+    return io::OffsetItem{std::move(items[i].shape), std::move(offsets).value(),
+                          std::move(items[i].attributes)};
+  };
+  auto computed = map_items<io::OffsetItem>(weights_of(shapes->file), common.threads, offset_item);
   if (!computed) return std::move(computed).error();
+  file.items = std::move(computed).value();
   return file;
 }
 
 Result<int> run_offset(const OffsetArguments& arguments) {
-  const auto& input = arguments.input;
-  const auto& common = arguments.common;
   if (arguments.distances.empty() == (arguments.step == 0))
-    return invalid_option("give --distance or --step, one of the two");
+    return invalid_option("give either --distance or --step");
   if (arguments.exterior && arguments.step > 0 && !std::isfinite(arguments.last))
-    return invalid_option("outwards nothing gets empty: give a distance to --until");
+    return invalid_option("outward passes never end: give a distance to --until");
   if (arguments.loose && (arguments.step > 0 || arguments.exterior))
     return invalid_option("--loose goes with --distance only");
-  Status writable = check_output(arguments.output, arguments.format, io::known_offset_formats(),
-                                 input.path, common.json);
+  Status writable = check_output(arguments, io::known_offset_formats());
   if (!writable) return std::move(writable).error();
-  const Stopwatch watch;
-  auto computed = arguments.loose ? buffer_all(arguments) : offset_each(arguments);
-  if (!computed) return std::move(computed).error();
-  const Document<io::OffsetItem> file = std::move(computed).value();
-  const double seconds = watch.seconds();
-  if (!arguments.output.empty()) {
-    io::WriteOptions write = arguments.write;
-    write.chord = common.chord;
-    const Activity shown("writing", arguments.output);
-    Status written =
-        io::write_offsets(arguments.output, arguments.format, file, write, arguments.chords);
-    if (!written) return std::move(written).error();
-  }
-  Status told = tell(file, arguments, seconds);
-  if (!told) return std::move(told).error();
-  return exit_success;
+  Phases phases;
+  const auto file = arguments.loose ? buffer_all(arguments) : offset_each(arguments);
+  if (!file) return file.error();
+  phases.end("offset");
+  Status written = write_output(arguments, phases, [&](const auto& path, const auto& format) {
+    return io::write_offsets(path, format, *file, write_options(arguments), arguments.chords);
+  });
+  if (!written) return std::move(written).error();
+  return finish_offsets(*file, arguments, phases);
 }
 
 }  // namespace
@@ -213,14 +194,10 @@ Command make_offset_command(CLI::App& program) {
       "Distances from the boundary, in units of the input: inside of the shape\n"
       "where they are positive, outside where they are negative.")
       ->option_text("D[,D...]");
-  command
-      ->add_option("--step", arguments->step,
-                   "Instead: nested passes, one every S units of the input, from --first on.")
-      ->check(a_positive_number())
-      ->option_text("S");
-  command->add_option("--first", arguments->first, "The first pass (default: S).")
-      ->check(a_positive_number())
-      ->option_text("D");
+  add_value(*command, "--step", arguments->step, "S", a_positive_number(),
+            "Instead: nested passes, one every S units of the input, from --first on.");
+  add_value(*command, "--first", arguments->first, "D", a_positive_number(),
+            "The first pass (default: S).");
   command
       ->add_option("--until", arguments->until,
                    "The last pass: empty (default), when nothing is left inside; or a distance.")
@@ -235,7 +212,7 @@ Command make_offset_command(CLI::App& program) {
   command->add_flag("--loose", arguments->loose,
                     "Buffers: all places within each distance of the file's points, lines and\n"
                     "boundaries, taken together; --repair splits them where they cross.");
-  add_output_options(*command, arguments->output, arguments->format, io::known_offset_formats());
+  add_output_options(*command, *arguments, io::known_offset_formats());
   command->add_flag("--chords", arguments->chords,
                     "Well-known text: polygons of chords (see --chord) instead of exact arcs.");
   add_width_option(*command, arguments->write.width);
@@ -244,10 +221,10 @@ Command make_offset_command(CLI::App& program) {
       "A region is a connected part of all points farther than D from the boundary\n"
       "(inside), or of the shape grown by D (outside): an outer ring, then its holes. Rings\n"
       "are lines and arcs; all distances are found in one walk along the axis. Regions of\n"
-      "successive distances nest: .json and .geojson tell each one's parent. .dxf has\n"
+      "successive distances nest: .json and .geojson name each one's parent. .dxf has\n"
       "closed polylines with bulges, a layer for each distance; .wkt exact circular\n"
-      "strings; .geojson chords. Buffers (--loose) tell in .json and .geojson which features\n"
-      "are in each region, and those attributes on which all of them agree.\n"
+      "strings; .geojson chords. Of buffers (--loose), .json and .geojson list the features in\n"
+      "each region, and the attributes on which all of them agree.\n"
       "\n"
       "Examples:\n"
       "  medial offset plan.wkt --distance 0.5,1,2 -o plan.svg\n"
@@ -255,7 +232,7 @@ Command make_offset_command(CLI::App& program) {
       "  medial offset plate.dxf --step 2 --first 1 --until empty -o passes.dxf\n"
       "  medial offset plan.wkt --distance 1 -o - --format wkt\n"
       "  medial offset roads.geojson --loose --distance 5,10 -o buffers.geojson");
-  return {command, [arguments] { return run_offset(*arguments); }};
+  return command_of(command, arguments, run_offset);
 }
 
 }  // namespace medial::cli

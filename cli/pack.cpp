@@ -10,18 +10,13 @@
 #include "cli/commands.h"
 #include "cli/common.h"
 #include "cli/pipeline.h"
-#include "cli/stored_axes.h"
-#include "cli/terminal.h"
 
 namespace medial::cli {
 namespace {
 
 constexpr char pack_formats[] = ".mpk";
 
-struct PackArguments {
-  InputOptions input;
-  CommonOptions common;
-  std::string output;
+struct PackArguments : FileArguments {
   double error = 1e-3;
   bool units = false;
   bool squares = false;
@@ -36,22 +31,21 @@ double extent_of(const Document<AxisItem>& file) {
   return all.is_nothing() ? 0 : diagonal(all);
 }
 
-/// How the error is shared out: the shortest of these, or the first one where that is large: of
-/// large packs the others make a difference of some hundredths.
+/// How the error is divided between rounding and pruning: the settings are tried for the shortest
+/// pack, but large ones take the first, as the others differ by some hundredths only.
 constexpr std::array<std::pair<double, double>, 3> settings{{{0.3, 0.9}, {0.2, 0.9}, {0.4, 0.85}}};
 constexpr std::size_t large_pack = 32768;  // bytes
 
-Status tell(const PackArguments& arguments, Json object, const std::string& line) {
-  if (arguments.common.json) return print(object);
-  if (arguments.output != "-") {
-    if (arguments.common.quiet) return success();
-    std::string text = line + "\n";
+Result<int> finish_pack(const PackArguments& arguments, Json object, const Phases& phases,
+                        const std::string& line) {
+  std::string text;
+  if (arguments.output != "-" && !arguments.common.quiet) {
+    text = line + "\n";
     if (arguments.compare)
       for (const auto& [name, value] : object["compare"].items())
         text += fmt::format("  {:<28}{:>10}\n", name, value.dump());
-    return print(text);
   }
-  return success();
+  return finish(arguments.common, std::move(object), phases, text);
 }
 
 /// The boundary, packed in the same way and as it was: to compare.
@@ -72,130 +66,131 @@ Json compare_boundary(const Document<AxisItem>& file, double error) {
 }
 
 Result<int> pack_squares(const PackArguments& arguments) {
-  auto image = io::read_image(arguments.input.path, arguments.input.read.image);
+  const InputOptions& input = arguments.input;
+  Phases phases;
+  auto image = io::read_image(input.path, input.source.read.image);
   if (!image) return std::move(image).error();
+  phases.end("read");
   io::PackFile file;
   file.kind = io::PackKind::squares;
   file.y_down = true;
   SquareReport report;
   const double error = arguments.units ? arguments.error : 0;
-  if (!(error >= 0 && error <= 65535)) return invalid_option("--error is no number of pixels");
+  if (!(error >= 0 && error <= 65535)) return invalid_option("--error is not a number of pixels");
   file.code = encode_squares(image->image, static_cast<std::uint32_t>(error), &report);
   auto bytes = io::pack_bytes(file);
   if (!bytes) return std::move(bytes).error();
+  phases.end("pack");
   if (Status written = io::write_pack(arguments.output, *bytes); !written)
     return std::move(written).error();
-  Json object = {{"input", arguments.input.path},    {"output", arguments.output},
-                 {"bytes", bytes->size()},           {"squares", report.squares},
-                 {"missing_pixels", report.missing}, {"pixels", image->image.count()}};
+  Json object = {{"input", input.path},
+                 {"output", arguments.output},
+                 {"bytes", bytes->size()},
+                 {"squares", report.squares},
+                 {"missing_pixels", report.missing},
+                 {"pixels", image->image.count()}};
   if (arguments.compare) object["compare"] = Json::object();
-  Status told =
-      tell(arguments, object,
-           fmt::format("{}: {} bytes, {}, {} missing", arguments.input.path, bytes->size(),
-                       counted(report.squares, "square"), counted(report.missing, "pixel")));
-  if (!told) return std::move(told).error();
-  return exit_success;
+  return finish_pack(
+      arguments, std::move(object), phases,
+      fmt::format("{}: {} bytes, {}, {} missing", input.path, bytes->size(),
+                  counted(report.squares, "square"), counted(report.missing, "pixel")));
 }
 
-Result<int> run_pack(const PackArguments& arguments) {
-  const auto& [input, common, output, error, units, squares, compare] = arguments;
-  if (output.empty()) return invalid_option("-o needs the name of a pack");
-  Status writable =
-      check_output(output, output == "-" ? "mpk" : "", pack_formats, input.path, common.json);
-  if (!writable) return std::move(writable).error();
-  if (squares) return pack_squares(arguments);
-  auto axes = load_axes(input, common);
-  if (!axes) return std::move(axes).error();
-  const Stopwatch watch;
-  const double size = extent_of(axes->native);
-  const double bound = units ? error : error * size;
-  std::vector<MedialAxis> all;
-  for (AxisItem& item : axes->native.items) all.push_back(std::move(item.axis));
+/// The shortest of the packs of these axes within an error.
+struct Packed {
   std::vector<std::uint8_t> bytes;
   PackReport report;
+};
+
+Result<Packed> pack_axes(Document<AxisItem>& axes, double bound) {
+  std::vector<MedialAxis> all;
+  for (AxisItem& item : axes.items) all.push_back(std::move(item.axis));
+  Packed shortest;
   for (const auto& [quantum, prune] : settings) {
-    PackReport one;
-    auto code = encode_axes(all, {bound, quantum, prune}, &one);
+    PackReport report;
+    auto code = encode_axes(all, {bound, quantum, prune}, &report);
     if (!code) return std::move(code).error();
     io::PackFile file;
     file.code = std::move(code).value();
-    file.crs_wkt = axes->native.crs_wkt;
-    file.y_down = axes->native.y_down;
-    auto packed = io::pack_bytes(file);
-    if (!packed) return std::move(packed).error();
-    if (bytes.empty() || packed->size() < bytes.size()) {
-      bytes = std::move(packed).value();
-      report = one;
-    }
-    if (bytes.size() > large_pack) break;
+    file.crs_wkt = axes.crs_wkt;
+    file.y_down = axes.y_down;
+    auto bytes = io::pack_bytes(file);
+    if (!bytes) return std::move(bytes).error();
+    if (shortest.bytes.empty() || bytes->size() < shortest.bytes.size())
+      shortest = {std::move(bytes).value(), report};
+    if (shortest.bytes.size() > large_pack) break;
   }
-  const double seconds = watch.seconds();
+  return shortest;
+}
+
+Result<int> run_pack(const PackArguments& arguments) {
+  const std::string &input = arguments.input.path, &output = arguments.output;
+  Status writable =
+      check_output(output, output == "-" ? "mpk" : "", pack_formats, input, arguments.common.json);
+  if (!writable) return std::move(writable).error();
+  if (arguments.squares) return pack_squares(arguments);
+  auto axes = load_axes(arguments.input, arguments.common);
+  if (!axes) return std::move(axes).error();
+  const double bound = arguments.units ? arguments.error : arguments.error * extent_of(axes->file);
+  const auto packed = pack_axes(axes->file, bound);
+  if (!packed) return packed.error();
+  axes->phases.end("pack");
+  const auto& [bytes, report] = *packed;
   if (Status written = io::write_pack(output, bytes); !written) return std::move(written).error();
-  Json object = {{"input", input.path},       {"output", output},
-                 {"bytes", bytes.size()},     {"error", bound},
-                 {"disks", report.disks},     {"lines", report.lines},
-                 {"quantum", report.quantum}, {"features", all.size()}};
-  if (compare) object["compare"] = compare_boundary(axes->native, bound);
-  if (common.stats) object.update({{"seconds", seconds}, {"peak_bytes", peak_bytes()}});
-  Status told = tell(arguments, object,
-                     fmt::format("{}: {} bytes, {} within {:.6g}", input.path, bytes.size(),
+  Json object = {{"input", input},
+                 {"output", output},
+                 {"bytes", bytes.size()},
+                 {"error", bound},
+                 {"disks", report.disks},
+                 {"lines", report.lines},
+                 {"quantum", report.quantum},
+                 {"features", axes->file.items.size()}};
+  if (arguments.compare) object["compare"] = compare_boundary(axes->file, bound);
+  return finish_pack(arguments, std::move(object), axes->phases,
+                     fmt::format("{}: {} bytes, {} within {:.6g}", input, bytes.size(),
                                  counted(report.disks, "disk"), bound));
-  if (!told) return std::move(told).error();
+}
+
+Result<int> unpack_squares(const FileArguments& arguments, const ShapeCode& code) {
+  Status writable = check_output(arguments, image_formats);
+  if (!writable) return std::move(writable).error();
+  auto image = decode_squares(code);
+  if (!image) {
+    image.error().place.file = arguments.input.path;
+    return std::move(image).error();
+  }
+  if (!arguments.output.empty()) {
+    Status written = io::write_image(arguments.output, *image, {});
+    if (!written) return std::move(written).error();
+    if (!arguments.common.json) return exit_success;
+  }
+  Status printed = print(Json{{"input", arguments.input.path},
+                              {"width", image->width()},
+                              {"height", image->height()},
+                              {"pixels", image->count()}});
+  if (!printed) return std::move(printed).error();
   return exit_success;
 }
 
-struct UnpackArguments {
-  InputOptions input;
-  CommonOptions common;
-  std::string output;
-  std::string format;
-  io::WriteOptions write;
-};
-
-Result<int> run_unpack(const UnpackArguments& arguments) {
-  const auto& [input, common, output, format, write] = arguments;
-  const Stopwatch reading;
+Result<int> run_unpack(const FileArguments& arguments) {
+  const InputOptions& input = arguments.input;
+  LoadedAxes axes;
   auto pack = io::read_pack(input.path);
   if (!pack) return std::move(pack).error();
-  if (pack->kind == io::PackKind::squares) {
-    Status writable = check_output(output, format, image_formats, input.path, common.json);
-    if (!writable) return std::move(writable).error();
-    auto image = decode_squares(pack->code);
-    if (!image) {
-      Error error = std::move(image).error();
-      error.place.file = input.path;
-      return error;
-    }
-    if (!output.empty()) {
-      Status written = io::write_image(output, *image, {});
-      if (!written) return std::move(written).error();
-    }
-    if (common.json || output.empty()) {
-      Status printed = print(Json{{"input", input.path},
-                                  {"width", image->width()},
-                                  {"height", image->height()},
-                                  {"pixels", image->count()}});
-      if (!printed) return std::move(printed).error();
-    }
-    return exit_success;
-  }
-  Status writable =
-      check_output(output, format, io::known_output_formats(), input.path, common.json);
+  if (pack->kind == io::PackKind::squares) return unpack_squares(arguments, pack->code);
+  Status writable = check_output(arguments, io::known_output_formats());
   if (!writable) return std::move(writable).error();
   std::vector<std::string> notes;
   auto native = io::native_of(*pack, &notes);
   if (!native) {
-    Error error = std::move(native).error();
-    error.place.file = input.path;
-    return error;
+    native.error().place.file = input.path;
+    return std::move(native).error();
   }
-  if (!common.quiet)
+  if (!arguments.common.quiet)
     for (const std::string& note : notes) say("medial: {}: note: {}\n", input.path, note);
-  AxisFile file;
-  file.native = std::move(native).value();
-  file.statistics.threads = 1;
-  file.seconds_read = reading.seconds();
-  return write_and_tell(file, input, common, output, format, write);
+  axes.file = std::move(native).value();
+  axes.phases.end("read");
+  return finish_axes(axes, arguments);
 }
 
 }  // namespace
@@ -205,26 +200,22 @@ Command make_pack_command(CLI::App& program) {
   CLI::App* command =
       program.add_subcommand("pack", "Write axes as a compact code of their shapes.");
   add_input_options(*command, arguments->input);
-  command->add_option("-o,--output", arguments->output, "The pack: .mpk; - is standard output.")
-      ->required()
-      ->check(a_name())
-      ->option_text("PACK REQUIRED");
+  add_output_option(*command, arguments->output, "PACK REQUIRED",
+                    "The pack: .mpk; - is standard output.")
+      ->required();
   CLI::Option* error =
-      command
-          ->add_option("--error", arguments->error,
-                       "How far the shape may change, as a share of the diagonal (default: 0.001).")
-          ->check(in_range(0, 1e300))
-          ->option_text("E");
+      add_value(*command, "--error", arguments->error, "E", in_range(0, 1e300),
+                "How far the shape may change, as a share of the diagonal (default: 0.001).");
   command
       ->add_flag("--units", arguments->units,
                  "--error is in units of the input; of --squares, in pixels.")
       ->needs(error);
   command->add_flag("--squares", arguments->squares,
-                    "Of an image: maximal squares of pixels instead; without loss, or with\n"
+                    "For an image: maximal squares of pixels instead; without loss, or with\n"
                     "--error N --units at most N pixels away.");
   command->add_flag("--compare", arguments->compare,
-                    "Tell what the boundary takes: within the same error, coded alike; and as\n"
-                    "text, through zstd.");
+                    "Also print the size of the boundary: within the same error, coded alike;\n"
+                    "and as text, through zstd.");
   add_common_options(*command, arguments->common);
   command->footer(
       "A pack holds disks along the branches that matter, in whole numbers, compressed\n"
@@ -235,25 +226,21 @@ Command make_pack_command(CLI::App& program) {
       "  medial pack leaf.svg -o leaf.mpk --error 0.002 --compare\n"
       "  medial axis plan.wkt -o - --format json | medial pack - -o plan.mpk\n"
       "  medial pack scan.png -o scan.mpk --squares");
-  return {command, [arguments] { return run_pack(*arguments); }};
+  return command_of(command, arguments, run_pack);
 }
 
 Command make_unpack_command(CLI::App& program) {
-  auto arguments = std::make_shared<UnpackArguments>();
+  auto arguments = std::make_shared<FileArguments>();
   CLI::App* command =
       program.add_subcommand("unpack", "Read packs back: axes and shapes, or images.");
   command->add_option("PACK", arguments->input.path, "A pack; - is standard input.")
       ->required()
       ->option_text("REQUIRED");
-  command
-      ->add_option("-o,--output", arguments->output,
-                   fmt::format("Where to write the axis and its shape: {};\n"
-                               "of a pack of squares the image: {}.",
-                               io::known_output_formats(), image_formats))
-      ->check(a_name())
-      ->option_text("OUTPUT");
-  command->add_option("--format", arguments->format, "The format of -o - (default: json).")
-      ->option_text("NAME");
+  add_output_option(*command, arguments->output, "OUTPUT",
+                    fmt::format("The output file for the axis and its shape: {};\n"
+                                "of a pack of squares for the image: {}.",
+                                io::known_output_formats(), image_formats));
+  add_format_option(*command, arguments->format, "default: json");
   add_picture_options(*command, arguments->write);
   add_common_options(*command, arguments->common);
   command->footer(
@@ -261,7 +248,7 @@ Command make_unpack_command(CLI::App& program) {
       "  medial unpack leaf.mpk -o leaf.svg\n"
       "  medial unpack plan.mpk -o - --format json | medial info -\n"
       "  medial unpack scan.mpk -o scan.png");
-  return {command, [arguments] { return run_unpack(*arguments); }};
+  return command_of(command, arguments, run_unpack);
 }
 
 }  // namespace medial::cli

@@ -1,9 +1,9 @@
 #pragma once
 
-// The way from a file of polygons or curves to shapes and on to their axes, feature by feature.
+// What most commands do before their own work: read shapes or axes, print notes, compute axes; and
+// how axes are summarised.
 
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -11,56 +11,62 @@
 #include "cli/common.h"
 #include "medial/compute.h"
 #include "medial/document.h"
-#include "medial/io/read.h"
-#include "medial/threads.h"
+#include "medial/load.h"
 
 namespace medial::cli {
 
-/// The error, told to be in this feature of the file.
-Error at_feature(Error error, const std::string& path, std::size_t feature);
-
-/// The shapes of a file, one for each feature, in the file's order.
-struct ShapeFile {
-  std::vector<Shape> shapes;
-  std::vector<Attributes> attributes;
-  std::vector<std::vector<Contour>>
-      contours;        ///< as read, where load_shapes() is told to keep them
-  ShapeReport report;  ///< summed over the features
-  ArcReport arcs;      ///< of curves that became arcs, summed over the features
-  std::string crs_wkt;
-  bool geographic = false;         ///< coordinates are longitudes and latitudes
-  bool y_down = false;             ///< the y axis points down
-  double pixel = 0;                ///< of an image: the side of its pixels; otherwise 0
-  std::vector<std::string> notes;  ///< what repair or reprojection changed
-  double seconds_read = 0;
-  double seconds_shape = 0;
-  double processor_read = 0;  ///< seconds of processor time of the same phases
-  double processor_shape = 0;
+/// The shapes of a file.
+struct LoadedShapes {
+  Document<ShapeItem> file;
+  LoadReport report;
+  Phases phases;  ///< read, shape
 };
 
 /// The axes of a file.
-struct AxisFile {
-  Document<AxisItem> native;
-  Statistics statistics;  ///< summed over the features
-  ShapeReport cleaned;    ///< of the input
-  ArcReport arcs;         ///< of the input's curves
-  double seconds_read = 0;
-  double seconds_shape = 0;
-  double seconds_axis = 0;
-  double processor_read = 0;  ///< seconds of processor time of the same phases
-  double processor_shape = 0;
-  double processor_axis = 0;
-  /// Components and holes of the shapes that axes of pixels do not tell apart.
-  std::uint64_t unresolved = 0;
+struct LoadedAxes {
+  Document<AxisItem> file;
+  AxesReport axes;
+  LoadReport report;
+  Phases phases;  ///< read, shape, axis
 };
+
+/// Reads shapes and prints notes on standard error. Errors name the file.
+Result<LoadedShapes> load_shapes(const InputOptions& input, const CommonOptions& common);
+/// Reads points, lines and boundaries, and prints notes. Errors name the file.
+Result<LoosePieces> load_loose(const InputOptions& input, const CommonOptions& common);
+/// with_planar_graph(), with --repair, and a note where things have been made to touch.
+Status with_planar_graph(const LoosePieces& pieces, const FileArguments& arguments,
+                         const std::function<Status(PlanarGraph&)>& use);
+
+/// Computes the axes of shapes, with a progress bar where that is wanted. Of `options`, this sets
+/// what the common options hold, and progress. Errors name the file.
+Result<LoadedAxes> compute_axes(LoadedShapes shapes, const InputOptions& input,
+                                const CommonOptions& common, Options options = {});
+/// The axes that a command works on: of medial's own .json as they stand there, of shapes computed
+/// now. With `specks` above 0 computed of without_specks() of the shapes, stored axes or not; and
+/// with the exterior asked for of what surrounds them, also of stored axes of the interior.
+/// Errors: those of reading and computing.
+Result<LoadedAxes> load_axes(const InputOptions& input, const CommonOptions& common,
+                             double specks = 0, const Options& options = {});
+
+/// The common options of all engines.
+Options engine_options(const CommonOptions& common, int threads, Options options = {});
+
+/// How much work each item is, for for_each_item(): by its shape's points, or by its axis's edges.
+template <class Item>
+std::vector<double> weights_of(const Document<Item>& file) {
+  std::vector<double> weights;
+  for (const Item& item : file.items)
+    weights.push_back(static_cast<double>(item.shape.points.size()));
+  return weights;
+}
+std::vector<double> edge_weights_of(const Document<AxisItem>& file);
 
 /// What axes look like, summed over the features of a file.
 struct AxisSummary {
   std::uint64_t features = 0;
   std::uint64_t sites = 0;
-  std::uint64_t leaves = 0;
-  std::uint64_t site_changes = 0;
-  std::uint64_t branchings = 0;
+  std::uint64_t leaves = 0, site_changes = 0, branchings = 0;
   std::uint64_t edges = 0;
   std::uint64_t branches = 0;
   double length = 0;
@@ -69,59 +75,21 @@ struct AxisSummary {
 
   std::uint64_t nodes() const { return leaves + site_changes + branchings; }
 };
-
-/// Whether a native file holds contours, whose axes are still to be computed.
-bool holds_contours(const Document<AxisItem>& file);
-
-/// How much work each shape is, for for_each_feature().
-std::vector<double> weights_of(std::span<const Shape> shapes);
-
-/// Runs work(i, threads_of_its_own) for every feature i and returns the error of the lowest feature
-/// that has one. `weights` tell how much work each feature is: a large one gets all threads, one
-/// large feature after another; then the small ones run side by side with one thread each. What
-/// work(i) does must depend on i alone; then so does the outcome.
-Status for_each_feature(std::span<const double> weights, int threads,
-                        const std::function<Status(std::size_t, int)>& work);
-
-/// Reads polygons and curves and makes shapes of them. The shapes of medial's own JSON keep their
-/// sources. Errors name the file and the feature; of several, the first one's is given.
-/// With `keep_contours` the features' boundaries are kept as they were read, rings as contours too.
-Result<ShapeFile> load_shapes(const InputOptions& input, int threads, bool keep_contours = false);
-
-/// Replaces the boundaries of all features, whose contours were kept, by smooth curves within
-/// `distance` of their corners.
-Status smooth_boundaries(ShapeFile& file, double distance, const InputOptions& input);
-
-/// Prints what a user should know of the input (geographic coordinates, repairs) on standard error,
-/// unless told to be quiet.
-void print_notes(const ShapeFile& file, const InputOptions& input, const CommonOptions& common);
-
-/// Computes the axis of every shape, with a progress bar where that is wanted. `path` names the
-/// input in errors. Of `options`, what the common arguments tell and progress are set here.
-Result<AxisFile> compute_axes(ShapeFile shapes, const std::string& path,
-                              const CommonOptions& common, Options options = {});
-
-/// --exterior, with this help, and --margin. Gives the former.
-CLI::Option* add_exterior_options(CLI::App& command, Options& options, const std::string& help);
-
-/// What the common arguments tell the engines.
-Options engine_options(const CommonOptions& common, int threads);
-
-/// Runs work(i, options) for every shape of a file, as for_each_feature() does. Errors are told to
-/// be in feature i of the input.
-Status for_each_shape(std::span<const Shape> shapes, const std::string& path,
-                      const CommonOptions& common,
-                      const std::function<Status(std::size_t i, const Options& options)>& work);
-
 AxisSummary summarize(const Document<AxisItem>& file);
-/// "1 feature, 12 sites, 20 nodes, 19 edges, 7 branches; deepest disk: radius 3 at (1, 2)"
-std::string describe(const AxisSummary& summary);
 Json to_json(const AxisSummary& summary);
 
-/// The end of a run that made axes: writes them, unless `output` is empty, and tells of them as the
-/// arguments ask: a summary, statistics, or both as one object. Gives the exit status.
-Result<int> write_and_tell(const AxisFile& file, const InputOptions& input,
-                           const CommonOptions& common, const std::string& output,
-                           const std::string& format, const io::WriteOptions& pictures);
+/// Writes a file by write(path, format), unless there is none, and ends the phase "write".
+template <class Write>
+Status write_output(const FileArguments& arguments, Phases& phases, Write&& write) {
+  if (arguments.output.empty()) return success();
+  const Activity shown("writing", arguments.output);
+  Status written = write(arguments.output, arguments.format);
+  phases.end("write");
+  return written;
+}
+
+/// The end of a command that made axes: writes them, and prints a summary, statistics or both.
+/// Returns the exit status.
+Result<int> finish_axes(LoadedAxes& axes, const FileArguments& arguments);
 
 }  // namespace medial::cli

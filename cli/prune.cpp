@@ -1,15 +1,14 @@
-// medial prune: axes less what does not matter.
+// medial prune: axes without the branches that do not matter.
 
 #include "medial/prune.h"
 
 #include <fmt/format.h>
 
+#include <array>
 #include <memory>
 
 #include "cli/commands.h"
 #include "cli/prune_options.h"
-#include "cli/stored_axes.h"
-#include "cli/terminal.h"
 #include "medial/io/preview.h"
 #include "medial/match.h"
 #include "medial/query.h"
@@ -18,90 +17,64 @@ namespace medial::cli {
 
 namespace {
 
-const char* help_of(PruneMeasure measure) {
-  switch (measure) {
-    case PruneMeasure::prominence:
-      return "Branches by the geometric mean of significance and of the same by R";
-    case PruneMeasure::significance:
-      return "Branches by how far the shape reaches out beyond the disk where they\n"
-             "begin, by that disk's radius (Ho and Dyer)";
-    case PruneMeasure::length:
-      return "Branches by their longest way to an end, by that radius";
-    case PruneMeasure::ratio:
-      return "Branches by the boundary beyond that disk, by the chord it stands on";
-    case PruneMeasure::radius:
-      return "Points by their radius, by R";
-    case PruneMeasure::angle:
-      return "Points by the angle between the radii to the boundary, in degrees";
-    case PruneMeasure::erosion:
-      return "Points by erosion thickness: how far the shape reaches out, by R";
-    case PruneMeasure::potential:
-      return "Points by the length of the boundary beyond, by 2 pi R";
-    case PruneMeasure::residual:
-      return "Points by that length less the chord it stands on, by 2 R";
-    case PruneMeasure::area:
-      return "Points by the area that would be lost, by that of the shape";
-    case PruneMeasure::lambda:
-      return "The lambda medial axis: the smallest circle around the feet, by R";
-    case PruneMeasure::scale:
-      return "The scale axis: the growth that hides a disk in another, from 1 up";
-  }
-  return "";
-}
+/// What each measure judges, in the order of PruneMeasure.
+constexpr std::array measure_helps = {
+    "Branches by the geometric mean of significance and of the same by R",
+    "Branches by how far the shape reaches out beyond the disk where they\n"
+    "begin, by that disk's radius (Ho and Dyer)",
+    "Branches by their longest way to an end, by that radius",
+    "Branches by the boundary beyond that disk, by its chord",
+    "Points by their radius, by R",
+    "Points by the angle between the radii to the boundary, in degrees",
+    "Points by erosion thickness: how far the shape reaches out, by R",
+    "Points by the length of the boundary beyond, by 2 pi R",
+    "Points by that length minus its chord, by 2 R",
+    "Points by the area that would be lost, by that of the shape",
+    "The lambda medial axis: the smallest circle around the feet, by R",
+    "The scale axis: the growth that hides a disk in another, from 1 up",
+};
 
 }  // namespace
 
 void add_prune_options(CLI::App& command, PruneArguments& arguments) {
-  constexpr char group[] = "What matters";
+  const OptionGroup group(command, "What matters");
   arguments.thresholds.resize(prune_measures().size());
   std::vector<CLI::Option*> options;
   for (const PruneMeasure measure : prune_measures()) {
-    CLI::Option* option = command
-                              .add_option(fmt::format("--{}", name_of(measure)),
-                                          arguments.thresholds[static_cast<std::size_t>(measure)],
-                                          fmt::format("{} (default: {}).", help_of(measure),
-                                                      default_threshold(measure)))
-                              ->check(in_range(0, 1e9))
-                              ->option_text("T")
-                              ->group(group);
+    const auto index = static_cast<std::size_t>(measure);
+    CLI::Option* option = add_value(
+        command, fmt::format("--{}", name_of(measure)), arguments.thresholds[index], "T",
+        in_range(0, 1e9),
+        fmt::format("{} (default: {}).", measure_helps.at(index), default_threshold(measure)));
     for (CLI::Option* other : options) option->excludes(other);
     options.push_back(option);
   }
-  CLI::Option* by =
-      command
-          .add_option("--by", arguments.by,
-                      "One of these measures with its default, or for --keep (default:\n"
-                      "prominence).")
-          ->option_text("MEASURE")
-          ->group(group);
-  CLI::Option* keep = command
-                          .add_option("--keep", arguments.keep,
-                                      "The most important branches, so many at most for each\n"
-                                      "feature, instead of a threshold.")
-                          ->check(a_whole_number())
-                          ->option_text("N")
-                          ->group(group);
+  CLI::Option* by = command
+                        .add_option("--by", arguments.by,
+                                    "One of these measures with its default, or for --keep\n"
+                                    "(default: prominence).")
+                        ->option_text("MEASURE");
+  CLI::Option* keep = add_value(command, "--keep", arguments.keep, "N", a_whole_number(),
+                                "The most important branches, so many at most for each\n"
+                                "feature, instead of a threshold.");
   for (CLI::Option* option : options) {
     by->excludes(option);
     keep->excludes(option);
   }
-  command
-      .add_flag("--tips", arguments.tips,
-                "What is kept runs on to its tips, along the ways that reach farthest.")
-      ->group(group);
+  command.add_flag("--tips", arguments.tips,
+                   "Extend what is kept to its tips, along the ways that reach farthest.");
   // A flag that carries a value, as --repair is one.
   command
       .add_flag(
           fmt::format("--specks{{{}}}", speck_share), arguments.speck_share,
-          fmt::format("Leave out specks before: holes and parts with a bounding box whose\n"
+          fmt::format("First leave out specks: holes and parts with a bounding box whose\n"
                       "diagonal is below this share of the square root of the feature's area\n"
-                      "(without a value: {}). Stored axes are computed anew.",
+                      "(without a value: {}). Stored axes are computed again.",
                       speck_share))
       ->check(in_range(0, 1, true))
       ->each([&arguments](const std::string& share) {
         CLI::detail::lexical_cast(share, arguments.specks);
-      })
-      ->group(group);
+      });
 }
 
 Result<PruneOptions> prune_options(const PruneArguments& arguments) {
@@ -113,7 +86,7 @@ Result<PruneOptions> prune_options(const PruneArguments& arguments) {
     if (!measure) {
       std::string names;
       for (const PruneMeasure one : prune_measures()) names += fmt::format(" {}", name_of(one));
-      return invalid_option(fmt::format("--by takes no '{}', only one of:{}", arguments.by, names));
+      return invalid_option(fmt::format("--by: '{}' is none of{}", arguments.by, names));
     }
     options.measure = *measure;
   }
@@ -125,18 +98,16 @@ Result<PruneOptions> prune_options(const PruneArguments& arguments) {
   return options;
 }
 
-Result<PruneReport> prune_all(AxisFile& file, const PruneOptions& options, int threads) {
-  std::vector<double> weights;
-  for (const AxisItem& item : file.native.items)
-    weights.push_back(static_cast<double>(item.axis.edges.size()));
-  std::vector<PruneReport> reports(weights.size());
-  Status done = for_each_feature(weights, threads, [&](std::size_t i, int) -> Status {
-    MedialAxis& axis = file.native.items[i].axis;
+Result<PruneReport> prune_all(Document<AxisItem>& file, const PruneOptions& options, int threads) {
+  std::vector<PruneReport> reports(file.items.size());
+  const auto prune_one = [&](std::size_t i, int) -> Status {
+    MedialAxis& axis = file.items[i].axis;
     auto pruned = prune(axis, options, &reports[i]);
     if (!pruned) return std::move(pruned).error();
     axis = std::move(pruned).value();
     return success();
-  });
+  };
+  Status done = for_each_item(edge_weights_of(file), threads, prune_one);
   if (!done) return std::move(done).error();
   PruneReport sum;
   for (const PruneReport& one : reports) {
@@ -152,89 +123,82 @@ Result<PruneReport> prune_all(AxisFile& file, const PruneOptions& options, int t
 
 namespace {
 
-struct PruneVerbArguments {
-  InputOptions input;
-  CommonOptions common;
+struct PruneCommandArguments : FileArguments {
   PruneArguments prune;
-  std::string output;
-  std::string format;
-  io::WriteOptions write;
   Options options;
   bool preview = false;
 };
 
+/// A threshold around a chosen one.
+double scaled_threshold(PruneMeasure measure, double chosen, double factor) {
+  if (measure == PruneMeasure::angle)  // from 0 to 180 degrees
+    return factor <= 1 ? chosen * factor : chosen + (180 - chosen) * factor / 5;
+  if (measure == PruneMeasure::scale || measure == PruneMeasure::ratio)  // from 1 up
+    return 1 + (chosen - 1) * factor;
+  return chosen * factor;
+}
+
 /// The axes at thresholds around the chosen one, side by side.
-Status write_previews(const AxisFile& file, const PruneOptions& options,
-                      const PruneVerbArguments& arguments) {
+Status write_previews(const Document<AxisItem>& file, const PruneOptions& options,
+                      const PruneCommandArguments& arguments) {
   const double chosen = options.threshold.value_or(default_threshold(options.measure));
   std::vector<double> thresholds;
-  for (const double factor : {0.0, 0.25, 0.5, 1.0, 2.0, 4.0}) {
-    if (options.measure == PruneMeasure::angle) {  // from 0 to 180 degrees
-      const double half = factor <= 1 ? chosen * factor : chosen + (180 - chosen) * factor / 5;
-      thresholds.push_back(half);
-    } else if (options.measure == PruneMeasure::scale ||
-               options.measure == PruneMeasure::ratio) {  // from 1 up
-      thresholds.push_back(1 + (chosen - 1) * factor);
-    } else {
-      thresholds.push_back(chosen * factor);
-    }
-  }
   std::vector<io::PreviewPanel> panels;
-  for (const double threshold : thresholds)
-    panels.push_back({fmt::format("{} {:.3g}", name_of(options.measure), threshold), {}});
+  for (const double factor : {0.0, 0.25, 0.5, 1.0, 2.0, 4.0}) {
+    thresholds.push_back(scaled_threshold(options.measure, chosen, factor));
+    panels.push_back({fmt::format("{} {:.3g}", name_of(options.measure), thresholds.back()), {}});
+  }
   std::vector<Shape> shapes;
-  for (const AxisItem& item : file.native.items) {
+  for (const AxisItem& item : file.items) {
     shapes.push_back(item.shape);
     const PruneOrder order(item.axis, options.measure, options.tips);
     for (std::size_t i = 0; i < panels.size(); ++i)
       panels[i].axes.push_back(order.at(thresholds[i]));
   }
   return io::write_preview(arguments.output, arguments.format, shapes, panels,
-                           arguments.write.width, file.native.y_down);
+                           arguments.write.width, file.y_down);
 }
 
-Result<int> run_prune(const PruneVerbArguments& arguments) {
-  const auto& [input, common, how, output, format, pictures, axis_options, preview] = arguments;
-  if (preview && (output.empty() || how.keep))
+Result<int> run_prune(const PruneCommandArguments& arguments) {
+  const CommonOptions& common = arguments.common;
+  if (arguments.preview && (arguments.output.empty() || arguments.prune.keep))
     return invalid_option("--preview needs -o with the name of a picture, and no --keep");
-  const auto options = prune_options(how);
+  const auto options = prune_options(arguments.prune);
   if (!options) return options.error();
-  Status writable = check_output(output, format,
-                                 preview ? io::known_preview_formats() : io::known_output_formats(),
-                                 input.path, common.json);
+  Status writable = check_output(
+      arguments, arguments.preview ? io::known_preview_formats() : io::known_output_formats());
   if (!writable) return std::move(writable).error();
-  auto axes = load_axes(input, common, how.specks, axis_options);
+  auto axes = load_axes(arguments.input, common, arguments.prune.specks, arguments.options);
   if (!axes) return std::move(axes).error();
-  if (preview) {
-    Status written = write_previews(*axes, *options, arguments);
+  if (arguments.preview) {
+    Status written = write_previews(axes->file, *options, arguments);
     if (!written) return std::move(written).error();
     return exit_success;
   }
-  const Stopwatch pruning;
-  const auto report = prune_all(*axes, *options, common.threads);
+  const auto report = prune_all(axes->file, *options, common.threads);
   if (!report) return report.error();
-  const double seconds = pruning.seconds();
+  axes->phases.end("prune");
   if (common.stats && !common.json) {
     say_text(table({{"measure", name_of(options->measure)},
                     {"threshold", report->threshold},
                     {"branches_before", report->branches_before},
                     {"edges_before", report->edges_before},
-                    {"cuts", report->cuts},
-                    {"seconds_prune", seconds}}));
+                    {"cuts", report->cuts}}));
   }
-  return write_and_tell(*axes, input, common, output, format, pictures);
+  return finish_axes(*axes, arguments);
 }
 
 }  // namespace
 
 Command make_prune_command(CLI::App& program) {
-  auto arguments = std::make_shared<PruneVerbArguments>();
+  auto arguments = std::make_shared<PruneCommandArguments>();
   CLI::App* command = program.add_subcommand("prune", "Remove the branches that do not matter.");
   add_input_options(*command, arguments->input);
-  add_output_options(*command, arguments->output, arguments->format, io::known_output_formats());
+  add_output_options(*command, *arguments, io::known_output_formats());
   add_prune_options(*command, arguments->prune);
   add_exterior_options(*command, arguments->options,
-                       "Of what lies around the shape and in its holes, within a frame.");
+                       "Prune the axis of what lies around the shape and in its holes, within a\n"
+                       "rectangle.");
   command->add_flag(
       "--preview", arguments->preview,
       "One picture over thresholds instead: none, a quarter, a half, the chosen one,\n"
@@ -254,7 +218,7 @@ Command make_prune_command(CLI::App& program) {
       "  medial axis gear.svg -o - | medial prune - --angle 60 -o gear.pdf\n"
       "  medial prune leaf.png --keep 20 --tips -o veins.svg\n"
       "  medial prune coast.wkt.gz --preview -o thresholds.png");
-  return {command, [arguments] { return run_prune(*arguments); }};
+  return command_of(command, arguments, run_prune);
 }
 
 }  // namespace medial::cli

@@ -1,6 +1,6 @@
 #pragma once
 
-// What the commands share that prune.
+// The options and the work of the commands that prune.
 
 #include <optional>
 #include <string>
@@ -20,11 +20,11 @@ struct PruneArguments {
   double specks = 0;        ///< share of without_specks(); 0: they stay
 };
 
-/// A option for every measure, --by, --keep, --tips and --specks.
+/// An option for every measure, --by, --keep, --tips and --specks.
 void add_prune_options(CLI::App& command, PruneArguments& arguments);
 /// Errors: invalid_option.
 Result<PruneOptions> prune_options(const PruneArguments& arguments);
 /// Prunes all axes of a file; the report is summed, the threshold the largest.
-Result<PruneReport> prune_all(AxisFile& file, const PruneOptions& options, int threads);
+Result<PruneReport> prune_all(Document<AxisItem>& file, const PruneOptions& options, int threads);
 
 }  // namespace medial::cli

@@ -11,8 +11,6 @@
 
 #include "cli/commands.h"
 #include "cli/prune_options.h"
-#include "cli/stored_axes.h"
-#include "cli/terminal.h"
 #include "medial/io/image.h"
 #include "medial/io/shapes.h"
 #include "medial/match.h"
@@ -22,48 +20,45 @@
 namespace medial::cli {
 namespace {
 
-struct RebuildArguments {
-  InputOptions input;
-  CommonOptions common;
+struct RebuildArguments : FileArguments {
   PruneArguments prune;  ///< of smooth
-  std::string output;
-  std::string format;
   bool tangents = false;
   std::uint64_t points = 0;
   bool polygon = false;
   std::uint32_t pixels = 0;
   std::string against;
-  double width = 1024;
   Options options;  ///< of smooth: exterior and margin
 };
 
-/// What was rebuilt, summed over the features, and how far it is from what it should be.
-struct Told {
-  double area = 0;
-  std::uint64_t vertices = 0, medial_points = 0, crossings = 0;
-  bool compared = false;
+/// What was rebuilt, and how far it is from what it should be.
+struct Rebuilt {
+  std::vector<Shape> shapes;
+  std::uint64_t medial_points = 0, crossings = 0;  ///< summed over the features
+  std::string compared_with;                       ///< a file
   ShapeDistance distance;
 };
 
-/// The axes of what lies around a file's shapes, in a frame. The shapes go to `before`.
-Result<AxisFile> axes_outside(const RebuildArguments& arguments, std::vector<Shape>& before) {
+/// The axes of what lies around a file's shapes, in a rectangle. The shapes go to `before`.
+Result<LoadedAxes> axes_outside(const RebuildArguments& arguments, std::vector<Shape>& before) {
   const auto& [input, common] = std::tie(arguments.input, arguments.common);
-  auto file = load_shapes(input, common.threads);
-  if (!file) return std::move(file).error();
-  print_notes(*file, input, common);
-  for (std::size_t i = 0; i < file->shapes.size(); ++i) {
-    Shape& shape = file->shapes[i];
+  auto loaded = load_shapes(input, common);
+  if (!loaded) return std::move(loaded).error();
+  for (ShapeItem& item : loaded->file.items) {
+    Shape& shape = item.shape;
     if (arguments.prune.specks > 0) shape = without_specks(shape, arguments.prune.specks);
     auto around = surroundings(shape, arguments.options.margin);
-    if (!around) return at_feature(std::move(around).error(), input.path, i);
+    if (!around) {
+      around.error().place.feature = before.size();
+      return std::move(around).error();
+    }
     before.push_back(std::exchange(shape, std::move(around).value()));
   }
-  return compute_axes(std::move(file).value(), input.path, common);
+  return compute_axes(std::move(loaded).value(), input, common);
 }
 
-/// The shape that these surroundings are of: what their loops enclose but the frame's, which
+/// The shape whose surroundings these are: what their loops enclose except the rectangle's, which
 /// reaches furthest to the left.
-Result<Shape> without_frame(const Shape& around) {
+Result<Shape> inside_surroundings(const Shape& around) {
   std::vector<Ring> rings = rings_of(around);
   const auto leftmost = [](const Ring& ring) {
     return std::ranges::min(ring.points, {}, &Vec2::x).x;
@@ -73,230 +68,225 @@ Result<Shape> without_frame(const Shape& around) {
   return build_shape(rings);
 }
 
-Result<std::vector<Shape>> rebuild_all(const AxisFile& axes, const RebuildArguments& arguments,
-                                       Told& told) {
-  const auto& items = axes.native.items;
-  std::vector<Shape> shapes(items.size());
-  std::vector<RebuildReport> reports(items.size());
-  std::vector<double> weights;
-  for (const AxisItem& item : items) weights.push_back(static_cast<double>(item.axis.edges.size()));
-  Status done =
-      for_each_feature(weights, arguments.common.threads, [&](std::size_t i, int) -> Status {
-        const MedialAxis& axis = items[i].axis;
-        RebuildOptions options;
-        if (arguments.tangents) options.by = RebuildBy::tangents;
-        options.points = arguments.points;
-        if (arguments.polygon) {
-          const Shape& shape = items[i].shape;
-          double size = 0;
-          for (const Node& node : axis.nodes)
-            size = std::max(size, distance(node.disk.center, axis.nodes[0].disk.center));
-          if (!shape.points.empty()) size = diagonal(bounding_box(shape));
-          options.chord = arguments.common.chord * size;
-        }
-        auto shape = rebuild(axis, options, &reports[i]);
-        if (shape && arguments.options.exterior) shape = without_frame(*shape);
-        if (!shape) return at_feature(std::move(shape).error(), arguments.input.path, i);
-        shapes[i] = std::move(shape).value();
-        return success();
-      });
-  if (!done) return std::move(done).error();
-  for (std::size_t i = 0; i < shapes.size(); ++i) {
-    told.area += area(shapes[i]);
-    told.vertices += shapes[i].points.size();
-    told.medial_points += reports[i].medial_points;
-    told.crossings += reports[i].crossings;
+Result<Shape> rebuild_one(const AxisItem& item, const RebuildArguments& arguments,
+                          RebuildReport& report) {
+  RebuildOptions options;
+  if (arguments.tangents) options.by = RebuildBy::tangents;
+  options.points = arguments.points;
+  if (arguments.polygon) {
+    double size = 0;
+    for (const Node& node : item.axis.nodes)
+      size = std::max(size, distance(node.disk.center, item.axis.nodes[0].disk.center));
+    if (!item.shape.points.empty()) size = diagonal(bounding_box(item.shape));
+    options.chord = arguments.common.chord * size;
   }
-  return shapes;
+  auto shape = rebuild(item.axis, options, &report);
+  if (shape && arguments.options.exterior) return inside_surroundings(*shape);
+  return shape;
+}
+
+Result<Rebuilt> rebuild_all(const Document<AxisItem>& file, const RebuildArguments& arguments) {
+  Rebuilt out;
+  std::vector<RebuildReport> reports(file.items.size());
+  auto shapes = map_items<Shape>(
+      edge_weights_of(file), arguments.common.threads,
+      [&](std::size_t i, int) { return rebuild_one(file.items[i], arguments, reports[i]); });
+  if (!shapes) return std::move(shapes).error();
+  out.shapes = std::move(shapes).value();
+  for (const RebuildReport& report : reports) {
+    out.medial_points += report.medial_points;
+    out.crossings += report.crossings;
+  }
+  return out;
 }
 
 /// The largest distances of all features, the sums of their areas.
-Status compare(const std::vector<Shape>& shapes, const std::vector<Shape>& others,
-               const std::string& path, int threads, Told& told) {
+Status compare(Rebuilt& rebuilt, const std::vector<Shape>& others, const std::string& path,
+               int threads) {
+  const std::vector<Shape>& shapes = rebuilt.shapes;
   if (shapes.size() != others.size()) {
     return error_at(ErrorCode::malformed, path,
-                    fmt::format("holds {} where there are {} rebuilt",
-                                counted(others.size(), "feature"), shapes.size()));
+                    fmt::format("holds {}, but {} were rebuilt", counted(others.size(), "feature"),
+                                shapes.size()));
   }
-  std::vector<ShapeDistance> distances(shapes.size());
-  Status done = for_each_feature(weights_of(shapes), threads, [&](std::size_t i, int) -> Status {
-    distances[i] = shape_distance(shapes[i], others[i]);
-    return success();
-  });
-  if (!done) return done;
-  told.compared = true;
-  for (const ShapeDistance& one : distances) {
-    if (one.hausdorff() >= told.distance.hausdorff()) told.distance.worst = one.worst;
-    told.distance.area += one.area;
-    told.distance.other_area += one.other_area;
-    told.distance.from_first = std::max(told.distance.from_first, one.from_first);
-    told.distance.from_second = std::max(told.distance.from_second, one.from_second);
+  std::vector<double> weights;
+  for (const Shape& shape : shapes) weights.push_back(static_cast<double>(shape.points.size()));
+  const auto distances = map_items<ShapeDistance>(
+      weights, threads, [&](std::size_t i, int) { return shape_distance(shapes[i], others[i]); });
+  if (!distances) return distances.error();
+  rebuilt.compared_with = path;
+  ShapeDistance& sum = rebuilt.distance;
+  for (const ShapeDistance& one : *distances) {
+    if (one.hausdorff() >= sum.hausdorff()) sum.worst = one.worst;
+    sum.area += one.area;
+    sum.other_area += one.other_area;
+    sum.from_first = std::max(sum.from_first, one.from_first);
+    sum.from_second = std::max(sum.from_second, one.from_second);
   }
   return success();
 }
 
-Status write_pixels(const AxisFile& axes, const RebuildArguments& arguments, Json& object) {
-  if (axes.native.items.size() != 1) {
+Status compare_with_file(Rebuilt& rebuilt, const RebuildArguments& arguments) {
+  InputOptions input = arguments.input;
+  input.path = arguments.against;
+  CommonOptions quiet = arguments.common;
+  quiet.quiet = true;
+  auto loaded = load_shapes(input, quiet);
+  if (!loaded) return std::move(loaded).error();
+  std::vector<Shape> others;
+  for (ShapeItem& item : loaded->file.items) others.push_back(std::move(item.shape));
+  return compare(rebuilt, others, input.path, arguments.common.threads);
+}
+
+Status write_pixels(const Document<AxisItem>& axes, const RebuildArguments& arguments,
+                    Json& object) {
+  if (axes.items.size() != 1) {
     return error_at(ErrorCode::unsupported, arguments.input.path,
                     "--pixels takes one feature only");
   }
-  auto image = rebuild_image(axes.native.items[0].axis, arguments.pixels, axes.native.y_down);
-  if (!image) return at_feature(std::move(image).error(), arguments.input.path, 0);
+  auto image = rebuild_image(axes.items[0].axis, arguments.pixels, axes.y_down);
+  if (!image) {
+    image.error().place.feature = 0;
+    return std::move(image).error();
+  }
   io::ImageFile placed;
-  placed.crs_wkt = axes.native.crs_wkt;
+  placed.crs_wkt = axes.crs_wkt;
   const double h = image->pixel;
   const double height = h * image->image.height();
   placed.placement =
-      axes.native.y_down
-          ? io::PixelPlacement{image->corner.x, h, 0, image->corner.y, 0, h}
-          : io::PixelPlacement{image->corner.x, h, 0, image->corner.y + height, 0, -h};
+      axes.y_down ? io::PixelPlacement{image->corner.x, h, 0, image->corner.y, 0, h}
+                  : io::PixelPlacement{image->corner.x, h, 0, image->corner.y + height, 0, -h};
   object["pixel"] = h;
   object["pixels"] = image->image.count();
   object["area"] = static_cast<double>(image->image.count()) * h * h;
   return io::write_image(arguments.output, image->image, placed);
 }
 
-Status tell(const Told& told, const RebuildArguments& arguments, Json object, const Json& seconds) {
-  const CommonOptions& common = arguments.common;
-  if (arguments.pixels == 0) {
-    object["vertices"] = told.vertices;
-    object["area"] = told.area;
-    if (told.medial_points > 0) object["medial_points"] = told.medial_points;
-    if (told.crossings > 0) object["crossings"] = told.crossings;
+void add_measures(const Rebuilt& rebuilt, Json& object) {
+  std::uint64_t vertices = 0;
+  double sum_area = 0;
+  for (const Shape& shape : rebuilt.shapes) {
+    vertices += shape.points.size();
+    sum_area += area(shape);
   }
-  if (told.compared) {
-    object["against"] = {
-        {"input", arguments.against.empty() ? arguments.input.path : arguments.against},
-        {"area", told.distance.other_area},
-        {"area_error", told.distance.area - told.distance.other_area},
-        {"hausdorff", told.distance.hausdorff()},
-        {"x", told.distance.worst.x},
-        {"y", told.distance.worst.y}};
-  }
-  const Json costs = {{"seconds", seconds}, {"peak_bytes", peak_bytes()}};
-  if (common.json) {
-    if (common.stats) object.update(costs);
-    return print(object);
-  }
-  if (common.stats) say_text(table(costs));
-  const bool to_screen = arguments.output.empty() || told.compared;
-  if (arguments.output == "-" || common.quiet || !to_screen) return success();
-  return print(table(object));
+  object["vertices"] = vertices;
+  object["area"] = sum_area;
+  if (rebuilt.medial_points > 0) object["medial_points"] = rebuilt.medial_points;
+  if (rebuilt.crossings > 0) object["crossings"] = rebuilt.crossings;
+  if (rebuilt.compared_with.empty()) return;
+  const ShapeDistance& distance = rebuilt.distance;
+  object["against"] = {{"input", rebuilt.compared_with},
+                       {"area", distance.other_area},
+                       {"area_error", distance.area - distance.other_area},
+                       {"hausdorff", distance.hausdorff()},
+                       {"x", distance.worst.x},
+                       {"y", distance.worst.y}};
+}
+
+Status write_rebuilt(Rebuilt& rebuilt, Document<AxisItem>& axes,
+                     const RebuildArguments& arguments) {
+  io::ShapesFile file;
+  file.crs_wkt = axes.crs_wkt;
+  file.y_down = axes.y_down;
+  file.chord = arguments.common.chord;
+  file.width = arguments.write.width;
+  for (std::size_t i = 0; i < rebuilt.shapes.size(); ++i)
+    file.items.push_back({std::move(rebuilt.shapes[i]), std::move(axes.items[i].attributes)});
+  return io::write_shapes(arguments.output, arguments.format, file);
+}
+
+Result<int> finish_rebuild(const RebuildArguments& arguments, Json object, const Phases& phases,
+                           bool compared) {
+  const bool to_screen = arguments.output.empty() || compared;
+  const bool printed = arguments.output != "-" && !arguments.common.quiet && to_screen;
+  const std::string text = printed ? table(object) : std::string();
+  return finish(arguments.common, std::move(object), phases, text);
+}
+
+Status check(const RebuildArguments& arguments) {
+  const bool pixels = arguments.pixels > 0;
+  if (pixels && (arguments.output.empty() || arguments.output == "-"))
+    return invalid_option("--pixels needs -o with the name of an image");
+  if (pixels && !arguments.against.empty()) return invalid_option("--against is not for --pixels");
+  return check_output(arguments, pixels ? image_formats : io::known_shape_formats());
 }
 
 Result<int> run(const RebuildArguments& arguments, bool smooths) {
-  const auto& [input, common, how, output, format, tangents, points, polygon, pixels, against,
-               width, around] = arguments;
-  if (pixels > 0 && (output.empty() || output == "-"))
-    return invalid_option("--pixels needs -o with the name of an image");
-  if (pixels > 0 && !against.empty()) return invalid_option("--against is not for --pixels");
-  const auto options = prune_options(how);
+  const auto& [input, common] = std::tie(arguments.input, arguments.common);
+  const auto options = prune_options(arguments.prune);
   if (!options) return options.error();
-  Status writable =
-      check_output(output, format, pixels > 0 ? image_formats : io::known_shape_formats(),
-                   input.path, common.json);
-  if (!writable) return std::move(writable).error();
+  if (Status possible = check(arguments); !possible) return std::move(possible).error();
   std::vector<Shape> before;
-  auto axes =
-      around.exterior ? axes_outside(arguments, before) : load_axes(input, common, how.specks);
+  auto axes = arguments.options.exterior ? axes_outside(arguments, before)
+                                         : load_axes(input, common, arguments.prune.specks);
   if (!axes) return std::move(axes).error();
-  const Stopwatch watch;
+  Document<AxisItem>& file = axes->file;
   Json object = {{"input", input.path}};
-  if (!output.empty()) object["output"] = output;
+  if (!arguments.output.empty()) object["output"] = arguments.output;
   if (smooths) {
-    if (!around.exterior)
-      for (const AxisItem& item : axes->native.items) before.push_back(item.shape);
-    const auto report = prune_all(*axes, *options, common.threads);
+    if (!arguments.options.exterior)
+      for (const AxisItem& item : file.items) before.push_back(item.shape);
+    const auto report = prune_all(file, *options, common.threads);
     if (!report) return report.error();
     object["measure"] = name_of(options->measure);
     object["threshold"] = report->threshold;
     object["branches_before"] = report->branches_before;
     object["branches"] = report->branches;
   }
-  Told told;
-  if (pixels > 0) {
-    Status written = write_pixels(*axes, arguments, object);
+  if (arguments.pixels > 0) {
+    Status written = write_pixels(file, arguments, object);
     if (!written) return std::move(written).error();
-  } else {
-    auto shapes = rebuild_all(*axes, arguments, told);
-    if (!shapes) return std::move(shapes).error();
-    const double seconds = watch.seconds();
-    if (!against.empty()) {
-      InputOptions other = input;
-      other.path = against;
-      auto file = load_shapes(other, common.threads);
-      if (!file) return std::move(file).error();
-      Status done = compare(*shapes, file->shapes, against, common.threads, told);
-      if (!done) return std::move(done).error();
-    } else if (smooths && (common.json || output.empty())) {
-      Status done = compare(*shapes, before, input.path, common.threads, told);
-      if (!done) return std::move(done).error();
-    }
-    if (!output.empty()) {
-      io::ShapesFile file;
-      file.crs_wkt = axes->native.crs_wkt;
-      file.y_down = axes->native.y_down;
-      file.chord = common.chord;
-      file.width = width;
-      for (std::size_t i = 0; i < shapes->size(); ++i)
-        file.items.push_back(
-            {std::move((*shapes)[i]), std::move(axes->native.items[i].attributes)});
-      Status written = io::write_shapes(output, format, file);
-      if (!written) return std::move(written).error();
-    }
-    Status printed = tell(told, arguments, std::move(object),
-                          {{"read", axes->seconds_read},
-                           {"shape", axes->seconds_shape},
-                           {"axis", axes->seconds_axis},
-                           {smooths ? "smooth" : "rebuild", seconds}});
-    if (!printed) return std::move(printed).error();
-    return exit_success;
+    axes->phases.end("rebuild");
+    return finish_rebuild(arguments, std::move(object), axes->phases, false);
   }
-  Status printed = tell(told, arguments, std::move(object),
-                        {{"read", axes->seconds_read},
-                         {"shape", axes->seconds_shape},
-                         {"axis", axes->seconds_axis},
-                         {"rebuild", watch.seconds()}});
-  if (!printed) return std::move(printed).error();
-  return exit_success;
+  auto rebuilt = rebuild_all(file, arguments);
+  if (!rebuilt) return std::move(rebuilt).error();
+  axes->phases.end(smooths ? "smooth" : "rebuild");
+  Status done = success();
+  if (!arguments.against.empty())
+    done = compare_with_file(*rebuilt, arguments);
+  else if (smooths && (common.json || arguments.output.empty()))
+    done = compare(*rebuilt, before, input.path, common.threads);
+  if (!done) return std::move(done).error();
+  add_measures(*rebuilt, object);
+  if (!arguments.output.empty()) done = write_rebuilt(*rebuilt, file, arguments);
+  if (!done) return std::move(done).error();
+  return finish_rebuild(arguments, std::move(object), axes->phases,
+                        !rebuilt->compared_with.empty());
 }
 
-void add_switches(CLI::App& command, RebuildArguments& arguments, bool smooths) {
+Result<int> run_rebuild(const RebuildArguments& arguments) { return run(arguments, false); }
+Result<int> run_smooth(const RebuildArguments& arguments) { return run(arguments, true); }
+
+void add_rebuild_options(CLI::App& command, RebuildArguments& arguments) {
+  CLI::Option* tangents =
+      command.add_flag("--tangents", arguments.tangents,
+                       "Polygons by tangents of disks instead, as of smooth sampled axes.");
+  add_value(command, "--points", arguments.points, "N", in_range(3, 10'000'000),
+            "With --tangents: points on the axis, about (default: the samples, or\n"
+            "1000 of an exact axis).");
+  add_value(command, "--pixels", arguments.pixels, "N", in_range(1, 32768),
+            fmt::format("The union of the disks as an image, its longer side so many\n"
+                        "pixels: {}",
+                        image_formats))
+      ->excludes(tangents);
+}
+
+void add_options(CLI::App& command, RebuildArguments& arguments, bool smooths) {
   add_input_options(command, arguments.input);
-  add_output_options(command, arguments.output, arguments.format, io::known_shape_formats());
+  add_output_options(command, arguments, io::known_shape_formats());
   command.add_flag("--polygon", arguments.polygon,
                    "Straight edges only: arcs become chords within --chord.");
-  add_width_option(command, arguments.width);
-  command
-      .add_option("--against", arguments.against,
-                  "Measure area and Hausdorff distance against these shapes.")
-      ->check(a_name())
-      ->option_text("SHAPES");
-  if (!smooths) {
-    CLI::Option* tangents =
-        command.add_flag("--tangents", arguments.tangents,
-                         "Polygons by tangents of disks instead, as of smooth sampled axes.");
-    command
-        .add_option("--points", arguments.points,
-                    "With --tangents: points on the axis, about (default: the samples, or\n"
-                    "1000 of an exact axis).")
-        ->check(in_range(3, 10'000'000))
-        ->option_text("N");
-    command
-        .add_option("--pixels", arguments.pixels,
-                    fmt::format("The union of the disks as an image, its longer side so many\n"
-                                "pixels: {}",
-                                image_formats))
-        ->check(in_range(1, 32768))
-        ->option_text("N")
-        ->excludes(tangents);
-  }
+  add_width_option(command, arguments.write.width);
+  add_value(command, "--against", arguments.against, "SHAPES", a_name(),
+            "Measure area and Hausdorff distance against these shapes.");
   if (smooths) {
     add_prune_options(command, arguments.prune);
-    add_exterior_options(
-        command, arguments.options,
-        "Fill what sticks in instead: prune the axis of what lies around the shape and\n"
-        "in its holes, within a frame.");
+    add_exterior_options(command, arguments.options,
+                         "Fill notches instead: prune the axis of what lies around the shape and\n"
+                         "in its holes, within a rectangle.");
+  } else {
+    add_rebuild_options(command, arguments);
   }
   add_common_options(command, arguments.common);
 }
@@ -305,8 +295,8 @@ void add_switches(CLI::App& command, RebuildArguments& arguments, bool smooths) 
 
 Command make_rebuild_command(CLI::App& program) {
   auto arguments = std::make_shared<RebuildArguments>();
-  CLI::App* command = program.add_subcommand("rebuild", "The shape that an axis stands for.");
-  add_switches(*command, *arguments, false);
+  CLI::App* command = program.add_subcommand("rebuild", "Rebuild the shape of an axis.");
+  add_options(*command, *arguments, false);
   command->footer(
       "From an exact axis the boundary comes back exactly, as segments and arcs; where it\n"
       "was pruned, arcs of the last disks close it. Sampled axes give polygons. INPUT is\n"
@@ -318,25 +308,25 @@ Command make_rebuild_command(CLI::App& program) {
       "    medial rebuild - -o smooth.svg\n"
       "  medial rebuild ridge.json --against plan.wkt --json\n"
       "  medial rebuild plan.json --pixels 2000 -o plan.png");
-  return {command, [arguments] { return run(*arguments, false); }};
+  return command_of(command, arguments, run_rebuild);
 }
 
 Command make_smooth_command(CLI::App& program) {
   auto arguments = std::make_shared<RebuildArguments>();
-  CLI::App* command = program.add_subcommand("smooth", "Remove what does not matter from shapes.");
-  add_switches(*command, *arguments, true);
+  CLI::App* command = program.add_subcommand("smooth", "Smooth shapes by pruning their axes.");
+  add_options(*command, *arguments, true);
   command->footer(
       "Computes the axis, prunes it as `medial prune` does, and rebuilds the shape: what\n"
-      "is removed is replaced by the arcs of the disks that it stood on (Ho and Dyer).\n"
-      "Only what sticks out is removed; notches stay, and with --exterior the other way\n"
-      "round. Parts and holes stay.\n"
+      "is removed is replaced by arcs of the disks at its base (Ho and Dyer). Only\n"
+      "protrusions are removed; notches stay, and with --exterior the other way round.\n"
+      "Parts and holes stay.\n"
       "\n"
       "Examples:\n"
       "  medial smooth coast.wkt.gz -o calm.geojson\n"
       "  medial smooth scan.svg --significance 0.2 -o clean.svg\n"
       "  medial smooth plan.wkt --radius 0.3 --json\n"
       "  medial smooth plan.wkt --exterior --significance 0.5 -o filled.svg");
-  return {command, [arguments] { return run(*arguments, true); }};
+  return command_of(command, arguments, run_smooth);
 }
 
 }  // namespace medial::cli

@@ -89,7 +89,7 @@ bool error_is_terminal() { return isatty(STDERR_FILENO) == 1; }
 void be_quiet() { quiet = true; }
 
 std::uint64_t peak_bytes() {
-  // On Linux getrusage() tells the caller's peak, if that was larger and it started us by vfork().
+  // On Linux getrusage() gives the caller's peak, if that was larger and it started us by vfork().
   std::ifstream status("/proc/self/status");
   for (std::string line; std::getline(status, line);)
     if (line.starts_with("VmHWM:")) return 1024 * std::strtoull(line.c_str() + 6, nullptr, 10);
@@ -108,8 +108,7 @@ double processor_seconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-Progress::Progress(std::string label, double total, bool shown)
-    : label_(std::move(label)), total_(total), shown_(shown && total > 0) {}
+Progress::Progress(std::string label, bool shown) : label_(std::move(label)), shown_(shown) {}
 
 Progress::~Progress() {
   if (!shown_ || !bar_visible.exchange(false)) return;
@@ -117,21 +116,15 @@ Progress::~Progress() {
   std::fflush(stderr);
 }
 
-std::function<void(double)> Progress::part(double weight) {
+std::function<void(double)> Progress::callback() {
   if (!shown_) return {};
-  auto last = std::make_shared<std::atomic<double>>(0.0);
-  return [this, weight, last](double share) {
-    share = std::clamp(share, 0.0, 1.0);
-    done_.fetch_add(weight * (share - last->exchange(share)));
-    redraw();
-  };
+  return [this](double share) { redraw(std::clamp(share, 0.0, 1.0)); };
 }
 
-void Progress::redraw() {
+void Progress::redraw(double share) {
   const std::unique_lock lock(drawing_, std::try_to_lock);
   if (!lock || watch_.seconds() < next_draw_) return;
   next_draw_ = watch_.seconds() + seconds_between_draws;
-  const double share = std::clamp(done_.load() / total_, 0.0, 1.0);
   const int filled = static_cast<int>(std::lround(share * bar_width));
   bar_visible.store(true);
   say_text(fmt::format("\r{} [{:#<{}}{:.<{}}] {:3.0f} %", label_, "", filled, "",

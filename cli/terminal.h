@@ -59,33 +59,31 @@ class Stopwatch {
 };
 
 /// A progress bar on standard error. It shows itself once work has lasted a second, and is wiped
-/// when destroyed. Its parts may be advanced from any thread.
+/// when destroyed.
 class Progress {
  public:
-  /// `total` is the sum of the weights of all parts. A bar that is not `shown` costs nothing.
-  Progress(std::string label, double total, bool shown);
+  /// A bar that is not `shown` costs nothing.
+  Progress(std::string label, bool shown);
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// A function to be told the share in [0, 1] that is done of a part; empty if nothing is shown.
-  /// The Progress must outlive it.
-  std::function<void(double)> part(double weight);
+  /// Takes the share in [0, 1] that is done, from any thread; empty if nothing is shown. The
+  /// Progress must outlive it.
+  std::function<void(double)> callback();
 
  private:
-  void redraw();
+  void redraw(double share);
 
   std::string label_;
-  double total_;
   bool shown_;
   Stopwatch watch_;
-  std::atomic<double> done_ = 0;
   std::mutex drawing_;
   double next_draw_ = 1.0;  ///< in seconds; guarded by drawing_
 };
 
 /// A line on standard error while a file is read or written: it shows itself once that has lasted a
-/// second, and is wiped when destroyed. How long it will take nobody knows: it tells the seconds.
+/// second, and is wiped when destroyed. Nobody knows how long it will take, so it counts seconds.
 class Activity {
  public:
   /// "reading", "writing". Costs nothing where standard error is no terminal, and after be_quiet().

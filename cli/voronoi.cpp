@@ -9,180 +9,123 @@
 
 #include "cli/commands.h"
 #include "cli/common.h"
-#include "cli/costs.h"
-#include "cli/loose.h"
 #include "cli/nearest.h"
 #include "cli/pipeline.h"
-#include "cli/terminal.h"
 
 namespace medial::cli {
 namespace {
 
-struct VoronoiArguments {
-  InputOptions input;
-  CommonOptions common;
+struct VoronoiArguments : FileArguments {
   std::string method = "disks";
   std::vector<double> frame;
   double margin = 0;
   NearestArguments nearest;
-  std::string output;
-  std::string format;
-  io::WriteOptions write;
 };
 
-/// What there is to tell of diagrams.
-struct Summary {
-  std::uint64_t segments = 0, vertices = 0, edges = 0, spokes = 0, points = 0;
-  bool planar_graph = false;
-};
-
-Summary sum_of(const Document<io::VoronoiItem>& file) {
-  Summary sum;
-  for (const io::VoronoiItem& item : file.items) {
-    const VoronoiDiagram& diagram = item.diagram;
-    for (const Site& site : diagram.sites)
-      ++(site.kind == SiteKind::vertex ? sum.vertices : sum.segments);
-    sum.planar_graph = sum.planar_graph || diagram.frame.has_value();
-    sum.edges += diagram.edges.size();
-    for (const VoronoiEdge& edge : diagram.edges) sum.spokes += edge.spoke ? 1 : 0;
-    for (const Node& node : diagram.nodes) sum.points += node.disk.radius > 0 ? 1 : 0;
-  }
-  return sum;
-}
-
-Result<Document<io::VoronoiItem>> compute_diagrams(ShapeFile shapes, const std::string& path,
-                                                   const CommonOptions& common) {
+/// The diagrams of a file.
+struct Diagrams {
   Document<io::VoronoiItem> file;
-  file.crs_wkt = shapes.crs_wkt;
-  file.y_down = shapes.y_down;
-  file.items.resize(shapes.shapes.size());
-  Status computed = for_each_feature(
-      weights_of(shapes.shapes), common.threads, [&](std::size_t i, int threads) -> Status {
-        auto diagram =
-            voronoi_diagram(shapes.shapes[i], {.tolerance = common.tolerance, .threads = threads});
-        if (!diagram) return at_feature(std::move(diagram).error(), path, i);
-        file.items[i] = {std::move(shapes.shapes[i]), std::move(diagram).value(),
-                         std::move(shapes.attributes[i])};
-        return success();
-      });
-  if (!computed) return std::move(computed).error();
-  return file;
-}
-
-/// Seconds by phase.
-struct Phases {
-  double read = 0;
-  double shape = 0;
-  double voronoi = 0;
+  Phases phases;
 };
 
 /// One diagram of all that the file holds.
-Result<Document<io::VoronoiItem>> compute_planar_graph(const VoronoiArguments& arguments,
-                                                       Phases& seconds) {
-  const auto& input = arguments.input;
-  const Stopwatch reading;
-  auto loose = load_chains(input, arguments.common.threads);
-  if (!loose) return std::move(loose).error();
-  print_notes(*loose, input, arguments.common);
-  seconds.read = reading.seconds();
+Result<Diagrams> compute_together(const VoronoiArguments& arguments) {
+  const CommonOptions& common = arguments.common;
+  Diagrams out;
+  auto pieces = load_loose(arguments.input, common);
+  if (!pieces) return std::move(pieces).error();
+  out.phases.end("read");
   std::optional<Box> frame;
-  if (!arguments.frame.empty())
-    frame = Box{{arguments.frame[0], arguments.frame[1]}, {arguments.frame[2], arguments.frame[3]}};
-  PlanarGraph planar_graph;
-  const Stopwatch watch;
-  auto diagram = with_planar_graph(*loose, input, arguments.common, planar_graph, [&] {
-    const Stopwatch computing;
-    auto computed = voronoi_diagram(planar_graph,
-                                    {.tolerance = arguments.common.tolerance,
-                                     .threads = arguments.common.threads,
-                                     .margin = arguments.margin},
-                                    frame);
-    seconds.voronoi = computing.seconds();
-    return computed;
+  if (const auto& box = arguments.frame; !box.empty())
+    frame = Box{{box[0], box[1]}, {box[2], box[3]}};
+  io::VoronoiItem item;
+  Status computed = with_planar_graph(*pieces, arguments, [&](PlanarGraph& graph) -> Status {
+    out.phases.end("shape");
+    auto diagram = voronoi_diagram(
+        graph,
+        {.tolerance = common.tolerance, .threads = common.threads, .margin = arguments.margin},
+        frame);
+    if (!diagram) return std::move(diagram).error();
+    item.diagram = std::move(diagram).value();
+    return success();
   });
-  if (!diagram) return std::move(diagram).error();
-  seconds.shape = watch.seconds() - seconds.voronoi;
-  Document<io::VoronoiItem> file;
-  file.crs_wkt = loose->crs_wkt;
-  file.y_down = loose->y_down;
-  file.items.push_back({{}, std::move(diagram).value(), {}});
-  return file;
+  if (!computed) return std::move(computed).error();
+  out.phases.end("voronoi");
+  out.file = same_frame<io::VoronoiItem>(pieces->features);
+  out.file.items.push_back(std::move(item));
+  return out;
 }
 
-Status tell(const Document<io::VoronoiItem>& file, const VoronoiArguments& arguments,
-            double seconds, const Json& costs) {
-  const Summary sum = sum_of(file);
-  if (arguments.common.json) {
-    Json object = {{"input", arguments.input.path},
-                   {"features", file.items.size()},
-                   {"segments", sum.segments},
-                   {sum.planar_graph ? "points" : "reflex_vertices", sum.vertices},
-                   {"edges", sum.edges},
-                   {"spokes", sum.spokes},
-                   {"voronoi_points", sum.points},
-                   {"seconds", seconds}};
-    if (arguments.common.stats) object.update(costs);
-    return print(object);
-  }
-  const std::string line =
-      fmt::format("{}: {}, {}, {}; {} ({}), {}; {:.3g} s\n", arguments.input.path,
-                  counted(file.items.size(), "feature"), counted(sum.segments, "segment"),
-                  sum.planar_graph ? counted(sum.vertices, "point")
-                                   : counted(sum.vertices, "reflex vertex", "reflex vertices"),
-                  counted(sum.edges, "edge"), counted(sum.spokes, "spoke"),
-                  counted(sum.points, "Voronoi point"), seconds);
-  if (arguments.output.empty()) return print(line);
-  if (error_is_terminal() && !arguments.common.quiet) say_text(line);
-  return success();
-}
-
-Result<Document<io::VoronoiItem>> compute_by_lee(const VoronoiArguments& arguments,
-                                                 Phases& seconds) {
-  auto shapes = load_shapes(arguments.input, arguments.common.threads);
+/// A diagram of each shape.
+Result<Diagrams> compute_by_lee(const VoronoiArguments& arguments) {
+  const CommonOptions& common = arguments.common;
+  auto shapes = load_shapes(arguments.input, common);
   if (!shapes) return std::move(shapes).error();
-  print_notes(*shapes, arguments.input, arguments.common);
-  seconds.read = shapes->seconds_read;
-  seconds.shape = shapes->seconds_shape;
-  const Stopwatch watch;
-  auto computed =
-      compute_diagrams(std::move(shapes).value(), arguments.input.path, arguments.common);
-  seconds.voronoi = watch.seconds();
-  return computed;
+  std::vector<ShapeItem>& items = shapes->file.items;
+  Diagrams out{same_frame<io::VoronoiItem>(shapes->file), std::move(shapes->phases)};
+  const auto compute_one = [&](std::size_t i, int threads) -> Result<io::VoronoiItem> {
+    auto diagram =
+        voronoi_diagram(items[i].shape, {.tolerance = common.tolerance, .threads = threads});
+    if (!diagram) return std::move(diagram).error();
+    return io::VoronoiItem{std::move(items[i].shape), std::move(diagram).value(),
+                           std::move(items[i].attributes)};
+  };
+  auto computed = map_items<io::VoronoiItem>(weights_of(shapes->file), common.threads, compute_one);
+  if (!computed) return std::move(computed).error();
+  out.file.items = std::move(computed).value();
+  out.phases.end("voronoi");
+  return out;
+}
+
+Result<int> finish_voronoi(const Diagrams& diagrams, const VoronoiArguments& arguments) {
+  const auto& [file, phases] = diagrams;
+  std::uint64_t segments = 0, vertices = 0, edges = 0, spokes = 0, points = 0;
+  for (const io::VoronoiItem& item : file.items) {
+    const VoronoiDiagram& diagram = item.diagram;
+    for (const Site& site : diagram.sites) ++(site.kind == SiteKind::vertex ? vertices : segments);
+    edges += diagram.edges.size();
+    for (const VoronoiEdge& edge : diagram.edges) spokes += edge.spoke ? 1 : 0;
+    for (const Node& node : diagram.nodes) points += node.disk.radius > 0 ? 1 : 0;
+  }
+  const bool lee = arguments.method == "lee";
+  const std::string& input = arguments.input.path;
+  return finish(
+      arguments,
+      {{"input", input},
+       {"features", file.items.size()},
+       {"segments", segments},
+       {lee ? "reflex_vertices" : "points", vertices},
+       {"edges", edges},
+       {"spokes", spokes},
+       {"voronoi_points", points},
+       {"seconds", phases.seconds("voronoi")}},
+      phases,
+      fmt::format(
+          "{}: {}, {}, {}; {} ({}), {}", input, counted(file.items.size(), "feature"),
+          counted(segments, "segment"),
+          lee ? counted(vertices, "reflex vertex", "reflex vertices") : counted(vertices, "point"),
+          counted(edges, "edge"), counted(spokes, "spoke"), counted(points, "Voronoi point")));
 }
 
 Result<int> run_voronoi(const VoronoiArguments& arguments) {
-  const auto& [input, common, method, frame, margin, nearest, output, format, pictures] = arguments;
-  const bool by_lee = method == "lee";
-  if (nearest.any()) {
-    if (by_lee || !frame.empty() || margin > 0)
+  const bool by_lee = arguments.method == "lee";
+  const bool framed = !arguments.frame.empty() || arguments.margin > 0;
+  if (arguments.nearest.any()) {
+    if (by_lee || framed)
       return invalid_option("the nearest site is that of the whole plane: no frame, not by lee");
-    return run_nearest(input, common, nearest, output, format);
+    return run_nearest(arguments, arguments.nearest);
   }
-  Status writable =
-      check_output(output, format, io::known_voronoi_formats(), input.path, common.json);
+  Status writable = check_output(arguments, io::known_voronoi_formats());
   if (!writable) return std::move(writable).error();
-  if (by_lee && !(frame.empty() && margin == 0))
-    return invalid_option("the method lee has no frame: polygons are it");
-  Phases seconds;
-  auto diagrams =
-      by_lee ? compute_by_lee(arguments, seconds) : compute_planar_graph(arguments, seconds);
+  if (by_lee && framed) return invalid_option("the method lee has no frame but its polygons");
+  auto diagrams = by_lee ? compute_by_lee(arguments) : compute_together(arguments);
   if (!diagrams) return std::move(diagrams).error();
-  const Stopwatch writing;
-  if (!output.empty()) {
-    io::WriteOptions write = pictures;
-    write.chord = common.chord;
-    const Activity shown("writing", output);
-    Status written = io::write_voronoi(output, format, *diagrams, write);
-    if (!written) return std::move(written).error();
-  }
-  const Json costs = costs_of(common, {{"read", seconds.read},
-                                       {"shape", seconds.shape},
-                                       {"voronoi", seconds.voronoi},
-                                       {"write", writing.seconds()}});
-  Status told = tell(*diagrams, arguments, seconds.voronoi, costs);
-  if (!told) return std::move(told).error();
-  print_costs(common, costs);
-  return exit_success;
+  Status written =
+      write_output(arguments, diagrams->phases, [&](const auto& path, const auto& format) {
+        return io::write_voronoi(path, format, diagrams->file, write_options(arguments));
+      });
+  if (!written) return std::move(written).error();
+  return finish_voronoi(*diagrams, arguments);
 }
 
 }  // namespace
@@ -192,19 +135,16 @@ Command make_voronoi_command(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "voronoi", "Compute the Voronoi diagram of points, lines, curves and polygons.");
   add_input_options(*command, arguments->input);
-  add_output_options(*command, arguments->output, arguments->format, io::known_voronoi_formats());
+  add_output_options(*command, *arguments, io::known_voronoi_formats());
   command
       ->add_option("--method", arguments->method,
-                   "How: disks (default), of everything in the file together, within a\n"
-                   "frame; or lee, of each polygon inside of it.")
+                   "The method: disks (default), of everything in the file together, within a\n"
+                   "frame; or lee, inside each polygon.")
       ->check(CLI::IsMember({"disks", "lee"}).description(""))
       ->option_text("NAME");
-  command
-      ->add_option("--margin", arguments->margin,
-                   "How far the frame is away from the input's bounding box, in units of the\n"
-                   "input (default: half of its longer side).")
-      ->check(a_positive_number())
-      ->option_text("M");
+  add_value(*command, "--margin", arguments->margin, "M", a_positive_number(),
+            "The distance from the input's bounding box to the frame, in units of the\n"
+            "input (default: half of the box's longer side).");
   add_list_option(
       *command, "--frame", 4,
       [arguments](const std::vector<double>& frame) { arguments->frame = frame; },
@@ -234,7 +174,7 @@ Command make_voronoi_command(CLI::App& program) {
       "  medial voronoi roads.gpkg --queries houses.csv -o nearest-road.csv\n"
       "  medial voronoi parcels.geojson --where \"area > 100\" -o faces.geojson\n"
       "  medial voronoi plan.wkt -o - --format json | jq '.items[0].edges | length'");
-  return {command, [arguments] { return run_voronoi(*arguments); }};
+  return command_of(command, arguments, run_voronoi);
 }
 
 }  // namespace medial::cli

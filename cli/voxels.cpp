@@ -7,32 +7,23 @@
 #include "cli/commands.h"
 #include "cli/common.h"
 #include "cli/pipeline.h"
-#include "cli/terminal.h"
 #include "medial/io/mesh.h"
 #include "medial/volume.h"
 
 namespace medial::cli {
 namespace {
 
-struct VoxelArguments {
-  std::string input;
-  std::string output;
-  std::string format;
-  std::string search = "tree";
-  std::string thinning = "sheets";
+struct VoxelArguments : FileArguments {
   double memory = 4;  ///< in GiB
   double width = 1536;
-  CommonOptions common;
   VoxelOptions options;
 };
 
-/// What a run has to tell.
+/// A solid and its axis.
 struct Outcome {
   Solid solid;
   VoxelAxis axis;
-  double seconds_read = 0;
-  double seconds_solid = 0;
-  double seconds_write = 0;
+  Phases phases;
 };
 
 Json json_of(const VoxelTopology& topology) {
@@ -49,7 +40,7 @@ Json json_of(const MeshReport& report) {
 }
 
 Json summary(const Outcome& outcome) {
-  const auto& [solid, axis, read, made, written] = outcome;
+  const auto& [solid, axis, phases] = outcome;
   Json object = {{"vertices", solid.surface.vertices.size()},
                  {"faces", solid.surface.faces.size()},
                  {"resolution", axis.resolution},
@@ -70,8 +61,9 @@ Json summary(const Outcome& outcome) {
   return object;
 }
 
-Json stats(const Outcome& outcome) {
+Json statistics_of(const Outcome& outcome) {
   const VoxelStatistics& s = outcome.axis.statistics;
+  const Phases& phases = outcome.phases;
   return {{"threads", s.threads},
           {"mesh", json_of(outcome.solid.report)},
           {"surface_voxels", s.surface_voxels},
@@ -82,17 +74,16 @@ Json stats(const Outcome& outcome) {
           {"bridge_voxels", s.bridge_voxels},
           {"face_distances", s.face_distances},
           {"seconds",
-           {{"read", outcome.seconds_read},
-            {"solid", outcome.seconds_solid},
+           {{"read", phases.seconds("read")},
+            {"solid", phases.seconds("solid")},
             {"tree", s.seconds_tree},
             {"digitize", s.seconds_digitize},
             {"first", s.seconds_first},
             {"follow", s.seconds_follow},
             {"bridge", s.seconds_bridge},
             {"thin", s.seconds_thin},
-            {"write", outcome.seconds_write}}},
-          {"processor_seconds", processor_seconds()},
-          {"peak_bytes", peak_bytes()}};
+            {"write", phases.seconds("write")}}},
+          {"processor_seconds", processor_seconds()}};
 }
 
 std::string counts_of(const VoxelTopology& topology) {
@@ -101,141 +92,100 @@ std::string counts_of(const VoxelTopology& topology) {
                      counted(topology.cavities, "cavity", "cavities"));
 }
 
-/// What was mended, and where the grid is too coarse.
+/// What was repaired, and where the grid is too coarse.
 void print_notes(const VoxelArguments& arguments, const Outcome& outcome) {
   if (arguments.common.quiet) return;
+  const std::string& input = arguments.input.path;
   const MeshReport& report = outcome.solid.report;
-  std::string mended;
-  const auto mention = [&mended](std::uint64_t count, const char* noun, const char* plural) {
-    if (count > 0) mended += (mended.empty() ? "" : ", ") + counted(count, noun, plural);
-  };
-  mention(report.dropped_faces, "dropped face without an area", "dropped faces without an area");
-  mention(report.reversed_faces, "reversed face", "reversed faces");
-  mention(report.parted_vertices, "parted vertex", "parted vertices");
-  if (!mended.empty()) say("medial: {}: {}\n", arguments.input, mended);
+  const CountedNoun counts[] = {
+      {report.dropped_faces, "dropped face without an area", "dropped faces without an area"},
+      {report.reversed_faces, "reversed face"},
+      {report.parted_vertices, "parted vertex", "parted vertices"}};
+  const std::string repaired = enumerate(counts);
+  if (!repaired.empty()) say("medial: {}: {}\n", input, repaired);
   if (outcome.axis.interior != outcome.solid.topology)
     say("medial: {}: the grid is too coarse for its topology: the mesh has {}; the interior "
         "voxels have {}\n",
-        arguments.input, counts_of(outcome.solid.topology), counts_of(outcome.axis.interior));
+        input, counts_of(outcome.solid.topology), counts_of(outcome.axis.interior));
 }
 
-Result<int> tell(const VoxelArguments& arguments, const Outcome& outcome) {
+Result<Outcome> compute_outcome(const VoxelArguments& arguments) {
+  const std::string& input = arguments.input.path;
   const CommonOptions& common = arguments.common;
-  if (common.json) {
-    Json object = {{"input", arguments.input}};
-    if (!arguments.output.empty()) object["output"] = arguments.output;
-    if (common.stats) object.update(stats(outcome));
-    object.update(summary(outcome));
-    Status printed = print(object);
-    if (!printed) return std::move(printed).error();
-    return exit_success;
+  Outcome out;
+  auto mesh = io::read_mesh(input);
+  if (!mesh) return std::move(mesh).error();
+  out.phases.end("read");
+  auto solid = build_solid(std::move(mesh).value());
+  if (!solid) {
+    solid.error().place.file = input;
+    return std::move(solid).error();
   }
-  const VoxelAxis& axis = outcome.axis;
-  const std::string line =
-      fmt::format("{}: {}, {} x {} x {} cells, {}, {}; {}; {:.3g} s", arguments.input,
-                  counted(outcome.solid.surface.faces.size(), "face"), axis.cells[0], axis.cells[1],
-                  axis.cells[2], counted(axis.voxels.size(), "voxel"),
-                  counted(axis.links.size(), "link"), counts_of(axis.topology),
-                  outcome.seconds_read + outcome.seconds_solid + axis.statistics.seconds +
-                      outcome.seconds_write);
-  if (arguments.output.empty()) {
-    Status printed = print(line + "\n");
-    if (!printed) return std::move(printed).error();
-  } else if (error_is_terminal() && !common.quiet) {
-    say("{} -> {}\n", line, arguments.output == "-" ? "standard output" : arguments.output);
+  out.solid = std::move(solid).value();
+  out.phases.end("solid");
+  VoxelOptions options = arguments.options;
+  options.threads = common.threads;
+  options.memory = static_cast<std::uint64_t>(arguments.memory * 0x1p30);
+  Progress progress("voxels", error_is_terminal() && !common.quiet);
+  options.progress = progress.callback();
+  auto axis = compute_voxels(out.solid, options);
+  if (!axis) {
+    axis.error().place.file = input;
+    return std::move(axis).error();
   }
-  if (common.stats) say_text(table(stats(outcome)));
-  return exit_success;
+  out.axis = std::move(axis).value();
+  out.phases.end("axis");
+  return out;
 }
 
 Result<int> run_voxels(const VoxelArguments& arguments) {
-  const CommonOptions& common = arguments.common;
-  Status writable = check_output(arguments.output, arguments.format, io::known_voxel_formats(),
-                                 arguments.input, common.json);
+  Status writable = check_output(arguments, io::known_voxel_formats());
   if (!writable) return std::move(writable).error();
-  Outcome outcome;
-  const Stopwatch reading;
-  auto mesh = io::read_mesh(arguments.input);
-  if (!mesh) return std::move(mesh).error();
-  outcome.seconds_read = reading.seconds();
-  const Stopwatch making;
-  auto solid = build_solid(std::move(mesh).value());
-  if (!solid) {
-    solid.error().place.file = arguments.input;
-    return std::move(solid).error();
-  }
-  outcome.solid = std::move(solid).value();
-  outcome.seconds_solid = making.seconds();
-
-  VoxelOptions options = arguments.options;
-  options.threads = common.threads;
-  options.search = arguments.search == "tree" ? FaceSearch::tree : FaceSearch::sorted_list;
-  options.thinning = arguments.thinning == "none"     ? Thinning::none
-                     : arguments.thinning == "curves" ? Thinning::curves
-                                                      : Thinning::sheets;
-  options.memory = static_cast<std::uint64_t>(arguments.memory * 0x1p30);
-  Progress progress("voxels", 1, error_is_terminal() && !common.quiet);
-  options.progress = progress.part(1);
-  auto axis = compute_voxels(outcome.solid, options);
-  if (!axis) {
-    axis.error().place.file = arguments.input;
-    return std::move(axis).error();
-  }
-  outcome.axis = std::move(axis).value();
-  print_notes(arguments, outcome);
-
-  if (!arguments.output.empty()) {
-    const Stopwatch writing;
-    Status written = io::write_voxels(arguments.output, arguments.format, outcome.axis,
-                                      outcome.solid, arguments.width);
-    if (!written) return std::move(written).error();
-    outcome.seconds_write = writing.seconds();
-  }
-  return tell(arguments, outcome);
+  auto outcome = compute_outcome(arguments);
+  if (!outcome) return std::move(outcome).error();
+  print_notes(arguments, *outcome);
+  Status written =
+      write_output(arguments, outcome->phases, [&](const auto& path, const auto& format) {
+        return io::write_voxels(path, format, outcome->axis, outcome->solid, arguments.width);
+      });
+  if (!written) return std::move(written).error();
+  const VoxelAxis& axis = outcome->axis;
+  Json object = {{"input", arguments.input.path}};
+  if (!arguments.output.empty()) object["output"] = arguments.output;
+  object.update(summary(*outcome));
+  return finish(arguments, std::move(object), outcome->phases,
+                fmt::format("{}: {}, {} x {} x {} cells, {}, {}; {}", arguments.input.path,
+                            counted(outcome->solid.surface.faces.size(), "face"), axis.cells[0],
+                            axis.cells[1], axis.cells[2], counted(axis.voxels.size(), "voxel"),
+                            counted(axis.links.size(), "link"), counts_of(axis.topology)),
+                statistics_of(*outcome));
 }
 
 void add_own_options(CLI::App& command, VoxelArguments& arguments) {
   VoxelOptions& options = arguments.options;
-  command
-      .add_option("--voxels", options.voxels,
-                  "Voxels along the longest side of the mesh (default: 128).")
-      ->check(in_range(4, 4096, true))
-      ->option_text("N");
-  command
-      .add_option("--resolution", options.resolution,
-                  "Instead of that: the edge of a voxel, in units of the input.")
-      ->check(a_positive_number())
-      ->excludes("--voxels")
-      ->option_text("H");
-  command
-      .add_option("--angle", options.angle,
-                  "In degrees: two feet of a voxel count as two if they lie so far apart as\n"
-                  "seen from it, 1 to 120 (default: 30). Smaller angles give the axis of\n"
-                  "the faces as they are; meshes of curved surfaces need larger ones.")
-      ->check(in_range(1.0, 120.0, true))
-      ->option_text("A");
-  command
-      .add_option("--thin", arguments.thinning,
-                  "What the axis is thinned to: sheets, one voxel thick (default);\n"
-                  "curves; or none.")
-      ->check(CLI::IsMember({"sheets", "curves", "none"}).description(""))
+  CLI::Option* voxels = add_value(command, "--voxels", options.voxels, "N", in_range(4, 4096, true),
+                                  "Voxels along the longest side of the mesh (default: 128).");
+  add_value(command, "--resolution", options.resolution, "H", a_positive_number(),
+            "Instead of that: the edge of a voxel, in units of the input.")
+      ->excludes(voxels);
+  add_value(command, "--angle", options.angle, "A", in_range(1.0, 120.0, true),
+            "In degrees: two feet of a voxel count as two if they lie so far apart as\n"
+            "seen from it, 1 to 120 (default: 30). Smaller angles give the axis of\n"
+            "the faces as they are; meshes of curved surfaces need larger ones.");
+  add_choice<Thinning>(
+      command, "--thin", options.thinning,
+      {{"sheets", Thinning::sheets}, {"curves", Thinning::curves}, {"none", Thinning::none}},
+      "What the axis is thinned to: sheets, one voxel thick (default);\n"
+      "curves; or none.")
       ->option_text("KIND");
-  command
-      .add_option("--search", arguments.search,
-                  "How the nearest faces are found: tree (default), or sorted-list, the\n"
-                  "published way, slow for many faces. Both give the same voxels.")
-      ->check(CLI::IsMember({"tree", "sorted-list"}).description(""))
-      ->option_text("NAME");
-  command
-      .add_option("--memory", arguments.memory,
-                  "Give up before more than about G gibibytes are held (default: 4).")
-      ->check(in_range(0.001, 1e6, true))
-      ->option_text("G");
-  command
-      .add_option("--width", arguments.width,
-                  "Width of a picture of three views, in pixels (default: 1536).")
-      ->check(in_range(48.0, 8000.0, true))
-      ->option_text("W");
+  add_choice<FaceSearch>(command, "--search", options.search,
+                         {{"tree", FaceSearch::tree}, {"sorted-list", FaceSearch::sorted_list}},
+                         "How the nearest faces are found: tree (default), or sorted-list, as\n"
+                         "published, slow for many faces. Both give the same voxels.");
+  add_value(command, "--memory", arguments.memory, "G", in_range(0.001, 1e6, true),
+            "Give up before more than about G gibibytes are used (default: 4).");
+  add_value(command, "--width", arguments.width, "W", in_range(48.0, 8000.0, true),
+            "Width of a picture of three views, in pixels (default: 1536).");
 }
 
 }  // namespace
@@ -245,14 +195,13 @@ Command make_voxels_command(CLI::App& program) {
   CLI::App* command =
       program.add_subcommand("voxels", "Compute the medial axis of a closed mesh on a grid.");
   command
-      ->add_option("MESH", arguments->input,
+      ->add_option("MESH", arguments->input.path,
                    "A closed triangle mesh: " + io::known_mesh_formats() + ".")
       ->required()
       ->option_text(" ");
-  add_output_options(*command, arguments->output, arguments->format, io::known_voxel_formats(),
-                     "for example ply");
+  add_output_options(*command, *arguments, io::known_voxel_formats(), "for example ply");
   add_own_options(*command, *arguments);
-  add_threads_option(*command, arguments->common);
+  add_threads_option(*command, arguments->common.threads);
   add_report_options(*command, arguments->common);
   command->footer(
       "The axis is a set of voxels with radii, by ridge following: surfaces one voxel\n"
@@ -267,7 +216,7 @@ Command make_voxels_command(CLI::App& program) {
       "  medial voxels part.stl -o axis.ply --voxels 256\n"
       "  medial voxels part.stl -o part.png --resolution 0.5 --angle 10\n"
       "  medial voxels tree.obj -o skeleton.obj --thin curves --stats");
-  return {command, [arguments] { return run_voxels(*arguments); }};
+  return command_of(command, arguments, run_voxels);
 }
 
 }  // namespace medial::cli

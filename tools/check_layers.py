@@ -23,7 +23,7 @@ LAYERS = {
     "voronoi": ["voronoi"],
     "ops": ["carve", "centreline", "features", "match", "measure", "offset", "pack", "prune", "rebuild", "sides"],
     "volume": ["volume"],
-    "load": ["document"],
+    "load": ["document", "load"],
     "io": ["io/*"],
     "all": ["medial"],
 }

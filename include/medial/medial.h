@@ -17,6 +17,7 @@
 #include "medial/features.h"
 #include "medial/field.h"
 #include "medial/image.h"
+#include "medial/load.h"
 #include "medial/match.h"
 #include "medial/measure.h"
 #include "medial/methods.h"

@@ -363,6 +363,9 @@ Document<Feature> dataset_of(Document<AxisItem> file) {
     });
     for (const std::size_t i : loops) {
       feature.rings.push_back(ring_of(shape, i));
+      const auto sources = shape.sources.begin();
+      feature.sources.insert(feature.sources.end(), sources + shape.loop_begin[i],
+                             sources + shape.loop_begin[i + 1]);
     }
   }
   return dataset;

@@ -142,19 +142,19 @@ class Words(CommandLine):
     def test_options(self):
         self.write("r.wkt", RECTANGLE)
         for words, *line in (
-                ("no such option: --foo", "axis", "r.wkt", "--foo"),
+                ("unknown option: --foo", "axis", "r.wkt", "--foo"),
                 ("--chord needs a value", "axis", "r.wkt", "--chord"),
-                ("one word too many: more", "axis", "r.wkt", "more"),
-                ("--threads: '1.5' is no whole number", "axis", "r.wkt", "--threads", "1.5"),
-                ("--threshold: 'abc' is no number", "axis", "r.wkt", "--threshold", "abc"),
-                ("--chord: 'x' is no number", "axis", "r.wkt", "--chord", "x"),
-                ("-1 is no finite number above 0", "offset", "r.wkt", "--step", "-1"),
-                ("inf is no finite number above 0", "carve", "r.wkt", "--angle", "60", "--depth", "inf"),
-                ("'1,,2' is not numbers with commas", "offset", "r.wkt", "--distance", "1,,2"),
-                ("'0.5,' is not numbers with commas", "offset", "r.wkt", "--distance", "0.5,"),
-                ("'x' is not numbers with commas", "offset", "r.wkt", "--distance", "x"),
-                ("'1,2' is not 4 numbers with commas", "axis", "r.wkt", "--within", "1,2"),
-                ("'1,2' is not 4 numbers with commas", "voronoi", "r.wkt", "--frame", "1,2"),
+                ("unexpected argument: more", "axis", "r.wkt", "more"),
+                ("--threads: '1.5' is not a whole number", "axis", "r.wkt", "--threads", "1.5"),
+                ("--threshold: 'abc' is not a number", "axis", "r.wkt", "--threshold", "abc"),
+                ("--chord: 'x' is not a number", "axis", "r.wkt", "--chord", "x"),
+                ("-1 is not a finite number above 0", "offset", "r.wkt", "--step", "-1"),
+                ("inf is not a finite number above 0", "carve", "r.wkt", "--angle", "60", "--depth", "inf"),
+                ("'1,,2' is not numbers separated by commas", "offset", "r.wkt", "--distance", "1,,2"),
+                ("'0.5,' is not numbers separated by commas", "offset", "r.wkt", "--distance", "0.5,"),
+                ("'x' is not numbers separated by commas", "offset", "r.wkt", "--distance", "x"),
+                ("'1,2' is not 4 numbers separated by commas", "axis", "r.wkt", "--within", "1,2"),
+                ("'1,2' is not 4 numbers separated by commas", "voronoi", "r.wkt", "--frame", "1,2"),
                 ("0 is not in [1 - 1e+06]", "measure", "r.wkt", "--samples", "0")):
             report = self.refuse("invalid_option", *line)
             self.assertIn(words, report)

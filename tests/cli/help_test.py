@@ -16,5 +16,5 @@ class Help(CommandLine):
         self.assertRegex(self.succeed("--version").stdout.decode(), r"^medial \d+\.\d+\.\d+\n$")
 
     def test_no_such_command(self):
-        self.assertIn("no such command: axes", self.refuse("invalid_option", "axes"))
+        self.assertIn("unknown command: axes", self.refuse("invalid_option", "axes"))
         self.assertIn("a command is missing", self.refuse("invalid_option"))

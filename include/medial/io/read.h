@@ -10,19 +10,16 @@
 #include "medial/document.h"
 #include "medial/error.h"
 #include "medial/io/image.h"
-#include "medial/planar_graph.h"
+#include "medial/load.h"
 #include "medial/shape.h"
 #include "medial/voronoi.h"
 
 namespace medial::io {
 
-enum class RepairRule : std::uint8_t { none, make_valid, even_odd, non_zero };
-
 struct ReadOptions {
   std::string layer;  ///< name of the layer; empty: the first
   std::string where;  ///< attribute filter of OGR SQL; empty: all
-  /// Of polygons. Features with curves stay as they are: their arcs are repaired by build_shape()
-  /// (ShapeOptions::node_crossings).
+  /// Of polygons of straight edges; features with curves stay as they are, for load_shapes().
   RepairRule repair = RepairRule::none;
   bool project = false;  ///< geographic coordinates to a fitting local projection, in metres
   /// Of loose curves (DXF): ends at most this far apart, in units of the input, are joined; what
@@ -44,10 +41,6 @@ struct ReadOptions {
 /// where the file says; all else by GDAL. Any may be compressed by gzip. Errors: unreadable,
 /// malformed, unsupported, empty, not_finite, no_area, too_large, invalid_option, out_of_memory.
 Result<Document<Feature>> read_dataset(const std::string& path, const ReadOptions& options = {});
-
-/// All that a feature holds as chains, free-form curves approximated. Errors: those of
-/// approximate_by_arcs().
-Result<std::vector<Chain>> chains_of(const Feature& feature, const ArcOptions& options = {});
 
 /// The outlines of a text, set in one line with the font's advances and kerning: a feature for each
 /// character that has an outline, in font units, the baseline at y = 0. `text` is UTF-8, `font` a

@@ -1,0 +1,61 @@
+#include "medial/io/load.h"
+
+#include <utility>
+
+#include "io/native.h"
+#include "io/place.h"
+
+namespace medial::io {
+
+namespace {
+
+Result<Document<Feature>> read_source(const std::string& path, const SourceOptions& options) {
+  const ReadOptions& read = options.read;
+  const auto refused = [&path](const char* text) {
+    return Error{ErrorCode::invalid_option, text, in_file(path)};
+  };
+  const bool chooses = !read.layer.empty() || !read.where.empty() || read.project || read.close;
+  if (!options.text.empty())
+    return chooses ? refused("layer, where, project and close are not for a text")
+                   : read_text(options.text, path);
+  if (read.loose || !is_native(path)) return read_dataset(path, read);
+  if (chooses || read.repair != RepairRule::none)
+    return refused("layer, where, repair, project and close are not for medial's own format");
+  auto native = read_native(path);
+  if (!native) return std::move(native).error();
+  return dataset_of(std::move(native).value());
+}
+
+template <class T>
+Result<T> in_file(Result<T> result, const std::string& path) {
+  if (!result && result.error().place.file.empty()) result.error().place.file = path;
+  return result;
+}
+
+}  // namespace
+
+Result<Document<Feature>> read_features(const std::string& path, const SourceOptions& options) {
+  return in_file(read_source(path, options), path);
+}
+
+Result<Document<ShapeItem>> load_shapes(const std::string& path, const SourceOptions& options,
+                                        LoadReport* report) {
+  auto features = read_features(path, options);
+  if (!features) return std::move(features).error();
+  LoadOptions load = options.load;
+  load.repair = options.read.repair;
+  return in_file(medial::load_shapes(std::move(features).value(), load, report), path);
+}
+
+Result<LoosePieces> load_loose(const std::string& path, const SourceOptions& options) {
+  SourceOptions loose = options;
+  loose.read.loose = true;
+  loose.read.repair = RepairRule::none;
+  auto features = read_features(path, loose);
+  if (!features) return std::move(features).error();
+  ArcOptions arcs = options.load.arcs;
+  arcs.threads = options.load.threads;
+  return in_file(medial::load_loose(std::move(features).value(), arcs), path);
+}
+
+}  // namespace medial::io

@@ -1,0 +1,73 @@
+#include <cstdlib>
+#include <numeric>
+#include <string>
+#include <utility>
+#include <variant>
+
+#include "base/threads.h"
+#include "load/progress.h"
+#include "medial/load.h"
+
+namespace medial {
+namespace {
+
+/// How far an axis of pixels of an interior is from one part for each component and one cycle for
+/// each hole of its shape, by the Euler characteristic.
+std::uint64_t unresolved_in(const AxisItem& item) {
+  const auto& [shape, axis, attributes, contours] = item;
+  if (!is_of_pixels(axis.method) || axis.exterior > 0) return 0;
+  const auto count = [](std::size_t n) { return static_cast<std::int64_t>(n); };
+  return static_cast<std::uint64_t>(std::abs(count(axis.nodes.size()) - count(axis.edges.size()) -
+                                             count(shape.component_count()) +
+                                             count(shape.hole_count())));
+}
+
+/// Documents hold nothing that differs from run to run.
+void forget_times(Statistics& statistics) {
+  statistics.threads = 1;
+  statistics.seconds_sites = statistics.seconds_tree = statistics.seconds_connect = 0;
+  statistics.seconds_walk = statistics.seconds_collect = statistics.seconds_exact = 0;
+  statistics.seconds = 0;
+}
+
+}  // namespace
+
+Result<Document<AxisItem>> compute_axes(Document<ShapeItem> shapes, Options options,
+                                        AxesReport* report) {
+  std::visit(
+      [&](auto& own) {
+        if constexpr (requires { own.grid; })
+          if (own.grid.resolution == 0 && own.grid.pixels == 0) own.grid.resolution = shapes.pixel;
+      },
+      options.method);
+  Document<AxisItem> axes = same_frame<AxisItem>(shapes);
+  std::vector<double> weights;
+  for (const ShapeItem& item : shapes.items)
+    weights.push_back(static_cast<double>(item.shape.points.size()));
+  SharedProgress progress(options.progress, std::accumulate(weights.begin(), weights.end(), 0.0));
+  const auto compute_one = [&](std::size_t i, int threads) -> Result<AxisItem> {
+    ShapeItem& from = shapes.items[i];
+    Options own = options;
+    own.threads = threads;
+    own.progress = progress.part(weights[i]);
+    auto axis = compute(from.shape, own, from.contours);
+    if (!axis) return std::move(axis).error();
+    if (own.progress) own.progress(1.0);
+    return AxisItem{std::move(from.shape), std::move(axis).value(), std::move(from.attributes)};
+  };
+  auto items = map_items<AxisItem>(weights, options.threads, compute_one, options.cancel);
+  if (!items) return std::move(items).error();
+  axes.items = std::move(items).value();
+
+  AxesReport sum;
+  for (AxisItem& item : axes.items) {
+    sum.statistics += item.axis.statistics;
+    sum.unresolved += unresolved_in(item);
+    forget_times(item.axis.statistics);
+  }
+  sum.statistics.threads = effective_threads(options.threads);
+  if (report != nullptr) *report = sum;
+  return axes;
+}
+
+}  // namespace medial

@@ -1,0 +1,52 @@
+#include <numeric>
+#include <optional>
+
+#include "base/in_flight.h"
+#include "base/threads.h"
+#include "medial/load.h"
+
+namespace medial {
+
+Status for_each_item(std::span<const double> weights, int threads,
+                     const std::function<Status(std::size_t, int)>& work,
+                     const std::atomic<bool>* cancel) {
+  const std::size_t count = weights.size();
+  std::vector<std::optional<Error>> errors(count);
+  std::atomic<std::size_t> lowest_error = count;
+  const auto run = [&](std::size_t i, int own_threads) {
+    if (i > lowest_error.load()) return;
+    Status status = cancel != nullptr && cancel->load()
+                        ? Status(Error{ErrorCode::cancelled, "cancelled", {}})
+                        : work(i, own_threads);
+    if (status) return;
+    errors[i] = std::move(status).error();
+    errors[i]->place.feature = i;
+    std::size_t seen = lowest_error.load();
+    while (i < seen && !lowest_error.compare_exchange_weak(seen, i)) {
+    }
+  };
+
+  const auto run_all = [&] {
+    // An item is large if, on one thread, it could outlast all others together.
+    const int available = effective_threads(threads);
+    const double share = std::accumulate(weights.begin(), weights.end(), 0.0) / available;
+    std::vector<std::size_t> small;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (available > 1 && weights[i] >= share) {
+        run(i, available);
+      } else {
+        small.push_back(i);
+      }
+    }
+    parallel_for(small.size(), [&](std::size_t k) { run(small[k], 1); });
+  };
+  try {
+    on_threads(threads, run_all);
+  } catch (...) {
+    return error_in_flight();
+  }
+  if (lowest_error.load() == count) return success();
+  return std::move(*errors[lowest_error.load()]);
+}
+
+}  // namespace medial

@@ -1,0 +1,165 @@
+#include <algorithm>
+#include <iterator>
+#include <numeric>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "load/progress.h"
+#include "medial/curve_axis.h"
+#include "medial/load.h"
+
+namespace medial {
+namespace {
+
+ShapeReport& operator+=(ShapeReport& sum, const ShapeReport& part) {
+  for (const auto count :
+       {&ShapeReport::input_rings, &ShapeReport::input_points, &ShapeReport::closing_points,
+        &ShapeReport::unclosed_rings, &ShapeReport::repeated_points, &ShapeReport::collinear_points,
+        &ShapeReport::reversed_rings, &ShapeReport::touching_vertices, &ShapeReport::split_edges,
+        &ShapeReport::crossings, &ShapeReport::dropped_rings})
+    sum.*count += part.*count;
+  return sum;
+}
+
+ArcReport& operator+=(ArcReport& sum, const ArcReport& part) {
+  for (const auto count :
+       {&ArcReport::pieces, &ArcReport::spirals, &ArcReport::arcs, &ArcReport::segments})
+    sum.*count += part.*count;
+  sum.tolerance = std::max(sum.tolerance, part.tolerance);
+  sum.largest_error = std::max(sum.largest_error, part.largest_error);
+  return sum;
+}
+
+/// The roles by which a rule decides what is inside.
+void apply_rule(RepairRule rule, std::vector<Ring>& rings) {
+  for (Ring& ring : rings) {
+    if (rule == RepairRule::non_zero)
+      ring.role = RingRole::winding;
+    else if (rule == RepairRule::even_odd || ring.role != RingRole::winding)
+      ring.role = RingRole::any;
+  }
+}
+
+/// The boundary of a feature as contours, whatever it was read as.
+std::vector<Contour> contours_of(const Feature& feature) {
+  std::vector<Contour> contours = feature.contours;
+  for (const Ring& ring : feature.rings)
+    if (!ring.points.empty()) contours.push_back(contour_of(ring.points, ring.bulges, true));
+  return contours;
+}
+
+/// Whether a repair may help.
+bool is_tangled(const Error& error) {
+  constexpr ErrorCode codes[] = {ErrorCode::crossing, ErrorCode::overlap, ErrorCode::hole_outside,
+                                 ErrorCode::nested_outer};
+  return std::find(std::begin(codes), std::end(codes), error.code) != std::end(codes);
+}
+
+/// A shape of a feature's rings, which are given back as soon as they are not needed any more.
+Result<Shape> shape_of(Feature& feature, const LoadOptions& options, LoadReport& report) {
+  std::vector<Ring> rings = std::move(feature.rings);
+  const bool curved = !feature.contours.empty() ||
+                      std::any_of(rings.begin(), rings.end(),
+                                  [](const Ring& ring) { return !ring.bulges.empty(); });
+  if (!feature.contours.empty()) {
+    ArcOptions arcs = options.arcs;
+    arcs.threads = options.threads;
+    auto approximated = approximate_by_arcs(feature.contours, arcs, &report.arcs);
+    if (!approximated) return std::move(approximated).error();
+    std::move(approximated->begin(), approximated->end(), std::back_inserter(rings));
+    feature.contours = {};
+  }
+  const bool repaired = options.repair != RepairRule::none;
+  if (!repaired || !curved) {
+    auto shape = build_shape(rings, &report.shapes);
+    if (shape || !repaired || !is_tangled(shape.error())) return shape;
+  }
+  apply_rule(options.repair, rings);
+  report.shapes = {};
+  return build_shape(rings, {.node_crossings = true}, &report.shapes);
+}
+
+/// The sources that a feature knows of its rings in place of those in its rings.
+void keep_sources(Shape& shape, const Feature& feature,
+                  const std::vector<std::size_t>& ring_begin) {
+  if (feature.sources.empty()) return;
+  for (VertexSource& source : shape.sources)
+    source = feature.sources[ring_begin[source.ring] + source.vertex];
+}
+
+/// The shape within smooth curves instead, which the contours become.
+Result<Shape> smooth_shape(std::vector<Contour>& contours, const LoadOptions& options) {
+  for (Contour& contour : contours) {
+    auto curve = fit_smooth_contour(contour.points, options.fit);
+    if (!curve) return std::move(curve).error();
+    contour = std::move(curve).value();
+  }
+  const auto rings = approximate_by_arcs(contours, options.arcs);
+  if (!rings) return rings.error();
+  return build_shape(*rings);
+}
+
+Result<ShapeItem> load_shape(Feature& feature, const LoadOptions& options, LoadReport& report) {
+  ShapeItem item;
+  item.attributes = std::move(feature.attributes);
+  if (options.keep_contours || options.fit > 0) item.contours = contours_of(feature);
+  std::vector<std::size_t> ring_begin{0};
+  for (const Ring& ring : feature.rings)
+    ring_begin.push_back(ring_begin.back() + ring.points.size());
+  auto shape = shape_of(feature, options, report);
+  if (!shape) return std::move(shape).error();
+  keep_sources(*shape, feature, ring_begin);
+  if (options.fit > 0) shape = smooth_shape(item.contours, options);
+  if (!shape) return std::move(shape).error();
+  item.shape = std::move(shape).value();
+  if (!options.keep_contours) item.contours = {};
+  return item;
+}
+
+double weight_of(const Feature& feature) {
+  std::size_t points = 1;
+  for (const Ring& ring : feature.rings) points += ring.points.size();
+  for (const Contour& contour : feature.contours) points += contour.points.size();
+  return static_cast<double>(points);
+}
+
+std::string note_of_crossings(std::size_t feature, const ShapeReport& report, std::size_t loops) {
+  return "feature " + std::to_string(feature) + " was repaired: its edges cross in " +
+         std::to_string(report.crossings) + " places and are split there; " +
+         std::to_string(report.input_rings) + " rings before, " + std::to_string(loops) +
+         " loops after";
+}
+
+}  // namespace
+
+Result<Document<ShapeItem>> load_shapes(Document<Feature> features, const LoadOptions& options,
+                                        LoadReport* report) {
+  const std::size_t count = features.items.size();
+  if (count == 0) return Error{ErrorCode::empty, "holds no polygon", {}};
+  Document<ShapeItem> shapes = same_frame<ShapeItem>(features);
+  std::vector<LoadReport> reports(count);
+  std::vector<double> weights;
+  for (const Feature& feature : features.items) weights.push_back(weight_of(feature));
+  SharedProgress progress(options.progress, std::accumulate(weights.begin(), weights.end(), 0.0));
+  const auto load = [&](std::size_t i, int) {
+    auto item = load_shape(features.items[i], options, reports[i]);
+    if (const auto done = progress.part(weights[i])) done(1);
+    return item;
+  };
+  auto items = map_items<ShapeItem>(weights, options.threads, load, options.cancel);
+  if (!items) return std::move(items).error();
+  shapes.items = std::move(items).value();
+  LoadReport sum;
+  for (std::size_t i = 0; i < count; ++i) {
+    const ShapeReport& one = reports[i].shapes;
+    if (one.crossings > 0)
+      shapes.notes.push_back(note_of_crossings(i, one, shapes.items[i].shape.loop_count()));
+    sum.shapes += one;
+    sum.arcs += reports[i].arcs;
+  }
+  if (report != nullptr) *report = sum;
+  return shapes;
+}
+
+}  // namespace medial

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <utility>
+
+namespace medial {
+
+/// The progress of several parts of some work as one share.
+class SharedProgress {
+ public:
+  /// `total` is the sum of the weights of all parts. Without `tell` nothing is counted.
+  SharedProgress(std::function<void(double)> tell, double total)
+      : tell_(std::move(tell)), total_(total) {}
+
+  /// What a part is to call with its own share in [0, 1]. Must not outlive this.
+  std::function<void(double)> part(double weight) {
+    if (!tell_ || !(total_ > 0)) return {};
+    auto last = std::make_shared<std::atomic<double>>(0.0);
+    return [this, weight, last](double share) {
+      share = std::clamp(share, 0.0, 1.0);
+      const double more = weight * (share - last->exchange(share));
+      // Rounding must not make a whole of what is none, nor more than that.
+      tell_(std::clamp((done_.fetch_add(more) + more) / total_, 0.0, 1.0));
+    };
+  }
+
+ private:
+  std::function<void(double)> tell_;
+  double total_;
+  std::atomic<double> done_ = 0;
+};
+
+}  // namespace medial
