@@ -79,7 +79,8 @@ Result<int> run_carve(const CarveArguments& arguments) {
   if (!writable) return std::move(writable).error();
   auto shapes = load_shapes(arguments.input, common);
   if (!shapes) return std::move(shapes).error();
-  Document<io::CarveItem> file = same_frame<io::CarveItem>(shapes->file);
+  Document<io::CarveItem> file;  // of a machine, without a reference system
+  file.y_down = shapes->file.y_down;
   auto items = map_items<io::CarveItem>(
       weights_of(shapes->file), common.threads, [&](std::size_t i, int threads) {
         return carve_one(std::move(shapes->file.items[i].shape), arguments,

@@ -156,7 +156,7 @@ Result<std::vector<Method>> methods_of(const std::string& names) {
   std::istringstream list(names);
   for (std::string name; std::getline(list, name, ',');) {
     const auto method = method_from(name);
-    if (!method) return invalid_option("no such method: " + name);
+    if (!method) return invalid_option("unknown method: " + name);
     chosen.push_back(*method);
   }
   if (chosen.empty()) return invalid_option("--methods needs a name");

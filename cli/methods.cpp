@@ -8,7 +8,6 @@
 
 #include "cli/commands.h"
 #include "cli/common.h"
-#include "cli/terminal.h"
 
 namespace medial::cli {
 namespace {
