@@ -143,7 +143,7 @@ class Repairer {
   bool valid() {
     if (std::ranges::any_of(closed_, [](const auto& ring) { return ring.empty(); })) return false;
     const bool loose = std::ranges::find(roles_, RingRole::any) != roles_.end();
-    if (loose && roles_.size() > 1) return false;  // only the rule tells how loose rings nest
+    if (loose && roles_.size() > 1) return false;  // only the rule says how loose rings nest
     if (rule_ == RepairRule::non_zero) {
       // Outer rings must run one way and holes the other: then the winding number is 0 or not as
       // the roles say.
@@ -229,7 +229,7 @@ class Repairer {
     return result;
   }
 
-  /// Cuts the plane along all rings and keeps the faces that the rule tells to.
+  /// Cuts the plane along all rings and keeps the faces that the rule asks for.
   Geometry by_faces() const {
     std::vector<Geometry> lines;
     for (const std::vector<Vec2>& ring : closed_) {

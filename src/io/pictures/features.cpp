@@ -25,9 +25,9 @@ constexpr std::array<Color, primitive_count> primitive_colors{{{0.30, 0.32, 0.36
                                                                {0.72, 0.50, 0.80},
                                                                {0.47, 0.18, 0.58}}};
 
-constexpr double legend_height = 0.025;      // height of the legend below, of the picture's width
-constexpr double width_share = 1e-3;  // line widths, of the picture's larger side
-constexpr double mark_radius = 3.2;          // radius of the marks, in line widths
+constexpr double legend_height = 0.025;  // height of the legend below, of the picture's width
+constexpr double width_share = 1e-3;     // line widths, of the picture's larger side
+constexpr double mark_radius = 3.2;      // radius of the marks, in line widths
 constexpr int most_names = 60;
 
 /// The words for a run: "closing wedge", "worm, left circular".
