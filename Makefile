@@ -13,29 +13,35 @@ RELEASE := build/release
 DEBUG := build/debug
 ASAN := build/asan
 TSAN := build/tsan
-BENCH := build/bench
+SERIAL := build/serial
+CHECK := build/check
 # Debian 12 has two versions of Boost, one of which can be installed; CGAL and GDAL ask for the older.
 BENCH_BOOST := build/boost-1.81
 SOURCES = $(shell git ls-files '*.h' '*.cpp')
 
-.PHONY: help setup build demo test papers bench bench-flo-mat bench-images fuzz corpus offsets tsan format lint clean install
+.PHONY: help setup build demo check test papers bench bench-flo-mat bench-images fuzz corpus offsets tsan serial portable format lint clean install
 .DEFAULT_GOAL := help
 
-help:     ## this list
+help:     ## list the targets
 	@sed -n 's/^\([a-z-]*\): [^#]*## /make \1 /p' $(MAKEFILE_LIST) | \
 	  awk '{ printf "  %-19s", $$1 " " $$2; $$1 = $$2 = ""; print }'
 
-setup:    ## install what is missing from Debian's packages
+setup:    ## install the Debian packages that are missing
 	@tools/setup.sh build test
 
 build: setup    ## build the library and the command line
 	@cmake --preset release -DMEDIAL_UNITY=$(UNITY)
 	@cmake --build $(RELEASE) -j $(JOBS) --target medial medial_io medial_cli
 
-demo: build     ## medial axes of maps, a plan, a maze, drawings: out/demo
+demo: build     ## draw the medial axes of maps, a plan, a maze and drawings: out/demo
 	@tools/demo.py $(RELEASE)/cli/medial out/demo
 
-test: setup     ## all tests, in release and under the address and undefined-behaviour sanitizers
+check: setup    ## after a change: compile what changed, run the quick tests
+	@cmake --preset check > /dev/null
+	@cmake --build $(CHECK) -j $(JOBS) --target core_tests io_tests medial_cli
+	@ctest --preset check --parallel $(JOBS)
+
+test: setup     ## run all tests, in release and with the address and undefined-behaviour sanitizers
 	@cmake --preset release -DMEDIAL_UNITY=$(UNITY)
 	@cmake --build $(RELEASE) -j $(JOBS)
 	@cmake --preset asan -DMEDIAL_UNITY=$(UNITY)
@@ -49,9 +55,9 @@ papers: build   ## the figures and tables of the papers, drawn and measured agai
 bench: setup    ## compare with Boost.Polygon and CGAL
 	@tools/setup.sh bench
 	@tools/unpack.sh libboost1.81-dev $(BENCH_BOOST)
-	@cmake --preset bench -DMEDIAL_BENCH_BOOST=$(CURDIR)/$(BENCH_BOOST)/usr/include
-	@cmake --build $(BENCH) -j $(JOBS)
-	@$(BENCH)/bench/medial_bench
+	@cmake --preset release -DMEDIAL_UNITY=$(UNITY) -DMEDIAL_BENCH=ON -DMEDIAL_BENCH_BOOST=$(CURDIR)/$(BENCH_BOOST)/usr/include
+	@cmake --build $(RELEASE) -j $(JOBS) --target medial_bench
+	@$(RELEASE)/bench/medial_bench
 
 bench-flo-mat: build    ## compare with flo-mat (npm): see bench/flo_mat/README.md
 	@cmake --build $(RELEASE) -j $(JOBS) --target medial_papers
@@ -60,33 +66,44 @@ bench-flo-mat: build    ## compare with flo-mat (npm): see bench/flo_mat/README.
 
 bench-images: setup    ## compare brushfire with scikit-image and OpenCV (PyPI)
 	@tools/setup.sh bench
-	@cmake --preset bench
-	@cmake --build $(BENCH) -j $(JOBS) --target medial_bench_images
-	@python3 -m venv $(BENCH)/python
-	@$(BENCH)/python/bin/pip install --quiet scikit-image opencv-contrib-python-headless
-	@$(BENCH)/python/bin/python bench/images/compare.py $(BENCH)/bench/medial_bench_images out/images
+	@cmake --preset release -DMEDIAL_UNITY=$(UNITY) -DMEDIAL_BENCH=ON
+	@cmake --build $(RELEASE) -j $(JOBS) --target medial_bench_images
+	@python3 -m venv $(RELEASE)/python
+	@$(RELEASE)/python/bin/pip install --quiet scikit-image opencv-contrib-python-headless
+	@$(RELEASE)/python/bin/python bench/images/compare.py $(RELEASE)/bench/medial_bench_images out/images
 
-fuzz: setup     ## random polygons and mutated files with new seeds: make fuzz SECONDS=60 [FROM=seed]
+fuzz: setup     ## test random polygons and mutated files, new ones each time: make fuzz SECONDS=60 [FROM=seed]
 	@cmake --preset release
 	@cmake --build $(RELEASE) -j $(JOBS) --target medial_fuzz
 	@$(RELEASE)/tests/medial_fuzz --from $(FROM) --seconds $(SECONDS)
 
-corpus: setup   ## every data file below DATA, every glyph below FONTS, verified or refused: tables
+corpus: setup   ## verify the axes of every file below DATA and every glyph below FONTS: tables
 	@cmake --preset release
 	@cmake --build $(RELEASE) -j $(JOBS) --target medial_corpus medial_glyphs medial_roundtrips
 	@$(RELEASE)/tests/medial_corpus $(DATA); corpus=$$?; \
 	  $(RELEASE)/tests/medial_roundtrips $(DATA) $(FONTS); back=$$?; \
 	  $(RELEASE)/tests/medial_glyphs $(DATA) $(FONTS) && exit $$((corpus + back))
 
-offsets: setup  ## eight offsets of every polygon below DATA, measured, rings counted by pixels: a table
+offsets: setup  ## check eight offsets of every polygon below DATA: a table
 	@cmake --preset release >/dev/null
 	@cmake --build $(RELEASE) -j $(JOBS) --target medial_offsets
 	@$(RELEASE)/tests/medial_offsets --fine $(DATA)
 
-tsan: setup     ## the engine's tests under the thread sanitizer
+tsan: setup     ## test the engine with the thread sanitizer
 	@tools/tsan.sh $(TSAN) $(JOBS)
 
-format: setup   ## rewrite the sources in the house's format
+serial: setup   ## build the core without threads and compare its results with those of threads
+	@cmake --preset release -DMEDIAL_UNITY=$(UNITY)
+	@cmake --build $(RELEASE) -j $(JOBS) --target medial_hashes
+	@cmake --preset release -B $(SERIAL) -DMEDIAL_UNITY=$(UNITY) -DMEDIAL_THREADS=OFF -DMEDIAL_IO=OFF
+	@cmake --build $(SERIAL) -j $(JOBS) --target medial_hashes
+	@$(RELEASE)/tests/medial_hashes > $(RELEASE)/hashes.txt
+	@$(SERIAL)/tests/medial_hashes | diff $(RELEASE)/hashes.txt - && echo "the same results without threads"
+
+portable: setup ## read the core's sources with libc++ 13, clang 14 and for 32 bits, where installed
+	@tools/check_portable.sh $(JOBS)
+
+format: setup   ## format the sources
 	@clang-format -i $(SOURCES)
 
 lint: setup     ## check layers and sizes, run clang-tidy

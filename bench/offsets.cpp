@@ -14,6 +14,7 @@
 #include "clock.h"
 #include "medial/io/read.h"
 #include "medial/offset.h"
+#include "support/environment.h"
 
 namespace {
 
@@ -81,9 +82,9 @@ void measure(const char* name, const Shape& shape, const std::vector<double>& cl
 }  // namespace
 
 int main(int argc, char** argv) {
-  const char* folder = std::getenv("MEDIAL_DATA");
-  const std::string data = folder ? folder : MEDIAL_SOURCE_DIR "/../shared/data";
-  const std::string path = argc > 1 ? argv[1] : data + "/packaged/A_gis/gshhg/new_guinea.wkt.gz";
+  const std::string path =
+      argc > 1 ? argv[1]
+               : (test::data_folder() / "packaged/A_gis/gshhg/new_guinea.wkt.gz").string();
   const auto dataset = io::read_dataset(path);
   if (!dataset) {
     std::printf("%s\n", to_string(dataset.error()).c_str());

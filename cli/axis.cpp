@@ -1,15 +1,45 @@
 // medial axis: shapes in, medial axes out.
 
+#include <fmt/format.h>
+
 #include <memory>
+#include <tuple>
+#include <variant>
 
 #include "cli/commands.h"
 #include "cli/common.h"
 #include "cli/pipeline.h"
-#include "medial/choose.h"
 #include "medial/curve_axis.h"
 
 namespace medial::cli {
 namespace {
+
+template <class>
+struct OneOfEach;
+template <class... Own>
+struct OneOfEach<std::variant<Own...>> : std::tuple<Own...> {};
+
+/// The options of all methods, of which one is chosen.
+struct MethodArguments {
+  Method chosen;
+  PixelGrid grid;  ///< of the methods that have one
+  OneOfEach<Method> own;
+
+  template <class Own>
+  Own& of() {
+    return std::get<Own>(own);
+  }
+  Method method() const {
+    Method result = chosen;
+    std::visit(
+        [&]<class Own>(Own& options) {
+          options = std::get<Own>(own);
+          if constexpr (requires { options.grid; }) options.grid = grid;
+        },
+        result);
+    return result;
+  }
+};
 
 struct AxisArguments {
   InputOptions input;
@@ -18,9 +48,7 @@ struct AxisArguments {
   std::string format;
   io::WriteOptions write;
   Options options;
-  bool automatic = false;   ///< each shape by the faster one of disks and lee
-  bool curve_axis = false;  ///< the method, which takes contours instead of a shape
-  CurveAxisOptions curve;
+  MethodArguments methods;
   double fit = 0;  ///< for curve-axis: polygons become smooth within this distance; 0: they do not
 };
 
@@ -32,65 +60,37 @@ Result<int> run_axis(const AxisArguments& arguments) {
       check_output(output, format, io::formats_of(io::DocumentKind::axes), input.path, common.json);
   if (!writable) return std::move(writable).error();
 
-  auto shapes = load_shapes(input, common.threads, arguments.curve_axis);
+  Options options = arguments.options;
+  options.method = arguments.methods.method();
+  const bool contours = info_of(options.method).contours;
+  auto shapes = load_shapes(input, common.threads, contours);
   if (!shapes) return std::move(shapes).error();
   print_notes(*shapes, input, common);
-  Engine engine;
-  if (arguments.curve_axis) {
-    if (arguments.fit > 0) {
-      if (Status done = smooth_boundaries(*shapes, arguments.fit, input); !done)
-        return std::move(done).error();
-    }
-    engine = [&, contours = std::move(shapes->contours)](std::size_t i, const Shape&,
-                                                         const Options&) -> Result<MedialAxis> {
-      auto axis = compute_curve_axis(contours[i], arguments.curve);
-      if (!axis) return std::move(axis).error();
-      return std::move(axis->axis);
-    };
-  }
-  if (arguments.automatic) {
-    engine = [](std::size_t, const Shape& shape, const Options& options) {
-      Options own = options;
-      own.method = choose_method(shape, options);
-      auto axis = compute(shape, own);
-      const bool failed = !axis && (axis.error().code == ErrorCode::internal ||
-                                    axis.error().code == ErrorCode::unsupported);
-      if (!failed || own.method == Method::disks) return axis;
-      own.method = Method::disks;
-      return compute(shape, own);
-    };
-  }
-  auto axes =
-      compute_axes(std::move(shapes).value(), input.path, common, arguments.options, engine);
+  if (contours && arguments.fit > 0)
+    if (Status done = smooth_boundaries(*shapes, arguments.fit, input); !done)
+      return std::move(done).error();
+  auto axes = compute_axes(std::move(shapes).value(), input.path, common, options);
   if (!axes) return std::move(axes).error();
 
   return write_and_tell(*axes, input, common, output, format, arguments.write);
 }
 
 /// Which method, and what decides its random choices.
-void add_method_options(CLI::App& command, AxisArguments& arguments) {
+void add_method_options(CLI::App& command, MethodArguments& arguments) {
+  std::string help = "How the axes are computed; `medial methods` shows what each takes:";
+  std::vector<std::string> names;
+  for (const MethodInfo& info : methods()) {
+    help += fmt::format("\n{:<10} {}", info.name, info.summary);
+    names.emplace_back(info.name);
+  }
   command
       .add_option_function<std::string>(
           "--method",
-          [&arguments](const std::string& name) {
-            arguments.curve_axis = name == "curve-axis";
-            arguments.automatic = name == "auto";
-            arguments.options.method = method_from(name).value_or(Method::disks);
-          },
-          "How the axes are computed: disks (default); biarc-dc, the published\n"
-          "randomised divide and conquer, for shapes without holes; lee, the merging\n"
-          "of Voronoi diagrams, for polygons without holes: all the same axes; auto,\n"
-          "for each shape the faster one of disks and lee; or\n"
-          "ridge, ridge following on a grid of pixels, or brushfire, thinning of pixels:\n"
-          "sampled axes; or potential, the valleys of a potential field: a sampled axis\n"
-          "too, smooth; or curve-axis, for one smooth boundary: sampled from its\n"
-          "curvature's maxima on.")
-      ->check(CLI::IsMember({"disks", "biarc-dc", "lee", "auto", "ridge", "brushfire", "potential",
-                             "curve-axis"})
-                  .description(""))
+          [&arguments](const std::string& name) { arguments.chosen = *method_from(name); }, help)
+      ->check(CLI::IsMember(names).description(""))
       ->option_text("NAME");
   command
-      .add_option("--seed", arguments.options.seed,
+      .add_option("--seed", arguments.of<method::BiarcDc>().seed,
                   "Of the random choices of biarc-dc (default: 1). The same seed gives the\n"
                   "same result, byte for byte.")
       ->check(a_whole_number())
@@ -98,16 +98,18 @@ void add_method_options(CLI::App& command, AxisArguments& arguments) {
 }
 
 /// The arguments of the methods that sample.
-void add_grid_options(CLI::App& command, Options& options) {
+void add_grid_options(CLI::App& command, MethodArguments& arguments) {
+  auto& ridge = arguments.of<method::Ridge>();
+  auto& brushfire = arguments.of<method::Brushfire>();
   constexpr char group[] = "Grids of pixels (--method ridge, brushfire)";
   CLI::Option* resolution = command
-                                .add_option("--resolution", options.resolution,
+                                .add_option("--resolution", arguments.grid.resolution,
                                             "The side of a pixel, in units of the input.")
                                 ->check(a_positive_number())
                                 ->option_text("H")
                                 ->group(group);
   command
-      .add_option("--pixels", options.pixels,
+      .add_option("--pixels", arguments.grid.pixels,
                   "Pixels along the longer side of the bounding box (default: 1024; of an\n"
                   "image its own pixels).")
       ->check(a_positive_number())
@@ -117,7 +119,7 @@ void add_grid_options(CLI::App& command, Options& options) {
   command
       .add_option_function<std::string>(
           "--brushfire",
-          [&options](const std::string& name) { options.brushfire = *brushfire_from(name); },
+          [&brushfire](const std::string& name) { brushfire.family = *brushfire_from(name); },
           "How a fire is kept from burning shapes apart: simultaneous (default), from\n"
           "all sides at once; marking, of two kinds in turn; sides, in turn; or\n"
           "sequential, pixel by pixel.")
@@ -125,7 +127,7 @@ void add_grid_options(CLI::App& command, Options& options) {
       ->option_text("FAMILY")
       ->group(group);
   command
-      .add_option("--ridge-collinear", options.ridge_collinear,
+      .add_option("--ridge-collinear", ridge.collinear,
                   "Vertices that turn by less than this, in degrees, are dropped where that\n"
                   "moves the boundary by a quarter of a pixel at most (default: 5; 0 keeps\n"
                   "every edge).")
@@ -134,8 +136,8 @@ void add_grid_options(CLI::App& command, Options& options) {
   command
       .add_option_function<std::string>(
           "--ridge-search",
-          [&options](const std::string& name) {
-            options.ridge_search = name == "tree" ? RidgeSearch::tree : RidgeSearch::sorted_list;
+          [&ridge](const std::string& name) {
+            ridge.search = name == "tree" ? RidgeSearch::tree : RidgeSearch::sorted_list;
           },
           "How the nearest edges are found: tree (default) or sorted-list, the\n"
           "report's own. The pixels are the same.")
@@ -145,8 +147,8 @@ void add_grid_options(CLI::App& command, Options& options) {
   command
       .add_option_function<std::string>(
           "--ridge-rule",
-          [&options](const std::string& name) {
-            options.ridge_rule = name == "crossing" ? RidgeRule::crossing : RidgeRule::difference;
+          [&ridge](const std::string& name) {
+            ridge.rule = name == "crossing" ? RidgeRule::crossing : RidgeRule::difference;
           },
           "Which pixels are medial: crossing (default), where the axis passes between\n"
           "two pixels; or difference, the report's rule: where the distances to two\n"
@@ -157,7 +159,7 @@ void add_grid_options(CLI::App& command, Options& options) {
 }
 
 /// The arguments of potential.
-void add_potential_options(CLI::App& command, PotentialOptions& options) {
+void add_potential_options(CLI::App& command, method::Potential& options) {
   command
       .add_option("--order", options.order,
                   "Of the potential: the n of 1 / r^n. 0 (default) chooses it for each point.")
@@ -199,7 +201,7 @@ void add_potential_options(CLI::App& command, PotentialOptions& options) {
 /// The arguments of curve-axis.
 void add_curve_options(CLI::App& command, AxisArguments& arguments) {
   command
-      .add_option("--curve-step", arguments.curve.step,
+      .add_option("--curve-step", arguments.methods.of<method::CurveAxis>().step,
                   "Of curve-axis: the way from point to point, as a share of the diagonal\n"
                   "(default: 0.001).")
       ->check(in_range(1e-6, 0.1))
@@ -223,11 +225,11 @@ Command make_axis_command(CLI::App& program) {
                      io::formats_of(io::DocumentKind::axes));
   command->add_flag("--radius-as-z", arguments->write.radius_as_z,
                     "Drawings (.dxf): splines in space, with the radius as z.");
-  add_method_options(*command, *arguments);
+  add_method_options(*command, arguments->methods);
   add_exterior_options(*command, arguments->options,
                        "The axis of what lies around the shape and in its holes, within a frame.");
-  add_grid_options(*command, arguments->options);
-  add_potential_options(*command, arguments->options.potential);
+  add_grid_options(*command, arguments->methods);
+  add_potential_options(*command, arguments->methods.of<method::Potential>());
   add_curve_options(*command, *arguments);
   command->add_flag("--exact", arguments->options.exact,
                     "Make every decision of the combinatorics certain: which sites a disk\n"

@@ -30,6 +30,7 @@ Command make_unpack_command(CLI::App& program);
 Command make_voronoi_command(CLI::App& program);
 Command make_distance_command(CLI::App& program);
 Command make_voxels_command(CLI::App& program);
+Command make_methods_command(CLI::App& program);
 Command make_field_command(CLI::App& program);
 Command make_compare_command(CLI::App& program);
 Command make_offset_command(CLI::App& program);

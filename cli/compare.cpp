@@ -15,15 +15,10 @@
 #include "cli/plot.h"
 #include "cli/terminal.h"
 #include "medial/compute.h"
-#include "medial/curve_axis.h"
 #include "medial/verify.h"
 
 namespace medial::cli {
 namespace {
-
-/// What --methods all means, the exact engine first. A new method is one more word.
-constexpr char all_methods[] = "disks,biarc-dc,lee,ridge,brushfire,potential,curve-axis";
-constexpr char curve_axis[] = "curve-axis";
 
 struct CompareArguments {
   InputOptions input;
@@ -59,33 +54,15 @@ double radius_error(const Shape& shape, const MedialAxis& axis) {
   return largest;
 }
 
-/// By the method of this name, which is known.
-Result<MedialAxis> compute_by(const std::string& method, const Shape& shape,
-                              const std::vector<Contour>& contours, const CommonOptions& common,
-                              Options options) {
-  if (method == curve_axis) {
-    if (options.exterior)
-      return Error{ErrorCode::unsupported, "the method curve-axis knows no exterior", {}};
-    auto axis = compute_curve_axis(contours);
-    if (!axis) return std::move(axis).error();
-    return std::move(axis->axis);
-  }
-  options.method = *method_from(method);
-  options.threads = 1;
-  options.tolerance = common.tolerance;
-  options.corner_angle = common.corner_angle;
-  return compute(shape, options);
-}
-
 /// One method's axis beside the exact one, of a shape or of its exterior, which is the same as the
 /// axis of `region`. With `lenient` the method may refuse the kind of input.
 Row measure(const Shape& shape, const Shape& region, const std::vector<Contour>& contours,
-            const MedialAxis& exact, const std::string& method, const CommonOptions& common,
-            const Options& options, bool lenient) {
+            const MedialAxis& exact, const CommonOptions& common, const Options& options,
+            bool lenient) {
   Row row;
-  row.method = method;
+  row.method = name_of(options.method);
   const Stopwatch watch;
-  auto axis = compute_by(method, shape, contours, common, options);
+  auto axis = compute(shape, options, contours);
   row.seconds = watch.seconds();
   if (!axis) {
     row.refused = axis.error().text;
@@ -104,8 +81,7 @@ Row measure(const Shape& shape, const Shape& region, const std::vector<Contour>&
   row.parts = certificate.graph_parts;
   row.cycles = certificate.cycles;
   row.passed = certificate.passed;
-  const bool of_pixels = method == name_of(Method::ridge) || method == name_of(Method::brushfire);
-  row.unresolved = of_pixels && certificate.unresolved > 0 &&
+  row.unresolved = is_of_pixels(row.method) && certificate.unresolved > 0 &&
                    certificate.unresolved == certificate.failures.size();
   row.failed = !row.passed && !row.unresolved;
   if (!certificate.failures.empty()) row.failure = certificate.failures.front();
@@ -149,16 +125,23 @@ std::string table_of(const std::vector<Row>& rows) {
   return text;
 }
 
-/// The methods of a list, separated by commas. Errors: invalid_option.
-Result<std::vector<std::string>> methods_of(const std::string& names) {
-  std::vector<std::string> methods;
-  std::istringstream list(names == "all" ? all_methods : names);
-  for (std::string name; std::getline(list, name, ',');) {
-    if (name != curve_axis && !method_from(name)) return invalid_option("no such method: " + name);
-    methods.push_back(name);
+/// The methods of a list, separated by commas; of "all", each but `auto`, which only chooses one.
+/// Errors: invalid_option.
+Result<std::vector<Method>> methods_of(const std::string& names) {
+  std::vector<Method> chosen;
+  if (names == "all") {
+    for (const MethodInfo& info : methods()) chosen.push_back(*method_from(info.name));
+    std::erase_if(chosen, [](const Method& one) { return std::get_if<method::Auto>(&one); });
+    return chosen;
   }
-  if (methods.empty()) return invalid_option("--methods needs a name");
-  return methods;
+  std::istringstream list(names);
+  for (std::string name; std::getline(list, name, ',');) {
+    const auto method = method_from(name);
+    if (!method) return invalid_option("no such method: " + name);
+    chosen.push_back(*method);
+  }
+  if (chosen.empty()) return invalid_option("--methods needs a name");
+  return chosen;
 }
 
 /// One picture of all axes: each in a frame of its own, side by side in the plane, with its method
@@ -202,7 +185,8 @@ Result<int> run_compare(const CompareArguments& arguments) {
   if (!methods) return std::move(methods).error();
   Status writable = check_output(output, {}, ".svg .pdf .png .ps", input.path, common.json);
   if (!writable) return std::move(writable).error();
-  const bool smooth = std::find(methods->begin(), methods->end(), curve_axis) != methods->end();
+  const bool smooth = std::any_of(methods->begin(), methods->end(),
+                                  [](const Method& one) { return info_of(one).contours; });
   auto file = load_shapes(input, common.threads, smooth || fit > 0);
   if (!file) return std::move(file).error();
   if (fit > 0)
@@ -215,10 +199,10 @@ Result<int> run_compare(const CompareArguments& arguments) {
   std::string text;
   for (std::size_t i = 0; i < file->shapes.size(); ++i) {
     const Shape& shape = file->shapes[i];
-    Options reference = options;
-    reference.tolerance = common.tolerance;
-    reference.corner_angle = common.corner_angle;
-    const auto exact = compute(shape, reference);
+    Options own = options;
+    own.tolerance = common.tolerance;
+    own.corner_angle = common.corner_angle;
+    const auto exact = compute(shape, own);
     if (!exact) return at_feature(exact.error(), input.path, i);
     Shape around;
     if (options.exterior) {
@@ -228,9 +212,12 @@ Result<int> run_compare(const CompareArguments& arguments) {
     }
     const Shape& region = options.exterior ? around : shape;
     std::vector<Row> rows;
-    for (const std::string& method : *methods)
+    own.threads = 1;
+    for (const Method& method : *methods) {
+      own.method = method;
       rows.push_back(measure(shape, region, i < file->contours.size() ? file->contours[i] : nothing,
-                             *exact, method, common, options, names == "all"));
+                             *exact, common, own, names == "all"));
+    }
     if (file->shapes.size() > 1) text += fmt::format("feature {}\n", i);
     text += table_of(rows);
     for (const Row& row : rows) failed = failed || row.failed;

@@ -10,7 +10,7 @@
 #include "cli/common.h"
 #include "cli/pipeline.h"
 #include "cli/terminal.h"
-#include "medial/image.h"
+#include "medial/raster.h"
 
 namespace medial::cli {
 namespace {

@@ -76,6 +76,7 @@ int run(int argc, char** argv, bool json) {
       make_voxels_command(program),      //
       make_field_command(program),       //
       make_compare_command(program),     //
+      make_methods_command(program),     //
       make_offset_command(program),      //
       make_centreline_command(program),  //
       make_measure_command(program),     //

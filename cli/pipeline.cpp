@@ -54,7 +54,7 @@ Json stats(const AxisFile& file, const AxisSummary& summary, double seconds_writ
                  {"precision_retries", counted_by_engine.precision_retries},
                  {"apollonius", counted_by_engine.apollonius},
                  {"brackets", counted_by_engine.brackets},
-                 {"cuts", counted_by_engine.cuts},
+                 {"cuts", counted_by_engine.bridges},
                  {"unresolved", file.unresolved},
                  {"largest_residual", counted_by_engine.largest_residual},
                  {"threads", counted_by_engine.threads},
@@ -301,9 +301,7 @@ namespace {
 /// How far an axis of pixels of an interior is from one part for each component and one cycle for
 /// each hole of its shape, by the Euler characteristic.
 std::uint64_t unresolved_in(const Shape& shape, const MedialAxis& axis) {
-  const bool pixels =
-      axis.method == name_of(Method::ridge) || axis.method == name_of(Method::brushfire);
-  if (!pixels || axis.exterior > 0) return 0;
+  if (!is_of_pixels(axis.method) || axis.exterior > 0) return 0;
   const auto count = [](std::size_t n) { return static_cast<std::int64_t>(n); };
   return static_cast<std::uint64_t>(std::abs(count(axis.nodes.size()) - count(axis.edges.size()) -
                                              count(shape.component_count()) +
@@ -313,13 +311,18 @@ std::uint64_t unresolved_in(const Shape& shape, const MedialAxis& axis) {
 }  // namespace
 
 Result<AxisFile> compute_axes(ShapeFile shapes, const std::string& path,
-                              const CommonOptions& common, Options options, const Engine& engine) {
+                              const CommonOptions& common, Options options) {
   const Stopwatch watch;
   const double processor = processor_seconds();
   AxisFile file;
   options.tolerance = common.tolerance;
   options.corner_angle = common.corner_angle;
-  if (options.resolution == 0 && options.pixels == 0) options.resolution = shapes.pixel;
+  std::visit(
+      [&](auto& own) {
+        if constexpr (requires { own.grid; })
+          if (own.grid.resolution == 0 && own.grid.pixels == 0) own.grid.resolution = shapes.pixel;
+      },
+      options.method);
   const std::size_t count = shapes.shapes.size();
   file.native.items.resize(count);
   file.native.crs_wkt = std::move(shapes.crs_wkt);
@@ -332,7 +335,10 @@ Result<AxisFile> compute_axes(ShapeFile shapes, const std::string& path,
         Options own = options;
         own.threads = threads;
         own.progress = progress.part(weights[i]);
-        auto axis = engine ? engine(i, shapes.shapes[i], own) : compute(shapes.shapes[i], own);
+        const auto contours = shapes.contours.empty()
+                                  ? std::span<const Contour>()
+                                  : std::span<const Contour>(shapes.contours[i]);
+        auto axis = compute(shapes.shapes[i], own, contours);
         if (!axis) return at_feature(std::move(axis).error(), path, i);
         AxisItem& item = file.native.items[i];
         item.axis = std::move(axis).value();

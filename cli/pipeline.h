@@ -98,11 +98,8 @@ void print_notes(const ShapeFile& file, const InputOptions& input, const CommonO
 
 /// Computes the axis of every shape, with a progress bar where that is wanted. `path` names the
 /// input in errors. Of `options`, what the common arguments tell and progress are set here.
-/// `engine` computes the axis of feature i instead of compute(), if there is one.
-using Engine = std::function<Result<MedialAxis>(std::size_t i, const Shape&, const Options&)>;
 Result<AxisFile> compute_axes(ShapeFile shapes, const std::string& path,
-                              const CommonOptions& common, Options options = {},
-                              const Engine& engine = {});
+                              const CommonOptions& common, Options options = {});
 
 /// --exterior, with this help, and --margin. Gives the former.
 CLI::Option* add_exterior_options(CLI::App& command, Options& options, const std::string& help);

@@ -27,13 +27,7 @@ namespace {
 using biarc_dc::BaseCase;
 using biarc_dc::Report;
 
-Options options_for(Method method, std::uint64_t seed = 1) {
-  Options options;
-  options.method = method;
-  options.threads = 1;
-  options.seed = seed;
-  return options;
-}
+Options options_for(const Method& method) { return {.method = method, .threads = 1}; }
 
 std::uint64_t count_of(const Report& report, BaseCase base_case) {
   return report.base_cases[static_cast<std::size_t>(base_case)];
@@ -83,12 +77,12 @@ std::string missing_node(const MedialAxis& a, const MedialAxis& b, double togeth
 /// What does not hold: verify() is content, and the graph is that of the method disks. `together`:
 /// nodes nearer to each other, against the diagonal, count as one.
 std::vector<std::string> compare(const Shape& shape, std::uint64_t seed, double together) {
-  const auto axis = compute(shape, options_for(Method::biarc_dc, seed));
+  const auto axis = compute(shape, options_for(method::BiarcDc{seed}));
   if (!axis) return {"not computed: " + to_string(axis.error())};
   const Certificate certificate = verify(shape, *axis, {.threads = 1});
   std::vector<std::string> failures = certificate.failures;
   if (!certificate.passed && failures.empty()) failures.push_back("not passed, without a reason");
-  const auto other = compute(shape, options_for(Method::disks));
+  const auto other = compute(shape, options_for(method::Disks{}));
   if (!other) return {"disks: not computed: " + to_string(other.error())};
   // What the other method has wrong cannot be compared with.
   if (!verify(shape, *other, {.threads = 1}).passed) return failures;
@@ -157,7 +151,7 @@ Report reports_of(RandomShape (*make)(std::uint64_t), std::uint64_t count) {
     const auto shape = build_shape(make(seed).rings);
     if (!shape || shape->hole_count() > 0) continue;
     Report report;
-    static_cast<void>(biarc_dc::run(*shape, options_for(Method::biarc_dc), &report));
+    static_cast<void>(biarc_dc::run({*shape, options_for(method::BiarcDc{})}, &report));
     for (std::size_t i = 0; i < sum.base_cases.size(); ++i)
       sum.base_cases[i] += report.base_cases[i];
     sum.random_disks += report.random_disks;
@@ -191,7 +185,7 @@ TEST(BiarcDc, NodesOfHighDegreeAreOneDisk) {
   for (const std::size_t n : {4U, 5U, 12U, 60U}) {
     const auto shape = build_shape(regular_polygon(n));
     ASSERT_TRUE(shape.ok());
-    const auto axis = compute(*shape, options_for(Method::biarc_dc));
+    const auto axis = compute(*shape, options_for(method::BiarcDc{}));
     ASSERT_TRUE(axis.ok());
     EXPECT_EQ(axis->nodes.size(), n + 1);
     EXPECT_EQ(axis->edges.size(), n);
@@ -204,7 +198,7 @@ TEST(BiarcDc, DoubtfulAxesAreVerifiedOrUnsupported) {
   const auto is_right = [](const Rings& rings) {
     const auto shape = build_shape(rings);
     EXPECT_TRUE(shape.ok());
-    const auto axis = compute(*shape, options_for(Method::biarc_dc, 2));
+    const auto axis = compute(*shape, options_for(method::BiarcDc{2}));
     if (axis) {
       EXPECT_EQ(joined(verify(*shape, *axis, {.threads = 1})), "");
     } else {
@@ -232,7 +226,7 @@ TEST(BiarcDc, DoubtfulAxesAreVerifiedOrUnsupported) {
 TEST(BiarcDc, RoundShapes) {
   const auto round = build_shape(std::vector{circle({1, 2}, 3, 0.5)});
   ASSERT_TRUE(round.ok());
-  const auto point = compute(*round, options_for(Method::biarc_dc));
+  const auto point = compute(*round, options_for(method::BiarcDc{}));
   ASSERT_TRUE(point.ok());
   EXPECT_TRUE(point->edges.empty());
   ASSERT_EQ(point->nodes.size(), 1U);
@@ -241,7 +235,7 @@ TEST(BiarcDc, RoundShapes) {
   const auto long_one = build_shape(std::vector{stadium({0, 0}, {5, 0}, 1)});
   ASSERT_TRUE(long_one.ok());
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    const auto line = compute(*long_one, options_for(Method::biarc_dc, seed));
+    const auto line = compute(*long_one, options_for(method::BiarcDc{seed}));
     ASSERT_TRUE(line.ok());
     EXPECT_EQ(line->edges.size(), 1U);
     EXPECT_NEAR(total_length(*line), 5, 1e-13);
@@ -251,9 +245,9 @@ TEST(BiarcDc, RoundShapes) {
 TEST(BiarcDc, TheSeedDecides) {
   const auto shape = build_shape(comb(40));
   ASSERT_TRUE(shape.ok());
-  const auto first = compute(*shape, options_for(Method::biarc_dc, 1)),
-             again = compute(*shape, options_for(Method::biarc_dc, 1)),
-             other = compute(*shape, options_for(Method::biarc_dc, 2));
+  const auto first = compute(*shape, options_for(method::BiarcDc{1})),
+             again = compute(*shape, options_for(method::BiarcDc{1})),
+             other = compute(*shape, options_for(method::BiarcDc{2}));
   ASSERT_TRUE(first.ok() && again.ok() && other.ok());
   EXPECT_EQ(first->method, "biarc-dc");
   EXPECT_EQ(first->statistics.threads, 1);
@@ -282,10 +276,10 @@ TEST(BiarcDc, EndsInTheCentreOfTheArcOfLargestCurvature) {
   ASSERT_TRUE(rings.ok());
   const auto shape = build_shape(*rings);
   ASSERT_TRUE(shape.ok());
-  const auto other = compute(*shape, options_for(Method::disks));
+  const auto other = compute(*shape, options_for(method::Disks{}));
   ASSERT_TRUE(other.ok());
   for (const std::uint64_t seed : {1U, 3U}) {
-    const auto axis = compute(*shape, options_for(Method::biarc_dc, seed));
+    const auto axis = compute(*shape, options_for(method::BiarcDc{seed}));
     ASSERT_TRUE(axis.ok());
     EXPECT_EQ(verify(*shape, *axis, {.threads = 1}).failures, std::vector<std::string>{})
         << "seed " << seed;
@@ -297,7 +291,7 @@ TEST(BiarcDc, EndsInTheCentreOfTheArcOfLargestCurvature) {
 TEST(BiarcDc, RefusesHoles) {
   const auto shape = build_shape(hole_grid(1));
   ASSERT_TRUE(shape.ok());
-  const auto axis = compute(*shape, options_for(Method::biarc_dc));
+  const auto axis = compute(*shape, options_for(method::BiarcDc{}));
   ASSERT_FALSE(axis.ok());
   EXPECT_EQ(axis.error().code, ErrorCode::unsupported);
   EXPECT_NE(axis.error().text.find("disks"), std::string::npos);
@@ -306,7 +300,7 @@ TEST(BiarcDc, RefusesHoles) {
 TEST(BiarcDc, CanBeCancelled) {
   const auto shape = build_shape(maze(2000));
   ASSERT_TRUE(shape.ok());
-  Options options = options_for(Method::biarc_dc);
+  Options options = options_for(method::BiarcDc{});
   const std::atomic<bool> cancel = true;
   options.cancel = &cancel;
   const auto axis = compute(*shape, options);
@@ -315,8 +309,7 @@ TEST(BiarcDc, CanBeCancelled) {
 }
 
 TEST(BiarcDc, NamesOfMethods) {
-  for (const Method method : {Method::disks, Method::biarc_dc})
-    EXPECT_EQ(method_from(name_of(method)), method);
+  for (const MethodInfo& info : methods()) EXPECT_EQ(name_of(*method_from(info.name)), info.name);
   EXPECT_FALSE(method_from("biarc_dc").has_value());
 }
 

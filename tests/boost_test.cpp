@@ -8,12 +8,10 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,6 +28,7 @@
 #include <boost/polygon/voronoi.hpp>
 #pragma GCC diagnostic pop
 
+#include "base/disjoint_sets.h"
 #include "medial/medial.h"
 #include "support/diagram_graph.h"
 #include "support/random_shapes.h"
@@ -44,7 +43,7 @@ constexpr double agreement = 1e-9;
 /// A graph of disks, whichever program made it.
 struct Graph {
   std::vector<Disk> nodes;
-  std::vector<std::array<std::size_t, 2>> edges;
+  std::vector<std::array<std::uint32_t, 2>> edges;
 };
 
 Graph graph_of(const MedialAxis& axis) {
@@ -100,9 +99,9 @@ Graph graph_of_boost(const Shape& shape) {
   boost::polygon::voronoi_diagram<double> diagram;
   boost::polygon::construct_voronoi(segments.begin(), segments.end(), &diagram);
   Graph graph;
-  std::map<const void*, std::size_t> index;
+  std::map<const void*, std::uint32_t> index;
   const auto node = [&](const auto* vertex) {
-    const auto [at, fresh] = index.insert({vertex, graph.nodes.size()});
+    const auto [at, fresh] = index.insert({vertex, static_cast<std::uint32_t>(graph.nodes.size())});
     if (fresh) {
       const Vec2 center{vertex->x(), vertex->y()};
       graph.nodes.push_back({center, distance_to_boundary(shape, center)});
@@ -111,7 +110,7 @@ Graph graph_of_boost(const Shape& shape) {
   };
   for (const auto& edge : diagram.edges()) {
     if (!edge.is_primary() || !edge.is_finite() || &edge > edge.twin()) continue;
-    const std::array<std::size_t, 2> ends{node(edge.vertex0()), node(edge.vertex1())};
+    const std::array<std::uint32_t, 2> ends{node(edge.vertex0()), node(edge.vertex1())};
     // An edge inside has at least one end off the boundary.
     const Disk& deeper = graph.nodes[ends[0]].radius > graph.nodes[ends[1]].radius
                              ? graph.nodes[ends[0]]
@@ -128,23 +127,18 @@ struct Place {
 };
 
 std::vector<Place> places_of(const Graph& graph, double together) {
-  std::vector<std::size_t> parent(graph.nodes.size());
-  std::iota(parent.begin(), parent.end(), std::size_t{0});
-  const auto find = [&](std::size_t i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-  };
+  DisjointSets sets(graph.nodes.size());
   const auto is_short = [&](const auto& edge) {
     return distance(graph.nodes[edge[0]].center, graph.nodes[edge[1]].center) <= together;
   };
   for (const auto& edge : graph.edges) {
-    if (is_short(edge)) parent[find(edge[0])] = find(edge[1]);
+    if (is_short(edge)) sets.join(edge[0], edge[1]);
   }
-  std::map<std::size_t, std::size_t> degree;
+  std::map<std::uint32_t, std::size_t> degree;
   for (const auto& edge : graph.edges) {
-    if (find(edge[0]) == find(edge[1]) && is_short(edge)) continue;
-    ++degree[find(edge[0])];
-    ++degree[find(edge[1])];
+    if (sets.find(edge[0]) == sets.find(edge[1]) && is_short(edge)) continue;
+    ++degree[sets.find(edge[0])];
+    ++degree[sets.find(edge[1])];
   }
   std::vector<Place> places;
   for (const auto& [node, count] : degree) {
@@ -319,10 +313,7 @@ INSTANTIATE_TEST_SUITE_P(Random, Integers, testing::Range<std::uint64_t>(0, 4));
 
 /// Boost's own examples: the count of points (none), the count of segments, the segments.
 TEST(Boost, HasTheSameGraphOnItsOwnExamples) {
-  const char* data = std::getenv("MEDIAL_DATA");
-  const std::filesystem::path folder =
-      std::filesystem::path(data ? data : MEDIAL_SOURCE_DIR "/../shared/data") /
-      "in_place/E_degenerate/boost_polygon";
+  const auto folder = test::data_folder() / "in_place/E_degenerate/boost_polygon";
   if (!std::filesystem::is_directory(folder)) GTEST_SKIP() << "no folder " << folder;
   int compared = 0;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {

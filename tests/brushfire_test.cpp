@@ -8,6 +8,7 @@
 #include <random>
 
 #include "medial/compute.h"
+#include "medial/raster.h"
 #include "medial/verify.h"
 
 namespace medial {
@@ -28,12 +29,7 @@ Image blots(std::uint32_t seed) {
 }
 
 MedialAxis burnt(const Shape& shape, Brushfire family, double resolution, std::uint32_t pixels) {
-  Options options;
-  options.method = Method::brushfire;
-  options.brushfire = family;
-  options.resolution = resolution;
-  options.pixels = pixels;
-  const auto axis = compute(shape, options);
+  const auto axis = compute(shape, {.method = method::Brushfire{{resolution, pixels}, family}});
   EXPECT_TRUE(axis.ok()) << to_string(axis.error());
   return axis ? *axis : MedialAxis();
 }
@@ -98,19 +94,16 @@ TEST(BrushfireMethod, RefusesWhatItCannot) {
   };
   const auto frame = build_shape(std::vector<Ring>{box(0, 100), box(0.001, 99.999)});
   ASSERT_TRUE(frame.ok());
-  Options options;
-  options.method = Method::brushfire;
-  options.pixels = 10;
+  Options options{.method = method::Brushfire{{.pixels = 10}}};
   EXPECT_EQ(compute(*frame, options).error().code, ErrorCode::unsupported);
-  options.pixels = 70000;
+  options.method = method::Brushfire{{.pixels = 70000}};
   EXPECT_EQ(compute(*frame, options).error().code, ErrorCode::too_large);
-  options.pixels = 0;
-  options.resolution = 1000;
+  options.method = method::Brushfire{{.resolution = 1000}};
   EXPECT_EQ(compute(*frame, options).error().code, ErrorCode::invalid_option);
   const auto square =
       build_shape(std::vector<Ring>{Ring{{{0, 0}, {9, 0}, {9, 9}, {0, 9}}, RingRole::any, {}}});
   const std::atomic<bool> cancel = true;
-  options.resolution = 0;
+  options.method = method::Brushfire{};
   options.cancel = &cancel;
   EXPECT_EQ(compute(*square, options).error().code, ErrorCode::cancelled);
   options.cancel = nullptr;

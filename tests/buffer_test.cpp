@@ -10,6 +10,7 @@
 #include "medial/offset.h"
 #include "medial/planar_graph.h"
 #include "medial/query.h"
+#include "support/environment.h"
 #include "support/generate.h"
 #include "support/offset_check.h"
 #ifdef MEDIAL_HAS_GEOS
@@ -23,8 +24,7 @@ using std::numbers::pi;
 using Chains = std::vector<Chain>;
 
 std::uint64_t planar_graph_count() {
-  const char* text = std::getenv("MEDIAL_PROPERTY_COUNT");
-  return text && *text ? std::strtoull(text, nullptr, 10) / 20 : 600;
+  return test::number_from("MEDIAL_PROPERTY_COUNT", 12000) / 20;
 }
 
 Offsets buffers_of(const Chains& chains, const std::vector<double>& distances) {

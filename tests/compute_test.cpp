@@ -68,9 +68,9 @@ TEST(Compute, RefusesOptionsOutOfRange) {
                             {.tolerance = std::nan("")},
                             {.threads = -1},
                             {.threads = 1025},
-                            {.method = Method::ridge, .exact = true},
-                            {.method = Method::brushfire, .exact = true},
-                            {.method = Method::potential, .exact = true}}) {
+                            {.method = method::Ridge{}, .exact = true},
+                            {.method = method::Brushfire{}, .exact = true},
+                            {.method = method::Potential{}, .exact = true}}) {
     const auto axis = compute(shape, options);
     ASSERT_FALSE(axis.ok());
     EXPECT_EQ(axis.error().code, ErrorCode::invalid_option);

@@ -258,8 +258,9 @@ TEST(CurveAxis, TellsTheCurvaturesOfSplines) {
 }
 
 TEST(CurveAxis, RefusesWhatItCannotFollow) {
-  const auto code = [](const std::vector<Contour>& contours, CurveAxisOptions options = {}) {
-    const auto result = compute_curve_axis(contours, options);
+  const auto code = [](const std::vector<Contour>& contours, method::CurveAxis options = {},
+                       const std::atomic<bool>* cancel = nullptr) {
+    const auto result = compute_curve_axis(contours, options, cancel);
     return result ? ErrorCode::internal : result.error().code;
   };
   Contour square;
@@ -287,9 +288,7 @@ TEST(CurveAxis, RefusesWhatItCannotFollow) {
   ASSERT_TRUE(crossing.ok());
   EXPECT_EQ(code({*crossing}), ErrorCode::crossing);
   const std::atomic<bool> stop = true;
-  CurveAxisOptions cancelled;
-  cancelled.cancel = &stop;
-  EXPECT_EQ(code({ellipse(2, 1)}, cancelled), ErrorCode::cancelled);
+  EXPECT_EQ(code({ellipse(2, 1)}, {}, &stop), ErrorCode::cancelled);
 }
 
 /// A closed spline of 59 corners, beside which a branch takes a wrong turn.

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -18,6 +17,7 @@
 #include "medial/io/read.h"
 #include "medial/io/write.h"
 #include "medial/verify.h"
+#include "support/environment.h"
 
 namespace medial::io {
 namespace {
@@ -194,7 +194,7 @@ TEST_F(CurvedDxf, BombsAreBounded) {
 }
 
 TEST_F(CurvedDxf, OfTheDataFolder) {
-  const fs::path data = fs::path(MEDIAL_SOURCE_DIR) / "../shared/data";
+  const fs::path data = test::data_folder();
   if (!fs::exists(data)) GTEST_SKIP() << data << " is not here";
   // Drawings of open curves or of polygons in tilted planes: there is nothing with an inside.
   const std::vector<std::string> nothing{"librecad_honeycomb.dxf", "dxfparser_splines.dxf",

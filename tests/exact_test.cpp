@@ -107,9 +107,8 @@ TEST(RootNumber, TellsWhatIsNearZero) {
 
 // ---- Decisions.
 
-exact::Outline outline_of(const Shape& shape) {
-  const LocalFrame frame = frame_of(bounding_box(shape));
-  return exact::outline_of(shape, frame, sites::number_sites(shape, frame, 0.01));
+exact::SiteLoops outline_of(const Shape& shape) {
+  return exact::outline_of(Problem(shape, Options{}));
 }
 
 TEST(InDisk, DecidesTiesOfEveryKind) {
@@ -142,7 +141,7 @@ TEST(InDisk, DecidesTiesOfEveryKind) {
 TEST(InDisk, JudgesAnArcByItsEndsWhereItLiesBehindTheCentre) {
   const auto shape = build_shape(random_arc_shape(4185).rings);
   ASSERT_TRUE(shape);
-  const exact::Outline outline = outline_of(*shape);
+  const exact::SiteLoops outline = outline_of(*shape);
   exact::Decisions decisions;
   ASSERT_GT(outline.sites[51].bulge, 0);
   for (const std::uint32_t site : {38U, 56U, 58U}) ASSERT_TRUE(outline.sites[site].is_vertex());
@@ -197,7 +196,7 @@ TEST(Divide, IsTheSameFromWhereverItBegins) {
                           Case{tip_of_snowflake, {2, 3, 4, 5}, {{2, 3, 5}, {3, 4, 5}}}}) {
     const auto shape = build_shape(Rings{part_of(one.tip, 0)});
     ASSERT_TRUE(shape);
-    const exact::Outline outline = outline_of(*shape);
+    const exact::SiteLoops outline = outline_of(*shape);
     std::vector<std::uint32_t> sites = one.sites;
     for (std::size_t turn = 0; turn < sites.size(); ++turn) {
       exact::Decisions decisions;
@@ -256,7 +255,7 @@ TEST(ExactAxis, OfLeeIsThatOfDisks) {
       options.threads = 1;
       options.exact = exact;
       const auto disks = compute(*shape, options);
-      options.method = Method::lee;
+      options.method = method::Lee{};
       const auto lee = compute(*shape, options);
       ASSERT_TRUE(lee.ok() && disks.ok()) << first_seed() + i;
       EXPECT_EQ(difference(*shape, *lee, *disks, lee->tolerance), "")
@@ -285,7 +284,7 @@ TEST(ExactAxis, OfNotchesInAWall) {
     const auto shape = build_shape(std::vector<Ring>{ring});
     ASSERT_TRUE(shape.ok());
     std::vector<MedialAxis> certain;
-    for (const Method method : {Method::disks, Method::lee}) {
+    for (const Method& method : {Method(method::Disks{}), Method(method::Lee{})}) {
       Options options{.method = method, .threads = 1};
       EXPECT_TRUE(verify(*shape, compute(*shape, options).value(), {.threads = 1}).passed) << i;
       options.exact = true;

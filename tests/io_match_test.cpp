@@ -9,6 +9,8 @@
 #include "medial/compute.h"
 #include "medial/io/read.h"
 #include "medial/match.h"
+#include "medial/raster.h"
+#include "support/environment.h"
 #include "support/generate.h"
 
 namespace medial {
@@ -114,7 +116,7 @@ Image image_of(const Image& image, double angle, bool mirror, double scale, doub
 }
 
 TEST(MatchKinds, Silhouettes) {
-  const fs::path folder = fs::path(MEDIAL_SOURCE_DIR) / "../shared/data/packaged/C_images";
+  const fs::path folder = test::data_folder() / "packaged/C_images";
   if (!fs::exists(folder)) GTEST_SKIP() << "no data folder";
   std::vector<Sample> samples;
   std::vector<fs::path> files;

@@ -13,6 +13,7 @@
 #include <sstream>
 
 #include "medial/io/mesh.h"
+#include "support/environment.h"
 #include "support/solids.h"
 
 namespace medial {
@@ -325,7 +326,7 @@ TEST_F(MeshFiles, HoldTheAxis) {
 }
 
 TEST_F(MeshFiles, OfTheDataFolderHaveTheirTopology) {
-  const fs::path spot = fs::path(MEDIAL_SOURCE_DIR) / "../shared/data/in_place/D_3d/spot.obj";
+  const fs::path spot = test::data_folder() / "in_place/D_3d/spot.obj";
   if (!fs::exists(spot)) GTEST_SKIP() << "no such data here";
   if (formats[0] != "obj") GTEST_SKIP() << "built without Assimp";
   auto mesh = io::read_mesh(spot.string());

@@ -23,6 +23,7 @@
 #include "medial/io/read.h"
 #include "medial/io/write.h"
 #include "medial/query.h"
+#include "support/environment.h"
 #include "support/native_items.h"
 
 namespace medial::io {
@@ -302,6 +303,7 @@ TEST_F(Io, FilesThatHoldNoPolygonsAreUnsupported) {
 std::string in_child(const std::string& input, const std::function<void()>& action) {
   int output[2];
   EXPECT_EQ(pipe(output), 0);
+  std::fflush(stdout);  // or the child writes what the tests before have printed
   const pid_t child = fork();
   if (child == 0) {
     std::FILE* file = std::freopen(input.c_str(), "rb", stdin);
@@ -483,7 +485,7 @@ TEST_F(Io, RepairTellsWhatItChangedAndLeavesTheRest) {
 // -------------------------------------------------------------------------------------- real data
 
 TEST_F(Io, CompressedTextIsReadAndItsTruncationNoticed) {
-  const fs::path file = data_folder() / "packaged" / "A_gis" / "gshhg" / "sao_tome.wkt.gz";
+  const fs::path file = test::data_folder() / "packaged" / "A_gis" / "gshhg" / "sao_tome.wkt.gz";
   if (!fs::exists(file)) GTEST_SKIP() << "no data folder: set MEDIAL_DATA";
   const Result<Document<Feature>> data = read_dataset(file.string());
   ASSERT_TRUE(data.ok()) << to_string(data.error());
@@ -504,9 +506,9 @@ TEST_F(Io, CompressedTextIsReadAndItsTruncationNoticed) {
 }
 
 TEST_F(Io, EveryFileOfTheDataFolderIsReadOrRefused) {
-  if (!fs::exists(data_folder())) GTEST_SKIP() << "no data folder: set MEDIAL_DATA";
+  if (!fs::exists(test::data_folder())) GTEST_SKIP() << "no data folder: set MEDIAL_DATA";
   std::size_t read = 0;
-  for (const auto& entry : fs::recursive_directory_iterator(data_folder())) {
+  for (const auto& entry : fs::recursive_directory_iterator(test::data_folder())) {
     if (!entry.is_regular_file() || entry.file_size() > (std::uintmax_t{2} << 20)) continue;
     const Result<Document<Feature>> data = read_dataset(entry.path().string());
     if (data.ok()) {

@@ -248,7 +248,7 @@ TEST_F(CurvedIo, SvgCopiesOfCopiesAreBounded) {
 }
 
 TEST_F(CurvedIo, SvgOfTheDataFolderCountsAsListed) {
-  const fs::path folder = fs::path(MEDIAL_SOURCE_DIR) / "../shared/data/packaged/B_svg";
+  const fs::path folder = test::data_folder() / "packaged/B_svg";
   if (!fs::exists(folder / "LIST.tsv")) GTEST_SKIP() << folder << " is not here";
   // A subpath of one point, which encloses nothing, and shapes without fill.
   const std::map<std::string, int> fewer{{"mdi/cloud-check-variant-outline.svg", 1}};

@@ -91,7 +91,7 @@ double furthest(const MedialAxis& from, const MedialAxis& to, double step) {
   return largest;
 }
 
-Options by_lee(int threads = 1) { return {.method = Method::lee, .threads = threads}; }
+Options by_lee(int threads = 1) { return {.method = method::Lee{}, .threads = threads}; }
 
 /// The axis is verified and is that of `disks`; empty where it is.
 std::string check_axis_of(const Shape& shape, bool as_graph) {

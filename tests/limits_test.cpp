@@ -1,7 +1,7 @@
 // What is too large, too small or too thin is refused alike by compute() and verify(); all else is
 // right.
 
-#include "base/limits.h"
+#include "shape/limits.h"
 
 #include <gtest/gtest.h>
 

@@ -7,11 +7,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <numbers>
 #include <string>
 #include <vector>
 
+#include "support/environment.h"
 #include "support/generate.h"
 #include "support/property.h"
 
@@ -223,8 +223,7 @@ constexpr std::uint64_t gap_shares = 4;
 class NarrowGaps : public testing::TestWithParam<std::uint64_t> {};
 
 TEST_P(NarrowGaps, AreVerified) {
-  const char* text = std::getenv("MEDIAL_PROPERTY_COUNT");
-  const std::uint64_t count = text && *text ? std::strtoull(text, nullptr, 10) / 2 : 10000;
+  const std::uint64_t count = test::shape_count(2);
   std::uint64_t valid = 0, unsupported = 0;
   for (std::uint64_t seed = GetParam(); seed < count; seed += gap_shares) {
     const Rings rings = narrow_shape(seed);

@@ -217,7 +217,7 @@ TEST(Offset, RefusesWhatItCannotDo) {
   const double one = 1;
   EXPECT_EQ(offset_curves(Shape{}, {&one, 1}).error().code, ErrorCode::empty);
   Options sampled;
-  sampled.method = Method::ridge;
+  sampled.method = method::Ridge{};
   EXPECT_EQ(offset_curves(square, {&one, 1}, sampled).error().code, ErrorCode::unsupported);
 }
 

@@ -13,14 +13,16 @@
 #include <utility>
 #include <vector>
 
+#include "base/disjoint_sets.h"
 #include "base/local_frame.h"
 #include "medial/compute.h"
 #include "medial/field.h"
-#include "medial/image.h"
 #include "medial/query.h"
+#include "medial/raster.h"
 #include "medial/verify.h"
 #include "methods/potential/region.h"
 #include "methods/potential/skeleton.h"
+#include "support/environment.h"
 #include "support/generate.h"
 
 namespace medial::test {
@@ -85,29 +87,18 @@ std::vector<std::pair<std::string, Rings>> families() {
   return shapes;
 }
 
-/// Of all edges, whether each leads on from what the others reach.
+/// How many connected parts the graph has.
 std::size_t parts(const MedialAxis& axis) {
-  std::vector<std::uint32_t> parent(axis.nodes.size());
-  for (std::uint32_t i = 0; i < parent.size(); ++i) parent[i] = i;
-  const auto find = [&](std::uint32_t i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-  };
-  std::size_t count = parent.size();
-  for (const Edge& edge : axis.edges) {
-    const std::uint32_t a = find(edge.node[0]), b = find(edge.node[1]);
-    if (a == b) continue;
-    parent[a] = b;
-    --count;
-  }
-  return count;
+  DisjointSets sets(axis.nodes.size());
+  for (const Edge& edge : axis.edges) sets.join(edge.node[0], edge.node[1]);
+  return sets.count();
 }
 
 TEST(Potential, IsConnectedWithOneCycleForEachHole) {
   for (const auto& [name, rings] : families()) {
     SCOPED_TRACE(name);
     const Shape shape = *build_shape(rings);
-    const auto axis = compute(shape, {.method = Method::potential});
+    const auto axis = compute(shape, {.method = method::Potential{}});
     ASSERT_TRUE(axis.ok());
     EXPECT_EQ(parts(*axis), shape.component_count());
     EXPECT_EQ(axis->edges.size() + parts(*axis) - axis->nodes.size(), shape.hole_count());
@@ -127,7 +118,7 @@ Shape pixel_noise(std::uint32_t side, double share) {
 TEST(Potential, PixelNoiseIsConnectedThroughLevelFloorsAndNecks) {
   for (const auto& [side, share] : {std::pair{12U, 0.6}, {20U, 0.5}}) {
     const Shape shape = pixel_noise(side, share);
-    const auto axis = compute(shape, {.method = Method::potential});
+    const auto axis = compute(shape, {.method = method::Potential{}});
     ASSERT_TRUE(axis.ok());
     EXPECT_EQ(parts(*axis), shape.component_count());
     EXPECT_EQ(axis->edges.size() + parts(*axis) - axis->nodes.size(), shape.hole_count());
@@ -141,7 +132,7 @@ TEST(Potential, PixelNoiseIsConnectedThroughLevelFloorsAndNecks) {
 /// A lower bound of forces than any shape's, and a flag that is up: both end within a few lines.
 TEST(Potential, TracingEndsWithItsBudgetAndWhenCancelled) {
   const Shape shape = pixel_noise(14, 0.7);
-  const auto regions = potential::regions_of(shape, frame_of(bounding_box(shape)), 0.01, 1e-4);
+  const auto regions = potential::regions_of(Problem(shape, Options{}), 1e-4);
   ASSERT_FALSE(regions.empty());
   const auto largest = std::max_element(
       regions.begin(), regions.end(),
@@ -166,7 +157,7 @@ TEST(Potential, TracingEndsWithItsBudgetAndWhenCancelled) {
 
 TEST(Potential, IsCancelled) {
   const std::atomic<bool> cancel = true;
-  Options options{.method = Method::potential};
+  Options options{.method = method::Potential{}};
   options.cancel = &cancel;
   const auto axis = compute(pixel_noise(12, 0.6), options);
   ASSERT_FALSE(axis.ok());
@@ -177,15 +168,15 @@ TEST(Potential, IsCancelled) {
 /// take.
 TEST(Potential, WhatCannotBeConnectedIsRefusedWithinTheBudget) {
   const Shape shape = *build_shape(triangle({0, 0}, {1, 0}, {0.5, 1e-5}));
-  const auto axis = compute(shape, {.method = Method::potential});
+  const auto axis = compute(shape, {.method = method::Potential{}});
   ASSERT_FALSE(axis.ok());
   EXPECT_EQ(axis.error().code, ErrorCode::unsupported);
 }
 
 TEST(Potential, IsTheSameForAnyNumberOfThreads) {
   const Shape shape = *build_shape(comb(4));
-  const auto one = compute(shape, {.method = Method::potential, .threads = 1});
-  const auto four = compute(shape, {.method = Method::potential, .threads = 4});
+  const auto one = compute(shape, {.method = method::Potential{}, .threads = 1});
+  const auto four = compute(shape, {.method = method::Potential{}, .threads = 4});
   ASSERT_TRUE(one.ok() && four.ok());
   ASSERT_EQ(one->nodes.size(), four->nodes.size());
   for (std::size_t i = 0; i < one->nodes.size(); ++i)
@@ -196,7 +187,7 @@ TEST(Potential, ComesNearTheExactAxis) {
   for (const auto& [name, rings] : families()) {
     SCOPED_TRACE(name);
     const Shape shape = *build_shape(rings);
-    const auto axis = compute(shape, {.method = Method::potential});
+    const auto axis = compute(shape, {.method = method::Potential{}});
     EXPECT_TRUE(axis.ok());
     if (!axis) continue;
     const Distances d = distances(shape, *axis);
@@ -215,8 +206,7 @@ TEST(Potential, ComesNearerWithTheOrder) {
     const Shape shape = *build_shape(rings);
     double before = size_of(shape);
     for (const double order : {2.0, 8.0, 32.0, 128.0}) {
-      const auto axis =
-          compute(shape, {.method = Method::potential, .potential = {.order = order}});
+      const auto axis = compute(shape, {.method = method::Potential{.order = order}});
       ASSERT_TRUE(axis.ok()) << order;
       const double mean = distances(shape, *axis).mean;
       EXPECT_LT(mean, before) << order;
@@ -275,8 +265,7 @@ TEST(Potential, LowOrdersAreAsFarFromTheAxisAsTheirField) {
   for (std::size_t i = 0; i < own.size(); ++i) {
     const double order = std::exp2(i);
     own[i] = mean_of_rectangle(order);
-    const auto axis =
-        compute(shape, {.method = Method::potential, .potential = {.order = order, .step = 0.001}});
+    const auto axis = compute(shape, {.method = method::Potential{.order = order, .step = 0.001}});
     ASSERT_TRUE(axis.ok());
     double length = 0, moment = 0;
     const AxisLocator locator(exact);
@@ -328,8 +317,8 @@ TEST(Potential, CoarseToFineLeavesSmallTeethOut) {
   Ring hole;
   hole.points = {{4, -0.3}, {4, 0.3}, {6, 0.3}, {6, -0.3}};
   const Shape shape = *build_shape(Rings{ring, hole});
-  const auto all = compute(shape, {.method = Method::potential});
-  const auto coarse = compute(shape, {.method = Method::potential, .potential = {.coarse = 0.02}});
+  const auto all = compute(shape, {.method = method::Potential{}});
+  const auto coarse = compute(shape, {.method = method::Potential{.coarse = 0.02}});
   ASSERT_TRUE(all.ok() && coarse.ok());
   const auto count = [](const MedialAxis& axis) {
     return std::count_if(axis.nodes.begin(), axis.nodes.end(),
@@ -350,7 +339,7 @@ TEST(Potential, BranchesThatEndInSmallSmoothTipsAreThere) {
   const double quarter = std::tan(std::numbers::pi / 8);
   ring.bulges = {0, quarter, 0, quarter, 0, quarter, 0, quarter};
   const Shape shape = *build_shape(Rings{ring});
-  const auto axis = compute(shape, {.method = Method::potential});
+  const auto axis = compute(shape, {.method = method::Potential{}});
   ASSERT_TRUE(axis.ok());
   const AxisLocator locator(*axis);
   for (const Vec2 tip : {Vec2{0.5, 0.5}, {99.5, 0.5}, {99.5, 59.5}, {0.5, 59.5}})
@@ -361,7 +350,7 @@ TEST(Potential, RingsOfOneWidthAreConnectedWithoutLongSearches) {
   for (const int slots : {1, 3}) {
     SCOPED_TRACE(slots);
     const Shape shape = *build_shape(slotted_disk(slots));
-    const auto axis = compute(shape, {.method = Method::potential});
+    const auto axis = compute(shape, {.method = method::Potential{}});
     ASSERT_TRUE(axis.ok());
     EXPECT_EQ(parts(*axis), 1U);
     EXPECT_EQ(axis->edges.size() + 1 - axis->nodes.size(), shape.hole_count());
@@ -373,8 +362,7 @@ TEST(Potential, RingsOfOneWidthAreConnectedWithoutLongSearches) {
 TEST(Potential, AlwaysEndsWithAnAxisOrATypedError) {
   Random random(77);
   std::size_t refused = 0, shapes = 0;
-  const char* text = std::getenv("MEDIAL_PROPERTY_COUNT");
-  const int rounds = std::clamp(text == nullptr ? 80 : std::atoi(text) / 250, 8, 80);
+  const int rounds = std::clamp(static_cast<int>(test::shape_count(250)), 8, 80);
   for (int i = 0; i < rounds; ++i) {
     const auto size = static_cast<std::int64_t>(random.power_of_ten(1, 5));
     Rings rings = untangled(random, 4 + random.next() % 40, size);
@@ -384,15 +372,14 @@ TEST(Potential, AlwaysEndsWithAnAxisOrATypedError) {
     const auto shape = build_shape(rings);
     if (!shape) continue;
     ++shapes;
-    Options options{.method = Method::potential};
-    options.potential.step = random.power_of_ten(-2.3, -1);
-    if (i % 2 == 1) options.potential.order = std::round(random.power_of_ten(0, 3.5));
+    method::Potential own;
+    own.step = random.power_of_ten(-2.3, -1);
+    if (i % 2 == 1) own.order = std::round(random.power_of_ten(0, 3.5));
     if (i % 5 == 4) {
       const Box box = bounding_box(*shape);
-      options.potential.from =
-          Vec2{random.between(box.low.x, box.high.x), random.between(box.low.y, box.high.y)};
+      own.from = Vec2{random.between(box.low.x, box.high.x), random.between(box.low.y, box.high.y)};
     }
-    const auto axis = compute(*shape, options);
+    const auto axis = compute(*shape, {.method = own});
     if (!axis) {
       ++refused;
       EXPECT_TRUE(axis.error().code == ErrorCode::unsupported ||
@@ -402,7 +389,7 @@ TEST(Potential, AlwaysEndsWithAnAxisOrATypedError) {
     }
     for (const Node& node : axis->nodes)
       EXPECT_TRUE(std::isfinite(node.disk.center.x) && node.disk.radius >= 0);
-    if (options.potential.whole()) {
+    if (own.whole()) {
       EXPECT_EQ(parts(*axis), shape->component_count());
     }
   }
@@ -415,7 +402,7 @@ TEST(Potential, APartIsAPartOfTheWhole) {
   const auto exact = *compute(shape);
   const AxisLocator locator(exact);
   const Box box{{-1, -1}, {3.5, 9}};
-  const auto part = compute(shape, {.method = Method::potential, .potential = {.within = box}});
+  const auto part = compute(shape, {.method = method::Potential{.within = box}});
   ASSERT_TRUE(part.ok());
   EXPECT_GT(part->nodes.size(), 50U);
   for (const Node& node : part->nodes) {
@@ -423,25 +410,23 @@ TEST(Potential, APartIsAPartOfTheWhole) {
     EXPECT_LT(locator.nearest(node.disk.center).distance, 0.15);
   }
   // Up to the tip of a tooth, and down to a minimum.
-  const auto branch =
-      compute(shape, {.method = Method::potential, .potential = {.from = Vec2{4.6, 4}}});
+  const auto branch = compute(shape, {.method = method::Potential{.from = Vec2{4.6, 4}}});
   ASSERT_TRUE(branch.ok());
   EXPECT_GT(branch->edges.size(), 5U);
   EXPECT_LT(branch->nodes.size(), part->nodes.size());
-  const auto outside =
-      compute(shape, {.method = Method::potential, .potential = {.from = Vec2{3.5, 4}}});
+  const auto outside = compute(shape, {.method = method::Potential{.from = Vec2{3.5, 4}}});
   ASSERT_FALSE(outside.ok());
   EXPECT_EQ(outside.error().code, ErrorCode::invalid_option);
 }
 
 TEST(Potential, RefusesOptionsOutOfRange) {
   const Shape shape = *build_shape(rectangle(2, 1));
-  for (const PotentialOptions& wrong :
-       {PotentialOptions{.order = 0.5}, PotentialOptions{.order = 5000},
-        PotentialOptions{.base_order = -1}, PotentialOptions{.step = 0},
-        PotentialOptions{.coarse = 0.3}, PotentialOptions{.angle = 100},
-        PotentialOptions{.movement = 1}}) {
-    const auto axis = compute(shape, {.method = Method::potential, .potential = wrong});
+  for (const method::Potential& wrong :
+       {method::Potential{.order = 0.5}, method::Potential{.order = 5000},
+        method::Potential{.base_order = -1}, method::Potential{.step = 0},
+        method::Potential{.coarse = 0.3}, method::Potential{.angle = 100},
+        method::Potential{.movement = 1}}) {
+    const auto axis = compute(shape, {.method = wrong});
     ASSERT_FALSE(axis.ok());
     EXPECT_EQ(axis.error().code, ErrorCode::invalid_option);
   }

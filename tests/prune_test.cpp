@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/disjoint_sets.h"
 #include "medial/compute.h"
 #include "medial/query.h"
 #include "support/computed.h"
@@ -34,20 +35,12 @@ struct Homotopy {
 };
 
 Homotopy homotopy_of(const MedialAxis& axis) {
-  std::vector<std::uint32_t> parent(axis.nodes.size());
-  for (std::uint32_t i = 0; i < parent.size(); ++i) parent[i] = i;
-  const auto find = [&](std::uint32_t i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-  };
-  Homotopy result{axis.nodes.size(), 0};
+  DisjointSets sets(axis.nodes.size());
+  std::size_t cycles = 0;
   for (const Edge& edge : axis.edges) {
-    const std::uint32_t a = find(edge.node[0]), b = find(edge.node[1]);
-    parent[a] = b;
-    ++(a == b ? result.cycles : result.parts);
-    if (a != b) result.parts -= 2;
+    if (!sets.join(edge.node[0], edge.node[1])) ++cycles;
   }
-  return result;
+  return {sets.count(), cycles};
 }
 
 /// Thresholds from nothing to everything, the default among them.

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "medial/brushfire.h"
-#include "medial/image.h"
+#include "medial/raster.h"
 #include "medial/shape.h"
 
 namespace medial {

@@ -290,9 +290,7 @@ TEST(Rebuild, HullsOfAFewDisks) {
 TEST(Rebuild, SampledAxesGivePolygons) {
   const Case one =
       case_of({{0, 0}, {9, 0}, {9, 3}, {6, 3}, {6, 7}, {4, 7}, {4, 3}, {2, 4}, {0, 3}});
-  Options options;
-  options.method = Method::potential;
-  const auto axis = compute(one.shape, options);
+  const auto axis = compute(one.shape, {.method = method::Potential{}});
   ASSERT_TRUE(axis.ok());
   const auto shape = rebuild(*axis);
   ASSERT_TRUE(shape.ok()) << to_string(shape.error());
@@ -307,10 +305,7 @@ TEST(Rebuild, RidgesComeWithinPixels) {
       {{0, 0}, {90, 0}, {90, 30}, {60, 30}, {60, 70}, {40, 70}, {40, 30}, {20, 40}, {0, 30}});
   for (const double pixel : {0.5, 0.125}) {
     SCOPED_TRACE(pixel);
-    Options options;
-    options.method = Method::ridge;
-    options.resolution = pixel;
-    const auto axis = compute(one.shape, options);
+    const auto axis = compute(one.shape, {.method = method::Ridge{.grid = {.resolution = pixel}}});
     ASSERT_TRUE(axis.ok()) << to_string(axis.error());
     RebuildReport report;
     const auto shape = rebuild(*axis, {}, &report);

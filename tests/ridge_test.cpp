@@ -24,12 +24,10 @@ namespace {
 using ridge::VertexType;
 
 Options ridge_options(std::uint32_t pixels) {
-  Options options;
-  options.method = Method::ridge;
-  options.pixels = pixels;
-  options.ridge_collinear = 0;
-  return options;
+  return {.method = method::Ridge{.grid = {.pixels = pixels}, .collinear = 0}};
 }
+
+method::Ridge& own(Options& options) { return std::get<method::Ridge>(options.method); }
 
 MedialAxis ridge_axis(const Shape& shape, const Options& options) {
   auto axis = compute(shape, options);
@@ -111,8 +109,8 @@ TEST(Ridge, Fig17DefeatsTheSixVerticesRule) {
   EXPECT_NEAR(clearance(shape, p), 1, 1e-12);
   for (const RidgeRule rule : {RidgeRule::difference, RidgeRule::crossing}) {
     Options options = ridge_options(0);
-    options.resolution = 0.5;
-    options.ridge_rule = rule;
+    own(options).grid.resolution = 0.5;
+    own(options).rule = rule;
     const MedialAxis axis = ridge_axis(shape, options);
     ASSERT_FALSE(axis.nodes.empty());
     for (const Node& node : axis.nodes) EXPECT_GT(distance(node.disk.center, p), 1);
@@ -143,10 +141,10 @@ TEST(Ridge, BothSearchesFindTheSamePixels) {
     for (const RidgeRule rule : {RidgeRule::difference, RidgeRule::crossing})
       for (const double collinear : {0.0, 5.0}) {
         Options options = ridge_options(48);
-        options.ridge_rule = rule;
-        options.ridge_collinear = collinear;
+        own(options).rule = rule;
+        own(options).collinear = collinear;
         const MedialAxis by_tree = ridge_axis(*shape, options);
-        options.ridge_search = RidgeSearch::sorted_list;
+        own(options).search = RidgeSearch::sorted_list;
         const MedialAxis by_list = ridge_axis(*shape, options);
         EXPECT_TRUE(identical(by_tree, by_list)) << random.kind << ", seed " << seed;
       }
@@ -157,7 +155,7 @@ TEST(Ridge, PixelsComeInTheOrderOfRows) {
   const Shape shape = build_shape(star_with_holes_of(7)).value();
   for (const RidgeRule rule : {RidgeRule::difference, RidgeRule::crossing}) {
     Options options = ridge_options(100);
-    options.ridge_rule = rule;
+    own(options).rule = rule;
     const MedialAxis axis = ridge_axis(shape, options);
     EXPECT_EQ(axis.method, "ridge");
     EXPECT_GT(axis.resolution, 0);
@@ -216,7 +214,7 @@ TEST(Ridge, WhereRingsTouchNoSpurLeadsToTheAxis) {
     const MedialAxis exact = compute(shape).value();
     for (const RidgeRule rule : {RidgeRule::crossing, RidgeRule::difference}) {
       Options options = ridge_options(256);
-      options.ridge_rule = rule;
+      own(options).rule = rule;
       const MedialAxis sampled = ridge_axis(shape, options);
       const Comparison found = compare(sampled, exact, 3);
       // The report's rule takes feet behind a thin wall for others.
@@ -247,7 +245,7 @@ TEST(Ridge, NoExactPointIsFarFromALine) {
     const auto shape = build_shape(random.rings);
     if (!shape) continue;
     ridge::Report report;
-    const MedialAxis sampled = ridge::run(*shape, ridge_options(111), &report);
+    const MedialAxis sampled = ridge::run({*shape, ridge_options(111)}, &report);
     const Comparison found = compare(sampled, compute(*shape).value(), 3);
     EXPECT_LE(found.farthest_point, farthest) << random.kind << ", seed " << seed;
     EXPECT_LE(found.farthest_pixel, report.gates > 0 ? farthest_of_necks : farthest_of_gaps)
@@ -283,7 +281,7 @@ TEST(Ridge, RadiusOfCurvatureLeavesNoSpokes) {
   const Shape disk = build_shape(std::vector<Ring>{circle({1, 2}, 3)}).value();
   const Shape polygon = build_shape(regular_polygon(200, 3)).value();
   for (const RidgeRule rule : {RidgeRule::difference, RidgeRule::crossing}) {
-    options.ridge_rule = rule;
+    own(options).rule = rule;
     const MedialAxis axis = ridge_axis(disk, options);
     ASSERT_FALSE(axis.nodes.empty());
     for (const Node& node : axis.nodes)
@@ -310,17 +308,21 @@ TEST(Ridge, RefusesWhatItCannotDo) {
   const Shape shape = build_shape(rectangle(4, 2)).value();
   const auto code = [&](auto change) {
     Options options = ridge_options(64);
-    change(options);
+    change(own(options));
     const auto axis = compute(shape, options);
     return axis ? std::string("none") : std::string(name_of(axis.error().code));
   };
-  EXPECT_EQ(code([](Options& o) { o.resolution = 1; }), "invalid_option");
-  EXPECT_EQ(code([](Options& o) { o.pixels = 0, o.resolution = -1; }), "invalid_option");
-  EXPECT_EQ(code([](Options& o) { o.pixels = 0, o.resolution = std::nan(""); }), "invalid_option");
-  EXPECT_EQ(code([](Options& o) { o.pixels = 0, o.resolution = 5; }), "invalid_option");
-  EXPECT_EQ(code([](Options& o) { o.pixels = 0, o.resolution = 1e-8; }), "too_large");
-  EXPECT_EQ(code([](Options& o) { o.ridge_collinear = 46; }), "invalid_option");
-  EXPECT_EQ(code([](Options& o) { o.pixels = 1; }), "none");
+  EXPECT_EQ(code([](method::Ridge& o) { o.grid.resolution = 1; }), "invalid_option");
+  EXPECT_EQ(code([](method::Ridge& o) { o.grid.pixels = 0, o.grid.resolution = -1; }),
+            "invalid_option");
+  EXPECT_EQ(code([](method::Ridge& o) { o.grid.pixels = 0, o.grid.resolution = std::nan(""); }),
+            "invalid_option");
+  EXPECT_EQ(code([](method::Ridge& o) { o.grid.pixels = 0, o.grid.resolution = 5; }),
+            "invalid_option");
+  EXPECT_EQ(code([](method::Ridge& o) { o.grid.pixels = 0, o.grid.resolution = 1e-8; }),
+            "too_large");
+  EXPECT_EQ(code([](method::Ridge& o) { o.collinear = 46; }), "invalid_option");
+  EXPECT_EQ(code([](method::Ridge& o) { o.grid.pixels = 1; }), "none");
   const Shape far =
       build_shape(std::vector<Ring>{ring_of({{1e15, 1e15}, {1e15 + 4, 1e15}, {1e15, 1e15 + 4}})})
           .value();
@@ -339,8 +341,8 @@ TEST(Ridge, PartsAndCyclesAreTheShapesOnAnyGrid) {
       for (const std::uint32_t pixels : {7u, 23u, 64u}) {
         ridge::Report report;
         Options options = ridge_options(pixels);
-        options.ridge_rule = rule;
-        const MedialAxis axis = ridge::run(*shape, options, &report);
+        own(options).rule = rule;
+        const MedialAxis axis = ridge::run({*shape, options}, &report);
         const Certificate certificate = verify(*shape, axis);
         gates += report.gates;
         torn += report.torn;
@@ -359,9 +361,7 @@ TEST(Exterior, OfAUShapeIsItsBay) {
   // The bay of a U of width 2 and depth 2, open to the top: its axis begins in the corners at the
   // bottom, and above the U the disks touch the frame.
   const Shape shape = build_shape(u_shape(2)).value();
-  for (const Method method : {Method::disks, Method::ridge}) {
-    Options options = ridge_options(300);
-    options.method = method;
+  for (Options options : {Options{}, ridge_options(300)}) {
     options.exterior = true;
     options.margin = 3;
     const auto axis = compute(shape, options);

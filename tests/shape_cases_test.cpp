@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <ostream>
@@ -12,16 +11,11 @@
 #include <vector>
 
 #include "medial/shape.h"
+#include "support/environment.h"
 #include "support/wkt.h"
 
 namespace medial {
 namespace {
-
-std::filesystem::path data_folder() {
-  const char* set = std::getenv("MEDIAL_DATA");
-  return set ? std::filesystem::path(set)
-             : std::filesystem::path(MEDIAL_SOURCE_DIR) / "../shared/data";
-}
 
 struct ShapeCase {
   std::string id;
@@ -87,7 +81,7 @@ class Cases : public testing::TestWithParam<Table> {};
 
 TEST_P(Cases, AgreeWithGeosExceptThatTouchingIsLegal) {
   const std::filesystem::path file =
-      data_folder() / "in_place/E_degenerate" / (std::string(GetParam().name) + ".tsv");
+      test::data_folder() / "in_place/E_degenerate" / (std::string(GetParam().name) + ".tsv");
   if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is absent";
   const std::vector<ShapeCase> cases = read_table(file);
   EXPECT_EQ(cases.size(), GetParam().rows);

@@ -13,17 +13,17 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 # From the lowest to the highest, each with its public headers.
 LAYERS = {
-    "base": ["vec2", "vec3", "box", "error", "threads"],
+    "base": ["vec2", "vec3", "box", "disk", "error", "image", "threads"],
     "shape": ["shape", "planar_graph"],
     "curve": ["contour"],
     "site": [],
-    "axis": ["axis", "query"],
+    "axis": ["axis", "diagnostics", "diagram", "query"],
     "verify": ["verify", "shape_distance"],
-    "methods": ["compute", "choose", "curve_axis", "field", "brushfire"],
+    "methods": ["compute", "methods", "curve_axis", "field", "brushfire", "raster"],
     "voronoi": ["voronoi"],
     "ops": ["carve", "centreline", "features", "match", "measure", "offset", "pack", "prune", "rebuild", "sides"],
     "volume": ["volume"],
-    "load": ["document", "image"],
+    "load": ["document"],
     "io": ["io/*"],
     "all": ["medial"],
 }

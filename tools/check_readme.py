@@ -118,6 +118,13 @@ def faults_of_paths(page):
             if not any(ROOT.glob(re.sub(r"[A-Z]{3,}", "*", path.rstrip("/"))))]
 
 
+def faults_of_layers(page):
+    """The table of layers against the one that tools/check_layers.py checks."""
+    layers = re.findall(r'^    "(\w+)": \[', (ROOT / "tools" / "check_layers.py").read_text(), re.MULTILINE)
+    listed = re.findall(r"^\| `(\w+)` \|", page.read_text().split("## Layers")[1], re.MULTILINE)
+    return [] if listed == [layer for layer in layers if layer != "all"] else ["the layers are not those of check_layers.py"]
+
+
 def faults_of_example(page):
     example = (ROOT / "examples" / "consumer" / "main.cpp").read_text()
     return [] if blocks(page, "cpp") == [example] else ["the C++ is not that of examples/consumer/main.cpp"]
@@ -147,6 +154,8 @@ def faults_of(page, program, names, listed, options):
     if page == MANUAL:
         return faults_of_commands(page, program) + faults_of_manual(listed, options)
     checks = [faults_of_links, faults_of_targets, faults_of_citations, faults_of_length, faults_of_paths]
+    if page == ROOT / "ARCHITECTURE.md":
+        checks.append(faults_of_layers)
     if page == ROOT / "README.md":
         checks.append(faults_of_example)
     faults = faults_of_commands(page, program) + [fault for check in checks for fault in check(page)]

@@ -24,10 +24,8 @@ if [ ! -e "$tbb/lib" ]; then
   ln -s "$(dirname "$(find "$tbb/build" -name libtbb.so | head -1)")" "$tbb/lib"
 fi
 
-tests=(property_test verify_test compute_test query_test first_touch_test planar_graph_test)
-cmake --preset tsan -B "$tree" -DMEDIAL_UNITY=OFF
-cmake --build "$tree" -j "$jobs" --target "${tests[@]}"
-for test in "${tests[@]}"; do
-  LD_LIBRARY_PATH=$tbb/lib MEDIAL_PROPERTY_COUNT=${MEDIAL_PROPERTY_COUNT:-200} \
-    TSAN_OPTIONS=halt_on_error=1 "$tree/tests/$test" --gtest_brief=1
-done
+cmake --preset tsan -B "$tree" -DMEDIAL_UNITY=OFF \
+  "-DMEDIAL_TEST_FILES=property;verify;compute;query;first_touch;planar_graph"
+cmake --build "$tree" -j "$jobs" --target core_tests
+LD_LIBRARY_PATH=$tbb/lib MEDIAL_PROPERTY_COUNT=${MEDIAL_PROPERTY_COUNT:-200} \
+  TSAN_OPTIONS=halt_on_error=1 "$tree/tests/core_tests" --gtest_brief=1

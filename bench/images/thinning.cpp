@@ -16,7 +16,7 @@
 #include <string>
 
 #include "medial/brushfire.h"
-#include "medial/image.h"
+#include "medial/raster.h"
 #include "medial/io/image.h"
 
 namespace {

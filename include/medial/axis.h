@@ -5,15 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "medial/diagnostics.h"
+#include "medial/disk.h"
 #include "medial/vec2.h"
 
 namespace medial {
-
-/// A centre and a radius, in units of the input.
-struct Disk {
-  Vec2 center;
-  double radius = 0;
-};
 
 enum class SiteKind : std::uint8_t {
   segment,  ///< a straight edge of the shape, both ends included
@@ -59,32 +55,6 @@ struct Edge {
   double weight = 1;
 };
 
-/// What an engine counted and how long it took.
-struct Statistics {
-  std::uint64_t queries = 0;            ///< nearest-site queries
-  std::uint64_t apollonius = 0;         ///< disks computed from three sites
-  std::uint64_t brackets = 0;           ///< nodes found by bracketing, where the closed form failed
-  std::uint64_t precision_retries = 0;  ///< nodes recomputed in higher precision
-  std::uint64_t cuts = 0;               ///< disks that connected a hole
-  std::uint64_t exact_filtered = 0;     ///< of Options::exact: decided in double with error bounds,
-  std::uint64_t exact_precise = 0;      ///< in 256 bits with error bounds,
-  std::uint64_t exact_rational = 0;     ///< in rational arithmetic with square roots;
-  std::uint64_t exact_ties = 0;         ///< sites beyond three that a node's disk touches exactly
-  std::uint64_t exact_changes = 0;      ///< places where double precision had decided otherwise
-  double largest_residual = 0;          ///< largest |distance - radius| over the nodes' contacts
-  double seconds_sites = 0;
-  double seconds_tree = 0;
-  double seconds_connect = 0;
-  double seconds_walk = 0;
-  double seconds_collect = 0;
-  double seconds_exact = 0;
-  double seconds = 0;  ///< all of compute()
-  int threads = 1;
-
-  /// Adds what another part of the work has counted and taken; `threads` stays.
-  Statistics& operator+=(const Statistics& part);
-};
-
 /// The medial axis transform: a graph of exact curves in (x, y, r).
 ///
 /// Sampled methods say so by a `resolution` above 0. That of `potential` is the longest step along
@@ -100,8 +70,8 @@ struct MedialAxis {
   std::string method;     ///< the engine's name: see name_of(Method)
   double tolerance = 0;   ///< in units of the input: what |distance - radius| stays below
   double resolution = 0;  ///< 0: exact; otherwise the step of a sampled method
-  /// 0: of the interior; otherwise of the exterior, within a frame that is this far away from the
-  /// shape's bounding box: without the edges whose disks touch the frame. Its sites have the
+  /// 0: of the interior; otherwise of the exterior, within an enclosure that is this far away
+  /// from the shape's bounding box: without the edges whose disks touch it. Its sites have the
   /// exterior on their left.
   double exterior = 0;
   std::vector<Site> sites;

@@ -82,4 +82,10 @@ Result<std::vector<Ring>> approximate_by_arcs(std::span<const Contour> contours,
                                               const ArcOptions& options = {},
                                               ArcReport* report = nullptr);
 
+/// A closed curve with continuous curvature through the points of a polygon: the periodic cubic
+/// spline over the length of the chords, with points added on edges until it is within `tolerance`
+/// (units of the input) of the polygon and back. Errors: not_finite, too_few_points,
+/// invalid_option, unsupported (no such curve with 2^20 points).
+Result<Contour> fit_smooth_contour(std::span<const Vec2> polygon, double tolerance);
+
 }  // namespace medial

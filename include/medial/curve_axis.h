@@ -8,19 +8,9 @@
 #include "medial/axis.h"
 #include "medial/contour.h"
 #include "medial/error.h"
+#include "medial/methods.h"
 
 namespace medial {
-
-struct CurveAxisOptions {
-  /// The way along the axis from point to point, relative to the diagonal of the bounding box, in
-  /// [1e-6, 0.1]; shorter where the boundary turns fast. Where the control process goes astray the
-  /// axis is begun anew with half of it, up to five times: MedialAxis::resolution tells.
-  double step = 1e-3;
-  /// Which of the curvature's maxima, counted along the boundary from its start, the first
-  /// generation starts from. The axis is the same for each, to the steps.
-  std::size_t first_maximum = 0;
-  const std::atomic<bool>* cancel = nullptr;
-};
 
 /// A point of the axis as the generation process finds it.
 struct CurveAxisPoint {
@@ -49,7 +39,7 @@ struct CurveAxisRules {
 struct CurveAxis {
   /// The points as a graph: method "curve-axis", resolution the largest step; edges are quadratics
   /// with the axis's tangents at their ends, so between points it is off by the fourth power of the
-  /// step. Sites are not told.
+  /// step. It names no sites.
   MedialAxis axis;
   /// The discrete parametric axis: one for each edge chain between leaves and junctions.
   std::vector<std::vector<CurveAxisPoint>> branches;
@@ -68,12 +58,7 @@ struct CurveAxis {
 /// boundary reaches into by more than 1e-5 of the size, or boundary that no branch reaches: the
 /// method has gone astray), crossing and what else build_shape() refuses.
 Result<CurveAxis> compute_curve_axis(std::span<const Contour> contours,
-                                     const CurveAxisOptions& options = {});
-
-/// A closed curve with continuous curvature through the points of a polygon: the periodic cubic
-/// spline over the length of the chords, with points added on edges until it is within `tolerance`
-/// (units of the input) of the polygon and back. Errors: not_finite, too_few_points,
-/// invalid_option, unsupported (no such curve with 2^20 points).
-Result<Contour> fit_smooth_contour(std::span<const Vec2> polygon, double tolerance);
+                                     const method::CurveAxis& options = {},
+                                     const std::atomic<bool>* cancel = nullptr);
 
 }  // namespace medial

@@ -59,9 +59,9 @@ Result<Offsets> inward_offsets(const MedialAxis& axis, std::span<const double> c
 
 /// The same of a shape, inside where a clearance is positive and outside where it is negative:
 /// there the regions are those of the shape grown by -c, by the axis of what surrounds it within a
-/// frame out of reach. Axes that are not needed are not computed. `options` are those of compute();
-/// exterior and margin have no effect. Errors: those of compute(); invalid_option (a clearance that
-/// is 0 or not finite, or below -1e5 of the shape's diagonal).
+/// enclosure out of reach. Axes that are not needed are not computed. `options` are those of
+/// compute(); exterior and margin have no effect. Errors: those of compute(); invalid_option (a
+/// clearance that is 0 or not finite, or below -1e5 of the shape's diagonal).
 Result<Offsets> offset_curves(const Shape& shape, std::span<const double> clearances,
                               const Options& options = {});
 

@@ -41,7 +41,7 @@ struct RebuildReport {
 /// The shape of an axis, whole or pruned. An exact axis gives back the shape that it was computed
 /// of, the vertices of which are its own bit for bit where they are ends of sites; a pruned one the
 /// union of its disks. O(n log n). The axis of an exterior gives the shape's surroundings, up to
-/// the frame. Errors: empty (an axis without nodes), those of build_shape().
+/// the enclosure. Errors: empty (an axis without nodes), those of build_shape().
 Result<Shape> rebuild(const MedialAxis& axis, const RebuildOptions& options = {},
                       RebuildReport* report = nullptr);
 

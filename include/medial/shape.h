@@ -113,10 +113,10 @@ Result<Shape> build_shape(std::span<const Ring> rings, ShapeReport* report = nul
 Result<Shape> build_shape(std::span<const Ring> rings, const ShapeOptions& options,
                           ShapeReport* report = nullptr);
 
-/// What lies around a shape and in its holes: a rectangular frame less the shape, with the frame
-/// `margin` away from the bounding box on all sides (0: half of its longer side). The sources of
-/// the frame's points are ring 0. Errors: invalid_option (a margin outside of [1e-6, 1e6] of the
-/// diagonal), those of build_shape().
+/// What lies around a shape and in its holes: a rectangular enclosure less the shape, with the
+/// enclosure `margin` away from the bounding box on all sides (0: half of its longer side). The
+/// sources of the enclosure's points are ring 0. Errors: invalid_option (a margin outside of [1e-6,
+/// 1e6] of the diagonal), those of build_shape().
 Result<Shape> surroundings(const Shape& shape, double margin = 0);
 
 }  // namespace medial

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "medial/axis.h"
+#include "medial/diagram.h"
 #include "medial/planar_graph.h"
 #include "medial/shape.h"
-#include "medial/voronoi.h"
 
 namespace medial {
 
@@ -62,9 +62,9 @@ struct VerifyOptions {
 /// make it fail; the certificate has its resolution, and the failures say at which resolution they
 /// hold. Its contacts, corners, coverage and area are not judged and stay 0.
 ///
-/// An axis of the exterior is judged against the exterior in its frame: disks, contacts and sides
-/// as ever; parts, cycles, corners, coverage and area are not, as the edges at the frame are left
-/// out.
+/// An axis of the exterior is judged against the exterior in its enclosure: disks, contacts and
+/// sides as ever; parts, cycles, corners, coverage and area are not, as the edges at the enclosure
+/// are left out.
 ///
 /// A blunt joint has no leaf, so the disks leave a little of the boundary there untouched: at most
 /// the radius times the joint's angle, which is allowed for.
@@ -90,11 +90,12 @@ struct VoronoiCertificate {
 /// Checks a planar graph's diagram against the planar graph, by the distance search of the
 /// certificate above, which the engines do not share: its sites are the planar graph's; every
 /// sample of an edge is at its radius from the edge's sites and no nearer to any other; edges of
-/// the frame lie on it; every face is one closed walk along edges of its site, counter-clockwise;
-/// every edge is in the faces of both of its sites; the graph is connected; and the areas of the
-/// faces add up to the frame's. So the faces fill the frame without overlap and each holds what is
-/// nearest to its site. O(n log n) expected. Of the options tolerance, samples_per_edge and threads
-/// count. A diagram without a frame (of a polygon alone) does not pass.
+/// the enclosure lie on it; every face is one closed walk along edges of its site,
+/// counter-clockwise; every edge is in the faces of both of its sites; the graph is connected; and
+/// the areas of the faces add up to the enclosure's. So the faces fill the enclosure without
+/// overlap and each holds what is nearest to its site. O(n log n) expected. Of the options
+/// tolerance, samples_per_edge and threads count. A diagram without an enclosure (of a polygon
+/// alone) does not pass.
 VoronoiCertificate verify(const PlanarGraph& planar_graph, const VoronoiDiagram& diagram,
                           const VerifyOptions& options = {});
 

@@ -97,9 +97,7 @@ double crookedness(const MedialAxis& axis, double size) {
 }
 
 Options options_of(double order) {
-  Options options{.method = Method::potential, .threads = 1};
-  options.potential.order = order;
-  return options;
+  return {.method = method::Potential{.order = order}, .threads = 1};
 }
 
 std::string order_name(double order) {
@@ -172,7 +170,7 @@ bool add_distances(const NamedShape& named, Table& largest, Table& mean) {
 std::vector<std::pair<Vec2, int>> orders_in_rectangle() {
   const Shape shape = regions()[0].second;
   const LocalFrame frame = frame_of(bounding_box(shape));
-  const auto regions = potential::regions_of(shape, frame, 0.01, 1e-3);
+  const auto regions = potential::regions_of(Problem(shape, Options{}), 1e-3);
   const potential::Charges charges(regions[0].pieces);
   potential::SkeletonOptions tracing;
   tracing.step = 0.01 * regions[0].size;
@@ -293,8 +291,7 @@ Status draw_figures(const Request& request) {
   const std::vector<NamedShape> shapes = regions();
   const Shape &rectangle = shapes[0].second, &l = shapes[1].second, &hand = shapes[2].second;
   const Shape band = noisy_band(60, 0.2), noisy = noisy_band(49, 0.3);
-  Options coarse = options_of(0);
-  coarse.potential.coarse = 0.03;
+  const Options coarse{.method = method::Potential{.coarse = 0.03}, .threads = 1};
   return in_order([&] { return draw_field(request, "fig3-rectangle.png", rectangle, 1, 0, 360); },
                   [&] { return draw_field(request, "fig3-L.png", l, 1, 0, 360); },
                   [&] { return draw_field(request, "fig4.png", hand, 1, 40, 400); },

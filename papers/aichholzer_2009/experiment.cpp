@@ -81,13 +81,13 @@ void measure_published(const Shape& shape, const MedialAxis& axis, Row& row) {
     row.note = "too large";
   }
   if (!row.note.empty()) return;
-  const Options options{.method = Method::biarc_dc, .threads = 1};
+  const Options options{.method = method::BiarcDc{}, .threads = 1};
   const auto published = timed(1, row.published, [&] { return compute(shape, options); });
   std::string failure;
   if (published) {
     row.conquer = published->statistics.seconds_collect;
     biarc_dc::Report division;
-    biarc_dc::run(shape, options, &division);  // the same again: the same seed
+    static_cast<void>(biarc_dc::run({shape, options}, &division));  // the same again: the same seed
     row.base_cases.assign(division.base_cases.begin(), division.base_cases.end());
     failure = difference(shape, *published, axis);
   } else {

@@ -150,7 +150,7 @@ struct Row {
 };
 
 Row measure(const std::string& name, const Ring& ring, int rounds) {
-  const Options options{.method = Method::lee, .threads = 1};
+  const Options options{.method = method::Lee{}, .threads = 1};
   Row row;
   row.shape = name;
   const auto shape = build_shape(std::vector<Ring>{ring});
@@ -177,7 +177,7 @@ Row measure(const std::string& name, const Ring& ring, int rounds) {
       !timed(rounds, row.disks, [&] { return compute(*shape, {.threads = 1}); }))
     row.failure = "not computed";
   std::vector<lee::Level> levels;
-  if (!lee::run(*shape, options, &levels)) row.failure = "not computed";
+  if (!lee::run({*shape, options}, &levels)) row.failure = "not computed";
   for (const lee::Level& level : levels) row.levels.push_back(level.seconds);
   return row;
 }

@@ -122,11 +122,11 @@ Box with_room(const Shape& shape, double room) {
 /// Fig. 6: lists of chains before and after the last merge. Here the frame is the identity.
 class Halves {
  public:
-  explicit Halves(const Shape& shape)
-      : frame_{},
-        elements_(lee::elements_of(shape, sites::number_sites(shape, frame_, 0.01), frame_)),
+  explicit Halves(const Shape& shape) : Halves(Problem(shape, Options{})) {}
+  explicit Halves(Problem problem)
+      : elements_((problem.frame = {}, lee::elements_of(problem).value())),
         diagram_(elements_),
-        limits_{tolerance_for(bounding_box(shape), 0), 4 * diagonal(bounding_box(shape))} {
+        limits_{problem.tolerance, 4 * diagonal(problem.box)} {
     const auto count = static_cast<std::uint32_t>(elements_.chains.size() - 1);
     int deepest = 0;
     while ((1u << deepest) < count) ++deepest;
@@ -240,7 +240,6 @@ class Halves {
     figure.line(line);
   }
 
-  LocalFrame frame_;
   lee::Elements elements_;
   lee::Diagram diagram_;
   lee::MergeLimits limits_;

@@ -114,7 +114,7 @@ struct Stage {
     return drawn;
   }
 
-  CurveAxisOptions options{.step = 2e-3};
+  method::CurveAxis options{.step = 2e-3};
   SmoothBoundary boundary;
   double step;
 };

@@ -134,10 +134,7 @@ Result<std::vector<Inversion>> inversions_of(const Image& image) {
   if (!rings) return rings.error();
   const auto shape = build_shape(*rings);
   if (!shape) return shape.error();
-  Options options;
-  options.method = Method::ridge;
-  options.resolution = 1;
-  const auto ridge = compute(*shape, options);
+  const auto ridge = compute(*shape, {.method = method::Ridge{{.resolution = 1}}});
   if (!ridge) return ridge.error();
   add_pixels("ridge", pixels_of(*ridge, image));
   const auto exact = compute(*shape);

@@ -155,16 +155,15 @@ struct Row {
 
 MedialAxis measure(const Shape& shape, const Way& way, const Request& request, Times& times) {
   constexpr double never = std::numeric_limits<double>::infinity();
-  Options options{.method = Method::ridge, .threads = 1};
-  options.resolution = request.quick ? 1.0 / 6 : 1.0 / 20;  // pixels along a unit of length
-  options.ridge_search = way.search;
-  options.ridge_rule = way.rule;
-  options.ridge_collinear = way.collinear;
+  const double step = request.quick ? 1.0 / 6 : 1.0 / 20;  // pixels along a unit of length
+  const Options options{
+      .method = method::Ridge{{.resolution = step}, way.collinear, way.search, way.rule},
+      .threads = 1};
   times = {never, never, never, never};
   MedialAxis axis;
   for (int round = 0; round < request.rounds; ++round) {
     ridge::Report report;
-    axis = ridge::run(shape, options, &report);
+    axis = ridge::run({shape, options}, &report);
     times = {std::min(times.start, report.seconds_start),
              std::min(times.first, report.seconds_first),
              std::min(times.follow, report.seconds_follow),

@@ -6,44 +6,54 @@
 #include "base/memory.h"
 #include "base/predicates.h"
 #include "base/threads.h"
-#include "base/tolerance.h"
 
-namespace medial::sites {
+namespace medial::site {
 namespace {
 
-using site::Joint;
-
-Joint joint_at(const Loop& loop, std::uint32_t i, double tolerance, double corner_angle) {
+Joint joint_at(const LoopEdges& loop, std::uint32_t i, double tolerance, double corner_angle) {
   if (loop.turns_back(i)) return Joint::reflex;
   const std::uint32_t before = loop.before(i), after = loop.next(i);
   const Vec2 p = loop.point(before), q = loop.point(i), r = loop.point(after);
   if (loop.bulge(before) == 0 && loop.bulge(i) == 0)
     return orientation(p, q, r) > 0 ? Joint::corner : Joint::reflex;
-  return site::joint_of({p, q, loop.bulge(before)}, {q, r, loop.bulge(i)}, tolerance, corner_angle);
+  return joint_of({p, q, loop.bulge(before)}, {q, r, loop.bulge(i)}, tolerance, corner_angle);
 }
 
 }  // namespace
 
 Pieces pieces_of(Vec2 start, Vec2 end, double bulge) {
-  if (bulge == 0) return {{site::make_segment(start, end)}, 1};
-  if (std::abs(bulge) <= site::largest_bulge) return {{site::make_arc(start, end, bulge)}, 1};
+  if (bulge == 0) return {{make_segment(start, end)}, 1};
+  if (std::abs(bulge) <= largest_bulge) return {{make_arc(start, end, bulge)}, 1};
   const Vec2 middle = apex({start, end, bulge});
   const double half = half_bulge(bulge);
-  return {{site::make_arc(start, middle, half), site::make_arc(middle, end, half)}, 2};
+  return {{make_arc(start, middle, half), make_arc(middle, end, half)}, 2};
 }
 
-SiteNumbers number_sites(const Shape& shape, const LocalFrame& frame, double corner_angle) {
+std::vector<site::Site> edge_sites(const Shape& shape, const LocalFrame& frame) {
+  std::vector<site::Site> edges;
+  edges.reserve(shape.points.size());
+  for (std::size_t i = 0; i < shape.loop_count(); ++i) {
+    const LoopEdges loop(shape, i, frame);
+    for (std::uint32_t k = 0; k < loop.size(); ++k) {
+      const Pieces pieces = loop.edge(k);
+      for (std::size_t j = 0; j < pieces.count; ++j) edges.push_back(pieces.site[j]);
+    }
+  }
+  return edges;
+}
+
+SiteNumbers number_sites(const Shape& shape, const LocalFrame& frame, double tolerance,
+                         double corner_angle) {
   SiteNumbers numbers;
   numbers.edge.resize(shape.points.size());
   numbers.joints.resize(shape.points.size());
-  const double tolerance = tolerance_for(bounding_box(shape), 0);
   const double radians = corner_angle * std::numbers::pi / 180;
   constexpr std::size_t grain = 4096;
   parallel_ranges(shape.points.size(), grain, [&](std::size_t i, std::size_t end) {
     const auto after = std::upper_bound(shape.loop_begin.begin(), shape.loop_begin.end(), i);
     auto l = static_cast<std::size_t>(after - shape.loop_begin.begin()) - 1;
     for (; i < end; ++l) {
-      const Loop loop(shape, l, frame);
+      const LoopEdges loop(shape, l, frame);
       for (; i < std::min<std::size_t>(end, loop.begin() + loop.size()); ++i)
         numbers.joints[i] =
             joint_at(loop, static_cast<std::uint32_t>(i) - loop.begin(), tolerance, radians);
@@ -60,8 +70,8 @@ SiteNumbers number_sites(const Shape& shape, const LocalFrame& frame, double cor
   return numbers;
 }
 
-std::vector<Site> result_sites(const Shape& shape, const SiteNumbers& numbers) {
-  std::vector<Site> sites;
+std::vector<medial::Site> result_sites(const Shape& shape, const SiteNumbers& numbers) {
+  std::vector<medial::Site> sites;
   reserve_large(sites, numbers.count);
   for (std::size_t loop = 0; loop < shape.loop_count(); ++loop) {
     const std::uint32_t begin = shape.loop_begin[loop], end = shape.loop_begin[loop + 1];
@@ -77,4 +87,4 @@ std::vector<Site> result_sites(const Shape& shape, const SiteNumbers& numbers) {
   return sites;
 }
 
-}  // namespace medial::sites
+}  // namespace medial::site

@@ -14,21 +14,21 @@
 // From a shape's loops to sites: what all engines that return exact axes begin with, so that they
 // number their sites alike.
 
-namespace medial::sites {
+namespace medial::site {
 
 /// An edge of the shape as one site, or two where an arc is longer than a quarter of a circle.
 struct Pieces {
-  std::array<site::Site, 2> site;
+  std::array<Site, 2> site;
   std::size_t count = 1;
-  const site::Site& first() const { return site[0]; }
-  const site::Site& last() const { return site[count - 1]; }
+  const Site& first() const { return site[0]; }
+  const Site& last() const { return site[count - 1]; }
 };
 Pieces pieces_of(Vec2 start, Vec2 end, double bulge);
 
 /// The edges of one loop, in the frame.
-class Loop {
+class LoopEdges {
  public:
-  Loop(const Shape& shape, std::size_t loop, const LocalFrame& frame)
+  LoopEdges(const Shape& shape, std::size_t loop, const LocalFrame& frame)
       : shape_(shape),
         frame_(frame),
         begin_(shape.loop_begin[loop]),
@@ -54,18 +54,22 @@ class Loop {
   std::uint32_t begin_, size_;
 };
 
+/// The edges of all loops in the frame, in boundary order.
+std::vector<site::Site> edge_sites(const Shape& shape, const LocalFrame& frame);
+
 /// Which vertices are sites, and how the result numbers its sites: in the order of the shape's
 /// points, the vertex before the segment that starts there. A loop of one point has no segment.
 struct SiteNumbers {
   std::vector<std::uint32_t> edge;  ///< of each point; the vertex's number is one less
-  std::vector<site::Joint> joints;  ///< at each point
+  std::vector<Joint> joints;        ///< at each point
   std::uint32_t count = 0;
-  bool is_site(std::size_t point) const { return joints[point] == site::Joint::reflex; }
+  bool is_site(std::size_t point) const { return joints[point] == Joint::reflex; }
 };
-/// `corner_angle` in degrees; see Options.
-SiteNumbers number_sites(const Shape& shape, const LocalFrame& frame, double corner_angle);
+/// `tolerance` in units of the input, `corner_angle` in degrees; see Options.
+SiteNumbers number_sites(const Shape& shape, const LocalFrame& frame, double tolerance,
+                         double corner_angle);
 
 /// The result's sites, in units of the input.
-std::vector<Site> result_sites(const Shape& shape, const SiteNumbers& numbers);
+std::vector<medial::Site> result_sites(const Shape& shape, const SiteNumbers& numbers);
 
-}  // namespace medial::sites
+}  // namespace medial::site

@@ -17,7 +17,7 @@ inline constexpr StatisticsField<std::uint64_t> statistics_counts[] = {
     {"apollonius", &Statistics::apollonius},
     {"brackets", &Statistics::brackets},
     {"precision_retries", &Statistics::precision_retries},
-    {"cuts", &Statistics::cuts},
+    {"cuts", &Statistics::bridges},
     {"exact_filtered", &Statistics::exact_filtered},
     {"exact_precise", &Statistics::exact_precise},
     {"exact_rational", &Statistics::exact_rational},

@@ -1,21 +1,13 @@
 #include "medial/error.h"
 
-#include <array>
-#include <charconv>
 #include <exception>
 #include <new>
 
+#include "base/compat.h"
 #include "base/in_flight.h"
 
 namespace medial {
 namespace {
-
-/// The shortest digits that read back as the same number.
-std::string shortest(double value) {
-  std::array<char, 32> digits;
-  const auto written = std::to_chars(digits.data(), digits.data() + digits.size(), value);
-  return std::string(digits.data(), written.ptr);
-}
 
 void append(std::string& list, const char* noun, const std::optional<std::uint64_t>& number) {
   if (!number) return;
@@ -93,8 +85,8 @@ std::string to_string(const Error& error) {
   append(where, "face", place.face);
   if (place.point) {
     if (!where.empty()) where += ' ';
-    where += "at (" + shortest(place.point->x) + ", " + shortest(place.point->y);
-    if (place.z) where += ", " + shortest(*place.z);
+    where += "at (" + shortest_text(place.point->x) + ", " + shortest_text(place.point->y);
+    if (place.z) where += ", " + shortest_text(*place.z);
     where += ")";
   }
   std::string sentence;

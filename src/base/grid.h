@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "medial/vec2.h"
@@ -13,6 +14,16 @@ struct Pixel {
   std::uint32_t column = 0;
   std::uint32_t row = 0;
   friend constexpr bool operator==(Pixel, Pixel) = default;
+  /// By increasing x within increasing y.
+  friend constexpr bool operator<(Pixel a, Pixel b) {
+    return a.row != b.row ? a.row < b.row : a.column < b.column;
+  }
+};
+
+/// Pixels first..last of a row, which belong to one set.
+struct PixelRun {
+  std::uint32_t row = 0, first = 0, last = 0;
+  std::uint32_t set = 0;
 };
 
 /// A grid of square pixels, in units of the input: how pixels lie in the plane.
@@ -54,10 +65,12 @@ class BitMap {
     return was;
   }
   /// The words of a row, pixel 0 in the lowest bit of the first; bits beyond the last column are 0.
-  const std::uint64_t* row(std::uint32_t r) const {
-    return words_.data() + std::size_t{r} * words_per_row_;
+  std::span<const std::uint64_t> row(std::uint32_t r) const {
+    return std::span(words_).subspan(std::size_t{r} * words_per_row_, words_per_row_);
   }
-  std::uint64_t* row(std::uint32_t r) { return words_.data() + std::size_t{r} * words_per_row_; }
+  std::span<std::uint64_t> row(std::uint32_t r) {
+    return std::span(words_).subspan(std::size_t{r} * words_per_row_, words_per_row_);
+  }
   std::uint32_t words_per_row() const { return words_per_row_; }
 
  private:

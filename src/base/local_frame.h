@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "medial/shape.h"
+#include "medial/box.h"
 
 namespace medial {
 

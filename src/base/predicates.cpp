@@ -138,7 +138,11 @@ int exact_in_circle(Vec2 a, Vec2 b, Vec2 c, Vec2 p) {
     int exponent = 0;
     std::frexp(largest, &exponent);
     const double scale = std::ldexp(1.0, 30 - exponent);
+#ifdef __SIZEOF_INT128__
     __extension__ using Wide = __int128;
+#else
+    using Wide = boost::multiprecision::int128_t;
+#endif
     std::array<Wide, 6> units;
     bool whole = true;
     for (std::size_t i = 0; i < 6; ++i) {

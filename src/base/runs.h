@@ -30,4 +30,14 @@ void for_each_run(std::span<const std::uint64_t> row, std::int64_t width, const 
   if (begin >= 0) visit(begin, width);
 }
 
+/// Sets the bits first..last of a row of words.
+inline void set_bits(std::span<std::uint64_t> row, std::uint32_t first, std::uint32_t last) {
+  for (std::uint32_t w = first / 64; w <= last / 64; ++w) {
+    std::uint64_t bits = ~std::uint64_t{0};
+    if (w == first / 64) bits &= ~std::uint64_t{0} << (first % 64);
+    if (w == last / 64) bits &= ~std::uint64_t{0} >> (63 - last % 64);
+    row[w] |= bits;
+  }
+}
+
 }  // namespace medial

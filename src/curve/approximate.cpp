@@ -49,7 +49,7 @@ struct Piece {
   double bulge = 0;
   double rounding = 0;  ///< in units of the input
   // Of curves:
-  PieceFrame frame;
+  PieceCoordinates frame;
   Bezier curve;
   // In units of the input:
   Vec2 begin_tangent;
@@ -98,7 +98,7 @@ bool is_straight(const Bezier& curve, double rounding) {
   return true;
 }
 
-PieceFrame frame_of_piece(std::span<const Vec2> points) {
+PieceCoordinates frame_of_piece(std::span<const Vec2> points) {
   Box half = Box::nothing();
   for (const Vec2 p : points) half.add(0.5 * p);
   const auto [low, high] = half;
@@ -215,7 +215,7 @@ void convert(const PieceSource& source, double tolerance, Chunk& chunk) {
     source.load((i + 1) % n, *after);
     ArcChain& chain = chunk.chain;
     if (piece->kind == Piece::Kind::curve) {
-      const PieceFrame& frame = piece->frame;
+      const PieceCoordinates& frame = piece->frame;
       const double rounding = frame.local_length(piece->rounding);
       SpiralOptions options;
       options.rounding = rounding;
@@ -305,16 +305,17 @@ std::optional<Error> fault_of(const Contour& contour, std::size_t index) {
 
 /// Half of the bounding box' diagonal: the whole may be too large for a double.
 double half_diagonal_of(std::span<const Contour> contours) {
-  double low_x = infinity, low_y = infinity, high_x = -infinity, high_y = -infinity;
-  for (const Contour& contour : contours) {
-    for (Vec2 p : contour.points) {
-      low_x = std::min(low_x, p.x);
-      low_y = std::min(low_y, p.y);
-      high_x = std::max(high_x, p.x);
-      high_y = std::max(high_y, p.y);
-    }
-  }
-  return std::hypot(0.5 * high_x - 0.5 * low_x, 0.5 * high_y - 0.5 * low_y);
+  Box half = Box::nothing();
+  for (const Contour& contour : contours)
+    for (const Vec2 p : contour.points) half.add(0.5 * p);
+  return diagonal(half);
+}
+
+/// The tolerance in units of the input.
+double tolerance_of(std::span<const Contour> contours, const ArcOptions& options) {
+  if (!options.relative) return options.tolerance;
+  return std::min(2 * (options.tolerance * half_diagonal_of(contours)),
+                  std::numeric_limits<double>::max());
 }
 
 }  // namespace
@@ -322,16 +323,13 @@ double half_diagonal_of(std::span<const Contour> contours) {
 Result<std::vector<Ring>> approximate_by_arcs(std::span<const Contour> contours,
                                               const ArcOptions& options, ArcReport* report) {
   if (!(options.tolerance > 0) || !std::isfinite(options.tolerance) || options.threads < 0 ||
-      options.threads > 1024) {
+      options.threads > most_threads) {
     return Error{ErrorCode::invalid_option, "a tolerance of arcs must be positive", {}};
   }
   for (std::size_t i = 0; i < contours.size(); ++i) {
     if (auto error = fault_of(contours[i], i)) return *error;
   }
-  const double tolerance = options.relative
-                               ? std::min(2 * (options.tolerance * half_diagonal_of(contours)),
-                                          std::numeric_limits<double>::max())
-                               : options.tolerance;
+  const double tolerance = tolerance_of(contours, options);
 
   std::vector<PieceSource> sources;
   sources.reserve(contours.size());

@@ -80,7 +80,7 @@ Bezier along_chord(const Bezier& curve) {
 /// Converts one curve: the state that the recursion shares.
 class Converter {
  public:
-  Converter(const Bezier& curve, const PieceFrame& frame, const SpiralOptions& options,
+  Converter(const Bezier& curve, const PieceCoordinates& frame, const SpiralOptions& options,
             ArcChain& chain)
       : curve_(curve),
         frame_(frame),
@@ -126,7 +126,7 @@ class Converter {
   }
 
   const Bezier& curve_;
-  const PieceFrame& frame_;
+  const PieceCoordinates& frame_;
   const SpiralOptions& options_;
   ArcChain& chain_;
   const double parts_per_root_;
@@ -440,8 +440,8 @@ Splits find_splits(const Bezier& curve) {
   return found;
 }
 
-double append_spirals(const Bezier& curve, const PieceFrame& frame, const SpiralOptions& options,
-                      ArcChain& chain) {
+double append_spirals(const Bezier& curve, const PieceCoordinates& frame,
+                      const SpiralOptions& options, ArcChain& chain) {
   return Converter(curve, frame, options, chain).run();
 }
 

@@ -6,14 +6,15 @@
 #include <limits>
 #include <vector>
 
+#include "base/compat.h"
 #include "curve/bezier.h"
 #include "medial/vec2.h"
 
 namespace medial::curve {
 
 /// The coordinates in which one piece is converted: close to the origin, and about 1 large. Going
-/// there and back is exact for points of the input's grid (see base/frame.h).
-struct PieceFrame {
+/// there and back is exact for points of the input's grid (see base/local_frame.h).
+struct PieceCoordinates {
   Vec2 half_origin;    ///< halves: the difference of two coordinates may be too large for a double
   double scale = 1;    ///< local units per half an input unit: a power of two
   double inverse = 1;  ///< 1 / scale
@@ -30,7 +31,7 @@ struct PieceFrame {
   Vec2 spacing(Vec2 p) const {
     const auto unit_in_last_place = [](double x) {
       constexpr std::uint64_t exponent = 0x7ff0000000000000;
-      const auto power = std::bit_cast<double>(std::bit_cast<std::uint64_t>(x) & exponent);
+      const auto power = bit_cast<double>(bit_cast<std::uint64_t>(x) & exponent);
       return std::numeric_limits<double>::epsilon() * power;
     };
     const Vec2 input = to_input(p);
@@ -70,8 +71,8 @@ struct ArcChain {
 /// until the biarc of Algorithm 1 is valid and within the tolerance. Along each spiral the arcs'
 /// curvature is monotone; two spirals that meet in an apex of largest curvature share one arc,
 /// which is their osculating circle there. No allocation but for the result.
-double append_spirals(const Bezier& curve, const PieceFrame& frame, const SpiralOptions& options,
-                      ArcChain& chain);
+double append_spirals(const Bezier& curve, const PieceCoordinates& frame,
+                      const SpiralOptions& options, ArcChain& chain);
 
 /// The parameters in (0, 1), increasing, at which a curve is split into spirals.
 struct Split {

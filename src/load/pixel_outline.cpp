@@ -1,7 +1,7 @@
 #include <array>
 
 #include "base/in_flight.h"
-#include "medial/image.h"
+#include "medial/raster.h"
 
 namespace medial {
 namespace {

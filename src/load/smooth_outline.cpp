@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "base/in_flight.h"
-#include "medial/image.h"
+#include "medial/raster.h"
 
 // A smooth curve between the pixels. Between the centres of a foreground and a background pixel
 // that share a side lies that side's crack; the curve crosses the line between the two centres

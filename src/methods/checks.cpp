@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include "base/arc.h"
-#include "base/limits.h"
 #include "base/threads.h"
-#include "methods/potential/force.h"
-#include "methods/raster/brushfire/brushfire.h"
-#include "methods/raster/ridge/ridge.h"
+#include "shape/limits.h"
 
 namespace medial {
 namespace {
@@ -57,20 +55,20 @@ bool is_consistent(const Shape& shape) {
   return true;
 }
 
-std::optional<Error> refuse(const PotentialOptions& options) {
-  const auto invalid = [](const char* text) { return Error{ErrorCode::invalid_option, text, {}}; };
-  const auto is_order = [](double n) { return n >= 1 && n <= potential::largest_order; };
-  if (!(options.order == 0 || is_order(options.order)) ||
-      !(options.base_order == 0 || is_order(options.base_order)))
-    return invalid("the order of the potential must be in [1, 4096]");
-  if (!(options.step >= 1e-4 && options.step <= 0.1))
-    return invalid("the step must be in [1e-4, 0.1]");
-  if (!(options.coarse >= 0 && options.coarse <= 0.2))
-    return invalid("the coarse polygon's distance must be in [0, 0.2]");
-  if (!(options.angle > 0 && options.angle <= 90))
-    return invalid("the angle must be in (0, 90] degrees");
-  if (!(options.movement > 0 && options.movement <= 0.1))
-    return invalid("the movement must be in (0, 0.1]");
+/// What the method does not take, by the table.
+std::optional<Error> refuse_untaken(const Shape& shape, const Options& options) {
+  const MethodInfo& takes = info_of(options.method);
+  if (options.exact && !takes.exact())
+    return Error{ErrorCode::invalid_option, "exact decisions are for exact methods only", {}};
+  const auto refused = [&](const char* what) {
+    return Error{
+        ErrorCode::unsupported,
+        std::string("the method ") + takes.name + " takes no " + what + ": use the method disks",
+        {}};
+  };
+  if (!takes.holes && shape.hole_count() > 0) return refused("holes");
+  if (!takes.arcs && has_arcs(shape)) return refused("arcs");
+  if (!takes.exterior && options.exterior) return refused("exterior");
   return std::nullopt;
 }
 
@@ -95,40 +93,20 @@ std::optional<Error> refuse(const Shape& shape, const Options& options) {
   if (auto error = beyond_limits(shape)) return error;
   if (!is_consistent(shape))
     return Error{ErrorCode::malformed, "the shape was not made by build_shape()", {}};
-  const bool sampled = options.method == Method::ridge || options.method == Method::potential ||
-                       options.method == Method::brushfire;
-  if (options.exact && sampled)
-    return Error{ErrorCode::invalid_option, "exact decisions are for exact methods only", {}};
 #ifndef MEDIAL_HAS_EXACT
   if (options.exact) return Error{ErrorCode::unsupported, "this build has no exact decisions", {}};
 #endif
-  if (options.method == Method::biarc_dc && shape.hole_count() > 0)
-    return Error{ErrorCode::unsupported,
-                 "the method biarc-dc takes shapes without holes only: use the method disks",
-                 {}};
-  if (options.method == Method::lee && shape.hole_count() > 0)
-    return Error{ErrorCode::unsupported,
-                 "the method lee takes polygons without holes only: use the method disks",
-                 {}};
-  if (options.method == Method::lee &&
-      std::any_of(shape.bulges.begin(), shape.bulges.end(), [](double b) { return b != 0; }))
-    return Error{ErrorCode::unsupported,
-                 "the method lee takes straight edges only: use the method disks",
-                 {}};
-  if (options.method == Method::ridge) return ridge::refuse(shape, options);
-  if (options.method == Method::potential) return refuse(options.potential);
-  if (options.method == Method::brushfire) return brushfire::refuse(shape, options);
-  return std::nullopt;
+  return refuse_untaken(shape, options);
+}
+
+bool has_arcs(const Shape& shape) {
+  return std::any_of(shape.bulges.begin(), shape.bulges.end(), [](double b) { return b != 0; });
 }
 
 bool has_right_topology(const Shape& shape, std::size_t nodes, std::size_t edges) {
   const auto signed_size = [](std::size_t n) { return static_cast<std::int64_t>(n); };
   return signed_size(nodes) - signed_size(edges) ==
          signed_size(shape.component_count()) - signed_size(shape.hole_count());
-}
-
-bool is_cancelled(const Options& options) {
-  return options.cancel != nullptr && options.cancel->load();
 }
 
 }  // namespace medial

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "base/arc.h"
+#include "base/compat.h"
 #include "base/in_flight.h"
 #include "base/numbers.h"
 #include "medial/measure.h"
@@ -176,7 +177,7 @@ class Floors {
     for (auto begin = chain.begin(); begin != chain.end();) {
       const auto end = std::find_if(begin, chain.end(),
                                     [&](std::uint32_t i) { return rings(i) != rings(*begin); });
-      cut_rings({begin, end});
+      cut_rings(span_between(begin, end));
       begin = end;
     }
   }

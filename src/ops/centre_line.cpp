@@ -20,7 +20,9 @@ namespace {
 class Boundary {
  public:
   explicit Boundary(const Shape& shape)
-      : frame_(frame_of(bounding_box(shape))), sites_(sites_of(shape, frame_)), tree_(sites_) {}
+      : frame_(frame_of(bounding_box(shape))),
+        sites_(site::edge_sites(shape, frame_)),
+        tree_(sites_) {}
 
   double distance_from(Vec2 p) const {
     const auto hit = tree_.nearest(frame_.to_local(p), infinity, 0,
@@ -29,19 +31,6 @@ class Boundary {
   }
 
  private:
-  static std::vector<site::Site> sites_of(const Shape& shape, const LocalFrame& frame) {
-    std::vector<site::Site> result;
-    result.reserve(shape.points.size());
-    for (std::size_t i = 0; i < shape.loop_count(); ++i) {
-      const sites::Loop loop(shape, i, frame);
-      for (std::uint32_t k = 0; k < loop.size(); ++k) {
-        const sites::Pieces pieces = loop.edge(k);
-        for (std::size_t j = 0; j < pieces.count; ++j) result.push_back(pieces.site[j]);
-      }
-    }
-    return result;
-  }
-
   LocalFrame frame_;
   std::vector<site::Site> sites_;
   site::BoundaryTree tree_;

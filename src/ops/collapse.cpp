@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "axis/curve.h"
+#include "base/compat.h"
 #include "base/disjoint_sets.h"
 #include "medial/centreline.h"
 #include "medial/query.h"
@@ -116,7 +117,7 @@ class Collapse {
     std::vector<std::uint32_t> nodes;
     for (const std::uint32_t edge : edges)
       for (const std::uint32_t node : axis_.edges[edge].node) nodes.push_back(node);
-    std::ranges::sort(nodes);
+    ranges::sort(nodes);
     nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
     return nodes;
   }
@@ -131,8 +132,8 @@ class Collapse {
     const Vec2 first = center_of(cuts.front());
     for (const std::uint32_t cut : cuts)
       if (cut != cuts.front() && !(distance(center_of(cut), first) < 2 * radius_)) return false;
-    return std::ranges::all_of(nodes, [&](std::uint32_t node) {
-      return std::ranges::any_of(cuts, [&](std::uint32_t cut) {
+    return ranges::all_of(nodes, [&](std::uint32_t node) {
+      return ranges::any_of(cuts, [&](std::uint32_t cut) {
         const double reach = distance(center_of(node), center_of(cut)) + radius_at(node);
         return reach <= (1 + trim_) * radius_ * (1 + 1e-9);
       });
@@ -144,13 +145,13 @@ class Collapse {
     const std::vector<std::uint32_t> nodes = nodes_of(edges);
     // Where nothing is wide, the search ends in the widest node.
     std::uint32_t root = none;
-    if (std::ranges::none_of(nodes, [this](std::uint32_t node) { return at_cut_[node]; })) {
-      root = *std::ranges::max_element(nodes, {},
-                                       [this](std::uint32_t node) { return radius_at(node); });
+    if (ranges::none_of(nodes, [this](std::uint32_t node) { return at_cut_[node]; })) {
+      root =
+          *ranges::max_element(nodes, {}, [this](std::uint32_t node) { return radius_at(node); });
     }
     const auto is_root = [&](std::uint32_t node) { return at_cut_[node] || node == root; };
     const auto local = [&nodes](std::uint32_t node) {
-      return static_cast<std::size_t>(std::ranges::lower_bound(nodes, node) - nodes.begin());
+      return static_cast<std::size_t>(ranges::lower_bound(nodes, node) - nodes.begin());
     };
     std::vector<std::uint32_t> degree(nodes.size(), 0);
     std::vector<double> reach(nodes.size());
@@ -164,7 +165,7 @@ class Collapse {
     // an arm which does not protrude.
     std::vector<bool> gone(edges.size(), false), dropped(edges.size(), false);
     const auto rank = [&edges](std::uint32_t edge) {
-      return static_cast<std::size_t>(std::ranges::lower_bound(edges, edge) - edges.begin());
+      return static_cast<std::size_t>(ranges::lower_bound(edges, edge) - edges.begin());
     };
     while (!leaves.empty()) {
       const std::uint32_t leaf = leaves.back();
@@ -195,7 +196,7 @@ class Collapse {
     bool any = false;
     for (std::size_t i = 0; i < queue.size(); ++i) {
       for (const std::uint32_t edge : incidence_.edges(queue[i])) {
-        if (!is_narrow(edge) || !std::ranges::binary_search(edges, edge)) continue;
+        if (!is_narrow(edge) || !ranges::binary_search(edges, edge)) continue;
         if (dropped[rank(edge)] || kept[rank(edge)]) continue;
         kept[rank(edge)] = any = true;
         visit(other_end(axis_.edges[edge], queue[i]));
@@ -217,7 +218,7 @@ class Collapse {
   /// Lines end on the arc of the polygon's end, one radius from the cut.
   void clip(const std::vector<bool>& kept, const std::vector<std::uint32_t>& edges) {
     const auto rank = [&edges](std::uint32_t edge) {
-      return static_cast<std::size_t>(std::ranges::lower_bound(edges, edge) - edges.begin());
+      return static_cast<std::size_t>(ranges::lower_bound(edges, edge) - edges.begin());
     };
     std::vector<PathPiece> pieces;
     for (const std::uint32_t edge : edges) pieces.push_back({edge, 0, 1});
@@ -227,7 +228,7 @@ class Collapse {
       std::vector<std::uint32_t> inside{cut};
       for (std::size_t i = 0; i < inside.size(); ++i) {
         for (const std::uint32_t edge : incidence_.edges(inside[i])) {
-          if (!std::ranges::binary_search(edges, edge)) continue;
+          if (!ranges::binary_search(edges, edge)) continue;
           const std::size_t k = rank(edge);
           if (!kept[k] || covered[k]) continue;
           const Edge& e = axis_.edges[edge];

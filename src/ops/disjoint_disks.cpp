@@ -4,6 +4,7 @@
 #include <cmath>
 #include <queue>
 
+#include "base/compat.h"
 #include "medial/compute.h"
 #include "medial/measure.h"
 #include "medial/query.h"
@@ -76,7 +77,7 @@ Result<std::vector<Disk>> largest_disjoint_disks(const Shape& shape, std::size_t
     return node.component < shape.component_count();
   };
   if (axis != nullptr && axis->resolution == 0 && axis->exterior == 0 &&
-      std::ranges::all_of(axis->nodes, is_of_shape)) {
+      ranges::all_of(axis->nodes, is_of_shape)) {
     add_parts(shape, *axis, smallest, parts);
   } else {
     const auto own = compute(shape);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/arc.h"
+#include "base/compat.h"
 #include "base/predicates.h"
 #include "ops/half_edges.h"
 
@@ -59,7 +60,7 @@ void add_arc(const Disk& disk, Vec2 normal, double angle, double chord, double m
 /// Whether three of the points make a triangle.
 bool has_area(const std::vector<Vec2>& points) {
   const Vec2 first = points.front();
-  const auto other = std::ranges::find_if(points, [&](Vec2 p) { return !(p == first); });
+  const auto other = ranges::find_if(points, [&](Vec2 p) { return !(p == first); });
   return other != points.end() && std::any_of(other, points.end(), [&](Vec2 p) {
            return orientation(first, *other, p) != 0;
          });
@@ -112,7 +113,7 @@ std::vector<bool> detach(MedialAxis& axis, double off) {
       end.angle = std::atan2(way.y, way.x);
       ends.push_back(end);
     }
-    std::ranges::sort(ends, {}, &End::angle);
+    ranges::sort(ends, {}, &End::angle);
     // Round and round, until no two neighbours overlap.
     for (std::size_t i = 0, fine = 0; ends.size() > 1 && fine < ends.size();) {
       const std::size_t k = (i + 1) % ends.size();
@@ -163,7 +164,7 @@ std::vector<Ring> outline_of_hulls(const MedialAxis& whole, double chord, std::u
     const Disk &a = axis.nodes[edge.node[0]].disk, &b = axis.nodes[edge.node[1]].disk;
     if (distance(a.center, b.center) > std::abs(a.radius - b.radius)) axis.edges.push_back(edge);
   }
-  std::ranges::sort(axis.edges, {}, &Edge::node);
+  ranges::sort(axis.edges, {}, &Edge::node);
   const auto is_same = [](const Edge& a, const Edge& b) { return a.node == b.node; };
   axis.edges.erase(std::unique(axis.edges.begin(), axis.edges.end(), is_same), axis.edges.end());
   // Of an edge, the hull is what its tangents and the four radii to their ends enclose, and what

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/compat.h"
 #include "base/numbers.h"
 #include "ops/routes.h"
 
@@ -109,8 +110,7 @@ class MainPaths {
 
   AxisPath path_of_part() {
     if (part_edges_ == part_.size()) {
-      if (std::ranges::none_of(core_, [this](auto node) { return protrudes(node); }))
-        return cycle();
+      if (ranges::none_of(core_, [this](auto node) { return protrudes(node); })) return cycle();
     }
     std::uint32_t top = part_.front();
     for (const std::uint32_t node : part_)
@@ -123,10 +123,10 @@ class MainPaths {
     } else {
       steps = hanging_way(from, 0);
     }
-    std::ranges::reverse(steps);
+    ranges::reverse(steps);
     for (Step& step : steps) step.forward = !step.forward;
-    if (from != to) std::ranges::copy(core_way(from, to), std::back_inserter(steps));
-    std::ranges::copy(hanging_way(to, 0), std::back_inserter(steps));
+    if (from != to) ranges::copy(core_way(from, to), std::back_inserter(steps));
+    ranges::copy(hanging_way(to, 0), std::back_inserter(steps));
     AxisPath path = ops::path_of(axis_, trimmed(std::move(steps)));
     path.gap = gap;
     return path;

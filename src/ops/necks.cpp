@@ -7,6 +7,7 @@
 #include <set>
 
 #include "axis/curve.h"
+#include "base/compat.h"
 #include "base/disjoint_sets.h"
 #include "medial/measure.h"
 #include "medial/query.h"
@@ -38,9 +39,8 @@ EdgePlace middle_of_flat(const MedialAxis& axis, const Incidence& incidence, Edg
     for (bool more = true; more;) {
       more = false;
       for (const std::uint32_t edge : incidence.edges(node)) {
-        const bool seen = edge == before || std::ranges::any_of(chain, [edge](Step step) {
-                            return step.edge == edge;
-                          });
+        const bool seen = edge == before ||
+                          ranges::any_of(chain, [edge](Step step) { return step.edge == edge; });
         if (seen || !is_flat(axis, edge)) continue;
         chain.push_back({edge, axis.edges[edge].node[0] == node});
         node = ops::head_of(axis, chain.back());
@@ -53,7 +53,7 @@ EdgePlace middle_of_flat(const MedialAxis& axis, const Incidence& incidence, Edg
   const Edge& own = axis.edges[place.edge];
   if (is_flat(axis, place.edge)) {
     follow(own.node[0], place.edge);
-    std::ranges::reverse(chain);
+    ranges::reverse(chain);
     for (Step& step : chain) step.forward = !step.forward;
     chain.push_back({place.edge, true});
     follow(own.node[1], place.edge);
@@ -95,7 +95,7 @@ std::vector<Neck> necks(const MedialAxis& axis, double widening) {
       links.push_back({from, to, narrowest_place(axis, i), ops::narrowest_radius(axis, {i, 0, 1})});
     }
   }
-  std::ranges::stable_sort(links, std::greater<>(), &Link::narrowest);
+  ranges::stable_sort(links, std::greater<>(), &Link::narrowest);
 
   // Parts of larger radius than the link at hand, and their widest disks.
   DisjointSets parts(widest.size());
@@ -113,7 +113,7 @@ std::vector<Neck> necks(const MedialAxis& axis, double widening) {
     widest[parts.find(a)] = std::max(widest[a], widest[b]);
   }
   // Several edges may have their narrowest place in one node: the neck that opens most.
-  std::ranges::stable_sort(found, [](const Neck& a, const Neck& b) {
+  ranges::stable_sort(found, [](const Neck& a, const Neck& b) {
     return a.around_hole != b.around_hole ? b.around_hole : a.prominence() > b.prominence();
   });
   std::set<std::pair<double, double>> seen;

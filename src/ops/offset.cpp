@@ -141,8 +141,8 @@ struct Surroundings {
 /// Sites are numbered in the order of the points, a vertex before the edge that starts there.
 Surroundings surroundings_of(const Shape& shape, const Exterior& exterior, const MedialAxis& axis) {
   const auto component_at = [&](std::size_t point) {
-    return exterior.of_frame[point] ? Surroundings::frame
-                                    : shape.component[exterior.of_loop[point]];
+    return exterior.of_enclosure[point] ? Surroundings::frame
+                                        : shape.component[exterior.of_loop[point]];
   };
   Surroundings around;
   around.components = shape.component_count();

@@ -9,6 +9,7 @@
 
 #include "axis/node_kinds.h"
 #include "base/arc.h"
+#include "base/compat.h"
 #include "ops/code_bytes.h"
 #include "ops/disk_lines.h"
 
@@ -32,7 +33,7 @@ struct Grid {
 };
 
 void put_float(Bytes& out, float value) {
-  const auto bits = std::bit_cast<std::uint32_t>(value);
+  const auto bits = bit_cast<std::uint32_t>(value);
   for (unsigned shift = 0; shift < 32; shift += 8)
     out.push_back(static_cast<std::uint8_t>(bits >> shift));
 }
@@ -163,7 +164,7 @@ class AxisDecoder {
       if (!byte) return std::nullopt;
       bits |= static_cast<std::uint32_t>(*byte) << shift;
     }
-    return std::bit_cast<float>(bits);
+    return bit_cast<float>(bits);
   }
 
   /// Moves on from `last`. False where the code ends, or numbers leave their range.

@@ -10,6 +10,7 @@
 #include "axis/curve.h"
 #include "axis/node_kinds.h"
 #include "base/arc.h"
+#include "base/compat.h"
 #include "base/numbers.h"
 #include "medial/centreline.h"
 #include "medial/query.h"
@@ -214,7 +215,7 @@ std::optional<EdgePlace> place_on_axis(const MedialAxis& axis, Vec2 p) {
     }
     return best;
   };
-  const bool named = std::ranges::all_of(axis.edges, [](const Edge& edge) {
+  const bool named = ranges::all_of(axis.edges, [](const Edge& edge) {
     return edge.site[0] != no_site && edge.site[1] != no_site;
   });
   if (!named) return nearest_of([](const Edge&) { return true; });

@@ -9,9 +9,11 @@
 
 #include "axis/curve.h"
 #include "base/arc.h"
+#include "base/compat.h"
 #include "base/numbers.h"
 #include "medial/compute.h"
 #include "medial/query.h"
+#include "medial/raster.h"
 #include "medial/sides.h"
 #include "ops/half_edges.h"
 #include "ops/hull_outline.h"
@@ -140,8 +142,8 @@ MedialAxis contracted(const MedialAxis& axis, double slack) {
   const Incidence incidence(axis);
   std::vector<std::uint32_t> order(axis.nodes.size()), waiting;
   std::iota(order.begin(), order.end(), 0U);
-  std::ranges::stable_sort(order, std::ranges::greater{},
-                           [&](std::uint32_t i) { return axis.nodes[i].disk.radius; });
+  ranges::stable_sort(order, std::greater<>(),
+                      [&](std::uint32_t i) { return axis.nodes[i].disk.radius; });
   MedialAxis out;
   out.tolerance = axis.tolerance;
   out.resolution = axis.resolution;
@@ -360,9 +362,8 @@ Result<Shape> rebuild(const MedialAxis& axis, const RebuildOptions& options,
   std::vector<Ring> rings;
   RebuildReport own;
   const bool unpacked = axis.method == "pack" && options.by == RebuildBy::outline;
-  const bool of_pixels =
-      (axis.method == name_of(Method::ridge) || axis.method == name_of(Method::brushfire)) &&
-      axis.resolution > 0 && options.by == RebuildBy::outline && options.points == 0;
+  const bool of_pixels = is_of_pixels(axis.method) && axis.resolution > 0 &&
+                         options.by == RebuildBy::outline && options.points == 0;
   if (options.by == RebuildBy::hulls || unpacked || of_pixels) {
     auto shape = of_pixels ? shape_of_hulls(spaced(axis), axis.resolution, options, own)
                            : shape_of_hulls(axis, axis.resolution, options, own);

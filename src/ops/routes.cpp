@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "axis/curve.h"
+#include "base/compat.h"
 #include "base/numbers.h"
 #include "base/quadrature.h"
 
@@ -43,7 +44,7 @@ void Search::run(std::span<const Start> starts) {
   heap_.clear();
   const auto push = [this](double cost, std::uint32_t node) {
     heap_.emplace_back(cost, node);
-    std::ranges::push_heap(heap_, std::greater<>());
+    ranges::push_heap(heap_, std::greater<>());
   };
   for (const Start& start : starts) {
     if (!(start.cost < cost_[start.node])) continue;
@@ -51,7 +52,7 @@ void Search::run(std::span<const Start> starts) {
     push(start.cost, start.node);
   }
   while (!heap_.empty()) {
-    std::ranges::pop_heap(heap_, std::greater<>());
+    ranges::pop_heap(heap_, std::greater<>());
     const auto [cost, node] = heap_.back();
     heap_.pop_back();
     if (cost > cost_[node]) continue;
@@ -74,7 +75,7 @@ std::vector<Step> Search::way_to(std::uint32_t node) const {
     steps.push_back({via_[node], edge.node[1] == node});
     node = other_end(edge, node);
   }
-  std::ranges::reverse(steps);
+  ranges::reverse(steps);
   return steps;
 }
 
@@ -197,13 +198,13 @@ Result<AxisPath> widest_path(const MedialAxis& axis, EdgePlace from, EdgePlace t
     if (!(value > clearance[node])) return;
     clearance[node] = value;
     heap.emplace_back(value, node);
-    std::ranges::push_heap(heap);
+    ranges::push_heap(heap);
   };
   for (std::size_t i = 0; i < 2; ++i)
     reach(axis.edges[from.edge].node[i], piece_clearance(ways_out(from)[i]));
   const Incidence incidence(axis);
   while (!heap.empty()) {
-    std::ranges::pop_heap(heap);
+    ranges::pop_heap(heap);
     const auto [value, node] = heap.back();
     heap.pop_back();
     if (value < clearance[node]) continue;

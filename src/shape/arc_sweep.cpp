@@ -77,17 +77,17 @@ Meetings meetings(const MonotoneArc& a, const MonotoneArc& b) {
 /// Their common ends are none of these places.
 class CrossingFinder {
  public:
-  CrossingFinder(const Noding& noding, const NodedOutline& noded)
+  CrossingFinder(const Noding& noding, const NodedRings& noded)
       : noded_(noded), tolerance_(noding.tolerance()) {
-    const Outline& outline = noded.outline;
-    pieces_.reserve(outline.points.size());
-    for (std::uint32_t v = 0; v < outline.points.size(); ++v) {
-      const std::uint32_t w = outline.next(v);
+    const CleanRings& cleaned = noded.cleaned;
+    pieces_.reserve(cleaned.points.size());
+    for (std::uint32_t v = 0; v < cleaned.points.size(); ++v) {
+      const std::uint32_t w = cleaned.next(v);
       if (w == no_index) continue;
-      const Vec2 p = outline.points[v], q = outline.points[w];
+      const Vec2 p = cleaned.points[v], q = cleaned.points[w];
       const bool forward = lexicographic_less(p, q);
       const MonotoneArc arc =
-          forward ? monotone_arc(p, q, outline.bulges[v]) : monotone_arc(q, p, -outline.bulges[v]);
+          forward ? monotone_arc(p, q, cleaned.bulges[v]) : monotone_arc(q, p, -cleaned.bulges[v]);
       pieces_.push_back({arc,
                          arc.low() - tolerance_,
                          arc.high() + tolerance_,
@@ -96,7 +96,7 @@ class CrossingFinder {
     }
   }
 
-  std::vector<Contact> find() {
+  std::vector<TouchedPoint> find() {
     std::vector<Box> boxes;
     boxes.reserve(pieces_.size());
     for (const Piece& piece : pieces_)
@@ -127,7 +127,7 @@ class CrossingFinder {
   /// The end of a piece that a point is at; no_index in its inside.
   std::uint32_t end_at(const Piece& piece, Vec2 p) const {
     for (const std::uint32_t end : piece.ends)
-      if (distance(noded_.outline.points[end], p) <= 2 * tolerance_) return end;
+      if (distance(noded_.cleaned.points[end], p) <= 2 * tolerance_) return end;
     return no_index;
   }
 
@@ -157,7 +157,7 @@ class CrossingFinder {
   /// at an end follows from where they part, too.)
   bool is_beside_common_end(const Piece& a, const Piece& b, Vec2 point) const {
     for (const std::uint32_t end : a.ends) {
-      const Vec2 p = noded_.outline.points[end];
+      const Vec2 p = noded_.cleaned.points[end];
       if (end_at(b, p) == no_index || p == point) continue;
       const bool left = lexicographic_less(p, point);
       const Vec2 between = a.arc.halfway(left ? p : point, left ? point : p);
@@ -172,10 +172,10 @@ class CrossingFinder {
     contacts_.push_back({other.edge, end, {}});
   }
 
-  const NodedOutline& noded_;
+  const NodedRings& noded_;
   double tolerance_;
   std::vector<Piece> pieces_;
-  std::vector<Contact> contacts_;
+  std::vector<TouchedPoint> contacts_;
   std::uint64_t crossings_ = 0;
 };
 
@@ -183,11 +183,11 @@ class CrossingFinder {
 /// on at contacts, as if the pieces kept their order there, as long as there is one.
 class ArcSweeper {
  public:
-  ArcSweeper(const Noding& noding, const NodedOutline& noded)
-      : noding_(noding), noded_(noded), outline_(noded.outline), tolerance_(noding.tolerance()) {}
+  ArcSweeper(const Noding& noding, const NodedRings& noded)
+      : noding_(noding), noded_(noded), cleaned_(noded.cleaned), tolerance_(noding.tolerance()) {}
 
   std::optional<Error> run() {
-    const std::vector<Vec2>& points = outline_.points;
+    const std::vector<Vec2>& points = cleaned_.points;
     active_.resize(points.size());
     found_.interior_above.resize(points.size());
     const std::vector<std::uint32_t> order = order_of_events(points);
@@ -203,7 +203,7 @@ class ArcSweeper {
   }
 
   Sweep& found() { return found_; }
-  std::vector<Contact>& contacts() { return contacts_; }
+  std::vector<TouchedPoint>& contacts() { return contacts_; }
   std::vector<Merge>& merges() { return merges_; }
 
  private:
@@ -222,7 +222,7 @@ class ArcSweeper {
     // Looking further could take long where many vertices lie above each other, and the sweep finds
     // most of the rest.
     constexpr std::size_t farthest = 8;
-    const std::vector<Vec2>& points = outline_.points;
+    const std::vector<Vec2>& points = cleaned_.points;
     for (std::size_t i = 0; i + 1 < order.size(); ++i) {
       const Vec2 p = points[order[i]];
       const std::size_t end = std::min(order.size(), i + 1 + farthest);
@@ -236,8 +236,8 @@ class ArcSweeper {
   /// the input can differ where the local ones do not: an edge between the two would have no
   /// direction.
   bool is_to_join(std::uint32_t v, std::uint32_t w) const {
-    const Vec2 p = outline_.points[v];
-    const Vec2 q = outline_.points[w];
+    const Vec2 p = cleaned_.points[v];
+    const Vec2 q = cleaned_.points[w];
     if (p != q) return distance(p, q) <= tolerance_;
     return !noded_.passing[v] && !noded_.passing[w] && noded_.originals[v] != noded_.originals[w];
   }
@@ -266,17 +266,17 @@ class ArcSweeper {
     Ends ends;
     starts_.clear();
     const auto visit = [&](std::uint32_t piece, std::uint32_t here, std::uint32_t other) {
-      if (lexicographic_less(outline_.points[other], point)) {
+      if (lexicographic_less(cleaned_.points[other], point)) {
         ends = {active_[piece], ends.count + 1};
         return;
       }
-      const double bulge = outline_.bulges[piece];
+      const double bulge = cleaned_.bulges[piece];
       starts_.push_back(
           {piece, here, other,
-           monotone_arc(point, outline_.points[other], here == piece ? bulge : -bulge)});
+           monotone_arc(point, cleaned_.points[other], here == piece ? bulge : -bulge)});
     };
     for (const std::uint32_t vertex : group) {
-      const std::uint32_t previous = outline_.previous(vertex), next = outline_.next(vertex);
+      const std::uint32_t previous = cleaned_.previous(vertex), next = cleaned_.next(vertex);
       if (previous != no_index) visit(previous, vertex, previous);
       if (next != no_index) visit(vertex, vertex, next);
     }
@@ -361,7 +361,7 @@ class ArcSweeper {
   /// no wonder.
   std::optional<Error> out_of_order(const Status::iterator& first, std::size_t ends,
                                     std::uint32_t vertex) {
-    const Vec2 point = outline_.points[vertex];
+    const Vec2 point = cleaned_.points[vertex];
     if (!contacts_.empty() || !merges_.empty()) return pending();
     const ActivePiece& end = *first;
     for (auto other = first; ends > 0 && other != status_.end(); ++other) {
@@ -371,6 +371,33 @@ class ArcSweeper {
         ErrorCode::unsupported,
         "edges are too near to each other here for their order to be certain beyond rounding",
         noding_.edge_source(noded_.edges[vertex]), noding_.to_input(point));
+  }
+
+  struct Stop {
+    Vec2 point;  ///< on the lower piece
+    double along;
+  };
+  /// The circles' meetings cut the common range of two pieces, from `begin` to `end`, into
+  /// intervals. In each of them the sign of the gap is that at its middle. Returns how many stops.
+  static std::size_t stops_between(const MonotoneArc& a, const MonotoneArc& b, Vec2 begin, Vec2 end,
+                                   std::array<Stop, 4>& stops) {
+    std::size_t count = 0;
+    const Vec2 chord = a.right - a.left;
+    const auto add = [&](Vec2 p) { stops[count++] = {p, dot(chord, p - a.left)}; };
+    add(begin == a.left ? begin : Vec2{begin.x, a.y_at(begin.x)});
+    const Vec2 last = end == a.right ? end : Vec2{end.x, a.y_at(end.x)};
+    const double last_along = dot(chord, last - a.left);
+    const Meetings found = meetings(a, b);
+    for (std::size_t i = 0; i < found.size; ++i) {
+      // Of circles that are the same to rounding the meetings are of no meaning.
+      const std::optional<Vec2> p = a.projected(found.points[i]);
+      if (!p) continue;
+      const double along = dot(chord, *p - a.left);
+      if (along > stops[0].along && along < last_along) add(*p);
+    }
+    if (count == 3 && stops[2].along < stops[1].along) std::swap(stops[1], stops[2]);
+    add(last);
+    return count;
   }
 
   /// Notes where two neighbours touch behind their common left end. Error if they cross or overlap.
@@ -388,29 +415,9 @@ class ArcSweeper {
     const Vec2 end = lexicographic_less(a.right, b.right) ? a.right : b.right;
     if (!lexicographic_less(begin, end)) return std::nullopt;
 
-    // The circles' meetings cut the common range into intervals. In each of them the sign of the
-    // gap is that at its middle.
-    struct Stop {
-      Vec2 point;  ///< on the lower piece
-      double along;
-    };
     std::array<Stop, 4> stops;
-    std::size_t count = 0;
-    const Vec2 chord = a.right - a.left;
-    const auto add = [&](Vec2 p) { stops[count++] = {p, dot(chord, p - a.left)}; };
-    add(begin == a.left ? begin : Vec2{begin.x, a.y_at(begin.x)});
-    const Vec2 last = end == a.right ? end : Vec2{end.x, a.y_at(end.x)};
-    const double last_along = dot(chord, last - a.left);
-    const Meetings found = meetings(a, b);
-    for (std::size_t i = 0; i < found.size; ++i) {
-      // Of circles that are the same to rounding the meetings are of no meaning.
-      const std::optional<Vec2> p = a.projected(found.points[i]);
-      if (!p) continue;
-      const double along = dot(chord, *p - a.left);
-      if (along > stops[0].along && along < last_along) add(*p);
-    }
-    if (count == 3 && stops[2].along < stops[1].along) std::swap(stops[1], stops[2]);
-    add(last);
+    const std::size_t count = stops_between(a, b, begin, end, stops);
+    const Vec2 last = stops[count - 1].point;
 
     const auto gap = [&](Vec2 on_lower) { return -b.above(on_lower); };
     std::array<int, 3> signs{};
@@ -428,7 +435,7 @@ class ArcSweeper {
       const double at_end = a.right == b.right ? 0 : gap(last);
       const bool together = std::abs(at_begin) <= tolerance_ && std::abs(at_end) <= tolerance_;
       if (together && distance(stops[0].point, last) > 4 * tolerance_) {
-        if (outline_.open && note_overlap(lower, upper)) return std::nullopt;
+        if (cleaned_.open && note_overlap(lower, upper)) return std::nullopt;
         return pending_or(error_of_pieces(ErrorCode::overlap, "overlaps", lower, upper, begin));
       }
       return std::nullopt;
@@ -445,10 +452,10 @@ class ArcSweeper {
       return v;
     };
     const auto pass_through = [&](std::uint32_t first, std::uint32_t end) {
-      const Vec2 p = outline_.points[end];
+      const Vec2 p = cleaned_.points[end];
       for (std::uint32_t v = first; v == first || noded_.passing[v]; ++v) {
-        Vec2 from = outline_.points[v], to = outline_.points[v + 1];
-        double bulge = outline_.bulges[v];
+        Vec2 from = cleaned_.points[v], to = cleaned_.points[v + 1];
+        double bulge = cleaned_.bulges[v];
         if (p == from || p == to) return false;
         if (lexicographic_less(to, from)) std::swap(from, to), bulge = -bulge;
         if (!monotone_arc(from, to, bulge).is_near(p, 4 * tolerance_)) continue;
@@ -492,11 +499,11 @@ class ArcSweeper {
   /// Notes that a vertex lies on a piece, if it does and is none of its ends.
   bool touch(const ActivePiece& piece, std::uint32_t vertex) {
     const MonotoneArc& arc = piece.arc;
-    const Vec2 p = outline_.points[vertex];
+    const Vec2 p = cleaned_.points[vertex];
     if (!(std::abs(arc.above_circle(p)) <= 2 * tolerance_)) return false;
     if (p == arc.left || p == arc.right) return false;
     for (const std::uint32_t end : {piece.left_vertex, piece.right_vertex}) {
-      if (distance(p, outline_.points[end]) <= tolerance_) {
+      if (distance(p, cleaned_.points[end]) <= tolerance_) {
         join(vertex, end);
         return true;
       }
@@ -538,11 +545,11 @@ class ArcSweeper {
   }
 
   const Noding& noding_;
-  const NodedOutline& noded_;
-  const Outline& outline_;
+  const NodedRings& noded_;
+  const CleanRings& cleaned_;
   double tolerance_;
   Sweep found_;
-  std::vector<Contact> contacts_;
+  std::vector<TouchedPoint> contacts_;
   std::vector<Merge> merges_;
   std::deque<ActivePiece> pool_;
   std::vector<ActivePiece*> unused_;
@@ -555,18 +562,18 @@ class ArcSweeper {
 
 }  // namespace
 
-Result<SweptArcs> sweep_arcs(const Outline& outline, bool node_crossings, double reach) {
+Result<SweptArcs> sweep_arcs(const CleanRings& cleaned, bool node_crossings, double reach) {
   // Nearly always one round more than there are layers of contacts that hide each other.
   constexpr int most_rounds = 64;
-  Noding noding(outline, reach);
+  Noding noding(cleaned, reach);
   if (auto error = noding.too_small()) return std::move(*error);
   std::uint64_t crossings = 0, repeated = 0;
   for (int round = 0; round < most_rounds; ++round) {
-    if (node_crossings && outline.open) repeated += noding.drop_repeated();
-    NodedOutline noded = noding.monotone();
+    if (node_crossings && cleaned.open) repeated += noding.drop_repeated();
+    NodedRings noded = noding.monotone();
     const auto node_all = [&]() -> Result<bool> {
       CrossingFinder finder(noding, noded);
-      const std::vector<Contact> contacts = finder.find();
+      const std::vector<TouchedPoint> contacts = finder.find();
       crossings += finder.crossings();
       if (contacts.empty()) return false;
       if (auto error = noding.apply(noded, contacts, {})) return std::move(*error);

@@ -10,7 +10,7 @@
 namespace medial {
 
 struct SweptArcs {
-  NodedOutline noded;
+  NodedRings noded;
   Sweep sweep;  ///< without splits: where a vertex touched an edge there are two now
   std::uint64_t split_edges = 0;
   std::uint64_t crossings = 0;
@@ -26,6 +26,7 @@ struct SweptArcs {
 /// With `node_crossings` edges are split where they cross first, which takes O(n log n + p) for p
 /// pairs of edges above each other, in each of a few rounds; of chains' edges that lie on each
 /// other one is kept. A `reach` above the tolerance takes its place.
-Result<SweptArcs> sweep_arcs(const Outline& outline, bool node_crossings = false, double reach = 0);
+Result<SweptArcs> sweep_arcs(const CleanRings& cleaned, bool node_crossings = false,
+                             double reach = 0);
 
 }  // namespace medial

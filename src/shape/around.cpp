@@ -8,7 +8,7 @@
 
 namespace medial {
 
-Shape around(const PlanarGraph& planar_graph, const Box& frame) {
+Shape around(const PlanarGraph& planar_graph, const Box& enclosure) {
   Shape shape;
   const std::size_t count = 4 + planar_graph.half_edges.size() + planar_graph.lone_points.size();
   const bool has_arcs = std::any_of(planar_graph.edges.begin(), planar_graph.edges.end(),
@@ -35,8 +35,8 @@ Shape around(const PlanarGraph& planar_graph, const Box& frame) {
   };
 
   add_loop(0, false);
-  for (const Vec2 corner :
-       {frame.low, Vec2{frame.high.x, frame.low.y}, frame.high, Vec2{frame.low.x, frame.high.y}})
+  for (const Vec2 corner : {enclosure.low, Vec2{enclosure.high.x, enclosure.low.y}, enclosure.high,
+                            Vec2{enclosure.low.x, enclosure.high.y}})
     add_point(corner, 0, {no_index, no_index});
   // Faces count from 1 in the order of their outer loops.
   std::vector<std::uint32_t> holes;

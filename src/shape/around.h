@@ -5,13 +5,15 @@
 
 namespace medial {
 
-/// What lies around a planar graph, within a frame, as the boundary that an engine walks along: one
-/// component for each face, of which the unbounded one (the first) has the frame as its outer loop.
+/// What lies around a planar graph, within an enclosure, as the boundary that an engine walks
+/// along: one component for each face, of which the unbounded one (the first) has the enclosure as
+/// its outer loop.
 ///
 /// This is no shape that build_shape() would make: edges can stand there twice, once for each side,
 /// a segment alone is a loop of two points, and a lone point one of one. The source of a point is
 /// {point of the planar graph, half-edge that begins there}, no_index for what there is none of,
-/// and both for the frame. Loops come in spatial order. Requires a frame around the planar graph.
-Shape around(const PlanarGraph& planar_graph, const Box& frame);
+/// and both for the enclosure. Loops come in spatial order. Requires an enclosure around the planar
+/// graph.
+Shape around(const PlanarGraph& planar_graph, const Box& enclosure);
 
 }  // namespace medial

@@ -21,34 +21,34 @@ std::uint64_t count_reversed(const Arrangement& arrangement) {
 }
 
 /// Polygons take the exact path, shapes with arcs or crossings the one with a tolerance.
-Result<Arrangement> arrange(Outline outline, const ShapeOptions& options, ShapeReport& report) {
-  if (options.node_crossings) outline.bulges.resize(outline.points.size());
-  if (!outline.bulges.empty()) {
-    Result<SweptArcs> swept = sweep_arcs(outline, options.node_crossings);
+Result<Arrangement> arrange(CleanRings cleaned, const ShapeOptions& options, ShapeReport& report) {
+  if (options.node_crossings) cleaned.bulges.resize(cleaned.points.size());
+  if (!cleaned.bulges.empty()) {
+    Result<SweptArcs> swept = sweep_arcs(cleaned, options.node_crossings);
     if (!swept) return std::move(swept).error();
     report.crossings = swept->crossings;
     report.touching_vertices = swept->sweep.place_count;
     report.split_edges = swept->split_edges;
     return arrange_arcs(std::move(swept).value());
   }
-  Result<Sweep> swept = sweep(outline);
+  Result<Sweep> swept = sweep(cleaned);
   if (!swept) return std::move(swept).error();
   report.touching_vertices = swept->place_count;
   report.split_edges = swept->splits.size();
-  return insert_splits(std::move(outline), std::move(swept).value());
+  return insert_splits(std::move(cleaned), std::move(swept).value());
 }
 
 Result<Shape> build(std::span<const Ring> rings, const ShapeOptions& options, ShapeReport& report) {
-  Result<Outline> outline = clean(rings, report);
-  if (!outline) return std::move(outline).error();
+  Result<CleanRings> cleaned = clean(rings, report);
+  if (!cleaned) return std::move(cleaned).error();
 
-  Result<Arrangement> arranged = arrange(std::move(outline).value(), options, report);
+  Result<Arrangement> arranged = arrange(std::move(cleaned).value(), options, report);
   if (!arranged) return std::move(arranged).error();
   Arrangement& arrangement = *arranged;
   report.dropped_rings = apply_winding(rings, arrangement);
   report.reversed_rings = count_reversed(arrangement);
 
-  Result<Loops> loops = splice(rings, arrangement);
+  Result<SplicedLoops> loops = splice(rings, arrangement);
   if (!loops) return std::move(loops).error();
   if (auto error = nest(arrangement, *loops)) return std::move(*error);
   if (auto error = check_roles(rings, arrangement, *loops)) return std::move(*error);

@@ -14,10 +14,10 @@ namespace {
 constexpr std::uint64_t most_points = std::numeric_limits<std::uint32_t>::max() / 4;
 
 /// Appends the points of a ring, each distinct from its neighbours.
-std::optional<Error> append_distinct(const Ring& ring, std::uint32_t index, Outline& outline,
+std::optional<Error> append_distinct(const Ring& ring, std::uint32_t index, CleanRings& cleaned,
                                      ShapeReport& report) {
   std::span<const Vec2> points = ring.points;
-  const std::size_t first = outline.points.size();
+  const std::size_t first = cleaned.points.size();
   if (points.size() > 1 && points.front() == points.back()) {
     points = points.first(points.size() - 1);
     ++report.closing_points;
@@ -31,16 +31,16 @@ std::optional<Error> append_distinct(const Ring& ring, std::uint32_t index, Outl
                       points[i]);
     }
     const Vec2 point{points[i].x + 0.0, points[i].y + 0.0};  // makes -0 to 0
-    if (outline.points.size() > first && outline.points.back() == point) {
+    if (cleaned.points.size() > first && cleaned.points.back() == point) {
       ++report.repeated_points;
       continue;
     }
-    outline.points.push_back(point);
-    outline.sources.push_back(source);
+    cleaned.points.push_back(point);
+    cleaned.sources.push_back(source);
   }
-  while (outline.points.size() > first + 1 && outline.points.back() == outline.points[first]) {
-    outline.points.pop_back();
-    outline.sources.pop_back();
+  while (cleaned.points.size() > first + 1 && cleaned.points.back() == cleaned.points[first]) {
+    cleaned.points.pop_back();
+    cleaned.sources.pop_back();
     ++report.repeated_points;
   }
   return std::nullopt;
@@ -48,10 +48,10 @@ std::optional<Error> append_distinct(const Ring& ring, std::uint32_t index, Outl
 
 /// Drops the vertices at which the ring goes straight on. Dropping one changes no direction, so
 /// that every vertex can be judged by its neighbours in the full ring.
-std::optional<Error> drop_collinear(std::uint32_t first, Outline& outline, ShapeReport& report) {
-  std::vector<Vec2>& points = outline.points;
+std::optional<Error> drop_collinear(std::uint32_t first, CleanRings& cleaned, ShapeReport& report) {
+  std::vector<Vec2>& points = cleaned.points;
   const Vec2 start = points[first];
-  const VertexSource source = outline.sources[first];
+  const VertexSource source = cleaned.sources[first];
   const std::size_t end = points.size();
   Vec2 before = points[end - 1];
   std::size_t kept = first;
@@ -65,7 +65,7 @@ std::optional<Error> drop_collinear(std::uint32_t first, Outline& outline, Shape
       ++report.collinear_points;
     } else {
       points[kept] = point;
-      outline.sources[kept] = outline.sources[i];
+      cleaned.sources[kept] = cleaned.sources[i];
       ++kept;
     }
     before = point;
@@ -74,12 +74,12 @@ std::optional<Error> drop_collinear(std::uint32_t first, Outline& outline, Shape
     return error_at(ErrorCode::no_area, "all points of the ring lie on one line", source, start);
   }
   points.resize(kept);
-  outline.sources.resize(kept);
+  cleaned.sources.resize(kept);
   return std::nullopt;
 }
 
 /// Appends a ring that has a bulge.
-std::optional<Error> append_with_arcs(const Ring& ring, std::uint32_t index, Outline& outline,
+std::optional<Error> append_with_arcs(const Ring& ring, std::uint32_t index, CleanRings& cleaned,
                                       ShapeReport& report) {
   std::vector<RingEdge> edges;
   edges.reserve(ring.points.size());
@@ -94,12 +94,10 @@ std::optional<Error> append_with_arcs(const Ring& ring, std::uint32_t index, Out
     const VertexSource source{index, static_cast<std::uint32_t>(i)};
     const Vec2 point = ring.points[i];
     const double bulge = i < ring.bulges.size() ? ring.bulges[i] : 0;
-    if (!std::isfinite(point.x) || !std::isfinite(point.y)) {
+    if (!std::isfinite(point.x) || !std::isfinite(point.y))
       return error_at(ErrorCode::not_finite, "a coordinate is not a finite number", source, point);
-    }
-    if (!std::isfinite(bulge)) {
+    if (!std::isfinite(bulge))
       return error_at(ErrorCode::not_finite, "a bulge is not a finite number", source, point);
-    }
     if (point == ring.points[i + 1 < count ? i + 1 : 0]) {
       ++report.repeated_points;
       continue;
@@ -124,19 +122,19 @@ std::optional<Error> append_with_arcs(const Ring& ring, std::uint32_t index, Out
   if (edges.size() < 2 || (edges.size() == 2 && edges[0].bulge == -edges[1].bulge)) {
     return place(ErrorCode::no_area, "the ring encloses no area");
   }
-  outline.bulges.resize(outline.points.size(), 0);
+  cleaned.bulges.resize(cleaned.points.size(), 0);
   for (const RingEdge& edge : edges) {
-    outline.points.push_back(edge.point);
-    outline.sources.push_back(edge.source);
-    outline.bulges.push_back(edge.bulge);
+    cleaned.points.push_back(edge.point);
+    cleaned.sources.push_back(edge.source);
+    cleaned.bulges.push_back(edge.bulge);
   }
   if (straight) {
     // All bulges were too small: judge it as every other polygon.
-    const std::size_t first = outline.points.size() - edges.size();
-    if (auto error = drop_collinear(static_cast<std::uint32_t>(first), outline, report)) {
+    const std::size_t first = cleaned.points.size() - edges.size();
+    if (auto error = drop_collinear(static_cast<std::uint32_t>(first), cleaned, report)) {
       return error;
     }
-    outline.bulges.resize(outline.points.size());
+    cleaned.bulges.resize(cleaned.points.size());
   }
   return std::nullopt;
 }
@@ -154,7 +152,7 @@ bool has_three_distinct(std::span<const Vec2> points) {
 
 }  // namespace
 
-Result<Outline> clean(std::span<const Ring> rings, ShapeReport& report) {
+Result<CleanRings> clean(std::span<const Ring> rings, ShapeReport& report) {
   if (rings.empty()) return error_without_place(ErrorCode::empty, "there is no ring");
   report.input_rings = rings.size();
   for (const Ring& ring : rings) report.input_points += ring.points.size();
@@ -162,34 +160,34 @@ Result<Outline> clean(std::span<const Ring> rings, ShapeReport& report) {
     return error_without_place(ErrorCode::too_large, "there are too many points");
   }
 
-  Outline outline;
-  outline.points.reserve(report.input_points);
-  outline.sources.reserve(report.input_points);
-  outline.begin.reserve(rings.size() + 1);
+  CleanRings cleaned;
+  cleaned.points.reserve(report.input_points);
+  cleaned.sources.reserve(report.input_points);
+  cleaned.begin.reserve(rings.size() + 1);
   for (std::uint32_t i = 0; i < rings.size(); ++i) {
-    const auto first = static_cast<std::uint32_t>(outline.points.size());
-    outline.begin.push_back(first);
+    const auto first = static_cast<std::uint32_t>(cleaned.points.size());
+    cleaned.begin.push_back(first);
     if (has_arcs(rings[i])) {
-      if (auto error = append_with_arcs(rings[i], i, outline, report)) return *error;
+      if (auto error = append_with_arcs(rings[i], i, cleaned, report)) return *error;
       continue;
     }
-    if (auto error = append_distinct(rings[i], i, outline, report)) return *error;
-    const std::span<const Vec2> points = std::span(outline.points).subspan(first);
+    if (auto error = append_distinct(rings[i], i, cleaned, report)) return *error;
+    const std::span<const Vec2> points = std::span(cleaned.points).subspan(first);
     if (!has_three_distinct(points)) {
       const char* text = "the ring has fewer than three distinct points";
       if (points.empty()) return error_of_ring(ErrorCode::too_few_points, text, i);
-      return error_at(ErrorCode::too_few_points, text, outline.sources[first], points[0]);
+      return error_at(ErrorCode::too_few_points, text, cleaned.sources[first], points[0]);
     }
-    if (auto error = drop_collinear(first, outline, report)) return *error;
+    if (auto error = drop_collinear(first, cleaned, report)) return *error;
   }
-  outline.begin.push_back(static_cast<std::uint32_t>(outline.points.size()));
-  if (std::all_of(outline.bulges.begin(), outline.bulges.end(),
+  cleaned.begin.push_back(static_cast<std::uint32_t>(cleaned.points.size()));
+  if (std::all_of(cleaned.bulges.begin(), cleaned.bulges.end(),
                   [](double bulge) { return bulge == 0; })) {
-    outline.bulges.clear();
+    cleaned.bulges.clear();
   } else {
-    outline.bulges.resize(outline.points.size(), 0);
+    cleaned.bulges.resize(cleaned.points.size(), 0);
   }
-  return outline;
+  return cleaned;
 }
 
 }  // namespace medial

@@ -18,7 +18,7 @@ inline constexpr std::uint32_t no_index = std::numeric_limits<std::uint32_t>::ma
 ///
 /// Or, of a planar graph, open chains: the last vertex of each begins no edge, and one vertex is a
 /// point.
-struct Outline {
+struct CleanRings {
   std::vector<Vec2> points;
   std::vector<double> bulges;         ///< of each edge, at most 1 in magnitude; empty: all straight
   std::vector<VertexSource> sources;  ///< sources[v].ring is also the index in `begin`
@@ -41,7 +41,7 @@ struct Outline {
 /// Drops closing points, repeated points and the vertices in the inside of straight runs and arcs,
 /// splits arcs of more than a half circle, and counts what was dropped in the report. O(n). Errors:
 /// empty, too_large, not_finite, too_few_points, no_area, of the first ring that has one.
-Result<Outline> clean(std::span<const Ring> rings, ShapeReport& report);
+Result<CleanRings> clean(std::span<const Ring> rings, ShapeReport& report);
 
 /// An edge of a ring, by its first vertex.
 struct RingEdge {

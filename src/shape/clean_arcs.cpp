@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "base/arc.h"
@@ -192,17 +193,7 @@ class Cleaner {
       result.push_back({start, bulge, edges_[begin].source});
       return;
     }
-    // The vertex next to the middle, by the angle up to it.
-    std::size_t middle = begin + 1;
-    double angle_to_middle = 0;
-    double sum = 0;
-    for (std::size_t i = begin; i + 1 < end; ++i) {
-      sum += 4 * std::atan(std::abs(edges_[i].bulge));
-      if (i == begin || std::abs(sum - angle / 2) < std::abs(angle_to_middle - angle / 2)) {
-        middle = i + 1;
-        angle_to_middle = sum;
-      }
-    }
+    auto [middle, angle_to_middle] = middle_of_run(begin, end, angle);
     const bool divides = std::max(angle_to_middle, angle - angle_to_middle) <= pi * (1 + slack);
     if (divides && end - begin == 2) return keep();
     RingEdge second = edges_[middle];
@@ -231,6 +222,19 @@ class Cleaner {
     report_.collinear_points += end - begin > 2 ? end - begin - 2 : 0;
     result.push_back({start, first_bulge, edges_[begin].source});
     result.push_back(second);
+  }
+
+  /// The vertex next to the middle of a run that turns by `angle`, and the angle up to it.
+  std::pair<std::size_t, double> middle_of_run(std::size_t begin, std::size_t end,
+                                               double angle) const {
+    std::pair<std::size_t, double> middle{begin + 1, 0};
+    double sum = 0;
+    for (std::size_t i = begin; i + 1 < end; ++i) {
+      sum += 4 * std::atan(std::abs(edges_[i].bulge));
+      if (i == begin || std::abs(sum - angle / 2) < std::abs(middle.second - angle / 2))
+        middle = {i + 1, sum};
+    }
+    return middle;
   }
 
   /// The angle that a run of arcs turns by: twice that between the chords to and from a vertex in

@@ -25,7 +25,7 @@ Result<Exterior> exterior_of(const Shape& shape, double margin) {
   Exterior exterior{std::move(built).value(), {}, {}};
   for (VertexSource& source : exterior.shape.sources) {
     exterior.of_loop.push_back(source.ring - 1);
-    exterior.of_frame.push_back(source.ring == 0);
+    exterior.of_enclosure.push_back(source.ring == 0);
     if (source.ring > 0) source = shape.sources[shape.loop_begin[source.ring - 1] + source.vertex];
   }
   return exterior;

@@ -7,18 +7,18 @@
 
 namespace medial {
 
-/// What lies around a shape and in its holes: a rectangular frame less the shape.
+/// What lies around a shape and in its holes: a rectangular enclosure less the shape.
 struct Exterior {
   Shape shape;
-  /// Of each point: whether it is one of the frame's. The sources of the others are those of the
-  /// original shape's points.
-  std::vector<bool> of_frame;
-  /// Of each point: the loop of the original shape that it was on; 0xFFFFFFFF for the frame's.
+  /// Of each point: whether it is one of the enclosure's. The sources of the others are those of
+  /// the original shape's points.
+  std::vector<bool> of_enclosure;
+  /// Of each point: the loop of the original shape that it was on; 0xFFFFFFFF for the enclosure's.
   std::vector<std::uint32_t> of_loop;
 };
 
-/// The exterior within a frame that is `margin` away from the shape's bounding box on all sides.
-/// Requires margin > 0. Errors: those of build_shape().
+/// The exterior within an enclosure that is `margin` away from the shape's bounding box on all
+/// sides. Requires margin > 0. Errors: those of build_shape().
 Result<Exterior> exterior_of(const Shape& shape, double margin);
 
 /// The margin that options ask for: `margin`, or where that is 0 half of the box's longer side.

@@ -37,7 +37,7 @@ bool inside_is_interior(const Arrangement& arrangement, std::uint32_t ring) {
 
 /// Whether the rings [begin, end) of one polygon have its outer ring among them, though not first:
 /// one ring with the interior inside, directly in which all others lie.
-bool is_polygon_in_other_order(const Arrangement& arrangement, const Loops& loops,
+bool is_polygon_in_other_order(const Arrangement& arrangement, const SplicedLoops& loops,
                                std::uint32_t begin, std::uint32_t end) {
   const auto component = [&](std::uint32_t ring) {
     return loops.loops[loops.loop_of[arrangement.begin[ring]]].component;
@@ -50,14 +50,14 @@ bool is_polygon_in_other_order(const Arrangement& arrangement, const Loops& loop
   return outer_rings == 1;
 }
 
-VertexSource lowest_source(const Arrangement& arrangement, const Loop& loop) {
+VertexSource lowest_source(const Arrangement& arrangement, const SplicedLoop& loop) {
   return arrangement.sources[tail(arrangement, loop.first_edge)];
 }
 
 }  // namespace
 
 std::optional<Error> check_roles(std::span<const Ring> rings, const Arrangement& arrangement,
-                                 const Loops& loops) {
+                                 const SplicedLoops& loops) {
   for (std::uint32_t i = 0; i < rings.size(); ++i) {
     const RingRole role = rings[i].role;
     if (role == RingRole::any || role == RingRole::winding) continue;
@@ -136,7 +136,7 @@ class EdgesBelow {
 
 }  // namespace
 
-std::optional<Error> nest(const Arrangement& arrangement, Loops& loops) {
+std::optional<Error> nest(const Arrangement& arrangement, SplicedLoops& loops) {
   // A hole's leftmost vertex has the interior on the left: no edge ends there. So the sweep has
   // noted the edge below, whose loop began further left and borders the same component.
   std::vector<std::uint32_t> outer;
@@ -178,7 +178,7 @@ std::optional<Error> nest(const Arrangement& arrangement, Loops& loops) {
     const std::uint32_t below = edges.of(loops.loops[i].leftmost);
     if (below != no_index) loops.loops[i].component = loops.loops[loops.loop_of[below]].component;
   }
-  for (const Loop& loop : loops.loops) {
+  for (const SplicedLoop& loop : loops.loops) {
     if (loop.component == no_index) {
       return error_without_place(ErrorCode::internal, "a hole has no component");
     }
@@ -186,12 +186,12 @@ std::optional<Error> nest(const Arrangement& arrangement, Loops& loops) {
   return std::nullopt;
 }
 
-Shape assemble(const Arrangement& arrangement, const Loops& loops) {
+Shape assemble(const Arrangement& arrangement, const SplicedLoops& loops) {
   std::vector<std::uint32_t> order(loops.loops.size());
   std::iota(order.begin(), order.end(), 0U);
   std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    const Loop& la = loops.loops[a];
-    const Loop& lb = loops.loops[b];
+    const SplicedLoop& la = loops.loops[a];
+    const SplicedLoop& lb = loops.loops[b];
     const VertexSource sa = lowest_source(arrangement, la);
     const VertexSource sb = lowest_source(arrangement, lb);
     return std::tie(la.component, la.hole, sa.ring, sa.vertex, a) <
@@ -203,7 +203,7 @@ Shape assemble(const Arrangement& arrangement, const Loops& loops) {
   shape.sources.reserve(arrangement.points.size());
   const bool with_arcs = !arrangement.bulges.empty();
   for (const std::uint32_t i : order) {
-    const Loop& loop = loops.loops[i];
+    const SplicedLoop& loop = loops.loops[i];
     shape.loop_begin.push_back(static_cast<std::uint32_t>(shape.points.size()));
     shape.component.push_back(loop.component);
     shape.hole.push_back(loop.hole);

@@ -14,14 +14,14 @@ namespace medial {
 /// one. O(n). Requires components, see nest(). Errors: nested_outer, hole_outside, of the first
 /// ring that has one.
 std::optional<Error> check_roles(std::span<const Ring> rings, const Arrangement& arrangement,
-                                 const Loops& loops);
+                                 const SplicedLoops& loops);
 
 /// Numbers the components of the interior by the lowest source of their outer loops, and gives
 /// every hole to the component it lies in. O(n + loops log loops), and O(n) more for each hole at
 /// whose leftmost vertex dropped edges end. Error: internal, should a hole lie in none.
-std::optional<Error> nest(const Arrangement& arrangement, Loops& loops);
+std::optional<Error> nest(const Arrangement& arrangement, SplicedLoops& loops);
 
 /// The shape with its loops in order: by component, the outer loop first, then by lowest source.
-Shape assemble(const Arrangement& arrangement, const Loops& loops);
+Shape assemble(const Arrangement& arrangement, const SplicedLoops& loops);
 
 }  // namespace medial

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/arc.h"
+#include "base/compat.h"
 #include "base/predicates.h"
 #include "base/tolerance.h"
 #include "shape/errors.h"
@@ -23,12 +24,12 @@ constexpr double least_size = 1 << 10;
 /// it.
 constexpr double turn = 0.5931;
 
-Box box_of(const Outline& outline) {
-  Box box{outline.points[0], outline.points[0]};
-  for (std::uint32_t v = 0; v < outline.points.size(); ++v) {
-    box.add(outline.points[v]);
-    if (outline.next(v) == no_index) continue;
-    const BulgeArc arc{outline.points[v], outline.points[outline.next(v)], outline.bulges[v]};
+Box box_of(const CleanRings& cleaned) {
+  Box box{cleaned.points[0], cleaned.points[0]};
+  for (std::uint32_t v = 0; v < cleaned.points.size(); ++v) {
+    box.add(cleaned.points[v]);
+    if (cleaned.next(v) == no_index) continue;
+    const BulgeArc arc{cleaned.points[v], cleaned.points[cleaned.next(v)], cleaned.bulges[v]};
     if (arc.bulge != 0) box.add(apex(arc));  // at most a quarter circle from what is outermost
   }
   return box;
@@ -36,17 +37,18 @@ Box box_of(const Outline& outline) {
 
 }  // namespace
 
-Noding::Noding(const Outline& outline, double reach) : begin_(outline.begin), open_(outline.open) {
-  const Box box = box_of(outline);
+Noding::Noding(const CleanRings& cleaned, double reach)
+    : begin_(cleaned.begin), open_(cleaned.open) {
+  const Box box = box_of(cleaned);
   frame_ = frame_of(box);
   size_ = frame_.scale * diagonal(box);
   tolerance_ = frame_.scale * std::max(tolerance_for(box, 0), reach);
   rings_.resize(begin_.size() - 1);
   std::iota(rings_.begin(), rings_.end(), 0U);
-  nodes_.resize(outline.points.size());
+  nodes_.resize(cleaned.points.size());
   for (std::size_t v = 0; v < nodes_.size(); ++v) {
-    const Vec2 point = outline.points[v];
-    nodes_[v] = {point, to_local(point), outline.bulges[v], outline.sources[v], outline.sources[v]};
+    const Vec2 point = cleaned.points[v];
+    nodes_[v] = {point, to_local(point), cleaned.bulges[v], cleaned.sources[v], cleaned.sources[v]};
   }
 }
 
@@ -54,7 +56,7 @@ std::optional<Error> Noding::too_small() const {
   if (nodes_.empty() || size_ >= least_size * tolerance_) return std::nullopt;
   return error_at(
       ErrorCode::unsupported,
-      "the edges are too small against their coordinates to be told from rounding: move "
+      "the edges are too small against their coordinates to differ by more than rounding: move "
       "them nearer to the origin",
       nodes_[0].source, nodes_[0].original);
 }
@@ -71,29 +73,29 @@ Vec2 Noding::to_input(Vec2 local) const {
   return {point.x + 0.0, point.y + 0.0};
 }
 
-NodedOutline Noding::monotone() const {
-  NodedOutline result;
-  Outline& outline = result.outline;
-  outline.open = open_;
+NodedRings Noding::monotone() const {
+  NodedRings result;
+  CleanRings& cleaned = result.cleaned;
+  cleaned.open = open_;
   result.rings = rings_;
   const std::size_t expected = nodes_.size() + nodes_.size() / 4;
-  for (auto* list : {&outline.points, &result.originals}) list->reserve(expected);
-  for (auto* list : {&outline.sources, &result.sources}) list->reserve(expected);
-  for (auto* list : {&outline.bulges, &result.edge_bulges}) list->reserve(expected);
+  for (auto* list : {&cleaned.points, &result.originals}) list->reserve(expected);
+  for (auto* list : {&cleaned.sources, &result.sources}) list->reserve(expected);
+  for (auto* list : {&cleaned.bulges, &result.edge_bulges}) list->reserve(expected);
   result.edges.reserve(expected);
   result.passing.reserve(expected);
 
   const auto append = [&](const Node& node, std::uint32_t edge, double bulge, std::uint32_t ring) {
-    outline.points.push_back(node.local);
-    outline.sources.push_back({ring, node.source.vertex});
-    outline.bulges.push_back(bulge);
+    cleaned.points.push_back(node.local);
+    cleaned.sources.push_back({ring, node.source.vertex});
+    cleaned.bulges.push_back(bulge);
     result.sources.push_back(node.source);
     result.originals.push_back(node.original);
     result.edge_bulges.push_back(nodes_[edge].bulge);
     result.edges.push_back(edge);
   };
   for (std::uint32_t ring = 0; ring + 1 < begin_.size(); ++ring) {
-    outline.begin.push_back(static_cast<std::uint32_t>(outline.points.size()));
+    cleaned.begin.push_back(static_cast<std::uint32_t>(cleaned.points.size()));
     for (std::uint32_t v = begin_[ring]; v < begin_[ring + 1]; ++v) {
       const Node& node = nodes_[v];
       if (ends_chain(ring, v)) {
@@ -123,11 +125,11 @@ NodedOutline Noding::monotone() const {
       append(passing, v, 0 - partial_bulge(arc.reversed(), arc.end, *upright), ring);
     }
   }
-  outline.begin.push_back(static_cast<std::uint32_t>(outline.points.size()));
+  cleaned.begin.push_back(static_cast<std::uint32_t>(cleaned.points.size()));
   return result;
 }
 
-Noding::Moves::Moves(const NodedOutline& noded, std::span<const Merge> merges) {
+Noding::Moves::Moves(const NodedRings& noded, std::span<const Merge> merges) {
   for (const Merge& merge : merges) {
     const Vec2 from = target(noded.originals[merge.from]);
     const Vec2 to = target(noded.originals[merge.to]);
@@ -146,12 +148,12 @@ void Noding::move(Node& node, Vec2 original) const {
   node.local = to_local(original);
 }
 
-std::vector<Noding::Cut> Noding::cuts_of(const NodedOutline& noded,
-                                         std::span<const Contact> contacts,
-                                         const Moves& moves) const {
-  std::vector<Cut> cuts;
+std::vector<Noding::SplitPoint> Noding::split_points_of(const NodedRings& noded,
+                                                        std::span<const TouchedPoint> contacts,
+                                                        const Moves& moves) const {
+  std::vector<SplitPoint> cuts;
   cuts.reserve(contacts.size());
-  for (const Contact& contact : contacts) {
+  for (const TouchedPoint& contact : contacts) {
     const Node& node = nodes_[contact.edge];
     const auto after = std::upper_bound(begin_.begin(), begin_.end(), contact.edge);
     const auto ring = static_cast<std::uint32_t>(after - begin_.begin()) - 1;
@@ -165,13 +167,13 @@ std::vector<Noding::Cut> Noding::cuts_of(const NodedOutline& noded,
     }
     cuts.push_back({contact.edge, dot(end - node.local, cut.local - node.local), cut});
   }
-  std::sort(cuts.begin(), cuts.end(), [](const Cut& a, const Cut& b) {
+  std::sort(cuts.begin(), cuts.end(), [](const SplitPoint& a, const SplitPoint& b) {
     return std::pair(a.edge, a.along) < std::pair(b.edge, b.along);
   });
   return cuts;
 }
 
-void Noding::append_parts(std::uint32_t v, std::uint32_t end, std::span<const Cut> cuts,
+void Noding::append_parts(std::uint32_t v, std::uint32_t end, std::span<const SplitPoint> cuts,
                           const Moves& moves, std::vector<Node>& result) {
   const BulgeArc arc{nodes_[v].local, nodes_[end].local, nodes_[v].bulge};
   const Vec2 last = moves.target(nodes_[end].original);
@@ -179,7 +181,7 @@ void Noding::append_parts(std::uint32_t v, std::uint32_t end, std::span<const Cu
   move(node, moves.target(node.original));
   Vec2 from = arc.start;
   bool whole = true;
-  for (const Cut& cut : cuts) {
+  for (const SplitPoint& cut : cuts) {
     if (cut.node.original == node.original || cut.node.original == last) continue;
     node.bulge = partial_bulge(arc, from, cut.node.local);
     result.push_back(node);
@@ -193,10 +195,10 @@ void Noding::append_parts(std::uint32_t v, std::uint32_t end, std::span<const Cu
   result.push_back(node);
 }
 
-std::optional<Error> Noding::apply(const NodedOutline& noded, std::span<const Contact> contacts,
+std::optional<Error> Noding::apply(const NodedRings& noded, std::span<const TouchedPoint> contacts,
                                    std::span<const Merge> merges) {
   const Moves moves(noded, merges);
-  const std::vector<Cut> cuts = cuts_of(noded, contacts, moves);
+  const std::vector<SplitPoint> cuts = split_points_of(noded, contacts, moves);
   std::vector<Node> result;
   std::vector<std::uint32_t> begin;
   result.reserve(nodes_.size() + cuts.size());
@@ -211,8 +213,8 @@ std::optional<Error> Noding::apply(const NodedOutline& noded, std::span<const Co
         continue;
       }
       const auto next_cut =
-          std::find_if(cut, cuts.end(), [v](const Cut& c) { return c.edge != v; });
-      append_parts(v, next(ring, v), {cut, next_cut}, moves, result);
+          std::find_if(cut, cuts.end(), [v](const SplitPoint& c) { return c.edge != v; });
+      append_parts(v, next(ring, v), span_between(cut, next_cut), moves, result);
       cut = next_cut;
     }
     const std::size_t size = result.size() - first;
@@ -243,7 +245,7 @@ std::uint64_t Noding::drop_repeated() {
       edges.push_back(lexicographic_less(p, q) ? Edge{p, q, bulge, v} : Edge{q, p, 0 - bulge, v});
     }
   }
-  std::ranges::sort(edges, {}, &Edge::key);
+  ranges::sort(edges, {}, &Edge::key);
   std::vector<bool> drop(nodes_.size(), false);
   std::uint64_t dropped = 0;
   for (std::size_t i = 1; i < edges.size(); ++i) {

@@ -17,8 +17,8 @@ namespace medial {
 /// An outline with arcs, ready for splice(): its edges are cut where they touch and where the sweep
 /// line is tangent to them. Coordinates are local and turned by a fixed angle, so that what is
 /// common in drawings (vertical tangents, vertices above each other) is not special here.
-struct NodedOutline {
-  Outline outline;                    ///< edges are monotone; sources name rings only
+struct NodedRings {
+  CleanRings cleaned;                 ///< edges are monotone; sources name rings only
   std::vector<VertexSource> sources;  ///< of each vertex
   std::vector<Vec2> originals;        ///< of each vertex, in units of the input
   std::vector<double> edge_bulges;    ///< of the edge that a piece is of
@@ -27,15 +27,15 @@ struct NodedOutline {
   std::vector<std::uint32_t> rings;   ///< of each ring of the outline, that of the input
 };
 
-/// An edge touches a point: a vertex of the NodedOutline, or (no_index) a point in local
+/// An edge touches a point: a vertex of the NodedRings, or (no_index) a point in local
 /// coordinates.
-struct Contact {
+struct TouchedPoint {
   std::uint32_t edge = 0;
   std::uint32_t vertex = no_index;
   Vec2 point;
 };
 
-/// A vertex of the NodedOutline is to become equal to another.
+/// A vertex of the NodedRings is to become equal to another.
 struct Merge {
   std::uint32_t from = 0;
   std::uint32_t to = 0;
@@ -45,7 +45,7 @@ struct Merge {
 class Noding {
  public:
   /// `reach`, in units of the input, is the tolerance where it is larger than the usual one.
-  explicit Noding(const Outline& outline, double reach = 0);
+  explicit Noding(const CleanRings& cleaned, double reach = 0);
 
   /// An error `unsupported` where all of the outline is so small against its coordinates that the
   /// tolerance cannot tell its edges apart.
@@ -59,11 +59,11 @@ class Noding {
   Vec2 to_input(Vec2 local) const;
 
   /// O(n).
-  NodedOutline monotone() const;
+  NodedRings monotone() const;
 
   /// Splits edges at contacts and makes vertices equal. Edges that become shorter than the
   /// tolerance vanish. O(n + c log c). Error: no_area, if a ring vanishes.
-  std::optional<Error> apply(const NodedOutline& noded, std::span<const Contact> contacts,
+  std::optional<Error> apply(const NodedRings& noded, std::span<const TouchedPoint> contacts,
                              std::span<const Merge> merges);
 
   /// Drops edges of chains that are there twice, to the tolerance; those before and after become
@@ -80,7 +80,7 @@ class Noding {
   };
 
   /// Where an edge is cut.
-  struct Cut {
+  struct SplitPoint {
     std::uint32_t edge;
     double along;  ///< the chord
     Node node;
@@ -88,7 +88,7 @@ class Noding {
   /// Where points of the input move to. Chains are followed; the lowest of a group stays.
   class Moves {
    public:
-    Moves(const NodedOutline& noded, std::span<const Merge> merges);
+    Moves(const NodedRings& noded, std::span<const Merge> merges);
     Vec2 target(Vec2 point) const;
 
    private:
@@ -101,10 +101,11 @@ class Noding {
   Vec2 to_local(Vec2 input) const;
   void move(Node& node, Vec2 original) const;
   /// By edge and along it.
-  std::vector<Cut> cuts_of(const NodedOutline& noded, std::span<const Contact> contacts,
-                           const Moves& moves) const;
+  std::vector<SplitPoint> split_points_of(const NodedRings& noded,
+                                          std::span<const TouchedPoint> contacts,
+                                          const Moves& moves) const;
   /// Appends the parts of the edge from node `v` to node `end`, without those of no length.
-  void append_parts(std::uint32_t v, std::uint32_t end, std::span<const Cut> cuts,
+  void append_parts(std::uint32_t v, std::uint32_t end, std::span<const SplitPoint> cuts,
                     const Moves& moves, std::vector<Node>& result);
   std::uint32_t next(std::uint32_t ring, std::uint32_t node) const {
     return node + 1 == begin_[ring + 1] ? begin_[ring] : node + 1;
@@ -120,7 +121,7 @@ class Noding {
   std::vector<Node> nodes_;
   std::vector<std::uint32_t> begin_;
   std::vector<std::uint32_t> rings_;  ///< of each ring: that of the input
-  bool open_ = false;                 ///< chains, see Outline
+  bool open_ = false;                 ///< chains, see CleanRings
 };
 
 }  // namespace medial

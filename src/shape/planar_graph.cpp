@@ -108,24 +108,24 @@ void drop_repeated(Input& input, PlanarGraphReport& report) {
 }
 
 /// Every edge is an open chain of its own, and so is every point.
-Outline outline_of(const Input& input) {
-  Outline outline;
-  outline.open = true;
+CleanRings cleaned_of(const Input& input) {
+  CleanRings cleaned;
+  cleaned.open = true;
   const std::size_t count = 2 * input.edges.size() + input.points.size();
-  outline.points.reserve(count);
-  outline.sources.reserve(count);
-  outline.begin.reserve(input.edges.size() + input.points.size() + 1);
+  cleaned.points.reserve(count);
+  cleaned.sources.reserve(count);
+  cleaned.begin.reserve(input.edges.size() + input.points.size() + 1);
   const bool has_arcs = std::any_of(input.edges.begin(), input.edges.end(),
                                     [](const InputEdge& edge) { return edge.bulge != 0; });
-  if (has_arcs) outline.bulges.reserve(count);
+  if (has_arcs) cleaned.bulges.reserve(count);
   const auto add = [&](Vec2 point, double bulge) {
-    const auto ring = static_cast<std::uint32_t>(outline.begin.size() - 1);
-    outline.sources.push_back({ring, 0});
-    outline.points.push_back(point);
-    if (has_arcs) outline.bulges.push_back(bulge);
+    const auto ring = static_cast<std::uint32_t>(cleaned.begin.size() - 1);
+    cleaned.sources.push_back({ring, 0});
+    cleaned.points.push_back(point);
+    if (has_arcs) cleaned.bulges.push_back(bulge);
   };
   const auto begin = [&] {
-    outline.begin.push_back(static_cast<std::uint32_t>(outline.points.size()));
+    cleaned.begin.push_back(static_cast<std::uint32_t>(cleaned.points.size()));
   };
   for (const InputEdge& edge : input.edges) {
     begin();
@@ -137,7 +137,7 @@ Outline outline_of(const Input& input) {
     add(point.point, 0);
   }
   begin();
-  return outline;
+  return cleaned;
 }
 
 /// The plane graph of an outline's pieces while its faces are found: links between vertices, which
@@ -145,7 +145,7 @@ Outline outline_of(const Input& input) {
 /// its first end to its last one.
 class Faces {
  public:
-  Faces(const Outline& outline, const Sweep& sweep) : outline_(outline), sweep_(sweep) {
+  Faces(const CleanRings& cleaned, const Sweep& sweep) : cleaned_(cleaned), sweep_(sweep) {
     number_places();
     make_links();
   }
@@ -157,7 +157,7 @@ class Faces {
     nest();
   }
 
-  const Outline& outline_;
+  const CleanRings& cleaned_;
   const Sweep& sweep_;
   struct Link {
     std::uint32_t from, to;  ///< vertices of the outline
@@ -181,7 +181,7 @@ class Faces {
 
  private:
   void number_places() {
-    place.resize(outline_.points.size());
+    place.resize(cleaned_.points.size());
     for (std::uint32_t v = 0; v < place.size(); ++v) place[v] = v;
     for (std::size_t i = 0; i < sweep_.touches.size();) {
       std::size_t end = i + 1;
@@ -195,11 +195,11 @@ class Faces {
 
   /// Links in the numbers of the sweep's pieces; those of vertices without an edge join nothing.
   void make_links() {
-    const auto count = static_cast<std::uint32_t>(outline_.points.size());
+    const auto count = static_cast<std::uint32_t>(cleaned_.points.size());
     links.resize(count + sweep_.splits.size(), {no_index, no_index, 0, no_index});
     for (std::uint32_t v = 0; v < count; ++v) {
-      const std::uint32_t to = outline_.next(v);
-      if (to != no_index) links[v] = {v, to, outline_.bulges.empty() ? 0 : outline_.bulges[v], v};
+      const std::uint32_t to = cleaned_.next(v);
+      if (to != no_index) links[v] = {v, to, cleaned_.bulges.empty() ? 0 : cleaned_.bulges[v], v};
     }
     // Splits of one edge come from left to right; each cuts its rightmost piece so far.
     std::vector<std::uint32_t> last;
@@ -212,7 +212,7 @@ class Faces {
       Link& after = links[count + s];
       after = before;
       const bool rightward =
-          lexicographic_less(outline_.points[before.from], outline_.points[before.to]);
+          lexicographic_less(cleaned_.points[before.from], cleaned_.points[before.to]);
       (rightward ? before.to : before.from) = split.vertex;
       (rightward ? after.from : after.to) = split.vertex;
       rightmost = count + s;
@@ -224,7 +224,7 @@ class Faces {
   /// Half-edges that leave each place, counter-clockwise, beginning downward; then what follows
   /// each half-edge in its loop: at its end the next one clockwise from where it came.
   void sort_rays() {
-    begin_.assign(outline_.points.size() + 1, 0);
+    begin_.assign(cleaned_.points.size() + 1, 0);
     for (std::uint32_t h = 0; h < 2 * links.size(); ++h)
       if (is_link(h / 2)) ++begin_[start(h) + 1];
     for (std::size_t v = 0; v + 1 < begin_.size(); ++v) begin_[v + 1] += begin_[v];
@@ -233,10 +233,10 @@ class Faces {
     for (std::uint32_t h = 0; h < 2 * links.size(); ++h)
       if (is_link(h / 2)) leaving_[filled[start(h)]++] = h;
     next.assign(2 * links.size(), no_index);
-    for (std::uint32_t v = 0; v < outline_.points.size(); ++v) {
+    for (std::uint32_t v = 0; v < cleaned_.points.size(); ++v) {
       const auto rays = std::span(leaving_).subspan(begin_[v], begin_[v + 1] - begin_[v]);
       if (rays.size() > 1) {
-        const Vec2 center = outline_.points[v];
+        const Vec2 center = cleaned_.points[v];
         std::stable_sort(rays.begin(), rays.end(), [&](std::uint32_t a, std::uint32_t b) {
           const Ray ra = ray(a), rb = ray(b);
           const bool a_right = lexicographic_less(center, ra.far);
@@ -253,7 +253,7 @@ class Faces {
     const Link& link = links[half_edge / 2];
     Ray result;
     const bool forward = half_edge % 2 == 0;
-    result.far = outline_.points[forward ? link.to : link.from];
+    result.far = cleaned_.points[forward ? link.to : link.from];
     result.bulge = forward ? link.bulge : -link.bulge;
     return result;
   }
@@ -273,12 +273,12 @@ class Faces {
   /// their own. The part lies in the face above the piece that the sweep found below that place,
   /// which began further left.
   void nest() {
-    DisjointSets parts(outline_.points.size());
+    DisjointSets parts(cleaned_.points.size());
     for (const Link& link : links)
       if (link.from != no_index) parts.join(place[link.from], place[link.to]);
     face.assign(loop_start.size(), no_index);
     hole.assign(loop_start.size(), false);
-    std::vector<bool> placed(outline_.points.size());
+    std::vector<bool> placed(cleaned_.points.size());
     struct Outer {
       std::uint32_t loop, below;
     };
@@ -304,7 +304,7 @@ class Faces {
       if (below == no_index) return 0U;
       const Link& link = links[below];
       const bool rightward =
-          lexicographic_less(outline_.points[link.from], outline_.points[link.to]);
+          lexicographic_less(cleaned_.points[link.from], cleaned_.points[link.to]);
       return face[loop[2 * below + (rightward ? 0 : 1)]];
     };
     for (const Outer& part : outer) face[part.loop] = face_above(part.below);
@@ -316,10 +316,35 @@ class Faces {
   std::vector<std::uint32_t> order_;
 };
 
+/// Of a link the result's edge, and whether it is the edge's first and last piece.
+struct Part {
+  std::uint32_t edge = no_index;
+  bool first = false, last = false;
+};
+
+/// Numbers the faces' loops as the result does.
+void add_loops(const Faces& faces, const std::vector<Part>& parts, PlanarGraph& planar_graph) {
+  planar_graph.face_count = faces.face_count;
+  planar_graph.half_edges.reserve(2 * planar_graph.edges.size());
+  for (std::size_t i = 0; i < faces.loop_start.size(); ++i) {
+    planar_graph.loop_begin.push_back(static_cast<std::uint32_t>(planar_graph.half_edges.size()));
+    planar_graph.face.push_back(faces.face[i]);
+    planar_graph.hole.push_back(faces.hole[i]);
+    std::uint32_t h = faces.loop_start[i];
+    do {
+      const Part& part = parts[h / 2];
+      if (h % 2 == 0 ? part.first : part.last)
+        planar_graph.half_edges.push_back(2 * part.edge + h % 2);
+      h = faces.next[h];
+    } while (h != faces.loop_start[i]);
+  }
+  planar_graph.loop_begin.push_back(static_cast<std::uint32_t>(planar_graph.half_edges.size()));
+}
+
 /// Numbers points and edges as the result does: without the places that are there for the sweep
 /// only, where an arc has an upright tangent.
-PlanarGraph assemble(const Input& input, const Faces& faces, const NodedOutline* noded) {
-  const Outline& outline = faces.outline_;
+PlanarGraph assemble(const Input& input, const Faces& faces, const NodedRings* noded) {
+  const CleanRings& cleaned = faces.cleaned_;
   const auto passing = [&](std::uint32_t v) { return noded != nullptr && noded->passing[v]; };
   const auto source_of_ring = [&](std::uint32_t ring) {
     if (noded != nullptr) ring = noded->rings[ring];
@@ -327,24 +352,19 @@ PlanarGraph assemble(const Input& input, const Faces& faces, const NodedOutline*
                                      : input.points[ring - input.edges.size()].source;
   };
   PlanarGraph planar_graph;
-  std::vector<std::uint32_t> point(outline.points.size(), no_index);
+  std::vector<std::uint32_t> point(cleaned.points.size(), no_index);
   const auto add_point = [&](std::uint32_t v) {
     point[v] = static_cast<std::uint32_t>(planar_graph.points.size());
-    planar_graph.points.push_back(noded != nullptr ? noded->originals[v] : outline.points[v]);
-    VertexSource source = source_of_ring(outline.sources[v].ring);
+    planar_graph.points.push_back(noded != nullptr ? noded->originals[v] : cleaned.points[v]);
+    VertexSource source = source_of_ring(cleaned.sources[v].ring);
     // The second vertex of an edge's own chain is the next one of the input's.
-    if (v > outline.begin[outline.sources[v].ring] && noded == nullptr) ++source.vertex;
+    if (v > cleaned.begin[cleaned.sources[v].ring] && noded == nullptr) ++source.vertex;
     planar_graph.point_sources.push_back(source);
   };
   const auto point_at = [&](std::uint32_t v) {
     const std::uint32_t at = faces.place[v];
     if (point[at] == no_index) add_point(at);
     return point[at];
-  };
-  // Of each link the result's edge, and whether it is the edge's first and last piece.
-  struct Part {
-    std::uint32_t edge = no_index;
-    bool first = false, last = false;
   };
   std::vector<Part> parts(faces.links.size());
   for (std::uint32_t l = 0; l < faces.links.size(); ++l) {
@@ -361,23 +381,9 @@ PlanarGraph assemble(const Input& input, const Faces& faces, const NodedOutline*
     parts[last].last = true;
     const std::uint32_t from = point_at(link.from), to = point_at(faces.links[last].to);
     planar_graph.edges.push_back(
-        {from, to, bulge, source_of_ring(outline.sources[link.edge].ring)});
+        {from, to, bulge, source_of_ring(cleaned.sources[link.edge].ring)});
   }
-  planar_graph.face_count = faces.face_count;
-  planar_graph.half_edges.reserve(2 * planar_graph.edges.size());
-  for (std::size_t i = 0; i < faces.loop_start.size(); ++i) {
-    planar_graph.loop_begin.push_back(static_cast<std::uint32_t>(planar_graph.half_edges.size()));
-    planar_graph.face.push_back(faces.face[i]);
-    planar_graph.hole.push_back(faces.hole[i]);
-    std::uint32_t h = faces.loop_start[i];
-    do {
-      const Part& part = parts[h / 2];
-      if (h % 2 == 0 ? part.first : part.last)
-        planar_graph.half_edges.push_back(2 * part.edge + h % 2);
-      h = faces.next[h];
-    } while (h != faces.loop_start[i]);
-  }
-  planar_graph.loop_begin.push_back(static_cast<std::uint32_t>(planar_graph.half_edges.size()));
+  add_loops(faces, parts, planar_graph);
   for (const LonePoint& lone : faces.lone)
     planar_graph.lone_points.push_back({point_at(lone.point), lone.face});
   return planar_graph;
@@ -407,24 +413,24 @@ Error in_terms_of_input(Error error, const Input& input) {
 
 Result<PlanarGraph> build_once(const Input& input, const PlanarGraphOptions& options,
                                PlanarGraphReport& report) {
-  Outline outline = outline_of(input);
-  if (options.node_crossings || options.reach > 0) outline.bulges.resize(outline.points.size());
-  if (!outline.bulges.empty()) {
-    Result<SweptArcs> swept = sweep_arcs(outline, options.node_crossings, options.reach);
+  CleanRings cleaned = cleaned_of(input);
+  if (options.node_crossings || options.reach > 0) cleaned.bulges.resize(cleaned.points.size());
+  if (!cleaned.bulges.empty()) {
+    Result<SweptArcs> swept = sweep_arcs(cleaned, options.node_crossings, options.reach);
     if (!swept) return in_terms_of_input(std::move(swept).error(), input);
     report.touching_places = swept->sweep.place_count;
     report.split_edges = swept->split_edges;
     report.crossings = swept->crossings;
     report.repeated_edges += swept->repeated_edges;
-    Faces faces(swept->noded.outline, swept->sweep);
+    Faces faces(swept->noded.cleaned, swept->sweep);
     faces.run();
     return assemble(input, faces, &swept->noded);
   }
-  Result<Sweep> swept = sweep(outline);
+  Result<Sweep> swept = sweep(cleaned);
   if (!swept) return in_terms_of_input(std::move(swept).error(), input);
   report.touching_places = swept->place_count;
   report.split_edges = swept->splits.size();
-  Faces faces(outline, *swept);
+  Faces faces(cleaned, *swept);
   faces.run();
   return assemble(input, faces, nullptr);
 }

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/compat.h"
 #include "base/predicates.h"
 #include "shape/errors.h"
 #include "shape/monotone_arc.h"
@@ -37,24 +38,45 @@ void renumber_touches(Arrangement& result, const std::vector<std::uint32_t>& new
 
 }  // namespace
 
-Arrangement insert_splits(Outline outline, Sweep sweep) {
-  const auto edge_count = static_cast<std::uint32_t>(outline.points.size());
-  const auto split_count = static_cast<std::uint32_t>(sweep.splits.size());
-  const std::size_t total = outline.points.size() + sweep.splits.size();
+namespace {
 
-  // The splits of each edge one after another, from left to right.
-  std::vector<std::uint32_t> order(split_count);
+/// The splits of each edge one after another, from left to right.
+std::vector<std::uint32_t> in_order_of_edges(const std::vector<Split>& splits) {
+  std::vector<std::uint32_t> order(splits.size());
   std::iota(order.begin(), order.end(), 0U);
   std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return sweep.splits[a].edge < sweep.splits[b].edge;
+    return splits[a].edge < splits[b].edge;
   });
+  return order;
+}
 
+Arrangement with_room(std::size_t vertices, std::size_t rings) {
   Arrangement result;
-  result.points.reserve(total);
-  result.sources.reserve(total);
-  result.begin.reserve(outline.begin.size());
-  result.next.resize(total);
-  result.interior_left.reserve(total);
+  result.points.reserve(vertices);
+  result.sources.reserve(vertices);
+  result.begin.reserve(rings);
+  result.next.resize(vertices);
+  result.interior_left.reserve(vertices);
+  return result;
+}
+
+/// Links each vertex to the next one of its ring.
+void link_rings(Arrangement& arrangement) {
+  const auto& begin = arrangement.begin;
+  std::iota(arrangement.next.begin(), arrangement.next.end(), 1U);
+  for (std::size_t ring = 0; ring + 1 < begin.size(); ++ring)
+    arrangement.next[begin[ring + 1] - 1] = begin[ring];
+}
+
+}  // namespace
+
+Arrangement insert_splits(CleanRings cleaned, Sweep sweep) {
+  const auto edge_count = static_cast<std::uint32_t>(cleaned.points.size());
+  const auto split_count = static_cast<std::uint32_t>(sweep.splits.size());
+  const std::size_t total = cleaned.points.size() + sweep.splits.size();
+  const std::vector<std::uint32_t> order = in_order_of_edges(sweep.splits);
+
+  Arrangement result = with_room(total, cleaned.begin.size());
   result.place_count = sweep.place_count;
   result.touches = std::move(sweep.touches);
   std::vector<std::uint32_t> new_vertex(edge_count);
@@ -62,15 +84,15 @@ Arrangement insert_splits(Outline outline, Sweep sweep) {
 
   std::uint32_t done = 0;  // of the splits
   const auto append = [&](std::uint32_t vertex, std::uint32_t piece, bool rightward) {
-    result.points.push_back(outline.points[vertex]);
-    result.sources.push_back(outline.sources[vertex]);
+    result.points.push_back(cleaned.points[vertex]);
+    result.sources.push_back(cleaned.sources[vertex]);
     result.interior_left.push_back(sweep.interior_above[piece] == rightward);
   };
   for (std::uint32_t e = 0; e < edge_count; ++e) {
     const auto index = static_cast<std::uint32_t>(result.points.size());
-    if (e == outline.begin[result.begin.size()]) result.begin.push_back(index);
+    if (e == cleaned.begin[result.begin.size()]) result.begin.push_back(index);
     new_vertex[e] = index;
-    const bool rightward = lexicographic_less(outline.points[e], outline.points[outline.next(e)]);
+    const bool rightward = lexicographic_less(cleaned.points[e], cleaned.points[cleaned.next(e)]);
     std::uint32_t end = done;
     while (end < split_count && sweep.splits[order[end]].edge == e) ++end;
     const std::uint32_t count = end - done;
@@ -88,19 +110,14 @@ Arrangement insert_splits(Outline outline, Sweep sweep) {
     done = end;
   }
   result.begin.push_back(static_cast<std::uint32_t>(total));
-  std::iota(result.next.begin(), result.next.end(), 1U);
-  for (std::size_t ring = 0; ring + 1 < result.begin.size(); ++ring) {
-    result.next[result.begin[ring + 1] - 1] = result.begin[ring];
-  }
-
+  link_rings(result);
   renumber_touches(result, new_vertex, split_count);
   const auto new_edge = [&](std::uint32_t piece) {
     if (piece == no_index) return no_index;
     if (piece >= edge_count) return new_edge_of_split[piece - edge_count];
     // The leftmost piece is the last one of an edge walked leftward.
-    if (lexicographic_less(outline.points[piece], outline.points[outline.next(piece)])) {
+    if (lexicographic_less(cleaned.points[piece], cleaned.points[cleaned.next(piece)]))
       return new_vertex[piece];
-    }
     const std::uint32_t after =
         piece + 1 < edge_count ? new_vertex[piece + 1] : static_cast<std::uint32_t>(total);
     return after - 1;
@@ -114,9 +131,9 @@ Arrangement insert_splits(Outline outline, Sweep sweep) {
 }
 
 Arrangement arrange_arcs(SweptArcs swept) {
-  NodedOutline& noded = swept.noded;
-  std::vector<double> bulges = noded.outline.bulges;
-  Arrangement result = insert_splits(std::move(noded.outline), std::move(swept.sweep));
+  NodedRings& noded = swept.noded;
+  std::vector<double> bulges = noded.cleaned.bulges;
+  Arrangement result = insert_splits(std::move(noded.cleaned), std::move(swept.sweep));
   result.sources = std::move(noded.sources);
   result.bulges = std::move(bulges);
   result.edge_bulges = std::move(noded.edge_bulges);
@@ -260,11 +277,11 @@ Ray ray_out_of(const Arrangement& arrangement, std::uint32_t edge) {
 }
 
 /// Walks the loop of an edge and notes what it is.
-Loop walk(const Arrangement& arrangement, Loops& result, std::uint32_t start) {
+SplicedLoop walk(const Arrangement& arrangement, SplicedLoops& result, std::uint32_t start) {
   const std::vector<Vec2>& points = arrangement.points;
   const std::vector<VertexSource>& sources = arrangement.sources;
   const auto index = static_cast<std::uint32_t>(result.loops.size());
-  Loop loop{.first_edge = start, .size = 0, .leftmost = tail(arrangement, start)};
+  SplicedLoop loop{.first_edge = start, .size = 0, .leftmost = tail(arrangement, start)};
   VertexSource lowest = sources[loop.leftmost];
   std::uint32_t edge = start;
   std::uint32_t vertex = tail(arrangement, result.successor[edge]);
@@ -294,14 +311,14 @@ Loop walk(const Arrangement& arrangement, Loops& result, std::uint32_t start) {
 
 }  // namespace
 
-Result<Loops> splice(std::span<const Ring> rings, const Arrangement& arrangement) {
-  Loops result;
+Result<SplicedLoops> splice(std::span<const Ring> rings, const Arrangement& arrangement) {
+  SplicedLoops result;
   result.successor = successors_in_rings(arrangement);
   Star star;
   for (auto first = arrangement.touches.begin(); first != arrangement.touches.end();) {
     auto last = first;
     while (last != arrangement.touches.end() && last->place == first->place) ++last;
-    const std::span<const Touch> touches(first, last);
+    const std::span<const Touch> touches = span_between(first, last);
     star.assign(arrangement, touches);
     if (!star.join(result.successor)) {
       // Edges that cross by little more than the tolerance can end in the wrong order.

@@ -21,7 +21,7 @@ struct Arrangement {
   std::vector<Touch> touches;       ///< by increasing place; all vertices there
   std::vector<LeftEnd> left_ends;   ///< in the order of the sweep; `below` is an edge
   std::uint32_t place_count = 0;    ///< of touching places
-  // Of outlines with arcs only (see NodedOutline, which `points` are those of then); else empty.
+  // Of outlines with arcs only (see NodedRings, which `points` are those of then); else empty.
   std::vector<double> bulges;
   std::vector<double> edge_bulges;
   std::vector<Vec2> originals;
@@ -40,7 +40,7 @@ struct Arrangement {
 };
 
 /// Inserts the splits into the rings. O(n + splits log splits).
-Arrangement insert_splits(Outline outline, Sweep sweep);
+Arrangement insert_splits(CleanRings cleaned, Sweep sweep);
 
 /// The same for an outline with arcs, which has no splits any more. O(n).
 Arrangement arrange_arcs(SweptArcs swept);
@@ -63,7 +63,7 @@ Ray ray_from_end(const Arrangement& arrangement, std::uint32_t edge);
 bool turns_left(Vec2 center, const Ray& a, const Ray& b);
 
 /// A closed walk along edges with the interior on the left.
-struct Loop {
+struct SplicedLoop {
   std::uint32_t first_edge = 0;  ///< begins at the vertex of the lowest source
   std::uint32_t size = 0;
   std::uint32_t leftmost = 0;  ///< the leftmost vertex
@@ -72,10 +72,10 @@ struct Loop {
 };
 
 /// The edges joined into loops. An edge with the interior on its right is walked backwards.
-struct Loops {
+struct SplicedLoops {
   std::vector<std::uint32_t> successor;  ///< of each edge, in its loop
   std::vector<std::uint32_t> loop_of;    ///< of each edge
-  std::vector<Loop> loops;
+  std::vector<SplicedLoop> loops;
 };
 
 /// The vertex that an edge begins with when walked with the interior on the left.
@@ -92,6 +92,6 @@ void rays_around(const Arrangement& arrangement, std::span<const Touch> touches,
 /// wedge of the interior: every loop is the border of one component of the open interior, and two
 /// loops of one component have no point in common. O(n + t log t) for t touching vertices.
 /// Error: crossing, where a ring with a role crosses another ring in a vertex.
-Result<Loops> splice(std::span<const Ring> rings, const Arrangement& arrangement);
+Result<SplicedLoops> splice(std::span<const Ring> rings, const Arrangement& arrangement);
 
 }  // namespace medial

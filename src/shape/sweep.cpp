@@ -10,6 +10,7 @@
 #include <string>
 #include <utility>
 
+#include "base/compat.h"
 #include "base/predicates.h"
 #include "shape/errors.h"
 
@@ -56,7 +57,7 @@ Vec2 crossing_point(const ActiveEdge& a, const ActiveEdge& b) {
 /// An integer that grows with the number. Requires a finite number that is not -0.
 std::uint64_t sort_key(double x) {
   constexpr std::uint64_t sign = std::uint64_t{1} << 63;
-  const auto bits = std::bit_cast<std::uint64_t>(x);
+  const auto bits = bit_cast<std::uint64_t>(x);
   return bits & sign ? ~bits : bits | sign;
 }
 
@@ -102,10 +103,10 @@ namespace {
 /// crossing, so they stay neighbours until one of them ends, on the wrong side of the other.
 class Sweeper {
  public:
-  explicit Sweeper(const Outline& outline) : outline_(outline) {}
+  explicit Sweeper(const CleanRings& cleaned) : cleaned_(cleaned) {}
 
   Result<Sweep> run() {
-    const std::vector<Vec2>& points = outline_.points;
+    const std::vector<Vec2>& points = cleaned_.points;
     active_.resize(points.size());
     found_.interior_above.resize(points.size());
     const std::vector<std::uint32_t> order = order_of_events(points);
@@ -134,10 +135,10 @@ class Sweeper {
   /// The common case: one edge ends where another begins, and nothing else is there. Replaces the
   /// one by the other; false, and nothing done, if the case is another.
   bool pass_through(std::uint32_t vertex, Vec2 point) {
-    const std::uint32_t previous = outline_.previous(vertex), next = outline_.next(vertex);
+    const std::uint32_t previous = cleaned_.previous(vertex), next = cleaned_.next(vertex);
     if (previous == no_index || next == no_index) return false;
-    const Vec2 a = outline_.points[previous];
-    const Vec2 b = outline_.points[next];
+    const Vec2 a = cleaned_.points[previous];
+    const Vec2 b = cleaned_.points[next];
     const bool forward = lexicographic_less(a, point);
     if (forward == lexicographic_less(b, point)) return false;
 
@@ -166,9 +167,9 @@ class Sweeper {
       }
     };
     for (const std::uint32_t vertex : group) {
-      const std::uint32_t previous = outline_.previous(vertex), next = outline_.next(vertex);
-      if (previous != no_index) visit(previous, outline_.points[previous]);
-      if (next != no_index) visit(vertex, outline_.points[next]);
+      const std::uint32_t previous = cleaned_.previous(vertex), next = cleaned_.next(vertex);
+      if (previous != no_index) visit(previous, cleaned_.points[previous]);
+      if (next != no_index) visit(vertex, cleaned_.points[next]);
     }
 
     // The edges that end in or pass through the point are neighbours, if none has crossed another.
@@ -277,15 +278,15 @@ class Sweeper {
   /// Names the edge that comes first in the input in the place, the other in the text.
   Error error_of_edges(ErrorCode code, const char* verb, std::uint32_t a, std::uint32_t b,
                        Vec2 point) const {
-    const VertexSource other = outline_.sources[std::max(a, b)];
+    const VertexSource other = cleaned_.sources[std::max(a, b)];
     return error_at(code,
                     std::string("the edge from this vertex on ") + verb + " the edge from vertex " +
                         std::to_string(other.vertex) + " of ring " + std::to_string(other.ring) +
                         " on",
-                    outline_.sources[std::min(a, b)], point);
+                    cleaned_.sources[std::min(a, b)], point);
   }
 
-  const Outline& outline_;
+  const CleanRings& cleaned_;
   Sweep found_;
   std::deque<ActiveEdge> pool_;
   std::vector<ActiveEdge*> unused_;
@@ -299,6 +300,6 @@ class Sweeper {
 
 }  // namespace
 
-Result<Sweep> sweep(const Outline& outline) { return Sweeper(outline).run(); }
+Result<Sweep> sweep(const CleanRings& cleaned) { return Sweeper(cleaned).run(); }
 
 }  // namespace medial

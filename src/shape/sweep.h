@@ -44,6 +44,6 @@ std::vector<std::uint32_t> order_of_events(const std::vector<Vec2>& points);
 /// of an edge the interior lies, by the even-odd rule. Exact. O(n log n) for n vertices, whatever
 /// their position: an edge that crosses none can only be split by a vertex, and a vertex splits one
 /// at most. Errors: crossing (the insides of two edges cross), overlap (two edges share a stretch).
-Result<Sweep> sweep(const Outline& outline);
+Result<Sweep> sweep(const CleanRings& cleaned);
 
 }  // namespace medial

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "medial/axis.h"
+#include "medial/disk.h"
 #include "site/site.h"
 #include "site/tangent_disk.h"
 

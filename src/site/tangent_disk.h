@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "medial/axis.h"
+#include "medial/disk.h"
 #include "site/site.h"
 
 namespace medial::site {

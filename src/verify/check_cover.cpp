@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "axis/curve.h"
+#include "base/compat.h"
 #include "medial/query.h"
 #include "verify/checks.h"
 
@@ -241,13 +242,13 @@ class Sum {
 };
 
 /// Where the disk of an edge's end touches one of its sites.
-struct Contact {
+struct FootPoint {
   Vec2 foot;
   double at = 0;     ///< of an arc: length along it
   double slack = 0;  ///< how far rounding may move it along the boundary
 };
 
-Contact contact_of(const Problem& problem, const Site& site, const Disk& disk) {
+FootPoint foot_point_of(const Problem& problem, const Site& site, const Disk& disk) {
   if (site.kind != SiteKind::arc || site.start == site.end) return {foot(site, disk.center)};
   const BoundaryEdge arc = edge_of(site);
   const double at = foot_at(arc, disk.center);
@@ -255,7 +256,7 @@ Contact contact_of(const Problem& problem, const Site& site, const Disk& disk) {
 }
 
 /// The area between the boundary and the chord from one contact forward to another.
-double area_beside(const Site& site, const Contact& from, const Contact& to) {
+double area_beside(const Site& site, const FootPoint& from, const FootPoint& to) {
   if (site.kind != SiteKind::arc || from.foot == to.foot) return 0;
   const double angle = (to.at - from.at) * curvature(edge_of(site));
   return area_beside_chord({from.foot, to.foot, std::tan(0.25 * angle)});
@@ -266,8 +267,8 @@ double area_beside(const Site& site, const Contact& from, const Contact& to) {
 struct Sides {
   double left = 0, right = 0;
 };
-using Contacts = std::array<std::array<Contact, 2>, 2>;  ///< by side (left, right) and end
-Sides swept(const MedialAxis& axis, const Edge& edge, const Contacts& contacts) {
+using FootPoints = std::array<std::array<FootPoint, 2>, 2>;  ///< by side (left, right) and end
+Sides swept(const MedialAxis& axis, const Edge& edge, const FootPoints& contacts) {
   const Curve curve = curve_of(axis, edge);
   const Vec2 a = curve.origin, b = curve.end;
   const auto& [left, right] = contacts;
@@ -292,10 +293,10 @@ struct Spoke {
 bool all_paired(std::vector<Spoke>& spokes) {
   // By their bits feet have an order, whatever numbers they are; -0 becomes 0.
   const auto place = [](const Spoke& spoke) {
-    return std::pair(std::bit_cast<std::uint64_t>(spoke.foot.x + 0.0),
-                     std::bit_cast<std::uint64_t>(spoke.foot.y + 0.0));
+    return std::pair(bit_cast<std::uint64_t>(spoke.foot.x + 0.0),
+                     bit_cast<std::uint64_t>(spoke.foot.y + 0.0));
   };
-  std::ranges::sort(spokes, {}, place);
+  ranges::sort(spokes, {}, place);
   std::int64_t unpaired = 0;
   for (std::size_t i = 0; i < spokes.size(); ++i) {
     unpaired += spokes[i].counter_clockwise ? 1 : -1;
@@ -336,7 +337,7 @@ Extent extent_of(const Problem& problem) {
 /// An edge's areas, and where its disks touch.
 struct Swept {
   Sides sides;
-  Contacts contacts;
+  FootPoints contacts;
 };
 std::vector<Swept> swept_by_edges(const Problem& problem) {
   const MedialAxis& axis = problem.axis;
@@ -346,7 +347,7 @@ std::vector<Swept> swept_by_edges(const Problem& problem) {
     for (std::size_t side = 0; side < 2; ++side)
       for (std::size_t end = 0; end < 2; ++end)
         edges[i].contacts[side][end] =
-            contact_of(problem, axis.sites[edge.site[side]], problem.disk(edge.node[end]));
+            foot_point_of(problem, axis.sites[edge.site[side]], problem.disk(edge.node[end]));
     edges[i].sides = swept(axis, edge, edges[i].contacts);
   });
   return edges;

@@ -36,7 +36,17 @@ struct Worst {
   }
 };
 
-/// More points inside an edge than this nobody gets.
+/// Fails the certificate if something of `which` parts is `what`, over a limit in words.
+void report_worst(const Worst& worst, const char* what, const char* which, const std::string& limit,
+                  Certificate& certificate) {
+  if (worst.over > 0)
+    certificate.failures.push_back(
+        sentence("%llu %s; the worst by %.3g at %s %zu near (%.17g, %.17g)%s.",
+                 static_cast<unsigned long long>(worst.over), what, worst.value, which, worst.index,
+                 worst.where.x, worst.where.y, limit.c_str()));
+}
+
+/// At most so many points inside an edge are checked.
 constexpr int most_samples = 1 << 20;
 
 struct Findings {
@@ -147,12 +157,8 @@ void check_sampled_disks(const Problem& problem, Certificate& certificate) {
   certificate.worst_y = nodes.residual.where.y;
   certificate.largest_intrusion = nodes.intrusion.value;
   const Worst& worst = nodes.residual;
-  if (worst.over > 0)
-    certificate.failures.push_back(sentence(
-        "%llu nodes have a radius that is not the distance to the boundary; the worst by %.3g at "
-        "node %zu near (%.17g, %.17g), over half a pixel's diagonal, %.3g.",
-        static_cast<unsigned long long>(worst.over), worst.value, worst.index, worst.where.x,
-        worst.where.y, problem.tolerance));
+  report_worst(worst, "nodes have a radius that is not the distance to the boundary", "node",
+               sentence(", over half a pixel's diagonal, %.3g", problem.tolerance), certificate);
 }
 
 void check_disks(const Problem& problem, int samples_per_edge, Certificate& certificate) {
@@ -194,13 +200,9 @@ void check_disks(const Problem& problem, int samples_per_edge, Certificate& cert
   certificate.largest_contact_gap = edges.contact.value;
   certificate.worst_legality = edges.legality.value;
 
-  auto& failures = certificate.failures;
+  const std::string limit = sentence(", over %.3g", tolerance);
   const auto report = [&](const Worst& worst, const char* what, const char* which) {
-    if (worst.over > 0)
-      failures.push_back(
-          sentence("%llu %s; the worst by %.3g at %s %zu near (%.17g, %.17g), over %.3g.",
-                   static_cast<unsigned long long>(worst.over), what, worst.value, which,
-                   worst.index, worst.where.x, worst.where.y, tolerance));
+    report_worst(worst, what, which, limit, certificate);
   };
   report(nodes.intrusion, "nodes have disks that reach over the boundary", "node");
   report(nodes.residual, "nodes have a radius that is not the distance to the boundary", "node");
@@ -210,13 +212,9 @@ void check_disks(const Problem& problem, int samples_per_edge, Certificate& cert
          "points inside edges have a radius that is not the distance to the boundary", "edge");
   report(edges.contact, "disks of edges do not touch a site of their edge", "edge");
   report(edges.turned, "edges have their sites on the wrong sides", "edge");
-  if (edges.legality.over > 0)
-    failures.push_back(
-        sentence("%llu points inside edges break Shaked and Bruckstein's conditions on a branch; "
-                 "the worst by "
-                 "%.3g at edge %zu near (%.17g, %.17g).",
-                 static_cast<unsigned long long>(edges.legality.over), edges.legality.value,
-                 edges.legality.index, edges.legality.where.x, edges.legality.where.y));
+  report_worst(edges.legality,
+               "points inside edges break Shaked and Bruckstein's conditions on a branch", "edge",
+               "", certificate);
 }
 
 }  // namespace medial::verify_detail

@@ -3,9 +3,9 @@
 #include <numeric>
 
 #include "base/disjoint_sets.h"
-#include "base/limits.h"
 #include "base/predicates.h"
 #include "base/tolerance.h"
+#include "shape/limits.h"
 #include "verify/checks.h"
 
 namespace medial::verify_detail {
@@ -13,7 +13,7 @@ namespace {
 
 bool finite(Vec2 p) { return std::isfinite(p.x) && std::isfinite(p.y); }
 
-/// Counts offences and keeps the first: one sentence tells of all.
+/// Counts offences and keeps the first: one sentence is about all.
 struct Offences {
   std::size_t count = 0;
   std::size_t first = 0;
@@ -121,6 +121,25 @@ bool check_shape(const Shape& shape, Certificate& certificate) {
   return valid;
 }
 
+namespace {
+
+/// What an axis says of its own accuracy.
+void check_claims(const Shape& shape, const MedialAxis& axis, Certificate& certificate) {
+  constexpr double largest_relative = 1e-3;
+  const Box box = bounding_box(shape);
+  if (!(axis.resolution >= 0 && axis.resolution <= diagonal(box)))
+    certificate.failures.push_back(
+        sentence("The axis claims pixels of side %.3g, larger than the shape.", axis.resolution));
+  // A tolerance is at most what a user may ask compute() for, or what the coordinates' spacing
+  // asks.
+  if (!(axis.tolerance >= 0 &&
+        axis.tolerance <= std::max(largest_relative * diagonal(box), 4 * spacing_in(box))))
+    certificate.failures.push_back(sentence(
+        "The axis claims a tolerance of %.3g, which no engine computes with.", axis.tolerance));
+}
+
+}  // namespace
+
 bool check_values(const Shape& shape, const MedialAxis& axis, Certificate& certificate) {
   const std::size_t before_count = certificate.failures.size();
   const auto report = [&](const Offences& offences, const char* what, const char* which) {
@@ -169,18 +188,7 @@ bool check_values(const Shape& shape, const MedialAxis& axis, Certificate& certi
   report(twice, "edges lie between a site and itself", "edge");
   report(curves, "edges have a control point that is not finite", "edge");
   report(weights, "edges have a weight that is not finite or not positive", "edge");
-
-  constexpr double largest_relative = 1e-3;
-  const Box box = bounding_box(shape);
-  if (!(axis.resolution >= 0 && axis.resolution <= diagonal(box)))
-    certificate.failures.push_back(
-        sentence("The axis claims pixels of side %.3g, larger than the shape.", axis.resolution));
-  // A tolerance is at most what a user may ask compute() for, or what the coordinates' spacing
-  // asks.
-  if (!(axis.tolerance >= 0 &&
-        axis.tolerance <= std::max(largest_relative * diagonal(box), 4 * spacing_in(box))))
-    certificate.failures.push_back(sentence(
-        "The axis claims a tolerance of %.3g, which no engine computes with.", axis.tolerance));
+  check_claims(shape, axis, certificate);
   return certificate.failures.size() == before_count;
 }
 

@@ -53,10 +53,10 @@ std::string sentence(const char* format, ...) __attribute__((format(printf, 1, 2
 constexpr std::size_t block_size = 1024;
 
 /// Runs a check on so many threads; what it throws is a failure, and none at all a pass.
-template <class OneCertificate, class Run>
-void certify(int threads, OneCertificate& certificate, const Run& run) {
+template <class OneCertificate, class Check>
+void certify(int threads, OneCertificate& certificate, const Check& check) {
   try {
-    on_threads(threads, run);
+    on_threads(threads, check);
   } catch (const std::exception& failure) {
     certificate.failures.push_back(
         sentence("The check could not be finished: %s.", failure.what()));

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "base/in_flight.h"
-#include "base/limits.h"
+#include "shape/limits.h"
 #include "base/predicates.h"
 #include "medial/volume.h"
 #include "volume/face_tree.h"

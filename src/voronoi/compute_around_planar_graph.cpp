@@ -4,13 +4,12 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <stdexcept>
 #include <utility>
 #include <vector>
 
 #include "base/box_tree.h"
+#include "base/compat.h"
 #include "base/in_flight.h"
-#include "base/limits.h"
 #include "base/numbers.h"
 #include "base/spatial_order.h"
 #include "base/threads.h"
@@ -22,6 +21,7 @@
 #include "methods/disks/disks.h"
 #include "shape/around.h"
 #include "shape/exterior.h"
+#include "shape/limits.h"
 #include "voronoi/axis_around.h"
 #include "voronoi/long_edges.h"
 #include "voronoi/planar_graph_diagram.h"
@@ -30,20 +30,20 @@
 namespace medial {
 namespace {
 
-/// The frame that a planar graph's diagram is cut off at; an error where it does not hold the
+/// The enclosure that a planar graph's diagram is cut off at; an error where it does not hold the
 /// planar graph.
-Result<Box> frame_for(const PlanarGraph& planar_graph, const Options& options,
-                      const std::optional<Box>& frame) {
+Result<Box> enclosure_for(const PlanarGraph& planar_graph, const Options& options,
+                          const std::optional<Box>& enclosure) {
   constexpr double most = 1e6;  // of the planar graph's size, or of its coordinates'
   const Box box = bounding_box(planar_graph);
   const double size = diagonal(box);
   const double largest = std::max(largest_coordinate_in(box), size);
-  if (frame) {
-    const bool holds = frame->low.x < box.low.x && frame->low.y < box.low.y &&
-                       frame->high.x > box.high.x && frame->high.y > box.high.y;
-    if (!holds || !(diagonal(*frame) <= most * std::max(largest, 1.0)))
+  if (enclosure) {
+    const bool holds = enclosure->low.x < box.low.x && enclosure->low.y < box.low.y &&
+                       enclosure->high.x > box.high.x && enclosure->high.y > box.high.y;
+    if (!holds || !(diagonal(*enclosure) <= most * std::max(largest, 1.0)))
       return Error{ErrorCode::invalid_option, "the frame must hold all of the input inside", {}};
-    return *frame;
+    return *enclosure;
   }
   double margin = margin_for(box, options.margin);
   if (margin == 0) margin = largest > 0 ? 0.5 * largest : 1;
@@ -65,11 +65,10 @@ std::optional<Error> refuse(const PlanarGraph& planar_graph, const Options& opti
 
 /// The axis, but for its edges, which stand apart, and its sites.
 template <class E>
-Result<MedialAxis> run_around(const Shape& surroundings, const Options& options,
-                              std::vector<E>& edges, sites::SiteNumbers& numbers) {
-  MedialAxis axis = disks::run_two_sided(surroundings, options, edges, numbers);
-  if (is_cancelled(options)) return Error{ErrorCode::cancelled, "cancelled", {}};
-  if (!has_right_topology(surroundings, axis.nodes.size(), edges.size()))
+Result<MedialAxis> run_around(const Problem& surroundings, std::vector<E>& edges) {
+  MedialAxis axis = disks::run_two_sided(surroundings, edges);
+  if (surroundings.is_cancelled()) return Error{ErrorCode::cancelled, "cancelled", {}};
+  if (!has_right_topology(surroundings.shape, axis.nodes.size(), edges.size()))
     return Error{ErrorCode::internal,
                  "the diagram is not connected as it should be: please report this input",
                  {}};
@@ -80,14 +79,16 @@ Result<MedialAxis> run_around(const Shape& surroundings, const Options& options,
 /// walk loses its way among flat ones, as the options have it: spokes are off by less. Of shapes
 /// with arcs, the axis has its sites.
 Result<MedialAxis> run_with_corners(const Shape& surroundings, const Options& options,
-                                    std::vector<VoronoiEdge>& edges, sites::SiteNumbers& numbers) {
-  if (surroundings.bulges.empty()) return run_around(surroundings, options, edges, numbers);
+                                    std::vector<VoronoiEdge>& edges, site::SiteNumbers& numbers) {
   const auto run = [&](const Options& own) {
     edges.clear();
-    auto axis = run_around(surroundings, own, edges, numbers);
-    if (axis) axis->sites = sites::result_sites(surroundings, numbers);
+    Problem problem(surroundings, own);
+    auto axis = run_around(problem, edges);
+    if (axis && !surroundings.bulges.empty()) axis->sites = problem.result_sites();
+    numbers = std::move(problem).numbers();
     return axis;
   };
+  if (surroundings.bulges.empty()) return run(options);
   Options all = options;
   all.corner_angle = 0;
   auto axis = run(all);
@@ -95,7 +96,7 @@ Result<MedialAxis> run_with_corners(const Shape& surroundings, const Options& op
     return disks::touches_its_sites(*axis, edge, 0x1p20 * axis->tolerance);
   };
   const bool misled =
-      axis ? !std::ranges::all_of(edges, touches) : axis.error().code == ErrorCode::internal;
+      axis ? !ranges::all_of(edges, touches) : axis.error().code == ErrorCode::internal;
   return misled ? run(options) : std::move(axis);
 }
 
@@ -144,7 +145,7 @@ void for_each_group(const PlanarGraph& planar_graph, const std::vector<std::uint
 Error error_of_close_point(const PlanarGraph& planar_graph, std::uint32_t point) {
   const VertexSource source = planar_graph.point_sources[point];
   Error error{ErrorCode::unsupported,
-              "a point is nearer to another one, or to an edge, than rounding tells apart",
+              "a point is nearer to another one, or to an edge, than rounding can separate",
               {}};
   error.place.ring = source.ring;
   error.place.vertex = source.vertex;
@@ -209,15 +210,15 @@ Result<MedialAxis> axis_around(const PlanarGraph& planar_graph, const Shape& sur
   try {
     if (auto error = refuse(planar_graph, options)) return std::move(*error);
     if (auto error = beyond_limits(surroundings)) return std::move(*error);
-    const double tolerance = tolerance_for(bounding_box(surroundings), options.tolerance);
+    const Problem problem(surroundings, options);
+    const double tolerance = problem.tolerance;
     if (auto error = too_close(planar_graph, told_apart * tolerance)) return std::move(*error);
     std::vector<Edge> edges;
-    sites::SiteNumbers numbers;
-    auto axis = on_threads(options.threads,
-                           [&] { return run_around(surroundings, options, edges, numbers); });
+    auto axis = on_threads(options.threads, [&] { return run_around(problem, edges); });
     if (!axis) return explained(std::move(axis).error(), planar_graph, tolerance);
-    axis->sites = sites::result_sites(surroundings, numbers);
-    voronoi::split_long_edges(*axis, edges, true);
+    axis->sites = problem.result_sites();
+    if (Status split = voronoi::split_long_edges(*axis, edges, true); !split)
+      return std::move(split).error();
     axis->edges = std::move(edges);
     return axis;
   } catch (...) {
@@ -226,19 +227,20 @@ Result<MedialAxis> axis_around(const PlanarGraph& planar_graph, const Shape& sur
 }
 
 Result<VoronoiDiagram> voronoi_diagram(const PlanarGraph& planar_graph, const Options& options,
-                                       const std::optional<Box>& frame) {
+                                       const std::optional<Box>& enclosure) {
   try {
     if (auto error = refuse(planar_graph, options)) return std::move(*error);
-    auto box = frame_for(planar_graph, options, frame);
+    auto box = enclosure_for(planar_graph, options, enclosure);
     if (!box) return std::move(box).error();
-    const Box far = voronoi::far_frame(*box);
+    const Box far = voronoi::far_enclosure(*box);
     if (auto error = beyond_limits(planar_graph, far)) return std::move(*error);
     const double tolerance = tolerance_for(far, options.tolerance);
 
     Result<VoronoiDiagram> diagram = on_threads(options.threads, [&]() -> Result<VoronoiDiagram> {
       if (planar_graph.edges.empty()) {
-        VoronoiDiagram of_points = voronoi::diagram_of_points(planar_graph, options, *box);
-        if (is_cancelled(options)) return Error{ErrorCode::cancelled, "cancelled", {}};
+        auto of_points = voronoi::diagram_of_points(planar_graph, options, *box);
+        if (options.cancel != nullptr && options.cancel->load())
+          return Error{ErrorCode::cancelled, "cancelled", {}};
         return of_points;
       }
       std::optional<Error> close;
@@ -248,16 +250,14 @@ Result<VoronoiDiagram> voronoi_diagram(const PlanarGraph& planar_graph, const Op
       if (close) return std::move(*close);
 
       std::vector<VoronoiEdge> edges;
-      sites::SiteNumbers numbers;
+      site::SiteNumbers numbers;
       auto axis = run_with_corners(shape, options, edges, numbers);
       if (!axis) return std::move(axis).error();
-      if (!shape.bulges.empty()) voronoi::split_long_edges(*axis, edges, false);
-      try {
-        return voronoi::diagram_of(planar_graph, shape, numbers, std::move(axis).value(),
-                                   std::move(edges), *box);
-      } catch (const std::runtime_error& error) {
-        return Error{ErrorCode::internal, error.what(), {}};
-      }
+      if (!shape.bulges.empty())
+        if (Status split = voronoi::split_long_edges(*axis, edges, false); !split)
+          return std::move(split).error();
+      return voronoi::diagram_of(planar_graph, shape, numbers, std::move(axis).value(),
+                                 std::move(edges), *box);
     });
 
     if (!diagram) return explained(std::move(diagram).error(), planar_graph, tolerance);

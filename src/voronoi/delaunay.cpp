@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/compat.h"
 #include "base/memory.h"
 #include "base/predicates.h"
 #include "base/random.h"
@@ -149,7 +150,7 @@ class Insertion {
   void find_cavity(Vec2 p, std::uint32_t first) {
     std::size_t inside = 1, sides = 0, open = 3;
     cavity_[0] = first;
-    std::ranges::copy(triangles_[first].twin, open_.begin());
+    ranges::copy(triangles_[first].twin, open_.begin());
     for (std::size_t i = 0; i < open; ++i) {
       const std::uint32_t beyond = open_[i], side = beyond & 3U;
       const Delaunay::Triangle& t = triangles_[beyond >> 2U];

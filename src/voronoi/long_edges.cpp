@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
+#include <optional>
 
 #include "axis/sites.h"
 #include "base/arc.h"
+#include "base/compat.h"
 #include "site/bisector.h"
 #include "site/site.h"
 #include "site/tangent_disk.h"
@@ -22,19 +23,21 @@ bool is_vertex(const MedialAxis& axis, std::uint32_t own) {
 /// place.
 site::Site seen_from(const Site& site, Vec2 origin, Vec2 near) {
   if (site.kind == SiteKind::vertex) return site::make_vertex(site.start - origin);
-  const sites::Pieces pieces = sites::pieces_of(site.start - origin, site.end - origin, site.bulge);
+  const site::Pieces pieces = site::pieces_of(site.start - origin, site.end - origin, site.bulge);
   const bool first = pieces.count == 1 || site::squared_distance(pieces.first(), near) <=
                                               site::squared_distance(pieces.last(), near);
   return first ? pieces.first() : pieces.last();
 }
 
-/// The disk through a point that grows in a direction until it touches an arc.
-Disk disk_towards(const MedialAxis& axis, Vec2 point, Vec2 direction, std::uint32_t own) {
+/// The disk through a point that grows in a direction until it touches an arc, if rounding leaves
+/// one.
+std::optional<Disk> disk_towards(const MedialAxis& axis, Vec2 point, Vec2 direction,
+                                 std::uint32_t own) {
   const Site& site = axis.sites[own];
-  const sites::Pieces pieces = sites::pieces_of(site.start - point, site.end - point, site.bulge);
+  const site::Pieces pieces = site::pieces_of(site.start - point, site.end - point, site.bulge);
   const double radius = site::tangent_radius({0, 0}, direction, pieces.first());
-  if (!std::isfinite(radius)) throw std::runtime_error("a Voronoi edge has no middle");
-  return {point + radius * direction, radius};
+  if (!std::isfinite(radius)) return std::nullopt;
+  return Disk{point + radius * direction, radius};
 }
 
 template <class E>
@@ -63,9 +66,9 @@ void take_control(const Site& left, const Site& right, ConicEdge& part) {
 }
 
 template <class E>
-void split_long_edges(MedialAxis& axis, std::vector<E>& edges, bool parabolas) {
+Status split_long_edges(MedialAxis& axis, std::vector<E>& edges, bool parabolas) {
   const auto is_arc = [](const Site& site) { return site.kind == SiteKind::arc; };
-  if (!parabolas && std::ranges::none_of(axis.sites, is_arc)) return;
+  if (!parabolas && ranges::none_of(axis.sites, is_arc)) return success();
   const std::size_t count = edges.size();
   for (std::size_t e = 0; e < count; ++e) {
     const E edge = edges[e];
@@ -88,16 +91,18 @@ void split_long_edges(MedialAxis& axis, std::vector<E>& edges, bool parabolas) {
       const double angle = sign * turn * k / pieces, size = norm(from);
       const Vec2 direction = (1 / size) * turned(from, std::cos(angle), std::sin(angle));
       const auto node = static_cast<std::uint32_t>(axis.nodes.size());
-      axis.nodes.push_back({disk_towards(axis, point, direction, edge.site[1 - side]),
-                            axis.nodes[edge.node[0]].component, NodeKind::site_change});
+      const auto disk = disk_towards(axis, point, direction, edge.site[1 - side]);
+      if (!disk) return Error{ErrorCode::internal, "a Voronoi edge has no middle", {}};
+      axis.nodes.push_back({*disk, axis.nodes[edge.node[0]].component, NodeKind::site_change});
       add_piece(axis, edges, e, k == 1, edge, last, node);
       last = node;
     }
     if (pieces > 1) add_piece(axis, edges, e, false, edge, last, edge.node[1]);
   }
+  return success();
 }
 
-template void split_long_edges(MedialAxis&, std::vector<Edge>&, bool);
-template void split_long_edges(MedialAxis&, std::vector<VoronoiEdge>&, bool);
+template Status split_long_edges(MedialAxis&, std::vector<Edge>&, bool);
+template Status split_long_edges(MedialAxis&, std::vector<VoronoiEdge>&, bool);
 
 }  // namespace medial::voronoi

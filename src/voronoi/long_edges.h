@@ -3,7 +3,8 @@
 #include <vector>
 
 #include "medial/axis.h"
-#include "medial/voronoi.h"
+#include "medial/diagram.h"
+#include "medial/error.h"
 #include "voronoi/clip.h"
 
 namespace medial::voronoi {
@@ -12,10 +13,10 @@ namespace medial::voronoi {
 /// VoronoiEdge) that stand apart from it. Around a point next to an arc an ellipse can be more than
 /// half of one, which no rational quadratic with a positive weight is: pieces that turn by no more
 /// than a quarter around the point are. A parabola can turn by almost all around its focus, too; it
-/// is divided where `parabolas` asks for that. O(edges). Throws std::runtime_error where rounding
-/// leaves no disk in between.
+/// is divided where `parabolas` asks for that. O(edges). Error: internal, where rounding leaves
+/// no disk in between.
 template <class E>
-void split_long_edges(MedialAxis& axis, std::vector<E>& edges, bool parabolas);
+Status split_long_edges(MedialAxis& axis, std::vector<E>& edges, bool parabolas);
 
 /// Sets the control point of an edge between the sites on its left and right, or of a part of one,
 /// from its ends. (A part of a long curve would have that one's rounding.)

@@ -2,17 +2,18 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <memory>
 #include <numbers>
 #include <span>
-#include <stdexcept>
 #include <utility>
 
 #include "axis/node_kinds.h"
 #include "axis/sites.h"
 #include "base/arc.h"
+#include "base/compat.h"
 #include "base/fill_gaps.h"
 #include "base/local_frame.h"
 #include "base/memory.h"
@@ -22,7 +23,7 @@
 #include "site/site.h"
 #include "site/tangent_disk.h"
 #include "voronoi/clip.h"
-#include "voronoi/frame_cut.h"
+#include "voronoi/enclosure_cut.h"
 #include "voronoi/long_edges.h"
 
 namespace medial::voronoi {
@@ -41,31 +42,32 @@ constexpr std::uint32_t largest_edge = none >> 1U;
 class Assembly {
  public:
   Assembly(const PlanarGraph& planar_graph, const Shape& shape, MedialAxis& axis,
-           std::vector<VoronoiEdge>& edges, const Box& frame)
+           std::vector<VoronoiEdge>& edges, const Box& enclosure)
       : planar_graph_(planar_graph),
         shape_(shape),
         axis_(axis),
-        frame_(frame),
+        enclosure_(enclosure),
         point_count_(static_cast<std::uint32_t>(planar_graph.points.size())),
         edge_count_(static_cast<std::uint32_t>(edges.size())),
-        cut_(planar_graph, frame, axis.tolerance, diagram_) {
+        cut_(planar_graph, enclosure, axis.tolerance, diagram_) {
     diagram_.nodes = std::move(axis.nodes);
     diagram_.edges = std::move(edges);
   }
 
-  VoronoiDiagram run(const sites::SiteNumbers& numbers) {
+  Result<VoronoiDiagram> run(const site::SiteNumbers& numbers) {
+    const auto broken = [](const char* text) { return Error{ErrorCode::internal, text, {}}; };
     make_own_sites(numbers);
-    make_chains();
-    find_ends();
-    make_spokes();
+    if (!make_chains()) return broken("a Voronoi face is not connected");
+    if (!find_ends()) return broken("a Voronoi face has no edge");
+    if (!make_spokes()) return broken("a Voronoi face has a gap");
     make_nodes();
     cut_off();
-    cut_.close();
+    if (Status closed = cut_.close(); !closed) return std::move(closed).error();
     in_parallel([&] { make_faces(); }, [&] { set_kinds(diagram_); });
     diagram_.method = std::move(axis_.method);
     diagram_.tolerance = axis_.tolerance;
     diagram_.statistics = axis_.statistics;
-    diagram_.frame = frame_;
+    diagram_.frame = enclosure_;
     return std::move(diagram_);
   }
 
@@ -79,16 +81,18 @@ class Assembly {
     std::uint32_t point, node;
     std::array<std::uint32_t, 2> site;  ///< of the diagram
   };
-  bool is_frame(std::uint32_t own) const { return own_[own] == none; }
-  bool is_vertex(std::uint32_t own) const { return !is_frame(own) && (own_[own] & edge_side) == 0; }
+  bool is_enclosure(std::uint32_t own) const { return own_[own] == none; }
+  bool is_vertex(std::uint32_t own) const {
+    return !is_enclosure(own) && (own_[own] & edge_side) == 0;
+  }
   std::uint32_t half_edge(std::uint32_t own) const { return own_[own] & ~edge_side; }
   /// The site of the diagram.
   std::uint32_t site_of(std::uint32_t own) const {
-    if (is_frame(own)) return no_site;
+    if (is_enclosure(own)) return no_site;
     return is_vertex(own) ? own_[own] : point_count_ + half_edge(own) / 2;
   }
 
-  void make_own_sites(const sites::SiteNumbers& numbers) {
+  void make_own_sites(const site::SiteNumbers& numbers) {
     own_ = large_vector(numbers.count, none);
     for (std::size_t i = 0; i < shape_.points.size(); ++i) {
       const auto [point, half_edge] = shape_.sources[i];
@@ -106,14 +110,16 @@ class Assembly {
     return site;
   }
 
-  void make_chains() {
+  /// False where the edges along one own site do not make a chain.
+  bool make_chains() {
+    std::atomic<bool> connected = true;
     const std::size_t count = own_.size();
     // One place further, so that while the chains are filled, each grows to where the next begins.
     chain_begin_ = large_vector(count + 2, 0U);
     for (const Edge& edge : diagram_.edges)
       for (const std::uint32_t own : edge.site) ++chain_begin_[own + 2];
     for (std::size_t i = 1; i <= count; ++i) chain_begin_[i + 1] += chain_begin_[i];
-    chains_ = std::make_unique_for_overwrite<Step[]>(2 * diagram_.edges.size());
+    chains_ = uninitialized<Step[]>(2 * diagram_.edges.size());
     prefer_large_pages(chains_.get(), 2 * diagram_.edges.size() * sizeof(Step));
     for (std::uint32_t e = 0; e < diagram_.edges.size(); ++e) {
       const Edge& edge = diagram_.edges[e];
@@ -124,23 +130,25 @@ class Assembly {
     last_ = large_vector(count, none);
     parallel_ranges(count, 4096, [&](std::size_t begin, std::size_t end) {
       for (auto own = static_cast<std::uint32_t>(begin); own < end; ++own) {
-        if (is_frame(own)) continue;
+        if (is_enclosure(own)) continue;
         const std::span<Step> steps = chain(own);
         if (steps.empty()) continue;
-        put_in_order(steps);
+        if (!put_in_order(steps)) connected = false;
         first_[own] = steps.front().from;
         last_[own] = steps.back().to;
       }
     });
+    return connected;
   }
 
   std::span<Step> chain(std::uint32_t own) const {
     return {chains_.get() + chain_begin_[own], chains_.get() + chain_begin_[own + 1]};
   }
 
-  /// From the step that no other leads to, or where they make a cycle, any one.
-  static void put_in_order(std::span<Step> steps) {
-    if (steps.size() == 1) return;
+  /// From the step that no other leads to, or where they make a cycle, any one. False where they
+  /// are not connected.
+  static bool put_in_order(std::span<Step> steps) {
+    if (steps.size() == 1) return true;
     constexpr std::size_t few = 24;
     if (steps.size() > few) return put_many_in_order(steps);
     for (std::size_t i = 0; i < steps.size(); ++i) {
@@ -155,11 +163,12 @@ class Assembly {
       const auto next =
           std::find_if(steps.begin() + static_cast<std::ptrdiff_t>(i), steps.end(),
                        [&](const Step& other) { return other.from == steps[i - 1].to; });
-      if (next == steps.end()) throw std::runtime_error("a Voronoi face is not connected");
+      if (next == steps.end()) return false;
       std::swap(steps[i], *next);
     }
+    return true;
   }
-  static void put_many_in_order(std::span<Step> steps) {
+  static bool put_many_in_order(std::span<Step> steps) {
     std::vector<Step> sorted(steps.begin(), steps.end());
     std::sort(sorted.begin(), sorted.end(),
               [](const Step& a, const Step& b) { return a.from < b.from; });
@@ -176,10 +185,10 @@ class Assembly {
       const auto next =
           std::lower_bound(sorted.begin(), sorted.end(), at.to,
                            [](const Step& step, std::uint32_t node) { return step.from < node; });
-      if (next == sorted.end() || next->from != at.to)
-        throw std::runtime_error("a Voronoi face is not connected");
+      if (next == sorted.end() || next->from != at.to) return false;
       at = *next;
     }
+    return true;
   }
 
   /// Calls visit(first, last) for the own sites of every loop of the planar graph: [first, last).
@@ -197,8 +206,10 @@ class Assembly {
     }
   }
 
-  /// Of own sites without edges, the node that they are touched in: that of the site before.
-  void find_ends() {
+  /// Of own sites without edges, the node that they are touched in: that of the site before. False
+  /// where there is none.
+  bool find_ends() {
+    bool found = true;
     std::vector<std::uint32_t> lone(shape_.component_count(), none);
     std::vector<bool> used(diagram_.nodes.size());
     for (const Edge& edge : diagram_.edges) used[edge.node[0]] = used[edge.node[1]] = true;
@@ -211,9 +222,10 @@ class Assembly {
       for (std::uint32_t own = first; own < last; ++own) {
         if (first_[own] == none) first_[own] = last_[own] = node;
         node = last_[own];
-        if (node == none) throw std::runtime_error("a Voronoi face has no edge");
+        found = found && node != none;
       }
     });
+    return found;
   }
 
   bool is_empty_vertex(std::uint32_t own) const {
@@ -221,8 +233,9 @@ class Assembly {
   }
 
   /// Spokes wherever one own site follows another but in a corner, and the nodes of the planar
-  /// graph's points.
-  void make_spokes() {
+  /// graph's points. False where one does not end where the next begins.
+  bool make_spokes() {
+    bool closed = true;
     spoke_before_ = large_vector(own_.size(), none);
     spoke_after_ = large_vector(own_.size(), none);
     node_of_axis_ = large_vector(diagram_.nodes.size(), none);
@@ -234,7 +247,7 @@ class Assembly {
       for (std::uint32_t own = first; own < last; ++own) {
         if (is_empty_vertex(own)) continue;
         const std::uint32_t node = first_[own];
-        if (last_[before] != node) throw std::runtime_error("a Voronoi face has a gap");
+        closed = closed && last_[before] == node;
         const std::uint32_t point =
             is_vertex(own) ? own_[own] : planar_graph_.start(half_edge(own));
         if (diagram_.nodes[node].disk.radius == 0) {
@@ -246,10 +259,11 @@ class Assembly {
         before = own;
       }
     });
+    return closed;
   }
 
-  /// Keeps the nodes inside of the frame; the planar graph's points among them once they are asked
-  /// for.
+  /// Keeps the nodes inside of the enclosure; the planar graph's points among them once they are
+  /// asked for.
   void make_nodes() {
     node_of_point_ = large_vector(planar_graph_.points.size(), none);
     std::vector<Node>& nodes = diagram_.nodes;
@@ -286,8 +300,8 @@ class Assembly {
     return node;
   }
 
-  /// Keeps the edges that are clearly all in the frame, as their triangles of control points are;
-  /// adds the parts of others, and the spokes or their parts.
+  /// Keeps the edges that are clearly all in the enclosure, as their triangles of control points
+  /// are; adds the parts of others, and the spokes or their parts.
   void cut_off() {
     std::vector<VoronoiEdge>& edges = diagram_.edges;
     reserve_large(place_, edge_count_ + spokes_.size());
@@ -318,7 +332,7 @@ class Assembly {
     }
     for (const Spoke& spoke : spokes_) add_spoke(spoke);
   }
-  /// Makes an edge of the axis one of the diagram, unless it may leave the frame.
+  /// Makes an edge of the axis one of the diagram, unless it may leave the enclosure.
   bool keep_whole(Edge& edge) const {
     const auto [from, to] = edge.node;
     const std::array<std::uint32_t, 2> site{site_of(edge.site[0]), site_of(edge.site[1])};
@@ -418,7 +432,7 @@ class Assembly {
       cut_.add_to_face(forward ? begin + i : end - 1 - i, forward, face);
   }
 
-  /// Of an edge or a node, that it is not, or not all, in the frame.
+  /// Of an edge or a node, that it is not, or not all, in the enclosure.
   static constexpr std::uint32_t is_cut = none - largest_edge;
   /// Of an own site, that it is a side of an edge: a half-edge's number follows, else a point's.
   static constexpr std::uint32_t edge_side = none - largest_edge;
@@ -426,11 +440,11 @@ class Assembly {
   const PlanarGraph& planar_graph_;
   const Shape& shape_;
   MedialAxis& axis_;
-  const Box frame_;
+  const Box enclosure_;
   const std::uint32_t point_count_;
   const std::uint32_t edge_count_;  ///< of the axis
   VoronoiDiagram diagram_;
-  FrameCut cut_;
+  EnclosureCut cut_;
   std::vector<std::uint32_t> own_;          ///< what each own site is
   std::vector<std::uint32_t> chain_begin_;  ///< of each own site
   std::unique_ptr<Step[]> chains_;
@@ -473,17 +487,17 @@ void set_kinds(VoronoiDiagram& diagram) {
   for (std::size_t i = 0; i < degree.size(); ++i) diagram.nodes[i].kind = kind_of_degree(degree[i]);
 }
 
-Box far_frame(const Box& frame) {
-  // Everything inside of the frame is nearer than its diagonal to the planar graph, which is
+Box far_enclosure(const Box& enclosure) {
+  // Everything inside of the enclosure is nearer than its diagonal to the planar graph, which is
   // inside.
-  const double away = 1.0625 * diagonal(frame);
-  return {frame.low - Vec2{away, away}, frame.high + Vec2{away, away}};
+  const double away = 1.0625 * diagonal(enclosure);
+  return {enclosure.low - Vec2{away, away}, enclosure.high + Vec2{away, away}};
 }
 
-VoronoiDiagram diagram_of(const PlanarGraph& planar_graph, const Shape& shape,
-                          const sites::SiteNumbers& numbers, MedialAxis axis,
-                          std::vector<VoronoiEdge> edges, const Box& frame) {
-  return Assembly(planar_graph, shape, axis, edges, frame).run(numbers);
+Result<VoronoiDiagram> diagram_of(const PlanarGraph& planar_graph, const Shape& shape,
+                                  const site::SiteNumbers& numbers, MedialAxis axis,
+                                  std::vector<VoronoiEdge> edges, const Box& enclosure) {
+  return Assembly(planar_graph, shape, axis, edges, enclosure).run(numbers);
 }
 
 }  // namespace medial::voronoi

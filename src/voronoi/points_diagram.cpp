@@ -5,6 +5,7 @@
 #include <numeric>
 #include <utility>
 
+#include "base/compat.h"
 #include "base/disjoint_sets.h"
 #include "base/local_frame.h"
 #include "base/memory.h"
@@ -14,7 +15,7 @@
 #include "base/tolerance.h"
 #include "methods/checks.h"
 #include "voronoi/delaunay.h"
-#include "voronoi/frame_cut.h"
+#include "voronoi/enclosure_cut.h"
 #include "voronoi/planar_graph_diagram.h"
 
 namespace medial::voronoi {
@@ -22,7 +23,7 @@ namespace {
 
 /// How many turns ahead of its use memory is asked for.
 constexpr std::uint32_t ahead = 8;
-/// Marks the degree of a vertex some of whose edges the frame cuts off.
+/// Marks the degree of a vertex some of whose edges the enclosure cuts off.
 constexpr std::uint32_t is_cut = 0x80000000;
 /// Marks the number of an edge in the place of a vertex's. There are fewer than 2^31 - 1 edges.
 constexpr std::uint32_t is_edge = 0x80000000;
@@ -57,20 +58,20 @@ double area_of(Vec2 a, Vec2 b, Vec2 c) {
 
 class Dual {
  public:
-  Dual(const PlanarGraph& planar_graph, const Options& options, const Box& frame)
+  Dual(const PlanarGraph& planar_graph, const Options& options, const Box& enclosure)
       : planar_graph_(planar_graph),
         options_(options),
-        frame_(frame),
+        enclosure_(enclosure),
         local_(frame_of(bounding_box(planar_graph))),
         tolerance_(tolerance_for(bounding_box(planar_graph), options.tolerance)),
-        reach_(2 * local_.scale * diagonal(frame)),
-        cut_(planar_graph, frame, tolerance_, diagram_) {}
+        reach_(2 * local_.scale * diagonal(enclosure)),
+        cut_(planar_graph, enclosure, tolerance_, diagram_) {}
 
-  VoronoiDiagram run() {
+  Result<VoronoiDiagram> run() {
     Stopwatch all, watch;
     triangulate();
     diagram_.statistics.seconds_walk = watch.lap();
-    if (is_cancelled(options_)) return std::move(diagram_);
+    if (options_.cancel != nullptr && options_.cancel->load()) return std::move(diagram_);
     if (triangulation_.triangles.empty()) {
       add_edges_of_line();
     } else {
@@ -78,8 +79,8 @@ class Dual {
       join_nodes();
       make_cut_edges();
     }
-    frame_edges_ = static_cast<std::uint32_t>(diagram_.edges.size());
-    cut_.close();
+    enclosure_edges_ = static_cast<std::uint32_t>(diagram_.edges.size());
+    if (Status closed = cut_.close(); !closed) return std::move(closed).error();
     make_sites();
     if (triangulation_.triangles.empty())
       make_faces_of_line();
@@ -87,7 +88,7 @@ class Dual {
       make_faces();
     diagram_.method = "delaunay";
     diagram_.tolerance = tolerance_;
-    diagram_.frame = frame_;
+    diagram_.frame = enclosure_;
     if (has_ties_) set_kinds(diagram_);  // otherwise each was made with its own
     diagram_.statistics.seconds_collect = watch.lap();
     diagram_.statistics.seconds = all.lap();
@@ -95,7 +96,7 @@ class Dual {
   }
 
  private:
-  /// A triangle that is no node: a ghost, or with its centre outside of the frame.
+  /// A triangle that is no node: a ghost, or with its centre outside of the enclosure.
   struct Outer {
     std::uint32_t triangle;
     std::array<std::uint32_t, 3> vertex;
@@ -131,7 +132,7 @@ class Dual {
     return {local_.to_input(a + center), local_.inverse * norm(center)};
   }
 
-  /// A node for each triangle whose circle has its centre inside of the frame; the same for
+  /// A node for each triangle whose circle has its centre inside of the enclosure; the same for
   /// neighbours whose centres are one. Nodes take the place of the circles, none of which comes
   /// before its own.
   void make_nodes() {
@@ -213,7 +214,8 @@ class Dual {
   }
 
   /// How far along the bisector of a half-edge's ends, seen to its left, the centre of the circle
-  /// around its triangle lies, at most `reach_` away, in local units; which is beyond the frame.
+  /// around its triangle lies, at most `reach_` away, in local units; which is beyond the
+  /// enclosure.
   double place_on_bisector(std::uint32_t h) const {
     const auto& vertex = outer_[triangulation_.triangles[h >> 2U].spare].vertex;
     if (vertex[0] == outside || vertex[1] == outside) return reach_;
@@ -227,7 +229,7 @@ class Dual {
     return std::clamp(place, -reach_, reach_);
   }
 
-  /// The part inside of the frame of the edge between two sites, the first one on its left; or
+  /// The part inside of the enclosure of the edge between two sites, the first one on its left; or
   /// none.
   std::uint32_t add_cut_edge(std::array<std::uint32_t, 2> site, ConicEdge& curve,
                              std::array<std::uint32_t, 2> node) {
@@ -237,9 +239,9 @@ class Dual {
     return number < diagram_.edges.size() ? number : none;
   }
 
-  /// The edges at triangles that are no node: the frame cuts them off. From here on the number of
-  /// an edge, once it has one, takes the place of the vertex that a half-edge starts from, marked;
-  /// or none where there is no edge.
+  /// The edges at triangles that are no node: the enclosure cuts them off. From here on the number
+  /// of an edge, once it has one, takes the place of the vertex that a half-edge starts from,
+  /// marked; or none where there is no edge.
   void make_cut_edges() {
     reserve_large(diagram_.edges, 3 * planar_graph_.points.size() + 64);
     for (const Outer& outer : outer_)
@@ -300,7 +302,7 @@ class Dual {
       }
   }
 
-  /// Clockwise around each site, and the edges inside of the frame. The triangulation has its
+  /// Clockwise around each site, and the edges inside of the enclosure. The triangulation has its
   /// points in an order in which neighbours are close, so the walks go along that, so few at a time
   /// that what they have met is still in the cache when their edges are made.
   void make_faces() {
@@ -347,7 +349,7 @@ class Dual {
     to_make_.resize(begin + count);
     if (whole) return;
     take_cut_face(v, cut_face_);
-    std::ranges::copy(cut_face_, out);
+    ranges::copy(cut_face_, out);
   }
   void make_edge(const NewEdge& edge) {
     const std::array<std::uint32_t, 2> node{node_at(triangulation_.twin(edge.half_edge)),
@@ -361,7 +363,7 @@ class Dual {
          false,
          false});
   }
-  /// A face that the frame cuts off.
+  /// A face that the enclosure cuts off.
   void take_cut_face(std::uint32_t v, std::vector<std::uint32_t>& face) const {
     face.clear();
     std::uint32_t h = triangulation_.leaving[v];
@@ -369,7 +371,7 @@ class Dual {
       const std::uint32_t twin = triangulation_.twin(h);
       const std::uint32_t start = triangulation_.start(h), edge = start & ~is_edge;
       if (start != none) {
-        if (start >= is_edge && edge < frame_edges_)
+        if (start >= is_edge && edge < enclosure_edges_)
           cut_.add_to_face(edge, diagram_.edges[edge].site[0] != site_of(v), face);
         else
           face.push_back(edge);
@@ -416,29 +418,29 @@ class Dual {
 
   const PlanarGraph& planar_graph_;
   const Options& options_;
-  const Box frame_;
+  const Box enclosure_;
   const LocalFrame local_;
   const double tolerance_;
-  const double reach_;  ///< local: further than that from a site is outside of the frame
+  const double reach_;  ///< local: further than that from a site is outside of the enclosure
   Delaunay triangulation_;
   bool has_ties_ = false;
   std::vector<Outer> outer_;  ///< by the `spare` of its triangle
   std::vector<std::pair<std::uint32_t, std::uint32_t>> to_join_;
   std::vector<std::uint32_t> degree_;  ///< of each vertex: triangles around it, and `is_cut`
-  std::uint32_t frame_edges_ = 0;      ///< number of the first one
+  std::uint32_t enclosure_edges_ = 0;  ///< number of the first one
   std::vector<NewEdge> to_make_;
   std::vector<std::uint32_t> cut_face_;
   std::vector<std::uint32_t> line_edges_;  ///< where all points lie on one: between neighbours
   std::vector<std::uint32_t> line_;        ///< sites, where all lie on one
   VoronoiDiagram diagram_;
-  FrameCut cut_;
+  EnclosureCut cut_;
 };
 
 }  // namespace
 
-VoronoiDiagram diagram_of_points(const PlanarGraph& planar_graph, const Options& options,
-                                 const Box& frame) {
-  return Dual(planar_graph, options, frame).run();
+Result<VoronoiDiagram> diagram_of_points(const PlanarGraph& planar_graph, const Options& options,
+                                         const Box& enclosure) {
+  return Dual(planar_graph, options, enclosure).run();
 }
 
 }  // namespace medial::voronoi

@@ -1,11 +1,30 @@
 """`medial axis --method`: each method, its options and its limits."""
 
 import json
+import os
+import re
 
-from support import FRAME, CommandLine, comb
+from support import DATA, FRAME, CommandLine, comb
 
 
 class Methods(CommandLine):
+    def test_table(self):
+        """The documents hold the table that the program prints, and it says what each method refuses."""
+        with open(os.path.join(DATA, "..", "docs", "README.md"), encoding="utf-8") as file:
+            documented = re.sub(r"\[([a-z-]+)\]\([^)]*\)", r"\1", file.read())
+        table = self.succeed("methods").stdout.decode()
+        self.assertIn(table, documented)
+        self.write("ring.wkt", FRAME)
+        self.write("plain.wkt", "POLYGON((0 0,10 0,14 5,10 9,4 8,0 6))")
+        for method in json.loads(self.succeed("methods", "--json").stdout)["methods"]:
+            self.assertIn(f"| {method['name']} |", table)
+            takes = {"ring.wkt": method["holes"], "plain.wkt --exterior": method["exterior"]}
+            for arguments in [case for case, taken in takes.items() if not taken]:
+                text = self.refuse("unsupported", "axis", *arguments.split(), "--method", method["name"])
+                self.assertIn(f"the method {method['name']} takes no", text)
+            if not method["exact"]:
+                self.refuse("invalid_option", "axis", "plain.wkt", "--exact", "--method", method["name"])
+
     def test_methods(self):
         """Both methods find the same axis; biarc-dc refuses holes and names a method that takes them."""
         self.write("teeth.wkt", comb(20))

@@ -143,7 +143,7 @@ Rings maze(std::size_t n, std::uint64_t seed) {
     const bool upwards = wall % 2 == 1;
     if (upwards ? cell / side + 1 == side : cell % side + 1 == side) continue;
     const std::size_t other = upwards ? cell + side : cell + 1;
-    if (!sets.unite(cell, other)) continue;
+    if (!sets.join(static_cast<std::uint32_t>(cell), static_cast<std::uint32_t>(other))) continue;
     open[cell][upwards ? 2 : 1] = true;
     open[other][upwards ? 0 : 3] = true;
   }

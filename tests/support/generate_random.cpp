@@ -281,26 +281,27 @@ Rings touching_holes(Random& random, std::size_t k) {
   }};
   const double side = 4 * static_cast<double>(k);
   Rings rings = rectangle(side, side);
-  const std::size_t outer = k * k;
+  const auto outer = static_cast<std::uint32_t>(k * k);
   DisjointSets sets(k * k + 1);
   std::vector<Kind> kind(k * k, none);
   for (std::size_t row = 0; row < k; ++row) {
     for (std::size_t column = 0; column < k; ++column) {
-      const std::size_t cell = row * k + column;
+      const auto cell = static_cast<std::uint32_t>(row * k + column);
       const auto choice = static_cast<Kind>(random.integer(0, 4));
       const auto& contact = kinds[choice].contact;
       if (choice == none || (choice == flat_left && column == 0)) continue;
-      std::vector<std::size_t> met;
+      std::vector<std::uint32_t> met;
       if (contact[0] && row == 0) met.push_back(outer);
       if (contact[1] && column + 1 == k) met.push_back(outer);
       if (contact[2] && row + 1 == k) met.push_back(outer);
       if (contact[3] && column == 0) met.push_back(outer);
-      if (contact[0] && row > 0 && kinds[kind[cell - k]].contact[2]) met.push_back(cell - k);
+      if (contact[0] && row > 0 && kinds[kind[cell - k]].contact[2])
+        met.push_back(static_cast<std::uint32_t>(cell - k));
       if (contact[3] && column > 0 && kinds[kind[cell - 1]].contact[1]) met.push_back(cell - 1);
-      std::set<std::size_t> parts;
-      for (const std::size_t other : met) parts.insert(sets.find(other));
+      std::set<std::uint32_t> parts;
+      for (const std::uint32_t other : met) parts.insert(sets.find(other));
       if (parts.size() < met.size()) continue;
-      for (const std::size_t other : met) sets.unite(cell, other);
+      for (const std::uint32_t other : met) sets.join(cell, other);
       kind[cell] = choice;
       const Vec2 offset{4 * static_cast<double>(column), 4 * static_cast<double>(row)};
       rings.push_back(moved(ring_of(kinds[choice].points), 1, offset));

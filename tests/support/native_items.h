@@ -5,8 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <bit>
-#include <cstdlib>
-#include <filesystem>
 #include <map>
 #include <sstream>
 #include <string>
@@ -142,13 +140,6 @@ inline void expect_same(const AxisItem& a, const AxisItem& b) {
   EXPECT_EQ(a.axis.statistics.queries, b.axis.statistics.queries);
   EXPECT_EQ(a.axis.statistics.threads, b.axis.statistics.threads);
   EXPECT_TRUE(same_bits(a.axis.statistics.seconds, b.axis.statistics.seconds));
-}
-
-/// The folder of real inputs: the environment's MEDIAL_DATA, or beside the sources.
-inline std::filesystem::path data_folder() {
-  const char* named = std::getenv("MEDIAL_DATA");
-  return named != nullptr ? std::filesystem::path(named)
-                          : std::filesystem::path(MEDIAL_SOURCE_DIR) / ".." / "shared" / "data";
 }
 
 /// One triangle of longitudes and latitudes.

@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <cstdio>
 #include <map>
-#include <numeric>
 #include <optional>
 
+#include "base/disjoint_sets.h"
 #include "medial/medial.h"
 
 namespace medial::test {
@@ -54,12 +54,7 @@ bool identical(const MedialAxis& a, const MedialAxis& b) {
 Invariants invariants_of(const MedialAxis& axis, double diagonal) {
   // Twelve digits are common to all computations; nine leave room for the shape of the tie.
   const double together = 1e-9 * diagonal;
-  std::vector<std::uint32_t> parent(axis.nodes.size());
-  std::iota(parent.begin(), parent.end(), 0u);
-  const auto find = [&](std::uint32_t i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-  };
+  DisjointSets sets(axis.nodes.size());
   const auto joins = [&](const Edge& edge) {
     const Node& from = axis.nodes[edge.node[0]];
     const Node& to = axis.nodes[edge.node[1]];
@@ -67,13 +62,13 @@ Invariants invariants_of(const MedialAxis& axis, double diagonal) {
            distance(from.disk.center, to.disk.center) <= together;
   };
   for (const Edge& edge : axis.edges) {
-    if (joins(edge)) parent[find(edge.node[0])] = find(edge.node[1]);
+    if (joins(edge)) sets.join(edge.node[0], edge.node[1]);
   }
   std::map<std::uint32_t, std::size_t> degree;
   for (const Edge& edge : axis.edges) {
-    if (find(edge.node[0]) == find(edge.node[1]) && joins(edge)) continue;
-    ++degree[find(edge.node[0])];
-    ++degree[find(edge.node[1])];
+    if (sets.find(edge.node[0]) == sets.find(edge.node[1]) && joins(edge)) continue;
+    ++degree[sets.find(edge.node[0])];
+    ++degree[sets.find(edge.node[1])];
   }
   Invariants result;
   for (const Node& node : axis.nodes) {

@@ -22,7 +22,7 @@ using SitePair = std::array<std::uint32_t, 2>;
 /// One axis, and which of its nodes are one after contraction.
 class Contracted {
  public:
-  Contracted(const MedialAxis& axis, const exact::Outline& outline)
+  Contracted(const MedialAxis& axis, const exact::SiteLoops& outline)
       : axis_(axis), parent_(axis.nodes.size()) {
     std::iota(parent_.begin(), parent_.end(), 0u);
     if (const auto node = ContactGraph::build(axis, outline, graph_))
@@ -81,9 +81,7 @@ std::string name_of(const Link& link) {
 
 std::string difference(const Shape& shape, const MedialAxis& a, const MedialAxis& b,
                        double tolerance) {
-  const LocalFrame frame = frame_of(bounding_box(shape));
-  const exact::Outline outline =
-      exact::outline_of(shape, frame, sites::number_sites(shape, frame, 0.01));
+  const exact::SiteLoops outline = exact::outline_of(Problem(shape, Options{}));
   if (a.sites.size() != b.sites.size()) return "the sites differ";
   Contracted first(a, outline), second(b, outline);
   for (const Contracted* one : {&first, &second})

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "medial/error.h"
-#include "medial/image.h"
+#include "medial/raster.h"
 
 namespace medial::io {
 

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/limits.h"
+#include "shape/limits.h"
 #include "base/predicates.h"
 #include "io/formats/meshes.h"
 

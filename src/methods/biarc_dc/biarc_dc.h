@@ -4,9 +4,8 @@
 #include <cstdint>
 
 #include "medial/axis.h"
-#include "medial/compute.h"
-#include "medial/shape.h"
 #include "methods/biarc_dc/subshape.h"
+#include "methods/problem.h"
 
 namespace medial::biarc_dc {
 
@@ -20,9 +19,11 @@ struct Report {
 };
 
 /// The method `biarc-dc` (docs/biarc-dc.md). Requires what compute() has checked: a shape without
-/// holes. Cut short, with any content, where the caller cancels. May throw std::runtime_error; see
-/// divide(). Expected O(n log n) where the diameter of the axis is proportional to n, and O(n^2) in
-/// the worst case.
-MedialAxis run(const Shape& shape, const Options& options, Report* report = nullptr);
+/// holes. Cut short, with any content, where the caller cancels. An axis that rounding may have
+/// misled is verified; where that fails the method restarts with another seed. Errors: unsupported,
+/// with the place, where no attempt passes; internal where no disk divides a part of the shape.
+/// Expected O(n log n) where the diameter of the axis is proportional to n, and O(n^2) in the worst
+/// case.
+Result<MedialAxis> run(const Problem& problem, Report* report = nullptr);
 
 }  // namespace medial::biarc_dc

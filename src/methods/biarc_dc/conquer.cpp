@@ -285,7 +285,7 @@ Skeleton conquer(Context& context, const Division& division) {
 
 void add_curves(const Skeleton& skeleton, const Context& context, const LocalFrame& frame,
                 MedialAxis& axis) {
-  const Outline& outline = context.outline;
+  const SiteOutline& outline = context.outline;
   std::vector<std::uint8_t> degree(skeleton.nodes.size());
   double largest_residual = 0;
   axis.edges.reserve(skeleton.edges.size());

@@ -21,7 +21,7 @@ bool names(const Place& place, std::size_t element, const Subshape& subshape) {
   return element == place.element || (place.at_joint && element == subshape.next(place.element));
 }
 
-Cut cut_at(const Subshape& subshape, const Place& place) {
+Seam seam_at(const Subshape& subshape, const Place& place) {
   const std::size_t i = place.element;
   if (!place.at_joint) return {i, i, place.parameter, place.parameter};
   const std::size_t next = subshape.next(i);
@@ -63,8 +63,8 @@ std::vector<Touch> touched_elements(const Context& context, const Subshape& subs
 
 /// Where a run of touched elements, joined without a corner, is really touched if no contact is
 /// sure: in a reflex vertex or inside the nearest element, or else at a joint.
-Cut contact_in_run(const Context& context, const Subshape& subshape,
-                   const std::vector<const Touch*>& run) {
+Seam contact_in_run(const Context& context, const Subshape& subshape,
+                    const std::vector<const Touch*>& run) {
   const auto is_vertex = [&](const Touch& touch) {
     return context.site(subshape.elements[touch.element]).is_vertex();
   };
@@ -84,23 +84,25 @@ Cut contact_in_run(const Context& context, const Subshape& subshape,
                                                  (has_after && touch.parameter >= element.to);
     if (!at_joint && (nearest == nullptr || touch.distance < nearest->distance)) nearest = &touch;
   }
-  if (nearest != nullptr) return cut_at(subshape, {nearest->element, false, nearest->parameter});
+  if (nearest != nullptr) return seam_at(subshape, {nearest->element, false, nearest->parameter});
   for (std::size_t j = 0; j + 1 < run.size(); ++j)
     if (run[j]->parameter >= subshape.elements[run[j]->element].to)
-      return cut_at(subshape, {run[j]->element, true, 0});
-  return cut_at(subshape, {run[0]->element, false, run[0]->parameter});
+      return seam_at(subshape, {run[j]->element, true, 0});
+  return seam_at(subshape, {run[0]->element, false, run[0]->parameter});
 }
 
 }  // namespace
 
-std::vector<Cut> contacts_of(const Context& context, const Subshape& subshape,
-                             const MaximalDisk& maximal, bool& all) {
+std::optional<std::vector<Seam>> contacts_of(const Context& context, const Subshape& subshape,
+                                             const MaximalDisk& maximal) {
   const std::vector<Touch> touches = touched_elements(context, subshape, maximal);
   const std::size_t count = touches.size();
-  all = count == subshape.size() &&
-        std::all_of(touches.begin(), touches.end(), [](const Touch& t) { return t.on_circle; });
-  std::vector<Cut> cuts;
-  if (all || count == 0) return cuts;
+  const bool all =
+      count == subshape.size() &&
+      std::all_of(touches.begin(), touches.end(), [](const Touch& t) { return t.on_circle; });
+  if (all) return std::nullopt;
+  std::vector<Seam> seams;
+  if (count == 0) return seams;
 
   /// Whether a touched element continues the one before in the list.
   const auto continues = [&](std::size_t j) {
@@ -122,18 +124,18 @@ std::vector<Cut> contacts_of(const Context& context, const Subshape& subshape,
       const auto last_on = std::find_if(run.rbegin(), run.rend(), is_on_circle);
       const std::size_t last = subshape.before((*first_on)->element),
                         first = subshape.next((*last_on)->element);
-      cuts.push_back({last, first, subshape.elements[last].to, subshape.elements[first].from});
+      seams.push_back({last, first, subshape.elements[last].to, subshape.elements[first].from});
       continue;
     }
-    const std::size_t before = cuts.size();
+    const std::size_t before = seams.size();
     for (const Touch* touch : run)
       for (const bool at_joint : {false, true})
         for (const Place& place : maximal.contacts)
           if (place.element == touch->element && place.at_joint == at_joint)
-            cuts.push_back(cut_at(subshape, place));
-    if (cuts.size() == before) cuts.push_back(contact_in_run(context, subshape, run));
+            seams.push_back(seam_at(subshape, place));
+    if (seams.size() == before) seams.push_back(contact_in_run(context, subshape, run));
   }
-  return cuts;
+  return seams;
 }
 
 }  // namespace medial::biarc_dc

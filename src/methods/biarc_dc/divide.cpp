@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <optional>
-#include <stdexcept>
 
 #include "base/random.h"
 
@@ -16,25 +15,26 @@ class Divider {
  public:
   Divider(Context& context, std::uint64_t seed) : context_(context), random_(seed) {}
 
-  /// A disk that makes the sub-shape's parts smaller, and these parts.
-  std::vector<Subshape> parts_of(const Subshape& subshape) {
+  /// The parts that a disk divides the sub-shape into, all of them smaller; nothing where rounding
+  /// leaves no such disk.
+  std::optional<std::vector<Subshape>> parts_of(const Subshape& subshape) {
     for (int tries = 0; tries < most_tries; ++tries) {
       const std::optional<Place> place = random_place(subshape);
       if (!place) break;
       const MaximalDisk maximal = maximal_disk(context_, subshape, *place);
       if (auto parts = parts_by(maximal, subshape)) {
         ++division.random_disks;
-        return std::move(*parts);
+        return parts;
       }
       if (const auto arc = artificial_arc_behind(maximal, subshape))
-        if (auto parts = parts_by_branching(subshape, *arc)) return std::move(*parts);
+        if (auto parts = parts_by_branching(subshape, *arc)) return parts;
     }
     const std::uint32_t begin = random_.below(static_cast<std::uint32_t>(subshape.size()));
     for (std::size_t step = 0, i = begin; step < subshape.size(); ++step, i = subshape.next(i)) {
       if (subshape.elements[i].is_joined()) continue;
-      if (auto parts = parts_by_branching(subshape, i)) return std::move(*parts);
+      if (auto parts = parts_by_branching(subshape, i)) return parts;
     }
-    throw std::runtime_error("a part of the shape cannot be divided: please report this shape");
+    return std::nullopt;
   }
 
   Division division;
@@ -62,21 +62,21 @@ class Divider {
   /// Splits at a disk; nothing if that does not make all parts smaller.
   std::optional<std::vector<Subshape>> parts_by(const MaximalDisk& maximal,
                                                 const Subshape& subshape) {
-    bool all = false;
-    const std::vector<Cut> cuts = contacts_of(context_, subshape, maximal, all);
-    if (!all && (cuts.empty() || (cuts.size() == 1 && cuts[0].first == cuts[0].last)))
+    const auto found = contacts_of(context_, subshape, maximal);
+    const std::vector<Seam> seams = found.value_or(std::vector<Seam>());
+    if (found && (seams.empty() || (seams.size() == 1 && seams[0].first == seams[0].last)))
       return std::nullopt;
     const auto disk = static_cast<std::uint32_t>(division.disks.size());
-    std::vector<Subshape> parts = split(subshape, cuts, disk);
+    std::vector<Subshape> parts = split(subshape, seams, disk);
     const std::size_t whole = subshape.measure();
     for (const Subshape& part : parts)
       if (part.measure() >= whole) return std::nullopt;
     division.disks.push_back(maximal.disk);
     division.component.push_back(subshape.component);
-    if (cuts.size() >= 4) ++division.multi_branchings;
+    if (seams.size() >= 4) ++division.multi_branchings;
     // An artificial arc beside what is cut out belongs to the same disk.
-    for (const Cut& cut : cuts)
-      for (std::size_t i = cut.last; i != cut.first; i = subshape.next(i))
+    for (const Seam& seam : seams)
+      for (std::size_t i = seam.last; i != seam.first; i = subshape.next(i))
         if (!subshape.elements[i].is_joined())
           division.equal.push_back({subshape.elements[i].disk_after, disk});
     return parts;
@@ -107,11 +107,12 @@ class Divider {
 
 }  // namespace
 
-Division divide(Context& context, std::uint64_t seed, const std::atomic<bool>* cancel,
-                const std::function<void(double)>& progress) {
+std::optional<Division> divide(Context& context, std::uint64_t seed,
+                               const std::atomic<bool>* cancel,
+                               const std::function<void(double)>& progress) {
   Divider divider(context, seed);
   Division& division = divider.division;
-  const Outline& outline = context.outline;
+  const SiteOutline& outline = context.outline;
   std::vector<Subshape> stack;
   for (std::uint32_t c = 0; c < outline.loops.size(); ++c) {
     Subshape& whole = stack.emplace_back();
@@ -127,7 +128,9 @@ Division divide(Context& context, std::uint64_t seed, const std::atomic<bool>* c
     stack.pop_back();
     const auto base = base_shape_of(subshape, outline, division.disks, context.tolerance);
     if (!base) {
-      for (Subshape& part : divider.parts_of(subshape)) stack.push_back(std::move(part));
+      auto parts = divider.parts_of(subshape);
+      if (!parts) return std::nullopt;
+      std::move(parts->begin(), parts->end(), std::back_inserter(stack));
       continue;
     }
     if (base->base_case == BaseCase::cap)

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "methods/biarc_dc/maximal_disk.h"
@@ -26,9 +27,9 @@ struct Division {
 };
 
 /// Algorithm 4 up to the base cases, by a stack in place of recursion. Stops, with any content,
-/// when `cancel` is set; throws std::runtime_error where rounding leaves a sub-shape that no disk
-/// divides.
-Division divide(Context& context, std::uint64_t seed, const std::atomic<bool>* cancel,
-                const std::function<void(double)>& progress);
+/// when `cancel` is set; nothing where rounding leaves a sub-shape that no disk divides.
+std::optional<Division> divide(Context& context, std::uint64_t seed,
+                               const std::atomic<bool>* cancel,
+                               const std::function<void(double)>& progress);
 
 }  // namespace medial::biarc_dc

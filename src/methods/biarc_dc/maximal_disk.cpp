@@ -21,7 +21,7 @@ constexpr int most_halvings = 128;
 constexpr double same_curvature = 1e-9;
 
 /// Rounding may put a disk a little behind the one where a bisector begins; what is further behind
-/// is another solution. Next to the centre of the arc by whose foot positions are told, a disk's
+/// is another solution. Next to the centre of the arc whose foot gives positions, a disk's
 /// error counts for more, by the radius over the distance from there.
 double slack(const Context& context, const Bisector& bisector, const Disk& from) {
   double factor = 4;
@@ -153,7 +153,7 @@ std::optional<EndDisk> disk_at_end(const Context& context, const Subshape& subsh
     foot = own.at(end);
     normal = own.normal_at(end);
     // The directions of an arc whose length is some roundings are known to little: at a smooth
-    // joint the longer edge tells.
+    // joint the longer edge decides.
     if (passes && next.length > own.length) normal = forward ? next.normal() : next.end_normal();
   } else if (passes) {
     normal = forward ? next.normal() : next.end_normal();

@@ -26,7 +26,7 @@ struct MaximalDisk {
 
 /// What all divisions of one outline share, and what they count.
 struct Context {
-  const Outline& outline;
+  const SiteOutline& outline;
   double tolerance = 0;     ///< in the local frame
   double radius_limit = 0;  ///< no disk inside the shape is larger
   Statistics statistics{};
@@ -62,8 +62,8 @@ std::optional<MaximalDisk> branching_disk(Context& context, const Subshape& subs
 
 /// All places, in boundary order, where a disk touches the boundary within the tolerance, one for
 /// each connected piece of contact, `sure` ones among them; whole arcs on the disk's circle are cut
-/// out (see Cut). `all` is set if that is all of the boundary.
-std::vector<Cut> contacts_of(const Context& context, const Subshape& subshape,
-                             const MaximalDisk& maximal, bool& all);
+/// out (see Seam). Nothing if that is all of the boundary.
+std::optional<std::vector<Seam>> contacts_of(const Context& context, const Subshape& subshape,
+                                             const MaximalDisk& maximal);
 
 }  // namespace medial::biarc_dc

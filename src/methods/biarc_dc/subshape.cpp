@@ -8,7 +8,7 @@ namespace medial::biarc_dc {
 namespace {
 
 /// The elements with their kinds and what joins them, as BaseCase spells them.
-std::string spell(const Subshape& subshape, const Outline& outline, std::size_t begin) {
+std::string spell(const Subshape& subshape, const SiteOutline& outline, std::size_t begin) {
   std::string word;
   for (std::size_t step = 0, i = begin; step < subshape.size(); ++step, i = subshape.next(i)) {
     const Element& element = subshape.elements[i];
@@ -53,7 +53,7 @@ constexpr std::array<Spelling, base_case_count - 1> spellings{{{"S-S|S|", BaseCa
 
 /// Whether all of a sub-shape lies on its only dividing disk, or bends away from it: between two
 /// contacts, a boundary turns to the left by the angle between them.
-bool is_cap(const Subshape& subshape, const Outline& outline, const std::vector<Disk>& disks,
+bool is_cap(const Subshape& subshape, const SiteOutline& outline, const std::vector<Disk>& disks,
             double tolerance) {
   std::uint32_t disk = none;
   bool is_concave = true, has_corner = false, is_blunt = false;
@@ -92,13 +92,13 @@ std::size_t Subshape::measure() const {
   return elements.size() + joints;
 }
 
-std::vector<Subshape> split(const Subshape& subshape, const std::vector<Cut>& cuts,
+std::vector<Subshape> split(const Subshape& subshape, const std::vector<Seam>& seams,
                             std::uint32_t disk) {
   std::vector<Subshape> parts;
-  parts.reserve(cuts.size());
+  parts.reserve(seams.size());
   const std::size_t n = subshape.size();
-  for (std::size_t j = 0; j < cuts.size(); ++j) {
-    const Cut &begin = cuts[j], &end = cuts[j + 1 == cuts.size() ? 0 : j + 1];
+  for (std::size_t j = 0; j < seams.size(); ++j) {
+    const Seam &begin = seams[j], &end = seams[j + 1 == seams.size() ? 0 : j + 1];
     Subshape& part = parts.emplace_back();
     part.component = subshape.component;
     const std::size_t count = (end.last + n - begin.first) % n + 1;
@@ -118,7 +118,7 @@ const char* name_of(BaseCase base_case) {
   return names[static_cast<std::size_t>(base_case)];
 }
 
-std::optional<BaseShape> base_shape_of(const Subshape& subshape, const Outline& outline,
+std::optional<BaseShape> base_shape_of(const Subshape& subshape, const SiteOutline& outline,
                                        const std::vector<Disk>& disks, double tolerance) {
   BaseShape base;
   base.component = subshape.component;

@@ -43,15 +43,15 @@ struct Subshape {
 /// element `last` at parameter `to`, and another begins with `first` at `from`. They are the same
 /// element where the disk touches inside of one, neighbours at a joint, and further apart where all
 /// that is in between lies on the disk's circle.
-struct Cut {
+struct Seam {
   std::size_t last = 0;
   std::size_t first = 0;
   double to = 0;
   double from = 0;
 };
 
-/// The sub-shapes into which a dividing disk with these cuts, in boundary order, divides a shape.
-std::vector<Subshape> split(const Subshape& subshape, const std::vector<Cut>& cuts,
+/// The sub-shapes into which a dividing disk with these seams, in boundary order, divides a shape.
+std::vector<Subshape> split(const Subshape& subshape, const std::vector<Seam>& seams,
                             std::uint32_t disk);
 
 /// The base cases of Figs 5 and 6. S stands for an arc or segment, V for a reflex vertex, | for an
@@ -85,7 +85,7 @@ struct BaseShape {
 };
 
 /// Which base case a sub-shape is, if it is one. `disks`: the dividing disks.
-std::optional<BaseShape> base_shape_of(const Subshape& subshape, const Outline& outline,
+std::optional<BaseShape> base_shape_of(const Subshape& subshape, const SiteOutline& outline,
                                        const std::vector<Disk>& disks, double tolerance);
 
 }  // namespace medial::biarc_dc

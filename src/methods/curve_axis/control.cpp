@@ -25,10 +25,11 @@ double between(double a, double b, double share) { return a + share * (b - a); }
 
 }  // namespace
 
-Control::Control(const SmoothBoundary& boundary, const CurveAxisOptions& options, double step,
-                 Observer observer)
+Control::Control(const SmoothBoundary& boundary, const method::CurveAxis& options, double step,
+                 Observer observer, const std::atomic<bool>* cancel)
     : boundary_(boundary),
       options_(options),
+      cancel_(cancel),
       observer_(std::move(observer)),
       generator_(boundary, step),
       step_(step) {
@@ -43,7 +44,7 @@ Status Control::run() {
                  "the boundary has no maximum of curvature to start from, as a circle: the method "
                  "curve-axis cannot begin; use disks",
                  {}};
-  const auto cancelled = [&] { return options_.cancel != nullptr && options_.cancel->load(); };
+  const auto cancelled = [&] { return cancel_ != nullptr && cancel_->load(); };
   // Clockwise, as the paper has it.
   for (std::size_t i = 0; i < count; ++i) {
     if (cancelled()) return Error{ErrorCode::cancelled, "cancelled", {}};
@@ -171,7 +172,7 @@ bool Control::is_in_frame(Vec2 p) const {
 
 std::optional<Control::Stop> Control::resolve_conflicts(int& segment, const AxisPoint& here,
                                                         const AxisPoint& there) {
-  while (const std::optional<Contact> contact = first_contact(segment, here, there)) {
+  while (const std::optional<Conflict> contact = first_contact(segment, here, there)) {
     const AxisPoint& old = last(contact->neighbour);
     const AxisPoint& active = contact->active;
     const bool only_two = at(at(segment).next).next == segment;
@@ -206,12 +207,12 @@ std::optional<Control::Stop> Control::resolve_conflicts(int& segment, const Axis
   return std::nullopt;
 }
 
-std::optional<Generator::Junction> Control::junction_at(const Contact& contact,
+std::optional<Generator::Junction> Control::junction_at(const Conflict& contact,
                                                         const AxisPoint& here,
                                                         const AxisPoint& there) const {
   const AxisPoint& old = last(contact.neighbour);
   const AxisPoint& active = contact.active;
-  // In a tip both feet are one: the branch's next point tells where they part.
+  // In a tip both feet are one: the branch's next point shows where they part.
   const bool is_tip = old.left.u == old.right.u;
   const AxisPoint outer = is_tip ? generator_.next(old).value_or(old) : old;
   const double left = contact.on_right
@@ -237,10 +238,10 @@ std::optional<Generator::Junction> Control::junction_at(const Contact& contact,
   return junction;
 }
 
-std::optional<Control::Contact> Control::first_contact(int segment, const AxisPoint& from,
-                                                       const AxisPoint& to) const {
+std::optional<Control::Conflict> Control::first_contact(int segment, const AxisPoint& from,
+                                                        const AxisPoint& to) const {
   if (at(segment).next == segment) return std::nullopt;
-  std::optional<Contact> first;
+  std::optional<Conflict> first;
   double first_share = 2;
   {
     const int neighbour = at(segment).next;
@@ -248,7 +249,7 @@ std::optional<Control::Contact> Control::first_contact(int segment, const AxisPo
     const double share = (foot - from.right.u) / (to.right.u - from.right.u);
     if (share < 1) {
       const auto active = generator_.with_right(between(from.left.u, to.left.u, share), foot);
-      first = Contact{neighbour, true, foot, active.value_or(to)};
+      first = Conflict{neighbour, true, foot, active.value_or(to)};
       first_share = share;
     }
   }
@@ -257,12 +258,12 @@ std::optional<Control::Contact> Control::first_contact(int segment, const AxisPo
   const double share = (from.left.u - foot) / (from.left.u - to.left.u);
   if (share < 1 && share < first_share) {
     const auto active = generator_.with_left(foot, between(from.right.u, to.right.u, share));
-    first = Contact{neighbour, false, foot, active.value_or(to)};
+    first = Conflict{neighbour, false, foot, active.value_or(to)};
   }
   return first;
 }
 
-int Control::join(int segment, const Contact& contact, const Generator::Junction& junction) {
+int Control::join(int segment, const Conflict& contact, const Generator::Junction& junction) {
   // Points of both that lie beyond it are none of the axis's.
   const auto trim = [&](int branch, bool shares_right) {
     std::vector<AxisPoint>& points = at(branch).branch;

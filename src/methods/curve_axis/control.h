@@ -37,8 +37,8 @@ using Observer = std::function<void(const Control&, const Decision&)>;
 /// Section 5.2: decides where generations start, who wins a conflict, and when all is done.
 class Control {
  public:
-  Control(const SmoothBoundary& boundary, const CurveAxisOptions& options, double step,
-          Observer observer = {});
+  Control(const SmoothBoundary& boundary, const method::CurveAxis& options, double step,
+          Observer observer = {}, const std::atomic<bool>* cancel = nullptr);
 
   /// Scans the whole boundary. Errors: cancelled, internal, too_large, unsupported (no maximum).
   Status run();
@@ -55,7 +55,7 @@ class Control {
  private:
   enum class Stop { conflict, retreat, frame, exhausted, complete };
   /// A foot of the active segment on boundary that a neighbour has scanned.
-  struct Contact {
+  struct Conflict {
     int neighbour = -1;
     bool on_right = false;
     double foot = 0;   ///< the neighbour's foot, in the active segment's turn of the boundary
@@ -69,16 +69,16 @@ class Control {
   Stop grow(int segment);
   bool is_in_frame(Vec2 p) const;
   /// Conflicts of the step from `here` to `there`, by the radii on one boundary point: the older
-  /// branch gives way (Fig 5b), growth stops (Fig 5a) as told, or `segment` becomes that of a
+  /// branch gives way (Fig 5b), growth stops (Fig 5a), or `segment` becomes that of a
   /// junction (Fig 6).
   std::optional<Stop> resolve_conflicts(int& segment, const AxisPoint& here,
                                         const AxisPoint& there);
   /// The junction of a contact whose radii become equal within the step.
-  std::optional<Generator::Junction> junction_at(const Contact& contact, const AxisPoint& here,
+  std::optional<Generator::Junction> junction_at(const Conflict& contact, const AxisPoint& here,
                                                  const AxisPoint& there) const;
-  std::optional<Contact> first_contact(int segment, const AxisPoint& from,
-                                       const AxisPoint& to) const;
-  int join(int segment, const Contact& contact, const Generator::Junction& at);
+  std::optional<Conflict> first_contact(int segment, const AxisPoint& from,
+                                        const AxisPoint& to) const;
+  int join(int segment, const Conflict& contact, const Generator::Junction& at);
   /// Whether a segment is the point of a maximum, and no more.
   bool is_tip(int segment) const;
   /// Whether the only other segment is the last maximum (Fig 8), or a step of its branch.
@@ -102,7 +102,8 @@ class Control {
   const Segment& at(int segment) const { return segments_[static_cast<std::size_t>(segment)]; }
 
   const SmoothBoundary& boundary_;
-  const CurveAxisOptions& options_;
+  const method::CurveAxis& options_;
+  const std::atomic<bool>* cancel_;
   Observer observer_;
   Generator generator_;
   double step_;

@@ -1,4 +1,4 @@
-#include "medial/curve_axis.h"
+#include "methods/curve_axis/curve_axis.h"
 
 #include <algorithm>
 #include <array>
@@ -245,8 +245,8 @@ class Assembly {
            distance(p->disk.center, b.disk.center) <= most;
   }
 
-  /// Appends points between a and b until the quadratics are as near to the axis as told, but at
-  /// least so many times halved. Where none is found the way stays as it is.
+  /// Appends points between a and b until the quadratics are within the tolerance of the axis,
+  /// after so many halvings at least. Where no point is found the way stays as it is.
   void halve(const AxisPoint& a, const AxisPoint& b, int done, int wanted,
              std::vector<AxisPoint>& out) const {
     if (done == most_halvings) return;
@@ -326,7 +326,7 @@ class Assembly {
   std::vector<Waiting> waiting_;
 };
 
-std::optional<Error> refuse(std::span<const Contour> contours, const CurveAxisOptions& options) {
+std::optional<Error> refuse(std::span<const Contour> contours, const method::CurveAxis& options) {
   if (!(options.step >= 1e-6 && options.step <= 0.1))
     return Error{ErrorCode::invalid_option, "the step must be in [1e-6, 0.1]", {}};
   if (contours.size() != 1)
@@ -380,12 +380,13 @@ Status check_disks(const SmoothBoundary& boundary, const MedialAxis& axis) {
   return success();
 }
 
-/// How often an axis that has gone astray is begun anew.
+/// How often the method restarts after an axis that has gone astray.
 constexpr int most_attempts = 5;
 
-Result<CurveAxis> attempt(const SmoothBoundary& boundary, const CurveAxisOptions& options) {
+Result<CurveAxis> attempt(const SmoothBoundary& boundary, const method::CurveAxis& options,
+                          const std::atomic<bool>* cancel) {
   const double step = options.step * boundary.size();
-  Control control(boundary, options, step);
+  Control control(boundary, options, step, {}, cancel);
   if (Status done = control.run(); !done) return std::move(done).error();
   CurveAxis result = Assembly(boundary, control, step).take();
   if (Status right = check_disks(boundary, result.axis); !right) return std::move(right).error();
@@ -393,25 +394,42 @@ Result<CurveAxis> attempt(const SmoothBoundary& boundary, const CurveAxisOptions
 }
 
 }  // namespace
+
+Result<MedialAxis> run(const Problem& problem) {
+  std::vector<Contour> loops;
+  const Shape& shape = problem.shape;
+  for (std::size_t l = 0; l < shape.loop_count() && problem.contours.empty(); ++l) {
+    const std::span<const double> bulges(shape.bulges);
+    loops.push_back(contour_of(
+        shape.loop(l),
+        bulges.empty() ? bulges : bulges.subspan(shape.loop_begin[l], shape.loop(l).size()), true));
+  }
+  auto result = compute_curve_axis(problem.contours.empty() ? loops : problem.contours,
+                                   problem.own<method::CurveAxis>(), problem.options.cancel);
+  if (!result) return std::move(result).error();
+  return std::move(result->axis);
+}
+
 }  // namespace curve_axis
 
 Result<CurveAxis> compute_curve_axis(std::span<const Contour> contours,
-                                     const CurveAxisOptions& options) {
+                                     const method::CurveAxis& options,
+                                     const std::atomic<bool>* cancel) {
   using namespace curve_axis;
   try {
     if (auto error = refuse(contours, options)) return std::move(*error);
     const SmoothBoundary boundary(normalized(contours[0]));
-    Result<CurveAxis> result = attempt(boundary, options);
+    Result<CurveAxis> result = attempt(boundary, options, cancel);
     // What has gone astray does so at some steps only, and from some maxima: again with shorter
     // ones.
-    CurveAxisOptions again = options;
+    method::CurveAxis again = options;
     for (int round = 0; round < most_attempts && !result.ok() &&
                         result.error().code == ErrorCode::unsupported && !boundary.maxima().empty();
          ++round) {
       again.step /= 2;
       ++again.first_maximum;
-      Result<CurveAxis> next = attempt(boundary, again);
-      // Of errors the first one tells most.
+      Result<CurveAxis> next = attempt(boundary, again, cancel);
+      // The first error is the most useful one.
       if (next.ok() || next.error().code == ErrorCode::cancelled) result = std::move(next);
     }
     return result;

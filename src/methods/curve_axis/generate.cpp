@@ -21,7 +21,7 @@ constexpr double first_turn = 0.05;
 
 Vec2 right_of(Vec2 v) { return -left_of(v); }
 
-/// Tells from the size of the corrections whether an iteration has come to its end.
+/// Decides by the size of the corrections whether an iteration has converged.
 class Convergence {
  public:
   explicit Convergence(double size) : size_(size) {}
@@ -138,32 +138,19 @@ std::optional<AxisPoint> Generator::stabilised(double left, double right) const 
   return std::nullopt;
 }
 
-std::optional<AxisPoint> Generator::with_right(double left, double right) const {
-  const BoundaryPoint r = boundary_.at(right);
+std::optional<AxisPoint> Generator::with_one_foot(double fixed, double moving,
+                                                  bool moves_left) const {
+  const BoundaryPoint foot = boundary_.at(fixed);
   Convergence convergence(boundary_.size());
   for (int round = 0; round < most_rounds; ++round) {
-    const BoundaryPoint l = boundary_.at(left);
+    const BoundaryPoint other = boundary_.at(moving);
+    const BoundaryPoint &l = moves_left ? other : foot, &r = moves_left ? foot : other;
     const Symmetry f = symmetry(l, r);
-    const double move = -f.value / f.by_left;
+    const double move = -f.value / (moves_left ? f.by_left : f.by_right);
     if (!(std::abs(move) < boundary_.size())) break;
     if (convergence.reached(std::abs(move))) return point_of(l, r);
-    left = boundary_.advanced(left, -move);
-    if (!std::isfinite(left)) break;
-  }
-  return std::nullopt;
-}
-
-std::optional<AxisPoint> Generator::with_left(double left, double right) const {
-  const BoundaryPoint l = boundary_.at(left);
-  Convergence convergence(boundary_.size());
-  for (int round = 0; round < most_rounds; ++round) {
-    const BoundaryPoint r = boundary_.at(right);
-    const Symmetry f = symmetry(l, r);
-    const double move = -f.value / f.by_right;
-    if (!(std::abs(move) < boundary_.size())) break;
-    if (convergence.reached(std::abs(move))) return point_of(l, r);
-    right = boundary_.advanced(right, move);
-    if (!std::isfinite(right)) break;
+    moving = boundary_.advanced(moving, moves_left ? -move : move);
+    if (!std::isfinite(moving)) break;
   }
   return std::nullopt;
 }

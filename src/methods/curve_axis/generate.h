@@ -32,8 +32,12 @@ class Generator {
   /// shortest way.
   std::optional<AxisPoint> stabilised(double left, double right) const;
   /// The same with one foot held.
-  std::optional<AxisPoint> with_right(double left, double right) const;
-  std::optional<AxisPoint> with_left(double left, double right) const;
+  std::optional<AxisPoint> with_right(double left, double right) const {
+    return with_one_foot(right, left, true);
+  }
+  std::optional<AxisPoint> with_left(double left, double right) const {
+    return with_one_foot(left, right, false);
+  }
 
   /// The disk with three feet near these: a junction.
   struct Junction {
@@ -50,6 +54,8 @@ class Generator {
   AxisPoint point_of(const BoundaryPoint& left, const BoundaryPoint& right) const;
 
  private:
+  std::optional<AxisPoint> with_one_foot(double fixed, double moving, bool moves_left) const;
+
   const SmoothBoundary& boundary_;
   double step_;
 };

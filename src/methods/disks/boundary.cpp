@@ -12,8 +12,8 @@ namespace medial::disks {
 namespace {
 
 using site::Joint;
-using sites::Loop;
-using sites::Pieces;
+using site::LoopEdges;
+using site::Pieces;
 
 /// Where a loop's run begins.
 struct Start {
@@ -27,7 +27,7 @@ struct Start {
 /// of the order: that shares the work well on shapes that were drawn from end to end. Where there
 /// is no corner, the smooth or reflex place where the boundary is least convex, because its disk
 /// cannot be the one of an arc that touches all of it; in the end any place.
-Start start_of_outer(const Loop& loop, const SiteNumbers& numbers, bool has_arcs) {
+Start start_of_outer(const LoopEdges& loop, const SiteNumbers& numbers, bool has_arcs) {
   constexpr double clear = 0.5;  // cosine of the turn
   std::optional<std::uint32_t> best;
   double best_cosine = 2;
@@ -71,14 +71,14 @@ Start start_of_outer(const Loop& loop, const SiteNumbers& numbers, bool has_arcs
 /// Whether the boundary faces `outreach` where two edges join, or looks the other way, as it does
 /// on the far side of edges that lie across that direction: there it is as far out but for
 /// rounding.
-bool faces_out(const Loop& loop, std::uint32_t i) {
+bool faces_out(const LoopEdges& loop, std::uint32_t i) {
   if (loop.size() == 1) return true;
   const Vec2 before = loop.edge(loop.before(i)).last().end_normal();
   return dot(before + loop.edge(i).first().normal(), outreach) > -1;
 }
 
 /// The furthest place in the direction `outreach`, of those where a disk can touch the loop.
-Start start_of_hole(const Loop& loop, const SiteNumbers& numbers, bool has_arcs) {
+Start start_of_hole(const LoopEdges& loop, const SiteNumbers& numbers, bool has_arcs) {
   Start start;
   double furthest = -std::numeric_limits<double>::infinity();
   const auto consider = [&](Vec2 place, const Start& candidate) {
@@ -102,7 +102,7 @@ Start start_of_hole(const Loop& loop, const SiteNumbers& numbers, bool has_arcs)
   return start;
 }
 
-void add_loop(const Loop& loop, const SiteNumbers& numbers, const Start& start,
+void add_loop(const LoopEdges& loop, const SiteNumbers& numbers, const Start& start,
               Boundary& boundary) {
   const auto add_vertex = [&](std::uint32_t i) {
     if (numbers.is_site(loop.begin() + i))
@@ -182,14 +182,15 @@ bool in_wedge(Vec2 first, Vec2 last, Vec2 to) {
   return angle <= wedge + beyond || angle >= 2 * std::numbers::pi - beyond;
 }
 
-Boundary loops_boundary(const Shape& shape, const SiteNumbers& numbers, const LocalFrame& frame,
-                        bool two_sided) {
+Boundary loops_boundary(const Problem& problem, bool two_sided) {
+  const Shape& shape = problem.shape;
+  const SiteNumbers& numbers = problem.numbers();
   Boundary boundary;
   boundary.has_arcs = !shape.bulges.empty();
   boundary.two_sided = two_sided;
   boundary.reserve(numbers.count);
   for (std::size_t l = 0; l < shape.loop_count(); ++l) {
-    const Loop loop(shape, l, frame);
+    const LoopEdges loop(shape, l, problem.frame);
     const Start start = shape.hole[l] ? start_of_hole(loop, numbers, boundary.has_arcs)
                                       : start_of_outer(loop, numbers, boundary.has_arcs);
     const auto first = static_cast<std::uint32_t>(boundary.sites.size());

@@ -5,17 +5,14 @@
 #include <cstdint>
 #include <vector>
 
-#include "axis/sites.h"
-#include "base/local_frame.h"
 #include "base/memory.h"
-#include "medial/axis.h"
-#include "medial/shape.h"
+#include "methods/problem.h"
 #include "site/joint.h"
 #include "site/site.h"
 
 namespace medial::disks {
 
-using sites::SiteNumbers;
+using site::SiteNumbers;
 
 /// The direction in which the disks that connect holes reach out: that of the angle 0.6 + pi. An
 /// angle of no meaning to anybody who draws, so that no such disk comes to lie where others are,
@@ -25,7 +22,7 @@ constexpr Vec2 outreach{-0.825335614909678297, -0.564642473395035357};
 enum class Element : std::uint8_t {
   edge,    ///< a segment, or an arc of at most a quarter of a circle
   vertex,  ///< reflex, or a straight passage through a touching vertex
-  cut,     ///< the dividing disk between a hole and what it was connected to; touches nothing
+  bridge,  ///< the dividing disk between a hole and what it was connected to; touches nothing
 };
 
 /// The boundary as sites in boundary order, in the local frame: what the walk goes along. Every
@@ -33,19 +30,20 @@ enum class Element : std::uint8_t {
 /// smooth place where it has none; its holes are spliced in where their connecting disks touch, so
 /// the run is the boundary of a simply connected shape.
 struct Boundary {
-  struct Run {
+  struct SiteRange {
     std::uint32_t first = 0;
     std::uint32_t last = 0;
     bool at_corner = true;  ///< whether it begins and ends at a convex corner
   };
 
   std::vector<site::Site> sites;
-  std::vector<Element> elements;         ///< of each site
-  std::vector<site::Joint> joints;       ///< of an edge with the next one; empty: all are corners
-  std::vector<std::uint32_t> originals;  ///< index among the result's sites; of a cut: its number
-  std::vector<Run> runs;                 ///< of each component
-  /// Of each cut, its two places in the order: before and after the hole.
-  std::vector<std::array<std::uint32_t, 2>> cut_places;
+  std::vector<Element> elements;    ///< of each site
+  std::vector<site::Joint> joints;  ///< of an edge with the next one; empty: all are corners
+  std::vector<std::uint32_t>
+      originals;                ///< index among the result's sites; of a bridge: its number
+  std::vector<SiteRange> runs;  ///< of each component
+  /// Of each bridge, its two places in the order: before and after the hole.
+  std::vector<std::array<std::uint32_t, 2>> bridge_places;
   bool has_arcs = false;
   /// Whether edges may stand there twice, once for each side: that of a planar graph. Then a disk
   /// that touches one side is as near to the other, and where several edges meet, to all of them.
@@ -73,7 +71,7 @@ struct Boundary {
   }
   /// Whether a disk can touch i and i + 1 in one point: an edge and a vertex, or a smooth joint.
   bool is_smooth(std::uint32_t i) const {
-    if (elements[i] == Element::cut || elements[i + 1] == Element::cut) return false;
+    if (elements[i] == Element::bridge || elements[i + 1] == Element::bridge) return false;
     if (elements[i] != elements[i + 1]) return true;
     return elements[i] == Element::edge && joint(i) == site::Joint::smooth;
   }
@@ -108,8 +106,7 @@ struct Boundary {
 /// else at the joint where its curvature is smallest; a hole at its furthest point in the direction
 /// `outreach`: a reflex vertex, or a place inside an arc, which is divided there. A loop of one
 /// point is a vertex with the shape all around it, and without a neighbour.
-Boundary loops_boundary(const Shape& shape, const SiteNumbers& numbers, const LocalFrame& frame,
-                        bool two_sided = false);
+Boundary loops_boundary(const Problem& problem, bool two_sided);
 
 /// The angle from one direction to another, clockwise, in [0, 2 pi).
 double clockwise_turn(Vec2 from, Vec2 to);

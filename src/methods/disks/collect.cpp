@@ -49,8 +49,8 @@ std::vector<Placed> place(const std::vector<std::unique_ptr<Chunk>>& chunks, std
   return placed;
 }
 
-/// How the two ends of the axis that meet at each cut are joined: two edges become one, or a node
-/// takes the other's place.
+/// How the two ends of the axis that meet at each bridge are joined: two edges become one, or a
+/// node takes the other's place.
 struct Gluing {
   std::vector<std::uint32_t> number;  ///< of each node: which one of the axis it becomes
   std::vector<bool> node_stays;       ///< of those that become one, one
@@ -58,19 +58,19 @@ struct Gluing {
   std::size_t nodes = 0, edges = 0;  ///< that stay
 };
 
-Gluing glue(const std::vector<Placed>& placed, std::size_t cut_count, std::uint32_t node_count,
+Gluing glue(const std::vector<Placed>& placed, std::size_t bridge_count, std::uint32_t node_count,
             std::uint32_t edge_count) {
   struct End {
     std::uint32_t node = none, edge = none;
     std::uint32_t before = none;  ///< the node that the edge comes from
   };
-  auto ends = large_vector<std::array<End, 2>>(cut_count);
+  auto ends = large_vector<std::array<End, 2>>(bridge_count);
   for (const Placed& p : placed) {
-    for (const CutEnd& end : p.chunk->cut_ends) {
-      auto& pair = ends[end.cut];
+    for (const BridgeEnd& end : p.chunk->bridge_ends) {
+      auto& pair = ends[end.bridge];
       End& slot = pair[0].node == none ? pair[0] : pair[1];
       slot.node = p.node(end.node);
-      if (end.edge == CutEnd::no_edge) continue;
+      if (end.edge == BridgeEnd::no_edge) continue;
       slot.edge = p.first_edge + end.edge;
       slot.before = p.node(p.chunk->links[end.edge].node[0]);
     }
@@ -116,13 +116,13 @@ Gluing glue(const std::vector<Placed>& placed, std::size_t cut_count, std::uint3
 
 }  // namespace
 
-Graph collect(std::vector<std::unique_ptr<Chunk>>& chunks, std::size_t cut_count,
+Graph collect(std::vector<std::unique_ptr<Chunk>>& chunks, std::size_t bridge_count,
               std::size_t spare_nodes) {
   Graph graph;
   std::uint32_t node_count = 0, edge_count = 0;
   const std::vector<Placed> placed = place(chunks, node_count, edge_count);
-  const bool glued = cut_count > 0;
-  const Gluing gluing = glued ? glue(placed, cut_count, node_count, edge_count) : Gluing{};
+  const bool glued = bridge_count > 0;
+  const Gluing gluing = glued ? glue(placed, bridge_count, node_count, edge_count) : Gluing{};
 
   // One after the other: what takes the time is memory that is touched for the first time.
   const auto collect_nodes = [&] {
@@ -215,7 +215,7 @@ template std::vector<std::uint32_t> complete(const Boundary&, const LocalFrame&,
 bool touches_its_sites(const MedialAxis& axis, const Edge& edge, double slack) {
   const auto squared_distance = [](const Site& site, Vec2 c) {
     if (site.start == site.end) return squared_norm(c - site.start);
-    const sites::Pieces pieces = sites::pieces_of(site.start, site.end, site.bulge);
+    const site::Pieces pieces = site::pieces_of(site.start, site.end, site.bulge);
     const double first = site::squared_distance(pieces.first(), c);
     return pieces.count == 1 ? first : std::min(first, site::squared_distance(pieces.last(), c));
   };

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "medial/axis.h"
-#include "medial/voronoi.h"
+#include "medial/diagram.h"
 #include "methods/disks/boundary.h"
 #include "methods/disks/walk.h"
 
@@ -18,17 +18,17 @@ struct Graph {
   Statistics statistics;
 };
 
-/// Joins the walk's chunks into one graph: numbers the nodes and glues the axis at the cuts (whose
-/// disks are no nodes of it). Empties the chunks as it goes, so that nothing is in memory twice;
-/// leaves room for so many more nodes.
-Graph collect(std::vector<std::unique_ptr<Chunk>>& chunks, std::size_t cut_count,
+/// Joins the walk's chunks into one graph: numbers the nodes and glues the axis at the bridges
+/// (whose disks are no nodes of it). Empties the chunks as it goes, so that nothing is in memory
+/// twice; leaves room for so many more nodes.
+Graph collect(std::vector<std::unique_ptr<Chunk>>& chunks, std::size_t bridge_count,
               std::size_t spare_nodes);
 
 /// Makes edges of the links, with their curves, works out an axis' nodes' kinds, and goes back to
 /// the result's numbers of sites and to the input's units. Returns the edges with an
 /// end that does not touch one of the edge's two sites, give or take `slack` in local units: where
-/// cuts divide a site, the piece of it that the edge names. Of planar graphs none are looked for. E
-/// is Edge or VoronoiEdge.
+/// bridges divide a site, the piece of it that the edge names. Of planar graphs none are looked
+/// for. E is Edge or VoronoiEdge.
 template <class E>
 std::vector<std::uint32_t> complete(const Boundary& boundary, const LocalFrame& frame, double slack,
                                     Graph& graph, std::vector<E>& edges);

@@ -29,17 +29,17 @@ std::size_t loop_of(const Boundary& loops, std::uint32_t site) {
   if (guess + around < count && site < begin[static_cast<std::ptrdiff_t>(guess + around)].first)
     to = begin + static_cast<std::ptrdiff_t>(guess + around);
   const auto run = std::upper_bound(
-      from, to, site, [](std::uint32_t s, const Boundary::Run& r) { return s < r.first; });
+      from, to, site, [](std::uint32_t s, const Boundary::SiteRange& r) { return s < r.first; });
   return static_cast<std::size_t>(run - begin) - 1;
 }
 
-Boundary::Run run_of(const Boundary& loops, std::uint32_t site) {
+Boundary::SiteRange run_of(const Boundary& loops, std::uint32_t site) {
   return loops.runs[loop_of(loops, site)];
 }
 
 /// Of a segment touched in an end that is a vertex site, that vertex.
-std::uint32_t owner_of_foot(const Boundary& loops, const Boundary::Run& run, std::uint32_t site,
-                            Vec2 center) {
+std::uint32_t owner_of_foot(const Boundary& loops, const Boundary::SiteRange& run,
+                            std::uint32_t site, Vec2 center) {
   if (loops.elements[site] != Element::edge) return site;
   const double s = site::foot_parameter(loops.sites[site], center);
   const auto cyclic_next = site == run.last ? run.first : site + 1;
@@ -54,7 +54,7 @@ std::uint32_t owner_of_foot(const Boundary& loops, const Boundary::Run& run, std
 /// from inside: on its left, in its own range of directions.
 std::uint32_t facing_site(const Boundary& loops, const site::FirstTouch& first_touch,
                           std::uint32_t group, std::uint32_t site, Vec2 center) {
-  const auto faces = [&](std::uint32_t i, const Boundary::Run& run) {
+  const auto faces = [&](std::uint32_t i, const Boundary::SiteRange& run) {
     if (loops.elements[i] == Element::edge) return faces_edge(loops.sites[i], center);
     if (run.first == run.last) return true;
     const std::uint32_t before = i == run.first ? run.last : i - 1;
@@ -65,18 +65,18 @@ std::uint32_t facing_site(const Boundary& loops, const site::FirstTouch& first_t
   if (loops.elements[site] == Element::edge && faces_edge(loops.sites[site], center)) return site;
   const Vec2 foot = site::foot(loops.sites[site], center);
   constexpr double same_place = 0x1p-46;
-  const auto is_it = [&](std::uint32_t i, const Boundary::Run& run) {
+  const auto is_it = [&](std::uint32_t i, const Boundary::SiteRange& run) {
     return site::squared_distance(loops.sites[i], foot) <= same_place * same_place && faces(i, run);
   };
   // A loose segment is a run of two ends and two sides.
   constexpr std::uint32_t few = 4;
-  const Boundary::Run own = run_of(loops, site);
+  const Boundary::SiteRange own = run_of(loops, site);
   if (own.last - own.first < few)
     for (std::uint32_t i = own.first; i <= own.last; ++i)
       if (is_it(i, own)) return i;
   std::uint32_t found = site;
   first_touch.near(foot, same_place, group, [&](std::uint32_t i) {
-    const Boundary::Run run = run_of(loops, i);
+    const Boundary::SiteRange run = run_of(loops, i);
     // A vertex is the end of the edge before it.
     for (const std::uint32_t candidate :
          {i, i == run.last ? run.first : i + 1, i - (i > run.first ? 1 : 0)})
@@ -117,9 +117,9 @@ class Connector {
   }
 
   /// The disk meets its own component first. Other components can only have vertices in common with
-  /// it, and are left out: a cut must not end there.
-  Cut connecting_disk(std::uint32_t hole) {
-    const Boundary::Run own = loops_.runs[hole];
+  /// it, and are left out: a bridge must not end there.
+  Bridge connecting_disk(std::uint32_t hole) {
+    const Boundary::SiteRange own = loops_.runs[hole];
     const std::uint32_t component = shape_.component[hole];
     const Vec2 foot = loops_.sites[own.first].point;
     const double largest = largest_radius(foot);
@@ -134,11 +134,12 @@ class Connector {
     }
     if (touch) radius = touch->radius;
     found_.push_back(radius);
-    Cut cut{{foot + radius * outreach, radius}, hole, touch ? touch->site : own.first};
+    Bridge bridge{{foot + radius * outreach, radius}, hole, touch ? touch->site : own.first};
     if (loops_.two_sided && touch)
-      cut.site = facing_site(loops_, first_touch_, component, cut.site, cut.disk.center);
-    cut.site = owner_of_foot(loops_, run_of(loops_, cut.site), cut.site, cut.disk.center);
-    return cut;
+      bridge.site = facing_site(loops_, first_touch_, component, bridge.site, bridge.disk.center);
+    bridge.site =
+        owner_of_foot(loops_, run_of(loops_, bridge.site), bridge.site, bridge.disk.center);
+    return bridge;
   }
 
  private:
@@ -150,7 +151,7 @@ class Connector {
   /// Most holes have others at about the distance at which those before had some, or at first of
   /// their own detail.
   double first_radius(std::uint32_t hole) const {
-    const Boundary::Run own = loops_.runs[hole];
+    const Boundary::SiteRange own = loops_.runs[hole];
     const std::uint32_t edge =
         std::min(own.last, own.first + (loops_.elements[own.first] == Element::vertex ? 1 : 0));
     const double detail = loops_.sites[edge].length;
@@ -168,8 +169,8 @@ class Connector {
   std::vector<double> found_;  ///< radii of the run under way
 };
 
-/// Where along its site a cut touches: the parameter on a segment; on a vertex, the angle by which
-/// the boundary's normal has turned to the right since the site before.
+/// Where along its site a bridge touches: the parameter on a segment; on a vertex, the angle by
+/// which the boundary's normal has turned to the right since the site before.
 double place_on_site(const Boundary& loops, std::uint32_t site, std::uint32_t site_before,
                      Vec2 center) {
   const Site& s = loops.sites[site];
@@ -184,33 +185,34 @@ double place_on_site(const Boundary& loops, std::uint32_t site, std::uint32_t si
 /// Splices loops into runs, without recursion: chains of holes can be long.
 class Splicer {
  public:
-  Splicer(const Shape& shape, const Boundary& loops, const std::vector<Cut>& cuts)
-      : shape_(shape), loops_(loops), cuts_(cuts), places_(cuts.size()) {
-    std::vector<std::uint32_t> loop(cuts.size());
-    std::vector<Place> found(cuts.size());
-    parallel_for(cuts.size(), [&](std::size_t i) {
-      loop[i] = static_cast<std::uint32_t>(loop_of(loops, cuts[i].site));
+  Splicer(const Shape& shape, const Boundary& loops, const std::vector<Bridge>& bridges)
+      : shape_(shape), loops_(loops), bridges_(bridges), places_(bridges.size()) {
+    std::vector<std::uint32_t> loop(bridges.size());
+    std::vector<Place> found(bridges.size());
+    parallel_for(bridges.size(), [&](std::size_t i) {
+      loop[i] = static_cast<std::uint32_t>(loop_of(loops, bridges[i].site));
       found[i] = place_of(static_cast<std::uint32_t>(i), loop[i]);
     });
     // One place further, so that while the lists are filled, each grows to where the next begins.
     first_place_.resize(loops.runs.size() + 2);
     for (const std::uint32_t l : loop) ++first_place_[l + 2];
     for (std::size_t l = 2; l < first_place_.size(); ++l) first_place_[l] += first_place_[l - 1];
-    for (std::size_t i = 0; i < cuts.size(); ++i) places_[first_place_[loop[i] + 1]++] = found[i];
+    for (std::size_t i = 0; i < bridges.size(); ++i)
+      places_[first_place_[loop[i] + 1]++] = found[i];
     for (std::size_t l = 0; l < loops.runs.size(); ++l)
       std::sort(places_.begin() + first_place_[l], places_.begin() + first_place_[l + 1],
                 [](const Place& p, const Place& q) {
                   return p.site != q.site     ? p.site < q.site
                          : p.place != q.place ? p.place < q.place
-                                              : p.cut < q.cut;
+                                              : p.bridge < q.bridge;
                 });
   }
 
   Boundary splice() {
-    result_.cut_places.resize(cuts_.size());
+    result_.bridge_places.resize(bridges_.size());
     result_.has_arcs = loops_.has_arcs;
     result_.two_sided = loops_.two_sided;
-    result_.reserve(loops_.sites.size() + 4 * cuts_.size());
+    result_.reserve(loops_.sites.size() + 4 * bridges_.size());
     for (std::uint32_t loop = 0; loop < loops_.runs.size(); ++loop) {
       if (shape_.hole[loop]) continue;
       const auto first = static_cast<std::uint32_t>(result_.sites.size());
@@ -222,21 +224,21 @@ class Splicer {
   }
 
  private:
-  /// Where a cut touches.
+  /// Where a bridge touches.
   struct Place {
-    std::uint32_t site, cut;
+    std::uint32_t site, bridge;
     double place;
   };
   /// A loop under way: the next site, the next place on the loop, where the next copy of a segment
-  /// starts, and the cut that led here.
+  /// starts, and the bridge that led here.
   struct Cursor {
-    std::uint32_t loop, site, place, cut;
+    std::uint32_t loop, site, place, bridge;
     double from = 0;
   };
 
-  Place place_of(std::uint32_t cut, std::uint32_t loop) const {
-    const Boundary::Run run = loops_.runs[loop];
-    const auto [disk, hole, site] = cuts_[cut];
+  Place place_of(std::uint32_t bridge, std::uint32_t loop) const {
+    const Boundary::SiteRange run = loops_.runs[loop];
+    const auto [disk, hole, site] = bridges_[bridge];
     const std::uint32_t before = site == run.first ? run.last : site - 1;
     const double place = place_on_site(loops_, site, before, disk.center);
     // A hole's run starts in the middle of its first vertex: what is touched earlier on that
@@ -246,16 +248,16 @@ class Splicer {
         shape_.hole[loop] && site == run.first && run.first < run.last &&
         loops_.elements[site] == Element::vertex &&
         place < place_on_site(loops_, site, before, loops_.sites[site].point + outreach);
-    return {at_end ? run.last + 1 : site, cut, place};
+    return {at_end ? run.last + 1 : site, bridge, place};
   }
 
-  Cursor begin(std::uint32_t loop, std::uint32_t cut) const {
-    return {loop, loops_.runs[loop].first, first_place_[loop], cut};
+  Cursor begin(std::uint32_t loop, std::uint32_t bridge) const {
+    return {loop, loops_.runs[loop].first, first_place_[loop], bridge};
   }
 
-  void add_cut(std::uint32_t cut, std::size_t side) {
-    result_.cut_places[cut][side] = static_cast<std::uint32_t>(result_.sites.size());
-    result_.add(far_away, Element::cut, cut);
+  void add_bridge(std::uint32_t bridge, std::size_t side) {
+    result_.bridge_places[bridge][side] = static_cast<std::uint32_t>(result_.sites.size());
+    result_.add(far_away, Element::bridge, bridge);
   }
 
   /// A copy of the cursor's site up to `to` (a segment's parameter).
@@ -272,14 +274,14 @@ class Splicer {
     std::vector<Cursor> stack{begin(outer, none)};
     while (!stack.empty()) {
       Cursor& at = stack.back();
-      const Boundary::Run run = loops_.runs[at.loop];
+      const Boundary::SiteRange run = loops_.runs[at.loop];
       const bool here = at.place < first_place_[at.loop + 1] && places_[at.place].site == at.site;
       if (here) {
         const Place place = places_[at.place++];
         add_piece(at, place.place);
         at.from = place.place;
-        add_cut(place.cut, 0);
-        stack.push_back(begin(cuts_[place.cut].hole, place.cut));
+        add_bridge(place.bridge, 0);
+        stack.push_back(begin(bridges_[place.bridge].hole, place.bridge));
         continue;
       }
       // A hole that began at a vertex ends with a second copy of it; a point has nothing between.
@@ -293,15 +295,15 @@ class Splicer {
         ++at.site;
         continue;
       }
-      const std::uint32_t cut = at.cut;
+      const std::uint32_t bridge = at.bridge;
       stack.pop_back();
-      if (!stack.empty()) add_cut(cut, 1);
+      if (!stack.empty()) add_bridge(bridge, 1);
     }
   }
 
   const Shape& shape_;
   const Boundary& loops_;
-  const std::vector<Cut>& cuts_;
+  const std::vector<Bridge>& bridges_;
   std::vector<Place> places_;               ///< loop after loop, in the order of each
   std::vector<std::uint32_t> first_place_;  ///< of each loop
   Boundary result_;
@@ -309,8 +311,8 @@ class Splicer {
 
 }  // namespace
 
-std::vector<Cut> connecting_disks(const Shape& shape, const Boundary& loops, double tolerance,
-                                  std::uint64_t& queries) {
+std::vector<Bridge> connecting_disks(const Shape& shape, const Boundary& loops, double tolerance,
+                                     std::uint64_t& queries) {
   std::vector<std::uint32_t> holes;
   for (std::uint32_t loop = 0; loop < shape.loop_count(); ++loop)
     if (shape.hole[loop]) holes.push_back(loop);
@@ -329,7 +331,7 @@ std::vector<Cut> connecting_disks(const Shape& shape, const Boundary& loops, dou
   // A vertex ends an edge, so edges are enough, but for vertices without any.
   std::vector<std::uint32_t> edges;
   edges.reserve(loops.sites.size());
-  for (const Boundary::Run& run : loops.runs) {
+  for (const Boundary::SiteRange& run : loops.runs) {
     // Of a loose segment or arc, one side is enough, too: a run of two ends and two sides.
     const std::uint32_t side = run.first + 1, other = run.first + 3;
     const bool is_loose = loops.two_sided && run.last == other &&
@@ -345,22 +347,22 @@ std::vector<Cut> connecting_disks(const Shape& shape, const Boundary& loops, dou
   }
   const site::FirstTouch first_touch(loops.sites, edges, components);
 
-  std::vector<Cut> cuts(holes.size());
+  std::vector<Bridge> bridges(holes.size());
   constexpr std::size_t together = 16;
   parallel_ranges(holes.size(), 4 * together, [&](std::size_t begin, std::size_t last) {
     Connector connector(shape, loops, first_touch, furthest, typical, tolerance);
     for (; begin < last; begin += together) {
       const std::size_t end = std::min(begin + together, last);
       connector.begin(std::span(holes).subspan(begin, end - begin));
-      for (std::size_t i = begin; i < end; ++i) cuts[i] = connector.connecting_disk(holes[i]);
+      for (std::size_t i = begin; i < end; ++i) bridges[i] = connector.connecting_disk(holes[i]);
     }
   });
-  queries += cuts.size();
-  return cuts;
+  queries += bridges.size();
+  return bridges;
 }
 
-Boundary connect(const Shape& shape, const Boundary& loops, const std::vector<Cut>& cuts) {
-  return Splicer(shape, loops, cuts).splice();
+Boundary connect(const Shape& shape, const Boundary& loops, const std::vector<Bridge>& bridges) {
+  return Splicer(shape, loops, bridges).splice();
 }
 
 }  // namespace medial::disks

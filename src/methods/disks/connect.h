@@ -9,20 +9,20 @@ namespace medial::disks {
 
 /// A maximal disk that connects a hole to another loop: it touches the hole in its furthest point
 /// in the direction `outreach`, a vertex or a place inside an arc, and the other loop further out.
-struct Cut {
+struct Bridge {
   Disk disk;
   std::uint32_t hole = 0;  ///< loop
   std::uint32_t site = 0;  ///< touched site, in the loops' boundary
 };
 
-/// One cut for each hole (docs/disks.md, step 3). The disk at the furthest point lies beyond it,
+/// One bridge for each hole (docs/disks.md, step 3). The disk at the furthest point lies beyond it,
 /// where the hole has no other point; the loop that it touches has a point further out than the
 /// hole has, so no cycle of holes can arise and all loops of a component get connected. `queries`
 /// counts nearest-site queries. O(h log n) expected.
-std::vector<Cut> connecting_disks(const Shape& shape, const Boundary& loops, double tolerance,
-                                  std::uint64_t& queries);
+std::vector<Bridge> connecting_disks(const Shape& shape, const Boundary& loops, double tolerance,
+                                     std::uint64_t& queries);
 
 /// The boundary with all holes spliced in: one run for each component.
-Boundary connect(const Shape& shape, const Boundary& loops, const std::vector<Cut>& cuts);
+Boundary connect(const Shape& shape, const Boundary& loops, const std::vector<Bridge>& bridges);
 
 }  // namespace medial::disks

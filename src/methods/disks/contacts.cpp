@@ -14,10 +14,10 @@ double turn(Vec2 from, Vec2 to) { return std::atan2(-cross(from, to), dot(from, 
 bool Contacts::faces(std::uint32_t i, Vec2 c) const {
   if (element(i) == Element::edge) return faces_edge(site(i), c);
   const auto bound = [&](std::uint32_t beside) {
-    if (element(beside) == Element::cut) return cut_direction(i, beside);
+    if (element(beside) == Element::bridge) return bridge_direction(i, beside);
     return beside < i ? site(beside).end_normal() : site(beside).normal();
   };
-  const bool all_around = element(i - 1) == Element::cut && element(i + 1) == Element::cut &&
+  const bool all_around = element(i - 1) == Element::bridge && element(i + 1) == Element::bridge &&
                           boundary_.originals[i - 1] == boundary_.originals[i + 1];
   return all_around || in_wedge(bound(i - 1), bound(i + 1), c - site(i).point);
 }
@@ -42,18 +42,18 @@ std::uint32_t Contacts::owner(std::uint32_t i, Vec2 center, const Span& span) co
     else if (s >= site(i).length && i + 1 < span.left && boundary_.is_smooth(i))
       ++i;
   }
-  if (element(i) != Element::vertex || context_.cuts.empty()) return i;
-  // Normals turn to the right along a vertex. A vertex with several cuts takes several steps.
+  if (element(i) != Element::vertex || context_.bridges.empty()) return i;
+  // Normals turn to the right along a vertex. A vertex with several bridges takes several steps.
   std::uint32_t copy = i;
-  for (std::size_t step = 0; step <= context_.cuts.size(); ++step) {
+  for (std::size_t step = 0; step <= context_.bridges.size(); ++step) {
     const Vec2 to = center - site(copy).point;
     std::uint32_t next = copy;
-    // An outer loop without a convex corner may begin with a vertex, which no cut stands before.
-    if (copy > 0 && element(copy - 1) == Element::cut &&
-        cross(cut_direction(copy, copy - 1), to) > 0)
+    // An outer loop without a convex corner may begin with a vertex, which no bridge stands before.
+    if (copy > 0 && element(copy - 1) == Element::bridge &&
+        cross(bridge_direction(copy, copy - 1), to) > 0)
       next = other_copy(copy - 1, copy);
-    else if (copy + 1 < boundary_.sites.size() && element(copy + 1) == Element::cut &&
-             cross(to, cut_direction(copy, copy + 1)) > 0)
+    else if (copy + 1 < boundary_.sites.size() && element(copy + 1) == Element::bridge &&
+             cross(to, bridge_direction(copy, copy + 1)) > 0)
       next = other_copy(copy + 1, copy);
     if (next == copy) break;
     copy = next;
@@ -61,16 +61,16 @@ std::uint32_t Contacts::owner(std::uint32_t i, Vec2 center, const Span& span) co
   return copy > span.right && copy < span.left ? copy : i;
 }
 
-/// From a vertex towards the centre of the cut beside it.
-Vec2 Contacts::cut_direction(std::uint32_t vertex, std::uint32_t cut) const {
-  return context_.cuts[boundary_.originals[cut]].disk.center - site(vertex).point;
+/// From a vertex towards the centre of the bridge beside it.
+Vec2 Contacts::bridge_direction(std::uint32_t vertex, std::uint32_t bridge) const {
+  return context_.bridges[boundary_.originals[bridge]].disk.center - site(vertex).point;
 }
 
-/// The copy of a vertex on the other side of the cut at place `cut`, next to which it stands.
-std::uint32_t Contacts::other_copy(std::uint32_t cut, std::uint32_t vertex) const {
-  const auto [first, second] = boundary_.cut_places[boundary_.originals[cut]];
+/// The copy of a vertex on the other side of the bridge at place `bridge`, next to which it stands.
+std::uint32_t Contacts::other_copy(std::uint32_t bridge, std::uint32_t vertex) const {
+  const auto [first, second] = boundary_.bridge_places[boundary_.originals[bridge]];
   const bool on_hole = vertex > first && vertex < second;
-  if (cut == first) return on_hole ? second - 1 : second + 1;
+  if (bridge == first) return on_hole ? second - 1 : second + 1;
   return on_hole ? first + 1 : first - 1;
 }
 

@@ -15,12 +15,12 @@ namespace medial::disks {
 /// What a walk goes by.
 struct WalkContext {
   const Boundary& boundary;
-  const std::vector<Cut>& cuts;
+  const std::vector<Bridge>& bridges;
   const site::BoundaryTree& tree;
   double tolerance = 0;     ///< in the local frame
   double radius_limit = 0;  ///< no disk inside the shape is larger
   const std::atomic<bool>* cancel = nullptr;
-  std::function<void(std::uint64_t)> finished_sites;  ///< told how many more sites are done with
+  std::function<void(std::uint64_t)> finished_sites;  ///< gets the number of further finished sites
 };
 
 /// A part of the boundary still to be walked: the sites between `right`, whose foot moves forward,
@@ -32,7 +32,7 @@ struct Span {
 };
 
 /// Which sites of a span a disk touches: searches, and what is left to decide when the tree has
-/// answered: joints, and vertices that cuts divide into several copies.
+/// answered: joints, and vertices that bridges divide into several copies.
 class Contacts {
  public:
   using Hit = site::BoundaryTree::Hit;
@@ -54,8 +54,8 @@ class Contacts {
   }
 
   /// The site that a disk around `center` really touches where the search found site i: a segment's
-  /// end that is a vertex site of its own belongs to the vertex, and a vertex that cuts divide into
-  /// several copies is touched by the copy in whose range of directions the centre lies.
+  /// end that is a vertex site of its own belongs to the vertex, and a vertex that bridges divide
+  /// into several copies is touched by the copy in whose range of directions the centre lies.
   std::uint32_t owner(std::uint32_t i, Vec2 center, const Span& span) const;
 
   /// Whether a site of a planar graph has c on its side and in its own range of directions: see
@@ -83,10 +83,11 @@ class Contacts {
     return site::squared_distance(site(i), disk.center) <= reach * reach;
   }
 
-  /// The next site in the span after the right one or before the left one, across a cut if need be.
+  /// The next site in the span after the right one or before the left one, across a bridge if need
+  /// be.
   std::uint32_t neighbor(const Span& span, bool of_right) const {
-    if (of_right) return span.right + (element(span.right + 1) == Element::cut ? 2 : 1);
-    return span.left - (element(span.left - 1) == Element::cut ? 2 : 1);
+    if (of_right) return span.right + (element(span.right + 1) == Element::bridge ? 2 : 1);
+    return span.left - (element(span.left - 1) == Element::bridge ? 2 : 1);
   }
 
   /// Whether the span is a short chain of smooth joints, nowhere convex, that turns by less than
@@ -104,11 +105,11 @@ class Contacts {
   void split(const Span& span, const Disk& disk, std::uint32_t sure, bool all_around,
              std::vector<Span>& parts);
 
-  /// Contacts of one disk at a smaller angle are not told apart at a node.
+  /// Contacts of one disk at a smaller angle count as one at a node.
   static constexpr double distinct_contacts = 1e-6;
-  /// Whether a disk cannot touch both sites but in one place for their being nearer to each other
-  /// than contacts are told apart: copies of a point or of an edge, or neighbours. Two points are
-  /// told apart at any distance.
+  /// Whether a disk can touch both sites in one place only, as they are nearer to each other than
+  /// contacts are distinguished: copies of a point or of an edge, or neighbours. Two points are
+  /// distinct at any distance.
   bool in_one_place(std::uint32_t i, std::uint32_t j, Vec2 center, double radius) const {
     const site::Site &a = site(i), &b = site(j);
     if (a.is_vertex() && b.is_vertex()) return a.point == b.point;
@@ -122,12 +123,12 @@ class Contacts {
   bool are_distinct(std::uint32_t first, std::uint32_t second, double angle,
                     const Disk& disk) const;
   std::uint32_t facing(std::uint32_t i, Vec2 center, const Span& span) const;
-  Vec2 cut_direction(std::uint32_t vertex, std::uint32_t cut) const;
-  std::uint32_t other_copy(std::uint32_t cut, std::uint32_t vertex) const;
+  Vec2 bridge_direction(std::uint32_t vertex, std::uint32_t bridge) const;
+  std::uint32_t other_copy(std::uint32_t bridge, std::uint32_t vertex) const;
 
   /// Feet further apart than so many tolerances are not two copies of one place.
   static constexpr double distinct_feet = 16;
-  /// Longer chains are not looked at: their ends are told apart well enough.
+  /// Longer chains need no check: their ends are distinct.
   static constexpr std::uint32_t longest_flat_chain = 8;
 
   const WalkContext& context_;

@@ -47,7 +47,8 @@ Event EventSearch::local_event(bool on_right) {
   const std::uint32_t own = on_right ? span_.right : span_.left;
   const std::uint32_t next = on_right ? own + 1 : own - 1;
   if (boundary_.is_smooth(on_right ? own : next)) return event_at_smooth_joint(on_right);
-  return element(next) == Element::cut ? event_across_cut(on_right) : event_at_corner(on_right);
+  return element(next) == Element::bridge ? event_across_bridge(on_right)
+                                          : event_at_corner(on_right);
 }
 
 Event EventSearch::event_at_smooth_joint(bool on_right) {
@@ -69,7 +70,7 @@ Event EventSearch::event_at_smooth_joint(bool on_right) {
   return not_behind(event);
 }
 
-Event EventSearch::event_across_cut(bool on_right) {
+Event EventSearch::event_across_bridge(bool on_right) {
   const std::uint32_t own = on_right ? span_.right : span_.left;
   const std::uint32_t other = on_right ? span_.left : span_.right;
   Event event;
@@ -124,8 +125,8 @@ Event EventSearch::event_at_corner(bool on_right) {
 Event EventSearch::end_of_range(bool on_right) const {
   const std::uint32_t own = on_right ? span_.right : span_.left;
   const std::uint32_t next = on_right ? own + 1 : own - 1;
-  const Cut& cut = context_.cuts[boundary_.originals[next]];
-  const Vec2 foot = site::foot(site(own), cut.disk.center), to = cut.disk.center - foot;
+  const Bridge& bridge = context_.bridges[boundary_.originals[next]];
+  const Vec2 foot = site::foot(site(own), bridge.disk.center), to = bridge.disk.center - foot;
   const double radius =
       site::tangent_radius(foot, (1 / norm(to)) * to, site(on_right ? span_.left : span_.right));
   if (!(radius <= context_.radius_limit)) return {};
@@ -451,7 +452,7 @@ std::optional<Event> EventSearch::contact_before(const Event& intruded) {
   // The carrier is touched short of the edge: one of its neighbours comes first.
   std::optional<Event> earliest;
   for (const std::uint32_t next : {i - 1, i + 1}) {
-    if (next <= span_.right || next >= span_.left || element(next) == Element::cut) continue;
+    if (next <= span_.right || next >= span_.left || element(next) == Element::bridge) continue;
     const auto on_next = contact_with(next, intruded.position);
     if (on_next && reaches(*on_next) &&
         on_next->position < (earliest ? *earliest : intruded).position)

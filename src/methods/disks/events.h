@@ -88,11 +88,11 @@ class EventSearch {
   /// The event at which the foot leaves `right` or `left` for its neighbour, by the sites alone.
   Event local_event(bool on_right);
   Event event_at_smooth_joint(bool on_right);
-  /// Across a cut, the neighbour is touched as a third site.
-  Event event_across_cut(bool on_right);
+  /// Across a bridge, the neighbour is touched as a third site.
+  Event event_across_bridge(bool on_right);
   Event event_at_corner(bool on_right);
-  /// The disk whose foot on the right or left is where a cut ends the range of a site of a planar
-  /// graph: the walk gets no further, as the cut's disk reaches across.
+  /// The disk whose foot on the right or left is where a bridge ends the range of a site of a
+  /// planar graph: the walk gets no further, as the bridge's disk reaches across.
   Event end_of_range(bool on_right) const;
   /// Whether the foot on the right or left meets a convex corner only after this event. Of two
   /// disks of a bisector that keep clear of a site, so do all in between.

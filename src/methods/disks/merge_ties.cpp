@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "base/compat.h"
 #include "base/fill_gaps.h"
 #include "base/memory.h"
 #include "base/numbers.h"
@@ -126,7 +127,7 @@ class Merger {
     first_end_ = large_vector(graph_.nodes.size(), skipped);
     for (const std::uint32_t e : edges)
       for (const std::uint32_t node : graph_.links[e].node) first_end_[node] = none;
-    next_end_ = std::make_unique_for_overwrite<std::uint32_t[]>(2 * graph_.links.size());
+    next_end_ = uninitialized<std::uint32_t[]>(2 * graph_.links.size());
     prefer_large_pages(next_end_.get(), 2 * graph_.links.size() * sizeof(std::uint32_t));
     for (std::uint32_t end = 0; end < 2 * graph_.links.size(); ++end) {
       std::uint32_t& first = first_end_[graph_.links[end / 2].node[end % 2]];
@@ -216,7 +217,7 @@ class Merger {
     if (next_end_[end] != none) return true;
     auto [left, right] = graph_.links[end / 2].site;
     if (end % 2 == 0) std::swap(left, right);
-    const Boundary::Run& run = boundary_.runs[graph_.nodes[node].component];
+    const Boundary::SiteRange& run = boundary_.runs[graph_.nodes[node].component];
     for (std::uint32_t site = right;;) {
       site = site == run.last ? run.first : site + 1;
       if (site == left) return true;
@@ -372,7 +373,7 @@ class Merger {
   }
 
   bool is_empty(const Disk& disk, std::uint32_t component) const {
-    const Boundary::Run& run = boundary_.runs[component];
+    const Boundary::SiteRange& run = boundary_.runs[component];
     return !tree_.nearest(disk.center, disk.radius - tolerance_, run.first, run.last);
   }
 

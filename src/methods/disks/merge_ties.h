@@ -6,7 +6,7 @@
 
 namespace medial::disks {
 
-/// Merges nodes that are one within the tolerance, of which one is a branching node at least.
+/// Merges nodes that are one within the tolerance where one of them is a branching node.
 ///
 /// The walk follows exact bisectors. Where many sites touch one disk but for the rounding of their
 /// coordinates, the bisector of two that enclose a small angle passes beside that disk's centre by

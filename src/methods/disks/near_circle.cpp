@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/compat.h"
+
 namespace medial::disks {
 namespace {
 
@@ -34,7 +36,7 @@ bool is_near_circle(const Boundary& boundary, const Box& box, double slack) {
   if (!boundary.has_arcs || boundary.runs.size() != 1) return false;
   const Vec2 center = midpoint(box.low, box.high);
   const double radius = 0.5 * (box.high.x - box.low.x);
-  return std::ranges::all_of(boundary.sites, [&](const Site& site) {
+  return ranges::all_of(boundary.sites, [&](const Site& site) {
     const bool convex = site.is_vertex() || site.curvature > 0;
     return convex && std::abs(distance(site.point, center) - radius) <= slack &&
            std::abs(distance(site.at(0.5 * site.length), center) - radius) <= slack;
@@ -43,7 +45,7 @@ bool is_near_circle(const Boundary& boundary, const Box& box, double slack) {
 
 bool is_in_centers(const Boundary& boundary, const Graph& graph, double slack) {
   if (!boundary.has_arcs) return false;
-  return std::ranges::any_of(graph.links, [&](const Link& edge) {
+  return ranges::any_of(graph.links, [&](const Link& edge) {
     const auto [left, right] = edge.site;
     const Disk &from = graph.nodes[edge.node[0]].disk, &to = graph.nodes[edge.node[1]].disk;
     for (const std::uint32_t i : {left, right})
@@ -51,8 +53,8 @@ bool is_in_centers(const Boundary& boundary, const Graph& graph, double slack) {
           is_own_circle(boundary.sites[i], from, slack))
         return true;
     // The walk leads from where the run's ends are into the range between the two sites.
-    const Boundary::Run& run =
-        *std::ranges::lower_bound(boundary.runs, left, {}, &Boundary::Run::last);
+    const Boundary::SiteRange& run =
+        *ranges::lower_bound(boundary.runs, left, {}, &Boundary::SiteRange::last);
     const std::uint32_t behind = left < run.last ? left + 1 : run.first,
                         before = right > run.first ? right - 1 : run.last;
     return (right + 1 < left && ends_in_several_arcs(boundary, right + 1, left - 1, to, slack)) ||

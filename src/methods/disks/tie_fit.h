@@ -72,7 +72,7 @@ struct Dependency {
 };
 
 /// The disk whose largest residual at given contacts is smallest, or good enough: Stiefel's
-/// exchange method for the linear problem, with the equations taken anew at every disk.
+/// exchange method for the linear problem, with new equations at every disk.
 class Fit {
  public:
   Fit(std::span<const site::Site> sites, double bound) : sites_(sites), bound_(bound) {}

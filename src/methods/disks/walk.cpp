@@ -28,7 +28,7 @@ class Walker {
 
   /// Walks all of a run: from the convex corner between its last and first site, or from a disk
   /// that touches the boundary where the two join smoothly.
-  void walk_run(const Boundary::Run& run) {
+  void walk_run(const Boundary::SiteRange& run) {
     chunk_.nodes.push_back({site(run.first).point, 0});  // stands for no parent
     if (run.at_corner) {
       const std::uint32_t corner = add_node({site(run.first).point, 0});
@@ -89,7 +89,7 @@ class Walker {
 
   /// The disk that grows at the smooth place where a run begins and ends, until it touches
   /// something: a node of the axis, from which all of the run is walked. A circle has no more.
-  void start_at_smooth_place(const Boundary::Run& run) {
+  void start_at_smooth_place(const Boundary::SiteRange& run) {
     const auto place = boundary_.smooth_place(run.last, run.first);
     const Vec2 foot = place.point, normal = place.normal;
     double radius = context_.radius_limit;
@@ -100,8 +100,8 @@ class Walker {
     // The edge behind the vertex at which the run begins, behind the holes connected there, if any.
     std::uint32_t behind = Hit::none;
     if (element(run.first) == Element::vertex)
-      for (behind = run.first + 1; element(behind) == Element::cut;)
-        behind = boundary_.cut_places[boundary_.originals[behind]][1] + 2;
+      for (behind = run.first + 1; element(behind) == Element::bridge;)
+        behind = boundary_.bridge_places[boundary_.originals[behind]][1] + 2;
     std::uint32_t touched = Hit::none;
     while (const Hit hit = contacts_.nearest(disk_of(radius), whole)) {
       // The edge behind a reflex vertex bends into the disk, if at all, up to its end.
@@ -130,24 +130,24 @@ class Walker {
       finished(2);
       return false;
     }
-    if (between == 2 && element(span.right + 1) == Element::cut) {
-      end_at_cut(span, boundary_.originals[span.right + 1]);
+    if (between == 2 && element(span.right + 1) == Element::bridge) {
+      end_at_bridge(span, boundary_.originals[span.right + 1]);
       finished(2);
       return false;
     }
     return !contacts_.is_reflex_chain(span);
   }
 
-  void end_at_cut(const Span& span, std::uint32_t cut) {
-    const Disk& disk = context_.cuts[cut].disk;
+  void end_at_bridge(const Span& span, std::uint32_t bridge) {
+    const Disk& disk = context_.bridges[bridge].disk;
     if (coincide(chunk_.nodes[span.node], disk)) {
-      chunk_.cut_ends.push_back({cut, span.node, CutEnd::no_edge});
+      chunk_.bridge_ends.push_back({bridge, span.node, BridgeEnd::no_edge});
       return;
     }
     const auto edge = static_cast<std::uint32_t>(chunk_.links.size());
     const std::uint32_t node = add_node(disk);
     add_edge(span, node);
-    chunk_.cut_ends.push_back({cut, node, edge});
+    chunk_.bridge_ends.push_back({bridge, node, edge});
   }
 
   bool coincide(const Disk& a, const Disk& b) const {

@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "base/compat.h"
 #include "base/memory.h"
 #include "medial/axis.h"
 #include "methods/disks/contacts.h"
@@ -20,7 +21,7 @@ class BlockList {
   void push_back(const T& value) {
     if (size_ == capacity_) {
       const std::size_t count = size_of(blocks_.size());
-      blocks_.push_back(std::make_unique_for_overwrite<T[]>(count));
+      blocks_.push_back(uninitialized<T[]>(count));
       next_ = blocks_.back().get();
       capacity_ += count;
     }
@@ -69,10 +70,10 @@ struct Link {
 };
 
 /// Where the axis meets a connecting disk, on one of its two sides.
-struct CutEnd {
+struct BridgeEnd {
   static constexpr std::uint32_t no_edge = ~std::uint32_t{0};
-  std::uint32_t cut = 0;
-  std::uint32_t node = 0;  ///< of the chunk: at the cut's centre
+  std::uint32_t bridge = 0;
+  std::uint32_t node = 0;  ///< of the chunk: at the bridge's centre
   std::uint32_t edge =
       no_edge;  ///< the edge that leads there; none: the node is a node of the axis
 };
@@ -84,7 +85,7 @@ struct Chunk {
   std::uint32_t parent_node = 0;
   BlockList<Disk> nodes;
   BlockList<Link> links;
-  std::vector<CutEnd> cut_ends;
+  std::vector<BridgeEnd> bridge_ends;
   std::vector<std::unique_ptr<Chunk>> children;  ///< in the order in which they were forked
   Statistics statistics;
 };

@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include "base/compat.h"
 #include "base/local_frame.h"
 #include "base/stopwatch.h"
 #include "base/threads.h"
@@ -34,7 +35,8 @@ Decisions sum_in_blocks(std::size_t count, const Work& work) {
 
 class Certifier {
  public:
-  Certifier(const Outline& outline, const LocalFrame& frame, MedialAxis& axis, ContactGraph& graph)
+  Certifier(const SiteLoops& outline, const LocalFrame& frame, MedialAxis& axis,
+            ContactGraph& graph)
       : outline_(outline), frame_(frame), axis_(axis), graph_(graph), links_(graph.links) {}
 
   /// The place of a failure, or none.
@@ -362,8 +364,8 @@ class Certifier {
   /// Whether a link inside of a cluster runs backward for certain. Beside joints that only count as
   /// smooth it may, by as much as they are off.
   bool runs_backward(const std::vector<std::uint32_t>& nodes) const {
-    return outline_.parted && std::ranges::any_of(nodes, [&](std::uint32_t node) {
-             return std::ranges::any_of(graph_.contacts(node), [&](const Contact& contact) {
+    return outline_.parted && ranges::any_of(nodes, [&](std::uint32_t node) {
+             return ranges::any_of(graph_.contacts(node), [&](const Contact& contact) {
                if (contact.half == no_half || !inner_[contact.half / 2]) return false;
                const std::uint32_t link = contact.half / 2;
                const auto [from, to] = links_[link].node;
@@ -464,7 +466,7 @@ class Certifier {
     return {frame_.to_input(center), frame_.inverse * static_cast<double>(bounds.radius.value)};
   }
 
-  const Outline& outline_;
+  const SiteLoops& outline_;
   const LocalFrame& frame_;
   MedialAxis& axis_;
   ContactGraph& graph_;
@@ -480,16 +482,14 @@ class Certifier {
 
 }  // namespace
 
-Status certify(const Shape& shape, const Options& options, bool part_joints, MedialAxis& axis) {
+Status certify(const Problem& problem, bool part_joints, MedialAxis& axis) {
   Stopwatch watch;
-  const LocalFrame frame = frame_of(bounding_box(shape));
-  Outline outline =
-      outline_of(shape, frame, sites::number_sites(shape, frame, options.corner_angle));
+  SiteLoops outline = outline_of(problem);
   if (part_joints) exact::part_joints(outline);
   ContactGraph graph;
   // Arcs that join smoothly only to within the tolerance, on one circle but for that, may have no
   // disk that touches all around them (docs/exact.md, Limits). Between segments nothing is rounded.
-  const bool has_arcs = !shape.bulges.empty();
+  const bool has_arcs = !problem.shape.bulges.empty();
   const auto failure = [has_arcs](Vec2 place) {
     Error error{ErrorCode::internal,
                 "the axis could not be made certain here: please report this shape",
@@ -505,7 +505,7 @@ Status certify(const Shape& shape, const Options& options, bool part_joints, Med
   };
   if (const auto node = ContactGraph::build(axis, outline, graph))
     return failure(axis.nodes[*node].disk.center);
-  Certifier certifier(outline, frame, axis, graph);
+  Certifier certifier(outline, problem.frame, axis, graph);
   if (const auto place = certifier.run()) return failure(*place);
   Statistics& statistics = axis.statistics;
   const Decisions& decisions = certifier.decisions();

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "medial/compute.h"
+#include "methods/problem.h"
 
 namespace medial::exact {
 
@@ -14,6 +14,6 @@ namespace medial::exact {
 /// centres of several arcs, which the normals at such a joint may miss by more than disks differ.
 ///
 /// O(n) expected; the same result for any number of threads. Call it inside of a task arena.
-Status certify(const Shape& shape, const Options& options, bool part_joints, MedialAxis& axis);
+Status certify(const Problem& problem, bool part_joints, MedialAxis& axis);
 
 }  // namespace medial::exact

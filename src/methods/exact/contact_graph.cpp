@@ -46,7 +46,7 @@ Links links_of(const MedialAxis& axis, const Incidence& incidence, const std::ve
 /// The halves that leave a node, by the sites on their right, and from there the contacts in order.
 class NodeReader {
  public:
-  NodeReader(const Links& links, const Outline& outline) : links_(links), outline_(outline) {}
+  NodeReader(const Links& links, const SiteLoops& outline) : links_(links), outline_(outline) {}
 
   /// Requires a half.
   bool read(std::span<const Half> halves, std::vector<Contact>& contacts) {
@@ -84,13 +84,13 @@ class NodeReader {
   }
 
   const Links& links_;
-  const Outline& outline_;
+  const SiteLoops& outline_;
   std::vector<Half> halves_;
 };
 
 }  // namespace
 
-std::optional<std::uint32_t> ContactGraph::build(const MedialAxis& axis, const Outline& outline,
+std::optional<std::uint32_t> ContactGraph::build(const MedialAxis& axis, const SiteLoops& outline,
                                                  ContactGraph& graph) {
   const Incidence incidence(axis);
   graph.begin_.assign(1, 0);
@@ -143,7 +143,7 @@ std::optional<std::uint32_t> ContactGraph::build(const MedialAxis& axis, const O
 }
 
 std::optional<std::uint32_t> find_site_left_out(std::span<const std::span<const Contact>> nodes,
-                                                const Outline& outline) {
+                                                const SiteLoops& outline) {
   std::vector<std::uint8_t> entered(outline.sites.size(), 0);
   for (const auto contacts : nodes) {
     for (std::size_t i = 0; i < contacts.size(); ++i) {

@@ -56,7 +56,7 @@ class ContactGraph {
   Links links;
 
   /// Fails with the node where the edges around it do not follow each other along the boundary.
-  static std::optional<std::uint32_t> build(const MedialAxis& axis, const Outline& outline,
+  static std::optional<std::uint32_t> build(const MedialAxis& axis, const SiteLoops& outline,
                                             ContactGraph& graph);
 
   /// None for an inner node of a link.
@@ -76,7 +76,7 @@ class ContactGraph {
 };
 
 /// A convex corner, where the axis ends with radius 0.
-inline bool is_corner(std::span<const Contact> contacts, const Outline& outline) {
+inline bool is_corner(std::span<const Contact> contacts, const SiteLoops& outline) {
   if (contacts.size() != 2) return false;
   for (std::size_t i = 0; i < 2; ++i) {
     const std::uint32_t before = contacts[i].site;
@@ -90,6 +90,6 @@ inline bool is_corner(std::span<const Contact> contacts, const Outline& outline)
 /// Whether going along the axis, with the boundary on the right, leads along every loop once: each
 /// site is come to once from the one before it. Otherwise a site where it is not so.
 std::optional<std::uint32_t> find_site_left_out(std::span<const std::span<const Contact>> nodes,
-                                                const Outline& outline);
+                                                const SiteLoops& outline);
 
 }  // namespace medial::exact

@@ -21,7 +21,7 @@ constexpr int most_steps = 3;
 
 double size_of(const Vector<Bounded<double>>& v) { return v.x.most() + v.y.most(); }
 
-std::optional<DiskBounds<double>> three_apart(const Outline& outline,
+std::optional<DiskBounds<double>> three_apart(const SiteLoops& outline,
                                               const std::array<std::uint32_t, 3>& sites,
                                               const Disk& start) {
   using Number = Bounded<double>;
@@ -70,7 +70,7 @@ std::optional<DiskBounds<double>> three_apart(const Outline& outline,
 }  // namespace
 
 template <class Real>
-std::optional<DiskBounds<Real>> disk_bounds(const Outline& outline,
+std::optional<DiskBounds<Real>> disk_bounds(const SiteLoops& outline,
                                             const std::array<std::uint32_t, 3>& sites,
                                             const Disk& start) {
   using Number = Bounded<Real>;
@@ -141,7 +141,8 @@ std::optional<int> further_along(const ExactSite& site, const DiskBounds<Real>& 
     return normal + factor * (disk.center - start);
   };
   const auto before = normal_at(from), after = normal_at(to);
-  // An arc can turn by a half circle: on different sides of its middle feet are told apart first.
+  // An arc can turn by a half circle: feet on different sides of its middle are distinguished
+  // first.
   const auto middle = left_of(exact_vector<Number>(site.end) - start);
   const auto from_side = cross(middle, before).sign(), to_side = cross(middle, after).sign();
   const int left = site.bulge > 0 ? 1 : -1;
@@ -162,10 +163,10 @@ bool may_reach(const ExactSite& site, const DiskBounds<Precise>& disk) {
   return !(before && *before < 0) && !(after && *after < 0);
 }
 
-template std::optional<DiskBounds<double>> disk_bounds(const Outline&,
+template std::optional<DiskBounds<double>> disk_bounds(const SiteLoops&,
                                                        const std::array<std::uint32_t, 3>&,
                                                        const Disk&);
-template std::optional<DiskBounds<Precise>> disk_bounds(const Outline&,
+template std::optional<DiskBounds<Precise>> disk_bounds(const SiteLoops&,
                                                         const std::array<std::uint32_t, 3>&,
                                                         const Disk&);
 template std::optional<int> further_along(const ExactSite&, const DiskBounds<double>&,

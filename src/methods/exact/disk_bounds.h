@@ -21,7 +21,7 @@ namespace medial::exact {
 /// into itself and contracts it if 8 q (C + 1)^2 f < 1, C = 2 (|u_2 - u_1| + |u_3 - u_1|) / A
 /// (Newton and Kantorovich): the bounds.
 template <class Real>
-std::optional<DiskBounds<Real>> disk_bounds(const Outline& outline,
+std::optional<DiskBounds<Real>> disk_bounds(const SiteLoops& outline,
                                             const std::array<std::uint32_t, 3>& sites,
                                             const Disk& start);
 

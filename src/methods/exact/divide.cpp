@@ -11,7 +11,7 @@ namespace {
 
 /// Whether one disk may touch three sites in this counter-clockwise order, on convex arcs between
 /// their ends. Of joined sites it touches the joint.
-bool may_touch(const Outline& outline, const std::array<std::uint32_t, 3>& sites) {
+bool may_touch(const SiteLoops& outline, const std::array<std::uint32_t, 3>& sites) {
   const auto disk = disk_bounds<Precise>(outline, sites, {});
   if (!disk) return false;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -25,7 +25,7 @@ bool may_touch(const Outline& outline, const std::array<std::uint32_t, 3>& sites
 
 }  // namespace
 
-std::vector<std::vector<std::uint32_t>> divide(const Outline& outline,
+std::vector<std::vector<std::uint32_t>> divide(const SiteLoops& outline,
                                                std::span<const std::uint32_t> sites,
                                                Decisions& decisions) {
   std::vector<std::vector<std::uint32_t>> nodes;

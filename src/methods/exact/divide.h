@@ -16,7 +16,7 @@ namespace medial::exact {
 /// From one side of the list on: the first site that a disk touching the two of that side meets is
 /// found by comparing it with the others, and splits the list; O(k log k) decisions for k sites in
 /// random order, O(k) if all are one, O(k^2) at most.
-std::vector<std::vector<std::uint32_t>> divide(const Outline& outline,
+std::vector<std::vector<std::uint32_t>> divide(const SiteLoops& outline,
                                                std::span<const std::uint32_t> sites,
                                                Decisions& decisions);
 

@@ -63,7 +63,7 @@ Number determinant(const Row<Number>& a, const Row<Number>& b, const Row<Number>
 template <class Number, class Roots>
 class Kernel {
  public:
-  Kernel(const Outline& outline, Roots& roots) : outline_(outline), roots_(roots) {}
+  Kernel(const SiteLoops& outline, Roots& roots) : outline_(outline), roots_(roots) {}
 
   /// No two of the sites are joined.
   Sign apart(const std::array<std::uint32_t, 3>& touched, std::uint32_t fourth) {
@@ -166,7 +166,7 @@ class Kernel {
 
   /// Whether a disk stays outside of a site. Near the centre of a convex arc's own circle it can
   /// reach over that circle elsewhere than on the arc: where its centre lies beyond the normals at
-  /// the arc's ends, these decide. `outside` tells the sign of a site's form, `side` that of
+  /// the arc's ends, these decide. `outside` gives the sign of a site's form, `side` that of
   /// direction.(centre - point).
   template <class Outside, class Side>
   Sign clears(std::uint32_t fourth, const Outside& outside, const Side& side) {
@@ -293,7 +293,7 @@ class Kernel {
   }
 
   /// Two planes meet in a line, on which the base form is a quadratic function. Of its two roots
-  /// the order of the contacts tells the right one: the base form's slope along the line has the
+  /// the order of the contacts selects one: the base form's slope along the line has the
   /// sign of the three gradients' determinant, which is negative for disks that the three sites
   /// touch in counter-clockwise order.
   static Sign solve_round(const std::array<Form<Number>, 3>& forms, Three& three) {
@@ -379,7 +379,7 @@ class Kernel {
                  sign_of(three.base.round));
   }
 
-  const Outline& outline_;
+  const SiteLoops& outline_;
   Roots& roots_;
 };
 
@@ -402,7 +402,7 @@ struct Quad {
 /// disk: the fourth must stay clear of it. The middle of three is passed on its whole length
 /// otherwise.
 template <class AKernel>
-Sign three_joined(const Outline& outline, AKernel& kernel, const Quad& quad) {
+Sign three_joined(const SiteLoops& outline, AKernel& kernel, const Quad& quad) {
   const std::uint32_t before = quad.site[0], middle = quad.site[1], after = quad.site[2];
   const auto convex = [&](std::uint32_t i) { return outline.sites[i].bulge > 0; };
   if (!convex(middle)) {
@@ -421,7 +421,7 @@ Sign three_joined(const Outline& outline, AKernel& kernel, const Quad& quad) {
 }
 
 template <class AKernel>
-Sign decide(const Outline& outline, AKernel&& kernel, const Quad& quad) {
+Sign decide(const SiteLoops& outline, AKernel&& kernel, const Quad& quad) {
   const auto joints = std::count(quad.joined.begin(), quad.joined.end(), true);
   // A quarter turn exchanges the two ways to divide the four sites.
   for (std::size_t by = 0; by < 4; ++by) {
@@ -448,14 +448,14 @@ Sign decide(const Outline& outline, AKernel&& kernel, const Quad& quad) {
 
 }  // namespace
 
-std::optional<DiskBounds<Precise>> disk_of_three(const Outline& outline,
+std::optional<DiskBounds<Precise>> disk_of_three(const SiteLoops& outline,
                                                  const std::array<std::uint32_t, 3>& sites) {
   ApproximateRoots<Precise> roots;
   return Kernel<Bounded<Precise>, ApproximateRoots<Precise>>(outline, roots).disk_of(sites);
 }
 
-Sign in_disk(const Outline& outline, std::uint32_t first, std::uint32_t second, std::uint32_t third,
-             std::uint32_t fourth, Decisions& decisions) {
+Sign in_disk(const SiteLoops& outline, std::uint32_t first, std::uint32_t second,
+             std::uint32_t third, std::uint32_t fourth, Decisions& decisions) {
   const Quad quad{{first, second, third, fourth},
                   {outline.joined(first, second), outline.joined(second, third),
                    outline.joined(third, fourth), outline.joined(fourth, first)}};

@@ -38,15 +38,15 @@ enum class Sign : std::int8_t {
 ///
 /// Always right: the double precision filter and the one in 256 bits decide by error bounds, and
 /// what is left open is decided by rational arithmetic with square roots (exact/numbers.h). Sites
-/// joined on the boundary are told apart by which of the two a disk's foot lies on, so the disk is
+/// joined on the boundary are distinguished by the one that a disk's foot lies on, so the disk is
 /// then one that touches their joint. Never `open`; `none` where the sites do not lie so.
-Sign in_disk(const Outline& outline, std::uint32_t first, std::uint32_t second, std::uint32_t third,
-             std::uint32_t fourth, Decisions& decisions);
+Sign in_disk(const SiteLoops& outline, std::uint32_t first, std::uint32_t second,
+             std::uint32_t third, std::uint32_t fourth, Decisions& decisions);
 
 /// The disk that three sites touch in this counter-clockwise order and that is smaller than their
 /// own circles, in 256 bits; no two of the sites are joined. None where there is none, or that is
 /// open.
-std::optional<DiskBounds<Precise>> disk_of_three(const Outline& outline,
+std::optional<DiskBounds<Precise>> disk_of_three(const SiteLoops& outline,
                                                  const std::array<std::uint32_t, 3>& sites);
 
 }  // namespace medial::exact

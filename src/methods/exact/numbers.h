@@ -52,7 +52,7 @@ struct Bounded<exact::Precise> {
   Size most() const { return widen * (magnitude() + error); }
   Size least() const { return std::max<Size>(0, magnitude() / widen - error); }
 
-  /// Bounds the size anew, where differences have made it smaller than operations alone can tell.
+  /// Bounds the size again, where differences have made it smaller than the operations show.
   void tighten() { largest = most(); }
 
   /// Every operation is correctly rounded to 259 bits at least.

@@ -8,15 +8,16 @@ double curvature_of(const ExactSite& edge) { return curvature({edge.start, edge.
 
 }  // namespace
 
-Outline outline_of(const Shape& shape, const LocalFrame& frame, const sites::SiteNumbers& numbers) {
-  Outline outline;
+SiteLoops outline_of(const Problem& problem) {
+  const site::SiteNumbers& numbers = problem.numbers();
+  SiteLoops outline;
   outline.sites.resize(numbers.count);
   outline.next.resize(numbers.count);
   outline.passes.assign(numbers.count, false);
   outline.blunt.assign(numbers.count, false);
-  outline.component = shape.component;
-  for (std::size_t l = 0; l < shape.loop_count(); ++l) {
-    const sites::Loop loop(shape, l, frame);
+  outline.component = problem.shape.component;
+  for (std::size_t l = 0; l < problem.shape.loop_count(); ++l) {
+    const site::LoopEdges loop(problem.shape, l, problem.frame);
     const auto first_of = [&](std::uint32_t i) {
       const std::size_t point = loop.begin() + i;
       return numbers.edge[point] - (numbers.is_site(point) ? 1 : 0);
@@ -40,7 +41,7 @@ Outline outline_of(const Shape& shape, const LocalFrame& frame, const sites::Sit
   return outline;
 }
 
-void part_joints(Outline& outline) {
+void part_joints(SiteLoops& outline) {
   const auto count = static_cast<std::uint32_t>(outline.sites.size());
   outline.parted = true;
   for (std::uint32_t edge = 0; edge < count; ++edge) {

@@ -3,13 +3,13 @@
 #include <cstdint>
 #include <vector>
 
-#include "axis/sites.h"
 #include "methods/exact/site_form.h"
+#include "methods/problem.h"
 
 namespace medial::exact {
 
 /// The boundary as loops of sites, numbered as in MedialAxis::sites.
-struct Outline {
+struct SiteLoops {
   std::vector<ExactSite> sites;
   std::vector<std::uint32_t> next;  ///< the site that follows on the loop
   /// Whether a foot can pass on from the site to the next one: at a reflex vertex's ends and at a
@@ -44,10 +44,10 @@ struct Outline {
   }
 };
 
-Outline outline_of(const Shape& shape, const LocalFrame& frame, const sites::SiteNumbers& numbers);
+SiteLoops outline_of(const Problem& problem);
 
 /// Takes joints that count as smooth as they stand: as blunt where the boundary turns to the left;
 /// where it turns to the right their vertex becomes a site, added behind the others.
-void part_joints(Outline& outline);
+void part_joints(SiteLoops& outline);
 
 }  // namespace medial::exact

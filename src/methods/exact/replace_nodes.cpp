@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "axis/node_kinds.h"
+#include "base/compat.h"
 #include "base/numbers.h"
 #include "site/bisector.h"
 
@@ -13,7 +14,7 @@ namespace {
 
 class Replacer {
  public:
-  Replacer(const Outline& outline, const LocalFrame& frame, const ContactGraph& graph,
+  Replacer(const SiteLoops& outline, const LocalFrame& frame, const ContactGraph& graph,
            Replaced replaced, MedialAxis& axis)
       : outline_(outline),
         frame_(frame),
@@ -67,7 +68,7 @@ class Replacer {
   site::Site piece_of(std::uint32_t site, Vec2 center) const {
     const ExactSite& exact = outline_.sites[site];
     if (exact.is_vertex()) return site::make_vertex(exact.start);
-    const sites::Pieces pieces = sites::pieces_of(exact.start, exact.end, exact.bulge);
+    const site::Pieces pieces = site::pieces_of(exact.start, exact.end, exact.bulge);
     const bool last = pieces.count > 1 && site::squared_distance(pieces.last(), center) <
                                               site::squared_distance(pieces.first(), center);
     return last ? pieces.last() : pieces.first();
@@ -106,9 +107,8 @@ class Replacer {
     };
     for (std::size_t i = 0; i < axis_.edges.size(); ++i) {
       const Edge& edge = axis_.edges[i];
-      if (edge_gone[i] || std::ranges::all_of(edge.site, [&](std::uint32_t site) {
-            return outline_.has_name(site);
-          }))
+      if (edge_gone[i] ||
+          ranges::all_of(edge.site, [&](std::uint32_t site) { return outline_.has_name(site); }))
         continue;
       const std::uint32_t a = find(edge.node[0]), b = find(edge.node[1]);
       if (a == b ||
@@ -122,7 +122,7 @@ class Replacer {
     return same;
   }
 
-  const Outline& outline_;
+  const SiteLoops& outline_;
   const LocalFrame& frame_;
   const ContactGraph& graph_;
   Replaced replaced_;
@@ -131,7 +131,7 @@ class Replacer {
 
 }  // namespace
 
-void replace_nodes(const Outline& outline, const LocalFrame& frame, const ContactGraph& graph,
+void replace_nodes(const SiteLoops& outline, const LocalFrame& frame, const ContactGraph& graph,
                    Replaced replaced, MedialAxis& axis) {
   Replacer(outline, frame, graph, std::move(replaced), axis).run();
 }

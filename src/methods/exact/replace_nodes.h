@@ -15,7 +15,7 @@ struct Replaced {
 };
 
 /// Takes what is gone out of an axis, and works out the new edges' curves and the nodes' kinds.
-void replace_nodes(const Outline& outline, const LocalFrame& frame, const ContactGraph& graph,
+void replace_nodes(const SiteLoops& outline, const LocalFrame& frame, const ContactGraph& graph,
                    Replaced replaced, MedialAxis& axis);
 
 }  // namespace medial::exact

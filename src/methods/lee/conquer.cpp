@@ -51,19 +51,23 @@ class Conquest {
  public:
   Conquest(Diagram& diagram, const ConquerContext& context, Statistics& statistics)
       : diagram_(diagram), context_(context), statistics_(statistics) {
-    for (const Elements::Loop& loop : diagram.elements.loops) {
+    for (const Elements::ChainLoop& loop : diagram.elements.loops) {
       const Halving halving{loop.first_chain, loop.end_chain - loop.first_chain};
       all_work_ += halving.work(0, halving.deepest());
     }
   }
 
-  /// Merges list i of a level out of its halves, of which one may be empty.
+  /// Whether a merge has found a diagram broken: then there is nothing more to merge.
+  bool is_broken() const { return broken_.load(std::memory_order_relaxed); }
+
+  /// Merges list i of a level out of its halves; one half may be empty.
   void merge_halves(const Halving& halving, int level, std::uint64_t i, Statistics& statistics) {
     const std::uint32_t first = halving.boundary(level, i),
                         middle = halving.boundary(level + 1, 2 * i + 1),
                         end = halving.boundary(level, i + 1);
-    if (first == middle || middle == end) return;
+    if (first == middle || middle == end || is_broken()) return;
     const std::uint32_t edge = merge(diagram_, first, middle, end, context_.limits, statistics);
+    if (edge == none) broken_.store(true, std::memory_order_relaxed);
     if (level == 0) last_edge_ = edge;
   }
 
@@ -72,6 +76,7 @@ class Conquest {
     Statistics own;
     merge_parts(halving, level, i, std::max(level, halving.deepest() - levels_at_bottom), known,
                 own);
+    if (is_broken()) return;
     add(own);
     report(halving.work(level, halving.deepest()) >> level);
   }
@@ -80,7 +85,7 @@ class Conquest {
   std::uint32_t merge_measured(const Halving& halving, std::vector<Level>& levels) {
     const int deepest = halving.deepest();
     levels.resize(std::max(levels.size(), static_cast<std::size_t>(deepest)));
-    for (int k = deepest - 1; k >= 0 && !cancelled(); --k) {
+    for (int k = deepest - 1; k >= 0 && !is_stopped(); --k) {
       Statistics own;
       Stopwatch watch;
       for (std::uint64_t j = 0; j < std::uint64_t{1} << k; ++j) merge_halves(halving, k, j, own);
@@ -100,7 +105,7 @@ class Conquest {
       if (!lists.solved[Lists::number(block_level, i)])
         merge_below(halving, block_level, i, lists.of_blocks[i]);
     });
-    for (int level = block_level - 1; level >= 0 && !cancelled(); --level) {
+    for (int level = block_level - 1; level >= 0 && !is_stopped(); --level) {
       parallel_for(std::size_t{1} << level, [&](std::uint64_t i) {
         if (lists.solved[Lists::number(level, i)]) return;
         Statistics own;
@@ -154,7 +159,7 @@ class Conquest {
   void merge_parts(const Halving& halving, int level, std::uint64_t i, int bottom,
                    RoundDisks& known, Statistics& statistics) {
     for (std::uint64_t j = i << (bottom - level);
-         j < (i + 1) << (bottom - level) && !cancelled();) {
+         j < (i + 1) << (bottom - level) && !is_stopped();) {
       // The list that is solved next, and its level: as large as it can be in closed form.
       int k = std::max(level, bottom - std::countr_zero(j));
       while (k < bottom && !is_fan(halving, k, j >> (bottom - k), known)) ++k;
@@ -198,8 +203,9 @@ class Conquest {
     const auto done = static_cast<double>(done_ += work);
     context_.progress(std::min(1.0, done / static_cast<double>(all_work_)));
   }
-  bool cancelled() const {
-    return context_.cancel != nullptr && context_.cancel->load(std::memory_order_relaxed);
+  bool is_stopped() const {
+    return is_broken() ||
+           (context_.cancel != nullptr && context_.cancel->load(std::memory_order_relaxed));
   }
   void add(const Statistics& own) {
     const std::scoped_lock lock(mutex_);
@@ -211,16 +217,18 @@ class Conquest {
   std::mutex mutex_;
   std::uint64_t all_work_ = 0;
   std::atomic<std::uint64_t> done_ = 0;
+  std::atomic<bool> broken_ = false;
   std::uint32_t last_edge_ = none;
 };
 
 }  // namespace
 
-std::vector<std::uint32_t> conquer(Diagram& diagram, const ConquerContext& context,
-                                   Statistics& statistics, std::vector<Level>* levels) {
+std::optional<std::vector<std::uint32_t>> conquer(Diagram& diagram, const ConquerContext& context,
+                                                  Statistics& statistics,
+                                                  std::vector<Level>* levels) {
   std::vector<std::uint32_t> last_edges;
   Conquest conquest(diagram, context, statistics);
-  for (const Elements::Loop& loop : diagram.elements.loops) {
+  for (const Elements::ChainLoop& loop : diagram.elements.loops) {
     const Halving halving{loop.first_chain, loop.end_chain - loop.first_chain};
     std::optional<Disk> known;
     const std::uint32_t edge =
@@ -231,6 +239,7 @@ std::vector<std::uint32_t> conquer(Diagram& diagram, const ConquerContext& conte
     else
       last_edges.push_back(levels != nullptr ? conquest.merge_measured(halving, *levels)
                                              : conquest.merge_all(halving));
+    if (conquest.is_broken()) return std::nullopt;
   }
   return last_edges;
 }

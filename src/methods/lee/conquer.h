@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "methods/lee/merge.h"
@@ -19,7 +20,7 @@ struct ConquerContext {
   MergeLimits limits;
   double tie_tolerance = 0;  ///< see join_ties()
   const std::atomic<bool>* cancel = nullptr;
-  /// Told the share of the merges that is done, from any thread.
+  /// Called with the share of the merges that is done, from any thread.
   std::function<void(double)> progress = {};
 };
 
@@ -28,8 +29,9 @@ struct ConquerContext {
 /// on the chains only, never on the number of threads. O(N log N). Returns the last edge of each
 /// loop's last merge curve: the terminating bisector's. A loop whose segments all touch one disk
 /// needs no merge. `levels`, if it is given, is filled from the last merge down, which then runs on
-/// one thread. May throw; see merge().
-std::vector<std::uint32_t> conquer(Diagram& diagram, const ConquerContext& context,
-                                   Statistics& statistics, std::vector<Level>* levels = nullptr);
+/// one thread. Nothing where a merge finds a diagram broken.
+std::optional<std::vector<std::uint32_t>> conquer(Diagram& diagram, const ConquerContext& context,
+                                                  Statistics& statistics,
+                                                  std::vector<Level>* levels = nullptr);
 
 }  // namespace medial::lee

@@ -1,20 +1,18 @@
 #include "methods/lee/elements.h"
 
-#include <stdexcept>
-
 namespace medial::lee {
 
-Elements elements_of(const Shape& shape, const sites::SiteNumbers& numbers,
-                     const LocalFrame& frame) {
+std::optional<Elements> elements_of(const Problem& problem) {
+  const site::SiteNumbers& numbers = problem.numbers();
   Elements elements;
   elements.sites.reserve(numbers.count);
   elements.originals.reserve(numbers.count);
-  for (std::size_t l = 0; l < shape.loop_count(); ++l) {
-    const sites::Loop loop(shape, l, frame);
+  for (std::size_t l = 0; l < problem.shape.loop_count(); ++l) {
+    const site::LoopEdges loop(problem.shape, l, problem.frame);
     const auto is_reflex = [&](std::uint32_t i) { return numbers.is_site(loop.begin() + i); };
     std::uint32_t start = 0;
     while (start < loop.size() && is_reflex(start)) ++start;
-    if (start == loop.size()) throw std::runtime_error("a loop has no convex vertex");
+    if (start == loop.size()) return std::nullopt;
     const auto first_chain = static_cast<std::uint32_t>(elements.chains.size());
     for (std::uint32_t step = 0, i = start; step < loop.size(); ++step, i = loop.next(i)) {
       const std::uint32_t number = numbers.edge[loop.begin() + i];
@@ -27,8 +25,8 @@ Elements elements_of(const Shape& shape, const sites::SiteNumbers& numbers,
       elements.sites.push_back(site::make_segment(loop.local(i), loop.local(loop.next(i))));
       elements.originals.push_back(number);
     }
-    elements.loops.push_back(
-        {first_chain, static_cast<std::uint32_t>(elements.chains.size()), shape.component[l]});
+    elements.loops.push_back({first_chain, static_cast<std::uint32_t>(elements.chains.size()),
+                              problem.shape.component[l]});
   }
   elements.chains.push_back(elements.size());
   return elements;

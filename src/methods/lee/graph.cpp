@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include "base/memory.h"
 #include "site/bisector.h"
@@ -70,16 +69,17 @@ class Numbers {
 
 Graph::Graph(Diagram& diagram, const std::vector<std::uint32_t>& last_edges, double tolerance)
     : diagram_(diagram), tolerance_(tolerance) {
-  for (std::size_t l = 0; l < last_edges.size(); ++l) close(elements().loops[l], last_edges[l]);
+  for (std::size_t l = 0; l < last_edges.size() && is_whole_; ++l)
+    is_whole_ = close(elements().loops[l], last_edges[l]);
 }
 
 /// An edge is below the one that begins at its outer end in one of its two stacks, and on top of
 /// the other. So stacks of earlier elements are turned over, those of later ones only walked down;
 /// element by element backward, so that an edge is met in the former first.
-void Graph::close(const Elements::Loop& loop, std::uint32_t last_edge) {
+bool Graph::close(const Elements::ChainLoop& loop, std::uint32_t last_edge) {
   const std::uint32_t begin = begin_of(loop), end = end_of(loop);
   const std::uint32_t last_corner = diagram_.free[loop.first_chain].first;
-  if (last_corner == none) throw std::runtime_error("a Voronoi diagram has too many edges");
+  if (last_corner == none) return false;  // too many edges
   diagram_.edges[last_corner] = {
       {begin, end - 1}, {none, none}, {elements().sites[begin].point, 0}};
   std::size_t count = 0;
@@ -91,7 +91,7 @@ void Graph::close(const Elements::Loop& loop, std::uint32_t last_edge) {
       if (edge == last_edge && to == none && outer == none)
         to = last_corner;
       else if ((to == none) == (outer == none))
-        throw std::runtime_error("a Voronoi edge has no end");
+        return false;  // an edge without an end
       else if (outer != none)
         to = outer;
       outer = edge;
@@ -107,8 +107,7 @@ void Graph::close(const Elements::Loop& loop, std::uint32_t last_edge) {
       edge = next;
     }
   }
-  if (count != 2 * std::size_t{end - begin} - 3)
-    throw std::runtime_error("a Voronoi diagram has too few edges");
+  return count == 2 * std::size_t{end - begin} - 3;
 }
 
 void Graph::find_doubtful_edge(std::uint32_t edge) {
@@ -130,7 +129,7 @@ std::array<std::uint32_t, 2> Graph::loop_around(std::uint32_t element) const {
   const auto& loops = elements().loops;
   const auto after = std::upper_bound(
       loops.begin(), loops.end(), element,
-      [&](std::uint32_t e, const Elements::Loop& loop) { return e < begin_of(loop); });
+      [&](std::uint32_t e, const Elements::ChainLoop& loop) { return e < begin_of(loop); });
   return {begin_of(*(after - 1)), end_of(*(after - 1))};
 }
 
@@ -142,7 +141,7 @@ void complete(const Graph& graph, const LocalFrame& frame, VoronoiDiagram& diagr
   std::vector<std::uint32_t>& begin = diagram.face_begin;
   begin.assign(count + 1, 0);
   Numbers numbers(graph, frame, diagram.nodes);
-  for (const Elements::Loop& loop : elements.loops)
+  for (const Elements::ChainLoop& loop : elements.loops)
     graph.for_edges(loop, [&](std::uint32_t edge) {
       const std::uint32_t from = graph.from(edge), to = graph.to(edge);
       Edge made = result_edge(graph, frame, edge, graph.disk(from), graph.disk(to));
@@ -177,7 +176,7 @@ void complete(Graph& graph, const LocalFrame& frame, double tolerance, MedialAxi
     return end;
   };
   std::size_t kept = 0;
-  for (const Elements::Loop& loop : elements.loops)
+  for (const Elements::ChainLoop& loop : elements.loops)
     kept +=
         2 * std::size_t{elements.chains[loop.end_chain] - elements.chains[loop.first_chain]} - 3;
   for (const site::Site& site : elements.sites) kept -= site.is_vertex() ? 2 : 0;
@@ -192,7 +191,7 @@ void complete(Graph& graph, const LocalFrame& frame, double tolerance, MedialAxi
   double largest_residual = 0;
   reserve_large(axis.edges, kept);
   reserve_large(axis.nodes, kept + elements.loops.size());  // one tree a loop
-  for (const Elements::Loop& loop : elements.loops)
+  for (const Elements::ChainLoop& loop : elements.loops)
     graph.for_edges(loop, [&](std::uint32_t edge) {
       if (graph.is_spoke(edge) || numbers.is_joined(edge)) return;
       const std::uint32_t end = end_of(edge);

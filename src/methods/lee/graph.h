@@ -6,7 +6,7 @@
 
 #include "base/local_frame.h"
 #include "medial/axis.h"
-#include "medial/voronoi.h"
+#include "medial/diagram.h"
 #include "methods/lee/diagram.h"
 
 namespace medial::lee {
@@ -17,11 +17,13 @@ namespace medial::lee {
 /// and a loop's last corner, where no edge begins, takes a free place.
 class Graph {
  public:
-  /// `last_edges`: what conquer() returned. Throws std::runtime_error where a diagram is not one of
-  /// a whole polygon: every loop of N elements must have 2 N - 3 edges (Lemma 3), of which only the
-  /// terminating bisector ends in a corner. The stacks of earlier elements are gone afterwards.
+  /// `last_edges`: what conquer() returned. The stacks of earlier elements are gone afterwards.
   /// O(N).
   Graph(Diagram& diagram, const std::vector<std::uint32_t>& last_edges, double tolerance);
+  /// Whether the diagram is one of whole polygons: every loop of N elements has 2 N - 3 edges
+  /// (Lemma 3), of which only the terminating bisector ends in a corner. Nothing else may be asked
+  /// of a graph that is not.
+  bool is_whole() const { return is_whole_; }
 
   const Elements& elements() const { return diagram_.elements; }
   const ListEdge& operator[](std::uint32_t edge) const { return diagram_.edges[edge]; }
@@ -59,7 +61,7 @@ class Graph {
   /// Calls work(edge) for all edges of a loop, in the order of their first elements, and in the
   /// order of the foot on each.
   template <class Work>
-  void for_edges(const Elements::Loop& loop, const Work& work) const {
+  void for_edges(const Elements::ChainLoop& loop, const Work& work) const {
     for (std::uint32_t i = begin_of(loop), end = end_of(loop); i < end; ++i)
       for (std::uint32_t edge = diagram_.top[i][0]; edge != none;
            edge = diagram_.edges[edge].inward[0])
@@ -67,17 +69,18 @@ class Graph {
   }
 
  private:
-  std::uint32_t begin_of(const Elements::Loop& loop) const {
+  std::uint32_t begin_of(const Elements::ChainLoop& loop) const {
     return elements().chains[loop.first_chain];
   }
-  std::uint32_t end_of(const Elements::Loop& loop) const {
+  std::uint32_t end_of(const Elements::ChainLoop& loop) const {
     return elements().chains[loop.end_chain];
   }
-  void close(const Elements::Loop& loop, std::uint32_t last_edge);
+  bool close(const Elements::ChainLoop& loop, std::uint32_t last_edge);
   void find_doubtful_edge(std::uint32_t edge);
 
   Diagram& diagram_;
   double tolerance_;
+  bool is_whole_ = true;
   std::vector<std::uint32_t> doubtful_edges_;
 };
 

@@ -2,19 +2,16 @@
 
 #include <cmath>
 #include <optional>
-#include <stdexcept>
 
 #include "base/stopwatch.h"
-#include "base/tolerance.h"
-#include "methods/checks.h"
 #include "methods/lee/graph.h"
 #include "methods/lee/ties.h"
 
 namespace medial::lee {
 namespace {
 
-/// A point amid very many sides that turn by very little each, if there are such: three next to
-/// each other determine a disk far less exactly than the tolerance.
+/// A point amid very many sides that turn by very little each, if there are such: three neighbours
+/// determine a disk far less exactly than the tolerance.
 std::optional<Vec2> find_smooth_run(const Elements& elements) {
   constexpr std::uint32_t many = 256;
   constexpr double little = 1e-3;
@@ -34,118 +31,117 @@ std::optional<Vec2> find_smooth_run(const Elements& elements) {
 /// A shape's diagram, and what its results are completed from.
 class Solution {
  public:
-  /// Lee, Section II: the list of elements, the diagrams of the chains, merges.
-  Solution(const Shape& shape, const Options& options, std::vector<Level>* levels) {
-    Stopwatch watch;
-    const Box box = bounding_box(shape);
-    frame = frame_of(box);
-    tolerance = tolerance_for(box, options.tolerance);
-    const Box local{frame.to_local(box.low), frame.to_local(box.high)};
-
-    numbers = sites::number_sites(shape, frame, options.corner_angle);
-    elements_ = elements_of(shape, numbers, frame);
-    statistics.seconds_sites = watch.lap();
-
-    // To a multiple of the tolerance, what misled a merge is a tie; what that may make of the disks
-    // is checked to the tolerance itself, below.
-    for (const double multiple : {1.0, 8.0, 64.0}) {
-      const ConquerContext context{
-          {multiple * tolerance_for(local, options.tolerance), radius_limit(box, frame)},
-          multiple * local_tolerance(),
-          options.cancel,
-          options.progress};
-      if (levels != nullptr) levels->clear();
-      diagram_.emplace(elements_);
-      try {
-        const std::vector<std::uint32_t> last_edges =
-            conquer(*diagram_, context, statistics, levels);
-        statistics.seconds_walk += watch.lap();
-        if (is_cancelled(options)) return;
-        graph.emplace(*diagram_, last_edges, multiple * local_tolerance());
-        break;
-      } catch (const std::runtime_error&) {
-        // Of such a boundary, rounding may break the structure, too.
-        if (const auto place = find_smooth_run(elements_)) {
-          error = too_nearly_round(*place);
-          return;
-        }
-        if (multiple > 8) throw;
-      }
-    }
-    join_ties(*graph, local_tolerance());
-    // The certificate, too, would refuse such an axis.
-    constexpr double slack = 2;
-    if (const auto disk = find_overreach(*graph, slack * local_tolerance()))
-      error = too_nearly_round(disk->center);
-    statistics.seconds_collect = watch.lap();
-  }
+  explicit Solution(const Problem& problem) : problem_(problem) {}
   Solution(const Solution&) = delete;  // its members refer to each other
   Solution& operator=(const Solution&) = delete;
 
-  /// Where the shape lies far from the origin, its own coordinates are no better known.
-  double local_tolerance() const { return frame.scale * tolerance; }
+  /// Lee, Section II: the list of elements, the diagrams of the chains, merges. Leaves no graph
+  /// where the caller cancels.
+  Status solve(std::vector<Level>* levels) {
+    Stopwatch watch;
+    auto elements = elements_of(problem_);
+    if (!elements) return broken();
+    elements_ = std::move(*elements);
+    statistics.seconds_sites = watch.lap();
+    // To a multiple of the tolerance, what misled a merge is a tie; what that may make of the disks
+    // is checked to the tolerance itself, below.
+    for (const double multiple : {1.0, 8.0, 64.0}) {
+      if (merge_all(multiple, levels)) break;
+      if (problem_.is_cancelled()) return success();
+      // Of such a boundary, rounding may break the structure, too.
+      if (const auto place = find_smooth_run(elements_)) return too_nearly_round(*place);
+    }
+    if (!graph) return broken();
+    statistics.seconds_walk = watch.lap();
+    join_ties(*graph, problem_.local_tolerance());
+    // The certificate, too, would refuse such an axis.
+    constexpr double slack = 2;
+    if (const auto disk = find_overreach(*graph, slack * problem_.local_tolerance()))
+      return too_nearly_round(disk->center);
+    statistics.seconds_collect = watch.lap();
+    return success();
+  }
 
-  /// Leaves the numbers of the sites only.
+  /// Leaves the statistics only.
   void free_graph() {
     graph.reset();
     diagram_.reset();
     elements_ = {};
   }
 
-  LocalFrame frame;
-  double tolerance = 0;  ///< in units of the input
-  sites::SiteNumbers numbers;
   Statistics statistics;
-  std::optional<Error> error;
 
  private:
-  Error too_nearly_round(Vec2 place) const {
-    Error told{ErrorCode::unsupported,
-               "the boundary is too nearly round here for its sides to be told from rounding: use "
-               "the method disks",
-               {}};
-    told.place.point = frame.to_input(place);
-    return told;
+  /// Merges the chains and closes the graph, to a multiple of the tolerance; false where rounding
+  /// breaks a diagram, or where the caller cancels.
+  bool merge_all(double multiple, std::vector<Level>* levels) {
+    const double tie_tolerance = multiple * problem_.local_tolerance();
+    const ConquerContext context{{multiple * problem_.fine_tolerance, problem_.radius_limit},
+                                 tie_tolerance,
+                                 problem_.options.cancel,
+                                 problem_.options.progress};
+    if (levels != nullptr) levels->clear();
+    diagram_.emplace(elements_);
+    const auto last_edges = conquer(*diagram_, context, statistics, levels);
+    if (!last_edges || problem_.is_cancelled()) return false;
+    graph.emplace(*diagram_, *last_edges, tie_tolerance);
+    if (graph->is_whole()) return true;
+    graph.reset();
+    return false;
   }
 
+  static Error broken() {
+    return {
+        ErrorCode::internal, "the Voronoi diagrams cannot be merged: please report this shape", {}};
+  }
+  Error too_nearly_round(Vec2 place) const {
+    Error error{ErrorCode::unsupported,
+                "the boundary is too nearly round here to separate its sides from rounding: use "
+                "the method disks",
+                {}};
+    error.place.point = problem_.frame.to_input(place);
+    return error;
+  }
+
+  const Problem& problem_;
   Elements elements_;
   std::optional<Diagram> diagram_;
 
  public:
-  std::optional<Graph> graph;  ///< none where the caller cancelled
+  std::optional<Graph> graph;
 };
 
 }  // namespace
 
-Result<MedialAxis> run(const Shape& shape, const Options& options, std::vector<Level>* levels) {
+Result<MedialAxis> run(const Problem& problem, std::vector<Level>* levels) {
   Stopwatch all;
-  Solution solution(shape, options, levels);
-  if (solution.error) return *solution.error;
+  Solution solution(problem);
+  if (Status solved = solution.solve(levels); !solved) return std::move(solved).error();
   MedialAxis axis;
-  axis.method = name_of(Method::lee);
-  axis.tolerance = solution.tolerance;
+  axis.method = "lee";
+  axis.tolerance = problem.tolerance;
   if (!solution.graph) return axis;
   axis.statistics = solution.statistics;
   Stopwatch watch;
-  complete(*solution.graph, solution.frame, solution.local_tolerance(), axis);
+  complete(*solution.graph, problem.frame, problem.local_tolerance(), axis);
   solution.free_graph();
-  axis.sites = sites::result_sites(shape, solution.numbers);
+  axis.sites = problem.result_sites();
   axis.statistics.seconds_collect += watch.lap();
   axis.statistics.seconds = all.lap();
   return axis;
 }
 
-Result<VoronoiDiagram> voronoi_diagram(const Shape& shape, const Options& options) {
+Result<VoronoiDiagram> voronoi_diagram(const Problem& problem) {
   Stopwatch all;
-  const Solution solution(shape, options, nullptr);
-  if (solution.error) return *solution.error;
+  Solution solution(problem);
+  if (Status solved = solution.solve(nullptr); !solved) return std::move(solved).error();
   VoronoiDiagram diagram;
-  diagram.method = name_of(Method::lee);
-  diagram.tolerance = solution.tolerance;
+  diagram.method = "lee";
+  diagram.tolerance = problem.tolerance;
   if (!solution.graph) return diagram;
   diagram.statistics = solution.statistics;
-  complete(*solution.graph, solution.frame, diagram);
-  diagram.sites = sites::result_sites(shape, solution.numbers);
+  complete(*solution.graph, problem.frame, diagram);
+  diagram.sites = problem.result_sites();
   diagram.statistics.seconds = all.lap();
   return diagram;
 }

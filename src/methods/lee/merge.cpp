@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <stdexcept>
 
 #include "site/bisector.h"
 #include "site/tangent_disk.h"
@@ -42,12 +41,13 @@ class MergeCurve {
     may_undo_ = end - first;
     disk_ = {site(middle).point, 0};
     std::uint32_t edge = add_edge();
-    for (;;) {
+    while (edge != none) {
       const Along bisector(site(current_[1]), site(current_[0]));
       const double reached = bisector.position(disk_.center);
       State state = drop_covered(0);
       if (state == State::inside) state = drop_covered(1);
       if (state == State::outside) return edge;
+      if (state == State::broken) return none;
       if (state == State::tied_wrongly) {
         edge = go_back(edge);
         continue;
@@ -63,10 +63,10 @@ class MergeCurve {
       // The curve runs below an edge or crosses it, as long as its disks are inside the shape.
       if (top(1 - side) != none && is_behind(1 - side, diagram_.edges[top(1 - side)])) return edge;
       current_[side] = diagram_.edges[crossed].element[side];
-      if (diagram_.top[current_[side]][side] != crossed)
-        throw std::runtime_error("two Voronoi edges cross");
+      if (diagram_.top[current_[side]][side] != crossed) return none;  // two edges cross
       edge = add_edge();
     }
+    return none;
   }
 
  private:
@@ -74,15 +74,16 @@ class MergeCurve {
   enum class State {
     inside,
     tied_wrongly,  ///< a stored disk, taken for a tie, that reaches over the boundary
-    outside        ///< not inside the shape: the merge curve ends
+    outside,       ///< not inside the shape: the merge curve ends
+    broken         ///< two Voronoi edges cross
   };
 
   const Site& site(std::uint32_t i) const { return diagram_.elements.sites[i]; }
   std::uint32_t& top(std::size_t side) { return diagram_.top[current_[side]][1 - side]; }
-  /// Begins the edge between the current elements.
+  /// Begins the edge between the current elements; `none` where there is no place for it.
   std::uint32_t add_edge() {
     const std::uint32_t place = free_.first;
-    if (place == none) throw std::runtime_error("a Voronoi diagram has too many edges");
+    if (place == none) return none;
     ListEdge& edge = diagram_.edges[place];
     free_.first = edge.inward[0];
     edge = {current_, {}, disk_};
@@ -97,7 +98,7 @@ class MergeCurve {
   /// Drops the outermost edges of one side of which no disk is inside the shape: those where the
   /// disk at the inner end reaches over the element on the other side, and those that lie behind,
   /// in the part that the current disk cuts off. Drops nothing where it is the current disk that is
-  /// not inside the shape: the first edge that does not lie behind tells.
+  /// not inside the shape: the first edge that does not lie behind decides.
   State drop_covered(std::size_t side) {
     std::uint32_t kept = top(side);
     for (; kept != none; kept = diagram_.edges[kept].inward[1 - side]) {
@@ -110,13 +111,12 @@ class MergeCurve {
       if (distance_to_third < -vagueness()) return State::outside;
       if (distance_to_third <= vagueness() || !is_behind(side, edge)) break;
     }
-    while (top(side) != kept) drop(top(side));
-    return State::inside;
+    return drop_while(side, [&] { return top(side) != kept; }) ? State::inside : State::broken;
   }
 
   /// Takes the merge curve back, from its last edge, to before it came to a stored disk, and drops
-  /// the edges that begin in that. Returns the edge that is the last one then. Of O(1) for every
-  /// edge that goes, and they are no more than the elements of both lists.
+  /// the edges that begin in that. Returns the edge that is the last one then, or `none` where
+  /// edges cross. O(1) for every edge that goes; these are no more than the elements of both lists.
   std::uint32_t go_back(std::uint32_t last) {
     const Disk wrong = disk_;
     is_stored_ = false;
@@ -125,26 +125,38 @@ class MergeCurve {
       const ListEdge& edge = diagram_.edges[last];
       const std::size_t side = diagram_.edges[edge.inward[0]].element[1] < middle_ ? 0 : 1;
       const std::uint32_t crossed = edge.inward[side], before = edge.inward[1 - side];
-      drop(last);
+      if (!drop(last)) return none;
       may_undo_ -= may_undo_ > 0 ? 1 : 0;
       current_ = diagram_.edges[before].element;
       disk_ = diagram_.edges[before].inner;
       last = before;
       if (!is_same(diagram_.edges[crossed].inner, wrong)) continue;
-      while (top(side) != none && is_same(diagram_.edges[top(side)].inner, wrong)) drop(top(side));
-      return last;
+      const auto is_wrong = [&] {
+        return top(side) != none && is_same(diagram_.edges[top(side)].inner, wrong);
+      };
+      return drop_while(side, is_wrong) ? last : none;
     }
   }
 
-  void drop(std::uint32_t place) {
+  /// Drops the outermost edges of one side as long as they are to go; false where edges cross.
+  template <class IsToGo>
+  bool drop_while(std::size_t side, const IsToGo& is_to_go) {
+    while (is_to_go())
+      if (!drop(top(side))) return false;
+    return true;
+  }
+
+  /// Drops an edge that is the outermost one of both its elements; false where it is not.
+  bool drop(std::uint32_t place) {
     ListEdge& edge = diagram_.edges[place];
     for (const std::size_t k : {0u, 1u}) {
       std::uint32_t& outermost = diagram_.top[edge.element[k]][k];
-      if (outermost != place) throw std::runtime_error("two Voronoi edges cross");
+      if (outermost != place) return false;
       outermost = edge.inward[k];
     }
     edge.inward[0] = free_.first;
     free_.first = place;
+    return true;
   }
 
   /// How far Voronoi points of three elements that hardly determine one may be off: a rounding
@@ -223,7 +235,7 @@ class MergeCurve {
   }
 
   /// Where the curve leaves a polygon first. Where the positions are not known well, the other
-  /// side's element tells: it must not reach into the disk.
+  /// side's element decides: it must not reach into the disk.
   std::optional<Crossing> first_crossing(const Along& bisector, double reached) {
     std::array<std::optional<Crossing>, 2> crossing;
     const auto reach_over = [&](std::size_t side) {

@@ -12,7 +12,7 @@
 namespace medial::lee {
 namespace {
 
-/// Voronoi points that may be one, with what tells how well each is known.
+/// Voronoi points that may be one, with bounds on how well each is known.
 class Ties {
  public:
   Ties(Graph& graph, double slack) : graph_(graph), elements_(graph.elements()), slack_(slack) {

@@ -52,11 +52,11 @@ std::vector<std::uint32_t> kept_points(const std::vector<Vec2>& points, double t
 std::optional<Region> approximation(const Region& region, double tolerance) {
   Region result;
   std::vector<Ring> rings;
-  for (const Region::Loop& loop : region.loops) {
+  for (const Region::PieceLoop& loop : region.loops) {
     std::vector<Vec2> points;
     for (std::uint32_t i = loop.begin; i < loop.end; ++i) points.push_back(region.pieces[i].start);
     const std::vector<std::uint32_t> kept = kept_points(points, tolerance);
-    Region::Loop range = loop;
+    Region::PieceLoop range = loop;
     range.begin = static_cast<std::uint32_t>(result.pieces.size());
     Ring& ring = rings.emplace_back();
     for (std::size_t k = 0; k < kept.size(); ++k) {

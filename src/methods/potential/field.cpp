@@ -4,10 +4,9 @@
 #include <cmath>
 #include <utility>
 
-#include "base/limits.h"
-#include "base/local_frame.h"
 #include "methods/potential/force.h"
 #include "methods/potential/region.h"
+#include "shape/limits.h"
 
 namespace medial {
 
@@ -35,13 +34,13 @@ Result<PotentialField> PotentialField::make(const Shape& shape, double order) {
   if (shape.points.empty()) return Error{ErrorCode::empty, "the shape is empty", {}};
   if (auto error = beyond_limits(shape)) return std::move(*error);
   auto parts = std::make_unique<Parts>();
-  const Box box = bounding_box(shape);
-  parts->frame = frame_of(box);
+  const Options options;
+  const Problem problem(shape, options);
+  parts->frame = problem.frame;
   parts->order = order;
-  const double size = std::max(box.high.x - box.low.x, box.high.y - box.low.y);
-  constexpr double corner_angle = 0.01;
-  parts->regions =
-      potential::regions_of(shape, parts->frame, corner_angle, 1e-5 * size * parts->frame.scale);
+  const Vec2 extent = problem.box.high - problem.box.low;
+  const double size = std::max(extent.x, extent.y);
+  parts->regions = potential::regions_of(problem, 1e-5 * size * parts->frame.scale);
   for (const potential::Region& region : parts->regions) parts->charges.emplace_back(region.pieces);
   return PotentialField(std::move(parts));
 }

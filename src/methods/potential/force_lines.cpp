@@ -122,7 +122,7 @@ class ForceLines::Walk {
 
  private:
   enum class Next : std::uint8_t {
-    on,     ///< with what is told of the step
+    on,     ///< with the step's result
     again,  ///< with another step
     ended,  ///< the trail is whole
     stuck,  ///< no step leads on
@@ -192,7 +192,7 @@ class ForceLines::Walk {
     return there_.radius > 0;
   }
 
-  /// What the force at the end of the step tells: a saddle climbed, a minimum, an end.
+  /// What the force at the end of the step means: a saddle climbed, a minimum, an end.
   Next judge() {
     flat_ = is_flat(there_.force);
     if (climbing_ && !flat_ && dot(there_.force.force, moved_) > 0) {

@@ -45,7 +45,7 @@ class ForceLines {
            (options_.cancel != nullptr && options_.cancel->load(std::memory_order_relaxed));
   }
 
-  /// Whether the force cannot be told from none: between parallel sides it falls below the
+  /// Whether the force cannot be distinguished from none: between parallel sides it falls below the
   /// arithmetic's noise as the order grows, or below what the chords of arcs add.
   bool lost(const Force& force) const {
     return norm(force.force) <

@@ -8,11 +8,8 @@
 #include "axis/node_kinds.h"
 #include "axis/sites.h"
 #include "base/disjoint_sets.h"
-#include "base/local_frame.h"
 #include "base/stopwatch.h"
 #include "base/threads.h"
-#include "base/tolerance.h"
-#include "methods/checks.h"
 #include "methods/potential/charges.h"
 #include "methods/potential/coarse_to_fine.h"
 #include "methods/potential/region.h"
@@ -26,7 +23,7 @@ namespace {
 /// Which sites the pieces of a region are, by the numbers of the result.
 class SiteNames {
  public:
-  SiteNames(const Shape& shape, const sites::SiteNumbers& numbers)
+  SiteNames(const Shape& shape, const site::SiteNumbers& numbers)
       : shape_(shape), numbers_(numbers) {}
 
   /// The site that is nearest to p, of which `piece` is known to be the nearest charge.
@@ -48,15 +45,15 @@ class SiteNames {
     return point + 1 == *loop ? *(loop - 1) : point + 1;
   }
   const Shape& shape_;
-  const sites::SiteNumbers& numbers_;
+  const site::SiteNumbers& numbers_;
 };
 
-/// The order of the force lines, unless told otherwise: valleys of lower ones join where branches
+/// The order of the force lines, by default: valleys of lower ones join where branches
 /// of nearly flat corners are not near the axis.
 constexpr double usual_order = 512;
 
 /// The same where a part is asked for: valleys are followed upward then, which takes a force that
-/// can be told from none.
+/// can be distinguished from none.
 constexpr double partial_order = 4;
 
 /// Between valley points whose successors lie further apart than this many steps, others are put.
@@ -163,15 +160,16 @@ void join_equal(Refined& axis) {
 }
 
 /// How the valleys of a region are traced; a seed and a box in the frame's units.
-SkeletonOptions tracing_of(const Region& region, const LocalFrame& frame, const Options& options) {
-  const PotentialOptions& own = options.potential;
+SkeletonOptions tracing_of(const Region& region, const Problem& problem) {
+  const auto& own = problem.own<method::Potential>();
+  const LocalFrame& frame = problem.frame;
   SkeletonOptions tracing;
   tracing.order = own.base_order > 0 ? own.base_order
                   : own.order > 0    ? std::min(own.order, usual_order)
                                      : usual_order;
   if (!own.whole() && own.base_order == 0) tracing.order = std::min(tracing.order, partial_order);
   tracing.step = own.step * region.size;
-  tracing.cancel = options.cancel;
+  tracing.cancel = problem.options.cancel;
   if (own.from) tracing.from = frame.to_local(*own.from);
   if (own.within)
     tracing.within = Box{frame.to_local(own.within->low), frame.to_local(own.within->high)};
@@ -180,7 +178,7 @@ SkeletonOptions tracing_of(const Region& region, const LocalFrame& frame, const 
 
 /// The points of the axis: the skeleton's own, where its order is the one asked for.
 Refined points_of(const Skeleton& skeleton, const Charges& charges, const Region& region,
-                  const SkeletonOptions& tracing, const PotentialOptions& own) {
+                  const SkeletonOptions& tracing, const method::Potential& own) {
   Refined refined;
   if (own.order == skeleton.order) {
     for (const ValleyPoint& point : skeleton.points)
@@ -241,29 +239,46 @@ void append(MedialAxis& axis, std::uint32_t component, const Refined& refined, c
 
 }  // namespace
 
-Result<MedialAxis> run(const Shape& shape, const Options& options) {
+std::optional<Error> refuse(const Problem& problem) {
+  const method::Potential& options = problem.own<method::Potential>();
+  const auto invalid = [](const char* text) { return Error{ErrorCode::invalid_option, text, {}}; };
+  const auto is_order = [](double n) { return n >= 1 && n <= largest_order; };
+  if (!(options.order == 0 || is_order(options.order)) ||
+      !(options.base_order == 0 || is_order(options.base_order)))
+    return invalid("the order of the potential must be in [1, 4096]");
+  if (!(options.step >= 1e-4 && options.step <= 0.1))
+    return invalid("the step must be in [1e-4, 0.1]");
+  if (!(options.coarse >= 0 && options.coarse <= 0.2))
+    return invalid("the coarse polygon's distance must be in [0, 0.2]");
+  if (!(options.angle > 0 && options.angle <= 90))
+    return invalid("the angle must be in (0, 90] degrees");
+  if (!(options.movement > 0 && options.movement <= 0.1))
+    return invalid("the movement must be in (0, 0.1]");
+  return std::nullopt;
+}
+
+Result<MedialAxis> run(const Problem& problem) {
   Stopwatch watch;
-  const PotentialOptions& own = options.potential;
+  const Options& options = problem.options;
+  const LocalFrame& frame = problem.frame;
+  const auto& own = problem.own<method::Potential>();
   MedialAxis axis;
-  axis.method = name_of(Method::potential);
-  const Box box = bounding_box(shape);
-  const LocalFrame frame = frame_of(box);
-  axis.tolerance = tolerance_for(box, options.tolerance);
-  const sites::SiteNumbers numbers = sites::number_sites(shape, frame, options.corner_angle);
-  axis.sites = sites::result_sites(shape, numbers);
-  const SiteNames names(shape, numbers);
+  axis.method = "potential";
+  axis.tolerance = problem.tolerance;
+  axis.sites = problem.result_sites();
+  const SiteNames names(problem.shape, problem.numbers());
   axis.statistics.seconds_sites = watch.lap();
 
   // Arcs become chords within a hundredth of a step.
-  const double whole = std::max(box.high.x - box.low.x, box.high.y - box.low.y);
-  const std::vector<Region> regions =
-      regions_of(shape, frame, options.corner_angle, 0.01 * own.step * whole * frame.scale);
+  const Vec2 extent = problem.box.high - problem.box.low;
+  const double whole = std::max(extent.x, extent.y);
+  const std::vector<Region> regions = regions_of(problem, 0.01 * own.step * whole * frame.scale);
   bool seeded = !own.from;
   for (std::uint32_t component = 0; component < regions.size(); ++component) {
     const Region& region = regions[component];
     const Charges charges(region.pieces);
     axis.statistics.seconds_tree += watch.lap();
-    const SkeletonOptions tracing = tracing_of(region, frame, options);
+    const SkeletonOptions tracing = tracing_of(region, problem);
     if (tracing.from && !encloses(region, *tracing.from)) continue;
     seeded = true;
     axis.resolution = std::max(axis.resolution, tracing.step * frame.inverse);
@@ -273,7 +288,7 @@ Result<MedialAxis> run(const Shape& shape, const Options& options) {
             : trace_valleys(region, charges, tracing);
     axis.statistics.queries += skeleton.forces;
     axis.statistics.seconds_walk += watch.lap();
-    if (is_cancelled(options)) break;
+    if (problem.is_cancelled()) break;
     if (!skeleton.whole)
       return Error{ErrorCode::unsupported,
                    "the potential's valleys are too flat to be connected: use the method disks",
@@ -281,7 +296,7 @@ Result<MedialAxis> run(const Shape& shape, const Options& options) {
     append(axis, component, points_of(skeleton, charges, region, tracing, own), region, charges,
            names, frame);
     axis.statistics.seconds_collect += watch.lap();
-    if (is_cancelled(options)) break;
+    if (problem.is_cancelled()) break;
     if (options.progress) options.progress((component + 1.0) / static_cast<double>(regions.size()));
   }
   if (!seeded) return Error{ErrorCode::invalid_option, "the seed lies outside of the shape", {}};

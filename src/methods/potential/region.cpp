@@ -33,7 +33,7 @@ std::size_t Region::edges() const {
 }
 
 std::uint32_t Region::before(std::uint32_t piece) const {
-  for (const Loop& loop : loops)
+  for (const PieceLoop& loop : loops)
     if (piece >= loop.begin && piece < loop.end)
       return piece == loop.begin ? loop.end - 1 : piece - 1;
   return piece;
@@ -49,17 +49,17 @@ bool encloses(const Region& region, Vec2 p) {
   return inside;
 }
 
-std::vector<Region> regions_of(const Shape& shape, const LocalFrame& frame, double corner_angle,
-                               double chord) {
-  const sites::SiteNumbers numbers = sites::number_sites(shape, frame, corner_angle);
+std::vector<Region> regions_of(const Problem& problem, double chord) {
+  const Shape& shape = problem.shape;
+  const site::SiteNumbers& numbers = problem.numbers();
   std::vector<Region> regions(shape.component_count());
   // Outer loops first.
   for (const bool hole : {false, true}) {
     for (std::size_t l = 0; l < shape.loop_count(); ++l) {
       if (shape.hole[l] != hole) continue;
       Region& region = regions[shape.component[l]];
-      const sites::Loop loop(shape, l, frame);
-      Region::Loop range;
+      const site::LoopEdges loop(shape, l, problem.frame);
+      Region::PieceLoop range;
       range.begin = static_cast<std::uint32_t>(region.pieces.size());
       range.inside = loop.local(0);
       for (std::uint32_t i = 0; i < loop.size(); ++i) {

@@ -3,22 +3,21 @@
 #include <cstdint>
 #include <vector>
 
-#include "base/local_frame.h"
 #include "medial/axis.h"
-#include "medial/shape.h"
 #include "methods/potential/charges.h"
+#include "methods/problem.h"
 
 namespace medial::potential {
 
 /// One component of a shape in the local frame: its border as charged pieces, loop after loop, the
 /// outer one first.
 struct Region {
-  struct Loop {
+  struct PieceLoop {
     std::uint32_t begin = 0, end = 0;  ///< pieces
     Vec2 inside;                       ///< of a hole: a point in it or on its border
   };
   std::vector<Charge> pieces;
-  std::vector<Loop> loops;
+  std::vector<PieceLoop> loops;
   std::vector<std::uint32_t> corners;  ///< pieces that begin at a convex corner, ascending
   std::vector<Disk> bends;             ///< the circles of smooth arcs of locally largest curvature
   double chord = 0;                    ///< how far chords are from their arcs at most
@@ -36,7 +35,6 @@ bool encloses(const Region& region, Vec2 p);
 
 /// The components of a shape. Arcs become chords within `chord` of them; a charge's site is the
 /// index of its edge in the shape.
-std::vector<Region> regions_of(const Shape& shape, const LocalFrame& frame, double corner_angle,
-                               double chord);
+std::vector<Region> regions_of(const Problem& problem, double chord);
 
 }  // namespace medial::potential

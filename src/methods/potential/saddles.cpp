@@ -92,7 +92,7 @@ void SaddleSearch::traverse() {
       const double angle = 2 * std::numbers::pi * turns / directions;
       return Vec2{std::cos(angle), std::sin(angle)};
     };
-    // The last place where the force is none or tells nothing lies before this.
+    // The last place where the force is none or has no direction lies before this.
     int known_at = -1;
     double before = along(towards(known_at));
     while (before == 0 && known_at > -directions) before = along(towards(--known_at));
@@ -104,7 +104,7 @@ void SaddleSearch::traverse() {
       before = here;
       known_at = i;
       if (!valley) continue;
-      // On a floor without slope the force tells nothing: that is its middle.
+      // On a floor without slope the force has no direction: that is its middle.
       for (int k = 0; k < halvings && high - low <= 1; ++k) {
         const double middle = 0.5 * (low + high);
         (along(towards(middle)) > 0 ? low : high) = middle;
@@ -130,7 +130,7 @@ void SaddleSearch::traverse() {
 void SaddleSearch::pass_necks(const Charges& charges) {
   // What is as near as the corner to the middle of the way is no nearer than rounding.
   constexpr double as_near = 0.999;
-  for (const Region::Loop& loop : region_.loops) {
+  for (const Region::PieceLoop& loop : region_.loops) {
     for (std::uint32_t i = loop.begin; i < loop.end && !complete() && !lines_.exhausted(); ++i) {
       const Charge& before = region_.pieces[i == loop.begin ? loop.end - 1 : i - 1];
       const Charge& after = region_.pieces[i];
@@ -163,8 +163,8 @@ void SaddleSearch::pass(const ValleyPoint& point, ForceLines::Start start) {
 }
 
 /// Looks for saddles between two places of a loop, the second one further on.
-void SaddleSearch::part_lines(const Region::Loop& loop, const Sample& first, const Sample& second,
-                              bool sides, int depth) {
+void SaddleSearch::part_lines(const Region::PieceLoop& loop, const Sample& first,
+                              const Sample& second, bool sides, int depth) {
   const bool same_minimum = first.label.minimum == second.label.minimum;
   if (first.label.minimum == no_point || second.label.minimum == no_point || complete()) return;
   if (lines_.exhausted()) return;
@@ -189,7 +189,7 @@ void SaddleSearch::part_lines(const Region::Loop& loop, const Sample& first, con
   part_lines(loop, middle, second, sides, depth + 1);
 }
 
-Label SaddleSearch::probe_at(const Region::Loop& loop, double place, Trail& trail) {
+Label SaddleSearch::probe_at(const Region::PieceLoop& loop, double place, Trail& trail) {
   const double count = loop.end - loop.begin;
   double local = place - loop.begin;
   if (local >= count) local -= count;
@@ -204,7 +204,7 @@ void SaddleSearch::connect(const std::vector<Label>& corner_labels) {
   for (const int round : {0, 1, 2}) {
     if (complete()) return;
     for (std::size_t l = 0; l < region_.loops.size() && !complete(); ++l) {
-      const Region::Loop& loop = region_.loops[l];
+      const Region::PieceLoop& loop = region_.loops[l];
       std::vector<Sample> samples = samples_of(l, round, corner_labels);
       if (samples.empty()) continue;
       samples.push_back(samples.front());
@@ -218,7 +218,7 @@ void SaddleSearch::connect(const std::vector<Label>& corner_labels) {
 /// The convex corners of a loop, and so many places between them as the round asks for.
 std::vector<SaddleSearch::Sample> SaddleSearch::samples_of(
     std::size_t l, int round, const std::vector<Label>& corner_labels) {
-  const Region::Loop& loop = region_.loops[l];
+  const Region::PieceLoop& loop = region_.loops[l];
   std::vector<Sample> samples;
   for (std::size_t i = 0; i < region_.corners.size(); ++i) {
     const std::uint32_t piece = region_.corners[i];

@@ -52,9 +52,9 @@ class SaddleSearch {
 
   /// The saddle at this place, known or new.
   const Pass& pass_at(const ValleyPoint& saddle);
-  void part_lines(const Region::Loop& loop, const Sample& first, const Sample& second, bool sides,
-                  int depth);
-  Label probe_at(const Region::Loop& loop, double place, Trail& trail);
+  void part_lines(const Region::PieceLoop& loop, const Sample& first, const Sample& second,
+                  bool sides, int depth);
+  Label probe_at(const Region::PieceLoop& loop, double place, Trail& trail);
   std::vector<Sample> samples_of(std::size_t loop, int round,
                                  const std::vector<Label>& corner_labels);
 

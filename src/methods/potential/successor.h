@@ -24,8 +24,8 @@ struct Successor {
 
 /// N of the algorithm MAT-Generalized-Polygonal, Steps 0 to 2, at a place: the lowest order from 2
 /// on at which the force's direction, and at the next order again, changes by no more than
-/// theta_min. At most `most`, which is at most most_searched_order. Requires evaluator.place() to
-/// have been told the place.
+/// theta_min. At most `most`, which is at most most_searched_order. Requires evaluator.place() at
+/// the place before.
 int adaptive_order(Evaluator& evaluator, double angle, int most);
 constexpr int most_searched_order = 64;
 

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "medial/image.h"
+#include "medial/raster.h"
 
 namespace medial {
 namespace {

@@ -4,10 +4,11 @@
 #include <cmath>
 #include <memory>
 
+#include "base/compat.h"
 #include "base/in_flight.h"
 #include "base/runs.h"
 #include "base/threads.h"
-#include "medial/image.h"
+#include "medial/raster.h"
 
 namespace medial {
 namespace {
@@ -85,7 +86,7 @@ class Envelope {
     parabolas_[size_++] = next;
   }
 
-  /// Starts anew with a sweep of value_at() to the right.
+  /// Restarts with a sweep of value_at() to the right.
   void rewind() { lowest_ = 0; }
   /// The lowest value at x, which never decreases from call to call.
   std::int64_t value_at(std::int64_t x) {
@@ -162,7 +163,7 @@ DistanceMap transform(const Image& image, const DistanceOptions& options) {
   const bool frame = options.frame || options.to == DistanceTo::cracks;
 
   const std::size_t words = image.row(0).size();
-  const auto columns = std::make_unique_for_overwrite<ColumnDistance[]>(words * 64 * map.height);
+  const auto columns = uninitialized<ColumnDistance[]>(words * 64 * map.height);
   const std::size_t strips = (words + strip_words - 1) / strip_words;
   parallel_for(strips, [&](std::size_t strip) {
     scan_columns(image, strip * strip_words, std::min(words, (strip + 1) * strip_words), frame,

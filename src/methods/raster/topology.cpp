@@ -2,12 +2,13 @@
 
 #include "base/disjoint_sets.h"
 #include "base/runs.h"
-#include "medial/image.h"
+#include "medial/raster.h"
 
 namespace medial {
 namespace {
 
-struct Run {
+/// The columns [begin, end).
+struct Span {
   std::int64_t begin;
   std::int64_t end;
 };
@@ -20,7 +21,7 @@ Topology topology(const Image& image) {
   Topology result;
   DisjointSets sets;
   std::uint64_t touching = 0, runs = 0;
-  std::vector<Run> above, here;
+  std::vector<Span> above, here;
   std::uint32_t above_first = 0, here_first = 0;
   for (std::uint32_t y = 0; y < image.height(); ++y) {
     std::swap(above, here);

@@ -5,7 +5,6 @@
 #include "axis/pixel_graph.h"
 #include "axis/sites.h"
 #include "base/stopwatch.h"
-#include "base/tolerance.h"
 #include "medial/brushfire.h"
 #include "methods/raster/brushfire/fill.h"
 #include "methods/raster/ridge/digitize.h"
@@ -14,25 +13,11 @@
 namespace medial::brushfire {
 namespace {
 
-/// The boundary's edges in the local frame.
-std::vector<site::Site> boundary_of(const Shape& shape, const LocalFrame& frame) {
-  std::vector<site::Site> edges;
-  for (std::size_t i = 0; i < shape.loop_count(); ++i) {
-    const sites::Loop loop(shape, i, frame);
-    for (std::uint32_t k = 0; k < loop.size(); ++k) {
-      const sites::Pieces pieces = loop.edge(k);
-      edges.insert(edges.end(), pieces.site.begin(),
-                   pieces.site.begin() + static_cast<std::ptrdiff_t>(pieces.count));
-    }
-  }
-  return edges;
-}
-
 /// Exact distances from the boundary, of one place after another.
 class Radius {
  public:
   Radius(const Shape& shape, const LocalFrame& frame)
-      : frame_(frame), edges_(boundary_of(shape, frame)), tree_(edges_) {}
+      : frame_(frame), edges_(site::edge_sites(shape, frame)), tree_(edges_) {}
 
   double at(Vec2 point) {
     const Vec2 local = frame_.to_local(point);
@@ -52,11 +37,11 @@ class Radius {
 };
 
 /// The pixels of the axis in the order of increasing x within increasing y.
-std::vector<MedialPixel> pixels_of(const Image& axis, const std::vector<Run>& runs,
+std::vector<MedialPixel> pixels_of(const Image& axis, const std::vector<raster::PixelRun>& runs,
                                    const raster::Grid& grid, Radius& radius) {
   std::vector<MedialPixel> pixels;
   pixels.reserve(axis.count());
-  for (const Run& run : runs) {
+  for (const raster::PixelRun& run : runs) {
     const std::span<const std::uint64_t> row = axis.row(run.row);
     for (std::size_t w = run.first / 64; w <= run.last / 64; ++w) {
       for (std::uint64_t bits = row[w]; bits != 0; bits &= bits - 1) {
@@ -64,7 +49,7 @@ std::vector<MedialPixel> pixels_of(const Image& axis, const std::vector<Run>& ru
             static_cast<std::uint32_t>(w * 64) + static_cast<std::uint32_t>(std::countr_zero(bits));
         if (column < run.first || column > run.last) continue;
         const raster::Pixel pixel{column, run.row};
-        pixels.push_back({pixel, radius.at(grid.center(pixel)), run.component, {no_site, no_site}});
+        pixels.push_back({pixel, radius.at(grid.center(pixel)), run.set, {no_site, no_site}});
       }
     }
   }
@@ -73,25 +58,24 @@ std::vector<MedialPixel> pixels_of(const Image& axis, const std::vector<Run>& ru
 
 }  // namespace
 
-std::optional<Error> refuse(const Shape& shape, const Options& options) {
-  const auto grid = ridge::grid_for(bounding_box(shape), options);
+std::optional<Error> refuse(const Problem& problem) {
+  const auto grid = ridge::grid_for(problem.box, problem.own<method::Brushfire>().grid);
   if (!grid) return grid.error();
   if (!fits_image(grid->columns, grid->rows))
     return Error{ErrorCode::too_large, "the diagonal of the grid is above 2^16 pixels", {}};
   return std::nullopt;
 }
 
-Result<MedialAxis> run(const Shape& shape, const Options& options) {
+Result<MedialAxis> run(const Problem& problem) {
+  const auto& own = problem.own<method::Brushfire>();
   MedialAxis axis;
-  axis.method = name_of(Method::brushfire);
+  axis.method = "brushfire";
   Statistics& statistics = axis.statistics;
   Stopwatch all, watch;
-  const Box box = bounding_box(shape);
-  const LocalFrame frame = frame_of(box);
-  axis.tolerance = tolerance_for(box, options.tolerance);
+  axis.tolerance = problem.tolerance;
 
-  const raster::Grid grid = ridge::grid_for(box, options).value();
-  const std::vector<Run> runs = runs_inside(shape, grid);
+  const raster::Grid grid = ridge::grid_for(problem.box, own.grid).value();
+  const std::vector<raster::PixelRun> runs = runs_inside(problem.shape, grid);
   if (runs.empty())
     return Error{ErrorCode::unsupported,
                  "no pixel's centre lies inside the shape: the resolution is too low",
@@ -99,19 +83,16 @@ Result<MedialAxis> run(const Shape& shape, const Options& options) {
   const Image inside = image_of(runs, grid);
   statistics.seconds_sites = watch.lap();
 
-  BrushfireOptions fire;
-  fire.family = options.brushfire;
-  fire.progress = options.progress;
-  fire.cancel = options.cancel;
-  const Result<Image> burnt = thin(inside, fire);
+  const Result<Image> burnt =
+      thin(inside, {own.family, problem.options.progress, problem.options.cancel});
   if (!burnt) return burnt.error();
   statistics.seconds_walk = watch.lap();
 
-  Radius radius(shape, frame);
+  Radius radius(problem.shape, problem.frame);
   statistics.seconds_tree = watch.lap();
   const std::vector<MedialPixel> pixels = pixels_of(*burnt, runs, grid, radius);
   statistics.queries = pixels.size();
-  axis.sites = sites::result_sites(shape, sites::number_sites(shape, frame, options.corner_angle));
+  axis.sites = problem.result_sites();
   link_pixels(grid, pixels, nullptr, axis);
   statistics.seconds_collect = watch.lap();
   statistics.seconds = all.lap();

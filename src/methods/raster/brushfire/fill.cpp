@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "base/arc.h"
+#include "base/runs.h"
 
 namespace medial::brushfire {
 namespace {
@@ -30,9 +31,9 @@ class Scan {
     add(in_pixels(start), in_pixels(end), bulge, component);
   }
 
-  std::vector<Run> runs() {
+  std::vector<raster::PixelRun> runs() {
     std::sort(crossings_.begin(), crossings_.end());
-    std::vector<Run> runs;
+    std::vector<raster::PixelRun> runs;
     for (std::size_t i = 0; i + 1 < crossings_.size(); i += 2) {
       const Crossing& in = crossings_[i];
       const Crossing& out = crossings_[i + 1];
@@ -74,7 +75,7 @@ class Scan {
 
 }  // namespace
 
-std::vector<Run> runs_inside(const Shape& shape, const raster::Grid& grid) {
+std::vector<raster::PixelRun> runs_inside(const Shape& shape, const raster::Grid& grid) {
   Scan scan(grid);
   for (std::size_t loop = 0; loop < shape.loop_count(); ++loop) {
     const std::uint32_t begin = shape.loop_begin[loop], end = shape.loop_begin[loop + 1];
@@ -86,18 +87,9 @@ std::vector<Run> runs_inside(const Shape& shape, const raster::Grid& grid) {
   return scan.runs();
 }
 
-Image image_of(const std::vector<Run>& runs, const raster::Grid& grid) {
+Image image_of(const std::vector<raster::PixelRun>& runs, const raster::Grid& grid) {
   Image image(grid.columns, grid.rows);
-  for (const Run& run : runs) {
-    const std::span<std::uint64_t> row = image.row(run.row);
-    const std::size_t from = run.first / 64, to = run.last / 64;
-    for (std::size_t w = from; w <= to; ++w) {
-      std::uint64_t bits = ~std::uint64_t{0};
-      if (w == from) bits &= ~std::uint64_t{0} << (run.first % 64);
-      if (w == to) bits &= ~std::uint64_t{0} >> (63 - run.last % 64);
-      row[w] |= bits;
-    }
-  }
+  for (const raster::PixelRun& run : runs) set_bits(image.row(run.row), run.first, run.last);
   return image;
 }
 

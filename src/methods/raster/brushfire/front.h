@@ -49,7 +49,7 @@ class Front {
     for (const std::uint32_t i : current_) work(i);
   }
 
-  /// Deletes at once what rule(i) tells of each tile of the front: all rules see the image as it
+  /// Deletes at once what rule(i) gives for each tile of the front: all rules see the image as it
   /// was. Tiles near to changes join the front of this pass and of the next one.
   template <class Rule>
   void burn(const Rule& rule) {

@@ -8,31 +8,31 @@
 #include <string>
 
 #include "base/disjoint_sets.h"
+#include "base/runs.h"
+#include "base/tolerance.h"
 
 namespace medial::ridge {
 
 using raster::BitMap;
 using raster::Grid;
 
-Result<Grid> grid_for(const Box& box, const Options& options) {
+Result<Grid> grid_for(const Box& box, const PixelGrid& wanted) {
   constexpr std::uint64_t default_pixels = 1024;
   const Vec2 size = box.high - box.low;
   const double longer = std::max(size.x, size.y);
-  if (options.resolution != 0 && options.pixels != 0)
-    return Error{ErrorCode::invalid_option, "the grid is told by its resolution or its pixels", {}};
-  if (!(options.resolution >= 0 && options.resolution <= longer))
+  if (wanted.resolution != 0 && wanted.pixels != 0)
+    return Error{
+        ErrorCode::invalid_option, "either a resolution or a number of pixels, not both", {}};
+  if (!(wanted.resolution >= 0 && wanted.resolution <= longer))
     return Error{ErrorCode::invalid_option,
                  "the resolution must be above 0 and not larger than the shape",
                  {}};
-  const double pixels = static_cast<double>(options.pixels > 0 ? options.pixels : default_pixels);
-  const double step = options.resolution > 0 ? options.resolution : longer / pixels;
+  const double pixels = static_cast<double>(wanted.pixels > 0 ? wanted.pixels : default_pixels);
+  const double step = wanted.resolution > 0 ? wanted.resolution : longer / pixels;
   const double columns = std::ceil(size.x / step) + 2, rows = std::ceil(size.y / step) + 2;
   if (!(columns * rows <= static_cast<double>(most_pixels)))
     return Error{ErrorCode::too_large, "the grid has more than 2^31 pixels", {}};
-  const double largest = std::max(
-      {std::abs(box.low.x), std::abs(box.low.y), std::abs(box.high.x), std::abs(box.high.y)});
-  constexpr double fine = 16 * std::numeric_limits<double>::epsilon();
-  if (!(step > fine * largest))
+  if (!(step > 16 * spacing_in(box)))
     return Error{ErrorCode::unsupported,
                  "the pixels are not larger than the spacing of the coordinates",
                  {}};
@@ -77,19 +77,7 @@ void draw_edge(Vec2 a, Vec2 b, BitMap& map) {
 
 }  // namespace
 
-void set_bits(std::uint64_t* words, std::uint32_t first, std::uint32_t last) {
-  const std::uint64_t from = ~std::uint64_t{0} << (first & 63);
-  const std::uint64_t to = ~std::uint64_t{0} >> (63 - (last & 63));
-  if (first >> 6 == last >> 6) {
-    words[first >> 6] |= from & to;
-    return;
-  }
-  words[first >> 6] |= from;
-  for (std::uint32_t w = (first >> 6) + 1; w < last >> 6; ++w) words[w] = ~std::uint64_t{0};
-  words[last >> 6] |= to;
-}
-
-BitMap boundary_map(const Outline& outline, const LocalGrid& local) {
+BitMap boundary_map(const EdgeOutline& outline, const LocalGrid& local) {
   BitMap map(local.grid.columns, local.grid.rows);
   for (std::size_t e = 0; e < outline.edges.size(); ++e)
     draw_edge(local.in_pixels(outline.edges[e].point),
@@ -97,25 +85,16 @@ BitMap boundary_map(const Outline& outline, const LocalGrid& local) {
   return map;
 }
 
-std::vector<Run> runs_of(const BitMap& map, std::uint32_t& sets) {
-  std::vector<Run> runs;
+std::vector<PixelRun> runs_of(const BitMap& map, std::uint32_t& sets) {
+  std::vector<PixelRun> runs;
   DisjointSets joined;
   std::size_t below = 0, below_end = 0;  // the runs of the row before
   for (std::uint32_t r = 0; r < map.rows(); ++r) {
     const std::size_t begin = runs.size();
-    const std::uint64_t* words = map.row(r);
-    for (std::uint32_t w = 0; w < map.words_per_row(); ++w) {
-      for (std::uint64_t rest = words[w]; rest != 0;) {
-        const auto low = static_cast<std::uint32_t>(std::countr_zero(rest));
-        const auto length = static_cast<std::uint32_t>(std::countr_one(rest >> low));
-        const std::uint32_t first = 64 * w + low;
-        if (runs.size() > begin && runs.back().last + 1 == first)
-          runs.back().last += length;
-        else
-          runs.push_back({r, first, first + length - 1, joined.add()});
-        rest = low + length == 64 ? 0 : rest & (~std::uint64_t{0} << (low + length));
-      }
-    }
+    for_each_run(map.row(r), map.columns(), [&](std::int64_t first, std::int64_t end) {
+      runs.push_back({r, static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(end - 1),
+                      joined.add()});
+    });
     for (std::size_t i = begin; i < runs.size(); ++i) {
       while (below < below_end && runs[below].last < runs[i].first) ++below;
       for (std::size_t j = below; j < below_end && runs[j].first <= runs[i].last; ++j)
@@ -134,7 +113,8 @@ std::vector<Run> runs_of(const BitMap& map, std::uint32_t& sets) {
   return runs;
 }
 
-InteriorSets interior_sets(const Outline& outline, const LocalGrid& local, const BitMap& boundary) {
+InteriorSets interior_sets(const EdgeOutline& outline, const LocalGrid& local,
+                           const BitMap& boundary) {
   // Where each row of centres crosses the boundary.
   const auto each_crossing = [&](auto take) {
     for (std::size_t e = 0; e < outline.edges.size(); ++e) {
@@ -160,21 +140,21 @@ InteriorSets interior_sets(const Outline& outline, const LocalGrid& local, const
     const auto first = crossing.begin() + static_cast<std::ptrdiff_t>(begin[r]);
     const auto last = crossing.begin() + static_cast<std::ptrdiff_t>(begin[r + 1]);
     std::sort(first, last);
-    std::uint64_t* words = sets.inside.row(r);
+    const std::span<std::uint64_t> words = sets.inside.row(r);
     for (auto x = first; x + 1 < last; x += 2) {
       const double low = std::max(0.0, std::ceil(*x));
       const double high = std::min(local.grid.columns - 1.0, std::floor(*(x + 1)));
       if (low <= high)
         set_bits(words, static_cast<std::uint32_t>(low), static_cast<std::uint32_t>(high));
     }
-    const std::uint64_t* drawn = boundary.row(r);
+    const std::span<const std::uint64_t> drawn = boundary.row(r);
     for (std::uint32_t w = 0; w < sets.inside.words_per_row(); ++w) words[w] &= ~drawn[w];
   }
   sets.runs = runs_of(sets.inside, sets.count);
   return sets;
 }
 
-std::vector<Vec2> inner_points(const Outline& outline) {
+std::vector<Vec2> inner_points(const EdgeOutline& outline) {
   constexpr std::uint32_t none = ~std::uint32_t{0};
   std::vector<std::uint32_t> highest, concave, before(outline.edges.size());
   const auto height = [&](std::uint32_t e) { return outline.edges[e].point.y; };

@@ -13,10 +13,10 @@ namespace medial::ridge {
 /// No grid has more pixels: three bit maps of this size are 768 MiB.
 constexpr std::uint64_t most_pixels = std::uint64_t{1} << 31;
 
-/// The grid that the options ask for: the shape's box in the middle, with a margin of a pixel at
-/// least. Errors: invalid_option (see Options), too_large (more than most_pixels), unsupported
+/// The grid that is asked for: the shape's box in the middle, with a margin of a pixel at
+/// least. Errors: invalid_option (see PixelGrid), too_large (more than most_pixels), unsupported
 /// (pixels below the coordinates' own spacing).
-Result<raster::Grid> grid_for(const Box& box, const Options& options);
+Result<raster::Grid> grid_for(const Box& box, const PixelGrid& wanted);
 
 /// The grid with the local coordinates of its pixels.
 struct LocalGrid {
@@ -29,39 +29,32 @@ struct LocalGrid {
   }
 };
 
-/// Sets the bits first..last of a row of a bit map.
-void set_bits(std::uint64_t* words, std::uint32_t first, std::uint32_t last);
-
 /// The boundary map (A.1.a, step 2 of A.3): along each edge one pixel for each column or row of
 /// centres that it passes, whichever are more, as Bresenham draws lines; and each vertex's own.
 ///
 /// Two pixels side by side (of four neighbours) whose centres lie on different sides of the
 /// boundary are never both left out.
-raster::BitMap boundary_map(const Outline& outline, const LocalGrid& local);
+raster::BitMap boundary_map(const EdgeOutline& outline, const LocalGrid& local);
 
-/// Pixels of a row next to each other, first..last, which belong to one set.
-struct Run {
-  std::uint32_t row = 0, first = 0, last = 0;
-  std::uint32_t set = 0;
-};
+using raster::PixelRun;
 
 /// The pixels whose centres lie in the shape and that are not in the boundary map, as runs in the
 /// order of increasing x within increasing y. Those of one bounded set (of four neighbours) have
 /// the same number; sets are numbered by their first runs.
 struct InteriorSets {
   raster::BitMap inside;
-  std::vector<Run> runs;
+  std::vector<PixelRun> runs;
   std::uint32_t count = 0;
 };
-InteriorSets interior_sets(const Outline& outline, const LocalGrid& local,
+InteriorSets interior_sets(const EdgeOutline& outline, const LocalGrid& local,
                            const raster::BitMap& boundary);
 
 /// The runs of all pixels set, their sets numbered as above.
-std::vector<Run> runs_of(const raster::BitMap& map, std::uint32_t& sets);
+std::vector<PixelRun> runs_of(const raster::BitMap& map, std::uint32_t& sets);
 
 /// An inner point for each component of the shape by the report's way, where it leads to one
 /// (Section III.B, A.3.c): the centroid of the triangle that the highest vertex B makes with its
 /// neighbours, cut off at the height of the highest concave vertex. Local coordinates.
-std::vector<Vec2> inner_points(const Outline& outline);
+std::vector<Vec2> inner_points(const EdgeOutline& outline);
 
 }  // namespace medial::ridge

@@ -46,7 +46,7 @@ constexpr double farthest = 1;
 
 }  // namespace
 
-Follower::Follower(const Outline& outline, const LocalGrid& local, const BitMap& boundary,
+Follower::Follower(const EdgeOutline& outline, const LocalGrid& local, const BitMap& boundary,
                    NearestEdges& search, RidgeRule rule, const std::atomic<bool>* cancel)
     : outline_(outline),
       local_(local),
@@ -98,7 +98,7 @@ bool Follower::by_crossing(Pixel p, Found& found) {
     // less so. Of equals, the lower one is medial.
     const double own = search_.distance_to(other, c) - found.radius;
     const double its = search_.distance_to(found.first, d) - radius;
-    const bool lower = p.row != q.row ? p.row < q.row : p.column < q.column;
+    const bool lower = p < q;
     if ((own < its || (own == its && lower)) && own < found.quality) {
       found.quality = own;
       found.second = other;

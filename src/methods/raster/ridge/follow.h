@@ -56,7 +56,7 @@ bool crosses_contour(const raster::BitMap& boundary, raster::Pixel p, int direct
 /// Follows ridges: decides which pixels are medial, from pixel to neighbouring pixel.
 class Follower {
  public:
-  Follower(const Outline& outline, const LocalGrid& local, const raster::BitMap& boundary,
+  Follower(const EdgeOutline& outline, const LocalGrid& local, const raster::BitMap& boundary,
            NearestEdges& search, RidgeRule rule, const std::atomic<bool>* cancel);
 
   /// Finds one medial pixel of a set: step 7 of A.3, straight up and down from a pixel inside it;
@@ -78,7 +78,7 @@ class Follower {
   bool by_difference(raster::Pixel p, double tolerance, double away, Found& found);
   bool by_crossing(raster::Pixel p, Found& found);
 
-  const Outline& outline_;
+  const EdgeOutline& outline_;
   const LocalGrid& local_;
   const raster::BitMap& boundary_;
   NearestEdges& search_;

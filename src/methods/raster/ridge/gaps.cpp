@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "base/disjoint_sets.h"
+#include "base/runs.h"
 #include "methods/raster/ridge/thin.h"
 
 namespace medial::ridge {
@@ -14,15 +15,16 @@ using raster::Pixel;
 
 /// The pixels of the interior that are not medial, and which sets of them touch a boundary.
 struct Rest {
-  std::vector<Run> runs;
+  std::vector<PixelRun> runs;
   std::vector<std::size_t> row_begin;  ///< in `runs`; of each row and of one more
   std::vector<bool> touches;           ///< of each set
   bool any_gap() const { return std::find(touches.begin(), touches.end(), false) != touches.end(); }
   std::uint32_t set_of(Pixel p) const {
     const auto from = runs.begin() + static_cast<std::ptrdiff_t>(row_begin[p.row]);
     const auto to = runs.begin() + static_cast<std::ptrdiff_t>(row_begin[std::size_t{p.row} + 1]);
-    return (std::upper_bound(from, to, p.column,
-                             [](std::uint32_t column, const Run& b) { return column < b.first; }) -
+    return (std::upper_bound(
+                from, to, p.column,
+                [](std::uint32_t column, const PixelRun& b) { return column < b.first; }) -
             1)
         ->set;
   }
@@ -36,7 +38,7 @@ Rest rest_of(const InteriorSets& sets, const BitMap& boundary, const BitMap& med
   std::uint32_t count = 0;
   rest.runs = runs_of(map, count);
   rest.row_begin.assign(std::size_t{map.rows()} + 1, 0);
-  for (const Run& run : rest.runs) ++rest.row_begin[std::size_t{run.row} + 1];
+  for (const PixelRun& run : rest.runs) ++rest.row_begin[std::size_t{run.row} + 1];
   std::partial_sum(rest.row_begin.begin(), rest.row_begin.end(), rest.row_begin.begin());
   rest.touches.assign(count, false);
   const auto any = [&](std::uint32_t row, std::uint32_t first, std::uint32_t last) {
@@ -44,12 +46,36 @@ Rest rest_of(const InteriorSets& sets, const BitMap& boundary, const BitMap& med
       if (boundary.at({c, row})) return true;
     return false;
   };
-  for (const Run& run : rest.runs)
+  for (const PixelRun& run : rest.runs)
     if (!rest.touches[run.set])
       rest.touches[run.set] =
           boundary.at({run.first - 1, run.row}) || boundary.at({run.last + 1, run.row}) ||
           any(run.row - 1, run.first, run.last) || any(run.row + 1, run.first, run.last);
   return rest;
+}
+
+/// A pixel of a line beside a gap.
+struct Wall {
+  double quality;
+  Pixel pixel;
+};
+
+/// All walls that may go, those of the largest quality first.
+std::vector<Wall> walls_beside(const BitMap& gaps, const MedialMap& map) {
+  std::vector<Wall> walls;
+  const auto is_gap_beside = [&](Pixel p) {
+    for (int direction = 0; direction < 8; direction += 2)
+      if (gaps.at(neighbour(p, direction))) return true;
+    return false;
+  };
+  for (const Found& found : map.found)
+    if (!found.is_pinned() && map.medial.at(found.pixel) && is_gap_beside(found.pixel))
+      walls.push_back({found.quality, found.pixel});
+  std::sort(walls.begin(), walls.end(), [](const Wall& a, const Wall& b) {
+    if (a.quality != b.quality) return a.quality > b.quality;
+    return b.pixel < a.pixel;
+  });
+  return walls;
 }
 
 }  // namespace
@@ -61,42 +87,25 @@ void fill_gaps(const InteriorSets& sets, const BitMap& boundary, Follower& follo
   std::vector<bool> narrow(rest.touches.size());
   for (std::size_t i = 0; i < narrow.size(); ++i) narrow[i] = !rest.touches[i];
   const auto each_pixel = [&](auto work) {
-    for (const Run& run : rest.runs)
+    for (const PixelRun& run : rest.runs)
       for (std::uint32_t c = run.first; c <= run.last && narrow[run.set]; ++c)
         work(run, Pixel{c, run.row});
   };
-  each_pixel([&](const Run& run, Pixel p) {
+  each_pixel([&](const PixelRun& run, Pixel p) {
     bool beside = false;
     for (int direction = 0; direction < 8; direction += 2)
       beside = beside || medial.at(neighbour(p, direction));
     if (!beside) narrow[run.set] = false;
   });
-  each_pixel([&](const Run&, Pixel p) { follower.map().add(follower.measured(p)); });
+  each_pixel([&](const PixelRun&, Pixel p) { follower.map().add(follower.measured(p)); });
 }
 
 void open_gaps(const InteriorSets& sets, const BitMap& boundary, MedialMap& map) {
   const Rest rest = rest_of(sets, boundary, map.medial);
   if (!rest.any_gap()) return;
-  struct Wall {
-    double quality;
-    Pixel pixel;
-  };
-  std::vector<Wall> walls;
   BitMap gaps(map.medial.columns(), map.medial.rows());
-  for (const Run& run : rest.runs)
+  for (const PixelRun& run : rest.runs)
     if (!rest.touches[run.set]) set_bits(gaps.row(run.row), run.first, run.last);
-  const auto is_gap_beside = [&](Pixel p) {
-    for (int direction = 0; direction < 8; direction += 2)
-      if (gaps.at(neighbour(p, direction))) return true;
-    return false;
-  };
-  for (const Found& found : map.found)
-    if (!found.is_pinned() && map.medial.at(found.pixel) && is_gap_beside(found.pixel))
-      walls.push_back({found.quality, found.pixel});
-  std::sort(walls.begin(), walls.end(), [](const Wall& a, const Wall& b) {
-    if (a.quality != b.quality) return a.quality > b.quality;
-    return a.pixel.row != b.pixel.row ? a.pixel.row > b.pixel.row : a.pixel.column > b.pixel.column;
-  });
 
   // Sets that were opened to each other; the last number stands for all that touch a boundary.
   const auto outside = static_cast<std::uint32_t>(rest.touches.size());
@@ -111,7 +120,7 @@ void open_gaps(const InteriorSets& sets, const BitMap& boundary, MedialMap& map)
     const std::uint32_t place = map.place.at(q);
     return place == 0 || opened[place - 1] == none ? outside : opened[place - 1];
   };
-  for (const Wall& wall : walls) {
+  for (const Wall& wall : walls_beside(gaps, map)) {
     // What lies on its sides, one after the other around it.
     const std::uint8_t closed = closed_neighbours(map.medial, boundary, wall.pixel);
     const auto set = [&](std::size_t direction) { return (closed >> (direction % 8) & 1) != 0; };

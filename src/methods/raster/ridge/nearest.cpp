@@ -43,7 +43,8 @@ namespace {
 /// O(edges) for each pixel, as long as the pixels are neighbours.
 class SortedList final : public NearestEdges {
  public:
-  explicit SortedList(const Outline& outline) : NearestEdges(outline), list_(outline.edges.size()) {
+  explicit SortedList(const EdgeOutline& outline)
+      : NearestEdges(outline), list_(outline.edges.size()) {
     for (std::uint32_t e = 0; e < list_.size(); ++e) list_[e] = {0, e};
   }
 
@@ -80,7 +81,7 @@ class SortedList final : public NearestEdges {
     std::uint32_t edge;
   };
 
-  /// Bounds and distances are rounded differently: equal ones must not be told apart here.
+  /// Bounds and distances are rounded differently: equal ones must stay equal here.
   static bool exceeds(const Bound& bound, double distance) {
     constexpr double rounding = 1 + 0x1p-40;
     return bound.lower > rounding * distance;
@@ -130,7 +131,7 @@ class SortedList final : public NearestEdges {
 
 class Tree final : public NearestEdges {
  public:
-  explicit Tree(const Outline& outline) : NearestEdges(outline), tree_(outline.edges) {}
+  explicit Tree(const EdgeOutline& outline) : NearestEdges(outline), tree_(outline.edges) {}
 
   Near nearest(Vec2 c, std::uint32_t hint) override {
     ++queries;
@@ -163,7 +164,7 @@ class Tree final : public NearestEdges {
 
 }  // namespace
 
-std::unique_ptr<NearestEdges> make_search(const Outline& outline, RidgeSearch kind) {
+std::unique_ptr<NearestEdges> make_search(const EdgeOutline& outline, RidgeSearch kind) {
   if (kind == RidgeSearch::sorted_list) return std::make_unique<SortedList>(outline);
   return std::make_unique<Tree>(outline);
 }

@@ -20,7 +20,7 @@ struct Near {
 /// edges at equal distance it is the lowest. All coordinates are local.
 class NearestEdges {
  public:
-  explicit NearestEdges(const Outline& outline) : outline_(outline) {}
+  explicit NearestEdges(const EdgeOutline& outline) : outline_(outline) {}
   virtual ~NearestEdges() = default;
 
   /// The nearest edge; `hint` is any edge, better one that is near, or no_edge.
@@ -40,9 +40,9 @@ class NearestEdges {
   /// within `away` of c: then some point of the axis is. Feet behind the nearest one have no such
   /// disk.
   bool is_seen(Vec2 c, Near first, Near other, double away) const;
-  const Outline& outline_;
+  const EdgeOutline& outline_;
 };
 
-std::unique_ptr<NearestEdges> make_search(const Outline& outline, RidgeSearch kind);
+std::unique_ptr<NearestEdges> make_search(const EdgeOutline& outline, RidgeSearch kind);
 
 }  // namespace medial::ridge

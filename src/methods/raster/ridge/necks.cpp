@@ -5,7 +5,9 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <queue>
+#include <span>
 
 namespace medial::ridge {
 namespace {
@@ -89,7 +91,7 @@ void alternate(const std::vector<Crossing>& all, std::vector<std::uint32_t>& ord
   }
 }
 
-Crossings find_crossings(const Outline& outline, const LocalGrid& local) {
+Crossings find_crossings(const EdgeOutline& outline, const LocalGrid& local) {
   Crossings crossings;
   std::vector<Crossing>& all = crossings.all;
   for (std::size_t e = 0, loop = 0; e < outline.edges.size(); ++e) {
@@ -184,7 +186,7 @@ class Cells {
   End end_at(std::uint32_t crossing) const {
     return {false, crossing, crossings_.all[crossing].at};
   }
-  /// A cell ends: without gates, and if interior pixels come to it but once, it tells nothing.
+  /// A cell ends: without gates, and if interior pixels come to it only once, it has no part.
   void finish_cell() {
     if (halves.size() == halves_before_ && corners.size() <= corners_before_ + 1)
       corners.resize(corners_before_);
@@ -308,8 +310,7 @@ void Cells::build() {
   for (std::uint32_t i = 0; i < chains.size(); ++i) chains[i] = i;
   std::sort(chains.begin(), chains.end(), [&](std::uint32_t i, std::uint32_t j) {
     const Pixel a = all[i].square, b = all[j].square;
-    if (a.row != b.row) return a.row < b.row;
-    return a.column != b.column ? a.column < b.column : i < j;
+    return a != b ? a < b : i < j;
   });
   // The pixels of the boundary map that lie inside, of a row of squares' lower and upper pixels.
   const std::uint32_t words = boundary_.words_per_row();
@@ -362,6 +363,24 @@ class Complex {
     std::array<std::uint32_t, 2> cell{none, none}, face{none, none};
     bool there = true;
   };
+  struct GatesByCell {
+    std::vector<std::uint32_t> all, begin;
+    std::vector<std::uint32_t> degree;  ///< of each cell: its gates that are not gone
+    std::span<const std::uint32_t> at(std::uint32_t cell) const {
+      return std::span(all).subspan(begin[cell], begin[cell + 1] - begin[cell]);
+    }
+  };
+  struct Twig {
+    std::uint32_t gate, tip, root;
+  };
+  /// Blind ends, from their tips on.
+  struct Twigs {
+    std::vector<Twig> all;
+    std::vector<double> length;  ///< of each gate: the way beyond it to the farthest tip
+    std::vector<bool> gone;      ///< of each gate
+  };
+  GatesByCell gates_by_cell() const;
+  Twigs take_twigs(GatesByCell& gates) const;
   Vec2 middle(const Gate& gate) const {
     const double at = gate.half.side + 0.5 * (double{gate.half.low} + double{gate.half.high});
     const double line = gate.half.line;
@@ -452,82 +471,82 @@ void Complex::collapse() {
   }
 }
 
-void Complex::prune(double shortest) {
-  // Gates at each cell.
-  std::vector<std::uint32_t> degree(rooted_.size(), 0), begin(rooted_.size() + 1, 0);
+Complex::GatesByCell Complex::gates_by_cell() const {
+  GatesByCell gates;
+  gates.begin.assign(rooted_.size() + 1, 0);
   for (const Gate& gate : gates_)
     if (gate.there)
-      for (const std::uint32_t cell : gate.cell) ++begin[cell + 1];
-  for (std::size_t c = 0; c < degree.size(); ++c) {
-    degree[c] = begin[c + 1];
-    begin[c + 1] += begin[c];
-  }
-  std::vector<std::uint32_t> at(begin.back()), fill(begin.begin(), begin.end() - 1);
+      for (const std::uint32_t cell : gate.cell) ++gates.begin[cell + 1];
+  gates.degree.assign(gates.begin.begin() + 1, gates.begin.end());
+  std::partial_sum(gates.begin.begin(), gates.begin.end(), gates.begin.begin());
+  gates.all.resize(gates.begin.back());
+  std::vector<std::uint32_t> fill(gates.begin.begin(), gates.begin.end() - 1);
   for (std::uint32_t g = 0; g < gates_.size(); ++g)
     if (gates_[g].there)
-      for (const std::uint32_t cell : gates_[g].cell) at[fill[cell]++] = g;
+      for (const std::uint32_t cell : gates_[g].cell) gates.all[fill[cell]++] = g;
+  return gates;
+}
 
-  // Blind ends go, and leave how long what hung on them is.
-  struct Twig {
-    std::uint32_t gate, tip, root;
-  };
-  std::vector<Twig> twigs;
-  std::vector<double> length(gates_.size(), 0);
-  std::vector<bool> gone(gates_.size(), false);
+Complex::Twigs Complex::take_twigs(GatesByCell& gates) const {
+  Twigs twigs{{}, std::vector<double>(gates_.size(), 0), std::vector<bool>(gates_.size(), false)};
   std::vector<std::uint32_t> tips;
-  const auto is_tip = [&](std::uint32_t cell) { return degree[cell] == 1 && !rooted_[cell]; };
-  for (std::uint32_t c = 0; c < degree.size(); ++c)
+  const auto is_tip = [&](std::uint32_t cell) { return gates.degree[cell] == 1 && !rooted_[cell]; };
+  for (std::uint32_t c = 0; c < gates.degree.size(); ++c)
     if (is_tip(c)) tips.push_back(c);
   while (!tips.empty()) {
     const std::uint32_t tip = tips.back();
     tips.pop_back();
     if (!is_tip(tip)) continue;
     std::uint32_t gate = none;
-    for (std::uint32_t i = begin[tip]; i < begin[tip + 1]; ++i)
-      if (!gone[at[i]]) gate = at[i];
-    for (std::uint32_t i = begin[tip]; i < begin[tip + 1]; ++i)
-      if (at[i] != gate)
-        length[gate] = std::max(
-            length[gate], length[at[i]] + distance(middle(gates_[at[i]]), middle(gates_[gate])));
-    gone[gate] = true;
+    for (const std::uint32_t g : gates.at(tip))
+      if (!twigs.gone[g]) gate = g;
+    double& length = twigs.length[gate];
+    for (const std::uint32_t g : gates.at(tip))
+      if (g != gate)
+        length =
+            std::max(length, twigs.length[g] + distance(middle(gates_[g]), middle(gates_[gate])));
+    twigs.gone[gate] = true;
     const auto& cell = gates_[gate].cell;
     const std::uint32_t root = cell[0] == tip ? cell[1] : cell[0];
-    --degree[tip];
-    --degree[root];
-    twigs.push_back({gate, tip, root});
+    --gates.degree[tip];
+    --gates.degree[root];
+    twigs.all.push_back({gate, tip, root});
     if (is_tip(root)) tips.push_back(root);
   }
-  // From the roots: a long branch stays with its longest way to a tip; of what hangs on nothing
+  return twigs;
+}
+
+void Complex::prune(double shortest) {
+  GatesByCell gates = gates_by_cell();
+  const Twigs twigs = take_twigs(gates);
+  // From the roots: a long branch stays with its longest way to a tip; of what depends on nothing
   // else, something stays.
-  std::vector<bool> visited(rooted_.size(), false);
+  std::vector<bool> visited(rooted_.size(), false), kept(gates_.size(), false);
   const auto longest = [&](std::uint32_t cell, std::uint32_t from) {
     std::uint32_t best = none;
-    for (std::uint32_t i = begin[cell]; i < begin[cell + 1]; ++i)
-      if (gone[at[i]] && at[i] != from && (best == none || length[at[i]] > length[best]))
-        best = at[i];
+    for (const std::uint32_t g : gates.at(cell))
+      if (twigs.gone[g] && g != from && (best == none || twigs.length[g] > twigs.length[best]))
+        best = g;
     return best;
   };
-  std::vector<bool> kept(gates_.size(), false);
-  for (std::size_t i = twigs.size(); i-- > 0;) {
-    const Twig& twig = twigs[i];
+  for (std::size_t i = twigs.all.size(); i-- > 0;) {
+    const Twig& twig = twigs.all[i];
+    std::uint32_t& degree = gates.degree[twig.root];
     if (!visited[twig.root]) {
       visited[twig.root] = true;
-      if (degree[twig.root] == 0 && !rooted_[twig.root]) kept[longest(twig.root, none)] = true;
+      if (degree == 0 && !rooted_[twig.root]) kept[longest(twig.root, none)] = true;
     }
-    const bool connected = rooted_[twig.root] || degree[twig.root] > 0;
-    if (connected && length[twig.gate] >= shortest) kept[twig.gate] = true;
-    if (kept[twig.gate]) {
-      degree[twig.root] += 1;
-      degree[twig.tip] += 1;
-      visited[twig.tip] = true;
-      const std::uint32_t on = longest(twig.tip, twig.gate);
-      if (on != none) kept[on] = true;
-    } else {
-      visited[twig.tip] = true;
-    }
+    const bool connected = rooted_[twig.root] || degree > 0;
+    if (connected && twigs.length[twig.gate] >= shortest) kept[twig.gate] = true;
+    visited[twig.tip] = true;
+    if (!kept[twig.gate]) continue;
+    ++degree;
+    ++gates.degree[twig.tip];
+    const std::uint32_t on = longest(twig.tip, twig.gate);
+    if (on != none) kept[on] = true;
   }
   for (std::uint32_t g = 0; g < gates_.size(); ++g)
-    if (gone[g] && !kept[g]) gates_[g].there = false;
+    if (twigs.gone[g] && !kept[g]) gates_[g].there = false;
 }
 
 void Complex::result(const std::vector<Corners>& corners, Necks& necks) const {
@@ -568,7 +587,7 @@ void Complex::result(const std::vector<Corners>& corners, Necks& necks) const {
 
 }  // namespace
 
-Necks find_necks(const Outline& outline, const LocalGrid& local, const BitMap& boundary,
+Necks find_necks(const EdgeOutline& outline, const LocalGrid& local, const BitMap& boundary,
                  const InteriorSets& sets) {
   constexpr double shortest_branch = 3;
   const Crossings crossings = find_crossings(outline, local);
@@ -581,8 +600,7 @@ Necks find_necks(const Outline& outline, const LocalGrid& local, const BitMap& b
   complex.collapse();
   complex.prune(shortest_branch);
   complex.result(cells.corners, necks);
-  std::sort(cells.surrounded.begin(), cells.surrounded.end(),
-            [](Pixel a, Pixel b) { return a.row != b.row ? a.row < b.row : a.column < b.column; });
+  std::sort(cells.surrounded.begin(), cells.surrounded.end());
   for (std::size_t i = 0; i + 3 < cells.surrounded.size(); ++i)
     if (cells.surrounded[i] == cells.surrounded[i + 3])
       necks.undrawn.push_back(cells.surrounded[i]);

@@ -39,13 +39,13 @@ struct Necks {
   /// Pixels of the boundary map with no boundary on the ways to their four neighbours, from which
   /// nothing collapses: they belong to the interior.
   std::vector<raster::Pixel> undrawn;
-  std::uint64_t hidden = 0;  ///< loops that lie within a cell: no pixel tells of them
+  std::uint64_t hidden = 0;  ///< loops that lie within a cell: no pixel shows them
   std::uint64_t torn = 0;    ///< squares in which rounding, or chords for arcs, hide how loops lie
 };
 
 /// Finds the necks. O(b log b) time and memory for b pixels of the boundary map, and the scan of
 /// the bit maps.
-Necks find_necks(const Outline& outline, const LocalGrid& local, const raster::BitMap& boundary,
+Necks find_necks(const EdgeOutline& outline, const LocalGrid& local, const raster::BitMap& boundary,
                  const InteriorSets& sets);
 
 }  // namespace medial::ridge

@@ -7,7 +7,6 @@
 #include <numbers>
 #include <numeric>
 
-#include "axis/sites.h"
 #include "base/arc.h"
 
 namespace medial::ridge {
@@ -19,7 +18,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// A vertex of a loop, with the edge that begins there.
 struct Vertex {
   Vec2 point;
-  double radius;  ///< of the edge; see Outline
+  double radius;  ///< of the edge; see EdgeOutline
   std::uint32_t site;
   Joint joint;
   double bulge = 0;  ///< of the edge
@@ -108,7 +107,7 @@ std::vector<Vertex> combined(const std::vector<Vertex>& loop, double straight, d
   return kept.size() < 3 ? loop : kept;
 }
 
-void fill_least_radius(Outline& outline) {
+void fill_least_radius(EdgeOutline& outline) {
   if (std::all_of(outline.radius.begin(), outline.radius.end(),
                   [](double r) { return r == infinity; }))
     return;
@@ -122,7 +121,7 @@ void fill_least_radius(Outline& outline) {
 }
 
 /// Finds the vertices in which rings touch. O(edges log edges).
-void fill_arriving(Outline& outline) {
+void fill_arriving(EdgeOutline& outline) {
   const auto start = [&](std::uint32_t e) { return outline.edges[e].point; };
   std::vector<std::uint32_t> order(outline.edges.size());
   std::iota(order.begin(), order.end(), 0u);
@@ -143,36 +142,47 @@ void fill_arriving(Outline& outline) {
   }
 }
 
-/// Appends a loop. Joints between edges that were combined are told by the edges' own directions.
-void add_loop(std::vector<Vertex> loop, std::uint32_t component, Outline& outline) {
-  const std::size_t n = loop.size();
-  const auto point = [&](std::size_t i) { return loop[i % n].point; };
-  const auto edge = [&](std::size_t i) {
-    return BulgeArc{point(i), point(i + 1), loop[i % n].bulge};
-  };
-  const auto turn = [&](std::size_t i) {
-    const Vec2 arriving = end_tangent(edge(i + n - 1)), leaving = start_tangent(edge(i));
+/// A loop's edges and the joints between them. Joints between edges that were combined follow from
+/// the edges' own directions.
+struct VertexLoop {
+  std::vector<Vertex> vertices;
+
+  std::size_t size() const { return vertices.size(); }
+  const Vertex& at(std::size_t i) const { return vertices[i % size()]; }
+  BulgeArc edge(std::size_t i) const { return {at(i).point, at(i + 1).point, at(i).bulge}; }
+  double turn(std::size_t i) const {
+    const Vec2 arriving = end_tangent(edge(i + size() - 1)), leaving = start_tangent(edge(i));
     return std::atan2(cross(arriving, leaving), dot(arriving, leaving));
-  };
-  // Where an arc is involved, a joint may be smooth or blunt; elsewhere combined edges may turn to
-  // the side that those they replace do not.
-  const auto is_corner = [&](std::size_t i) {
-    const bool straight = !loop[i % n].curved() && !loop[(i + n - 1) % n].curved();
-    return straight ? turn(i) > 0 : loop[i % n].joint == Joint::corner;
-  };
-  std::size_t first = 0;
-  while (first < n && !is_corner(first)) ++first;
-  const bool closed = first == n;
-  if (!closed)
-    std::rotate(loop.begin(), loop.begin() + static_cast<std::ptrdiff_t>(first), loop.end());
+  }
+  /// Where an arc is involved, a joint may be smooth or blunt; elsewhere combined edges may turn to
+  /// the side that those they replace do not.
+  bool is_corner(std::size_t i) const {
+    const bool straight = !at(i).curved() && !at(i + size() - 1).curved();
+    return straight ? turn(i) > 0 : at(i).joint == Joint::corner;
+  }
+  /// Begins with the first corner; false where there is none.
+  bool begin_at_corner() {
+    std::size_t first = 0;
+    while (first < size() && !is_corner(first)) ++first;
+    if (first == size()) return false;
+    std::rotate(vertices.begin(), vertices.begin() + static_cast<std::ptrdiff_t>(first),
+                vertices.end());
+    return true;
+  }
+};
+
+/// Appends a loop.
+void add_loop(VertexLoop loop, std::uint32_t component, EdgeOutline& outline) {
+  const std::size_t n = loop.size();
+  const bool closed = !loop.begin_at_corner();
 
   const auto begin = static_cast<std::uint32_t>(outline.edges.size());
   double left = 0, right = 0;
-  // A curve that goes on smoothly turns a little at least, so that its radius is looked at.
+  // A curve that goes on smoothly turns a little at least, so that its radius counts.
   const auto add_turn = [&](std::size_t i, double angle) {
     constexpr double a_little = 1e-12;
-    const bool curves = loop[i].radius < infinity || loop[(i + n - 1) % n].radius < infinity;
-    if (loop[i].joint == Joint::smooth)
+    const bool curves = loop.at(i).radius < infinity || loop.at(i + n - 1).radius < infinity;
+    if (loop.at(i).joint == Joint::smooth)
       left += curves ? a_little : 0;
     else
       (angle > 0 ? left : right) += std::abs(angle);
@@ -185,29 +195,31 @@ void add_loop(std::vector<Vertex> loop, std::uint32_t component, Outline& outlin
     outline.all_left.push_back(left);
     outline.all_right.push_back(right);
     left = right = 0;
-    if (edges > 0) add_turn(0, turn(0));
+    if (edges > 0) add_turn(0, loop.turn(0));
     outline.closing_left.push_back(left);
     outline.closing_right.push_back(right);
     left = right = 0;
   };
   for (std::size_t i = 0; i < n; ++i) {
-    const double angle = turn(i);
-    const bool corner = is_corner(i);
+    const Vertex& vertex = loop.at(i);
+    const double angle = loop.turn(i);
+    const bool corner = loop.is_corner(i);
     if (corner && i > 0) finish_chain(0);
     if (!corner && i > 0) add_turn(i, angle);
-    outline.edges.push_back(loop[i].curved() ? site::make_arc(point(i), point(i + 1), loop[i].bulge)
-                                             : site::make_segment(point(i), point(i + 1)));
-    outline.site.push_back(loop[i].site);
+    const Vec2 end = loop.at(i + 1).point;
+    outline.edges.push_back(vertex.curved() ? site::make_arc(vertex.point, end, vertex.bulge)
+                                            : site::make_segment(vertex.point, end));
+    outline.site.push_back(vertex.site);
     outline.component.push_back(component);
-    outline.type.push_back(corner || (angle > 0 && loop[i].joint == Joint::smooth)
+    outline.type.push_back(corner || (angle > 0 && vertex.joint == Joint::smooth)
                                ? VertexType::convex
                                : VertexType::concave);
     outline.next.push_back(begin + static_cast<std::uint32_t>(i + 1 == n ? 0 : i + 1));
-    outline.radius.push_back(loop[i].radius);
+    outline.radius.push_back(vertex.radius);
     outline.chain.push_back(static_cast<std::uint32_t>(outline.closed.size()));
     outline.left.push_back(left);
     outline.right.push_back(right);
-    const double own = 4 * std::atan(loop[i].bulge);
+    const double own = 4 * std::atan(vertex.bulge);
     (own > 0 ? left : right) += std::abs(own);
     outline.left_end.push_back(left);
     outline.right_end.push_back(right);
@@ -228,12 +240,12 @@ VertexType vertex_type(Vec2 before, Vec2 vertex, Vec2 after, double straight) {
                          : VertexType::collinear;
 }
 
-bool Outline::meet_concavely(std::uint32_t e, std::uint32_t f) const {
+bool EdgeOutline::meet_concavely(std::uint32_t e, std::uint32_t f) const {
   return (next[e] == f && type[f] != VertexType::convex) ||
          (next[f] == e && type[e] != VertexType::convex);
 }
 
-bool Outline::touch_one_vertex(const Touch& a, const Touch& b) const {
+bool EdgeOutline::touch_one_vertex(const Touch& a, const Touch& b) const {
   const auto vertex = [this](const Touch& touch) -> const Vec2* {
     const site::Site& edge = edges[touch.edge];
     const double at = site::foot_parameter(edge, touch.center);
@@ -246,7 +258,7 @@ bool Outline::touch_one_vertex(const Touch& a, const Touch& b) const {
   return of_b != nullptr && *of_a == *of_b;
 }
 
-std::uint32_t Outline::seen_edge(const Touch& touch) const {
+std::uint32_t EdgeOutline::seen_edge(const Touch& touch) const {
   if (arriving.empty()) return touch.edge;
   const double at = site::foot_parameter(edges[touch.edge], touch.center);
   if (at > 0 && at < edges[touch.edge].length) return touch.edge;
@@ -266,12 +278,12 @@ std::uint32_t Outline::seen_edge(const Touch& touch) const {
   return touch.edge == before || touch.edge == after ? touch.edge : std::min(before, after);
 }
 
-bool Outline::are_one(const Touch& a, const Touch& b, double disk) const {
+bool EdgeOutline::are_one(const Touch& a, const Touch& b, double disk) const {
   const Touch of_a{seen_edge(a), a.center}, of_b{seen_edge(b), b.center};
   return lie_on_one_curve(of_a, of_b, disk) || touch_one_vertex(of_a, of_b);
 }
 
-bool Outline::lie_on_one_curve(const Touch& a, const Touch& b, double disk) const {
+bool EdgeOutline::lie_on_one_curve(const Touch& a, const Touch& b, double disk) const {
   const std::uint32_t c = chain[a.edge];
   if (chain[b.edge] != c) return false;
   const Touch &low = a.edge < b.edge ? a : b, &high = a.edge < b.edge ? b : a;
@@ -308,32 +320,27 @@ bool Outline::lie_on_one_curve(const Touch& a, const Touch& b, double disk) cons
              std::min(least(first, i + 1 - at_start(low)), least(j + at_end(high), end));
 }
 
-Outline outline_of(const Shape& shape, const LocalFrame& frame, double step,
-                   const Options& options) {
+EdgeOutline outline_of(const Problem& problem, double step) {
+  const Shape& shape = problem.shape;
+  const site::SiteNumbers& numbers = problem.numbers();
   constexpr double chord_share = 1.0 / 16, combined_share = 1.0 / 4;
-  Outline outline;
+  EdgeOutline outline;
   if (!shape.bulges.empty()) outline.sagitta = chord_share * step;
   outline.margin = step * (std::numbers::sqrt2 / 2 + 1.01 * chord_share);
-  const double straight = std::sin(options.ridge_collinear * std::numbers::pi / 180);
-  const sites::SiteNumbers numbers = sites::number_sites(shape, frame, options.corner_angle);
+  const double straight = std::sin(problem.own<method::Ridge>().collinear * std::numbers::pi / 180);
   for (std::size_t l = 0; l < shape.loop_count(); ++l) {
-    const sites::Loop loop(shape, l, frame);
+    const site::LoopEdges loop(shape, l, problem.frame);
     std::vector<Vertex> vertices;
     for (std::uint32_t i = 0; i < loop.size(); ++i)
       add_pieces({loop.local(i), loop.local(loop.next(i)), loop.bulge(i)},
                  numbers.edge[loop.begin() + i], numbers.joints[loop.begin() + i],
                  chord_share * step, vertices);
     if (straight > 0) vertices = combined(vertices, straight, combined_share * step);
-    add_loop(std::move(vertices), shape.component[l], outline);
+    add_loop({std::move(vertices)}, shape.component[l], outline);
   }
   fill_least_radius(outline);
   fill_arriving(outline);
   return outline;
-}
-
-std::vector<Site> result_sites(const Shape& shape, const LocalFrame& frame,
-                               const Options& options) {
-  return sites::result_sites(shape, sites::number_sites(shape, frame, options.corner_angle));
 }
 
 }  // namespace medial::ridge

@@ -3,9 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "base/local_frame.h"
-#include "medial/compute.h"
-#include "medial/shape.h"
+#include "methods/problem.h"
 #include "site/site.h"
 
 namespace medial::ridge {
@@ -24,7 +22,7 @@ VertexType vertex_type(Vec2 before, Vec2 vertex, Vec2 after, double straight);
 ///
 /// The edges of a loop follow each other. Those between two corners form a chain; in a chain the
 /// boundary turns right, or left along a curve. A loop without a corner is one closed chain.
-struct Outline {
+struct EdgeOutline {
   std::vector<site::Site> edges;
   std::vector<std::uint32_t> site;       ///< of each edge: the number in the result
   std::vector<std::uint32_t> component;  ///< of each edge: of the shape
@@ -80,10 +78,6 @@ struct Outline {
 /// The outline for pixels of side `step` (local). `collinear` in degrees: vertices that turn by
 /// less are dropped where the combined edge stays within a quarter of a pixel of all it replaces; 0
 /// keeps all. O(edges).
-Outline outline_of(const Shape& shape, const LocalFrame& frame, double step,
-                   const Options& options);
-
-/// The result's sites, as all methods number them.
-std::vector<Site> result_sites(const Shape& shape, const LocalFrame& frame, const Options& options);
+EdgeOutline outline_of(const Problem& problem, double step);
 
 }  // namespace medial::ridge

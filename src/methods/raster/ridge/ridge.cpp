@@ -8,17 +8,14 @@
 
 #include "axis/node_kinds.h"
 #include "axis/pixel_graph.h"
-#include "base/local_frame.h"
 #include "base/stopwatch.h"
-#include "base/tolerance.h"
-#include "methods/checks.h"
-#include "methods/raster/ridge/bridges.h"
 #include "methods/raster/ridge/digitize.h"
 #include "methods/raster/ridge/follow.h"
 #include "methods/raster/ridge/gaps.h"
 #include "methods/raster/ridge/nearest.h"
 #include "methods/raster/ridge/necks.h"
 #include "methods/raster/ridge/outline.h"
+#include "methods/raster/ridge/passages.h"
 #include "methods/raster/ridge/thin.h"
 
 namespace medial::ridge {
@@ -46,11 +43,11 @@ class ProcessorWatch {
 
 /// For each set a pixel inside it: the report's own inner point where it lies in the set, otherwise
 /// the middle of the set's first run.
-std::vector<Pixel> seeds_of(const Outline& outline, const LocalGrid& local,
+std::vector<Pixel> seeds_of(const EdgeOutline& outline, const LocalGrid& local,
                             const InteriorSets& sets) {
   std::vector<Pixel> seeds(sets.count);
   for (std::size_t i = sets.runs.size(); i-- > 0;) {
-    const Run& run = sets.runs[i];
+    const PixelRun& run = sets.runs[i];
     seeds[run.set] = {run.first + (run.last - run.first) / 2, run.row};
   }
   for (const Vec2 point : inner_points(outline)) {
@@ -59,8 +56,8 @@ std::vector<Pixel> seeds_of(const Outline& outline, const LocalGrid& local,
                       static_cast<std::uint32_t>(std::floor(p.y + 0.5))};
     if (!sets.inside.contains(pixel.column, pixel.row) || !sets.inside.at(pixel)) continue;
     const auto run = std::upper_bound(sets.runs.begin(), sets.runs.end(), pixel,
-                                      [](Pixel a, const Run& b) {
-                                        return a.row != b.row ? a.row < b.row : a.column < b.first;
+                                      [](Pixel a, const PixelRun& b) {
+                                        return a < Pixel{b.first, b.row};
                                       }) -
                      1;
     seeds[run->set] = pixel;
@@ -80,7 +77,7 @@ std::uint64_t find_first_pixels(const std::vector<Pixel>& seeds, const InteriorS
       ++count;
     }
   if (count == 0) return 0;
-  for (const Run& run : sets.runs)
+  for (const PixelRun& run : sets.runs)
     for (std::uint32_t c = run.first; c <= run.last && empty[run.set]; ++c)
       if (follower.check({c, run.row})) {
         empty[run.set] = false;
@@ -90,14 +87,14 @@ std::uint64_t find_first_pixels(const std::vector<Pixel>& seeds, const InteriorS
 }
 
 /// The two sites on the sides of an edge of the axis, if they are two.
-std::array<std::uint32_t, 2> sites_of(const Outline& outline, std::uint32_t first,
+std::array<std::uint32_t, 2> sites_of(const EdgeOutline& outline, std::uint32_t first,
                                       std::uint32_t second) {
   if (second == no_edge || outline.site[first] == outline.site[second]) return {no_site, no_site};
   return {outline.site[first], outline.site[second]};
 }
 
 /// The pixels that are left, in the order of increasing x within increasing y.
-std::vector<MedialPixel> result_pixels(const Outline& outline, const LocalFrame& frame,
+std::vector<MedialPixel> result_pixels(const EdgeOutline& outline, const LocalFrame& frame,
                                        const MedialMap& map) {
   const std::vector<std::uint32_t> order = map.in_rows();
   std::vector<MedialPixel> pixels;
@@ -112,28 +109,26 @@ std::vector<MedialPixel> result_pixels(const Outline& outline, const LocalFrame&
 
 /// Adds the axis in necks to that of pixels, and sorts all nodes by increasing x within increasing
 /// y.
-void add_bridges(const Bridges& bridges, const Outline& outline, const LocalFrame& frame,
-                 const std::vector<MedialPixel>& pixels, MedialAxis& axis) {
-  if (bridges.points.empty() && bridges.links.empty()) return;
+void add_passages(const Passages& passages, const EdgeOutline& outline, const LocalFrame& frame,
+                  const std::vector<MedialPixel>& pixels, MedialAxis& axis) {
+  if (passages.points.empty() && passages.links.empty()) return;
   const auto first_point = static_cast<std::uint32_t>(axis.nodes.size());
-  for (const Bridges::Point& point : bridges.points)
+  for (const Passages::Point& point : passages.points)
     axis.nodes.push_back({{frame.to_input(point.center), frame.inverse * point.radius},
                           outline.component[point.first],
                           NodeKind::leaf});
-  const auto node_of = [&](const Bridges::End& end) {
-    if (end.point != Bridges::End::none) return first_point + end.point;
-    const auto pixel = std::lower_bound(
-        pixels.begin(), pixels.end(), end.pixel, [](const MedialPixel& a, Pixel b) {
-          return a.pixel.row != b.row ? a.pixel.row < b.row : a.pixel.column < b.column;
-        });
+  const auto node_of = [&](const Passages::End& end) {
+    if (end.point != Passages::End::none) return first_point + end.point;
+    const auto pixel = std::lower_bound(pixels.begin(), pixels.end(), end.pixel,
+                                        [](const MedialPixel& a, Pixel b) { return a.pixel < b; });
     return static_cast<std::uint32_t>(pixel - pixels.begin());
   };
-  for (const auto& link : bridges.links) {
-    const Bridges::End& from = link[0].point != Bridges::End::none ? link[0] : link[1];
-    const Bridges::End& to = &from == &link[0] ? link[1] : link[0];
-    const bool is_point = from.point != Bridges::End::none;
-    const auto sites = is_point ? sites_of(outline, bridges.points[from.point].first,
-                                           bridges.points[from.point].second)
+  for (const auto& link : passages.links) {
+    const Passages::End& from = link[0].point != Passages::End::none ? link[0] : link[1];
+    const Passages::End& to = &from == &link[0] ? link[1] : link[0];
+    const bool is_point = from.point != Passages::End::none;
+    const auto sites = is_point ? sites_of(outline, passages.points[from.point].first,
+                                           passages.points[from.point].second)
                                 : std::array{no_site, no_site};
     add_link(axis, node_of(from), node_of(to), sites);
   }
@@ -156,17 +151,44 @@ void add_bridges(const Bridges& bridges, const Outline& outline, const LocalFram
   set_node_kinds(axis);
 }
 
+/// The necks of the drawn boundary. Pixels that keep them from being found are taken from it.
+Necks necks_of(const EdgeOutline& outline, const LocalGrid& local, raster::BitMap& boundary,
+               InteriorSets& sets) {
+  Necks necks = find_necks(outline, local, boundary, sets);
+  while (!necks.undrawn.empty()) {
+    for (const Pixel p : necks.undrawn) boundary.clear(p);
+    sets = interior_sets(outline, local, boundary);
+    necks = find_necks(outline, local, boundary, sets);
+  }
+  return necks;
+}
+
+Report with_sizes(Report report, const raster::Grid& grid, const InteriorSets& sets,
+                  const Necks& necks, const NearestEdges& search) {
+  report.columns = grid.columns;
+  report.rows = grid.rows;
+  report.sets = sets.count;
+  report.gates = necks.gates.size();
+  report.hidden = necks.hidden;
+  report.torn = necks.torn;
+  report.queries = search.queries;
+  report.distances = search.distances;
+  return report;
+}
+
 }  // namespace
 
-std::optional<Error> refuse(const Shape& shape, const Options& options) {
-  if (!(options.ridge_collinear >= 0 && options.ridge_collinear <= 45))
+std::optional<Error> refuse(const Problem& problem) {
+  const auto& own = problem.own<method::Ridge>();
+  if (!(own.collinear >= 0 && own.collinear <= 45))
     return Error{ErrorCode::invalid_option, "the collinear angle must be in [0, 45] degrees", {}};
-  const auto grid = grid_for(bounding_box(shape), options);
+  const auto grid = grid_for(problem.box, own.grid);
   if (!grid) return grid.error();
   return std::nullopt;
 }
 
-MedialAxis run(const Shape& shape, const Options& options, Report* report) {
+MedialAxis run(const Problem& problem, Report* report) {
+  const auto& own = problem.own<method::Ridge>();
   MedialAxis axis;
   axis.method = "ridge";
   Statistics& statistics = axis.statistics;
@@ -174,43 +196,37 @@ MedialAxis run(const Shape& shape, const Options& options, Report* report) {
   ProcessorWatch processor;
   Report measured;
 
-  const Box box = bounding_box(shape);
-  const LocalFrame frame = frame_of(box);
-  axis.tolerance = tolerance_for(box, options.tolerance);
-  const raster::Grid grid = grid_for(box, options).value();
+  const LocalFrame& frame = problem.frame;
+  axis.tolerance = problem.tolerance;
+  const raster::Grid grid = grid_for(problem.box, own.grid).value();
   const LocalGrid local(grid, frame);
-  const Outline outline = outline_of(shape, frame, local.grid.step, options);
+  const EdgeOutline outline = outline_of(problem, local.grid.step);
   raster::BitMap boundary = boundary_map(outline, local);
   statistics.seconds_sites = watch.lap();
-  const auto search = make_search(outline, options.ridge_search);
+  const auto search = make_search(outline, own.search);
   statistics.seconds_tree = watch.lap();
   measured.seconds_start = processor.lap();
 
   InteriorSets sets = interior_sets(outline, local, boundary);
   measured.seconds_first = processor.lap();
-  Necks necks = find_necks(outline, local, boundary, sets);
-  while (!necks.undrawn.empty()) {
-    for (const Pixel p : necks.undrawn) boundary.clear(p);
-    sets = interior_sets(outline, local, boundary);
-    necks = find_necks(outline, local, boundary, sets);
-  }
+  const Necks necks = necks_of(outline, local, boundary, sets);
   measured.seconds_necks = processor.lap();
-  Follower follower(outline, local, boundary, *search, options.ridge_rule, options.cancel);
+  Follower follower(outline, local, boundary, *search, own.rule, problem.options.cancel);
   const std::uint64_t empty = find_first_pixels(seeds_of(outline, local, sets), sets, follower);
   statistics.seconds_connect = watch.lap();
   measured.seconds_first += processor.lap();
-  if (is_cancelled(options)) return axis;
+  if (problem.is_cancelled()) return axis;
 
   follower.follow();
-  const Bridges bridges = bridge_necks(necks, outline, local, sets, *search, follower);
+  const Passages passages = pass_necks(necks, outline, local, sets, *search, follower);
   fill_gaps(sets, boundary, follower);
   statistics.seconds_walk = watch.lap();
   measured.seconds_follow = processor.lap();
-  if (is_cancelled(options)) return axis;
+  if (problem.is_cancelled()) return axis;
 
   MedialMap& map = follower.map();
-  const std::size_t found = map.found.size();
-  if (options.ridge_rule == RidgeRule::difference)
+  measured.found = map.found.size();
+  if (own.rule == RidgeRule::difference)
     thin_by_report(boundary, map);
   else
     thin_to_lines(boundary, local.grid.step, map);
@@ -218,27 +234,16 @@ MedialAxis run(const Shape& shape, const Options& options, Report* report) {
   const double seconds_thin = watch.lap();
   measured.seconds_thin = processor.lap();
 
-  axis.sites = result_sites(shape, frame, options);
+  axis.sites = problem.result_sites();
   const std::vector<MedialPixel> pixels = result_pixels(outline, frame, map);
   link_pixels(grid, pixels, &boundary, axis);
-  add_bridges(bridges, outline, frame, pixels, axis);
+  add_passages(passages, outline, frame, pixels, axis);
   statistics.seconds_collect = seconds_thin + watch.lap();
   statistics.queries = search->queries;
   statistics.seconds = all.lap();
-  if (report != nullptr) {
-    measured.columns = grid.columns;
-    measured.rows = grid.rows;
-    measured.sets = sets.count;
-    measured.empty_sets = empty;
-    measured.gates = necks.gates.size();
-    measured.hidden = necks.hidden;
-    measured.torn = necks.torn;
-    measured.found = found;
-    measured.kept = pixels.size();
-    measured.queries = search->queries;
-    measured.distances = search->distances;
-    *report = measured;
-  }
+  measured.empty_sets = empty;
+  measured.kept = pixels.size();
+  if (report != nullptr) *report = with_sizes(measured, grid, sets, necks, *search);
   return axis;
 }
 

@@ -4,8 +4,7 @@
 #include <optional>
 
 #include "medial/axis.h"
-#include "medial/compute.h"
-#include "medial/shape.h"
+#include "methods/problem.h"
 
 namespace medial::ridge {
 
@@ -29,12 +28,12 @@ struct Report {
 };
 
 /// What the method cannot take of the options, if anything.
-std::optional<Error> refuse(const Shape& shape, const Options& options);
+std::optional<Error> refuse(const Problem& problem);
 
 /// The method `ridge` (docs/ridge.md): ridge following after Volkmann and St. Clair [volkmann1987].
 /// Requires what compute() and refuse() have checked. Cut short where the caller cancels.
 ///
 /// Memory: five bits for each pixel of the grid, and some hundred bytes for each medial pixel.
-MedialAxis run(const Shape& shape, const Options& options, Report* report = nullptr);
+MedialAxis run(const Problem& problem, Report* report = nullptr);
 
 }  // namespace medial::ridge

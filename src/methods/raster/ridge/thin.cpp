@@ -25,7 +25,7 @@ Candidate candidate_of(const Found& found) { return {found.quality, found.pixel}
 /// Whether one pixel is worse than another; no two are equal.
 bool is_worse(const Candidate& a, const Candidate& b) {
   if (a.quality != b.quality) return a.quality > b.quality;
-  return a.pixel.row != b.pixel.row ? a.pixel.row > b.pixel.row : a.pixel.column > b.pixel.column;
+  return b.pixel < a.pixel;
 }
 
 /// All medial pixels but the pinned ones, by increasing x within increasing y.
@@ -39,7 +39,7 @@ std::vector<Candidate> candidates_in_rows(const MedialMap& map) {
 /// The five bits of a row around a column, the one two to the left lowest; beyond the map none.
 std::uint32_t five_bits(const BitMap& map, std::int64_t row, std::uint32_t column) {
   if (row < 0 || row >= map.rows()) return 0;
-  const std::uint64_t* words = map.row(static_cast<std::uint32_t>(row));
+  const auto words = map.row(static_cast<std::uint32_t>(row));
   const std::uint32_t word = column >> 6, bit = column & 63;
   std::uint64_t bits = bit >= 2 ? words[word] >> (bit - 2) : words[word] << (2 - bit);
   if (bit < 2 && word > 0) bits |= words[word - 1] >> (62 + bit);

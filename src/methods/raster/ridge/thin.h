@@ -23,7 +23,7 @@ void thin_by_report(const raster::BitMap& boundary, MedialMap& map);
 
 /// All simple pixels go, the worst first, as often as it changes anything, as long as every pixel
 /// that the axis passes (its quality at most `step`, a pixel's side) stays or has a neighbour that
-/// stays: lines of one pixel remain, and of branches closer to each other than the grid tells apart
+/// stays: lines of one pixel remain, and of branches too close to each other for the grid,
 /// as many as it takes.
 void thin_to_lines(const raster::BitMap& boundary, double step, MedialMap& map);
 

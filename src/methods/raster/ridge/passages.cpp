@@ -1,4 +1,4 @@
-#include "methods/raster/ridge/bridges.h"
+#include "methods/raster/ridge/passages.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,13 +12,13 @@ using raster::Pixel;
 
 class Builder {
  public:
-  Builder(const Outline& outline, const LocalGrid& local, const InteriorSets& sets,
+  Builder(const EdgeOutline& outline, const LocalGrid& local, const InteriorSets& sets,
           NearestEdges& search, Follower& follower)
       : outline_(outline), local_(local), sets_(sets), search_(search), follower_(follower) {}
 
   /// Where the nearest edge changes to another place of the boundary along a gate; where it does
   /// not, along the gate and a pixel more on both sides, as far as the shape goes; else its middle.
-  Bridges::Point point_in(const Necks::Gate& gate);
+  Passages::Point point_in(const Necks::Gate& gate);
   /// The medial pixel that stands for interior pixels at a meeting.
   Pixel pixel_at(const std::vector<Pixel>& corners);
 
@@ -30,14 +30,14 @@ class Builder {
   }
   bool is_medial(Pixel p) const { return follower_.map().medial.at(p); }
 
-  const Outline& outline_;
+  const EdgeOutline& outline_;
   const LocalGrid& local_;
   const InteriorSets& sets_;
   NearestEdges& search_;
   Follower& follower_;
 };
 
-Bridges::Point Builder::point_in(const Necks::Gate& gate) {
+Passages::Point Builder::point_in(const Necks::Gate& gate) {
   constexpr int halvings = 12;  // a gate is a pixel long at most
   struct Probe {
     double at;
@@ -102,20 +102,20 @@ Pixel Builder::pixel_at(const std::vector<Pixel>& corners) {
 
 }  // namespace
 
-Bridges bridge_necks(const Necks& necks, const Outline& outline, const LocalGrid& local,
-                     const InteriorSets& sets, NearestEdges& search, Follower& follower) {
+Passages pass_necks(const Necks& necks, const EdgeOutline& outline, const LocalGrid& local,
+                    const InteriorSets& sets, NearestEdges& search, Follower& follower) {
   Builder builder(outline, local, sets, search, follower);
-  Bridges bridges;
-  bridges.points.reserve(necks.gates.size());
-  for (const Necks::Gate& gate : necks.gates) bridges.points.push_back(builder.point_in(gate));
+  Passages passages;
+  passages.points.reserve(necks.gates.size());
+  for (const Necks::Gate& gate : necks.gates) passages.points.push_back(builder.point_in(gate));
   for (const Necks::Meeting& meeting : necks.meetings) {
-    std::vector<Bridges::End> ends;
+    std::vector<Passages::End> ends;
     for (const auto& corners : meeting.corners)
-      ends.push_back({Bridges::End::none, builder.pixel_at(corners)});
+      ends.push_back({Passages::End::none, builder.pixel_at(corners)});
     for (const std::uint32_t gate : meeting.gates) ends.push_back({gate, {}});
-    for (std::size_t i = 1; i < ends.size(); ++i) bridges.links.push_back({ends[0], ends[i]});
+    for (std::size_t i = 1; i < ends.size(); ++i) passages.links.push_back({ends[0], ends[i]});
   }
-  return bridges;
+  return passages;
 }
 
 }  // namespace medial::ridge

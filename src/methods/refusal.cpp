@@ -1,20 +1,19 @@
-#include "methods/disks/refusal.h"
+#include "methods/refusal.h"
 
 #include <algorithm>
 
 #include "medial/verify.h"
 
-namespace medial::disks {
+namespace medial {
 
-std::optional<Error> error_if_refused(const Shape& shape, const Options& options,
-                                      const MedialAxis& axis) {
+std::optional<Error> error_if_refused(const Problem& problem, const MedialAxis& axis) {
   constexpr std::size_t most = 1 << 13;
   VerifyOptions demands;
   const auto samples = static_cast<int>(most / (axis.edges.size() + 1));
   demands.samples_per_edge = std::clamp(samples, 1, demands.samples_per_edge);
-  demands.corner_angle = options.corner_angle;
-  demands.threads = options.threads;
-  const Certificate certificate = verify(shape, axis, demands);
+  demands.corner_angle = problem.options.corner_angle;
+  demands.threads = problem.options.threads;
+  const Certificate certificate = verify(problem.shape, axis, demands);
   if (certificate.passed) return std::nullopt;
   Error error{ErrorCode::unsupported,
               "rounding alone decides which of the arcs here, of almost one circle, a disk touches",
@@ -40,4 +39,4 @@ Error error_of_wrong_axis(const MedialAxis& axis, const char* text) {
   return error;
 }
 
-}  // namespace medial::disks
+}  // namespace medial

@@ -2,21 +2,18 @@
 
 #include <optional>
 
-#include "medial/axis.h"
-#include "medial/compute.h"
 #include "medial/error.h"
-#include "medial/shape.h"
+#include "methods/problem.h"
 
-namespace medial::disks {
+namespace medial {
 
 /// The error instead of an axis that verify() refuses, for shapes of arcs of almost one circle.
 /// Disks there touch nearly all of these, so that every search takes O(n): of large axes fewer
 /// disks are measured.
-std::optional<Error> error_if_refused(const Shape& shape, const Options& options,
-                                      const MedialAxis& axis);
+std::optional<Error> error_if_refused(const Problem& problem, const MedialAxis& axis);
 
 /// The error instead of an axis that has come out wrong: unsupported, with the place, where it has
 /// disks of so few tolerances that rounding is the cause; internal, with the text, else. O(n).
 Error error_of_wrong_axis(const MedialAxis& axis, const char* text);
 
-}  // namespace medial::disks
+}  // namespace medial

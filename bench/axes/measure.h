@@ -36,7 +36,7 @@ struct PeerFigures {
 
 /// Runs build_shape() and compute() `rounds` times; medians. Nothing where the input is absent, the
 /// child died or took longer than `limit` seconds; then `why` says so.
-std::optional<MedialFigures> measure_medial(const Input& input, Method method, int rounds,
+std::optional<MedialFigures> measure_medial(const Input& input, const Method& method, int rounds,
                                             double limit, std::string& why);
 std::optional<PeerFigures> measure_peer(const Input& input,
                                         const std::function<PeerRun(std::span<const Ring>)>& peer,

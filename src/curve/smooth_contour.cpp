@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "medial/curve_axis.h"
+#include "medial/contour.h"
 
 namespace medial {
 namespace {

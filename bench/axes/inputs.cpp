@@ -1,20 +1,17 @@
 #include "inputs.h"
 
-#include <cstdlib>
 #include <utility>
 
 #include "medial/io/read.h"
+#include "support/environment.h"
 #include "support/generate.h"
 
 namespace medial::bench {
 
 namespace {
 
-/// The folder of the coastlines: $MEDIAL_DATA, or shared/data beside the project.
 std::string coast_path(const std::string& name) {
-  const char* folder = std::getenv("MEDIAL_DATA");
-  const std::string data = folder ? folder : MEDIAL_SOURCE_DIR "/../shared/data";
-  return data + "/packaged/A_gis/gshhg/" + name + ".wkt.gz";
+  return (test::data_folder() / "packaged/A_gis/gshhg" / (name + ".wkt.gz")).string();
 }
 
 Input coast(const std::string& name, std::size_t vertices) {

@@ -1,4 +1,4 @@
-#include "methods/drop_frame.h"
+#include "methods/drop_enclosure.h"
 
 #include <algorithm>
 
@@ -6,23 +6,23 @@
 
 namespace medial {
 
-void drop_frame(const std::vector<bool>& site_of_frame, MedialAxis& axis) {
+void drop_enclosure(const std::vector<bool>& site_of_enclosure, MedialAxis& axis) {
   std::vector<std::uint32_t> site(axis.sites.size()), node(axis.nodes.size());
   std::uint32_t count = 0;
   for (std::size_t i = 0; i < axis.sites.size(); ++i) {
     site[i] = count;
-    if (!site_of_frame[i]) axis.sites[count++] = axis.sites[i];
+    if (!site_of_enclosure[i]) axis.sites[count++] = axis.sites[i];
   }
   axis.sites.resize(count);
 
   std::vector<bool> lost(axis.nodes.size(), false), needed(axis.nodes.size(), false);
-  const auto touches_frame = [&](const Edge& edge) {
+  const auto touches_enclosure = [&](const Edge& edge) {
     return std::any_of(edge.site.begin(), edge.site.end(),
-                       [&](std::uint32_t s) { return s != no_site && site_of_frame[s]; });
+                       [&](std::uint32_t s) { return s != no_site && site_of_enclosure[s]; });
   };
   for (const Edge& edge : axis.edges)
-    for (const std::uint32_t n : edge.node) (touches_frame(edge) ? lost : needed)[n] = true;
-  std::erase_if(axis.edges, touches_frame);
+    for (const std::uint32_t n : edge.node) (touches_enclosure(edge) ? lost : needed)[n] = true;
+  std::erase_if(axis.edges, touches_enclosure);
   count = 0;
   for (std::size_t i = 0; i < axis.nodes.size(); ++i) {
     node[i] = count;

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """How often `medial match` finds a shape again that was changed, for docs/features.md.
 
-    tools/bench_match.py PROGRAM DATA
+    bench/match.py PROGRAM DATA
 
 DATA is a folder like ../shared/data. Each shape asked for is turned, mirrored, scaled, made coarser or noisy;
 printed is how often it ranks first, and among the first ten, of all shapes of its kind as they were.

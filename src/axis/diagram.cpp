@@ -1,7 +1,9 @@
+#include "medial/diagram.h"
+
 #include <algorithm>
 
+#include "base/compat.h"
 #include "medial/query.h"
-#include "medial/voronoi.h"
 
 namespace medial {
 
@@ -19,11 +21,11 @@ std::vector<Vec2> face_outline(const VoronoiDiagram& diagram, std::size_t site, 
   for (const std::uint32_t e : diagram.face(site)) {
     const VoronoiEdge& edge = diagram.edges[e];
     std::vector<Disk> line = sample_by_chord(diagram, edge, chord);
-    if (edge.site[1] != site) std::ranges::reverse(line);
+    if (edge.site[1] != site) ranges::reverse(line);
     // Each ends where the next one begins.
     for (std::size_t i = 0; i + 1 < line.size(); ++i) outline.push_back(line[i].center);
   }
-  std::ranges::reverse(outline);
+  ranges::reverse(outline);
   return outline;
 }
 

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "medial/diagram.h"
 #include "medial/planar_graph.h"
-#include "medial/voronoi.h"
 #include "voronoi/clip.h"
 
 namespace medial::voronoi {
@@ -33,28 +33,29 @@ inline void take_control_of_points(Vec2 first, Vec2 second, ConicEdge& edge) {
   edge.weight = std::max(1.0, 0.5 * sum / std::sqrt(product));
 }
 
-/// Cuts the edges of a planar graph's diagram off at its frame, and closes the faces along it.
+/// Cuts the edges of a planar graph's diagram off at its enclosure, and closes the faces along it.
 ///
 /// First add() for every edge, then close(), then add_to_face() for the edges around each site.
-class FrameCut {
+class EnclosureCut {
  public:
-  FrameCut(const PlanarGraph& planar_graph, const Box& frame, double tolerance,
-           VoronoiDiagram& diagram)
+  EnclosureCut(const PlanarGraph& planar_graph, const Box& enclosure, double tolerance,
+               VoronoiDiagram& diagram)
       : planar_graph_(planar_graph),
-        frame_(frame),
+        enclosure_(enclosure),
         tolerance_(tolerance),
-        inside_{frame.low + Vec2{4 * tolerance, 4 * tolerance},
-                frame.high - Vec2{4 * tolerance, 4 * tolerance}},
+        inside_{enclosure.low + Vec2{4 * tolerance, 4 * tolerance},
+                enclosure.high - Vec2{4 * tolerance, 4 * tolerance}},
         point_count_(static_cast<std::uint32_t>(planar_graph.points.size())),
         diagram_(diagram) {}
 
-  /// Whether a place is clearly inside of the frame: nodes that are not are cut off, so that nodes
-  /// that are one but for rounding are cut off together.
+  /// Whether a place is clearly inside of the enclosure: nodes that are not are cut off, so that
+  /// nodes that are one but for rounding are cut off together.
   bool holds(Vec2 p) const { return is_inside(inside_, p); }
 
-  /// Appends the edge, or the parts of it inside of the frame, to the diagram. `node_at(end)` gives
-  /// the node of an end, and is asked for ends inside of the frame only; `take_control(part)` sets
-  /// control point and weight of a part from its ends. Returns whether it is all of the edge.
+  /// Appends the edge, or the parts of it inside of the enclosure, to the diagram. `node_at(end)`
+  /// gives the node of an end, and is asked for ends inside of the enclosure only;
+  /// `take_control(part)` sets control point and weight of a part from its ends. Returns whether it
+  /// is all of the edge.
   template <class NodeAt, class TakeControl>
   bool add(const ConicEdge& curve, std::array<std::uint32_t, 2> site, bool spoke, NodeAt&& node_at,
            TakeControl&& take_control);
@@ -64,63 +65,64 @@ class FrameCut {
   template <class NodeAt>
   void add_bisector(Vec2 from, Vec2 to, std::array<std::uint32_t, 2> site, NodeAt&& node_at);
 
-  /// Adds the frame's own edges, from crossing to crossing and corner to corner. Throws
-  /// std::runtime_error where what was added does not go around the frame.
-  void close();
+  /// Adds the enclosure's own edges, from crossing to crossing and corner to corner. An internal
+  /// error where what was added does not go around the enclosure.
+  Status close();
 
-  /// Appends an edge of the diagram to a face, and where it leaves the frame
-  /// the frame's edges up to where the face comes back: clockwise, those before the crossing.
+  /// Appends an edge of the diagram to a face, and where it leaves the enclosure
+  /// the enclosure's edges up to where the face comes back: clockwise, those before the crossing.
   void add_to_face(std::uint32_t edge, bool forward, std::vector<std::uint32_t>& face) const {
     face.push_back(edge);
     const std::uint32_t node = diagram_.edges[edge].node[forward ? 1 : 0];
-    if (node >= first_crossing_) add_frame_edges(node, face);
+    if (node >= first_crossing_) add_enclosure_edges(node, face);
   }
-  /// Ends the face of a site: that of the only site in the frame goes all around.
+  /// Ends the face of a site: that of the only site in the enclosure goes all around.
   void end_face(std::uint32_t site, std::vector<std::uint32_t>& face) const;
 
  private:
-  /// Where an edge leaves the frame.
+  /// Where an edge leaves the enclosure.
   struct Crossing {
     double place;
     Disk disk;
-    std::uint32_t before, after;  ///< sites beside it, counter-clockwise along the frame
+    std::uint32_t before, after;  ///< sites beside it, counter-clockwise along the enclosure
     std::uint32_t edge, end;      ///< of the diagram: which end of it that is
   };
 
   void add_crossing(const Disk& disk, std::array<std::uint32_t, 2> site, std::uint32_t edge,
                     std::uint32_t end);
-  void add_frame_edges(std::uint32_t node, std::vector<std::uint32_t>& face) const;
+  void add_enclosure_edges(std::uint32_t node, std::vector<std::uint32_t>& face) const;
   void settle_ties();
   double distance_to(std::uint32_t site, Vec2 p) const;
   std::uint32_t nearest_to(Vec2 p) const;
   std::uint32_t add_node(const Disk& disk, NodeKind kind);
-  void add_frame_edge(std::uint32_t from, std::uint32_t to, std::uint32_t site);
+  void add_enclosure_edge(std::uint32_t from, std::uint32_t to, std::uint32_t site);
 
   const PlanarGraph& planar_graph_;
-  const Box frame_;
+  const Box enclosure_;
   const double tolerance_;
   const Box inside_;
   const std::uint32_t point_count_;
   VoronoiDiagram& diagram_;
   std::vector<ClippedPart> parts_;
   std::vector<Crossing> crossings_;
-  std::uint32_t first_crossing_ = 0;        ///< node
-  std::vector<std::uint32_t> frame_begin_;  ///< of each crossing: the frame's edges before it
-  std::uint32_t whole_frame_ = no_site;
+  std::uint32_t first_crossing_ = 0;  ///< node
+  std::vector<std::uint32_t>
+      enclosure_begin_;  ///< of each crossing: the enclosure's edges before it
+  std::uint32_t whole_enclosure_ = no_site;
 };
 
 template <class NodeAt, class TakeControl>
-bool FrameCut::add(const ConicEdge& curve, std::array<std::uint32_t, 2> site, bool spoke,
-                   NodeAt&& node_at, TakeControl&& take_control) {
+bool EnclosureCut::add(const ConicEdge& curve, std::array<std::uint32_t, 2> site, bool spoke,
+                       NodeAt&& node_at, TakeControl&& take_control) {
   // A curve lies in the triangle of its control points.
   if (holds(curve.from.center) && holds(curve.to.center) && holds(curve.control.center)) {
     diagram_.edges.push_back(
         {{{node_at(0), node_at(1)}, site, curve.control, curve.weight}, spoke, false});
     return true;
   }
-  clip(curve, frame_, parts_);
+  clip(curve, enclosure_, parts_);
   // Whether a node is inside is decided for all of its edges alike; where it is so near to the
-  // frame that an edge saw it otherwise, a part without length makes up for that.
+  // enclosure that an edge saw it otherwise, a part without length makes up for that.
   const bool begins = holds(curve.from.center), ends_inside = holds(curve.to.center);
   if (begins && ends_inside && parts_.empty()) parts_.push_back({0, 1});
   if (begins && (parts_.empty() || parts_.front().from > 0)) parts_.insert(parts_.begin(), {0, 0});
@@ -134,7 +136,7 @@ bool FrameCut::add(const ConicEdge& curve, std::array<std::uint32_t, 2> site, bo
       continue;
     }
     ConicEdge cut = curve.part(part.from, part.to);
-    // Rounding alone, between nodes at the frame.
+    // Rounding alone, between nodes at the enclosure.
     if (!from_node && !to_node &&
         std::max(std::abs(cut.to.center.x - cut.from.center.x),
                  std::abs(cut.to.center.y - cut.from.center.y)) <= 8 * tolerance_)
@@ -156,8 +158,8 @@ bool FrameCut::add(const ConicEdge& curve, std::array<std::uint32_t, 2> site, bo
 }
 
 template <class NodeAt>
-void FrameCut::add_bisector(Vec2 from, Vec2 to, std::array<std::uint32_t, 2> site,
-                            NodeAt&& node_at) {
+void EnclosureCut::add_bisector(Vec2 from, Vec2 to, std::array<std::uint32_t, 2> site,
+                                NodeAt&& node_at) {
   const Vec2 first = planar_graph_.points[site[0]], second = planar_graph_.points[site[1]];
   const auto take_control = [&](ConicEdge& part) {
     part.from.radius = distance(part.from.center, first);

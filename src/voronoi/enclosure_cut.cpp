@@ -1,9 +1,8 @@
-#include "voronoi/frame_cut.h"
+#include "voronoi/enclosure_cut.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 
 #include "axis/sites.h"
 #include "base/numbers.h"
@@ -16,9 +15,9 @@ namespace {
 template <class Mirrored>
 site::Control control_over_arc(Vec2 from, Vec2 to, double bulge, const Disk& first,
                                const Disk& last, const Mirrored& mirrored) {
-  // The half of the arc that is touched, seen from the frame.
+  // The half of the arc that is touched, seen from the enclosure.
   const Vec2 middle = midpoint(first.center, last.center);
-  const sites::Pieces pieces = sites::pieces_of(from, to, bulge);
+  const site::Pieces pieces = site::pieces_of(from, to, bulge);
   site::Site arc = pieces.first();
   if (pieces.count == 2 &&
       site::squared_distance(pieces.last(), middle) < site::squared_distance(arc, middle))
@@ -33,22 +32,22 @@ site::Control control_over_arc(Vec2 from, Vec2 to, double bulge, const Disk& fir
 
 }  // namespace
 
-void FrameCut::add_crossing(const Disk& disk, std::array<std::uint32_t, 2> site, std::uint32_t edge,
-                            std::uint32_t end) {
-  // Outward, the edge has one site on its left, which comes after it along the frame.
-  Vec2 on_border = onto_border(frame_, disk.center);
-  const double place = place_on_border(frame_, on_border);
+void EnclosureCut::add_crossing(const Disk& disk, std::array<std::uint32_t, 2> site,
+                                std::uint32_t edge, std::uint32_t end) {
+  // Outward, the edge has one site on its left, which comes after it along the enclosure.
+  Vec2 on_border = onto_border(enclosure_, disk.center);
+  const double place = place_on_border(enclosure_, on_border);
   if (place == std::floor(place))  // to rounding in a corner
-    on_border = corner_of(frame_, static_cast<std::size_t>(place) % 4);
+    on_border = corner_of(enclosure_, static_cast<std::size_t>(place) % 4);
   crossings_.push_back({place, {on_border, disk.radius}, site[end], site[1 - end], edge, end});
 }
 
-std::uint32_t FrameCut::add_node(const Disk& disk, NodeKind kind) {
+std::uint32_t EnclosureCut::add_node(const Disk& disk, NodeKind kind) {
   diagram_.nodes.push_back({disk, 0, kind});
   return static_cast<std::uint32_t>(diagram_.nodes.size() - 1);
 }
 
-void FrameCut::close() {
+Status EnclosureCut::close() {
   std::sort(crossings_.begin(), crossings_.end(),
             [](const Crossing& a, const Crossing& b) { return a.place < b.place; });
   settle_ties();
@@ -59,44 +58,46 @@ void FrameCut::close() {
   }
   std::array<std::uint32_t, 4> corner{none, none, none, none};
   const auto add_corner = [&](std::size_t k, std::uint32_t site) {
-    const Vec2 p = corner_of(frame_, k);
+    const Vec2 p = corner_of(enclosure_, k);
     if (corner[k] == none) corner[k] = add_node({p, distance_to(site, p)}, NodeKind::site_change);
     return corner[k];
   };
   if (crossings_.empty()) {
-    whole_frame_ = nearest_to(corner_of(frame_, 0));
-    for (std::size_t k = 0; k < 4; ++k) add_corner(k, whole_frame_);
-    frame_begin_.push_back(static_cast<std::uint32_t>(diagram_.edges.size()));
+    whole_enclosure_ = nearest_to(corner_of(enclosure_, 0));
+    for (std::size_t k = 0; k < 4; ++k) add_corner(k, whole_enclosure_);
+    enclosure_begin_.push_back(static_cast<std::uint32_t>(diagram_.edges.size()));
     for (std::size_t k = 0; k < 4; ++k)
-      add_frame_edge(corner[k], corner[(k + 1) % 4], whole_frame_);
-    return;
+      add_enclosure_edge(corner[k], corner[(k + 1) % 4], whole_enclosure_);
+    return success();
   }
   // The edges before each crossing, from the one before.
   const std::size_t count = crossings_.size();
   for (std::size_t i = 0; i < count; ++i) {
-    frame_begin_.push_back(static_cast<std::uint32_t>(diagram_.edges.size()));
+    enclosure_begin_.push_back(static_cast<std::uint32_t>(diagram_.edges.size()));
     const std::size_t previous = i == 0 ? count - 1 : i - 1;
     const std::uint32_t site = crossings_[i].before;
     if (crossings_[previous].after != site)
-      throw std::runtime_error("the frame's edges do not close a Voronoi face");
+      return Error{ErrorCode::internal, "the enclosure's edges do not close a Voronoi face", {}};
     double from = crossings_[previous].place;
     const double to = crossings_[i].place + (i == 0 ? 4 : 0);
     std::uint32_t node = first_crossing_ + static_cast<std::uint32_t>(previous);
     for (double k = std::floor(from) + 1; k < to; k += 1) {
       const std::uint32_t next = add_corner(static_cast<std::size_t>(k) % 4, site);
-      add_frame_edge(node, next, site);
+      add_enclosure_edge(node, next, site);
       node = next;
     }
-    add_frame_edge(node, first_crossing_ + static_cast<std::uint32_t>(i), site);
+    add_enclosure_edge(node, first_crossing_ + static_cast<std::uint32_t>(i), site);
   }
-  frame_begin_.push_back(static_cast<std::uint32_t>(diagram_.edges.size()));
+  enclosure_begin_.push_back(static_cast<std::uint32_t>(diagram_.edges.size()));
+  return success();
 }
 
-/// Where several edges cross the frame in one place, puts them in an order in which each site
+/// Where several edges cross the enclosure in one place, puts them in an order in which each site
 /// that ends there does so where it began.
-void FrameCut::settle_ties() {
+void EnclosureCut::settle_ties() {
   const double together =
-      8 * tolerance_ / std::min(frame_.high.x - frame_.low.x, frame_.high.y - frame_.low.y);
+      8 * tolerance_ /
+      std::min(enclosure_.high.x - enclosure_.low.x, enclosure_.high.y - enclosure_.low.y);
   const std::size_t count = crossings_.size();
   const auto crossing = [&](std::size_t i) -> Crossing& { return crossings_[i % count]; };
   const auto begins_place = [&](std::size_t i) {
@@ -128,17 +129,17 @@ void FrameCut::settle_ties() {
   }
 }
 
-double FrameCut::distance_to(std::uint32_t site, Vec2 p) const {
+double EnclosureCut::distance_to(std::uint32_t site, Vec2 p) const {
   if (site < point_count_) return distance(p, planar_graph_.points[site]);
   const PlanarGraphEdge& edge = planar_graph_.edges[site - point_count_];
   double nearest = std::numeric_limits<double>::infinity();
-  const sites::Pieces pieces =
-      sites::pieces_of(planar_graph_.points[edge.from], planar_graph_.points[edge.to], edge.bulge);
+  const site::Pieces pieces =
+      site::pieces_of(planar_graph_.points[edge.from], planar_graph_.points[edge.to], edge.bulge);
   for (std::size_t i = 0; i < pieces.count; ++i)
     nearest = std::min(nearest, std::sqrt(site::squared_distance(pieces.site[i], p)));
   return nearest;
 }
-std::uint32_t FrameCut::nearest_to(Vec2 p) const {
+std::uint32_t EnclosureCut::nearest_to(Vec2 p) const {
   std::uint32_t nearest = 0;
   for (std::uint32_t s = 1; s < point_count_ + planar_graph_.edges.size(); ++s)
     if (distance_to(s, p) < distance_to(nearest, p)) nearest = s;
@@ -146,8 +147,8 @@ std::uint32_t FrameCut::nearest_to(Vec2 p) const {
 }
 
 /// A straight edge whose radius is the distance to the site: the bisector of the site and its
-/// mirror image in the frame.
-void FrameCut::add_frame_edge(std::uint32_t from, std::uint32_t to, std::uint32_t site) {
+/// mirror image in the enclosure.
+void EnclosureCut::add_enclosure_edge(std::uint32_t from, std::uint32_t to, std::uint32_t site) {
   const Disk &a = diagram_.nodes[from].disk, &b = diagram_.nodes[to].disk;
   const bool upright = std::abs(b.center.x - a.center.x) < std::abs(b.center.y - a.center.y);
   const Vec2 origin = a.center;
@@ -173,16 +174,16 @@ void FrameCut::add_frame_edge(std::uint32_t from, std::uint32_t to, std::uint32_
                             true});
 }
 
-void FrameCut::add_frame_edges(std::uint32_t node, std::vector<std::uint32_t>& face) const {
+void EnclosureCut::add_enclosure_edges(std::uint32_t node, std::vector<std::uint32_t>& face) const {
   if (node >= first_crossing_ + crossings_.size()) return;
   const std::uint32_t crossing = node - first_crossing_;
-  for (std::uint32_t f = frame_begin_[crossing + 1]; f-- > frame_begin_[crossing];)
+  for (std::uint32_t f = enclosure_begin_[crossing + 1]; f-- > enclosure_begin_[crossing];)
     face.push_back(f);
 }
 
-void FrameCut::end_face(std::uint32_t site, std::vector<std::uint32_t>& face) const {
-  if (!crossings_.empty() || site != whole_frame_) return;
-  for (std::uint32_t e = 4; e-- > 0;) face.push_back(frame_begin_[0] + e);
+void EnclosureCut::end_face(std::uint32_t site, std::vector<std::uint32_t>& face) const {
+  if (!crossings_.empty() || site != whole_enclosure_) return;
+  for (std::uint32_t e = 4; e-- > 0;) face.push_back(enclosure_begin_[0] + e);
 }
 
 }  // namespace medial::voronoi

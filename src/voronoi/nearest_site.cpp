@@ -47,7 +47,7 @@ SiteLocator::SiteLocator(std::span<const Site> sites) : index_(std::make_unique<
       index.site_of.push_back(i);
       continue;
     }
-    const sites::Pieces pieces = sites::pieces_of(from, to, site.bulge);
+    const site::Pieces pieces = site::pieces_of(from, to, site.bulge);
     for (std::size_t k = 0; k < pieces.count; ++k) {
       index.pieces.push_back(pieces.site[k]);
       index.site_of.push_back(i);

@@ -1,4 +1,4 @@
-#include "base/limits.h"
+#include "shape/limits.h"
 
 #include <algorithm>
 #include <array>
@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <span>
 
+#include "base/compat.h"
 #include "base/tolerance.h"
 
 namespace medial {
@@ -21,10 +22,10 @@ std::optional<Error> beyond_limits(std::span<const Vec2> points, double largest,
     return c == 0 || (std::abs(c) >= smallest && std::abs(c) <= largest_coordinate);
   };
   const auto bad =
-      std::ranges::find_if_not(points, [&within](Vec2 p) { return within(p.x) && within(p.y); });
+      ranges::find_if_not(points, [&within](Vec2 p) { return within(p.x) && within(p.y); });
   if (bad == points.end()) return std::nullopt;
   // Others may be too small because one is too large: that one is named.
-  const auto too_large = std::ranges::find_if_not(points, [](Vec2 p) {
+  const auto too_large = ranges::find_if_not(points, [](Vec2 p) {
     return std::abs(p.x) <= largest_coordinate && std::abs(p.y) <= largest_coordinate;
   });
   const auto i =

@@ -52,7 +52,7 @@ int main(int argc, char** argv) {
     row.medial = measure_medial(input, method, rounds, time_limit, row.medial_note);
     // An absent coastline is skipped with its note; anything else that fails is a failure.
     const bool lee_refuses =
-        method == medial::Method::lee && row.medial_note.find("hole") != row.medial_note.npos;
+        method_name == "lee" && row.medial_note.find("hole") != row.medial_note.npos;
     if (!row.medial && input.family != Family::coast && !lee_refuses) all_well = false;
     if (row.medial && !alone) {
       row.boost = measure_peer(input, run_boost, rounds, time_limit, row.boost_note);

@@ -10,7 +10,7 @@
 namespace medial::ridge {
 
 /// The axis in the necks: a point in each gate, and what is linked with what.
-struct Bridges {
+struct Passages {
   struct Point {
     Vec2 center;  ///< local
     double radius = 0;
@@ -30,7 +30,7 @@ struct Bridges {
 /// all with one of them. Of the interior pixels at a meeting one becomes medial and stays: one that
 /// is medial already if there is any; otherwise with a way of medial pixels to the next that is.
 /// Call after all medial pixels are found and before thinning.
-Bridges bridge_necks(const Necks& necks, const Outline& outline, const LocalGrid& local,
-                     const InteriorSets& sets, NearestEdges& search, Follower& follower);
+Passages pass_necks(const Necks& necks, const EdgeOutline& outline, const LocalGrid& local,
+                    const InteriorSets& sets, NearestEdges& search, Follower& follower);
 
 }  // namespace medial::ridge

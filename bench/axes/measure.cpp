@@ -97,7 +97,7 @@ std::optional<T> in_child(const std::function<std::optional<T>(std::string&)>& b
   return std::nullopt;
 }
 
-std::optional<MedialFigures> figures_of_medial(const std::vector<Ring>& rings, Method method,
+std::optional<MedialFigures> figures_of_medial(const std::vector<Ring>& rings, const Method& method,
                                                int rounds, std::string& why) {
   MedialFigures figures;
   // Small ones before: what the program itself needs, code and tables, is no memory of the input's.
@@ -166,7 +166,7 @@ std::optional<MedialFigures> figures_of_medial(const std::vector<Ring>& rings, M
 
 }  // namespace
 
-std::optional<MedialFigures> measure_medial(const Input& input, Method method, int rounds,
+std::optional<MedialFigures> measure_medial(const Input& input, const Method& method, int rounds,
                                             double limit, std::string& why) {
   return in_child<MedialFigures>(
       [&](std::string& reason) -> std::optional<MedialFigures> {

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Sizes of packs beside what the boundary itself takes, for docs/pack.md.
 
-    tools/bench_pack.py PROGRAM DATA
+    bench/pack.py PROGRAM DATA
 
 DATA is a folder like ../shared/data. Prints a table for each kind of shapes: the bytes of all its files
 together at three errors, and of images as squares beside their PNG files.

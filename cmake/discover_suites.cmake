@@ -1,0 +1,38 @@
+# Read by ctest: adds the suites of a GoogleTest program to the tests, a process each, and the
+# tests of a parameterized suite, which take long, one by one.
+#   program, prefix, properties   what to run, what its tests' names begin with, their properties
+if(NOT EXISTS ${program})
+  cmake_path(GET program FILENAME name)
+  add_test(${prefix}${name}_NOT_BUILT ${program})
+  return()
+endif()
+
+function(medial_add_suite name filter cost)
+  add_test(${prefix}${name} ${program} --gtest_filter=${filter} --gtest_brief=1)
+  set_tests_properties(${prefix}${name} PROPERTIES COST ${cost} ${properties})
+endfunction()
+
+execute_process(COMMAND ${program} --gtest_list_tests OUTPUT_VARIABLE listed RESULT_VARIABLE failed)
+if(failed)
+  message(FATAL_ERROR "${program} --gtest_list_tests failed")
+endif()
+string(REGEX REPLACE " *#[^\n]*" "" listed "${listed}")  # values of parameters
+string(REPLACE "\n" ";" listed "${listed}")
+set(suite "")
+set(count 0)
+foreach(line IN LISTS listed ITEMS "end.")
+  if(line MATCHES "^  (.*)")
+    set(test ${suite}${CMAKE_MATCH_1})
+    math(EXPR count "${count} + 1")
+    if(suite MATCHES "/")
+      medial_add_suite(${test} ${test} 10)
+    endif()
+  elseif(line MATCHES "^[^ ]+\\.$")
+    if(count GREATER 0 AND NOT suite MATCHES "/")
+      string(REGEX REPLACE "\\.$" "" name ${suite})
+      medial_add_suite(${name} ${suite}* ${count})
+    endif()
+    set(suite ${line})
+    set(count 0)
+  endif()
+endforeach()

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "axis/sites.h"
+#include "base/local_frame.h"
+#include "medial/axis.h"
+#include "medial/compute.h"
+#include "medial/shape.h"
+
+namespace medial {
+
+/// A shape prepared once for every method. Lengths are in units of the input unless called local.
+/// The shape and the options must outlive it.
+struct Problem {
+  Problem(const Shape& a_shape, const Options& some_options,
+          std::span<const Contour> some_contours = {});
+
+  const Shape& shape;
+  const Options& options;
+  std::span<const Contour> contours;  ///< the smooth boundary, if the caller has it
+  Box box;                            ///< of the shape
+  LocalFrame frame;
+  double tolerance = 0;        ///< disks with residuals below it touch
+  double joint_tolerance = 0;  ///< the same for joints: it does not depend on the options
+  /// The local tolerance that the local coordinates alone allow. Far from the origin it is finer
+  /// than local_tolerance(), since only the way back to the input's coordinates rounds.
+  double fine_tolerance = 0;
+  double radius_limit = 0;  ///< local; no disk inside the shape is larger
+
+  double local_tolerance() const { return frame.scale * tolerance; }
+  Box local_box() const { return {frame.to_local(box.low), frame.to_local(box.high)}; }
+  /// The numbers of the sites, computed by the first call. Not thread-safe. O(n).
+  const site::SiteNumbers& numbers() const&;
+  site::SiteNumbers numbers() &&;
+  /// The sites as the result lists them.
+  std::vector<Site> result_sites() const { return site::result_sites(shape, numbers()); }
+  /// The options of the method, which must be this one.
+  template <class Own>
+  const Own& own() const {
+    return std::get<Own>(options.method);
+  }
+  bool is_cancelled() const { return options.cancel != nullptr && options.cancel->load(); }
+
+ private:
+  mutable std::optional<site::SiteNumbers> numbers_;
+};
+
+/// What a method makes of a problem.
+struct Outcome {
+  MedialAxis axis;
+  /// Whether disks are the own circles of several arcs at once: rounding may have decided what the
+  /// axis is there.
+  bool in_centers = false;
+  /// Whether the graph has one part for each component and one cycle for each hole.
+  bool connected = true;
+};
+
+inline Result<Outcome> outcome_of(Result<MedialAxis> axis, bool connected = true) {
+  if (!axis) return std::move(axis).error();
+  return Outcome{std::move(axis).value(), false, connected};
+}
+
+}  // namespace medial

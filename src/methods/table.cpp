@@ -1,0 +1,104 @@
+#include "methods/table.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "methods/automatic.h"
+#include "methods/biarc_dc/biarc_dc.h"
+#include "methods/curve_axis/curve_axis.h"
+#include "methods/disks/disks.h"
+#include "methods/lee/lee.h"
+#include "methods/potential/potential.h"
+#include "methods/raster/brushfire/brushfire.h"
+#include "methods/raster/ridge/ridge.h"
+
+namespace medial {
+namespace {
+
+std::optional<Error> takes_all(const Problem&) { return std::nullopt; }
+
+const std::array<MethodRow, std::variant_size_v<Method>> rows = {{
+    {{.name = "disks", .summary = "walks from maximal disk to maximal disk", .threads = true},
+     method::Disks{},
+     takes_all,
+     disks::run},
+    {{.name = "biarc-dc", .summary = "the published randomised divide and conquer", .holes = false},
+     method::BiarcDc{},
+     takes_all,
+     [](const Problem& problem) { return outcome_of(biarc_dc::run(problem)); }},
+    {{.name = "lee",
+      .summary = "merges Voronoi diagrams of chains",
+      .holes = false,
+      .arcs = false,
+      .threads = true},
+     method::Lee{},
+     takes_all,
+     [](const Problem& problem) { return outcome_of(lee::run(problem)); }},
+    {{.name = "auto", .summary = "the faster one of disks and lee for each shape", .threads = true},
+     method::Auto{},
+     takes_all,
+     run_automatic},
+    {{.name = "ridge",
+      .summary = "follows ridges on a grid of pixels",
+      .sampling = Sampling::pixels},
+     method::Ridge{},
+     ridge::refuse,
+     [](const Problem& problem) { return outcome_of(ridge::run(problem), false); }},
+    {{.name = "brushfire",
+      .summary = "thins the pixels of a grid",
+      .sampling = Sampling::pixels,
+      .exterior = false},
+     method::Brushfire{},
+     brushfire::refuse,
+     [](const Problem& problem) { return outcome_of(brushfire::run(problem), false); }},
+    {{.name = "potential",
+      .summary = "the valleys of a potential field",
+      .sampling = Sampling::points,
+      .part = true,
+      .threads = true},
+     method::Potential{},
+     potential::refuse,
+     [](const Problem& problem) {
+       return outcome_of(potential::run(problem), problem.own<method::Potential>().whole());
+     }},
+    {{.name = "curve-axis",
+      .summary = "follows one smooth curve from the maxima of its curvature",
+      .sampling = Sampling::points,
+      .holes = false,
+      .exterior = false,
+      .contours = true},
+     method::CurveAxis{},
+     takes_all,
+     [](const Problem& problem) { return outcome_of(curve_axis::run(problem), false); }},
+}};
+
+const auto infos = [] {
+  std::array<MethodInfo, rows.size()> all{};
+  std::transform(rows.begin(), rows.end(), all.begin(), [](const MethodRow& r) { return r.info; });
+  return all;
+}();
+
+const MethodRow* find_row(std::string_view name) {
+  const auto row = std::find_if(rows.begin(), rows.end(),
+                                [&](const MethodRow& one) { return name == one.info.name; });
+  return row == rows.end() ? nullptr : &*row;
+}
+
+}  // namespace
+
+const MethodRow& row_of(const Method& method) { return rows[method.index()]; }
+const MethodInfo& info_of(const Method& method) { return row_of(method).info; }
+std::span<const MethodInfo> methods() { return infos; }
+
+std::optional<Method> method_from(std::string_view name) {
+  const MethodRow* row = find_row(name);
+  return row == nullptr ? std::nullopt : std::optional(row->defaults);
+}
+
+bool is_of_pixels(std::string_view method) {
+  const MethodRow* row = find_row(method);
+  return row != nullptr && row->info.sampling == Sampling::pixels;
+}
+
+}  // namespace medial
