@@ -15,7 +15,7 @@ namespace medial::io {
 /// A text read from its beginning to its end through a window of constant size, so that files of
 /// any length take no memory. Decompresses gzip by itself. Knows its line.
 ///
-/// A failure to read (or to decompress) looks like the end of the text; failure() tells it.
+/// A failure to read (or to decompress) looks like the end of the text; failure() has it.
 class TextSource {
  public:
   /// The longest number, in characters.

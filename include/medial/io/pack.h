@@ -14,7 +14,7 @@ namespace medial::io {
 /// What a pack holds.
 enum class PackKind : std::uint8_t { axes, squares };
 
-/// A pack: a code, and what its picture needs. docs/pack.md tells the bytes.
+/// A pack: a code, and what its picture needs. docs/pack.md describes the bytes.
 struct PackFile {
   PackKind kind = PackKind::axes;
   ShapeCode code;
@@ -35,7 +35,7 @@ Status write_pack(const std::string& path, const std::vector<std::uint8_t>& byte
 Result<PackFile> read_pack(const std::string& path);
 
 /// The shapes and axes of a pack of axes: each shape is what its disks cover. `notes` (may be null)
-/// tells of shapes that could not be built: those stay without points. Errors: malformed,
+/// names the shapes that could not be built: those stay without points. Errors: malformed,
 /// unsupported.
 Result<Document<AxisItem>> native_of(const PackFile& file,
                                      std::vector<std::string>* notes = nullptr);

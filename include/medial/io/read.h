@@ -35,8 +35,8 @@ struct ReadOptions {
 };
 
 /// Reads polygons and curved shapes. `-` is standard input (WKT, GeoJSON, SVG, DXF, `x y` text or
-/// medial's own by its first characters). .svg and .dxf are read as docs/inputs.md tells; .wkt,
-/// .txt, .xy and .json of medial's own by fast readers; images (PNG, TIFF, PBM, PGM: told by their
+/// medial's own by its first characters). .svg and .dxf are read as docs/inputs.md says; .wkt,
+/// .txt, .xy and .json of medial's own by fast readers; images (PNG, TIFF, PBM, PGM, by their
 /// first bytes) become one feature, the outline of their foreground with y downwards, or placed
 /// where the file says; all else by GDAL. Any may be compressed by gzip. Errors: unreadable,
 /// malformed, unsupported, empty, not_finite, no_area, too_large, invalid_option, out_of_memory.
@@ -45,7 +45,7 @@ Result<Document<Feature>> read_dataset(const std::string& path, const ReadOption
 /// The outlines of a text, set in one line with the font's advances and kerning: a feature for each
 /// character that has an outline, in font units, the baseline at y = 0. `text` is UTF-8, `font` a
 /// scalable font file (TrueType, OpenType, Type 1). A character that the font lacks is drawn as
-/// its replacement and told in a note.
+/// its replacement, with a note.
 /// Errors: unreadable, malformed (text), unsupported (bitmap fonts), empty, out_of_memory.
 Result<Document<Feature>> read_text(const std::string& text, const std::string& font);
 

@@ -92,7 +92,7 @@ Status write_csv(Target& target, const FeaturesOutput& output) {
     std::vector<Vec2> places{row.points.front()};
     if (!points) places.push_back(row.points.back());
     target.place(places);
-    for (const Vec2 p : places) {
+    for (const Vec2& p : places) {
       put_point(out, p, ',');
       out.put(&p == &places.back() ? '\n' : ',');
     }

@@ -127,7 +127,7 @@ class Collector : public DL_CreationAdapter {
     add(std::move(contour), false, true);
   }
   void addEllipse(const DL_EllipseData& data) override {
-    // Ellipses stand in world coordinates; their extrusion tells where the minor axis points.
+    // Ellipses stand in world coordinates; their extrusion says where the minor axis points.
     const double side = upside_down() ? -1 : 1;
     if (!begin("ELLIPSE")) return;
     const Vec2 center{data.cx, data.cy};
@@ -234,7 +234,7 @@ class Collector : public DL_CreationAdapter {
     paper_ = getAttributes().isInPaperSpace();
     mirrored_ = upside_down();
   }
-  /// `in_plane`: told in the coordinates of the entity's own plane, not of the drawing.
+  /// `in_plane`: given in the coordinates of the entity's own plane, not of the drawing.
   void add(Contour contour, bool closed, bool in_plane = false) {
     remember_attributes();
     keep(std::move(contour), closed, in_plane);
@@ -350,7 +350,7 @@ class Unfolded {
   std::uint64_t inserts_ = 0;
 };
 
-/// What of a drawing's curves becomes features, and notes on the rest.
+/// The part of a drawing that becomes features, and notes on the rest.
 class Features {
  public:
   Features(const Collector& found, const ReadOptions& options) : found_(found), options_(options) {}

@@ -279,7 +279,7 @@ bool begins_like_image(std::string_view text) {
   return begins_like_pnm(text) || begins_like_raster(text);
 }
 
-Result<ImageFile> read_source(const Input& input, const ImageOptions& options) {
+Result<ImageFile> read_pixels(const Input& input, const ImageOptions& options) {
   TextSource& source = *input.source;
   const std::string_view beginning = source.lookahead(image_sniffed);
   if (source.failure()) return *source.failure();
@@ -306,7 +306,7 @@ Result<ImageFile> read_source(const Input& input, const ImageOptions& options) {
 /// An image with a foreground.
 Result<ImageFile> read_foreground(const Input& input, const ImageOptions& options) {
   return guarded(input.path, [&]() -> Result<ImageFile> {
-    Result<ImageFile> file = read_source(input, options);
+    Result<ImageFile> file = read_pixels(input, options);
     if (file && file->image.count() == 0) {
       return Error{ErrorCode::empty,
                    options.invert ? "no pixel is below the threshold, so there is no foreground"

@@ -303,7 +303,7 @@ void Element::on_exit_element() {
   if (!target_.empty() && displayed_) draw_copy();
 }
 
-// What svgpp is told to look at. Everything else is passed over: text, images, gradients, clipping
+// What svgpp reads. Everything else is passed over: text, images, gradients, clipping
 // paths, masks, patterns, markers, and definitions unless they are used.
 using Shapes =
     mpl::set<tag::element::path, tag::element::rect, tag::element::circle, tag::element::ellipse,

@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t longest_document = (std::size_t{1} << 31U) - 1;  // what libxml2 takes
 constexpr std::size_t longest_entity = 256;
 constexpr int deepest_element =
-    1000;  // open elements; the reader allows fewer, but tells that better
+    1000;  // open elements; the reader allows fewer, with a better error
 constexpr char svg_namespace[] = "http://www.w3.org/2000/svg";
 constexpr char xlink_namespace[] = "http://www.w3.org/1999/xlink";
 constexpr char xml_space[] = " \t\r\n";
@@ -230,19 +230,19 @@ void SvgDocument::prepare_root() {
   if (!(numbers[2] > 0) || !(numbers[3] > 0)) return;
   const std::array<const char*, 2> names{"width", "height"};
   std::array<std::string, 2> values;
-  std::array<bool, 2> told{};
+  std::array<bool, 2> given{};
   for (std::size_t i = 0; i < 2; ++i) {
     values[i] = attribute(top, names[i]);
     std::string_view text = values[i];
-    told[i] = take_number(text).has_value() && !text.starts_with('%');
+    given[i] = take_number(text).has_value() && !text.starts_with('%');
   }
   const auto set = [&](std::size_t i, const std::string& value) {
     xmlSetProp(top, as_xml(names[i]), as_xml(value.c_str()));
   };
   for (std::size_t i = 0; i < 2; ++i) {
-    if (told[i]) continue;
+    if (given[i]) continue;
     const std::size_t other = 1 - i;
-    if (!told[other]) {
+    if (!given[other]) {
       set(i, fmt::format("{}", numbers[2 + i]));
       continue;
     }

@@ -15,8 +15,8 @@ namespace medial::io {
 
 /// A parsed document of SVG, made ready for svgpp: elements without a namespace are SVG's, `href`
 /// is `xlink:href`, shapes without extent (which paint nothing) are gone, what style sheets say
-/// stands in `style` attributes (SvgStyleSheet), and the outermost width and height are told where
-/// a viewBox tells them.
+/// stands in `style` attributes (SvgStyleSheet), and the outermost width and height are given where
+/// a viewBox gives them.
 ///
 /// Entities are short texts without references, so that a document unfolds to a constant times its
 /// size at most; nothing outside of the document is ever read.
@@ -29,7 +29,7 @@ class SvgDocument {
   xmlNode* root() const { return xmlDocGetRootElement(document_.get()); }
   /// The element with an `id`; null if there is none.
   xmlNode* find(const std::string& id) const;
-  /// How many selectors of style sheets were of kinds that are not looked at.
+  /// How many selectors of style sheets were of other kinds.
   std::size_t selectors_left_out() const { return selectors_left_out_; }
 
  private:

@@ -42,12 +42,12 @@ void put_svg(OutputStream& out, const Document<ShapeItem>& file) {
   for (const ShapeItem& item : file.items) {
     out.put("<path d=\"");
     for (std::size_t i = 0; i < item.shape.loop_count(); ++i) {
-      bool begun = false;
+      bool started = false;
       for_each_edge(item.shape, i, [&](const BulgeArc& arc) {
-        if (!begun) {
+        if (!started) {
           out.put('M');
           put_point(out, arc.start, ' ');
-          begun = true;
+          started = true;
         }
         if (arc.bulge == 0) {
           out.put('L');

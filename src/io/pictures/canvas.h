@@ -62,7 +62,7 @@ class Canvas {
 
   cairo_t* context() { return context_; }
   const PictureFrame& frame() const { return frame_; }
-  /// How far apart places are that can be told apart: a fraction of a pixel, or in pictures that
+  /// How far apart places are that differ to the eye: a fraction of a pixel, or in pictures that
   /// can be enlarged, of the thinnest line, which hides what is smaller at any size.
   double cell() const { return pixels_ ? 0.25 : thickness(0.1); }
   /// Of lines: in thousandths of the longer side.

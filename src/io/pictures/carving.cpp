@@ -20,8 +20,8 @@ Walls walls_of(const Carving& carving) {
   return walls;
 }
 
-/// Adds what of a groove is deeper than a level: around each move as much as the cone is wide
-/// there.
+/// Adds the part of a groove that is deeper than a level: around each move as much as the cone is
+/// wide there.
 void add_groove(Canvas& canvas, const Carving& carving, const ToolPath& path, double depth) {
   const auto wide = [&carving](double over) {
     return over >= 0 ? carving.tip_radius + carving.slope * over : 0;

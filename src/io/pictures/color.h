@@ -24,7 +24,7 @@ inline constexpr std::array<Color, 9> viridis{{{0.267, 0.005, 0.329},
                                                {0.267, 0.749, 0.441},
                                                {0.478, 0.821, 0.318}}};
 
-inline constexpr int shade_count = 64;  ///< colours that are told apart
+inline constexpr int shade_count = 64;  ///< different colours
 
 /// The colour of a share i / (shade_count - 1) of the largest radius.
 inline Color shade(int i) {
