@@ -12,7 +12,6 @@
 #include "cli/common.h"
 #include "cli/costs.h"
 #include "cli/pipeline.h"
-#include "cli/plot.h"
 #include "cli/terminal.h"
 #include "medial/compute.h"
 #include "medial/verify.h"

@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <cmath>
-#include <ctime>
 
 #include "medial/io/write.h"
 
@@ -37,12 +36,6 @@ void progress(const std::string& what) {
 
 Status write(const Request& request, const std::string& name, const std::string& text) {
   return io::write_text((request.to / name).string(), text);
-}
-
-double processor_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
 double fitted_exponent(const Points& points) {

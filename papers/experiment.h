@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "bench/clock.h"
 #include "medial/error.h"
 
 namespace medial::papers {
@@ -16,7 +17,7 @@ namespace medial::papers {
 struct Request {
   std::filesystem::path to;        ///< an existing directory for tables and figures
   bool quick = false;              ///< few small shapes: does it run at all?
-  int rounds = 5;                  ///< the least time of so many counts
+  int rounds = 3;                  ///< the least time of so many counts
   std::vector<std::string> files;  ///< further shapes (volkmann: images)
 };
 
@@ -42,8 +43,7 @@ Status in_order(Steps&&... steps) {
   return done;
 }
 
-/// Seconds of processor time of this process.
-double processor_seconds();
+using bench::processor_seconds;
 
 /// Runs work() some times, or once where it fails; keeps the last result and the least time.
 template <class Work>

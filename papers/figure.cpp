@@ -2,6 +2,7 @@
 
 #include <cairo-svg.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <system_error>
@@ -13,6 +14,15 @@ namespace medial::papers {
 namespace {
 
 constexpr double width = 480, margin = 20;
+constexpr std::array<std::array<double, 3>, 9> colors{{{0.80, 0.20, 0.20},
+                                                       {0.15, 0.45, 0.75},
+                                                       {0.20, 0.55, 0.25},
+                                                       {0.75, 0.45, 0.10},
+                                                       {0.50, 0.25, 0.60},
+                                                       {0.10, 0.60, 0.60},
+                                                       {0.15, 0.45, 0.75},
+                                                       {0.85, 0.55, 0.15},
+                                                       {0.15, 0.45, 0.75}}};
 
 cairo_status_t append(void* text, const unsigned char* data, unsigned int size) {
   static_cast<std::string*>(text)->append(reinterpret_cast<const char*>(data), size);
@@ -37,6 +47,11 @@ Figure::Figure(Box box) : box_(box) {
 void Figure::pen(double red, double green, double blue, double line_width) {
   cairo_set_source_rgb(cairo_.get(), red, green, blue);
   cairo_set_line_width(cairo_.get(), line_width);
+}
+
+void Figure::color(std::size_t which, double line_width) {
+  const auto& [red, green, blue] = colors[which % colors.size()];
+  pen(red, green, blue, line_width);
 }
 
 void Figure::stroke(std::span<const Vec2> points, double dash) {

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <array>
+#include <cstdio>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -33,9 +34,11 @@ Result<bool> run(const Paper& paper, Request request) {
     return Error{ErrorCode::unwritable, request.to.string() + ": " + problem.message(), {}};
   const double begin = processor_seconds();
   Result<bool> passed = paper.run(request);
-  if (passed)
+  if (passed) {
     fmt::print("{}: {} in {:.1f} s of processor time\n", request.to.string(),
                *passed ? "done" : "a check FAILED", processor_seconds() - begin);
+    std::fflush(stdout);
+  }
   return passed;
 }
 
@@ -52,7 +55,7 @@ int run(int argc, char** argv) {
   program.add_option("--files", request.files,
                      "Further shapes for ahuja_chuang_1997 (of each file the largest), further\n"
                      "images for volkmann_stclair_1987.");
-  program.add_option("--rounds", request.rounds, "The least time of so many counts (default: 5).")
+  program.add_option("--rounds", request.rounds, "The least time of so many counts (default: 3).")
       ->check(CLI::Range(1, 1000));
   program.add_flag("--quick", request.quick, "One round of few small shapes.");
   program.footer("Exit status: 0 done; 1 an axis failed a check; 2 an error.");

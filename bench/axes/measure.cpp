@@ -1,6 +1,5 @@
 #include "measure.h"
 
-#include <malloc.h>
 #include <poll.h>
 #include <signal.h>
 #include <sys/wait.h>
@@ -8,13 +7,13 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <fstream>
 #include <thread>
 #include <type_traits>
 #include <vector>
 
 #include "clock.h"
 #include "medial/compute.h"
+#include "peak_memory.h"
 #include "support/generate.h"
 
 namespace medial::bench {
@@ -25,18 +24,6 @@ double median(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   return values[values.size() / 2];
 }
-
-/// A line of /proc/self/status in bytes: VmRSS (resident now) or VmHWM (at most, so far).
-double status_bytes(const std::string& key) {
-  std::ifstream status("/proc/self/status");
-  for (std::string line; std::getline(status, line);) {
-    if (line.rfind(key + ":", 0) == 0) return 1024 * std::stod(line.substr(key.size() + 1));
-  }
-  return 0;
-}
-
-/// Sets VmHWM back to VmRSS.
-void reset_peak() { std::ofstream("/proc/self/clear_refs") << "5"; }
 
 /// Calls `body` in a child and returns what it returns. Nothing, with the reason, where the child
 /// does not deliver within the limit.
@@ -105,9 +92,7 @@ std::optional<MedialFigures> figures_of_medial(const std::vector<Ring>& rings, c
     if (const auto built = build_shape(test::random_integer_shape(seed).rings))
       static_cast<void>(compute(*built, {.method = method, .threads = 1}));
   }
-  malloc_trim(0);
-  const double baseline = status_bytes("VmRSS");
-  reset_peak();
+  const PeakMemory memory;
   std::vector<double> shape;
   std::vector<double> one;
   std::vector<double> one_wall;
@@ -133,7 +118,7 @@ std::optional<MedialFigures> figures_of_medial(const std::vector<Ring>& rings, c
       }
       if (round == 0) {
         // Only now, before the threads of others are started and memory comes from the heap again.
-        figures.peak_bytes = status_bytes("VmHWM") - baseline;
+        figures.peak_bytes = memory.bytes();
         const Statistics& statistics = axis->statistics;
         figures.vertices = built->points.size();
         figures.queries_per_site =

@@ -389,7 +389,8 @@ Result<bool> run_aichholzer_2009(const Request& request) {
     for (const Row& row : *rows) passed = passed && row.failure.empty();
   const Table tolerances = rows_table(by_tolerance), sizes = rows_table(by_size);
   const std::string text = fmt::format(
-      "Processor time of one thread, the least of {} rounds (biarc-dc and exact: one); tolerance\n"
+      "Processor time of one thread, the least of {} round(s) (biarc-dc and exact: one); "
+      "tolerance\n"
       "and error relative to the diagonal of the bounding box.\n\n"
       "## By tolerance (Table 1, Figs. 12, 15, 16)\n\n{}\n{}\n"
       "## Base cases of biarc-dc (Figs. 5, 6)\n\n{}\n"

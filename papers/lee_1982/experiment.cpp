@@ -6,20 +6,16 @@
 
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <functional>
 #include <numbers>
 #include <numeric>
 
 #include "base/random.h"
+#include "bench/peak_memory.h"
 #include "cli/plot.h"
 #include "medial/medial.h"
 #include "methods/lee/lee.h"
 #include "papers/table.h"
-
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
 
 namespace medial::papers {
 namespace {
@@ -112,30 +108,6 @@ Ring maze(std::size_t n) {
   return ring;
 }
 
-/// A line of what Linux says of this process, in bytes: VmRSS (resident), VmHWM (at most so far).
-double status_bytes(const std::string& key) {
-  std::ifstream status("/proc/self/status");
-  for (std::string line; std::getline(status, line);)
-    if (line.rfind(key + ":", 0) == 0) return 1024 * std::stod(line.substr(key.size() + 1));
-  return 0;
-}
-
-/// What is resident at the most from here on, above what is now.
-class PeakMemory {
- public:
-  PeakMemory() {
-#ifdef __GLIBC__
-    malloc_trim(0);
-#endif
-    before_ = status_bytes("VmRSS");
-    std::ofstream("/proc/self/clear_refs") << "5";
-  }
-  double bytes() const { return std::max(0.0, status_bytes("VmHWM") - before_); }
-
- private:
-  double before_ = 0;
-};
-
 /// One shape of one size.
 struct Row {
   std::string shape;
@@ -161,7 +133,7 @@ Row measure(const std::string& name, const Ring& ring, int rounds) {
   row.vertices = shape->points.size();
   // The first time loads code, too.
   if (!compute(*shape, options)) row.failure = "not computed";
-  const PeakMemory memory;
+  const bench::PeakMemory memory;
   const auto axis = compute(*shape, options);
   if (!axis) {
     row.failure = to_string(axis.error());
@@ -272,7 +244,7 @@ Result<bool> run_lee_1982(const Request& request) {
   const std::vector<Row> rows = measure_all(request);
   const Table table = rows_table(rows);
   const std::string text = fmt::format(
-      "Processor time of one thread, the least of {} rounds.\n\n{}\nFrom 1e3 vertices on:\n\n{}",
+      "Processor time of one thread, the least of {} round(s).\n\n{}\nFrom 1e3 vertices on:\n\n{}",
       request.rounds, table.markdown(), fits_table(rows));
   const Status written = in_order([&] { return write(request, "tables.md", text); },
                                   [&] { return write(request, "rows.csv", table.csv()); },

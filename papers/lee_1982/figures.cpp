@@ -18,20 +18,7 @@ namespace medial::papers {
 
 namespace {
 
-/// The components of a bisector, each in its colour.
-void component_pen(Figure& figure, std::size_t which) {
-  constexpr std::array<std::array<double, 3>, 9> pens{{{0.80, 0.20, 0.20},
-                                                       {0.15, 0.45, 0.75},
-                                                       {0.20, 0.55, 0.25},
-                                                       {0.75, 0.45, 0.10},
-                                                       {0.50, 0.25, 0.60},
-                                                       {0.10, 0.60, 0.60},
-                                                       {0.15, 0.45, 0.75},
-                                                       {0.85, 0.55, 0.15},
-                                                       {0.15, 0.45, 0.75}}};
-  const auto& [red, green, blue] = pens[which % pens.size()];
-  figure.pen(red, green, blue, 1.8);
-}
+constexpr double thick = 1.8;
 
 /// Draws where two closed segments (or points) are equally far, cell by cell of a fine grid, each
 /// component in its colour: which part of each one is nearest, an end or the inside.
@@ -59,7 +46,7 @@ void draw_bisector(Figure& figure, const Site& first, const Site& second) {
       }
       if (crossings.size() != 2) continue;
       const Vec2 middle = midpoint(crossings[0], crossings[1]);
-      component_pen(figure, part_of(first, middle) + 3 * part_of(second, middle));
+      figure.color(part_of(first, middle) + 3 * part_of(second, middle), thick);
       figure.line(crossings);
     }
   }
@@ -304,7 +291,7 @@ Status figure_of_lemmas(const std::filesystem::path& path) {
                                         [&](const Site& a, const Site& b) {
                                           return distance(foot(a, z), z) < distance(foot(b, z), z);
                                         });
-  component_pen(figure, 0);
+  figure.color(0, thick);
   figure.line({z, foot(*nearest, z)});
   figure.dot(z);
   figure.label(z, "z");
@@ -317,7 +304,7 @@ Status figure_of_lemmas(const std::filesystem::path& path) {
   one.sites = diagram->sites;
   const VoronoiEdge& edge = diagram->edges[longest];
   const Disk disk = disk_at(one, edge, 0.5);
-  component_pen(figure, 2);
+  figure.color(2, thick);
   figure.circle(disk);
   for (const std::uint32_t site : edge.site) {
     figure.line({disk.center, foot(diagram->sites[site], disk.center)});

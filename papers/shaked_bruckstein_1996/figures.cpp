@@ -125,16 +125,6 @@ double sharpest(const SmoothBoundary& boundary) {
       [&](double a, double b) { return boundary.at(a).curvature < boundary.at(b).curvature; });
 }
 
-void colored(Figure& figure, int which, double width) {
-  constexpr std::array<std::array<double, 3>, 5> pens{{{0.80, 0.20, 0.20},
-                                                       {0.15, 0.45, 0.75},
-                                                       {0.20, 0.55, 0.25},
-                                                       {0.75, 0.45, 0.10},
-                                                       {0.50, 0.30, 0.65}}};
-  const auto& [red, green, blue] = pens[static_cast<std::size_t>(which) % pens.size()];
-  figure.pen(red, green, blue, width);
-}
-
 /// `density`: points on a piece.
 std::vector<Vec2> part_of(const SmoothBoundary& boundary, double from, double to,
                           double density = 24) {
@@ -183,12 +173,12 @@ void draw_disk(Figure& figure, const AxisPoint& point) {
 void draw_state(Figure& figure, const Stage& stage, const Control& control, bool letters) {
   figure.thin();
   draw_boundary(figure, stage.boundary);
-  int which = 0;
+  std::size_t which = 0;
   for (const int segment : control.in_use()) {
     const AxisPoint& last = last_of(control, segment);
-    colored(figure, which, 2.4);
+    figure.color(which, 2.4);
     draw_scanned(figure, stage.boundary, last);
-    colored(figure, which, 1.2);
+    figure.color(which, 1.2);
     draw_tree(figure, control, segment);
     if (letters) {
       const double middle = (last.left.u + stage.boundary.above(last.right.u, last.left.u)) / 2;
@@ -224,7 +214,7 @@ Status azimuth(const std::filesystem::path& path) {
   figure.ink();
   figure.line(left);
   figure.line(right);
-  colored(figure, 1, 1.8);
+  figure.color(1, 1.8);
   figure.line(line);
   figure.thin();
   figure.circle(a.disk);
@@ -233,7 +223,7 @@ Status azimuth(const std::filesystem::path& path) {
   figure.line({a.left.point, a.disk.center, a.right.point});
   figure.line({b.left.point, b.disk.center});
   // The direction backwards, and the angle from it to the radius.
-  colored(figure, 0, 1.2);
+  figure.color(0, 1.2);
   const Vec2 back = a.disk.center - 0.9 * a.disk.radius * a.tangent;
   figure.dashed(std::array{a.disk.center, back});
   const Vec2 to_left = a.left.point - a.disk.center;
@@ -277,13 +267,13 @@ Status beginning(const std::filesystem::path& path) {
   const Vec2 middle = tip.disk.center + tip.disk.radius * tip.tangent;
   Figure figure({middle - Vec2{r, r}, middle + Vec2{r, r}});
   figure.ink();
-  colored(figure, 1, 1.6);
+  figure.color(1, 1.6);
   figure.line(part_of(stage.boundary, u - 2, u, 100));
-  colored(figure, 2, 1.6);
+  figure.color(2, 1.6);
   figure.line(part_of(stage.boundary, u, u + 2, 100));
   figure.thin();
   figure.circle(tip.disk);
-  colored(figure, 0, 1.6);
+  figure.color(0, 1.6);
   figure.line(centres(points));
   figure.ink();
   figure.line({tip.left.point, tip.disk.center});
@@ -315,20 +305,20 @@ Status junction(const std::filesystem::path& path, bool with_boundary) {
       if (!next) break;
       third.push_back(*next);
     }
-    int which = 0;
+    std::size_t which = 0;
     for (const int segment : {decision.active, decision.neighbour}) {
       const AxisPoint& last = last_of(control, segment);
       if (with_boundary) {
-        colored(*figure, which, 2.6);
+        figure->color(which, 2.6);
         draw_scanned(*figure, stage.boundary, last);
       }
-      colored(*figure, which, 1.8);
+      figure->color(which, 1.8);
       draw_tree(*figure, control, segment, disk.center);
       figure->arrow_head(disk.center, last.tangent);
       figure->label(disk.center - 0.7 * disk.radius * last.tangent, which == 0 ? "2" : "1", {6, 4});
       ++which;
     }
-    colored(*figure, 2, 1.8);
+    figure->color(2, 1.8);
     figure->line(centres(third));
     figure->arrow_head(third.back().disk.center, third.back().tangent);
     figure->label(third.back().disk.center, "3", {6, 4});
@@ -398,13 +388,13 @@ Status decision(const std::filesystem::path& path, Rule rule) {
       figure.emplace(stage.frame(rule == Rule::outside_frame ? 1.5 : 1));
       figure->thin();
       draw_boundary(*figure, stage.boundary);
-      int which = 0;
+      std::size_t which = 0;
       for (const int segment : {d.active, d.neighbour}) {
         if (segment < 0) break;
         const AxisPoint& last = last_of(control, segment);
-        colored(*figure, which, 2.4);
+        figure->color(which, 2.4);
         draw_scanned(*figure, stage.boundary, last);
-        colored(*figure, which, 1.2);
+        figure->color(which, 1.2);
         draw_tree(*figure, control, segment);
         draw_disk(*figure, which == 0 ? d.point : last);
         ++which;
@@ -439,7 +429,7 @@ Status ending(const std::filesystem::path& path) {
     draw_state(figure, stage, control, false);
     const std::vector<AxisPoint>& branch =
         control.segments()[static_cast<std::size_t>(d.active)].branch;
-    colored(figure, 1, 2);
+    figure.color(1, 2);
     figure.line(centres(branch));
     const AxisPoint& middle = branch[branch.size() / 2];
     figure.arrow_head(middle.disk.center, middle.tangent);
@@ -460,7 +450,7 @@ Status result(const std::filesystem::path& path, const Contour& contour) {
   Figure figure(stage.frame(0.5));
   figure.ink();
   draw_boundary(figure, stage.boundary);
-  colored(figure, 1, 1.6);
+  figure.color(1, 1.6);
   for (const auto& branch : axis->branches) {
     std::vector<Vec2> line;
     for (const CurveAxisPoint& point : branch) line.push_back(point.disk.center);

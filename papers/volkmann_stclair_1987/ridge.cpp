@@ -336,7 +336,7 @@ std::string rows_table(const std::vector<Row>& rows, const std::string& series) 
 
 std::string report_text(const std::vector<Row>& rows, const Request& request) {
   return fmt::format(
-      "Milliseconds of one thread, of each phase the least of {} rounds.\nThe columns without "
+      "Milliseconds of one thread, of each phase the least of {} round(s).\nThe columns without "
       "another name are the report's own way: sorted list, rule `difference`, 5 degrees.\n\n"
       "## Exponents beside the report's claims (Figs. 19 to 30, Table I)\n\n{}\n"
       "## Number of edges (Figs. 19 to 23)\n\n{}\n## Area (Figs. 24 to 28)\n\n{}\n"
