@@ -377,7 +377,7 @@ TEST(Biarc, JointsSettleOnTheJointCircle) {
   // Arcs of a thousandth: a rounded joint leaves angles of 1e-13, a settled one does not.
   const std::array<Vec2, 3> points = {{{0.7, 0.4}, {1.0, 0.4}, {1.2, 0.5}}};
   const Bezier curve = curve_of(points);
-  PieceFrame frame;
+  PieceCoordinates frame;
   double rounded = 0, settled = 0;
   for (int i = 0; i < 1000; ++i) {
     Station a = station_at(curve, i / 1000.0, curve::Side::after);

@@ -380,8 +380,7 @@ Result<Shape> rebuild(const MedialAxis& axis, const RebuildOptions& options,
     return Error{ErrorCode::invalid_option, "chord is not a number from 0 up", {}};
   const bool by_outline = options.by == RebuildBy::outline;
   const bool of_pixels =
-      by_outline && axis.resolution > 0 && options.points == 0 &&
-      is_of_pixels(axis.method);
+      by_outline && axis.resolution > 0 && options.points == 0 && is_of_pixels(axis.method);
   const bool by_hulls = options.by == RebuildBy::hulls || (by_outline && axis.method == "pack");
   RebuildReport own;
   const auto shape_by_options = [&] {

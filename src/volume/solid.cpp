@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "base/in_flight.h"
-#include "shape/limits.h"
 #include "base/predicates.h"
 #include "medial/volume.h"
+#include "shape/limits.h"
 #include "volume/face_tree.h"
 #include "volume/predicates.h"
 
