@@ -25,6 +25,12 @@ constexpr Vec3 cross(Vec3 a, Vec3 b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 constexpr double squared_norm(Vec3 a) { return dot(a, a); }
+/// The axis along which a vector is longest; of equals the first one.
+constexpr int longest_axis(Vec3 a) {
+  const auto size = [&a](int axis) { return a[axis] < 0 ? -a[axis] : a[axis]; };
+  const int best = size(1) > size(0) ? 1 : 0;
+  return size(2) > size(best) ? 2 : best;
+}
 inline double norm(Vec3 a) { return std::sqrt(dot(a, a)); }
 inline double distance(Vec3 a, Vec3 b) { return norm(a - b); }
 

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <tuple>
 
-#include "base/predicates.h"
 #include "base/threads.h"
+#include "volume/predicates.h"
+#include "volume/topology.h"
 
 namespace medial::volume {
 namespace {
@@ -63,9 +64,7 @@ void add_face(const Triangle& face, std::uint32_t low, std::uint32_t high, Voxel
         cells_of(box.low[axis], box.high[axis], axis == 2 ? low : 0, axis == 2 ? high : size[k]);
   }
   const Vec3 normal = cross(face.corner[1] - face.corner[0], face.corner[2] - face.corner[0]);
-  int main = 0;
-  for (int axis = 1; axis < 3; ++axis)
-    if (std::abs(normal[axis]) > std::abs(normal[main])) main = axis;
+  const int main = longest_axis(normal);
   const int second = (main + 1) % 3, third = (main + 2) % 3;
   const auto index = [](int axis) { return static_cast<std::size_t>(axis); };
   // Over a square of the grid the plane rises by no more than this from its middle.
@@ -99,8 +98,7 @@ struct Crossing {
   double x;
 };
 
-/// Adds the crossings of rows of layers [low, high) with a face. Each crossing of a closed surface
-/// is counted once: a side belongs to the row's line by a rule that does not depend on the face.
+/// Adds the crossings of rows of layers [low, high) with a face.
 void add_crossings(const Triangle& face, std::uint32_t low, std::uint32_t high,
                    const GridSize& size, std::vector<Crossing>& crossings) {
   const Box3 box = face.box();
@@ -110,15 +108,7 @@ void add_crossings(const Triangle& face, std::uint32_t low, std::uint32_t high,
   for (std::uint32_t z = layers.begin; z < layers.end; ++z) {
     for (std::uint32_t y = rows.begin; y < rows.end; ++y) {
       const Vec2 at{y + 0.5, z + 0.5};
-      bool inside = false;
-      for (int i = 0; i < 3; ++i) {
-        Vec2 a{face.corner[i].y, face.corner[i].z};
-        Vec2 b{face.corner[(i + 1) % 3].y, face.corner[(i + 1) % 3].z};
-        if ((a.y > at.y) == (b.y > at.y)) continue;
-        if (a.y > b.y) std::swap(a, b);
-        if (orientation(a, b, at) > 0) inside = !inside;
-      }
-      if (!inside) continue;
+      if (!line_crosses(at, face.corner)) continue;
       // The place along the row need not be exact, see digitize(), but within the face's box.
       const Vec3 origin = face.corner[0];
       const double x =
@@ -165,61 +155,16 @@ Digitized digitize(const Grid& grid, const std::function<bool()>& stop) {
 }
 
 std::vector<BoundedSet> bounded_sets(const VoxelSet& interior) {
-  const auto [width, height, depth] = interior.size();
-  std::vector<CellRun> runs;
-  std::vector<std::uint32_t> parent;
-  const auto find = [&](std::uint32_t i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-  };
-  std::vector<std::uint32_t> below(height + 1, 0), here(height + 1, 0);
-  const auto join = [&](std::uint32_t a, std::uint32_t a_end, std::uint32_t b,
-                        std::uint32_t b_end) {
-    while (a < a_end && b < b_end) {
-      if (runs[a].begin <= runs[b].end && runs[b].begin <= runs[a].end) {
-        const std::uint32_t i = find(a), j = find(b);
-        parent[std::max(i, j)] = std::min(i, j);
-      }
-      runs[a].end < runs[b].end ? ++a : ++b;
-    }
-  };
-  for (std::uint32_t z = 0; z < depth; ++z) {
-    for (std::uint32_t y = 0; y < height; ++y) {
-      here[y] = static_cast<std::uint32_t>(runs.size());
-      for (std::uint32_t block = 0; block * 8 < width; ++block) {
-        for (std::uint32_t bits = interior.row(block, y, z); bits != 0;) {
-          const auto skip = static_cast<std::uint32_t>(std::countr_zero(bits));
-          const auto length = static_cast<std::uint32_t>(std::countr_one(bits >> skip));
-          const std::uint32_t begin = block * 8 + skip;
-          const bool goes_on = runs.size() > here[y] && runs.back().end == begin;
-          if (goes_on) {
-            runs.back().end += length;
-          } else {
-            runs.push_back({begin, begin + length, y, z});
-          }
-          bits &= ~(((1U << length) - 1) << skip);
-        }
-      }
-      const auto end = static_cast<std::uint32_t>(runs.size());
-      for (std::uint32_t i = here[y]; i < end; ++i) parent.push_back(i);
-      if (y > 0) join(here[y], end, here[y - 1], here[y]);
-      if (z == 0) continue;
-      for (std::uint32_t other = y > 0 ? y - 1 : 0; other <= y + 1 && other < height; ++other)
-        join(here[y], end, below[other], below[other + 1]);
-    }
-    here[height] = static_cast<std::uint32_t>(runs.size());
-    std::swap(here, below);
-  }
-
+  auto [runs, parts] = connected_runs(interior, false);
   std::vector<BoundedSet> sets;
   std::vector<std::uint32_t> set_of(runs.size());
   for (std::uint32_t i = 0; i < runs.size(); ++i) {
-    const std::uint32_t root = find(i);  // the lowest of its set, so it comes first
-    if (root == i) {
+    const std::uint32_t first = parts.find(i);
+    if (first == i) {
       set_of[i] = static_cast<std::uint32_t>(sets.size());
       sets.push_back({0, runs[i].z, runs[i].z, {}});
     }
-    BoundedSet& set = sets[set_of[root]];
+    BoundedSet& set = sets[set_of[first]];
     set.voxels += runs[i].end - runs[i].begin;
     set.high = runs[i].z;
     set.runs.push_back(runs[i]);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "volume/grid.h"
+#include "volume/topology.h"
 #include "volume/voxel_set.h"
 
 namespace medial::volume {
@@ -26,11 +27,6 @@ struct Digitized {
 /// Requires two empty layers of cells around the vertices. O(faces x layers / 8 + surface voxels).
 /// `stop` is asked now and then; once it is true, the result means nothing.
 Digitized digitize(const Grid& grid, const std::function<bool()>& stop);
-
-/// Voxels from x = begin to end - 1 of a row.
-struct CellRun {
-  std::uint32_t begin = 0, end = 0, y = 0, z = 0;
-};
 
 /// A set of interior voxels that are connected over 26 neighbours.
 struct BoundedSet {

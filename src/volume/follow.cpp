@@ -17,11 +17,7 @@ MedialVoxel describe(std::uint64_t rank, Vec3 center, const Feet& feet) {
   if (!feet.medial()) return voxel;
   // The distances to the two feet differ most along the difference of the directions to them.
   const Vec3 a = feet.foot[0] - center, b = feet.foot[1] - center;
-  const Vec3 normal = 1 / norm(a) * a - 1 / norm(b) * b;
-  int best = 0;
-  for (int axis = 1; axis < 3; ++axis)
-    if (std::abs(normal[axis]) > std::abs(normal[best])) best = axis;
-  voxel.across = static_cast<std::uint8_t>(best);
+  voxel.across = static_cast<std::uint8_t>(longest_axis(1 / norm(a) * a - 1 / norm(b) * b));
   return voxel;
 }
 
@@ -55,11 +51,15 @@ void RidgeFollower::keep(const Candidate& candidate, const Feet& feet) {
   const Cell cell = cell_of(candidate.rank, grid_.size);
   voxels_.push_back(describe(candidate.rank, center_of(cell), feet));
   medial_.insert(cell);
+  push_neighbours(cell, feet.face[0]);
+}
+
+void RidgeFollower::push_neighbours(Cell cell, std::uint32_t hint) {
   Neighbourhood fresh = interior_.around(cell) & ~checked_.around(cell);
   for (; fresh != 0; fresh &= fresh - 1) {
     const Cell next = neighbour(cell, std::countr_zero(fresh));
     checked_.insert(next);
-    stack_.push_back({rank_of(next, grid_.size), feet.face[0]});
+    stack_.push_back({rank_of(next, grid_.size), hint});
   }
 }
 
@@ -144,15 +144,7 @@ void RidgeFollower::find_islands() {
   std::sort(ranks.begin(), ranks.end());
   ranks.erase(std::unique(ranks.begin(), ranks.end()), ranks.end());
   // A sheet may pass between the voxel and one next to it.
-  for (const std::uint64_t rank : ranks) {
-    const Cell cell = cell_of(rank, grid_.size);
-    Neighbourhood fresh = interior_.around(cell) & ~checked_.around(cell);
-    for (; fresh != 0; fresh &= fresh - 1) {
-      const Cell next = neighbour(cell, std::countr_zero(fresh));
-      checked_.insert(next);
-      stack_.push_back({rank_of(next, grid_.size), 0});
-    }
-  }
+  for (const std::uint64_t rank : ranks) push_neighbours(cell_of(rank, grid_.size), 0);
 }
 
 void RidgeFollower::follow() {

@@ -66,6 +66,8 @@ class RidgeFollower {
   /// The feet of voxels, in their order; in parallel.
   const std::vector<Feet>& test(const std::vector<Candidate>& batch);
   void keep(const Candidate& candidate, const Feet& feet);
+  /// Puts the interior neighbours that were not tested on the stack.
+  void push_neighbours(Cell cell, std::uint32_t hint);
 
   const Grid& grid_;
   const VoxelSet& interior_;

@@ -8,7 +8,6 @@
 #include <limits>
 
 #include "base/predicates.h"
-#include "medial/vec2.h"
 
 // g++ 12 warns, wrongly, of limbs inside cpp_int where its moves are inlined here.
 #if defined(__GNUC__) && !defined(__clang__)
@@ -74,10 +73,7 @@ Vec2 without(int axis, Vec3 p) {
 /// The axis without which the triangle keeps some area, and the sign of it; -1 if there is none.
 int flat_axis(Vec3 a, Vec3 b, Vec3 c) {
   // The largest component of the normal first, for the sake of well shaped triangles.
-  const Vec3 normal = cross(b - a, c - a);
-  int best = 0;
-  for (int axis = 1; axis < 3; ++axis)
-    if (std::abs(normal[axis]) > std::abs(normal[best])) best = axis;
+  const int best = longest_axis(cross(b - a, c - a));
   for (int turn = 0; turn < 3; ++turn) {
     const int axis = (best + turn) % 3;
     if (medial::orientation(without(axis, a), without(axis, b), without(axis, c)) != 0) return axis;
@@ -157,6 +153,17 @@ bool triangles_meet(const Vec3 (&a)[3], const Vec3 (&b)[3]) {
     if (segment_meets_triangle(b[i], b[(i + 1) % 3], a)) return true;
   }
   return false;
+}
+
+bool line_crosses(Vec2 at, const Vec3 (&triangle)[3]) {
+  bool crosses = false;
+  for (int i = 0; i < 3; ++i) {
+    Vec2 a = without(0, triangle[i]), b = without(0, triangle[(i + 1) % 3]);
+    if ((a.y > at.y) == (b.y > at.y)) continue;
+    if (a.y > b.y) std::swap(a, b);
+    if (medial::orientation(a, b, at) > 0) crosses = !crosses;
+  }
+  return crosses;
 }
 
 bool same_side(Vec3 u, Vec3 v, Vec3 a, Vec3 b) {

@@ -2,6 +2,7 @@
 
 // Decisions in space that are exact for all finite coordinates.
 
+#include "medial/vec2.h"
 #include "medial/vec3.h"
 
 namespace medial::volume {
@@ -18,6 +19,11 @@ bool triangles_meet(const Vec3 (&a)[3], const Vec3 (&b)[3]);
 /// Whether the closed segment p, q and the closed triangle have a point in common; a triangle
 /// without area has none. Exact in the same range.
 bool segment_meets_triangle(Vec3 p, Vec3 q, const Vec3 (&triangle)[3]);
+
+/// Whether the line along x through (y, z) = at crosses the triangle. A line that meets a side
+/// crosses one of its two faces, by a rule that depends on the side alone: so each crossing of a
+/// closed surface counts once. Exact.
+bool line_crosses(Vec2 at, const Vec3 (&triangle)[3]);
 
 /// Requires a and b in one plane with the segment u, v: whether they lie on the same side of it.
 bool same_side(Vec3 u, Vec3 v, Vec3 a, Vec3 b);

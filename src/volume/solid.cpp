@@ -280,20 +280,9 @@ std::optional<Error> find_crossing(const Solid& solid, const FaceTree& tree) {
   return found;
 }
 
-/// Whether the ray from p in the direction of +x crosses a face, by the rule that counts each
-/// crossing of a closed surface once: p is not on the face.
+/// Whether the ray from p in the direction of +x crosses a face. Requires p not on the face.
 bool ray_crosses(Vec3 p, const Triangle& face) {
-  const Vec2 at{p.y, p.z};
-  bool inside = false;
-  for (int i = 0; i < 3; ++i) {
-    Vec2 a{face.corner[i].y, face.corner[i].z};
-    Vec2 b{face.corner[(i + 1) % 3].y, face.corner[(i + 1) % 3].z};
-    if ((a.y > at.y) == (b.y > at.y)) continue;
-    if (a.y > b.y) std::swap(a, b);
-    if (orientation(a, b, at) > 0) inside = !inside;
-  }
-  if (!inside) return false;
-  // The face is crossed by the line; on which side of p?
+  if (!volume::line_crosses({p.y, p.z}, face.corner)) return false;
   const auto& [a, b, c] = face.corner;
   const int turn = orientation({a.y, a.z}, {b.y, b.z}, {c.y, c.z});
   return volume::orientation(a, b, c, p) * turn < 0;

@@ -10,15 +10,6 @@
 namespace medial::volume {
 namespace {
 
-constexpr Neighbourhood face_bits = 1U << bit_of(-1, 0, 0) | 1U << bit_of(1, 0, 0) |
-                                    1U << bit_of(0, -1, 0) | 1U << bit_of(0, 1, 0) |
-                                    1U << bit_of(0, 0, -1) | 1U << bit_of(0, 0, 1);
-
-/// The two neighbours across a sheet.
-constexpr std::array<Neighbourhood, 3> across_bits = {
-    1U << bit_of(-1, 0, 0) | 1U << bit_of(1, 0, 0), 1U << bit_of(0, -1, 0) | 1U << bit_of(0, 1, 0),
-    1U << bit_of(0, 0, -1) | 1U << bit_of(0, 0, 1)};
-
 constexpr std::size_t check_every = 1U << 16U;
 
 bool is_excess(const MedialVoxel& voxel, Neighbourhood around, Thinning how) {

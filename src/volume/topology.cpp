@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <numeric>
 
 namespace medial::volume {
 namespace {
@@ -11,7 +10,6 @@ namespace {
 struct Masks {
   std::array<Neighbourhood, 27> near26 = {};  ///< of each place, the others that share a corner
   std::array<Neighbourhood, 27> near6 = {};   ///< that share a face
-  Neighbourhood faces = 0;                    ///< the 6 neighbours of the middle
   Neighbourhood edges = 0;                    ///< its 18 neighbours
 };
 
@@ -20,7 +18,6 @@ constexpr Masks make_masks() {
   for (int i = 0; i < 27; ++i) {
     const int x = i % 3, y = i / 3 % 3, z = i / 9;
     const int away = (x != 1) + (y != 1) + (z != 1);
-    if (away == 1) masks.faces |= 1U << i;
     if (away == 1 || away == 2) masks.edges |= 1U << i;
     for (int j = 0; j < 27; ++j) {
       const int dx = j % 3 - x, dy = j / 3 % 3 - y, dz = j / 9 - z;
@@ -68,44 +65,9 @@ constexpr std::array<std::int8_t, 256> make_euler() {
 
 constexpr std::array<std::int8_t, 256> euler_of = make_euler();
 
-/// Disjoint sets of runs.
-class Unions {
- public:
-  std::uint32_t add() {
-    parent_.push_back(static_cast<std::uint32_t>(parent_.size()));
-    ++parts_;
-    return parent_.back();
-  }
-  std::uint32_t find(std::uint32_t i) {
-    while (parent_[i] != i) {
-      parent_[i] = parent_[parent_[i]];
-      i = parent_[i];
-    }
-    return i;
-  }
-  void join(std::uint32_t i, std::uint32_t j) {
-    i = find(i);
-    j = find(j);
-    if (i == j) return;
-    parent_[std::max(i, j)] = std::min(i, j);
-    --parts_;
-  }
-  std::uint64_t parts() const { return parts_; }
-
- private:
-  std::vector<std::uint32_t> parent_;
-  std::uint64_t parts_ = 0;
-};
-
-struct Run {
-  std::uint32_t begin, end;  ///< x
-  std::uint32_t label;
-};
-
-/// The runs of a row of the set, or of its complement.
-void runs_of(const VoxelSet& set, std::uint32_t y, std::uint32_t z, bool complement,
-             std::vector<Run>& runs) {
-  runs.clear();
+/// Appends the runs of a row of the set, or of its complement.
+void add_runs(const VoxelSet& set, std::uint32_t y, std::uint32_t z, bool complement,
+              std::vector<CellRun>& runs) {
   const std::uint32_t width = set.size()[0];
   bool inside = false;
   for (std::uint32_t block = 0; block * 8 < width; ++block) {
@@ -116,41 +78,12 @@ void runs_of(const VoxelSet& set, std::uint32_t y, std::uint32_t z, bool complem
       if (((bits & 1U) != 0) == inside) continue;
       inside = !inside;
       if (inside) {
-        runs.push_back({x, width, 0});
+        runs.push_back({x, width, y, z});
       } else {
         runs.back().end = x;
       }
     }
   }
-}
-
-/// The number of parts of a set, or of its complement; `reach` is how far apart in x runs of
-/// neighbouring rows may lie, and rows that lie diagonally are neighbours too where it is 1.
-std::uint64_t count_parts(const VoxelSet& set, bool complement, std::uint32_t reach) {
-  const auto [width, height, depth] = set.size();
-  Unions parts;
-  std::vector<std::vector<Run>> below(height), here(height);
-  const auto join_rows = [&](const std::vector<Run>& a, const std::vector<Run>& b) {
-    for (std::size_t i = 0, j = 0; i < a.size() && j < b.size();) {
-      if (a[i].begin < b[j].end + reach && b[j].begin < a[i].end + reach)
-        parts.join(a[i].label, b[j].label);
-      a[i].end < b[j].end ? ++i : ++j;
-    }
-  };
-  for (std::uint32_t z = 0; z < depth; ++z) {
-    for (std::uint32_t y = 0; y < height; ++y) {
-      runs_of(set, y, z, complement, here[y]);
-      for (Run& run : here[y]) run.label = parts.add();
-      if (y > 0) join_rows(here[y], here[y - 1]);
-      if (z == 0) continue;
-      join_rows(here[y], below[y]);
-      if (reach == 0) continue;
-      if (y > 0) join_rows(here[y], below[y - 1]);
-      if (y + 1 < height) join_rows(here[y], below[y + 1]);
-    }
-    std::swap(here, below);
-  }
-  return parts.parts();
 }
 
 std::int64_t euler_characteristic(const VoxelSet& set) {
@@ -186,16 +119,50 @@ bool is_simple(Neighbourhood around) {
   if (set == 0) return false;
   if (flood(set & (~set + 1), set, masks.near26) != set) return false;
   const Neighbourhood outside = ~around & masks.edges;
-  const Neighbourhood beside = outside & masks.faces;
+  const Neighbourhood beside = outside & face_bits;
   if (beside == 0) return false;
   return (beside & ~flood(beside & (~beside + 1), outside, masks.near6)) == 0;
 }
 
+ConnectedRuns connected_runs(const VoxelSet& set, bool complement) {
+  const auto [width, height, depth] = set.size();
+  ConnectedRuns found;
+  auto& [runs, parts] = found;
+  // Runs of the complement touch where they share a face, those of the set where they share a
+  // corner: then they may be one apart in x, and rows that lie diagonally are neighbours, too.
+  const std::uint32_t apart = complement ? 0 : 1;
+  const auto join_rows = [&](std::uint32_t i, std::uint32_t i_end, std::uint32_t j,
+                             std::uint32_t j_end) {
+    while (i < i_end && j < j_end) {
+      if (runs[i].begin < runs[j].end + apart && runs[j].begin < runs[i].end + apart)
+        parts.join(i, j);
+      runs[i].end < runs[j].end ? ++i : ++j;
+    }
+  };
+  // Where the runs of each row of a layer begin.
+  std::vector<std::uint32_t> below(height + 1, 0), here(height + 1, 0);
+  for (std::uint32_t z = 0; z < depth; ++z) {
+    for (std::uint32_t y = 0; y < height; ++y) {
+      const std::uint32_t begin = here[y] = static_cast<std::uint32_t>(runs.size());
+      add_runs(set, y, z, complement, runs);
+      const auto end = static_cast<std::uint32_t>(runs.size());
+      for (std::uint32_t i = begin; i < end; ++i) parts.add();
+      if (y > 0) join_rows(begin, end, here[y - 1], begin);
+      if (z == 0) continue;
+      for (std::uint32_t row = y - std::min(y, apart); row < std::min(y + apart + 1, height); ++row)
+        join_rows(begin, end, below[row], below[row + 1]);
+    }
+    here[height] = static_cast<std::uint32_t>(runs.size());
+    std::swap(here, below);
+  }
+  return found;
+}
+
 VoxelTopology topology_of(const VoxelSet& set) {
   VoxelTopology topology;
-  topology.components = count_parts(set, false, 1);
+  topology.components = connected_runs(set, false).parts.count();
   // The complement has an unbounded part that the border belongs to.
-  topology.cavities = count_parts(set, true, 0) - 1;
+  topology.cavities = connected_runs(set, true).parts.count() - 1;
   topology.tunnels = static_cast<std::int64_t>(topology.components + topology.cavities) -
                      euler_characteristic(set);
   return topology;
