@@ -26,6 +26,15 @@ struct AxisFrame {
   /// K_A; 0 on other samples, which are taken as given.
   double rate_error = 0;
   double bend_error = 0;
+
+  /// The same for somebody who walks against the axis.
+  AxisFrame reversed() const {
+    AxisFrame back = *this;
+    back.tangent = -tangent;
+    back.radius_rate = -radius_rate;
+    back.curvature = -curvature;
+    return back;
+  }
 };
 
 /// The frame at t in [0, 1] of an edge. Where the curve stands still (an edge of length 0) the

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "axis/node_kinds.h"
+#include "axis/steps.h"
 #include "base/disjoint_sets.h"
 #include "medial/query.h"
 
@@ -31,14 +32,9 @@ Incidence::Incidence(const MedialAxis& axis)
 
 namespace {
 
-/// The node where a step begins or ends.
-std::uint32_t head(const MedialAxis& axis, Step step) {
-  return axis.edges[step.edge].node[step.forward ? 1 : 0];
-}
-
 /// The step that continues a chain through a node of degree two.
 Step next_step(const MedialAxis& axis, const Incidence& incidence, Step step) {
-  const std::uint32_t node = head(axis, step);
+  const std::uint32_t node = head_of(axis, step);
   const auto around = incidence.edges(node);
   const std::uint32_t edge = around[0] == step.edge ? around[1] : around[0];
   if (edge == step.edge) return step;  // an edge from the node to itself
@@ -58,7 +54,7 @@ std::vector<Branch> branches(const MedialAxis& axis) {
     Branch branch;
     // Backward from the lowest edge, then turned round; then forward from it.
     const auto extend = [&](Step step) {
-      while (incidence.degree(head(axis, step)) == 2) {
+      while (incidence.degree(head_of(axis, step)) == 2) {
         step = next_step(axis, incidence, step);
         if (used[step.edge]) break;  // once around
         used[step.edge] = true;
@@ -66,13 +62,11 @@ std::vector<Branch> branches(const MedialAxis& axis) {
       }
     };
     extend({lowest.edge, false});
-    std::reverse(branch.steps.begin(), branch.steps.end());
-    for (Step& step : branch.steps) step.forward = !step.forward;
+    reverse(branch.steps);
     branch.steps.push_back(lowest);
     extend(lowest);
-    const Step first = branch.steps.front();
-    branch.from = axis.edges[first.edge].node[first.forward ? 0 : 1];
-    branch.to = head(axis, branch.steps.back());
+    branch.from = tail_of(axis, branch.steps.front());
+    branch.to = head_of(axis, branch.steps.back());
     out.push_back(std::move(branch));
   }
   return out;

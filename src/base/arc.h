@@ -4,11 +4,20 @@
 // that nearly straight arcs are as well-conditioned as others.
 
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 #include "medial/vec2.h"
 
 namespace medial {
+
+/// The angle by which u turns to v: in (-pi, pi], positive to the left.
+inline double signed_angle(Vec2 u, Vec2 v) { return std::atan2(cross(u, v), dot(u, v)); }
+/// The same, always to the left: in [0, 2 pi).
+inline double left_turn(Vec2 u, Vec2 v) {
+  const double angle = signed_angle(u, v);
+  return angle < 0 ? angle + 2 * std::numbers::pi : angle;
+}
 
 /// A circular arc, or a segment where the bulge is 0. Requires start != end.
 struct BulgeArc {
@@ -49,6 +58,12 @@ inline double curvature(const BulgeArc& arc) {
 /// The point of the arc halfway between its ends.
 constexpr Vec2 apex(const BulgeArc& arc) {
   return midpoint(arc.start, arc.end) - (arc.bulge / 2) * left_of(arc.end - arc.start);
+}
+
+/// The length of an arc of the angle 4 atan b over a chord.
+inline double arc_length(double chord, double bulge) {
+  const double b = std::abs(bulge);
+  return b > 0 ? chord * (1 + b * b) * std::atan(b) / b : chord;
 }
 
 /// The bulge of half the arc.

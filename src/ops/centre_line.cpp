@@ -7,6 +7,7 @@
 
 #include "axis/curve.h"
 #include "axis/sites.h"
+#include "axis/steps.h"
 #include "base/arc.h"
 #include "base/numbers.h"
 #include "medial/centreline.h"
@@ -119,16 +120,6 @@ Vec2 ahead_of(const MedialAxis& line, bool at_end) {
     left -= all;
   }
   return last.center - back;
-}
-
-Edge straight_edge(const MedialAxis& line, std::uint32_t from, std::uint32_t to,
-                   std::uint32_t site = no_site) {
-  const Disk &a = line.nodes[from].disk, &b = line.nodes[to].disk;
-  Edge edge{};
-  edge.node = {from, to};
-  edge.site = {site, site};
-  edge.control = {midpoint(a.center, b.center), a.radius + 0.5 * (b.radius - a.radius)};
-  return edge;
 }
 
 void extend(const MedialAxis& axis, MedialAxis& line) {

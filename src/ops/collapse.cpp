@@ -15,8 +15,6 @@
 namespace medial {
 namespace {
 
-using ops::other_end;
-
 /// The axis cut where its radius is half of the width, and which of the edges are wide.
 struct Cut {
   MedialAxis axis;

@@ -12,17 +12,12 @@ namespace {
 
 constexpr double full_turn = 2 * std::numbers::pi;
 
-/// The angle from u to v counter-clockwise, in [0, 2 pi).
-double angle_between(Vec2 u, Vec2 v) {
-  const double angle = std::atan2(cross(u, v), dot(u, v));
-  return angle < 0 ? angle + full_turn : angle;
-}
-
 }  // namespace
 
-HalfEdges::HalfEdges(const MedialAxis& axis) : axis_(axis), next_(2 * axis.edges.size()) {
+HalfEdges::HalfEdges(const MedialAxis& axis, Around order)
+    : axis_(axis), next_(2 * axis.edges.size()) {
   const Incidence incidence(axis);
-  std::vector<std::pair<double, HalfEdge>> leaving;
+  std::vector<HalfEdge> leaving;
   for (std::uint32_t node = 0; node < axis.nodes.size(); ++node) {
     const auto edges = incidence.edges(node);
     leaving.clear();
@@ -30,24 +25,87 @@ HalfEdges::HalfEdges(const MedialAxis& axis) : axis_(axis), next_(2 * axis.edges
       // An edge from a node to itself stands there twice.
       const bool second =
           axis.edges[edges[i]].node[0] != node || (i > 0 && edges[i - 1] == edges[i]);
-      const HalfEdge half = 2 * edges[i] + (second ? 1 : 0);
-      leaving.push_back({edges.size() > 2 ? direction(half) : 0, half});
+      leaving.push_back(2 * edges[i] + (second ? 1 : 0));
     }
-    std::sort(leaving.begin(), leaving.end());
-    for (std::size_t i = 0; i < leaving.size(); ++i)
-      next_[leaving[i].second ^ 1U] = leaving[(i + 1) % leaving.size()].second;
+    if (leaving.size() <= 2) {
+      for (std::size_t i = 0; i < leaving.size(); ++i)
+        next_[twin(leaving[i])] = leaving[leaving.size() - 1 - i];
+    } else if (order == Around::sites) {
+      link_by_site(leaving);
+    } else {
+      link_by_direction(leaving);
+    }
   }
+}
+
+void HalfEdges::link_by_direction(std::span<const HalfEdge> leaving) {
+  std::vector<std::pair<double, HalfEdge>> ends;
+  for (const HalfEdge half : leaving) ends.emplace_back(direction(half), half);
+  std::sort(ends.begin(), ends.end());
+  for (std::size_t i = 0; i < ends.size(); ++i)
+    next_[twin(ends[i].second)] = ends[(i + 1) % ends.size()].second;
+}
+
+/// The boundary between a half edge that arrives and the one that leaves next has one site as a
+/// rule, which pairs them. Where it has two, they follow each other as the feet do.
+void HalfEdges::link_by_site(std::span<const HalfEdge> leaving) {
+  struct End {
+    double key;  // the site, then the angle of its foot
+    HalfEdge half;
+  };
+  std::vector<End> in, out, in_left, out_left;
+  for (const HalfEdge half : leaving) {
+    in.push_back({static_cast<double>(right_site(twin(half))), twin(half)});
+    out.push_back({static_cast<double>(right_site(half)), half});
+  }
+  const auto by_key = [](const End& a, const End& b) {
+    return a.key < b.key || (a.key == b.key && a.half < b.half);
+  };
+  std::sort(in.begin(), in.end(), by_key);
+  std::sort(out.begin(), out.end(), by_key);
+  const auto once = [](const std::vector<End>& ends, std::size_t i) {
+    return (i == 0 || ends[i - 1].key != ends[i].key) &&
+           (i + 1 == ends.size() || ends[i + 1].key != ends[i].key);
+  };
+  std::size_t i = 0, j = 0;
+  while (i < in.size() || j < out.size()) {
+    if (j == out.size() || (i < in.size() && in[i].key < out[j].key)) {
+      in_left.push_back(in[i++]);
+    } else if (i == in.size() || out[j].key < in[i].key) {
+      out_left.push_back(out[j++]);
+    } else if (once(in, i) && once(out, j)) {
+      next_[in[i++].half] = out[j++].half;
+    } else {
+      const double key = in[i].key;
+      while (i < in.size() && in[i].key == key) in_left.push_back(in[i++]);
+      while (j < out.size() && out[j].key == key) out_left.push_back(out[j++]);
+    }
+  }
+  if (in_left.empty()) return;
+  const Vec2 center = disk(leaving[0], false).center;
+  for (auto* ends : {&in_left, &out_left}) {
+    for (End& end : *ends) {
+      const Vec2 touch = foot(axis_.sites[right_site(end.half)], center) - center;
+      end.key = std::atan2(touch.y, touch.x);
+    }
+    std::sort(ends->begin(), ends->end(), by_key);
+  }
+  // The turn of one list against the other that brings the first foot to the nearest one.
+  const auto apart = [&](const End& end) {
+    return std::abs(std::remainder(end.key - in_left[0].key, 2 * std::numbers::pi));
+  };
+  const auto nearest =
+      std::min_element(out_left.begin(), out_left.end(),
+                       [&](const End& a, const End& b) { return apart(a) < apart(b); });
+  const auto shift = static_cast<std::size_t>(nearest - out_left.begin());
+  for (std::size_t k = 0; k < in_left.size(); ++k)
+    next_[in_left[k].half] = out_left[(k + shift) % out_left.size()].half;
 }
 
 AxisFrame HalfEdges::frame(HalfEdge half, bool at_end) const {
   const bool forward = half % 2 == 0;
-  AxisFrame frame = frame_at(axis_, edge(half), forward == at_end ? 1 : 0);
-  if (!forward) {
-    frame.tangent = -frame.tangent;
-    frame.radius_rate = -frame.radius_rate;
-    frame.curvature = -frame.curvature;
-  }
-  return frame;
+  const AxisFrame frame = frame_at(axis_, edge(half), forward == at_end ? 1 : 0);
+  return forward ? frame : frame.reversed();
 }
 
 Vec2 HalfEdges::touch(HalfEdge half, bool at_end) const {
@@ -61,11 +119,10 @@ double HalfEdges::direction(HalfEdge half) const {
   // direction of its own.
   constexpr double apart = 1e-6;  // of the radius
   const Disk& at = disk(half, false);
-  if (exact(half) && exact(half ^ 1U)) {
-    const Vec2 right = touch(half, false) - at.center, left = touch(half ^ 1U, true) - at.center;
+  if (exact(half) && exact(twin(half))) {
+    const Vec2 right = touch(half, false) - at.center, left = touch(twin(half), true) - at.center;
     if (distance(left, right) > apart * at.radius)
-      return std::remainder(std::atan2(right.y, right.x) + angle_between(right, left) / 2,
-                            full_turn);
+      return std::remainder(std::atan2(right.y, right.x) + left_turn(right, left) / 2, full_turn);
     // Both feet in one place: straight towards it where the radius shrinks, or away from it.
     const Disk& other = disk(half, true);
     if (distance(other.center, at.center) <= apart * at.radius) {
@@ -80,13 +137,13 @@ double HalfEdges::direction(HalfEdge half) const {
 double HalfEdges::gap(HalfEdge half) const {
   const HalfEdge after = next_[half];
   // Along one site, the boundary just goes on.
-  if (exact(half) && right_site(half) == right_site(after) && (half ^ 1U) != after) return 0;
+  if (exact(half) && right_site(half) == right_site(after) && twin(half) != after) return 0;
   const Disk& at = disk(half, true);
   const Vec2 begin = touch(half, true), end = touch(after, false);
-  const double slack = std::max(4 * axis_.tolerance, 1e-9 * at.radius);
+  const double slack = slack_of(axis_, at);
   if (at.radius <= slack) return 0;
-  const double angle = angle_between(begin - at.center, end - at.center);
-  const bool around_an_end = (half ^ 1U) == after;
+  const double angle = left_turn(begin - at.center, end - at.center);
+  const bool around_an_end = twin(half) == after;
   constexpr double hardly = 1e-6;
   if (around_an_end && distance(begin, end) <= hardly * at.radius) {
     // Both feet in one place: in front, where the radius shrinks along the edge, and all around is
@@ -100,12 +157,25 @@ double HalfEdges::gap(HalfEdge half) const {
   if (angle <= std::numbers::pi || exact(half) || around_an_end) return angle;
   // Samples: a step backwards, or more than a half circle? The tangents and rates decide: a foot
   // is acos(-R_a) away from the direction in which the axis leaves.
-  const AxisFrame back = frame(half ^ 1U, false), on = frame(after, false);
+  const AxisFrame back = frame(twin(half), false), on = frame(after, false);
   const auto to_foot = [](const AxisFrame& f) {
     return std::acos(std::clamp(-f.radius_rate, -1.0, 1.0));
   };
-  const double expected = angle_between(back.tangent, on.tangent) - to_foot(back) - to_foot(on);
+  const double expected = left_turn(back.tangent, on.tangent) - to_foot(back) - to_foot(on);
   return expected > 0 ? angle : 0;
+}
+
+double slack_of(const MedialAxis& axis, const Disk& disk) {
+  return std::max(4 * axis.tolerance, 1e-9 * disk.radius);
+}
+
+std::array<Vec2, 2> feet_at(const MedialAxis& axis, const Edge& edge, double t, const Disk& disk,
+                            bool by_sites) {
+  if (by_sites)
+    return {foot(axis.sites[edge.site[0]], disk.center),
+            foot(axis.sites[edge.site[1]], disk.center)};
+  const AxisFrame frame = frame_at(axis, edge, t);
+  return {boundary_at(frame, Side::left).point, boundary_at(frame, Side::right).point};
 }
 
 Vec2 touch_of(const MedialAxis& axis, const Site& site, Vec2 center, bool ends) {

@@ -2,7 +2,9 @@
 
 // The way around an axis: with the axis on the left and the boundary on the right.
 
+#include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "medial/axis.h"
@@ -13,12 +15,20 @@ namespace medial::ops {
 
 /// An edge seen from one of its ends: half edge 2 e leaves edge e's node[0], 2 e + 1 its node[1].
 using HalfEdge = std::uint32_t;
+constexpr HalfEdge twin(HalfEdge half) { return half ^ 1U; }
+
+/// By what the half edges around a node are put in order.
+enum class Around : std::uint8_t {
+  directions,  ///< in which they leave
+  /// The sites on their right, of exact axes: short edges have no direction but that of rounding.
+  sites,
+};
 
 /// Keeps a reference to the axis, which must live longer.
 class HalfEdges {
  public:
   /// O(edges log(degree)).
-  explicit HalfEdges(const MedialAxis& axis);
+  explicit HalfEdges(const MedialAxis& axis, Around order = Around::directions);
 
   HalfEdge count() const { return static_cast<HalfEdge>(next_.size()); }
   /// The half edge after one that arrives: the one that leaves next, to the right.
@@ -29,12 +39,27 @@ class HalfEdges {
   const Disk& disk(HalfEdge half, bool at_end) const {
     return axis_.nodes[at_end ? to(half) : from(half)].disk;
   }
+  /// Calls visit(walk) for each closed walk around the axis, a span of its half edges, by
+  /// increasing first half edge.
+  template <class Visit>
+  void each_walk(const Visit& visit) const {
+    std::vector<bool> done(count(), false);
+    std::vector<HalfEdge> walk;
+    for (HalfEdge start = 0; start < count(); ++start) {
+      walk.clear();
+      for (HalfEdge half = start; !done[half]; half = next_[half]) {
+        done[half] = true;
+        walk.push_back(half);
+      }
+      if (!walk.empty()) visit(std::span<const HalfEdge>(walk));
+    }
+  }
 
   /// Whether the right side is known as a site, exactly.
   bool exact(HalfEdge half) const {
     return axis_.resolution == 0 && right_site(half) < axis_.sites.size();
   }
-  std::uint32_t right_site(HalfEdge half) const { return edge(half).site[half % 2 == 0 ? 1 : 0]; }
+  std::uint32_t right_site(HalfEdge half) const { return edge(half).site[1 - half % 2]; }
 
   /// The frame where a half edge begins, or where it ends; in its direction.
   AxisFrame frame(HalfEdge half, bool at_end) const;
@@ -46,12 +71,22 @@ class HalfEdges {
   double gap(HalfEdge half) const;
 
  private:
+  void link_by_direction(std::span<const HalfEdge> leaving);
+  void link_by_site(std::span<const HalfEdge> leaving);
   /// The direction in which a half edge leaves.
   double direction(HalfEdge half) const;
 
   const MedialAxis& axis_;
   std::vector<HalfEdge> next_;
 };
+
+/// Feet of one disk that are apart by no more than this are one.
+double slack_of(const MedialAxis& axis, const Disk& disk);
+
+/// The feet of the disk at t of an edge, on the left and on the right: on the edge's sites, or by
+/// the change of the radius.
+std::array<Vec2, 2> feet_at(const MedialAxis& axis, const Edge& edge, double t, const Disk& disk,
+                            bool by_sites);
 
 /// Where a disk around `center` touches a site whose stretch of the boundary begins or ends there.
 /// Around the centre of an arc, within rounding, it touches all of it: that is its start or end.

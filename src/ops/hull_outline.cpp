@@ -6,9 +6,11 @@
 #include <optional>
 #include <utility>
 
+#include "axis/node_kinds.h"
 #include "base/arc.h"
 #include "base/compat.h"
 #include "base/predicates.h"
+#include "base/random.h"
 #include "ops/half_edges.h"
 
 namespace medial::ops {
@@ -76,7 +78,7 @@ struct Turn {
     const Vec2 back = unit(before.center - disk.center), on = unit(next.center - disk.center);
     here = tangent_of(before, disk, -back);
     after = tangent_of(disk, next, on);
-    double around = std::atan2(cross(back, on), dot(back, on));
+    double around = signed_angle(back, on);
     if (around <= 0 || same_edge) around += turn;
     gap = around - std::acos(-here.rate) - std::acos(after.rate);
     // Once more around the disk covers nothing new.
@@ -150,13 +152,13 @@ std::vector<bool> detach(MedialAxis& axis, double off) {
 std::vector<Ring> outline_of_hulls(const MedialAxis& whole, double chord, std::uint64_t seed) {
   // Disks in whole numbers have tangents that lie on each other; off by nearly nothing they cross.
   const double off = chord / 16;
-  Random random(seed);
+  Random random(seed << 32);
   chord -= 3 * off;  // of moving disks, and of angles that are left out below
   MedialAxis axis;
   axis.nodes = whole.nodes;
   for (Node& node : axis.nodes) {
-    node.disk.center = node.disk.center + off * Vec2{random.next() - 0.5, random.next() - 0.5};
-    node.disk.radius += off / 2 * random.next();
+    node.disk.center = node.disk.center + off * Vec2{random.share() - 0.5, random.share() - 0.5};
+    node.disk.radius += off / 2 * random.share();
   }
   // The hull of two disks of which one holds the other is the larger one.
   for (Edge edge : whole.edges) {
@@ -176,24 +178,19 @@ std::vector<Ring> outline_of_hulls(const MedialAxis& whole, double chord, std::u
   const std::vector<bool> detached = detach(axis, off);
   const HalfEdges halves(axis);
   std::vector<Ring> rings;
-  std::vector<bool> done(halves.count(), false), reached(axis.nodes.size(), false);
-  for (HalfEdge start = 0; start < halves.count(); ++start) {
-    if (done[start]) continue;
+  halves.each_walk([&](std::span<const HalfEdge> walk) {
     Ring ring{{}, RingRole::winding};
-    HalfEdge half = start;
-    do {
-      done[half] = true;
-      reached[halves.from(half)] = true;
+    for (const HalfEdge half : walk) {
       const HalfEdge next = halves.next(half);
       const Disk& disk = halves.disk(half, true);
       const Turn turning(disk, halves.disk(half, false), halves.disk(next, true),
-                         next == (half ^ 1U));
+                         next == twin(half));
       const auto& [here, after, gap, crossing] = turning;
       if (detached[halves.to(half)]) {
         // Not all the way to the feet: others may be there, on the same line to rounding.
         const double most_way = std::sqrt(off * disk.radius);
         const auto short_of = [&](Vec2 foot, Vec2 other) {
-          const double length = distance(foot, other), way = (0.5 + random.next()) * most_way;
+          const double length = distance(foot, other), way = (0.5 + random.share()) * most_way;
           return length > 0 ? foot + std::min(way / length, 0.5) * (other - foot) : foot;
         };
         ring.points.push_back(short_of(here.end, here.begin));
@@ -210,13 +207,13 @@ std::vector<Ring> outline_of_hulls(const MedialAxis& whole, double chord, std::u
       } else {
         ring.points.insert(ring.points.end(), {here.end, disk.center, after.begin});
       }
-      half = next;
-    } while (half != start);
+    }
     if (has_area(ring.points)) rings.push_back(std::move(ring));
-  }
+  });
+  const std::vector<std::uint32_t> degree = degrees_of(axis);
   for (std::size_t i = 0; i < axis.nodes.size(); ++i) {
     const Disk& disk = axis.nodes[i].disk;
-    if (reached[i] || !(disk.radius > 0)) continue;
+    if (degree[i] > 0 || !(disk.radius > 0)) continue;
     Ring& ring = rings.emplace_back();
     ring.role = RingRole::winding;
     ring.points.push_back(disk.center + Vec2{disk.radius, 0});

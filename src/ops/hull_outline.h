@@ -8,23 +8,6 @@
 
 namespace medial::ops {
 
-/// Numbers to move points by nearly nothing, the same ones on every machine: Steele, Lea and
-/// Flood's SplitMix64.
-class Random {
- public:
-  explicit Random(std::uint64_t seed = 0) : state_(seed << 32U) {}
-  /// In [0, 1).
-  double next() {
-    std::uint64_t z = state_ += 0x9E3779B97F4A7C15;
-    z = (z ^ (z >> 30U)) * 0xBF58476D1CE4E5B9;
-    z = (z ^ (z >> 27U)) * 0x94D049BB133111EB;
-    return static_cast<double>((z ^ (z >> 31U)) >> 11U) * 0x1p-53;
-  }
-
- private:
-  std::uint64_t state_;
-};
-
 /// Rings around which the non-zero rule finds the union of the convex hulls of the disks at the
 /// ends of each edge, and of the disks of nodes without edges, within `chord` (positive; or 1e-7
 /// of a disk's radius where there are more than 1024 disks). What the rings wind around, they wind

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <optional>
 
+#include "axis/node_kinds.h"
 #include "base/arc.h"
 
 namespace medial::ops {
@@ -37,7 +38,7 @@ bool touches_all_of(const Site& site, const Disk& disk, double slack) {
 
 /// The angle from u to v, of a walk that goes clockwise: what is not so is rounding.
 double clockwise(Vec2 u, Vec2 v) {
-  const double angle = std::atan2(cross(u, v), dot(u, v));
+  const double angle = signed_angle(u, v);
   return angle > 0.5 * std::numbers::pi ? angle - 2 * std::numbers::pi : angle;
 }
 
@@ -105,11 +106,9 @@ class LevelWalk::RingBuilder {
   /// rounding.
   void close_gap(Vec2 center, Vec2 point, Vec2 to, bool around_an_end, double slack) {
     first_ = point;
-    const Vec2 u = point - center, v = to - center;
-    double angle = std::atan2(cross(u, v), dot(u, v));
+    const double angle = signed_angle(point - center, to - center);
     if (distance(point, to) <= slack || (angle < 0 && !around_an_end)) return add(to, 0);
-    if (angle < 0) angle += 2 * std::numbers::pi;
-    add_turn(center, to, angle);
+    add_turn(center, to, angle < 0 ? angle + 2 * std::numbers::pi : angle);
   }
 
  private:
@@ -152,102 +151,22 @@ class LevelWalk::RingBuilder {
 
 LevelWalk::LevelWalk(const MedialAxis& axis)
     : axis_(axis),
-      next_(2 * axis.edges.size()),
+      halves_(axis, Around::sites),
       rise_(2 * axis.edges.size()),
       risen_(2 * axis.edges.size(), false) {
   lowest_.reserve(axis.edges.size());
   for (const Edge& e : axis.edges) lowest_.push_back(lowest_radius(axis, e) - axis.tolerance);
-  const Incidence incidence(axis);
-  for (std::uint32_t node = 0; node < axis.nodes.size(); ++node) {
-    const auto edges = incidence.edges(node);
-    if (edges.empty()) alone_.push_back(node);
-    link_around(node, edges);
-  }
-  find_faces();
-}
-
-/// After a half edge that arrives, the walk goes on along the one that leaves next, to the right:
-/// the boundary between the two has one site as a rule, which tells them. Where it has two, they
-/// follow each other as the feet do. Directions of edges are not asked for: short ones have none.
-void LevelWalk::link_around(std::uint32_t node, std::span<const std::uint32_t> edges) {
-  std::vector<HalfEdge> leaving;
-  leaving.reserve(edges.size());
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    // An edge from a node to itself stands there twice.
-    const bool second =
-        axis_.edges[edges[i]].node[0] != node || (i > 0 && edges[i - 1] == edges[i]);
-    leaving.push_back(2 * edges[i] + (second ? 1 : 0));
-  }
-  if (leaving.size() <= 2) {
-    for (std::size_t i = 0; i < leaving.size(); ++i)
-      next_[twin(leaving[i])] = leaving[leaving.size() - 1 - i];
-    return;
-  }
-  struct End {
-    double key;  // the site, then the angle of its foot
-    HalfEdge half;
-  };
-  std::vector<End> in, out, in_left, out_left;
-  for (const HalfEdge half : leaving) {
-    in.push_back({static_cast<double>(right_site(twin(half))), twin(half)});
-    out.push_back({static_cast<double>(right_site(half)), half});
-  }
-  const auto by_key = [](const End& a, const End& b) {
-    return a.key < b.key || (a.key == b.key && a.half < b.half);
-  };
-  std::sort(in.begin(), in.end(), by_key);
-  std::sort(out.begin(), out.end(), by_key);
-  const auto once = [](const std::vector<End>& ends, std::size_t i) {
-    return (i == 0 || ends[i - 1].key != ends[i].key) &&
-           (i + 1 == ends.size() || ends[i + 1].key != ends[i].key);
-  };
-  std::size_t i = 0, j = 0;
-  while (i < in.size() || j < out.size()) {
-    if (j == out.size() || (i < in.size() && in[i].key < out[j].key)) {
-      in_left.push_back(in[i++]);
-    } else if (i == in.size() || out[j].key < in[i].key) {
-      out_left.push_back(out[j++]);
-    } else if (once(in, i) && once(out, j)) {
-      next_[in[i++].half] = out[j++].half;
-    } else {
-      const double key = in[i].key;
-      while (i < in.size() && in[i].key == key) in_left.push_back(in[i++]);
-      while (j < out.size() && out[j].key == key) out_left.push_back(out[j++]);
-    }
-  }
-  if (in_left.empty()) return;
-  const Vec2 center = axis_.nodes[node].disk.center;
-  for (auto* ends : {&in_left, &out_left}) {
-    for (End& end : *ends) {
-      const Vec2 touch = foot(axis_.sites[right_site(end.half)], center) - center;
-      end.key = std::atan2(touch.y, touch.x);
-    }
-    std::sort(ends->begin(), ends->end(), by_key);
-  }
-  // The turn of one list against the other that brings the first foot to the nearest one.
-  const auto apart = [&](const End& end) {
-    return std::abs(std::remainder(end.key - in_left[0].key, 2 * std::numbers::pi));
-  };
-  const auto nearest =
-      std::min_element(out_left.begin(), out_left.end(),
-                       [&](const End& a, const End& b) { return apart(a) < apart(b); });
-  const auto shift = static_cast<std::size_t>(nearest - out_left.begin());
-  for (std::size_t k = 0; k < in_left.size(); ++k)
-    next_[in_left[k].half] = out_left[(k + shift) % out_left.size()].half;
-}
-
-void LevelWalk::find_faces() {
-  std::vector<bool> done(next_.size(), false);
-  for (HalfEdge start = 0; start < next_.size(); ++start) {
-    if (done[start]) continue;
-    Face face{start, lowest_[start / 2]};
-    for (HalfEdge half = start; !done[half]; half = next_[half]) {
-      done[half] = true;
+  const std::vector<std::uint32_t> degree = degrees_of(axis);
+  for (std::uint32_t node = 0; node < axis.nodes.size(); ++node)
+    if (degree[node] == 0) alone_.push_back(node);
+  halves_.each_walk([&](std::span<const HalfEdge> walk) {
+    Face face{walk[0], lowest_[walk[0] / 2]};
+    for (const HalfEdge half : walk) {
       face.lowest = std::min(face.lowest, lowest_[half / 2]);
-      if (right_site(half) != right_site(next_[half])) face.last = half;
+      if (halves_.right_site(half) != halves_.right_site(halves_.next(half))) face.last = half;
     }
     faces_.push_back(face);
-  }
+  });
 }
 
 void LevelWalk::bin_crossings(std::span<const double> levels) {
@@ -338,27 +257,27 @@ bool LevelWalk::pass_joints(std::uint32_t before, std::uint32_t after, double le
     return true;
   }
   // A loop's numbers may begin anywhere in between.
-  std::vector<std::uint32_t> run{before}, back{after};
+  std::vector<std::uint32_t> chain{before}, back{after};
   const auto bulges = [&](std::uint32_t site) {
     return site < sites.size() && sites[site].bulge > 0 &&
            curvature(arc_of(sites[site])) * level < 1;
   };
-  while (!joined(run.back(), back.back()) && joined(run.back(), run.back() + 1) &&
-         bulges(run.back() + 1))
-    run.push_back(run.back() + 1);
-  while (!joined(run.back(), back.back()) && joined(back.back() - 1, back.back()) &&
+  while (!joined(chain.back(), back.back()) && joined(chain.back(), chain.back() + 1) &&
+         bulges(chain.back() + 1))
+    chain.push_back(chain.back() + 1);
+  while (!joined(chain.back(), back.back()) && joined(back.back() - 1, back.back()) &&
          bulges(back.back() - 1))
     back.push_back(back.back() - 1);
-  if (!joined(run.back(), back.back())) return false;
-  run.insert(run.end(), back.rbegin(), back.rend());
-  for (std::size_t i = 1; i < run.size(); ++i) {
-    const Site &a = sites[run[i - 1]], &b = sites[run[i]];
+  if (!joined(chain.back(), back.back())) return false;
+  chain.insert(chain.end(), back.rbegin(), back.rend());
+  for (std::size_t i = 1; i < chain.size(); ++i) {
+    const Site &a = sites[chain[i - 1]], &b = sites[chain[i]];
     const auto met = beside_joint(a, b, level);
     const Vec2 tangent =
         a.kind == SiteKind::vertex ? start_tangent(arc_of(b)) : end_tangent(arc_of(a));
     const Vec2 point = met ? *met : a.end + level * left_of(tangent);
     builder.end(point);
-    builder.begin(run[i], point);
+    builder.begin(chain[i], point);
   }
   return true;
 }
@@ -368,7 +287,7 @@ bool LevelWalk::pass_joints(std::uint32_t before, std::uint32_t after, double le
 /// end.
 Vec2 LevelWalk::offset_at(std::uint32_t index, const Disk& disk, double level, Part part) const {
   const Site& site = axis_.sites[index];
-  const Vec2 touch = touches_all_of(site, disk, slack(disk))
+  const Vec2 touch = touches_all_of(site, disk, slack_of(axis_, disk))
                          ? (part == Part::start ? site.start : site.end)
                          : foot(site, disk.center);
   return touch + (level / disk.radius) * (disk.center - touch);
@@ -376,28 +295,28 @@ Vec2 LevelWalk::offset_at(std::uint32_t index, const Disk& disk, double level, P
 
 /// Goes on past the node where a half edge arrives, to what is on the right of the next one.
 void LevelWalk::pass_node(HalfEdge half, double level, RingBuilder& builder) const {
-  const HalfEdge next = next_[half];
-  const std::uint32_t before = right_site(half), after = right_site(next);
-  const Disk& disk = axis_.nodes[to(half)].disk;
+  const HalfEdge next = halves_.next(half);
+  const std::uint32_t before = halves_.right_site(half), after = halves_.right_site(next);
+  const Disk& disk = halves_.disk(half, true);
   if (before == after) return builder.pass(disk.center);
   if (pass_joints(before, after, level, builder)) return;
   const Vec2 p = offset_at(before, disk, level, Part::end);
   const Vec2 q = offset_at(after, disk, level, Part::start);
   builder.end(p);
-  builder.close_gap(disk.center, p, q, twin(half) == next, slack(disk));
+  builder.close_gap(disk.center, p, q, twin(half) == next, slack_of(axis_, disk));
   builder.begin(after, q);
 }
 
 /// The loop that begins where a half edge rises above the level.
 LevelLoop LevelWalk::loop_from(HalfEdge first, double level) {
-  LevelLoop loop{{}, to(first), right_site(first)};
+  LevelLoop loop{{}, halves_.to(first), halves_.right_site(first)};
   RingBuilder builder(axis_, level, loop.ring);
   builder.begin(loop.site, rise_[first]);
   bool risen = true;  // the walk goes on from where the half edge rises, not from its start
   for (HalfEdge half = first;;) {
     if (risen || !falls(half, level)) {
       pass_node(half, level, builder);
-      half = next_[half];
+      half = halves_.next(half);
       risen = false;
       continue;
     }
@@ -406,24 +325,24 @@ LevelLoop LevelWalk::loop_from(HalfEdge first, double level) {
     risen_[half] = false;
     builder.end(rise_[half]);
     if (half == first) return loop;
-    builder.begin(right_site(half), rise_[half]);
+    builder.begin(halves_.right_site(half), rise_[half]);
   }
 }
 
 /// The loop on the right of which a face lies that is nowhere below the level.
 LevelLoop LevelWalk::loop_around(HalfEdge last, double level) const {
-  const HalfEdge first = next_[last];
-  LevelLoop loop{{}, to(first), right_site(first)};
+  const HalfEdge first = halves_.next(last);
+  LevelLoop loop{{}, halves_.to(first), halves_.right_site(first)};
   RingBuilder builder(axis_, level, loop.ring);
-  const bool one_site = right_site(last) == loop.site;
-  const Vec2 start = offset_at(loop.site, axis_.nodes[to(last)].disk, level, Part::start);
+  const bool one_site = halves_.right_site(last) == loop.site;
+  const Vec2 start = offset_at(loop.site, halves_.disk(last, true), level, Part::start);
   if (one_site) {
     builder.begin(loop.site, start);
   } else {  // where the first site's offset begins is known behind what comes before it
     pass_node(last, level, builder);
     loop.ring = {};
   }
-  for (HalfEdge half = first;; half = next_[half]) {
+  for (HalfEdge half = first;; half = halves_.next(half)) {
     pass_node(half, level, builder);
     if (half == last) break;
   }

@@ -11,6 +11,7 @@
 #include "medial/axis.h"
 #include "medial/query.h"
 #include "medial/shape.h"
+#include "ops/half_edges.h"
 
 namespace medial::ops {
 
@@ -21,9 +22,6 @@ struct LevelLoop {
   /// One that the loop is an offset of; no_site for a circle around a node without edges.
   std::uint32_t site = 0;
 };
-
-/// An edge seen from one of its ends: half edge 2 e leaves edge e's node[0], 2 e + 1 its node[1].
-using HalfEdge = std::uint32_t;
 
 /// Walks around an exact axis, the axis on its left and the boundary on its right.
 class LevelWalk {
@@ -51,8 +49,6 @@ class LevelWalk {
   class RingBuilder;
   enum class Part : std::uint8_t { start, end };
 
-  void link_around(std::uint32_t node, std::span<const std::uint32_t> edges);
-  void find_faces();
   void bin_crossings(std::span<const double> levels);
   std::vector<LevelLoop> loops_at(double level, std::size_t k);
   void find_crossing(std::uint32_t edge, double level);
@@ -62,24 +58,16 @@ class LevelWalk {
   bool pass_joints(std::uint32_t before, std::uint32_t after, double level,
                    RingBuilder& builder) const;
   Vec2 offset_at(std::uint32_t site, const Disk& disk, double level, Part part) const;
-  /// Where feet of one disk are apart by no more than this, they are one.
-  double slack(const Disk& disk) const { return std::max(4 * axis_.tolerance, 1e-9 * disk.radius); }
-
-  const Edge& edge(HalfEdge half) const { return axis_.edges[half / 2]; }
-  std::uint32_t from(HalfEdge half) const { return edge(half).node[half % 2]; }
-  std::uint32_t to(HalfEdge half) const { return edge(half).node[1 - half % 2]; }
   double height(std::uint32_t node) const {
     return axis_.nodes[node].disk.radius - axis_.tolerance;
   }
-  std::uint32_t right_site(HalfEdge half) const { return edge(half).site[1 - half % 2]; }
-  static HalfEdge twin(HalfEdge half) { return half ^ 1U; }
   /// Whether a walk along the half edge leaves what is above the level.
   bool falls(HalfEdge half, double level) const {
-    return !(height(to(half)) > level) || !(lowest_[half / 2] > level);
+    return !(height(halves_.to(half)) > level) || !(lowest_[half / 2] > level);
   }
 
   const MedialAxis& axis_;
-  std::vector<HalfEdge> next_;        ///< around the face on the right
+  const HalfEdges halves_;
   std::vector<double> lowest_;        ///< of each edge
   std::vector<Face> faces_;           ///< one for each loop of the boundary that has edges
   std::vector<std::uint32_t> alone_;  ///< nodes without edges

@@ -18,10 +18,6 @@
 namespace medial {
 namespace {
 
-using ops::head_of;
-using ops::other_end;
-using ops::tail_of;
-
 /// The two best ways that hang from a node: how far they reach, and the edges they begin with;
 /// none: the way ends at the node.
 struct Hanging {

@@ -43,7 +43,7 @@ EdgePlace middle_of_flat(const MedialAxis& axis, const Incidence& incidence, Edg
                           ranges::any_of(chain, [edge](Step step) { return step.edge == edge; });
         if (seen || !is_flat(axis, edge)) continue;
         chain.push_back({edge, axis.edges[edge].node[0] == node});
-        node = ops::head_of(axis, chain.back());
+        node = head_of(axis, chain.back());
         before = edge;
         more = true;
         break;

@@ -3,6 +3,7 @@
 #include <numbers>
 #include <optional>
 
+#include "axis/node_kinds.h"
 #include "base/arc.h"
 #include "medial/compute.h"
 #include "medial/sides.h"
@@ -29,27 +30,21 @@ class Outliner {
 
   std::vector<Contour> run() {
     std::vector<Contour> contours;
-    std::vector<bool> done(halves_.count(), false);
-    std::vector<bool> has_edge(axis_.nodes.size(), false);
-    for (HalfEdge start = 0; start < halves_.count(); ++start) {
-      has_edge[halves_.from(start)] = true;
-      if (done[start]) continue;
+    halves_.each_walk([&](std::span<const HalfEdge> walk) {
       pieces_.clear();
-      HalfEdge half = start;
-      do {
-        done[half] = true;
+      for (const HalfEdge half : walk) {
         add_side(half);
         add_gap(half);
-        half = halves_.next(half);
-      } while (half != start);
+      }
       if (joint_) pieces_.front().begin = *joint_;
       joint_.reset();
       join_ends();
       Contour contour = contour_of_pieces();
       if (!contour.pieces.empty()) contours.push_back(std::move(contour));
-    }
+    });
+    const std::vector<std::uint32_t> degree = degrees_of(axis_);
     for (std::uint32_t node = 0; node < axis_.nodes.size(); ++node)
-      if (!has_edge[node]) contours.push_back(circle(axis_.nodes[node].disk));
+      if (degree[node] == 0) contours.push_back(circle(axis_.nodes[node].disk));
     return contours;
   }
 

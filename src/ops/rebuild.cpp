@@ -8,9 +8,12 @@
 #include <utility>
 
 #include "axis/curve.h"
+#include "axis/node_kinds.h"
+#include "axis/steps.h"
 #include "base/arc.h"
 #include "base/compat.h"
 #include "base/numbers.h"
+#include "base/random.h"
 #include "medial/compute.h"
 #include "medial/query.h"
 #include "medial/raster.h"
@@ -24,28 +27,44 @@ namespace {
 using ops::HalfEdge;
 constexpr double pi = std::numbers::pi;
 
-/// The points of an axis that the tangents start from: its ends and branching points, and along
-/// each branch about `step` apart; as a sampled axis of straight edges.
+/// An axis of straight edges between places on the branches of another one, whose ends, branching
+/// points and lone nodes stay.
+class Thinner {
+ public:
+  Thinner(const MedialAxis& axis, double resolution)
+      : axis_(axis), index_(axis.nodes.size(), none) {
+    out_.method = axis.method;
+    out_.tolerance = axis.tolerance;
+    out_.resolution = resolution;
+  }
+  /// A place inside of an edge.
+  std::uint32_t add(const Disk& disk) {
+    out_.nodes.push_back({disk, 0, NodeKind::site_change});
+    return static_cast<std::uint32_t>(out_.nodes.size() - 1);
+  }
+  std::uint32_t node(std::uint32_t i) {
+    if (index_[i] == none) index_[i] = add(axis_.nodes[i].disk);
+    return index_[i];
+  }
+  void connect(std::uint32_t from, std::uint32_t to) {
+    out_.edges.push_back(straight_edge(out_, from, to));
+  }
+  MedialAxis take() {
+    const std::vector<std::uint32_t> degree = degrees_of(axis_);
+    for (std::uint32_t i = 0; i < degree.size(); ++i)
+      if (degree[i] == 0) node(i);
+    return std::move(out_);
+  }
+
+ private:
+  const MedialAxis& axis_;
+  MedialAxis out_;
+  std::vector<std::uint32_t> index_;  ///< of each node: the same in the result
+};
+
+/// The points of an axis that the tangents start from: along each branch about `step` apart.
 MedialAxis sampled(const MedialAxis& axis, double step) {
-  MedialAxis out;
-  out.tolerance = axis.tolerance;
-  out.resolution = step;
-  std::vector<std::uint32_t> index(axis.nodes.size(), none);
-  const auto add = [&](const Disk& disk) {
-    out.nodes.push_back({disk, 0, NodeKind::site_change});
-    return static_cast<std::uint32_t>(out.nodes.size() - 1);
-  };
-  const auto node = [&](std::uint32_t i) {
-    if (index[i] == none) index[i] = add(axis.nodes[i].disk);
-    return index[i];
-  };
-  const auto connect = [&](std::uint32_t a, std::uint32_t b) {
-    const Disk &from = out.nodes[a].disk, &to = out.nodes[b].disk;
-    out.edges.push_back({{a, b},
-                         {no_site, no_site},
-                         {midpoint(from.center, to.center), (from.radius + to.radius) / 2},
-                         1});
-  };
+  Thinner out(axis, step);
   for (const Branch& branch : branches(axis)) {
     double total = 0;
     std::vector<double> lengths;
@@ -56,7 +75,7 @@ MedialAxis sampled(const MedialAxis& axis, double step) {
     // A closed branch needs points to be more than one.
     const double fewest = branch.from == branch.to ? 3 : 1;
     const auto pieces = static_cast<std::uint64_t>(std::max(std::round(total / step), fewest));
-    std::uint32_t last = node(branch.from);
+    std::uint32_t last = out.node(branch.from);
     std::size_t k = 0;
     double walked = 0;
     for (std::uint64_t i = 1; i < pieces; ++i) {
@@ -69,62 +88,39 @@ MedialAxis sampled(const MedialAxis& axis, double step) {
       double t = lengths[k] > 0 ? from_start / lengths[k] : 0;
       const double speed = norm(curve.derivatives(t).first);
       if (speed > 0) t = std::clamp(t + (from_start - curve.length(t)) / speed, 0.0, 1.0);
-      const std::uint32_t here = add(curve.at(t));
-      connect(last, here);
+      const std::uint32_t here = out.add(curve.at(t));
+      out.connect(last, here);
       last = here;
     }
-    connect(last, node(branch.to));
+    out.connect(last, out.node(branch.to));
   }
-  const Incidence incidence(axis);
-  for (std::uint32_t i = 0; i < axis.nodes.size(); ++i)
-    if (incidence.degree(i) == 0) node(i);
-  return out;
+  return out.take();
 }
 
-/// The axis of pixels with fewer of them along its branches; ends and branching points stay. The
-/// disks of two that are h apart and touch one reflex vertex have a hull that reaches past it by
-/// h^2 / 8 r, and between two that touch a boundary curved by 1 / R, R > r, as much is missed: half
-/// a pixel.
+/// The axis of pixels with fewer of them along its branches. The disks of two that are h apart and
+/// touch one reflex vertex have a hull that reaches past it by h^2 / 8 r, and between two that
+/// touch a boundary curved by 1 / R, R > r, as much is missed: half a pixel.
 MedialAxis spaced(const MedialAxis& axis) {
-  MedialAxis out;
-  out.tolerance = axis.tolerance;
-  out.resolution = axis.resolution;
-  out.method = axis.method;
-  std::vector<std::uint32_t> index(axis.nodes.size(), no_site);
-  const auto node = [&](std::uint32_t i) {
-    if (index[i] == no_site) {
-      index[i] = static_cast<std::uint32_t>(out.nodes.size());
-      out.nodes.push_back(axis.nodes[i]);
-    }
-    return index[i];
-  };
-  const auto connect = [&](std::uint32_t a, std::uint32_t b) {
-    const Disk &from = axis.nodes[a].disk, &to = axis.nodes[b].disk;
-    out.edges.push_back({{node(a), node(b)},
-                         {no_site, no_site},
-                         {midpoint(from.center, to.center), (from.radius + to.radius) / 2},
-                         1});
-  };
+  Thinner out(axis, axis.resolution);
   for (const Branch& branch : branches(axis)) {
     std::uint32_t last = branch.from;
     bool alone = branch.from == branch.to;  // a closed branch needs points to be more than one
+    const auto go_to = [&](std::uint32_t node) {
+      const std::uint32_t from = out.node(last);
+      out.connect(from, out.node(node));
+      last = node;
+      alone = false;
+    };
     for (std::size_t k = 0; k + 1 < branch.steps.size(); ++k) {
-      const Step& step = branch.steps[k];
-      const std::uint32_t here = axis.edges[step.edge].node[step.forward ? 1 : 0];
+      const std::uint32_t here = head_of(axis, branch.steps[k]);
       const Disk &from = axis.nodes[last].disk, &to = axis.nodes[here].disk;
       const double apart = distance(from.center, to.center);
-      if (!alone && apart * apart < 4 * axis.resolution * std::min(from.radius, to.radius))
-        continue;
-      connect(last, here);
-      last = here;
-      alone = false;
+      if (alone || apart * apart >= 4 * axis.resolution * std::min(from.radius, to.radius))
+        go_to(here);
     }
-    connect(last, branch.to);
+    go_to(branch.to);
   }
-  const Incidence incidence(axis);
-  for (std::uint32_t i = 0; i < axis.nodes.size(); ++i)
-    if (incidence.degree(i) == 0) node(i);
-  return out;
+  return out.take();
 }
 
 /// How far the disks reach, about.
@@ -158,8 +154,7 @@ MedialAxis contracted(const MedialAxis& axis, double slack) {
       const std::uint32_t at = waiting.back();
       waiting.pop_back();
       for (const std::uint32_t e : incidence.edges(at)) {
-        const auto& ends = axis.edges[e].node;
-        const std::uint32_t other = ends[0] == at ? ends[1] : ends[0];
+        const std::uint32_t other = other_end(axis.edges[e], at);
         const Disk& next = axis.nodes[other].disk;
         if (index[other] != no_site || distance(next.center, disk.center) > slack ||
             std::abs(next.radius - disk.radius) > slack)
@@ -202,13 +197,9 @@ std::vector<Ring> rings_by_tangents(const MedialAxis& samples) {
   const ops::HalfEdges halves(samples);
   const Incidence incidence(samples);
   std::vector<Ring> rings;
-  std::vector<bool> done(halves.count(), false);
-  for (HalfEdge start = 0; start < halves.count(); ++start) {
-    if (done[start]) continue;
+  halves.each_walk([&](std::span<const HalfEdge> walk) {
     Ring ring;
-    HalfEdge half = start;
-    do {
-      done[half] = true;
+    for (const HalfEdge half : walk) {
       const HalfEdge next = halves.next(half);
       const Disk &before = halves.disk(half, false), &here = halves.disk(half, true);
       const Disk& after = halves.disk(next, true);
@@ -218,16 +209,13 @@ std::vector<Ring> rings_by_tangents(const MedialAxis& samples) {
       } else if (degree == 1) {  // an end: around it, from tangent to tangent
         const Vec2 begin = tangent_point(here, before, here),
                    end = tangent_point(here, here, after);
-        const Vec2 u = begin - here.center, v = end - here.center;
-        double angle = std::atan2(cross(u, v), dot(u, v));
-        if (angle < 0) angle += 2 * pi;
+        const double angle = left_turn(begin - here.center, end - here.center);
         if (here.radius > 0) add_corners(here, begin, angle, ring.points);
         ring.points.push_back(end);
       }  // a branching point does nothing
-      half = next;
-    } while (half != start);
+    }
     if (ring.points.size() >= 3) rings.push_back(std::move(ring));
-  }
+  });
   for (std::uint32_t i = 0; i < samples.nodes.size(); ++i) {
     if (incidence.degree(i) > 0) continue;
     const Disk& disk = samples.nodes[i].disk;
@@ -309,8 +297,7 @@ std::vector<std::uint32_t> uncovered(const MedialAxis& axis, double slack) {
     const Disk& disk = axis.nodes[i].disk;
     bool covered = false;
     for (const std::uint32_t e : incidence.edges(i)) {
-      const auto& node = axis.edges[e].node;
-      const std::uint32_t other = node[0] == i ? node[1] : node[0];
+      const std::uint32_t other = other_end(axis.edges[e], i);
       const Disk& larger = axis.nodes[other].disk;
       covered = covered || (keeps[other] && distance(disk.center, larger.center) + disk.radius <=
                                                 larger.radius + slack);
@@ -406,12 +393,12 @@ Result<Shape> rebuild(const MedialAxis& axis, const RebuildOptions& options,
     // by nearly nothing they do not.
     constexpr double calm = 1e-6;
     const double step = calm * extent_of(axis);
-    ops::Random random;
+    Random random(0);
     for (int tries = 0; !shape && tries < 4; ++tries) {
       for (Ring& ring : rings) {
         ring = calmed(ring, step);
         for (Vec2& p : ring.points)
-          p = p + step / 8 * Vec2{random.next() - 0.5, random.next() - 0.5};
+          p = p + step / 8 * Vec2{random.share() - 0.5, random.share() - 0.5};
       }
       std::erase_if(rings, [](const Ring& ring) { return ring.points.size() < 3; });
       shape = shape_of_crossing(rings, shaping);
@@ -427,12 +414,8 @@ Result<DiskImage> rebuild_image(const MedialAxis& axis, std::uint32_t pixels, bo
   if (pixels == 0 || pixels > most)
     return Error{ErrorCode::invalid_option, "the number of pixels is not in 1 to 32768", {}};
   if (axis.nodes.empty()) return Error{ErrorCode::empty, "an axis without nodes", {}};
-  Vec2 low{infinity, infinity}, high = -low;
-  for (const Node& node : axis.nodes) {
-    const auto [c, r] = node.disk;
-    low = {std::min(low.x, c.x - r), std::min(low.y, c.y - r)};
-    high = {std::max(high.x, c.x + r), std::max(high.y, c.y + r)};
-  }
+  const Box box = box_of_disks(axis);
+  const Vec2 low = box.low, high = box.high;
   DiskImage result;
   const double size = std::max(high.x - low.x, high.y - low.y);
   if (!std::isfinite(2 * size * size))

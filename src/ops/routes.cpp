@@ -156,7 +156,7 @@ Result<AxisPath> least_path(const MedialAxis& axis, std::span<const double> cost
     if (!(best < infinity)) return no_way();
     const std::uint32_t end = axis.edges[to.edge].node[last];
     const std::vector<Step> steps = search.way_to(end);
-    const std::uint32_t begin = steps.empty() ? end : ops::tail_of(axis, steps.front());
+    const std::uint32_t begin = steps.empty() ? end : tail_of(axis, steps.front());
     // Of an edge from a node to itself, the cheaper end.
     const auto& at = axis.edges[from.edge].node;
     const bool second = at[0] == at[1] ? starts[1].cost < starts[0].cost : begin == at[1];
@@ -209,7 +209,7 @@ Result<AxisPath> widest_path(const MedialAxis& axis, EdgePlace from, EdgePlace t
     heap.pop_back();
     if (value < clearance[node]) continue;
     for (const std::uint32_t edge : incidence.edges(node))
-      reach(ops::other_end(axis.edges[edge], node), std::min(value, narrowest[edge]));
+      reach(other_end(axis.edges[edge], node), std::min(value, narrowest[edge]));
   }
   double widest = -infinity;
   if (from.edge == to.edge) widest = piece_clearance({from.edge, from.t, to.t});

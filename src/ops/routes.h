@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "axis/steps.h"
 #include "base/numbers.h"
 #include "medial/axis.h"
 #include "medial/centreline.h"
@@ -52,17 +53,6 @@ class Search {
   std::vector<std::uint32_t> reached_;
   std::vector<std::pair<double, std::uint32_t>> heap_;
 };
-
-/// The node at the other end of an edge.
-inline std::uint32_t other_end(const Edge& edge, std::uint32_t node) {
-  return edge.node[0] == node ? edge.node[1] : edge.node[0];
-}
-inline std::uint32_t tail_of(const MedialAxis& axis, Step step) {
-  return axis.edges[step.edge].node[step.forward ? 0 : 1];
-}
-inline std::uint32_t head_of(const MedialAxis& axis, Step step) {
-  return axis.edges[step.edge].node[step.forward ? 1 : 0];
-}
 
 /// Whole edges as a path, with its length and narrowest radius.
 AxisPath path_of(const MedialAxis& axis, std::span<const Step> steps);

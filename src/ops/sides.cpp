@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "axis/curve.h"
+#include "axis/steps.h"
 #include "ops/power_series.h"
 
 namespace medial {
@@ -118,7 +119,7 @@ double weight_at(std::span<const Disk* const> disks, std::size_t at) {
 std::vector<AxisFrame> frames_of_exact_nodes(const MedialAxis& axis, const Branch& branch) {
   std::vector<const Disk*> disks = {&axis.nodes[branch.from].disk};
   for (const Step& step : branch.steps) {
-    const Disk* next = &axis.nodes[axis.edges[step.edge].node[step.forward ? 1 : 0]].disk;
+    const Disk* next = &axis.nodes[head_of(axis, step)].disk;
     if (!(next->center == disks.back()->center)) disks.push_back(next);
   }
   std::vector<AxisFrame> frames;
@@ -227,8 +228,8 @@ std::vector<AxisFrame> frames_along(const MedialAxis& axis, const Branch& branch
   if (axis.resolution > 0 && axis.method == "curve-axis")
     return frames_of_exact_nodes(axis, branch);
   if (axis.resolution > 0) {
-    const auto end_of = [&](const Step& step) -> const Disk& {
-      return axis.nodes[axis.edges[step.edge].node[step.forward ? 1 : 0]].disk;
+    const auto end_of = [&](Step step) -> const Disk& {
+      return axis.nodes[head_of(axis, step)].disk;
     };
     const Disk* before = &axis.nodes[branch.from].disk;
     for (std::size_t i = 0; i + 1 < branch.steps.size(); ++i) {
@@ -248,14 +249,8 @@ std::vector<AxisFrame> frames_along(const MedialAxis& axis, const Branch& branch
     const Edge& edge = axis.edges[step.edge];
     for (int i = 1; i <= samples_per_edge; ++i) {
       const double t = static_cast<double>(i) / (samples_per_edge + 1);
-      AxisFrame frame = frame_at(axis, edge, step.forward ? t : 1 - t);
-      if (frame.tangent == Vec2{0, 0}) continue;
-      if (!step.forward) {  // seen backwards
-        frame.tangent = -frame.tangent;
-        frame.radius_rate = -frame.radius_rate;
-        frame.curvature = -frame.curvature;
-      }
-      frames.push_back(frame);
+      const AxisFrame frame = frame_at(axis, edge, step.forward ? t : 1 - t);
+      if (!(frame.tangent == Vec2{0, 0})) frames.push_back(step.forward ? frame : frame.reversed());
     }
   }
   return frames;

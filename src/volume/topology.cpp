@@ -127,7 +127,8 @@ bool is_simple(Neighbourhood around) {
 ConnectedRuns connected_runs(const VoxelSet& set, bool complement) {
   const auto [width, height, depth] = set.size();
   ConnectedRuns found;
-  auto& [runs, parts] = found;
+  std::vector<CellRun>& runs = found.runs;
+  DisjointSets& parts = found.parts;
   // Runs of the complement touch where they share a face, those of the set where they share a
   // corner: then they may be one apart in x, and rows that lie diagonally are neighbours, too.
   const std::uint32_t apart = complement ? 0 : 1;
