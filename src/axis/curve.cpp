@@ -195,7 +195,7 @@ Curve::Derivatives Curve::derivatives(double t) const {
   return out;
 }
 
-Curve Curve::part(double t0, double t1) const {
+std::pair<Disk, double> Curve::control_between(double t0, double t1) const {
   // Blossoms of the curve in homogeneous coordinates, relative to the origin.
   struct Lifted {
     Vec2 p;
@@ -207,7 +207,7 @@ Curve Curve::part(double t0, double t1) const {
     return Lifted{(1 / w) * (b1 * p1 + b2 * p2), (b0 * r0 + b1 * r1 + b2 * r2) / w, w};
   };
   const Lifted first = blossom(t0, t0), middle = blossom(t0, t1), last = blossom(t1, t1);
-  return {at(t0), {origin + middle.p, middle.r}, at(t1), middle.w / std::sqrt(first.w * last.w)};
+  return {{origin + middle.p, middle.r}, middle.w / std::sqrt(first.w * last.w)};
 }
 
 bool Curve::straight() const {
@@ -314,6 +314,15 @@ double Curve::area_beside_chord() const {
     second = (1 - (1 - z) * first) / z;
   }
   return cross(p1, p2) * (0.125 * (1 + z) * (1 + (1 - z) * first + second));
+}
+
+void add_roots(double a, double b, double c, std::vector<double>& out) {
+  // For u = t / (1 - t), a + 2 b u + c u^2 = 0.
+  const double discriminant = b * b - a * c;
+  if (discriminant < 0) return;
+  const double q = -(b + std::copysign(std::sqrt(discriminant), b));
+  for (const double t : {q / (q + c), a / (a + q)})
+    if (t > 0 && t < 1) out.push_back(t);
 }
 
 Disk disk_at(const MedialAxis& axis, const Edge& edge, double t) {

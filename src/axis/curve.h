@@ -1,5 +1,8 @@
 #pragma once
 
+#include <utility>
+#include <vector>
+
 #include "medial/axis.h"
 
 namespace medial {
@@ -30,8 +33,13 @@ struct Curve {
   /// at(t).center - origin, without the rounding of the addition.
   Vec2 offset(double t) const;
 
-  /// The same curve from t0 to t1: exact, its weight positive. Requires 0 <= t0 <= t1 <= 1.
-  Curve part(double t0, double t1) const;
+  /// The same curve from t0 to t1: exact, its weight positive. Requires t0 and t1 in [0, 1].
+  Curve part(double t0, double t1) const {
+    const auto [control, control_weight] = control_between(t0, t1);
+    return {at(t0), control, at(t1), control_weight};
+  }
+  /// The control point of that part, and its weight.
+  std::pair<Disk, double> control_between(double t0, double t1) const;
 
   /// First and second derivatives by t of offset() and of the radius.
   struct Derivatives {
@@ -56,6 +64,9 @@ struct Curve {
   /// The area between the curve and its chord, positive where the control point lies on the right.
   double area_beside_chord() const;
 };
+
+/// Appends the t in (0, 1) where a (1-t)^2 + 2 b t (1-t) + c t^2 is 0, without cancellation.
+void add_roots(double a, double b, double c, std::vector<double>& out);
 
 inline Curve curve_of(const MedialAxis& axis, const Edge& edge) {
   return {axis.nodes[edge.node[0]].disk, edge.control, axis.nodes[edge.node[1]].disk, edge.weight};

@@ -5,6 +5,7 @@
 
 #include "axis/curve.h"
 #include "base/arc.h"
+#include "base/box_tree.h"
 #include "base/predicates.h"
 #include "base/spatial_order.h"
 #include "medial/query.h"
@@ -13,11 +14,6 @@ namespace medial {
 namespace {
 
 constexpr std::size_t fan_out = 8;
-
-Box hull(const Box& a, const Box& b) {
-  return {{std::min(a.low.x, b.low.x), std::min(a.low.y, b.low.y)},
-          {std::max(a.high.x, b.high.x), std::max(a.high.y, b.high.y)}};
-}
 
 double squared_distance(const Box& box, Vec2 p) {
   const double dx = std::max({box.low.x - p.x, 0.0, p.x - box.high.x});
@@ -36,8 +32,7 @@ Box box_of(const MedialAxis& axis, const Edge& edge) {
 
 }  // namespace
 
-/// A tree without pointers: level 0 holds the boxes of runs of fan_out edges in `order`, every next
-/// level those of fan_out boxes below.
+/// Boxes around fan_out edges each, in spatial order.
 struct AxisLocator::Index {
   const MedialAxis* axis = nullptr;
   std::vector<std::uint32_t> order;
@@ -51,21 +46,8 @@ struct AxisLocator::Index {
       center.push_back(midpoint(box.low, box.high));
     }
     order = spatial_order(center, fan_out);
-    std::vector<Box> boxes;
-    boxes.reserve(order.size());
-    for (const std::uint32_t edge : order) boxes.push_back(box_of(*axis, axis->edges[edge]));
-    while (true) {
-      std::vector<Box> parents;
-      for (std::size_t i = 0; i < boxes.size(); i += fan_out) {
-        Box box = boxes[i];
-        for (std::size_t j = i + 1; j < std::min(i + fan_out, boxes.size()); ++j)
-          box = hull(box, boxes[j]);
-        parents.push_back(box);
-      }
-      levels.push_back(parents);
-      if (parents.size() <= 1) return;
-      boxes = std::move(parents);
-    }
+    levels = bound_levels(order.size(), fan_out,
+                          [this](std::size_t k) { return box_of(*axis, axis->edges[order[k]]); });
   }
 
   /// Visits node `index` of `level`, its children nearest first, unless it is farther than `best`.

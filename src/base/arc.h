@@ -66,6 +66,16 @@ inline double arc_length(double chord, double bulge) {
   return b > 0 ? chord * (1 + b * b) * std::atan(b) / b : chord;
 }
 
+/// The point at a share of the way along the arc.
+inline Vec2 point_at_share(const BulgeArc& arc, double share) {
+  if (share <= 0) return arc.start;
+  if (share >= 1) return arc.end;
+  if (arc.bulge == 0) return arc.start + share * arc.chord();
+  const double half = 2 * share * std::atan(arc.bulge);
+  return arc.start + (2 * std::sin(half) / curvature(arc)) *
+                         turned(start_tangent(arc), std::cos(half), std::sin(half));
+}
+
 /// The bulge of half the arc.
 inline double half_bulge(double bulge) { return bulge / (1 + std::hypot(1.0, bulge)); }
 

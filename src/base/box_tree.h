@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -11,6 +12,29 @@
 #include "medial/box.h"
 
 namespace medial {
+
+/// Bounds of `fan_out` leaves each, then of so many of these, level by level until one is left.
+/// `bound_of` gives the bound of a leaf by its number; a bound can add() another one. O(n).
+template <class BoundOf>
+auto bound_levels(std::size_t count, std::size_t fan_out, const BoundOf& bound_of) {
+  using Bound = std::decay_t<decltype(bound_of(0))>;
+  std::vector<std::vector<Bound>> levels;
+  const auto add_level = [&](std::size_t below, const auto& bound_below) {
+    std::vector<Bound> level;
+    level.reserve((below + fan_out - 1) / fan_out);
+    for (std::size_t i = 0; i < below; i += fan_out) {
+      Bound& all = level.emplace_back(bound_below(i));
+      for (std::size_t k = i + 1; k < std::min(i + fan_out, below); ++k) all.add(bound_below(k));
+    }
+    levels.push_back(std::move(level));
+  };
+  add_level(count, bound_of);
+  while (levels.back().size() > 1) {
+    const std::vector<Bound>& below = levels.back();
+    add_level(below.size(), [&below](std::size_t k) -> const Bound& { return below[k]; });
+  }
+  return levels;
+}
 
 /// Boxes in a tree, for the search of those that meet another one.
 class BoxTree {
@@ -24,16 +48,10 @@ class BoxTree {
     std::vector<Box>& leaves = levels_.emplace_back();
     leaves.reserve(boxes.size());
     for (const std::uint32_t i : order_) leaves.push_back(boxes[i]);
-    while (levels_.back().size() > 1) {
-      const std::vector<Box>& below = levels_.back();
-      std::vector<Box> above;
-      for (std::size_t i = 0; i < below.size(); i += fan_out) {
-        Box all = below[i];
-        for (std::size_t k = i + 1; k < std::min(i + fan_out, below.size()); ++k) all.add(below[k]);
-        above.push_back(all);
-      }
-      levels_.push_back(std::move(above));
-    }
+    if (leaves.size() < 2) return;
+    for (auto& level :
+         bound_levels(order_.size(), fan_out, [&](std::size_t k) { return boxes[order_[k]]; }))
+      levels_.push_back(std::move(level));
   }
 
   /// Calls visit(i) for each box i that meets `query`, which `visit` may shrink. O(log n) for each

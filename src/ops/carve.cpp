@@ -27,22 +27,12 @@ double nearest_share(const BulgeArc& edge, Vec2 p) {
   }
   const double round = curvature(edge);
   const Vec2 center = edge.start + (1 / round) * left_of(start_tangent(edge));
-  const Vec2 u = edge.start - center, v = p - center;
   const double whole = 4 * std::atan(edge.bulge), sign = edge.bulge > 0 ? 1 : -1;
-  double angle = sign * std::atan2(cross(u, v), dot(u, v));
+  double angle = sign * signed_angle(edge.start - center, p - center);
   if (angle < 0) angle += 2 * std::numbers::pi;
   if (angle <= std::abs(whole)) return angle / std::abs(whole);
   return squared_norm(p - edge.start) <= squared_norm(p - edge.end) ? 0 : 1;
 }
-Vec2 point_at(const BulgeArc& edge, double share) {
-  if (share <= 0) return edge.start;
-  if (share >= 1) return edge.end;
-  if (edge.bulge == 0) return edge.start + share * edge.chord();
-  const double half = 2 * share * std::atan(edge.bulge);
-  return edge.start + (2 * std::sin(half) / curvature(edge)) *
-                          turned(start_tangent(edge), std::cos(half), std::sin(half));
-}
-
 BulgeArc edge_of(const Ring& ring, std::size_t i) {
   return {ring.points[i], ring.points[i + 1 == ring.points.size() ? 0 : i + 1],
           ring.bulges.empty() ? 0 : ring.bulges[i]};
@@ -59,7 +49,7 @@ RingPlace nearest_place(const Ring& ring, Vec2 p) {
   for (std::size_t i = 0; i < ring.points.size(); ++i) {
     const BulgeArc edge = edge_of(ring, i);
     const double share = nearest_share(edge, p);
-    const double d = squared_norm(point_at(edge, share) - p);
+    const double d = squared_norm(point_at_share(edge, share) - p);
     if (d < best.squared_distance) best = {i, share, d};
   }
   return best;
@@ -73,7 +63,7 @@ std::vector<ToolPoint> path_from(const Ring& ring, const RingPlace& place, doubl
   const auto bulge_of_share = [&](double part) { return std::tan(part * std::atan(first.bulge)); };
   std::vector<ToolPoint> path;
   path.reserve(count + 2);
-  const Vec2 start = point_at(first, share);
+  const Vec2 start = point_at_share(first, share);
   if (share < 1) path.push_back({start, z, bulge_of_share(1 - share)});
   for (std::size_t k = 1; k < count + (share < 1 ? 0 : 1); ++k) {
     const std::size_t i = (best + k) % count;
@@ -101,7 +91,8 @@ class Planner {
   void add(ToolPathKind kind, std::vector<ToolPoint> points, double reach) {
     if (points.size() < 2) return;
     for (std::size_t i = 0; i + 1 < points.size(); ++i)
-      carving_.cut_length += length(points[i], points[i + 1]);
+      carving_.cut_length +=
+          arc_length(distance(points[i].point, points[i + 1].point), points[i].bulge);
     if (started()) {
       const double way = distance(at(), points.front().point);
       if (way <= reach) {
@@ -122,10 +113,6 @@ class Planner {
   }
 
  private:
-  static double length(const ToolPoint& a, const ToolPoint& b) {
-    const double chord = distance(a.point, b.point), bulge = std::abs(a.bulge);
-    return bulge > 0 ? chord * (1 + bulge * bulge) * std::atan(bulge) / bulge : chord;
-  }
   Carving& carving_;
   std::uint32_t pass_ = 0;
 };
@@ -240,10 +227,8 @@ double unordered_travel(const Offsets& offsets, const ops::Grooves& grooves) {
 Box box_of(const MedialAxis& axis) {
   Box box{axis.nodes[0].disk.center, axis.nodes[0].disk.center};
   for (const Site& site : axis.sites) {
-    for (const Vec2 p : {site.start, site.end}) {
-      box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y)};
-      box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y)};
-    }
+    box.add(site.start);
+    box.add(site.end);
   }
   return box;
 }
@@ -396,7 +381,7 @@ std::vector<ToolPoint> without_arcs(const ToolPath& path, double chord) {
     for (double k = tangents ? 0.5 : 1; k < pieces; k += 1) {
       // In the direction of the chord up to there; a meeting of tangents is further out.
       const double turn = apart * k;
-      const Vec2 on_arc = point_at(arc, k / pieces);
+      const Vec2 on_arc = point_at_share(arc, k / pieces);
       if (!tangents) {
         out.push_back({on_arc, from.z, 0});
         continue;

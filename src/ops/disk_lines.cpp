@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "axis/curve.h"
+#include "axis/node_kinds.h"
 #include "medial/query.h"
 #include "ops/burn.h"
 
@@ -24,8 +25,7 @@ class DiskLiner {
         prune_(prune),
         error_(error),
         junction_of_(axis.nodes.size(), no_site),
-        beyond_(axis.nodes.size(), 0),
-        degree_(axis.nodes.size(), 0) {}
+        beyond_(axis.nodes.size(), 0) {}
 
   DiskGraph run() {
     const std::vector<Branch> all = branches(axis_);
@@ -36,29 +36,18 @@ class DiskLiner {
       fuses.push_back({{branch.from, branch.to}, total});
     }
     const auto start = burn(axis_, fuses);
-    for (const Branch& branch : all)
-      for (const std::uint32_t node : {branch.from, branch.to}) ++degree_[node];
     // What is dropped up to a node reaches beyond its disk; it must be known before lines are
     // drawn.
     std::vector<std::vector<Sample>> kept(all.size());
     for (std::size_t i = 0; i < all.size(); ++i) kept[i] = kept_part(all[i], start[i]);
     chain(all, kept);
-    for (std::uint32_t node = 0; node < axis_.nodes.size(); ++node)
-      if (degree_[node] == 0 && !inside_branch(node))
-        graph_.junctions.push_back(axis_.nodes[node].disk);
+    const std::vector<std::uint32_t> degree = degrees_of(axis_);
+    for (std::size_t node = 0; node < degree.size(); ++node)
+      if (degree[node] == 0) graph_.junctions.push_back(axis_.nodes[node].disk);
     return std::move(graph_);
   }
 
  private:
-  bool inside_branch(std::uint32_t node) {
-    if (inside_.empty()) {
-      inside_.assign(axis_.nodes.size(), false);
-      for (const Edge& edge : axis_.edges)
-        for (const std::uint32_t end : edge.node) inside_[end] = true;
-    }
-    return inside_[node];
-  }
-
   /// The samples of a branch: chords within a share of the error.
   std::vector<Sample> samples_of(const Branch& branch) const {
     std::vector<Sample> samples;
@@ -276,8 +265,6 @@ class DiskLiner {
   DiskGraph graph_;
   std::vector<std::uint32_t> junction_of_;
   std::vector<double> beyond_;
-  std::vector<std::uint32_t> degree_;
-  std::vector<bool> inside_;
 };
 
 }  // namespace

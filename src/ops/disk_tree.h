@@ -4,10 +4,11 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
+#include "base/box_tree.h"
+#include "base/numbers.h"
 #include "base/spatial_order.h"
 #include "medial/axis.h"
 
@@ -30,7 +31,10 @@ class DiskTree {
       Part& tree = parts_.emplace_back();
       for (const std::uint32_t k : spatial_order(places, fan_out))
         tree.disks.push_back(nodes[own[k]].disk);
-      build(tree);
+      tree.levels = bound_levels(tree.disks.size(), fan_out, [&](std::size_t k) {
+        const Disk& disk = tree.disks[k];
+        return Bound{{disk.center, disk.center}, disk.radius};
+      });
     }
   }
 
@@ -59,55 +63,34 @@ class DiskTree {
 
   /// A box around centres, and the largest radius in it.
   struct Bound {
-    Vec2 low, high;
+    Box box;
     double radius = 0;
+
+    void add(const Bound& other) {
+      box.add(other.box);
+      radius = std::max(radius, other.radius);
+    }
   };
   struct Part {
     std::vector<Disk> disks;
     std::vector<std::vector<Bound>> levels;  ///< the last one has one bound
   };
 
-  static void build(Part& tree) {
-    std::vector<Bound> level;
-    for (std::size_t i = 0; i < tree.disks.size(); i += fan_out) {
-      Bound bound{tree.disks[i].center, tree.disks[i].center, tree.disks[i].radius};
-      for (std::size_t k = i; k < std::min(i + fan_out, tree.disks.size()); ++k)
-        join(bound, {tree.disks[k].center, tree.disks[k].center, tree.disks[k].radius});
-      level.push_back(bound);
-    }
-    tree.levels.push_back(std::move(level));
-    while (tree.levels.back().size() > 1) {
-      const std::vector<Bound>& below = tree.levels.back();
-      std::vector<Bound> above;
-      for (std::size_t i = 0; i < below.size(); i += fan_out) {
-        Bound bound = below[i];
-        for (std::size_t k = i + 1; k < std::min(i + fan_out, below.size()); ++k)
-          join(bound, below[k]);
-        above.push_back(bound);
-      }
-      tree.levels.push_back(std::move(above));
-    }
-  }
-  static void join(Bound& bound, const Bound& other) {
-    bound.low = {std::min(bound.low.x, other.low.x), std::min(bound.low.y, other.low.y)};
-    bound.high = {std::max(bound.high.x, other.high.x), std::max(bound.high.y, other.high.y)};
-    bound.radius = std::max(bound.radius, other.radius);
-  }
   /// Below the root of this no disk of the bound lets `disk` vanish; infinite from `limit` on.
   static double least_squared(const Bound& bound, const Disk& disk, double limit) {
     const double more = bound.radius - disk.radius;
-    if (!(more > 0)) return std::numeric_limits<double>::infinity();
+    if (!(more > 0)) return infinity;
     const Vec2 p = disk.center;
-    const double dx = std::max(std::max(bound.low.x - p.x, p.x - bound.high.x), 0.0);
-    const double dy = std::max(std::max(bound.low.y - p.y, p.y - bound.high.y), 0.0);
+    const auto& [low, high] = bound.box;
+    const double dx = std::max(std::max(low.x - p.x, p.x - high.x), 0.0);
+    const double dy = std::max(std::max(low.y - p.y, p.y - high.y), 0.0);
     const double far = dx * dx + dy * dy, square = more * more;
     // Most are far too far away: that is told without a division.
-    return far < limit * square ? far / square : std::numeric_limits<double>::infinity();
+    return far < limit * square ? far / square : infinity;
   }
   static double factor(const Disk& disk, const Disk& other) {
     const double more = other.radius - disk.radius;
-    return more > 0 ? distance(other.center, disk.center) / more
-                    : std::numeric_limits<double>::infinity();
+    return more > 0 ? distance(other.center, disk.center) / more : infinity;
   }
   struct Search {
     const Part& tree;

@@ -6,11 +6,14 @@
 #include <numeric>
 
 #include "axis/curve.h"
+#include "axis/node_kinds.h"
+#include "axis/steps.h"
 #include "base/arc.h"
 #include "base/disjoint_sets.h"
 #include "medial/query.h"
 #include "medial/sides.h"
 #include "ops/burn.h"
+#include "ops/half_edges.h"
 #include "ops/runs.h"
 
 namespace medial {
@@ -26,37 +29,32 @@ struct Feet {
   std::array<Vec2, 2> right;
 };
 
-std::uint32_t node_at(const MedialAxis& axis, const Step& step, bool end) {
-  return axis.edges[step.edge].node[step.forward == end ? 1 : 0];
-}
-
-/// The site on one side of a step, if the axis is exact and tells it.
+/// The site on one side of a step, if the axis is exact and knows it.
 const Site* site_beside(const MedialAxis& axis, const Step& step, Side side) {
   const Edge& edge = axis.edges[step.edge];
   const std::uint32_t site = edge.site[(side == Side::left) == step.forward ? 0 : 1];
   return axis.resolution == 0 && site < axis.sites.size() ? &axis.sites[site] : nullptr;
 }
 
-/// The frame at an end of a step, in its direction.
-AxisFrame frame_of(const MedialAxis& axis, const Step& step, bool end) {
-  AxisFrame frame = frame_at(axis, axis.edges[step.edge], step.forward == end ? 1 : 0);
-  if (!step.forward) {
-    frame.tangent = -frame.tangent;
-    frame.radius_rate = -frame.radius_rate;
-    frame.curvature = -frame.curvature;
-  }
-  return frame;
+/// The direction in which a step begins or ends.
+Vec2 tangent_at(const MedialAxis& axis, const Step& step, bool end) {
+  const Vec2 tangent = frame_at(axis, axis.edges[step.edge], step.forward == end ? 1 : 0).tangent;
+  return step.forward ? tangent : -tangent;
 }
 
-std::array<Vec2, 2> touches(const MedialAxis& axis, const Step& step, Side side) {
-  std::array<Vec2, 2> out;
-  const Site* site = site_beside(axis, step, side);
-  for (const bool end : {false, true}) {
-    out[end ? 1 : 0] = site != nullptr
-                           ? foot(*site, axis.nodes[node_at(axis, step, end)].disk.center)
-                           : boundary_at(frame_of(axis, step, end), side).point;
+Feet feet_of(const MedialAxis& axis, const Step& step) {
+  const bool by_sites = site_beside(axis, step, Side::left) != nullptr &&
+                        site_beside(axis, step, Side::right) != nullptr;
+  Feet feet;
+  for (const std::size_t end : {0U, 1U}) {
+    const std::uint32_t node = end == 1 ? head_of(axis, step) : tail_of(axis, step);
+    const auto [first, second] =
+        ops::feet_at(axis, axis.edges[step.edge], step.forward == (end == 1) ? 1 : 0,
+                     axis.nodes[node].disk, by_sites);
+    feet.left[end] = step.forward ? first : second;
+    feet.right[end] = step.forward ? second : first;
   }
-  return out;
+  return feet;
 }
 
 /// The way along the boundary between two feet on one site: length, and the area beside the chord.
@@ -70,15 +68,7 @@ Way way_between(const Site* site, Vec2 from, Vec2 to) {
   if (site == nullptr || site->kind != SiteKind::arc || !(chord > 0)) return {chord, 0};
   const BulgeArc whole{site->start, site->end, site->bulge};
   const BulgeArc part{from, to, partial_bulge(whole, from, to)};
-  const double b = std::abs(part.bulge);
-  const double length = b > 0 ? chord * (1 + b * b) * std::atan(b) / b : chord;
-  return {length, area_beside_chord(part)};
-}
-
-/// A sector of a disk between two of its points, counter-clockwise by less than half a turn.
-double sector_angle(const Disk& disk, Vec2 from, Vec2 to) {
-  const Vec2 u = from - disk.center, v = to - disk.center;
-  return std::atan2(cross(u, v), dot(u, v));
+  return {arc_length(chord, part.bulge), area_beside_chord(part)};
 }
 
 class Describer {
@@ -98,9 +88,7 @@ class Describer {
 
  private:
   void find_points() {
-    degree_.assign(axis_.nodes.size(), 0);
-    for (const Edge& edge : axis_.edges)
-      for (const std::uint32_t node : edge.node) ++degree_[node];
+    degree_ = degrees_of(axis_);
     features_.points.reserve(degree_.size());
     for (const std::uint32_t d : degree_) {
       const PointKind kind = d < 2    ? PointKind::end
@@ -127,10 +115,7 @@ class Describer {
     out.branch = index;
     out.reversed = runs_backwards(branch);
     way_.assign(branch.steps.begin(), branch.steps.end());
-    if (out.reversed) {
-      std::reverse(way_.begin(), way_.end());
-      for (Step& step : way_) step.forward = !step.forward;
-    }
+    if (out.reversed) reverse(way_);
     out.from = out.reversed ? branch.to : branch.from;
     out.to = out.reversed ? branch.from : branch.to;
     out.from_kind = features_.points[out.from];
@@ -161,11 +146,11 @@ class Describer {
     const auto first = std::find_if(way_.begin(), way_.end(),
                                     [edge](const Step& step) { return step.edge == edge; });
     std::rotate(way_.begin(), first, way_.end());
-    out.from = out.to = node_at(axis_, way_.front(), false);
+    out.from = out.to = tail_of(axis_, way_.front());
   }
 
-  AxisPlace place_of(const ops::Spot& spot) const {
-    return {spot.edge, spot.t, disk_at(axis_, axis_.edges[spot.edge], spot.t)};
+  AxisPlace place_of(const EdgePlace& place) const {
+    return {place.edge, place.t, disk_at(axis_, axis_.edges[place.edge], place.t)};
   }
 
   void add_run(const Run& run) {
@@ -194,11 +179,11 @@ class Describer {
     Feet before, first;
     for (std::size_t i = 0; i < way_.size(); ++i) {
       const Step& step = way_[i];
-      const Feet feet{touches(axis_, step, Side::left), touches(axis_, step, Side::right)};
+      const Feet feet = feet_of(axis_, step);
       const Site* left = site_beside(axis_, step, Side::left);
       const Site* right = site_beside(axis_, step, Side::right);
-      const Disk& from = axis_.nodes[node_at(axis_, step, false)].disk;
-      const Vec2 along = axis_.nodes[node_at(axis_, step, true)].disk.center - from.center;
+      const Disk& from = axis_.nodes[tail_of(axis_, step)].disk;
+      const Vec2 along = axis_.nodes[head_of(axis_, step)].disk.center - from.center;
       const Vec2 r0 = feet.right[0] - from.center, r1 = feet.right[1] - from.center;
       const Vec2 l0 = feet.left[0] - from.center, l1 = feet.left[1] - from.center;
       const Way way_right = way_between(right, feet.right[0], feet.right[1]);
@@ -234,22 +219,17 @@ class Describer {
       add_gap(disk, before.right[1], first.right[0], out.side[1], out);
       add_gap(disk, first.left[0], before.left[1], out.side[0], out);
     }
-    cover(out.from, frame_of(axis_, start, false).tangent, first.right[0], first.left[0], out);
-    cover(out.to, -frame_of(axis_, end, true).tangent, before.left[1], before.right[1], out);
+    cover(out.from, tangent_at(axis_, start, false), first.right[0], first.left[0], out);
+    cover(out.to, -tangent_at(axis_, end, true), before.left[1], before.right[1], out);
     features_.boundary += out.side[0].length + out.side[1].length;
     features_.area += out.area;
-  }
-
-  double slack(const Disk& disk) const {
-    constexpr double rounding = 1e-9;
-    return std::max(4 * axis_.tolerance, rounding * disk.radius);
   }
 
   /// Where a disk touches an arc from one foot to the next, counter-clockwise, inside a branch.
   void add_gap(const Disk& disk, Vec2 from, Vec2 to, BoundarySection& section,
                BranchFeatures& out) const {
-    if (from == to || distance(from, to) <= slack(disk)) return;
-    const double angle = sector_angle(disk, from, to);
+    if (from == to || distance(from, to) <= ops::slack_of(axis_, disk)) return;
+    const double angle = signed_angle(from - disk.center, to - disk.center);
     section.length += std::max(angle, 0.0) * disk.radius;
     out.area += 0.5 * angle * disk.radius * disk.radius;
   }
@@ -266,16 +246,14 @@ class Describer {
       return std::atan2(std::abs(cross(u, direction)), dot(u, direction));
     };
     double angle = opening(right) + opening(left);
-    if (direction == Vec2{0, 0}) {  // an edge without length
-      angle = sector_angle(disk, right, left);
-      if (angle < 0) angle += 2 * std::numbers::pi;
-    }
+    if (direction == Vec2{0, 0})  // an edge without length
+      angle = left_turn(right - disk.center, left - disk.center);
     if (kind == PointKind::branching) {
       covered_[node] += angle;
       return;
     }
     angle = 2 * std::numbers::pi - angle;
-    if (angle * disk.radius <= slack(disk)) return;
+    if (angle * disk.radius <= ops::slack_of(axis_, disk)) return;
     out.area += 0.5 * angle * disk.radius * disk.radius;
     features_.boundary += angle * disk.radius;
   }
@@ -321,9 +299,7 @@ class Describer {
   void add_whole() {
     DisjointSets parts(axis_.nodes.size());
     for (const Edge& edge : axis_.edges) parts.join(edge.node[0], edge.node[1]);
-    features_.components = 0;
-    for (std::uint32_t i = 0; i < axis_.nodes.size(); ++i)
-      features_.components += parts.find(i) == i ? 1 : 0;
+    features_.components = parts.count();
     features_.cycles = axis_.edges.size() + features_.components - axis_.nodes.size();
     for (std::size_t i = 0; i < axis_.nodes.size(); ++i) {
       const Disk& disk = axis_.nodes[i].disk;
@@ -331,7 +307,7 @@ class Describer {
       const double angle = 2 * std::numbers::pi - covered_[i];
       // What is left of the disks at branching points, and shapes that are one disk.
       if (degree_[i] == 1 || degree_[i] == 2) continue;
-      if (angle * disk.radius <= slack(disk)) continue;
+      if (angle * disk.radius <= ops::slack_of(axis_, disk)) continue;
       features_.area += 0.5 * angle * disk.radius * disk.radius;
       features_.boundary += angle * disk.radius;
     }

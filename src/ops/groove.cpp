@@ -7,86 +7,34 @@
 #include <unordered_map>
 
 #include "axis/curve.h"
+#include "base/numbers.h"
+#include "medial/box.h"
 
 namespace medial::ops {
 namespace {
 
-/// A point of (x, y, r) space.
-struct Point {
-  Vec2 p;
-  double r = 0;
-};
-Point mix(const Point& a, double wa, const Point& b, double wb) {
-  const double sum = wa + wb;
-  return {(1 / sum) * (wa * a.p + wb * b.p), (wa * a.r + wb * b.r) / sum};
-}
-double dot3(const Point& a, const Point& b) { return dot(a.p, b.p) + a.r * b.r; }
-Point minus(const Point& a, const Point& b) { return {a.p - b.p, a.r - b.r}; }
-
-/// A rational quadratic with end weights 1, relative to an origin.
-struct Conic {
-  Point p0, p1, p2;
-  double w = 1;
-
-  std::array<Conic, 2> split(double t) const {
-    const double s = 1 - t, w01 = s + t * w, w12 = s * w + t;
-    const double middle = s * w01 + t * w12, root = std::sqrt(middle);
-    const Point a = mix(p0, s, p1, t * w), b = mix(p1, s * w, p2, t);
-    const Point m = mix(a, s * w01, b, t * w12);
-    return {{{p0, a, m, w01 / root}, {m, b, p2, w12 / root}}};
-  }
-  /// The part between two parameters.
-  Conic part(double t0, double t1) const {
-    if (t1 < 1) {
-      const Conic first = split(t1)[0];
-      // In standard form the parameter moves: t' / (1 - t') = t / (1 - t) scaled by end weights.
-      if (t0 <= 0) return first;
-      const double s1 = 1 - t1;
-      const double end = s1 * (s1 + t1 * w) + t1 * (s1 * w + t1);  // weight at t1
-      const double u = t0 / t1;  // of the whole part, before its end weight became 1
-      const double v = u * std::sqrt(end) / ((1 - u) + u * std::sqrt(end));
-      return first.split(v)[1];
-    }
-    return t0 > 0 ? split(t0)[1] : *this;
-  }
-  /// The largest distance from the chord: that of the point at t = 1/2.
-  double deviation() const {
-    const Point chord = minus(p2, p0), aside = minus(p1, p0);
-    const double size = dot3(chord, chord);
-    const double along = size > 0 ? dot3(aside, chord) / size : 0;
-    const Point off{aside.p - along * chord.p, aside.r - along * chord.r};
-    // A control point beyond the chord's ends turns the curve back.
-    const double beyond = std::max({0.0, -along, along - 1}) * std::sqrt(size);
-    return w / (1 + w) * (std::sqrt(dot3(off, off)) + beyond);
-  }
-};
-
-/// The parameters in (0, 1) where the radius is `level`.
-void add_crossings(const MedialAxis& axis, const Edge& edge, double level,
-                   std::vector<double>& out) {
-  const double a = axis.nodes[edge.node[0]].disk.radius - level;
-  const double b = edge.weight * (edge.control.radius - level);
-  const double c = axis.nodes[edge.node[1]].disk.radius - level;
-  const double square = b * b - a * c;
-  if (!(square >= 0)) return;
-  // a s^2 + 2 b s t + c t^2 = 0: t / s = numerator / denominator, twice.
-  const double q = -(b + std::copysign(std::sqrt(square), b));
-  for (const auto& [numerator, denominator] : {std::pair(q, c), std::pair(a, q)}) {
-    if (numerator == 0 || denominator == 0 || (numerator > 0) != (denominator > 0)) continue;
-    const double t = numerator / (numerator + denominator);
-    if (t > 0 && t < 1) out.push_back(t);
-  }
+/// How far a curve departs from its chord in (x, y, r): most at t = 1/2.
+double deviation(const Curve& curve) {
+  const double rise = curve.r2 - curve.r0, control_rise = curve.r1 - curve.r0;
+  const double size = squared_norm(curve.p2) + rise * rise;
+  const double along = size > 0 ? (dot(curve.p1, curve.p2) + control_rise * rise) / size : 0;
+  const Vec2 off = curve.p1 - along * curve.p2;
+  const double off_rise = control_rise - along * rise;
+  // A control point beyond the chord's ends turns the curve back.
+  const double beyond = std::max({0.0, -along, along - 1}) * std::sqrt(size);
+  return curve.weight / (1 + curve.weight) *
+         (std::sqrt(squared_norm(off) + off_rise * off_rise) + beyond);
 }
 
-void sample(const Conic& conic, double chord, int depth, std::vector<Point>& out) {
+/// Appends the ends of chords of a curve, all but its first point.
+void sample(const Curve& curve, double chord, int depth, std::vector<Disk>& out) {
   constexpr int deepest = 20;
-  if (conic.deviation() <= chord || depth == deepest) {
-    out.push_back(conic.p2);
+  if (deviation(curve) <= chord || depth == deepest) {
+    out.push_back({curve.end, curve.r2});
     return;
   }
-  const auto halves = conic.split(0.5);
-  sample(halves[0], chord, depth + 1, out);
-  sample(halves[1], chord, depth + 1, out);
+  sample(curve.part(0, 0.5), chord, depth + 1, out);
+  sample(curve.part(0.5, 1), chord, depth + 1, out);
 }
 
 }  // namespace
@@ -96,19 +44,12 @@ Grooves grooves_of(const MedialAxis& axis, double least, double most, double cho
   grooves.junctions = static_cast<std::uint32_t>(axis.nodes.size());
   const double slack = axis.tolerance;
   std::vector<double> cuts;
-  std::vector<Point> points;
   for (const Edge& edge : axis.edges) {
-    const Disk& first = axis.nodes[edge.node[0]].disk;
-    const Disk& last = axis.nodes[edge.node[1]].disk;
-    const Vec2 origin = first.center;
-    const Conic whole{{{0, 0}, first.radius},
-                      {edge.control.center - origin, edge.control.radius},
-                      {last.center - origin, last.radius},
-                      edge.weight};
-    cuts.assign({0.0});
-    add_crossings(axis, edge, least, cuts);
-    if (std::isfinite(most)) add_crossings(axis, edge, most, cuts);
-    cuts.push_back(1.0);
+    const Curve whole = curve_of(axis, edge);
+    cuts.assign({0.0, 1.0});
+    for (const double level : {least, most})
+      if (std::isfinite(level))
+        add_roots(whole.r0 - level, whole.weight * (whole.r1 - level), whole.r2 - level, cuts);
     std::sort(cuts.begin(), cuts.end());
     std::uint32_t junction = edge.node[0];
     for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
@@ -116,21 +57,16 @@ Grooves grooves_of(const MedialAxis& axis, double least, double most, double cho
       const std::uint32_t from = junction;
       junction = t1 == 1 ? edge.node[1] : grooves.junctions++;
       if (!(t0 < t1)) continue;
-      const double middle = curve_of(axis, edge).at(0.5 * (t0 + t1)).radius;
+      const double middle = whole.at(0.5 * (t0 + t1)).radius;
       if (!(middle >= least - slack && middle <= most + slack)) continue;
-      const Conic part = whole.part(t0, t1);
-      points.assign({part.p0});
-      double lower = 0;
-      if (part.deviation() > slack) {
-        lower = std::sqrt(2.0) * chord;
-        sample(part, chord, 0, points);
-      } else {
-        points.push_back(part.p2);
-      }
+      const Curve part = t1 - t0 < 1 ? whole.part(t0, t1) : whole;
       Groove& groove = grooves.parts.emplace_back();
       groove.from = from;
       groove.to = junction;
-      for (const Point& p : points) groove.disks.push_back({origin + p.p, p.r - lower});
+      groove.disks.push_back({part.origin, part.r0});
+      const bool curved = deviation(part) > slack;
+      sample(part, curved ? chord : infinity, 0, groove.disks);
+      for (Disk& disk : groove.disks) disk.radius -= curved ? std::sqrt(2.0) * chord : 0;
     }
   }
   return grooves;
@@ -144,17 +80,14 @@ class OpenEnds {
   /// `all`: what may ever be put in.
   OpenEnds(const std::vector<Vec2>& places, const std::vector<std::uint32_t>& all)
       : places_(places) {
-    Vec2 low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-    Vec2 high = -low;
-    for (const std::uint32_t m : all) {
-      low = {std::min(low.x, places[m].x), std::min(low.y, places[m].y)};
-      high = {std::max(high.x, places[m].x), std::max(high.y, places[m].y)};
-    }
-    low_ = low;
+    Box box = Box::nothing();
+    for (const std::uint32_t m : all) box.add(places[m]);
+    low_ = box.low;
+    const Vec2 size = box.high - box.low;
     const double count = std::max<double>(1, static_cast<double>(all.size()));
-    const double extent = std::max(high.x - low.x, high.y - low.y);
+    const double extent = std::max(size.x, size.y);
     side_ = extent > 0 ? extent / std::ceil(std::sqrt(count)) : 1;
-    last_ = {column(high.x - low.x), column(high.y - low.y)};
+    last_ = {column(size.x), column(size.y)};
   }
   bool empty() const { return count_ == 0; }
   void insert(std::uint32_t m) {
@@ -173,7 +106,7 @@ class OpenEnds {
   std::uint32_t nearest(Vec2 p) const {
     const std::int64_t x = std::clamp<std::int64_t>(column(p.x - low_.x), 0, last_[0]);
     const std::int64_t y = std::clamp<std::int64_t>(column(p.y - low_.y), 0, last_[1]);
-    double best = std::numeric_limits<double>::infinity();
+    double best = infinity;
     std::uint32_t found = 0;
     const std::int64_t reach = std::max(last_[0], last_[1]) + 1;
     for (std::int64_t ring = 0; ring <= reach; ++ring) {

@@ -15,12 +15,6 @@ namespace {
 constexpr double pi = std::numbers::pi;
 constexpr double degrees = 180 / pi;
 
-/// The length of an arc with this chord and bulge: chord (1 + b^2) atan(b) / b.
-double arc_length(double chord, double bulge) {
-  const double b = std::abs(bulge);
-  return b > 0 ? chord * (1 + b * b) * (std::atan(b) / b) : chord;
-}
-
 /// a / b, but finite.
 double share(double a, double b) {
   return a <= 0 ? 0 : std::min(a / b, std::numeric_limits<double>::max());
@@ -97,10 +91,9 @@ void Importance::sum_up() {
 Importance::Feet Importance::feet(const Edge& edge, double t, const Disk& disk) const {
   const auto [left, right] = edge.site;
   const std::size_t sites = axis_.sites.size();
-  if (left < sites && right < sites && left != right)
-    return {foot(axis_.sites[left], disk.center), foot(axis_.sites[right], disk.center)};
-  const AxisFrame frame = frame_at(axis_, edge, t);
-  return {boundary_at(frame, Side::left).point, boundary_at(frame, Side::right).point};
+  const auto [on_left, on_right] =
+      feet_at(axis_, edge, t, disk, left < sites && right < sites && left != right);
+  return {on_left, on_right};
 }
 
 void Importance::add_sides(std::uint32_t e, double t0, double t1, Beyond& sum) const {
@@ -116,8 +109,8 @@ void Importance::add_sides(std::uint32_t e, double t0, double t1, Beyond& sum) c
       return {touch_of(axis_, axis_.sites[edge.site[0]], disk.center, !at_last),
               touch_of(axis_, axis_.sites[edge.site[1]], disk.center, at_last)};
     }
-    const AxisFrame frame = frame_at(axis_, edge, t);
-    return {boundary_at(frame, Side::left).point, boundary_at(frame, Side::right).point};
+    const auto [left, right] = feet_at(axis_, edge, t, disk, false);
+    return {left, right};
   };
   const Feet from = points(t0, first), to = points(t1, last);
   // Around the piece on the right, counter-clockwise: out along the first radius, along the
@@ -169,8 +162,7 @@ double Importance::lost_area(const Edge& edge, bool outer_first, double t, const
   Feet f = feet(edge, t, disk);
   if (outer_first) std::swap(f.left, f.right);  // outwards is against the edge
   const Vec2 right = f.right - disk.center, left = f.left - disk.center;
-  double angle = std::atan2(cross(right, left), dot(right, left));
-  if (angle < 0) angle += 2 * pi;
+  double angle = left_turn(right, left);
   if (distance(left, right) <= apart * disk.radius) {
     const double rate = curve_of(axis_, edge).derivatives(t).radius_first;
     angle = (rate > 0) == outer_first ? 0 : 2 * pi;

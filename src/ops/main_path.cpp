@@ -14,6 +14,7 @@
 #include "base/compat.h"
 #include "base/numbers.h"
 #include "ops/routes.h"
+#include "ops/trees.h"
 
 namespace medial {
 namespace {
@@ -46,7 +47,7 @@ class MainPaths {
   std::vector<AxisPath> run() {
     lengths_.resize(axis_.edges.size());
     for (std::size_t i = 0; i < lengths_.size(); ++i) lengths_[i] = length(axis_, axis_.edges[i]);
-    take_off_leaves();
+    take_off_hanging();
     std::vector<AxisPath> paths;
     std::vector<bool> seen(axis_.nodes.size(), false);
     for (std::uint32_t node = 0; node < axis_.nodes.size(); ++node) {
@@ -58,30 +59,19 @@ class MainPaths {
   }
 
  private:
-  void take_off_leaves() {
+  void take_off_hanging() {
     hanging_.resize(axis_.nodes.size());
-    degree_.resize(axis_.nodes.size());
-    std::vector<std::uint32_t> leaves;
-    for (std::uint32_t node = 0; node < axis_.nodes.size(); ++node) {
-      const double radius = axis_.nodes[node].disk.radius;
-      hanging_[node].reach = {radius, radius};
-      degree_[node] = incidence_.degree(node);
-      if (degree_[node] == 1) leaves.push_back(node);
+    for (std::size_t i = 0; i < hanging_.size(); ++i) {
+      const double radius = axis_.nodes[i].disk.radius;
+      hanging_[i].reach = {radius, radius};
     }
     taken_.assign(axis_.edges.size(), false);
-    while (!leaves.empty()) {
-      const std::uint32_t leaf = leaves.back();
-      leaves.pop_back();
-      if (degree_[leaf] != 1) continue;  // the last node of a tree
-      degree_[leaf] = 0;
-      for (const std::uint32_t edge : incidence_.edges(leaf)) {
-        if (taken_[edge]) continue;
-        taken_[edge] = true;
-        const std::uint32_t next = other_end(axis_.edges[edge], leaf);
-        hanging_[next].add(hanging_[leaf].reach[0] + lengths_[edge], edge);
-        if (--degree_[next] == 1) leaves.push_back(next);
-      }
-    }
+    degree_ = ops::take_off_leaves(
+        axis_, [](std::uint32_t) { return false; },
+        [this](std::uint32_t edge, std::uint32_t leaf, std::uint32_t inner) {
+          taken_[edge] = true;
+          hanging_[inner].add(hanging_[leaf].reach[0] + lengths_[edge], edge);
+        });
   }
 
   /// The connected part around a node, and of it the core.
@@ -111,18 +101,12 @@ class MainPaths {
     std::uint32_t top = part_.front();
     for (const std::uint32_t node : part_)
       if (hanging_[node].both() > hanging_[top].both()) top = node;
-    std::vector<Step> steps;
     double gap = 0;
     const auto [from, to] = core_.empty() ? std::pair(top, top) : farthest(top, gap);
-    if (from == to) {
-      steps = hanging_way(from, 1);
-    } else {
-      steps = hanging_way(from, 0);
-    }
-    ranges::reverse(steps);
-    for (Step& step : steps) step.forward = !step.forward;
-    if (from != to) ranges::copy(core_way(from, to), std::back_inserter(steps));
-    ranges::copy(hanging_way(to, 0), std::back_inserter(steps));
+    std::vector<Step> steps = hanging_way(from, from == to ? 1 : 0);
+    reverse(steps);
+    if (from != to) std::ranges::copy(core_way(from, to), std::back_inserter(steps));
+    std::ranges::copy(hanging_way(to, 0), std::back_inserter(steps));
     AxisPath path = ops::path_of(axis_, trimmed(std::move(steps)));
     path.gap = gap;
     return path;
@@ -250,8 +234,8 @@ class MainPaths {
   std::vector<Step> trimmed(std::vector<Step> steps) const {
     if (!(options_.trim > 0) || steps.empty()) return steps;
     const std::size_t first = overhang(steps);
-    std::vector<Step> back(steps.rbegin(), steps.rend());
-    for (Step& step : back) step.forward = !step.forward;
+    std::vector<Step> back = steps;
+    reverse(back);
     const std::size_t last = overhang(back);
     if (first + last >= steps.size()) return steps;
     return {steps.begin() + static_cast<std::ptrdiff_t>(first),
@@ -263,8 +247,8 @@ class MainPaths {
   const Incidence incidence_;
   std::vector<double> lengths_;
   std::vector<Hanging> hanging_;
-  std::vector<std::size_t> degree_;  ///< in the core; 0: hanging, or the last node of a tree
-  std::vector<bool> taken_;          ///< edges that hang
+  std::vector<std::uint32_t> degree_;  ///< in the core; 0: hanging, or the last node of a tree
+  std::vector<bool> taken_;            ///< edges that hang
   std::vector<std::uint32_t> part_, core_;
   std::size_t part_edges_ = 0;
 };

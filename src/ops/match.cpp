@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "axis/curve.h"
+#include "medial/box.h"
 #include "medial/query.h"
 #include "ops/burn.h"
 
@@ -197,12 +198,9 @@ double mean_difference(const ShapeSignature::Quantiles& a, const ShapeSignature:
 
 /// The diagonal of a loop's box: its arcs bulge by half of their chords at most.
 double extent_of(const Shape& shape, std::size_t loop) {
-  Vec2 low = shape.loop(loop)[0], high = low;
-  for (const Vec2 p : shape.loop(loop)) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-  }
-  return distance(low, high);
+  Box box = Box::nothing();
+  for (const Vec2 p : shape.loop(loop)) box.add(p);
+  return distance(box.low, box.high);
 }
 
 }  // namespace

@@ -7,9 +7,10 @@
 #include <numbers>
 
 #include "axis/curve.h"
+#include "axis/node_kinds.h"
 #include "base/quadrature.h"
 #include "medial/query.h"
-#include "medial/sides.h"
+#include "ops/half_edges.h"
 #include "ops/measure.h"
 
 namespace medial {
@@ -19,14 +20,8 @@ LocalWidth width_at(const MedialAxis& axis, EdgePlace place, bool forward) {
   const Edge& edge = axis.edges[place.edge];
   LocalWidth out;
   out.disk = disk_at(axis, edge, place.t);
-  const bool named = edge.site[0] < axis.sites.size() && edge.site[1] < axis.sites.size();
-  if (named && axis.resolution == 0) {
-    for (std::size_t i = 0; i < 2; ++i)
-      out.feet[i] = foot(axis.sites[edge.site[i]], out.disk.center);
-  } else {
-    const AxisFrame frame = frame_at(axis, edge, place.t);
-    out.feet = {boundary_at(frame, Side::left).point, boundary_at(frame, Side::right).point};
-  }
+  const bool named = std::max(edge.site[0], edge.site[1]) < axis.sites.size();
+  out.feet = feet_at(axis, edge, place.t, out.disk, named && axis.resolution == 0);
   if (!forward) std::swap(out.feet[0], out.feet[1]);
   return out;
 }
@@ -144,12 +139,9 @@ std::vector<LocalWidth> widths_along(const MedialAxis& axis, const AxisPath& pat
 MeanWidth mean_width(const MedialAxis& axis, const AxisPath& path) {
   // A node of n edges adds what its disk has between the spokes: with the terms left by the
   // integrals, pi (1 - n / 2) r^2 to the area.
-  std::vector<std::uint32_t> degree(axis.nodes.size(), 0);
+  const std::vector<std::uint32_t> degree = degrees_of(axis);
   Sums all;
-  for (const Edge& edge : axis.edges) {
-    for (const std::uint32_t node : edge.node) ++degree[node];
-    all += integral(curve_of(axis, edge), 0, 1);
-  }
+  for (const Edge& edge : axis.edges) all += integral(curve_of(axis, edge), 0, 1);
   for (std::size_t i = 0; i < axis.nodes.size(); ++i) {
     const double r = axis.nodes[i].disk.radius;
     const double share = std::numbers::pi * (1 - 0.5 * degree[i]) * r * r;

@@ -53,8 +53,7 @@ EdgePlace middle_of_flat(const MedialAxis& axis, const Incidence& incidence, Edg
   const Edge& own = axis.edges[place.edge];
   if (is_flat(axis, place.edge)) {
     follow(own.node[0], place.edge);
-    ranges::reverse(chain);
-    for (Step& step : chain) step.forward = !step.forward;
+    reverse(chain);
     chain.push_back({place.edge, true});
     follow(own.node[1], place.edge);
   } else {

@@ -402,9 +402,7 @@ double length(const OffsetRegion& region) {
   for (const Ring& ring : region.rings) {
     for (std::size_t i = 0; i < ring.points.size(); ++i) {
       const Vec2 chord = ring.points[i + 1 == ring.points.size() ? 0 : i + 1] - ring.points[i];
-      const double bulge = ring.bulges.empty() ? 0 : std::abs(ring.bulges[i]);
-      // An arc of the angle 4 atan b has the radius chord (1 + b^2) / (4 b).
-      sum += norm(chord) * (bulge > 0 ? (1 + bulge * bulge) * std::atan(bulge) / bulge : 1);
+      sum += arc_length(norm(chord), ring.bulges.empty() ? 0 : ring.bulges[i]);
     }
   }
   return sum;

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "axis/node_kinds.h"
+#include "axis/steps.h"
 #include "base/arc.h"
 #include "base/compat.h"
 #include "ops/code_bytes.h"
@@ -189,14 +190,6 @@ class AxisDecoder {
     return static_cast<std::uint32_t>(axis.nodes.size() - 1);
   }
 
-  static void add_edge(MedialAxis& axis, std::uint32_t from, std::uint32_t to) {
-    const Disk &a = axis.nodes[from].disk, &b = axis.nodes[to].disk;
-    axis.edges.push_back({{from, to},
-                          {no_site, no_site},
-                          {midpoint(a.center, b.center), a.radius + 0.5 * (b.radius - a.radius)},
-                          1});
-  }
-
   bool read_axis(MedialAxis& axis) {
     const auto roots = structure_.number();
     if (!roots) return false;
@@ -233,19 +226,19 @@ class AxisDecoder {
       if (!read_disk(last)) return false;
       const auto node = add_node(axis, last);
       if (!node) return false;
-      add_edge(axis, before, *node);
+      axis.edges.push_back(straight_edge(axis, before, *node));
       before = *node;
     }
     if (closes) {
       const auto end = structure_.number();
       if (!end || *end >= junctions.size()) return false;
-      add_edge(axis, before, junctions[*end]);
+      axis.edges.push_back(straight_edge(axis, before, junctions[*end]));
       return true;
     }
     if (!read_disk(last)) return false;
     const auto node = add_node(axis, last);
     if (!node) return false;
-    add_edge(axis, before, *node);
+    axis.edges.push_back(straight_edge(axis, before, *node));
     stack.push_back(static_cast<std::uint32_t>(junctions.size()));
     junctions.push_back(*node);
     place.push_back(last);
@@ -284,15 +277,9 @@ Result<ShapeCode> encode_axes(std::span<const MedialAxis> axes, const PackOption
   if (!(quantum >= std::numeric_limits<float>::min())) return too_small();
   // What rounding, and chords when disks become polygons, leave for the polylines.
   const double left = (1 - chord_share) * options.error - rounding * static_cast<double>(quantum);
-  Vec2 low = axes.empty() || axes[0].nodes.empty() ? Vec2{} : axes[0].nodes[0].disk.center,
-       high = low;
-  for (const MedialAxis& axis : axes)
-    for (const Node& node : axis.nodes) {
-      const auto& [center, radius] = node.disk;
-      low = {std::min(low.x, center.x - radius), std::min(low.y, center.y - radius)};
-      high = {std::max(high.x, center.x + radius), std::max(high.y, center.y + radius)};
-    }
-  if (options.error < smallest_error * distance(low, high)) return too_small();
+  Box box = Box::nothing();
+  for (const MedialAxis& axis : axes) box.add(box_of_disks(axis));
+  if (options.error < smallest_error * distance(box.low, box.high)) return too_small();
   ShapeCode code;
   ops::put_number(code[0], code_version);
   put_float(code[0], quantum);
@@ -344,13 +331,7 @@ Result<ShapeCode> encode_boundary(std::span<const Shape> shapes, double error) {
         const double sagitta = 0.5 * std::abs(arc.bulge) * norm(arc.chord());
         const int pieces =
             std::clamp(static_cast<int>(std::ceil(std::sqrt(16 * sagitta / left))), 1, 4096);
-        const double angle = 4 * std::atan(arc.bulge);
-        for (int i = 1; i < pieces; ++i) {
-          const double part = angle * i / pieces;
-          const double scale = std::sin(part / 2) / std::sin(angle / 2);
-          const double turn = (part - angle) / 2;
-          points.push_back(arc.start + scale * turned(arc.chord(), std::cos(turn), std::sin(turn)));
-        }
+        for (double i = 1; i < pieces; ++i) points.push_back(point_at_share(arc, i / pieces));
       }
       points.push_back(points.front());
       const auto excess = [&](std::uint32_t i, std::uint32_t first, std::uint32_t end) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <tuple>
 
 #include "axis/curve.h"
 #include "axis/node_kinds.h"
@@ -17,29 +18,6 @@
 
 namespace medial {
 namespace {
-
-/// The rational function of an edge's radius less `clearance`, times its denominator:
-/// a (1-t)^2 + 2 b t (1-t) + c t^2.
-struct Excess {
-  double a, b, c;
-  Excess(const MedialAxis& axis, const Edge& edge, double clearance)
-      : a(axis.nodes[edge.node[0]].disk.radius - clearance),
-        b(edge.weight * (edge.control.radius - clearance)),
-        c(axis.nodes[edge.node[1]].disk.radius - clearance) {}
-};
-
-/// A point between the ends of an edge, by the homogeneous blossom at two parameters; coordinates
-/// are relative to the edge's first node.
-struct Lifted {
-  double x, y, r, w;
-};
-
-Lifted blossom(const Curve& curve, double s, double t) {
-  const double b0 = (1 - s) * (1 - t), b1 = (1 - s) * t + s * (1 - t), b2 = s * t;
-  const double w1 = b1 * curve.weight;
-  return {w1 * curve.p1.x + b2 * curve.p2.x, w1 * curve.p1.y + b2 * curve.p2.y,
-          b0 * curve.r0 + w1 * curve.r1 + b2 * curve.r2, b0 + w1 + b2};
-}
 
 /// The direction in which disks leave the boundary at a foot; 0 where a vertex leaves it open.
 Vec2 inward_at(const Site& site, Vec2 foot, Vec2 p) {
@@ -66,10 +44,6 @@ std::pair<double, double> crossing_of(const Curve& curve, Vec2 foot, Vec2 inward
     ((beside(t) < 0) == (at_low < 0) ? low : high) = t;
   return {high, 0};
 }
-
-}  // namespace
-
-namespace {
 
 /// The place of the smallest radius (sign 1) or of the largest (sign -1).
 EdgePlace extreme_place(const MedialAxis& axis, std::uint32_t edge, double sign) {
@@ -108,10 +82,8 @@ MedialAxis part_of(const MedialAxis& axis, std::span<const PathPiece> pieces) {
   part.sites = axis.sites;
   std::vector<std::uint32_t> node_of(axis.nodes.size(), none);
   std::map<std::pair<std::uint32_t, double>, std::uint32_t> inner_node_of;
-  std::vector<std::uint32_t> degree;
   const auto add_node = [&](const Node& node) {
     part.nodes.push_back(node);
-    degree.push_back(0);
     return static_cast<std::uint32_t>(part.nodes.size() - 1);
   };
   const auto node_at = [&](std::uint32_t edge, double t) {
@@ -133,48 +105,34 @@ MedialAxis part_of(const MedialAxis& axis, std::span<const PathPiece> pieces) {
     Edge edge = axis.edges[piece.edge];
     const Curve curve = curve_of(axis, edge);
     edge.node = {node_at(piece.edge, piece.from), node_at(piece.edge, piece.to)};
-    for (const std::uint32_t node : edge.node) ++degree[node];
-    const bool whole = std::abs(piece.to - piece.from) == 1;
-    if (!whole) {
-      const double from = blossom(curve, piece.from, piece.from).w;
-      const double to = blossom(curve, piece.to, piece.to).w;
-      const Lifted middle = blossom(curve, piece.from, piece.to);
-      edge.control = {curve.origin + (1 / middle.w) * Vec2{middle.x, middle.y},
-                      middle.r / middle.w};
-      edge.weight = middle.w / std::sqrt(from * to);
-    }
+    if (std::abs(piece.to - piece.from) != 1)
+      std::tie(edge.control, edge.weight) = curve.control_between(piece.from, piece.to);
     if (piece.from > piece.to) std::swap(edge.site[0], edge.site[1]);
     part.edges.push_back(edge);
   }
-  for (std::size_t i = 0; i < part.nodes.size(); ++i) {
-    part.nodes[i].kind = kind_of_degree(degree[i]);
-  }
+  set_node_kinds(part);
   return part;
 }
 
 namespace ops {
 
 std::vector<PathPiece> wide_pieces(const MedialAxis& axis, std::uint32_t index, double clearance) {
-  const auto [a, b, c] = Excess(axis, axis.edges[index], clearance);
-  const double discriminant = b * b - a * c;
-  if (a < 0 && c < 0 && !(b > 0 && discriminant > 0)) return {};
-  // The roots as t = u / (1 + u), where c u^2 + 2 b u + a = 0: without cancellation.
-  const double q = std::abs(b) + std::sqrt(std::max(discriminant, 0.0));
-  if (a < 0 && c < 0) return {{index, a / (a - q), q / (q - c)}};  // rises, then falls
-  if (a >= 0 && c >= 0) {
-    if (!(b < 0 && discriminant > 0)) return {{index, 0, 1}};
-    std::vector<PathPiece> pieces;
-    const double first = a / (a + q), second = q / (q + c);
-    if (first > 0) pieces.push_back({index, 0, first});
-    if (second < 1) pieces.push_back({index, second, 1});
-    return pieces;
-  }
-  if (a >= 0) {  // falls through
-    const double t = b <= 0 ? a / (a + q) : q / (q - c);
-    return t > 0 ? std::vector<PathPiece>{{index, 0, t}} : std::vector<PathPiece>{};
-  }
-  const double t = b <= 0 ? q / (q + c) : -a / (q - a);
-  return t < 1 ? std::vector<PathPiece>{{index, t, 1}} : std::vector<PathPiece>{};
+  // The radius less `clearance`, times the denominator of the curve.
+  const Edge& edge = axis.edges[index];
+  const double a = axis.nodes[edge.node[0]].disk.radius - clearance;
+  const double b = edge.weight * (edge.control.radius - clearance);
+  const double c = axis.nodes[edge.node[1]].disk.radius - clearance;
+  std::vector<double> cuts{0};
+  add_roots(a, b, c, cuts);
+  std::sort(cuts.begin(), cuts.end());
+  if (cuts.size() == 3 && cuts[1] == cuts[2]) cuts.resize(1);  // touches it
+  cuts.push_back(1);
+  // Just behind its start, the edge is wide by the first number that is not 0.
+  bool wide = a != 0 ? a > 0 : b != 0 ? b > 0 : c >= 0;
+  std::vector<PathPiece> pieces;
+  for (std::size_t i = 0; i + 1 < cuts.size(); ++i, wide = !wide)
+    if (wide) pieces.push_back({index, cuts[i], cuts[i + 1]});
+  return pieces;
 }
 
 }  // namespace ops

@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "axis/curve.h"
+#include "base/arc.h"
+#include "base/numbers.h"
 
 namespace medial::ops {
 namespace {
-
-constexpr std::uint32_t no_index = 0xFFFFFFFF;
 
 /// Gauss and Legendre's rule of four points on [0, 1].
 constexpr std::array<double, 4> abscissa{0.06943184420297371, 0.3300094782075719,
@@ -24,8 +23,6 @@ constexpr int probes = 16;
 constexpr double zero_share = 1e-7;
 /// In tolerances: the direction of a piece of so little length is rounding's.
 constexpr double rounding = 64;
-
-double signed_angle(Vec2 a, Vec2 b) { return std::atan2(cross(a, b), dot(a, b)); }
 
 /// Whether radius and direction are linear along an edge: two segments, or samples.
 bool is_linear(const MedialAxis& axis, const Edge& edge) {
@@ -78,22 +75,12 @@ Signs signs_at(const Curve& curve, double t) {
   return {sign_of(scale * bend), turn == 0 ? 0 : sign_of(turn > 0 ? growth : -growth)};
 }
 
-/// The places in (0, 1) where the radius is level: roots of the quadratic Bernstein polynomial with
-/// coefficients w (r1 - r0), (r2 - r0) / 2, w (r2 - r1), which has the derivative's sign. One
+/// The places in (0, 1) where the radius is level: there, its derivative's numerator is 0. One
 /// beside an end is that end, to rounding: a piece between them would have no direction.
 void add_level_places(const Curve& curve, std::vector<double>& out) {
-  const double a = curve.weight * (curve.r1 - curve.r0);
-  const double b = 0.5 * (curve.r2 - curve.r0);
-  const double c = curve.weight * (curve.r2 - curve.r1);
-  const auto add = [&out](double t) {
-    if (t > zero_share && t < 1 - zero_share) out.push_back(t);
-  };
-  const double discriminant = b * b - a * c;
-  if (!(discriminant > 0) || (a > 0 && b > 0 && c > 0) || (a < 0 && b < 0 && c < 0)) return;
-  // a s^2 + 2 b s t + c t^2 = 0 for q = t / s: the root of larger size first, then the other one.
-  const double sum = -(b + std::copysign(std::sqrt(discriminant), b));
-  if (c != 0) add(sum / (sum + c));
-  if (sum != 0) add(a / (a + sum));
+  add_roots(curve.weight * (curve.r1 - curve.r0), 0.5 * (curve.r2 - curve.r0),
+            curve.weight * (curve.r2 - curve.r1), out);
+  std::erase_if(out, [](double t) { return t <= zero_share || t >= 1 - zero_share; });
 }
 
 void add_sign_changes(const Curve& curve, std::vector<double>& out) {
@@ -335,8 +322,7 @@ void RunCutter::add_pieces(const Step& step) {
 double RunCutter::relative_length(std::uint32_t i) const {
   const Run& run = runs_[i];
   // length / mean radius
-  return run.radius.zero > 0 ? run.length * run.length / run.radius.zero
-                             : std::numeric_limits<double>::infinity();
+  return run.radius.zero > 0 ? run.length * run.length / run.radius.zero : infinity;
 }
 
 /// Makes a chain of all runs.
@@ -346,8 +332,8 @@ void RunCutter::link(bool cyclic) {
   previous_.resize(count);
   version_.assign(count, 0);
   for (std::uint32_t i = 0; i < count; ++i) {
-    next_[i] = i + 1 < count ? i + 1 : cyclic ? 0 : no_index;
-    previous_[i] = i > 0 ? i - 1 : cyclic ? count - 1 : no_index;
+    next_[i] = i + 1 < count ? i + 1 : cyclic ? 0 : none;
+    previous_[i] = i > 0 ? i - 1 : cyclic ? count - 1 : none;
   }
 }
 
@@ -356,9 +342,9 @@ void RunCutter::absorb_next(std::uint32_t i, const Run& both) {
   const std::uint32_t other = next_[i];
   runs_[i] = both;
   next_[i] = next_[other];
-  if (next_[other] != no_index) previous_[next_[other]] = i;
+  if (next_[other] != none) previous_[next_[other]] = i;
   ++version_[i];
-  version_[other] = no_index;
+  version_[other] = none;
 }
 
 /// The shortest run, by its radius, is merged with that neighbour which is the shorter one, until
@@ -382,8 +368,7 @@ void RunCutter::merge_short(bool cyclic) {
     if (version_[i] != entry.version) continue;
     std::uint32_t other = next_[i];
     const std::uint32_t before = previous_[i];
-    if (other == no_index ||
-        (before != no_index && relative_length(before) < relative_length(other))) {
+    if (other == none || (before != none && relative_length(before) < relative_length(other))) {
       other = i;
       i = before;
     }
@@ -406,7 +391,7 @@ void RunCutter::agglomerate(bool cyclic, const Judge& judge) {
   heap_.clear();
   const auto consider = [&](std::uint32_t i) {
     const std::uint32_t other = next_[i];
-    if (other == no_index || other == i) return;
+    if (other == none || other == i) return;
     const double key = judge(runs_[i], runs_[other]);
     if (!std::isfinite(key)) return;
     heap_.push_back({key, i, version_[i]});
@@ -426,7 +411,7 @@ void RunCutter::agglomerate(bool cyclic, const Judge& judge) {
     changed = true;
     consider(i);
     const std::uint32_t before = previous_[i];
-    if (before != no_index && before != i) {
+    if (before != none && before != i) {
       ++version_[before];  // its pair has changed
       consider(before);
     }
@@ -443,15 +428,14 @@ void RunCutter::join_fitting(bool cyclic) {
   constexpr double radius_share = 0.002;
   const double turns = samples ? bending_ / static_cast<double>(runs_.size()) : 0;
   const double angle_share = samples ? 0.02 : 0.005;
-  constexpr double never = std::numeric_limits<double>::infinity();
   agglomerate(cyclic, [&](const Run& a, const Run& b) {
-    if (!samples && opposed(a, b)) return never;
+    if (!samples && opposed(a, b)) return infinity;
     const Run both = joined(a, b);
     const double radius = fit(both.radius, both.length).residual /
                           (radius_share * both.mean_radius() + 0.5 * axis_.resolution);
     const double angle = fit(both.direction, both.length).residual / (angle_share + turns);
     const double worst = std::max(radius, angle);
-    return worst <= 1 ? worst : never;
+    return worst <= 1 ? worst : infinity;
   });
 }
 
@@ -459,19 +443,18 @@ void RunCutter::join_fitting(bool cyclic) {
 /// circular ones, and spirals, of one primitive and side whose union is nearly a spiral: so arcs
 /// that approximate a spiral are one.
 void RunCutter::join_equal(bool cyclic) {
-  constexpr double never = std::numeric_limits<double>::infinity();
   constexpr double spiral_share = 0.03;  // of the turning: what a spiral's direction may miss
   agglomerate(cyclic, [&](const Run& a, const Run& b) {
     const bool same = a.variation == b.variation;
-    if (a.primitive != b.primitive || (!same && opposed(a, b))) return never;
+    if (a.primitive != b.primitive || (!same && opposed(a, b))) return infinity;
     const auto is_straight = [](const Run& r) { return r.variation == Variation::straight; };
-    if (!same && (is_straight(a) || is_straight(b))) return never;
+    if (!same && (is_straight(a) || is_straight(b))) return infinity;
     Run both = joined(a, b);
     classify(both, options_);
-    if (both.primitive != a.primitive || is_straight(both) != is_straight(a)) return never;
+    if (both.primitive != a.primitive || is_straight(both) != is_straight(a)) return infinity;
     if (same && both.variation == a.variation) return both.length;
     const Fit angle = fit(both.direction, both.length);
-    return angle.residual <= spiral_share * std::abs(angle.slope) ? both.length : never;
+    return angle.residual <= spiral_share * std::abs(angle.slope) ? both.length : infinity;
   });
 }
 
@@ -508,14 +491,14 @@ void RunCutter::split_level() {
 void RunCutter::compact() {
   std::uint32_t kept = 0;
   for (std::uint32_t i = 0; i < runs_.size(); ++i)
-    if (version_[i] != no_index) runs_[kept++] = runs_[i];
+    if (version_[i] != none) runs_[kept++] = runs_[i];
   runs_.resize(kept);
 }
 
 std::span<const Run> RunCutter::cut(std::span<const Step> steps, bool cyclic) {
   runs_.clear();
   length_ = radius_integral_ = turning_ = bending_ = 0;
-  smallest_ = std::numeric_limits<double>::infinity();
+  smallest_ = infinity;
   for (const Step& step : steps) add_pieces(step);
   if (runs_.empty()) return {};
   const Run* before = cyclic ? &runs_.back() : nullptr;

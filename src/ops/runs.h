@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "medial/centreline.h"
 #include "medial/features.h"
 #include "medial/query.h"
 
@@ -17,15 +18,9 @@ struct Moments {
   double zero = 0, first = 0, second = 0, square = 0;
 };
 
-/// A place on a branch before anything is rounded to a node.
-struct Spot {
-  std::uint32_t edge = 0;
-  double t = 0;
-};
-
 /// A part of a branch with what adds up along it.
 struct Run {
-  Spot from, to;
+  EdgePlace from, to;
   double length = 0;
   Moments radius;
   Moments direction;            ///< of the angle against the tangent at the start

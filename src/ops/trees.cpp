@@ -29,12 +29,7 @@ double largest_inside(const MedialAxis& axis, const Edge& edge) {
 Trees::Trees(const MedialAxis& axis) : inwards(axis.nodes.size(), none), part(axis.nodes.size()) {
   const std::size_t n = axis.nodes.size();
   DisjointSets sets(n);
-  std::vector<std::uint32_t> degree(n, 0);
-  for (const Edge& edge : axis.edges) {
-    sets.join(edge.node[0], edge.node[1]);
-    ++degree[edge.node[0]];
-    ++degree[edge.node[1]];
-  }
+  for (const Edge& edge : axis.edges) sets.join(edge.node[0], edge.node[1]);
   // A part is named by its lowest node, which comes first.
   for (std::uint32_t i = 0; i < n; ++i) {
     const std::uint32_t lowest = sets.find(i);
@@ -69,28 +64,12 @@ Trees::Trees(const MedialAxis& axis) : inwards(axis.nodes.size(), none), part(ax
       for (const std::uint32_t node : axis.edges[deepest_edge[p]].node) stays[node] = true;
     }
   }
-  // The sum of the edges at a node is the last one left when its degree is 1.
-  std::vector<std::uint32_t> last(n, 0);
-  for (std::uint32_t e = 0; e < axis.edges.size(); ++e)
-    for (const std::uint32_t node : axis.edges[e].node) last[node] ^= e;
-  std::vector<std::uint32_t> leaves;
-  const auto consider = [&](std::uint32_t node) {
-    if (degree[node] == 1 && !stays[node]) leaves.push_back(node);
-  };
-  for (std::uint32_t i = 0; i < n; ++i) consider(i);
-  while (!leaves.empty()) {
-    const std::uint32_t node = leaves.back();
-    leaves.pop_back();
-    const std::uint32_t e = last[node];
-    const auto& ends = axis.edges[e].node;
-    const std::uint32_t inner = ends[0] == node ? ends[1] : ends[0];
-    order.push_back(e);
-    inwards[node] = e;
-    degree[node] = 0;
-    last[inner] ^= e;
-    --degree[inner];
-    consider(inner);
-  }
+  take_off_leaves(
+      axis, [&](std::uint32_t node) { return stays[node]; },
+      [&](std::uint32_t edge, std::uint32_t leaf, std::uint32_t) {
+        order.push_back(edge);
+        inwards[leaf] = edge;
+      });
 }
 
 }  // namespace medial::ops

@@ -6,11 +6,42 @@
 #include <cstdint>
 #include <vector>
 
+#include "axis/node_kinds.h"
+#include "axis/steps.h"
 #include "base/numbers.h"
 #include "medial/axis.h"
 #include "ops/half_edges.h"
 
 namespace medial::ops {
+
+/// Takes edges off at nodes where one is left, unless stays(node), until there is none: the outer
+/// ones first. Calls take(edge, leaf, inner node) for each. Returns how many are left at each node.
+/// O(n).
+template <class Stays, class Take>
+std::vector<std::uint32_t> take_off_leaves(const MedialAxis& axis, const Stays& stays,
+                                           const Take& take) {
+  std::vector<std::uint32_t> degree = degrees_of(axis);
+  // The sum of the edges at a node is the last one left when its degree is 1.
+  std::vector<std::uint32_t> last(degree.size(), 0), leaves;
+  for (std::uint32_t e = 0; e < axis.edges.size(); ++e)
+    for (const std::uint32_t node : axis.edges[e].node) last[node] ^= e;
+  const auto consider = [&](std::uint32_t node) {
+    if (degree[node] == 1 && !stays(node)) leaves.push_back(node);
+  };
+  for (std::uint32_t i = 0; i < degree.size(); ++i) consider(i);
+  while (!leaves.empty()) {
+    const std::uint32_t leaf = leaves.back();
+    leaves.pop_back();
+    if (degree[leaf] != 1) continue;  // the last node of a tree
+    const std::uint32_t edge = last[leaf], inner = other_end(axis.edges[edge], leaf);
+    degree[leaf] = 0;
+    last[inner] ^= edge;
+    --degree[inner];
+    take(edge, leaf, inner);
+    consider(inner);
+  }
+  return degree;
+}
 
 struct Trees {
   /// The edges of all trees, each after all that are farther out.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "axis/curve.h"
+
 namespace medial::voronoi {
 namespace {
 
@@ -24,22 +26,6 @@ Weighted blossom(const ConicEdge& edge, double s, double t) {
              weighted(edge.control, edge.weight), s * t, weighted(edge.to, 1));
 }
 Disk disk_of(const Weighted& w) { return {(1 / w.weight) * w.center, w.radius / w.weight}; }
-
-/// Roots in (0, 1) of a (1-t)^2 + 2 b t (1-t) + c t^2.
-void add_roots(double a, double b, double c, std::vector<double>& roots) {
-  const auto add = [&](double numerator, double denominator) {
-    // t / (1 - t) = numerator / denominator
-    const double sum = numerator + denominator;
-    const double t = numerator / sum;
-    if (t > 0 && t < 1) roots.push_back(t);
-  };
-  // In u = t / (1 - t): a + 2 b u + c u^2 = 0.
-  const double discriminant = b * b - a * c;
-  if (discriminant < 0) return;
-  const double q = -(b + std::copysign(std::sqrt(discriminant), b));
-  add(q, c);
-  add(a, q);
-}
 
 }  // namespace
 
