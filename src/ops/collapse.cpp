@@ -4,24 +4,24 @@
 #include <cmath>
 
 #include "axis/curve.h"
-#include "base/compat.h"
+#include "axis/node_kinds.h"
 #include "base/disjoint_sets.h"
 #include "medial/centreline.h"
 #include "medial/query.h"
 #include "medial/sides.h"
 #include "ops/part.h"
-#include "ops/routes.h"
+#include "ops/trees.h"
 
 namespace medial {
 namespace {
 
-/// The axis cut where its radius is half of the width, and which of the edges are wide.
-struct Cut {
+/// The axis divided where its radius is half of the width, and which of the edges are wide.
+struct DividedAxis {
   MedialAxis axis;
   std::vector<bool> wide;
 };
 
-Cut cut_at(const MedialAxis& axis, double radius) {
+DividedAxis divided_at(const MedialAxis& axis, double radius) {
   std::vector<PathPiece> pieces;
   std::vector<bool> wide;
   const auto add = [&](std::uint32_t edge, double from, double to, bool is_wide) {
@@ -38,23 +38,25 @@ Cut cut_at(const MedialAxis& axis, double radius) {
     }
     add(i, done, 1, false);
   }
-  Cut cut{part_of(axis, pieces), std::move(wide)};
+  DividedAxis divided{part_of(axis, pieces), std::move(wide)};
   // A disk without edges stays one.
-  std::vector<bool> has_edge(axis.nodes.size(), false);
-  for (const Edge& edge : axis.edges)
-    for (const std::uint32_t node : edge.node) has_edge[node] = true;
+  const std::vector<std::uint32_t> degree = degrees_of(axis);
   for (std::size_t i = 0; i < axis.nodes.size(); ++i)
-    if (!has_edge[i] && axis.nodes[i].disk.radius >= radius)
-      cut.axis.nodes.push_back(axis.nodes[i]);
-  return cut;
+    if (degree[i] == 0 && axis.nodes[i].disk.radius >= radius)
+      divided.axis.nodes.push_back(axis.nodes[i]);
+  return divided;
 }
 
 /// Sorts the narrow edges into those that stay with the polygons, those that become lines, and
 /// those that are dropped: corners of narrow parts.
 class Collapse {
  public:
-  Collapse(const Cut& cut, double radius, double trim)
-      : axis_(cut.axis), wide_(cut.wide), radius_(radius), trim_(trim), incidence_(cut.axis) {}
+  Collapse(const DividedAxis& divided, double radius, double trim)
+      : axis_(divided.axis),
+        wide_(divided.wide),
+        radius_(radius),
+        trim_(trim),
+        incidence_(divided.axis) {}
 
   void run() {
     const std::size_t count = axis_.edges.size();
@@ -63,12 +65,12 @@ class Collapse {
     for (std::size_t i = 0; i < count; ++i)
       if (wide_[i])
         for (const std::uint32_t node : axis_.edges[i].node) at_cut_[node] = true;
-    for (const auto& edges : narrow_parts()) {
+    for (const Part& part : narrow_parts()) {
       // What would leave no line is no part of its own.
       const std::size_t lines_before = lines_.size();
-      if (!belongs_to_polygon(edges)) add_lines(edges);
+      if (!belongs_to_polygon(part)) add_lines(part);
       if (lines_.size() > lines_before) continue;
-      for (const std::uint32_t edge : edges) stays_[edge] = true;
+      for (const std::uint32_t edge : part.edges) stays_[edge] = true;
     }
   }
 
@@ -85,169 +87,153 @@ class Collapse {
   MedialAxis lines() const { return part_of(axis_, lines_); }
 
  private:
-  double radius_at(std::uint32_t node) const { return axis_.nodes[node].disk.radius; }
-  Vec2 center_of(std::uint32_t node) const { return axis_.nodes[node].disk.center; }
-  bool is_narrow(std::uint32_t edge) const { return !wide_[edge]; }
-
   /// Narrow edges, connected otherwise than through a wide place.
-  std::vector<std::vector<std::uint32_t>> narrow_parts() const {
+  struct Part {
+    std::vector<std::uint32_t> edges, nodes;  ///< increasing
+    MedialAxis graph;                         ///< they alone, numbered anew
+    std::vector<bool> at_cut;  ///< of the graph's nodes: whether something wide begins
+
+    Vec2 center(std::uint32_t node) const { return graph.nodes[node].disk.center; }
+    double radius(std::uint32_t node) const { return graph.nodes[node].disk.radius; }
+  };
+
+  std::vector<Part> narrow_parts() const {
     DisjointSets sets(axis_.edges.size());
     for (std::uint32_t node = 0; node < axis_.nodes.size(); ++node) {
       if (at_cut_[node]) continue;
       const auto edges = incidence_.edges(node);
       for (const std::uint32_t edge : edges) sets.join(edges[0], edge);
     }
-    std::vector<std::vector<std::uint32_t>> parts;
+    std::vector<Part> parts;
     std::vector<std::uint32_t> part_of_set(axis_.edges.size(), none);
     for (std::uint32_t i = 0; i < axis_.edges.size(); ++i) {
-      if (!is_narrow(i)) continue;
+      if (wide_[i]) continue;
       std::uint32_t& part = part_of_set[sets.find(i)];
       if (part == none) {
         part = static_cast<std::uint32_t>(parts.size());
         parts.emplace_back();
       }
-      parts[part].push_back(i);
+      parts[part].edges.push_back(i);
     }
+    for (Part& part : parts) fill(part);
     return parts;
   }
 
-  std::vector<std::uint32_t> nodes_of(const std::vector<std::uint32_t>& edges) const {
-    std::vector<std::uint32_t> nodes;
-    for (const std::uint32_t edge : edges)
-      for (const std::uint32_t node : axis_.edges[edge].node) nodes.push_back(node);
-    ranges::sort(nodes);
-    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-    return nodes;
+  void fill(Part& part) const {
+    for (const std::uint32_t edge : part.edges)
+      for (const std::uint32_t node : axis_.edges[edge].node) part.nodes.push_back(node);
+    std::ranges::sort(part.nodes);
+    part.nodes.erase(std::unique(part.nodes.begin(), part.nodes.end()), part.nodes.end());
+    for (const std::uint32_t node : part.nodes) {
+      part.graph.nodes.push_back(axis_.nodes[node]);
+      part.at_cut.push_back(at_cut_[node]);
+    }
+    for (const std::uint32_t edge : part.edges) {
+      Edge& own = part.graph.edges.emplace_back(axis_.edges[edge]);
+      for (std::uint32_t& node : own.node)
+        node = static_cast<std::uint32_t>(std::ranges::lower_bound(part.nodes, node) -
+                                          part.nodes.begin());
+    }
   }
 
   /// A corner, or a neck shorter than wide.
-  bool belongs_to_polygon(const std::vector<std::uint32_t>& edges) const {
-    const std::vector<std::uint32_t> nodes = nodes_of(edges);
+  bool belongs_to_polygon(const Part& part) const {
+    const auto count = static_cast<std::uint32_t>(part.nodes.size());
     std::vector<std::uint32_t> cuts;
-    for (const std::uint32_t node : nodes)
-      if (at_cut_[node]) cuts.push_back(node);
+    for (std::uint32_t node = 0; node < count; ++node)
+      if (part.at_cut[node]) cuts.push_back(node);
     if (cuts.empty()) return false;
-    const Vec2 first = center_of(cuts.front());
+    const Vec2 first = part.center(cuts.front());
     for (const std::uint32_t cut : cuts)
-      if (cut != cuts.front() && !(distance(center_of(cut), first) < 2 * radius_)) return false;
-    return ranges::all_of(nodes, [&](std::uint32_t node) {
-      return ranges::any_of(cuts, [&](std::uint32_t cut) {
-        const double reach = distance(center_of(node), center_of(cut)) + radius_at(node);
+      if (cut != cuts.front() && !(distance(part.center(cut), first) < 2 * radius_)) return false;
+    const auto is_near = [&](std::uint32_t node) {
+      return std::ranges::any_of(cuts, [&](std::uint32_t cut) {
+        const double reach = distance(part.center(node), part.center(cut)) + part.radius(node);
         return reach <= (1 + trim_) * radius_ * (1 + 1e-9);
       });
-    });
+    };
+    for (std::uint32_t node = 0; node < count; ++node)
+      if (!is_near(node)) return false;
+    return true;
   }
 
   /// Lines of one narrow part: all but the dead ends that protrude little from where they begin.
-  void add_lines(const std::vector<std::uint32_t>& edges) {
-    const std::vector<std::uint32_t> nodes = nodes_of(edges);
+  void add_lines(const Part& part) {
+    const MedialAxis& graph = part.graph;
     // Where nothing is wide, the search ends in the widest node.
-    std::uint32_t root = none;
-    if (ranges::none_of(nodes, [this](std::uint32_t node) { return at_cut_[node]; })) {
-      root =
-          *ranges::max_element(nodes, {}, [this](std::uint32_t node) { return radius_at(node); });
-    }
-    const auto is_root = [&](std::uint32_t node) { return at_cut_[node] || node == root; };
-    const auto local = [&nodes](std::uint32_t node) {
-      return static_cast<std::size_t>(ranges::lower_bound(nodes, node) - nodes.begin());
-    };
-    std::vector<std::uint32_t> degree(nodes.size(), 0);
-    std::vector<double> reach(nodes.size());
-    for (std::size_t i = 0; i < nodes.size(); ++i) reach[i] = radius_at(nodes[i]);
-    for (const std::uint32_t edge : edges)
-      for (const std::uint32_t node : axis_.edges[edge].node) ++degree[local(node)];
-    std::vector<std::uint32_t> leaves;
-    for (const std::uint32_t node : nodes)
-      if (degree[local(node)] == 1 && !is_root(node)) leaves.push_back(node);
-    // From the dead ends inwards: `gone` are edges taken off, `dropped` those of them that begin
-    // an arm which does not protrude.
-    std::vector<bool> gone(edges.size(), false), dropped(edges.size(), false);
-    const auto rank = [&edges](std::uint32_t edge) {
-      return static_cast<std::size_t>(ranges::lower_bound(edges, edge) - edges.begin());
-    };
-    while (!leaves.empty()) {
-      const std::uint32_t leaf = leaves.back();
-      leaves.pop_back();
-      if (degree[local(leaf)] != 1) continue;
-      for (const std::uint32_t edge : incidence_.edges(leaf)) {
-        if (!is_narrow(edge) || gone[rank(edge)]) continue;
-        gone[rank(edge)] = true;
-        degree[local(leaf)] = 0;
-        const std::uint32_t next = other_end(axis_.edges[edge], leaf);
-        const double arm = reach[local(leaf)] + length(axis_, axis_.edges[edge]);
-        const bool decides = is_root(next) || incidence_.degree(next) > 2;
-        dropped[rank(edge)] = decides && !(arm > (1 + trim_) * radius_at(next));
-        reach[local(next)] = std::max(reach[local(next)], arm);
-        if (--degree[local(next)] == 1 && !is_root(next)) leaves.push_back(next);
-      }
-    }
-    // What is left, seen from the cuts and cycles.
+    std::vector<bool> is_root = part.at_cut;
+    if (std::ranges::find(is_root, true) == is_root.end()) is_root[deepest_node(graph)] = true;
+    // Edges that begin an arm which does not protrude.
+    std::vector<bool> dropped(graph.edges.size(), false);
+    std::vector<double> reach;
+    for (const Node& node : graph.nodes) reach.push_back(node.disk.radius);
+    const std::vector<std::uint32_t> degree = ops::take_off_leaves(
+        graph, [&](std::uint32_t node) { return is_root[node]; },
+        [&](std::uint32_t edge, std::uint32_t leaf, std::uint32_t inner) {
+          const double arm = reach[leaf] + length(graph, graph.edges[edge]);
+          const bool decides = is_root[inner] || incidence_.degree(part.nodes[inner]) > 2;
+          dropped[edge] = decides && !(arm > (1 + trim_) * part.radius(inner));
+          reach[inner] = std::max(reach[inner], arm);
+        });
+    // What is left, seen from the roots and cycles.
+    const Incidence incidence(graph);
     std::vector<std::uint32_t> queue;
-    std::vector<bool> seen(nodes.size(), false), kept(edges.size(), false);
+    std::vector<bool> seen(graph.nodes.size(), false), kept(graph.edges.size(), false);
     const auto visit = [&](std::uint32_t node) {
-      if (seen[local(node)]) return;
-      seen[local(node)] = true;
-      queue.push_back(node);
+      if (!seen[node]) queue.push_back(node);
+      seen[node] = true;
     };
-    for (const std::uint32_t node : nodes)
-      if (is_root(node) || degree[local(node)] > 1) visit(node);
-    bool any = false;
+    for (std::uint32_t node = 0; node < degree.size(); ++node)
+      if (is_root[node] || degree[node] > 1) visit(node);
     for (std::size_t i = 0; i < queue.size(); ++i) {
-      for (const std::uint32_t edge : incidence_.edges(queue[i])) {
-        if (!is_narrow(edge) || !ranges::binary_search(edges, edge)) continue;
-        if (dropped[rank(edge)] || kept[rank(edge)]) continue;
-        kept[rank(edge)] = any = true;
-        visit(other_end(axis_.edges[edge], queue[i]));
+      for (const std::uint32_t edge : incidence.edges(queue[i])) {
+        if (dropped[edge]) continue;
+        kept[edge] = true;
+        visit(other_end(graph.edges[edge], queue[i]));
       }
     }
-    if (!any) return add_main_path(edges);
-    clip(kept, edges);
+    if (std::ranges::find(kept, true) == kept.end()) return add_main_path(part);
+    clip(part, incidence, kept);
   }
 
   /// A small part without any arm: its main path.
-  void add_main_path(const std::vector<std::uint32_t>& edges) {
+  void add_main_path(const Part& part) {
     std::vector<PathPiece> pieces;
-    for (const std::uint32_t edge : edges) pieces.push_back({edge, 0, 1});
+    for (const std::uint32_t edge : part.edges) pieces.push_back({edge, 0, 1});
     for (const AxisPath& path : main_paths(part_of(axis_, pieces), {.trim = trim_}))
       for (const PathPiece& piece : path.pieces)
-        lines_.push_back({edges[piece.edge], piece.from, piece.to});
+        lines_.push_back({part.edges[piece.edge], piece.from, piece.to});
   }
 
   /// Lines end on the arc of the polygon's end, one radius from the cut.
-  void clip(const std::vector<bool>& kept, const std::vector<std::uint32_t>& edges) {
-    const auto rank = [&edges](std::uint32_t edge) {
-      return static_cast<std::size_t>(ranges::lower_bound(edges, edge) - edges.begin());
-    };
+  void clip(const Part& part, const Incidence& incidence, const std::vector<bool>& kept) {
     std::vector<PathPiece> pieces;
-    for (const std::uint32_t edge : edges) pieces.push_back({edge, 0, 1});
-    std::vector<bool> covered(edges.size(), false);
-    for (const std::uint32_t cut : nodes_of(edges)) {
-      if (!at_cut_[cut]) continue;
+    for (const std::uint32_t edge : part.edges) pieces.push_back({edge, 0, 1});
+    std::vector<bool> covered(part.edges.size(), false);
+    for (std::uint32_t cut = 0; cut < part.nodes.size(); ++cut) {
+      if (!part.at_cut[cut]) continue;
+      const auto is_inside = [&](Vec2 p) { return distance(p, part.center(cut)) <= radius_; };
       std::vector<std::uint32_t> inside{cut};
       for (std::size_t i = 0; i < inside.size(); ++i) {
-        for (const std::uint32_t edge : incidence_.edges(inside[i])) {
-          if (!ranges::binary_search(edges, edge)) continue;
-          const std::size_t k = rank(edge);
+        for (const std::uint32_t k : incidence.edges(inside[i])) {
           if (!kept[k] || covered[k]) continue;
-          const Edge& e = axis_.edges[edge];
-          const bool forward = e.node[0] == inside[i];
-          const std::uint32_t far = other_end(e, inside[i]);
-          if (distance(center_of(far), center_of(cut)) <= radius_) {
+          const Edge& edge = part.graph.edges[k];
+          const bool forward = edge.node[0] == inside[i];
+          const std::uint32_t far = other_end(edge, inside[i]);
+          if (is_inside(part.center(far))) {
             covered[k] = true;
-            if (!at_cut_[far]) inside.push_back(far);
+            if (!part.at_cut[far]) inside.push_back(far);
             continue;
           }
-          const Curve curve = curve_of(axis_, e);
+          const Curve curve = curve_of(part.graph, edge);
           double low = 0, high = 1;
-          for (double middle = 0.5; low < middle && middle < high; middle = 0.5 * (low + high)) {
-            const Vec2 p = curve.at(forward ? middle : 1 - middle).center;
-            (distance(p, center_of(cut)) <= radius_ ? low : high) = middle;
-          }
+          for (double middle = 0.5; low < middle && middle < high; middle = 0.5 * (low + high))
+            (is_inside(curve.at(forward ? middle : 1 - middle).center) ? low : high) = middle;
           (forward ? pieces[k].from : pieces[k].to) = forward ? high : 1 - high;
         }
       }
     }
-    for (std::size_t k = 0; k < edges.size(); ++k)
+    for (std::size_t k = 0; k < pieces.size(); ++k)
       if (kept[k] && !covered[k] && pieces[k].from < pieces[k].to) lines_.push_back(pieces[k]);
   }
 
@@ -286,8 +272,8 @@ std::vector<Ring> rings_of(const std::vector<Contour>& contours, double toleranc
 Result<CollapsedShape> collapse_narrow(const MedialAxis& axis, double width, double trim) {
   if (!(width > 0) || !std::isfinite(width) || !(trim >= 0))
     return Error{ErrorCode::invalid_option, "a width to collapse is a positive number", {}};
-  const Cut cut = cut_at(axis, 0.5 * width);
-  Collapse collapse(cut, 0.5 * width, trim);
+  const DividedAxis divided = divided_at(axis, 0.5 * width);
+  Collapse collapse(divided, 0.5 * width, trim);
   collapse.run();
   CollapsedShape result;
   result.lines = collapse.lines();

@@ -40,14 +40,8 @@ void add_parts(const Shape& shape, const MedialAxis& axis, double smallest,
   for (std::size_t i = 0; i < shape.loop_count(); ++i) {
     LeftPart& part = found[shape.component[i]];
     if (part.deepest.radius < smallest) continue;
-    Ring ring;
-    const auto loop = shape.loop(i);
-    ring.points.assign(loop.begin(), loop.end());
-    if (!shape.bulges.empty()) {
-      const auto begin = shape.bulges.begin() + shape.loop_begin[i];
-      ring.bulges.assign(begin, begin + static_cast<std::ptrdiff_t>(loop.size()));
-    }
-    part.rings.push_back(std::move(ring));
+    part.rings.push_back(ring_of(shape, i));
+    part.rings.back().role = RingRole::any;
   }
   for (LeftPart& part : found)
     if (part.deepest.radius >= smallest && !part.rings.empty()) parts.push(std::move(part));

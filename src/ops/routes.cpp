@@ -59,7 +59,8 @@ void Search::run(std::span<const Start> starts) {
     reached_.push_back(node);
     for (const std::uint32_t edge : incidence_.edges(node)) {
       const std::uint32_t next = other_end(axis_.edges[edge], node);
-      const double sum = cost + edge_costs_[edge];
+      const double own = edge_costs_[edge];
+      const double sum = adding_ == Adding::sum ? cost + own : std::max(cost, own);
       if (!(sum < cost_[next])) continue;
       cost_[next] = sum;
       via_[next] = edge;
@@ -184,48 +185,30 @@ Result<AxisPath> path_between(const MedialAxis& axis, EdgePlace from, EdgePlace 
 
 Result<AxisPath> widest_path(const MedialAxis& axis, EdgePlace from, EdgePlace to) {
   if (Status places = check_places(axis, from, to); !places) return std::move(places).error();
-  // Edges and nodes by decreasing clearance, joined until both places are: the bottleneck of the
-  // maximum spanning tree is that of the widest way (Hu 1961).
+  // Costs are radii, negated: a way is as narrow as its narrowest edge.
+  const auto narrowness = [&](const PathPiece& piece) {
+    return -ops::narrowest_radius(axis, piece);
+  };
   std::vector<double> narrowest(axis.edges.size());
-  for (std::uint32_t i = 0; i < narrowest.size(); ++i)
-    narrowest[i] = ops::narrowest_radius(axis, {i, 0, 1});
-  const auto piece_clearance = [&](const PathPiece& piece) {
-    return ops::narrowest_radius(axis, piece);
-  };
-  std::vector<double> clearance(axis.nodes.size(), -infinity);
-  std::vector<std::pair<double, std::uint32_t>> heap;
-  const auto reach = [&](std::uint32_t node, double value) {
-    if (!(value > clearance[node])) return;
-    clearance[node] = value;
-    heap.emplace_back(value, node);
-    ranges::push_heap(heap);
-  };
-  for (std::size_t i = 0; i < 2; ++i)
-    reach(axis.edges[from.edge].node[i], piece_clearance(ways_out(from)[i]));
+  for (std::uint32_t i = 0; i < narrowest.size(); ++i) narrowest[i] = narrowness({i, 0, 1});
   const Incidence incidence(axis);
-  while (!heap.empty()) {
-    ranges::pop_heap(heap);
-    const auto [value, node] = heap.back();
-    heap.pop_back();
-    if (value < clearance[node]) continue;
-    for (const std::uint32_t edge : incidence.edges(node))
-      reach(other_end(axis.edges[edge], node), std::min(value, narrowest[edge]));
-  }
-  double widest = -infinity;
-  if (from.edge == to.edge) widest = piece_clearance({from.edge, from.t, to.t});
-  for (std::size_t i = 0; i < 2; ++i) {
-    widest = std::max(
-        widest, std::min(clearance[axis.edges[to.edge].node[i]], piece_clearance(ways_out(to)[i])));
-  }
-  if (!(widest > -infinity)) return no_way();
+  Search search(axis, incidence, narrowest, ops::Adding::most);
+  std::array<Start, 2> starts;
+  for (std::size_t i = 0; i < 2; ++i)
+    starts[i] = {axis.edges[from.edge].node[i], narrowness(ways_out(from)[i])};
+  search.run(starts);
+  double least = from.edge == to.edge ? narrowness({from.edge, from.t, to.t}) : infinity;
+  for (std::size_t i = 0; i < 2; ++i)
+    least = std::min(
+        least, std::max(search.cost(axis.edges[to.edge].node[i]), narrowness(ways_out(to)[i])));
+  if (!(least < infinity)) return no_way();
   std::vector<double> costs(axis.edges.size(), infinity);
   for (std::uint32_t i = 0; i < costs.size(); ++i)
-    if (narrowest[i] >= widest) costs[i] = ops::cost_of(axis, {i, 0, 1}, Route::shortest);
+    if (narrowest[i] <= least) costs[i] = ops::cost_of(axis, {i, 0, 1}, Route::shortest);
   return least_path(
       axis, costs,
       [&](const PathPiece& piece) {
-        return piece_clearance(piece) >= widest ? ops::cost_of(axis, piece, Route::shortest)
-                                                : infinity;
+        return narrowness(piece) <= least ? ops::cost_of(axis, piece, Route::shortest) : infinity;
       },
       from, to);
 }

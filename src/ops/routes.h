@@ -25,14 +25,19 @@ struct Start {
   double cost = 0;
 };
 
+/// The cost of a way, of what it costs up to an edge and of that edge.
+enum class Adding : std::uint8_t { sum, most };
+
 /// Least costs from a set of starts (Dijkstra's algorithm, with a heap), on the edges that have a
 /// finite cost. Kept for use again, so that a search costs what it visits.
 class Search {
  public:
-  Search(const MedialAxis& axis, const Incidence& incidence, std::span<const double> costs)
+  Search(const MedialAxis& axis, const Incidence& incidence, std::span<const double> costs,
+         Adding adding = Adding::sum)
       : axis_(axis),
         incidence_(incidence),
         edge_costs_(costs),
+        adding_(adding),
         cost_(axis.nodes.size(), std::numeric_limits<double>::infinity()),
         via_(axis.nodes.size(), none) {}
 
@@ -48,6 +53,7 @@ class Search {
   const MedialAxis& axis_;
   const Incidence& incidence_;
   std::span<const double> edge_costs_;
+  Adding adding_;
   std::vector<double> cost_;
   std::vector<std::uint32_t> via_;
   std::vector<std::uint32_t> reached_;
