@@ -238,6 +238,31 @@ double step_at(const CarveOptions& options, double tip, double flat_from) {
   return options.step > 0 ? options.step : tip > 0 ? tip : flat_from / 20;
 }
 
+/// One trail of grooves as a path of the tool. `depth_of` tells how deep it may go in a disk.
+template <class DepthOf>
+std::vector<ToolPoint> path_along(const std::vector<ops::GrooveStep>& trail,
+                                  const ops::Grooves& grooves, const DepthOf& depth_of) {
+  std::vector<ToolPoint> points;
+  for (const ops::GrooveStep& step : trail) {
+    const auto& disks = grooves.parts[step.part].disks;
+    for (std::size_t k = 0; k < disks.size(); ++k) {
+      const Disk& disk = disks[step.forward ? k : disks.size() - 1 - k];
+      const ToolPoint point{disk.center, -depth_of(disk), 0};
+      if (points.empty() || !(points.back().point == point.point) || points.back().z != point.z)
+        points.push_back(point);
+    }
+  }
+  return points;
+}
+
+Result<Offsets> floor_rings(const MedialAxis& axis, double flat_from, double step) {
+  if (!std::isfinite(flat_from)) return Offsets{};
+  auto rings = offset_passes(axis, flat_from, step);
+  if (!rings) return std::move(rings).error();
+  if (rings->empty()) return Offsets{};
+  return inward_offsets(axis, *rings);
+}
+
 Result<Carving> plan(const MedialAxis& axis, const CarveOptions& options) {
   const double radius = options.tool > 0 ? options.tool / 2 : infinity;
   const bool mill = options.angle == 0;
@@ -253,9 +278,7 @@ Result<Carving> plan(const MedialAxis& axis, const CarveOptions& options) {
 
   // As deep as the widest place lets the tool go.
   double lowest = depth;
-  if (!mill) {
-    lowest = std::min(depth, std::max(deepest_disk(axis).radius - tip, 0.0) / slope);
-  }
+  if (!mill) lowest = std::min(depth, std::max(deepest_disk(axis).radius - tip, 0.0) / slope);
   constexpr double most_passes = 1e4, rounding = 1e-9;
   const double passes =
       options.pass_depth > 0 ? std::max(1.0, std::ceil(lowest / options.pass_depth - rounding)) : 1;
@@ -269,42 +292,26 @@ Result<Carving> plan(const MedialAxis& axis, const CarveOptions& options) {
     const double floor = last ? depth : (pass + 1) * options.pass_depth;
     const double flat_from = last ? carving.flat_from : mill ? tip : tip + floor * slope;
     planner.begin_pass(pass);
-    Offsets offsets;
-    if (std::isfinite(flat_from)) {
-      auto rings = offset_passes(axis, flat_from, step_at(options, tip, flat_from));
-      if (!rings) return std::move(rings).error();
-      if (!rings->empty()) {
-        auto found = inward_offsets(axis, *rings);
-        if (!found) return std::move(found).error();
-        offsets = std::move(found).value();
-      }
-    }
-    if (!offsets.regions.empty()) {
+    const auto offsets = floor_rings(axis, flat_from, step_at(options, tip, flat_from));
+    if (!offsets) return offsets.error();
+    if (!offsets->regions.empty()) {
       carving.deepest = std::max(carving.deepest, floor);
-      Floors(offsets, flat_from, -floor, planner).cut_all();
+      Floors(*offsets, flat_from, -floor, planner).cut_all();
     }
     // An end mill needs the axis only where it is just as wide.
     const ops::Grooves grooves = ops::grooves_of(axis, cleared, flat_from, chord);
     const Vec2 start = planner.started() || grooves.parts.empty()
                            ? planner.at()
                            : grooves.parts[0].disks[0].center;
-    for (const auto& trail : ops::trails_of(grooves, start)) {
-      std::vector<ToolPoint> points;
-      for (const ops::GrooveStep& step : trail) {
-        const auto& disks = grooves.parts[step.part].disks;
-        for (std::size_t k = 0; k < disks.size(); ++k) {
-          const Disk& disk = disks[step.forward ? k : disks.size() - 1 - k];
-          // Chords are lifted, in narrow places above the surface.
-          const double deep = mill ? floor : std::min((disk.radius - tip) / slope, floor);
-          carving.deepest = std::max(carving.deepest, deep);
-          const ToolPoint point{disk.center, -deep, 0};
-          if (points.empty() || !(points.back().point == point.point) || points.back().z != point.z)
-            points.push_back(point);
-        }
-      }
-      planner.add(ToolPathKind::groove, std::move(points), -1);
-    }
-    carving.travel_unordered += unordered_travel(offsets, grooves);
+    const auto depth_of = [&](const Disk& disk) {
+      // Chords are lifted, in narrow places above the surface.
+      const double deep = mill ? floor : std::min((disk.radius - tip) / slope, floor);
+      carving.deepest = std::max(carving.deepest, deep);
+      return deep;
+    };
+    for (const auto& trail : ops::trails_of(grooves, start))
+      planner.add(ToolPathKind::groove, path_along(trail, grooves, depth_of), -1);
+    carving.travel_unordered += unordered_travel(*offsets, grooves);
     if (!mill) cleared = flat_from;
   }
   return carving;

@@ -161,69 +161,88 @@ std::vector<Disk> sample_line(const MedialAxis& line) {
   return samples;
 }
 
-MedialAxis smoothed(const Shape& shape, const MedialAxis& line, double radii, bool closed) {
-  std::vector<Disk> samples = sample_line(line);
-  if (closed) samples.pop_back();
-  const std::size_t count = samples.size();
-  std::vector<double> at(count, 0);
-  for (std::size_t i = 1; i < count; ++i)
-    at[i] = at[i - 1] + distance(samples[i - 1].center, samples[i].center);
-  const double whole = at.back() + distance(samples.back().center, samples.front().center);
-  double mean_radius = 0;
-  for (const Disk& disk : samples) mean_radius += disk.radius / static_cast<double>(count);
+/// A sampled line to take averages of.
+class SampledLine {
+ public:
+  SampledLine(std::vector<Disk> samples, bool closed)
+      : samples_(std::move(samples)), at_(samples_.size(), 0), closed_(closed) {
+    for (std::size_t i = 1; i < at_.size(); ++i)
+      at_[i] = at_[i - 1] + distance(samples_[i - 1].center, samples_[i].center);
+    whole_ = at_.back() + distance(samples_.back().center, samples_.front().center);
+  }
+  /// The length, once around.
+  double whole() const { return whole_; }
+  const std::vector<Disk>& samples() const { return samples_; }
 
-  // Sample k of the line that goes on around a cycle, or beyond an end mirrored in it: so ends
-  // stay.
-  const auto n = static_cast<std::ptrdiff_t>(count);
-  struct Beyond {
+  /// From a sample to the mean of the line around it, with Gaussian weights.
+  Vec2 to_mean(std::size_t i, double deviation) const {
+    constexpr double reach = 3;  // standard deviations
+    Vec2 sum;
+    double weights = 0;
+    const auto add = [&](std::ptrdiff_t k) {
+      const Place other = place(k);
+      const double before = place(k - 1).at, after = place(k + 1).at;
+      const double z = (other.at - at_[i]) / deviation;
+      if (!(std::abs(z) <= reach)) return false;
+      const double weight = std::exp(-0.5 * z * z) * std::max(after - before, 0.0);
+      sum = sum + weight * (other.center - samples_[i].center);
+      weights += weight;
+      return true;
+    };
+    const auto n = static_cast<std::ptrdiff_t>(samples_.size());
+    const auto here = static_cast<std::ptrdiff_t>(i);
+    for (std::ptrdiff_t k = here; deviation > 0 && k > here - n && add(k);) --k;
+    for (std::ptrdiff_t k = here + 1; deviation > 0 && k < here + n && add(k);) ++k;
+    return weights > 0 ? (1 / weights) * sum : Vec2{};
+  }
+
+ private:
+  struct Place {
     Vec2 center;
     double at;
   };
-  const auto sample = [&](std::ptrdiff_t k) -> Beyond {
+  /// Sample k of the line that goes on around a cycle, or beyond an end mirrored in it: so ends
+  /// stay.
+  Place place(std::ptrdiff_t k) const {
+    const auto n = static_cast<std::ptrdiff_t>(samples_.size());
     if (k >= 0 && k < n)
-      return {samples[static_cast<std::size_t>(k)].center, at[static_cast<std::size_t>(k)]};
-    if (closed) {
+      return {samples_[static_cast<std::size_t>(k)].center, at_[static_cast<std::size_t>(k)]};
+    if (closed_) {
       const auto i = static_cast<std::size_t>((k % n + n) % n);
-      return {samples[i].center, at[i] + (k < 0 ? -whole : whole)};
+      return {samples_[i].center, at_[i] + (k < 0 ? -whole_ : whole_)};
     }
     const auto end = static_cast<std::size_t>(k < 0 ? 0 : n - 1);
     const auto i = static_cast<std::size_t>(
         std::clamp<std::ptrdiff_t>(k < 0 ? -k : 2 * (n - 1) - k, 0, n - 1));
-    return {2 * samples[end].center - samples[i].center, 2 * at[end] - at[i]};
-  };
+    return {2 * samples_[end].center - samples_[i].center, 2 * at_[end] - at_[i]};
+  }
+
+  std::vector<Disk> samples_;
+  std::vector<double> at_;
+  bool closed_;
+  double whole_ = 0;
+};
+
+MedialAxis smoothed(const Shape& shape, const MedialAxis& line, double radii, bool closed) {
+  std::vector<Disk> disks = sample_line(line);
+  if (closed) disks.pop_back();
+  const SampledLine sampled(std::move(disks), closed);
+  const std::vector<Disk>& samples = sampled.samples();
+  const std::size_t count = samples.size();
+  double mean_radius = 0;
+  for (const Disk& disk : samples) mean_radius += disk.radius / static_cast<double>(count);
   const Boundary boundary(shape);
   MedialAxis out;
   out.method = line.method;
   out.tolerance = line.tolerance;
   out.sites = line.sites;
-  out.resolution = whole / static_cast<double>(count);
+  out.resolution = sampled.whole() / static_cast<double>(count);
   const std::uint32_t component = line.nodes.front().component;
-  constexpr double reach_of_kernel = 3;  // standard deviations
-  for (std::ptrdiff_t i = 0; i < n; ++i) {
-    const Disk& here = samples[static_cast<std::size_t>(i)];
-    const double s = at[static_cast<std::size_t>(i)];
+  for (std::size_t i = 0; i < count; ++i) {
+    const Disk& here = samples[i];
     // Where the line is thin it may move less, so it is averaged over less.
-    const double deviation = radii * std::min(mean_radius, 2 * here.radius);
-    Vec2 sum;
-    double weights = 0;
-    const auto add = [&](std::ptrdiff_t k) {
-      const Beyond other = sample(k);
-      const double before = sample(k - 1).at, after = sample(k + 1).at;
-      const double z = (other.at - s) / deviation;
-      if (!(std::abs(z) <= reach_of_kernel)) return false;
-      const double weight = std::exp(-0.5 * z * z) * std::max(after - before, 0.0);
-      sum = sum + weight * (other.center - here.center);
-      weights += weight;
-      return true;
-    };
-    if (deviation > 0) {
-      for (std::ptrdiff_t k = i; k > i - n && add(k); --k) {
-      }
-      for (std::ptrdiff_t k = i + 1; k < i + n && add(k); ++k) {
-      }
-    }
-    Vec2 move = weights > 0 ? (1 / weights) * sum : Vec2{};
-    if (!closed && (i == 0 || i == n - 1)) move = {};
+    Vec2 move = sampled.to_mean(i, radii * std::min(mean_radius, 2 * here.radius));
+    if (!closed && (i == 0 || i == count - 1)) move = {};
     const double most = 0.5 * here.radius;
     if (norm(move) > most) move = (most / norm(move)) * move;
     const Vec2 center = here.center + move;

@@ -28,9 +28,9 @@ class DiskLiner {
         beyond_(axis.nodes.size(), 0) {}
 
   DiskGraph run() {
-    const std::vector<Branch> all = branches(axis_);
+    branches_ = branches(axis_);
     std::vector<Fuse> fuses;
-    for (const Branch& branch : all) {
+    for (const Branch& branch : branches_) {
       double total = 0;
       for (const Step& step : branch.steps) total += length(axis_, axis_.edges[step.edge]);
       fuses.push_back({{branch.from, branch.to}, total});
@@ -38,9 +38,9 @@ class DiskLiner {
     const auto start = burn(axis_, fuses);
     // What is dropped up to a node reaches beyond its disk; it must be known before lines are
     // drawn.
-    std::vector<std::vector<Sample>> kept(all.size());
-    for (std::size_t i = 0; i < all.size(); ++i) kept[i] = kept_part(all[i], start[i]);
-    chain(all, kept);
+    for (std::size_t i = 0; i < branches_.size(); ++i)
+      kept_.push_back(kept_part(branches_[i], start[i]));
+    chain();
     const std::vector<std::uint32_t> degree = degrees_of(axis_);
     for (std::size_t node = 0; node < degree.size(); ++node)
       if (degree[node] == 0) graph_.junctions.push_back(axis_.nodes[node].disk);
@@ -159,83 +159,71 @@ class DiskLiner {
   }
 
   /// Joins what stays at nodes where two branches are left, and makes lines of the chains.
-  void chain(const std::vector<Branch>& all, const std::vector<std::vector<Sample>>& kept) {
-    // The ends of kept branches at nodes that they reach: 2 i + end.
-    std::vector<std::vector<std::uint32_t>> around(axis_.nodes.size());
-    const auto reaches = [&](std::size_t i, bool end) {
-      const Disk& node = axis_.nodes[end ? all[i].to : all[i].from].disk;
-      const Disk& disk = (end ? kept[i].back() : kept[i].front()).disk;
-      return node.center == disk.center && node.radius == disk.radius;
-    };
-    for (std::uint32_t i = 0; i < all.size(); ++i) {
-      if (kept[i].empty()) continue;
-      if (reaches(i, false)) around[all[i].from].push_back(2 * i);
-      if (reaches(i, true)) around[all[i].to].push_back(2 * i + 1);
-    }
-    std::vector<bool> done(all.size(), false);
-    const auto inner = [&](std::uint32_t node) { return around[node].size() == 2; };
-    const auto node_of = [&](std::uint32_t end) {
-      return end % 2 == 0 ? all[end / 2].from : all[end / 2].to;
-    };
-    const auto walk = [&](std::uint32_t start) {
-      // From the end `start` of a branch along the chain.
-      std::vector<Sample> samples;
-      std::uint32_t end = start;
-      const std::uint32_t first =
-          junction_at(start, kept, reaches(start / 2, start % 2 == 1) ? node_of(start) : no_site);
-      for (;;) {
-        const std::uint32_t i = end / 2;
-        done[i] = true;
-        const std::size_t skip = samples.empty() ? 0 : 1;
-        if (end % 2 == 0) {
-          samples.insert(samples.end(), kept[i].begin() + static_cast<std::ptrdiff_t>(skip),
-                         kept[i].end());
-        } else {
-          samples.insert(samples.end(), kept[i].rbegin() + static_cast<std::ptrdiff_t>(skip),
-                         kept[i].rend());
-        }
-        end ^= 1U;  // where it arrives
-        const bool at_node = reaches(i, end % 2 == 1);
-        const std::uint32_t node = at_node ? node_of(end) : no_site;
-        if (at_node) samples.back().beyond = std::max(samples.back().beyond, beyond_[node]);
-        if (!at_node || !inner(node)) {
-          add_line(first, junction_at(end, kept, node), samples);
-          return;
-        }
-        const std::uint32_t next = around[node][around[node][0] == end ? 1 : 0];
-        if (done[next / 2]) {  // around a cycle
-          add_line(first, junction_at(end, kept, node), samples);
-          return;
-        }
-        end = next;
+  void chain() {
+    around_.resize(axis_.nodes.size());
+    for (std::uint32_t end = 0; end < 2 * kept_.size(); ++end)
+      if (!kept_[end / 2].empty() && reaches(end)) around_[node_of(end)].push_back(end);
+    done_.assign(kept_.size(), false);
+    for (std::uint32_t end = 0; end < 2 * kept_.size(); ++end)
+      if (!kept_[end / 2].empty() && !done_[end / 2] && !goes_on(end)) walk(end);
+    for (std::uint32_t i = 0; i < kept_.size(); ++i)  // cycles
+      if (!kept_[i].empty() && !done_[i]) walk(2 * i);
+  }
+
+  /// The ends of branch i are 2 i and 2 i + 1.
+  std::uint32_t node_of(std::uint32_t end) const {
+    return end % 2 == 0 ? branches_[end / 2].from : branches_[end / 2].to;
+  }
+  const Disk& disk_of(std::uint32_t end) const {
+    return (end % 2 == 0 ? kept_[end / 2].front() : kept_[end / 2].back()).disk;
+  }
+  /// Whether what was kept of a branch reaches the node at its end.
+  bool reaches(std::uint32_t end) const {
+    const Disk &node = axis_.nodes[node_of(end)].disk, &disk = disk_of(end);
+    return node.center == disk.center && node.radius == disk.radius;
+  }
+  bool goes_on(std::uint32_t end) const {
+    return reaches(end) && around_[node_of(end)].size() == 2;
+  }
+
+  /// Makes a line of the chain from an end of a branch on.
+  void walk(std::uint32_t end) {
+    std::vector<Sample> samples;
+    const std::uint32_t first = junction_at(end);
+    for (;;) {
+      const std::vector<Sample>& kept = kept_[end / 2];
+      done_[end / 2] = true;
+      const std::ptrdiff_t skip = samples.empty() ? 0 : 1;
+      if (end % 2 == 0) {
+        samples.insert(samples.end(), kept.begin() + skip, kept.end());
+      } else {
+        samples.insert(samples.end(), kept.rbegin() + skip, kept.rend());
       }
-    };
-    for (std::uint32_t i = 0; i < all.size(); ++i) {
-      if (kept[i].empty()) continue;
-      for (const std::uint32_t end : {2 * i, 2 * i + 1}) {
-        if (done[i]) continue;
-        const bool at_node = reaches(i, end % 2 == 1);
-        if (!at_node || !inner(node_of(end))) walk(end);
-      }
+      end ^= 1U;  // where it arrives
+      if (reaches(end))
+        samples.back().beyond = std::max(samples.back().beyond, beyond_[node_of(end)]);
+      if (!goes_on(end)) break;
+      const std::vector<std::uint32_t>& ends = around_[node_of(end)];
+      const std::uint32_t next = ends[ends[0] == end ? 1 : 0];
+      if (done_[next / 2]) break;  // around a cycle
+      end = next;
     }
-    for (std::uint32_t i = 0; i < all.size(); ++i)
-      if (!kept[i].empty() && !done[i]) walk(2 * i);
+    add_line(first, junction_at(end), samples);
   }
 
   /// The junction of a node, or a new one at the end of a branch that was cut.
-  std::uint32_t junction_at(std::uint32_t end, const std::vector<std::vector<Sample>>& kept,
-                            std::uint32_t node) {
+  std::uint32_t junction_at(std::uint32_t end) {
     const auto added = static_cast<std::uint32_t>(graph_.junctions.size());
-    if (node == no_site) {
-      const std::vector<Sample>& samples = kept[end / 2];
-      graph_.junctions.push_back((end % 2 == 0 ? samples.front() : samples.back()).disk);
+    if (!reaches(end)) {
+      graph_.junctions.push_back(disk_of(end));
       return added;
     }
-    if (junction_of_[node] == no_site) {
-      junction_of_[node] = added;
-      graph_.junctions.push_back(axis_.nodes[node].disk);
+    std::uint32_t& junction = junction_of_[node_of(end)];
+    if (junction == no_site) {
+      junction = added;
+      graph_.junctions.push_back(axis_.nodes[node_of(end)].disk);
     }
-    return junction_of_[node];
+    return junction;
   }
 
   void add_line(std::uint32_t from, std::uint32_t to, const std::vector<Sample>& samples) {
@@ -263,6 +251,10 @@ class DiskLiner {
   const MedialAxis& axis_;
   double prune_, error_;
   DiskGraph graph_;
+  std::vector<Branch> branches_;
+  std::vector<std::vector<Sample>> kept_;           ///< of each branch
+  std::vector<std::vector<std::uint32_t>> around_;  ///< of each node: the ends that reach it
+  std::vector<bool> done_;                          ///< branches in lines
   std::vector<std::uint32_t> junction_of_;
   std::vector<double> beyond_;
 };

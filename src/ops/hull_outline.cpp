@@ -147,20 +147,15 @@ std::vector<bool> detach(MedialAxis& axis, double off) {
   return detached;
 }
 
-}  // namespace
-
-std::vector<Ring> outline_of_hulls(const MedialAxis& whole, double chord, std::uint64_t seed) {
-  // Disks in whole numbers have tangents that lie on each other; off by nearly nothing they cross.
-  const double off = chord / 16;
-  Random random(seed << 32);
-  chord -= 3 * off;  // of moving disks, and of angles that are left out below
+/// The nodes, moved at random by less than `off`: disks in whole numbers have tangents that lie on
+/// each other. Edges once, and none of which one disk holds the other: the hull is the larger one.
+MedialAxis in_general_position(const MedialAxis& whole, double off, Random& random) {
   MedialAxis axis;
   axis.nodes = whole.nodes;
   for (Node& node : axis.nodes) {
     node.disk.center = node.disk.center + off * Vec2{random.share() - 0.5, random.share() - 0.5};
     node.disk.radius += off / 2 * random.share();
   }
-  // The hull of two disks of which one holds the other is the larger one.
   for (Edge edge : whole.edges) {
     if (edge.node[0] > edge.node[1]) std::swap(edge.node[0], edge.node[1]);
     const Disk &a = axis.nodes[edge.node[0]].disk, &b = axis.nodes[edge.node[1]].disk;
@@ -169,6 +164,16 @@ std::vector<Ring> outline_of_hulls(const MedialAxis& whole, double chord, std::u
   ranges::sort(axis.edges, {}, &Edge::node);
   const auto is_same = [](const Edge& a, const Edge& b) { return a.node == b.node; };
   axis.edges.erase(std::unique(axis.edges.begin(), axis.edges.end(), is_same), axis.edges.end());
+  return axis;
+}
+
+}  // namespace
+
+std::vector<Ring> outline_of_hulls(const MedialAxis& whole, double chord, std::uint64_t seed) {
+  const double off = chord / 16;
+  Random random(seed << 32);
+  chord -= 3 * off;  // of moving disks, and of angles that are left out below
+  MedialAxis axis = in_general_position(whole, off, random);
   // Of an edge, the hull is what its tangents and the four radii to their ends enclose, and what
   // its disks add; of a node, the edges leave gaps between their tangents on its disk, whose
   // sectors cover what is not in a neighbour's. So the sum of all these parts, each of them
@@ -177,37 +182,37 @@ std::vector<Ring> outline_of_hulls(const MedialAxis& whole, double chord, std::u
   const double most = std::max(4096.0, 0x1p22 / static_cast<double>(axis.nodes.size()));
   const std::vector<bool> detached = detach(axis, off);
   const HalfEdges halves(axis);
+  const auto add_turn = [&](HalfEdge half, std::vector<Vec2>& points) {
+    const HalfEdge next = halves.next(half);
+    const Disk& disk = halves.disk(half, true);
+    const Turn turning(disk, halves.disk(half, false), halves.disk(next, true), next == twin(half));
+    const Tangent &here = turning.here, &after = turning.after;
+    if (detached[halves.to(half)]) {
+      // Not all the way to the feet: others may be there, on the same line to rounding.
+      const double most_way = std::sqrt(off * disk.radius);
+      const auto short_of = [&](Vec2 foot, Vec2 other) {
+        const double length = distance(foot, other), way = (0.5 + random.share()) * most_way;
+        return length > 0 ? foot + std::min(way / length, 0.5) * (other - foot) : foot;
+      };
+      points.push_back(short_of(here.end, here.begin));
+      points.push_back(short_of(after.begin, after.end));
+    } else if (turning.nearly_straight(disk, off)) {
+      const Vec2 between = here.normal + after.normal;
+      points.push_back(disk.center + (disk.radius / norm(between)) * between);
+    } else if (turning.gap >= 0) {
+      points.push_back(here.end);
+      add_arc(disk, here.normal, turning.gap, chord, most, points);
+      points.push_back(after.begin);
+    } else if (turning.crossing) {
+      points.push_back(*turning.crossing);
+    } else {
+      points.insert(points.end(), {here.end, disk.center, after.begin});
+    }
+  };
   std::vector<Ring> rings;
   halves.each_walk([&](std::span<const HalfEdge> walk) {
     Ring ring{{}, RingRole::winding};
-    for (const HalfEdge half : walk) {
-      const HalfEdge next = halves.next(half);
-      const Disk& disk = halves.disk(half, true);
-      const Turn turning(disk, halves.disk(half, false), halves.disk(next, true),
-                         next == twin(half));
-      const auto& [here, after, gap, crossing] = turning;
-      if (detached[halves.to(half)]) {
-        // Not all the way to the feet: others may be there, on the same line to rounding.
-        const double most_way = std::sqrt(off * disk.radius);
-        const auto short_of = [&](Vec2 foot, Vec2 other) {
-          const double length = distance(foot, other), way = (0.5 + random.share()) * most_way;
-          return length > 0 ? foot + std::min(way / length, 0.5) * (other - foot) : foot;
-        };
-        ring.points.push_back(short_of(here.end, here.begin));
-        ring.points.push_back(short_of(after.begin, after.end));
-      } else if (turning.nearly_straight(disk, off)) {
-        const Vec2 between = here.normal + after.normal;
-        ring.points.push_back(disk.center + (disk.radius / norm(between)) * between);
-      } else if (gap >= 0) {
-        ring.points.push_back(here.end);
-        add_arc(disk, here.normal, gap, chord, most, ring.points);
-        ring.points.push_back(after.begin);
-      } else if (crossing) {
-        ring.points.push_back(*crossing);
-      } else {
-        ring.points.insert(ring.points.end(), {here.end, disk.center, after.begin});
-      }
-    }
+    for (const HalfEdge half : walk) add_turn(half, ring.points);
     if (has_area(ring.points)) rings.push_back(std::move(ring));
   });
   const std::vector<std::uint32_t> degree = degrees_of(axis);

@@ -156,50 +156,61 @@ MedialAxis clearance_part(const MedialAxis& axis, double clearance) {
   return part;
 }
 
-std::optional<EdgePlace> place_on_axis(const MedialAxis& axis, Vec2 p) {
-  if (axis.edges.empty()) return std::nullopt;
-  const auto nearest_of = [&](const auto& takes) -> std::optional<EdgePlace> {
-    std::optional<EdgePlace> best;
-    double nearest = infinity;
-    for (std::uint32_t i = 0; i < axis.edges.size(); ++i) {
-      if (!takes(axis.edges[i])) continue;
-      const Curve curve = curve_of(axis, axis.edges[i]);
-      const double t = curve.nearest(p);
-      const double d = norm(curve.offset(t) - (p - curve.origin));
-      if (d < nearest) {
-        nearest = d;
-        best = {i, t};
-      }
-    }
-    return best;
-  };
-  const bool named = ranges::all_of(axis.edges, [](const Edge& edge) {
-    return edge.site[0] != no_site && edge.site[1] != no_site;
-  });
-  if (!named) return nearest_of([](const Edge&) { return true; });
+namespace {
 
-  // Of a vertex and the end of an edge there, the vertex: their distances differ by rounding.
+/// Of the edges that `takes` takes, the nearest place to p.
+template <class Takes>
+std::optional<EdgePlace> nearest_place(const MedialAxis& axis, Vec2 p, const Takes& takes) {
+  std::optional<EdgePlace> best;
+  double nearest = infinity;
+  for (std::uint32_t i = 0; i < axis.edges.size(); ++i) {
+    if (!takes(axis.edges[i])) continue;
+    const Curve curve = curve_of(axis, axis.edges[i]);
+    const double t = curve.nearest(p);
+    const double d = norm(curve.offset(t) - (p - curve.origin));
+    if (d < nearest) {
+      nearest = d;
+      best = {i, t};
+    }
+  }
+  return best;
+}
+
+/// The nearest site to p, and the foot there. Of a vertex and the end of an edge there, the vertex:
+/// their distances differ by rounding.
+std::pair<std::uint32_t, Vec2> nearest_site(const MedialAxis& axis, Vec2 p) {
   constexpr double rounding = 1 + 0x1p-48;
-  std::uint32_t site = 0;
-  Vec2 touched;
+  std::pair<std::uint32_t, Vec2> best;
   double nearest = infinity;
   for (std::uint32_t i = 0; i < axis.sites.size(); ++i) {
     const Vec2 q = foot(axis.sites[i], p);
     const double d = distance(p, q);
     const bool vertex = axis.sites[i].kind == SiteKind::vertex;
     const bool after_vertex =
-        nearest < infinity && axis.sites[site].kind == SiteKind::vertex && !vertex;
+        nearest < infinity && axis.sites[best.first].kind == SiteKind::vertex && !vertex;
     if (after_vertex ? d * rounding < nearest : d < nearest * (vertex ? rounding : 1)) {
       nearest = d;
-      site = i;
-      touched = q;
+      best = {i, q};
     }
   }
+  return best;
+}
+
+}  // namespace
+
+std::optional<EdgePlace> place_on_axis(const MedialAxis& axis, Vec2 p) {
+  if (axis.edges.empty()) return std::nullopt;
+  const bool named = std::ranges::all_of(axis.edges, [](const Edge& edge) {
+    return edge.site[0] != no_site && edge.site[1] != no_site;
+  });
+  if (!named) return nearest_place(axis, p, [](const Edge&) { return true; });
+  const std::pair<std::uint32_t, Vec2> nearest = nearest_site(axis, p);
+  const Vec2 touched = nearest.second;
   const auto has_site = [&](const Edge& edge) {
-    return edge.site[0] == site || edge.site[1] == site;
+    return edge.site[0] == nearest.first || edge.site[1] == nearest.first;
   };
-  const Vec2 inward = inward_at(axis.sites[site], touched, p);
-  if (!(norm(inward) > 0)) return nearest_of(has_site);
+  const Vec2 inward = inward_at(axis.sites[nearest.first], touched, p);
+  if (!(norm(inward) > 0)) return nearest_place(axis, p, has_site);
   std::optional<EdgePlace> best;
   double least = infinity;
   for (std::uint32_t i = 0; i < axis.edges.size(); ++i) {
@@ -218,8 +229,7 @@ std::optional<EdgePlace> place_on_axis(const MedialAxis& axis, Vec2 p) {
   for (std::uint32_t i = 0; i < axis.edges.size() && !(best && least == 0); ++i) {
     for (const double t : {0.0, 1.0}) {
       const Disk disk = disk_at(axis, axis.edges[i], t);
-      const Vec2 expected = touched + (disk.radius / size) * inward;
-      const double missed = distance(disk.center, expected);
+      const double missed = distance(disk.center, touched + (disk.radius / size) * inward);
       if (!(missed < least)) continue;
       least = missed;
       best = {i, t};

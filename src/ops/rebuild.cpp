@@ -339,6 +339,57 @@ Result<Shape> shape_of_hulls(const MedialAxis& axis, double resolution,
   }
 }
 
+/// Around the outline of an exact axis, which crosses itself by rounding only.
+Result<Shape> shape_of_outline(const MedialAxis& axis, double chord, RebuildReport& report) {
+  std::vector<Ring> rings;
+  for (const Contour& contour : boundary_of(axis)) rings.push_back(ring_of(contour));
+  if (chord > 0)
+    for (Ring& ring : rings) ring = polygon_of(ring, chord);
+  ShapeReport shaping;
+  auto shape = build_shape(rings, &shaping);
+  if (!shape) shape = shape_of_crossing(rings, shaping);
+  report.crossings = shaping.crossings;
+  return shape;
+}
+
+void drop_thin(std::vector<Ring>& rings) {
+  std::erase_if(rings, [](const Ring& ring) { return ring.points.size() < 3; });
+}
+
+Result<Shape> shape_of_tangents(const MedialAxis& axis, const RebuildOptions& options,
+                                RebuildReport& report) {
+  constexpr std::uint64_t usual = 1000;
+  const std::uint64_t points = options.points > 0 ? options.points : usual;
+  const double step = total_length(axis) / static_cast<double>(points), size = extent_of(axis);
+  const bool as_it_is = axis.resolution > 0 && options.points == 0;
+  constexpr double hardly = 1e-9, one_place = 1e-8, nearly_straight = 1e-6;  // of the size
+  const MedialAxis all = as_it_is || !(step > 0) ? axis : sampled(axis, step);
+  const MedialAxis samples = contracted(all, hardly * size);
+  // Tangents of what rounding has left mean nothing; the disks are nearly one.
+  if (2 * samples.nodes.size() < all.nodes.size())
+    return shape_of_hulls(samples, 0, options, report);
+  report.medial_points = samples.nodes.size();
+  std::vector<Ring> rings = rings_by_tangents(samples);
+  // Around a reflex vertex all tangents end in one place to rounding.
+  for (Ring& ring : rings) ring = calmed(ring, one_place * size);
+  drop_thin(rings);
+  ShapeReport shaping;
+  auto shape = shape_of_crossing(rings, shaping);
+  // Where the boundary is nearly straight, corners of samples may run back over each other: off by
+  // nearly nothing they do not.
+  Random random(0);
+  for (int tries = 0; !shape && tries < 4; ++tries) {
+    for (Ring& ring : rings) ring = calmed(ring, nearly_straight * size);
+    for (Ring& ring : rings)
+      for (Vec2& p : ring.points)
+        p = p + nearly_straight * size / 8 * Vec2{random.share() - 0.5, random.share() - 0.5};
+    drop_thin(rings);
+    shape = shape_of_crossing(rings, shaping);
+  }
+  report.crossings = shaping.crossings;
+  return shape;
+}
+
 }  // namespace
 
 Result<Shape> rebuild(const MedialAxis& axis, const RebuildOptions& options,
@@ -346,65 +397,19 @@ Result<Shape> rebuild(const MedialAxis& axis, const RebuildOptions& options,
   if (axis.nodes.empty()) return Error{ErrorCode::empty, "an axis without nodes", {}};
   if (!(options.chord >= 0))
     return Error{ErrorCode::invalid_option, "chord is not a number from 0 up", {}};
-  std::vector<Ring> rings;
+  const bool by_outline = options.by == RebuildBy::outline;
+  const bool of_pixels =
+      by_outline && axis.resolution > 0 && options.points == 0 && is_of_pixels(axis.method);
+  const bool by_hulls = options.by == RebuildBy::hulls || (by_outline && axis.method == "pack");
   RebuildReport own;
-  const bool unpacked = axis.method == "pack" && options.by == RebuildBy::outline;
-  const bool of_pixels = is_of_pixels(axis.method) && axis.resolution > 0 &&
-                         options.by == RebuildBy::outline && options.points == 0;
-  if (options.by == RebuildBy::hulls || unpacked || of_pixels) {
-    auto shape = of_pixels ? shape_of_hulls(spaced(axis), axis.resolution, options, own)
-                           : shape_of_hulls(axis, axis.resolution, options, own);
-    if (report != nullptr) *report = own;
-    return shape;
-  }
-  const bool by_tangents = options.by == RebuildBy::tangents || axis.resolution > 0;
-  if (by_tangents) {
-    constexpr std::uint64_t usual = 1000;
-    const std::uint64_t points = options.points > 0 ? options.points : usual;
-    const double step = total_length(axis) / static_cast<double>(points);
-    const bool as_it_is = axis.resolution > 0 && options.points == 0;
-    constexpr double hardly = 1e-9;  // of the size
-    const double slack = hardly * extent_of(axis);
-    const MedialAxis all = as_it_is || !(step > 0) ? axis : sampled(axis, step);
-    const MedialAxis samples = contracted(all, slack);
-    if (2 * samples.nodes.size() < all.nodes.size()) {
-      // Tangents of what rounding has left tell nothing; the disks are nearly one.
-      auto shape = shape_of_hulls(samples, 0, options, own);
-      if (report != nullptr) *report = own;
-      return shape;
-    }
-    own.medial_points = samples.nodes.size();
-    rings = rings_by_tangents(samples);
-    // Around a reflex vertex all tangents end in one place to rounding.
-    constexpr double one_place = 1e-8;
-    for (Ring& ring : rings) ring = calmed(ring, one_place * extent_of(axis));
-    std::erase_if(rings, [](const Ring& ring) { return ring.points.size() < 3; });
-  } else {
-    for (const Contour& contour : boundary_of(axis)) rings.push_back(ring_of(contour));
-  }
-  if (options.chord > 0)
-    for (Ring& ring : rings) ring = polygon_of(ring, options.chord);
-  ShapeReport shaping;
-  // The outline of an exact axis crosses itself by rounding only; polygons of few points may.
-  auto shape = by_tangents ? Result<Shape>(Error{}) : build_shape(rings, &shaping);
-  if (!shape) shape = shape_of_crossing(rings, shaping);
-  if (!shape && by_tangents) {
-    // Where the boundary is nearly straight, corners of samples may run back over each other: off
-    // by nearly nothing they do not.
-    constexpr double calm = 1e-6;
-    const double step = calm * extent_of(axis);
-    Random random(0);
-    for (int tries = 0; !shape && tries < 4; ++tries) {
-      for (Ring& ring : rings) {
-        ring = calmed(ring, step);
-        for (Vec2& p : ring.points)
-          p = p + step / 8 * Vec2{random.share() - 0.5, random.share() - 0.5};
-      }
-      std::erase_if(rings, [](const Ring& ring) { return ring.points.size() < 3; });
-      shape = shape_of_crossing(rings, shaping);
-    }
-  }
-  own.crossings = shaping.crossings;
+  const auto shape_by_options = [&] {
+    if (of_pixels) return shape_of_hulls(spaced(axis), axis.resolution, options, own);
+    if (by_hulls) return shape_of_hulls(axis, axis.resolution, options, own);
+    if (options.by == RebuildBy::tangents || axis.resolution > 0)
+      return shape_of_tangents(axis, options, own);
+    return shape_of_outline(axis, options.chord, own);
+  };
+  Result<Shape> shape = shape_by_options();
   if (report != nullptr) *report = own;
   return shape;
 }

@@ -71,31 +71,38 @@ class FaceTree {
   /// The faces' indices, those of each leaf together.
   const std::vector<std::uint32_t>& order() const { return order_; }
 
+  /// Calls take(k) for each face order()[k] of the leaves in boxes that enter(box) lets in, until
+  /// it returns false. Returns whether it never did.
+  template <class Enter, class Take>
+  bool visit(const Enter& enter, const Take& take) const {
+    // Halved at the median, 2^31 faces have less than so many levels.
+    std::array<std::uint32_t, 64> stack{0};
+    for (std::size_t size = 1; size > 0;) {
+      const std::uint32_t at = stack[--size];
+      const Node& node = nodes_[at];
+      if (!enter(node.box)) continue;
+      if (node.count == 0) {
+        stack[size++] = node.first;
+        stack[size++] = at + 1;
+      }
+      for (std::uint32_t k = node.first; k < node.first + node.count; ++k)
+        if (!take(k)) return false;
+    }
+    return true;
+  }
+
   /// Calls take(i, j) for all pairs of faces i < j whose boxes meet, until it returns false.
   /// Returns whether it never did. `box_of_face` gives the box of a face by index.
   template <class BoxOfFace, class Take>
-  bool each_pair(BoxOfFace box_of_face, Take take) const {
-    std::vector<std::uint32_t> stack;
+  bool each_pair(const BoxOfFace& box_of_face, const Take& take) const {
     for (std::uint32_t i = 0; i < order_.size(); ++i) {
-      const std::uint32_t face = order_[i];
-      const Box3 box = box_of_face(face);
-      stack.assign(1, 0);
-      while (!stack.empty()) {
-        const std::uint32_t at = stack.back();
-        stack.pop_back();
-        const Node& node = nodes_[at];
-        if (!node.box.meets(box)) continue;
-        if (node.count == 0) {
-          stack.push_back(node.first);
-          stack.push_back(at + 1);
-          continue;
-        }
+      const Box3 box = box_of_face(order_[i]);
+      const auto take_pair = [&](std::uint32_t k) {
         // Each pair once: at the one of the two that stands first in the order.
-        for (std::uint32_t k = std::max(node.first, i + 1); k < node.first + node.count; ++k)
-          if (box_of_face(order_[k]).meets(box) &&
-              !take(std::min(face, order_[k]), std::max(face, order_[k])))
-            return false;
-      }
+        return k <= i || !box_of_face(order_[k]).meets(box) ||
+               take(std::min(order_[i], order_[k]), std::max(order_[i], order_[k]));
+      };
+      if (!visit([&](const Box3& other) { return other.meets(box); }, take_pair)) return false;
     }
     return true;
   }

@@ -319,39 +319,27 @@ Result<Nesting> nest(const Solid& solid, const FaceTree& tree,
     volume[surface_of[f]] +=
         dot(face.corner[0] - origin, cross(face.corner[1] - origin, face.corner[2] - origin));
   }
-  std::vector<std::uint32_t> stack;
   std::vector<std::uint32_t> crossed;
   for (std::uint32_t s = 0; s < surfaces; ++s) {
     nesting.outward[s] = volume[s] > 0;
     if (surfaces == 1) break;
     const Vec3 p = mesh.vertices[tip[s]];
+    const volume::Box3 ray{p, {std::numeric_limits<double>::infinity(), p.y, p.z}};
     crossed.clear();
-    stack.assign(1, 0);
-    while (!stack.empty()) {
-      const std::uint32_t at = stack.back();
-      stack.pop_back();
-      const FaceTree::Node& node = tree.nodes()[at];
-      if (node.box.high.x < p.x || node.box.low.y > p.y || node.box.high.y < p.y ||
-          node.box.low.z > p.z || node.box.high.z < p.z)
-        continue;
-      if (node.count == 0) {
-        stack.push_back(node.first);
-        stack.push_back(at + 1);
-        continue;
-      }
-      for (std::uint32_t k = node.first; k < node.first + node.count; ++k) {
-        const std::uint32_t f = tree.order()[k];
-        if (surface_of[f] != s && ray_crosses(p, volume::triangle_of(mesh.vertices, mesh.faces[f])))
-          crossed.push_back(surface_of[f]);
-      }
-    }
+    tree.visit([&](const volume::Box3& box) { return box.meets(ray); },
+               [&](std::uint32_t k) {
+                 const std::uint32_t f = tree.order()[k];
+                 if (surface_of[f] != s &&
+                     ray_crosses(p, volume::triangle_of(mesh.vertices, mesh.faces[f])))
+                   crossed.push_back(surface_of[f]);
+                 return true;
+               });
     // Surfaces crossed an odd number of times lie around this one.
     std::sort(crossed.begin(), crossed.end());
-    for (std::size_t i = 0; i < crossed.size();) {
-      std::size_t end = i;
-      while (end < crossed.size() && crossed[end] == crossed[i]) ++end;
-      nesting.depth[s] += static_cast<std::uint32_t>((end - i) % 2);
-      i = end;
+    for (auto at = crossed.begin(); at != crossed.end();) {
+      const auto end = std::upper_bound(at, crossed.end(), *at);
+      nesting.depth[s] += static_cast<std::uint32_t>((end - at) % 2);
+      at = end;
     }
   }
   return nesting;

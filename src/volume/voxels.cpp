@@ -115,6 +115,34 @@ void link_voxels(const VoxelSet& set, const std::vector<MedialVoxel>& voxels, Vo
   }
 }
 
+/// Follows ridges until what was found can be joined by bridges that lead to nothing new. Returns
+/// the voxels of the axis and of bridges: with the topology of the interior.
+VoxelSet bridged(RidgeFollower& follower, const VoxelSet& interior, Control& control) {
+  for (;;) {
+    VoxelSet kept = peel(interior, follower.medial(), control);
+    std::vector<std::uint64_t> bridges;
+    each_voxel(kept, [&](Cell cell) {
+      if (!follower.medial().contains(cell)) bridges.push_back(rank_of(cell, interior.size()));
+    });
+    std::erase_if(follower.voxels(), [](const MedialVoxel& v) { return std::isinf(v.quality); });
+    if (!follower.add_bridges(bridges)) return kept;
+    follower.follow();
+  }
+}
+
+/// In the units of the input, with the input's faces.
+Voxel voxel_of(const MedialVoxel& voxel, const Grid& grid, const Solid& solid) {
+  const Cell cell = cell_of(voxel.rank, grid.size);
+  Voxel out;
+  out.cell = {cell.x, cell.y, cell.z};
+  out.center = grid.origin + grid.step * center_of(cell);
+  out.radius = grid.step * voxel.radius;
+  out.quality = grid.step * voxel.quality;
+  for (std::size_t k = 0; k < 2; ++k)
+    if (voxel.face[k] != Voxel::no_face) out.face[k] = solid.source[voxel.face[k]];
+  return out;
+}
+
 Result<VoxelAxis> run(const Solid& solid, const VoxelOptions& options) {
   Stopwatch total, lap;
   Control control(options);
@@ -150,18 +178,7 @@ Result<VoxelAxis> run(const Solid& solid, const VoxelOptions& options) {
   follower.follow();
   statistics.seconds_follow = lap.lap();
 
-  VoxelSet kept;
-  for (;;) {
-    kept = peel(interior, follower.medial(), control);
-    std::vector<std::uint64_t> bridges;
-    each_voxel(kept, [&](Cell cell) {
-      if (!follower.medial().contains(cell)) bridges.push_back(rank_of(cell, grid.size));
-    });
-    // Where bridges lead to further medial voxels, the following goes on from there.
-    std::erase_if(follower.voxels(), [](const MedialVoxel& v) { return std::isinf(v.quality); });
-    if (!follower.add_bridges(bridges)) break;
-    follower.follow();
-  }
+  VoxelSet kept = bridged(follower, interior, control);
   std::vector<MedialVoxel> voxels = std::move(follower.voxels());
   statistics.tested_voxels = follower.tested();
   statistics.face_distances = follower.distances();
@@ -179,16 +196,7 @@ Result<VoxelAxis> run(const Solid& solid, const VoxelOptions& options) {
   axis.origin = grid.origin;
   axis.cells = grid.size;
   axis.voxels.reserve(voxels.size());
-  for (const MedialVoxel& voxel : voxels) {
-    const Cell cell = cell_of(voxel.rank, grid.size);
-    Voxel& out = axis.voxels.emplace_back();
-    out.cell = {cell.x, cell.y, cell.z};
-    out.center = grid.origin + grid.step * center_of(cell);
-    out.radius = grid.step * voxel.radius;
-    out.quality = grid.step * voxel.quality;
-    for (std::size_t k = 0; k < 2; ++k)
-      if (voxel.face[k] != Voxel::no_face) out.face[k] = solid.source[voxel.face[k]];
-  }
+  for (const MedialVoxel& voxel : voxels) axis.voxels.push_back(voxel_of(voxel, grid, solid));
   statistics.seconds_thin = lap.lap();
   statistics.seconds = total.lap();
   statistics.threads = effective_threads(options.threads);
