@@ -72,7 +72,7 @@ TEST(Prune, KeepsTheHomotopyTypeAndIsNested) {
       SCOPED_TRACE(name_of(measure));
       const bool tips = (seed + static_cast<std::uint64_t>(measure)) % 3 == 0;
       const PruneOrder order(axis, measure, tips);
-      std::vector<EdgePart> before;
+      std::vector<PathPiece> before;
       std::vector<double> thresholds = thresholds_of(order, axis, measure);
       if (seed >= thorough) {
         const std::size_t half = thresholds.size() / 2;
@@ -80,26 +80,26 @@ TEST(Prune, KeepsTheHomotopyTypeAndIsNested) {
       }
       bool first = true;
       for (const double threshold : thresholds) {
-        const std::vector<EdgePart> parts = order.parts(threshold);
+        const std::vector<PathPiece> parts = order.parts(threshold);
         if (threshold == 0) {
           ASSERT_EQ(parts.size(), axis.edges.size());
         } else if (!first) {  // nested
           auto larger = before.begin();
-          for (const EdgePart& part : parts) {
+          for (const PathPiece& part : parts) {
             while (larger != before.end() && larger->edge < part.edge) ++larger;
             ASSERT_TRUE(larger != before.end() && larger->edge == part.edge);
-            ASSERT_GE(part.t0, larger->t0);
-            ASSERT_LE(part.t1, larger->t1);
+            ASSERT_GE(part.from, larger->from);
+            ASSERT_LE(part.to, larger->to);
           }
         }
         before = parts;
         first = false;
         std::size_t here = 0;
-        for (const EdgePart& part : parts) {
-          ASSERT_LE(0, part.t0);
-          ASSERT_LE(part.t0, part.t1);
-          ASSERT_LE(part.t1, 1);
-          here += part.t0 > 0 || part.t1 < 1 ? 1 : 0;
+        for (const PathPiece& part : parts) {
+          ASSERT_LE(0, part.from);
+          ASSERT_LE(part.from, part.to);
+          ASSERT_LE(part.to, 1);
+          here += part.from > 0 || part.to < 1 ? 1 : 0;
         }
         ASSERT_EQ(order.cuts_at(threshold), here);
         cuts += here;
@@ -128,7 +128,7 @@ TEST(Prune, CutsEdgesExactly) {
     const double slack = 1e-11 * diagonal(bounding_box(*shape));
     for (const PruneMeasure measure : {PruneMeasure::angle, PruneMeasure::erosion}) {
       const PruneOrder order(*axis, measure);
-      const std::vector<EdgePart> parts = order.parts(default_threshold(measure));
+      const std::vector<PathPiece> parts = order.parts(default_threshold(measure));
       const MedialAxis pruned = order.at(default_threshold(measure));
       for (std::size_t i = 0; i < parts.size(); ++i) {
         const auto [edge, t0, t1] = parts[i];

@@ -104,7 +104,7 @@ TEST(ClosestPoint, IsNoFartherThanAnyPointOfTheTriangle) {
     EXPECT_LE(closest.squared_distance, sampled + 1e-12);
     EXPECT_GE(closest.squared_distance, sampled - 2 * std::sqrt(sampled));  // it is on the triangle
     EXPECT_LE(volume::closest_on_sides(closest.point, t).squared_distance, 4);
-    if (closest.feature != volume::Feature::inside) {
+    if (!closest.inside) {
       EXPECT_NEAR(volume::closest_on_sides(p, t).squared_distance, closest.squared_distance, 1e-12);
     }
   }

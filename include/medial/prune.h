@@ -2,7 +2,7 @@
 
 // Pruning: the part of an axis that matters, by one of several measures from the literature, each
 // without a unit. For the axis of any engine; edges of an exact axis are cut exactly.
-// docs/prune.md lists the source of each measure.
+// docs/prune.md tells which measure is whose.
 
 #include <cstdint>
 #include <memory>
@@ -11,17 +11,18 @@
 #include <vector>
 
 #include "medial/axis.h"
+#include "medial/centreline.h"
 #include "medial/error.h"
 
 namespace medial {
 
-/// How much a point of the axis matters. Beyond a point means: what removing it would
+/// What tells how much a point of the axis matters. Beyond a point means: what removing it would
 /// cut off, away from the centre (the deepest disk of a tree, or the cycles). R is the radius of
 /// the deepest disk of the connected part.
 ///
 /// Measures of points: an edge is cut where it passes the threshold.
 /// Measures of branches: a branch stays or goes as a whole, judged where it begins, at the disk of
-/// its inner end with the radius r; what lies beyond a branch that goes, goes too.
+/// its inner end with the radius r; what hangs on a branch that goes, goes too.
 enum class PruneMeasure : std::uint8_t {
   prominence,    ///< branches: the geometric mean of significance and of the same by R
   significance,  ///< branches: how far the shape reaches out beyond the disk, by r (Ho and Dyer)
@@ -64,12 +65,6 @@ struct PruneReport {
   std::uint64_t cuts = 0;  ///< edges cut in their inside
 };
 
-/// A part of an edge of an axis, from t0 to t1 in [0, 1].
-struct EdgePart {
-  std::uint32_t edge = 0;
-  double t0 = 0, t1 = 1;
-};
-
 /// How much every point of an axis matters by one measure: never less than anything beyond it. So
 /// what matters at least so much is a connected part of every connected part, holds all cycles and
 /// the ways between them, or at least the deepest disk of a tree (the lowest index among equals;
@@ -87,9 +82,8 @@ class PruneOrder {
   /// is part of at(t), or some of it, if and only if this is >= t.
   double of_edge(std::uint32_t edge) const;
   /// What matters at least `threshold`, by increasing edge. O(n).
-  std::vector<EdgePart> parts(double threshold) const;
-  /// The same as an axis: nodes and edges in their order, all sites, the kinds of nodes set again.
-  /// O(n).
+  std::vector<PathPiece> parts(double threshold) const;
+  /// The same as an axis: nodes and edges in their order, all sites, the kinds of nodes anew. O(n).
   MedialAxis at(double threshold) const;
   /// Of at(threshold).
   std::uint64_t branches_at(double threshold) const;

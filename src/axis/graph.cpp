@@ -73,14 +73,23 @@ std::vector<Branch> branches(const MedialAxis& axis) {
 }
 
 std::uint64_t branch_count(const MedialAxis& axis) {
+  return branch_count(axis, [](std::uint32_t) { return true; });
+}
+
+std::uint64_t branch_count(const MedialAxis& axis,
+                           const std::function<bool(std::uint32_t edge)>& counts) {
   // A branch has two ends at nodes without two edges, or is a closed chain of nodes with two.
-  const std::vector<std::uint32_t> degree = degrees_of(axis);
+  std::vector<std::uint32_t> degree(axis.nodes.size(), 0);
+  for (std::uint32_t e = 0; e < axis.edges.size(); ++e)
+    if (counts(e))
+      for (const std::uint32_t node : axis.edges[e].node) ++degree[node];
   std::uint64_t ends = 0, closed = 0;
   for (const std::uint32_t d : degree) ends += d == 2 ? 0 : d;
   DisjointSets chains(axis.nodes.size());
-  for (const Edge& edge : axis.edges)
-    if (degree[edge.node[0]] == 2 && degree[edge.node[1]] == 2)
-      closed += chains.join(edge.node[0], edge.node[1]) ? 0 : 1;
+  for (std::uint32_t e = 0; e < axis.edges.size(); ++e) {
+    const auto [a, b] = axis.edges[e].node;
+    if (degree[a] == 2 && degree[b] == 2 && counts(e)) closed += chains.join(a, b) ? 0 : 1;
+  }
   return ends / 2 + closed;
 }
 

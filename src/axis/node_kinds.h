@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "medial/axis.h"
@@ -15,6 +16,10 @@ constexpr NodeKind kind_of_degree(std::size_t degree) {
 
 /// The number of edges at each node; an edge from a node to itself counts twice. O(nodes + edges).
 std::vector<std::uint32_t> degrees_of(const MedialAxis& axis);
+
+/// How many branches() there would be if it were for the edges that count alone. O(edges).
+std::uint64_t branch_count(const MedialAxis& axis,
+                           const std::function<bool(std::uint32_t edge)>& counts);
 
 /// Sets the kind of every node from the number of its edges. O(nodes + edges).
 void set_node_kinds(MedialAxis& axis);

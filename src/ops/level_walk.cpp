@@ -7,25 +7,10 @@
 
 #include "axis/node_kinds.h"
 #include "base/arc.h"
+#include "ops/routes.h"
 
 namespace medial::ops {
 namespace {
-
-/// The smallest radius along an edge: at an end, or where it falls and then rises in between.
-double lowest_radius(const MedialAxis& axis, const Edge& edge) {
-  const double r0 = axis.nodes[edge.node[0]].disk.radius;
-  const double r2 = axis.nodes[edge.node[1]].disk.radius;
-  const double r1 = edge.control.radius, least = std::min(r0, r2);
-  if (r1 >= least) return least;  // convex hull: the weights are positive
-  // The derivative's numerator is a s^2 + 2 b s t + c t^2 with s = 1 - t.
-  const double a = edge.weight * (r1 - r0), b = 0.5 * (r2 - r0), c = edge.weight * (r2 - r1);
-  if (!(a < 0 && c > 0)) return least;
-  const double root = std::sqrt(b * b - a * c);
-  const double u = b > 0 ? -a / (b + root) : (root - b) / c;  // t / s
-  const double w = edge.weight;
-  const double low = (r0 + 2 * w * u * r1 + u * u * r2) / (1 + 2 * w * u + u * u);
-  return std::min(least, low);
-}
 
 /// Whether a disk lies in the circle of an arc, to `slack`.
 bool touches_all_of(const Site& site, const Disk& disk, double slack) {
@@ -155,7 +140,8 @@ LevelWalk::LevelWalk(const MedialAxis& axis)
       rise_(2 * axis.edges.size()),
       risen_(2 * axis.edges.size(), false) {
   lowest_.reserve(axis.edges.size());
-  for (const Edge& e : axis.edges) lowest_.push_back(lowest_radius(axis, e) - axis.tolerance);
+  for (std::uint32_t e = 0; e < axis.edges.size(); ++e)
+    lowest_.push_back(narrowest_radius(axis, {e, 0, 1}) - axis.tolerance);
   const std::vector<std::uint32_t> degree = degrees_of(axis);
   for (std::uint32_t node = 0; node < axis.nodes.size(); ++node)
     if (degree[node] == 0) alone_.push_back(node);

@@ -9,6 +9,7 @@
 #include "base/disjoint_sets.h"
 #include "base/in_flight.h"
 #include "base/stopwatch.h"
+#include "medial/measure.h"
 #include "ops/level_walk.h"
 #include "ops/summits.h"
 #include "shape/around.h"
@@ -252,7 +253,33 @@ constexpr double farthest = 1e5;
 /// nearer to it.
 constexpr double reach = 2.5;
 
+Error not_exact() {
+  return {ErrorCode::unsupported, "offsets are walked along exact axes only", {}};
+}
 Error invalid_offset(const char* text) { return {ErrorCode::invalid_option, text, {}}; }
+
+/// Offsets in the making, axis by axis.
+struct Making {
+  Offsets offsets;
+  Regions regions{0};
+  Stopwatch watch;
+
+  /// Takes an axis whose regions have so many keys, and prepares it for the walk.
+  Status take(Result<MedialAxis>& axis, std::size_t keys) {
+    if (!axis) return std::move(axis).error();
+    if (axis->resolution > 0) return not_exact();
+    offsets.seconds_axis += watch.lap();
+    offsets.tolerance = std::max(offsets.tolerance, axis->tolerance);
+    ops::divide_at_summits(*axis);
+    regions.rename(keys, [](std::uint32_t key) { return key; });
+    return success();
+  }
+  Offsets done() {
+    finish(offsets);
+    offsets.seconds_curves += watch.lap();
+    return std::move(offsets);
+  }
+};
 
 Result<Offsets> offset_both_sides(const Shape& shape, std::span<const double> clearances,
                                   const Options& options) {
@@ -269,41 +296,26 @@ Result<Offsets> offset_both_sides(const Shape& shape, std::span<const double> cl
   outside = increasing(std::move(outside));
   Options own = options;
   own.exterior = false;
-  Offsets offsets;
-  Regions regions(0);
+  Making making;
   if (!inside.empty()) {
-    Stopwatch computing;
     auto axis = compute(shape, own);
-    if (!axis) return std::move(axis).error();
-    offsets.seconds_axis += computing.lap();
-    Stopwatch walking;
-    if (axis->resolution > 0) return inward_offsets(*axis, inside).error();
-    offsets.tolerance = axis->tolerance;
-    ops::divide_at_summits(*axis);
-    regions.rename(axis->nodes.size(), [](std::uint32_t key) { return key; });
-    add_inward(*axis, inside, regions, offsets.regions);
-    regions.rename(0, [&](std::uint32_t node) { return axis->nodes[node].component; });
-    offsets.seconds_curves += walking.lap();
+    if (Status taken = making.take(axis, axis ? axis->nodes.size() : 0); !taken)
+      return std::move(taken).error();
+    add_inward(*axis, inside, making.regions, making.offsets.regions);
+    making.regions.rename(0, [&](std::uint32_t node) { return axis->nodes[node].component; });
+    making.offsets.seconds_curves += making.watch.lap();
   }
   if (!outside.empty()) {
-    Stopwatch computing;
     const double margin = std::max(reach * outside.back(), 0.1 * margin_for(box, 0));
     auto exterior = exterior_of(shape, margin);
     if (!exterior) return std::move(exterior).error();
     auto axis = compute(exterior->shape, own);
-    if (!axis) return std::move(axis).error();
-    if (axis->resolution > 0) return inward_offsets(*axis, outside).error();
-    offsets.seconds_axis += computing.lap();
-    Stopwatch walking;
-    offsets.tolerance = std::max(offsets.tolerance, axis->tolerance);
-    ops::divide_at_summits(*axis);
-    regions.rename(shape.component_count(), [](std::uint32_t component) { return component; });
-    static_cast<void>(add_outward(*axis, surroundings_of(shape, *exterior, *axis), outside, regions,
-                                  offsets.regions));
-    offsets.seconds_curves += walking.lap();
+    if (Status taken = making.take(axis, shape.component_count()); !taken)
+      return std::move(taken).error();
+    static_cast<void>(add_outward(*axis, surroundings_of(shape, *exterior, *axis), outside,
+                                  making.regions, making.offsets.regions));
   }
-  finish(offsets);
-  return offsets;
+  return making.done();
 }
 
 Result<Offsets> buffers_of(const PlanarGraph& planar_graph, std::span<const double> given,
@@ -316,25 +328,19 @@ Result<Offsets> buffers_of(const PlanarGraph& planar_graph, std::span<const doub
       return invalid_offset("a distance must be positive and finite");
     if (size > 0 && d > farthest * size) return invalid_offset("a distance is above 1e5 diagonals");
   }
-  Offsets offsets;
-  if (given.empty()) return offsets;
+  if (given.empty()) return Offsets{};
   const std::vector<double> distances = increasing({given.begin(), given.end()});
-  Stopwatch computing;
+  Making making;
   const double margin = std::max(reach * distances.back(), 0.1 * size);
   const Shape surroundings =
       around(planar_graph, {box.low - Vec2{margin, margin}, box.high + Vec2{margin, margin}});
   auto axis = axis_around(planar_graph, surroundings, options);
-  if (!axis) return std::move(axis).error();
-  offsets.seconds_axis = computing.lap();
-  Stopwatch walking;
-  offsets.tolerance = axis->tolerance;
-  ops::divide_at_summits(*axis);
-  Regions regions(planar_graph.points.size());
-  offsets.region_of_point = add_outward(*axis, surroundings_of(planar_graph, surroundings, *axis),
-                                        distances, regions, offsets.regions);
-  finish(offsets);
-  offsets.seconds_curves = walking.lap();
-  return offsets;
+  if (Status taken = making.take(axis, planar_graph.points.size()); !taken)
+    return std::move(taken).error();
+  making.offsets.region_of_point =
+      add_outward(*axis, surroundings_of(planar_graph, surroundings, *axis), distances,
+                  making.regions, making.offsets.regions);
+  return making.done();
 }
 
 template <class Work>
@@ -349,8 +355,7 @@ auto guarded(const Work& work) -> decltype(work()) {
 }  // namespace
 
 Result<Offsets> inward_offsets(const MedialAxis& axis, std::span<const double> clearances) {
-  if (axis.resolution > 0)
-    return Error{ErrorCode::unsupported, "offsets are walked along exact axes only", {}};
+  if (axis.resolution > 0) return not_exact();
   if (axis.exterior > 0)
     return Error{ErrorCode::unsupported, "the axis is one of the exterior", {}};
   for (const double c : clearances)
@@ -389,7 +394,7 @@ Result<std::vector<double>> offset_passes(const MedialAxis& axis, double first, 
   if (!(first > 0 && step > 0 && std::isfinite(first) && std::isfinite(step)))
     return invalid_offset("a step must be positive and finite");
   std::vector<double> passes;
-  const double deepest = ops::largest_radius(axis) - axis.tolerance;
+  const double deepest = axis.nodes.empty() ? 0 : deepest_disk(axis).radius - axis.tolerance;
   if ((deepest - first) / step > most)
     return Error{ErrorCode::too_large, "more than 1e6 passes: the step is too small", {}};
   for (double c = first; c < deepest; c = first + static_cast<double>(passes.size()) * step)

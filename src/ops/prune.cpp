@@ -114,9 +114,8 @@ struct PruneOrder::Parts {
 
   /// From the core outwards: what belongs together has one value, that where it begins.
   void spread(bool tips) {
-    std::vector<std::uint32_t> edges_at(axis.nodes.size(), 0), farthest;
-    for (const Edge& edge : axis.edges)
-      for (const std::uint32_t node : edge.node) ++edges_at[node];
+    const std::vector<std::uint32_t> degree = degrees_of(axis);
+    std::vector<std::uint32_t> farthest;
     if (tips) {
       farthest.assign(axis.nodes.size(), none);
       std::vector<double> most(axis.nodes.size(), -1);
@@ -130,7 +129,7 @@ struct PruneOrder::Parts {
     }
     for (auto e = trees.order.rbegin(); e != trees.order.rend(); ++e) {
       const std::uint32_t node = end_of(*e, false), before = trees.inwards[node];
-      const bool goes_on = before != none && (tips ? farthest[node] == *e : edges_at[node] == 2);
+      const bool goes_on = before != none && (tips ? farthest[node] == *e : degree[node] == 2);
       if (goes_on) {
         inner[*e] = inner[before];
       } else if (importance.of_branches()) {
@@ -162,15 +161,15 @@ PruneOrder::PruneOrder(PruneOrder&&) noexcept = default;
 
 double PruneOrder::of_edge(std::uint32_t edge) const { return parts_->inner[edge]; }
 
-std::vector<EdgePart> PruneOrder::parts(double threshold) const {
+std::vector<PathPiece> PruneOrder::parts(double threshold) const {
   const Parts& p = *parts_;
-  std::vector<EdgePart> kept;
+  std::vector<PathPiece> kept;
   for (std::uint32_t e = 0; e < p.axis.edges.size(); ++e) {
     if (!(p.inner[e] >= threshold)) continue;
     const double begin = p.begin_of(e, threshold);
-    EdgePart part{e, 0, 1};
+    PathPiece part{e, 0, 1};
     if (begin > 0)
-      (p.trees.outer_end(p.axis, e) == 0 ? part.t0 : part.t1) =
+      (p.trees.outer_end(p.axis, e) == 0 ? part.from : part.to) =
           p.trees.outer_end(p.axis, e) == 0 ? begin : 1 - begin;
     kept.push_back(part);
   }
@@ -196,41 +195,25 @@ MedialAxis PruneOrder::at(double threshold) const {
     index[i] = static_cast<std::uint32_t>(out.nodes.size());
     out.nodes.push_back(axis.nodes[i]);
   }
-  std::vector<std::uint32_t> degree(out.nodes.size(), 0);
-  for (const EdgePart& part : parts(threshold)) {
+  for (const PathPiece& part : parts(threshold)) {
     Edge edge = axis.edges[part.edge];
-    if (part.t0 > 0 || part.t1 < 1) {
-      const Curve curve = curve_of(axis, edge).part(part.t0, part.t1);
+    if (part.from > 0 || part.to < 1) {
+      const Curve curve = curve_of(axis, edge).part(part.from, part.to);
       edge.control = {curve.origin + curve.p1, curve.r1};
       edge.weight = curve.weight;
-      Node& cut = out.nodes[index[edge.node[part.t0 > 0 ? 0 : 1]]];
-      cut.disk = part.t0 > 0 ? Disk{curve.origin, curve.r0} : Disk{curve.end, curve.r2};
+      Node& cut = out.nodes[index[edge.node[part.from > 0 ? 0 : 1]]];
+      cut.disk = part.from > 0 ? Disk{curve.origin, curve.r0} : Disk{curve.end, curve.r2};
     }
-    for (std::uint32_t& node : edge.node) ++degree[node = index[node]];
+    for (std::uint32_t& node : edge.node) node = index[node];
     out.edges.push_back(edge);
   }
-  for (std::size_t i = 0; i < out.nodes.size(); ++i) out.nodes[i].kind = kind_of_degree(degree[i]);
+  set_node_kinds(out);
   return out;
 }
 
 std::uint64_t PruneOrder::branches_at(double threshold) const {
   const Parts& p = *parts_;
-  std::vector<std::uint32_t> degree(p.axis.nodes.size(), 0);
-  for (std::uint32_t e = 0; e < p.axis.edges.size(); ++e)
-    if (p.inner[e] >= threshold)
-      for (const std::uint32_t node : p.axis.edges[e].node) ++degree[node];
-  // A branch has two ends at nodes without two edges, or is all of its connected part: closed.
-  std::uint64_t ends = 0, closed = 0;
-  std::vector<bool> has_edges(p.trees.deepest.size(), false), has_ends = has_edges;
-  for (std::size_t i = 0; i < degree.size(); ++i) {
-    if (degree[i] == 0) continue;
-    has_edges[p.trees.part[i]] = true;
-    if (degree[i] == 2) continue;
-    has_ends[p.trees.part[i]] = true;
-    ends += degree[i];
-  }
-  for (std::size_t i = 0; i < has_edges.size(); ++i) closed += has_edges[i] && !has_ends[i] ? 1 : 0;
-  return ends / 2 + closed;
+  return branch_count(p.axis, [&](std::uint32_t edge) { return p.inner[edge] >= threshold; });
 }
 
 std::uint64_t PruneOrder::cuts_at(double threshold) const {

@@ -7,9 +7,6 @@ namespace medial::ops {
 /// Whether the radius along some edge exceeds that of both of its ends: only between two arcs.
 bool has_summits(const MedialAxis& axis);
 
-/// The largest radius of all points of the axis; 0 where there is none.
-double largest_radius(const MedialAxis& axis);
-
 /// Divides such edges where their radius is largest, so that the largest radius along every edge is
 /// that of a node. What was there keeps its index; the second halves and the new nodes
 /// (site_change) come behind. O(edges).

@@ -2,30 +2,10 @@
 
 #include <algorithm>
 
-#include "axis/curve.h"
 #include "base/disjoint_sets.h"
+#include "medial/centreline.h"
 
 namespace medial::ops {
-namespace {
-
-/// The largest radius inside an edge, or 0 where none exceeds those of its ends.
-double largest_inside(const MedialAxis& axis, const Edge& edge) {
-  const Curve curve = curve_of(axis, edge);
-  // The radius stays in the hull of its control points.
-  if (curve.r1 <= std::max(curve.r0, curve.r2)) return 0;
-  double low = 0, high = 1;
-  if (curve.derivatives(low).radius_first <= 0 || curve.derivatives(high).radius_first >= 0)
-    return 0;
-  constexpr int halvings = 40;
-  for (int i = 0; i < halvings; ++i) {
-    const double middle = 0.5 * (low + high);
-    (curve.derivatives(middle).radius_first > 0 ? low : high) = middle;
-  }
-  return curve.at(low).radius;
-}
-
-}  // namespace
-
 Trees::Trees(const MedialAxis& axis) : inwards(axis.nodes.size(), none), part(axis.nodes.size()) {
   const std::size_t n = axis.nodes.size();
   DisjointSets sets(n);
@@ -49,7 +29,9 @@ Trees::Trees(const MedialAxis& axis) : inwards(axis.nodes.size(), none), part(ax
   for (std::uint32_t e = 0; e < axis.edges.size(); ++e) {
     const std::uint32_t p = part[axis.edges[e].node[0]];
     ++edges[p];
-    const double inside = largest_inside(axis, axis.edges[e]);
+    // The radius stays in the hull of its control points.
+    if (axis.edges[e].control.radius <= radius[p]) continue;
+    const double inside = disk_at(axis, axis.edges[e], widest_place(axis, e).t).radius;
     if (inside <= radius[p] * (1 + 1e-9)) continue;
     radius[p] = inside;
     deepest_edge[p] = e;

@@ -1,24 +1,17 @@
 #pragma once
 
-#include <cstdint>
-
 #include "volume/face_tree.h"
 
 namespace medial::volume {
 
-/// Where on a triangle its nearest point lies.
-enum class Feature : std::uint8_t { corner0, corner1, corner2, side01, side12, side20, inside };
-
 struct Closest {
   double squared_distance = 0;
   Vec3 point;
-  Feature feature = Feature::inside;
+  bool inside = false;  ///< of the triangle, not on a side
 };
 
 /// The nearest point on the three sides of a triangle.
 inline Closest closest_on_sides(Vec3 p, const Triangle& triangle) {
-  constexpr Feature side[] = {Feature::side01, Feature::side12, Feature::side20};
-  constexpr Feature corner[] = {Feature::corner0, Feature::corner1, Feature::corner2};
   Closest best;
   for (int i = 0; i < 3; ++i) {
     const Vec3 from = triangle.corner[i], to = triangle.corner[(i + 1) % 3];
@@ -27,7 +20,7 @@ inline Closest closest_on_sides(Vec3 p, const Triangle& triangle) {
     const Vec3 point = along <= 0 ? from : along >= 1 ? to : from + along * (to - from);
     const double distance2 = medial::squared_norm(point - p);
     if (i > 0 && distance2 >= best.squared_distance) continue;
-    best = {distance2, point, along <= 0 ? corner[i] : along >= 1 ? corner[(i + 1) % 3] : side[i]};
+    best = {distance2, point};
   }
   return best;
 }
@@ -37,28 +30,28 @@ inline Closest closest_on_sides(Vec3 p, const Triangle& triangle) {
 /// than 1e-11; triangles without an area give a point on a side.
 inline Closest closest_point(Vec3 p, const Triangle& triangle) {
   const auto& [a, b, c] = triangle.corner;
-  const auto at = [p](Vec3 point, Feature feature) {
-    return Closest{medial::squared_norm(point - p), point, feature};
+  const auto at = [p](Vec3 point, bool inside = false) {
+    return Closest{medial::squared_norm(point - p), point, inside};
   };
   const Vec3 ab = b - a, ac = c - a, ap = p - a;
   const double d1 = dot(ab, ap), d2 = dot(ac, ap);
-  if (d1 <= 0 && d2 <= 0) return at(a, Feature::corner0);
+  if (d1 <= 0 && d2 <= 0) return at(a);
   const Vec3 bp = p - b;
   const double d3 = dot(ab, bp), d4 = dot(ac, bp);
-  if (d3 >= 0 && d4 <= d3) return at(b, Feature::corner1);
+  if (d3 >= 0 && d4 <= d3) return at(b);
   const double vc = d1 * d4 - d3 * d2;
-  if (vc <= 0 && d1 >= 0 && d3 <= 0) return at(a + d1 / (d1 - d3) * ab, Feature::side01);
+  if (vc <= 0 && d1 >= 0 && d3 <= 0) return at(a + d1 / (d1 - d3) * ab);
   const Vec3 cp = p - c;
   const double d5 = dot(ab, cp), d6 = dot(ac, cp);
-  if (d6 >= 0 && d5 <= d6) return at(c, Feature::corner2);
+  if (d6 >= 0 && d5 <= d6) return at(c);
   const double vb = d5 * d2 - d1 * d6;
-  if (vb <= 0 && d2 >= 0 && d6 <= 0) return at(a + d2 / (d2 - d6) * ac, Feature::side20);
+  if (vb <= 0 && d2 >= 0 && d6 <= 0) return at(a + d2 / (d2 - d6) * ac);
   const double va = d3 * d6 - d5 * d4;
   if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0)
-    return at(b + (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (c - b), Feature::side12);
+    return at(b + (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (c - b));
   if (!(va > 0 && vb > 0 && vc > 0)) return closest_on_sides(p, triangle);
   const double scale = 1 / (va + vb + vc);
-  return at(a + vb * scale * ab + vc * scale * ac, Feature::inside);
+  return at(a + vb * scale * ab + vc * scale * ac, true);
 }
 
 }  // namespace medial::volume

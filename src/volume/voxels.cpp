@@ -167,10 +167,9 @@ Result<VoxelAxis> run(const Solid& solid, const VoxelOptions& options) {
   statistics.seconds_digitize = lap.lap();
 
   RidgeFollower follower(grid, interior, finder, control);
-  {
-    const std::vector<BoundedSet> sets = bounded_sets(interior);
-    statistics.bounded_sets = sets.size();
-    for (const BoundedSet& set : sets) follower.find_first(set);
+  for (const BoundedSet& set : bounded_sets(interior)) {
+    ++statistics.bounded_sets;
+    follower.find_first(set);
   }
   statistics.seconds_first = lap.lap();
   follower.follow();
