@@ -1,9 +1,8 @@
 #pragma once
 
-// Carving along the medial axis with a V-shaped tool: where its point follows the axis at the depth
-// at which the cone is as wide as the disk, the walls become planes that start at the shape's
-// boundary, and inner corners come out sharp. What is wider than the tool reaches gets a flat
-// bottom, cleared along offset curves.
+// Carving along the medial axis with a V-shaped tool. Its point follows the axis at the depth at
+// which the cone is as wide as the disk: the walls are planes from the shape's boundary, and inner
+// corners come out sharp. What is wider than the tool gets a flat bottom, cleared along offsets.
 
 #include <cstdint>
 #include <vector>
@@ -17,30 +16,25 @@ namespace medial {
 struct CarveOptions {
   /// Between the sides of the cone, in degrees, in [0, 170]; 0: an end mill, which is all tip.
   double angle = 90;
-  /// How deep at most; 0: as deep as the tool reaches. Required for an end mill.
-  double depth = 0;
-  /// The diameter of the tool; 0: no limit. Of a cone the largest one, which limits the depth.
-  double tool = 0;
-  /// The diameter of the cone's flat tip, below `tool`. An end mill's is `tool`.
-  double tip = 0;
-  /// How deep one pass goes at most; 0: all in one. Passes are cut one after another from the
-  /// surface down, each to its own flat bottom.
+  double depth = 0;  ///< at most; 0: as deep as the tool reaches; required for an end mill
+  double tool = 0;   ///< largest diameter, which limits the depth of a cone; 0: no limit
+  double tip = 0;    ///< diameter of the cone's flat tip, below `tool`; an end mill's is `tool`
+  /// Depth of one pass at most; 0: all in one. Passes are cut from the surface down.
   double pass_depth = 0;
   /// Between the passes that clear a flat bottom; 0: half of the tip's diameter, which leaves
-  /// nothing; where the tip is a point a 20th of the cone's radius at that depth, which leaves
-  /// ridges.
+  /// nothing, or for a pointed tip a 20th of the cone's radius at that depth, which leaves ridges.
   double step = 0;
-  /// How far the straight moves may be off the curved parts of the axis; 0: 1e-5 of the diagonal of
-  /// the axis's sites, at least 1e-8 of it. They are always off upwards: see below.
+  /// How far straight moves may be off curved parts of the axis, always upwards; 0: 1e-5 of the
+  /// diagonal of the axis's sites; at least 1e-8 of it.
   double chord = 0;
 };
 
-/// Where the tool's tip is: z is 0 on the surface and negative below it. (Chords of curves may
-/// begin a little above it: they are lifted as a whole.)
+/// Where the tool's tip is: z is 0 on the surface and negative below it; chords of curves may begin
+/// a little above it.
 struct ToolPoint {
   Vec2 point;
   double z = 0;
-  double bulge = 0;  ///< of the move to the next point, which is an arc at one depth: see Ring
+  double bulge = 0;  ///< of the move to the next point, an arc at one depth: see Ring
 };
 
 enum class ToolPathKind : std::uint8_t {
@@ -53,7 +47,7 @@ enum class ToolPathKind : std::uint8_t {
 struct ToolPath {
   ToolPathKind kind = ToolPathKind::groove;
   std::vector<ToolPoint> points;
-  std::uint32_t pass = 0;  ///< from the surface down: see CarveOptions::pass_depth
+  std::uint32_t pass = 0;  ///< from the surface down
 };
 
 struct Carving {
@@ -73,12 +67,10 @@ struct Carving {
 /// With c(p) the clearance of a point, t the radius of the tip and m = tan(angle / 2), the tool may
 /// be at p where c(p) >= t, at the depth min((c(p) - t) / m, depth). The paths
 /// - never gouge: nowhere is the tool deeper, but for rounding (a few 1e-15 of the size);
-/// - leave nothing that the tool could reach, but (1) 3 chords / m along curved edges of the axis,
-///   and (2) where the tip is a point, ridges of step / m on flat bottoms; (2) also where `step`
-///   exceeds the tip's radius.
-/// With a pass depth, pass k cuts as if that were k pass depths deep at most, but for what the
-/// passes before it have cut: it takes off one pass depth at most, and ridges (2).
-/// Axis parts narrower than the tip are left out. O(n log n + size of the result).
+/// - leave nothing that the tool could reach, but 3 chords / m along curved edges of the axis, and
+///   ridges of step / m on flat bottoms where the tip is a point or `step` exceeds its radius.
+/// Each pass cuts to its own depth what the passes before it left. Parts narrower than the tip are
+/// left out. O(n log n + size of the result).
 /// Errors: invalid_option, unsupported (an axis that is sampled or of the exterior), too_large
 /// (more than 1e6 clearing passes, or 1e4 in depth).
 Result<Carving> carve(const MedialAxis& axis, const CarveOptions& options);
@@ -87,9 +79,8 @@ Result<Carving> carve(const MedialAxis& axis, const CarveOptions& options);
 CarveOptions scaled(CarveOptions options, double factor);
 Carving scaled(Carving carving, double factor);
 
-/// The points of a path with its arcs as chords, at most `chord` away from them, and never nearer
-/// to the shape's boundary than they are: inside of arcs that turn left, and outside, along their
-/// tangents, of those that turn right. Requires chord > 0.
+/// The points of a path with its arcs as chords, at most `chord` > 0 away and never nearer to the
+/// shape's boundary: inside of arcs that turn left, outside of those that turn right.
 std::vector<ToolPoint> without_arcs(const ToolPath& path, double chord);
 
 }  // namespace medial

@@ -1,8 +1,7 @@
 #pragma once
 
-// Ways along an axis: main paths, routes, centre lines, what is wide and what is narrow.
-// For the axis of any engine. "Reach" of a path: its length and the radii at its two ends, which is
-// how far its disks extend.
+// Ways along an axis of any method: main paths, routes, centre lines, what is wide and what is
+// narrow. The reach of a path is its length and the radii at its two ends.
 
 #include <cstdint>
 #include <optional>
@@ -21,7 +20,7 @@ struct EdgePlace {
   double t = 0;
 };
 
-/// A part of an edge, run from its parameter `from` to `to`: against the edge where from > to.
+/// A part of an edge, from its parameter `from` to `to`: against the edge where from > to.
 struct PathPiece {
   std::uint32_t edge = 0;
   double from = 0;
@@ -34,30 +33,25 @@ struct AxisPath {
   bool closed = false;   ///< the last piece ends where the first one begins
   double length = 0;     ///< in the plane
   double narrowest = 0;  ///< the smallest radius along it
-  /// Of a main path around holes: what may be missing of the largest reach there is; 0: nothing,
-  /// which is proven.
-  double gap = 0;
+  double gap = 0;        ///< of a main path around holes: how much longer the largest reach may be
 };
 
-/// The place of the smallest radius on an edge, and of the largest; the middle of one whose radius
-/// does not change. Closed forms: along an edge the radius falls, then rises; between arcs it may
-/// also rise, then fall.
+/// The place of the smallest radius on an edge, and of the largest; the middle where the radius
+/// does not change. Closed forms.
 EdgePlace narrowest_place(const MedialAxis& axis, std::uint32_t edge);
 EdgePlace widest_place(const MedialAxis& axis, std::uint32_t edge);
 
-/// The part of the axis that the pieces cover: an axis of the same sites, its edges in the order
-/// and direction of the pieces, its nodes those where they end; pieces that end at the same place
-/// share the node. Exact: a part of a rational quadratic curve is one. O(pieces).
+/// The part of the axis that the pieces cover, exactly: an axis of the same sites, its edges in the
+/// order and direction of the pieces; pieces that end at the same place share a node. O(pieces).
 MedialAxis part_of(const MedialAxis& axis, std::span<const PathPiece> pieces);
 
-/// All points of the axis whose radius is at least `clearance`: where a disk of that radius can go.
-/// Edges are cut where they have that radius exactly; a node alone stays a node. O(edges).
+/// All points of the axis whose radius is at least `clearance`, where a disk of that radius can go.
+/// Edges are cut exactly; a node alone stays a node. O(edges).
 MedialAxis clearance_part(const MedialAxis& axis, double clearance);
 
-/// Where a point of the shape (or near to it) falls when the shape shrinks to its axis: the centre
-/// of the maximal disk that touches the boundary where the point is nearest to it. So the middle
-/// of a side leads to the disk that touches that side in its middle. O(sites + edges). Of an axis
-/// that names no sites, its nearest point. Nothing where there is no edge.
+/// Where a point of the shape falls when the shape shrinks to its axis: the centre of the maximal
+/// disk that touches the boundary where it is nearest to the point. Of an axis that names no sites,
+/// its nearest point. Nothing where there is no edge. O(sites + edges).
 std::optional<EdgePlace> place_on_axis(const MedialAxis& axis, Vec2 p);
 
 /// How one way among several is chosen: around holes.
@@ -68,63 +62,59 @@ enum class Route : std::uint8_t {
   roomy,
 };
 
-/// The best way between two places. O(edges log edges). Errors: invalid_option (a place that is
-/// none, or no way between them).
+/// The best way between two places; and the widest, along which the largest disk can move, of
+/// several the shortest. O(edges log edges). Errors: invalid_option (a place that is not on the
+/// axis, or no way between them).
 Result<AxisPath> path_between(const MedialAxis& axis, EdgePlace from, EdgePlace to,
                               Route route = Route::shortest);
-
-/// The widest way: the one along which the largest disk can move, and of those the shortest.
-/// O(edges log edges). Errors: as path_between().
 Result<AxisPath> widest_path(const MedialAxis& axis, EdgePlace from, EdgePlace to);
 
 struct MainPathOptions {
   /// A path does not run into a corner: its end is cut back to a branching node from whose disk the
-  /// rest protrudes by less than `trim` radii; of several such nodes in a row, to the one where
-  /// most is left of these radii. A corner of the angle a protrudes by 1 / sin(a / 2) - 1 radii: 1
-  /// cuts corners of more than 60 degrees. 0 cuts nothing.
+  /// rest protrudes by less than `trim` radii, of several in a row to the one where most is left of
+  /// these. A corner of the angle a protrudes by 1 / sin(a / 2) - 1 radii: 1 cuts corners of more
+  /// than 60 degrees, 0 cuts nothing.
   double trim = 1;
   Route route = Route::roomy;
 };
 
 /// The main path of every connected part of the axis that has an edge, by increasing lowest node:
 /// between the two ends that are farthest apart (by the largest reach of a shortest way between
-/// them), by the route asked for, trimmed. A part with one cycle and nothing that protrudes from it
-/// gives the cycle. A path that trimming would use up is not trimmed.
+/// them), along the given route, trimmed unless trimming would use it up. A part with one cycle and
+/// nothing that protrudes from it gives the cycle.
 ///
-/// Without holes O(n). With holes: one search of O(n log n) for each of the ends that can not be
-/// ruled out by what is known already, but at most 100; then `gap` is what is not proven.
+/// Without holes O(n). With holes one search of O(n log n) for each end that cannot be ruled out,
+/// at most 100; `gap` is what remains unproven.
 std::vector<AxisPath> main_paths(const MedialAxis& axis, const MainPathOptions& options = {});
 
 struct CentreLineOptions {
-  /// Go on to the boundary at both ends: straight ahead, or where the boundary is far in this
-  /// direction to the nearest place of it that lies ahead.
+  /// Go on to the boundary at both ends: straight ahead, or where it is far in this direction to
+  /// its nearest place that lies ahead.
   bool extend = false;
   /// Average over this many radii, with Gaussian weights; 0: not at all. The line stays inside the
   /// shape, and its ends where they are.
   double smooth = 0;
 };
 
-/// A path as a line, which is an axis of its own: one chain of edges from end to end. Its edges are
-/// exact; an extension is straight, with the site where it ends on both sides. A smoothed line is
-/// sampled: straight edges that name no site, between nodes with their distance to the boundary as
-/// radius. O(path + sites), smoothed O(samples log n).
+/// A path as a line: an axis that is one chain of edges. They are exact; an extension is straight,
+/// with the site where it ends on both sides. A smoothed line is sampled: straight edges without
+/// sites, between nodes with their distance to the boundary as radius. O(path + sites), smoothed
+/// O(samples log n).
 MedialAxis centre_line(const Shape& shape, const MedialAxis& axis, const AxisPath& path,
                        const CentreLineOptions& options = {});
 
 /// A shape with its narrow parts collapsed.
 struct CollapsedShape {
-  /// What is at least as wide as asked for, with exact edges: the union of the maximal disks of the
-  /// axis' part that stays. Its ends towards a line are arcs of half the width as radius.
+  /// The union of the maximal disks that stay. Ends towards a line are arcs of half the width.
   Shape polygons;
   MedialAxis lines;  ///< the axis of the narrow parts, from polygon to polygon; without corners
 };
 
-/// Partial collapse: parts of the shape narrower than `width` become lines. What is kept as polygon
-/// is the opening of the shape by a disk of that width (the union of all such disks inside) and the
-/// corners: whatever narrower part protrudes from it by at most width / 2 (times `trim`), and necks
-/// between two such disks that overlap. A cusp between arcs may come out rounded by a disk of
-/// 2^-20 (at worst 2^-10) of the width. Errors: invalid_option (a width that is not positive), and
-/// of build_shape(). O(n log n).
+/// Parts of the shape narrower than `width` become lines. Polygons keep the opening of the shape by
+/// a disk of that width, narrower corners that protrude from it by at most width / 2 (times `trim`)
+/// and necks between two such disks that overlap. A cusp between arcs may be rounded by a disk of
+/// 2^-20 (at worst 2^-10) of the width. O(n log n). Errors: invalid_option (a width that is not
+/// positive), those of build_shape().
 Result<CollapsedShape> collapse_narrow(const MedialAxis& axis, double width, double trim = 1);
 
 }  // namespace medial

@@ -1,8 +1,8 @@
 #pragma once
 
-// What an axis says of a shape's features: its points, its branches, and the primitives that
+// The features of a shape by its axis, of any method: points, branches, and the primitives that
 // branches are made of, after Blum and Nagel (Pattern Recognition 10, 1978), as Volkmann and St.
-// Clair report them (Section II.A.1, Figs 4 to 7). For the axis of any engine, pruned or not.
+// Clair report them (Section II.A.1, Figs 4 to 7). docs/features.md explains them.
 
 #include <array>
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace medial {
 
-/// A point of the axis by how many separate pieces of boundary its disk touches.
+/// A point of the axis by how many separate parts of the boundary its disk touches.
 enum class PointKind : std::uint8_t {
   end,        ///< one: a leaf; also the centre of a shape that is one disk
   normal,     ///< two
@@ -45,28 +45,21 @@ enum class Variation : std::uint8_t {
 };
 constexpr int variation_count = 7;
 
-/// "closing_wedge", "spiral_in_left", "branching": stable, as in JSON and attributes.
+/// "closing_wedge", "spiral_in_left", "branching": stable names.
 const char* name_of(PointKind kind);
 const char* name_of(Primitive primitive);
 const char* name_of(Variation variation);
 
-/// When a piece of a branch, a run, is what. All are numbers without a unit, so scale changes
-/// nothing. A run's slope and bend, its turning and spiral are those of the quadratic functions of
-/// its length that fit its radius and its direction best (least squares): on one exact edge the
-/// derivatives' means, on samples and along broken boundaries what is left of them without noise.
+/// How a run, a part of a branch, is classified, by numbers without a unit. Slope and bend, turning
+/// and spiral of a run are those of the quadratic functions of its length that fit its radius and
+/// its direction best (least squares).
 struct FeatureOptions {
-  /// A worm's radius changes by at most this times the run's length ...
-  double parallel = 0.05;
-  /// ... and by at most this times its mean; other runs without bend are wedges.
-  double even = 0.1;
-  /// A cup's or flare's rate of the radius, dR/ds, changes by more than this along the run.
-  double bend = 0.1;
-  /// A straight run turns by at most this, in radians.
-  double turn = 0.1;
-  /// A circular run's curvature changes by at most this times its mean; a spiral's by more.
-  double spiral = 0.5;
-  /// Runs shorter than this times their mean radius are taken together with a neighbour.
-  double shortest = 0.25;
+  double parallel = 0.05;  ///< a worm's radius changes by at most this times the run's length ...
+  double even = 0.1;       ///< ... and times its mean; other runs without bend are wedges
+  double bend = 0.1;       ///< the rate dR/ds of a cup or flare changes by more than this
+  double turn = 0.1;       ///< a straight run turns by at most this, in radians
+  double spiral = 0.5;     ///< a spiral's curvature changes by more than this times its mean
+  double shortest = 0.25;  ///< shorter runs, by their mean radius, join a neighbour
 };
 
 /// A place on a branch.
@@ -89,19 +82,17 @@ struct PrimitiveRun {
   double spiral = 0;   ///< change of the curvature over its mean; 0 in a straight run
 };
 
-/// What a branch's disks touch on one side: a section of one ring, in the boundary's direction,
-/// with the interior on its left.
+/// What a branch's disks touch on one side, with the interior on its left.
 struct BoundarySection {
-  std::uint32_t ring = no_site;          ///< of the input; no_site where the axis does not tell
+  std::uint32_t ring = no_site;          ///< of the input; no_site where the axis names no sites
   std::uint32_t first_vertex = no_site;  ///< of the sites at both ends: vertex of the input
   std::uint32_t last_vertex = no_site;
   Vec2 from, to;
   double length = 0;
 };
 
-/// One medial branch: a chain of normal points between end and branching points, or closed. It
-/// runs from its deeper end to the other one, and from a branching point to an end where both are
-/// equally deep; a closed one without such points starts where its longest run does.
+/// One medial branch. It runs from its deeper end to the other one, and from a branching point to
+/// an end where both are equally deep; a closed one starts where its longest run does.
 struct BranchFeatures {
   std::uint32_t branch = 0;  ///< index in branches(axis)
   bool reversed = false;     ///< whether it runs against branches(axis)
@@ -117,13 +108,12 @@ struct BranchFeatures {
   double turning = 0;           ///< radians, positive to the left
   double absolute_turning = 0;  ///< without signs: how much it bends in all
   double area = 0;  ///< of the shape's part whose nearest boundary the branch stands for
-  /// How far the branch, and all beyond it, reaches beyond the disk at its base, in radii of
-  /// that disk: the erosion thickness there (Liu et al. 2011) over the radius. 0: the disk covers
-  /// all of it. Infinite for branches of cycles and between them.
+  /// How far the branch and all beyond it reach out of the disk at its base, in radii of that disk:
+  /// the erosion thickness (Liu et al. 2011) over the radius. Infinite on cycles and between them.
   double significance = 0;
-  /// How long a fire from the ends, which starts at each at the time of its radius and waits at
-  /// branching points for all branches but one, takes to the branch's two ends; infinite where it
-  /// does not arrive from that side.
+  /// When a fire from the axis's ends, started at each at the time of its radius, sets off from the
+  /// two ends of the branch: at branching points once all other branches have burnt. Infinite where
+  /// it does not.
   std::array<double, 2> burn{};
   std::array<BoundarySection, 2> side;  ///< left, right
   std::uint32_t first_run = 0;          ///< its runs are runs[first_run .. first_run + run_count)
@@ -150,11 +140,11 @@ struct AxisFeatures {
   std::array<std::array<double, variation_count>, primitive_count> share{};
 };
 
-/// Describes an axis. On exact edges derivatives are analytic and branches are cut where signs of
-/// dR/ds, its derivative, the curvature and its derivative change, exactly; then short runs are
-/// merged and neighbours joined as FeatureOptions tell. On samples every edge is a piece at first.
-/// Nothing but rounding changes with rotation, scale, translation, numbering and direction of the
-/// input; reflection swaps left and right. O(n log n), memory O(n).
+/// Describes an axis. Exact branches are cut where the signs of dR/ds, its derivative, the
+/// curvature and its derivative change, samples at every node; then runs are merged by
+/// FeatureOptions. The result does not depend on rotation, scale, translation, numbering and
+/// direction of the input but for rounding; reflection swaps left and right. O(n log n), memory
+/// O(n).
 AxisFeatures describe(const MedialAxis& axis, const FeatureOptions& options = {});
 
 }  // namespace medial

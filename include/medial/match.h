@@ -1,7 +1,6 @@
 #pragma once
 
-// How like two shapes are, by what their axes tell; whatever way they are turned, mirrored or
-// scaled.
+// How alike two shapes are by their axes, however they are turned, mirrored or scaled.
 
 #include <array>
 #include <cstddef>
@@ -12,9 +11,9 @@
 namespace medial {
 
 /// A shape in a few numbers without units, the same for its rotated, scaled and mirrored images:
-/// distributions over the axis, each by its quantiles. Every piece of the axis counts by its
-/// length, less where by erosion thickness it stands for hardly more than noise of the
-/// boundary. Lengths are over the root of the mean square of distances from the axis's centre.
+/// distributions over the axis by their quantiles. Every piece of the axis counts by its length,
+/// less where its erosion thickness is hardly more than noise of the boundary. Lengths are over the
+/// root of the mean square of distances from the axis's centre.
 struct ShapeSignature {
   static constexpr std::size_t quantiles = 24;
   using Quantiles = std::array<double, quantiles>;
@@ -29,17 +28,17 @@ struct ShapeSignature {
   double elongation = 0;  ///< logarithm of the quotient of the axes of inertia
 };
 
-/// What a speck's bounding box may have for a diagonal, as a share of the square root of the area.
+/// The diagonal of a speck's bounding box at most, as a share of the square root of the area.
 constexpr double speck_share = 0.1;
 
-/// The shape without its specks: holes and components that are small against it. For however small
-/// they are, the axis goes around holes. Where nothing else is there, components stay. O(n).
+/// The shape without its specks, holes and components that are small against it: however small they
+/// are, the axis goes around holes. Components stay where nothing else is there. O(n).
 Shape without_specks(const Shape& shape, double share = speck_share);
 
 /// O(edges log(edges)). `features` are the axis's own. Take the axis of without_specks().
 ShapeSignature signature_of(const MedialAxis& axis, const AxisFeatures& features);
 
-/// How unlike two shapes are: 0 for the same, about 1 for two shapes at random; no unit, symmetric.
+/// 0 for the same shape, about 1 for two shapes at random; symmetric.
 double dissimilarity(const ShapeSignature& a, const ShapeSignature& b);
 
 }  // namespace medial

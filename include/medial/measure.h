@@ -18,7 +18,6 @@ struct LocalWidth {
   double along = 0;  ///< the length of the path up to here
   Disk disk;
   std::array<Vec2, 2> feet;  ///< where the disk touches the boundary on the left and on the right
-  /// The diameter of the disk: the width.
   double width() const { return 2 * disk.radius; }
   /// The length of the transect from foot to foot; shorter than the width where the shape tapers.
   double span() const { return distance(feet[0], feet[1]); }
@@ -40,43 +39,36 @@ struct Neck {
   /// The smaller of the radii of the widest disks that can be reached on both sides without passing
   /// anything as narrow.
   double opens_to = 0;
-  /// Both sides lead to the same disk: this is the narrowest place on a way around holes, and
-  /// closing it would separate nothing.
+  /// Both sides lead to the same disk: closing the neck would separate nothing.
   bool around_hole = false;
   /// By how much the width grows on both sides.
   double prominence() const { return 2 * (opens_to - width.disk.radius); }
 };
 
-/// The necks whose two sides open to at least `widening` times their width: those that separate the
-/// shape by decreasing prominence, then those around holes; `widening` above 1. They are the
-/// saddles of the radius: going down from the widest disk, places where two parts of the axis with
-/// larger radii join (or a hole is closed round). Along parallel walls, the neck is in the middle
-/// between their ends. O(edges log edges).
+/// The necks whose two sides open to at least `widening` > 1 times their width: those that separate
+/// the shape by decreasing prominence, then those around holes. They are the saddles of the radius:
+/// where, going down from the widest disk, two parts of the axis with larger radii join, or a hole
+/// is closed. Along parallel walls, the neck is in the middle. O(edges log edges).
 std::vector<Neck> necks(const MedialAxis& axis, double widening = 1.1);
 
 /// Mean widths of a shape.
 struct MeanWidth {
-  double length = 0;     ///< of the line
-  double area = 0;       ///< of the shape, by its axis
-  double by_length = 0;  ///< the mean of 2 r along the line
-  /// The mean of 2 r over the area, r being that of the place on the axis to which the point
-  /// belongs: whose disk touches the boundary where it is nearest to the point.
-  double by_area = 0;
+  double length = 0;          ///< of the line
+  double area = 0;            ///< of the shape, by its axis
+  double by_length = 0;       ///< the mean of 2 r along the line
+  double by_area = 0;         ///< of 2 r over the area, r that of the place_on_axis() of each point
   double area_by_length = 0;  ///< area / length
 };
 
-/// The means along a path and over the shape that the axis stands for. Of an axis by an exact
-/// method; the relative error of the integrals is below 1e-10.
+/// The means along a path and over the shape, of an exact axis. Relative error below 1e-10.
 MeanWidth mean_width(const MedialAxis& axis, const AxisPath& path);
 
-/// The largest disk in the shape, the largest one in what is left besides it, and so on: at most
-/// `count` of them, by decreasing radius, without overlap. Each is the deepest disk of the axis of
-/// the shape less the disks before it, so it touches whatever it can: the boundary and disks.
-/// Disks smaller than `smallest` are left out. Errors: those of compute(); invalid_option; and
-/// unsupported, with the last disk's centre, where what a disk leaves of a shape some 1e5 times as
-/// long as wide is too thin for the tolerance.
-/// One computation of the axis of what the disk before has cut for each disk but the first, and one
-/// of the shape unless its axis, by an exact method, is given.
+/// The largest disk in the shape, the largest in what is left besides it, and so on: at most
+/// `count`, by decreasing radius, without overlap, none smaller than `smallest`. Each is the
+/// deepest disk of the axis of the shape less the disks before it. Errors: those of compute();
+/// invalid_option; unsupported, with the last disk's centre, where what a disk leaves of a shape
+/// some 1e5 times as long as wide is too thin for the tolerance. Computes one axis for each disk
+/// but the first, and the shape's own unless it is given and exact.
 Result<std::vector<Disk>> largest_disjoint_disks(const Shape& shape, std::size_t count,
                                                  double smallest = 0,
                                                  const MedialAxis* axis = nullptr);

@@ -1,9 +1,8 @@
 #pragma once
 
-// Axes as compact codes of shapes, within a bound: as few disks as do, quantised, their hulls
-// joined (Volkmann and St. Clair, Section II.A.3, of disks); and images as maximal squares, after
-// Ahuja, Davis, Milgram and Rosenfeld (1978). The codes here are bytes to be compressed;
-// medial/io/pack.h writes them to files.
+// Shapes as compact codes within a bound: axes as few quantised disks whose hulls are joined
+// (Volkmann and St. Clair, Section II.A.3), images as maximal squares (Ahuja, Davis, Milgram and
+// Rosenfeld 1978). The codes are bytes to be compressed; medial/io/pack.h writes them to files.
 
 #include <array>
 #include <cstdint>
@@ -17,20 +16,16 @@
 
 namespace medial {
 
-/// Streams of numbers of one kind each, as bytes: they compress better apart. The first is the
-/// structure.
+/// Streams of numbers of one kind each, which compress better apart. The first is the structure.
 constexpr std::size_t code_streams = 4;
 using ShapeCode = std::array<std::vector<std::uint8_t>, code_streams>;
 
 struct PackOptions {
-  /// How far the shape may change, in units of the input; positive. The unpacked shape lies within
-  /// this distance of the original, and the original within this distance of it; and what lies
-  /// deeper than this inside of the original is in it.
+  /// How far the shape may change, in units of the input; positive. The unpacked shape and the
+  /// original lie within this distance of each other; what lies deeper inside is in both.
   double error = 0;
-  /// Of `error`: what quantisation takes (below 15/16), and the share of the rest that dropping
-  /// branches may take (in (0, 15/16]).
-  double quantum_share = 0.3;
-  double prune_share = 0.9;
+  double quantum_share = 0.3;  ///< of `error`: what quantisation takes; below 15/16
+  double prune_share = 0.9;    ///< of the rest: what dropping branches takes; in (0, 15/16]
 };
 
 struct PackReport {
@@ -41,19 +36,19 @@ struct PackReport {
 };
 
 /// Codes axes. Branches are dropped as far as the disk at their base, grown by a part of the error,
-/// covers what is beyond them (erosion thickness); the others become polylines of disks; numbers
-/// are whole multiples of one quantum. O(n log n). Errors: invalid_option (an error that is not
-/// positive, or below 2^-40 of the coordinates), not_finite.
+/// covers what lies beyond it (erosion thickness); the others become polylines of disks. O(n log
+/// n). Errors: invalid_option (an error that is not positive, or below 2^-40 of the coordinates),
+/// not_finite.
 Result<ShapeCode> encode_axes(std::span<const MedialAxis> axes, const PackOptions& options,
                               PackReport* report = nullptr);
 
-/// The axes of a code: nodes and straight edges without sites, `resolution` the error that they
-/// were coded with. Their shape is the union of the disks along the edges: of the convex hulls of
-/// the disks at their ends. Memory in the order of the code. Errors: malformed, unsupported.
+/// The axes of a code: nodes and straight edges without sites, `resolution` their error. Their
+/// shape is the union of the convex hulls of the disks at both ends of each edge. Memory in the
+/// order of the code. Errors: malformed, unsupported.
 Result<std::vector<MedialAxis>> decode_axes(const ShapeCode& code);
 
-/// What the boundary itself takes in the same way, to compare: loops simplified within `error`
-/// (Douglas and Peucker), quantised, differences. There is no decoder: only sizes matter.
+/// The boundary coded in the same way, to compare sizes; there is no decoder. Loops are simplified
+/// within `error` (Douglas and Peucker).
 Result<ShapeCode> encode_boundary(std::span<const Shape> shapes, double error);
 
 struct SquareReport {
@@ -61,10 +56,9 @@ struct SquareReport {
   std::uint64_t missing = 0;  ///< foreground pixels that no square covers
 };
 
-/// Codes an image as squares of foreground pixels, none of background: maximal ones, first those of
-/// which no other covers half, the largest first, then less, until all is covered. No foreground
-/// pixel is further than `error` pixels (in x and in y) from one that is covered; with 0 the image
-/// is kept. O(pixels log(pixels)) at most.
+/// Codes an image as squares of foreground pixels: maximal ones, first those mostly not covered by
+/// others, the largest first, until all is covered. No foreground pixel is further than `error`
+/// pixels (in x and in y) from a covered one; 0 keeps the image. O(pixels log(pixels)) at most.
 ShapeCode encode_squares(const Image& image, std::uint32_t error = 0,
                          SquareReport* report = nullptr);
 /// Errors: malformed, too_large.

@@ -1,8 +1,7 @@
 #pragma once
 
 // Pruning: the part of an axis that matters, by one of several measures from the literature, each
-// without a unit. For the axis of any engine; edges of an exact axis are cut exactly.
-// docs/prune.md tells which measure is whose.
+// without a unit (docs/prune.md). For axes of any method; edges of exact ones are cut exactly.
 
 #include <cstdint>
 #include <memory>
@@ -16,13 +15,11 @@
 
 namespace medial {
 
-/// What tells how much a point of the axis matters. Beyond a point means: what removing it would
-/// cut off, away from the centre (the deepest disk of a tree, or the cycles). R is the radius of
-/// the deepest disk of the connected part.
-///
-/// Measures of points: an edge is cut where it passes the threshold.
-/// Measures of branches: a branch stays or goes as a whole, judged where it begins, at the disk of
-/// its inner end with the radius r; what hangs on a branch that goes, goes too.
+/// How much a point of the axis matters. Beyond a point lies what removing it would cut off from
+/// the centre (the deepest disk of a tree, or the cycles). R is the radius of the deepest disk of
+/// the connected part. Measures of points cut an edge where it passes the threshold. By measures of
+/// branches a branch stays or goes as a whole, judged at the disk of its inner end with the radius
+/// r, and with it what lies beyond.
 enum class PruneMeasure : std::uint8_t {
   prominence,    ///< branches: the geometric mean of significance and of the same by R
   significance,  ///< branches: how far the shape reaches out beyond the disk, by r (Ho and Dyer)
@@ -40,7 +37,7 @@ enum class PruneMeasure : std::uint8_t {
               ///< grown as well; at least 1 (Giesen et al.)
 };
 
-/// The name of a measure on the command line, as it is spelled above; all of them; and back.
+/// Names as they are spelled above; all measures.
 const char* name_of(PruneMeasure measure);
 const std::vector<PruneMeasure>& prune_measures();
 std::optional<PruneMeasure> prune_measure_from(std::string_view name);
@@ -66,11 +63,8 @@ struct PruneReport {
 };
 
 /// How much every point of an axis matters by one measure: never less than anything beyond it. So
-/// what matters at least so much is a connected part of every connected part, holds all cycles and
-/// the ways between them, or at least the deepest disk of a tree (the lowest index among equals;
-/// where that disk lies inside an edge between two arcs, the edge), and is a subset of what matters
-/// less.
-///
+/// whatever the threshold, connected parts and cycles stay, of a tree at least its deepest disk
+/// (the lowest index among equals, or its whole edge), and a larger threshold keeps a subset.
 /// Keeps a reference to the axis, which must live longer. O(n), for `scale` O(n log n) expected.
 class PruneOrder {
  public:
@@ -78,12 +72,12 @@ class PruneOrder {
   ~PruneOrder();
   PruneOrder(PruneOrder&&) noexcept;
 
-  /// How much the innermost point of an edge matters: infinite on cycles and between them. The edge
-  /// is part of at(t), or some of it, if and only if this is >= t.
+  /// How much the innermost point of an edge matters: some of it stays at every threshold up to
+  /// this. Infinite on cycles and between them.
   double of_edge(std::uint32_t edge) const;
   /// What matters at least `threshold`, by increasing edge. O(n).
   std::vector<PathPiece> parts(double threshold) const;
-  /// The same as an axis: nodes and edges in their order, all sites, the kinds of nodes anew. O(n).
+  /// The same as an axis: nodes and edges in their order, all sites. O(n).
   MedialAxis at(double threshold) const;
   /// Of at(threshold).
   std::uint64_t branches_at(double threshold) const;
@@ -97,9 +91,8 @@ class PruneOrder {
   std::unique_ptr<Parts> parts_;
 };
 
-/// Prunes an axis. The homotopy type stays: connected parts and cycles, whatever the threshold; the
-/// result of a larger threshold is a subset of a smaller one's. Errors: invalid_option (a threshold
-/// that is negative or no number, or both a threshold and a number of branches).
+/// Prunes an axis: see PruneOrder. Errors: invalid_option (a threshold that is negative or no
+/// number, or both a threshold and a number of branches).
 Result<MedialAxis> prune(const MedialAxis& axis, const PruneOptions& options = {},
                          PruneReport* report = nullptr);
 

@@ -1,10 +1,8 @@
 #pragma once
 
-// What an axis tells of the boundary on its two sides, and whether it can be an axis at all:
-// Shaked and Bruckstein, "The Curve Axis", 1996, Sections 2 and 3. The numbers in brackets are the
-// paper's equations. `a` is the length along the axis, subscripts are derivatives by it.
-// For the axis of any engine; analytic on exact edges, from three neighbours on sampled ones, from
-// seven on a curve axis.
+// The boundary on the two sides of an axis, and whether it can be an axis at all: Shaked and
+// Bruckstein, "The Curve Axis", 1996, Sections 2 and 3. The numbers in brackets are the paper's
+// equations; `a` is the length along the axis, subscripts are derivatives by it.
 
 #include <cstdint>
 #include <vector>
@@ -27,7 +25,7 @@ struct AxisFrame {
   double rate_error = 0;
   double bend_error = 0;
 
-  /// The same for somebody who walks against the axis.
+  /// The same in the other direction.
   AxisFrame reversed() const {
     AxisFrame back = *this;
     back.tangent = -tangent;
@@ -37,8 +35,8 @@ struct AxisFrame {
   }
 };
 
-/// The frame at t in [0, 1] of an edge. Where the curve stands still (an edge of length 0) the
-/// tangent is 0 and nothing else means anything.
+/// The frame at t in [0, 1] of an edge. The tangent of an edge of length 0 is 0, and nothing else
+/// means anything.
 AxisFrame frame_at(const MedialAxis& axis, const Edge& edge, double t);
 
 /// The boundary at a foot of a disk, followed in the direction of the axis.
@@ -63,26 +61,24 @@ BoundaryFrame boundary_at(const AxisFrame& frame, Side side);
 std::vector<double> boundary_curvatures(const MedialAxis& axis, const Edge& edge, double t,
                                         Side side, int order);
 
-/// The frames along a branch in its direction: of an exact axis `samples_per_edge` inside every
-/// edge, of a sampled one (resolution > 0) one at every inner node, from its two neighbours; by the
-/// method curve-axis, whose nodes are exact, from seven. Edges of length 0 have none.
+/// The frames along a branch in its direction: of an exact axis `samples_per_edge` inside of every
+/// edge, of a sampled one at every inner node from its neighbours, seven nodes of a curve axis and
+/// three of others. Edges of length 0 have none.
 std::vector<AxisFrame> frames_along(const MedialAxis& axis, const Branch& branch,
                                     int samples_per_edge = 8);
 
 /// The boundary that an axis stands for, as closed contours with the interior on the left, by
-/// increasing lowest edge: a walk around the axis; where one side ends and the next begins
-/// elsewhere on the same disk (ends, branching nodes, breaks of the tangent), the arc of that disk
-/// closes the gap. An exact axis gives its segments and arcs, a sampled one straight pieces between
-/// the points of (3). A node without edges is a whole circle. O(edges log(degree)).
+/// increasing lowest edge. Where one side ends and the next begins elsewhere on the same disk, its
+/// arc closes the gap. An exact axis gives its segments and arcs, a sampled one straight pieces
+/// between the points of (3), a node without edges a circle. O(edges log(degree)).
 std::vector<Contour> boundary_of(const MedialAxis& axis);
 
-/// How a branch fares against the two restrictions that every axis obeys, and that suffice
-/// locally where they hold strictly.
+/// The two conditions that every axis meets; where they hold strictly they suffice locally.
 struct Legality {
   double steepness = 0;  ///< (9): largest |R_a| - 1; above 0 no axis
   double bend = 0;  ///< (10): largest |K_A| R s - (1 - R_a^2 - R R_aa), s^2 = 1 - R_a^2; above 0
                     ///< no axis, 0 along a reflex vertex
-  std::uint64_t frames = 0;  ///< how many were looked at: those that rounding does not decide
+  std::uint64_t frames = 0;  ///< how many counted: those that rounding does not decide
   AxisFrame steepest;        ///< where
   AxisFrame sharpest;        ///< where
   /// Whether both hold up to `slack` (no unit: rounding, or the noise of samples).

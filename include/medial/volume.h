@@ -27,7 +27,7 @@ struct VoxelTopology {
   friend bool operator==(const VoxelTopology&, const VoxelTopology&) = default;
 };
 
-/// What build_solid() mended, and what came of it.
+/// What build_solid() repaired.
 struct MeshReport {
   std::uint64_t input_vertices = 0;
   std::uint64_t input_faces = 0;
@@ -48,16 +48,14 @@ struct Solid {
   MeshReport report;
 };
 
-/// Makes a solid of a mesh. What lies in an odd number of closed surfaces is inside, whatever their
-/// orientation; all decisions are exact. Repaired, and counted in the report: equal vertices are
-/// joined, faces without an area for want of a third corner dropped, faces turned, and vertices in
-/// which otherwise separate fans of faces touch parted.
+/// Makes a solid of a mesh, and repairs what MeshReport counts. What lies in an odd number of
+/// closed surfaces is inside, whatever their orientation; all decisions are exact.
 ///
 /// Errors, with the place: empty, not_finite, too_large (2^31 vertices or faces), unsupported
 /// (coordinates above 1e100 in size), malformed (an index out of range), open_surface (an edge with
-/// one face), non_manifold (an edge with more than two), crossing, overlap (faces
-/// that touch or share more than their corners and edges), no_area, out_of_memory. O(n log n) for
-/// meshes whose faces are not all near each other.
+/// one face), non_manifold (an edge with more than two), crossing, overlap (faces that share more
+/// than corners and edges), no_area, out_of_memory. O(n log n) for meshes whose faces are not all
+/// near each other.
 Result<Solid> build_solid(TriangleMesh mesh);
 
 /// How the two nearest faces of a voxel are found. Both give the same answers, bit for bit.
@@ -75,15 +73,14 @@ enum class Thinning : std::uint8_t {
 struct VoxelOptions {
   double resolution = 0;  ///< edge of a voxel in units of the input; 0: by `voxels`
   int voxels = 128;       ///< along the longest side of the bounding box, in [4, 4096]
-  /// Two feet of a voxel count as two if they lie at least so far apart as seen from its centre, in
-  /// degrees, in [1, 120]. Fine meshes of curved surfaces need an angle that is larger than the
-  /// ones between their faces.
+  /// Between the two feet of a voxel at least, seen from its centre, in degrees, in [1, 120]. Fine
+  /// meshes of curved surfaces need a larger angle than those between their faces.
   double angle = 30;
   FaceSearch search = FaceSearch::tree;
   Thinning thinning = Thinning::sheets;
   /// Threads to use, at most 1024; 0: all of the machine. The result is the same, byte for byte.
   int threads = 0;
-  /// About what the computation may hold, in bytes; beyond it is too_large.
+  /// Of the computation, in bytes, about.
   std::uint64_t memory = std::uint64_t{4} << 30U;
   /// Called now and then, on one thread at a time, with the share of the work done, in [0, 1], as
   /// far as that is known; in the end with 1. Must not throw.
@@ -92,16 +89,15 @@ struct VoxelOptions {
   const std::atomic<bool>* cancel = nullptr;
 };
 
-/// A voxel of the axis: a cube of the grid whose centre has two nearest points on the surface,
-/// nearly.
+/// A voxel of the axis: its centre has two points of the surface nearly nearest to it.
 struct Voxel {
   static constexpr std::uint32_t no_face = std::numeric_limits<std::uint32_t>::max();
 
   std::array<std::uint32_t, 3> cell = {};  ///< column, row, layer: x, y, z
   Vec3 center;
   double radius = 0;  ///< distance from the centre to the surface
-  /// How much farther the second foot is than the first: the smaller the better. Infinite for
-  /// voxels that are there only to keep the axis in one piece, and its tunnels and cavities closed.
+  /// How much farther the second foot is than the first. Infinite for voxels that only preserve the
+  /// topology.
   double quality = 0;
   std::array<std::uint32_t, 2> face = {no_face, no_face};  ///< of the input, of the two feet
 };
@@ -139,10 +135,8 @@ struct VoxelAxis {
   VoxelStatistics statistics;
 };
 
-/// The medial axis of a solid by ridge following, extended to space (docs/voxels.md). The voxels
-/// that the surface meets are no part of it. The axis has the topology of the interior voxels,
-/// by construction.
-///
+/// The medial axis of a solid by ridge following, extended to space (docs/voxels.md): interior
+/// voxels, of the same topology as all of them by construction.
 /// Memory: O(voxels of surface and axis + volume / 512). Errors: invalid_option, cancelled, empty
 /// (no solid), too_large, malformed (a solid that build_solid() did not make), out_of_memory.
 Result<VoxelAxis> compute_voxels(const Solid& solid, const VoxelOptions& options = {});
