@@ -238,7 +238,7 @@ double step_at(const CarveOptions& options, double tip, double flat_from) {
   return options.step > 0 ? options.step : tip > 0 ? tip : flat_from / 20;
 }
 
-/// One trail of grooves as a path of the tool. `depth_of` tells how deep it may go in a disk.
+/// One trail of grooves as a path of the tool. `depth_of` is how deep it may go in a disk.
 template <class DepthOf>
 std::vector<ToolPoint> path_along(const std::vector<ops::GrooveStep>& trail,
                                   const ops::Grooves& grooves, const DepthOf& depth_of) {

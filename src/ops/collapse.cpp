@@ -90,7 +90,7 @@ class Collapse {
   /// Narrow edges, connected otherwise than through a wide place.
   struct Part {
     std::vector<std::uint32_t> edges, nodes;  ///< increasing
-    MedialAxis graph;                         ///< they alone, numbered anew
+    MedialAxis graph;                         ///< of them alone, numbered in order
     std::vector<bool> at_cut;  ///< of the graph's nodes: whether something wide begins
 
     Vec2 center(std::uint32_t node) const { return graph.nodes[node].disk.center; }

@@ -88,7 +88,7 @@ Result<std::vector<Disk>> largest_disjoint_disks(const Shape& shape, std::size_t
     if (Status added = add_parts_of(part.rings, smallest, parts); !added) {
       // The shape itself was fine: what the disk leaves is at fault, which touches its sides.
       Error error{ErrorCode::unsupported,
-                  "this disk leaves a region too thin for its next disk to be told from rounding",
+                  "this disk leaves a region that is too thin for the tolerance",
                   {}};
       if (added.error().code == ErrorCode::out_of_memory) return std::move(added).error();
       error.place.point = part.deepest.center;

@@ -135,7 +135,7 @@ class DiskLiner {
     }
     if (front + back >= total) {
       if (from && to) {
-        // The middle of a tree, all of which one disk stands for.
+        // One disk represents the whole tree: that in its middle.
         const double middle = 0.5 * (start[1] + total - start[0]);
         const double low = std::min(total - back, front), high = std::max(total - back, front);
         Sample only = sample_at(samples, std::clamp(middle, low, high));

@@ -85,7 +85,7 @@ class DiskTree {
     const double dx = std::max(std::max(low.x - p.x, p.x - high.x), 0.0);
     const double dy = std::max(std::max(low.y - p.y, p.y - high.y), 0.0);
     const double far = dx * dx + dy * dy, square = more * more;
-    // Most are far too far away: that is told without a division.
+    // Most are far too far away, which needs no division to see.
     return far < limit * square ? far / square : infinity;
   }
   static double factor(const Disk& disk, const Disk& other) {

@@ -115,8 +115,8 @@ std::vector<bool> detach(MedialAxis& axis, double off) {
       end.angle = std::atan2(way.y, way.x);
       ends.push_back(end);
     }
-    ranges::sort(ends, {}, &End::angle);
-    // Round and round, until no two neighbours overlap.
+    std::ranges::sort(ends, {}, &End::angle);
+    // Around the disk until no two neighbours overlap.
     for (std::size_t i = 0, fine = 0; ends.size() > 1 && fine < ends.size();) {
       const std::size_t k = (i + 1) % ends.size();
       const Disk &before = far(ends[i]), &next = far(ends[k]);
@@ -148,7 +148,7 @@ std::vector<bool> detach(MedialAxis& axis, double off) {
 }
 
 /// The nodes, moved at random by less than `off`: disks in whole numbers have tangents that lie on
-/// each other. Edges once, and none of which one disk holds the other: the hull is the larger one.
+/// each other. Without double edges, and edges whose hull is the larger of their disks.
 MedialAxis in_general_position(const MedialAxis& whole, double off, Random& random) {
   MedialAxis axis;
   axis.nodes = whole.nodes;

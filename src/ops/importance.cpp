@@ -76,7 +76,7 @@ void Importance::sum_up() {
     inner.area += all.area;
   }
   if (measure_ != PruneMeasure::area) return;
-  // Of each part: what hangs on the core, and the core's own sides.
+  // Of each part: its trees, and the sides of its core.
   std::fill(size_.begin(), size_.end(), 0.0);
   for (std::uint32_t i = 0; i < axis_.nodes.size(); ++i)
     if (trees_.inwards[i] == none) size_[trees_.part[i]] += beyond_[i].area;

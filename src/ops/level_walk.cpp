@@ -228,7 +228,7 @@ std::vector<LevelLoop> LevelWalk::loops_at(double level, std::size_t k) {
 
 /// Goes on from one site to another past joints that have no branch: one that counts as smooth, or
 /// those at both ends of arcs that a disk touches all along, to the corner angle. False where the
-/// disk itself tells as much.
+/// disk's own feet are enough.
 bool LevelWalk::pass_joints(std::uint32_t before, std::uint32_t after, double level,
                             RingBuilder& builder) const {
   const auto& sites = axis_.sites;

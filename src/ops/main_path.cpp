@@ -19,7 +19,7 @@
 namespace medial {
 namespace {
 
-/// The two best ways that hang from a node: how far they reach, and the edges they begin with;
+/// The two best ways out of the core from a node: how far they reach, and their first edges;
 /// none: the way ends at the node.
 struct Hanging {
   std::array<double, 2> reach;
@@ -248,7 +248,7 @@ class MainPaths {
   std::vector<double> lengths_;
   std::vector<Hanging> hanging_;
   std::vector<std::uint32_t> degree_;  ///< in the core; 0: hanging, or the last node of a tree
-  std::vector<bool> taken_;            ///< edges that hang
+  std::vector<bool> taken_;            ///< edges outside of the core
   std::vector<std::uint32_t> part_, core_;
   std::size_t part_edges_ = 0;
 };

@@ -227,7 +227,7 @@ Surroundings surroundings_of(const PlanarGraph& planar_graph, const Shape& surro
   return around;
 }
 
-/// By increasing clearance; parents named anew; rings with their roles.
+/// Puts regions in the order of increasing clearance, and gives rings their roles.
 void finish(Offsets& offsets) {
   auto& regions = offsets.regions;
   std::reverse(regions.begin(), regions.end());

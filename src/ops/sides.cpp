@@ -103,9 +103,9 @@ double roughness(std::span<const Disk* const> disks) {
   return std::hypot(values[0][0], values[0][1], values[0][2]);
 }
 
-/// How much a run's roughness weighs at its disk `at`: between the product of the ways from there
-/// to the others, the factor of the error of polynomials, least in the middle, and nothing, because
-/// of jumps that product tells too little in the middle.
+/// How much a run's roughness counts at its disk `at`: the error of polynomials has the product of
+/// the ways to the other disks as a factor, but where a derivative jumps that product is too small
+/// in the middle; its root lies between.
 double weight_at(std::span<const Disk* const> disks, std::size_t at) {
   double product = 1;
   for (std::size_t k = 0; k < disks.size(); ++k)
@@ -114,7 +114,7 @@ double weight_at(std::span<const Disk* const> disks, std::size_t at) {
 }
 
 /// The frames at the inner nodes of a branch whose nodes are exact, from seven nodes each: those
-/// around it whose roughness weighs least, for differences across a jump of the third derivative
+/// around it whose roughness counts least, for differences across a jump of the third derivative
 /// are off by the step times it.
 std::vector<AxisFrame> frames_of_exact_nodes(const MedialAxis& axis, const Branch& branch) {
   std::vector<const Disk*> disks = {&axis.nodes[branch.from].disk};
@@ -128,7 +128,7 @@ std::vector<AxisFrame> frames_of_exact_nodes(const MedialAxis& axis, const Branc
   std::vector<double> rough(count - width + 1);
   for (std::size_t first = 0; first < rough.size(); ++first)
     rough[first] = roughness(std::span(disks.data() + first, width));
-  // Roughness tells of errors by their size only.
+  // Roughness estimates the size of errors only.
   constexpr double far_less = 0.3;
   for (std::size_t i = 1; i + 1 < count; ++i) {
     const std::size_t middle = std::min(i > aside ? i - aside : 0, count - width);

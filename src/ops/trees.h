@@ -1,6 +1,6 @@
 #pragma once
 
-// What of a graph hangs on what: the core, which holds all cycles and the ways between them, or the
+// The core of a graph, which holds all cycles and the ways between them, or the
 // deepest place of each part that is a tree; and the trees on it.
 
 #include <cstdint>

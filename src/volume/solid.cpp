@@ -190,7 +190,7 @@ bool orient(Solid& solid, Sides& other, std::vector<std::uint32_t>& surface_of,
   return orientable;
 }
 
-/// Gives each fan of faces around a vertex a vertex of its own. Tells which vertices lie in the
+/// Gives each fan of faces around a vertex a vertex of its own. Returns which vertices lie in the
 /// place of another one now.
 std::vector<bool> part_vertices(Solid& solid, const Sides& other) {
   TriangleMesh& mesh = solid.surface;
