@@ -9,7 +9,7 @@
 #include "medial/centreline.h"
 #include "medial/query.h"
 #include "medial/sides.h"
-#include "ops/part.h"
+#include "ops/routes.h"
 #include "ops/trees.h"
 
 namespace medial {

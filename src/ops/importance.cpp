@@ -88,12 +88,9 @@ void Importance::sum_up() {
   }
 }
 
-Importance::Feet Importance::feet(const Edge& edge, double t, const Disk& disk) const {
+std::array<Vec2, 2> Importance::feet(const Edge& edge, double t, const Disk& disk) const {
   const auto [left, right] = edge.site;
-  const std::size_t sites = axis_.sites.size();
-  const auto [on_left, on_right] =
-      feet_at(axis_, edge, t, disk, left < sites && right < sites && left != right);
-  return {on_left, on_right};
+  return feet_at(axis_, edge, t, disk, std::max(left, right) < axis_.sites.size() && left != right);
 }
 
 void Importance::add_sides(std::uint32_t e, double t0, double t1, Beyond& sum) const {
@@ -103,16 +100,14 @@ void Importance::add_sides(std::uint32_t e, double t0, double t1, Beyond& sum) c
   const Disk first{curve.origin, curve.r0}, last{curve.end, curve.r2};
   const bool exact = axis_.resolution == 0;
   const std::size_t sites = axis_.sites.size();
-  const auto points = [&](double t, const Disk& disk) -> Feet {
-    if (exact && edge.site[0] < sites && edge.site[1] < sites) {
-      const bool at_last = t == t1;  // where the right side ends, and the left one begins
-      return {touch_of(axis_, axis_.sites[edge.site[0]], disk.center, !at_last),
-              touch_of(axis_, axis_.sites[edge.site[1]], disk.center, at_last)};
-    }
-    const auto [left, right] = feet_at(axis_, edge, t, disk, false);
-    return {left, right};
+  const auto points = [&](double t, const Disk& disk) -> std::array<Vec2, 2> {
+    if (!exact || std::max(edge.site[0], edge.site[1]) >= sites)
+      return feet_at(axis_, edge, t, disk, false);
+    const bool at_last = t == t1;  // where the right side ends, and the left one begins
+    return {touch_of(axis_, axis_.sites[edge.site[0]], disk.center, !at_last),
+            touch_of(axis_, axis_.sites[edge.site[1]], disk.center, at_last)};
   };
-  const Feet from = points(t0, first), to = points(t1, last);
+  const std::array<Vec2, 2> from = points(t0, first), to = points(t1, last);
   // Around the piece on the right, counter-clockwise: out along the first radius, along the
   // boundary, back along the last radius and the axis; on the left its mirror image.
   const auto side = [&](Vec2 a, Vec2 b, std::uint32_t site, double sign) {
@@ -132,8 +127,8 @@ void Importance::add_sides(std::uint32_t e, double t0, double t1, Beyond& sum) c
     const double beside = a == b ? 0 : area_beside_chord({a, b, bulge});
     sum.area += -sign * (around / 2 + beside) + sign * curve.area_beside_chord();
   };
-  side(from.right, to.right, edge.site[1], -1);
-  side(from.left, to.left, edge.site[0], 1);
+  side(from[1], to[1], edge.site[1], -1);
+  side(from[0], to[0], edge.site[0], 1);
 }
 
 Importance::Beyond Importance::beyond(std::uint32_t e, double s) const {
@@ -159,9 +154,10 @@ double Importance::lost_area(const Edge& edge, bool outer_first, double t, const
                              double area_beyond) const {
   // The sector of the disk that faces outwards stays.
   constexpr double apart = 1e-6;
-  Feet f = feet(edge, t, disk);
-  if (outer_first) std::swap(f.left, f.right);  // outwards is against the edge
-  const Vec2 right = f.right - disk.center, left = f.left - disk.center;
+  const auto [on_left, on_right] = feet(edge, t, disk);
+  // Outwards is against the edge where the outer end is the first.
+  const Vec2 left = (outer_first ? on_right : on_left) - disk.center;
+  const Vec2 right = (outer_first ? on_left : on_right) - disk.center;
   double angle = left_turn(right, left);
   if (distance(left, right) <= apart * disk.radius) {
     const double rate = curve_of(axis_, edge).derivatives(t).radius_first;
@@ -179,8 +175,8 @@ double Importance::at(std::uint32_t e, double s) const {
   const std::uint32_t part = trees_.part[edge.node[0]];
   const double size = size_[part], r = disk.radius;
   const auto chord = [&] {
-    const Feet f = feet(edge, t, disk);
-    return distance(f.left, f.right);
+    const auto [left, right] = feet(edge, t, disk);
+    return distance(left, right);
   };
   switch (measure_) {
     case prominence:
@@ -198,9 +194,8 @@ double Importance::at(std::uint32_t e, double s) const {
         const double rate = std::min(std::abs(frame_at(axis_, edge, t).radius_rate), 1.0);
         return 2 * degrees * std::acos(rate);
       }
-      const Feet f = feet(edge, t, disk);
-      const Vec2 left = f.left - disk.center, right = f.right - disk.center;
-      return degrees * std::atan2(std::abs(cross(left, right)), dot(left, right));
+      const auto [left, right] = feet(edge, t, disk);
+      return degrees * std::abs(signed_angle(left - disk.center, right - disk.center));
     }
     case erosion:
       return share(beyond(e, s).reach - r, size);

@@ -2,6 +2,7 @@
 
 // The measures of pruning as numbers at points of the trees of an axis.
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <utility>
@@ -41,11 +42,9 @@ class Importance {
     double boundary = 0;  ///< length
     double area = 0;      ///< between the radii to the feet
   };
-  struct Feet {
-    Vec2 left, right;
-  };
 
-  Feet feet(const Edge& edge, double t, const Disk& disk) const;
+  /// On the left and on the right.
+  std::array<Vec2, 2> feet(const Edge& edge, double t, const Disk& disk) const;
   /// Adds the length of the boundary on both sides of a part of an edge, and the area in between.
   void add_sides(std::uint32_t edge, double t0, double t1, Beyond& sum) const;
   Beyond beyond(std::uint32_t edge, double s) const;

@@ -11,7 +11,7 @@
 #include "base/quadrature.h"
 #include "medial/query.h"
 #include "ops/half_edges.h"
-#include "ops/measure.h"
+#include "ops/routes.h"
 
 namespace medial {
 namespace ops {

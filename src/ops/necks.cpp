@@ -11,7 +11,6 @@
 #include "base/disjoint_sets.h"
 #include "medial/measure.h"
 #include "medial/query.h"
-#include "ops/measure.h"
 #include "ops/routes.h"
 
 namespace medial {

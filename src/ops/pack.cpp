@@ -180,9 +180,12 @@ class AxisDecoder {
     return move(x_, last.x) && move(y_, last.y) && move(r_, last.r) && last.r >= 0;
   }
 
-  std::optional<std::uint32_t> add_node(MedialAxis& axis, const Grid& at) const {
-    const Disk disk{{static_cast<double>(at.x) * quantum_, static_cast<double>(at.y) * quantum_},
-                    static_cast<double>(at.r) * quantum_};
+  /// Reads the next disk from `last` on as a node.
+  std::optional<std::uint32_t> read_node(MedialAxis& axis, Grid& last) {
+    if (!read_disk(last)) return std::nullopt;
+    const Disk disk{
+        {static_cast<double>(last.x) * quantum_, static_cast<double>(last.y) * quantum_},
+        static_cast<double>(last.r) * quantum_};
     if (!std::isfinite(disk.center.x) || !std::isfinite(disk.center.y) ||
         !std::isfinite(disk.radius) || axis.nodes.size() >= no_site)
       return std::nullopt;
@@ -196,8 +199,7 @@ class AxisDecoder {
     std::vector<std::uint32_t> junctions, stack;
     std::vector<Grid> place;
     for (component_ = 0; component_ < *roots; ++component_) {
-      if (!read_disk(last_root_)) return false;
-      const auto root = add_node(axis, last_root_);
+      const auto root = read_node(axis, last_root_);
       if (!root) return false;
       stack.push_back(static_cast<std::uint32_t>(junctions.size()));
       junctions.push_back(*root);
@@ -223,8 +225,7 @@ class AxisDecoder {
     Grid last = place[at];
     std::uint32_t before = junctions[at];
     for (std::uint64_t k = 0; k < *kind / 2; ++k) {
-      if (!read_disk(last)) return false;
-      const auto node = add_node(axis, last);
+      const auto node = read_node(axis, last);
       if (!node) return false;
       axis.edges.push_back(straight_edge(axis, before, *node));
       before = *node;
@@ -235,8 +236,7 @@ class AxisDecoder {
       axis.edges.push_back(straight_edge(axis, before, junctions[*end]));
       return true;
     }
-    if (!read_disk(last)) return false;
-    const auto node = add_node(axis, last);
+    const auto node = read_node(axis, last);
     if (!node) return false;
     axis.edges.push_back(straight_edge(axis, before, *node));
     stack.push_back(static_cast<std::uint32_t>(junctions.size()));

@@ -1,7 +1,5 @@
 // Parts of an axis, cut at exact places, and the way from the plane to the axis.
 
-#include "ops/part.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -15,6 +13,7 @@
 #include "base/numbers.h"
 #include "medial/centreline.h"
 #include "medial/query.h"
+#include "ops/routes.h"
 
 namespace medial {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 
-// Searches on the graph of an axis.
+// Searches on the graph of an axis, and parts of its edges.
 
 #include <cstdint>
 #include <functional>
@@ -12,6 +12,7 @@
 #include "base/numbers.h"
 #include "medial/axis.h"
 #include "medial/centreline.h"
+#include "medial/measure.h"
 #include "medial/query.h"
 
 namespace medial::ops {
@@ -67,5 +68,12 @@ void measure(const MedialAxis& axis, AxisPath& path);
 
 /// The smallest radius on a part of an edge.
 double narrowest_radius(const MedialAxis& axis, const PathPiece& piece);
+
+/// The parts of an edge where the radius is at least `clearance`, from node to node: at most two,
+/// none of them a single point.
+std::vector<PathPiece> wide_pieces(const MedialAxis& axis, std::uint32_t edge, double clearance);
+
+/// The width at a place, with the feet as seen along the edge or against it.
+LocalWidth width_at(const MedialAxis& axis, EdgePlace place, bool forward = true);
 
 }  // namespace medial::ops

@@ -351,19 +351,15 @@ void RunCutter::absorb_next(std::uint32_t i, const Run& both) {
 /// none is too short.
 void RunCutter::merge_short(bool cyclic) {
   const auto count = static_cast<std::uint32_t>(runs_.size());
-  heap_.clear();
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const double key = relative_length(i);
-    if (key < options_.shortest) heap_.push_back({key, i, 0});
-  }
-  if (heap_.empty() || count == 1) return;
-  std::make_heap(heap_.begin(), heap_.end());
   link(cyclic);
-  std::uint32_t left = count;
-  while (!heap_.empty() && left > 1) {
-    std::pop_heap(heap_.begin(), heap_.end());
-    const Entry entry = heap_.back();
-    heap_.pop_back();
+  const auto consider = [&](std::uint32_t i) {
+    const double key = relative_length(i);
+    if (key < options_.shortest) heap_.push({key, i, version_[i]});
+  };
+  for (std::uint32_t i = 0; i < count; ++i) consider(i);
+  for (std::uint32_t left = count; !heap_.empty() && left > 1;) {
+    const Entry entry = heap_.top();
+    heap_.pop();
     std::uint32_t i = entry.run;
     if (version_[i] != entry.version) continue;
     std::uint32_t other = next_[i];
@@ -374,12 +370,9 @@ void RunCutter::merge_short(bool cyclic) {
     }
     absorb_next(i, joined(runs_[i], runs_[other]));
     --left;
-    const double key = relative_length(i);
-    if (key < options_.shortest) {
-      heap_.push_back({key, i, version_[i]});
-      std::push_heap(heap_.begin(), heap_.end());
-    }
+    consider(i);
   }
+  heap_ = {};
   compact();
 }
 
@@ -388,21 +381,17 @@ template <class Judge>
 void RunCutter::agglomerate(bool cyclic, const Judge& judge) {
   if (runs_.size() == 1) return;
   link(cyclic);
-  heap_.clear();
   const auto consider = [&](std::uint32_t i) {
     const std::uint32_t other = next_[i];
     if (other == none || other == i) return;
     const double key = judge(runs_[i], runs_[other]);
-    if (!std::isfinite(key)) return;
-    heap_.push_back({key, i, version_[i]});
-    std::push_heap(heap_.begin(), heap_.end());
+    if (std::isfinite(key)) heap_.push({key, i, version_[i]});
   };
   for (std::uint32_t i = 0; i < runs_.size(); ++i) consider(i);
   bool changed = false;
   while (!heap_.empty()) {
-    std::pop_heap(heap_.begin(), heap_.end());
-    const Entry entry = heap_.back();
-    heap_.pop_back();
+    const Entry entry = heap_.top();
+    heap_.pop();
     const std::uint32_t i = entry.run;
     if (version_[i] != entry.version) continue;
     Run both = joined(runs_[i], runs_[next_[i]]);

@@ -4,6 +4,7 @@
 // class. See medial/features.h for what decides.
 
 #include <cstdint>
+#include <queue>
 #include <span>
 #include <vector>
 
@@ -95,7 +96,7 @@ class RunCutter {
   std::vector<Run> runs_;
   std::vector<Run> pieces_;  ///< of samples, before they were taken together
   std::vector<std::uint32_t> next_, previous_, version_;
-  std::vector<Entry> heap_;
+  std::priority_queue<Entry> heap_;
   std::vector<double> cuts_;
   double length_ = 0, radius_integral_ = 0, smallest_ = 0, turning_ = 0, bending_ = 0;
 };
