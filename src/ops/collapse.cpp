@@ -9,6 +9,7 @@
 #include "medial/centreline.h"
 #include "medial/query.h"
 #include "medial/sides.h"
+#include "ops/half_edges.h"
 #include "ops/routes.h"
 #include "ops/trees.h"
 
@@ -245,28 +246,6 @@ class Collapse {
   std::vector<PathPiece> lines_;
 };
 
-/// The contours as rings. Between sites that join smoothly an outline may have steps of some
-/// roundings, in any direction, that would overlap their neighbours: they are left out.
-std::vector<Ring> rings_of(const std::vector<Contour>& contours, double tolerance) {
-  const double step = 0x1p12 * tolerance;
-  std::vector<Ring> rings;
-  for (const Contour& contour : contours) {
-    Ring& ring = rings.emplace_back();
-    ring.role = RingRole::winding;
-    for (const CurvePiece& piece : contour.pieces) {
-      const Vec2 start = contour.points[piece.first];
-      if (distance(start, contour.points[piece.first + 1]) <= step) continue;
-      ring.points.push_back(start);
-      ring.bulges.push_back(piece.bulge);
-    }
-    if (distance(contour.points.back(), contour.points.front()) > step) {
-      ring.points.push_back(contour.points.back());
-      ring.bulges.push_back(0);
-    }
-  }
-  return rings;
-}
-
 }  // namespace
 
 Result<CollapsedShape> collapse_narrow(const MedialAxis& axis, double width, double trim) {
@@ -282,7 +261,14 @@ Result<CollapsedShape> collapse_narrow(const MedialAxis& axis, double width, dou
   // Where arcs meet in a cusp, no wider than rounding, their ends may overlap: then all tips are
   // rounded by a disk that is small against the width.
   const auto outline = [&](const MedialAxis& part) {
-    return build_shape(rings_of(boundary_of(part), axis.tolerance), {.node_crossings = true});
+    // Between sites that join smoothly an outline may have steps of some roundings, in any
+    // direction, that would overlap their neighbours.
+    std::vector<Ring> rings;
+    for (const Contour& contour : boundary_of(part)) {
+      rings.push_back(ops::ring_of(contour, 0x1p12 * axis.tolerance));
+      rings.back().role = RingRole::winding;
+    }
+    return build_shape(rings, {.node_crossings = true});
   };
   auto shape = outline(kept);
   for (const double share : {0x1p-20, 0x1p-10})

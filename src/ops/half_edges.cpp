@@ -195,4 +195,19 @@ void add_arc(const Disk& disk, Vec2 begin, Vec2 end, double angle, Contour& cont
   contour.arc_to(end, std::tan(angle / 8));
 }
 
+Ring ring_of(const Contour& contour, double step) {
+  Ring ring;
+  const auto add = [&](Vec2 start, Vec2 end, double bulge) {
+    if (distance(start, end) <= step) return;
+    ring.points.push_back(start);
+    ring.bulges.push_back(bulge);
+  };
+  for (const CurvePiece& piece : contour.pieces)
+    add(contour.points[piece.first], contour.points[piece.first + 1], piece.bulge);
+  add(contour.points.back(), contour.points.front(), 0);
+  if (std::ranges::all_of(ring.bulges, [](double bulge) { return bulge == 0; }))
+    ring.bulges.clear();
+  return ring;
+}
+
 }  // namespace medial::ops

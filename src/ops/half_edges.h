@@ -9,6 +9,7 @@
 
 #include "medial/axis.h"
 #include "medial/query.h"
+#include "medial/shape.h"
 #include "medial/sides.h"
 
 namespace medial::ops {
@@ -94,5 +95,8 @@ Vec2 touch_of(const MedialAxis& axis, const Site& site, Vec2 center, bool ends);
 
 /// The arc of a disk from one point to another, counter-clockwise, as one piece or two.
 void add_arc(const Disk& disk, Vec2 begin, Vec2 end, double angle, Contour& contour);
+
+/// A contour of segments and arcs as a ring, without its pieces up to `step` long.
+Ring ring_of(const Contour& contour, double step = 0);
 
 }  // namespace medial::ops

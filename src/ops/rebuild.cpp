@@ -224,25 +224,6 @@ std::vector<Ring> rings_by_tangents(const MedialAxis& samples) {
   return rings;
 }
 
-/// A contour of segments and arcs as a ring.
-Ring ring_of(const Contour& contour) {
-  Ring ring;
-  ring.bulges.reserve(contour.pieces.size());
-  bool arcs = false;
-  for (const CurvePiece& piece : contour.pieces) {
-    ring.points.push_back(contour.points[piece.first]);
-    ring.bulges.push_back(piece.bulge);
-    arcs = arcs || piece.bulge != 0;
-  }
-  const Vec2 last = contour.points.back();
-  if (!(last == ring.points.front())) {
-    ring.points.push_back(last);
-    ring.bulges.push_back(0);
-  }
-  if (!arcs) ring.bulges.clear();
-  return ring;
-}
-
 /// The ring with its arcs as chords within a distance.
 Ring polygon_of(const Ring& ring, double chord) {
   if (ring.bulges.empty()) return ring;
@@ -342,7 +323,7 @@ Result<Shape> shape_of_hulls(const MedialAxis& axis, double resolution,
 /// Around the outline of an exact axis, which crosses itself by rounding only.
 Result<Shape> shape_of_outline(const MedialAxis& axis, double chord, RebuildReport& report) {
   std::vector<Ring> rings;
-  for (const Contour& contour : boundary_of(axis)) rings.push_back(ring_of(contour));
+  for (const Contour& contour : boundary_of(axis)) rings.push_back(ops::ring_of(contour));
   if (chord > 0)
     for (Ring& ring : rings) ring = polygon_of(ring, chord);
   ShapeReport shaping;

@@ -41,20 +41,14 @@ void Search::run(std::span<const Start> starts) {
     via_[node] = none;
   }
   reached_.clear();
-  heap_.clear();
-  const auto push = [this](double cost, std::uint32_t node) {
-    heap_.emplace_back(cost, node);
-    ranges::push_heap(heap_, std::greater<>());
-  };
   for (const Start& start : starts) {
     if (!(start.cost < cost_[start.node])) continue;
     cost_[start.node] = start.cost;
-    push(start.cost, start.node);
+    heap_.emplace(start.cost, start.node);
   }
   while (!heap_.empty()) {
-    ranges::pop_heap(heap_, std::greater<>());
-    const auto [cost, node] = heap_.back();
-    heap_.pop_back();
+    const auto [cost, node] = heap_.top();
+    heap_.pop();
     if (cost > cost_[node]) continue;
     reached_.push_back(node);
     for (const std::uint32_t edge : incidence_.edges(node)) {
@@ -64,7 +58,7 @@ void Search::run(std::span<const Start> starts) {
       if (!(sum < cost_[next])) continue;
       cost_[next] = sum;
       via_[next] = edge;
-      push(sum, next);
+      heap_.emplace(sum, next);
     }
   }
 }

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <queue>
 #include <span>
 #include <vector>
 
@@ -58,7 +59,9 @@ class Search {
   std::vector<double> cost_;
   std::vector<std::uint32_t> via_;
   std::vector<std::uint32_t> reached_;
-  std::vector<std::pair<double, std::uint32_t>> heap_;
+  std::priority_queue<std::pair<double, std::uint32_t>,
+                      std::vector<std::pair<double, std::uint32_t>>, std::greater<>>
+      heap_;
 };
 
 /// Whole edges as a path, with its length and narrowest radius.
