@@ -5,6 +5,7 @@
 
 #include "axis/curve.h"
 #include "axis/node_kinds.h"
+#include "base/compat.h"
 #include "base/disjoint_sets.h"
 #include "medial/centreline.h"
 #include "medial/query.h"
@@ -123,7 +124,7 @@ class Collapse {
   void fill(Part& part) const {
     for (const std::uint32_t edge : part.edges)
       for (const std::uint32_t node : axis_.edges[edge].node) part.nodes.push_back(node);
-    std::ranges::sort(part.nodes);
+    ranges::sort(part.nodes);
     part.nodes.erase(std::unique(part.nodes.begin(), part.nodes.end()), part.nodes.end());
     for (const std::uint32_t node : part.nodes) {
       part.graph.nodes.push_back(axis_.nodes[node]);
@@ -132,8 +133,8 @@ class Collapse {
     for (const std::uint32_t edge : part.edges) {
       Edge& own = part.graph.edges.emplace_back(axis_.edges[edge]);
       for (std::uint32_t& node : own.node)
-        node = static_cast<std::uint32_t>(std::ranges::lower_bound(part.nodes, node) -
-                                          part.nodes.begin());
+        node =
+            static_cast<std::uint32_t>(ranges::lower_bound(part.nodes, node) - part.nodes.begin());
     }
   }
 
@@ -148,7 +149,7 @@ class Collapse {
     for (const std::uint32_t cut : cuts)
       if (cut != cuts.front() && !(distance(part.center(cut), first) < 2 * radius_)) return false;
     const auto is_near = [&](std::uint32_t node) {
-      return std::ranges::any_of(cuts, [&](std::uint32_t cut) {
+      return ranges::any_of(cuts, [&](std::uint32_t cut) {
         const double reach = distance(part.center(node), part.center(cut)) + part.radius(node);
         return reach <= (1 + trim_) * radius_ * (1 + 1e-9);
       });
@@ -163,7 +164,8 @@ class Collapse {
     const MedialAxis& graph = part.graph;
     // Where nothing is wide, the search ends in the widest node.
     std::vector<bool> is_root = part.at_cut;
-    if (std::ranges::find(is_root, true) == is_root.end()) is_root[deepest_node(graph)] = true;
+    if (std::find(is_root.begin(), is_root.end(), true) == is_root.end())
+      is_root[deepest_node(graph)] = true;
     // Edges that begin an arm which does not protrude.
     std::vector<bool> dropped(graph.edges.size(), false);
     std::vector<double> reach;
@@ -193,7 +195,7 @@ class Collapse {
         visit(other_end(graph.edges[edge], queue[i]));
       }
     }
-    if (std::ranges::find(kept, true) == kept.end()) return add_main_path(part);
+    if (std::find(kept.begin(), kept.end(), true) == kept.end()) return add_main_path(part);
     clip(part, incidence, kept);
   }
 

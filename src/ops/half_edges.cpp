@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/arc.h"
+#include "base/compat.h"
 
 namespace medial::ops {
 namespace {
@@ -205,8 +206,7 @@ Ring ring_of(const Contour& contour, double step) {
   for (const CurvePiece& piece : contour.pieces)
     add(contour.points[piece.first], contour.points[piece.first + 1], piece.bulge);
   add(contour.points.back(), contour.points.front(), 0);
-  if (std::ranges::all_of(ring.bulges, [](double bulge) { return bulge == 0; }))
-    ring.bulges.clear();
+  if (ranges::all_of(ring.bulges, [](double bulge) { return bulge == 0; })) ring.bulges.clear();
   return ring;
 }
 

@@ -115,7 +115,7 @@ std::vector<bool> detach(MedialAxis& axis, double off) {
       end.angle = std::atan2(way.y, way.x);
       ends.push_back(end);
     }
-    std::ranges::sort(ends, {}, &End::angle);
+    ranges::sort(ends, {}, &End::angle);
     // Around the disk until no two neighbours overlap.
     for (std::size_t i = 0, fine = 0; ends.size() > 1 && fine < ends.size();) {
       const std::size_t k = (i + 1) % ends.size();

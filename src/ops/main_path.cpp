@@ -105,8 +105,8 @@ class MainPaths {
     const auto [from, to] = core_.empty() ? std::pair(top, top) : farthest(top, gap);
     std::vector<Step> steps = hanging_way(from, from == to ? 1 : 0);
     reverse(steps);
-    if (from != to) std::ranges::copy(core_way(from, to), std::back_inserter(steps));
-    std::ranges::copy(hanging_way(to, 0), std::back_inserter(steps));
+    if (from != to) ranges::copy(core_way(from, to), std::back_inserter(steps));
+    ranges::copy(hanging_way(to, 0), std::back_inserter(steps));
     AxisPath path = ops::path_of(axis_, trimmed(std::move(steps)));
     path.gap = gap;
     return path;

@@ -199,7 +199,7 @@ std::pair<std::uint32_t, Vec2> nearest_site(const MedialAxis& axis, Vec2 p) {
 
 std::optional<EdgePlace> place_on_axis(const MedialAxis& axis, Vec2 p) {
   if (axis.edges.empty()) return std::nullopt;
-  const bool named = std::ranges::all_of(axis.edges, [](const Edge& edge) {
+  const bool named = ranges::all_of(axis.edges, [](const Edge& edge) {
     return edge.site[0] != no_site && edge.site[1] != no_site;
   });
   if (!named) return nearest_place(axis, p, [](const Edge&) { return true; });
