@@ -94,17 +94,15 @@ std::uint64_t hash_of_distances(int threads) {
     for (std::uint32_t x = 0; x < image.width(); ++x) image.set(x, y, random.chance(0.99));
   DistanceOptions options;
   options.threads = threads;
+  const DistanceMap map = distance_transform(image, options).value();
   Hash hash;
-  for (const std::uint32_t squared : distance_transform(image, options).value().squared)
-    hash.add(squared);
+  for (const std::uint32_t squared : map.squared) hash.add(squared);
   return hash.value();
 }
 
-/// A closed cubic B-spline through many random points, as arcs.
+/// A smooth curve through the points of a blob, as arcs.
 Rings arcs(int threads) {
-  Random random(11);
-  const Ring star_ring = star(random, 2000);
-  const Contour contour = fit_smooth_contour(star_ring.points, 0.01).value();
+  const Contour contour = fit_smooth_contour(blob(3000).front().points, 0.01).value();
   ArcOptions options;
   options.tolerance = 1e-5;
   options.threads = threads;

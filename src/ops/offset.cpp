@@ -89,8 +89,10 @@ class Regions {
   template <class Rename>
   void rename(std::size_t keys, const Rename& rename_key) {
     for (Upper& one : upper_) one.key = rename_key(one.key);
-    region_of_.assign(keys, no_region);
+    set_keys(keys);
   }
+  /// How many keys there are from now on.
+  void set_keys(std::size_t keys) { region_of_.assign(keys, no_region); }
 
  private:
   struct Upper {
@@ -264,14 +266,13 @@ struct Making {
   Regions regions{0};
   Stopwatch watch;
 
-  /// Takes an axis whose regions have so many keys, and prepares it for the walk.
-  Status take(Result<MedialAxis>& axis, std::size_t keys) {
+  /// Takes an axis, and prepares it for the walk.
+  Status take(Result<MedialAxis>& axis) {
     if (!axis) return std::move(axis).error();
     if (axis->resolution > 0) return not_exact();
     offsets.seconds_axis += watch.lap();
     offsets.tolerance = std::max(offsets.tolerance, axis->tolerance);
     ops::divide_at_summits(*axis);
-    regions.rename(keys, [](std::uint32_t key) { return key; });
     return success();
   }
   Offsets done() {
@@ -299,8 +300,8 @@ Result<Offsets> offset_both_sides(const Shape& shape, std::span<const double> cl
   Making making;
   if (!inside.empty()) {
     auto axis = compute(shape, own);
-    if (Status taken = making.take(axis, axis ? axis->nodes.size() : 0); !taken)
-      return std::move(taken).error();
+    if (Status taken = making.take(axis); !taken) return std::move(taken).error();
+    making.regions.set_keys(axis->nodes.size());
     add_inward(*axis, inside, making.regions, making.offsets.regions);
     making.regions.rename(0, [&](std::uint32_t node) { return axis->nodes[node].component; });
     making.offsets.seconds_curves += making.watch.lap();
@@ -310,8 +311,8 @@ Result<Offsets> offset_both_sides(const Shape& shape, std::span<const double> cl
     auto exterior = exterior_of(shape, margin);
     if (!exterior) return std::move(exterior).error();
     auto axis = compute(exterior->shape, own);
-    if (Status taken = making.take(axis, shape.component_count()); !taken)
-      return std::move(taken).error();
+    if (Status taken = making.take(axis); !taken) return std::move(taken).error();
+    making.regions.set_keys(shape.component_count());
     static_cast<void>(add_outward(*axis, surroundings_of(shape, *exterior, *axis), outside,
                                   making.regions, making.offsets.regions));
   }
@@ -335,8 +336,8 @@ Result<Offsets> buffers_of(const PlanarGraph& planar_graph, std::span<const doub
   const Shape surroundings =
       around(planar_graph, {box.low - Vec2{margin, margin}, box.high + Vec2{margin, margin}});
   auto axis = axis_around(planar_graph, surroundings, options);
-  if (Status taken = making.take(axis, planar_graph.points.size()); !taken)
-    return std::move(taken).error();
+  if (Status taken = making.take(axis); !taken) return std::move(taken).error();
+  making.regions.set_keys(planar_graph.points.size());
   making.offsets.region_of_point =
       add_outward(*axis, surroundings_of(planar_graph, surroundings, *axis), distances,
                   making.regions, making.offsets.regions);
