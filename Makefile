@@ -106,10 +106,11 @@ portable: setup ## read the core's sources with libc++ 13, clang 14 and for 32 b
 format: setup   ## format the sources
 	@clang-format -i $(SOURCES)
 
-lint: setup     ## check layers and sizes, run clang-tidy
+lint: setup     ## check layers, sizes and words, run clang-tidy
 	@tools/setup.sh lint
 	@tools/check_layers.py
 	@tools/check_sizes.py
+	@tools/check_words.py
 	@cmake --preset debug > /dev/null
 	@tools/lint.sh $(DEBUG) $(JOBS)
 

@@ -18,7 +18,7 @@ struct OneOfEach;
 template <class... Own>
 struct OneOfEach<std::variant<Own...>> : std::tuple<Own...> {};
 
-/// The options of all methods, of which one is chosen.
+/// The options of all methods; one of them is chosen.
 struct MethodArguments {
   Method chosen;
   PixelGrid grid;  ///< of the methods that have one

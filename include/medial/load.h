@@ -95,7 +95,7 @@ Result<PlanarGraph> planar_graph_of(const LoosePieces& pieces,
                                     const PlanarGraphOptions& options = {});
 
 /// Calls use(graph) with planar_graph_of(pieces). Where that is an error `unsupported` with ring
-/// and point, things too close to each other to be told apart from rounding, it is called again
+/// and point, things too close to each other to differ by more than rounding, it is called again
 /// with graphs in which they touch, for increasing distances (PlanarGraphOptions::reach). Returns
 /// the distance, 0 for none. Errors: of planar_graph_of(), and the last one of `use`.
 Result<double> with_planar_graph(const LoosePieces& pieces, bool node_crossings,
