@@ -1,5 +1,7 @@
 // Images: their topology, their exact distances, and brushfires, against what is obvious.
 
+#include "medial/raster.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,7 +13,6 @@
 #include <vector>
 
 #include "medial/brushfire.h"
-#include "medial/raster.h"
 #include "medial/shape.h"
 
 namespace medial {

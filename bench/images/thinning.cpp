@@ -16,8 +16,8 @@
 #include <string>
 
 #include "medial/brushfire.h"
-#include "medial/raster.h"
 #include "medial/io/image.h"
+#include "medial/raster.h"
 
 namespace {
 
