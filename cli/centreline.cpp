@@ -165,7 +165,7 @@ Result<Collapse> collapse_all(const Document<AxisItem>& file,
       });
   if (!shapes) return std::move(shapes).error();
   out.shapes = std::move(shapes).value();
-  out.layers = same_frame<io::Layer>(file);
+  out.layers = empty_like<io::Layer>(file);
   out.layers.items = {{"polygons", io::LayerKind::polygons, {}, {}},
                       {"lines", io::LayerKind::lines, {"length", "width_min"}, {}}};
   for (std::uint32_t i = 0; i < out.shapes.size(); ++i) {

@@ -167,7 +167,7 @@ Result<std::vector<Method>> methods_of(const std::string& names) {
 /// method below.
 Status write_comparison(const std::string& path, const Shape& shape, const Box& box,
                         const std::vector<Row>& rows, const Document<ShapeItem>& file) {
-  Document<AxisItem> axes = same_frame<AxisItem>(file);
+  Document<AxisItem> axes = empty_like<AxisItem>(file);
   const Vec2 size = box.high - box.low;
   const Vec2 pitch{1.1 * size.x, size.y + 0.1 * std::max(size.x, size.y)};
   constexpr std::size_t columns = 3;

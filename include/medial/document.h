@@ -29,9 +29,9 @@ struct Document {
   std::vector<std::string> notes;  ///< what repair or reprojection changed, one sentence each
 };
 
-/// Everything but the items.
+/// A document without items that has all else of another.
 template <class To, class From>
-Document<To> same_frame(const Document<From>& from) {
+Document<To> empty_like(const Document<From>& from) {
   return {{}, from.crs_wkt, from.geographic, from.y_down, from.unit, from.pixel, from.notes};
 }
 

@@ -147,7 +147,9 @@ Result<Document<Feature>> finish(Document<Feature> dataset, const ReadOptions& o
   if (auto error = find_not_finite(dataset)) return *error;
   drop_empty_features(dataset);
   if (dataset.items.empty())
-    return Error{ErrorCode::empty, options.loose ? "there is nothing" : "there is no polygon", {}};
+    return Error{ErrorCode::empty,
+                 options.loose ? "the file contains no geometry" : "there is no polygon",
+                 {}};
   if (options.project) {
     if (Status status = project_to_local(dataset); !status) return status.error();
   }
@@ -196,7 +198,7 @@ bool begins(const std::string& path, Sniff sniff) {
 bool is_native(const std::string& path) { return begins(path, begins_like_native); }
 
 Result<Document<AxisItem>> read_native(const std::string& path) {
-  return read_json<AxisItem>(path, begins_like_native, "this is no JSON of medial's own",
+  return read_json<AxisItem>(path, begins_like_native, "this is not one of medial's own JSON files",
                              read_native);
 }
 

@@ -27,7 +27,7 @@ Status for_each_item(std::span<const double> weights, int threads,
   };
 
   const auto run_all = [&] {
-    // An item is large if, on one thread, it could outlast all others together.
+    // An item is large if, on one thread, it would outlast all the others shared among the threads.
     const int available = effective_threads(threads);
     const double share = std::accumulate(weights.begin(), weights.end(), 0.0) / available;
     std::vector<std::size_t> small;

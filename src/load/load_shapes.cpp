@@ -63,9 +63,7 @@ Result<Shape> shape_of(Feature& feature, const LoadOptions& options, LoadReport&
                       std::any_of(rings.begin(), rings.end(),
                                   [](const Ring& ring) { return !ring.bulges.empty(); });
   if (!feature.contours.empty()) {
-    ArcOptions arcs = options.arcs;
-    arcs.threads = options.threads;
-    auto approximated = approximate_by_arcs(feature.contours, arcs, &report.arcs);
+    auto approximated = approximate_by_arcs(feature.contours, options.arcs, &report.arcs);
     if (!approximated) return std::move(approximated).error();
     std::move(approximated->begin(), approximated->end(), std::back_inserter(rings));
     feature.contours = {};
@@ -83,9 +81,10 @@ Result<Shape> shape_of(Feature& feature, const LoadOptions& options, LoadReport&
 /// The sources that a feature knows of its rings in place of those in its rings.
 void keep_sources(Shape& shape, const Feature& feature,
                   const std::vector<std::size_t>& ring_begin) {
-  if (feature.sources.empty()) return;
+  if (feature.sources.empty() || feature.sources.size() != ring_begin.back()) return;
   for (VertexSource& source : shape.sources)
-    source = feature.sources[ring_begin[source.ring] + source.vertex];
+    if (source.ring + 1 < ring_begin.size())  // the rings beyond are of curves
+      source = feature.sources[ring_begin[source.ring] + source.vertex];
 }
 
 /// The shape within smooth curves instead, which the contours become.
@@ -136,14 +135,16 @@ std::string note_of_crossings(std::size_t feature, const ShapeReport& report, st
 Result<Document<ShapeItem>> load_shapes(Document<Feature> features, const LoadOptions& options,
                                         LoadReport* report) {
   const std::size_t count = features.items.size();
-  if (count == 0) return Error{ErrorCode::empty, "holds no polygon", {}};
-  Document<ShapeItem> shapes = same_frame<ShapeItem>(features);
+  if (count == 0) return Error{ErrorCode::empty, "there is no polygon", {}};
+  Document<ShapeItem> shapes = empty_like<ShapeItem>(features);
   std::vector<LoadReport> reports(count);
   std::vector<double> weights;
   for (const Feature& feature : features.items) weights.push_back(weight_of(feature));
   SharedProgress progress(options.progress, std::accumulate(weights.begin(), weights.end(), 0.0));
-  const auto load = [&](std::size_t i, int) {
-    auto item = load_shape(features.items[i], options, reports[i]);
+  const auto load = [&](std::size_t i, int threads) {
+    LoadOptions own = options;
+    own.arcs.threads = threads;
+    auto item = load_shape(features.items[i], own, reports[i]);
     if (const auto done = progress.part(weights[i])) done(1);
     return item;
   };

@@ -22,7 +22,7 @@ class SharedProgress {
     return [this, weight, last](double share) {
       share = std::clamp(share, 0.0, 1.0);
       const double more = weight * (share - last->exchange(share));
-      // Rounding must not make a whole of what is none, nor more than that.
+      // Rounding must not report an unfinished job as complete, nor more than that.
       tell_(std::clamp((done_.fetch_add(more) + more) / total_, 0.0, 1.0));
     };
   }

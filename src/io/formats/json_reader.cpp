@@ -274,7 +274,7 @@ Result<Document<AxisItem>> read_native(TextSource& source) {
 }
 
 Document<Feature> dataset_of(Document<AxisItem> file) {
-  auto dataset = same_frame<Feature>(file);
+  auto dataset = empty_like<Feature>(file);
   std::int64_t id = 0;
   for (AxisItem& item : file.items) {
     Feature& feature = dataset.items.emplace_back();
