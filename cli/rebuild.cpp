@@ -15,7 +15,7 @@
 #include "medial/io/write.h"
 #include "medial/match.h"
 #include "medial/query.h"
-#include "medial/shape_distance.h"
+#include "medial/verify.h"
 
 namespace medial::cli {
 namespace {

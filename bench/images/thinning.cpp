@@ -15,7 +15,6 @@
 #include <ctime>
 #include <string>
 
-#include "medial/brushfire.h"
 #include "medial/io/image.h"
 #include "medial/raster.h"
 

@@ -6,7 +6,7 @@
 #include <utility>
 #include <variant>
 
-#include "medial/vec2.h"
+#include "medial/geometry.h"
 
 namespace medial {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "axis/curve.h"
-#include "medial/box.h"
+#include "medial/geometry.h"
 #include "medial/query.h"
 #include "ops/burn.h"
 

@@ -11,8 +11,8 @@
 #include "medial/document.h"
 #include "medial/error.h"
 #include "medial/features.h"
-#include "medial/field.h"
 #include "medial/io/read.h"
+#include "medial/methods.h"
 #include "medial/offset.h"
 
 namespace medial::io {
