@@ -71,7 +71,7 @@ struct Node {
 /// control points node[0], `control`, node[1] and weights 1, `weight`, 1. It is the exact bisector:
 /// a line (two segments), a parabola (a segment and a vertex or an arc; weight 1), a line whose
 /// radius is a hyperbola (two vertices; weight >= 1), or with an arc an ellipse, a hyperbola, a
-/// line, or a circle (concentric arcs).
+/// line or a circle.
 struct Edge {
   std::array<std::uint32_t, 2> node;  ///< from, to
   std::array<std::uint32_t, 2> site;  ///< on the left and on the right of from -> to; or no_site
@@ -83,12 +83,12 @@ struct Edge {
 ///
 /// A sampled axis has a `resolution` above 0. Of `potential` that is about the longest step along
 /// the axis: each node's radius is its exact distance to the boundary, edges are straight and name
-/// the nearest site on each side. Of methods on a grid of square pixels it is the side of a pixel:
-/// each node is the centre of a medial pixel (of `ridge`, a point between pixels where there is no
-/// room for them), ordered by y, then x, and its radius is within half a pixel's diagonal of its
-/// distance to the boundary; each edge is straight, to one of eight neighbours, with its control
-/// point in the middle and weight 1; its sites are two that the disk of its first node touches
-/// within a few pixels, or both no_site. docs/ridge.md says which pixels are linked.
+/// the nearest site on each side. On a grid of square pixels it is the side of a pixel: nodes,
+/// ordered by y, then x, are centres of medial pixels (of `ridge`, points between them where there
+/// is no room for pixels), with radii within half a pixel's diagonal of the distance to the
+/// boundary; edges are straight, to one of eight neighbours, with the control point in the middle
+/// and weight 1; their sites are two that the disk of the first node touches within a few pixels,
+/// or both no_site. docs/ridge.md says which pixels are linked.
 struct MedialAxis {
   std::string method;     ///< the engine's name: see name_of(Method)
   double tolerance = 0;   ///< bound of |distance - radius|, in units of the input

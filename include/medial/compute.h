@@ -7,11 +7,10 @@ namespace medial {
 struct Options {
   Method method = method::Disks{};
   /// Disks whose residuals stay below this count as touching. Relative to the diagonal of the
-  /// bounding box, in (0, 1e-3]; 0: 4e-15, or what the coordinates' spacing allows where the shape
-  /// lies far from the origin.
+  /// bounding box, in (0, 1e-3]; 0: 4e-15, or what the coordinates' spacing allows far from the
+  /// origin.
   double tolerance = 0;
-  /// A convex joint with an arc is smooth, no corner, if the directions of its edges differ by less
-  /// than this; in degrees, in [0, 10].
+  /// A convex joint with an arc is no corner if it turns by less than this; in degrees, in [0, 10].
   double corner_angle = 0.01;
   /// Makes every decision of the combinatorics exact: which sites a disk touches and in which
   /// order, and which nodes an edge joins. Sites that touch one disk within the tolerance, but not
@@ -23,15 +22,13 @@ struct Options {
   /// Computes the axis of the exterior: of an enclosure less the shape, without edges whose disks
   /// touch the enclosure. Every concavity and every hole has its axis.
   bool exterior = false;
-  /// Distance from the shape's bounding box to the enclosure, in units of the input, within
-  /// [1e-6, 1e6] of the diagonal; 0: half of the longer side.
+  /// Distance from the shape's bounding box to the enclosure, in units of the input, within [1e-6,
+  /// 1e6] of the diagonal; 0: half of the longer side.
   double margin = 0;
   /// Called from any thread, out of order, with the share of the boundary that the walk has done,
-  /// in [0, 1], and 1 in the end. What comes before the walk (sites, holes, tree) counts as 0, what
-  /// follows as 1: together less than half of the time. Must not throw.
+  /// in [0, 1]; work before and after it, less than half of the time, is 0 and 1. Must not throw.
   std::function<void(double)> progress = {};
-  /// Set to true, it ends compute() with ErrorCode::cancelled: at once during the walk, otherwise
-  /// after the current phase.
+  /// Set to true, it cancels compute(): at once during the walk, otherwise after the phase.
   const std::atomic<bool>* cancel = nullptr;
 };
 
@@ -39,10 +36,8 @@ struct Options {
 ///
 /// The graph has one connected part per component of the shape and exactly one independent cycle
 /// per hole; by `ridge` and `brushfire`, per bounded set of interior pixels and per hole in it,
-/// which are the shape's where nothing is narrower than some pixels.
-///
-/// `contours`: the smooth boundary that the shape approximates, for methods that follow it; they
-/// take the shape's edges without it.
+/// which are the shape's where nothing is narrower than some pixels. Methods that follow a smooth
+/// boundary take `contours`, which the shape approximates, or without them the shape's edges.
 ///
 /// Errors: invalid_option; cancelled; empty; too_large (2^29 vertices; ridge: 2^31 pixels;
 /// brushfire: a diagonal of 2^16 pixels); unsupported (a coordinate above 1e100, or not 0 but below

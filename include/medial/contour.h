@@ -11,8 +11,7 @@ struct CurvePiece {
   double bulge = 0;          ///< of an arc (degree 1): see Ring
 };
 
-/// A free-form boundary: pieces end to end, each from the last control point of the one before. A
-/// straight piece closes a contour whose ends differ.
+/// A free-form boundary: pieces end to end. A straight piece closes a contour whose ends differ.
 struct Contour {
   std::vector<Vec2> points;     ///< control points; neighbouring pieces share one
   std::vector<double> weights;  ///< of each control point, positive; empty: all 1
@@ -38,18 +37,15 @@ struct Contour {
                    std::span<const Vec2> control, std::span<const double> control_weights = {});
 };
 
-/// The edges of a closed ring or an open chain as pieces, without those of zero length. `bulges` as
-/// in Ring.
+/// The edges of a closed ring or an open chain, without those of zero length; `bulges` as in Ring.
 Contour contour_of(std::span<const Vec2> points, std::span<const double> bulges, bool closed);
 
 Contour reversed(const Contour& contour);
 
 struct ArcOptions {
-  /// Largest distance between a contour and its arcs; relative to the diagonal of the bounding box,
-  /// or in units of the input. Above 0.
-  double tolerance = 1e-6;
-  bool relative = true;
-  int threads = 0;  ///< see Options
+  double tolerance = 1e-6;  ///< largest distance between a contour and its arcs, above 0
+  bool relative = true;  ///< to the diagonal of the bounding box; otherwise in units of the input
+  int threads = 0;       ///< see Options
 };
 
 /// What approximate_by_arcs() did.
@@ -70,10 +66,9 @@ Result<std::vector<Ring>> approximate_by_arcs(std::span<const Contour> contours,
                                               const ArcOptions& options = {},
                                               ArcReport* report = nullptr);
 
-/// A closed curve with continuous curvature through the points of a polygon: the periodic cubic
-/// spline over the length of the chords. Adds points on edges until curve and polygon are within
-/// `tolerance` (units of the input) of each other. Errors: not_finite, too_few_points,
-/// invalid_option, unsupported (no such curve with 2^20 points).
+/// The periodic cubic spline (of continuous curvature) over chords through the points of a polygon
+/// and more on its edges, until curve and polygon are within `tolerance` (units of the input).
+/// Errors: not_finite, too_few_points, invalid_option, unsupported (2^20 points).
 Result<Contour> fit_smooth_contour(std::span<const Vec2> polygon, double tolerance);
 
 }  // namespace medial

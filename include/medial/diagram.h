@@ -7,14 +7,12 @@
 
 namespace medial {
 
-/// A Voronoi edge with its exact curve, as in MedialAxis. From node[0] to node[1], the part of the
-/// boundary that the edge's disks cut off grows.
+/// From node[0] to node[1], the part of the boundary that the edge's disks cut off grows.
 struct VoronoiEdge : Edge {
-  /// Starts at the common point of its two sites: straight, perpendicular to an edge. All edges but
-  /// spokes are the medial axis (Lee, Corollary 3).
+  /// Straight, from the common point of its two sites, perpendicular to an edge. All other edges
+  /// are the medial axis (Lee, Corollary 3).
   bool spoke = false;
-  /// Lies on the enclosure, which it goes around counter-clockwise; site[1] is no_site. Its radius
-  /// is the distance from its site.
+  /// On the enclosure, counter-clockwise; site[1] is no_site, radii are distances from site[0].
   bool frame = false;
 };
 
@@ -47,13 +45,11 @@ struct VoronoiDiagram {
   }
 };
 
-/// The curve of an edge from its node[0] to its node[1], sampled as by sample_by_chord() of an
-/// axis.
+/// Samples an edge from its node[0] to its node[1], as sample_by_chord() of an axis.
 std::vector<Disk> sample_by_chord(const VoronoiDiagram& diagram, const VoronoiEdge& edge,
                                   double chord);
 
-/// The outline of a planar graph's face as a polygon, counter-clockwise, with chords within `chord`
-/// of its edges; empty for an empty face.
+/// The face of a planar graph's site as a counter-clockwise polygon within `chord` of its edges.
 std::vector<Vec2> face_outline(const VoronoiDiagram& diagram, std::size_t site, double chord);
 
 }  // namespace medial

@@ -11,10 +11,9 @@
 
 namespace medial {
 
-/// The unit of length of a document's coordinates.
 enum class Unit : std::uint8_t { unknown, millimetre, inch, css_pixel, metre, degree };
 
-/// Items of one kind, and what holds for all of them.
+/// Items of one kind, and what holds for all.
 template <class T>
 struct Document {
   std::vector<T> items;
@@ -36,7 +35,7 @@ Document<To> same_frame(const Document<From>& from) {
 using Attributes = std::vector<std::pair<std::string, std::string>>;
 
 /// One polygon or multipolygon of an input file, one painted path, one glyph. Free-form curves are
-/// contours, of which approximate_by_arcs() makes rings.
+/// contours.
 struct Feature {
   std::vector<Ring> rings;
   std::vector<Contour> contours;
@@ -46,14 +45,12 @@ struct Feature {
   Attributes attributes;
 };
 
-/// A shape with its attributes.
 struct ShapeItem {
   Shape shape;
   Attributes attributes;
   std::vector<Contour> contours = {};  ///< its boundary before curves became arcs, if asked for
 };
 
-/// A shape and its axis.
 struct AxisItem {
   Shape shape;
   MedialAxis axis;

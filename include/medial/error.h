@@ -10,7 +10,7 @@
 
 namespace medial {
 
-/// What went wrong. The names are stable: they are what `--json` prints (see name_of).
+/// What went wrong. The names are stable: `--json` prints them.
 enum class ErrorCode : std::uint8_t {
   not_finite,      ///< a coordinate is NaN or infinite
   too_few_points,  ///< a ring has fewer than three distinct points

@@ -16,7 +16,7 @@ Status for_each_item(std::span<const double> weights, int threads,
                      const std::function<Status(std::size_t i, int threads)>& work,
                      const std::atomic<bool>* cancel = nullptr);
 
-/// The results of work(i, threads) for every item, run by for_each_item().
+/// The results of for_each_item().
 template <class T>
 Result<std::vector<T>> map_items(std::span<const double> weights, int threads,
                                  const std::function<Result<T>(std::size_t i, int threads)>& work,
@@ -60,8 +60,8 @@ struct LoadReport {
 };
 
 /// The shape of each feature, in order: fill rules, curves to arcs, repair. Notes say what a repair
-/// changed. Errors: those of approximate_by_arcs(), build_shape() and
-/// fit_smooth_contour(), with feature, ring and vertex; empty; cancelled.
+/// changed. Errors: those of approximate_by_arcs(), build_shape() and fit_smooth_contour(), with
+/// feature, ring and vertex; empty; cancelled.
 Result<Document<ShapeItem>> load_shapes(Document<Feature> features, const LoadOptions& options = {},
                                         LoadReport* report = nullptr);
 
@@ -72,13 +72,11 @@ struct LoosePieces {
   Document<Attributes> features;
 };
 
-/// The contents of one feature, or of all in order, as chains, free-form curves approximated.
-/// Errors: those of approximate_by_arcs().
+/// All of one feature, or of all in order, as chains. Errors: those of approximate_by_arcs().
 Result<std::vector<Chain>> chains_of(const Feature& feature, const ArcOptions& options = {});
 Result<LoosePieces> load_loose(Document<Feature> features, const ArcOptions& options = {});
 
-/// The planar graph of all pieces. Errors: those of build_planar_graph(), with feature, ring in it,
-/// and vertex.
+/// Errors: those of build_planar_graph(), with feature, ring in it, and vertex.
 Result<PlanarGraph> planar_graph_of(const LoosePieces& pieces,
                                     const PlanarGraphOptions& options = {});
 

@@ -10,24 +10,23 @@ namespace medial {
 
 /// How `ridge` finds the edges nearest to a pixel. Both give the same pixels.
 enum class RidgeSearch : std::uint8_t {
-  tree,         ///< by the boundary tree: fast at all sizes
+  tree,         ///< by the boundary tree: for real sizes
   sorted_list,  ///< by the report's list of all edges, sorted by lower bounds of their distances
 };
 
 /// Which pixels `ridge` takes for medial.
 enum class RidgeRule : std::uint8_t {
-  /// The axis passes between the pixel and one of its four neighbours, as their nearest edges are
-  /// two places of the boundary, and the pixel is the nearer of the two to equidistance: within one
-  /// pixel of the axis. Beside the boundary, as `difference`.
+  /// The axis passes between the pixel and one of its four neighbours, whose nearest edges are two
+  /// places of the boundary; the pixel is the nearer one to equidistance. Beside the boundary, as
+  /// `difference`.
   crossing,
   /// The report's: the distances to the nearest and the second nearest edge, which do not meet at a
-  /// concave vertex, differ by less than one pixel. Takes whole regions where the boundary has
-  /// details finer than pixels, or turns by small angles.
+  /// concave vertex, differ by less than one pixel. Takes whole regions at details finer than
+  /// pixels, and at small angles.
   difference,
 };
 
-/// The size of square pixels, at most 2^31 of them; both 0: 1024 along the longer side of the
-/// bounding box.
+/// The size of square pixels, at most 2^31 of them; both 0: 1024 along the longer side.
 struct PixelGrid {
   double resolution = 0;     ///< the side of a pixel, at most the longer side of the bounding box
   std::uint32_t pixels = 0;  ///< or how many lie along that side
@@ -48,9 +47,8 @@ struct BiarcDc {
 /// Lee's divide and conquer: merges Voronoi diagrams of lists of segments and reflex vertices.
 struct Lee {};
 
-/// The one with the least processor time, as measured (docs/lee.md): `lee` for polygons without
-/// holes that are convex or nearly so, or smooth; `disks` for all others, and where `lee` fails. It
-/// does not depend on the number of threads.
+/// The one with the least processor time for any number of threads (docs/lee.md): `lee` for convex,
+/// nearly convex or smooth polygons without holes; `disks` for all others, and where `lee` fails.
 struct Auto {};
 
 /// Ridge following on a grid of pixels, as Volkmann and St. Clair have it.
@@ -69,26 +67,24 @@ struct Brushfire {
   medial::Brushfire family = medial::Brushfire::simultaneous;
 };
 
-/// Valleys of a potential after Ahuja and Chuang; see docs/potential.md. "Size" is the larger side
-/// of the bounding box.
+/// Valleys of a potential after Ahuja and Chuang; see docs/potential.md. Size: larger side of the
+/// box.
 struct Potential {
   /// n of the force that finds the points, in [1, 4096], any real number; 0: chosen for each point
   /// (the algorithm MAT-Generalized-Polygonal).
   double order = 0;
-  /// The order of the first force lines, in [1, 4096]; 0: `order`, at most 512, or 512 if that is
-  /// 0. Less, down to 1, where the arithmetic cannot connect these valleys.
+  /// The order of the first force lines, in [1, 4096]; 0: `order` up to 512, or 512 if that is 0.
+  /// Less, down to 1, where the arithmetic cannot connect these valleys.
   double base_order = 0;
   double step = 0.01;  ///< the longest step, as a share of the size, in [1e-4, 0.1]
-  /// Coarse to fine: refines the skeleton of a polygon within this of the border, as a share of the
-  /// size, on ever nearer polygons, without branches for what the first polygon leaves out. In
-  /// [0, 0.2]; 0: all branches. Of a whole axis only.
+  /// Coarse to fine: refines the skeleton of a polygon this close to the border, as a share of the
+  /// size in [0, 0.2], without branches that the polygon does not have; 0: all. Whole axes only.
   double coarse = 0;
   /// theta_min in degrees: how much the force may still turn with the order. In (0, 90].
   double angle = 2.56;
   /// e_min: how far a point may still move with the order, as a share of the size. In (0, 0.1].
   double movement = 0.0005;
-  /// Only the branch to which the force leads from this place.
-  std::optional<Vec2> from = {};
+  std::optional<Vec2> from = {};  ///< only the branch to which the force leads from this place
   /// Only what lies in this box: traced from the convex corners in it, connected or not.
   std::optional<Box> within = {};
   bool whole() const { return !from && !within; }
@@ -100,14 +96,13 @@ struct CurveAxis {
   /// [1e-6, 0.1]; shorter where the boundary turns fast. A control process that goes astray
   /// restarts with half of it, up to five times: MedialAxis::resolution is the last one's.
   double step = 1e-3;
-  /// The maximum of curvature, counted along the boundary from its start, at which the first
-  /// generation starts. The axis is the same for each, to the steps.
+  /// The maximum of curvature, counted from the boundary's start, at which the first generation
+  /// begins. The axis is the same for each, to the steps.
   std::size_t first_maximum = 0;
 };
 
 }  // namespace method
 
-/// One of the methods, with its options.
 using Method = std::variant<method::Disks, method::BiarcDc, method::Lee, method::Auto,
                             method::Ridge, method::Brushfire, method::Potential, method::CurveAxis>;
 
@@ -129,8 +124,7 @@ struct MethodInfo {
   bool part = false;      ///< computes a part of an axis
   bool contours = false;  ///< follows smooth contours in place of a shape
   bool threads = false;   ///< uses several threads
-  /// Whether it takes Options::exact.
-  bool exact() const { return sampling == Sampling::none; }
+  bool exact() const { return sampling == Sampling::none; }  ///< takes Options::exact
 };
 
 /// All methods, in the order of Method's alternatives.
@@ -158,12 +152,10 @@ class PotentialField {
     Vec2 direction;        ///< of the force: a unit vector, or zero where there is no force
     double clearance = 0;  ///< distance to the border
   };
-  /// The potential at p; nothing outside of the shape and on its border. Safe to call from several
-  /// threads.
+  /// Nothing outside of the shape and on its border. Safe to call from several threads.
   std::optional<Sample> at(Vec2 p) const;
 
-  /// The force line from p, to its end or for `most_steps` steps of at most `step`, in units of the
-  /// input.
+  /// The force line from p, in at most `most_steps` steps of at most `step` (units of the input).
   std::vector<Vec2> streamline(Vec2 p, double step, std::size_t most_steps) const;
 
  private:
@@ -197,9 +189,8 @@ struct CurveAxisRules {
 };
 
 struct CurveAxis {
-  /// The points as a graph without sites: method "curve-axis", resolution the largest step. Edges
-  /// are quadratics with the axis's tangents at their ends; between points they are off by the
-  /// fourth power of the step.
+  /// The points as a graph without sites; `resolution` is the largest step. Edges are quadratics
+  /// with the axis's tangents at their ends, off by the fourth power of the step in between.
   MedialAxis axis;
   /// The discrete parametric axis: one for each chain of edges between leaves and branchings.
   std::vector<std::vector<CurveAxisPoint>> branches;
@@ -208,14 +199,13 @@ struct CurveAxis {
 
 /// The medial axis of one smooth closed curve, followed from the boundary's maxima of curvature:
 /// Shaked and Bruckstein, "The Curve Axis", 1996. Each point is a zero of (14), as exact as the
-/// curve.
+/// curve. The contour has any orientation; its pieces join with one direction and, to a hundredth,
+/// one curvature. Time grows with the number of points, and with the square of that of maxima.
 ///
-/// The contour may run either way; its pieces join with one direction and, to a hundredth, one
-/// curvature. Time grows with the number of points, and with the square of the number of maxima.
 /// Errors: not_finite, invalid_option, cancelled, too_large (20,000 pieces, 2^21 points, some
 /// seconds of work), unsupported (not smooth, with the place; more than one contour; no maximum of
 /// curvature, as for a circle; a disk that the boundary enters by more than 1e-5 of the size, or
-/// boundary that no branch reaches: the method has gone astray), crossing and other errors of
+/// boundary that no branch reaches: the method has gone astray), crossing and others of
 /// build_shape().
 Result<CurveAxis> compute_curve_axis(std::span<const Contour> contours,
                                      const method::CurveAxis& options = {},

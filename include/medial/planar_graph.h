@@ -19,7 +19,7 @@ struct PlanarGraphEdge {
   VertexSource source;  ///< chain of the input, and the vertex in it before the edge
 };
 
-/// A point of a PlanarGraph without any edge.
+/// A point without any edge.
 struct LonePoint {
   std::uint32_t point = 0;
   std::uint32_t face = 0;
@@ -54,8 +54,7 @@ struct PlanarGraph {
 
 struct PlanarGraphOptions {
   bool node_crossings = false;  ///< splits edges where they cross: see ShapeOptions
-  /// What comes within this distance touches: points become one, edges pass through them. 0: the
-  /// tolerance among arcs, and exact contact only without.
+  /// What comes this close touches. 0: the tolerance among arcs; exact contact only without.
   double reach = 0;
 };
 

@@ -19,13 +19,12 @@ double length(const MedialAxis& axis, const Edge& edge);
 double total_length(const MedialAxis& axis);
 
 /// Samples an edge in at most 100,000 pieces, both nodes included: with chords that stay within
-/// `chord` of the curve in (x, y) and in r, or with steps of at most `step` along the curve; both
-/// in units of the input.
+/// `chord` of the curve in (x, y) and in r, or with steps of at most `step` along the curve (units
+/// of the input).
 std::vector<Disk> sample_by_chord(const MedialAxis& axis, const Edge& edge, double chord);
 std::vector<Disk> sample_by_step(const MedialAxis& axis, const Edge& edge, double step);
 
-/// The edges around each node, by increasing index; twice if they lead from the node to itself.
-/// Built in O(edges).
+/// The edges around each node, by increasing index; loops twice. Built in O(edges).
 class Incidence {
  public:
   explicit Incidence(const MedialAxis& axis);
@@ -54,14 +53,13 @@ struct Branch {
 
 /// All branches, each edge in exactly one, ordered by their lowest edge. O(edges).
 std::vector<Branch> branches(const MedialAxis& axis);
-/// The number of branches(), with a few bytes of memory per node. O(edges).
+/// Their number, with a few bytes of memory per node. O(edges).
 std::uint64_t branch_count(const MedialAxis& axis);
 
 /// The node of the largest radius (the lowest index among equals): its disk is the maximum
 /// inscribed circle if no arc bounds the shape; see deepest_disk() otherwise. Requires a node.
 std::uint32_t deepest_node(const MedialAxis& axis);
 
-/// A nearest point of the axis.
 struct AxisPoint {
   std::uint32_t edge = 0;
   double t = 0;  ///< parameter on that edge
@@ -69,15 +67,13 @@ struct AxisPoint {
   double distance = 0;
 };
 
-/// Finds the nearest point of an axis in O(log n) expected, after O(n log n). Keeps a reference to
-/// the axis.
+/// Finds nearest points in O(log n) expected, after O(n log n). Keeps a reference to the axis.
 class AxisLocator {
  public:
   explicit AxisLocator(const MedialAxis& axis);
   ~AxisLocator();
   AxisLocator(AxisLocator&&) noexcept;
-  /// Of edges at equal distance, the lowest index. Without edges the distance is infinite and the
-  /// rest has no meaning.
+  /// Of edges at equal distance, the lowest index. Without edges, only an infinite distance.
   AxisPoint nearest(Vec2 p) const;
 
  private:
@@ -85,8 +81,7 @@ class AxisLocator {
   std::unique_ptr<Index> index_;
 };
 
-/// The distance from p to the boundary, the radius of the largest disk around p in the shape;
-/// negative outside. O(n).
+/// The distance from p to the boundary of the shape, negative outside. O(n).
 double clearance(const Shape& shape, Vec2 p);
 
 }  // namespace medial

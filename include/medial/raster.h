@@ -19,8 +19,7 @@ struct Topology {
 /// Counts components and holes. O(runs of pixels in the rows), nearly.
 Topology topology(const Image& image);
 
-/// How a brushfire keeps an image connected (Volkmann and St. Clair 1987, Section II.B.1). All ways
-/// keep every component, every hole, and end points.
+/// How a fire keeps components, holes and end points (Volkmann and St. Clair 1987, Section II.B.1).
 enum class Brushfire : std::uint8_t {
   sequential,    ///< decides pixel after pixel (Rosenfeld and Kak 1982); a pass goes through four
                  ///< subfields in turn
@@ -51,15 +50,14 @@ Result<Image> thin(const Image& image, const BrushfireOptions& options = {});
 /// What the distance of a pixel's centre is measured to.
 enum class DistanceTo : std::uint8_t {
   pixels,  ///< the centre of the nearest background pixel, as usual for images
-  cracks,  ///< the boundary between foreground and background pixels: the radius of the largest
-           ///< disk inside the pixels' squares
+  cracks,  ///< the boundary of the foreground pixels' squares: the radius of the largest disk
+           ///< inside
 };
 
 struct DistanceOptions {
   DistanceTo to = DistanceTo::pixels;
-  /// Whether pixels outside of the image are background; always so for distances to cracks.
-  bool frame = true;
-  int threads = 0;  ///< see Options
+  bool frame = true;  ///< pixels outside of the image are background; always so to cracks
+  int threads = 0;    ///< see Options
 };
 
 /// The distance of every pixel, row after row.
@@ -67,7 +65,7 @@ struct DistanceMap {
   std::uint32_t width = 0;
   std::uint32_t height = 0;
   /// Squared distances in pixels, exact integers; to cracks four times that. 0 in the background;
-  /// `unbounded` where there is no background at all.
+  /// `unbounded` without any.
   std::vector<std::uint32_t> squared;
   DistanceTo to = DistanceTo::pixels;
 
@@ -80,10 +78,8 @@ struct DistanceMap {
   double at(std::uint32_t x, std::uint32_t y) const;
 };
 
-/// The exact Euclidean distance transform. O(pixels) for any image: columns by two scans, then rows
-/// by the lower envelope of one parabola per column (Meijster, Roerdink and Hesselink 2000;
-/// Felzenszwalb and Huttenlocher 2012), in integers. Errors: invalid_option, too_large,
-/// out_of_memory.
+/// The exact Euclidean distance transform (Meijster, Roerdink and Hesselink 2000; Felzenszwalb and
+/// Huttenlocher 2012). O(pixels). Errors: invalid_option, too_large, out_of_memory.
 Result<DistanceMap> distance_transform(const Image& image, const DistanceOptions& options = {});
 
 /// The pixels whose centres lie inside the disks around the pixels `centers`, with the distances to
@@ -101,10 +97,9 @@ Image union_of_disks(std::uint32_t width, std::uint32_t height, std::span<const 
 /// invalid_option, too_large, out_of_memory.
 Result<std::vector<Ring>> pixel_outline(const Image& image, double neck = 1.0 / 16);
 
-/// The same boundary as smooth closed curves: per ring a quadratic B-spline with one parabola per
-/// crack, that bends as little as it can within half a pixel of the cracks (both ways). The curves
-/// never meet: where pixels touch in a corner, a neck connects the foreground. Errors: those of
-/// pixel_outline().
+/// The same boundary as smooth curves: per ring a quadratic B-spline, one parabola per crack, that
+/// bends as little as it can within half a pixel of the cracks (both ways). Curves never meet:
+/// necks connect pixels that touch in a corner. Errors: those of pixel_outline().
 Result<std::vector<Contour>> smooth_outline(const Image& image);
 
 }  // namespace medial

@@ -20,15 +20,15 @@ enum class RingRole : std::uint8_t {
 /// A ring as a file gives it: any orientation, closed or not, cleaned or not.
 ///
 /// Edge i goes from points[i] to the next point. Its bulge is the tangent of a quarter of the angle
-/// it spans: 0 straight, 1 a half circle, positive where it turns left. It stays well-conditioned
-/// for every radius.
+/// it spans: 0 straight, 1 a half circle, positive where it turns left. Well-conditioned for all
+/// radii.
 struct Ring {
   std::vector<Vec2> points;
   RingRole role = RingRole::any;
   std::vector<double> bulges = {};  ///< of each edge; empty: all edges are straight
 };
 
-/// Where a vertex of a Shape comes from: ring and vertex of the input, both from 0.
+/// Where a vertex of a Shape comes from: ring and vertex of the input, from 0.
 struct VertexSource {
   std::uint32_t ring = 0;
   std::uint32_t vertex = 0;
@@ -50,10 +50,9 @@ struct ShapeReport {
 };
 
 struct ShapeOptions {
-  /// Splits edges where they cross, instead of an error. The interior follows from the rings'
-  /// roles: the non-zero rule for RingRole::winding, the even-odd rule for others. Decisions are
-  /// within the tolerance, as for arcs, even where all edges are straight. O(n log n + p) for p
-  /// pairs of edges whose bounding boxes meet.
+  /// Splits edges where they cross. The interior follows the non-zero rule for RingRole::winding,
+  /// the even-odd rule for others. Decides within the tolerance even if all edges are straight. O(n
+  /// log n + p) for p pairs of edges whose bounding boxes meet.
   bool node_crossings = false;
 };
 
@@ -63,9 +62,9 @@ struct ShapeOptions {
 /// build_shape() guarantees: all coordinates are finite; a loop has at least three vertices, with
 /// arcs at least two; no bulge exceeds 1; neighbouring vertices differ and no three in a row are
 /// collinear, except where loops touch; edges meet in vertices only. Each component is one outer
-/// loop and its holes, with a connected interior; its loops have no point in common (loops that
-/// touched are joined: one loop passes through the common vertex once for every wedge of interior
-/// there). Two components can have vertices in common.
+/// loop and its holes, with a connected interior; its loops have no point in common (one loop
+/// passes through a vertex where loops touched once per wedge of interior there). Two components
+/// can have vertices in common.
 struct Shape {
   std::vector<Vec2> points;               ///< the vertices of all loops, loop after loop
   std::vector<double> bulges;             ///< of the edge after each point; empty: all straight
@@ -89,17 +88,15 @@ std::vector<Ring> rings_of(const Shape& shape);
 
 /// The bounding box, arcs included. O(n).
 Box bounding_box(const Shape& shape);
-
 /// The area without holes, in squared units of the input. O(n).
 double area(const Shape& shape);
 
 /// Cleans, checks, orients and nests rings into a Shape. O(n log n).
 ///
-/// Drops repeated points, zero-length edges and vertices inside straight runs or runs of arcs on
-/// one circle, closes rings, and counts that in `report`. Rings may touch in vertices, or with a
-/// vertex inside an edge. The rings of a polygon, an outer ring and the holes behind it, may come
-/// in any order. Missing bulges are 0; an arc of more than a half circle is split; one whose
-/// sagitta is below half a spacing of the coordinates is straight.
+/// Closes rings, drops repeated points and vertices inside straight runs or runs of arcs on one
+/// circle, and counts that in `report`. Rings may touch in vertices, or with a vertex inside an
+/// edge, and come in any order. Missing bulges are 0; an arc of more than a half circle is split;
+/// one with a sagitta below half a spacing of the coordinates is straight.
 ///
 /// Without arcs, every decision is exact for the given coordinates. With arcs, edges and vertices
 /// within the tolerance (4e-15 of the diagonal, or two spacings of the largest coordinate) touch:
@@ -112,9 +109,8 @@ Result<Shape> build_shape(std::span<const Ring> rings, const ShapeOptions& optio
                           ShapeReport* report = nullptr);
 
 /// The exterior of a shape: a rectangular enclosure, `margin` away from the bounding box on all
-/// sides (0: half of its longer side), less the shape. The sources of the enclosure's points are
-/// ring 0. Errors: invalid_option (a margin outside of [1e-6, 1e6] of the diagonal), those of
-/// build_shape().
+/// sides (0: half of its longer side), less the shape. The enclosure's sources are ring 0. Errors:
+/// invalid_option (a margin outside of [1e-6, 1e6] of the diagonal), those of build_shape().
 Result<Shape> surroundings(const Shape& shape, double margin = 0);
 
 }  // namespace medial

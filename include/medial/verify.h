@@ -33,14 +33,12 @@ struct Certificate {
   double worst_y = 0;
   bool passed = false;                ///< all demands hold
   std::vector<std::string> failures;  ///< one sentence for each demand that does not hold
-  /// The failures that say only that a sampled axis has other parts or cycles than the shape, as it
-  /// has where the shape is narrower than a pixel.
-  std::uint64_t unresolved = 0;
+  std::uint64_t unresolved = 0;       ///< failures that only say that pixels miss parts or cycles
 };
 
 struct VerifyOptions {
-  /// Relative to the diagonal; 0: 1e-14. At least four spacings of doubles at the largest
-  /// coordinate, and at least the axis's own tolerance, up to 1e-3, are allowed.
+  /// Relative to the diagonal; 0: 1e-14. Never below four spacings of doubles at the largest
+  /// coordinate, nor below the axis's own tolerance, up to 1e-3.
   double tolerance = 0;
   int samples_per_edge = 8;    ///< points inside every edge, in [0, 2^20]
   double corner_angle = 0.01;  ///< that the axis was computed with; see Options
@@ -51,16 +49,13 @@ struct VerifyOptions {
 /// search, area and count of cycles. O(n log n) expected. A shape that compute() refuses as
 /// unsupported does not pass.
 ///
-/// Of a sampled axis it checks indices and kinds, each node's radius within half a pixel's diagonal
-/// of the distance to the boundary, and one connected part per component and one cycle per hole.
-/// Places narrower than a pixel can make that fail; the failures name the resolution. Contacts,
-/// corners, coverage and area are not checked and stay 0.
+/// Of a sampled axis it checks indices and kinds, each radius within half a pixel's diagonal of the
+/// distance to the boundary, and one connected part per component and one cycle per hole, which
+/// places narrower than a pixel can break; the failures name the resolution. It leaves contacts,
+/// corners, coverage and area at 0. Of an axis of the exterior it checks disks, contacts and sides
+/// only, as the edges at the enclosure are missing.
 ///
-/// Of an axis of the exterior it checks disks, contacts and sides, but not parts, cycles, corners,
-/// coverage and area, as the edges at the enclosure are missing.
-///
-/// A blunt joint has no leaf: there the boundary may be uncovered by the radius times the joint's
-/// angle.
+/// At a blunt joint the boundary may be uncovered by the radius times the joint's angle.
 Certificate verify(const Shape& shape, const MedialAxis& axis, const VerifyOptions& options = {});
 
 /// What verify() measured of a Voronoi diagram. Lengths and areas in units of the input.
@@ -82,16 +77,14 @@ struct VoronoiCertificate {
 
 /// Checks the diagram of a planar graph, with the distance search of the function above: its sites
 /// are the graph's; every sample of an edge is at its radius from the edge's sites and no nearer to
-/// any other; edges of the enclosure lie on it; each face is one closed walk along edges of its
-/// site, counter-clockwise; every edge is in the faces of both of its sites; the diagram is
-/// connected; the areas of the faces add up to the enclosure's. So the faces fill the enclosure
-/// without overlap and each holds what is nearest to its site. O(n log n) expected. Uses tolerance,
-/// samples_per_edge and threads of the options. A diagram without an enclosure (of a polygon alone)
-/// does not pass.
+/// any other; edges of the enclosure lie on it; each face is one closed counter-clockwise walk
+/// along edges of its site; every edge is in the faces of both of its sites; the diagram is
+/// connected; the faces' areas add up to the enclosure's. So the faces fill it without overlap, and
+/// each holds what is nearest to its site. A diagram without an enclosure (of a polygon) does not
+/// pass. O(n log n) expected. Uses all options but the corner angle.
 VoronoiCertificate verify(const PlanarGraph& planar_graph, const VoronoiDiagram& diagram,
                           const VerifyOptions& options = {});
 
-/// How far two shapes are apart.
 struct ShapeDistance {
   double area = 0;         ///< of the first
   double other_area = 0;   ///< of the second
@@ -103,8 +96,8 @@ struct ShapeDistance {
 };
 
 /// Measures both boundaries, at their vertices and at `samples` points inside each edge: a lower
-/// bound, less than the distance of two samples too small. 0 if both shapes are empty, infinite if
-/// one is. O(n log n) expected.
+/// bound, less than the distance of two samples too small. 0 if both are empty, infinite if one is.
+/// O(n log n) expected.
 ShapeDistance shape_distance(const Shape& first, const Shape& second, int samples = 7);
 
 }  // namespace medial

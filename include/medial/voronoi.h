@@ -6,18 +6,17 @@
 
 namespace medial {
 
-/// The Voronoi diagram of a shape of straight edges without holes, by Lee's divide and conquer.
-/// O(n log n). Errors: as compute() with method::Lee.
+/// The Voronoi diagram of a shape of straight edges without holes, by Lee's divide and conquer. O(n
+/// log n). Errors: as compute() with method::Lee.
 Result<VoronoiDiagram> voronoi_diagram(const Shape& shape, const Options& options = {});
 
 /// The Voronoi diagram of a planar graph's points, segments and arcs, by the engine `disks`
-/// (docs/voronoi.md): that of the whole plane, cut off at `frame`. Without a frame,
-/// Options::margin sets its distance from the planar graph's bounding box, as for an exterior. Also
-/// uses tolerance, threads, progress and cancel of the options. O(n log n) expected. Errors:
-/// invalid_option (also a frame that the planar graph touches or leaves), cancelled, empty,
-/// too_large, unsupported (coordinates, as in compute(); among edges, a point nearer to another one
-/// or to an edge than rounding can separate, 64 tolerances, with its place: see
-/// PlanarGraphOptions::reach), out_of_memory, internal.
+/// (docs/voronoi.md): that of the whole plane, cut off at `frame`. Without a frame, Options::margin
+/// sets its distance from the planar graph's bounding box, as for an exterior. Also uses tolerance,
+/// threads, progress and cancel. O(n log n) expected. Errors: invalid_option (also a frame that the
+/// planar graph touches or leaves), cancelled, empty, too_large, unsupported (coordinates, as in
+/// compute(); among edges, a point nearer to another one or to an edge than rounding can separate,
+/// 64 tolerances, with its place: see PlanarGraphOptions::reach), out_of_memory, internal.
 Result<VoronoiDiagram> voronoi_diagram(const PlanarGraph& planar_graph, const Options& options = {},
                                        const std::optional<Box>& frame = {});
 
