@@ -26,9 +26,9 @@ struct Options {
   /// 1e6] of the diagonal; 0: half of the longer side.
   double margin = 0;
   /// Called from any thread, out of order, with the share of the boundary that the walk has done,
-  /// in [0, 1]; work before and after it, less than half of the time, is 0 and 1. Must not throw.
+  /// in [0, 1]. Work before it counts as 0, after it as 1: under half the time. Must not throw.
   std::function<void(double)> progress = {};
-  /// Set to true, it cancels compute(): at once during the walk, otherwise after the phase.
+  /// Set to true, it cancels compute(): at once during the walk, otherwise after a phase.
   const std::atomic<bool>* cancel = nullptr;
 };
 

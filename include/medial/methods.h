@@ -67,8 +67,8 @@ struct Brushfire {
   medial::Brushfire family = medial::Brushfire::simultaneous;
 };
 
-/// Valleys of a potential after Ahuja and Chuang; see docs/potential.md. Size: larger side of the
-/// box.
+/// Valleys of a potential after Ahuja and Chuang; see docs/potential.md. The size is
+/// the larger side of the bounding box.
 struct Potential {
   /// n of the force that finds the points, in [1, 4096], any real number; 0: chosen for each point
   /// (the algorithm MAT-Generalized-Polygonal).
