@@ -49,7 +49,7 @@ struct VoronoiDiagram {
 std::vector<Disk> sample_by_chord(const VoronoiDiagram& diagram, const VoronoiEdge& edge,
                                   double chord);
 
-/// The face of a planar graph's site as a counter-clockwise polygon within `chord` of its edges.
+/// A planar graph's face as a counter-clockwise polygon within `chord` of it; empty where it is.
 std::vector<Vec2> face_outline(const VoronoiDiagram& diagram, std::size_t site, double chord);
 
 }  // namespace medial

@@ -17,7 +17,8 @@ enum class RidgeSearch : std::uint8_t {
 /// Which pixels `ridge` takes for medial.
 enum class RidgeRule : std::uint8_t {
   /// The axis passes between the pixel and one of its four neighbours, whose nearest edges are two
-  /// places of the boundary; the pixel is the nearer one to equidistance. Beside the boundary, as
+  /// places of the boundary; the pixel is the nearer one to equidistance, and within one pixel of
+  /// the axis. Beside the boundary, as
   /// `difference`.
   crossing,
   /// The report's: the distances to the nearest and the second nearest edge, which do not meet at a
