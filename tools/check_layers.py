@@ -21,7 +21,7 @@ LAYERS = {
     "verify": ["verify"],
     "methods": ["compute", "methods", "raster"],
     "voronoi": ["voronoi"],
-    "ops": ["carve", "centreline", "features", "match", "measure", "offset", "pack", "prune", "rebuild", "sides"],
+    "ops": ["carve", "centreline", "features", "measure", "offset", "pack", "prune", "rebuild", "sides"],
     "volume": ["volume"],
     "load": ["document", "load"],
     "io": ["io/*"],

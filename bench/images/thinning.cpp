@@ -15,7 +15,8 @@
 #include <ctime>
 #include <string>
 
-#include "medial/io/image.h"
+#include "medial/io/read.h"
+#include "medial/io/write.h"
 #include "medial/raster.h"
 
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 
 // From the features of a file to shapes, planar graphs and axes, many at a time. No files here:
-// medial/io/load.h begins with a file's name.
+// medial/io/read.h begins with a file's name.
 
 #include "medial/compute.h"
 #include "medial/document.h"

@@ -13,7 +13,6 @@
 #include "medial/geometry.h"
 #include "medial/image.h"
 #include "medial/load.h"
-#include "medial/match.h"
 #include "medial/measure.h"
 #include "medial/methods.h"
 #include "medial/offset.h"

@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "medial/compute.h"
-#include "medial/io/image.h"
+#include "medial/io/read.h"
 #include "medial/query.h"
 #include "medial/raster.h"
 #include "papers/table.h"
