@@ -18,7 +18,7 @@ struct CarveOptions {
   /// Between the passes that clear a flat bottom; 0: half of the tip's diameter, which leaves
   /// nothing, or for a pointed tip a 20th of the cone's radius at that depth, which leaves ridges.
   double step = 0;
-  /// How far straight moves may be above the axis; at least 1e-8 of its diagonal, 0: 1e-5 of it.
+  /// How far straight moves may be above the axis, at least 1e-8 diagonals of its sites; 0: 1e-5.
   double chord = 0;
 };
 

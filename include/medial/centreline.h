@@ -95,9 +95,8 @@ struct CollapsedShape {
 
 /// Collapses the parts narrower than `width`. Polygons keep the opening of the shape by a disk of
 /// that width, corners that protrude from it by at most width / 2 (times `trim`) and necks between
-/// two such disks that overlap. Disks of 2^-20 (at worst 2^-10) of the width may round cusps
-/// between arcs. O(n log n). Errors: invalid_option (a width that is not positive), those of
-/// build_shape().
+/// two such disks that overlap. Cusps between arcs may be rounded by 2^-20 (at worst 2^-10) of the
+/// width. O(n log n). Errors: invalid_option (width <= 0), those of build_shape().
 Result<CollapsedShape> collapse_narrow(const MedialAxis& axis, double width, double trim = 1);
 
 }  // namespace medial

@@ -28,8 +28,7 @@ enum class Primitive : std::uint8_t {
 };
 constexpr int primitive_count = 7;
 
-/// Variations (Fig 7), by the curvature of the axis: its size grows in spirals in, and falls in
-/// others.
+/// Variations (Fig 7): the axis's curvature grows in size along a spiral in, falls along one out.
 enum class Variation : std::uint8_t {
   spiral_in_left,
   left_circular,
@@ -47,8 +46,7 @@ const char* name_of(Primitive primitive);
 const char* name_of(Variation variation);
 
 /// How a run, a part of a branch, is classified, by numbers without a unit. Its slope, bend,
-/// turning and spiral are those of least-squares quadratics of its radius and direction by its
-/// length.
+/// turning and spiral come from least-squares quadratics of its radius and direction by length.
 struct FeatureOptions {
   double parallel = 0.05;  ///< a worm's radius changes by at most this times the run's length ...
   double even = 0.1;       ///< ... and times its mean; other runs without bend are wedges

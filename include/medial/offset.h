@@ -45,8 +45,7 @@ Result<Offsets> offset_curves(const Shape& shape, std::span<const double> cleara
 
 /// Buffers: the regions nearer than each of `distances` to points, lines and arcs; their clearance
 /// is the distance negated. O(n log n) expected. Errors: those of voronoi_diagram(); invalid_option
-/// (a distance that is not positive and finite, or above 1e5 of the planar graph's diagonal, if
-/// any).
+/// (a distance that is not positive and finite, or above 1e5 of the graph's diagonal, if any).
 Result<Offsets> offset_curves(const PlanarGraph& planar_graph, std::span<const double> distances,
                               const Options& options = {});
 

@@ -38,9 +38,9 @@ struct PackReport {
 Result<ShapeCode> encode_axes(std::span<const MedialAxis> axes, const PackOptions& options,
                               PackReport* report = nullptr);
 
-/// The axes of a code: nodes and straight edges without sites, `resolution` their error. Shapes are
-/// unions of the convex hulls of each edge's two disks. Memory in the order of the code. Errors:
-/// malformed, unsupported.
+/// The axes of a code: nodes and straight edges without sites, `resolution` their error. The shape
+/// is the union of the convex hulls of each edge's two disks. Memory O(code). Errors: malformed,
+/// unsupported.
 Result<std::vector<MedialAxis>> decode_axes(const ShapeCode& code);
 
 /// The boundary simplified within `error` (Douglas and Peucker), to compare sizes; has no decoder.

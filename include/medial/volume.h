@@ -51,8 +51,7 @@ struct Solid {
 /// lies in an odd number of closed surfaces. O(n log n) unless most faces are near each other.
 /// Errors, with the place: empty, not_finite, too_large (2^31 vertices or faces), unsupported
 /// (coordinates above 1e100 in size), malformed (an index out of range), open_surface,
-/// non_manifold, crossing, overlap (faces that share more than corners and edges), no_area,
-/// out_of_memory.
+/// non_manifold, crossing, overlap (of faces beyond corners and edges), no_area, out_of_memory.
 Result<Solid> build_solid(TriangleMesh mesh);
 
 /// How the two nearest faces of a voxel are found. Both give the same answers, bit for bit.

@@ -58,9 +58,8 @@ struct SourceOptions {
   LoadOptions load;  ///< but for `repair`
 };
 
-/// What a file holds: by read_dataset(), read_text(), or of medial's own .json the shapes with
-/// their sources, without axes. Errors: theirs, with the file; invalid_option (an option that such
-/// a source has not).
+/// What a file holds, by read_dataset() or read_text(); of medial's .json shapes with their
+/// sources. Errors: theirs, with the file; invalid_option (an option that does not apply).
 Result<Document<Feature>> read_features(const std::string& path, const SourceOptions& options = {});
 
 /// The features of a file by medial::load_shapes(), as one shape each, or by medial::load_loose(),

@@ -176,8 +176,7 @@ Status write_preview(const std::string& path, const std::string& format,
                      double width, bool y_down);
 
 /// An axis of voxels: .ply (binary) and .vtk (legacy, text) have points with radius and quality,
-/// and edges; .obj points and edges; .png shows solid and axis from three sides, `width` pixels
-/// wide.
+/// and edges; .obj points and edges; .png three views of solid and axis, `width` pixels wide.
 Status write_voxels(const std::string& path, const std::string& format, const VoxelAxis& axis,
                     const Solid& solid, double width = 1536);
 
