@@ -16,7 +16,7 @@
 #include "cli/terminal.h"
 #include "medial/compute.h"
 #include "medial/error.h"
-#include "medial/io/load.h"
+#include "medial/io/read.h"
 #include "medial/io/write.h"
 #include "medial/shape.h"
 

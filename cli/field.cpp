@@ -1,7 +1,5 @@
 // medial field: the potential of a charged border, and its force lines.
 
-#include "medial/field.h"
-
 #include <memory>
 #include <vector>
 
@@ -9,6 +7,7 @@
 #include "cli/common.h"
 #include "cli/pipeline.h"
 #include "medial/io/write.h"
+#include "medial/methods.h"
 
 namespace medial::cli {
 namespace {

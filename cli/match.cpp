@@ -1,7 +1,5 @@
 // medial match: how similar shapes are.
 
-#include "medial/match.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,6 +10,7 @@
 #include "cli/common.h"
 #include "cli/pipeline.h"
 #include "medial/compute.h"
+#include "medial/features.h"
 
 namespace medial::cli {
 namespace {

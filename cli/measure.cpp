@@ -15,7 +15,7 @@
 #include "cli/lines.h"
 #include "cli/pipeline.h"
 #include "cli/plot.h"
-#include "medial/io/projection.h"
+#include "medial/io/read.h"
 #include "medial/io/write.h"
 #include "medial/query.h"
 

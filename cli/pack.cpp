@@ -1,7 +1,5 @@
 // medial pack, medial unpack: axes as compact codes of shapes.
 
-#include "medial/io/pack.h"
-
 #include <fmt/format.h>
 
 #include <array>
@@ -10,6 +8,8 @@
 #include "cli/commands.h"
 #include "cli/common.h"
 #include "cli/pipeline.h"
+#include "medial/io/read.h"
+#include "medial/io/write.h"
 
 namespace medial::cli {
 namespace {

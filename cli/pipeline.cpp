@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "medial/match.h"
+#include "medial/features.h"
 #include "medial/measure.h"
 #include "medial/query.h"
 

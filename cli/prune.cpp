@@ -9,8 +9,8 @@
 
 #include "cli/commands.h"
 #include "cli/prune_options.h"
+#include "medial/features.h"
 #include "medial/io/write.h"
-#include "medial/match.h"
 #include "medial/query.h"
 
 namespace medial::cli {

@@ -11,11 +11,11 @@
 
 #include "cli/commands.h"
 #include "cli/prune_options.h"
-#include "medial/io/image.h"
+#include "medial/features.h"
+#include "medial/io/read.h"
 #include "medial/io/write.h"
-#include "medial/match.h"
 #include "medial/query.h"
-#include "medial/shape_distance.h"
+#include "medial/verify.h"
 
 namespace medial::cli {
 namespace {

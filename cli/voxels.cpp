@@ -7,7 +7,8 @@
 #include "cli/commands.h"
 #include "cli/common.h"
 #include "cli/pipeline.h"
-#include "medial/io/mesh.h"
+#include "medial/io/read.h"
+#include "medial/io/write.h"
 #include "medial/volume.h"
 
 namespace medial::cli {

@@ -1,7 +1,5 @@
 // The method brushfire on shapes: the same pixels as on their image, exact radii, the certificate.
 
-#include "medial/brushfire.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>

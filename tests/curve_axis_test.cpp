@@ -1,7 +1,5 @@
 // The curve axis against the exact engine on arcs within 1e-9, every rule of the control process,
 // and smooth fits.
-#include "medial/curve_axis.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,6 +7,7 @@
 #include <numbers>
 
 #include "medial/compute.h"
+#include "medial/methods.h"
 #include "medial/query.h"
 #include "medial/sides.h"
 #include "support/contours.h"

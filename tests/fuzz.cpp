@@ -30,7 +30,6 @@
 #include <thread>
 #include <vector>
 
-#include "medial/io/pack.h"
 #include "medial/io/read.h"
 #include "medial/io/write.h"
 #include "medial/medial.h"

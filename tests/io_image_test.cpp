@@ -8,7 +8,8 @@
 #include <memory>
 #include <random>
 
-#include "medial/io/image.h"
+#include "medial/io/read.h"
+#include "medial/io/write.h"
 #include "support/scratch_folder.h"
 
 namespace medial::io {

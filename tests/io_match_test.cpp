@@ -7,8 +7,8 @@
 #include <iostream>
 
 #include "medial/compute.h"
+#include "medial/features.h"
 #include "medial/io/read.h"
-#include "medial/match.h"
 #include "medial/raster.h"
 #include "support/environment.h"
 #include "support/generate.h"

@@ -12,7 +12,8 @@
 #include <random>
 #include <sstream>
 
-#include "medial/io/mesh.h"
+#include "medial/io/read.h"
+#include "medial/io/write.h"
 #include "support/environment.h"
 #include "support/solids.h"
 

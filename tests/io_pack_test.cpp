@@ -4,7 +4,8 @@
 #include <cmath>
 
 #include "medial/compute.h"
-#include "medial/io/pack.h"
+#include "medial/io/read.h"
+#include "medial/io/write.h"
 #include "support/random_shapes.h"
 
 namespace medial {

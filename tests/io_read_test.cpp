@@ -19,7 +19,6 @@
 #include <sstream>
 #include <tuple>
 
-#include "medial/io/projection.h"
 #include "medial/io/read.h"
 #include "medial/io/write.h"
 #include "medial/query.h"

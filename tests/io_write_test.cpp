@@ -22,7 +22,6 @@
 #include <sstream>
 #include <tuple>
 
-#include "medial/io/projection.h"
 #include "medial/io/read.h"
 #include "medial/io/write.h"
 #include "medial/query.h"

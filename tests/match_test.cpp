@@ -1,9 +1,8 @@
 // Likeness: nothing for images of a shape, and more for other shapes.
-#include "medial/match.h"
-
 #include <gtest/gtest.h>
 
 #include "medial/compute.h"
+#include "medial/features.h"
 #include "support/computed.h"
 #include "support/random_shapes.h"
 

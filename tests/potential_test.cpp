@@ -16,7 +16,7 @@
 #include "base/disjoint_sets.h"
 #include "base/local_frame.h"
 #include "medial/compute.h"
-#include "medial/field.h"
+#include "medial/methods.h"
 #include "medial/query.h"
 #include "medial/raster.h"
 #include "medial/verify.h"

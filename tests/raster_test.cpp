@@ -12,7 +12,6 @@
 #include <set>
 #include <vector>
 
-#include "medial/brushfire.h"
 #include "medial/shape.h"
 
 namespace medial {

@@ -10,7 +10,7 @@
 #include "medial/compute.h"
 #include "medial/prune.h"
 #include "medial/query.h"
-#include "medial/shape_distance.h"
+#include "medial/verify.h"
 #include "support/random_shapes.h"
 
 namespace medial {

@@ -22,7 +22,7 @@
 #include "medial/io/read.h"
 #include "medial/medial.h"
 #include "medial/rebuild.h"
-#include "medial/shape_distance.h"
+#include "medial/verify.h"
 
 namespace medial::test {
 namespace {

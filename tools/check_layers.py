@@ -13,15 +13,15 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 # From the lowest to the highest, each with its public headers.
 LAYERS = {
-    "base": ["vec2", "vec3", "box", "disk", "error", "image", "threads"],
+    "base": ["geometry", "vec3", "error", "image", "threads"],
     "shape": ["shape", "planar_graph"],
     "curve": ["contour"],
     "site": [],
-    "axis": ["axis", "diagnostics", "diagram", "query"],
-    "verify": ["verify", "shape_distance"],
-    "methods": ["compute", "methods", "curve_axis", "field", "brushfire", "raster"],
+    "axis": ["axis", "diagram", "query"],
+    "verify": ["verify"],
+    "methods": ["compute", "methods", "raster"],
     "voronoi": ["voronoi"],
-    "ops": ["carve", "centreline", "features", "match", "measure", "offset", "pack", "prune", "rebuild", "sides"],
+    "ops": ["carve", "centreline", "features", "measure", "offset", "pack", "prune", "rebuild", "sides"],
     "volume": ["volume"],
     "load": ["document", "load"],
     "io": ["io/*"],

@@ -15,8 +15,8 @@
 #include <ctime>
 #include <string>
 
-#include "medial/brushfire.h"
-#include "medial/io/image.h"
+#include "medial/io/read.h"
+#include "medial/io/write.h"
 #include "medial/raster.h"
 
 namespace {

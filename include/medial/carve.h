@@ -1,39 +1,31 @@
 #pragma once
 
-// Carving along the medial axis with a V-shaped tool. Its point follows the axis at the depth at
-// which the cone is as wide as the disk: the walls are planes from the shape's boundary, and inner
-// corners come out sharp. What is wider than the tool gets a flat bottom, cleared along offsets.
-
-#include <cstdint>
-#include <vector>
+// Carving with a V-shaped tool. Its tip follows the axis where the cone is as wide as the disk, so
+// inner corners come out sharp. Wider parts get a flat bottom, cleared along offsets.
 
 #include "medial/axis.h"
 #include "medial/error.h"
 
 namespace medial {
 
-/// A tool, and how deep it may go. All lengths in units of the input.
+/// A tool and its limits; lengths in units of the input.
 struct CarveOptions {
-  /// Between the sides of the cone, in degrees, in [0, 170]; 0: an end mill, which is all tip.
-  double angle = 90;
-  double depth = 0;  ///< at most; 0: as deep as the tool reaches; required for an end mill
-  double tool = 0;   ///< largest diameter, which limits the depth of a cone; 0: no limit
-  double tip = 0;    ///< diameter of the cone's flat tip, below `tool`; an end mill's is `tool`
-  /// Depth of one pass at most; 0: all in one. Passes are cut from the surface down.
-  double pass_depth = 0;
+  double angle = 90;  ///< between the sides of the cone, in degrees, in [0, 170]; 0: an end mill
+  double depth = 0;   ///< at most; 0: as deep as the tool reaches; required for an end mill
+  double tool = 0;    ///< largest diameter, which limits the depth of a cone; 0: no limit
+  double tip = 0;     ///< diameter of the cone's flat tip, below `tool`; an end mill's is `tool`
+  double pass_depth = 0;  ///< of one pass at most; 0: all in one; cut from the surface down
   /// Between the passes that clear a flat bottom; 0: half of the tip's diameter, which leaves
   /// nothing, or for a pointed tip a 20th of the cone's radius at that depth, which leaves ridges.
   double step = 0;
-  /// How far straight moves may be off curved parts of the axis, always upwards; 0: 1e-5 of the
-  /// diagonal of the axis's sites; at least 1e-8 of it.
+  /// How far straight moves may be above the axis, at least 1e-8 diagonals of its sites; 0: 1e-5.
   double chord = 0;
 };
 
-/// Where the tool's tip is: z is 0 on the surface and negative below it; chords of curves may begin
-/// a little above it.
+/// A place of the tip.
 struct ToolPoint {
   Vec2 point;
-  double z = 0;
+  double z = 0;      ///< 0 on the surface, negative below; chords may begin a little above it
   double bulge = 0;  ///< of the move to the next point, an arc at one depth: see Ring
 };
 
@@ -53,7 +45,7 @@ struct ToolPath {
 struct Carving {
   std::vector<ToolPath> paths;  ///< in the order of cutting
   double deepest = 0;           ///< depth, positive
-  double flat_from = 0;         ///< the clearance from which on the bottom is flat; infinite: none
+  double flat_from = 0;         ///< the bottom is flat from this clearance on; infinite: nowhere
   double tip_radius = 0;        ///< of the tool
   double slope = 0;             ///< tangent of half of the angle
   double step = 0;              ///< between clearing passes
@@ -62,25 +54,22 @@ struct Carving {
   double travel_unordered = 0;  ///< the same if branches and rings came as the axis numbers them
 };
 
-/// Plans the paths of one tool in one shape.
-///
-/// With c(p) the clearance of a point, t the radius of the tip and m = tan(angle / 2), the tool may
-/// be at p where c(p) >= t, at the depth min((c(p) - t) / m, depth). The paths
-/// - never gouge: nowhere is the tool deeper, but for rounding (a few 1e-15 of the size);
+/// Plans the paths of one tool in one shape, in O(n log n + size of the result). With c(p) the
+/// clearance of a point, t the radius of the tip and m = tan(angle / 2), the tool may be at p where
+/// c(p) >= t, at the depth min((c(p) - t) / m, depth). The paths
+/// - never go deeper, but for rounding (a few 1e-15 of the size);
 /// - leave nothing that the tool could reach, but 3 chords / m along curved edges of the axis, and
 ///   ridges of step / m on flat bottoms where the tip is a point or `step` exceeds its radius.
-/// Each pass cuts to its own depth what the passes before it left. Parts narrower than the tip are
-/// left out. O(n log n + size of the result).
-/// Errors: invalid_option, unsupported (an axis that is sampled or of the exterior), too_large
-/// (more than 1e6 clearing passes, or 1e4 in depth).
+///   Errors: invalid_option, unsupported (an axis that is sampled or of the exterior), too_large
+///   (more than 1e6 clearing passes, or 1e4 in depth).
 Result<Carving> carve(const MedialAxis& axis, const CarveOptions& options);
 
-/// Options and carvings in other units: every length times `factor`, which must be positive.
+/// Options and carvings in other units: every length times `factor` > 0.
 CarveOptions scaled(CarveOptions options, double factor);
 Carving scaled(Carving carving, double factor);
 
 /// The points of a path with its arcs as chords, at most `chord` > 0 away and never nearer to the
-/// shape's boundary: inside of arcs that turn left, outside of those that turn right.
+/// boundary: inside of arcs that turn left, outside of those that turn right.
 std::vector<ToolPoint> without_arcs(const ToolPath& path, double chord);
 
 }  // namespace medial

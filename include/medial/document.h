@@ -2,22 +2,18 @@
 
 // What a file holds, as plain values: the same carrier for features, shapes, axes and all else.
 
-#include <cstdint>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "medial/axis.h"
 #include "medial/contour.h"
 #include "medial/planar_graph.h"
-#include "medial/shape.h"
 
 namespace medial {
 
-/// The unit of length of a document's coordinates.
 enum class Unit : std::uint8_t { unknown, millimetre, inch, css_pixel, metre, degree };
 
-/// Items of one kind, and what holds for all of them.
+/// Items of one kind, and what holds for all.
 template <class T>
 struct Document {
   std::vector<T> items;
@@ -38,32 +34,28 @@ Document<To> empty_like(const Document<From>& from) {
 /// What a file says of a feature besides its geometry: names and values as text, in their order.
 using Attributes = std::vector<std::pair<std::string, std::string>>;
 
-/// One polygon or multipolygon of an input file, one painted path, one glyph. Straight edges and
-/// circular arcs come as rings, free-form curves as contours; approximate_by_arcs() makes rings of
-/// them.
+/// One polygon or multipolygon of an input file, one painted path, one glyph. Free-form curves are
+/// contours.
 struct Feature {
   std::vector<Ring> rings;
   std::vector<Contour> contours;
-  std::vector<Chain> chains;  ///< loose points and lines, where they are asked for
-  /// Where the rings' points come from, ring after ring; empty: from themselves.
-  std::vector<VertexSource> sources;
-  std::int64_t id = 0;  ///< of the source, or its index
+  std::vector<Chain> chains;          ///< loose points and lines, if asked for
+  std::vector<VertexSource> sources;  ///< of the rings' points, in order; empty: themselves
+  std::int64_t id = 0;                ///< of the source, or its index
   Attributes attributes;
 };
 
-/// A shape, and what its file says of it.
 struct ShapeItem {
   Shape shape;
   Attributes attributes;
   std::vector<Contour> contours = {};  ///< its boundary before curves became arcs, if asked for
 };
 
-/// A shape and its axis.
 struct AxisItem {
   Shape shape;
   MedialAxis axis;
   Attributes attributes;
-  std::vector<Contour> contours = {};  ///< instead of a shape: what is still to be made into one
+  std::vector<Contour> contours = {};  ///< in place of a shape that is not built yet
 };
 
 }  // namespace medial

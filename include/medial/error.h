@@ -6,11 +6,11 @@
 #include <utility>
 #include <variant>
 
-#include "medial/vec2.h"
+#include "medial/geometry.h"
 
 namespace medial {
 
-/// What went wrong. The names are stable: they are what `--json` prints (see name_of).
+/// What went wrong. The names are stable: `--json` prints them.
 enum class ErrorCode : std::uint8_t {
   not_finite,      ///< a coordinate is NaN or infinite
   too_few_points,  ///< a ring has fewer than three distinct points

@@ -1,14 +1,11 @@
 #pragma once
 
-// The features of a shape by its axis, of any method: points, branches, and the primitives that
-// branches are made of, after Blum and Nagel (Pattern Recognition 10, 1978), as Volkmann and St.
-// Clair report them (Section II.A.1, Figs 4 to 7). docs/features.md explains them.
-
-#include <array>
-#include <cstdint>
-#include <vector>
+// The features of a shape by its axis, of any method: points, branches, and the primitives of
+// branches, after Blum and Nagel (Pattern Recognition 10, 1978) and Volkmann and St. Clair (Section
+// II.A.1, Figs 4 to 7), see docs/features.md. And how alike two shapes are by these.
 
 #include "medial/axis.h"
+#include "medial/shape.h"
 
 namespace medial {
 
@@ -19,8 +16,7 @@ enum class PointKind : std::uint8_t {
   branching,  ///< three or more
 };
 
-/// Blum and Nagel's primitives, by the radius along the axis (Fig 6): opening where it grows,
-/// closing where it shrinks.
+/// Blum and Nagel's primitives (Fig 6): opening where the radius grows, closing where it shrinks.
 enum class Primitive : std::uint8_t {
   worm,           ///< the radius stays
   opening_wedge,  ///< it changes evenly
@@ -32,8 +28,7 @@ enum class Primitive : std::uint8_t {
 };
 constexpr int primitive_count = 7;
 
-/// The variations of a primitive, by the curvature of the axis (Fig 7): spirals go in where it
-/// grows in size and out where it falls.
+/// Variations (Fig 7): the axis's curvature grows in size along a spiral in, falls along one out.
 enum class Variation : std::uint8_t {
   spiral_in_left,
   left_circular,
@@ -50,9 +45,8 @@ const char* name_of(PointKind kind);
 const char* name_of(Primitive primitive);
 const char* name_of(Variation variation);
 
-/// How a run, a part of a branch, is classified, by numbers without a unit. Slope and bend, turning
-/// and spiral of a run are those of the quadratic functions of its length that fit its radius and
-/// its direction best (least squares).
+/// How a run, a part of a branch, is classified, by numbers without a unit. Its slope, bend,
+/// turning and spiral come from least-squares quadratics of its radius and direction by length.
 struct FeatureOptions {
   double parallel = 0.05;  ///< a worm's radius changes by at most this times the run's length ...
   double even = 0.1;       ///< ... and times its mean; other runs without bend are wedges
@@ -91,8 +85,8 @@ struct BoundarySection {
   double length = 0;
 };
 
-/// One medial branch. It runs from its deeper end to the other one, and from a branching point to
-/// an end where both are equally deep; a closed one starts where its longest run does.
+/// One branch, from its deeper end to the other; of equally deep ones from a branching point to an
+/// end; a closed one from where its longest run starts.
 struct BranchFeatures {
   std::uint32_t branch = 0;  ///< index in branches(axis)
   bool reversed = false;     ///< whether it runs against branches(axis)
@@ -108,12 +102,11 @@ struct BranchFeatures {
   double turning = 0;           ///< radians, positive to the left
   double absolute_turning = 0;  ///< without signs: how much it bends in all
   double area = 0;  ///< of the shape's part whose nearest boundary the branch stands for
-  /// How far the branch and all beyond it reach out of the disk at its base, in radii of that disk:
-  /// the erosion thickness (Liu et al. 2011) over the radius. Infinite on cycles and between them.
+  /// Erosion thickness (Liu et al. 2011) in radii of the disk at its base: how far the branch and
+  /// all beyond it reach out of that disk. Infinite on cycles and between them.
   double significance = 0;
-  /// When a fire from the axis's ends, started at each at the time of its radius, sets off from the
-  /// two ends of the branch: at branching points once all other branches have burnt. Infinite where
-  /// it does not.
+  /// When a fire leaves its two ends: from the axis's ends at the time of their radius, from a
+  /// branching point once all other branches have burnt. Infinite where it never does.
   std::array<double, 2> burn{};
   std::array<BoundarySection, 2> side;  ///< left, right
   std::uint32_t first_run = 0;          ///< its runs are runs[first_run .. first_run + run_count)
@@ -141,10 +134,38 @@ struct AxisFeatures {
 };
 
 /// Describes an axis. Exact branches are cut where the signs of dR/ds, its derivative, the
-/// curvature and its derivative change, samples at every node; then runs are merged by
-/// FeatureOptions. The result does not depend on rotation, scale, translation, numbering and
-/// direction of the input but for rounding; reflection swaps left and right. O(n log n), memory
-/// O(n).
+/// curvature and its derivative change, sampled ones at every node; then runs are merged by
+/// FeatureOptions. Does not depend on rotation, scale, translation, numbering and direction of the
+/// input but for rounding; reflection swaps left and right. O(n log n), memory O(n).
 AxisFeatures describe(const MedialAxis& axis, const FeatureOptions& options = {});
+
+/// A shape in a few numbers without units, the same for rotated, scaled and mirrored images:
+/// distributions over the axis by their quantiles. A piece of the axis counts by its length, less
+/// where its erosion thickness is close to the noise of the boundary. Lengths are over the root
+/// mean square distance from the axis's centre.
+struct ShapeSignature {
+  static constexpr std::size_t quantiles = 24;
+  using Quantiles = std::array<double, quantiles>;
+  Quantiles center{};     ///< distances from the centre
+  Quantiles pairs{};      ///< distances between two places of the axis
+  Quantiles depth{};      ///< how far from the middle of the shape along the axis
+  Quantiles radius{};     ///< radii, over their mean
+  double thickness = 0;   ///< logarithm of the mean radius
+  double length = 0;      ///< logarithm of the axis's length
+  double ends = 0;        ///< log(1 + ends), each counted as its branch is
+  double cycles = 0;      ///< log(1 + holes)
+  double elongation = 0;  ///< logarithm of the quotient of the axes of inertia
+};
+
+constexpr double speck_share = 0.1;  ///< of without_specks()
+/// The shape without specks: holes, and components besides others, whose bounding box has a
+/// diagonal of at most `share` times the square root of the area. O(n).
+Shape without_specks(const Shape& shape, double share = speck_share);
+
+/// Of the axis of without_specks(), with its own features. O(edges log(edges)).
+ShapeSignature signature_of(const MedialAxis& axis, const AxisFeatures& features);
+
+/// 0 for the same shape, about 1 for two shapes at random; symmetric.
+double dissimilarity(const ShapeSignature& a, const ShapeSignature& b);
 
 }  // namespace medial

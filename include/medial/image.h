@@ -8,16 +8,15 @@
 
 namespace medial {
 
-/// Whether images of this size can be worked on: their diagonal is below 2^16 pixels, so that a
-/// squared distance fits into 32 bits.
+/// Whether the diagonal is below 2^16 pixels, as required: then squared distances fit 32 bits.
 constexpr bool fits_image(std::uint64_t width, std::uint64_t height) {
   constexpr std::uint64_t most = 65535;
   return width <= most && height <= most && width * width + height * height < most * most;
 }
 
-/// A binary image: a bit a pixel, set in the foreground, the object. Rows go from the top down;
-/// pixel (x, y) is the square [x, x + 1] x [y, y + 1]. Connectedness is by eight neighbours in the
-/// foreground and by four in the background, to which all outside of the image belongs.
+/// A binary image: one bit per pixel, set in the foreground. Rows go from the top down; pixel (x,
+/// y) is the square [x, x + 1] x [y, y + 1]. Connectedness is by eight neighbours in the foreground
+/// and by four in the background, to which all outside of the image belongs.
 class Image {
  public:
   Image() = default;

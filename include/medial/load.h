@@ -1,33 +1,22 @@
 #pragma once
 
 // From the features of a file to shapes, planar graphs and axes, many at a time. No files here:
-// medial/io/load.h begins with a file's name.
-
-#include <atomic>
-#include <cstdint>
-#include <functional>
-#include <span>
-#include <vector>
+// medial/io/read.h begins with a file's name.
 
 #include "medial/compute.h"
-#include "medial/contour.h"
 #include "medial/document.h"
-#include "medial/error.h"
-#include "medial/planar_graph.h"
-#include "medial/shape.h"
 
 namespace medial {
 
-/// Runs work(i, threads) for every item i, at most so many threads at a time, and returns the error
-/// of the lowest item that has one, as an error of feature i. `weights` say how much work each item
-/// is: large ones run one after another with all threads each, then the small ones side by side
-/// with one. What work(i) does must depend on i alone; then so does the outcome. Work that has not
-/// begun when `cancel` is set ends as `cancelled`.
+/// Runs work(i, threads) for every item i, on at most `threads` threads in all. Items of large
+/// weight run one after another with all threads each, then the small ones side by side with one.
+/// What work(i) does must depend on i alone; then so does the outcome. Errors: that of the lowest
+/// item with one, as an error of feature i; cancelled (work not begun when `cancel` is set).
 Status for_each_item(std::span<const double> weights, int threads,
                      const std::function<Status(std::size_t i, int threads)>& work,
                      const std::atomic<bool>* cancel = nullptr);
 
-/// What work(i, threads) gives for every item, as for_each_item() runs it.
+/// The results of for_each_item().
 template <class T>
 Result<std::vector<T>> map_items(std::span<const double> weights, int threads,
                                  const std::function<Result<T>(std::size_t i, int threads)>& work,
@@ -53,13 +42,13 @@ enum class RepairRule : std::uint8_t {
 };
 
 struct LoadOptions {
-  /// Edges that cross are split (ShapeOptions::node_crossings), and the rule decides what is
-  /// inside. Rings of straight edges alone are tried as they are before.
+  /// Splits edges that cross (ShapeOptions::node_crossings); the rule decides what is inside. Rings
+  /// of straight edges alone are first tried as they are.
   RepairRule repair = RepairRule::none;
   ArcOptions arcs;  ///< how free-form curves become arcs
   double fit = 0;   ///< boundaries become smooth within this (fit_smooth_contour()); 0: no
-  bool keep_contours = false;  ///< fills ShapeItem::contours, from rings as well
-  int threads = 0;             ///< 0: all of the machine. The result is the same, byte for byte
+  bool keep_contours = false;                 ///< fills ShapeItem::contours, from rings as well
+  int threads = 0;                            ///< see Options
   std::function<void(double)> progress = {};  ///< the share that is done, from any thread
   const std::atomic<bool>* cancel = nullptr;  ///< when true: ErrorCode::cancelled
 };
@@ -70,9 +59,9 @@ struct LoadReport {
   ArcReport arcs;
 };
 
-/// The shape of each feature, in their order: fill rules, curves to arcs, repair. What a repair
-/// changed becomes a note. Errors: those of approximate_by_arcs(), build_shape() and
-/// fit_smooth_contour(), with feature, ring and vertex; empty; cancelled.
+/// The shape of each feature, in order: fill rules, curves to arcs, repair. Notes say what a repair
+/// changed. Errors: those of approximate_by_arcs(), build_shape() and fit_smooth_contour(), with
+/// feature, ring and vertex; empty; cancelled.
 Result<Document<ShapeItem>> load_shapes(Document<Feature> features, const LoadOptions& options = {},
                                         LoadReport* report = nullptr);
 
@@ -83,34 +72,30 @@ struct LoosePieces {
   Document<Attributes> features;
 };
 
-/// All that a feature holds as chains, free-form curves approximated. Errors: those of
-/// approximate_by_arcs().
+/// All of one feature, or of all in order, as chains. Errors: those of approximate_by_arcs().
 Result<std::vector<Chain>> chains_of(const Feature& feature, const ArcOptions& options = {});
-/// The same of all features, in their order.
 Result<LoosePieces> load_loose(Document<Feature> features, const ArcOptions& options = {});
 
-/// The planar graph of all pieces. Errors: those of build_planar_graph(), with feature, ring in it,
-/// and vertex.
+/// Errors: those of build_planar_graph(), with feature, ring in it, and vertex.
 Result<PlanarGraph> planar_graph_of(const LoosePieces& pieces,
                                     const PlanarGraphOptions& options = {});
 
-/// Calls use(graph) with planar_graph_of(pieces). Where that is an error `unsupported` with ring
-/// and point, things too close to each other to differ by more than rounding, it is called again
-/// with graphs in which they touch, for increasing distances (PlanarGraphOptions::reach). Returns
-/// the distance, 0 for none. Errors: of planar_graph_of(), and the last one of `use`.
+/// Calls use(graph) with planar_graph_of(pieces). After an error `unsupported` with ring and point,
+/// for things that rounding cannot separate, calls it again with graphs in which they touch, for
+/// increasing distances (PlanarGraphOptions::reach). Returns the distance, 0 for none. Errors:
+/// those of planar_graph_of(), and the last one of `use`.
 Result<double> with_planar_graph(const LoosePieces& pieces, bool node_crossings,
                                  const std::function<Status(PlanarGraph& graph)>& use);
 
 /// Summed over all features.
 struct AxesReport {
   Statistics statistics;
-  /// Parts and holes of the shapes that axes of pixels do not resolve: a finer grid may.
-  std::uint64_t unresolved = 0;
+  std::uint64_t unresolved = 0;  ///< parts and holes too fine for the grid of an axis of pixels
 };
 
-/// The axis of every shape by compute(), on options.threads together; `progress` and `cancel` hold
-/// for all. Where a method of pixels has no resolution, it is Document::pixel. Statistics of the
-/// items are without times. Errors: those of compute(), with the feature.
+/// The axis of every shape by compute(); threads, progress and cancel of the options hold for all
+/// together. The default resolution of a method of pixels is Document::pixel. The items' statistics
+/// have no times. Errors: those of compute(), with the feature.
 Result<Document<AxisItem>> compute_axes(Document<ShapeItem> shapes, Options options = {},
                                         AxesReport* report = nullptr);
 

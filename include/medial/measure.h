@@ -2,14 +2,9 @@
 
 // How wide a shape is, by its axis: profiles, transects, necks, means, largest disks.
 
-#include <array>
 #include <span>
-#include <vector>
 
-#include "medial/axis.h"
 #include "medial/centreline.h"
-#include "medial/error.h"
-#include "medial/shape.h"
 
 namespace medial {
 
@@ -19,36 +14,32 @@ struct LocalWidth {
   Disk disk;
   std::array<Vec2, 2> feet;  ///< where the disk touches the boundary on the left and on the right
   double width() const { return 2 * disk.radius; }
-  /// The length of the transect from foot to foot; shorter than the width where the shape tapers.
+  /// The length of the transect; shorter than the width where the shape tapers.
   double span() const { return distance(feet[0], feet[1]); }
 };
 
-/// The widths along a path at the given lengths, which increase from 0 to path.length. The feet are
-/// those on the edges' sites; of an axis that names none, by the change of its radius. O(path).
+/// The widths along a path at the given lengths, which increase from 0 to path.length. The feet lie
+/// on the edges' sites; without sites, the change of the radius gives them. O(path).
 std::vector<LocalWidth> widths_along(const MedialAxis& axis, const AxisPath& path,
                                      std::span<const double> lengths);
 
-/// The largest disk of the axis: the maximum inscribed circle; of equal ones, that of the lowest
-/// edge. O(edges). Requires a node.
+/// The maximum inscribed circle; of equal ones, that of the lowest edge. Requires a node. O(edges).
 Disk deepest_disk(const MedialAxis& axis);
 
 /// A place where a shape is narrower than on both sides of it.
 struct Neck {
   EdgePlace place;
   LocalWidth width;
-  /// The smaller of the radii of the widest disks that can be reached on both sides without passing
-  /// anything as narrow.
+  /// The largest radius in reach of both sides without passing anything as narrow.
   double opens_to = 0;
-  /// Both sides lead to the same disk: closing the neck would separate nothing.
-  bool around_hole = false;
+  bool around_hole = false;  ///< both sides lead to the same disk: cutting here separates nothing
   /// By how much the width grows on both sides.
   double prominence() const { return 2 * (opens_to - width.disk.radius); }
 };
 
-/// The necks whose two sides open to at least `widening` > 1 times their width: those that separate
-/// the shape by decreasing prominence, then those around holes. They are the saddles of the radius:
-/// where, going down from the widest disk, two parts of the axis with larger radii join, or a hole
-/// is closed. Along parallel walls, the neck is in the middle. O(edges log edges).
+/// The necks that open to at least `widening` > 1 times their width: those that separate the shape
+/// by decreasing prominence, then those around holes. They are the saddles of the radius; along
+/// parallel walls the middle. O(edges log edges).
 std::vector<Neck> necks(const MedialAxis& axis, double widening = 1.1);
 
 /// Mean widths of a shape.
@@ -63,12 +54,11 @@ struct MeanWidth {
 /// The means along a path and over the shape, of an exact axis. Relative error below 1e-10.
 MeanWidth mean_width(const MedialAxis& axis, const AxisPath& path);
 
-/// The largest disk in the shape, the largest in what is left besides it, and so on: at most
-/// `count`, by decreasing radius, without overlap, none smaller than `smallest`. Each is the
-/// deepest disk of the axis of the shape less the disks before it. Errors: those of compute();
+/// At most `count` disks without overlap, by decreasing radius, none smaller than `smallest`: each
+/// is the deepest disk of the shape less the disks before it. Computes one axis for each disk but
+/// the first, and the shape's own unless `axis` is it and exact. Errors: those of compute();
 /// invalid_option; unsupported, with the last disk's centre, where what a disk leaves of a shape
-/// some 1e5 times as long as wide is too thin for the tolerance. Computes one axis for each disk
-/// but the first, and the shape's own unless it is given and exact.
+/// some 1e5 times as long as wide is too thin for the tolerance.
 Result<std::vector<Disk>> largest_disjoint_disks(const Shape& shape, std::size_t count,
                                                  double smallest = 0,
                                                  const MedialAxis* axis = nullptr);

@@ -1,14 +1,10 @@
 #pragma once
 
-#include <cstdint>
-#include <optional>
-#include <span>
-#include <string_view>
+#include <memory>
 #include <variant>
 
-#include "medial/box.h"
-#include "medial/brushfire.h"
-#include "medial/vec2.h"
+#include "medial/axis.h"
+#include "medial/raster.h"
 
 namespace medial {
 
@@ -20,29 +16,28 @@ enum class RidgeSearch : std::uint8_t {
 
 /// Which pixels `ridge` takes for medial.
 enum class RidgeRule : std::uint8_t {
-  /// Between the pixel and one of its four neighbours lies a point of the axis: their nearest edges
-  /// are two places of the boundary; the pixel is the one of the two that is nearer to
-  /// equidistance.
-  /// Every medial pixel is within one pixel of the axis. Beside the boundary, as `difference`.
+  /// The axis passes between the pixel and one of its four neighbours, whose nearest edges are two
+  /// places of the boundary; the pixel is the nearer one to equidistance, and within one pixel of
+  /// the axis. Beside the boundary, as
+  /// `difference`.
   crossing,
   /// The report's: the distances to the nearest and the second nearest edge, which do not meet at a
-  /// concave vertex, differ by less than one pixel. Where the boundary has details finer than
-  /// pixels, or turns by small angles, that takes whole regions.
+  /// concave vertex, differ by less than one pixel. Takes whole regions at details finer than
+  /// pixels, and at small angles.
   difference,
 };
 
-/// The size of square pixels; both 0: 1024 along the longer side of the bounding box, and at most
-/// 2^31 in all.
+/// The size of square pixels, at most 2^31 of them; both 0: 1024 along the longer side.
 struct PixelGrid {
   double resolution = 0;     ///< the side of a pixel, at most the longer side of the bounding box
   std::uint32_t pixels = 0;  ///< or how many lie along that side
 };
 
-/// The methods, each with the options that it alone has. Exact methods return the same graph; the
-/// others come near to it and say so by MedialAxis::resolution.
+/// The methods, each with the options that it alone has. Exact methods return the same graph;
+/// sampled ones come near to it and set MedialAxis::resolution.
 namespace method {
 
-/// Walks along the axis and asks a tree over the boundary: the fastest.
+/// Walks along the axis and searches a tree over the boundary: the fastest.
 struct Disks {};
 
 /// The randomised divide and conquer of Aichholzer et al. as published: O(n log n) to O(n^2).
@@ -50,20 +45,18 @@ struct BiarcDc {
   std::uint64_t seed = 1;  ///< the same seed gives the same result, byte for byte
 };
 
-/// Lee's divide and conquer, which merges Voronoi diagrams of lists of segments and reflex
-/// vertices.
+/// Lee's divide and conquer: merges Voronoi diagrams of lists of segments and reflex vertices.
 struct Lee {};
 
-/// Whichever of these takes the least processor time, by what was measured (docs/lee.md): `lee` for
-/// polygons without holes that are convex or nearly so, or smooth; `disks` for all others, and
-/// where `lee` fails. It does not depend on the number of threads.
+/// The one with the least processor time for any number of threads (docs/lee.md): `lee` for convex,
+/// nearly convex or smooth polygons without holes; `disks` for all others, and where `lee` fails.
 struct Auto {};
 
 /// Ridge following on a grid of pixels, as Volkmann and St. Clair have it.
 struct Ridge {
   PixelGrid grid = {};
-  /// Vertices between straight edges that turn by less than this, in degrees, in [0, 45], are
-  /// dropped where the combined edge stays within a quarter of a pixel of them; 0 keeps all.
+  /// Drops vertices between straight edges that turn by less than this, in degrees, in [0, 45],
+  /// where the combined edge stays within a quarter of a pixel of them; 0 keeps all.
   double collinear = 5;
   RidgeSearch search = RidgeSearch::tree;
   RidgeRule rule = RidgeRule::crossing;
@@ -75,46 +68,42 @@ struct Brushfire {
   medial::Brushfire family = medial::Brushfire::simultaneous;
 };
 
-/// Valleys of a potential after Ahuja and Chuang; see docs/potential.md.
+/// Valleys of a potential after Ahuja and Chuang; see docs/potential.md. The size is
+/// the larger side of the bounding box.
 struct Potential {
-  /// n of the force that the points are found with, in [1, 4096], any real number; 0: chosen for
-  /// each point (the algorithm MAT-Generalized-Polygonal).
+  /// n of the force that finds the points, in [1, 4096], any real number; 0: chosen for each point
+  /// (the algorithm MAT-Generalized-Polygonal).
   double order = 0;
-  /// The order of the force lines that are followed first, in [1, 4096]; 0: `order`, at most 512,
-  /// or 512 where that is 0. Less, down to 1, where the arithmetic cannot connect these valleys.
+  /// The order of the first force lines, in [1, 4096]; 0: `order` up to 512, or 512 if that is 0.
+  /// Less, down to 1, where the arithmetic cannot connect these valleys.
   double base_order = 0;
-  /// The longest step, as a share of the larger side of the bounding box, in [1e-4, 0.1].
-  double step = 0.01;
-  /// Coarse to fine: the skeleton of a polygon within this of the border, as a share of the larger
-  /// side of the bounding box, refined on ever nearer polygons: without the branches of what that
-  /// one leaves out. In [0, 0.2]; 0: all branches. Of a whole axis only.
+  double step = 0.01;  ///< the longest step, as a share of the size, in [1e-4, 0.1]
+  /// Coarse to fine: refines the skeleton of a polygon this close to the border, as a share of the
+  /// size in [0, 0.2], without branches that the polygon does not have; 0: all. Whole axes only.
   double coarse = 0;
   /// theta_min in degrees: how much the force may still turn with the order. In (0, 90].
   double angle = 2.56;
-  /// e_min, as a share of the larger side of the bounding box: how far a point may still move with
-  /// the order. In (0, 0.1].
+  /// e_min: how far a point may still move with the order, as a share of the size. In (0, 0.1].
   double movement = 0.0005;
-  /// Only the branch that the force leads to from this place.
-  std::optional<Vec2> from = {};
+  std::optional<Vec2> from = {};  ///< only the branch to which the force leads from this place
   /// Only what lies in this box: traced from the convex corners in it, connected or not.
   std::optional<Box> within = {};
   bool whole() const { return !from && !within; }
 };
 
-/// Follows the axis of one smooth curve from the maxima of its curvature; see medial/curve_axis.h.
+/// Follows the axis of one smooth curve from its maxima of curvature: see compute_curve_axis().
 struct CurveAxis {
   /// The way along the axis from point to point, relative to the diagonal of the bounding box, in
-  /// [1e-6, 0.1]; shorter where the boundary turns fast. Where the control process goes astray it
+  /// [1e-6, 0.1]; shorter where the boundary turns fast. A control process that goes astray
   /// restarts with half of it, up to five times: MedialAxis::resolution is the last one's.
   double step = 1e-3;
-  /// Which of the curvature's maxima, counted along the boundary from its start, the first
-  /// generation starts from. The axis is the same for each, to the steps.
+  /// The maximum of curvature, counted from the boundary's start, at which the first generation
+  /// begins. The axis is the same for each, to the steps.
   std::size_t first_maximum = 0;
 };
 
 }  // namespace method
 
-/// One of the methods, with its options.
 using Method = std::variant<method::Disks, method::BiarcDc, method::Lee, method::Auto,
                             method::Ridge, method::Brushfire, method::Potential, method::CurveAxis>;
 
@@ -136,8 +125,7 @@ struct MethodInfo {
   bool part = false;      ///< computes a part of an axis
   bool contours = false;  ///< follows smooth contours in place of a shape
   bool threads = false;   ///< uses several threads
-  /// Whether it takes Options::exact.
-  bool exact() const { return sampling == Sampling::none; }
+  bool exact() const { return sampling == Sampling::none; }  ///< takes Options::exact
 };
 
 /// All methods, in the order of Method's alternatives.
@@ -149,5 +137,79 @@ inline const char* name_of(const Method& method) { return info_of(method).name; 
 std::optional<Method> method_from(std::string_view name);
 /// Whether axes with this MedialAxis::method are made of pixels.
 bool is_of_pixels(std::string_view method);
+
+/// The generalised potential of a charged border (docs/potential.md): every component of a shape
+/// has the potential of its own border, the integral of 1 / r^order along it.
+class PotentialField {
+ public:
+  /// Errors: invalid_option (order outside of [1, 4096]), empty, unsupported (coordinates beyond
+  /// the limits of compute()). Arcs become chords within 1e-5 of the shape's larger side.
+  static Result<PotentialField> make(const Shape& shape, double order);
+  ~PotentialField();
+  PotentialField(PotentialField&&) noexcept;
+
+  struct Sample {
+    double log_potential = 0;
+    Vec2 direction;        ///< of the force: a unit vector, or zero where there is no force
+    double clearance = 0;  ///< distance to the border
+  };
+  /// Nothing outside of the shape and on its border. Safe to call from several threads.
+  std::optional<Sample> at(Vec2 p) const;
+
+  /// The force line from p, in at most `most_steps` steps of at most `step` (units of the input).
+  std::vector<Vec2> streamline(Vec2 p, double step, std::size_t most_steps) const;
+
+ private:
+  struct Parts;
+  explicit PotentialField(std::unique_ptr<Parts> parts);
+  std::unique_ptr<Parts> parts_;
+};
+
+/// A point of the axis as the generation process of method::CurveAxis finds it.
+struct CurveAxisPoint {
+  double length = 0;  ///< along its branch, from the branch's first point
+  Disk disk;
+  double left = 0;   ///< where the disk touches the boundary: index of the contour's piece plus the
+  double right = 0;  ///< parameter on it, in [0, number of pieces)
+};
+
+/// How often each rule of the control process was applied (Section 5.2 of the paper).
+struct CurveAxisRules {
+  std::uint64_t maxima = 0;         ///< positive maxima of curvature on the boundary
+  std::uint64_t skipped = 0;        ///< maxima on boundary that was scanned already
+  std::uint64_t larger = 0;         ///< conflicts that ended a generation (Fig 5a)
+  std::uint64_t smaller = 0;        ///< conflicts that took a point from an older branch (Fig 5b)
+  std::uint64_t junctions = 0;      ///< conflicts at equal radius: merged, redirected (Fig 6)
+  std::uint64_t dissolved = 0;      ///< junctions undone, as their third branch was too long
+  std::uint64_t abandoned = 0;      ///< maxima that belong to no leaf of the axis (Fig 9b)
+  std::uint64_t retreats = 0;       ///< generations stopped by restriction (10) (Fig 7a)
+  std::uint64_t outside_frame = 0;  ///< generations stopped by the frame (Fig 7b)
+  std::uint64_t resumed = 0;        ///< generations resumed where boundary was left
+  std::uint64_t ends = 0;           ///< the end in the last maximum (Fig 8)
+  std::uint64_t meetings = 0;       ///< the end where two branches meet head-on
+};
+
+struct CurveAxis {
+  /// The points as a graph without sites; `resolution` is the largest step. Edges are quadratics
+  /// with the axis's tangents at their ends, off by the fourth power of the step in between.
+  MedialAxis axis;
+  /// The discrete parametric axis: one for each chain of edges between leaves and branchings.
+  std::vector<std::vector<CurveAxisPoint>> branches;
+  CurveAxisRules rules;
+};
+
+/// The medial axis of one smooth closed curve, followed from the boundary's maxima of curvature:
+/// Shaked and Bruckstein, "The Curve Axis", 1996. Each point is a zero of (14), as exact as the
+/// curve. The contour has any orientation; its pieces join with one direction and, to a hundredth,
+/// one curvature. Time grows with the number of points, and with the square of that of maxima.
+///
+/// Errors: not_finite, invalid_option, cancelled, too_large (20,000 pieces, 2^21 points, some
+/// seconds of work), unsupported (not smooth, with the place; more than one contour; no maximum of
+/// curvature, as for a circle; a disk that the boundary enters by more than 1e-5 of the size, or
+/// boundary that no branch reaches: the method has gone astray), crossing and others of
+/// build_shape().
+Result<CurveAxis> compute_curve_axis(std::span<const Contour> contours,
+                                     const method::CurveAxis& options = {},
+                                     const std::atomic<bool>* cancel = nullptr);
 
 }  // namespace medial

@@ -2,12 +2,9 @@
 
 // Shapes as compact codes within a bound: axes as few quantised disks whose hulls are joined
 // (Volkmann and St. Clair, Section II.A.3), images as maximal squares (Ahuja, Davis, Milgram and
-// Rosenfeld 1978). The codes are bytes to be compressed; medial/io/pack.h writes them to files.
+// Rosenfeld 1978). Packs are files of codes: medial/io/read.h and write.h.
 
-#include <array>
-#include <cstdint>
 #include <span>
-#include <vector>
 
 #include "medial/axis.h"
 #include "medial/error.h"
@@ -21,8 +18,8 @@ constexpr std::size_t code_streams = 4;
 using ShapeCode = std::array<std::vector<std::uint8_t>, code_streams>;
 
 struct PackOptions {
-  /// How far the shape may change, in units of the input; positive. The unpacked shape and the
-  /// original lie within this distance of each other; what lies deeper inside is in both.
+  /// Largest change, in units of the input; positive. Unpacked shape and original lie within this
+  /// distance of each other; what lies deeper inside is in both.
   double error = 0;
   double quantum_share = 0.3;  ///< of `error`: what quantisation takes; below 15/16
   double prune_share = 0.9;    ///< of the rest: what dropping branches takes; in (0, 15/16]
@@ -35,20 +32,18 @@ struct PackReport {
   double quantum = 0;          ///< step of the numbers, in units of the input
 };
 
-/// Codes axes. Branches are dropped as far as the disk at their base, grown by a part of the error,
-/// covers what lies beyond it (erosion thickness); the others become polylines of disks. O(n log
-/// n). Errors: invalid_option (an error that is not positive, or below 2^-40 of the coordinates),
-/// not_finite.
+/// Codes axes: drops branches that the disk at their base, grown by a part of the error, covers
+/// (erosion thickness); makes polylines of disks of the others. O(n log n). Errors: invalid_option
+/// (an error that is not positive, or below 2^-40 of the coordinates), not_finite.
 Result<ShapeCode> encode_axes(std::span<const MedialAxis> axes, const PackOptions& options,
                               PackReport* report = nullptr);
 
-/// The axes of a code: nodes and straight edges without sites, `resolution` their error. Their
-/// shape is the union of the convex hulls of the disks at both ends of each edge. Memory in the
-/// order of the code. Errors: malformed, unsupported.
+/// The axes of a code: nodes and straight edges without sites, `resolution` their error. The shape
+/// is the union of the convex hulls of each edge's two disks. Memory O(code). Errors: malformed,
+/// unsupported.
 Result<std::vector<MedialAxis>> decode_axes(const ShapeCode& code);
 
-/// The boundary coded in the same way, to compare sizes; there is no decoder. Loops are simplified
-/// within `error` (Douglas and Peucker).
+/// The boundary simplified within `error` (Douglas and Peucker), to compare sizes; has no decoder.
 Result<ShapeCode> encode_boundary(std::span<const Shape> shapes, double error);
 
 struct SquareReport {
@@ -56,9 +51,9 @@ struct SquareReport {
   std::uint64_t missing = 0;  ///< foreground pixels that no square covers
 };
 
-/// Codes an image as squares of foreground pixels: maximal ones, first those mostly not covered by
-/// others, the largest first, until all is covered. No foreground pixel is further than `error`
-/// pixels (in x and in y) from a covered one; 0 keeps the image. O(pixels log(pixels)) at most.
+/// Codes an image as maximal squares of foreground pixels: first those mostly not covered by
+/// others, the largest first, until every foreground pixel is within `error` pixels (in x and in y)
+/// of a covered one; 0 keeps the image. O(pixels log(pixels)) at most.
 ShapeCode encode_squares(const Image& image, std::uint32_t error = 0,
                          SquareReport* report = nullptr);
 /// Errors: malformed, too_large.

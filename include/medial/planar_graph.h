@@ -1,12 +1,6 @@
 #pragma once
 
-#include <cstdint>
-#include <span>
-#include <vector>
-
-#include "medial/error.h"
 #include "medial/shape.h"
-#include "medial/vec2.h"
 
 namespace medial {
 
@@ -19,24 +13,23 @@ struct Chain {
 
 /// A segment or an arc of at most a half circle of a PlanarGraph.
 struct PlanarGraphEdge {
-  std::uint32_t from = 0;  ///< points
+  std::uint32_t from = 0;  ///< index of a point
   std::uint32_t to = 0;
   double bulge = 0;
-  VertexSource source;  ///< chain of the input, and the vertex of it that the edge is after
+  VertexSource source;  ///< chain of the input, and the vertex in it before the edge
 };
 
-/// A point of a PlanarGraph without any edge.
+/// A point without any edge.
 struct LonePoint {
   std::uint32_t point = 0;
   std::uint32_t face = 0;
 };
 
-/// Points, segments and arcs that have nothing but ends in common: a plane graph.
+/// Points, segments and arcs that share ends only: a plane graph.
 ///
-/// Its edges divide the plane into faces; face 0 is the unbounded one. Each face is bounded by
-/// loops, walks along half-edges with the face on their left: half-edge 2 e is edge e from its
-/// first to its last point, 2 e + 1 the same backward. An edge that has one face on both sides
-/// stands in its loops twice.
+/// Its edges divide the plane into faces; face 0 is the unbounded one. Loops bound each face: walks
+/// along half-edges with the face on their left. Half-edge 2 e is edge e forward, 2 e + 1 the same
+/// backward. An edge with one face on both sides is in its loops twice.
 struct PlanarGraph {
   std::vector<Vec2> points;                 ///< all different
   std::vector<VertexSource> point_sources;  ///< of each: chain and vertex of the input
@@ -60,10 +53,8 @@ struct PlanarGraph {
 };
 
 struct PlanarGraphOptions {
-  /// Edges that cross are split where they do; see ShapeOptions.
-  bool node_crossings = false;
-  /// What comes within this distance touches: points become one, edges pass through them, as within
-  /// the tolerance among arcs. 0: that tolerance among arcs, and exactly without.
+  bool node_crossings = false;  ///< splits edges where they cross: see ShapeOptions
+  /// What comes this close touches. 0: the tolerance among arcs; exact contact only without.
   double reach = 0;
 };
 
@@ -71,25 +62,24 @@ struct PlanarGraphOptions {
 struct PlanarGraphReport {
   std::uint64_t input_chains = 0;
   std::uint64_t input_points = 0;
-  std::uint64_t repeated_points = 0;  ///< points that were there before, or lie on an end
-  std::uint64_t repeated_edges = 0;   ///< edges that were there before, in either direction
+  std::uint64_t repeated_points = 0;  ///< points that repeat another, or lie on an end
+  std::uint64_t repeated_edges = 0;   ///< edges that repeat another, in either direction
   std::uint64_t touching_places = 0;  ///< points that several edges share
   std::uint64_t split_edges = 0;      ///< edges split where something touches their inside
   std::uint64_t crossings = 0;        ///< places where edges crossed (PlanarGraphOptions)
 };
 
-/// Makes a plane graph of loose pieces. O(n log n).
+/// Makes a planar graph of loose pieces. O(n log n).
 ///
-/// What is there twice is there once. Edges may meet in ends, and an end or a point may lie in the
-/// inside of an edge, which is split there. Without arcs every decision is exact for the
-/// coordinates given; with arcs, what comes within the tolerance touches, as in build_shape().
-/// Longer arcs than half circles are split; arcs that are straight to rounding become so. Errors:
-/// not_finite, crossing, overlap, unsupported (with chain, vertex and point), empty, too_large.
+/// Drops repeated points and edges. Edges may share ends; an edge is split where an end or a point
+/// lies inside it. Decisions are exact, or within the tolerance with arcs, and arcs are split and
+/// straightened, as in build_shape(). Errors: not_finite, crossing, overlap, unsupported (with
+/// chain, vertex and point), empty, too_large.
 Result<PlanarGraph> build_planar_graph(std::span<const Chain> chains,
                                        const PlanarGraphOptions& options = {},
                                        PlanarGraphReport* report = nullptr);
 
-/// The box around the points and arcs. Requires a point.
+/// The bounding box, arcs included. Requires a point.
 Box bounding_box(const PlanarGraph& planar_graph);
 
 }  // namespace medial

@@ -1,25 +1,19 @@
 #pragma once
 
-// Pruning: the part of an axis that matters, by one of several measures from the literature, each
-// without a unit (docs/prune.md). For axes of any method; edges of exact ones are cut exactly.
+// Pruning: the part of an axis that matters, by measures from the literature without a unit
+// (docs/prune.md). For axes of any method; edges of exact ones are cut exactly.
 
-#include <cstdint>
 #include <memory>
-#include <optional>
 #include <string_view>
-#include <vector>
 
-#include "medial/axis.h"
 #include "medial/centreline.h"
-#include "medial/error.h"
 
 namespace medial {
 
 /// How much a point of the axis matters. Beyond a point lies what removing it would cut off from
-/// the centre (the deepest disk of a tree, or the cycles). R is the radius of the deepest disk of
-/// the connected part. Measures of points cut an edge where it passes the threshold. By measures of
-/// branches a branch stays or goes as a whole, judged at the disk of its inner end with the radius
-/// r, and with it what lies beyond.
+/// the centre (the deepest disk of a tree, or the cycles). r is the radius of the disk, R that of
+/// the deepest disk of the connected part. Measures of points cut an edge where it passes the
+/// threshold. Measures of branches judge them at their inner end and drop whole ones.
 enum class PruneMeasure : std::uint8_t {
   prominence,    ///< branches: the geometric mean of significance and of the same by R
   significance,  ///< branches: how far the shape reaches out beyond the disk, by r (Ho and Dyer)
@@ -31,15 +25,13 @@ enum class PruneMeasure : std::uint8_t {
   potential,  ///< points: the length of the boundary beyond, by 2 pi R (Ogniewicz and Kuebler)
   residual,   ///< points: that length less the chord between the feet, by 2 R (the same)
   area,       ///< points: the area that the shape loses, by the area of the connected part
-  lambda,     ///< points: the radius of the smallest circle around the feet, by R (Chazal,
-              ///< Lieutier)
-  scale,      ///< points: the factor that makes the disk, grown by it, vanish in another disk,
-              ///< grown as well; at least 1 (Giesen et al.)
+  lambda,     ///< points: the smallest radius around the feet, by R (Chazal, Lieutier)
+  scale,      ///< points: grown by this factor >= 1, another grown disk covers it (Giesen et al.)
 };
 
-/// Names as they are spelled above; all measures.
-const char* name_of(PruneMeasure measure);
+/// All measures, and their names as spelled above.
 const std::vector<PruneMeasure>& prune_measures();
+const char* name_of(PruneMeasure measure);
 std::optional<PruneMeasure> prune_measure_from(std::string_view name);
 /// A threshold under which noise goes and what a person would draw stays.
 double default_threshold(PruneMeasure measure);
@@ -47,11 +39,9 @@ double default_threshold(PruneMeasure measure);
 struct PruneOptions {
   PruneMeasure measure = PruneMeasure::prominence;
   std::optional<double> threshold = {};  ///< nothing: the default of the measure
-  /// Keep at most so many branches instead, those that matter most; more only where the cycles
-  /// consist of more.
+  /// Instead, keep at most this many branches, those that matter most; but always the cycles.
   std::optional<std::uint64_t> keep = {};
-  /// What is kept runs on to its tips: from each end along the way that reaches farthest.
-  bool tips = false;
+  bool tips = false;  ///< extend each end to a tip, along the way that reaches farthest
 };
 
 /// What prune() did; branches as branches() counts them.
@@ -63,25 +53,23 @@ struct PruneReport {
 };
 
 /// How much every point of an axis matters by one measure: never less than anything beyond it. So
-/// whatever the threshold, connected parts and cycles stay, of a tree at least its deepest disk
-/// (the lowest index among equals, or its whole edge), and a larger threshold keeps a subset.
-/// Keeps a reference to the axis, which must live longer. O(n), for `scale` O(n log n) expected.
+/// any threshold keeps connected parts and cycles, of a tree at least its deepest disk (the lowest
+/// index among equals, or its whole edge), and a larger one keeps a subset. The axis must live
+/// longer. O(n), for `scale` O(n log n) expected.
 class PruneOrder {
  public:
   PruneOrder(const MedialAxis& axis, PruneMeasure measure, bool tips = false);
   ~PruneOrder();
   PruneOrder(PruneOrder&&) noexcept;
 
-  /// How much the innermost point of an edge matters: some of it stays at every threshold up to
-  /// this. Infinite on cycles and between them.
+  /// The largest threshold that keeps some of an edge. Infinite on cycles and between them.
   double of_edge(std::uint32_t edge) const;
   /// What matters at least `threshold`, by increasing edge. O(n).
   std::vector<PathPiece> parts(double threshold) const;
   /// The same as an axis: nodes and edges in their order, all sites. O(n).
   MedialAxis at(double threshold) const;
-  /// Of at(threshold).
+  /// The number of its branches, and of its edges that are cut in their inside. O(n).
   std::uint64_t branches_at(double threshold) const;
-  /// How many edges of at(threshold) are cut in their inside. O(n).
   std::uint64_t cuts_at(double threshold) const;
   /// The lowest threshold that keeps at most so many branches, or else the fewest. O(n log n).
   double threshold_of(std::uint64_t branches) const;

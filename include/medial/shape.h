@@ -4,9 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "medial/box.h"
 #include "medial/error.h"
-#include "medial/vec2.h"
+#include "medial/geometry.h"
 
 namespace medial {
 
@@ -15,59 +14,57 @@ enum class RingRole : std::uint8_t {
   any,      ///< nothing: the even-odd rule decides (plain text, loose loops)
   outer,    ///< the outer ring of a polygon
   hole,     ///< a hole of a polygon
-  winding,  ///< nothing, but the non-zero rule decides, by the rings' orientations
+  winding,  ///< nothing: the non-zero rule decides, by the rings' orientations
 };
 
-/// A ring as it was read: any orientation, closed or not, cleaned or not.
+/// A ring as a file gives it: any orientation, closed or not, cleaned or not.
 ///
 /// Edge i goes from points[i] to the next point. Its bulge is the tangent of a quarter of the angle
-/// it spans: 0 for a straight edge, 1 for a half circle, positive where it turns to the left. A
-/// bulge stays well-conditioned however large or small the arc's radius is.
+/// it spans: 0 straight, 1 a half circle, positive where it turns left. Well-conditioned for all
+/// radii.
 struct Ring {
   std::vector<Vec2> points;
   RingRole role = RingRole::any;
   std::vector<double> bulges = {};  ///< of each edge; empty: all edges are straight
 };
 
-/// Where a vertex of a Shape comes from: ring and vertex of the input, both from 0.
+/// Where a vertex of a Shape comes from: ring and vertex of the input, from 0.
 struct VertexSource {
   std::uint32_t ring = 0;
   std::uint32_t vertex = 0;
 };
 
-/// What build_shape() cleaned away or rearranged.
+/// What build_shape() cleaned or rearranged.
 struct ShapeReport {
   std::uint64_t input_rings = 0;
   std::uint64_t input_points = 0;
-  std::uint64_t closing_points = 0;    ///< last points equal to the first, dropped
-  std::uint64_t unclosed_rings = 0;    ///< rings that came without a closing point
-  std::uint64_t repeated_points = 0;   ///< zero-length edges, dropped
-  std::uint64_t collinear_points = 0;  ///< vertices in the inside of a straight run or arc, dropped
-  std::uint64_t reversed_rings = 0;    ///< rings that had the interior on the right
-  std::uint64_t dropped_rings = 0;     ///< rings that the non-zero rule has inside of others
+  std::uint64_t closing_points = 0;     ///< last points equal to the first, dropped
+  std::uint64_t unclosed_rings = 0;     ///< rings without a closing point
+  std::uint64_t repeated_points = 0;    ///< zero-length edges, dropped
+  std::uint64_t collinear_points = 0;   ///< vertices inside a straight run or arc, dropped
+  std::uint64_t reversed_rings = 0;     ///< rings that had the interior on the right
+  std::uint64_t dropped_rings = 0;      ///< rings inside of others by the non-zero rule
   std::uint64_t touching_vertices = 0;  ///< places where rings touch, in vertices or edges
   std::uint64_t split_edges = 0;        ///< edges split where a vertex touches their inside
   std::uint64_t crossings = 0;          ///< places where edges crossed (ShapeOptions)
 };
 
 struct ShapeOptions {
-  /// Edges that cross are no error: they are split where they do, and what is interior follows from
-  /// the rings' roles: the non-zero rule for RingRole::winding, the even-odd rule for others.
-  /// Decided to the tolerance, as for arcs, also where all edges are straight. O(n log n + p) for p
-  /// pairs of edges whose bounding boxes meet.
+  /// Splits edges where they cross. The interior follows the non-zero rule for RingRole::winding,
+  /// the even-odd rule for others. Decides within the tolerance even if all edges are straight. O(n
+  /// log n + p) for p pairs of edges whose bounding boxes meet.
   bool node_crossings = false;
 };
 
 /// A bounded planar region: closed loops of straight and circular edges with the interior on the
 /// left (outer loops counter-clockwise, holes clockwise).
 ///
-/// What always holds for a Shape made by build_shape(): all coordinates are finite; a loop of
-/// straight edges has at least three vertices, one with arcs at least two; no bulge is larger than
-/// 1 (longer arcs are split); neighbouring vertices differ and no three in a row are collinear,
-/// except at a vertex where loops touch; edges meet in vertices only; different loops of a
-/// component have no point in common (loops that touched are joined: one loop passes through the
-/// common vertex once for every wedge of interior there). Each component is one outer loop and its
-/// holes, and its interior is connected; two components can have vertices in common.
+/// build_shape() guarantees: all coordinates are finite; a loop has at least three vertices, with
+/// arcs at least two; no bulge exceeds 1; neighbouring vertices differ and no three in a row are
+/// collinear, except where loops touch; edges meet in vertices only. Each component is one outer
+/// loop and its holes, with a connected interior; its loops have no point in common (one loop
+/// passes through a vertex where loops touched once per wedge of interior there). Two components
+/// can have vertices in common.
 struct Shape {
   std::vector<Vec2> points;               ///< the vertices of all loops, loop after loop
   std::vector<double> bulges;             ///< of the edge after each point; empty: all straight
@@ -85,38 +82,35 @@ struct Shape {
   std::size_t hole_count() const;
 };
 
-/// A loop of a shape as a ring; all of its loops.
+/// One loop of a shape, or all, as rings.
 Ring ring_of(const Shape& shape, std::size_t loop);
 std::vector<Ring> rings_of(const Shape& shape);
 
-/// The bounding box of the shape, its arcs included. O(n).
+/// The bounding box, arcs included. O(n).
 Box bounding_box(const Shape& shape);
-
-/// The area enclosed by the shape (holes subtracted), in squared units of the input. O(n).
+/// The area without holes, in squared units of the input. O(n).
 double area(const Shape& shape);
 
 /// Cleans, checks, orients and nests rings into a Shape. O(n log n).
 ///
-/// Repeated points, zero-length edges, exactly collinear runs and missing closing points are mended
-/// and counted in `report` (may be null), and so are runs of arcs on one circle. Rings may touch in
-/// vertices, or with a vertex in the inside of an edge. The rings of a polygon, an outer ring and
-/// the holes behind it, may come in any order. Missing bulges are 0; an arc of more than a half
-/// circle is split; one whose sagitta is below half a spacing of the coordinates is straight.
+/// Closes rings, drops repeated points and vertices inside straight runs or runs of arcs on one
+/// circle, and counts that in `report`. Rings may touch in vertices, or with a vertex inside an
+/// edge, and come in any order. Missing bulges are 0; an arc of more than a half circle is split;
+/// one with a sagitta below half a spacing of the coordinates is straight.
 ///
-/// Without arcs, every decision is exact for the coordinates given. With arcs, no vertex lies
-/// exactly on one: then what comes within the tolerance (4e-15 of the diagonal, or two spacings of
-/// the largest coordinate) touches, vertices there become one, and edges touch inside too (tangent
-/// circles): both are split there. Unsupported: outlines with arcs below 1,024 tolerances in size.
-/// Errors: not_finite, too_few_points, no_area, crossing, overlap, unsupported (with ring, vertex
-/// and point), hole_outside, nested_outer, empty, too_large (2^30 points), out_of_memory.
+/// Without arcs, every decision is exact for the given coordinates. With arcs, edges and vertices
+/// within the tolerance (4e-15 of the diagonal, or two spacings of the largest coordinate) touch:
+/// vertices become one, and edges are split there, also where tangent circles touch inside both.
+/// Errors: not_finite, too_few_points, no_area, crossing, overlap, unsupported (outlines with arcs
+/// below 1,024 tolerances in size) with ring, vertex and point; hole_outside, nested_outer, empty,
+/// too_large (2^30 points), out_of_memory.
 Result<Shape> build_shape(std::span<const Ring> rings, ShapeReport* report = nullptr);
 Result<Shape> build_shape(std::span<const Ring> rings, const ShapeOptions& options,
                           ShapeReport* report = nullptr);
 
-/// What lies around a shape and in its holes: a rectangular enclosure less the shape, with the
-/// enclosure `margin` away from the bounding box on all sides (0: half of its longer side). The
-/// sources of the enclosure's points are ring 0. Errors: invalid_option (a margin outside of [1e-6,
-/// 1e6] of the diagonal), those of build_shape().
+/// The exterior of a shape: a rectangular enclosure, `margin` away from the bounding box on all
+/// sides (0: half of its longer side), less the shape. The enclosure's sources are ring 0. Errors:
+/// invalid_option (a margin outside of [1e-6, 1e6] of the diagonal), those of build_shape().
 Result<Shape> surroundings(const Shape& shape, double margin = 0);
 
 }  // namespace medial

@@ -1,13 +1,9 @@
 #pragma once
 
 // The boundary on the two sides of an axis, and whether it can be an axis at all: Shaked and
-// Bruckstein, "The Curve Axis", 1996, Sections 2 and 3. The numbers in brackets are the paper's
+// Bruckstein, "The Curve Axis", 1996, Sections 2 and 3. Numbers in brackets are the paper's
 // equations; `a` is the length along the axis, subscripts are derivatives by it.
 
-#include <cstdint>
-#include <vector>
-
-#include "medial/axis.h"
 #include "medial/contour.h"
 #include "medial/query.h"
 
@@ -20,10 +16,8 @@ struct AxisFrame {
   double radius_rate = 0;  ///< R_a, no unit; beyond [-1, 1] no shape has such an axis
   double radius_bend = 0;  ///< R_aa, 1 / length
   double curvature = 0;    ///< K_A, 1 / length, positive where the axis turns left
-  /// What rounding leaves open, or the error of a pack (method "pack"): of R_a, and of R_aa and
-  /// K_A; 0 on other samples, which are taken as given.
-  double rate_error = 0;
-  double bend_error = 0;
+  double rate_error = 0;   ///< of R_a, by rounding, or of packs their own; 0 on other samples
+  double bend_error = 0;   ///< of R_aa and K_A in the same way
 
   /// The same in the other direction.
   AxisFrame reversed() const {
@@ -35,8 +29,7 @@ struct AxisFrame {
   }
 };
 
-/// The frame at t in [0, 1] of an edge. The tangent of an edge of length 0 is 0, and nothing else
-/// means anything.
+/// The frame at t in [0, 1] of an edge; of length 0 the tangent is 0 and the rest undefined.
 AxisFrame frame_at(const MedialAxis& axis, const Edge& edge, double t);
 
 /// The boundary at a foot of a disk, followed in the direction of the axis.
@@ -46,8 +39,7 @@ struct BoundaryFrame {
   double rate = 0;       ///< (6): length of boundary by length of axis; 0 at a reflex vertex
   double curvature = 0;  ///< (7), 1 / length, positive where the shape is convex; infinite at a
                          ///< reflex vertex; NaN where nothing decides it (|R_a| = 1)
-  /// (8): the radius of curvature, with the sign of the curvature.
-  double radius_of_curvature() const { return 1 / curvature; }
+  double radius_of_curvature() const { return 1 / curvature; }  ///< (8), with its sign
 };
 
 enum class Side : std::uint8_t { left, right };
@@ -55,25 +47,24 @@ enum class Side : std::uint8_t { left, right };
 /// One side of the axis. Requires |R_a| <= 1; values beyond are taken for 1.
 BoundaryFrame boundary_at(const AxisFrame& frame, Side side);
 
-/// The curvature of the boundary on one side and its first `order` derivatives by the boundary's
-/// own length, at t in (0, 1) of an edge; by power series, so exact but for rounding. Not finite
-/// where the boundary stands still (a reflex vertex). O(order^2).
+/// The curvature of the boundary on one side at t in (0, 1) of an edge, and its first `order`
+/// derivatives by the boundary's own length; by power series, so exact but for rounding. Not finite
+/// at a reflex vertex. O(order^2).
 std::vector<double> boundary_curvatures(const MedialAxis& axis, const Edge& edge, double t,
                                         Side side, int order);
 
-/// The frames along a branch in its direction: of an exact axis `samples_per_edge` inside of every
-/// edge, of a sampled one at every inner node from its neighbours, seven nodes of a curve axis and
-/// three of others. Edges of length 0 have none.
+/// The frames along a branch in its direction, but on edges of length 0: of an exact axis
+/// `samples_per_edge` inside of every edge, of a sampled one at every inner node from its
+/// neighbours, seven nodes of a curve axis and three of others.
 std::vector<AxisFrame> frames_along(const MedialAxis& axis, const Branch& branch,
                                     int samples_per_edge = 8);
 
-/// The boundary that an axis stands for, as closed contours with the interior on the left, by
-/// increasing lowest edge. Where one side ends and the next begins elsewhere on the same disk, its
-/// arc closes the gap. An exact axis gives its segments and arcs, a sampled one straight pieces
-/// between the points of (3), a node without edges a circle. O(edges log(degree)).
+/// The boundary of an axis as closed contours with the interior on the left, by increasing lowest
+/// edge: segments and arcs of an exact axis, straight pieces between the points of (3) of a sampled
+/// one, a circle around a node without edges. Arcs of its disks close gaps. O(edges log(degree)).
 std::vector<Contour> boundary_of(const MedialAxis& axis);
 
-/// The two conditions that every axis meets; where they hold strictly they suffice locally.
+/// The two conditions that every axis meets.
 struct Legality {
   double steepness = 0;  ///< (9): largest |R_a| - 1; above 0 no axis
   double bend = 0;  ///< (10): largest |K_A| R s - (1 - R_a^2 - R R_aa), s^2 = 1 - R_a^2; above 0

@@ -1,20 +1,15 @@
 #pragma once
 
-#include <cstdint>
-#include <string>
-#include <vector>
-
 #include "medial/axis.h"
 #include "medial/diagram.h"
 #include "medial/planar_graph.h"
-#include "medial/shape.h"
 
 namespace medial {
 
 /// What verify() measured. Lengths and areas in units of the input.
 struct Certificate {
-  double tolerance = 0;            ///< what the residuals are judged against
-  double resolution = 0;           ///< of a sampled axis: the side of its pixels; see verify()
+  double tolerance = 0;            ///< bound of the residuals
+  double resolution = 0;           ///< of a sampled axis: MedialAxis::resolution
   double largest_residual = 0;     ///< max |distance to the boundary - r|, nodes and edge samples
   double largest_intrusion = 0;    ///< max (r - distance to the nearest boundary point), >= 0
   double largest_contact_gap = 0;  ///< max |distance to an edge's own two sites - r|
@@ -38,41 +33,34 @@ struct Certificate {
   double worst_y = 0;
   bool passed = false;                ///< all demands hold
   std::vector<std::string> failures;  ///< one sentence for each demand that does not hold
-  /// How many of them tell no more than that a sampled axis has other parts or cycles than the
-  /// shape, which what is narrower than a pixel brings about.
-  std::uint64_t unresolved = 0;
+  std::uint64_t unresolved = 0;       ///< failures that only say that pixels miss parts or cycles
 };
 
 struct VerifyOptions {
-  /// Relative to the diagonal; 0: 1e-14. Nothing is judged by less than four spacings of doubles at
-  /// the largest coordinate, nor by less than the axis's own tolerance, at most 1e-3.
+  /// Relative to the diagonal; 0: 1e-14. Never below four spacings of doubles at the largest
+  /// coordinate, nor below the axis's own tolerance, up to 1e-3.
   double tolerance = 0;
   int samples_per_edge = 8;    ///< points inside every edge, in [0, 2^20]
-  double corner_angle = 0.01;  ///< what the axis was computed with; see Options
-  int threads = 0;             ///< at most 1024 are used; 0: all of the machine
+  double corner_angle = 0.01;  ///< that the axis was computed with; see Options
+  int threads = 0;             ///< see Options; more than 1024 count as 1024
 };
 
-/// Checks an axis against its shape, independently of the engine that made it: its own distance
-/// search, its own area, its own count of cycles. O(n log n) expected. A shape that compute()
-/// refuses as unsupported cannot be checked and does not pass.
+/// Checks an axis against its shape. Shares no code with the engines: it has its own distance
+/// search, area and count of cycles. O(n log n) expected. A shape that compute() refuses as
+/// unsupported does not pass.
 ///
-/// A sampled axis (resolution > 0) is judged by what its pixels can know: indices and kinds, the
-/// radius of every node within half a pixel's diagonal of the distance to the boundary, one
-/// connected part for each component and one cycle for each hole. What is narrower than a pixel can
-/// make it fail; the certificate has its resolution, and the failures say at which resolution they
-/// hold. Its contacts, corners, coverage and area are not judged and stay 0.
+/// Of a sampled axis it checks indices and kinds, each radius within half a pixel's diagonal of the
+/// distance to the boundary, and one connected part per component and one cycle per hole, which
+/// places narrower than a pixel can break; the failures name the resolution. It leaves contacts,
+/// corners, coverage and area at 0. Of an axis of the exterior it checks disks, contacts and sides
+/// only, as the edges at the enclosure are missing.
 ///
-/// An axis of the exterior is judged against the exterior in its enclosure: disks, contacts and
-/// sides as ever; parts, cycles, corners, coverage and area are not, as the edges at the enclosure
-/// are left out.
-///
-/// A blunt joint has no leaf, so the disks leave a little of the boundary there untouched: at most
-/// the radius times the joint's angle, which is allowed for.
+/// At a blunt joint the boundary may be uncovered by the radius times the joint's angle.
 Certificate verify(const Shape& shape, const MedialAxis& axis, const VerifyOptions& options = {});
 
 /// What verify() measured of a Voronoi diagram. Lengths and areas in units of the input.
 struct VoronoiCertificate {
-  double tolerance = 0;            ///< what the residuals are judged against
+  double tolerance = 0;            ///< bound of the residuals
   double largest_residual = 0;     ///< max |distance to the nearest site - r|, samples of all edges
   double largest_contact_gap = 0;  ///< max |distance to an edge's own sites - r|
   double worst_x = 0;              ///< where the largest residual is
@@ -87,16 +75,29 @@ struct VoronoiCertificate {
   std::vector<std::string> failures;
 };
 
-/// Checks a planar graph's diagram against the planar graph, by the distance search of the
-/// certificate above, which the engines do not share: its sites are the planar graph's; every
-/// sample of an edge is at its radius from the edge's sites and no nearer to any other; edges of
-/// the enclosure lie on it; every face is one closed walk along edges of its site,
-/// counter-clockwise; every edge is in the faces of both of its sites; the graph is connected; and
-/// the areas of the faces add up to the enclosure's. So the faces fill the enclosure without
-/// overlap and each holds what is nearest to its site. O(n log n) expected. Of the options
-/// tolerance, samples_per_edge and threads count. A diagram without an enclosure (of a polygon
-/// alone) does not pass.
+/// Checks the diagram of a planar graph, with the distance search of the function above: its sites
+/// are the graph's; every sample of an edge is at its radius from the edge's sites and no nearer to
+/// any other; edges of the enclosure lie on it; each face is one closed counter-clockwise walk
+/// along edges of its site; every edge is in the faces of both of its sites; the diagram is
+/// connected; the faces' areas add up to the enclosure's. So the faces fill it without overlap, and
+/// each holds what is nearest to its site. A diagram without an enclosure (of a polygon) does not
+/// pass. O(n log n) expected. Uses all options but the corner angle.
 VoronoiCertificate verify(const PlanarGraph& planar_graph, const VoronoiDiagram& diagram,
                           const VerifyOptions& options = {});
+
+struct ShapeDistance {
+  double area = 0;         ///< of the first
+  double other_area = 0;   ///< of the second
+  double from_first = 0;   ///< largest distance from the first's boundary to the second's
+  double from_second = 0;  ///< and back
+  Vec2 worst;              ///< where on a boundary the larger of the two is
+  /// The Hausdorff distance of the two boundaries.
+  double hausdorff() const { return from_first > from_second ? from_first : from_second; }
+};
+
+/// Measures both boundaries, at their vertices and at `samples` points inside each edge: a lower
+/// bound, less than the distance of two samples too small. 0 if both are empty, infinite if one is.
+/// O(n log n) expected.
+ShapeDistance shape_distance(const Shape& first, const Shape& second, int samples = 7);
 
 }  // namespace medial

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <atomic>
-#include <cstdint>
 #include <functional>
 #include <limits>
 #include <vector>
@@ -18,7 +17,7 @@ struct TriangleMesh {
   std::vector<std::array<std::uint32_t, 3>> faces;  ///< indices into vertices
 };
 
-/// How many parts, tunnels and cavities something in space has: its Betti numbers.
+/// The Betti numbers of something in space.
 struct VoxelTopology {
   std::uint64_t components = 0;
   std::int64_t tunnels = 0;
@@ -38,9 +37,9 @@ struct MeshReport {
   std::uint64_t parted_vertices = 0;  ///< added where surfaces touched in a vertex only
 };
 
-/// A bounded part of space with a closed surface. Every edge has two faces, every vertex one fan of
-/// faces, no two faces have a point in common but shared corners and edges, and the faces' normals
-/// point out of the solid. Vertices parted by build_solid() alone have equal coordinates.
+/// A bounded part of space with a closed surface: every edge has two faces, every vertex one fan of
+/// faces, faces share corners and edges only, and their normals point out of the solid. Only
+/// vertices that build_solid() parted have equal coordinates.
 struct Solid {
   TriangleMesh surface;
   std::vector<std::uint32_t> source;  ///< for each face, its index in the input
@@ -48,14 +47,11 @@ struct Solid {
   MeshReport report;
 };
 
-/// Makes a solid of a mesh, and repairs what MeshReport counts. What lies in an odd number of
-/// closed surfaces is inside, whatever their orientation; all decisions are exact.
-///
+/// Makes a solid of a mesh and repairs what MeshReport counts, by exact decisions. Inside is what
+/// lies in an odd number of closed surfaces. O(n log n) unless most faces are near each other.
 /// Errors, with the place: empty, not_finite, too_large (2^31 vertices or faces), unsupported
-/// (coordinates above 1e100 in size), malformed (an index out of range), open_surface (an edge with
-/// one face), non_manifold (an edge with more than two), crossing, overlap (faces that share more
-/// than corners and edges), no_area, out_of_memory. O(n log n) for meshes whose faces are not all
-/// near each other.
+/// (coordinates above 1e100 in size), malformed (an index out of range), open_surface,
+/// non_manifold, crossing, overlap (of faces beyond corners and edges), no_area, out_of_memory.
 Result<Solid> build_solid(TriangleMesh mesh);
 
 /// How the two nearest faces of a voxel are found. Both give the same answers, bit for bit.
@@ -73,20 +69,16 @@ enum class Thinning : std::uint8_t {
 struct VoxelOptions {
   double resolution = 0;  ///< edge of a voxel in units of the input; 0: by `voxels`
   int voxels = 128;       ///< along the longest side of the bounding box, in [4, 4096]
-  /// Between the two feet of a voxel at least, seen from its centre, in degrees, in [1, 120]. Fine
-  /// meshes of curved surfaces need a larger angle than those between their faces.
+  /// Between the two feet of a voxel at least, seen from its centre, in degrees, in [1, 120]; for
+  /// fine meshes of curved surfaces, larger than the angles between their faces.
   double angle = 30;
   FaceSearch search = FaceSearch::tree;
   Thinning thinning = Thinning::sheets;
-  /// Threads to use, at most 1024; 0: all of the machine. The result is the same, byte for byte.
-  int threads = 0;
-  /// Of the computation, in bytes, about.
-  std::uint64_t memory = std::uint64_t{4} << 30U;
-  /// Called now and then, on one thread at a time, with the share of the work done, in [0, 1], as
-  /// far as that is known; in the end with 1. Must not throw.
+  int threads = 0;  ///< at most 1024; 0: all of the machine. The result is the same, byte for byte
+  std::uint64_t memory = std::uint64_t{4} << 30U;  ///< of the computation, in bytes, about
+  /// Called with the share done, in [0, 1], at last 1, by one thread at a time. Must not throw.
   std::function<void(double)> progress = {};
-  /// When set to true, compute_voxels() returns ErrorCode::cancelled soon.
-  const std::atomic<bool>* cancel = nullptr;
+  const std::atomic<bool>* cancel = nullptr;  ///< when true: ErrorCode::cancelled
 };
 
 /// A voxel of the axis: its centre has two points of the surface nearly nearest to it.
@@ -95,10 +87,8 @@ struct Voxel {
 
   std::array<std::uint32_t, 3> cell = {};  ///< column, row, layer: x, y, z
   Vec3 center;
-  double radius = 0;  ///< distance from the centre to the surface
-  /// How much farther the second foot is than the first. Infinite for voxels that only preserve the
-  /// topology.
-  double quality = 0;
+  double radius = 0;   ///< distance from the centre to the surface
+  double quality = 0;  ///< by how much the second foot is farther; infinite: only for the topology
   std::array<std::uint32_t, 2> face = {no_face, no_face};  ///< of the input, of the two feet
 };
 
@@ -126,19 +116,18 @@ struct VoxelAxis {
   Vec3 origin;                              ///< low corner of the cell (0, 0, 0)
   std::array<std::uint32_t, 3> cells = {};  ///< of the grid
   std::vector<Voxel> voxels;                ///< by increasing x within y within z
-  /// Pairs of voxels that share a face, an edge or a corner, lower index first, increasing; but no
-  /// pair with a third voxel of the axis between the two, which connects them already.
+  /// Pairs of voxels that share a face, an edge or a corner, lower index first, increasing; without
+  /// pairs that a third voxel between the two connects.
   std::vector<std::array<std::uint32_t, 2>> links;
   VoxelTopology topology;  ///< of the voxels as cubes that share faces, edges and corners
-  /// Of the interior voxels, and so of the axis. It is the solid's where the grid is fine enough.
-  VoxelTopology interior;
+  VoxelTopology interior;  ///< of all interior voxels; the solid's where the grid is fine enough
   VoxelStatistics statistics;
 };
 
 /// The medial axis of a solid by ridge following, extended to space (docs/voxels.md): interior
-/// voxels, of the same topology as all of them by construction.
-/// Memory: O(voxels of surface and axis + volume / 512). Errors: invalid_option, cancelled, empty
-/// (no solid), too_large, malformed (a solid that build_solid() did not make), out_of_memory.
+/// voxels with the topology of all interior voxels, by construction. Memory: O(voxels of surface
+/// and axis + volume / 512). Errors: invalid_option, cancelled, empty (no solid), too_large,
+/// malformed (a solid that build_solid() did not make), out_of_memory.
 Result<VoxelAxis> compute_voxels(const Solid& solid, const VoxelOptions& options = {});
 
 }  // namespace medial

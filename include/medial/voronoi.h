@@ -1,53 +1,42 @@
 #pragma once
 
-#include <cstdint>
-#include <memory>
-#include <optional>
-#include <span>
-#include <vector>
-
 #include "medial/compute.h"
 #include "medial/diagram.h"
-#include "medial/error.h"
 #include "medial/planar_graph.h"
-#include "medial/shape.h"
 
 namespace medial {
 
-/// The Voronoi diagram of a shape of straight edges without holes, by Lee's divide and conquer.
-/// O(n log n). Errors: as compute() with method::Lee.
+/// The Voronoi diagram of a shape of straight edges without holes, by Lee's divide and conquer. O(n
+/// log n). Errors: as compute() with method::Lee.
 Result<VoronoiDiagram> voronoi_diagram(const Shape& shape, const Options& options = {});
 
-/// The Voronoi diagram of a planar graph within a frame, by the engine `disks` (docs/voronoi.md):
-/// of its points, segments and arcs. Of the options tolerance, threads, progress and cancel count,
-/// and margin where no frame is given: how far the frame is away from the planar graph's bounding
-/// box, 0 for half of its longer side. Inside of the frame the diagram is that of the whole plane.
-/// O(n log n) expected. Errors: invalid_option (also a frame that the planar graph touches or
-/// leaves), cancelled, empty, too_large, unsupported (coordinates, as in compute(); among edges, a
-/// point that is nearer to another one or to an edge than rounding can separate, 64 tolerances,
-/// with its place: see PlanarGraphOptions::reach), out_of_memory, internal.
+/// The Voronoi diagram of a planar graph's points, segments and arcs, by the engine `disks`
+/// (docs/voronoi.md): that of the whole plane, cut off at `frame`. Without a frame, Options::margin
+/// sets its distance from the planar graph's bounding box, as for an exterior. Also uses tolerance,
+/// threads, progress and cancel. O(n log n) expected. Errors: invalid_option (also a frame that the
+/// planar graph touches or leaves), cancelled, empty, too_large, unsupported (coordinates, as in
+/// compute(); among edges, a point nearer to another one or to an edge than rounding can separate,
+/// 64 tolerances, with its place: see PlanarGraphOptions::reach), out_of_memory, internal.
 Result<VoronoiDiagram> voronoi_diagram(const PlanarGraph& planar_graph, const Options& options = {},
                                        const std::optional<Box>& frame = {});
 
 /// The sites of a planar graph's diagram without the diagram, for a SiteLocator. O(n).
 std::vector<Site> sites_of(const PlanarGraph& planar_graph);
 
-/// A nearest site.
 struct NearestSite {
   std::uint32_t site = no_site;
   Vec2 foot;  ///< its nearest point
   double distance = 0;
 };
 
-/// Answers "which site is nearest to p" in O(log n) expected, after O(n log n). Keeps a copy of
-/// what it needs.
+/// Finds the nearest site in O(log n) expected, after O(n log n). Keeps a copy of what it needs.
 class SiteLocator {
  public:
   explicit SiteLocator(std::span<const Site> sites);
   ~SiteLocator();
   SiteLocator(SiteLocator&&) noexcept;
-  /// Of sites at equal distance the lowest index, which of a planar graph is a point where there is
-  /// one. Without sites: no_site at infinite distance.
+  /// Of sites at equal distance the lowest index, so of a planar graph a point rather than an edge.
+  /// Without sites: no_site at infinite distance.
   NearestSite nearest(Vec2 p) const;
 
  private:

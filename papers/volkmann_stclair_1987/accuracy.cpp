@@ -7,10 +7,10 @@
 #include <bit>
 #include <cmath>
 
-#include "medial/brushfire.h"
 #include "medial/compute.h"
-#include "medial/io/image.h"
+#include "medial/io/read.h"
 #include "medial/query.h"
+#include "medial/raster.h"
 #include "papers/table.h"
 #include "papers/volkmann_stclair_1987/volkmann.h"
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "medial/box.h"
+#include "medial/geometry.h"
 #include "medial/query.h"
 
 namespace medial {

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <optional>
 
-#include "medial/vec2.h"
+#include "medial/geometry.h"
 
 namespace medial {
 

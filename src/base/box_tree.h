@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/spatial_order.h"
-#include "medial/box.h"
+#include "medial/geometry.h"
 
 namespace medial {
 

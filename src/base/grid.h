@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "medial/vec2.h"
+#include "medial/geometry.h"
 
 namespace medial::raster {
 

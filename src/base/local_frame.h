@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "medial/box.h"
+#include "medial/geometry.h"
 
 namespace medial {
 

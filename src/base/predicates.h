@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "medial/vec2.h"
+#include "medial/geometry.h"
 
 namespace medial {
 

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "medial/box.h"
+#include "medial/geometry.h"
 
 namespace medial {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "medial/box.h"
+#include "medial/geometry.h"
 
 namespace medial {
 

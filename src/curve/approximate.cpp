@@ -11,8 +11,8 @@
 #include "base/threads.h"
 #include "curve/biarc.h"
 #include "curve/spirals.h"
-#include "medial/box.h"
 #include "medial/contour.h"
+#include "medial/geometry.h"
 
 namespace medial {
 namespace {

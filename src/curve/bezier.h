@@ -3,7 +3,7 @@
 #include <span>
 
 #include "curve/bernstein.h"
-#include "medial/vec2.h"
+#include "medial/geometry.h"
 
 namespace medial::curve {
 

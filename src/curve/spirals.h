@@ -8,7 +8,7 @@
 
 #include "base/compat.h"
 #include "curve/bezier.h"
-#include "medial/vec2.h"
+#include "medial/geometry.h"
 
 namespace medial::curve {
 

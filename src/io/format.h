@@ -13,8 +13,6 @@
 #include "io/output.h"
 #include "io/output_crs.h"
 #include "io/text_source.h"
-#include "medial/io/image.h"
-#include "medial/io/mesh.h"
 #include "medial/io/read.h"
 #include "medial/io/write.h"
 

@@ -7,7 +7,7 @@
 
 #include "base/disjoint_sets.h"
 #include "io/path_builder.h"
-#include "medial/box.h"
+#include "medial/geometry.h"
 
 namespace medial::io {
 

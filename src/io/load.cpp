@@ -1,9 +1,8 @@
-#include "medial/io/load.h"
-
 #include <utility>
 
 #include "io/formats/json.h"
 #include "io/place.h"
+#include "medial/io/read.h"
 
 namespace medial::io {
 

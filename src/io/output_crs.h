@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "medial/axis.h"
-#include "medial/io/projection.h"
+#include "medial/io/read.h"
 
 class OGRSpatialReference;
 

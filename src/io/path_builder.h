@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "medial/contour.h"
-#include "medial/vec2.h"
+#include "medial/geometry.h"
 
 namespace medial::io {
 

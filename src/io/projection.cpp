@@ -1,5 +1,3 @@
-#include "medial/io/projection.h"
-
 #include <fmt/format.h>
 #include <ogr_spatialref.h>
 
@@ -11,6 +9,7 @@
 #include "io/path_builder.h"
 #include "io/place.h"
 #include "io/project_curves.h"
+#include "medial/io/read.h"
 
 namespace medial::io {
 

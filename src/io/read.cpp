@@ -11,7 +11,6 @@
 #include "io/guarded.h"
 #include "io/place.h"
 #include "io/repair.h"
-#include "medial/io/projection.h"
 #include "medial/raster.h"
 
 namespace medial::io {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "io/format.h"
-#include "medial/vec2.h"
+#include "medial/geometry.h"
 
 namespace medial::io {
 

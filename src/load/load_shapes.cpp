@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "load/progress.h"
-#include "medial/curve_axis.h"
 #include "medial/load.h"
+#include "medial/methods.h"
 
 namespace medial {
 namespace {

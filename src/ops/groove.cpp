@@ -8,7 +8,7 @@
 
 #include "axis/curve.h"
 #include "base/numbers.h"
-#include "medial/box.h"
+#include "medial/geometry.h"
 
 namespace medial::ops {
 namespace {

@@ -1,11 +1,10 @@
-#include "medial/match.h"
-
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "axis/curve.h"
-#include "medial/box.h"
+#include "medial/features.h"
+#include "medial/geometry.h"
 #include "medial/query.h"
 #include "ops/burn.h"
 

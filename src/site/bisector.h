@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "medial/disk.h"
+#include "medial/geometry.h"
 #include "site/site.h"
 #include "site/tangent_disk.h"
 

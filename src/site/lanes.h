@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "medial/box.h"
+#include "medial/geometry.h"
 #include "site/site.h"
 
 #if defined(__SSE2__)

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "medial/vec2.h"
+#include "medial/geometry.h"
 
 namespace medial::site {
 

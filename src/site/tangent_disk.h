@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "medial/disk.h"
+#include "medial/geometry.h"
 #include "site/site.h"
 
 namespace medial::site {

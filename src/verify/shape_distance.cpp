@@ -1,8 +1,7 @@
-#include "medial/shape_distance.h"
-
 #include <algorithm>
 #include <limits>
 
+#include "medial/verify.h"
 #include "verify/boundary_edge.h"
 #include "verify/distance_tree.h"
 

@@ -2,7 +2,7 @@
 
 // Decisions in space that are exact for all finite coordinates.
 
-#include "medial/vec2.h"
+#include "medial/geometry.h"
 #include "medial/vec3.h"
 
 namespace medial::volume {

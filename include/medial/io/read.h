@@ -1,53 +1,76 @@
 #pragma once
 
-#include <cstdint>
-#include <optional>
-#include <string>
-#include <vector>
+// Files as documents, images, meshes and packs. `-` is standard input to read_dataset(),
+// read_image() and read_pack(). Errors of all: unreadable, malformed, unsupported, empty,
+// not_finite, too_large, out_of_memory.
 
-#include "medial/axis.h"
-#include "medial/contour.h"
+#include <memory>
+
 #include "medial/document.h"
-#include "medial/error.h"
-#include "medial/io/image.h"
 #include "medial/load.h"
-#include "medial/shape.h"
+#include "medial/pack.h"
+#include "medial/raster.h"
+#include "medial/volume.h"
 #include "medial/voronoi.h"
 
 namespace medial::io {
+
+struct ImageOptions {
+  /// Pixels at or above this value are foreground. Nothing: half of the format's largest value (128
+  /// of 8 bits, 0.5 of real numbers, any set bit of 1 bit).
+  std::optional<double> threshold;
+  bool invert = false;  ///< pixels below the threshold are foreground instead
+};
 
 struct ReadOptions {
   std::string layer;  ///< name of the layer; empty: the first
   std::string where;  ///< attribute filter of OGR SQL; empty: all
   /// Of polygons of straight edges; features with curves stay as they are, for load_shapes().
   RepairRule repair = RepairRule::none;
-  bool project = false;  ///< geographic coordinates to a fitting local projection, in metres
-  /// Of loose curves (DXF): ends at most this far apart, in units of the input, are joined; what
-  /// stays open is left out. Infinity closes whatever is open. Nothing: 1e-6 of the diagonal of the
-  /// bounding box.
+  bool project = false;  ///< project_to_local() geographic coordinates
+  /// Of loose curves (DXF): joins ends at most this far apart, in units of the input, and drops
+  /// what stays open; infinity closes all. Nothing: 1e-6 of the bounding box's diagonal.
   std::optional<double> close;
   ImageOptions image;  ///< of images: what is foreground
-  /// For planar graphs: points, lines and open curves are kept too, lines and points as chains,
-  /// open curves as contours that say so; of a drawing (SVG) also shapes that are not filled. A
-  /// plain text of one block is a list of points, one of several has a chain or a point in each.
+  /// For planar graphs: keeps points and lines as chains, and open curves as open contours; of a
+  /// drawing (SVG) also shapes that are not filled. A plain text of one block is a list of points,
+  /// one of several has a chain or a point in each.
   bool loose = false;
   bool smooth_contour = false;  ///< of images: smooth_outline() instead of pixel_outline()
 };
 
-/// Reads polygons and curved shapes. `-` is standard input (WKT, GeoJSON, SVG, DXF, `x y` text or
-/// medial's own by its first characters). .svg and .dxf are read as docs/inputs.md says; .wkt,
-/// .txt, .xy and .json of medial's own by fast readers; images (PNG, TIFF, PBM, PGM, by their
-/// first bytes) become one feature, the outline of their foreground with y downwards, or placed
-/// where the file says; all else by GDAL. Any may be compressed by gzip. Errors: unreadable,
-/// malformed, unsupported, empty, not_finite, no_area, too_large, invalid_option, out_of_memory.
+/// Reads polygons and curved shapes, gzipped or not: .svg and .dxf as docs/inputs.md says; .wkt,
+/// .txt, .xy and medial's own .json by fast readers; images (see is_image()) as one feature, the
+/// outline of their foreground with y downwards, or placed where the file says; all else by GDAL.
+/// Recognises WKT, GeoJSON, SVG, DXF, `x y` text and medial's own on standard input by their first
+/// characters. Errors: also no_area, invalid_option.
 Result<Document<Feature>> read_dataset(const std::string& path, const ReadOptions& options = {});
 
-/// The outlines of a text, set in one line with the font's advances and kerning: a feature for each
-/// character that has an outline, in font units, the baseline at y = 0. `text` is UTF-8, `font` a
-/// scalable font file (TrueType, OpenType, Type 1). A character that the font lacks is drawn as
-/// its replacement, with a note.
-/// Errors: unreadable, malformed (text), unsupported (bitmap fonts), empty, out_of_memory.
+/// The outlines of a UTF-8 text in one line, with the advances and kerning of a scalable font file
+/// (TrueType, OpenType, Type 1): a feature for each character with an outline, in font units, the
+/// baseline at y = 0. A character that the font lacks becomes its replacement, with a note.
 Result<Document<Feature>> read_text(const std::string& text, const std::string& font);
+
+/// How a file becomes shapes or planar graphs.
+struct SourceOptions {
+  ReadOptions read;  ///< its `repair` goes for features with curves as well
+  std::string text;  ///< not empty: the outlines of this text in the font `path`, see read_text()
+  LoadOptions load;  ///< but for `repair`
+};
+
+/// What a file holds, by read_dataset() or read_text(); of medial's .json shapes with their
+/// sources. Errors: theirs, with the file; invalid_option (an option that does not apply).
+Result<Document<Feature>> read_features(const std::string& path, const SourceOptions& options = {});
+
+/// The features of a file by medial::load_shapes(), as one shape each, or by medial::load_loose(),
+/// without repair. Errors: theirs, with the file.
+Result<Document<ShapeItem>> load_shapes(const std::string& path, const SourceOptions& options = {},
+                                        LoadReport* report = nullptr);
+Result<LoosePieces> load_loose(const std::string& path, const SourceOptions& options = {});
+
+/// Whether the file begins like medial's own JSON; and its content.
+bool is_native(const std::string& path);
+Result<Document<AxisItem>> read_native(const std::string& path);
 
 /// A shape and its Voronoi diagram.
 struct VoronoiItem {
@@ -56,14 +79,87 @@ struct VoronoiItem {
   Attributes attributes;
 };
 
-/// Whether the file begins like medial's own JSON; and its content. Errors: as read_dataset().
-bool is_native(const std::string& path);
-Result<Document<AxisItem>> read_native(const std::string& path);
-
-/// Whether the file is a .json of Voronoi diagrams as write_voronoi() makes it; and its diagrams,
-/// without shapes and reference system. Errors: unreadable, malformed, unsupported (a newer
-/// version), too_large (4 GiB or more), out_of_memory.
+/// Whether the file is a .json that write_voronoi() made; and its diagrams, without shapes and
+/// reference system. Errors: also unsupported (a newer version), too_large (4 GiB or more).
 bool is_voronoi(const std::string& path);
 Result<Document<VoronoiItem>> read_voronoi(const std::string& path);
+
+/// Projects longitudes and latitudes to metres in one local projection fitted to all features:
+/// where they lie within 300 km of their middle the transverse Mercator projection on its meridian
+/// (conformal: disks stay disks), elsewhere the azimuthal equal-area projection. A dataset without
+/// a reference system counts as WGS 84 if its coordinates can be degrees; a projected one only gets
+/// a note. Errors: invalid_option (no degrees), unsupported (points that cannot be projected).
+Status project_to_local(Document<Feature>& dataset);
+
+/// Whether a reference system is one that project_to_local() made.
+bool is_local_projection(const std::string& crs_wkt);
+
+/// Takes points of a local projection back to longitude and latitude.
+class BackToGeographic {
+ public:
+  /// Errors: unsupported (crs_wkt is no local projection).
+  static Result<BackToGeographic> make(const std::string& crs_wkt);
+  ~BackToGeographic();
+  BackToGeographic(BackToGeographic&&) noexcept;
+  BackToGeographic& operator=(BackToGeographic&&) noexcept;
+
+  /// In place, within 2 mm. Lengths and radii have no counterpart: they stay in metres.
+  Status transform(std::vector<Vec2>& points) const;
+  /// The geographic reference system, as WKT.
+  const std::string& crs_wkt() const;
+
+ private:
+  struct Transformation;
+  explicit BackToGeographic(std::unique_ptr<Transformation> transformation);
+  std::unique_ptr<Transformation> transformation_;
+};
+
+/// The upper left corner of pixel (c, r): (t[0] + c t[1] + r t[2], t[3] + c t[4] + r t[5]).
+using PixelPlacement = std::array<double, 6>;
+constexpr PixelPlacement unplaced = {0, 1, 0, 0, 0, 1};
+
+/// What a file of an image holds.
+struct ImageFile {
+  Image image;
+  PixelPlacement placement = unplaced;
+  std::string crs_wkt;  ///< coordinate reference system as WKT, empty if none
+  bool geographic = false;
+  std::vector<std::string> notes;
+
+  bool placed() const { return placement != unplaced; }
+};
+
+/// Whether a file begins like PNG, TIFF, PBM or PGM (P1, P2, P4, P5); false if it cannot be opened.
+bool is_image(const std::string& path);
+
+/// Reads a binary image: PBM (set bits, black, are the foreground) and PGM, gzipped or not, or PNG,
+/// TIFF and GeoTIFF through GDAL. Of colours the luminance counts (ITU-R BT.601); what is
+/// transparent or without data is background, inverted or not. Errors: also empty (no foreground).
+Result<ImageFile> read_image(const std::string& path, const ImageOptions& options = {});
+
+/// Reads a mesh by its extension and cuts polygons into triangles: .obj and .stl through Assimp, in
+/// single precision; .ply and .off, gzipped or not, in double precision. Errors: also unsupported
+/// (another format, faces of more than 1,024 corners, or a build without Assimp).
+Result<TriangleMesh> read_mesh(const std::string& path);
+
+enum class PackKind : std::uint8_t { axes, squares };
+
+/// A pack: a code, and what its picture needs. docs/pack.md describes the bytes.
+struct PackFile {
+  PackKind kind = PackKind::axes;
+  ShapeCode code;
+  std::string crs_wkt;
+  bool y_down = false;
+};
+
+/// From a file or from bytes. Memory at most 256 times that of the bytes, and 64 KiB. Errors: also
+/// malformed (a wrong checksum included), unsupported (another version).
+Result<PackFile> read_pack(const std::string& path);
+Result<PackFile> unpack_bytes(std::span<const std::uint8_t> bytes);
+
+/// The axes of a pack, with the shapes that their disks cover. `notes` (may be null) names the
+/// shapes that could not be built, which stay without points.
+Result<Document<AxisItem>> native_of(const PackFile& file,
+                                     std::vector<std::string>* notes = nullptr);
 
 }  // namespace medial::io

@@ -1,28 +1,19 @@
 #pragma once
 
-// Documents as files and pictures.
-
-#include <cstdint>
-#include <span>
-#include <string>
-#include <vector>
+// Documents as files and pictures. Functions write by the extension of `path`, or by `format` (an
+// extension without its dot) in its place; `-` is standard output, but of images and distances. A
+// file is written under a temporary name beside the target and renamed: there is never a partial
+// one. Formats of GIS, .wkt and .csv get longitudes and latitudes again where the reference system
+// is a local projection (project_to_local()); radii and lengths stay in metres. Errors of all:
+// unsupported, unwritable, invalid_option (chord, width), out_of_memory.
 
 #include "medial/carve.h"
-#include "medial/document.h"
-#include "medial/error.h"
 #include "medial/features.h"
-#include "medial/field.h"
 #include "medial/io/read.h"
+#include "medial/methods.h"
 #include "medial/offset.h"
 
 namespace medial::io {
-
-// Every function here writes by the extension of `path`; `-` is standard output and takes `format`
-// (an extension without its dot), which elsewhere stands in place of the extension. A file is
-// written under a temporary name beside the target and renamed: there is never a partial one.
-// Formats of GIS, .wkt and .csv get longitudes and latitudes again where the reference system is a
-// local projection (medial/io/projection.h); radii and lengths stay in metres. Errors of all:
-// unsupported, unwritable, invalid_option (chord, width), out_of_memory.
 
 enum class DocumentKind : std::uint8_t {
   axes,
@@ -55,8 +46,7 @@ struct WriteOptions {
   bool titles = false;    ///< write each item's attribute "title" below its shape
 };
 
-/// Axes. .json (native, docs/format.md) and .dxf have the curves themselves, other files chords; a
-/// .gpkg has a layer of nodes, too.
+/// Axes: exact in .json (native, docs/format.md) and .dxf, else chords; .gpkg also has the nodes.
 Status write_axes(const std::string& path, const std::string& format,
                   const Document<AxisItem>& file, const WriteOptions& options = {});
 
@@ -104,9 +94,7 @@ struct MachineOptions {
   double feed = 1000;   ///< of cutting moves, mm/min
   double plunge = 300;  ///< downwards, mm/min
   double spindle = 0;   ///< turns a minute; 0: the program does not set it
-  /// How far chords may be off arcs where a format has none (.csv), see without_arcs(); 0: 1e-6 of
-  /// the tool's radius at the bottom.
-  double chord = 0;
+  double chord = 0;     ///< of without_arcs() for .csv; 0: 1e-6 of the tool's radius at the bottom
 };
 
 /// Tool paths: .nc .gcode .ngc (plain G-code: G0 G1 G2 G3, absolute, millimetres, XY plane, arcs by
@@ -186,6 +174,34 @@ struct PreviewPanel {
 Status write_preview(const std::string& path, const std::string& format,
                      std::span<const Shape> shapes, std::span<const PreviewPanel> panels,
                      double width, bool y_down);
+
+/// An axis of voxels: .ply (binary) and .vtk (legacy, text) have points with radius and quality,
+/// and edges; .obj points and edges; .png three views of solid and axis, `width` pixels wide.
+Status write_voxels(const std::string& path, const std::string& format, const VoxelAxis& axis,
+                    const Solid& solid, double width = 1536);
+
+/// An image as .png, .tif (bytes 0 and 255) or .pbm, placed as `source`.
+Status write_image(const std::string& path, const Image& image, const ImageFile& source);
+
+struct DistanceFormat {
+  bool squared = false;  ///< the squared distance, exactly, instead of the distance
+  double scale = 1;      ///< what is written is this times the value
+};
+
+/// Distances: .tif holds them as 32 bits (real numbers, or squared whole ones), placed as `source`;
+/// .png and .pgm as the nearest whole numbers of 16 bits. Errors: also invalid_option (16 bits do
+/// not hold the largest value, or there is no background at all).
+Status write_distances(const std::string& path, const DistanceMap& distances,
+                       const ImageFile& source, const DistanceFormat& format = {});
+
+/// Bytes of a pack: the streams of its code compressed by zstd, one frame for all or one for each,
+/// whichever is shorter. Errors: internal. write_pack() writes them.
+Result<std::vector<std::uint8_t>> pack_bytes(const PackFile& file);
+Status write_pack(const std::string& path, const std::vector<std::uint8_t>& bytes);
+
+/// The number of bytes of a text or of a code compressed by zstd, at the level of packs.
+std::size_t compressed_size(std::span<const std::uint8_t> bytes);
+std::size_t compressed_size(const ShapeCode& code);
 
 /// Writes a text as it is.
 Status write_text(const std::string& path, const std::string& text);

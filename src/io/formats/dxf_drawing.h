@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "io/output.h"
-#include "medial/vec2.h"
+#include "medial/geometry.h"
 
 namespace medial::io {
 

@@ -12,7 +12,7 @@
 #include "io/guarded.h"
 #include "io/place.h"
 #include "io/text_source.h"
-#include "medial/io/image.h"
+#include "medial/io/read.h"
 
 namespace medial::io {
 

@@ -1,5 +1,3 @@
-#include "medial/io/pack.h"
-
 #include <fmt/format.h>
 #include <zstd.h>
 
@@ -9,6 +7,7 @@
 
 #include "io/guarded.h"
 #include "io/text_source.h"
+#include "medial/io/read.h"
 #include "medial/io/write.h"
 #include "medial/rebuild.h"
 #include "ops/code_bytes.h"

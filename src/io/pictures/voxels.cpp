@@ -13,7 +13,7 @@
 
 #include "io/formats/rasters.h"
 #include "io/pictures/pictures.h"
-#include "medial/box.h"
+#include "medial/geometry.h"
 
 namespace medial::io {
 

@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "medial/curve_axis.h"
+#include "medial/methods.h"
 #include "methods/curve_axis/generate.h"
 
 namespace medial::curve_axis {

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "medial/vec2.h"
+#include "medial/geometry.h"
 #include "methods/exact/numbers.h"
 
 namespace medial::exact {

@@ -1,9 +1,8 @@
-#include "medial/field.h"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "medial/methods.h"
 #include "methods/potential/force.h"
 #include "methods/potential/region.h"
 #include "shape/limits.h"

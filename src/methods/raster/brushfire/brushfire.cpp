@@ -5,7 +5,7 @@
 #include "axis/pixel_graph.h"
 #include "axis/sites.h"
 #include "base/stopwatch.h"
-#include "medial/brushfire.h"
+#include "medial/raster.h"
 #include "methods/raster/brushfire/fill.h"
 #include "methods/raster/ridge/digitize.h"
 #include "site/boundary_tree.h"

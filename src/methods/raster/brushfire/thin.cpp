@@ -2,7 +2,7 @@
 #include <array>
 
 #include "base/in_flight.h"
-#include "medial/brushfire.h"
+#include "medial/raster.h"
 #include "methods/raster/brushfire/front.h"
 #include "methods/raster/brushfire/rules.h"
 #include "methods/raster/brushfire/tiles.h"

@@ -1,10 +1,13 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
+// Points, disks and boxes of the plane, in the units of the input.
 namespace medial {
 
-/// A point or vector of the plane, in the units of the input.
+/// A point or vector.
 struct Vec2 {
   double x = 0;
   double y = 0;
@@ -17,7 +20,7 @@ struct Vec2 {
 };
 
 constexpr double dot(Vec2 a, Vec2 b) { return a.x * b.x + a.y * b.y; }
-/// z component of the cross product: positive where b lies to the left of a.
+/// The z component of the cross product: positive where b lies to the left of a.
 constexpr double cross(Vec2 a, Vec2 b) { return a.x * b.y - a.y * b.x; }
 /// a turned by a quarter turn to the left.
 constexpr Vec2 left_of(Vec2 a) { return {-a.y, a.x}; }
@@ -26,6 +29,34 @@ inline double norm(Vec2 a) { return std::sqrt(dot(a, a)); }
 inline double distance(Vec2 a, Vec2 b) { return norm(a - b); }
 constexpr Vec2 midpoint(Vec2 a, Vec2 b) {
   return {a.x + 0.5 * (b.x - a.x), a.y + 0.5 * (b.y - a.y)};
+}
+
+struct Disk {
+  Vec2 center;
+  double radius = 0;
+};
+
+/// A rectangle along the axes.
+struct Box {
+  Vec2 low;
+  Vec2 high;
+
+  /// The empty box, to add to.
+  static constexpr Box nothing() {
+    constexpr double endless = std::numeric_limits<double>::infinity();
+    return {{endless, endless}, {-endless, -endless}};
+  }
+  bool is_nothing() const { return !(low.x <= high.x); }
+  /// Grows to hold a point, or another box.
+  void add(Vec2 p) { add(Box{p, p}); }
+  void add(const Box& box) {
+    low = {std::min(low.x, box.low.x), std::min(low.y, box.low.y)};
+    high = {std::max(high.x, box.high.x), std::max(high.y, box.high.y)};
+  }
+};
+
+inline double diagonal(const Box& box) {
+  return std::hypot(box.high.x - box.low.x, box.high.y - box.low.y);
 }
 
 }  // namespace medial
