@@ -109,7 +109,7 @@ using Method = std::variant<method::Disks, method::BiarcDc, method::Lee, method:
 
 /// What a method's axes are made of.
 enum class Sampling : std::uint8_t {
-  none,    ///< exact curves
+  curves,  ///< exact ones
   points,  ///< points in steps along the axis
   pixels,  ///< pixels of a grid
 };
@@ -118,14 +118,14 @@ enum class Sampling : std::uint8_t {
 struct MethodInfo {
   const char* name;     ///< on the command line and in MedialAxis::method
   const char* summary;  ///< a few words
-  Sampling sampling = Sampling::none;
+  Sampling sampling = Sampling::curves;
   bool holes = true;      ///< shapes with holes
   bool arcs = true;       ///< boundaries with arcs
   bool exterior = true;   ///< Options::exterior
   bool part = false;      ///< computes a part of an axis
   bool contours = false;  ///< follows smooth contours in place of a shape
   bool threads = false;   ///< uses several threads
-  bool exact() const { return sampling == Sampling::none; }  ///< takes Options::exact
+  bool exact() const { return sampling == Sampling::curves; }  ///< takes Options::exact
 };
 
 /// All methods, in the order of Method's alternatives.

@@ -185,6 +185,40 @@ std::uint32_t BoundaryTree::beyond(const ChordBoxes& boxes, Vec2 c, double reach
   return lanes;
 }
 
+namespace {
+
+/// Of the four children from `child` on, as bits, those in [first, last]; without branches, which
+/// nobody could predict.
+inline std::uint32_t children_within(std::uint32_t child, std::uint32_t first, std::uint32_t last) {
+  const auto skipped = [](std::uint32_t from, std::uint32_t to) {
+    return std::max(static_cast<std::int32_t>(to - from), 0);
+  };
+  return (0xFu << skipped(child, first)) & (0xFu >> skipped(last, child + 3));
+}
+
+using Stack = std::array<Waiting, 4 * 16 + 4>;
+
+/// The nearest of the children in `mask`, at least one; the others wait, the farthest at the
+/// bottom.
+[[gnu::always_inline]] inline Waiting take_nearest(std::uint32_t mask, std::uint32_t child,
+                                                   std::uint32_t level, const Lanes& squared,
+                                                   Stack& stack, std::size_t& size) {
+  auto lane = static_cast<std::uint32_t>(std::countr_zero(mask));
+  Waiting top{child + lane, level, squared[lane]};
+  const std::size_t bottom = size;
+  for (mask &= mask - 1; mask != 0; mask &= mask - 1) {
+    lane = static_cast<std::uint32_t>(std::countr_zero(mask));
+    Waiting later{child + lane, level, squared[lane]};
+    if (later.squared < top.squared) std::swap(later, top);
+    std::size_t at = size++;
+    for (; at > bottom && stack[at - 1].squared < later.squared; --at) stack[at] = stack[at - 1];
+    stack[at] = later;
+  }
+  return top;
+}
+
+}  // namespace
+
 template <class Visit>
 [[gnu::always_inline]] inline void BoundaryTree::visit_blocks(Vec2 c, double& reach,
                                                               std::uint32_t first,
@@ -208,7 +242,7 @@ template <class Visit>
   const auto common = static_cast<std::uint32_t>(std::bit_width(first_block ^ last_block) + 1) / 2;
   const auto chord_count = static_cast<std::uint32_t>(chords_.size());
 
-  std::array<Waiting, 4 * 16 + 4> stack;
+  Stack stack;
   std::size_t size = 0;
   Waiting top{first_block >> (2 * common), common, 0};
   for (;;) {
@@ -220,31 +254,14 @@ template <class Visit>
       const std::uint32_t below = top.level - 1;
       const Boxes& boxes = levels_[below][top.index];
       const std::uint32_t child = top.index * fan;
-      // Of the four lanes those that the range reaches; without branches, which nobody could guess.
-      const auto skipped = [](std::uint32_t from, std::uint32_t to) {
-        return std::max(static_cast<std::int32_t>(to - from), 0);
-      };
-      std::uint32_t mask = (0xFu << skipped(child, first_block >> (2 * below))) &
-                           (0xFu >> skipped(last_block >> (2 * below), child + 3));
-
+      std::uint32_t mask =
+          children_within(child, first_block >> (2 * below), last_block >> (2 * below));
       Lanes squared;
       mask &= nearer(boxes, x, y, limit, squared);
       if (below < chord_count && mask != 0 && !chords_[below].empty())
         mask &= ~beyond(chords_[below][top.index], c, reach);
       if (mask != 0) {
-        // Go on with the nearest; the others wait, the farthest at the bottom.
-        auto lane = static_cast<std::uint32_t>(std::countr_zero(mask));
-        top = {child + lane, below, squared[lane]};
-        const std::size_t bottom = size;
-        for (mask &= mask - 1; mask != 0; mask &= mask - 1) {
-          lane = static_cast<std::uint32_t>(std::countr_zero(mask));
-          Waiting later{child + lane, below, squared[lane]};
-          if (later.squared < top.squared) std::swap(later, top);
-          std::size_t at = size++;
-          for (; at > bottom && stack[at - 1].squared < later.squared; --at)
-            stack[at] = stack[at - 1];
-          stack[at] = later;
-        }
+        top = take_nearest(mask, child, below, squared, stack, size);
         continue;
       }
     }

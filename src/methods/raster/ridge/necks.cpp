@@ -9,6 +9,8 @@
 #include <queue>
 #include <span>
 
+#include "base/runs.h"
+
 namespace medial::ridge {
 namespace {
 
