@@ -15,6 +15,7 @@
 #include "medial/io/read.h"
 #include "medial/io/write.h"
 #include "support/environment.h"
+#include "support/scratch_folder.h"
 #include "support/solids.h"
 
 namespace medial {
@@ -22,31 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class MeshFiles : public testing::Test {
- protected:
-  void SetUp() override {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::path(testing::TempDir()) / (std::string("medial_mesh_") + test->name());
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  std::string write(const std::string& name, const std::string& text) const {
-    const fs::path path = folder_ / name;
-    std::ofstream(path, std::ios::binary) << text;
-    return path.string();
-  }
-  std::string read(const std::string& name) const {
-    std::ifstream in(folder_ / name, std::ios::binary);
-    std::ostringstream text;
-    text << in.rdbuf();
-    return text.str();
-  }
-  std::string path(const std::string& name) const { return (folder_ / name).string(); }
-
- private:
-  fs::path folder_;
-};
+using MeshFiles = test::ScratchFolder;
 
 /// What this build reads.
 #ifdef MEDIAL_MESH
@@ -294,7 +271,7 @@ TEST_F(MeshFiles, HoldTheAxis) {
     const Status written = io::write_voxels(path("axis." + format), "", *axis, *solid, 300);
     ASSERT_TRUE(written.ok()) << to_string(written.error());
   }
-  const std::string ply = read("axis.ply");
+  const std::string ply = content("axis.ply");
   const std::size_t body = ply.find("end_header\n") + 11;
   EXPECT_EQ(ply.size() - body, voxels * 5 * 8 + links * 2 * 4);
   double first[5];
@@ -302,7 +279,7 @@ TEST_F(MeshFiles, HoldTheAxis) {
   EXPECT_EQ(first[0], axis->voxels[0].center.x);
   EXPECT_EQ(first[3], axis->voxels[0].radius);
 
-  std::istringstream obj(read("axis.obj"));
+  std::istringstream obj(content("axis.obj"));
   std::size_t points = 0, lines = 0;
   for (std::string line; std::getline(obj, line);) {
     points += line.starts_with("v ");
@@ -311,12 +288,12 @@ TEST_F(MeshFiles, HoldTheAxis) {
   EXPECT_EQ(points, voxels);
   EXPECT_EQ(lines, links);
 
-  const std::string vtk = read("axis.vtk");
+  const std::string vtk = content("axis.vtk");
   EXPECT_NE(vtk.find("POINTS " + std::to_string(voxels) + " double"), std::string::npos);
   EXPECT_NE(vtk.find("LINES " + std::to_string(links) + ' ' + std::to_string(3 * links)),
             std::string::npos);
   EXPECT_NE(vtk.find("SCALARS radius double 1"), std::string::npos);
-  EXPECT_EQ(read("axis.png").substr(1, 3), "PNG");
+  EXPECT_EQ(content("axis.png").substr(1, 3), "PNG");
 
   EXPECT_EQ(io::write_voxels(path("axis.txt"), "", *axis, *solid).error().code,
             ErrorCode::unsupported);

@@ -1,5 +1,5 @@
 // The axis of every shape of a file, as a picture.
-#include <medial/io/load.h>
+#include <medial/io/read.h>
 #include <medial/io/write.h>
 #include <medial/medial.h>
 
