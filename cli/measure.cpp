@@ -114,11 +114,7 @@ Result<Measured> measure(const AxisItem& item, const std::vector<AxisPath>& path
   out.mean = mean_width(item.axis, all);
   if (!item.axis.nodes.empty()) out.widest = deepest_disk(item.axis);
   out.necks = necks(item.axis, arguments.widening);
-  if (arguments.disks > 0) {
-    auto disks = largest_disjoint_disks(item.shape, arguments.disks, 0, &item.axis);
-    if (!disks) return std::move(disks).error();
-    out.disks = std::move(disks).value();
-  }
+  if (arguments.disks > 0) out.disks = largest_disjoint_disks(item.shape, arguments.disks);
   return out;
 }
 

@@ -55,12 +55,11 @@ struct MeanWidth {
 MeanWidth mean_width(const MedialAxis& axis, const AxisPath& path);
 
 /// At most `count` disks without overlap, by decreasing radius, none smaller than `smallest`: each
-/// is the deepest disk of the shape less the disks before it. Computes one axis for each disk but
-/// the first, and the shape's own unless `axis` is it and exact. Errors: those of compute();
-/// invalid_option; unsupported, with the last disk's centre, where what a disk leaves of a shape
-/// some 1e5 times as long as wide is too thin for the tolerance.
-Result<std::vector<Disk>> largest_disjoint_disks(const Shape& shape, std::size_t count,
-                                                 double smallest = 0,
-                                                 const MedialAxis* axis = nullptr);
+/// is the deepest disk of the shape less the disks before it, to the rounding of the coordinates;
+/// the first is the maximum inscribed circle. Needs no axis: branch and bound over squares. O(n)
+/// for the boundary's tree, then O(log n + k) for each square examined and k disks before, of which
+/// real outlines need tens to hundreds for each disk.
+std::vector<Disk> largest_disjoint_disks(const Shape& shape, std::size_t count,
+                                         double smallest = 0);
 
 }  // namespace medial
