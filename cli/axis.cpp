@@ -73,7 +73,7 @@ void add_method_options(CLI::App& command, MethodArguments& arguments) {
       .add_option_function<std::string>(
           "--method",
           [&arguments](const std::string& name) { arguments.chosen = *method_from(name); }, help)
-      ->check(CLI::IsMember(names).description(""))
+      ->check(CLI::IsMember(names))
       ->option_text("NAME");
   add_value(command, "--seed", arguments.of<method::BiarcDc>().seed, "N", a_whole_number(),
             "Seed of the random choices of biarc-dc (default: 1). The same seed gives the\n"

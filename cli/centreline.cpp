@@ -251,6 +251,7 @@ Command make_centreline_command(CLI::App& program) {
   auto arguments = std::make_shared<CentrelineArguments>();
   CLI::App* command = program.add_subcommand(
       "centreline", "Compute the centre lines of shapes, or the widest way between two places.");
+  command->alias("centerline");
   add_input_options(*command, arguments->input);
   add_output_options(*command, *arguments, io::formats_of(io::DocumentKind::axes));
   add_path_options(*command, arguments->path);

@@ -35,6 +35,7 @@ MakeCommand make_axis_command, make_verify_command, make_info_command, make_lega
     make_features_command, make_match_command, make_pack_command, make_unpack_command,
     make_voronoi_command, make_distance_command, make_voxels_command, make_methods_command,
     make_field_command, make_compare_command, make_offset_command, make_centreline_command,
-    make_measure_command, make_carve_command;
+    make_measure_command, make_carve_command, make_doctor_command, make_help_command,
+    make_completion_command;
 
 }  // namespace medial::cli

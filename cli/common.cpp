@@ -78,7 +78,7 @@ void settle_input(InputOptions& input, const std::string& second_name, std::stri
 }
 
 void add_curve_options(CLI::App& command, InputOptions& input) {
-  const OptionGroup group(command, "Curves");
+  const OptionGroup group(command, curve_group);
   command
       .add_option("--text", input.source.text,
                   "Instead of INPUT: the outlines of this text, in font units; each\n"
@@ -117,9 +117,9 @@ void add_curve_options(CLI::App& command, InputOptions& input) {
 
 }  // namespace
 
-OptionGroup::OptionGroup(CLI::App& command, const std::string& name)
+OptionGroup::OptionGroup(CLI::App& command, std::string_view name)
     : command_(command), before_(command.option_defaults()->get_group()) {
-  command.option_defaults()->group(name);
+  command.option_defaults()->group(std::string(name));
 }
 
 OptionGroup::~OptionGroup() { command_.option_defaults()->group(before_); }
@@ -128,12 +128,16 @@ void add_input_options(CLI::App& command, InputOptions& input, const std::string
                        const std::string& second_help, std::string& second) {
   add_input_options(command, input);
   command.add_option(second_name, second, second_help)->option_text(" ");
-  command.parse_complete_callback(
-      [&input, &second, second_name] { settle_input(input, second_name, &second); });
+  command.parse_complete_callback([&command, &input, &second, second_name] {
+    if (command.remaining_size() == 0) settle_input(input, second_name, &second);
+  });
 }
 
 void add_input_options(CLI::App& command, InputOptions& input) {
-  command.parse_complete_callback([&input] { settle_input(input, {}, nullptr); });
+  // Words that no option takes are reported first.
+  command.parse_complete_callback([&command, &input] {
+    if (command.remaining_size() == 0) settle_input(input, {}, nullptr);
+  });
   io::ReadOptions& read = input.source.read;
   command
       .add_option("INPUT", input.path,
@@ -141,6 +145,7 @@ void add_input_options(CLI::App& command, InputOptions& input) {
                   "text, medial's own .json, any of them with .gz; a binary image (PNG, TIFF,\n"
                   "GeoTIFF, PGM, PBM); or - for standard input.")
       ->option_text(" ");
+  const OptionGroup group(command, input_group);
   command.add_option("--layer", read.layer, "Read this layer (default: the first).")
       ->option_text("NAME");
   command
@@ -200,10 +205,6 @@ void add_output_options(CLI::App& command, FileArguments& arguments, const std::
   add_format_option(command, arguments.format, piped);
 }
 
-namespace {
-constexpr char common_group[] = "Common options";
-}  // namespace
-
 void add_threads_option(CLI::App& command, int& threads) {
   const OptionGroup group(command, common_group);
   add_value(command, "--threads", threads, "N", in_range(0, most_threads),
@@ -237,7 +238,7 @@ void add_common_options(CLI::App& command, CommonOptions& common) {
 }
 
 void add_width_option(CLI::App& command, double& width) {
-  const OptionGroup group(command, "Pictures");
+  const OptionGroup group(command, picture_group);
   add_value(command, "--width", width, "W", in_range(narrowest_picture, widest_picture),
             fmt::format("Width of a picture, in pixels (.png) or points of 1/72 inch\n"
                         "(.svg .pdf .ps) (default: {:g}).",
@@ -246,7 +247,7 @@ void add_width_option(CLI::App& command, double& width) {
 
 void add_picture_options(CLI::App& command, io::WriteOptions& write) {
   add_width_option(command, write.width);
-  const OptionGroup group(command, "Pictures");
+  const OptionGroup group(command, picture_group);
   add_value(command, "--disks", write.disks, "N", in_range(0, most_disks),
             "Draw about N maximal disks, spread over the axis (default: 0).");
   command.add_flag("--contacts", write.contacts, "Draw where the nodes' disks touch the boundary.");
@@ -322,33 +323,6 @@ CLI::Option* add_list_option(CLI::App& command, const std::string& name, std::si
       .add_option_function<std::string>(
           name, [take](const std::string& text) { take(*numbers_of(text)); }, help)
       ->check(CLI::Validator(check, ""));
-}
-
-std::string explain(const CLI::ParseError& error, const CLI::App& command) {
-  std::string text = error.what();
-  const std::string name = text.substr(0, text.find(':'));
-  if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
-    std::vector<std::string> extra = command.remaining(true);
-    // Those without a dash come in reverse order.
-    const auto unknown = std::ranges::find_if(
-        extra, [](const std::string& word) { return word.size() > 1 && word[0] == '-'; });
-    if (unknown != extra.end()) return "unknown option: " + *unknown;
-    return extra.empty() ? text : "unexpected argument: " + extra.back();
-  }
-  if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr &&
-      text.find(" required ") != std::string::npos)
-    return name + " needs a value";
-  if (dynamic_cast<const CLI::ConversionError*>(&error) != nullptr) {
-    const std::size_t equals = text.find(" = ");
-    const std::size_t begin = text.find(": ");
-    if (equals == std::string::npos || begin == std::string::npos) return text;
-    const std::string option = text.substr(begin + 2, equals - begin - 2);
-    const CLI::Option* found = command.get_option_no_throw(option);
-    const bool whole = found != nullptr && found->get_type_name().find("INT") != std::string::npos;
-    return fmt::format("{}: '{}' is not a {}", option, text.substr(equals + 3),
-                       whole ? "whole number in range" : "number");
-  }
-  return text;
 }
 
 CLI::Validator a_name() {

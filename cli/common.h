@@ -111,7 +111,7 @@ CLI::Option* add_choice(CLI::App& command, const std::string& name, T& variable,
       if (choice == chosen) variable = meaning;
   };
   return command.add_option_function<std::string>(name, take, help)
-      ->check(CLI::IsMember(names).description(""))
+      ->check(CLI::IsMember(names))
       ->option_text("NAME");
 }
 /// Adds an option for numbers with commas between them: `count` of them, or for 0 one or more.
@@ -119,10 +119,14 @@ CLI::Option* add_list_option(CLI::App& command, const std::string& name, std::si
                              const std::function<void(const std::vector<double>&)>& take,
                              const std::string& help);
 
+/// Groups of options that many commands share.
+inline constexpr std::string_view input_group = "Input", curve_group = "Curves",
+                                  picture_group = "Pictures", common_group = "Common options";
+
 /// The options that are added while it lives form a group of help texts.
 class OptionGroup {
  public:
-  OptionGroup(CLI::App& command, const std::string& name);
+  OptionGroup(CLI::App& command, std::string_view name);
   ~OptionGroup();
   OptionGroup(const OptionGroup&) = delete;
   OptionGroup& operator=(const OptionGroup&) = delete;
@@ -131,9 +135,6 @@ class OptionGroup {
   CLI::App& command_;
   std::string before_;
 };
-
-/// What is wrong with a command line, in words for whoever typed it.
-std::string explain(const CLI::ParseError& error, const CLI::App& command);
 
 /// Checks that `path` can be written later, before any long work: a known format, a directory that
 /// takes files, nothing there but a regular file that may be replaced, and not the input itself.

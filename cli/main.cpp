@@ -11,27 +11,11 @@
 
 #include "cli/commands.h"
 #include "cli/common.h"
+#include "cli/help.h"
 #include "medial/threads.h"
 
 namespace medial::cli {
 namespace {
-
-/// CLI11's help, with `--repair[=RULE]`, `--close[=GAP]` and `--specks[=SHARE]` for flags that may
-/// carry a value.
-class HelpFormatter : public CLI::Formatter {
- public:
-  HelpFormatter() { column_width(27); }
-
-  std::string make_option_name(const CLI::Option* option, bool is_positional) const override {
-    std::string name = CLI::Formatter::make_option_name(option, is_positional);
-    const auto brace = name.find('{');
-    if (brace == std::string::npos) return name;
-    const bool negative = name.find("{false}") == brace;
-    name.resize(brace);
-    if (negative) return name;
-    return name + (name == "--close" ? "[=GAP]" : name == "--specks" ? "[=SHARE]" : "[=RULE]");
-  }
-};
 
 int requested_threads(const CLI::App& command) {
   const CLI::Option* option = command.get_option_no_throw("--threads");
@@ -40,28 +24,13 @@ int requested_threads(const CLI::App& command) {
 
 /// In the order of the help.
 constexpr MakeCommand* makers[] = {
-    make_axis_command,     make_verify_command,   make_info_command,   make_legal_command,
-    make_draw_command,     make_prune_command,    make_smooth_command, make_rebuild_command,
-    make_features_command, make_match_command,    make_pack_command,   make_unpack_command,
-    make_voronoi_command,  make_distance_command, make_voxels_command, make_field_command,
-    make_compare_command,  make_methods_command,  make_offset_command, make_centreline_command,
-    make_measure_command,  make_carve_command};
-
-void describe_program(CLI::App& program) {
-  program.name("medial");
-  program.formatter(std::make_shared<HelpFormatter>());
-  program.set_version_flag("--version", "medial " MEDIAL_VERSION, "Print the version.");
-  program.set_help_flag("--help,-h", "Print this help.");
-  program.require_subcommand(1);
-  program.get_formatter()->label("SUBCOMMAND", "COMMAND");
-  program.footer(
-      "Run `medial COMMAND --help` for its options and examples.\n"
-      "\n"
-      "Exit status: 0 for success; 1 if `verify`, `legal` or `compare` rejects an axis; 2 for an\n"
-      "error, printed as one line on standard error: `medial: FILE: feature F, ring R, vertex V\n"
-      "at (X, Y): what is wrong [code]`. Features, rings and vertices count from 0. No output is\n"
-      "written then, and an interrupted run leaves no partial file.");
-}
+    make_axis_command,      make_verify_command,   make_info_command,   make_legal_command,
+    make_draw_command,      make_prune_command,    make_smooth_command, make_rebuild_command,
+    make_features_command,  make_match_command,    make_pack_command,   make_unpack_command,
+    make_voronoi_command,   make_distance_command, make_voxels_command, make_field_command,
+    make_compare_command,   make_methods_command,  make_offset_command, make_centreline_command,
+    make_measure_command,   make_carve_command,    make_doctor_command, make_help_command,
+    make_completion_command};
 
 /// Prints the help or the version, or what is wrong with the command line.
 int explain_and_exit(const CLI::App& program, const CLI::ParseError& parse_error, bool json) {
@@ -71,19 +40,27 @@ int explain_and_exit(const CLI::App& program, const CLI::ParseError& parse_error
     const Status printed = print(text.str());
     return printed ? exit_success : report_error(printed.error(), json);
   }
-  const std::vector<const CLI::App*> chosen =
-      program.get_subcommands([](const CLI::App* command) { return command->parsed(); });
-  if (!chosen.empty()) {
-    const std::string hint = "; see medial " + chosen.back()->get_name() + " --help";
-    return report_error(invalid_option(explain(parse_error, *chosen.back())), json, hint);
-  }
-  const std::vector<std::string> unknown = program.remaining();
-  return report_error(
-      invalid_option(unknown.empty() ? "a command is missing" : "unknown command: " + unknown[0]),
-      json, "; see medial --help");
+  const auto [text, hint] = explain(parse_error, program);
+  return report_error(invalid_option(text), json, hint);
 }
 
-int run(int argc, char** argv, bool json) {
+/// An option whose value may be missing gets the one that its help gives, unless a number follows:
+/// CLI11 would take the next word, whatever it is.
+void give_default_values(CLI::App& program, std::vector<std::string>& words) {
+  const CLI::App* command = words.empty() ? nullptr : find_command(program, words[0]);
+  if (command == nullptr) return;
+  for (std::size_t i = 1; i < words.size() && words[i] != "--"; ++i) {
+    const CLI::Option* option = command->get_option_no_throw(words[i]);
+    double number = 0;
+    if (option == nullptr || option->get_items_expected_min() > 0 ||
+        option->get_items_expected_max() == 0 ||
+        (i + 1 < words.size() && CLI::detail::lexical_cast(words[i + 1], number)))
+      continue;
+    words[i] += "=" + option->get_default_str();
+  }
+}
+
+int run(std::vector<std::string> words, bool json) {
   CLI::App program(
       "Exact medial axis transform of shapes with holes: all centres of the largest\n"
       "disks inside a shape, with their radii.");
@@ -93,8 +70,14 @@ int run(int argc, char** argv, bool json) {
     commands.push_back(make(program));
     commands.back().app->group("Commands");
   }
+  heed_help_anywhere(program);
+  if (!words.empty() &&
+      (words[0] == "-h" || words[0].starts_with("--help")))  // of the command that follows
+    std::rotate(words.begin(), words.begin() + 1, words.end());
+  give_default_values(program, words);
   try {
-    program.parse(argc, argv);
+    std::ranges::reverse(words);  // as CLI11 takes them
+    program.parse(std::move(words));
   } catch (const CLI::ParseError& parse_error) {
     return explain_and_exit(program, parse_error, json);
   }
@@ -122,7 +105,7 @@ int main(int argc, char** argv) {
     cli::be_quiet();
   Error error{ErrorCode::internal, "something unexpected happened", {}};
   try {
-    return cli::run(argc, argv, json);
+    return cli::run({argv + 1, argv + argc}, json);
   } catch (const std::bad_alloc&) {
     error = {ErrorCode::out_of_memory, "memory ran out", {}};
   } catch (const std::exception& exception) {

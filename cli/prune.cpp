@@ -42,10 +42,13 @@ void add_prune_options(CLI::App& command, PruneArguments& arguments) {
   std::vector<CLI::Option*> options;
   for (const PruneMeasure measure : prune_measures()) {
     const auto index = static_cast<std::size_t>(measure);
-    CLI::Option* option = add_value(
-        command, fmt::format("--{}", name_of(measure)), arguments.thresholds[index], "T",
-        in_range(0, 1e9),
-        fmt::format("{} (default: {}).", measure_helps.at(index), default_threshold(measure)));
+    CLI::Option* option =
+        add_value(command, fmt::format("--{}", name_of(measure)), arguments.thresholds[index], "T",
+                  in_range(0, 1e9),
+                  fmt::format("{} ({}).", measure_helps.at(index), default_threshold(measure)));
+    option->expected(0, 1)
+        ->default_str(fmt::format("{}", default_threshold(measure)))
+        ->option_text("[T]");
     for (CLI::Option* other : options) option->excludes(other);
     options.push_back(option);
   }

@@ -140,7 +140,7 @@ Command make_voronoi_command(CLI::App& program) {
       ->add_option("--method", arguments->method,
                    "The method: disks (default), of everything in the file together, within a\n"
                    "frame; or lee, inside each polygon.")
-      ->check(CLI::IsMember({"disks", "lee"}).description(""))
+      ->check(CLI::IsMember({"disks", "lee"}))
       ->option_text("NAME");
   add_value(*command, "--margin", arguments->margin, "M", a_positive_number(),
             "The distance from the input's bounding box to the frame, in units of the\n"

@@ -63,12 +63,17 @@ page=$(find "$prefix" -name medial.1)
 [ -n "$page" ] || fail "no manual page"
 sed 's/\\-/-/g' "$page" > "$scratch/page"
 
-# The manual page names every command and option that --help lists.
+# The manual page names every command and option that --help-all lists.
 for command in "" axis verify info draw; do
   # shellcheck disable=SC2086
-  "$prefix/bin/medial" $command --help
+  "$prefix/bin/medial" $command --help-all
 done | grep -oE '(^|[ ,])--[a-z-]+' | tr -d ' ,' | sort -u | while read -r option; do
   grep -q -e "$option" "$scratch/page" || fail "the manual page lacks $option"
+done
+
+# Completion, where the shells look for it.
+for script in bash-completion/completions/medial zsh/site-functions/_medial fish/vendor_completions.d/medial.fish; do
+  grep -q centreline "$prefix/share/$script" || fail "no completion in $script"
 done
 
 echo "installed, found, built and run: $expected"

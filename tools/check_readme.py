@@ -6,7 +6,7 @@
 Runs the `medial` commands of every page's sh blocks, and those of the manual's examples, in a scratch folder
 with data/, page by page in their order. Looks for what the pages link to and cite, for the paths that they
 name, for the `make` targets, and for the functions and options that the pages in docs name; compares the
-manual with `--help`, and README.md's C++ with the example that the install test builds; counts the words of
+manual with `--help-all`, and README.md's C++ with the example that the install test builds; counts the words of
 the pages in docs.
 """
 
@@ -131,7 +131,7 @@ def faults_of_example(page):
 
 
 def help_of(program, *command):
-    return subprocess.run([program, *command, "--help"], capture_output=True, text=True, check=True).stdout
+    return subprocess.run([program, *command, "--help-all" if command else "--help"], capture_output=True, text=True, check=True).stdout
 
 
 def commands_and_options(program):

@@ -1,6 +1,9 @@
-"""`--help` and `--version`."""
+"""What the command line says about itself: help pages, suggestions, completion, `doctor`."""
 
-from support import CommandLine
+import json
+import subprocess
+
+from support import CommandLine, FRAME
 
 
 class Help(CommandLine):
@@ -9,7 +12,7 @@ class Help(CommandLine):
         for command in ("axis", "verify", "info", "draw"):
             self.assertIn(f"  {command} ", text)
         for command in ("axis", "verify", "info", "draw"):
-            own = self.succeed(command, "--help").stdout.decode()
+            own = self.succeed(command, "--help-all").stdout.decode()
             for word in ("Usage", "Example", "--threads", "--tolerance", "--chord", "--stats",
                          "--json", "--quiet", "default", "--repair[=RULE]", "--close[=GAP]"):
                 self.assertIn(word, own)
@@ -18,3 +21,88 @@ class Help(CommandLine):
     def test_no_such_command(self):
         self.assertIn("unknown command: axes", self.refuse("invalid_option", "axes"))
         self.assertIn("a command is missing", self.refuse("invalid_option"))
+
+    def test_pages_begin_with_examples_and_fold_shared_options(self):
+        page = self.succeed("prune", "--help").stdout.decode()
+        self.assertLess(page.index("Examples:"), page.index("Options:"))
+        self.assertLess(page.index("--keep N"), page.index("described by --help-all"))
+        self.assertLess(page.index("described by --help-all"), page.index("--threads"))
+        self.assertNotIn("Threads to use", page)
+        self.assertIn("Threads to use", self.succeed("prune", "--help-all").stdout.decode())
+        for command in self.commands():
+            self.assertLess(len(self.succeed(command, "--help").stdout.splitlines()), 75, command)
+
+    def test_help_of_a_command(self):
+        page = self.succeed("prune", "--help").stdout
+        for line in (["help", "prune"], ["prune", "-h"], ["-h", "prune"], ["prune", "--bogus", "-h"],
+                     ["prune", "no.wkt", "--threads", "x", "-h"], ["prune", "-h", "--keep", "-1"]):
+            self.assertEqual(self.succeed(*line).stdout, page, line)
+        self.assertEqual(self.succeed("help").stdout, self.succeed("--help").stdout)
+        self.assertEqual(self.succeed("help", "centerline").stdout,
+                         self.succeed("centreline", "-h").stdout)
+        self.assertIn("did you mean prune?", self.refuse("invalid_option", "help", "prun"))
+
+    def test_suggestions(self):
+        self.write("frame.wkt", FRAME)
+        for line, meant in ((["axs"], "axis"), (["centrline"], "centreline"),
+                            (["prune", "--keap", "3"], "--keep"), (["axis", "--exect"], "--exact"),
+                            (["axis", "frame.wkt", "--thread=2"], "--threads"),
+                            (["prune", "frame.wkt", "--signif"], "--significance")):
+            self.assertIn(f"did you mean {meant}?", self.refuse("invalid_option", *line))
+        self.assertIn("unknown option: --keep, an option of prune, smooth",
+                      self.refuse("invalid_option", "axis", "frame.wkt", "--keep", "3"))
+        self.assertNotIn("did you mean", self.refuse("invalid_option", "axis", "--zebra"))
+
+    def test_american_spelling(self):
+        self.write("frame.wkt", FRAME)
+        self.assertEqual(self.succeed("centerline", "frame.wkt", "-o", "-").stdout,
+                         self.succeed("centreline", "frame.wkt", "-o", "-").stdout)
+
+    def test_values_that_help_gives_may_be_left_out(self):
+        self.write("frame.wkt", FRAME)
+        named = self.succeed("prune", "frame.wkt", "--significance", "0.3", "-o", "-").stdout
+        self.assertEqual(self.succeed("prune", "--significance", "frame.wkt", "-o", "-").stdout, named)
+        self.assertEqual(self.succeed("prune", "frame.wkt", "-o", "-", "--significance").stdout, named)
+        self.assertNotEqual(
+            self.succeed("prune", "frame.wkt", "--significance", "3", "-o", "-").stdout, named)
+
+    def commands(self):
+        listed = self.succeed("--help").stdout.decode().split("Commands:\n")[1].split("\n\n")[0]
+        return [line.split()[0] for line in listed.splitlines()]
+
+
+class Completion(CommandLine):
+    def complete(self, *words):
+        """What bash offers behind these words; the last of them is begun."""
+        script = self.succeed("completion", "bash").stdout.decode()
+        script += f'COMP_WORDS=({" ".join(repr(word) for word in words)}); COMP_CWORD={len(words) - 1}\n'
+        script += 'COMPREPLY=(); _medial; printf "%s\n" "${COMPREPLY[@]}"\n'
+        done = subprocess.run(["bash", "-c", script], capture_output=True, text=True, check=True)
+        return done.stdout.split()
+
+    def test_bash(self):
+        self.assertEqual(self.complete("medial", "pr"), ["prune"])
+        self.assertEqual(self.complete("medial", "prune", "--sig"), ["--significance"])
+        self.assertIn("ridge", self.complete("medial", "axis", "--method", ""))
+        self.assertEqual(self.complete("medial", "help", "cen"), ["centreline"])
+        self.assertEqual(self.complete("medial", "prune", "plan"), [])
+
+    def test_zsh_and_fish_have_every_command(self):
+        for shell, begin in (("zsh", "#compdef medial"), ("fish", "complete -c medial")):
+            script = self.succeed("completion", shell).stdout.decode()
+            self.assertTrue(script.startswith(begin))
+            for word in ("centreline", "significance", "brushfire"):
+                self.assertIn(word, script)
+        self.refuse("invalid_option", "completion", "csh")
+
+
+class Doctor(CommandLine):
+    def test_doctor(self):
+        found = json.loads(self.succeed("doctor", "--json").stdout)
+        self.assertEqual(found["axis"], "works")
+        self.assertEqual(found["projections"], "works")
+        self.assertEqual(found["exact"], "no" if self.lacks("exact") else "works")
+        self.assertEqual(".dxf" in found["written"]["axes"], not self.lacks("DXF"))
+        self.assertRegex(found["libraries"]["GDAL"], r"^\d+\.\d+")
+        version = self.succeed("--version").stdout.decode().split()[1]
+        self.assertIn(version, self.succeed("doctor").stdout.decode().splitlines()[0])
