@@ -15,11 +15,13 @@ ASAN := build/asan
 TSAN := build/tsan
 SERIAL := build/serial
 CHECK := build/check
+# An environment of Python with the package, its tests' and its documentation's packages.
+VENV := build/python/venv
 # Debian 12 has two versions of Boost, one of which can be installed; CGAL and GDAL ask for the older.
 BENCH_BOOST := build/boost-1.81
 SOURCES = $(shell git ls-files '*.h' '*.cpp')
 
-.PHONY: help setup build demo check test papers bench bench-flo-mat bench-images fuzz corpus offsets tsan serial portable format lint clean install
+.PHONY: help setup build demo check test papers bench bench-flo-mat bench-images fuzz corpus offsets tsan serial portable python wheels docs format lint clean install
 .DEFAULT_GOAL := help
 
 help:     ## list the targets
@@ -42,11 +44,25 @@ check: setup    ## after a change: compile what changed, run the quick tests
 	@ctest --preset check --parallel $(JOBS)
 
 test: setup     ## run all tests, in release and with the address and undefined-behaviour sanitizers
-	@cmake --preset release -DMEDIAL_UNITY=$(UNITY)
+	@tools/python.sh environment $(VENV) || echo "python: its tests are skipped"
+	@cmake --preset release -DMEDIAL_UNITY=$(UNITY) $$(tools/python.sh options $(VENV))
 	@cmake --build $(RELEASE) -j $(JOBS)
 	@cmake --preset asan -DMEDIAL_UNITY=$(UNITY)
 	@cmake --build $(ASAN) -j $(JOBS)
 	@tools/test.sh $(JOBS) $(CURDIR)/$(ASAN) $(CURDIR)/$(RELEASE)
+
+python: setup   ## build the Python package, install it into an environment, run the gallery: out/docs
+	@tools/python.sh environment $(VENV)
+	@cmake --preset release -DMEDIAL_UNITY=$(UNITY) $$(tools/python.sh options $(VENV))
+	@cmake --build $(RELEASE) -j $(JOBS) --target medial_python
+	@tools/python.sh install $(VENV) $(RELEASE)
+	@tools/docs.sh gallery $(VENV)
+
+wheels: setup   ## build the wheels of the Python package, checked by auditwheel: out/wheels
+	@tools/wheels.sh out/wheels
+
+docs: python    ## the documentation as a static site: out/docs
+	@tools/docs.sh site $(VENV)
 
 papers: build   ## the figures and tables of the papers, drawn and measured again: out/papers
 	@cmake --build $(RELEASE) -j $(JOBS) --target medial_papers

@@ -1,0 +1,314 @@
+"""The axes of many features at once, as arrays."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core
+from ._axis import MedialAxis
+from ._errors import MedialError, need
+from ._options import computing, options
+from ._read import Ragged, Rings, from_wkb, from_wkb_buffer, read
+from ._records import EDGE, NODE, SITE, Floats, Indices, Records, records
+from ._shape import load
+
+
+class Axes:
+    """The axes of many features as one struct of arrays; made by :func:`axes`.
+
+    Feature i has the nodes from ``node_begin[i]`` to ``node_begin[i + 1]``, and edges and sites
+    in the same way. Indices in edges count within the feature.
+
+    Examples
+    --------
+    >>> import medial
+    >>> a = medial.axes([[(0, 0), (4, 0), (4, 2), (0, 2)], [(0, 0), (3, 0), (0, 3)]])
+    >>> len(a), a.node_begin
+    (2, array([ 0,  6, 10]))
+    >>> a[1]
+    <medial.MedialAxis: 4 nodes, 3 edges, 3 sites, method disks>
+    """
+
+    __slots__ = ("_core", "_input", "__weakref__")
+
+    def __init__(self, core: _core.Axes, given: Ragged) -> None:
+        self._core = core
+        self._input = given
+
+    @property
+    def nodes(self) -> Records:
+        """As :attr:`MedialAxis.nodes`, of all features."""
+        return records(self._core.nodes(), NODE)
+
+    @property
+    def edges(self) -> Records:
+        """As :attr:`MedialAxis.edges`, of all features."""
+        return records(self._core.edges(), EDGE)
+
+    @property
+    def sites(self) -> Records:
+        """As :attr:`MedialAxis.sites`, of all features."""
+        return records(self._core.sites(), SITE)
+
+    @property
+    def node_begin(self) -> Indices:
+        """Where each feature's nodes begin, and the number of all."""
+        return self._core.node_begin().view(np.int64)
+
+    @property
+    def edge_begin(self) -> Indices:
+        """Where each feature's edges begin, and the number of all."""
+        return self._core.edge_begin().view(np.int64)
+
+    @property
+    def site_begin(self) -> Indices:
+        """Where each feature's sites begin, and the number of all."""
+        return self._core.site_begin().view(np.int64)
+
+    @property
+    def errors(self) -> dict[int, MedialError]:
+        """What went wrong, by feature; those have no nodes."""
+        return {row[2]: MedialError(*row) for row in self._core.errors()}
+
+    @property
+    def method(self) -> str:
+        """The name of the method."""
+        return self._core.method()
+
+    @property
+    def ok(self) -> npt.NDArray[np.bool_]:
+        """Whether each feature has an axis."""
+        return np.diff(self.node_begin) > 0
+
+    def summary(self) -> dict[str, Floats]:
+        """Of each feature the length of its axis, and its maximum inscribed circle."""
+        rows = self._core.summary()
+        return dict(zip(("length", "radius", "x", "y"), rows.T, strict=True))
+
+    def lines(self, chord: float | None = None) -> tuple[Floats, Indices, Indices]:
+        """All branches as polylines.
+
+        Parameters
+        ----------
+        chord : float, optional
+            How far chords may be from the curves, in units of the input; by default
+            ``medial.options.chord`` of each axis's extent.
+
+        Returns
+        -------
+        points, line_begin, feature_begin
+            Rows of x, y and radius; where lines begin; where features begin among the lines.
+        """
+        points, lines, features = self._core.lines(chord or options.chord, chord is None)
+        return points, lines, features
+
+    def to_shapely(self, chord: float | None = None) -> npt.NDArray[Any]:
+        """An array of MultiLineStrings, one for each feature."""
+        shapely = need("shapely", "geo")
+        points, lines, features = self.lines(chord)
+        flat = np.ascontiguousarray(points[:, :2])
+        kind = shapely.GeometryType.MULTILINESTRING
+        result: npt.NDArray[Any] = shapely.from_ragged_array(kind, flat, (lines, features))
+        return result
+
+    def to_geopandas(self, chord: float | None = None, index: Any = None, crs: Any = None) -> Any:
+        """A GeoSeries of MultiLineStrings."""
+        return need("geopandas", "geo").GeoSeries(self.to_shapely(chord), index=index, crs=crs)
+
+    def to_arrow(self, chord: float | None = None) -> Any:
+        """A GeoArrow array of MultiLineStrings, without any Python object for a feature."""
+        pyarrow = need("pyarrow", "all")
+        points, lines, features = self.lines(chord)
+        flat = pyarrow.array(np.ascontiguousarray(points[:, :2]).reshape(-1))
+        coordinates = pyarrow.FixedSizeListArray.from_arrays(flat, 2)
+        for begin in (lines, features):
+            offsets = pyarrow.array(begin.astype(np.int32))
+            coordinates = pyarrow.ListArray.from_arrays(offsets, coordinates)
+        return coordinates
+
+    def __len__(self) -> int:
+        return len(self._core)
+
+    def __getitem__(self, i: int) -> MedialAxis:
+        """The axis of one feature."""
+        at = range(len(self))[i]
+        errors = self.errors
+        if at in errors:
+            raise errors[at]
+        shape, _ = load(self._input.one(at))
+        return MedialAxis._of(self._core.axis(at, shape))
+
+    def __iter__(self) -> Iterator[MedialAxis]:
+        return (self[i] for i in range(len(self)))
+
+    def __repr__(self) -> str:
+        failed = f", {len(self.errors)} errors" if self.errors else ""
+        return f"<medial.Axes: {len(self)} features, {len(self.nodes)} nodes, {len(self.edges)} edges{failed}>"
+
+
+def _from_rings(all_rings: Sequence[Rings]) -> Ragged:
+    """Features of rings, one polygon for each outer ring."""
+    coordinates, ring, polygon, feature = [], [0], [0], [0]
+    for rings in all_rings:
+        if rings.contours or rings.coordinates is None:
+            raise MedialError("medial.axes() takes polygons; medial.axis() takes curves", "unsupported")
+        begin = np.array([0, len(rings.coordinates)]) if rings.begin is None else rings.begin
+        coordinates.append(rings.coordinates)
+        for i in range(len(begin) - 1):
+            if i and (rings.roles is not None and rings.roles[i] == 1):
+                polygon.append(len(ring) - 1)
+            ring.append(ring[-1] + int(begin[i + 1] - begin[i]))
+        if len(begin) > 1:
+            polygon.append(len(ring) - 1)
+        feature.append(len(polygon) - 1)
+    flat = np.concatenate(coordinates) if coordinates else np.empty((0, 2))
+    return Ragged(flat, np.asarray(ring), np.asarray(polygon), np.asarray(feature))
+
+
+def _from_arrow(array: Any) -> Ragged:
+    """WKB, GeoArrow polygons or GeoArrow multipolygons, without Python objects."""
+    pyarrow = need("pyarrow", "all")
+    array = pyarrow.chunked_array(array) if not isinstance(array, pyarrow.Array) and not isinstance(array, pyarrow.ChunkedArray) else array
+    if isinstance(array, pyarrow.ChunkedArray):
+        array = array.combine_chunks()
+        if isinstance(array, pyarrow.ChunkedArray):
+            array = pyarrow.concat_arrays(array.chunks)
+    if isinstance(array, pyarrow.ExtensionArray):
+        array = array.storage
+    if array.null_count:
+        raise MedialError("a geometry of the array is null", "empty")
+    kind = array.type
+    if pyarrow.types.is_binary(kind) or pyarrow.types.is_large_binary(kind):
+        width = np.int32 if pyarrow.types.is_binary(kind) else np.int64
+        buffers = array.buffers()
+        first = array.offset
+        offsets = np.frombuffer(buffers[1], width)[first : first + len(array) + 1].astype(np.int64)
+        return from_wkb_buffer(np.frombuffer(buffers[2], np.uint8), offsets)
+    offsets_list: list[Indices] = []
+    while pyarrow.types.is_list(array.type) or pyarrow.types.is_large_list(array.type):
+        offsets = array.offsets.to_numpy().astype(np.int64)
+        offsets_list.append(offsets - offsets[0])
+        array = array.flatten()
+    if len(offsets_list) not in (2, 3):
+        raise MedialError("the Arrow array holds neither WKB, polygons nor multipolygons", "unsupported")
+    if pyarrow.types.is_struct(array.type):
+        flat = np.stack([array.field(0).to_numpy(False), array.field(1).to_numpy(False)], axis=1)
+    else:
+        flat = array.flatten().to_numpy(False).reshape(-1, array.type.list_size)[:, :2]
+    ring = offsets_list[-1]
+    return Ragged(np.ascontiguousarray(flat, np.float64), ring, offsets_list[-2],
+                  offsets_list[0] if len(offsets_list) == 3 else None)  # fmt: skip
+
+
+def ragged(x: Any) -> Ragged:
+    """Many features, of any source, as arrays."""
+    if isinstance(x, Ragged):
+        return x
+    if isinstance(x, tuple) and len(x) in (2, 3) and isinstance(x[0], np.ndarray):
+        coordinates, offsets = (x[-2], x[-1])
+        if not isinstance(offsets, tuple) or len(offsets) not in (2, 3):
+            raise MedialError("offsets are (ring, polygon) or (ring, polygon, feature)", "malformed")
+        flat = np.ascontiguousarray(np.asarray(coordinates, np.float64)[:, :2])
+        return Ragged(flat, *(np.ascontiguousarray(part, np.int64) for part in offsets))
+    if hasattr(x, "__arrow_c_stream__") and not hasattr(x, "geometry"):
+        return _from_arrow(x)
+    if hasattr(x, "__arrow_c_array__"):
+        pyarrow = need("pyarrow", "all")
+        return _from_arrow(x if isinstance(x, pyarrow.Array) else pyarrow.array(x))
+    if hasattr(x, "columns") and hasattr(x, "geometry"):
+        x = x.geometry
+    if hasattr(x, "to_wkb"):  # a GeoSeries or a GeometryArray
+        x = x.to_wkb()
+        return from_wkb(np.asarray(x, dtype=object))
+    values = list(x) if not isinstance(x, np.ndarray) else x
+    if len(values) and type(values[0]).__module__.startswith("shapely."):
+        shapely = need("shapely", "geo")
+        return from_wkb(shapely.to_wkb(np.asarray(values, dtype=object)))
+    if len(values) and all(isinstance(value, bytes) for value in values):
+        return from_wkb(values)
+    return _from_rings([read(value) for value in values])
+
+
+class _Progress:
+    """A progress bar of tqdm, or a function that is called with the share done."""
+
+    def __init__(self, wanted: Any, total: int) -> None:
+        self._done, self._total = 0, max(total, 1)
+        self._call = wanted if callable(wanted) else None
+        self._bar = None if self._call else need("tqdm.auto", "all").tqdm(total=total)
+
+    def __call__(self, count: int) -> None:
+        self._done += count
+        if self._bar is not None:
+            self._bar.update(count)
+        elif self._call is not None:
+            self._call(self._done / self._total)
+
+    def close(self) -> None:
+        if self._bar is not None:
+            self._bar.close()
+
+
+def axes(
+    x: Any,
+    method: str | None = None,
+    *,
+    on_error: str = "raise",
+    threads: int | None = None,
+    progress: Any = False,
+    tolerance: float = 0,
+    exterior: bool = False,
+    margin: float = 0,
+    **own: Any,
+) -> Axes:
+    """The medial axes of many features at once.
+
+    Parameters
+    ----------
+    x : features
+        A GeoSeries or GeoDataFrame, a sequence of anything that :func:`axis` takes but curves,
+        well-known binary in a sequence or an Arrow array, a GeoArrow array of polygons or
+        multipolygons, or what ``shapely.to_ragged_array`` returns: ``(coordinates, offsets)``
+        with or without the geometry type before them.
+    method : str, optional
+        See :func:`axis`.
+    on_error : {"raise", "ignore"}
+        Whether the first feature that has no axis raises; otherwise ``Axes.errors`` has it.
+    threads : int, optional
+        The default is ``medial.options.threads``.
+    progress : bool or callable
+        A bar of tqdm, or a function that is called with the share of features done.
+    **own
+        Options of the method.
+
+    Returns
+    -------
+    Axes
+
+    Examples
+    --------
+    >>> import medial
+    >>> good, bad = [(0, 0), (4, 0), (4, 2), (0, 2)], [(0, 0), (2, 2), (2, 0), (0, 2)]
+    >>> a = medial.axes([good, bad], on_error="ignore")
+    >>> a.ok, a.errors[1].code
+    (array([ True, False]), 'crossing')
+    """
+    if on_error not in ("raise", "ignore"):
+        raise ValueError("on_error is 'raise' or 'ignore'")
+    given = ragged(x)
+    computed = computing(method, tolerance=tolerance, threads=threads, exterior=exterior,
+                         margin=margin, own=own)  # fmt: skip
+    shown = _Progress(progress, len(given)) if progress else None
+    try:
+        core = _core.axes_of(given.coordinates, given.ring, given.polygon, given.feature, computed, shown)
+    finally:
+        if shown is not None:
+            shown.close()
+    result = Axes(core, given)
+    if on_error == "raise" and (errors := result.errors):
+        raise errors[min(errors)]
+    return result

@@ -1,0 +1,453 @@
+"""The medial axis of one shape."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Iterator
+from pathlib import Path as FilePath
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core
+from ._errors import need
+from ._options import computing, options
+from ._records import (
+    EDGE,
+    NEAREST,
+    NO_SITE,
+    NODE,
+    NODE_KINDS,
+    SITE,
+    Floats,
+    Indices,
+    Records,
+    packed,
+    points_of,
+    records,
+    unpacked,
+)
+from ._shape import Shape, load
+
+_CoreAxis = _core.Axis
+
+
+class MedialAxis:
+    """The medial axis transform of a shape: a graph of exact curves in (x, y, radius).
+
+    Made by :func:`axis`. It cannot change: operations such as :meth:`prune` return another one.
+
+    Attributes
+    ----------
+    nodes, edges, sites : structured arrays
+        Read-only views of the library's memory.
+
+    Examples
+    --------
+    >>> import medial
+    >>> a = medial.axis([(0, 0), (4, 0), (4, 2), (0, 2)])
+    >>> a
+    <medial.MedialAxis: 6 nodes, 5 edges, 4 sites, method disks>
+    >>> round(a.length, 12)
+    7.656854249492
+    """
+
+    __slots__ = ("_core", "__weakref__")
+
+    _core: _CoreAxis
+
+    def __init__(self) -> None:
+        raise TypeError("medial.axis() makes medial axes")
+
+    @classmethod
+    def _of(cls, core: _CoreAxis) -> MedialAxis:
+        self = cls.__new__(cls)
+        self._core = core
+        return self
+
+    # What it holds.
+
+    @property
+    def nodes(self) -> Records:
+        """Fields: x, y, radius, component, kind (index of :data:`NODE_KINDS`)."""
+        return records(self._core.nodes(), NODE)
+
+    @property
+    def edges(self) -> Records:
+        """Fields: node (from, to), site (left, right), control (x, y, radius), weight.
+
+        An edge is the rational quadratic Bézier curve in (x, y, radius) of its first node,
+        `control` and its last node with the weights 1, `weight`, 1.
+        """
+        return records(self._core.edges(), EDGE)
+
+    @property
+    def sites(self) -> Records:
+        """Fields: start, end, ring, vertex, kind (index of :data:`SITE_KINDS`), bulge."""
+        return records(self._core.sites(), SITE)
+
+    @property
+    def shape(self) -> Shape:
+        """What it is the axis of."""
+        return Shape._of(self._core.shape())
+
+    @property
+    def method(self) -> str:
+        """The name of the method that computed it."""
+        return self._core.method()
+
+    @property
+    def tolerance(self) -> float:
+        """The bound of abs(distance - radius), in units of the input."""
+        return self._core.tolerance()
+
+    @property
+    def resolution(self) -> float:
+        """0 of an exact axis; otherwise the step of a sampled one."""
+        return self._core.resolution()
+
+    @property
+    def exterior(self) -> float:
+        """0 of an interior; otherwise how far the enclosure of the exterior is."""
+        return self._core.exterior()
+
+    @property
+    def statistics(self) -> dict[str, Any]:
+        """What the method counted, and how long it took."""
+        return self._core.statistics()
+
+    @property
+    def length(self) -> float:
+        """The length of all edges in the plane."""
+        return self._core.total_length()
+
+    @property
+    def edge_lengths(self) -> Floats:
+        """The length of each edge."""
+        return self._core.edge_lengths()
+
+    @property
+    def branch_count(self) -> int:
+        """The number of branches."""
+        return self._core.branch_count()
+
+    # Questions.
+
+    def nearest(self, points: npt.ArrayLike) -> Records:
+        """The place of the axis nearest to each point.
+
+        Returns
+        -------
+        structured array
+            Fields: x, y, radius, distance, t (the parameter on the edge), edge (-1: none).
+
+        Examples
+        --------
+        >>> import medial
+        >>> a = medial.axis([(0, 0), (4, 0), (4, 2), (0, 2)])
+        >>> a.nearest([(2, 1.5)])[["x", "y", "radius"]]
+        array([(2., 1., 1.)], ...
+        """
+        return records(self._core.nearest(points_of(points)), NEAREST)
+
+    def radius_at(self, points: npt.ArrayLike) -> Floats:
+        """The radius at the place of the axis nearest to each point."""
+        return np.array(self.nearest(points)["radius"])
+
+    def clearance(self, points: npt.ArrayLike) -> Floats:
+        """The distance of points to the boundary of the shape, negative outside."""
+        return self.shape.clearance(points)
+
+    def disk_at(self, edge: int, t: float) -> tuple[float, float, float]:
+        """The disk (x, y, radius) at a parameter in [0, 1] of an edge."""
+        x, y, radius = self._core.disk_at(edge, t)
+        return x, y, radius
+
+    def _chord(self, chord: float | None) -> float:
+        if chord is not None:
+            return chord
+        return options.chord * (self.shape.diagonal or self._extent() or 1.0)
+
+    def _extent(self) -> float:
+        nodes = self.nodes
+        return float(np.hypot(np.ptp(nodes["x"]), np.ptp(nodes["y"]))) if len(nodes) else 0.0
+
+    def lines(self, chord: float | None = None, step: float | None = None) -> tuple[Floats, Indices]:
+        """All branches as polylines: rows of x, y, radius, and where each line begins."""
+        return self._core.lines(self._chord(chord), step or 0.0)
+
+    def sample(self, chord: float | None = None, step: float | None = None) -> list[Floats]:
+        """Each branch as rows of x, y and radius.
+
+        Parameters
+        ----------
+        chord : float, optional
+            How far chords may be from the curves, in units of the input.
+        step : float, optional
+            The longest way from row to row, instead.
+        """
+        points, begin = self.lines(chord, step)
+        return np.split(points, begin[1:-1]) if len(begin) > 1 else []
+
+    @property
+    def branches(self) -> Any:
+        """A pandas table of the branches: ends, length, radii, width, area, significance."""
+        pandas = need("pandas", "all")
+        table = pandas.DataFrame(_core.described(self._core)["branches"])
+        table["closed"] = table["closed"].astype(bool)
+        nodes = self.nodes
+        ends = nodes[table["node_from"].to_numpy()], nodes[table["node_to"].to_numpy()]
+        table["euclidean"] = np.hypot(ends[0]["x"] - ends[1]["x"], ends[0]["y"] - ends[1]["y"])
+        table["component"] = ends[0]["component"]
+        return table.set_index("branch")
+
+    # Operations: each is a function of the package as well.
+
+    def prune(self, measure: str = "prominence", threshold: float | None = None, *,
+              keep: int | None = None, tips: bool = False) -> MedialAxis:  # fmt: skip
+        """The part that matters: see :func:`medial.prune`."""
+        core, _ = _core.pruned(self._core, measure, threshold, keep, tips)
+        return MedialAxis._of(core)
+
+    def clearance_part(self, clearance: float) -> MedialAxis:
+        """The part where a disk of radius `clearance` has room, cut exactly."""
+        return MedialAxis._of(_core.clearance_part(self._core, clearance))
+
+    def verify(self, **given: Any) -> Any:
+        """The measured errors: see :func:`medial.verify`."""
+        from ._operations import verify
+
+        return verify(self, **given)
+
+    # Other packages.
+
+    def to_shapely(self, chord: float | None = None) -> Any:
+        """A shapely MultiLineString of all branches, with the radius as z."""
+        shapely = need("shapely", "geo")
+        points, begin = self.lines(chord)
+        kind = shapely.GeometryType.MULTILINESTRING
+        return shapely.from_ragged_array(kind, points, (begin, np.array([0, len(begin) - 1])))[0]
+
+    def to_geopandas(self, chord: float | None = None, crs: Any = None) -> Any:
+        """A GeoDataFrame with a row for each branch, as :attr:`branches` and its line."""
+        geopandas, shapely = need("geopandas", "geo"), need("shapely", "geo")
+        table = self.branches
+        points, begin = self.lines(chord)
+        kind = shapely.GeometryType.LINESTRING
+        lines = shapely.from_ragged_array(kind, points, (begin,))
+        return geopandas.GeoDataFrame(table, geometry=lines[table.index.to_numpy()], crs=crs)
+
+    def to_networkx(self, branches: bool = False) -> Any:
+        """A networkx MultiGraph of nodes and edges, or with `branches` of ends and branches.
+
+        Nodes have x, y, radius, pos and kind; edges length and edge (or branch), the smallest
+        radius of their ends and the sites.
+        """
+        networkx = need("networkx", "graph")
+        graph = networkx.MultiGraph()
+        nodes, edges = self.nodes, self.edges
+        for i, (x, y, radius, component, kind) in enumerate(nodes.tolist()):
+            graph.add_node(i, x=x, y=y, pos=(x, y), radius=radius, component=component,
+                           kind=NODE_KINDS[kind])  # fmt: skip
+        if not branches:
+            ends, lengths, sites = edges["node"].tolist(), self.edge_lengths.tolist(), edges["site"].tolist()
+            for e, ((a, b), length, site) in enumerate(zip(ends, lengths, sites, strict=True)):
+                graph.add_edge(a, b, key=e, edge=e, length=length, weight=length, site=tuple(site))
+            return graph
+        table = _core.described(self._core)["branches"]
+        columns = [table[name].tolist() for name in ("branch", "node_from", "node_to", "length", "radius_min", "mean_width")]
+        for branch, a, b, length, narrow, width in zip(*columns, strict=True):
+            graph.add_edge(a, b, key=branch, branch=branch, length=length, weight=length,
+                           radius_min=narrow, mean_width=width)  # fmt: skip
+        graph.remove_nodes_from([node for node, degree in dict(graph.degree()).items() if not degree and len(nodes) > 1])
+        return graph
+
+    def to_scipy(self) -> Any:
+        """The lengths of edges from node to node as a symmetric sparse matrix."""
+        sparse = need("scipy.sparse", "graph")
+        ends, lengths = self.edges["node"].astype(np.int64), self.edge_lengths
+        ends = np.sort(ends, axis=1)
+        keys = ends[:, 0] * len(self.nodes) + ends[:, 1]
+        order = np.lexsort((lengths, keys))  # of parallel edges the shortest
+        first = order[np.concatenate(([True], np.diff(keys[order]) != 0))] if len(order) else order
+        a, b, lengths = ends[first, 0], ends[first, 1], lengths[first]
+        size = (len(self.nodes),) * 2
+        return sparse.coo_array((np.r_[lengths, lengths], (np.r_[a, b], np.r_[b, a])), size).tocsr()
+
+    def to_igraph(self) -> Any:
+        """An igraph Graph of nodes and edges with their numbers as attributes."""
+        igraph = need("igraph", "graph")
+        nodes = self.nodes
+        graph = igraph.Graph(len(nodes), self.edges["node"].tolist())
+        for name in ("x", "y", "radius"):
+            graph.vs[name] = nodes[name].tolist()
+        graph.es["length"] = self.edge_lengths.tolist()
+        return graph
+
+    # Pictures.
+
+    def plot(self, ax: Any = None, *, shape: bool = True, disks: int = 0, **given: Any) -> Any:
+        """Draws the axis, coloured by radius, into a matplotlib axes, which is returned."""
+        from ._pictures import plot
+
+        return plot(self, ax, shape=shape, disks=disks, **given)
+
+    def _repr_svg_(self) -> str:
+        from ._pictures import svg_of
+
+        return svg_of(self)
+
+    # Files and copies.
+
+    def save(self, path: str | FilePath) -> None:
+        """Writes the shape and its axis in the native format, without loss."""
+        from ._native import save
+
+        save(self, path)
+
+    def _state(self) -> tuple[Any, ...]:
+        numbers = self.method, self.tolerance, self.resolution, self.exterior
+        return (*numbers, packed(self.sites), packed(self.nodes), packed(self.edges))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return restored, (self.shape, *self._state())
+
+    def __copy__(self) -> MedialAxis:
+        return MedialAxis._of(self._core)
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> MedialAxis:
+        return MedialAxis._of(self._core)  # nothing in it can change
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, MedialAxis):
+            return NotImplemented
+        mine, theirs = self._state(), other._state()
+        return self.shape == other.shape and all(
+            np.array_equal(a, b) if isinstance(a, np.ndarray) else a == b
+            for a, b in zip(mine, theirs, strict=True)
+        )
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def __len__(self) -> int:
+        """The number of edges."""
+        return len(self.edges)
+
+    def __bool__(self) -> bool:
+        return True
+
+    def __iter__(self) -> Iterator[Floats]:
+        """The branches, as :meth:`sample` gives them."""
+        return iter(self.sample())
+
+    def __repr__(self) -> str:
+        counts = f"{len(self.nodes)} nodes, {len(self.edges)} edges, {len(self.sites)} sites"
+        return f"<medial.MedialAxis: {counts}, method {self.method}>"
+
+
+def restored(
+    shape: Shape, method: str, tolerance: float, resolution: float, exterior: float,
+    sites: npt.ArrayLike, nodes: npt.ArrayLike, edges: npt.ArrayLike,
+) -> MedialAxis:  # fmt: skip
+    """An axis from what pickling, or a file, took of it."""
+    return MedialAxis._of(
+        _core.restored_axis(
+            shape._core, method, tolerance, resolution, exterior,
+            unpacked(sites, SITE), unpacked(nodes, NODE), unpacked(edges, EDGE),
+        )
+    )  # fmt: skip
+
+
+@functools.lru_cache(maxsize=16)
+def _plain(method: str, threads: int) -> _core.Options:
+    return computing(method, threads=threads)
+
+
+def axis(
+    x: Any,
+    method: str | None = None,
+    *,
+    bulges: npt.ArrayLike | None = None,
+    repair: str | None = None,
+    arc_tolerance: float = 1e-6,
+    fit: float = 0,
+    tolerance: float = 0,
+    corner_angle: float = 0.01,
+    exact: bool = False,
+    exterior: bool = False,
+    margin: float = 0,
+    threads: int | None = None,
+    **own: Any,
+) -> MedialAxis:
+    """The medial axis of a shape.
+
+    Parameters
+    ----------
+    x : geometry
+        A shapely Polygon or MultiPolygon, anything with ``__geo_interface__``, GeoJSON as a
+        mapping, well-known binary or text, an SVG path, coordinates as rows of x and y, a list
+        of rings (holes by the even-odd rule), a :class:`Contour` or a list of them, or a
+        :class:`Shape`.
+    method : str, optional
+        A name of :func:`methods`; the default is ``medial.options.method``.
+    bulges : array, optional
+        Of each coordinate's edge: the tangent of a quarter of the angle it spans; 0 straight.
+    repair : {"make_valid", "even_odd", "non_zero"}, optional
+        What is inside where rings cross.
+    arc_tolerance : float
+        How far arcs may be from free-form curves, as a share of the diagonal.
+    fit : float
+        Boundaries become smooth curves within this distance.
+    tolerance : float
+        Residuals below this share of the diagonal count as touching; 0: by the coordinates.
+    corner_angle : float
+        Convex joints with an arc that turn by less, in degrees, are no corner.
+    exact : bool
+        Makes every decision about the graph certain, where the build has it.
+    exterior : bool
+        The axis of what lies around the shape and in its holes.
+    margin : float
+        How far the enclosure of the exterior is; 0: half of the longer side.
+    threads : int, optional
+        The default is ``medial.options.threads``. The result is the same, byte for byte.
+    **own
+        Options of the method: of ``ridge`` and ``brushfire`` `resolution` or `pixels`, of
+        ``biarc-dc`` `seed`, of ``potential`` `order`, `step`, `coarse` and others.
+
+    Raises
+    ------
+    MedialError
+        With a code, and the place in the input.
+
+    Examples
+    --------
+    >>> import medial
+    >>> a = medial.axis("POLYGON ((0 0, 6 0, 6 2, 0 2, 0 0))")
+    >>> len(a.nodes), a.branch_count
+    (6, 5)
+    >>> medial.axis("M 0 0 h 6 v 2 h -6 z").length == a.length
+    True
+    """
+    kind = type(x)
+    if kind is np.ndarray and x.dtype == np.float64 and x.ndim == 2 and x.shape[1] == 2 and not own:
+        plain = (bulges is repair is None and not (fit or tolerance or exact or exterior or margin)
+                 and corner_angle == 0.01)  # fmt: skip
+        if plain and x.flags.c_contiguous:
+            name = options.method if method is None else method
+            some = options.threads if threads is None else threads
+            if name != "curve-axis":
+                return MedialAxis._of(_core.axis_of_ring(x, _plain(name, some)))
+    follows = (method or options.method) == "curve-axis"
+    shape, contours = load(x, bulges, repair, arc_tolerance, fit, follows)
+    computed = computing(method, tolerance=tolerance, corner_angle=corner_angle, exact=exact,
+                         threads=threads, exterior=exterior, margin=margin, own=own)  # fmt: skip
+    return MedialAxis._of(_core.compute(shape, computed, contours))
+
+
+def axis_of(x: Any, threads: int | None = None) -> MedialAxis:
+    """The axis itself, or the axis of a geometry."""
+    return x if isinstance(x, MedialAxis) else axis(x, threads=threads)
+
+
+__all__ = ["NO_SITE", "MedialAxis", "axis"]

@@ -1,0 +1,54 @@
+"""Options that hold for all calls."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from . import _core
+
+
+@dataclass
+class Settings:
+    """Defaults of all calls: set the attributes of ``medial.options``.
+
+    Attributes
+    ----------
+    method : str
+        The method of :func:`axis` and :func:`axes`; :func:`methods` lists them.
+    threads : int
+        Threads to use; 0: all of the machine.
+    chord : float
+        How far lines may be from curves, as a share of the diagonal of the axis.
+    """
+
+    method: str = "disks"
+    threads: int = 0
+    chord: float = 1e-3
+
+
+options = Settings()
+
+
+def computing(
+    method: str | None,
+    *,
+    tolerance: float = 0,
+    corner_angle: float = 0.01,
+    exact: bool = False,
+    threads: int | None = None,
+    exterior: bool = False,
+    margin: float = 0,
+    own: dict[str, Any] | None = None,
+) -> _core.Options:
+    """The options of a computation."""
+    return _core.Options(
+        method or options.method,
+        tolerance,
+        corner_angle,
+        exact,
+        options.threads if threads is None else threads,
+        exterior,
+        margin,
+        own or {},
+    )

@@ -1,0 +1,198 @@
+"""Shapes: loops with the interior on their left."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core
+from ._errors import need
+from ._options import options
+from ._records import Floats, points_of
+from ._read import Rings, read
+
+_CoreShape = _core.Shape
+
+
+class Shape:
+    """A bounded region of the plane, of straight and circular edges.
+
+    Made by operations such as :func:`rebuild`, or from anything that :func:`axis` takes.
+
+    Parameters
+    ----------
+    x : geometry
+        See :func:`axis`.
+    bulges : array, optional
+        Of each edge, for one ring: the tangent of a quarter of the angle it spans.
+    repair : {"make_valid", "even_odd", "non_zero"}, optional
+        What is inside where rings cross; without it crossing rings are an error.
+    arc_tolerance : float
+        How far arcs may be from free-form curves, as a share of the diagonal.
+    fit : float
+        Boundaries become smooth curves within this distance; 0: they stay.
+
+    Examples
+    --------
+    >>> import medial
+    >>> shape = medial.Shape([(0, 0), (4, 0), (4, 3), (0, 3)])
+    >>> shape.area, shape.bounds
+    (12.0, (0.0, 0.0, 4.0, 3.0))
+    """
+
+    __slots__ = ("_core", "__weakref__")
+
+    _core: _CoreShape
+
+    def __init__(
+        self,
+        x: Any,
+        *,
+        bulges: npt.ArrayLike | None = None,
+        repair: str | None = None,
+        arc_tolerance: float = 1e-6,
+        fit: float = 0,
+    ) -> None:
+        self._core = load(x, bulges, repair, arc_tolerance, fit)[0]
+
+    @classmethod
+    def _of(cls, core: _CoreShape) -> Shape:
+        shape = cls.__new__(cls)
+        shape._core = core
+        return shape
+
+    @property
+    def points(self) -> Floats:
+        """The vertices of all loops, loop after loop; read-only."""
+        return self._core.points().view(np.float64).reshape(-1, 2)
+
+    @property
+    def bulges(self) -> Floats:
+        """Of the edge after each vertex; empty where all edges are straight."""
+        return self._core.bulges()
+
+    @property
+    def loop_begin(self) -> npt.NDArray[np.uint32]:
+        """Loop i has the vertices from ``loop_begin[i]`` to ``loop_begin[i + 1]``."""
+        return self._core.loop_begin()
+
+    @property
+    def component(self) -> npt.NDArray[np.uint32]:
+        """The component of each loop."""
+        return self._core.component()
+
+    @property
+    def hole(self) -> npt.NDArray[np.bool_]:
+        """Whether each loop is a hole."""
+        return self._core.hole().astype(bool)
+
+    @property
+    def area(self) -> float:
+        """The area without holes."""
+        return self._core.area()
+
+    @property
+    def bounds(self) -> tuple[float, float, float, float]:
+        """The bounding box, arcs included: low x, low y, high x, high y."""
+        x0, y0, x1, y1 = self._core.bounds()
+        return x0, y0, x1, y1
+
+    @property
+    def diagonal(self) -> float:
+        """The length of the bounding box's diagonal."""
+        x0, y0, x1, y1 = self.bounds
+        return float(np.hypot(x1 - x0, y1 - y0))
+
+    def clearance(self, points: npt.ArrayLike) -> Floats:
+        """The distance of points to the boundary, negative outside."""
+        return _core.clearances(self._core, points_of(points))
+
+    def polygons(self, chord: float | None = None) -> list[list[Floats]]:
+        """The components as lists of closed rings, the outer one first.
+
+        Arcs become chords that are at most `chord` away.
+        """
+        limit = chord if chord is not None else options.chord * (self.diagonal or 1)
+        points, begin = self._core.outline(limit)
+        polygons: list[list[Floats]] = [[] for _ in range(self._core.component_count())]
+        for i, (component, hole) in enumerate(zip(self.component, self.hole, strict=True)):
+            ring = points[begin[i] : begin[i + 1]]
+            polygons[component].insert(len(polygons[component]) if hole else 0, ring)
+        return polygons
+
+    @property
+    def __geo_interface__(self) -> dict[str, Any]:
+        polygons = [[ring.tolist() for ring in polygon] for polygon in self.polygons()]
+        if len(polygons) == 1:
+            return {"type": "Polygon", "coordinates": polygons[0]}
+        return {"type": "MultiPolygon", "coordinates": polygons}
+
+    def to_shapely(self, chord: float | None = None) -> Any:
+        """A shapely Polygon, or a MultiPolygon of several components."""
+        shapely = need("shapely", "geo")
+        parts = [shapely.Polygon(rings[0], rings[1:]) for rings in self.polygons(chord)]
+        return parts[0] if len(parts) == 1 else shapely.MultiPolygon(parts)
+
+    def __repr__(self) -> str:
+        holes, parts = self._core.hole_count(), self._core.component_count()
+        return f"<medial.Shape: {len(self.points)} points, {parts} components, {holes} holes>"
+
+    def _state(self) -> tuple[npt.NDArray[Any], ...]:
+        sources = self._core.sources().view(np.uint32)
+        return (self.points, self.bulges, sources, self.loop_begin, self.component, self._core.hole())
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Shape):
+            return NotImplemented
+        return all(np.array_equal(a, b) for a, b in zip(self._state(), other._state(), strict=True))
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return restored, tuple(np.array(part) for part in self._state())
+
+    def __copy__(self) -> Shape:
+        return Shape._of(self._core)
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Shape:
+        return Shape._of(self._core)  # nothing in it can change
+
+
+def restored(*state: npt.NDArray[Any]) -> Shape:
+    """A shape from what pickling took of it."""
+    return Shape._of(_core.restored_shape(*state))
+
+
+def load(
+    x: Any,
+    bulges: npt.ArrayLike | None = None,
+    repair: str | None = None,
+    arc_tolerance: float = 1e-6,
+    fit: float = 0,
+    keep_contours: bool = False,
+) -> tuple[_core.Shape, list[_core.Contour]]:
+    """The shape of a geometry, and its contours for methods that follow them."""
+    if isinstance(x, Shape) and not (repair or fit or keep_contours):
+        return x._core, []
+    rings = x if isinstance(x, Rings) else read(_as_rings(x) if isinstance(x, Shape) else x)
+    own = rings.bulges if bulges is None else np.ascontiguousarray(bulges, np.float64)
+    if not (rings.contours or repair or fit or keep_contours):
+        if rings.coordinates is None:
+            rings.coordinates = np.empty((0, 2))
+        return _core.shape_of(rings.coordinates, rings.begin, rings.roles, own), []
+    loaded = _core.load(
+        rings.coordinates, rings.begin, rings.roles, own, rings.contours,
+        repair, arc_tolerance, fit, keep_contours, options.threads,
+    )  # fmt: skip
+    for note in loaded.notes:
+        import warnings
+
+        warnings.warn(note, stacklevel=3)
+    return loaded.shape, loaded.contours
+
+
+def _as_rings(shape: Shape) -> list[Floats]:
+    begin = shape.loop_begin
+    return [shape.points[a:b] for a, b in zip(begin[:-1], begin[1:], strict=True)]

@@ -1,0 +1,135 @@
+"""Voronoi diagrams of points, segments and arcs."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core
+from ._errors import need
+from ._options import computing, options
+from ._read import chains_of
+from ._records import NODE, SITE, Floats, Indices, Records, points_of, records
+
+
+class NearestSites(NamedTuple):
+    """The nearest site of each of many points; -1 where there is none."""
+
+    site: Indices
+    distance: Floats
+    foot: Floats
+
+
+class Voronoi:
+    """The Voronoi diagram of points, segments and arcs, within a frame; made by :func:`voronoi`.
+
+    Sites are the points first, then the edges between them, in an order of their own: the fields
+    ``ring`` and ``vertex`` of a site are the line and the vertex of the input, from 0.
+    """
+
+    __slots__ = ("_core", "_locator")
+
+    def __init__(self, core: _core.Voronoi) -> None:
+        self._core = core
+        self._locator: _core.SiteLocator | None = None
+
+    @property
+    def sites(self) -> Records:
+        """As :attr:`MedialAxis.sites`; kind vertex: a point."""
+        return records(self._core.sites(), SITE)
+
+    @property
+    def nodes(self) -> Records:
+        """As :attr:`MedialAxis.nodes`."""
+        return records(self._core.nodes(), NODE)
+
+    @property
+    def edges(self) -> dict[str, npt.NDArray[Any]]:
+        """Columns: node (from, to), site (left, right), spoke, frame."""
+        node, site, spoke, frame = self._core.edge_columns()
+        return {"node": node, "site": site, "spoke": spoke.astype(bool), "frame": frame.astype(bool)}
+
+    @property
+    def frame(self) -> tuple[float, float, float, float]:
+        """The enclosure: low x, low y, high x, high y."""
+        a, b, c, d = self._core.frame()
+        return a, b, c, d
+
+    def _chord(self, chord: float | None) -> float:
+        low_x, low_y, high_x, high_y = self.frame
+        return chord or options.chord * float(np.hypot(high_x - low_x, high_y - low_y))
+
+    def cells(self, chord: float | None = None) -> list[Floats]:
+        """The Voronoi cell of each site, as rows of x and y; empty where it is."""
+        points, begin = self._core.outlines(self._chord(chord))
+        return np.split(points, begin[1:-1])
+
+    def lines(self, chord: float | None = None) -> tuple[Floats, Indices]:
+        """The edges as rows of x, y and radius, and where each begins."""
+        points, begin = self._core.edge_lines(self._chord(chord))
+        return points, begin
+
+    def to_shapely(self, chord: float | None = None) -> Any:
+        """The cells as an array of shapely Polygons, empty ones included."""
+        shapely = need("shapely", "geo")
+        return np.array([shapely.Polygon(cell) for cell in self.cells(chord)], dtype=object)
+
+    def nearest(self, points: npt.ArrayLike) -> NearestSites:
+        """The nearest site of each point.
+
+        Examples
+        --------
+        >>> import medial
+        >>> v = medial.voronoi([(0.0, 0.0), (4.0, 0.0)])
+        >>> v.sites["ring"][v.nearest([(1, 1), (3.5, 0)]).site]
+        array([0, 1], dtype=uint32)
+        """
+        if self._locator is None:
+            self._locator = self._core.locator()
+        return NearestSites(*self._locator.nearest(points_of(points)))
+
+    def verify(self) -> dict[str, Any]:
+        """The measured errors of the diagram."""
+        return self._core.verify()
+
+    def __repr__(self) -> str:
+        return f"<medial.Voronoi: {len(self.sites)} sites, {len(self.nodes)} nodes>"
+
+
+def voronoi(
+    x: Any,
+    *,
+    frame: Sequence[float] | None = None,
+    margin: float = 0,
+    node_crossings: bool = False,
+    bulges: npt.ArrayLike | None = None,
+    threads: int | None = None,
+) -> Voronoi:
+    """The Voronoi diagram of points, lines and rings.
+
+    Parameters
+    ----------
+    x : geometry
+        Rows of x and y are points; shapely geometries, GeoJSON or lists of lines are as they are.
+    frame : (low x, low y, high x, high y), optional
+    margin : float
+        How far the frame is, without one; 0: half of the longer side.
+    node_crossings : bool
+        Whether lines may cross.
+    bulges : array, optional
+        Of each coordinate's edge.
+
+    Examples
+    --------
+    >>> import medial
+    >>> len(medial.voronoi([(0.0, 0.0), (4.0, 0.0), (2.0, 3.0)]).cells())
+    3
+    """
+    coordinates, begin, closed = chains_of(x)
+    own = None if bulges is None else np.ascontiguousarray(bulges, np.float64)
+    box = None if frame is None else (float(frame[0]), float(frame[1]), float(frame[2]), float(frame[3]))
+    computed = computing("disks", threads=threads, margin=margin)
+    return Voronoi(_core.voronoi_of(coordinates, begin, closed, own, node_crossings, box, computed))

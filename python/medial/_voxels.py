@@ -1,0 +1,126 @@
+"""The axis of solids, on voxels."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core
+from ._errors import MedialError
+from ._options import options
+from ._records import Floats
+
+
+@dataclass(frozen=True, eq=False)
+class VoxelAxis:
+    """The medial axis of a solid on a grid.
+
+    Attributes
+    ----------
+    cells : array
+        Column, row and layer of each voxel.
+    centers, radii, qualities : array
+        Its centre, the distance to the surface, and by how much the second foot is farther.
+    links : array
+        Pairs of voxels that share a face, an edge or a corner.
+    topology, interior : (components, tunnels, cavities)
+        Of the axis, and of all interior voxels.
+    """
+
+    resolution: float
+    origin: tuple[float, float, float]
+    shape: tuple[int, int, int]
+    cells: npt.NDArray[np.uint32]
+    centers: Floats
+    radii: Floats
+    qualities: Floats
+    links: npt.NDArray[np.uint32]
+    topology: tuple[int, int, int]
+    interior: tuple[int, int, int]
+
+    def volume(self) -> npt.NDArray[np.bool_]:
+        """The axis as a volume with the indices x, y, z."""
+        grid = np.zeros(self.shape, bool)
+        grid[tuple(self.cells.T.astype(np.intp))] = True
+        return grid
+
+    def __repr__(self) -> str:
+        return f"<medial.VoxelAxis: {len(self.cells)} voxels of {self.resolution:.6g}>"
+
+
+def _surface(volume: npt.NDArray[Any], spacing: tuple[float, float, float]) -> tuple[Floats, npt.NDArray[np.uint32]]:
+    """The surface of the voxels that are set, as triangles."""
+    grid = np.pad(np.asarray(volume) != 0, 1)
+    quads = []
+    for direction in range(3):
+        a, b = (direction + 1) % 3, (direction + 2) % 3
+        inside = np.moveaxis(grid, direction, 0).astype(np.int8)
+        change = np.moveaxis(inside[1:] - inside[:-1], 0, direction)
+        for sign in (-1, 1):
+            at = np.argwhere(change == sign)
+            corner = at.astype(np.int64)
+            corner[:, direction] += 1
+            steps = [(0, 0), (1, 0), (1, 1), (0, 1)]
+            corners = np.repeat(corner[:, None, :], 4, axis=1)
+            for k, (da, db) in enumerate(steps if sign < 0 else steps[::-1]):
+                corners[:, k, a] += da
+                corners[:, k, b] += db
+            quads.append(corners)
+    corners = np.concatenate(quads).reshape(-1, 3)
+    points, index = np.unique(corners, axis=0, return_inverse=True)
+    index = index.reshape(-1, 4)
+    faces = np.concatenate([index[:, [0, 1, 2]], index[:, [0, 2, 3]]]).astype(np.uint32)
+    return (points - 1.0) * np.asarray(spacing), faces
+
+
+def voxels(
+    x: Any,
+    faces: npt.ArrayLike | None = None,
+    *,
+    resolution: float = 0,
+    count: int = 128,
+    angle: float = 30,
+    thinning: str = "sheets",
+    spacing: tuple[float, float, float] = (1, 1, 1),
+    threads: int | None = None,
+) -> VoxelAxis:
+    """The medial axis of a solid.
+
+    Parameters
+    ----------
+    x : mesh or array
+        A trimesh mesh (anything with `vertices` and `faces`), vertices with `faces`, or a volume:
+        an array with the indices x, y, z, solid where it is not 0.
+    resolution : float
+        The edge of a voxel; 0: by `count`.
+    count : int
+        Voxels along the longest side.
+    angle : float
+        Between the two feet of a voxel at least, in degrees.
+    thinning : {"none", "sheets", "curves"}
+    spacing : three floats
+        The edges of a volume's voxels.
+
+    Examples
+    --------
+    >>> import medial, numpy as np
+    >>> medial.voxels(np.ones((4, 4, 12)), count=24).topology
+    (1, 0, 0)
+    """
+    if faces is not None:
+        vertices, triangles = x, faces
+    elif hasattr(x, "vertices") and hasattr(x, "faces"):
+        vertices, triangles = x.vertices, x.faces
+    elif isinstance(x, np.ndarray) and x.ndim == 3:
+        if not x.any():
+            raise MedialError("the volume is empty", "empty")
+        vertices, triangles = _surface(x, spacing)
+    else:
+        raise MedialError(f"a {type(x).__name__} is neither a mesh nor a volume", "unsupported")
+    points = np.ascontiguousarray(vertices, np.float64)
+    corners = np.ascontiguousarray(triangles, np.uint32)
+    some = options.threads if threads is None else threads
+    return VoxelAxis(**_core.voxels_of(points, corners, resolution, count, angle, thinning, some))

@@ -1,0 +1,140 @@
+"""GeoPandas: `import medial.geo` adds the accessor ``.medial`` to GeoDataFrames and GeoSeries.
+
+It keeps index and reference system. Longitudes and latitudes are computed in metres, in a local
+projection of each call, and taken back.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from . import _operations
+from ._axes import Axes, axes
+from ._axis import MedialAxis
+from ._errors import MedialError, need
+
+geopandas = need("geopandas", "geo")
+pandas = need("pandas", "geo")
+shapely = need("shapely", "geo")
+
+
+def _local_crs(series: Any) -> Any:
+    """A projection in metres for geometries in degrees: conformal where they are near each other."""
+    west, south, east, north = series.total_bounds.tolist()
+    lon, lat = (west + east) / 2, (south + north) / 2
+    wide = (east - west) * np.cos(np.radians(lat)) > 5 or north - south > 5
+    name = "laea" if wide else "tmerc"
+    return f"+proj={name} +lat_0={lat!r} +lon_0={lon!r} +datum=WGS84 +units=m +no_defs"
+
+
+class MedialAccessor:
+    """Medial axes of the polygons of a GeoDataFrame or GeoSeries, as ``gdf.medial``.
+
+    Examples
+    --------
+    >>> import geopandas, shapely, medial.geo
+    >>> s = geopandas.GeoSeries([shapely.box(0, 0, 10, 2)], index=["a"], crs=2056)
+    >>> round(s.medial.width().loc["a", "mean"], 9)
+    np.float64(2.0)
+    >>> s.medial.centerline(extend=True).loc["a"].length
+    10.0
+    """
+
+    def __init__(self, data: Any) -> None:
+        if not hasattr(data, "geometry") or not isinstance(data, (geopandas.GeoDataFrame, geopandas.GeoSeries)):
+            raise AttributeError("`.medial` is for GeoDataFrames and GeoSeries")
+        self._series = data.geometry
+        self._crs = self._series.crs
+        self._local: Any = None
+
+    def _metric(self) -> Any:
+        if self._crs is None or not self._crs.is_geographic:
+            return self._series
+        self._local = _local_crs(self._series)
+        return self._series.to_crs(self._local)
+
+    def _back(self, geometries: Any, index: Any = None) -> Any:
+        local = self._local or self._crs
+        series = geopandas.GeoSeries(geometries, index=self._series.index if index is None else index, crs=local)
+        return series.to_crs(self._crs) if self._local else series
+
+    def _each(self, work: Callable[[MedialAxis], Any], method: str | None = None) -> list[Any]:
+        all_axes = axes(self._metric(), method)
+        results = []
+        for i in range(len(all_axes)):
+            try:
+                results.append(work(all_axes[i]))
+            except MedialError as error:
+                error.feature = i
+                error.args = (*error.args[:2], i, *error.args[3:])
+                raise
+        return results
+
+    def axes(self, method: str | None = None, **given: Any) -> Axes:
+        """The axes as arrays, in metres where the reference system is geographic."""
+        return axes(self._metric(), method, **given)
+
+    def axis(self, method: str | None = None, *, chord: float | None = None, **given: Any) -> Any:
+        """A GeoSeries of MultiLineStrings: the axes."""
+        return self._back(axes(self._metric(), method, **given).to_shapely(chord))
+
+    def branches(self, chord: float | None = None) -> Any:
+        """A GeoDataFrame with a row for each branch, with the index of its feature."""
+        tables = self._each(lambda a: a.to_geopandas(chord))
+        frame = pandas.concat(tables, keys=self._series.index, names=["feature"])
+        return frame.set_geometry(self._back(frame.geometry.to_numpy(), frame.index))
+
+    def centerline(self, **given: Any) -> Any:
+        """A GeoSeries of LineStrings; options as :func:`medial.centerline`."""
+        return self._back(self._each(lambda a: _operations.centerline(a, **given).to_shapely()))
+
+    centreline = centerline
+
+    def width(self, samples: int = 100, **given: Any) -> Any:
+        """A table of the widths along the centre lines: mean, min, max, length."""
+
+        def row(of: MedialAxis) -> dict[str, float]:
+            line = _operations.centerline(of, **given)
+            widths = line.widths(samples).width
+            mean = float(np.trapezoid(widths, dx=1) / (samples - 1)) if samples > 1 else float(widths[0])
+            return {"mean": mean, "min": 2 * line.narrowest, "max": float(widths.max()), "length": line.length}
+
+        return pandas.DataFrame(self._each(row), index=self._series.index)
+
+    def transects(self, count: int = 10, **given: Any) -> Any:
+        """A GeoDataFrame of the lines from side to side, with their widths."""
+        found = self._each(lambda a: _operations.transects(a, count, **given))
+        index = self._series.index.repeat([len(widths.along) for widths in found])
+        lines = np.concatenate([widths.transects() for widths in found])
+        columns = {"along": np.concatenate([w.along for w in found]), "width": np.concatenate([w.width for w in found])}
+        return geopandas.GeoDataFrame(columns, geometry=self._back(lines, index).to_numpy(), index=index, crs=self._crs)
+
+    def inscribed_circles(self, k: int = 1, smallest: float = 0) -> Any:
+        """A GeoDataFrame of the centres and radii of the `k` largest circles of each feature."""
+        found = self._each(lambda a: _operations.inscribed_circles(a, k, smallest))
+        index = self._series.index.repeat([len(circles) for circles in found])
+        flat = [circle for circles in found for circle in circles]
+        points = shapely.points([[circle.x, circle.y] for circle in flat])
+        columns = {"radius": [circle.radius for circle in flat]}
+        return geopandas.GeoDataFrame(columns, geometry=self._back(points, index).to_numpy(), index=index, crs=self._crs)
+
+    def offset(self, distance: float, chord: float | None = None) -> Any:
+        """A GeoSeries of what is farther than a distance from the boundary; outwards if negative."""
+
+        def region(of: MedialAxis) -> Any:
+            parts = [part.to_shapely(chord) for part in _operations.offset(of, distance)]
+            return parts[0] if len(parts) == 1 else shapely.MultiPolygon(parts)
+
+        return self._back(self._each(region))
+
+    def prune(self, measure: str = "prominence", threshold: float | None = None, *,
+              keep: int | None = None, chord: float | None = None) -> Any:  # fmt: skip
+        """A GeoSeries of the pruned axes."""
+        return self._back(self._each(lambda a: a.prune(measure, threshold, keep=keep).to_shapely(chord)))
+
+
+pandas.api.extensions.register_dataframe_accessor("medial")(MedialAccessor)
+pandas.api.extensions.register_series_accessor("medial")(MedialAccessor)

@@ -1,0 +1,216 @@
+"""Skeletons and distances of images, with the signatures of scikit-image.
+
+The functions take what scikit-image's take and return the same types; results differ where
+:doc:`the table </images>` says. :func:`axis` makes exact vector graphs of labelled regions.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, Literal, overload
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core
+from ._axis import MedialAxis
+from ._axis import axis as _axis
+from ._errors import MedialError
+from ._options import options
+from ._read import Rings
+from ._records import Floats
+
+Mask = npt.NDArray[np.bool_]
+_ARC = 0.05  # pixels that arcs may be from the smooth outline
+
+
+def _pixels(image: npt.ArrayLike, mask: npt.ArrayLike | None = None) -> npt.NDArray[np.uint8]:
+    array = np.asarray(image)
+    if array.ndim != 2:
+        raise ValueError("images have two dimensions; medial.voxels() takes volumes")
+    if mask is not None:
+        array = np.where(np.asarray(mask, bool), array, 0)
+    binary = array if array.dtype == bool else array != 0
+    return np.ascontiguousarray(binary).view(np.uint8)
+
+
+def _thinned(pixels: npt.NDArray[np.uint8], family: str) -> Mask:
+    return _core.thinned(pixels, family).view(bool)
+
+
+@overload
+def medial_axis(image: npt.ArrayLike, mask: npt.ArrayLike | None = ..., *,
+                return_distance: Literal[False] = ..., rng: Any = ...) -> Mask: ...  # fmt: skip
+@overload
+def medial_axis(image: npt.ArrayLike, mask: npt.ArrayLike | None = ..., *,
+                return_distance: Literal[True], rng: Any = ...) -> tuple[Mask, Floats]: ...  # fmt: skip
+def medial_axis(image: npt.ArrayLike, mask: npt.ArrayLike | None = None, *,
+                return_distance: bool = False, rng: Any = None) -> Mask | tuple[Mask, Floats]:  # fmt: skip
+    """The medial axis of the foreground, one pixel wide.
+
+    Parameters
+    ----------
+    image : array
+        Foreground where it is not 0.
+    mask : array, optional
+        Where the image counts; elsewhere the result is the image.
+    return_distance : bool
+        Also the distance transform.
+    rng
+        Ignored: the result does not depend on chance.
+
+    Examples
+    --------
+    >>> import numpy as np, medial.image
+    >>> square = np.zeros((7, 7), np.uint8)
+    >>> square[1:-1, 2:-2] = 1
+    >>> medial.image.medial_axis(square).astype(np.uint8)[2:5]
+    array([[0, 0, 0, 1, 0, 0, 0],
+           [0, 0, 0, 1, 0, 0, 0],
+           [0, 0, 0, 1, 0, 0, 0]], dtype=uint8)
+    """
+    pixels = _pixels(image, mask)
+    result = _thinned(pixels, "simultaneous")
+    if mask is not None:
+        outside = ~np.asarray(mask, bool)
+        result[outside] = np.asarray(image).astype(bool)[outside]
+    if return_distance:
+        return result, _core.distances(pixels, False, False, options.threads)
+    return result
+
+
+def skeletonize(image: npt.ArrayLike, *, method: str | None = None) -> npt.NDArray[Any]:
+    """The skeleton of the foreground, one pixel wide.
+
+    Parameters
+    ----------
+    image : array
+    method : {"zhang", "lee"}, optional
+        Accepted as scikit-image's; both are thinned from four subfields in turn.
+    """
+    if method not in (None, "zhang", "lee"):
+        raise ValueError(f"method is 'zhang' or 'lee', not {method!r}")
+    return _thinned(_pixels(image), "marking")
+
+
+def thin(image: npt.ArrayLike, max_num_iter: int | None = None) -> Mask:
+    """The foreground thinned to lines one pixel wide (Guo and Hall).
+
+    Parameters
+    ----------
+    image : array
+    max_num_iter : int, optional
+        Not supported: the image is thinned until nothing changes.
+    """
+    if max_num_iter is not None:
+        raise MedialError("thin() runs until nothing changes; max_num_iter is not known", "unsupported")
+    return _thinned(_pixels(image), "marking")
+
+
+def distance_transform(image: npt.ArrayLike, *, spacing: float = 1, to: str = "pixels",
+                       frame: bool = False) -> Floats:  # fmt: skip
+    """The exact Euclidean distance of each foreground pixel.
+
+    Parameters
+    ----------
+    spacing : float
+        The side of a pixel.
+    to : {"pixels", "cracks"}
+        To the centre of the nearest background pixel, or to the pixels' boundary.
+    frame : bool
+        Whether what lies outside of the image is background.
+
+    Examples
+    --------
+    >>> import numpy as np, medial.image
+    >>> medial.image.distance_transform(np.array([[0, 1, 1, 1]]))
+    array([[0., 1., 2., 3.]])
+    """
+    if to not in ("pixels", "cracks"):
+        raise ValueError("to is 'pixels' or 'cracks'")
+    result = _core.distances(_pixels(image), to == "cracks", frame, options.threads)
+    return result if spacing == 1 else result * spacing
+
+
+def topology(image: npt.ArrayLike) -> tuple[int, int]:
+    """The components of the foreground (by eight neighbours) and its holes."""
+    components, holes = _core.topology(_pixels(image))
+    return components, holes
+
+
+def outline(image: npt.ArrayLike, *, neck: float = 1 / 16) -> list[Floats]:
+    """The boundary of the foreground pixels, as rings with y downwards.
+
+    Where pixels meet in a corner only, a `neck` so many pixels wide connects them; 0: none.
+    """
+    points, begin = _core.pixel_outline(_pixels(image), neck)
+    return np.split(points, begin[1:-1]) if len(begin) > 1 else []
+
+
+def _boxes(labels: npt.NDArray[Any]) -> dict[int, tuple[slice, slice]]:
+    """Where each label but 0 lies."""
+    rows, columns = np.nonzero(labels)
+    values = labels[rows, columns]
+    found, index = np.unique(values, return_inverse=True)
+    low = np.full((2, len(found)), max(labels.shape))
+    high = np.zeros((2, len(found)), np.int64)
+    for k, at in enumerate((rows, columns)):
+        np.minimum.at(low[k], index, at)
+        np.maximum.at(high[k], index, at + 1)
+    return {
+        int(label): (slice(low[0, i], high[0, i]), slice(low[1, i], high[1, i]))
+        for i, label in enumerate(found.tolist())
+    }
+
+
+def axis(
+    label_image: npt.ArrayLike,
+    *,
+    spacing: float | Sequence[float] = 1,
+    origin: Sequence[float] = (0, 0),
+    smooth: bool = True,
+    measure: str | None = "prominence",
+    threshold: float | None = None,
+    method: str | None = None,
+) -> dict[int, MedialAxis]:
+    """Exact medial axes of the regions of a label image, by label.
+
+    Parameters
+    ----------
+    label_image : array
+        Regions by number; 0 is background.
+    spacing : float or (x, y)
+        The sides of a pixel.
+    origin : (x, y)
+        Of the upper left corner. Rows go in the direction of y.
+    smooth : bool
+        Whether boundaries become smooth curves within half a pixel of the pixels' edges.
+    measure, threshold : optional
+        How axes are pruned (:func:`medial.prune`); None: not at all.
+
+    Examples
+    --------
+    >>> import numpy as np, medial.image
+    >>> labels = np.zeros((20, 30), int)
+    >>> labels[5:15, 5:25] = 3
+    >>> axes = medial.image.axis(labels)
+    >>> list(axes), round(float(axes[3].nodes["radius"].max()))
+    ([3], 5)
+    """
+    labels = np.asarray(label_image)
+    if labels.ndim != 2:
+        raise ValueError("label images have two dimensions")
+    dx, dy = (spacing, spacing) if isinstance(spacing, (int, float)) else spacing
+    result = {}
+    for label, (rows, columns) in _boxes(labels).items():
+        region = np.ascontiguousarray(labels[rows, columns] == label).view(np.uint8)
+        corner = (origin[0] + dx * columns.start, origin[1] + dy * rows.start)
+        if smooth:
+            contours = _core.smooth_outline(region, (dx, dy), corner)
+            size = float(np.hypot(region.shape[0] * dy, region.shape[1] * dx))
+            own = _axis(Rings(contours=contours), method, arc_tolerance=_ARC * min(dx, dy) / size)
+        else:
+            points, begin = _core.pixel_outline(region, 1 / 16)
+            own = _axis(Rings(points * [dx, dy] + corner, begin), method)
+        result[label] = own if measure is None else own.prune(measure, threshold)
+    return result

@@ -1,0 +1,200 @@
+#pragma once
+
+// What all bindings share: arrays without copies, errors as exceptions, work without the
+// interpreter's lock.
+
+#include <nanobind/nanobind.h>
+#include <nanobind/ndarray.h>
+#include <nanobind/stl/array.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
+#include <nanobind/stl/unique_ptr.h>
+#include <nanobind/stl/vector.h>
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <memory>
+#include <mutex>
+#include <thread>
+
+#include "medial/medial.h"
+
+namespace medial::python {
+
+namespace nb = nanobind;
+
+template <class T>
+using Values = nb::ndarray<const T, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
+using Coordinates = nb::ndarray<const double, nb::shape<-1, 2>, nb::c_contig, nb::device::cpu>;
+template <class T, std::size_t dimensions = 1>
+using Array = nb::ndarray<nb::numpy, T, nb::ndim<dimensions>>;
+using Bytes = Array<const std::uint8_t>;
+
+template <class T>
+std::span<const T> span_of(const Values<T>& values) {
+  return {values.data(), values.shape(0)};
+}
+inline std::span<const Vec2> points_of(const Coordinates& coordinates) {
+  static_assert(sizeof(Vec2) == 2 * sizeof(double));
+  return {reinterpret_cast<const Vec2*>(coordinates.data()), coordinates.shape(0)};
+}
+
+/// The elements of a vector as bytes, for NumPy to see as records; `owner` keeps them alive.
+template <class T>
+Bytes bytes_of(const std::vector<T>& values, nb::handle owner) {
+  return Bytes(values.data(), {values.size() * sizeof(T)}, owner);
+}
+
+/// A vector as a NumPy array that owns it; with several columns as rows of those.
+template <class T>
+Array<T> array_of(std::vector<T> values) {
+  auto kept = std::make_unique<std::vector<T>>(std::move(values));
+  T* const data = kept->data();
+  const std::size_t size = kept->size();
+  nb::capsule owner(kept.release(),
+                    [](void* vector) noexcept { delete static_cast<std::vector<T>*>(vector); });
+  return Array<T>(data, {size}, owner);
+}
+template <class T, class Row>
+Array<T, 2> rows_of(std::vector<Row> rows) {
+  auto kept = std::make_unique<std::vector<Row>>(std::move(rows));
+  T* const data = reinterpret_cast<T*>(kept->data());
+  const std::size_t size = kept->size();
+  nb::capsule owner(kept.release(),
+                    [](void* vector) noexcept { delete static_cast<std::vector<Row>*>(vector); });
+  return Array<T, 2>(data, {size, sizeof(Row) / sizeof(T)}, owner);
+}
+
+/// An error on its way to Python, where it becomes a MedialError.
+class Failure : public std::exception {
+ public:
+  explicit Failure(Error error) : error_(std::move(error)) {}
+  const Error& error() const { return error_; }
+  const char* what() const noexcept override { return error_.text.c_str(); }
+
+ private:
+  Error error_;
+};
+
+/// The value of a result, or its error thrown.
+template <class T>
+T value_of(Result<T> result) {
+  if (!result) throw Failure(std::move(result).error());
+  return std::move(result).value();
+}
+[[noreturn]] inline void refuse(ErrorCode code, const char* text) {
+  throw Failure(Error{code, text, {}});
+}
+
+/// Runs work() without the interpreter's lock.
+template <class Work>
+auto without_lock(const Work& work) {
+  const nb::gil_scoped_release released;
+  return work();
+}
+
+constexpr std::size_t long_work = 20'000;  ///< from so many points on, interrupts are looked for
+constexpr int fine_work = 1000;            ///< below so many, one thread is as fast as several
+
+/// Runs work(cancel) without the interpreter's lock. Of large size in a thread of its own:
+/// meanwhile this one lets Python handle signals, and an interrupt cancels the work.
+template <class Work>
+auto run(std::size_t size, const Work& work) {
+  std::atomic<bool> cancel{false};
+  if (size < long_work) return without_lock([&] { return work(&cancel); });
+  std::optional<decltype(work(&cancel))> result;
+  std::exception_ptr thrown;
+  bool interrupted = false;
+  without_lock([&] {
+    std::mutex mutex;
+    std::condition_variable changed;
+    bool done = false;
+    std::thread worker([&] {
+      try {
+        result.emplace(work(&cancel));
+      } catch (...) {
+        thrown = std::current_exception();
+      }
+      const std::scoped_lock lock(mutex);
+      done = true;
+      changed.notify_one();
+    });
+    std::unique_lock lock(mutex);
+    while (!changed.wait_for(lock, std::chrono::milliseconds(50), [&] { return done; })) {
+      lock.unlock();
+      if (!interrupted) {
+        const nb::gil_scoped_acquire held;
+        interrupted = PyErr_CheckSignals() != 0;
+        if (interrupted) cancel = true;
+      }
+      lock.lock();
+    }
+    lock.unlock();
+    worker.join();
+  });
+  if (interrupted) throw nb::python_error();
+  if (thrown) std::rethrow_exception(thrown);
+  return *std::move(result);
+}
+
+/// A shape that axes of it share.
+using SharedShape = std::shared_ptr<const Shape>;
+
+/// A shape and its axis.
+struct AxisOf {
+  SharedShape shape;
+  MedialAxis axis;
+
+  /// Built at the first question; several threads may ask.
+  const AxisLocator& locator() const {
+    std::call_once(once_, [&] { locator_ = std::make_unique<AxisLocator>(axis); });
+    return *locator_;
+  }
+
+  AxisOf(SharedShape own_shape, MedialAxis own_axis)
+      : shape(std::move(own_shape)), axis(std::move(own_axis)) {}
+  AxisOf(const AxisOf&) = delete;
+  AxisOf& operator=(const AxisOf&) = delete;
+
+ private:
+  mutable std::once_flag once_;
+  mutable std::unique_ptr<AxisLocator> locator_;
+};
+struct ShapeOf {
+  SharedShape shape;
+};
+/// A path along an axis.
+struct PathOf {
+  AxisPath path;
+};
+
+inline std::unique_ptr<AxisOf> share(SharedShape shape, MedialAxis axis) {
+  return std::make_unique<AxisOf>(std::move(shape), std::move(axis));
+}
+
+/// Options of compute() by their names in Python; those of the method in `own`.
+Options options_of(const std::string& method, double tolerance, double corner_angle, bool exact,
+                   int threads, bool exterior, double margin, const nb::dict& own);
+/// Rings of coordinates: ring i is [begin[i], begin[i + 1]); roles and bulges may be absent.
+std::vector<Ring> rings_of(const Coordinates& coordinates,
+                           const std::optional<Values<std::int64_t>>& begin,
+                           const std::optional<Values<std::uint8_t>>& roles,
+                           const std::optional<Values<double>>& bulges);
+
+// Each adds the functions and classes of its topic to the module.
+void bind_shapes(nb::module_& module);
+void bind_axes(nb::module_& module);
+void bind_collections(nb::module_& module);
+void bind_well_known_binary(nb::module_& module);
+void bind_paths(nb::module_& module);
+void bind_derived(nb::module_& module);
+void bind_features(nb::module_& module);
+void bind_voronoi(nb::module_& module);
+void bind_images(nb::module_& module);
+void bind_solids(nb::module_& module);
+
+}  // namespace medial::python

@@ -1,0 +1,105 @@
+// Polygons from well-known binary, of OGC and EWKB, as rings with offsets.
+
+#include <bit>
+#include <cstring>
+
+#include "binding.h"
+
+namespace medial::python {
+namespace {
+
+constexpr std::uint32_t polygon_type = 3, multi_polygon_type = 6, collection_type = 7;
+constexpr int deepest = 32;  ///< collections in collections
+
+class Reader {
+ public:
+  std::vector<Vec2> points;
+  std::vector<std::int64_t> ring{0}, polygon{0}, feature{0};
+
+  /// Errors become those of feature i.
+  void read(std::size_t i, std::span<const std::uint8_t> bytes) {
+    rest_ = bytes;
+    feature_ = i;
+    geometry(0);
+    feature.push_back(static_cast<std::int64_t>(polygon.size()) - 1);
+  }
+
+ private:
+  [[noreturn]] void fail(ErrorCode code, const char* text) const {
+    Error error{code, text, {}};
+    error.place.feature = feature_;
+    throw Failure(std::move(error));
+  }
+  template <class T>
+  T number() {
+    if (rest_.size() < sizeof(T)) fail(ErrorCode::malformed, "well-known binary ends too early");
+    std::array<std::uint8_t, sizeof(T)> bytes;
+    std::memcpy(bytes.data(), rest_.data(), sizeof(T));
+    rest_ = rest_.subspan(sizeof(T));
+    if (swapped_) std::ranges::reverse(bytes);
+    return std::bit_cast<T>(bytes);
+  }
+  /// A count of things of at least `size` bytes.
+  std::uint32_t count(std::size_t size) {
+    const auto n = number<std::uint32_t>();
+    if (n > rest_.size() / size) fail(ErrorCode::malformed, "well-known binary ends too early");
+    return n;
+  }
+  void geometry(int depth) {
+    if (depth > deepest) fail(ErrorCode::malformed, "collections are nested too deeply");
+    const auto order = number<std::uint8_t>();
+    swapped_ = (order == 0) != (std::endian::native == std::endian::big);
+    const auto type = number<std::uint32_t>();
+    if ((type & 0x20000000U) != 0) number<std::uint32_t>();  // a reference system
+    const std::uint32_t plain = type & 0x1FFFFFFFU, more = plain / 1000;
+    const std::size_t extra = ((type & 0x80000000U) != 0 || more == 1 || more == 3 ? 1U : 0U) +
+                              ((type & 0x40000000U) != 0 || more == 2 || more == 3 ? 1U : 0U);
+    switch (plain % 1000) {
+      case polygon_type:
+        return read_polygon(extra);
+      case multi_polygon_type:
+      case collection_type:
+        for (std::uint32_t n = count(5); n > 0; --n) geometry(depth + 1);
+        return;
+      default:
+        fail(ErrorCode::unsupported, "the geometry is no polygon");
+    }
+  }
+  void read_polygon(std::size_t extra) {
+    const std::uint32_t rings = count(4);
+    for (std::uint32_t r = 0; r < rings; ++r) {
+      for (std::uint32_t n = count(8 * (2 + extra)); n > 0; --n) {
+        const auto x = number<double>(), y = number<double>();
+        points.push_back({x, y});
+        for (std::size_t k = 0; k < extra; ++k) number<double>();
+      }
+      ring.push_back(static_cast<std::int64_t>(points.size()));
+    }
+    if (rings > 0) polygon.push_back(static_cast<std::int64_t>(ring.size()) - 1);
+  }
+
+  std::span<const std::uint8_t> rest_;
+  std::size_t feature_ = 0;
+  bool swapped_ = false;
+};
+
+/// The polygons of geometries that lie one after another in `data`, from offset to offset.
+nb::tuple read_all(const Values<std::uint8_t>& data, const Values<std::int64_t>& offsets) {
+  Reader reader;
+  const auto bytes = span_of(data);
+  for (std::size_t i = 0; i + 1 < offsets.shape(0); ++i) {
+    const auto begin = static_cast<std::size_t>(offsets.data()[i]);
+    const auto end = static_cast<std::size_t>(offsets.data()[i + 1]);
+    if (begin > end || end > bytes.size())
+      refuse(ErrorCode::malformed, "offsets increase up to the number of bytes");
+    reader.read(i, bytes.subspan(begin, end - begin));
+  }
+  return nb::make_tuple(rows_of<double>(std::move(reader.points)), array_of(std::move(reader.ring)),
+                        array_of(std::move(reader.polygon)), array_of(std::move(reader.feature)));
+}
+
+}  // namespace
+
+void bind_well_known_binary(nb::module_& module) { module.def("read_wkb", &read_all); }
+
+}  // namespace medial::python

@@ -1,0 +1,99 @@
+"""Many features at once."""
+
+import numpy as np
+import pytest
+
+import medial
+from medial._records import packed
+
+
+def footprints(count):
+    ell = np.array([(0, 0), (10, 0), (10, 4), (5, 4), (5, 12), (0, 12), (0, 0)], float)
+    at = np.arange(count)
+    shift = np.stack([at % 300 * 20, at // 300 * 20], axis=1).astype(float)
+    return (ell + shift[:, None]).reshape(-1, 2), (np.arange(count + 1) * 7, np.arange(count + 1))
+
+
+def test_each_feature_is_its_own_axis(plan):
+    coordinates, offsets = footprints(700)
+    for threads in (1, 3):
+        all_axes = medial.axes((coordinates, offsets), threads=threads)
+        assert len(all_axes) == 700 and not all_axes.errors and all_axes.ok.all()
+        for i in (0, 255, 256, 699):
+            alone = medial.axis(coordinates[7 * i : 7 * i + 7])
+            a, b = all_axes.node_begin[i : i + 2]
+            assert np.array_equal(packed(all_axes.nodes[a:b]), packed(alone.nodes))
+            assert all_axes[i] == alone
+    assert all_axes.summary()["radius"] == pytest.approx(np.full(700, 2.5 if False else all_axes[0].nodes["radius"].max()))
+
+
+def test_errors_are_raised_or_listed():
+    good, bad = [(0, 0), (4, 0), (4, 2), (0, 2)], [(0, 0), (2, 2), (2, 0), (0, 2)]
+    with pytest.raises(medial.MedialError) as caught:
+        medial.axes([good, bad])
+    assert caught.value.feature == 1
+    found = medial.axes([bad, good, bad], on_error="ignore")
+    assert list(found.errors) == [0, 2] and found.errors[2].code == "crossing"
+    assert found.ok.tolist() == [False, True, False] and found[1].branch_count == 5
+    with pytest.raises(medial.MedialError):
+        found[0]
+    assert np.isnan(found.summary()["length"][0])
+    assert len(medial.axes([])) == 0
+
+
+def test_wrong_offsets_are_refused():
+    coordinates, (ring, polygon) = footprints(3)
+    for offsets in ((ring[::-1].copy(), polygon), (ring, polygon + 9), (ring + 1, polygon)):
+        with pytest.raises(medial.MedialError):
+            medial.axes((coordinates, offsets))
+
+
+def test_progress():
+    seen = []
+    medial.axes(footprints(600), progress=seen.append, threads=1)
+    assert seen[-1] == 1 and sorted(seen) == seen
+
+
+def test_geopandas():
+    geopandas = pytest.importorskip("geopandas")
+    shapely = pytest.importorskip("shapely")
+    import medial.geo  # noqa: F401
+
+    frame = geopandas.GeoDataFrame({"name": ["a", "b"]}, index=[7, 9], crs=2056,
+                                   geometry=[shapely.box(0, 0, 10, 2), shapely.box(0, 5, 4, 8)])
+    assert medial.axes(frame)[1] == medial.axis(frame.geometry[9])
+    lines = frame.medial.centerline(extend=True)
+    assert lines.index.tolist() == [7, 9] and lines.crs == frame.crs and lines[7].length == pytest.approx(10)
+    assert frame.medial.width().loc[7, "mean"] == pytest.approx(2)
+    assert frame.geometry.medial.axis().length[7] == pytest.approx(medial.axis(frame.geometry[7]).length)
+    assert frame.medial.inscribed_circles(2).radius[7].tolist() == pytest.approx([1, 1])
+    assert frame.medial.offset(0.5).area[9] == pytest.approx(6)
+    assert len(frame.medial.branches()) == 10
+    assert frame.medial.prune("erosion", 0.5)[7].length < 10
+
+
+def test_degrees_are_computed_in_metres():
+    geopandas = pytest.importorskip("geopandas")
+    shapely = pytest.importorskip("shapely")
+    import medial.geo  # noqa: F401
+
+    degrees = geopandas.GeoSeries([shapely.box(8.0, 47.0, 8.02, 47.002)], crs=4326)
+    width = degrees.medial.width().loc[0]
+    assert width["mean"] == pytest.approx(222.4, abs=0.5)
+    line = degrees.medial.centerline(extend=True)
+    assert line.crs == degrees.crs and line[0].bounds == pytest.approx((8.0, 47.001, 8.02, 47.001), abs=1e-6)
+
+
+def test_arrow():
+    pyarrow = pytest.importorskip("pyarrow")
+    shapely = pytest.importorskip("shapely")
+    geometries = [shapely.box(0, 0, 4, 2), shapely.box(1, 1, 2, 9).difference(shapely.box(1.2, 3, 1.8, 4))]
+    expected = medial.axes(geometries)
+    wkb = pyarrow.array(list(shapely.to_wkb(geometries)), pyarrow.binary())
+    for array in (wkb, pyarrow.chunked_array([wkb[:1], wkb[1:]]), wkb.cast(pyarrow.large_binary())):
+        assert medial.axes(array)[1] == expected[1]
+    rings = [[list(map(list, ring.coords)) for ring in (g.exterior, *g.interiors)] for g in geometries]
+    kind = pyarrow.list_(pyarrow.list_(pyarrow.list_(pyarrow.float64(), 2)))
+    assert medial.axes(pyarrow.array(rings, kind))[1] == expected[1]
+    made = expected.to_arrow()
+    assert len(made) == 2 and len(made[0].as_py()) == 5

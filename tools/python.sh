@@ -1,0 +1,59 @@
+#!/usr/bin/env bash
+# The Python package in an environment of its own.
+#
+#   tools/python.sh environment FOLDER    make it, with the packages that tests and notebooks use
+#   tools/python.sh options FOLDER        what CMake needs to build the package, if it has nanobind
+#   tools/python.sh install FOLDER TREE   put the package, built in TREE, into it
+#   tools/python.sh test FOLDER TREE      install it; run tests, examples and the check of types
+#
+# `test` ends with status 77, which counts as skipped, where the environment cannot be made.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+task=$1 folder=$2 tree=${3:-}
+python=${PYTHON:-python3}
+needed="nanobind numpy pytest hypothesis mypy"
+wished="shapely geopandas pyarrow networkx scipy igraph matplotlib scikit-image trimesh tqdm zstandard pandas-stubs"
+
+environment() {
+  [ -x "$folder/bin/python" ] || "$python" -m venv "$folder" || return 1
+  # Each wished package alone: one that cannot be had leaves the others.
+  "$folder/bin/python" -m pip install --quiet --disable-pip-version-check $needed || return 1
+  "$folder/bin/python" -m pip install --quiet --disable-pip-version-check $wished ||
+    for package in $wished; do
+      "$folder/bin/python" -m pip install --quiet --disable-pip-version-check "$package" ||
+        echo "python: $package cannot be had; what needs it is skipped"
+    done
+}
+
+install() {
+  local site
+  site=$("$folder/bin/python" -c 'import sysconfig; print(sysconfig.get_path("platlib"))')
+  rm -rf "$site/medial"
+  cmake --install "$tree" --component python --prefix "$site" > /dev/null
+}
+
+case $task in
+  environment) environment ;;
+  options)
+    if "$folder/bin/python" -c "import nanobind" 2> /dev/null; then
+      echo "-DMEDIAL_PYTHON=ON -DPython_EXECUTABLE=$(realpath -s "$folder")/bin/python"
+    else
+      echo "-DMEDIAL_PYTHON=OFF"
+    fi
+    ;;
+  install) install ;;
+  test)
+    if [ ! -x "$folder/bin/python" ] || ! ls "$tree"/python/_core*.so > /dev/null 2>&1; then
+      echo "python: skipped, 5 files of tests: there is no environment with nanobind from PyPI"
+      exit 77
+    fi
+    install
+    cd python/tests
+    run="$OLDPWD/$folder/bin/python"
+    [ -x "$run" ] || run="$folder/bin/python"
+    "$run" -m pytest -q -p no:cacheprovider -rs .
+    "$run" -m pytest -q -p no:cacheprovider --doctest-modules -o doctest_optionflags="ELLIPSIS NORMALIZE_WHITESPACE" \
+      --pyargs medial
+    "$run" -m mypy --strict --ignore-missing-imports -p medial
+    ;;
+esac
