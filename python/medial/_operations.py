@@ -336,7 +336,8 @@ def maximum_inscribed_circle(x: Any) -> Circle:
 
 def inscribed_circles(x: Any, count: int, smallest: float = 0) -> list[Circle]:
     """The largest circles without overlap, by decreasing radius: each in what the others leave."""
-    return [Circle(*row) for row in _core.disjoint_disks(axis_of(x)._core, count, smallest).tolist()]
+    shape = x.shape._core if isinstance(x, MedialAxis) else load(x)[0]
+    return [Circle(*row) for row in _core.disjoint_disks(shape, count, smallest).tolist()]
 
 
 # Offsets.

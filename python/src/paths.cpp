@@ -123,11 +123,10 @@ nb::dict mean_widths(const AxisOf& self, const PathOf& path) {
   return result;
 }
 
-Array<double, 2> disks(const AxisOf& self, std::size_t count, double smallest) {
-  const bool own = self.axis.exterior == 0 && self.axis.resolution == 0;
-  return rows_of<double>(value_of(run(self.shape->points.size(), [&](const std::atomic<bool>*) {
-    return largest_disjoint_disks(*self.shape, count, smallest, own ? &self.axis : nullptr);
-  })));
+Array<double, 2> disks(const ShapeOf& of, std::size_t count, double smallest) {
+  return rows_of<double>(run(of.shape->points.size(), [&](const std::atomic<bool>*) {
+    return largest_disjoint_disks(*of.shape, count, smallest);
+  }));
 }
 
 nb::tuple collapsed(const AxisOf& self, double width, double trim) {
