@@ -8,6 +8,7 @@ FONTS ?= $(wildcard /usr/share/fonts/truetype)
 # ON compiles sources some at a time: sooner from scratch, later after each change.
 UNITY ?= ON
 SECONDS ?= 60
+COUNT ?= 200
 FROM ?= $(shell date +%s)000000
 RELEASE := build/release
 DEBUG := build/debug
@@ -21,7 +22,7 @@ VENV := build/python/venv
 BENCH_BOOST := build/boost-1.81
 SOURCES = $(shell git ls-files '*.h' '*.cpp')
 
-.PHONY: help setup build demo check test papers bench bench-flo-mat bench-images fuzz corpus offsets tsan serial portable python wheels docs format lint clean install
+.PHONY: help setup build demo check test papers bench bench-flo-mat bench-images fuzz silhouettes corpus offsets tsan serial portable python wheels docs format lint clean install
 .DEFAULT_GOAL := help
 
 help:     ## list the targets
@@ -92,6 +93,12 @@ fuzz: setup     ## test random polygons and mutated files, new ones each time: m
 	@cmake --preset release
 	@cmake --build $(RELEASE) -j $(JOBS) --target medial_fuzz
 	@$(RELEASE)/tests/medial_fuzz --from $(FROM) --seconds $(SECONDS)
+
+silhouettes: setup  ## verify the sampled axes of new silhouettes and of images below DATA: make silhouettes COUNT=200 [FROM=seed]
+	@cmake --preset release
+	@cmake --build $(RELEASE) -j $(JOBS) --target medial_silhouettes
+	@$(RELEASE)/tests/medial_silhouettes --from $(FROM) --count $(COUNT) \
+	  $(wildcard $(DATA)/packaged/C_images/opencv_[01]*.png)
 
 corpus: setup   ## verify the axes of every file below DATA and every glyph below FONTS: tables
 	@cmake --preset release

@@ -128,8 +128,8 @@ void add_potential_options(CLI::App& command, method::Potential& options) {
       ->option_text("N");
   command
       .add_option("--base-order", options.base_order,
-                  "The order of the force lines that are followed first (default: the order, at\n"
-                  "most 512). 1 is the paper's.")
+                  "The order of the force lines that are followed first (default: the order).\n"
+                  "1 is the paper's; above 24 the exact axis takes their place.")
       ->option_text("N");
   add_list_option(
       command, "--from", 2,

@@ -24,6 +24,7 @@
 #include "methods/potential/skeleton.h"
 #include "support/environment.h"
 #include "support/generate.h"
+#include "support/silhouettes.h"
 
 namespace medial::test {
 namespace {
@@ -148,11 +149,6 @@ TEST(Potential, TracingEndsWithItsBudgetAndWhenCancelled) {
   const auto cancelled = potential::trace_valleys(*largest, charges, options);
   EXPECT_FALSE(cancelled.whole);
   EXPECT_LT(cancelled.forces, whole.forces / 4);
-  options.cancel = nullptr;
-  options.spent = std::uint64_t{1} << 60;
-  const auto ended = potential::trace_valleys(*largest, charges, options);
-  EXPECT_FALSE(ended.whole);
-  EXPECT_LT(ended.forces, whole.forces / 4);
 }
 
 TEST(Potential, IsCancelled) {
@@ -164,13 +160,79 @@ TEST(Potential, IsCancelled) {
   EXPECT_EQ(axis.error().code, ErrorCode::cancelled);
 }
 
-/// A needle's steps are too many: refused, after no more forces than any shape of its size may
-/// take.
-TEST(Potential, WhatCannotBeConnectedIsRefusedWithinTheBudget) {
+/// A needle's force lines take more steps than they may: its valleys are sought from the axis.
+TEST(Potential, WhatForceLinesCannotConnectComesFromTheLimit) {
   const Shape shape = *build_shape(triangle({0, 0}, {1, 0}, {0.5, 1e-5}));
-  const auto axis = compute(shape, {.method = method::Potential{}});
-  ASSERT_FALSE(axis.ok());
-  EXPECT_EQ(axis.error().code, ErrorCode::unsupported);
+  for (const double order : {0.0, 1.0, 8.0, 64.0}) {
+    const auto axis = compute(shape, {.method = method::Potential{.order = order}});
+    ASSERT_TRUE(axis.ok()) << order;
+    EXPECT_TRUE(verify(shape, *axis).passed) << order;
+  }
+}
+
+/// Of no branch longer than its disk is wide, at its foot, is the tip far from the sampled axis.
+TEST(Potential, NoBranchIsMissingAtTheDefaultOrder) {
+  Random random(29);
+  for (int i = 0; i < 20; ++i) {
+    const Shape shape = *build_shape(untangled(random, 12 + random.next() % 40, 200));
+    const MedialAxis exact = *compute(shape);
+    const auto axis = compute(shape, {.method = method::Potential{}});
+    ASSERT_TRUE(axis.ok());
+    EXPECT_EQ(branch_count(*axis), branch_count(exact));
+    const AxisLocator locator(*axis);
+    for (const Edge& edge : exact.edges) {
+      const Disk middle = disk_at(exact, edge, 0.5);
+      EXPECT_LT(locator.nearest(middle.center).distance,
+                std::max(middle.radius, 0.01 * size_of(shape)));
+    }
+  }
+}
+
+TEST(Potential, EveryPlaceInsideLeadsToItsBranch) {
+  Random random(31);
+  for (const Rings& rings : {rectangle(4, 4), rectangle(40, 10), regular_polygon(40),
+                             jagged_star(20), hole_grid(2), comb(4)}) {
+    const Shape shape = *build_shape(rings);
+    const MedialAxis exact = *compute(shape);
+    const AxisLocator locator(exact);
+    const Box box = bounding_box(shape);
+    for (int i = 0; i < 12; ++i) {
+      const Vec2 p{random.between(box.low.x, box.high.x), random.between(box.low.y, box.high.y)};
+      const bool inside = clearance(shape, p) > 0;
+      const auto branch = compute(shape, {.method = method::Potential{.from = p}});
+      ASSERT_EQ(branch.ok(), inside);
+      if (!inside) continue;
+      EXPECT_GE(branch->edges.size(), 1U);
+      EXPECT_EQ(branch_count(*branch), 1U);
+      for (const Node& node : branch->nodes)
+        EXPECT_LT(locator.nearest(node.disk.center).distance, 0.005 * size_of(shape));
+    }
+  }
+}
+
+TEST(Potential, RotatedRectanglesAndSmoothSilhouettesAreVerified) {
+  for (const double angle : {0.1, 0.3, 0.7, 1.2}) {
+    Ring ring = rectangle(48, 18).front();
+    for (Vec2& p : ring.points)
+      p = {std::cos(angle) * p.x - std::sin(angle) * p.y,
+           std::sin(angle) * p.x + std::cos(angle) * p.y};
+    const Shape shape = *build_shape(Rings{ring});
+    const auto axis = compute(shape, {.method = method::Potential{}});
+    ASSERT_TRUE(axis.ok());
+    EXPECT_TRUE(verify(shape, *axis).passed);
+    EXPECT_EQ(branch_count(*axis), 5U);
+  }
+  for (std::uint64_t seed = 0; seed < 6; ++seed) {
+    SCOPED_TRACE(seed);
+    const auto rings = approximate_by_arcs(*smooth_outline(silhouette(seed, 120).image));
+    const Shape shape = *build_shape(*rings);
+    for (const double order : {0.0, 2.0}) {
+      const auto axis = compute(shape, {.method = method::Potential{.order = order}});
+      ASSERT_TRUE(axis.ok()) << order << axis.error().text;
+      const Certificate certificate = verify(shape, *axis);
+      EXPECT_TRUE(certificate.passed) << order << certificate.failures.front();
+    }
+  }
 }
 
 TEST(Potential, IsTheSameForAnyNumberOfThreads) {

@@ -74,8 +74,8 @@ struct Potential {
   /// n of the force that finds the points, in [1, 4096], any real number; 0: chosen for each point
   /// (the algorithm MAT-Generalized-Polygonal).
   double order = 0;
-  /// The order of the first force lines, in [1, 4096]; 0: `order` up to 512, or 512 if that is 0.
-  /// Less, down to 1, where the arithmetic cannot connect these valleys.
+  /// The order of the first force lines, in [1, 4096]; 0: `order`. Above 24 points of the exact
+  /// axis take their place.
   double base_order = 0;
   double step = 0.01;  ///< the longest step, as a share of the size, in [1e-4, 0.1]
   /// Coarse to fine: refines the skeleton of a polygon this close to the border, as a share of the
@@ -86,7 +86,7 @@ struct Potential {
   /// e_min: how far a point may still move with the order, as a share of the size. In (0, 0.1].
   double movement = 0.0005;
   std::optional<Vec2> from = {};  ///< only the branch to which the force leads from this place
-  /// Only what lies in this box: traced from the convex corners in it, connected or not.
+  /// Only what lies in this box, connected or not.
   std::optional<Box> within = {};
   bool whole() const { return !from && !within; }
 };

@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "base/threads.h"
+#include "medial/compute.h"
 #include "medial/shape.h"
+#include "methods/potential/limit.h"
 #include "methods/potential/successor.h"
 
 namespace medial::potential {
@@ -48,8 +51,13 @@ std::vector<std::uint32_t> kept_points(const std::vector<Vec2>& points, double t
   return kept;
 }
 
+struct Polygon {
+  Region region;
+  Shape shape;
+};
+
 /// The polygon within `tolerance` of a region's border; nothing where it crosses itself.
-std::optional<Region> approximation(const Region& region, double tolerance) {
+std::optional<Polygon> approximation(const Region& region, double tolerance) {
   Region result;
   std::vector<Ring> rings;
   for (const Region::PieceLoop& loop : region.loops) {
@@ -70,11 +78,31 @@ std::optional<Region> approximation(const Region& region, double tolerance) {
     range.end = static_cast<std::uint32_t>(result.pieces.size());
     result.loops.push_back(range);
   }
-  const auto shape = build_shape(rings);
+  auto shape = build_shape(rings);
   if (!shape || shape->component_count() != 1 || shape->loop_count() != region.loops.size())
     return std::nullopt;
   result.size = region.size;
-  return result;
+  return Polygon{std::move(result), std::move(*shape)};
+}
+
+/// By force lines, or in the limit of high orders; nothing where neither gives one.
+std::optional<Skeleton> first_skeleton(const Polygon& polygon, const Charges& charges,
+                                       const SkeletonOptions& options) {
+  if (options.order <= line_order) {
+    Skeleton traced = trace_valleys(polygon.region, charges, options);
+    if (traced.whole) return traced;
+  }
+  const auto exact = compute(polygon.shape, {.cancel = options.cancel});
+  if (!exact) return std::nullopt;
+  Skeleton limit = std::move(
+      limits_of(*exact, {&polygon.region, 1}, LocalFrame{}, options.step / polygon.region.size)
+          .front());
+  if (options.order >= limit_order) return limit;
+  SuccessorOptions search;
+  search.order = options.order;
+  search.step = 0.25 * options.step;
+  search.accuracy = options.step / 64;
+  return descended(std::move(limit), charges, search);
 }
 
 /// Moves a skeleton to the valleys of another border. Points that are outside of it go: what is
@@ -97,7 +125,8 @@ void move_to(const Region& region, const Charges& charges, double step, Skeleton
         continue;
       }
       point.radius = evaluator.place(point.place).distance;
-      const Vec2 moved = point.kind == ValleyPoint::Kind::minimum
+      const Vec2 moved = point.kind == ValleyPoint::Kind::junction ? point.place
+                         : point.kind == ValleyPoint::Kind::minimum
                              ? minimum_near(evaluator, point, search)
                              : successor(evaluator, point, search.order, search);
       if (encloses(region, moved)) point.place = moved;
@@ -134,25 +163,22 @@ void move_to(const Region& region, const Charges& charges, double step, Skeleton
 
 }  // namespace
 
-Skeleton trace_coarse_to_fine(const Region& region, const Charges& charges,
-                              const SkeletonOptions& options, double coarse) {
+std::optional<Skeleton> trace_coarse_to_fine(const Region& region, const Charges& charges,
+                                             const SkeletonOptions& options, double coarse) {
   // Below this a polygon's valleys are where the border's are, but for a search's accuracy.
   const double least = options.step / 64;
   std::optional<Skeleton> skeleton;
   for (double tolerance = coarse; tolerance > least; tolerance /= 2) {
-    const std::optional<Region> polygon = approximation(region, tolerance);
+    const std::optional<Polygon> polygon = approximation(region, tolerance);
     if (!polygon) continue;
-    const Charges charged(polygon->pieces);
-    if (skeleton) {
-      move_to(*polygon, charged, options.step, *skeleton);
-      continue;
-    }
-    skeleton = trace_valleys(*polygon, charged, options);
-    if (!skeleton->whole) skeleton.reset();
+    const Charges charged(polygon->region.pieces);
+    if (skeleton)
+      move_to(polygon->region, charged, options.step, *skeleton);
+    else
+      skeleton = first_skeleton(*polygon, charged, options);
   }
-  if (!skeleton) return trace_valleys(region, charges, options);
-  move_to(region, charges, options.step, *skeleton);
-  return *skeleton;
+  if (skeleton) move_to(region, charges, options.step, *skeleton);
+  return skeleton;
 }
 
 }  // namespace medial::potential

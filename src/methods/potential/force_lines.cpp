@@ -45,7 +45,7 @@ bool ForceLines::advance(Vec2 p, Vec2 direction, double step, Vec2& q, Force& fo
     if (!(radius > 0)) return false;
     const Vec2 moved = q - p;
     const double size = norm(force.force) * norm(moved);
-    if (!(size > 0) || (options_.through_flats && lost(force))) return true;
+    if (!(size > 0)) return true;
     const double g = cross(moved, force.force);
     if (std::abs(g) <= sine_enough * size) return true;
     const double slope = cross(aside, force.force) + cross(moved, force.derivative(aside)) / radius;
@@ -109,7 +109,6 @@ class ForceLines::Walk {
     Next next = Next::on;
     for (int count = 0; count < most_steps && !lines_.exhausted() && next != Next::stuck; ++count) {
       begins_ = count == 0;
-      if (!begins_ && has_left_box()) return std::move(trail_);
       if (settles()) continue;
       next = propose();
       if (next == Next::on) next = judge();
@@ -136,13 +135,6 @@ class ForceLines::Walk {
   static constexpr double longest = 0.8, least = longest / 64;
 
   double step() const { return scale_ * lines_.reach(here_.radius); }
-  /// Where the force along a valley is lost, the line goes on as it went.
-  bool is_flat(const Force& force) const {
-    return lines_.options_.through_flats && lines_.lost(force);
-  }
-  bool has_left_box() const {
-    return lines_.options_.within && !contains(*lines_.options_.within, here_.p);
-  }
   std::uint32_t minimum_here() {
     return lines_.graph_.minimum_at(
         {here_.p, here_.radius, direction_, ValleyPoint::Kind::minimum});
@@ -158,8 +150,7 @@ class ForceLines::Walk {
           lines_.settle(here_.p, here_.radius, here_.force, direction_)))
       return false;
     settled_ = true;
-    if ((climbing_ || is_flat(here_.force)) && dot(direction_, before) < 0)
-      direction_ = -direction_;
+    if (climbing_ && dot(direction_, before) < 0) direction_ = -direction_;
     record(ValleyPoint::Kind::valley);
     scale_ = 0.4;
     return true;
@@ -171,7 +162,7 @@ class ForceLines::Walk {
         lines_.advance(here_.p, direction_, step(), there_.p, there_.force, there_.radius);
     if (!good && scale_ > least) {
       scale_ = std::max(scale_ / 2, least);
-      if (!climbing_ && !is_flat(here_.force) && (!begins_ || norm(here_.force.force) > 1e-9))
+      if (!climbing_ && (!begins_ || norm(here_.force.force) > 1e-9))
         direction_ = blend(direction_, here_.force.force);
       return Next::again;
     }
@@ -194,17 +185,11 @@ class ForceLines::Walk {
 
   /// What the force at the end of the step means: a saddle climbed, a minimum, an end.
   Next judge() {
-    flat_ = is_flat(there_.force);
-    if (climbing_ && !flat_ && dot(there_.force.force, moved_) > 0) {
+    if (climbing_ && dot(there_.force.force, moved_) > 0) {
       climbing_ = false;
       if (!trail_.points.empty()) trail_.points.back().kind = ValleyPoint::Kind::saddle;
     }
-    const bool turned = !flat_ && dot(there_.force.force, moved_) < 0;
-    // A floor without slope between rising ones stands for a minimum.
-    if (turned && flat_since_ != no_point && share_ > 0) {
-      trail_.end = minimum_here();
-      return Next::ended;
-    }
+    const bool turned = dot(there_.force.force, moved_) < 0;
     // Up to the border: no saddle is ahead. Necks wider than this are passed.
     constexpr double narrowest = 1e-4;
     if (climbing_ && here_.radius < narrowest * lines_.options_.step) return Next::ended;
@@ -225,7 +210,7 @@ class ForceLines::Walk {
       scale_ /= 2;
       return Next::again;
     }
-    const int most_stalls = lines_.options_.through_flats ? 3 : 40;
+    constexpr int most_stalls = 40;
     const auto saddle = lines_.critical_point(here_.p, false);
     if (saddle && is_near(*saddle) && stalls_ < most_stalls) {
       ++stalls_;
@@ -261,41 +246,22 @@ class ForceLines::Walk {
     const Vec2 way = there_.p - here_.p;
     here_ = there_;
     direction_ = unit(way);
-    // Other valleys may begin where a floor without slope does: a corridor's end.
-    const bool level = flat_ != (flat_since_ != no_point);
-    if (level && !trail_.points.empty() && trail_.points.back().kind == ValleyPoint::Kind::valley)
-      trail_.points.back().kind = ValleyPoint::Kind::level;
-    record(level ? ValleyPoint::Kind::level : ValleyPoint::Kind::valley);
+    record(ValleyPoint::Kind::valley);
     if (here_.force.determinant() < 0 && norm(here_.force.force) < trail_.weakest) {
       trail_.weakest = norm(here_.force.force);
       trail_.place = here_.p;
     }
-    if ((share_ > 0 && joins(way)) || comes_round()) return Next::ended;
+    if (share_ > 0 && joins(way)) return Next::ended;
     if (turn_ > 0.98) scale_ = std::min(longest, scale_ * 1.6);
     return Next::on;
   }
 
   bool joins(Vec2 way) {
     const ValleyGraph& graph = lines_.graph_;
-    const bool any_way = flat_ || climbing_;
-    trail_.end = graph.joined(here_.p, here_.radius, direction_, share_, any_way);
-    if (trail_.end == no_point && any_way)
+    trail_.end = graph.joined(here_.p, here_.radius, direction_, share_, climbing_);
+    if (trail_.end == no_point && climbing_)
       trail_.end = graph.crossed(here_.p - way, here_.p, here_.radius);
     return trail_.end != no_point;
-  }
-
-  /// To where the floor without slope that it is on began.
-  bool comes_round() {
-    const auto last = static_cast<std::uint32_t>(trail_.points.size() - 1);
-    if (!flat_) {
-      flat_since_ = no_point;
-    } else if (flat_since_ == no_point) {
-      flat_since_ = last;
-    } else if (last >= flat_since_ + 8 && distance(trail_.points[flat_since_].place, here_.p) <
-                                              0.8 * lines_.reach(here_.radius)) {
-      trail_.closes = flat_since_;
-    }
-    return trail_.closes != no_point;
   }
 
   ForceLines& lines_;
@@ -305,13 +271,11 @@ class ForceLines::Walk {
   Vec2 direction_;
   Vec2 moved_;              ///< the direction of the step
   double turn_ = 1;         ///< between it and the last one's: the cosine
-  bool flat_ = false;       ///< is_flat() there
   double scale_ = longest;  ///< of the step, in units of the longest here
   bool begins_ = true;
   bool climbing_;
   bool settled_ = false;  ///< since the last good step
   int stalls_ = 0;
-  std::uint32_t flat_since_ = no_point;
 };
 
 Trail ForceLines::follow(Vec2 p, Vec2 direction, double share, Start start) {
@@ -346,7 +310,6 @@ Label ForceLines::label_of(const Trail& trail) const {
 
 Label ForceLines::keep(std::uint32_t from, const Trail& trail) {
   const Label label = label_of(trail);
-  const auto first = static_cast<std::uint32_t>(graph_.skeleton.points.size());
   std::uint32_t last = from;
   for (const ValleyPoint& point : trail.points) {
     // A minimum may be made of the last point.
@@ -356,7 +319,6 @@ Label ForceLines::keep(std::uint32_t from, const Trail& trail) {
     last = index;
   }
   if (trail.end != no_point) graph_.add_link(last, trail.end);
-  if (trail.closes != no_point) graph_.add_link(last, first + trail.closes);
   return label;
 }
 

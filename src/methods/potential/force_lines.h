@@ -14,9 +14,8 @@ namespace medial::potential {
 /// A force line, from its start to where it ends: at a minimum, or in a valley that is known.
 struct Trail {
   std::vector<ValleyPoint> points;
-  std::uint32_t end = no_point;     ///< a point of the skeleton; none: it left the box
-  std::uint32_t closes = no_point;  ///< the point of its own that it comes round to
-  Vec2 place;  ///< of a possible saddle: where the force was weakest on a ridge
+  std::uint32_t end = no_point;  ///< a point of the skeleton; none: it ends nowhere
+  Vec2 place;                    ///< of a possible saddle: where the force was weakest on a ridge
   double weakest = std::numeric_limits<double>::infinity();
 };
 
@@ -54,7 +53,7 @@ class ForceLines {
 
   /// One step along the force line, from p to a point q at the distance `step` about: the force at
   /// q points along q - p, or against it past a minimum. That is an implicit step, so it stays in
-  /// narrow valleys, and where the force along them is lost. False where no such point is found.
+  /// narrow valleys. False where no such point is found.
   bool advance(Vec2 p, Vec2 direction, double step, Vec2& q, Force& force, double& radius);
 
   /// The minimum (or the saddle) that Newton's method finds from p.

@@ -1,17 +1,23 @@
 #include "methods/potential/potential.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
-#include <string>
+#include <optional>
+#include <utility>
 
 #include "axis/node_kinds.h"
 #include "axis/sites.h"
 #include "base/disjoint_sets.h"
 #include "base/stopwatch.h"
 #include "base/threads.h"
+#include "medial/compute.h"
+#include "medial/verify.h"
 #include "methods/potential/charges.h"
 #include "methods/potential/coarse_to_fine.h"
+#include "methods/potential/limit.h"
 #include "methods/potential/region.h"
 #include "methods/potential/skeleton.h"
 #include "methods/potential/successor.h"
@@ -39,6 +45,18 @@ class SiteNames {
     return numbers_.edge[edge];
   }
 
+  /// Of the sites but this one, whose nearest charge is the nearest to p: around the end of a slit
+  /// two sites are as good as at one place. O(n).
+  std::uint32_t other(const Region& region, Vec2 p, std::uint32_t own) const {
+    std::pair<double, std::uint32_t> best{std::numeric_limits<double>::infinity(), own};
+    for (const Charge& piece : region.pieces) {
+      const site::Site segment = site::make_segment(piece.start, piece.end);
+      const std::uint32_t site = numbers_.edge[piece.site];
+      if (site != own) best = std::min(best, {distance(p, site::foot(segment, p)), site});
+    }
+    return best.second;
+  }
+
  private:
   std::uint32_t next_of(std::uint32_t point) const {
     const auto loop = std::upper_bound(shape_.loop_begin.begin(), shape_.loop_begin.end(), point);
@@ -47,14 +65,6 @@ class SiteNames {
   const Shape& shape_;
   const site::SiteNumbers& numbers_;
 };
-
-/// The order of the force lines, by default: valleys of lower ones join where branches
-/// of nearly flat corners are not near the axis.
-constexpr double usual_order = 512;
-
-/// The same where a part is asked for: valleys are followed upward then, which takes a force that
-/// can be distinguished from none.
-constexpr double partial_order = 4;
 
 /// Between valley points whose successors lie further apart than this many steps, others are put.
 constexpr double widest_gap = 1.5;
@@ -82,7 +92,7 @@ std::vector<ValleyPoint> shifted(const Skeleton& skeleton, const Charges& charge
     for (std::size_t k = 0; k < queue.size(); ++k) {
       const auto [here, before] = queue[k];
       const double away = distance(skeleton.points[here].place, place);
-      if (skeleton.points[here].kind == ValleyPoint::Kind::corner || away >= reach * size) continue;
+      if (is_fixed(skeleton.points[here]) || away >= reach * size) continue;
       points[here].place = skeleton.points[here].place + (1 - away / (reach * size)) * shift;
       for (const std::uint32_t next : neighbors[here])
         if (next != before && queue.size() < 1000) queue.emplace_back(next, here);
@@ -115,7 +125,7 @@ Refined successors_of(const Skeleton& skeleton, const Charges& charges,
       const auto halve = [&](const auto& self, const ValleyPoint& a, const Successor& at_a,
                              const ValleyPoint& b, const Successor& at_b, int depth) -> void {
         if (depth == 0 || distance(at_a.place, at_b.place) <= widest_gap * options.step) return;
-        ValleyPoint middle = a.kind == ValleyPoint::Kind::corner ? b : a;
+        ValleyPoint middle = is_fixed(a) ? b : a;
         middle.kind = ValleyPoint::Kind::valley;
         middle.place = midpoint(a.place, b.place);
         const Vec2 along = b.place - a.place;
@@ -143,7 +153,7 @@ Refined successors_of(const Skeleton& skeleton, const Charges& charges,
 }
 
 /// Makes one of linked points that have come to the same place: a link needs a direction.
-void join_equal(Refined& axis) {
+Refined joined(Refined axis) {
   DisjointSets sets(axis.points.size());
   for (const auto& [from, to] : axis.links)
     if (axis.points[from].place == axis.points[to].place) sets.join(from, to);
@@ -157,45 +167,15 @@ void join_equal(Refined& axis) {
   axis.points.resize(count);
   for (auto& link : axis.links) link = {number[link[0]], number[link[1]]};
   std::erase_if(axis.links, [](const auto& link) { return link[0] == link[1]; });
+  return axis;
 }
 
-/// How the valleys of a region are traced; a seed and a box in the frame's units.
-SkeletonOptions tracing_of(const Region& region, const Problem& problem) {
-  const auto& own = problem.own<method::Potential>();
-  const LocalFrame& frame = problem.frame;
-  SkeletonOptions tracing;
-  tracing.order = own.base_order > 0 ? own.base_order
-                  : own.order > 0    ? std::min(own.order, usual_order)
-                                     : usual_order;
-  if (!own.whole() && own.base_order == 0) tracing.order = std::min(tracing.order, partial_order);
-  tracing.step = own.step * region.size;
-  tracing.cancel = problem.options.cancel;
-  if (own.from) tracing.from = frame.to_local(*own.from);
-  if (own.within)
-    tracing.within = Box{frame.to_local(own.within->low), frame.to_local(own.within->high)};
-  return tracing;
-}
-
-/// The points of the axis: the skeleton's own, where its order is the one asked for.
-Refined points_of(const Skeleton& skeleton, const Charges& charges, const Region& region,
-                  const SkeletonOptions& tracing, const method::Potential& own) {
+/// The points of a skeleton as they are.
+Refined unmoved(const Skeleton& skeleton) {
   Refined refined;
-  if (own.order == skeleton.order) {
-    for (const ValleyPoint& point : skeleton.points)
-      refined.points.push_back({point.place, point.radius, skeleton.order});
-    refined.links = skeleton.links;
-  } else {
-    SuccessorOptions search;
-    search.order = own.order;
-    search.angle = own.angle * std::numbers::pi / 180;
-    search.movement = own.movement * region.size;
-    // Points on a valley of some order are no worse than that.
-    search.least_order = skeleton.order;
-    search.step = tracing.step;
-    search.accuracy = tracing.step / 64;
-    refined = successors_of(skeleton, charges, search);
-  }
-  join_equal(refined);
+  for (const ValleyPoint& point : skeleton.points)
+    refined.points.push_back({point.place, point.radius, skeleton.order});
+  refined.links = skeleton.links;
   return refined;
 }
 
@@ -213,29 +193,151 @@ std::array<std::uint32_t, 2> sites_beside(const Successor& inner, Vec2 along, co
   if (touched[0] != touched[1]) return touched;
   const Charge& piece = region.pieces[charges.nearest(inner.place).piece];
   const Vec2 foot = site::foot(site::make_segment(piece.start, piece.end), inner.place);
-  const std::uint32_t across = nearest(inner.place - 0.5 * (foot - inner.place));
+  std::uint32_t across = nearest(inner.place - 0.5 * (foot - inner.place));
+  if (across == touched[0]) across = names.other(region, inner.place, across);
   const bool is_left = cross(along, foot - inner.place) > 0;
   return is_left ? std::array{touched[0], across} : std::array{across, touched[0]};
 }
 
-/// Makes the points of one component nodes of the axis, and their links edges between the nearest
-/// charges on both sides.
-void append(MedialAxis& axis, std::uint32_t component, const Refined& refined, const Region& region,
-            const Charges& charges, const SiteNames& names, const LocalFrame& frame) {
-  const auto base = static_cast<std::uint32_t>(axis.nodes.size());
-  for (const Successor& point : refined.points)
-    axis.nodes.push_back({{frame.to_input(point.place), point.radius * frame.inverse},
-                          component,
-                          NodeKind::site_change});
-  for (const auto& [from, to] : refined.links) {
-    const Successor &a = refined.points[from], &b = refined.points[to];
-    const Successor& inner = a.radius > 0 ? a : b;
-    const auto touched = sites_beside(inner, b.place - a.place, region, charges, names);
-    const Disk &first = axis.nodes[base + from].disk, &last = axis.nodes[base + to].disk;
-    const Disk middle{midpoint(first.center, last.center), 0.5 * (first.radius + last.radius)};
-    axis.edges.push_back({{base + from, base + to}, touched, middle, 1});
+/// How the points of an axis are found; what verify() refuses is found in the next way.
+enum class Way : std::uint8_t {
+  lines,   ///< by force lines, or from coarse to fine
+  limit,   ///< from the limit of high orders
+  unmoved  ///< that limit itself
+};
+
+class Tracing {
+ public:
+  explicit Tracing(const Problem& problem)
+      : problem_(problem),
+        own_(problem.own<method::Potential>()),
+        names_(problem.shape, problem.numbers()) {
+    // Arcs become chords within a hundredth of a step.
+    const Vec2 extent = problem.box.high - problem.box.low;
+    const double whole = std::max(extent.x, extent.y) * problem.frame.scale;
+    regions_ = regions_of(problem, 0.01 * own_.step * whole);
   }
-}
+
+  Result<MedialAxis> run(Way way) {
+    MedialAxis axis;
+    axis.method = "potential";
+    axis.tolerance = problem_.tolerance;
+    axis.sites = problem_.result_sites();
+    bool seeded = !own_.from;
+    for (std::uint32_t component = 0; component < regions_.size(); ++component) {
+      const Region& region = regions_[component];
+      if (own_.from && !encloses(region, problem_.frame.to_local(*own_.from))) continue;
+      seeded = true;
+      axis.resolution = std::max(axis.resolution, own_.step * region.size * problem_.frame.inverse);
+      const Charges charges(region.pieces);
+      const auto points = points_of(way, component, charges, axis.statistics);
+      if (!points) return points.error();
+      append(axis, component, *points, charges);
+      if (problem_.is_cancelled()) return axis;
+      if (problem_.options.progress)
+        problem_.options.progress((component + 1.0) / static_cast<double>(regions_.size()));
+    }
+    if (!seeded) return refused("the seed lies outside of the shape");
+    if (own_.within && axis.edges.empty()) return refused("none of the axis lies in the box");
+    set_node_kinds(axis);
+    return axis;
+  }
+
+ private:
+  static Error refused(const char* text) { return {ErrorCode::invalid_option, text, {}}; }
+
+  Result<Refined> points_of(Way way, std::uint32_t component, const Charges& charges,
+                            Statistics& statistics) {
+    const Region& region = regions_[component];
+    if (way == Way::lines) {
+      const std::optional<Skeleton> skeleton = traced(region, charges);
+      if (skeleton) {
+        statistics.queries += skeleton->forces;
+        if (own_.order == skeleton->order) return joined(unmoved(*skeleton));
+        return joined(successors_of(*skeleton, charges, search(region, *skeleton)));
+      }
+    }
+    if (limits_.empty()) {
+      const Options& options = problem_.options;
+      const auto exact = compute(problem_.shape, {.corner_angle = options.corner_angle,
+                                                  .threads = options.threads,
+                                                  .cancel = options.cancel});
+      if (!exact) return exact.error();
+      limits_ = limits_of(*exact, regions_, problem_.frame, own_.step);
+    }
+    const Skeleton limit = wanted(component, charges);
+    if (way == Way::unmoved) return joined(unmoved(limit));
+    if (own_.order > 0 && own_.order < limit_order)
+      return joined(unmoved(descended(limit, charges, search(region, limit))));
+    return joined(successors_of(limit, charges, search(region, limit)));
+  }
+
+  /// By force lines, or from coarse to fine; nothing where these do not connect all.
+  std::optional<Skeleton> traced(const Region& region, const Charges& charges) const {
+    SkeletonOptions options;
+    options.order = own_.base_order > 0 ? own_.base_order : own_.order;
+    if (options.order == 0) options.order = limit_order;
+    options.step = own_.step * region.size;
+    options.cancel = problem_.options.cancel;
+    if (own_.coarse > 0)
+      return trace_coarse_to_fine(region, charges, options, own_.coarse * region.size);
+    if (options.order > line_order) return std::nullopt;
+    Skeleton skeleton = trace_valleys(region, charges, options);
+    return skeleton.whole ? std::optional(std::move(skeleton)) : std::nullopt;
+  }
+
+  SuccessorOptions search(const Region& region, const Skeleton& skeleton) const {
+    SuccessorOptions options;
+    options.order = own_.order;
+    options.angle = own_.angle * std::numbers::pi / 180;
+    options.movement = own_.movement * region.size;
+    // Points on a valley of some order are no worse than that.
+    options.least_order = skeleton.order;
+    options.step = own_.step * region.size;
+    options.accuracy = options.step / 64;
+    if (skeleton.order >= limit_order) options.furthest = options.step / 8;
+    return options;
+  }
+
+  /// What was asked for of a whole limit.
+  Skeleton wanted(std::uint32_t component, const Charges& charges) const {
+    const Skeleton& limit = limits_[component];
+    const LocalFrame& frame = problem_.frame;
+    if (own_.from)
+      return branch_at(limit, charges, frame.to_local(*own_.from), std::max(own_.order, line_order),
+                       own_.step * regions_[component].size);
+    if (own_.within)
+      return part_within(limit,
+                         {frame.to_local(own_.within->low), frame.to_local(own_.within->high)});
+    return limit;
+  }
+
+  /// Makes the points of one component nodes of the axis, and their links edges between the
+  /// nearest charges on both sides.
+  void append(MedialAxis& axis, std::uint32_t component, const Refined& refined,
+              const Charges& charges) const {
+    const LocalFrame& frame = problem_.frame;
+    const auto base = static_cast<std::uint32_t>(axis.nodes.size());
+    for (const Successor& point : refined.points)
+      axis.nodes.push_back({{frame.to_input(point.place), point.radius * frame.inverse},
+                            component,
+                            NodeKind::site_change});
+    for (const auto& [from, to] : refined.links) {
+      const Successor &a = refined.points[from], &b = refined.points[to];
+      const auto touched = sites_beside(a.radius > 0 ? a : b, b.place - a.place,
+                                        regions_[component], charges, names_);
+      const Disk &first = axis.nodes[base + from].disk, &last = axis.nodes[base + to].disk;
+      const Disk middle{midpoint(first.center, last.center), 0.5 * (first.radius + last.radius)};
+      axis.edges.push_back({{base + from, base + to}, touched, middle, 1});
+    }
+  }
+
+  const Problem& problem_;
+  const method::Potential& own_;
+  const SiteNames names_;
+  std::vector<Region> regions_;
+  std::vector<Skeleton> limits_;  ///< of all components, once they are needed
+};
 
 }  // namespace
 
@@ -258,50 +360,28 @@ std::optional<Error> refuse(const Problem& problem) {
 }
 
 Result<MedialAxis> run(const Problem& problem) {
-  Stopwatch watch;
-  const Options& options = problem.options;
-  const LocalFrame& frame = problem.frame;
   const auto& own = problem.own<method::Potential>();
-  MedialAxis axis;
-  axis.method = "potential";
-  axis.tolerance = problem.tolerance;
-  axis.sites = problem.result_sites();
-  const SiteNames names(problem.shape, problem.numbers());
-  axis.statistics.seconds_sites = watch.lap();
-
-  // Arcs become chords within a hundredth of a step.
-  const Vec2 extent = problem.box.high - problem.box.low;
-  const double whole = std::max(extent.x, extent.y);
-  const std::vector<Region> regions = regions_of(problem, 0.01 * own.step * whole * frame.scale);
-  bool seeded = !own.from;
-  for (std::uint32_t component = 0; component < regions.size(); ++component) {
-    const Region& region = regions[component];
-    const Charges charges(region.pieces);
-    axis.statistics.seconds_tree += watch.lap();
-    const SkeletonOptions tracing = tracing_of(region, problem);
-    if (tracing.from && !encloses(region, *tracing.from)) continue;
-    seeded = true;
-    axis.resolution = std::max(axis.resolution, tracing.step * frame.inverse);
-    const Skeleton skeleton =
-        own.coarse > 0 && own.whole()
-            ? trace_coarse_to_fine(region, charges, tracing, own.coarse * region.size)
-            : trace_valleys(region, charges, tracing);
-    axis.statistics.queries += skeleton.forces;
-    axis.statistics.seconds_walk += watch.lap();
-    if (problem.is_cancelled()) break;
-    if (!skeleton.whole)
-      return Error{ErrorCode::unsupported,
-                   "the potential's valleys are too flat to be connected: use the method disks",
-                   {}};
-    append(axis, component, points_of(skeleton, charges, region, tracing, own), region, charges,
-           names, frame);
-    axis.statistics.seconds_collect += watch.lap();
-    if (problem.is_cancelled()) break;
-    if (options.progress) options.progress((component + 1.0) / static_cast<double>(regions.size()));
+  Stopwatch watch;
+  Tracing tracing(problem);
+  const double setting_up = watch.lap();
+  const bool by_lines = own.whole() && (own.base_order > 0 || own.order > 0 || own.coarse > 0);
+  Certificate certificate;
+  for (const Way way : {Way::lines, Way::limit, Way::unmoved}) {
+    if (way == Way::lines ? !by_lines : own.coarse > 0) continue;
+    Result<MedialAxis> axis = tracing.run(way);
+    if (!axis) return axis;
+    axis->statistics.seconds_sites = setting_up;
+    axis->statistics.seconds_walk = watch.lap();
+    if (problem.is_cancelled() || !own.whole()) return axis;
+    certificate =
+        verify(problem.shape, *axis,
+               {.corner_angle = problem.options.corner_angle, .threads = problem.options.threads});
+    if (certificate.passed) return axis;
   }
-  if (!seeded) return Error{ErrorCode::invalid_option, "the seed lies outside of the shape", {}};
-  set_node_kinds(axis);
-  return axis;
+  return Error{ErrorCode::unsupported,
+               "the potential's valleys make no axis: use another order, or the method disks (" +
+                   certificate.failures.front() + ")",
+               {}};
 }
 
 }  // namespace medial::potential

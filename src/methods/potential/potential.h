@@ -10,8 +10,8 @@ namespace medial::potential {
 std::optional<Error> refuse(const Problem& problem);
 
 /// The engine `potential` (docs/potential.md). Requires what compute() has checked. Errors:
-/// unsupported (valleys that the arithmetic cannot tell apart, so that no connected skeleton is
-/// found), invalid_option (a seed outside of the shape).
+/// unsupported (what verify() refuses, which no input is known to lead to), invalid_option (a seed
+/// outside of the shape, a box without axis), and those of the method `disks`.
 Result<MedialAxis> run(const Problem& problem);
 
 }  // namespace medial::potential

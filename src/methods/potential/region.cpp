@@ -25,6 +25,23 @@ Vec2 point_at(const BulgeArc& arc, double t) {
   return arc.start + reach * turned(tangent, std::cos(angle / 2), std::sin(angle / 2));
 }
 
+/// By how much the border turns where it is at least half as curved as at a bend, in radians.
+double turn_around(const site::LoopEdges& loop, std::uint32_t bend, double k) {
+  const auto turn = [&](std::uint32_t i) {
+    const BulgeArc arc{loop.local(i), loop.local(loop.next(i)), loop.bulge(i)};
+    return arc.bulge > 0 && curvature(arc) >= 0.5 * k ? 4 * std::atan(arc.bulge) : 0;
+  };
+  double sum = turn(bend);
+  for (std::uint32_t i = loop.next(bend); i != bend && turn(i) > 0; i = loop.next(i))
+    sum += turn(i);
+  for (std::uint32_t i = loop.before(bend); i != bend && turn(i) > 0; i = loop.before(i))
+    sum += turn(i);
+  return sum;
+}
+
+/// A bend that turns by less is the end of no valley of low order.
+constexpr double least_turn = 0.25;
+
 }  // namespace
 
 std::size_t Region::edges() const {
@@ -76,7 +93,8 @@ std::vector<Region> regions_of(const Problem& problem, double chord) {
           const auto next = numbers.joints[loop.begin() + loop.next(i)];
           const double k = curvature(arc);
           if (here == site::Joint::smooth && next == site::Joint::smooth &&
-              curvature_of(loop.before(i)) < k && curvature_of(loop.next(i)) <= k) {
+              curvature_of(loop.before(i)) < k && curvature_of(loop.next(i)) <= k &&
+              turn_around(loop, i, k) >= least_turn) {
             const Vec2 t = start_tangent(arc);
             region.bends.push_back({arc.start + (1 / k) * left_of(t), 1 / k});
           }

@@ -79,8 +79,7 @@ void SaddleSearch::traverse() {
   for (; traversed_ < graph_.skeleton.points.size() && !done(); ++traversed_) {
     const std::uint32_t m = traversed_;
     const ValleyPoint minimum = graph_.skeleton.points[m];
-    if (minimum.kind != ValleyPoint::Kind::minimum && minimum.kind != ValleyPoint::Kind::level)
-      continue;
+    if (minimum.kind != ValleyPoint::Kind::minimum) continue;
     const double around = lines_.reach(minimum.radius);
     // The force along a circle turns from forward to backward in a valley.
     double radius = 0;

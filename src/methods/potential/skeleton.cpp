@@ -10,19 +10,10 @@
 namespace medial::potential {
 namespace {
 
-/// Valleys of higher order are connected as those of this one: still a force between parallel sides
-/// some widths long, and few enough minima.
-constexpr double connecting_order = 24;
-
-/// Where these do not connect either, the next lower order is this share.
-constexpr double lower_order = 0.25;
-
-/// How many forces one order may take, and how often that all orders together: mazes take most of
-/// it three times, pixel noise all of it.
-std::uint64_t forces_of_an_order(const Region& region) {
-  return 30000 + 50 * std::uint64_t{region.edges()} + 1000 * std::uint64_t{region.holes()};
+/// How many forces the lines may take: half a second for a border of 2,000 edges.
+std::uint64_t forces_of(const Region& region) {
+  return 20000 + 10 * std::uint64_t{region.edges()} + 200 * std::uint64_t{region.holes()};
 }
-constexpr std::uint64_t most_orders = 3;
 
 /// Takes minima with one line away that have a junction within two steps: lines that met the same
 /// valley in two places made them. What is left stays connected and keeps its cycles.
@@ -78,7 +69,7 @@ class Tracer {
         charges_(charges),
         options_(options),
         graph_(options.step),
-        lines_(charges, options_, graph_, forces_left(region, options)),
+        lines_(charges, options_, graph_, forces_of(region)),
         saddles_(region, graph_, lines_) {}
 
   /// Force lines from all corners and bends.
@@ -88,14 +79,6 @@ class Tracer {
     if (!graph_.skeleton.points.empty()) return;
     Trail trail;
     saddles_.probe(0, 0.5, trail);
-    if (trail.closes == no_point) return;
-    // Around a ring of one width, which has no minimum: any point of it stands for one.
-    ValleyPoint start = trail.points[trail.closes];
-    start.kind = ValleyPoint::Kind::minimum;
-    trail.points.erase(trail.points.begin(), trail.points.begin() + trail.closes + 1);
-    trail.closes = no_point;
-    trail.end = graph_.minimum_at(start);
-    lines_.keep(trail.end, trail);
   }
 
   void connect() { saddles_.connect(corner_labels_); }
@@ -105,50 +88,16 @@ class Tracer {
     saddles_.traverse();
   }
 
-  /// Connects through places in the valleys where a skeleton of lower order has its saddles.
-  void connect_as(const Skeleton& coarse) {
-    Evaluator evaluator(charges_);
-    SuccessorOptions search;
-    search.step = 0.25 * options_.step;
-    search.accuracy = 0.01 * options_.step;
-    for (ValleyPoint point : coarse.points) {
-      if (complete()) return;
-      if (point.kind != ValleyPoint::Kind::saddle) continue;
-      point.place = successor(evaluator, point, options_.order, search);
-      point.radius = evaluator.place(point.place).distance;
-      saddles_.pass(point, ForceLines::Start::either);
-    }
-  }
-
-  void trace_part() {
-    if (options_.from) {
-      trace_branch(*options_.from);
-      return;
-    }
-    trace_corners();
-    trace_bends();
-    trace_box(*options_.within);
-  }
-
   bool complete() const { return saddles_.complete(); }
-  std::uint64_t forces() const { return graph_.skeleton.forces; }
 
   Skeleton take() {
     graph_.skeleton.order = options_.order;
-    if (!options_.from && !options_.within) drop_hooks(graph_.skeleton, options_.step);
+    graph_.skeleton.whole = complete();
+    drop_hooks(graph_.skeleton, options_.step);
     return std::move(graph_.skeleton);
   }
 
  private:
-  static std::uint64_t forces_left(const Region& region, const SkeletonOptions& options) {
-    const std::uint64_t one = forces_of_an_order(region), all = most_orders * one;
-    return options.spent < all ? std::min(one, all - options.spent) : 0;
-  }
-
-  // ---- Where lines begin.
-
-  bool wanted(Vec2 p) const { return !options_.within || contains(*options_.within, p); }
-
   /// The first point inside of a convex corner: on its bisector, as far as both its edges are
   /// nearest.
   bool corner_start(std::uint32_t piece, Vec2& p, Vec2& direction) {
@@ -173,14 +122,12 @@ class Tracer {
     for (std::size_t i = 0; i < region_.corners.size(); ++i) {
       const std::uint32_t piece = region_.corners[i];
       const Vec2 corner = region_.pieces[piece].start;
-      if (!wanted(corner)) continue;
       Vec2 p, direction;
       const bool found = corner_start(piece, p, direction);
       if (!found) continue;
       Trail trail = lines_.follow(p, direction, ForceLines::merge_share);
       double radius = lines_.distance_at(p);
       trail.points.insert(trail.points.begin(), {p, radius, direction, ValleyPoint::Kind::valley});
-      if (trail.closes != no_point) ++trail.closes;
       const std::uint32_t leaf = graph_.add_point({corner, 0, {}, ValleyPoint::Kind::corner});
       corner_labels_[i] = lines_.keep(leaf, trail);
       graph_.labels[leaf] = corner_labels_[i];
@@ -189,7 +136,6 @@ class Tracer {
 
   void trace_bends() {
     for (const auto& [center, bend] : region_.bends) {
-      if (!wanted(center)) continue;
       double radius = 0;
       const Force force = lines_.force_at(center, radius);
       // Only the centre of a maximal disk is a leaf; chords are a little nearer than their arc.
@@ -199,96 +145,6 @@ class Tracer {
           graph_.add_point({center, radius, unit(force.force), ValleyPoint::Kind::valley});
       graph_.labels[leaf] = lines_.keep(leaf, trail);
     }
-  }
-
-  // ---- A part only.
-
-  /// Step 1 of the algorithm: from a seed to the floor of a valley, as the force leads. False where
-  /// it leads to a minimum without one, or out of the box.
-  bool reach_valley(Vec2 p, ValleyPoint& contact) {
-    double radius = 0;
-    Force force = lines_.force_at(p, radius);
-    constexpr int most_steps = 1000;
-    for (int i = 0; i < most_steps && radius > 0 && wanted(p); ++i) {
-      Vec2 direction = unit(force.force);
-      if (lines_.settle(p, radius, force, direction)) {
-        contact = {p, radius, direction, ValleyPoint::Kind::valley};
-        return true;
-      }
-      p = p + 0.4 * lines_.reach(radius) * unit(force.force);
-      force = lines_.force_at(p, radius);
-    }
-    return false;
-  }
-
-  /// Follows a valley upward, to a corner, to a saddle, out of the box, or to where it ends.
-  std::uint32_t climb(std::uint32_t from, Vec2 direction) {
-    Vec2 p = graph_.skeleton.points[from].place;
-    double radius = graph_.skeleton.points[from].radius, scale = 0.5;
-    std::uint32_t last = from;
-    constexpr int most_steps = 10000;
-    for (int i = 0; i < most_steps && scale > 0.05; ++i) {
-      if (options_.within && !contains(*options_.within, p)) break;
-      if (radius < 0.02 * options_.step) return link_to_corner(last);
-      Vec2 q;
-      Force force;
-      double next_radius = 0;
-      if (!lines_.advance(p, direction, scale * lines_.reach(radius), q, force, next_radius) ||
-          dot(unit(q - p), direction) < 0.8) {
-        scale /= 2;
-        continue;
-      }
-      direction = unit(q - p);
-      if (dot(force.force, direction) > 0) break;
-      p = q;
-      radius = next_radius;
-      scale = std::min(0.5, 1.5 * scale);
-      const std::uint32_t known =
-          graph_.joined(p, radius, -direction, ForceLines::merge_share, false);
-      const std::uint32_t index =
-          known != no_point ? known
-                            : graph_.add_point({p, radius, -direction, ValleyPoint::Kind::valley});
-      graph_.add_link(index, last);
-      if (known != no_point) return known;
-      last = index;
-    }
-    return last;
-  }
-
-  std::uint32_t link_to_corner(std::uint32_t last) {
-    const ValleyPoint& point = graph_.skeleton.points[last];
-    for (const std::uint32_t piece : region_.corners) {
-      const Vec2 corner = region_.pieces[piece].start;
-      if (distance(corner, point.place) > 0.1 * options_.step) continue;
-      const std::uint32_t leaf = graph_.add_point({corner, 0, {}, ValleyPoint::Kind::corner});
-      graph_.add_link(leaf, last);
-      return leaf;
-    }
-    return last;
-  }
-
-  /// Steps 2 and 3: the branch of the skeleton that the force leads to from a seed, both ways.
-  void trace_branch(Vec2 seed) {
-    ValleyPoint contact;
-    if (!reach_valley(seed, contact)) return;
-    if (!wanted(contact.place)) return;
-    if (graph_.joined(contact.place, contact.radius, contact.tangent, ForceLines::merge_share,
-                      false) != no_point)
-      return;
-    const std::uint32_t first = graph_.add_point(contact);
-    climb(first, -contact.tangent);
-    lines_.keep(first, lines_.follow(contact.place, contact.tangent, ForceLines::merge_share));
-  }
-
-  /// Branches that cross the box without a corner in it, from seeds all over it.
-  void trace_box(const Box& box) {
-    constexpr int seeds = 8;  // a side
-    for (int i = 0; i < seeds; ++i)
-      for (int k = 0; k < seeds; ++k) {
-        const Vec2 seed{box.low.x + (i + 0.5) / seeds * (box.high.x - box.low.x),
-                        box.low.y + (k + 0.5) / seeds * (box.high.y - box.low.y)};
-        if (encloses(region_, seed)) trace_branch(seed);
-      }
   }
 
   const Region& region_;
@@ -305,42 +161,12 @@ class Tracer {
 Skeleton trace_valleys(const Region& region, const Charges& charges,
                        const SkeletonOptions& options) {
   SkeletonOptions own = options;
-  own.through_flats = own.order > connecting_order;
   own.bend = region.bend;
   Tracer tracer(region, charges, own);
-  if (own.from || own.within) {
-    tracer.trace_part();
-    return tracer.take();
-  }
   tracer.trace_lines();
   tracer.traverse();
-  if (!own.through_flats) tracer.connect();
-  if (tracer.complete() || own.order <= 1) {
-    const bool whole = tracer.complete();
-    Skeleton skeleton = tracer.take();
-    skeleton.whole = whole;
-    return skeleton;
-  }
-  own.spent += tracer.forces();
-  const bool stopped = own.cancel != nullptr && own.cancel->load();
-  if (stopped || own.spent >= most_orders * forces_of_an_order(region)) {
-    Skeleton parts = tracer.take();
-    parts.whole = false;
-    return parts;
-  }
-  own.order = own.through_flats ? connecting_order : std::max(1.0, lower_order * own.order);
-  Skeleton coarse = trace_valleys(region, charges, own);
-  if (own.through_flats) {
-    tracer.connect_as(coarse);
-    tracer.traverse();
-    if (tracer.complete()) {
-      Skeleton skeleton = tracer.take();
-      skeleton.forces += coarse.forces;
-      return skeleton;
-    }
-  }
-  coarse.forces += tracer.take().forces;
-  return coarse;
+  tracer.connect();
+  return tracer.take();
 }
 
 }  // namespace medial::potential

@@ -3,7 +3,6 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "methods/potential/force.h"
@@ -18,13 +17,18 @@ struct ValleyPoint {
     valley,
     minimum,
     saddle,
-    level  ///< where a floor without slope begins or ends
+    junction  ///< of the medial axis: a branching, or a leaf that is no corner
   };
   Vec2 place;
   double radius = 0;  ///< distance to the border
   Vec2 tangent;       ///< unit vector along the valley; (0, 0) at a corner
   Kind kind = Kind::valley;
 };
+
+/// Whether successors leave a point where it is.
+inline bool is_fixed(const ValleyPoint& point) {
+  return point.kind == ValleyPoint::Kind::corner || point.kind == ValleyPoint::Kind::junction;
+}
 
 /// Valleys of the potential as a graph.
 struct Skeleton {
@@ -40,12 +44,7 @@ struct Skeleton {
 struct SkeletonOptions {
   double order = 1;  ///< of the potential
   double step = 0;   ///< longest, in units of the frame
-  /// Goes on through valleys where the force is lost in the arithmetic. Their ends are not sought.
-  bool through_flats = false;
-  double bend = 0;            ///< the slope of a valley's floor that chords of arcs may make
-  std::optional<Vec2> from;   ///< only the branch that the force leads to from here
-  std::optional<Box> within;  ///< only what lies in this box
-  std::uint64_t spent = 0;    ///< forces that orders before this one have taken
+  double bend = 0;   ///< the slope of a valley's floor that chords of arcs may make
   const std::atomic<bool>* cancel = nullptr;  ///< ends the work early: the skeleton is not whole
 };
 

@@ -7,9 +7,6 @@
 namespace medial::potential {
 namespace {
 
-/// How far a point moves at most, as a share of its radius.
-constexpr double widest_move = 0.25;
-
 /// Valleys of an order from here on are sharp enough that the next order can be doubled at once.
 constexpr double searched_below = 32;
 
@@ -75,29 +72,32 @@ Vec2 minimum_near(Evaluator& evaluator, const ValleyPoint& minimum,
   return minimum.place;
 }
 
-Vec2 successor(Evaluator& evaluator, const ValleyPoint& point, double order,
-               const SuccessorOptions& options) {
+std::optional<Vec2> valley_across(Evaluator& evaluator, const ValleyPoint& point, double order,
+                                  const SuccessorOptions& options) {
   const Vec2 across = left_of(point.tangent);
   Vec2 p = point.place;
   double radius = evaluator.place(p).distance;
-  if (!(radius > 0)) return p;
+  if (!(radius > 0)) return std::nullopt;
   // The sine between force and valley at which it counts as perpendicular (Section 5).
   constexpr double perpendicular = 0.001;
   const auto projection = [&](const Force& force) {
     const double size = norm(force.force);
     return size > 0 ? dot(force.force, across) / size : 0;
   };
-  const double first = projection(evaluator.force(order));
-  if (std::abs(first) <= perpendicular) return p;
+  const Force force = evaluator.force(order);
+  const double first = projection(force);
+  // On the middle line of a corridor the force is lost in the arithmetic.
+  const bool lost = norm(force.force) <= 100 * Evaluator::far_field * force.potential(order);
+  if (lost || std::abs(first) <= perpendicular) return p;
   const double way = first > 0 ? 1 : -1;
   // On until the force turns around.
   double before = 0, here = 0, f_before = std::abs(first);
-  const double furthest = widest_move * radius;
+  const double furthest = std::min(widest_move * radius, options.furthest);
   while (before < furthest) {
     here = std::min(before + std::min(options.step, 0.5 * radius), furthest);
     p = point.place + way * here * across;
     radius = evaluator.place(p).distance;
-    if (!(radius > 0)) return point.place + way * before * across;
+    if (!(radius > 0)) return std::nullopt;
     double f = way * projection(evaluator.force(order));
     if (f > perpendicular) {
       before = here;
@@ -126,13 +126,18 @@ Vec2 successor(Evaluator& evaluator, const ValleyPoint& point, double order,
     }
     return point.place + way * 0.5 * (a + b) * across;
   }
-  return point.place;
+  return std::nullopt;
+}
+
+Vec2 successor(Evaluator& evaluator, const ValleyPoint& point, double order,
+               const SuccessorOptions& options) {
+  return valley_across(evaluator, point, order, options).value_or(point.place);
 }
 
 Successor generalized_successor(Evaluator& evaluator, const ValleyPoint& point,
                                 const SuccessorOptions& options) {
   Successor result{point.place, point.radius, 1};
-  if (point.kind == ValleyPoint::Kind::corner) return result;
+  if (is_fixed(point)) return result;
   ValleyPoint here = point;
   if (options.order > 0) {
     result.order = options.order;

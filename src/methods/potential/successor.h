@@ -1,16 +1,22 @@
 #pragma once
 
+#include <limits>
+#include <optional>
+
 #include "methods/potential/force.h"
 #include "methods/potential/skeleton.h"
 
 namespace medial::potential {
 
 struct SuccessorOptions {
-  double order = 0;        ///< of the force; 0: adaptive for each point
-  double angle = 0;        ///< theta_min, in radians
-  double movement = 0;     ///< e_min: what a higher order may still move a point by
-  double step = 0;         ///< S, the first step of the search
-  double accuracy = 0;     ///< s_min, where the search ends
+  double order = 0;     ///< of the force; 0: adaptive for each point
+  double angle = 0;     ///< theta_min, in radians
+  double movement = 0;  ///< e_min: what a higher order may still move a point by
+  double step = 0;      ///< S, the first step of the search
+  double accuracy = 0;  ///< s_min, where the search ends
+  /// The longest way to a valley; further ones are other branches' where the points come from the
+  /// limit of high orders.
+  double furthest = std::numeric_limits<double>::infinity();
   double least_order = 1;  ///< of the valley that the points are on: adaptive orders begin there
   double most_order = largest_order;  ///< of them
 };
@@ -34,9 +40,16 @@ constexpr int most_searched_order = 64;
 Vec2 minimum_near(Evaluator& evaluator, const ValleyPoint& minimum,
                   const SuccessorOptions& options);
 
+/// How far a point moves at most, as a share of its radius: where no valley is nearer there is none
+/// to follow.
+constexpr double widest_move = 0.25;
+
 /// Algorithm Successor: the point of the n-skeleton across the valley at `point`, by a step of S
-/// until the n-force turns around, and halving then; at most a quarter of the radius away, since
-/// where no valley is nearer there is none to follow: `point` itself then.
+/// until the n-force turns around, and halving then; nothing where it does not.
+std::optional<Vec2> valley_across(Evaluator& evaluator, const ValleyPoint& point, double order,
+                                  const SuccessorOptions& options);
+
+/// The same, or the point's own place.
 Vec2 successor(Evaluator& evaluator, const ValleyPoint& point, double order,
                const SuccessorOptions& options);
 

@@ -1,0 +1,126 @@
+// Silhouettes through the sampled methods and verify, as long as one likes.
+//
+//   medial_silhouettes [--from SEED] [--count N] [--pixels MOST] [IMAGE ...]
+//
+// Each seed is one silhouette(), or one of the images redrawn(), as the pixels' outline and as a
+// smooth one. By `potential` at three orders each must be verified. By `curve-axis`, the fit of its
+// outline must be verified, or refused as unsupported or too large. One line for each failure, then
+// the share of axes for each method and the slowest one. Exit status: 0; 1 where something failed;
+// 2 for a wrong call.
+
+#include "support/silhouettes.h"
+
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "medial/io/read.h"
+#include "medial/medial.h"
+
+namespace medial::test {
+namespace {
+
+struct Tally {
+  int axes = 0, refused = 0, failed = 0;
+  double slowest = 0;
+};
+std::map<std::string, Tally> tallies;
+
+/// Counts and reports one axis; whether it is as it must be.
+bool judge(const std::string& name, std::uint64_t seed, const Shape& shape, const Options& options,
+           bool may_refuse) {
+  const auto began = std::chrono::steady_clock::now();
+  const auto axis = compute(shape, options);
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - began;
+  Tally& tally = tallies[name];
+  tally.slowest = std::max(tally.slowest, took.count());
+  std::string reason;
+  if (!axis) {
+    const bool typed =
+        axis.error().code == ErrorCode::unsupported || axis.error().code == ErrorCode::too_large;
+    ++tally.refused;
+    if (may_refuse && typed) return true;
+    reason = axis.error().text;
+  } else {
+    const Certificate certificate = verify(shape, *axis);
+    ++tally.axes;
+    if (certificate.passed) return true;
+    reason = certificate.failures.front();
+  }
+  ++tally.failed;
+  std::printf("silhouette %llu %s: %s\n", static_cast<unsigned long long>(seed), name.c_str(),
+              reason.c_str());
+  return false;
+}
+
+bool try_shape(const std::string& outline, std::uint64_t seed, const Shape& shape) {
+  bool good = true;
+  for (const double order : {0.0, 1.0, 8.0})
+    good = judge("potential, order " + std::to_string(static_cast<int>(order)) + ", " + outline,
+                 seed, shape, {.method = method::Potential{.order = order}}, false) &&
+           good;
+  return good;
+}
+
+bool try_image(std::uint64_t seed, const Image& image) {
+  bool good = true;
+  if (image.count() == 0) return true;
+  const auto rings = pixel_outline(image);
+  const auto contours = smooth_outline(image);
+  if (!rings || !contours) return false;
+  if (const auto shape = build_shape(*rings)) good = try_shape("pixels", seed, *shape);
+  const auto arcs = approximate_by_arcs(*contours, {.tolerance = 1e-4});
+  if (!arcs) return false;
+  if (const auto shape = build_shape(*arcs)) good = try_shape("smooth", seed, *shape) && good;
+  return good;
+}
+
+int run(std::uint64_t from, std::uint64_t count, std::uint32_t most,
+        const std::vector<std::string>& files) {
+  std::vector<Image> images;
+  for (const std::string& file : files) {
+    auto read = io::read_image(file);
+    if (!read) {
+      std::printf("%s: %s\n", file.c_str(), read.error().text.c_str());
+      return 2;
+    }
+    images.push_back(std::move(read->image));
+  }
+  bool good = true;
+  for (std::uint64_t seed = from; seed < from + count; ++seed) {
+    const std::uint32_t pixels = silhouette_size(seed, most);
+    const bool own = images.empty() || seed % 2 == 0;
+    good = try_image(seed, own ? silhouette(seed, pixels).image
+                               : redrawn(images[seed / 2 % images.size()], seed, pixels)) &&
+           good;
+  }
+  for (const auto& [name, tally] : tallies)
+    std::printf("%-32s %5d axes %5d refused %5d failed, the slowest took %.2f s\n", name.c_str(),
+                tally.axes, tally.refused, tally.failed, tally.slowest);
+  return good ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace medial::test
+
+int main(int argc, char** argv) {
+  std::uint64_t from = 0, count = 200, most = 2000;
+  std::vector<std::string> files;
+  for (int i = 1; i < argc; ++i) {
+    const std::string argument = argv[i];
+    std::uint64_t* number = argument == "--from"     ? &from
+                            : argument == "--count"  ? &count
+                            : argument == "--pixels" ? &most
+                                                     : nullptr;
+    if (number == nullptr && argument.starts_with("--")) return 2;
+    if (number == nullptr) {
+      files.push_back(argument);
+    } else if (++i < argc) {
+      *number = std::strtoull(argv[i], nullptr, 10);
+    }
+  }
+  return medial::test::run(from, count, static_cast<std::uint32_t>(most), files);
+}
