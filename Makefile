@@ -22,7 +22,7 @@ VENV := build/python/venv
 BENCH_BOOST := build/boost-1.81
 SOURCES = $(shell git ls-files '*.h' '*.cpp')
 
-.PHONY: help setup build demo check test papers bench bench-flo-mat bench-images fuzz silhouettes corpus offsets tsan serial portable python wheels docs format lint clean install
+.PHONY: help setup build demo check test papers bench bench-flo-mat bench-images fuzz certain silhouettes corpus offsets tsan serial portable python wheels docs format lint clean install
 .DEFAULT_GOAL := help
 
 help:     ## list the targets
@@ -99,6 +99,12 @@ silhouettes: setup  ## verify the sampled axes of new silhouettes and of images 
 	@cmake --build $(RELEASE) -j $(JOBS) --target medial_silhouettes
 	@$(RELEASE)/tests/medial_silhouettes --from $(FROM) --count $(COUNT) \
 	  $(wildcard $(DATA)/packaged/C_images/opencv_[01]*.png)
+
+certain: setup  ## test shapes on which rounding decides, against brute force: make certain SECONDS=60 (each class)
+	@cmake --preset release >/dev/null
+	@cmake --build $(RELEASE) -j $(JOBS) --target medial_nasty
+	@$(RELEASE)/tests/medial_nasty --from $(FROM) --count 100000 --seconds $(SECONDS) --oracle 10 --threads $(JOBS); shapes=$$?; \
+	  $(RELEASE)/tests/medial_nasty --from $(FROM) --count 100000 --seconds $(SECONDS) --planar 1 --threads $(JOBS) && exit $$shapes
 
 corpus: setup   ## verify the axes of every file below DATA and every glyph below FONTS: tables
 	@cmake --preset release

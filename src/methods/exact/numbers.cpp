@@ -103,14 +103,22 @@ int sign_of(const RootField* field, Factors factors) {
                        });
 }
 
+/// The square root of a whole number that is the square of one. A square that is odd but for powers
+/// of four is one more than a multiple of eight.
+bool whole_root(const Integer& square, Integer& root) {
+  if (square.is_zero()) return true;
+  const auto twos = lsb(square);
+  if (twos % 2 != 0 || Integer(square >> twos) % 8 != 1) return false;
+  Integer rest;
+  root = sqrt(square, rest);
+  return rest.is_zero();
+}
+
 /// The square root of a rational number that is the square of one.
 bool rational_root(const Rational& square, Rational& root) {
-  using Integer = boost::multiprecision::mpz_int;
-  const Integer top = numerator(square), bottom = denominator(square);
-  if (mpz_perfect_square_p(top.backend().data()) == 0 ||
-      mpz_perfect_square_p(bottom.backend().data()) == 0)
-    return false;
-  root = Rational(Integer(sqrt(top)), Integer(sqrt(bottom)));
+  Integer top, bottom;
+  if (!whole_root(numerator(square), top) || !whole_root(denominator(square), bottom)) return false;
+  root = Rational(top, bottom);
   return true;
 }
 

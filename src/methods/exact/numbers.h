@@ -3,8 +3,13 @@
 // The numbers of exact decisions, beside Bounded<double>: Bounded<Precise>, and numbers from a
 // field of square roots, whose signs are decided by rational arithmetic.
 
+#ifdef MEDIAL_WITHOUT_GMP
+#include <boost/multiprecision/cpp_bin_float.hpp>
+#include <boost/multiprecision/cpp_int.hpp>
+#else
 #include <boost/multiprecision/gmp.hpp>
 #include <boost/multiprecision/mpfr.hpp>
+#endif
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -18,12 +23,20 @@ namespace medial {
 
 namespace exact {
 
+// Of GMP and MPFR where there are these libraries, which are faster; otherwise of Boost's headers.
+// Both compute the same. `Precise` has at least 256 bits, on the stack.
+#ifdef MEDIAL_WITHOUT_GMP
+using Integer = boost::multiprecision::cpp_int;
+using Rational = boost::multiprecision::cpp_rational;
+using PreciseBackend =
+    boost::multiprecision::cpp_bin_float<264, boost::multiprecision::digit_base_2>;
+#else
+using Integer = boost::multiprecision::mpz_int;
 using Rational = boost::multiprecision::mpq_rational;
-
-/// At least 256 bits, on the stack.
-using Precise = boost::multiprecision::number<
-    boost::multiprecision::mpfr_float_backend<78, boost::multiprecision::allocate_stack>,
-    boost::multiprecision::et_off>;
+using PreciseBackend =
+    boost::multiprecision::mpfr_float_backend<78, boost::multiprecision::allocate_stack>;
+#endif
+using Precise = boost::multiprecision::number<PreciseBackend, boost::multiprecision::et_off>;
 
 }  // namespace exact
 

@@ -1,0 +1,158 @@
+// The classes of shapes on which rounding decides, a few hundred each: tests/nasty.cpp runs them by
+// the thousand. Every second one is small, and its graph is compared with the true one.
+// MEDIAL_PROPERTY_SEED: another number for other shapes.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <ostream>
+#include <string>
+#include <string_view>
+
+#include "medial/medial.h"
+#include "support/environment.h"
+#include "support/nasty_check.h"
+#include "support/true_graph.h"
+
+namespace medial::test {
+namespace {
+
+// ---- The true graph itself.
+
+SiteGraph true_graph_of(const Rings& rings) {
+  const auto shape = build_shape(rings);
+  const auto axis = compute(*shape);
+  return true_graph(*shape, axis->sites);
+}
+
+TEST(TrueGraph, OfSimpleShapesIsKnown) {
+  // A square has one node that touches four sides, a longer rectangle two.
+  const SiteGraph square = true_graph_of(rectangle(4, 4)),
+                  rectangular = true_graph_of(rectangle(7, 4));
+  EXPECT_EQ(square.failure, "");
+  EXPECT_EQ(square.disks.size(), 5);
+  EXPECT_EQ(square.contacts.back().size(), 4);
+  EXPECT_EQ(square.disks.back().radius, 2);
+  EXPECT_EQ(rectangular.failure, "");
+  EXPECT_EQ(rectangular.disks.size(), 6);
+  EXPECT_EQ(rectangular.links.size(), 5);
+  // One reflex vertex: where the foot passes to it and from it.
+  const SiteGraph bent = true_graph_of(l_shape(2));
+  EXPECT_EQ(bent.failure, "");
+  EXPECT_EQ(bent.links.size() + 1, bent.disks.size());
+  // Around the holes there are cycles; failures say where Euler's formula does not hold.
+  const SiteGraph holes = true_graph_of(hole_grid(2));
+  EXPECT_EQ(holes.failure, "");
+  EXPECT_EQ(holes.links.size() + 1, holes.disks.size() + 4);
+}
+
+TEST(TrueGraph, TellsTiesFromWhatIsAllButOne) {
+  EXPECT_EQ(true_graph_of(rectangle(8, 8)).disks.size(), 5);
+  EXPECT_EQ(true_graph_of(rectangle(8, std::nextafter(8.0, 9.0))).disks.size(), 6);
+  EXPECT_EQ(true_graph_of(rectangle(8, std::nextafter(8.0, 7.0))).disks.size(), 6);
+}
+
+TEST(TrueGraph, FindsGraphsThatAreWrong) {
+  const auto shape = build_shape(rectangle(7, 4));
+  const auto axis = compute(*shape);
+  const SiteGraph truth = true_graph(*shape, axis->sites), own = graph_of(*shape, *axis);
+  EXPECT_EQ(difference(axis->sites, truth, own, axis->tolerance), "");
+  // A site taken for another one, an edge that ends elsewhere, and one too few.
+  for (std::size_t i = 0; i < own.links.size(); ++i) {
+    SiteGraph other = own;
+    other.links[i].site[0] = (other.links[i].site[0] + 1) % 4;
+    EXPECT_NE(difference(axis->sites, truth, other, axis->tolerance), "") << i;
+    other = own;
+    other.links[i].node[0] = own.links[(i + 1) % own.links.size()].node[1];
+    const bool moved = other.links[i].node[0] != own.links[i].node[0];
+    EXPECT_EQ(difference(axis->sites, truth, other, axis->tolerance) != "", moved) << i;
+    other = own;
+    other.links.erase(other.links.begin() + static_cast<std::ptrdiff_t>(i));
+    EXPECT_NE(difference(axis->sites, truth, other, axis->tolerance), "") << i;
+  }
+}
+
+// ---- Classes.
+
+/// How many of a thousand shapes of a class may fail: none where it is mended.
+struct Mended {
+  std::string_view name;
+  std::uint64_t most = 0;
+};
+void PrintTo(const Mended& mended, std::ostream* out) { *out << mended.name; }
+
+constexpr std::uint64_t count = 200;
+
+void expect_at_most(const Mended& mended, const Faults& faults) {
+  const std::uint64_t wrong = faults.wrong() - faults.count(Fault::loose);
+  std::string words;
+  for (const auto& [fault, text] : faults.first)
+    if (fault != Fault::loose) words += std::string(name_of(fault)) + ": " + text + "\n";
+  testing::Test::RecordProperty("faults", static_cast<int>(wrong));
+  EXPECT_LE(wrong * 1000, mended.most * count) << words;
+  EXPECT_LT(faults.count(Fault::refused), count * 3 / 4);
+}
+
+class NastyShapes : public testing::TestWithParam<Mended> {
+ protected:
+  static Faults faults(bool planar) {
+    const auto classes = nasty_classes();
+    const auto one = std::find_if(classes.begin(), classes.end(),
+                                  [](const auto& each) { return each.name == GetParam().name; });
+    Faults faults;
+    for (std::uint64_t i = 0; i < count; ++i) {
+      const bool small = i % 2 == 0;
+      faults.add(examine_nasty(*one, first_seed() + i, small,
+                               {.oracle = small && !one->has_arcs, .planar = planar}));
+    }
+    return faults;
+  }
+};
+
+TEST_P(NastyShapes, HaveTheTrueGraphUnderAllSymmetries) {
+  expect_at_most(GetParam(), faults(false));
+}
+
+constexpr std::array<Mended, 12> shapes{{{"strips", 300},
+                                         {"slits", 20},
+                                         {"stretched", 450},
+                                         {"needles", 30},
+                                         {"polygons", 10},
+                                         {"rings"},
+                                         {"grids"},
+                                         {"splinters", 20},
+                                         {"rounds", 10},
+                                         {"circles", 30},
+                                         {"bars", 40},
+                                         {"tangents", 10}}};
+
+INSTANTIATE_TEST_SUITE_P(Classes, NastyShapes, testing::ValuesIn(shapes),
+                         [](const auto& tested) { return std::string(tested.param.name); });
+
+class NastyPlanarGraphs : public NastyShapes {};
+
+TEST_P(NastyPlanarGraphs, AreVerifiedUnderAllSymmetries) {
+  expect_at_most(GetParam(), faults(true));
+}
+
+/// Most are refused as `unsupported` where a point is within 64 tolerances of an edge.
+constexpr std::array<Mended, 12> planar_graphs{{{"strips", 500},
+                                                {"slits", 1000},
+                                                {"stretched", 550},
+                                                {"needles", 750},
+                                                {"polygons", 400},
+                                                {"rings", 400},
+                                                {"grids"},
+                                                {"splinters", 600},
+                                                {"rounds"},
+                                                {"circles", 20},
+                                                {"bars", 20},
+                                                {"tangents"}}};
+
+INSTANTIATE_TEST_SUITE_P(Classes, NastyPlanarGraphs, testing::ValuesIn(planar_graphs),
+                         [](const auto& tested) { return std::string(tested.param.name); });
+
+}  // namespace
+}  // namespace medial::test

@@ -1,0 +1,319 @@
+#include "support/nasty.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include "support/generate_arcs.h"
+#include "support/generate_parts.h"
+
+namespace medial::test {
+namespace {
+
+constexpr double default_tolerance = 4e-15;  // of the diagonal
+
+Vec2 turned(Vec2 p, double angle) {
+  const double c = std::cos(angle), s = std::sin(angle);
+  return {c * p.x - s * p.y, s * p.x + c * p.y};
+}
+
+Rings turned(Rings rings, double angle) {
+  for (Ring& ring : rings)
+    for (Vec2& p : ring.points) p = turned(p, angle);
+  return rings;
+}
+
+std::vector<double> sorted(Random& random, std::size_t count, double low, double high) {
+  std::vector<double> values(count);
+  for (double& value : values) value = random.between(low, high);
+  std::sort(values.begin(), values.end());
+  return values;
+}
+
+std::size_t up_to(Random& random, std::int64_t most) {
+  return static_cast<std::size_t>(random.integer(1, most));
+}
+
+// ---- Strips.
+
+/// One long side of a strip from x = 0 on at height 0, its notches (above 0) and bumps (below) at
+/// random.
+std::vector<Vec2> long_side(Random& random, double length, std::size_t teeth) {
+  std::vector<Vec2> points{{0, 0}};
+  for (const double x : sorted(random, teeth, 0, 0.99 * length)) {
+    const double width = std::min(random.power_of_ten(-1, 2), 0.001 * length);
+    const double height = random.between(0.05, 0.45) * (random.chance(0.6) ? 1 : -1);
+    if (x <= points.back().x + width) continue;
+    points.push_back({x, 0});
+    if (random.chance(0.3)) {
+      points.push_back({x + 0.5 * width, height});
+    } else {
+      points.push_back({x, height});
+      points.push_back({x + width, height * (random.chance(0.5) ? 1 : 0.9)});
+    }
+    points.push_back({x + width, 0});
+  }
+  points.push_back({length, 0});
+  return points;
+}
+
+Rings strip_shape(Random& random, bool small) {
+  const double length =
+      random.chance(0.2) ? std::pow(10, random.integer(6, 14)) : random.power_of_ten(6, 14);
+  const std::int64_t teeth = small ? 1 : 8;
+  std::vector<Vec2> points = long_side(random, length, up_to(random, teeth));
+  if (!small || random.chance(0.5)) {
+    for (const Vec2 p : long_side(random, length, up_to(random, teeth)))
+      points.push_back({length - p.x, 1 - p.y});
+  } else {
+    points.push_back({length, 1});
+    points.push_back({0, 1});
+  }
+  if (random.chance(0.3))
+    for (Vec2& p : points) p.x = std::round(p.x);
+  return {ring_of(std::move(points))};
+}
+
+// ---- Clusters of slits.
+
+Rings slit_shape(Random& random, bool small) {
+  const double unit = default_tolerance * std::sqrt(2.0);
+  const bool alike = random.chance(0.5);
+  const double width = unit * random.between(0.5, 10), gap = unit * random.between(0.5, 10);
+  const auto next = [&](double one) { return alike ? one : unit * random.between(0.5, 10); };
+  const bool as_holes = random.chance(0.3);
+  Rings rings{{}};
+  std::vector<Vec2> outer{{0, 0}, {1, 0}, {1, 1}};
+  double x = random.between(0.1, 0.9);
+  const double end = random.between(0.05, 0.95);
+  for (std::size_t i = up_to(random, small ? 3 : 8); i > 0; --i) {
+    const double low = random.chance(0.4) ? end : random.between(0.05, 0.95);
+    const double left = x - next(width);
+    if (as_holes) {
+      const double high = random.between(low, 1) * 0.99;
+      rings.push_back(ring_of({{left, low}, {x, low}, {x, high}, {left, high}}));
+    } else if (random.chance(0.2)) {
+      outer.insert(outer.end(), {{x, 1}, {left, low}, {left, 1}});
+    } else {
+      outer.insert(outer.end(), {{x, 1}, {x, low}, {left, low}, {left, 1}});
+    }
+    x = left - next(gap);
+  }
+  outer.push_back({0, 1});
+  rings[0] = ring_of(std::move(outer));
+  return rings;
+}
+
+// ---- Stretched shapes.
+
+Rings holes_in_square(Random& random, bool small) {
+  const auto k = static_cast<std::size_t>(random.integer(1, small ? 1 : 3));
+  if (random.chance(0.5)) return hole_grid(k);
+  return star_with_holes(random, 4 + up_to(random, small ? 1 : 8), k);
+}
+
+Rings stretched_shape(Random& random, bool small) {
+  Rings rings;
+  switch (random.integer(0, 3)) {
+    case 0:
+      rings = holes_in_square(random, small);
+      break;
+    case 1:
+      rings = lattice_cells(random, 1 + up_to(random, small ? 3 : 20),
+                            {.equal_steps = random.chance(0.5)});
+      break;
+    case 2:
+      rings = small ? rectangle(3, 1) : comb(up_to(random, 8), random.between(0.1, 2));
+      if (small) rings = l_shape(random.between(0.1, 5));
+      break;
+    default:
+      rings = {star(random, 4 + up_to(random, small ? 3 : 20))};
+  }
+  const double factor = random.power_of_ten(6, 15);
+  for (Ring& ring : rings)
+    for (Vec2& p : ring.points) p.x *= factor;
+  return rings;
+}
+
+// ---- Needles, and other narrow polygons.
+
+Rings needle_shape(Random& random, bool) {
+  const double length = random.chance(0.5) ? 1 : random.power_of_ten(-9, 9);
+  const double thin = length * random.power_of_ten(-17, -13);
+  const double at = random.chance(0.3) ? random.power_of_ten(-16, -1) : random.unit();
+  const Vec2 offset =
+      random.chance(0.5) ? Vec2{0, 0} : Vec2{random.between(-1, 1), random.between(-1, 1)};
+  std::vector<Vec2> points{{0, 0}, {length, 0}, {at * length, thin}};
+  const double angle = random.chance(0.3) ? 0 : random.between(0, two_pi);
+  for (Vec2& p : points) p = turned(p, angle) + length * offset;
+  return {ring_of(std::move(points))};
+}
+
+Rings narrow_polygon(Random& random, bool) {
+  const std::size_t n = 3 + up_to(random, 3),
+                    above = up_to(random, static_cast<std::int64_t>(n) - 2);
+  const double height = random.power_of_ten(-16, -2);
+  const auto y = [&] { return random.chance(0.3) ? height : height * random.unit(); };
+  std::vector<Vec2> points{{0, 0}};
+  for (const double x : sorted(random, n - 2 - above, 0, 1))
+    points.push_back({x, -y() * (random.chance(0.5) ? 1 : 0)});
+  points.push_back({1, random.chance(0.5) ? 0 : y()});
+  std::vector<double> xs = sorted(random, above, 0, 1);
+  for (auto x = xs.rbegin(); x != xs.rend(); ++x) points.push_back({*x, y()});
+  return turned({ring_of(std::move(points))}, random.chance(0.3) ? 0 : random.between(0, two_pi));
+}
+
+// ---- Rings that all but touch.
+
+Rings ring_shape(Random& random, bool small) {
+  if (!small) return random.chance(0.3) ? touching_holes(random, 2) : narrow_gaps(random);
+  const double gap = random.power_of_ten(-15, -6);
+  const double x = random.between(0.2, 0.7), y = random.between(0.1, 0.4);
+  Rings rings{ring_of({{0, 0}, {1, 0}, {random.between(0.8, 1), 1}, {0, 1}})};
+  rings.push_back(ring_of({{x, gap}, {x + random.between(0.05, 0.2), y}, {x - 0.1, y}}));
+  if (random.chance(0.5))
+    rings.push_back(ring_of({{x - 0.1, y + gap}, {x + random.between(0, 0.1), y + gap}, {x, 0.9}}));
+  return turned(std::move(rings), random.chance(0.5) ? 0 : random.between(0, two_pi));
+}
+
+Rings grid_shape(Random& random, bool small) {
+  if (!small) return random_integer_shape(random.next()).rings;
+  switch (random.integer(0, 2)) {
+    case 0:
+      return untangled(random, 3 + up_to(random, 6), 12);
+    case 1:
+      return lattice_cells(random, up_to(random, 6), {.equal_steps = random.chance(0.5)});
+    default:
+      return rectangle(static_cast<double>(up_to(random, 20)),
+                       static_cast<double>(up_to(random, 20)));
+  }
+}
+
+// ---- Splinters.
+
+Rings splinter_shape(Random& random, bool small) {
+  Ring ring = random.chance(0.5) ? untangled(random, 2 + up_to(random, small ? 4 : 20), 64)[0]
+                                 : star(random, 3 + up_to(random, small ? 3 : 20));
+  const double size = random.power_of_ten(-16, -12) * 64;
+  std::vector<Vec2> points;
+  for (const Vec2 p : ring.points) {
+    points.push_back(p);
+    for (int i = 0; i < 2 && random.chance(0.3); ++i)
+      points.push_back(p + size * Vec2{random.between(-1, 1), random.between(-1, 1)});
+  }
+  return {ring_of(std::move(points))};
+}
+
+// ---- Near-circles, and arcs nearly tangent.
+
+double slip(Random& random) { return random.chance(0.1) ? 0 : random.power_of_ten(-16, -10); }
+
+/// Moves vertices, scales bulges, or both.
+Ring disturbed(Random& random, Ring ring) {
+  const double size = slip(random);
+  const std::int64_t kind = random.integer(0, 2);
+  const auto off = [&] { return size * random.between(-1, 1); };
+  if (kind != 1)
+    for (Vec2& p : ring.points) p = p + Vec2{off(), off()};
+  if (kind != 0)
+    for (double& bulge : ring.bulges) bulge *= 1 + off();
+  return ring;
+}
+
+Rings round_polygon(Random& random, bool small) {
+  const std::size_t n = 3 + up_to(random, small ? 7 : 60);
+  return turned({disturbed(random, regular_polygon(n)[0])}, random.between(0, two_pi));
+}
+
+Rings arc_circle(Random& random, bool small) {
+  return {disturbed(random, arcs_of_circle(2 + static_cast<int>(up_to(random, small ? 6 : 60))))};
+}
+
+Rings bar_shape(Random& random, bool small) {
+  const double half_length = random.power_of_ten(-2, 1);
+  const Vec2 along = turned({1, 0}, random.chance(0.3) ? 0 : random.between(0, two_pi));
+  Ring ring;
+  for (int side = 0; side < 2; ++side) {
+    const auto n = static_cast<int>(up_to(random, small ? 2 : 5));
+    for (int i = 0; i <= n; ++i) {
+      const double angle = 0.5 * two_pi * (static_cast<double>(i) / n + side - 0.5);
+      const double x = std::cos(angle) + (side == 0 ? half_length : -half_length);
+      ring.points.push_back(x * along + std::sin(angle) * left_of(along));
+      ring.bulges.push_back(i < n ? std::tan(two_pi / (8.0 * n)) : 0);
+    }
+  }
+  return {disturbed(random, std::move(ring))};
+}
+
+Rings tangent_arcs(Random& random, bool small) {
+  Rings rings;
+  switch (random.integer(0, 2)) {
+    case 0:
+      rings = {smooth_biarcs(random, small ? 16 : 16 * up_to(random, 3), 1)};
+      break;
+    case 1:
+      rings = {rounded(star(random, 2 + up_to(random, small ? 2 : 12)), random.between(0, 0.1))};
+      break;
+    default:
+      rings = lattice_cells(random, up_to(random, small ? 2 : 12), {.touching = false});
+      for (Ring& ring : rings) ring = rounded(ring, random.between(0, 1));
+  }
+  const double size = random.power_of_ten(-16, -7);
+  for (Ring& ring : rings)
+    for (double& bulge : ring.bulges) bulge *= 1 + size * random.between(-1, 1);
+  return rings;
+}
+
+constexpr std::array<NastyClass, 12> classes{{{"strips", strip_shape},
+                                              {"slits", slit_shape},
+                                              {"stretched", stretched_shape},
+                                              {"needles", needle_shape},
+                                              {"polygons", narrow_polygon},
+                                              {"rings", ring_shape},
+                                              {"grids", grid_shape},
+                                              {"splinters", splinter_shape},
+                                              {"rounds", round_polygon},
+                                              {"circles", arc_circle, true},
+                                              {"bars", bar_shape, true},
+                                              {"tangents", tangent_arcs, true}}};
+
+}  // namespace
+
+std::span<const NastyClass> nasty_classes() { return classes; }
+
+Rings nasty_shape(const NastyClass& one, std::uint64_t seed, bool small) {
+  Random random(seed);
+  constexpr std::size_t few = 12;
+  constexpr int tries = 20;
+  Rings rings = one.generate(random, small);
+  for (int i = 0; small && i < tries && vertex_count(rings) > few; ++i)
+    rings = one.generate(random, small);
+  return rings;
+}
+
+std::vector<Chain> nasty_chains(const NastyClass& one, std::uint64_t seed, bool small) {
+  Random random(seed ^ 0x5bd1e995);
+  std::vector<Chain> chains;
+  for (const Ring& ring : nasty_shape(one, seed, small)) {
+    const std::size_t n = ring.points.size();
+    Chain chain;
+    const auto close = [&] {
+      if (!chain.points.empty()) chains.push_back(std::exchange(chain, {}));
+    };
+    for (std::size_t i = 0; i < n; ++i) {
+      if (chain.points.empty()) chain.points.push_back(ring.points[i]);
+      if (random.chance(0.3)) {
+        close();
+        continue;
+      }
+      chain.points.push_back(ring.points[(i + 1) % n]);
+      if (!ring.bulges.empty()) chain.bulges.push_back(ring.bulges[i]);
+    }
+    close();
+  }
+  return chains;
+}
+
+}  // namespace medial::test

@@ -1,0 +1,45 @@
+#pragma once
+
+// Shapes on which rounding decides what the axis looks like, by classes: see generate.h for milder
+// ones. One seed, one shape, for ever; most are valid input for build_shape(), some of them have
+// gaps that rounding closed.
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "medial/planar_graph.h"
+#include "support/generate.h"
+
+namespace medial::test {
+
+struct NastyClass {
+  std::string_view name;
+  /// Of about a dozen sites if `small`, and of tens otherwise.
+  Rings (*generate)(Random& random, bool small);
+  bool has_arcs = false;
+};
+
+/// strips: of height 1 and length 1e6 to 1e14, with notches and bumps.
+/// slits: clusters of slits of 0.5 to 10 tolerances, as far apart, in a unit square.
+/// stretched: holes, slits and cells, their x multiplied by 1e6 to 1e15.
+/// needles: triangles thinner than rounding.
+/// polygons: narrow ones of four to six vertices.
+/// rings: that all but touch each other, or themselves.
+/// grids: cells of integers, and polygons on them.
+/// splinters: polygons with edges of 1e-16 to 1e-12.
+/// rounds: regular polygons, their vertices off by 1e-16 to 1e-10 of the radius.
+/// circles: the same of arcs.
+/// bars: with rounded ends of one to five arcs, off by as much.
+/// tangents: random arcs that join smoothly but for an angle of 1e-16 to 1e-7.
+std::span<const NastyClass> nasty_classes();
+
+Rings nasty_shape(const NastyClass& one, std::uint64_t seed, bool small);
+/// The same with some of the edges left out.
+std::vector<Chain> nasty_chains(const NastyClass& one, std::uint64_t seed, bool small);
+
+/// Slots, strips, wedges and rings as near to each other as 1e-14 to 1e-6 of the size.
+Rings narrow_gaps(Random& random);
+
+}  // namespace medial::test
