@@ -126,7 +126,7 @@ constexpr std::array<Mended, 12> shapes{{{"strips", 300},
                                          {"rounds", 10},
                                          {"circles", 30},
                                          {"bars", 40},
-                                         {"tangents", 10}}};
+                                         {"tangents", 50}}};
 
 INSTANTIATE_TEST_SUITE_P(Classes, NastyShapes, testing::ValuesIn(shapes),
                          [](const auto& tested) { return std::string(tested.param.name); });

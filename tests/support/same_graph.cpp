@@ -144,6 +144,10 @@ class Contracted {
     return result;
   }
   const Disk& disk(std::uint32_t i) const { return graph_.disks[i]; }
+  /// Two sites meet there. Elsewhere disks as small may be rounded to radius 0.
+  bool is_corner(std::uint32_t i) const {
+    return graph_.disks[i].radius == 0 && graph_.contacts[i].size() == 2;
+  }
   /// Whether a disk touches all that the nodes' disks touch.
   bool touched(const std::vector<std::uint32_t>& nodes, const Disk& disk, double tolerance) const {
     return std::all_of(nodes.begin(), nodes.end(), [&](std::uint32_t i) {
@@ -173,7 +177,7 @@ using LinkPairs = std::vector<std::pair<const Link*, const Link*>>;
 /// though the next disk on it touches the same sites.
 LinkPairs common_links(Contracted& first, Contracted& second, std::string& failure) {
   const auto contract = [&](Contracted& graph, const Link& link) {
-    if (graph.disk(link.node[0]).radius == 0 || graph.disk(link.node[1]).radius == 0)
+    if (graph.is_corner(link.node[0]) || graph.is_corner(link.node[1]))
       failure = name_of(link) + ", at a corner, is in one of them only";
     graph.contract(link);
   };
