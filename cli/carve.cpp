@@ -10,6 +10,7 @@
 #include "cli/common.h"
 #include "cli/pipeline.h"
 #include "medial/io/write.h"
+#include "medial/units.h"
 
 namespace medial::cli {
 namespace {
@@ -21,23 +22,20 @@ struct CarveArguments : FileArguments {
   io::MachineOptions machine;
   CarveOptions carve;
   Options options;  ///< exterior and margin
-  double scale = 1;
 };
 
 Result<io::CarveItem> carve_one(Shape shape, const CarveArguments& arguments,
                                 const Options& options) {
-  const double scale = arguments.scale;
   if (arguments.options.exterior) {
-    auto around = surroundings(shape, arguments.options.margin / scale);
+    auto around = surroundings(shape, arguments.options.margin);
     if (!around) return std::move(around).error();
     shape = std::move(around).value();
   }
   auto axis = compute(shape, options);
   if (!axis) return std::move(axis).error();
-  auto carving = carve(*axis, scaled(arguments.carve, 1 / scale));
+  auto carving = carve(*axis, arguments.carve);
   if (!carving) return std::move(carving).error();
-  for (Vec2& point : shape.points) point = scale * point;
-  return io::CarveItem{std::move(shape), scaled(std::move(carving).value(), scale)};
+  return io::CarveItem{std::move(shape), std::move(carving).value()};
 }
 
 Result<int> finish_carve(const Document<io::CarveItem>& file, const CarveArguments& arguments,
@@ -54,9 +52,10 @@ Result<int> finish_carve(const Document<io::CarveItem>& file, const CarveArgumen
     deepest = std::max(deepest, c.deepest);
   }
   const std::string& input = arguments.input.path;
-  if (deepest > unlikely_depth && !arguments.common.quiet)
-    say("medial: {}: note: the cut is {:.3g} mm deep; --scale sets the length of a unit\n", input,
-        deepest);
+  if (deepest * millimetres(file.unit) > unlikely_depth && !arguments.common.quiet)
+    say("medial: {}: note: the cut is {:.3g} {} deep; --units says what the input is in, --depth "
+        "limits the cut\n",
+        input, deepest, name_of(file.unit));
   return finish(
       arguments,
       {{"input", input},
@@ -77,10 +76,15 @@ Result<int> run_carve(const CarveArguments& arguments) {
   const CommonOptions& common = arguments.common;
   Status writable = check_output(arguments, io::formats_of(io::DocumentKind::carving));
   if (!writable) return std::move(writable).error();
-  auto shapes = load_shapes(arguments.input, common);
+  InputOptions input = arguments.input;
+  UnitOptions& units = input.source.units;
+  units.assumed = Unit::millimetre;
+  if (units.wanted == Unit::unknown) units.wanted = Unit::millimetre;
+  auto shapes = load_shapes(input, common);
   if (!shapes) return std::move(shapes).error();
   Document<io::CarveItem> file;  // of a machine, without a reference system
   file.y_down = shapes->file.y_down;
+  file.unit = shapes->file.unit;
   auto items = map_items<io::CarveItem>(
       weights_of(shapes->file), common.threads, [&](std::size_t i, int threads) {
         return carve_one(std::move(shapes->file.items[i].shape), arguments,
@@ -150,9 +154,6 @@ Command make_carve_command(CLI::App& program) {
       *command, arguments->options,
       "Cut what lies around the shape and in its holes, up to a rectangle, so that the\n"
       "shape stands out: the rectangle's edges become walls as well.");
-  add_value(*command, "--scale", arguments->scale, "S", in_range(1e-6, 1e6),
-            "Millimetres per unit of the input (default: 1); all options are in\n"
-            "millimetres.");
   add_machine_options(*command, arguments->machine);
   add_output_options(*command, *arguments, io::formats_of(io::DocumentKind::carving),
                      "for example nc");
@@ -162,14 +163,14 @@ Command make_carve_command(CLI::App& program) {
       "The tool's point follows the axis at the depth where the tool is as wide as the\n"
       "disk: walls begin at the boundary, corners come out sharp. Nothing outside is\n"
       "touched. Flat bottoms are cleared from the inside out without lifting where that is\n"
-      "safe. Units of the input, pixels and font units as well, become millimetres, or what\n"
-      "--scale says; z is 0 on the surface.\n"
+      "safe. Lengths are millimetres, or inches with --output-units in; of an SVG the\n"
+      "physical size counts, or 96 pixels an inch; z is 0 on the surface.\n"
       "\n"
       "Examples:\n"
       "  medial carve spanner.svg --angle 60 -o spanner.nc\n"
       "  medial carve plate.dxf --angle 90 --depth 3 -o plate.svg\n"
       "  medial carve plate.dxf --angle 0 --tool 4 --depth 2 --feed 800 -o pocket.gcode\n"
-      "  medial carve spanner.svg --angle 60 --scale 0.2646 --pass-depth 1 -o spanner.nc\n"
+      "  medial carve spanner.svg --angle 60 --output-units in -o spanner.nc\n"
       "  medial carve --text Axis --font serif.ttf --angle 60 -o - --format csv");
   return command_of(command, arguments, run_carve);
 }

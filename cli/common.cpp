@@ -16,6 +16,7 @@
 #include <system_error>
 
 #include "medial/threads.h"
+#include "medial/units.h"
 
 namespace medial::cli {
 namespace {
@@ -115,6 +116,31 @@ void add_curve_options(CLI::App& command, InputOptions& input) {
       });
 }
 
+CLI::Option* add_unit(CLI::App& command, const char* name, Unit& unit, const std::string& help) {
+  const auto check = [](const std::string& text) {
+    return unit_of(text) ? std::string() : fmt::format("'{}' is not one of {}", text, unit_names());
+  };
+  return command
+      .add_option_function<std::string>(
+          name, [&unit](const std::string& text) { unit = *unit_of(text); }, help)
+      ->check(CLI::Validator(check, ""))
+      ->option_text("UNIT");
+}
+
+void add_unit_options(CLI::App& command, UnitOptions& units) {
+  const OptionGroup group(command, "Units");
+  add_unit(command, "--units", units.given,
+           "What lengths of the input are in, where it does not say, or is wrong:\n" +
+               unit_names() + ".");
+  add_unit(command, "--output-units", units.wanted,
+           "Convert to these units, after reading; lengths in other options are in them, too.");
+  add_value(command, "--scale", units.scale, "S", in_range(1e-9, 1e9, true),
+            "Enlarge the input by this factor (default: 1).");
+  add_value(command, "--pixel-size", units.pixel_size, "L", a_positive_number(),
+            "Images: the side of a pixel, in --units (default: 1, or with --output-units\n"
+            "what the file says of its dots per inch).");
+}
+
 }  // namespace
 
 OptionGroup::OptionGroup(CLI::App& command, std::string_view name)
@@ -172,6 +198,7 @@ void add_input_options(CLI::App& command, InputOptions& input) {
                    "Images: a smooth curve within half a pixel instead of the pixels'\n"
                    "boundary.");
   add_curve_options(command, input);
+  add_unit_options(command, input.source.units);
 }
 
 void add_image_options(CLI::App& command, io::ImageOptions& options) {

@@ -62,6 +62,10 @@ std::string crs_text(const std::string& wkt, bool geographic) {
   return (name.empty() ? "unknown" : name) + (geographic ? " (longitude and latitude)" : "");
 }
 
+std::string unit_text(Unit unit) {
+  return unit == Unit::unknown ? "unknown" : std::string(name_of(unit));
+}
+
 /// Invalid polygons are an error, which main() reports.
 Result<int> summarize_polygons(const FileArguments& arguments) {
   auto loaded = load_shapes(arguments.input, arguments.common);
@@ -81,6 +85,7 @@ Result<int> summarize_polygons(const FileArguments& arguments) {
   object["notes"] = file.notes;
   object["crs"] = crs_name(file.crs_wkt);
   object["geographic"] = file.geographic;
+  object["unit"] = name_of(file.unit);
 
   Rows table(20);
   table.add("polygons", "valid");
@@ -96,6 +101,7 @@ Result<int> summarize_polygons(const FileArguments& arguments) {
                                     arcs.largest_error));
   }
   table.add("coordinates", crs_text(file.crs_wkt, file.geographic));
+  table.add("unit", unit_text(file.unit));
   return finish(arguments.common, std::move(object), phases, table.text());
 }
 
@@ -153,6 +159,7 @@ Result<int> summarize_axes(const FileArguments& arguments) {
   object["deepest"] = to_json(axes)["deepest"];
   add_members(object["shape"], shapes);
   object["crs"] = crs_name(file->crs_wkt);
+  object["unit"] = name_of(file->unit);
 
   Rows table(20);
   table.add("medial axes", axes.features);
@@ -167,6 +174,7 @@ Result<int> summarize_axes(const FileArguments& arguments) {
   if (axes.deepest.radius >= 0) table.add("deepest disk", deepest_text(axes));
   add_rows(table, shapes);
   table.add("coordinates", crs_text(file->crs_wkt, false));
+  table.add("unit", unit_text(file->unit));
   return finish(arguments.common, std::move(object), phases, table.text());
 }
 

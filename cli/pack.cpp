@@ -18,7 +18,7 @@ constexpr char pack_formats[] = ".mpk";
 
 struct PackArguments : FileArguments {
   double error = 1e-3;
-  bool units = false;
+  bool absolute = false;
   bool squares = false;
   bool compare = false;
 };
@@ -75,7 +75,7 @@ Result<int> pack_squares(const PackArguments& arguments) {
   file.kind = io::PackKind::squares;
   file.y_down = true;
   SquareReport report;
-  const double error = arguments.units ? arguments.error : 0;
+  const double error = arguments.absolute ? arguments.error : 0;
   if (!(error >= 0 && error <= 65535)) return invalid_option("--error is not a number of pixels");
   file.code = encode_squares(image->image, static_cast<std::uint32_t>(error), &report);
   auto bytes = io::pack_bytes(file);
@@ -131,7 +131,8 @@ Result<int> run_pack(const PackArguments& arguments) {
   if (arguments.squares) return pack_squares(arguments);
   auto axes = load_axes(arguments.input, arguments.common);
   if (!axes) return std::move(axes).error();
-  const double bound = arguments.units ? arguments.error : arguments.error * extent_of(axes->file);
+  const double bound =
+      arguments.absolute ? arguments.error : arguments.error * extent_of(axes->file);
   const auto packed = pack_axes(axes->file, bound);
   if (!packed) return packed.error();
   axes->phases.end("pack");
@@ -207,12 +208,12 @@ Command make_pack_command(CLI::App& program) {
       add_value(*command, "--error", arguments->error, "E", in_range(0, 1e300),
                 "How far the shape may change, as a share of the diagonal (default: 0.001).");
   command
-      ->add_flag("--units", arguments->units,
+      ->add_flag("--absolute", arguments->absolute,
                  "--error is in units of the input; of --squares, in pixels.")
       ->needs(error);
   command->add_flag("--squares", arguments->squares,
                     "For an image: maximal squares of pixels instead; without loss, or with\n"
-                    "--error N --units at most N pixels away.");
+                    "--error N --absolute at most N pixels away.");
   command->add_flag("--compare", arguments->compare,
                     "Also print the size of the boundary: within the same error, coded alike;\n"
                     "and as text, through zstd.");

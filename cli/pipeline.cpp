@@ -8,6 +8,7 @@
 #include "medial/features.h"
 #include "medial/measure.h"
 #include "medial/query.h"
+#include "medial/units.h"
 
 namespace medial::cli {
 namespace {
@@ -72,15 +73,22 @@ Json statistics_of(const LoadedAxes& axes, const AxisSummary& summary) {
   return object;
 }
 
+/// " mm", or nothing where the unit is unknown.
+std::string in_units(Unit unit) {
+  const std::string name = name_of(unit);
+  return name.empty() ? name : " " + name;
+}
+
 /// "1 feature, 12 sites, 20 nodes, 19 edges, 7 branches; deepest disk: radius 3 at (1, 2)"
-std::string describe(const AxisSummary& summary) {
+std::string describe(const AxisSummary& summary, Unit unit) {
   std::string text =
       fmt::format("{}, {}, {}, {}, {}", counted(summary.features, "feature"),
                   counted(summary.sites, "site"), counted(summary.nodes(), "node"),
                   counted(summary.edges, "edge"), counted(summary.branches, "branch", "branches"));
   if (summary.deepest.radius >= 0) {
-    text += fmt::format("; deepest disk: radius {:.6g} at ({:.10g}, {:.10g})",
-                        summary.deepest.radius, summary.deepest.center.x, summary.deepest.center.y);
+    text +=
+        fmt::format("; deepest disk: radius {:.6g}{} at ({:.10g}, {:.10g})", summary.deepest.radius,
+                    in_units(unit), summary.deepest.center.x, summary.deepest.center.y);
     if (summary.features > 1) text += fmt::format(" in feature {}", summary.deepest_feature);
   }
   return text;
@@ -98,6 +106,11 @@ bool has_axes(const Document<AxisItem>& file, const Options& options) {
     return false;
   return items.empty() ||
          std::ranges::any_of(items, [](const auto& item) { return !item.axis.nodes.empty(); });
+}
+
+bool has_effect(const UnitOptions& units) {
+  return units.given != Unit::unknown || units.wanted != Unit::unknown || units.scale != 1 ||
+         units.pixel_size > 0;
 }
 
 }  // namespace
@@ -172,6 +185,9 @@ Result<LoadedAxes> load_axes(const InputOptions& input, const CommonOptions& com
     }();
     if (!stored) return std::move(stored).error();
     if (has_axes(*stored, options)) {
+      if (has_effect(input.source.units))
+        return error_at(ErrorCode::invalid_option, input.path,
+                        "a stored axis keeps its units: convert the shape it is of");
       out.file = std::move(stored).value();
       out.phases.end("read");
       return out;
@@ -247,8 +263,9 @@ Result<int> finish_axes(LoadedAxes& axes, const FileArguments& arguments) {
   Json object = {{"input", arguments.input.path}};
   if (!arguments.output.empty()) object["output"] = arguments.output;
   object.update(to_json(summary));
+  object["unit"] = name_of(axes.file.unit);
   return finish(arguments, std::move(object), axes.phases,
-                fmt::format("{}: {}", arguments.input.path, describe(summary)),
+                fmt::format("{}: {}", arguments.input.path, describe(summary, axes.file.unit)),
                 arguments.common.stats ? statistics_of(axes, summary) : Json());
 }
 

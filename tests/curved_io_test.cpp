@@ -501,9 +501,9 @@ TEST_F(CurvedIo, PicturesAreReadBackAsCircles) {
       const double s = 1 - t;
       const Vec2 at =
           s * s * s * p(0) + 3 * s * s * t * p(1) + 3 * s * t * t * p(2) + t * t * t * p(3);
-      // The picture is 1,000 points wide, of 4/3 pixels each; Cairo writes coordinates rounded to
+      // The picture is 1,000 points wide, of 25.4 / 72 mm each; Cairo writes coordinates rounded to
       // some millionths.
-      EXPECT_NEAR(distance(0.75 * at, {500, 500}), 470, 2e-3);
+      EXPECT_NEAR(distance(72 / 25.4 * at, {500, 500}), 470, 2e-3);
     }
   }
 }

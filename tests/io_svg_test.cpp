@@ -154,8 +154,9 @@ TEST_F(CurvedIo, SvgSizesThatAViewBoxTells) {
                 true);
   expect_circle(svg(circle, "viewBox='0 0 24 12' width='48'").items[0].contours[0], {8, 6}, 4,
                 true);
-  expect_circle(svg(circle, "viewBox='0 0 24 12' height='1in'").items[0].contours[0], {32, 24}, 16,
-                true);
+  const Document<Feature> inches = svg(circle, "viewBox='0 0 24 12' height='3in'");
+  EXPECT_EQ(inches.unit, Unit::inch);
+  expect_circle(inches.items[0].contours[0], {1, 0.75}, 0.5, true);
   expect_circle(svg(circle).items[0].contours[0], {4, 3}, 2, true);
 }
 

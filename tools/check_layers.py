@@ -23,7 +23,7 @@ LAYERS = {
     "voronoi": ["voronoi"],
     "ops": ["carve", "centreline", "features", "measure", "offset", "pack", "prune", "rebuild", "sides"],
     "volume": ["volume"],
-    "load": ["document", "load"],
+    "load": ["document", "load", "units"],
     "io": ["io/*"],
     "all": ["medial"],
 }

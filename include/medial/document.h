@@ -11,7 +11,21 @@
 
 namespace medial {
 
-enum class Unit : std::uint8_t { unknown, millimetre, inch, css_pixel, metre, degree };
+enum class Unit : std::uint8_t {
+  unknown,
+  micrometre,
+  millimetre,
+  centimetre,
+  metre,
+  kilometre,
+  mil,
+  inch,
+  foot,
+  yard,
+  css_pixel,  ///< of a drawing without a physical size: 96 to the inch
+  pixel,      ///< of an image
+  degree,
+};
 
 /// Items of one kind, and what holds for all.
 template <class T>
@@ -22,13 +36,15 @@ struct Document {
   bool y_down = false;             ///< the y axis points down, as in SVG; for pictures
   Unit unit = Unit::unknown;       ///< of lengths
   double pixel = 0;                ///< of an image: the side of its pixels, where they are squares
+  double dots_per_inch = 0;        ///< of an image that says so
   std::vector<std::string> notes;  ///< what repair or reprojection changed, one sentence each
 };
 
 /// A document without items that has all else of another.
 template <class To, class From>
 Document<To> empty_like(const Document<From>& from) {
-  return {{}, from.crs_wkt, from.geographic, from.y_down, from.unit, from.pixel, from.notes};
+  return {{},        from.crs_wkt, from.geographic,    from.y_down,
+          from.unit, from.pixel,   from.dots_per_inch, from.notes};
 }
 
 /// What a file says of a feature besides its geometry: names and values as text, in their order.

@@ -25,6 +25,7 @@
 #include "medial/shape.h"
 #include "medial/sides.h"
 #include "medial/threads.h"
+#include "medial/units.h"
 #include "medial/vec3.h"
 #include "medial/verify.h"
 #include "medial/volume.h"

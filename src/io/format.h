@@ -85,6 +85,7 @@ class Target {
   std::string name;             ///< of the file without its extension
   OutputStream* out = nullptr;  ///< null: the format makes the file `path`
   std::string path;
+  std::string unit;  ///< of lengths, by its name; empty: unknown, or the reference system says
   OutputCrs crs;
 
   /// Points of the document become points of the output. Where one cannot be projected, the error

@@ -223,7 +223,7 @@ void describe_units(const OGRSpatialReference& reference, Document<Feature>& dat
   if (dataset.geographic)
     dataset.unit = Unit::degree;
   else
-    dataset.unit = reference.GetLinearUnits() == 1 ? Unit::metre : Unit::unknown;
+    dataset.unit = unit_of_length(1e3 * reference.GetLinearUnits());
 }
 
 }  // namespace

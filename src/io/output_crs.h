@@ -19,7 +19,7 @@ class OutputCrs {
   /// None: points stay.
   OutputCrs();
   /// Errors: unsupported (a local projection that cannot be undone).
-  static Result<OutputCrs> make(const std::string& crs_wkt);
+  static Result<OutputCrs> make(const std::string& crs_wkt, Unit unit);
   ~OutputCrs();
   OutputCrs(OutputCrs&&) noexcept;
   OutputCrs& operator=(OutputCrs&&) noexcept;

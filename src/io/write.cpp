@@ -9,6 +9,7 @@
 #include "io/format_name.h"
 #include "io/guarded.h"
 #include "io/place.h"
+#include "medial/units.h"
 
 namespace medial::io {
 
@@ -24,8 +25,9 @@ struct Standard {
 /// opens, writes, and puts the file in its place.
 template <class Output>
 Status write_document(const std::string& path, const std::string& asked, const Standard& standard,
-                      const std::string& crs_wkt, const Output& output) {
+                      const std::string& crs_wkt, const Output& output, Unit unit = Unit::unknown) {
   Target target;
+  if (crs_wkt.empty()) target.unit = name_of(unit);
   target.format = path == "-" && asked.empty() ? standard.format : format_name(path, asked);
   const Format* format = find_format(target.format, Output::kind);
   if (format == nullptr)
@@ -37,7 +39,7 @@ Status write_document(const std::string& path, const std::string& asked, const S
   target.name = stream ? standard.name : std::filesystem::path(path).stem().string();
   const auto write = [&]() -> Status {
     if (format->geographic) {
-      Result<OutputCrs> crs = OutputCrs::make(crs_wkt);
+      Result<OutputCrs> crs = OutputCrs::make(crs_wkt, unit);
       if (!crs) return std::move(crs).error();
       target.crs = std::move(*crs);
     }
@@ -64,7 +66,8 @@ Status write_checked(const std::string& path, const std::string& asked, const St
                      const Output& output) {
   if (!(output.options.chord > 0) || !std::isfinite(output.options.chord))
     return Error{ErrorCode::invalid_option, "chord is not a positive number", in_file(path)};
-  return write_document(path, asked, standard, output.document.crs_wkt, output);
+  return write_document(path, asked, standard, output.document.crs_wkt, output,
+                        output.document.unit);
 }
 
 }  // namespace

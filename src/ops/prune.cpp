@@ -35,7 +35,7 @@ constexpr std::array<Named, 12> measures = [] {
       {residual, "residual", 0.1},
       {area, "area", 0.005},
       {lambda, "lambda", 0.1},
-      {scale, "scale", 1.3},
+      {scale, "scale-axis", 1.3},
   }};
 }();
 

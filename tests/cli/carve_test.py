@@ -95,14 +95,14 @@ class Carve(CommandLine):
         for name in self.supported("c.nc", "c.ngc", "c.gcode", "c.csv", "c.dxf", "c.svg", "c.pdf", "c.png", "c.ps"):
             self.succeed("carve", "s.wkt", "--angle", "90", "--depth", "2", "-o", name)
             self.assertGreater(len(self.read(name)), 200)
-        self.assertTrue(self.read("c.csv").startswith(b"path,kind,x,y,z\n"))
+        self.assertTrue(self.read("c.csv").startswith(b"path,kind,x,y,z,unit\n"))
         report = json.loads(self.succeed("carve", "s.wkt", "--angle", "90", "--json").stdout)
         self.assertAlmostEqual(report["deepest"], 4)
 
     def test_what_cannot_be_done_is_refused(self):
         self.write("s.wkt", self.SQUARE)
-        self.refuse("invalid_option", "carve", "s.wkt")
-        self.refuse("invalid_option", "carve", "s.wkt", "--angle", "0")
-        self.refuse("invalid_option", "carve", "s.wkt", "--angle", "175")
-        self.refuse("invalid_option", "carve", "s.wkt", "--angle", "90", "--tool", "1", "--tip", "2")
+        self.refuse("invalid_option", "carve", "s.wkt", "--units", "mm")
+        self.refuse("invalid_option", "carve", "s.wkt", "--units", "mm", "--angle", "0")
+        self.refuse("invalid_option", "carve", "s.wkt", "--units", "mm", "--angle", "175")
+        self.refuse("invalid_option", "carve", "s.wkt", "--units", "mm", "--angle", "90", "--tool", "1", "--tip", "2")
         self.refuse("unsupported", "carve", "s.wkt", "--angle", "90", "-o", "c.stl")

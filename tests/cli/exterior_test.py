@@ -48,7 +48,7 @@ class Exterior(CommandLine):
                 self.assertTrue(any(math.dist(corner, end) < 1e-9 for end in ends), corner)
             # Deepest before the bay, between its corners and the enclosure: (12 - y)^2 = 1 + (y - 10)^2.
             self.assertAlmostEqual(min(float(row["z"]) for row in rows), -1.25 * float(scale), delta=1e-3 * float(scale))
-        self.refuse("invalid_option", "carve", "bay.wkt", "--angle", "90", "--exterior", "--margin", "1e9")
+        self.refuse("invalid_option", "carve", "bay.wkt", "--units", "mm", "--angle", "90", "--exterior", "--margin", "1e9")
         # Drawn as it is stored; by several methods; and with the bay's bottom and the hole's corners filled.
         self.succeed("draw", "bay.wkt", "--exterior", "-o", "drawn.svg")
         self.succeed("draw", "around.json", "-o", "stored.svg")

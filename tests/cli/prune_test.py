@@ -52,7 +52,7 @@ class Prune(CommandLine):
         self.assertIn("1.6", text)            # the bump in the waist stays
         self.assertNotIn("-0.6 0.4", text)    # the one on the broad side goes
         self.assertLess(report["against"]["area_error"], 0)
-        for options in (["--keep", "3"], ["--keep", "3", "--tips"], ["--by", "scale"], ["--lambda", "0.2"], []):
+        for options in (["--keep", "3"], ["--keep", "3", "--tips"], ["--by", "scale-axis"], ["--lambda", "0.2"], []):
             few = json.loads(self.succeed("prune", "bumps.wkt", "--json", "-o", "few.json", *options).stdout)
             self.assertLessEqual(few["branches"], 15)
             self.assertEqual(few["branches"], json.loads(self.succeed("info", "few.json", "--json").stdout)["branches"])

@@ -10,6 +10,7 @@
 #include "medial/load.h"
 #include "medial/pack.h"
 #include "medial/raster.h"
+#include "medial/units.h"
 #include "medial/volume.h"
 #include "medial/voronoi.h"
 
@@ -56,6 +57,7 @@ struct SourceOptions {
   ReadOptions read;  ///< its `repair` goes for features with curves as well
   std::string text;  ///< not empty: the outlines of this text in the font `path`, see read_text()
   LoadOptions load;  ///< but for `repair`
+  UnitOptions units;
 };
 
 /// What a file holds, by read_dataset() or read_text(); of medial's .json shapes with their
@@ -124,6 +126,7 @@ struct ImageFile {
   PixelPlacement placement = unplaced;
   std::string crs_wkt;  ///< coordinate reference system as WKT, empty if none
   bool geographic = false;
+  double dots_per_inch = 0;  ///< 0: the file does not say
   std::vector<std::string> notes;
 
   bool placed() const { return placement != unplaced; }

@@ -16,25 +16,39 @@ namespace medial::io {
 
 namespace {
 
-/// A row: `before`, and the numbers behind it, each after a comma.
-void put_values(OutputStream& out, std::string_view before, std::initializer_list<double> values) {
-  out.put(before);
-  for (const double value : values) {
-    out.put(',');
-    out.put(value);
+/// The end of a row, or of the first one, which names the columns. The last column is the unit,
+/// where one is known.
+void end_row(Target& target, bool names = false) {
+  if (!target.unit.empty()) {
+    target.out->put(',');
+    target.out->put(names ? std::string_view("unit") : std::string_view(target.unit));
   }
-  out.put('\n');
+  target.out->put('\n');
+}
+void put_names(Target& target, std::string_view names) {
+  target.out->put(names);
+  end_row(target, true);
 }
 
-void put_disks(OutputStream& out, const std::string& before, const std::vector<Disk>& disks) {
+/// A row: `before`, and the numbers behind it, each after a comma.
+void put_values(Target& target, std::string_view before, std::initializer_list<double> values) {
+  target.out->put(before);
+  for (const double value : values) {
+    target.out->put(',');
+    target.out->put(value);
+  }
+  end_row(target);
+}
+
+void put_disks(Target& target, const std::string& before, const std::vector<Disk>& disks) {
   for (const Disk& disk : disks)
-    put_values(out, before, {disk.center.x, disk.center.y, disk.radius});
+    put_values(target, before, {disk.center.x, disk.center.y, disk.radius});
 }
 
 /// A row for each sample; edges count through all items. Samples of an edge follow each other, the
 /// nodes first and last.
 Status write_csv(Target& target, const AxesOutput& output) {
-  target.out->put("edge,x,y,r\n");
+  put_names(target, "edge,x,y,r");
   std::uint64_t id = 0;
   std::vector<Disk> samples;
   for (const AxisItem& item : output.document.items) {
@@ -42,21 +56,21 @@ Status write_csv(Target& target, const AxesOutput& output) {
     for (const Edge& edge : item.axis.edges) {
       sample(item.axis, edge, chord, samples);
       target.place(samples);
-      put_disks(*target.out, fmt::format_int(id++).str(), samples);
+      put_disks(target, fmt::format_int(id++).str(), samples);
     }
   }
   return success();
 }
 
 Status write_csv(Target& target, const VoronoiOutput& output) {
-  target.out->put("edge,part,left,right,x,y,r\n");
+  put_names(target, "edge,part,left,right,x,y,r");
   std::uint64_t number = 0;
   for (const VoronoiItem& item : output.document.items) {
     const double chord = chord_of(item, output.options);
     for (const VoronoiEdge& edge : item.diagram.edges) {
       std::vector<Disk> line = sample_by_chord(item.diagram, edge, chord);
       target.place(line);
-      put_disks(*target.out,
+      put_disks(target,
                 fmt::format("{},{},{},{}", number++, name_of(edge), number_of(edge.site[0]),
                             number_of(edge.site[1])),
                 line);
@@ -83,7 +97,7 @@ Status write_csv(Target& target, const FeaturesOutput& output) {
     out.put(column.name);
     out.put(',');
   }
-  out.put(points ? "x,y\n" : "x_from,y_from,x_to,y_to\n");
+  put_names(target, points ? "x,y" : "x_from,y_from,x_to,y_to");
   const auto put_row = [&](TableRow& row) {
     for (const Value& value : row.values) {
       put_csv(out, value);
@@ -94,8 +108,9 @@ Status write_csv(Target& target, const FeaturesOutput& output) {
     target.place(places);
     for (const Vec2& p : places) {
       put_point(out, p, ',');
-      out.put(&p == &places.back() ? '\n' : ',');
+      if (&p != &places.back()) out.put(',');
     }
+    end_row(target);
     return target.status();
   };
   for (std::size_t i = 0; i < output.features.size(); ++i) {
@@ -109,7 +124,7 @@ Status write_csv(Target& target, const FeaturesOutput& output) {
 }
 
 Status write_csv(Target& target, const CarvingOutput& output) {
-  target.out->put("path,kind,x,y,z\n");
+  put_names(target, "path,kind,x,y,z");
   std::uint64_t id = 0;
   for (const CarveItem& item : output.document.items) {
     // Next to where offsets of two sides meet, a tangent may come nearer to the other side than its
@@ -122,7 +137,7 @@ Status write_csv(Target& target, const CarvingOutput& output) {
     for (const ToolPath& path : item.carving.paths) {
       const std::string before = fmt::format("{},{}", id++, name_of(path.kind));
       for (const ToolPoint& point : without_arcs(path, chord))
-        put_values(*target.out, before, {point.point.x, point.point.y, point.z});
+        put_values(target, before, {point.point.x, point.point.y, point.z});
     }
   }
   return success();

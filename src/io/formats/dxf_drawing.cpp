@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <string_view>
+#include <utility>
 
 namespace medial::io {
 
@@ -43,6 +45,17 @@ void write_tables(DL_Dxf& drawing, DxfGroups& groups, const std::vector<std::str
   groups.sectionEnd();
 }
 
+constexpr std::array<std::pair<int, Unit>, 10> units_of_dxf{{{1, Unit::inch},
+                                                             {2, Unit::foot},
+                                                             {4, Unit::millimetre},
+                                                             {5, Unit::centimetre},
+                                                             {6, Unit::metre},
+                                                             {7, Unit::kilometre},
+                                                             {9, Unit::mil},
+                                                             {10, Unit::yard},
+                                                             {13, Unit::micrometre},
+                                                             {0, Unit::unknown}}};
+
 void write_blocks(DL_Dxf& drawing, DxfGroups& groups) {
   groups.sectionBlocks();
   for (const char* name : {"*Model_Space", "*Paper_Space", "*Paper_Space0"}) {
@@ -53,6 +66,17 @@ void write_blocks(DL_Dxf& drawing, DxfGroups& groups) {
 }
 
 }  // namespace
+
+int dxf_units(Unit unit) {
+  for (const auto& [number, one] : units_of_dxf)
+    if (one == unit) return number;
+  return 0;
+}
+Unit unit_of_dxf(int units) {
+  for (const auto& [number, one] : units_of_dxf)
+    if (number == units) return one;
+  return Unit::unknown;
+}
 
 void DxfGroups::dxfReal(int code, double value) const {
   group(out_, code, [&] { out_.put(value); });
@@ -70,8 +94,13 @@ void DxfGroups::dxfString(int code, const std::string& value) const {
   group(out_, code, [&] { out_.put(std::string_view(value)); });
 }
 
-DxfDrawing::DxfDrawing(OutputStream& out, const std::vector<std::string>& layers) : groups_(out) {
+DxfDrawing::DxfDrawing(OutputStream& out, const std::vector<std::string>& layers, Unit unit)
+    : groups_(out) {
   drawing_.writeHeader(groups_);
+  if (const int units = dxf_units(unit); units != 0) {
+    groups_.dxfString(9, "$INSUNITS");
+    groups_.dxfInt(70, units);
+  }
   groups_.sectionEnd();
   write_tables(drawing_, groups_, layers);
   write_blocks(drawing_, groups_);

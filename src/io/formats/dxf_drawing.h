@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "io/output.h"
-#include "medial/geometry.h"
+#include "medial/document.h"
 
 namespace medial::io {
 
@@ -27,10 +27,14 @@ class DxfGroups : public DL_WriterA {
   OutputStream& out_;
 };
 
+/// $INSUNITS of a unit, 0 for those without; and back.
+int dxf_units(Unit unit);
+Unit unit_of_dxf(int units);
+
 /// A drawing in DXF (AutoCAD 2000): everything up to the entities, the entities, and the rest.
 class DxfDrawing {
  public:
-  DxfDrawing(OutputStream& out, const std::vector<std::string>& layers);
+  DxfDrawing(OutputStream& out, const std::vector<std::string>& layers, Unit unit);
 
   /// Groups of an entity that follows begin_entity().
   DxfGroups& groups() { return groups_; }

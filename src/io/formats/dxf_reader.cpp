@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "io/formats/dxf.h"
+#include "io/formats/dxf_drawing.h"
 #include "io/formats/dxf_text.h"
 #include "io/join.h"
 #include "io/path_builder.h"
@@ -453,7 +454,9 @@ Result<Document<Feature>> read_dxf(const Input& input, const ReadOptions& option
     found.finish();
     Unfolded drawing(found);
     drawing.add("", {}, "", 0);
-    return Features(found, options).of(std::move(drawing), std::move(text->others));
+    auto features = Features(found, options).of(std::move(drawing), std::move(text->others));
+    if (features) features->unit = unit_of_dxf(text->units);
+    return features;
   } catch (const Refused& refused) {
     return refused.error;
   }

@@ -89,6 +89,10 @@ class Filter {
       if (*code == 0) {
         if (*value == "EOF") ended = true;
         begin(*value);
+      } else if (*code == 9) {
+        variable_ = *value;
+      } else if (*code == 70 && section_ == "HEADER" && variable_ == "$INSUNITS") {
+        result_.units = whole_number<int>(*value).value_or(0);
       } else if (*code == 2 && name_ == "SECTION") {
         section_ = *value;
         if (lists(sections, section_)) put(0, "SECTION");
@@ -158,6 +162,7 @@ class Filter {
   std::int64_t most_;
   std::string section_;
   std::string name_;
+  std::string variable_;  ///< of the header
   DxfText result_;
 };
 

@@ -13,6 +13,7 @@ namespace medial::io {
 /// The part of a drawing that dxflib is given: layers, blocks, and the entities that medial reads.
 struct DxfText {
   std::string text;
+  int units = 0;                                ///< $INSUNITS
   std::map<std::string, std::uint64_t> others;  ///< entities that were left out, by name
 };
 

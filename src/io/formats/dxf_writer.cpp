@@ -73,7 +73,7 @@ void write_branch(DxfDrawing& drawing, const MedialAxis& axis, const Branch& bra
 /// as the rational spline of degree 2 that it is, without loss. With options.radius_as_z every edge
 /// is a spline whose z is the radius.
 Status write_dxf(Target& target, const AxesOutput& output) {
-  DxfDrawing drawing(*target.out, {layer_name});
+  DxfDrawing drawing(*target.out, {layer_name}, output.document.unit);
   for (const AxisItem& item : output.document.items)
     for (const Branch& branch : branches(item.axis))
       write_branch(drawing, item.axis, branch, output.options.radius_as_z);
@@ -83,7 +83,7 @@ Status write_dxf(Target& target, const AxesOutput& output) {
 /// Every loop as a closed polyline with bulges: nothing is lost.
 Status write_dxf(Target& target, const ShapesOutput& output) {
   const std::string layer = "SHAPE";
-  DxfDrawing drawing(*target.out, {layer});
+  DxfDrawing drawing(*target.out, {layer}, output.document.unit);
   for (const ShapeItem& item : output.document.items) {
     for (std::size_t i = 0; i < item.shape.loop_count(); ++i) {
       const Ring ring = ring_of(item.shape, i);
@@ -102,7 +102,7 @@ Status write_dxf(Target& target, const OffsetsOutput& output) {
     for (const OffsetRegion& region : item.offsets.regions) clearances.insert(region.clearance);
   std::vector<std::string> layers;
   for (const double clearance : clearances) layers.push_back(layer_of(clearance));
-  DxfDrawing drawing(*target.out, layers);
+  DxfDrawing drawing(*target.out, layers, output.document.unit);
   for (const OffsetItem& item : items)
     for (const OffsetRegion& region : item.offsets.regions)
       for (const Ring& ring : region.rings)
@@ -131,7 +131,7 @@ void write_space_polyline(DxfDrawing& drawing, const std::string& layer,
 
 Status write_dxf(Target& target, const CarvingOutput& output) {
   const std::vector<std::string> layers{"CLEARING", "WALL", "GROOVE"};
-  DxfDrawing drawing(*target.out, layers);
+  DxfDrawing drawing(*target.out, layers, output.document.unit);
   for (const CarveItem& item : output.document.items) {
     for (const ToolPath& path : item.carving.paths) {
       const std::string& layer = layers[static_cast<std::size_t>(path.kind)];

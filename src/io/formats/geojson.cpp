@@ -54,6 +54,7 @@ class Collection {
     if (!urn.empty())
       out_.put(fmt::format("\"crs\":{{\"type\":\"name\",\"properties\":{{\"name\":{}}}}},",
                            json_quoted(urn)));
+    if (!target.unit.empty()) out_.put(fmt::format("\"unit\":{},", json_quoted(target.unit)));
     out_.put("\"features\":[");
   }
   void start() {

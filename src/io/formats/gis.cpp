@@ -9,6 +9,7 @@
 #include <fstream>
 
 #include "io/gdal_support.h"
+#include "medial/units.h"
 
 namespace medial::io {
 
@@ -154,7 +155,7 @@ OutputCrs::~OutputCrs() = default;
 OutputCrs::OutputCrs(OutputCrs&&) noexcept = default;
 OutputCrs& OutputCrs::operator=(OutputCrs&&) noexcept = default;
 
-Result<OutputCrs> OutputCrs::make(const std::string& crs_wkt) {
+Result<OutputCrs> OutputCrs::make(const std::string& crs_wkt, Unit unit) {
   OutputCrs result;
   std::string wkt = crs_wkt;
   if (is_local_projection(wkt)) {
@@ -163,7 +164,13 @@ Result<OutputCrs> OutputCrs::make(const std::string& crs_wkt) {
     result.back_ = std::move(*back);
     wkt = result.back_->crs_wkt();
   }
-  if (wkt.empty()) return result;
+  if (wkt.empty()) {
+    if (!(millimetres(unit) > 0)) return result;
+    result.reference_ = std::make_unique<OGRSpatialReference>();
+    result.reference_->SetLocalCS("plane");
+    result.reference_->SetLinearUnits(name_of(unit), 1e-3 * millimetres(unit));
+    return result;
+  }
   const GdalMessages messages;
   auto reference = std::make_unique<OGRSpatialReference>();
   if (reference->importFromWkt(wkt.c_str()) != OGRERR_NONE) return result;

@@ -19,6 +19,7 @@ namespace medial::io {
 namespace {
 
 constexpr std::size_t image_sniffed = 8;
+constexpr std::size_t png_header = 4096;  // what a PNG says of itself stands before
 constexpr std::size_t longest_image = std::size_t{1} << 32U;
 
 bool begins_like_pnm(std::string_view text) {
@@ -235,6 +236,39 @@ class Bands {
   std::vector<double> values_, part_;
 };
 
+/// What a PNG says of its resolution, before its first pixels (the chunk pHYs).
+double dots_per_inch_of_png(std::string_view bytes) {
+  using namespace std::string_view_literals;
+  const auto number = [&](std::size_t at) {
+    std::uint32_t value = 0;
+    for (std::size_t i = at; i < at + 4; ++i)
+      value = value << 8U | static_cast<unsigned char>(bytes[i]);
+    return value;
+  };
+  constexpr std::size_t signature = 8, frame = 12, header = 8, size = 9;
+  constexpr double inches_per_metre = 1 / 0.0254;
+  if (!bytes.starts_with("\x89PNG"sv)) return 0;
+  for (std::size_t at = signature; at + header + size <= bytes.size(); at += frame + number(at)) {
+    const std::string_view name = bytes.substr(at + 4, 4), data = bytes.substr(at + header);
+    if (name == "IDAT") break;
+    if (name != "pHYs" || data[size - 1] != 1) continue;
+    const std::uint32_t across = number(at + header), down = number(at + header + 4);
+    return across == down ? across / inches_per_metre : 0;
+  }
+  return 0;
+}
+
+/// The same of a TIFF.
+double dots_per_inch_of(GDALDataset& dataset) {
+  const char* across = dataset.GetMetadataItem("TIFFTAG_XRESOLUTION");
+  const char* down = dataset.GetMetadataItem("TIFFTAG_YRESOLUTION");
+  const char* unit = dataset.GetMetadataItem("TIFFTAG_RESOLUTIONUNIT");
+  if (across == nullptr || down == nullptr || unit == nullptr || !EQUAL(across, down)) return 0;
+  const double dots = CPLAtof(across);
+  constexpr double centimetres_per_inch = 2.54;
+  return unit[0] == '2' ? dots : unit[0] == '3' ? dots * centimetres_per_inch : 0;
+}
+
 Result<ImageFile> read_raster(const std::string& name, const ImageOptions& options) {
   register_gdal();
   const GdalMessages messages;
@@ -271,6 +305,7 @@ Result<ImageFile> read_raster(const std::string& name, const ImageOptions& optio
     file.crs_wkt = std::move(described.crs_wkt);
     file.geographic = described.geographic;
   }
+  file.dots_per_inch = dots_per_inch_of(*dataset);
   file.notes = messages.warnings();
   return file;
 }
@@ -293,14 +328,20 @@ Result<ImageFile> read_pixels(const Input& input, const ImageOptions& options) {
   if (beginning.empty()) return Error{ErrorCode::empty, "there is nothing to read", {}};
   if (!begins_like_raster(beginning))
     return Error{ErrorCode::unsupported, "this is no PNG, TIFF, PBM or PGM", {}};
-  if (input.path != "-") return read_raster(input.path, options);
+  const double dots = dots_per_inch_of_png(source.lookahead(png_header));
+  const auto read = [&](const std::string& name) {
+    Result<ImageFile> file = read_raster(name, options);
+    if (file && dots > 0) file->dots_per_inch = dots;
+    return file;
+  };
+  if (input.path != "-") return read(input.path);
   std::string bytes;
   source.read_all(bytes, longest_image);
   if (bytes.size() > longest_image)
     return Error{ErrorCode::too_large, "more than 4 GiB on standard input", {}};
   const MemoryFile file(bytes);
   if (file.name().empty()) return Error{ErrorCode::unreadable, "cannot be kept in memory", {}};
-  return read_raster(file.name(), options);
+  return read(file.name());
 }
 
 /// An image with a foreground.
@@ -332,6 +373,8 @@ Result<Document<Feature>> read_outline(const Input& input, const ReadOptions& op
   dataset.crs_wkt = std::move(file->crs_wkt);
   dataset.geographic = file->geographic;
   dataset.y_down = !file->placed();
+  if (!file->placed()) dataset.unit = Unit::pixel;
+  dataset.dots_per_inch = file->dots_per_inch;
   dataset.notes = std::move(file->notes);
   Feature& feature = dataset.items.emplace_back();
   if (options.smooth_contour) {

@@ -39,6 +39,9 @@ Status write_json(Target& target, const FeaturesOutput& output);
 void put_site(OutputStream& out, const Site& site);
 void put_node(OutputStream& out, const Node& node);
 
+/// The member "unit" of a file, where one is to be named.
+void put_unit(Target& target);
+
 /// The control point of a straight edge whose radius runs evenly: files leave it out.
 Disk middle_of(const Disk& a, const Disk& b);
 

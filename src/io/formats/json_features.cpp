@@ -126,7 +126,9 @@ void put_item(OutputStream& out, std::size_t index, const AxisItem& axis,
 }  // namespace
 
 Status write_json(Target& target, const FeaturesOutput& output) {
-  target.out->put("{\"medial_features\":1,\n\"items\":[");
+  target.out->put("{\"medial_features\":1");
+  put_unit(target);
+  target.out->put(",\n\"items\":[");
   for (std::size_t i = 0; i < output.features.size(); ++i)
     put_item(*target.out, i, output.document.items[i], output.features[i]);
   target.out->put("\n]}\n");

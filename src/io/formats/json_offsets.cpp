@@ -41,7 +41,9 @@ void put_region(OutputStream& out, const OffsetRegion& region, const BufferSourc
 
 Status write_json(Target& target, const OffsetsOutput& output) {
   OutputStream& out = *target.out;
-  out.put("{\"medial_offsets\":1,\n\"items\":");
+  out.put("{\"medial_offsets\":1");
+  put_unit(target);
+  out.put(",\n\"items\":");
   put_items(out, output.document.items, [&](const OffsetItem& item) {
     put_member(out, "{\"tolerance\":", item.offsets.tolerance);
     out.put(",\"attributes\":");

@@ -5,6 +5,7 @@
 #include "io/formats/json.h"
 #include "io/formats/json_rows.h"
 #include "io/gdal_support.h"
+#include "medial/units.h"
 
 namespace medial::io {
 
@@ -257,10 +258,18 @@ AxisItem read_item(json::value value) {
   return item;
 }
 
+Unit unit_from(const std::string& name) {
+  if (name == name_of(Unit::pixel)) return Unit::pixel;
+  const auto unit = unit_of(name);
+  demand(unit.has_value(), "an unknown unit");
+  return *unit;
+}
+
 Document<AxisItem> read_file(json::document& document) {
   Document<AxisItem> file;
   file.items = read_items(document, "medial", native_version, read_item,
                           Member{"crs", [&](json::value v) { file.crs_wkt = text_of(v); }},
+                          Member{"unit", [&](json::value v) { file.unit = unit_from(text_of(v)); }},
                           Member{"y_down", [&](json::value v) { file.y_down = v.get_bool(); }});
   return file;
 }

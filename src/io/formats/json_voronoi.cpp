@@ -135,7 +135,9 @@ Result<Document<VoronoiItem>> read_voronoi(TextSource& source) {
 }
 
 Status write_json(Target& target, const VoronoiOutput& output) {
-  target.out->put("{\"medial_voronoi\":1,\n\"items\":");
+  target.out->put("{\"medial_voronoi\":1");
+  put_unit(target);
+  target.out->put(",\n\"items\":");
   put_items(*target.out, output.document.items,
             [&](const VoronoiItem& item) { put_diagram(*target.out, item); });
   return success();

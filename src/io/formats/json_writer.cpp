@@ -158,11 +158,13 @@ void put_axis(OutputStream& out, const Shape& shape, const MedialAxis& axis) {
 }
 
 template <class Item>
-Status put_file(OutputStream& out, const Document<Item>& file) {
+Status put_file(Target& target, const Document<Item>& file) {
+  OutputStream& out = *target.out;
   const bool arcs =
       std::ranges::any_of(file.items, [](const Item& item) { return !item.shape.bulges.empty(); });
   put_member(out, "{\"medial\":", arcs ? native_version : 1);
   if (!file.crs_wkt.empty()) put_member(out, ",\n\"crs\":", file.crs_wkt);
+  put_unit(target);
   if (file.y_down) out.put(",\n\"y_down\":true");
   out.put(",\n\"items\":");
   put_items(out, file.items, [&](const Item& item) {
@@ -191,16 +193,20 @@ void put_node(OutputStream& out, const Node& node) {
   put_row(out, node.disk.center.x, node.disk.center.y, node.disk.radius, node.component, node.kind);
 }
 
+void put_unit(Target& target) {
+  if (!target.unit.empty()) put_member(*target.out, ",\n\"unit\":", target.unit);
+}
+
 Disk middle_of(const Disk& a, const Disk& b) {
   return {midpoint(a.center, b.center), a.radius + 0.5 * (b.radius - a.radius)};
 }
 
 Status write_json(Target& target, const AxesOutput& output) {
-  return put_file(*target.out, output.document);
+  return put_file(target, output.document);
 }
 
 Status write_json(Target& target, const ShapesOutput& output) {
-  return put_file(*target.out, output.document);
+  return put_file(target, output.document);
 }
 
 Format json_format() {

@@ -23,6 +23,7 @@
 
 #include "io/formats/svg_document.h"
 #include "io/path_builder.h"
+#include "medial/units.h"
 
 namespace medial::io {
 
@@ -86,7 +87,10 @@ class Element {
  public:
   using length_factory_type = svgpp::factory::length::unitless<>;
 
-  explicit Element(Drawing& drawing) : drawing_(drawing) {}
+  explicit Element(Drawing& drawing) : drawing_(drawing) {
+    const double unit = millimetres(Unit::css_pixel) / millimetres(drawing.document.unit());
+    apply({{unit, 0}, {0, unit}, {}});
+  }
   Element(Element& parent, const xmlNode* node)
       : drawing_(parent.drawing_),
         transform_(parent.transform_),
@@ -121,6 +125,7 @@ class Element {
   void set_viewbox_size(double width, double height) { lengths_.set_viewport_size(width, height); }
   void set_viewbox_transform(double dx, double dy, double sx, double sy, bool) {
     apply({{sx, 0}, {0, sy}, {dx, dy}});
+    if (depth_ == 1) remove_rounding();
   }
   void get_reference_viewport_size(double& width, double& height) {
     if (reference_size_[0]) width = *reference_size_[0];
@@ -201,6 +206,12 @@ class Element {
 
  private:
   void apply(const Affine& inner) { transform_ = transform_ * inner; }
+  /// A drawing in units of its own size, as most are, has these coordinates without loss.
+  void remove_rounding() {
+    constexpr double rounding = 1e-14;
+    for (double* factor : {&transform_.x.x, &transform_.y.y})
+      if (std::fabs(*factor - 1) < rounding) *factor = 1;
+  }
   void add(const PathStep& step) {
     if (copied_ && ++drawing_.copied_points > most_copied) {
       refuse(ErrorCode::too_large,
@@ -435,7 +446,7 @@ Result<Document<Feature>> read_svg(const Input& input, const ReadOptions& option
   }
   Document<Feature>& dataset = drawing.dataset;
   dataset.y_down = true;
-  dataset.unit = Unit::css_pixel;
+  dataset.unit = document->unit();
   if (dataset.items.empty()) {
     return error({ErrorCode::empty,
                   drawing.unfilled > 0 ? "no shape is filled, and a stroke alone has no inside"

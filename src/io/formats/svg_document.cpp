@@ -217,7 +217,19 @@ bool SvgDocument::apply_styles() {
   return true;
 }
 
+void SvgDocument::find_unit() {
+  for (const char* name : {"width", "height"}) {
+    const std::string value = attribute(root(), name);
+    std::string_view unit = value;
+    if (!take_number(unit)) continue;
+    if (unit.starts_with("in")) unit_ = Unit::inch;
+    for (const char* metric : {"mm", "cm", "Q", "pt", "pc"})
+      if (unit.starts_with(metric)) unit_ = Unit::millimetre;
+  }
+}
+
 void SvgDocument::prepare_root() {
+  find_unit();
   xmlNode* const top = root();
   const std::string box = attribute(top, "viewBox");
   std::string_view rest = box;

@@ -9,6 +9,7 @@
 #include <unordered_map>
 
 #include "io/text_source.h"
+#include "medial/document.h"
 #include "medial/error.h"
 
 namespace medial::io {
@@ -29,6 +30,8 @@ class SvgDocument {
   xmlNode* root() const { return xmlDocGetRootElement(document_.get()); }
   /// The element with an `id`; null if there is none.
   xmlNode* find(const std::string& id) const;
+  /// The unit of the outermost width and height where they are physical lengths; otherwise pixels.
+  Unit unit() const { return unit_; }
   /// How many selectors of style sheets were of other kinds.
   std::size_t selectors_left_out() const { return selectors_left_out_; }
 
@@ -40,10 +43,12 @@ class SvgDocument {
   /// False where it would take too long.
   bool apply_styles();
   void prepare_root();
+  void find_unit();
 
   std::unique_ptr<xmlDoc, Free> document_;
   std::unordered_map<std::string, xmlNode*> by_id_;
   std::size_t selectors_left_out_ = 0;
+  Unit unit_ = Unit::css_pixel;
 };
 
 /// The value of an attribute without a namespace; empty if it is missing.

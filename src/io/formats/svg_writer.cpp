@@ -9,6 +9,7 @@
 #include "io/formats/svg.h"
 #include "io/pictures/pictures.h"
 #include "io/ring_text.h"
+#include "medial/units.h"
 
 namespace medial::io {
 
@@ -23,6 +24,12 @@ void for_each_edge(const Shape& shape, std::size_t loop, const Visit& visit) {
                    shape.bulge(shape.loop_begin[loop] + k)});
 }
 
+/// The attributes of the outermost element, in the units that SVG knows.
+std::string physical_size(Unit unit, Vec2 size) {
+  if (unit != Unit::millimetre && unit != Unit::centimetre && unit != Unit::inch) return {};
+  return fmt::format(" width=\"{0:.9g}{2}\" height=\"{1:.9g}{2}\"", size.x, size.y, name_of(unit));
+}
+
 void put_svg(OutputStream& out, const Document<ShapeItem>& file) {
   Box box = Box::nothing();
   for (const ShapeItem& item : file.items)
@@ -33,8 +40,8 @@ void put_svg(OutputStream& out, const Document<ShapeItem>& file) {
   const double top = file.y_down ? box.low.y - margin : -box.high.y - margin;
   // Without a width of the picture a unit stays a unit when it is read again.
   out.put(fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"{:.9g} {:.9g} {:.9g} {:.9g}\">\n",
-      box.low.x - margin, top, size.x, size.y));
+      "<svg xmlns=\"http://www.w3.org/2000/svg\"{} viewBox=\"{:.9g} {:.9g} {:.9g} {:.9g}\">\n",
+      physical_size(file.unit, size), box.low.x - margin, top, size.x, size.y));
   out.put(fmt::format(
       "<g{} fill=\"#f1f1ec\" fill-rule=\"evenodd\" stroke=\"#404045\" stroke-width=\"{:.3g}\" "
       "stroke-linejoin=\"round\">\n",

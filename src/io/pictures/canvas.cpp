@@ -1,5 +1,7 @@
 #include "io/pictures/canvas.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -152,14 +154,35 @@ void Canvas::centred_text(Vec2 middle, double thousandths, const std::string& wo
   cairo_new_path(context_);
 }
 
-Status write_canvas(OutputStream& out, const std::string& format, const Box& box, double width,
-                    bool y_down, const std::function<void(Canvas&)>& draw, double fineness) {
+void draw_scale_bar(Canvas& canvas, const std::string& unit) {
+  if (unit.empty()) return;
+  const PictureFrame& frame = canvas.frame();
+  constexpr double longest = 0.2, margin = 0.03, below = 0.01, letters = 13;
+  const double most = longest * frame.width / frame.scale;
+  const double power = std::pow(10, std::floor(std::log10(most)));
+  const double length = power * (most >= 5 * power ? 5 : most >= 2 * power ? 2 : 1);
+  const Vec2 from{margin * frame.width, frame.height - below * frame.width};
+  const Vec2 to = from + Vec2{length * frame.scale, 0};
+  canvas.color(outline_color);
+  canvas.line_width(1.5);
+  canvas.move_to(from);
+  canvas.line_to(to);
+  canvas.stroke();
+  canvas.use_font(1e-3 * letters * frame.width);
+  canvas.move_to(to + Vec2{below * frame.width, 0});
+  cairo_show_text(canvas.context(), fmt::format("{:g} {}", length, unit).c_str());
+}
+
+Status write_canvas(Target& target, const Box& box, double width, bool y_down,
+                    const std::function<void(Canvas&)>& draw, double fineness) {
   const Result<PictureFrame> frame = frame_for(box, width, y_down);
   if (!frame) return frame.error();
-  return write_surface(out, format, frame->width, frame->height, [&](cairo_t* context) {
-    Canvas canvas(context, *frame, fineness);
-    draw(canvas);
-  });
+  return write_surface(*target.out, target.format, frame->width, frame->height,
+                       [&](cairo_t* context) {
+                         Canvas canvas(context, *frame, fineness);
+                         draw(canvas);
+                         draw_scale_bar(canvas, target.unit);
+                       });
 }
 
 }  // namespace medial::io

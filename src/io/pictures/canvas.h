@@ -9,6 +9,7 @@
 #include <unordered_set>
 #include <vector>
 
+#include "io/format.h"
 #include "io/pictures/color.h"
 #include "io/pictures/frame.h"
 #include "medial/shape.h"
@@ -132,7 +133,11 @@ class Canvas {
 
 /// Draws a picture of a box of the plane as svg, pdf, ps or png. Errors: invalid_option (width),
 /// unwritable.
-Status write_canvas(OutputStream& out, const std::string& format, const Box& box, double width,
-                    bool y_down, const std::function<void(Canvas&)>& draw, double fineness = 1);
+Status write_canvas(Target& target, const Box& box, double width, bool y_down,
+                    const std::function<void(Canvas&)>& draw, double fineness = 1);
+
+/// A bar in the lower margin that is a round number of units long, with that number; nothing for
+/// an empty unit.
+void draw_scale_bar(Canvas& canvas, const std::string& unit);
 
 }  // namespace medial::io

@@ -106,8 +106,7 @@ Status write_picture(Target& target, const CarvingOutput& output) {
       canvas.stroke();
     }
   };
-  return write_canvas(*target.out, target.format, extent.box(), output.options.width,
-                      output.document.y_down, draw);
+  return write_canvas(target, extent.box(), output.options.width, output.document.y_down, draw);
 }
 
 }  // namespace medial::io

@@ -275,6 +275,7 @@ Status write_picture(Target& target, const FeaturesOutput& output) {
   return write_surface(*target.out, target.format, frame->width, height, [&](cairo_t* context) {
     Canvas canvas(context, *frame);
     FeaturesPicture(canvas, output).draw();
+    draw_scale_bar(canvas, target.unit);
   });
 }
 

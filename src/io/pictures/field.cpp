@@ -88,7 +88,7 @@ Status write_picture(Target& target, const FieldOutput& output) {
       canvas.stroke();
     }
   };
-  return write_canvas(*target.out, target.format, box, options.width, options.y_down, draw);
+  return write_canvas(target, box, options.width, options.y_down, draw);
 }
 
 }  // namespace medial::io

@@ -58,8 +58,7 @@ Status write_picture(Target& target, const OffsetsOutput& output) {
       }
     }
   };
-  return write_canvas(*target.out, target.format, box, output.options.width, output.document.y_down,
-                      draw);
+  return write_canvas(target, box, output.options.width, output.document.y_down, draw);
 }
 
 }  // namespace medial::io

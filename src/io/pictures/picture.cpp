@@ -43,8 +43,7 @@ Status draw_picture(Target& target, const Document<AxisItem>& file, const WriteO
     if (options.nodes) draw_nodes(canvas, file);
     if (options.titles) draw_titles(canvas, file);
   };
-  return write_canvas(*target.out, target.format, box_of(file), options.width, file.y_down, draw,
-                      fineness);
+  return write_canvas(target, box_of(file), options.width, file.y_down, draw, fineness);
 }
 
 }  // namespace

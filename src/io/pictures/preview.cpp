@@ -94,7 +94,7 @@ Status write_picture(Target& target, const PreviewOutput& output) {
       canvas.text(Vec2{layout.box.low.x, below} + shift, 22, output.panels[i].title);
     }
   };
-  return write_canvas(*target.out, target.format, box, output.width, output.y_down, draw);
+  return write_canvas(target, box, output.width, output.y_down, draw);
 }
 
 }  // namespace medial::io
