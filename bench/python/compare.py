@@ -1,0 +1,95 @@
+#!/usr/bin/env python3
+"""Measures the Python package beside its peers, on one thread, by processor time.
+
+    compare.py [COUNT]
+
+Peers that are not installed are left out: pip install pygeoops centerline scikit-image.
+"""
+
+import sys
+import time
+import tracemalloc
+
+import numpy as np
+import shapely
+
+import medial
+import medial.image
+
+COUNT = int(sys.argv[1]) if len(sys.argv) > 1 else 100_000
+
+
+def seconds(work, times=3):
+    """The least processor time of some runs."""
+    best = float("inf")
+    for _ in range(times):
+        begin = time.process_time()
+        work()
+        best = min(best, time.process_time() - begin)
+    return best
+
+
+def row(name, count, took):
+    print(f"| {name} | {took:.4g} | {count / took:,.0f} |", flush=True)
+
+
+def footprints(count):
+    """L-shaped footprints, as shapely.to_ragged_array() has them."""
+    ell = np.array([(0, 0), (10, 0), (10, 4), (5, 4), (5, 12), (0, 12), (0, 0)], float)
+    at = np.arange(count)
+    shift = np.stack([at % 300 * 20, at // 300 * 20], axis=1).astype(float)
+    return (ell + shift[:, None]).reshape(-1, 2), (np.arange(count + 1) * 7, np.arange(count + 1))
+
+
+def many():
+    print(f"\n## {COUNT:,} L-shaped footprints\n\n| | s | a second |\n| --- | ---: | ---: |")
+    given = footprints(COUNT)
+    for method in ("disks", "lee", "auto"):
+        row(f"arrays to axes, {method}", COUNT, seconds(lambda: medial.axes(given, method, threads=1)))
+    row("arrays to shapely lines, auto", COUNT, seconds(lambda: medial.axes(given, "auto", threads=1).to_shapely()))
+    few = shapely.from_ragged_array(shapely.GeometryType.POLYGON, *footprints(300))
+    try:
+        import pygeoops
+        row("pygeoops.centerline", len(few), seconds(lambda: pygeoops.centerline(few), 1))
+    except ImportError:
+        pass
+    try:
+        from centerline.geometry import Centerline
+        row("centerline", 50, seconds(lambda: [Centerline(p) for p in few[:50]], 1))
+    except ImportError:
+        pass
+
+
+def one():
+    print("\n## One call\n\n| | s | a second |\n| --- | ---: | ---: |")
+    rectangle = np.array([(0, 0), (4, 0), (4, 2), (0, 2)], float)
+    for method in ("disks", "auto"):
+        row(f"a rectangle, {method}", 20_000, seconds(lambda: [medial.axis(rectangle, method) for _ in range(20_000)]))
+
+
+def images():
+    print("\n## Images: milliseconds, and megabytes at most\n\n| pixels | | scikit-image | here | times |\n| --- | --- | ---: | ---: | ---: |")
+    try:
+        from skimage import data, morphology, transform
+    except ImportError:
+        return
+    horse = ~data.horse()
+    for size in (512, 1024, 2048, 4096):
+        image = transform.resize(horse.astype(float), (size, size), order=0) > 0.5
+        for name in ("medial_axis", "skeletonize"):
+            numbers = []
+            for module in (morphology, medial.image):
+                work = lambda f=getattr(module, name): f(image)  # noqa: E731
+                took = seconds(work, 2)
+                tracemalloc.start()
+                work()
+                numbers.append((1000 * took, tracemalloc.get_traced_memory()[1] / 1e6))
+                tracemalloc.stop()
+            (theirs, their_memory), (ours, our_memory) = numbers
+            print(f"| {size} | {name} | {theirs:.1f} ({their_memory:.0f}) | {ours:.1f} ({our_memory:.0f}) | {theirs / ours:.1f} |", flush=True)
+
+
+if __name__ == "__main__":
+    many()
+    one()
+    images()
