@@ -14,6 +14,7 @@ RELEASE := build/release
 DEBUG := build/debug
 ASAN := build/asan
 TSAN := build/tsan
+COVERAGE := build/coverage
 SERIAL := build/serial
 CHECK := build/check
 # An environment of Python with the package, its tests' and its documentation's packages.
@@ -22,7 +23,7 @@ VENV := build/python/venv
 BENCH_BOOST := build/boost-1.81
 SOURCES = $(shell git ls-files '*.h' '*.cpp')
 
-.PHONY: help setup build demo check test papers bench bench-flo-mat bench-images fuzz certain silhouettes corpus offsets tsan serial portable python wheels docs format lint clean install
+.PHONY: help setup build demo check test papers bench bench-flo-mat bench-images fuzz fuzz-coverage certain silhouettes corpus offsets tsan serial portable python wheels docs format lint clean install
 .DEFAULT_GOAL := help
 
 help:     ## list the targets
@@ -99,6 +100,9 @@ silhouettes: setup  ## verify the sampled axes of new silhouettes and of images 
 	@cmake --build $(RELEASE) -j $(JOBS) --target medial_silhouettes
 	@$(RELEASE)/tests/medial_silhouettes --from $(FROM) --count $(COUNT) \
 	  $(wildcard $(DATA)/packaged/C_images/opencv_[01]*.png)
+
+fuzz-coverage: setup  ## the same, guided by coverage (clang 14, libFuzzer): make fuzz-coverage SECONDS=60 (each of two)
+	@tools/fuzz_coverage.sh $(COVERAGE) $(JOBS) $(SECONDS)
 
 certain: setup  ## test shapes on which rounding decides, against brute force: make certain SECONDS=60 (each class)
 	@cmake --preset release >/dev/null

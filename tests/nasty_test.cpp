@@ -74,6 +74,17 @@ TEST(TrueGraph, FindsGraphsThatAreWrong) {
   }
 }
 
+// ---- Cases.
+
+/// Its area in double has the wrong sign.
+TEST(Needle, ThatRoundingTurnsAroundIsComputed) {
+  const auto shape = build_shape(triangle({-107.86345596753196, 149.97850326022234},
+                                          {-375.10753075648802, 181.52073686295657},
+                                          {-150.99850011997333, 155.06963817198798}));
+  ASSERT_TRUE(shape);
+  EXPECT_TRUE(compute(*shape)) << to_string(compute(*shape).error());
+}
+
 // ---- Classes.
 
 /// How many of a thousand shapes of a class may fail: none where it is mended.

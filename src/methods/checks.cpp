@@ -43,14 +43,19 @@ bool is_consistent(const Shape& shape) {
       return false;
     const std::span<const Vec2> points = shape.loop(i);
     if (points.size() < (shape.bulges.empty() ? 3 : 2)) return false;
-    double doubled = 0;
+    double doubled = 0, size = 0;
     for (std::size_t j = 0; j < points.size(); ++j) {
       const Vec2 start = points[j], end = points[j + 1 == points.size() ? 0 : j + 1];
       if (start == end) return false;
-      doubled += cross(start - points[0], end - points[0]);
+      const Vec2 a = start - points[0], b = end - points[0];
+      doubled += cross(a, b);
+      size += std::abs(a.x * b.y) + std::abs(a.y * b.x);
       doubled += 2 * area_beside_chord({start, end, shape.bulge(shape.loop_begin[i] + j)});
     }
-    if (!(shape.hole[i] ? doubled <= 0 : doubled >= 0)) return false;
+    // Rounding may turn a needle around.
+    const double rounding =
+        static_cast<double>(points.size()) * std::numeric_limits<double>::epsilon() * size;
+    if (!(shape.hole[i] ? doubled <= rounding : doubled >= -rounding)) return false;
   }
   return true;
 }

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <ranges>
-
 #include "io/formats/json.h"
 #include "io/formats/json_text.h"
 #include "io/ring_text.h"
@@ -13,7 +11,7 @@ namespace medial::io {
 namespace {
 
 void put_ring(OutputStream& out, const Ring& ring) {
-  put_list(out, std::views::iota(std::size_t{0}, ring.points.size()), [&](std::size_t p) {
+  put_list(out, numbers_below(ring.points.size()), [&](std::size_t p) {
     const double bulge = bulge_after(ring, p);
     if (bulge != 0)
       put_row(out, ring.points[p].x, ring.points[p].y, bulge);
@@ -50,7 +48,7 @@ Status write_json(Target& target, const OffsetsOutput& output) {
     put_attributes(out, item.attributes);
     out.put(",\"regions\":");
     const auto& regions = item.offsets.regions;
-    put_lines(out, std::views::iota(std::size_t{0}, regions.size()), [&](std::size_t k) {
+    put_lines(out, numbers_below(regions.size()), [&](std::size_t k) {
       put_region(out, regions[k], item.sources.empty() ? nullptr : &item.sources[k]);
     });
     out.put('}');

@@ -3,8 +3,11 @@
 // JSON written number by number: through a library's objects it takes several times as long.
 
 #include <cmath>
+#include <cstddef>
+#include <numeric>
 #include <string_view>
 #include <type_traits>
+#include <vector>
 
 #include "io/output.h"
 #include "medial/document.h"
@@ -81,6 +84,13 @@ void put_list(OutputStream& out, const Range& range, const Put& put, std::string
 template <class Range, class Put>
 void put_lines(OutputStream& out, const Range& range, const Put& put) {
   put_list(out, range, put, "\n", ",\n");
+}
+
+/// 0 to count - 1, to be put with put_lines(). (clang 14 cannot read std::views::iota of g++ 12.)
+inline std::vector<std::size_t> numbers_below(std::size_t count) {
+  std::vector<std::size_t> numbers(count);
+  std::iota(numbers.begin(), numbers.end(), std::size_t{0});
+  return numbers;
 }
 
 /// The items of a document, and the end of its file.

@@ -1,5 +1,3 @@
-#include <ranges>
-
 #include "io/formats/json.h"
 #include "io/formats/json_rows.h"
 #include "io/formats/json_text.h"
@@ -118,7 +116,7 @@ void put_diagram(OutputStream& out, const VoronoiItem& item) {
             edge.control.center.x, edge.control.center.y, edge.control.radius, edge.weight);
   });
   out.put(",\n\"faces\":");
-  put_lines(out, std::views::iota(std::size_t{0}, diagram.sites.size()), [&](std::size_t site) {
+  put_lines(out, numbers_below(diagram.sites.size()), [&](std::size_t site) {
     put_list(out, diagram.face(site), [&](std::uint32_t edge) { out.put(edge); });
   });
   out.put('}');
