@@ -6,13 +6,18 @@
 #include <cmath>
 #include <numbers>
 
+#include "curve/least_squares.h"
 #include "medial/compute.h"
 #include "medial/methods.h"
 #include "medial/query.h"
+#include "medial/raster.h"
 #include "medial/sides.h"
+#include "medial/verify.h"
+#include "methods/curve_axis/smooth_boundary.h"
 #include "support/contours.h"
 #include "support/generate.h"
 #include "support/random_shapes.h"
+#include "support/silhouettes.h"
 
 namespace medial {
 namespace {
@@ -376,6 +381,67 @@ TEST(CurveAxis, SmoothFitsStayWithinTheirTolerance) {
             ErrorCode::too_few_points);
   EXPECT_EQ(fit_smooth_contour(std::vector<Vec2>{{0, 0}, {1, 1}, {0, INFINITY}}, 1).error().code,
             ErrorCode::not_finite);
+}
+
+TEST(CurveAxis, LeastSquaresSplinesRoundWhatIsSmallWithFewKnots) {
+  const Ring polygon = test::comb(5)[0];
+  const auto shape = build_shape({&polygon, 1});
+  std::size_t before = 0;
+  for (const double tolerance : {1.0, 0.1, 0.01}) {
+    const auto contour = smoothed_contour(polygon.points, tolerance);
+    ASSERT_TRUE(contour.ok());
+    EXPECT_TRUE(curve_axis::find_roughness(*contour).ok());
+    EXPECT_GT(contour->pieces.size(), before);
+    before = contour->pieces.size();
+    double worst = 0;
+    for (const CurvePiece& piece : contour->pieces)
+      worst = std::max(worst, std::abs(clearance(*shape, contour->points[piece.first])));
+    EXPECT_LE(worst, 1.1 * tolerance);
+  }
+  EXPECT_LT(before, 1500U);
+  // A circle of 400 corners takes no more knots than the fewest.
+  EXPECT_EQ(smoothed_contour(test::regular_polygon(400)[0].points, 0.02)->pieces.size(), 8U);
+  EXPECT_EQ(smoothed_contour(polygon.points, 0).error().code, ErrorCode::invalid_option);
+  EXPECT_EQ(smoothed_contour(std::vector<Vec2>{{0, 0}, {1, 1}}, 1).error().code,
+            ErrorCode::too_few_points);
+  EXPECT_EQ(smoothed_contour(std::vector<Vec2>{{0, 0}, {1, 1}, {0, INFINITY}}, 1).error().code,
+            ErrorCode::not_finite);
+}
+
+/// The refusal of a polygon names a fit, which the method follows.
+TEST(CurveAxis, RefusalsNameAFitThatWouldDo) {
+  for (const Ring& polygon : {test::l_shape(5)[0], test::jagged_star(7)[0], test::blob(30)[0]}) {
+    const Contour contour = contour_of(polygon.points, {}, true);
+    const auto refused = compute_curve_axis({&contour, 1});
+    ASSERT_FALSE(refused.ok());
+    const std::string& text = refused.error().text;
+    const auto at = text.find("--fit ");
+    ASSERT_NE(at, std::string::npos) << text;
+    const auto fit = smoothed_contour(polygon.points, std::stod(text.substr(at + 6)));
+    ASSERT_TRUE(fit.ok());
+    const auto followed = compute_curve_axis({&*fit, 1});
+    EXPECT_TRUE(followed.ok()) << followed.error().text;
+  }
+}
+
+TEST(CurveAxis, FitsOfSilhouettesAreVerifiedOrRefused) {
+  std::size_t followed = 0, fits = 0;
+  for (std::uint64_t seed = 0; seed < 12; ++seed) {
+    SCOPED_TRACE(seed);
+    const auto rings = pixel_outline(test::silhouette(seed, 90).image);
+    if (rings->size() != 1) continue;
+    const auto curve = smoothed_contour(rings->front().points, 2);
+    ASSERT_TRUE(curve.ok());
+    ++fits;
+    const auto axis = compute_curve_axis({&*curve, 1});
+    if (!axis) continue;
+    ++followed;
+    const Shape shape = *build_shape(*approximate_by_arcs({&*curve, 1}));
+    const Certificate certificate = verify(shape, axis->axis);
+    EXPECT_TRUE(certificate.passed) << certificate.failures.front();
+  }
+  EXPECT_GE(fits, 4U);
+  EXPECT_GE(3 * followed, 2 * fits);
 }
 
 }  // namespace

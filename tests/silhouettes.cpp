@@ -17,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include "curve/least_squares.h"
 #include "medial/io/read.h"
 #include "medial/medial.h"
 
@@ -65,6 +66,35 @@ bool try_shape(const std::string& outline, std::uint64_t seed, const Shape& shap
   return good;
 }
 
+/// One outline without holes, as a spline within a share of its size.
+bool try_fit(std::uint64_t seed, const std::vector<Ring>& rings, double share) {
+  if (rings.size() != 1) return true;
+  const Shape outline = *build_shape(rings);
+  const Box box = bounding_box(outline);
+  const auto curve = smoothed_contour(rings[0].points, share * distance(box.low, box.high));
+  if (!curve) return false;
+  const auto arcs = approximate_by_arcs({&*curve, 1}, {.tolerance = 1e-6});
+  const auto shape = arcs ? build_shape(*arcs) : Result<Shape>(arcs.error());
+  if (!shape) return true;  // too coarse a fit may cross itself
+  char name[40];
+  std::snprintf(name, sizeof name, "curve-axis, fit %.3f", share);
+  const auto began = std::chrono::steady_clock::now();
+  const auto found = compute_curve_axis({&*curve, 1});
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - began;
+  Tally& tally = tallies[name];
+  tally.slowest = std::max(tally.slowest, took.count());
+  if (!found) {
+    ++tally.refused;
+    return true;
+  }
+  const Certificate certificate = verify(*shape, found->axis);
+  ++(certificate.passed ? tally.axes : tally.failed);
+  if (!certificate.passed)
+    std::printf("silhouette %llu %s: %s\n", static_cast<unsigned long long>(seed), name,
+                certificate.failures.front().c_str());
+  return certificate.passed;
+}
+
 bool try_image(std::uint64_t seed, const Image& image) {
   bool good = true;
   if (image.count() == 0) return true;
@@ -72,6 +102,8 @@ bool try_image(std::uint64_t seed, const Image& image) {
   const auto contours = smooth_outline(image);
   if (!rings || !contours) return false;
   if (const auto shape = build_shape(*rings)) good = try_shape("pixels", seed, *shape);
+  for (const double share : {0.003, 0.006, 0.012, 0.025})
+    good = try_fit(seed, *rings, share) && good;
   const auto arcs = approximate_by_arcs(*contours, {.tolerance = 1e-4});
   if (!arcs) return false;
   if (const auto shape = build_shape(*arcs)) good = try_shape("smooth", seed, *shape) && good;

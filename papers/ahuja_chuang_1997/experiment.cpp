@@ -18,6 +18,7 @@
 #include "methods/potential/region.h"
 #include "methods/potential/skeleton.h"
 #include "methods/potential/successor.h"
+#include "papers/ahuja_chuang_1997/smoothness.h"
 #include "papers/figure.h"
 #include "papers/table.h"
 
@@ -75,25 +76,6 @@ Shape noisy_band(int teeth, double height) {
 double size_of(const Shape& shape) {
   const Box box = bounding_box(shape);
   return std::max(box.high.x - box.low.x, box.high.y - box.low.y);
-}
-
-/// The sum of all turns along the edges between nodes of degree two, in degrees, over the length in
-/// units of the size: how crooked an axis is.
-double crookedness(const MedialAxis& axis, double size) {
-  const Incidence incidence(axis);
-  double turns = 0;
-  for (std::uint32_t i = 0; i < axis.nodes.size(); ++i) {
-    if (incidence.degree(i) != 2) continue;
-    const auto edges = incidence.edges(i);
-    const auto other = [&](std::uint32_t e) {
-      const Edge& edge = axis.edges[e];
-      return axis.nodes[edge.node[0] == i ? edge.node[1] : edge.node[0]].disk.center;
-    };
-    const Vec2 in = axis.nodes[i].disk.center - other(edges[0]);
-    const Vec2 out = other(edges[1]) - axis.nodes[i].disk.center;
-    turns += std::abs(std::atan2(cross(in, out), dot(in, out)));
-  }
-  return turns * 180 / std::numbers::pi / (total_length(axis) / size);
 }
 
 Options options_of(double order) {
@@ -223,12 +205,41 @@ std::string times_table(const Request& request) {
   return table.markdown();
 }
 
+std::uint64_t leaves_of(const MedialAxis& axis) {
+  return static_cast<std::uint64_t>(
+      std::count_if(axis.nodes.begin(), axis.nodes.end(),
+                    [](const Node& node) { return node.kind == NodeKind::leaf; }));
+}
+
+/// Fig. 7: how much the spine turns, in steps of a hundredth of the size.
 std::string noise_table() {
-  Table table({{"axis"}, {"turns, degrees a size", "{:.0f}"}});
+  Table table({{"axis"}, {"turning of the spine, degrees", "{:.0f}"}, {"leaves"}});
   const Shape shape = noisy_band(60, 0.2);
-  for (const double order : {1.0, 4.0, 16.0, 64.0})
-    if (const auto axis = compute(shape, options_of(order)))
-      table.add({order_name(order), crookedness(*axis, size_of(shape))});
+  const auto add = [&](const std::string& name, const Options& options) {
+    if (const auto axis = compute(shape, options))
+      table.add({name, turning(spine_of(*axis, 0.01 * size_of(shape))), leaves_of(*axis)});
+  };
+  add("exact", {.threads = 1});
+  for (const double order : {1.0, 2.0, 4.0, 8.0, 16.0, 64.0})
+    add(order_name(order), options_of(order));
+  return table.markdown();
+}
+
+/// Of a picture of Fig. 14 and of its table.
+constexpr double pixel_of_size = 1.0 / 200;
+
+/// Fig. 14: skeletons and thinning of pixels, by how many ends their lines have.
+std::string thinning_table() {
+  Table table({{"shape"}, {"convex corners"}, {"ends, n=1"}, {"ends, n=8"}, {"ends, thinning"}});
+  std::vector<NamedShape> shapes = regions();
+  shapes.emplace_back("noisy band", noisy_band(60, 0.2));
+  for (const auto& [name, shape] : shapes) {
+    const auto one = compute(shape, options_of(1)), eight = compute(shape, options_of(8));
+    const auto exact = compute(shape);
+    if (!one || !eight || !exact) continue;
+    const Image lines = thinned(pixels_of(shape, pixel_of_size * size_of(shape)));
+    table.add({name, leaves_of(*exact), leaves_of(*one), leaves_of(*eight), ends_of(lines)});
+  }
   return table.markdown();
 }
 
@@ -287,6 +298,26 @@ Status draw_skeletons(const Request& request) {
   return success();
 }
 
+/// Fig. 14: the pixels that thinning leaves.
+Status draw_thinning(const Request& request, const std::string& name, const Shape& shape) {
+  Figure figure(bounding_box(shape));
+  figure.thin();
+  figure.line(shape.points);
+  figure.line({shape.points.back(), shape.points.front()});
+  figure.ink();
+  const double side = pixel_of_size * size_of(shape);
+  const Box box = bounding_box(shape);
+  const Image lines = thinned(pixels_of(shape, side));
+  for (std::uint32_t y = 0; y < lines.height(); ++y)
+    for (std::uint32_t x = 0; x < lines.width(); ++x) {
+      if (!lines.at(x, y)) continue;
+      const Vec2 low{box.low.x + (x - 1) * side, box.low.y + (y - 1) * side};
+      const Vec2 high{low.x + side, low.y + side};
+      figure.line({low, {high.x, low.y}, high, {low.x, high.y}, low});
+    }
+  return figure.write(request.to / name);
+}
+
 Status draw_figures(const Request& request) {
   const std::vector<NamedShape> shapes = regions();
   const Shape &rectangle = shapes[0].second, &l = shapes[1].second, &hand = shapes[2].second;
@@ -303,7 +334,9 @@ Status draw_figures(const Request& request) {
                   [&] { return draw_field(request, "fig10-1.png", rectangle, 1, 30, 360); },
                   [&] { return draw_field(request, "fig10-2.png", rectangle, 2, 30, 360); },
                   [&] { return draw_field(request, "fig10-8.png", rectangle, 8, 30, 360); },
-                  [&] { return draw_orders(request); });
+                  [&] { return draw_orders(request); },
+                  [&] { return draw_thinning(request, "fig14-hand.svg", hand); },
+                  [&] { return draw_thinning(request, "fig14-band.svg", band); });
 }
 
 }  // namespace
@@ -321,9 +354,10 @@ Result<bool> run_ahuja_chuang_1997(const Request& request) {
       "## Largest distance from the skeleton to the exact axis\n\n{}\n"
       "## Mean distance\n\n{}\n## Orders along half a rectangle (Fig. 13)\n\n{}\n"
       "## Time of a noisy band (Fig. 8's kind), processor time of one thread\n\n{}\n"
-      "## Smoothness against a noisy border (Fig. 7)\n\n{}",
+      "## Smoothness against a noisy border (Fig. 7)\n\n{}\n"
+      "## Thinning by Zhang and Suen (Fig. 14)\n\n{}",
       largest.markdown(), mean.markdown(), orders_along_rectangle(), times_table(request),
-      noise_table());
+      noise_table(), thinning_table());
   const Status written = in_order([&] { return write(request, "tables.md", text); },
                                   [&] { return write(request, "largest.csv", largest.csv()); },
                                   [&] { return write(request, "mean.csv", mean.csv()); },

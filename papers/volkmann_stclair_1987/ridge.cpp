@@ -14,6 +14,7 @@
 #include "medial/compute.h"
 #include "medial/verify.h"
 #include "papers/experiment.h"
+#include "papers/figure.h"
 #include "papers/table.h"
 #include "papers/volkmann_stclair_1987/volkmann.h"
 
@@ -396,6 +397,55 @@ std::vector<cli::Plot> plots_of(const std::vector<Row>& rows) {
   return plots;
 }
 
+// ---- Figures ------------------------------------------------------------------------------------
+
+/// Draws rings, moved.
+void draw_rings(Figure& figure, const std::vector<Ring>& rings, Vec2 shift) {
+  for (const Ring& ring : rings) {
+    std::vector<Vec2> line;
+    for (const Vec2 p : ring.points) line.push_back(p + shift);
+    line.push_back(line.front());
+    figure.line(line);
+  }
+}
+
+/// Fig. 29: squares of as many edges with more and more holes.
+Status draw_toothed_squares(const Request& request) {
+  constexpr double apart = 17;
+  Figure figure({{-9, -9}, {3 * apart - 8, 9}});
+  figure.ink();
+  double x = 0;
+  for (const int holes : {0, 10, 20}) {
+    draw_rings(figure, toothed_square(holes), {x, 0});
+    x += apart;
+  }
+  return figure.write(request.to / "fig29.svg");
+}
+
+/// Fig. 31: one row for each number of reflected vertices side by side. Those that cross themselves
+/// are dashed.
+Status draw_flipped_polygons(const Request& request) {
+  constexpr double apart = 8;
+  constexpr int most_run = 9, most_sets = 10;
+  Figure figure({{-apart / 2, -most_run * apart + apart / 2}, {most_sets * apart + 3, apart / 2}});
+  for (int run = 1; run <= most_run; ++run)
+    for (int sets = 1; sets * (run + 1) <= 20; ++sets) {
+      const Ring ring = flipped_polygon(sets, run);
+      const Vec2 shift{(sets - 1) * apart, (1 - run) * apart};
+      if (build_shape(std::vector<Ring>{ring})) {
+        figure.ink();
+        draw_rings(figure, {ring}, shift);
+        continue;
+      }
+      figure.thin();
+      std::vector<Vec2> line;
+      for (const Vec2 p : ring.points) line.push_back(p + shift);
+      line.push_back(line.front());
+      figure.dashed(line);
+    }
+  return figure.write(request.to / "fig31.svg");
+}
+
 }  // namespace
 
 Result<bool> measure_ridge_following(const Request& request) {
@@ -403,6 +453,7 @@ Result<bool> measure_ridge_following(const Request& request) {
   const Status written = in_order(
       [&] { return write(request, "tables.md", report_text(rows, request)); },
       [&] { return write(request, "rows.csv", rows_csv(rows)); },
+      [&] { return draw_toothed_squares(request); }, [&] { return draw_flipped_polygons(request); },
       [&] { return cli::write_plots((request.to / "plots.svg").string(), plots_of(rows)); });
   if (!written) return written.error();
   return std::all_of(rows.begin(), rows.end(), [](const Row& row) { return row.failure.empty(); });

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "curve/least_squares.h"
 #include "load/progress.h"
 #include "medial/load.h"
 #include "medial/methods.h"
@@ -90,7 +91,7 @@ void keep_sources(Shape& shape, const Feature& feature,
 /// The shape within smooth curves instead, which the contours become.
 Result<Shape> smooth_shape(std::vector<Contour>& contours, const LoadOptions& options) {
   for (Contour& contour : contours) {
-    auto curve = fit_smooth_contour(contour.points, options.fit);
+    auto curve = smoothed_contour(contour.points, options.fit);
     if (!curve) return std::move(curve).error();
     contour = std::move(curve).value();
   }

@@ -103,5 +103,6 @@ class Methods(CommandLine):
         self.write("triangle.wkt", "POLYGON((0 0,10 0,0 8))")
         text = self.refuse("unsupported", "axis", "triangle.wkt", "--method", "curve-axis", "-o", "t.json")
         self.assertIn("corner", text)
-        self.succeed("axis", "triangle.wkt", "--method", "curve-axis", "--fit", "1", "-o", "t.json")
+        fit = re.search(r"--fit ([0-9.]+)", text).group(1)
+        self.succeed("axis", "triangle.wkt", "--method", "curve-axis", "--fit", fit, "-o", "t.json")
         self.assertEqual(self.run_medial("legal", "t.json").returncode, 0)

@@ -3,11 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <numbers>
+#include <string>
 
 #include "axis/node_kinds.h"
 #include "base/box_tree.h"
 #include "base/in_flight.h"
+#include "curve/least_squares.h"
 #include "medial/shape.h"
 #include "methods/curve_axis/control.h"
 
@@ -393,6 +397,63 @@ Result<CurveAxis> attempt(const SmoothBoundary& boundary, const method::CurveAxi
   return result;
 }
 
+/// The method on one smooth contour, again with shorter steps where it goes astray.
+Result<CurveAxis> follow(const Contour& contour, const method::CurveAxis& options,
+                         const std::atomic<bool>* cancel) {
+  const SmoothBoundary boundary(normalized(contour));
+  Result<CurveAxis> result = attempt(boundary, options, cancel);
+  // What has gone astray does so at some steps only, and from some maxima.
+  method::CurveAxis again = options;
+  for (int round = 0; round < most_attempts && !result.ok() &&
+                      result.error().code == ErrorCode::unsupported && !boundary.maxima().empty();
+       ++round) {
+    again.step /= 2;
+    ++again.first_maximum;
+    Result<CurveAxis> next = attempt(boundary, again, cancel);
+    // The first error is the most useful one.
+    if (next.ok() || next.error().code == ErrorCode::cancelled) result = std::move(next);
+  }
+  return result;
+}
+
+/// A contour as a polygon: both ends of every piece, and points between them of a curved one.
+std::vector<Vec2> polygon_of(const Contour& curves) {
+  const SmoothBoundary boundary(curves);
+  std::vector<Vec2> points;
+  for (std::size_t i = 0; i < curves.pieces.size(); ++i)
+    for (int k = 0; k < (curves.pieces[i].degree > 1 ? 4 : 1); ++k)
+      points.push_back(boundary.at(static_cast<double>(i) + 0.25 * k).point);
+  return points;
+}
+
+/// The error of a contour that the method does not follow, with the closest of some fits that it
+/// does follow.
+Error with_fit(Error error, const Contour& contour, const method::CurveAxis& options,
+               const std::atomic<bool>* cancel) {
+  const Contour curves = normalized(contour);
+  if (find_roughness(curves).ok() && SmoothBoundary(curves).maxima().empty()) return error;
+  const std::vector<Vec2> polygon = polygon_of(curves);
+  Box box{polygon[0], polygon[0]};
+  for (const Vec2 p : polygon)
+    box = {{std::min(box.low.x, p.x), std::min(box.low.y, p.y)},
+           {std::max(box.high.x, p.x), std::max(box.high.y, p.y)}};
+  constexpr std::array<double, 6> shares = {0.05, 0.025, 0.012, 0.006, 0.003, 0.0015};
+  std::string found;
+  for (const double share : shares) {
+    std::array<char, 16> text{};
+    std::snprintf(text.data(), text.size(), "%.2g", share * distance(box.low, box.high));
+    const auto curve = smoothed_contour(polygon, std::strtod(text.data(), nullptr));
+    if (!curve || refuse({&*curve, 1}, options) || !follow(*curve, options, cancel).ok()) {
+      if (!found.empty()) break;
+      continue;
+    }
+    found = text.data();
+  }
+  if (!found.empty())
+    error.text += "; it follows a spline within " + found + " (--fit " + found + ")";
+  return error;
+}
+
 }  // namespace
 
 Result<MedialAxis> run(const Problem& problem) {
@@ -417,22 +478,16 @@ Result<CurveAxis> compute_curve_axis(std::span<const Contour> contours,
                                      const std::atomic<bool>* cancel) {
   using namespace curve_axis;
   try {
-    if (auto error = refuse(contours, options)) return std::move(*error);
-    const SmoothBoundary boundary(normalized(contours[0]));
-    Result<CurveAxis> result = attempt(boundary, options, cancel);
-    // What has gone astray does so at some steps only, and from some maxima: again with shorter
-    // ones.
-    method::CurveAxis again = options;
-    for (int round = 0; round < most_attempts && !result.ok() &&
-                        result.error().code == ErrorCode::unsupported && !boundary.maxima().empty();
-         ++round) {
-      again.step /= 2;
-      ++again.first_maximum;
-      Result<CurveAxis> next = attempt(boundary, again, cancel);
-      // The first error is the most useful one.
-      if (next.ok() || next.error().code == ErrorCode::cancelled) result = std::move(next);
+    auto error = refuse(contours, options);
+    if (!error) {
+      Result<CurveAxis> result = follow(contours[0], options, cancel);
+      if (result) return result;
+      error = result.error();
     }
-    return result;
+    const bool may_fit =
+        error->code == ErrorCode::unsupported || error->code == ErrorCode::too_large;
+    if (!may_fit || contours.size() != 1) return std::move(*error);
+    return with_fit(std::move(*error), contours[0], options, cancel);
   } catch (...) {
     return error_in_flight();
   }

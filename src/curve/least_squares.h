@@ -1,0 +1,16 @@
+#pragma once
+
+#include <span>
+
+#include "medial/contour.h"
+
+namespace medial {
+
+/// The periodic cubic spline (of continuous curvature) that least squares fit to a polygon, with
+/// knots added where it strays, until curve and polygon are within `tolerance` (units of the
+/// input), as sampled eight times between knots and twice between vertices. It passes through no
+/// vertex and rounds what is smaller than the tolerance. Errors: not_finite, too_few_points,
+/// invalid_option, unsupported (2^17 knots).
+Result<Contour> smoothed_contour(std::span<const Vec2> polygon, double tolerance);
+
+}  // namespace medial
