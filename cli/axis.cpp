@@ -166,8 +166,8 @@ void add_curve_options(CLI::App& command, AxisArguments& arguments) {
             in_range(1e-6, 0.1),
             "The step from point to point, as a share of the diagonal (default: 0.001).");
   add_value(command, "--fit", arguments.fit, "D", a_positive_number(),
-            "First replace the boundary by a smooth curve through its corners, within this\n"
-            "distance of it, in units of the input.");
+            "First replace the boundary by a smooth curve within this distance of it, in units\n"
+            "of the input: a spline of least squares with few knots.");
 }
 
 }  // namespace
