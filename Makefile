@@ -101,7 +101,8 @@ silhouettes: setup  ## verify the sampled axes of new silhouettes and of images 
 	@$(RELEASE)/tests/medial_silhouettes --from $(FROM) --count $(COUNT) \
 	  $(wildcard $(DATA)/packaged/C_images/opencv_[01]*.png)
 
-fuzz-coverage: setup  ## the same, guided by coverage (clang 14, libFuzzer): make fuzz-coverage SECONDS=60 (each of two)
+fuzz-coverage: setup  ## test shapes and files guided by coverage (clang 14, libFuzzer): make fuzz-coverage SECONDS=60 (each of two)
+	@tools/setup.sh fuzz
 	@tools/fuzz_coverage.sh $(COVERAGE) $(JOBS) $(SECONDS)
 
 certain: setup  ## test shapes on which rounding decides, against brute force: make certain SECONDS=60 (each class)
