@@ -1,0 +1,117 @@
+#include "methods/disks/certainty.h"
+
+#include <cmath>
+#include <limits>
+
+namespace medial::disks {
+namespace {
+
+constexpr double unknown = std::numeric_limits<double>::infinity();
+
+/// The tolerance decides what one disk touches only where it is so small against the disk.
+constexpr double small_tolerance = 0x1p-16;
+
+double taxicab_norm(Vec2 v) { return std::abs(v.x) + std::abs(v.y); }
+
+}  // namespace
+
+Certainty::Certainty(const Boundary& boundary, double tolerance, const Span& span,
+                     const Disk& from, const Event& event)
+    : boundary_(boundary), span_(span), from_(from), to_(event.disk) {
+  using Kind = Event::Kind;
+  const bool ties = tolerance <= small_tolerance * to_.radius;
+  if (event.kind == Kind::at_node) {
+    error_ = span.error;
+    certain_ = ties;
+    return;
+  }
+  const bool passes = event.kind != Kind::contact;
+  error_ = passes ? error_at_joint(event.kind == Kind::pass_right) : error_of_three(event.site);
+  const bool stays = squared_norm(to_.center - from_.center) <= tolerance * tolerance &&
+                     std::abs(to_.radius - from_.radius) <= tolerance;
+  if (stays) {
+    certain_ = ties;
+    return;
+  }
+  const std::uint32_t fourth = event.kind == Kind::pass_right  ? span.right + 1
+                               : event.kind == Kind::pass_left ? span.left - 1
+                                                               : event.site;
+  certain_ = (error_ < unknown || touches(fourth, tolerance)) &&
+             (moves_forward() || comes_before(fourth));
+}
+
+Certainty::Contact Certainty::contact(std::uint32_t i) const {
+  const site::Site& s = site(i);
+  const Vec2 d = to_.center - s.point;
+  const double unsure = rounding * taxicab_norm(d);
+  if (!s.is_vertex()) return {s.normal(), cross(s.direction, d) - to_.radius, unsure};
+  const double away = norm(d);
+  return {(1 / away) * d, away - to_.radius, unsure};
+}
+
+bool Certainty::touches(std::uint32_t third, double slack) const {
+  for (const std::uint32_t i : {span_.right, third, span_.left})
+    if (!(std::abs(contact(i).residual) <= slack)) return false;
+  return slack <= small_tolerance * to_.radius;
+}
+
+/// Newton and Kantorovich, as in exact/disk_bounds.h.
+double Certainty::error_of_three(std::uint32_t third) const {
+  const Contact a = contact(span_.right), b = contact(third), c = contact(span_.left);
+  const double residual =
+      std::max({std::abs(a.residual) + a.unsure, std::abs(b.residual) + b.unsure,
+                std::abs(c.residual) + c.unsure});
+  const Vec2 ab = b.toward - a.toward, ac = c.toward - a.toward;
+  const double area = cross(ab, ac);
+  if (!(area > 0)) return unknown;
+  const double spread = 1 + 2 * (taxicab_norm(ab) + taxicab_norm(ac)) / area;
+  const double within = 2.01 * spread * residual;
+  // A vertex bends by 1 / (2 r).
+  return 2 * spread * within < to_.radius ? within + rounding : unknown;
+}
+
+double Certainty::error_at_joint(bool on_right) const {
+  const std::uint32_t own = on_right ? span_.right : span_.left;
+  const std::uint32_t next = on_right ? own + 1 : own - 1;
+  const Contact a = contact(site(own).is_vertex() ? next : own),
+                b = contact(on_right ? span_.left : span_.right);
+  const double closing = 1 - dot(a.toward, b.toward);
+  if (!(closing > 0)) return unknown;
+  const double within = 2.01 * (std::abs(b.residual) + b.unsure + std::abs(a.residual) + a.unsure) /
+                        closing;
+  return 2 * within < to_.radius * closing ? within + rounding : unknown;
+}
+
+bool Certainty::moves_forward() const {
+  const double error = error_ + span_.error;
+  const auto forward = [&](const site::Site& s) {
+    if (!s.is_vertex()) return dot(s.direction, to_.center - from_.center);
+    // Round a vertex, normals turn to the right.
+    return cross(to_.center - s.point, from_.center - s.point) /
+           (norm(to_.center - s.point) + error);
+  };
+  constexpr double both = 2.01;
+  return forward(site(span_.right)) > both * error || -forward(site(span_.left)) > both * error;
+}
+
+bool Certainty::comes_before(std::uint32_t fourth) const {
+  if (span_.third >= boundary_.sites.size() || !(from_.radius > 0)) return false;
+  const Contact a = contact(span_.right), b = contact(fourth), c = contact(span_.left),
+                d = contact(span_.third);
+  const auto area = [](const Contact& p, const Contact& q, const Contact& r) {
+    return cross(q.toward - p.toward, r.toward - p.toward);
+  };
+  const double of_a = area(b, c, d), of_b = area(a, c, d), of_c = area(a, b, d),
+               of_d = area(a, b, c);
+  if (!(of_a > 0 && of_b > 0 && of_c > 0 && of_d > 0)) return false;
+  const double level = of_b * b.residual + of_d * d.residual - of_a * a.residual - of_c * c.residual;
+  double unsure = of_a * a.unsure + of_b * b.unsure + of_c * c.unsure + of_d * d.unsure;
+  const bool bends = site(span_.right).is_vertex() || site(span_.left).is_vertex() ||
+                     site(fourth).is_vertex() || site(span_.third).is_vertex();
+  if (bends)
+    unsure += (of_a + of_b + of_c + of_d) * squared_norm(to_.center - from_.center) /
+              std::min(from_.radius, to_.radius);
+  return level > 2 * unsure;
+}
+
+}  // namespace medial::disks
