@@ -15,8 +15,8 @@ double taxicab_norm(Vec2 v) { return std::abs(v.x) + std::abs(v.y); }
 
 }  // namespace
 
-Certainty::Certainty(const Boundary& boundary, double tolerance, const Span& span,
-                     const Disk& from, const Event& event)
+Certainty::Certainty(const Boundary& boundary, double tolerance, const Span& span, const Disk& from,
+                     const Event& event)
     : boundary_(boundary), span_(span), from_(from), to_(event.disk) {
   using Kind = Event::Kind;
   const bool ties = tolerance <= small_tolerance * to_.radius;
@@ -25,19 +25,20 @@ Certainty::Certainty(const Boundary& boundary, double tolerance, const Span& spa
     certain_ = ties;
     return;
   }
-  const bool passes = event.kind != Kind::contact;
-  error_ = passes ? error_at_joint(event.kind == Kind::pass_right) : error_of_three(event.site);
+  const std::uint32_t fourth = event.kind == Kind::pass_right  ? span.right + 1
+                               : event.kind == Kind::pass_left ? span.left - 1
+                                                               : event.site;
+  const bool joins_right = fourth == span.right + 1 && boundary.is_smooth(span.right),
+             joins_left = fourth + 1 == span.left && boundary.is_smooth(fourth);
+  error_ = joins_right || joins_left ? error_at_joint(joins_right) : error_of_three(fourth);
   const bool stays = squared_norm(to_.center - from_.center) <= tolerance * tolerance &&
                      std::abs(to_.radius - from_.radius) <= tolerance;
   if (stays) {
     certain_ = ties;
     return;
   }
-  const std::uint32_t fourth = event.kind == Kind::pass_right  ? span.right + 1
-                               : event.kind == Kind::pass_left ? span.left - 1
-                                                               : event.site;
   certain_ = (error_ < unknown || touches(fourth, tolerance)) &&
-             (moves_forward() || comes_before(fourth));
+             (moves_forward() || comes_before(fourth) || (ties && is_one_tie(0.5 * tolerance)));
 }
 
 Certainty::Contact Certainty::contact(std::uint32_t i) const {
@@ -53,6 +54,12 @@ bool Certainty::touches(std::uint32_t third, double slack) const {
   for (const std::uint32_t i : {span_.right, third, span_.left})
     if (!(std::abs(contact(i).residual) <= slack)) return false;
   return slack <= small_tolerance * to_.radius;
+}
+
+bool Certainty::is_one_tie(double slack) const {
+  if (span_.third >= boundary_.sites.size()) return false;
+  const Contact other = contact(span_.third);
+  return std::abs(other.residual) + other.unsure <= slack;
 }
 
 /// Newton and Kantorovich, as in exact/disk_bounds.h.
@@ -77,8 +84,8 @@ double Certainty::error_at_joint(bool on_right) const {
                 b = contact(on_right ? span_.left : span_.right);
   const double closing = 1 - dot(a.toward, b.toward);
   if (!(closing > 0)) return unknown;
-  const double within = 2.01 * (std::abs(b.residual) + b.unsure + std::abs(a.residual) + a.unsure) /
-                        closing;
+  const double within =
+      2.01 * (std::abs(b.residual) + b.unsure + std::abs(a.residual) + a.unsure) / closing;
   return 2 * within < to_.radius * closing ? within + rounding : unknown;
 }
 
@@ -104,7 +111,8 @@ bool Certainty::comes_before(std::uint32_t fourth) const {
   const double of_a = area(b, c, d), of_b = area(a, c, d), of_c = area(a, b, d),
                of_d = area(a, b, c);
   if (!(of_a > 0 && of_b > 0 && of_c > 0 && of_d > 0)) return false;
-  const double level = of_b * b.residual + of_d * d.residual - of_a * a.residual - of_c * c.residual;
+  const double level =
+      of_b * b.residual + of_d * d.residual - of_a * a.residual - of_c * c.residual;
   double unsure = of_a * a.unsure + of_b * b.unsure + of_c * c.unsure + of_d * d.unsure;
   const bool bends = site(span_.right).is_vertex() || site(span_.left).is_vertex() ||
                      site(fourth).is_vertex() || site(span_.third).is_vertex();

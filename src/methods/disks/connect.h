@@ -26,8 +26,7 @@ constexpr double exact_bridges = 0x1p-24;
 /// counts nearest-site queries. With `exact`, bridges with radii up to `least` are decided in 256
 /// bits. O(h log n) expected.
 std::vector<Bridge> connecting_disks(const Shape& shape, const Boundary& loops, double tolerance,
-                                     const ExactSites* exact, double least,
-                                     std::uint64_t& queries);
+                                     const ExactSites* exact, double least, std::uint64_t& queries);
 
 /// The boundary with all holes spliced in: one run for each component.
 Boundary connect(const Shape& shape, const Boundary& loops, const std::vector<Bridge>& bridges);

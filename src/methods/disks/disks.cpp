@@ -48,14 +48,20 @@ Error error_of_too_many_arcs(const Box& box) {
 
 /// Connects the holes of the boundary, walks it, and joins what the walk finds. Nothing where the
 /// caller cancels.
-std::optional<Graph> graph_of(const Problem& problem, double walk_tolerance, bool always_exact,
+std::optional<Graph> graph_of(const Problem& problem, double walk_tolerance, Decides decides,
                               Boundary& boundary, Statistics& statistics) {
   Stopwatch watch;
-  const bool takes_exact = !boundary.has_arcs && !boundary.two_sided;
+#ifdef MEDIAL_HAS_EXACT
+  const bool takes_exact =
+      decides != Decides::in_double && !boundary.has_arcs && !boundary.two_sided;
+#else
+  constexpr bool takes_exact = false;
+#endif
+  const bool always_exact = decides == Decides::in_precise;
   const ExactSites sites(problem);
-  const std::vector<Bridge> bridges = connecting_disks(
-      problem.shape, boundary, walk_tolerance, takes_exact ? &sites : nullptr,
-      always_exact ? problem.radius_limit : exact_bridges, statistics.queries);
+  const std::vector<Bridge> bridges =
+      connecting_disks(problem.shape, boundary, walk_tolerance, takes_exact ? &sites : nullptr,
+                       always_exact ? problem.radius_limit : exact_bridges, statistics.queries);
   if (!bridges.empty()) boundary = connect(problem.shape, boundary, bridges);
   statistics.bridges = bridges.size();
   statistics.seconds_connect = watch.lap();
@@ -67,7 +73,8 @@ std::optional<Graph> graph_of(const Problem& problem, double walk_tolerance, boo
   std::atomic<std::uint64_t> finished = 0;
   const ExactEvents exact(sites, boundary, tree, always_exact);
   auto chunks = walk({boundary, bridges, tree, walk_tolerance, problem.radius_limit,
-                      takes_exact ? &exact : nullptr, problem.options.cancel, reporter(problem.options, boundary, finished)});
+                      takes_exact ? &exact : nullptr, problem.options.cancel,
+                      reporter(problem.options, boundary, finished)});
   statistics.seconds_walk = watch.lap();
   if (problem.is_cancelled()) return std::nullopt;
 
@@ -83,7 +90,7 @@ std::optional<Graph> graph_of(const Problem& problem, double walk_tolerance, boo
 /// tolerance, which by default depends on the shape. The edges are returned apart from the axis.
 template <class E>
 Result<Outcome> attempt(const Problem& problem, bool two_sided, std::optional<double> share,
-                        bool always_exact, std::vector<E>& edges) {
+                        Decides decides, std::vector<E>& edges) {
   Outcome outcome;
   MedialAxis& axis = outcome.axis;
   axis.method = "disks";
@@ -99,8 +106,8 @@ Result<Outcome> attempt(const Problem& problem, bool two_sided, std::optional<do
   const double usual_share = boundary.has_arcs ? 1 : fine_share;
   axis.statistics.seconds_sites = watch.lap();
 
-  auto graph = graph_of(problem, share.value_or(usual_share) * problem.fine_tolerance,
-                        always_exact, boundary, axis.statistics);
+  auto graph = graph_of(problem, share.value_or(usual_share) * problem.fine_tolerance, decides,
+                        boundary, axis.statistics);
   if (!graph) return outcome;
   if (graph->statistics.exact_changes > 0)
     return Error{ErrorCode::internal, "the walk lost its way: please report this shape", {}};
@@ -132,14 +139,16 @@ Result<Outcome> attempt(const Problem& problem, bool two_sided, std::optional<do
 Result<Outcome> run(const Problem& problem) {
   std::optional<Error> error;
   // To another share of the tolerance, what misled the walk may be one contact, or two.
-  std::vector<std::optional<double>> shares{std::nullopt, std::nullopt};
+  struct Attempt {
+    std::optional<double> share;
+    Decides decides = Decides::in_double;
+  };
+  std::vector<Attempt> attempts{{{}, Decides::in_stages}, {{}, Decides::in_precise}, {}, {1.0}};
   if (!problem.shape.bulges.empty())
-    shares = {std::nullopt, in_centers_share, 0.25, 0.0625, 0.5, 1.0};
-  bool again = false;
-  for (const auto& share : shares) {
+    attempts = {{}, {in_centers_share}, {0.25}, {0.0625}, {0.5}, {1.0}};
+  for (const auto& [share, decides] : attempts) {
     std::vector<Edge> edges;
-    Result<Outcome> outcome = attempt(problem, false, share, again, edges);
-    again = true;
+    Result<Outcome> outcome = attempt(problem, false, share, decides, edges);
     if (!outcome) {
       if (!error) error = std::move(outcome).error();
       continue;
@@ -155,7 +164,7 @@ Result<Outcome> run(const Problem& problem) {
 
 template <class E>
 MedialAxis run_two_sided(const Problem& problem, std::vector<E>& edges) {
-  return std::move(attempt(problem, true, std::nullopt, false, edges)->axis);
+  return std::move(attempt(problem, true, std::nullopt, Decides::in_double, edges)->axis);
 }
 
 template MedialAxis run_two_sided(const Problem&, std::vector<Edge>&);

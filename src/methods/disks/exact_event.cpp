@@ -2,6 +2,7 @@
 
 #ifdef MEDIAL_HAS_EXACT
 
+#include <algorithm>
 #include <unordered_set>
 #include <vector>
 
@@ -42,13 +43,13 @@ std::optional<ExactSites::Touch> ExactSites::first_touch(
 /// the two sites and a third one between them, in this order around it, and keeps clear of all.
 class ExactEvents::Search {
  public:
-  Search(const ExactEvents& events, const Span& span)
-      : events_(events), outline_(events.sites_.outline()), span_(span) {}
+  Search(const ExactEvents& events, const Span& span, const Disk& from)
+      : events_(events), outline_(events.sites_.outline()), span_(span), from_(from) {}
 
-  std::optional<Found> run(const Disk& from, std::uint32_t hint) {
+  std::optional<Found> run(std::uint32_t hint) {
     std::vector<std::uint32_t> candidates{span_.right + 1, span_.left - 1, span_.right + 2,
                                           span_.left - 2, hint};
-    double reach = from.radius + rounding;
+    double reach = from_.radius + rounding;
     for (;;) {
       for (const std::uint32_t site : candidates) consider(site);
       candidates = best_ ? intruders() : std::vector<std::uint32_t>{};
@@ -58,7 +59,7 @@ class ExactEvents::Search {
       // Only carriers were touched, beside their sites: look further around.
       if (reach > furthest) return std::nullopt;
       reach *= 4;
-      events_.tree_.within(from.center, reach, span_.right + 1, span_.left - 1, candidates);
+      events_.tree_.within(from_.center, reach, span_.right + 1, span_.left - 1, candidates);
     }
   }
 
@@ -68,24 +69,38 @@ class ExactEvents::Search {
   /// No two points of the local frame are further apart.
   static constexpr double furthest = 8;
 
-  const exact::ExactSite& exact_site(std::uint32_t i) const {
-    return outline_.sites[name(i)];
-  }
+  const exact::ExactSite& exact_site(std::uint32_t i) const { return outline_.sites[name(i)]; }
   std::uint32_t name(std::uint32_t i) const { return events_.boundary_.originals[i]; }
-  bool is_bridge(std::uint32_t i) const {
-    return events_.boundary_.elements[i] == Element::bridge;
-  }
+  bool is_bridge(std::uint32_t i) const { return events_.boundary_.elements[i] == Element::bridge; }
   bool is_inside(std::uint32_t i) const { return i > span_.right && i < span_.left; }
   bool is_seen(std::uint32_t i) const {
-    return !is_inside(i) || is_bridge(i) ||
-           seen_.count(i) > 0;
+    return !is_inside(i) || is_bridge(i) || seen_.count(i) > 0;
   }
 
-  /// Whether one disk of the bisector comes before another one.
+  /// Whether one disk of the bisector comes before another one: by the foot on an edge, or between
+  /// two vertices by the centre.
   bool comes_before(const PreciseDisk& a, const PreciseDisk& b) const {
-    const int forward = exact::further_along(exact_site(span_.right), a, b).value_or(0);
-    if (forward != 0) return forward > 0;
-    return exact::further_along(exact_site(span_.left), b, a).value_or(0) > 0;
+    const exact::ExactSite &right = exact_site(span_.right), &left = exact_site(span_.left);
+    int forward = 0;
+    if (!right.is_vertex()) forward = exact::further_along(right, a, b).value_or(0);
+    if (forward == 0 && !left.is_vertex()) forward = exact::further_along(left, b, a).value_or(0);
+    if (right.is_vertex() && left.is_vertex()) {
+      const auto chord =
+          exact::exact_vector<Number>(left.start) - exact::exact_vector<Number>(right.start);
+      forward = cross(b.center - a.center, chord).sign().value_or(0);
+    }
+    return forward > 0;
+  }
+
+  /// Whether a disk lies behind that of the node, by more than that is off.
+  bool is_behind(const PreciseDisk& disk) const {
+    constexpr double clear = 0x1p-8;  // of the radius: more than any node is off
+    const double slack =
+        std::min(span_.error, clear * from_.radius) +
+        std::min(8 * events_.sites_.problem_.fine_tolerance, clear * from_.radius) + 0x1p-50;
+    const PreciseDisk from{exact::exact_vector<Number>(from_.center), Number(from_.radius)};
+    const auto away = disk.center - from.center;
+    return (dot(away, away) - Number(slack) * Number(slack)).positive() && comes_before(disk, from);
   }
 
   /// Makes a site the best if it is touched before the best so far.
@@ -94,11 +109,10 @@ class ExactEvents::Search {
     seen_.insert(site);
     const std::uint32_t right = name(span_.right), left = name(span_.left), third = name(site);
     if (third == right || third == left) return;
-    const auto disk =
-        exact::disk_bounds<Precise>(outline_, {right, third, left}, Disk{});
+    const auto disk = exact::disk_bounds<Precise>(outline_, {right, third, left}, Disk{});
     if (!disk) return;
     if ((Number(events_.sites_.problem_.radius_limit) - disk->radius).sign() == -1) return;
-    if (best_ && !comes_before(*disk, *best_)) return;
+    if (is_behind(*disk) || (best_ && !comes_before(*disk, *best_))) return;
     for (const std::uint32_t i : {span_.right, site, span_.left})
       if (!is_touched(i, *disk)) return;
     best_ = disk;
@@ -106,8 +120,9 @@ class ExactEvents::Search {
   }
 
   Disk rounded() const {
-    return {{static_cast<double>(best_->center.x.value), static_cast<double>(best_->center.y.value)},
-            static_cast<double>(best_->radius.value)};
+    return {
+        {static_cast<double>(best_->center.x.value), static_cast<double>(best_->center.y.value)},
+        static_cast<double>(best_->radius.value)};
   }
 
   /// Sites that the best disk reaches over, with their neighbours; none if there are none.
@@ -117,8 +132,8 @@ class ExactEvents::Search {
     const auto add = [&](std::uint32_t site) {
       for (const std::uint32_t i : {site, site - 1, site + 1}) found.push_back(i);
     };
-    const Hit hit = events_.tree_.nearest(disk.center, disk.radius - rounding, span_.right + 1,
-                                          span_.left - 1);
+    const Hit hit =
+        events_.tree_.nearest(disk.center, disk.radius - rounding, span_.right + 1, span_.left - 1);
     if (hit) {
       add(hit.site);
       if (!is_seen(hit.site)) return found;
@@ -158,6 +173,7 @@ class ExactEvents::Search {
   const ExactEvents& events_;
   const exact::SiteLoops& outline_;
   const Span span_;
+  const Disk from_;
   std::unordered_set<std::uint32_t> seen_;
   std::optional<PreciseDisk> best_;
   std::uint32_t site_ = 0;
@@ -165,7 +181,7 @@ class ExactEvents::Search {
 
 std::optional<ExactEvents::Found> ExactEvents::next(const Span& span, const Disk& from,
                                                     std::uint32_t hint) const {
-  return Search(*this, span).run(from, hint);
+  return Search(*this, span, from).run(hint);
 }
 
 }  // namespace medial::disks

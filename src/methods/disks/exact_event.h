@@ -12,6 +12,10 @@
 
 namespace medial::disks {
 
+/// Who decides what ends an edge: double where it is certain and else 256 bits, 256 bits always,
+/// or double always.
+enum class Decides : std::uint8_t { in_stages, in_precise, in_double };
+
 /// The sites as the shape has them, for what double cannot decide: made by the first question.
 /// Thread-safe.
 class ExactSites {
@@ -47,7 +51,6 @@ class ExactEvents {
       : always(is_always), sites_(sites), boundary_(boundary), tree_(tree) {}
 
   const bool always;
-
 
   struct Found {
     std::uint32_t site = 0;

@@ -118,11 +118,10 @@ class Walker {
     error = Certainty::rounding;
     event.disk = found->disk;
     event.site = found->site;
-    event.kind = found->site == span.right + 1 && boundary_.is_smooth(span.right)
-                     ? Event::Kind::pass_right
-                 : found->site + 1 == span.left && boundary_.is_smooth(found->site)
-                     ? Event::Kind::pass_left
-                     : Event::Kind::contact;
+    event.kind =
+        found->site == span.right + 1 && boundary_.is_smooth(span.right)   ? Event::Kind::pass_right
+        : found->site + 1 == span.left && boundary_.is_smooth(found->site) ? Event::Kind::pass_left
+                                                                           : Event::Kind::contact;
     return event;
   }
 
@@ -249,7 +248,10 @@ class Walker {
     contacts_.split(span, disk, sure, all_around, parts_);
     // The disks of a tie are as far off as rounding leaves each three of its contacts open.
     constexpr double spread = 16;
-    for (Span& part : parts_) part.error = span.error + spread * context_.tolerance;
+    for (Span& part : parts_) {
+      part.error = span.error + spread * context_.tolerance;
+      part.third = part.right != span.right ? span.right : span.left;
+    }
     stack_.insert(stack_.end(), parts_.begin(), parts_.end());
   }
 
