@@ -191,6 +191,7 @@ Command make_axis_command(CLI::App& program) {
                     "Make every combinatorial decision certain: which sites a disk touches, and\n"
                     "which nodes an edge joins. --stats counts how it was decided. Ties within\n"
                     "the tolerance that are not exact get nodes of their own.");
+  add_simplify_option(*command, arguments->write);
   add_picture_options(*command, arguments->write);
   add_common_options(*command, arguments->common);
   command->footer(
@@ -198,9 +199,10 @@ Command make_axis_command(CLI::App& program) {
       "lengths are in the units of the input, or in metres with --project.\n"
       "\n"
       "Formats: .json is medial's own, lossless, and read back by every command; .geojson,\n"
-      ".gpkg, .shp and .fgb hold one line per branch with the radius at both ends; .csv\n"
-      "has the header edge,x,y,r; .dxf holds polylines and exact splines; pictures show\n"
-      "the axis coloured by radius.\n"
+      ".gpkg, .shp and .fgb hold one line per branch with its nodes and the radius at both\n"
+      "ends; .graphml, .nodelink (JSON) and .edgelist the graph of branches, as networkx reads\n"
+      "it; .csv has the header edge,x,y,r; .dxf holds polylines and exact splines; pictures\n"
+      "show the axis coloured by radius.\n"
       "\n"
       "Examples:\n"
       "  medial axis plan.geojson -o plan.svg --disks 200\n"

@@ -278,8 +278,15 @@ void add_picture_options(CLI::App& command, io::WriteOptions& write) {
   add_value(command, "--disks", write.disks, "N", in_range(0, most_disks),
             "Draw about N maximal disks, spread over the axis (default: 0).");
   command.add_flag("--contacts", write.contacts, "Draw where the nodes' disks touch the boundary.");
-  command.add_flag("--nodes", write.nodes, "Draw the nodes, by kind.");
+  command.add_flag("--nodes", write.nodes,
+                   "Draw the nodes, by kind; in .gpkg and graphs also those inside of branches.");
   command.add_flag("!--no-shape", write.shape, "Leave the shape out.");
+}
+
+void add_simplify_option(CLI::App& command, io::WriteOptions& write) {
+  add_value(command, "--simplify", write.simplify, "E", a_positive_number(),
+            "Lines in tables, .wkt and graphs have few points within E, in units of the\n"
+            "input, of the axis (default: chords, see --chord). Their ends stay.");
 }
 
 CLI::Option* add_exterior_options(CLI::App& command, Options& options, const std::string& help) {

@@ -79,6 +79,8 @@ void add_report_options(CLI::App& command, CommonOptions& common);
 /// --threshold and --invert.
 void add_image_options(CLI::App& command, io::ImageOptions& options);
 void add_picture_options(CLI::App& command, io::WriteOptions& write);
+/// --simplify, for commands that write axes as lines.
+void add_simplify_option(CLI::App& command, io::WriteOptions& write);
 /// --width alone. Its help gives the default, which is what `width` holds.
 void add_width_option(CLI::App& command, double& width);
 /// --exterior, with this help, and --margin. Returns the former.

@@ -106,7 +106,8 @@ Result<Measured> measure(const AxisItem& item, const std::vector<AxisPath>& path
     Line& line = out.lines.emplace_back();
     line.path = path;
     line.profile = widths_along(item.axis, path, even_lengths(path.length, arguments.samples));
-    line.transects = widths_along(item.axis, path, transect_lengths(path.length, arguments));
+    line.transects =
+        transects_along(item.shape, item.axis, path, transect_lengths(path.length, arguments));
     line.necks = necks_of(item.axis, path, arguments.widening);
     all.pieces.insert(all.pieces.end(), path.pieces.begin(), path.pieces.end());
     all.length += path.length;

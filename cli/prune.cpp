@@ -108,6 +108,7 @@ Result<PruneReport> prune_all(Document<AxisItem>& file, const PruneOptions& opti
     auto pruned = prune(axis, options, &reports[i]);
     if (!pruned) return std::move(pruned).error();
     axis = std::move(pruned).value();
+    file.items[i].part = true;
     return success();
   };
   Status done = for_each_item(edge_weights_of(file), threads, prune_one);
@@ -207,6 +208,7 @@ Command make_prune_command(CLI::App& program) {
       "--preview", arguments->preview,
       "One picture over thresholds instead: none, a quarter, a half, the chosen one,\n"
       "twice and four times it.");
+  add_simplify_option(*command, arguments->write);
   add_picture_options(*command, arguments->write);
   add_common_options(*command, arguments->common);
   command->footer(

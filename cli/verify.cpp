@@ -93,11 +93,13 @@ void add_verdict(Rows& rows, const std::vector<std::string>& failures, bool pass
   rows.add("verdict", passed ? "passed" : "FAILED");
 }
 
-std::string verdict_table(const Certificate& c, std::size_t features) {
+std::string verdict_table(const Certificate& c, std::size_t features, bool part) {
   Rows rows(24);
   const auto length = [](double value) { return fmt::format("{:.3g}", value); };
   const bool exact = c.resolution == 0;
   rows.add("features", features);
+  if (part)
+    rows.add("part", "pruned, cut or smoothed: leaves, corners, coverage and area are not checked");
   rows.add("disks checked", c.disks_checked);
   if (!exact)
     rows.add("sampled",
@@ -107,21 +109,23 @@ std::string verdict_table(const Certificate& c, std::size_t features) {
   rows.add("largest intrusion", length(c.largest_intrusion));
   if (exact) {
     rows.add("largest contact gap", length(c.largest_contact_gap));
-    rows.add("largest uncovered", length(c.largest_uncovered));
-    rows.add("area",
-             fmt::format("{:.10g} of the disks, {:.10g} of the shape", c.disks_area, c.shape_area));
+    if (!part) {
+      rows.add("largest uncovered", length(c.largest_uncovered));
+      rows.add("area", fmt::format("{:.10g} of the disks, {:.10g} of the shape", c.disks_area,
+                                   c.shape_area));
+    }
   }
   rows.add("connected parts",
            fmt::format("{} for {}", c.graph_parts, counted(c.components, "component")));
   rows.add("cycles", fmt::format("{} for {}", c.cycles, counted(c.holes, "hole")));
-  if (exact)
+  if (exact && !part)
     rows.add("convex corners",
              fmt::format("{}, {} without a leaf", c.convex_corners, c.corners_without_leaf));
   if (c.curvature_leaves > 0) rows.add("leaves at arcs", c.curvature_leaves);
   if (c.blunt_joints > 0)
     rows.add("blunt joints",
              fmt::format("{}, up to {:.3g} degrees", c.blunt_joints, c.largest_blunt_angle));
-  if (exact)
+  if (exact && !part)
     rows.add("reflex vertices",
              fmt::format("{}, {} without a contact", c.reflex_vertices, c.reflex_without_contact));
   add_verdict(rows, c.failures, c.passed);
@@ -223,6 +227,7 @@ Result<std::vector<Certificate>> verify_all(const Document<ShapeItem>& shapes,
     options.corner_angle = common.corner_angle;
     options.samples_per_edge = arguments.samples;
     options.threads = threads;
+    options.part = stored.items[i].part;
     return verify(shapes.items[i].shape, stored.items[i].axis, options);
   };
   return map_items<Certificate>(weights_of(shapes), common.threads, verify_one);
@@ -257,11 +262,14 @@ Result<int> run_verify(const VerifyArguments& arguments) {
   loaded->phases.end("verify");
   const Certificate all = merge(*certificates);
   Json object = {{"input", input.path}, {"axis", axis_path}, {"features", count}};
+  const bool part =
+      std::ranges::any_of(stored->items, [](const AxisItem& item) { return item.part; });
+  object["part"] = part;
   object.update(json_of(all));
   object["certificates"] = Json::array();
   for (const Certificate& one : *certificates) object["certificates"].push_back(json_of(one));
   return finish(common, std::move(object), loaded->phases,
-                common.quiet ? std::string() : verdict_table(all, count), {},
+                common.quiet ? std::string() : verdict_table(all, count, part), {},
                 all.passed ? exit_success : exit_failed_verdict);
 }
 
@@ -282,7 +290,9 @@ Command make_verify_command(CLI::App& program) {
       "order. The report gives the largest |distance to the boundary - radius|, the largest\n"
       "intrusion of the boundary into a disk, whether the graph is connected with one\n"
       "cycle per hole, whether every convex corner has its leaf and every boundary point\n"
-      "its disk, and both areas. Lengths are in the units of the input.\n"
+      "its disk, and both areas. Lengths are in the units of the input. Of an axis that was\n"
+      "pruned, cut or smoothed it checks what holds of every part: disks, contacts, and no\n"
+      "more cycles than holes.\n"
       "For a diagram of `medial voronoi`: samples of every edge against the nearest of all\n"
       "sites, faces closed and oriented consistently, and their areas against the frame's.\n"
       "Give the same --layer, --where, --repair, --project and options of curves as for the\n"

@@ -72,6 +72,9 @@ struct AxisItem {
   MedialAxis axis;
   Attributes attributes;
   std::vector<Contour> contours = {};  ///< in place of a shape that is not built yet
+  /// A part of the shape's axis, pruned, cut or smoothed: ends need not be corners, nor disks
+  /// cover.
+  bool part = false;
 };
 
 }  // namespace medial

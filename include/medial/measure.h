@@ -23,6 +23,12 @@ struct LocalWidth {
 std::vector<LocalWidth> widths_along(const MedialAxis& axis, const AxisPath& path,
                                      std::span<const double> lengths);
 
+/// The same with transects across the path's course over a disk's diameter, from boundary to
+/// boundary: their ends in place of the feet, which swing to and fro where single vertices stick
+/// in. O(path + lengths * boundary).
+std::vector<LocalWidth> transects_along(const Shape& shape, const MedialAxis& axis,
+                                        const AxisPath& path, std::span<const double> lengths);
+
 /// The maximum inscribed circle; of equal ones, that of the lowest edge. Requires a node. O(edges).
 Disk deepest_disk(const MedialAxis& axis);
 

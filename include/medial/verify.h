@@ -43,6 +43,9 @@ struct VerifyOptions {
   int samples_per_edge = 8;    ///< points inside every edge, in [0, 2^20]
   double corner_angle = 0.01;  ///< that the axis was computed with; see Options
   int threads = 0;             ///< see Options; more than 1024 count as 1024
+  /// The axis is a part of the shape's: pruned, cut or smoothed. Checks what holds of every part:
+  /// disks, contacts, sides, and no more cycles than holes; the other counts are only reported.
+  bool part = false;
 };
 
 /// Checks an axis against its shape. Shares no code with the engines: it has its own distance

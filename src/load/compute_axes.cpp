@@ -14,7 +14,8 @@ namespace {
 /// How far an axis of pixels of an interior is from one part for each component and one cycle for
 /// each hole of its shape, by the Euler characteristic.
 std::uint64_t unresolved_in(const AxisItem& item) {
-  const auto& [shape, axis, attributes, contours] = item;
+  const Shape& shape = item.shape;
+  const MedialAxis& axis = item.axis;
   if (!is_of_pixels(axis.method) || axis.exterior > 0) return 0;
   const auto count = [](std::size_t n) { return static_cast<std::int64_t>(n); };
   return static_cast<std::uint64_t>(std::abs(count(axis.nodes.size()) - count(axis.edges.size()) -

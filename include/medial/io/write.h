@@ -42,11 +42,16 @@ struct WriteOptions {
   int disks = 0;          ///< draw about this many maximal disks; 0: none
   bool contacts = false;  ///< draw the feet of the nodes' disks
   bool shape = true;      ///< draw the shape
-  bool nodes = false;     ///< draw the nodes by kind
+  bool nodes = false;     ///< draw the nodes by kind; tables have those between two edges as well
   bool titles = false;    ///< write each item's attribute "title" below its shape
+  /// Lines of axes in tables, .wkt and graphs have few points within this distance of the curve, in
+  /// units of the input; 0: chords. Their ends stay, so networks stay connected.
+  double simplify = 0;
 };
 
-/// Axes: exact in .json (native, docs/format.md) and .dxf, else chords; .gpkg also has the nodes.
+/// Axes: exact in .json (native, docs/format.md) and .dxf, else chords; .gpkg also has the nodes;
+/// .graphml, .nodelink (JSON, as networkx reads it) and .edgelist hold nodes and branches as a
+/// graph.
 Status write_axes(const std::string& path, const std::string& format,
                   const Document<AxisItem>& file, const WriteOptions& options = {});
 
