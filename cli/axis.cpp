@@ -53,7 +53,11 @@ Result<int> run_axis(const AxisArguments& arguments) {
   options.method = arguments.methods.method();
   InputOptions input = arguments.input;
   input.source.load.keep_contours = info_of(options.method).contours;
-  if (input.source.load.keep_contours) input.source.load.fit = arguments.fit;
+  if (arguments.fit > 0 && !input.source.load.keep_contours)
+    return invalid_option(
+        "--fit is for methods that follow smooth contours: add "
+        "--method curve-axis");
+  input.source.load.fit = arguments.fit;
   auto shapes = load_shapes(input, arguments.common);
   if (!shapes) return std::move(shapes).error();
   auto axes = compute_axes(std::move(shapes).value(), input, arguments.common, options);

@@ -59,8 +59,7 @@ Certificate merge(const std::vector<Certificate>& certificates) {
   for (std::size_t i = 0; i < certificates.size(); ++i) {
     const Certificate& one = certificates[i];
     if (one.largest_residual >= all.largest_residual) {
-      all.worst_x = one.worst_x;
-      all.worst_y = one.worst_y;
+      all.worst = one.worst;
     }
     each_number([&](const char*, auto number, bool is_sum) {
       all.*number = is_sum ? all.*number + one.*number : std::max(all.*number, one.*number);
@@ -77,7 +76,7 @@ Certificate merge(const std::vector<Certificate>& certificates) {
 Json json_of(const Certificate& c) {
   Json object = {{"passed", c.passed}, {"failures", c.failures}};
   each_number([&](const char* name, auto number, bool) { object[name] = c.*number; });
-  object["worst"] = {{"x", c.worst_x}, {"y", c.worst_y}};
+  object["worst"] = {{"x", c.worst.x}, {"y", c.worst.y}};
   return object;
 }
 
@@ -105,7 +104,7 @@ std::string verdict_table(const Certificate& c, std::size_t features, bool part)
     rows.add("sampled",
              fmt::format("pixels of side {:.6g}; judged by half a diagonal", c.resolution));
   rows.add("tolerance", length(c.tolerance));
-  rows.add("largest |distance - r|", worst_text(c.largest_residual, c.worst_x, c.worst_y));
+  rows.add("largest |distance - r|", worst_text(c.largest_residual, c.worst.x, c.worst.y));
   rows.add("largest intrusion", length(c.largest_intrusion));
   if (exact) {
     rows.add("largest contact gap", length(c.largest_contact_gap));
@@ -138,13 +137,13 @@ Json json_of(const VoronoiCertificate& c) {
           {"tolerance", c.tolerance},
           {"largest_residual", c.largest_residual},
           {"largest_contact_gap", c.largest_contact_gap},
-          {"worst", {{"x", c.worst_x}, {"y", c.worst_y}}},
+          {"worst", {{"x", c.worst.x}, {"y", c.worst.y}}},
           {"disks_checked", c.disks_checked},
           {"sites", c.sites},
           {"faces", c.faces},
           {"broken_faces", c.broken_faces},
           {"faces_area", c.faces_area},
-          {"frame_area", c.frame_area}};
+          {"frame_area", c.enclosure_area}};
 }
 
 std::string verdict_table(const VoronoiCertificate& c) {
@@ -152,11 +151,11 @@ std::string verdict_table(const VoronoiCertificate& c) {
   rows.add("sites", c.sites);
   rows.add("disks checked", c.disks_checked);
   rows.add("tolerance", fmt::format("{:.3g}", c.tolerance));
-  rows.add("largest |distance - r|", worst_text(c.largest_residual, c.worst_x, c.worst_y));
+  rows.add("largest |distance - r|", worst_text(c.largest_residual, c.worst.x, c.worst.y));
   rows.add("largest contact gap", fmt::format("{:.3g}", c.largest_contact_gap));
   rows.add("faces", fmt::format("{}, {} broken", c.faces, c.broken_faces));
-  rows.add("area",
-           fmt::format("{:.10g} of the faces, {:.10g} of the frame", c.faces_area, c.frame_area));
+  rows.add("area", fmt::format("{:.10g} of the faces, {:.10g} of the enclosure", c.faces_area,
+                               c.enclosure_area));
   add_verdict(rows, c.failures, c.passed);
   return rows.text();
 }
@@ -195,9 +194,9 @@ Result<int> verify_voronoi(const VerifyArguments& arguments) {
   Phases phases;
   auto stored = read_stored(arguments.axis_path, io::read_voronoi);
   if (!stored) return std::move(stored).error();
-  if (stored->items.size() != 1 || !stored->items.front().diagram.frame)
+  if (stored->items.size() != 1 || !stored->items.front().diagram.enclosure)
     return error_at(ErrorCode::unsupported, arguments.axis_path,
-                    "is of polygons alone (--method lee); only diagrams within a frame can be "
+                    "is of polygons alone (--method lee); only diagrams within an enclosure can be "
                     "verified");
   auto pieces = load_loose(arguments.input, common);
   if (!pieces) return std::move(pieces).error();
@@ -294,7 +293,8 @@ Command make_verify_command(CLI::App& program) {
       "pruned, cut or smoothed it checks what holds of every part: disks, contacts, and no\n"
       "more cycles than holes.\n"
       "For a diagram of `medial voronoi`: samples of every edge against the nearest of all\n"
-      "sites, faces closed and oriented consistently, and their areas against the frame's.\n"
+      "sites, faces closed and oriented consistently, and their areas against that of the\n"
+      "enclosure.\n"
       "Give the same --layer, --where, --repair, --project and options of curves as for the\n"
       "axis.\n"
       "\n"

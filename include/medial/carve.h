@@ -8,7 +8,7 @@
 
 namespace medial {
 
-/// A tool and its limits; lengths in units of the input.
+/// Lengths in units of the input.
 struct CarveOptions {
   double angle = 90;  ///< between the sides of the cone, in degrees, in [0, 170]; 0: an end mill
   double depth = 0;   ///< at most; 0: as deep as the tool reaches; required for an end mill
@@ -22,7 +22,6 @@ struct CarveOptions {
   double chord = 0;
 };
 
-/// A place of the tip.
 struct ToolPoint {
   Vec2 point;
   double z = 0;      ///< 0 on the surface, negative below; chords may begin a little above it
@@ -54,14 +53,14 @@ struct Carving {
   double travel_unordered = 0;  ///< the same if branches and rings came as the axis numbers them
 };
 
-/// Plans the paths of one tool in one shape, in O(n log n + size of the result). With c(p) the
-/// clearance of a point, t the radius of the tip and m = tan(angle / 2), the tool may be at p where
-/// c(p) >= t, at the depth min((c(p) - t) / m, depth). The paths
-/// - never go deeper, but for rounding (a few 1e-15 of the size);
-/// - leave nothing that the tool could reach, but 3 chords / m along curved edges of the axis, and
-///   ridges of step / m on flat bottoms where the tip is a point or `step` exceeds its radius.
-///   Errors: invalid_option, unsupported (an axis that is sampled or of the exterior), too_large
-///   (more than 1e6 clearing passes, or 1e4 in depth).
+/// Plans the paths of one tool in one shape. With c(p) the clearance of a point, t the radius of
+/// the tip and m = tan(angle / 2), the tool may be at p where c(p) >= t, at most at the depth
+/// min((c(p) - t) / m, depth). No path goes deeper, but for rounding (a few 1e-15 of the size).
+/// Together they cut all that the tool can reach, except for 3 chords / m along curved edges of the
+/// axis, and for ridges of step / m on flat bottoms where the tip is a point or `step` exceeds its
+/// radius. Each pass cuts what the passes above it left. O(n log n + size of the result). Errors:
+/// invalid_option, unsupported (an axis that is sampled or of the exterior), too_large (more than
+/// 1e6 clearing passes, or 1e4 in depth).
 Result<Carving> carve(const MedialAxis& axis, const CarveOptions& options);
 
 /// Options and carvings in other units: every length times `factor` > 0.

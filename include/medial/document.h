@@ -1,7 +1,5 @@
 #pragma once
 
-// What a file holds, as plain values: the same carrier for features, shapes, axes and all else.
-
 #include <string>
 #include <utility>
 
@@ -27,7 +25,7 @@ enum class Unit : std::uint8_t {
   degree,
 };
 
-/// Items of one kind, and what holds for all.
+/// What a file holds: items of one kind (features, shapes, axes ...), and what holds for all.
 template <class T>
 struct Document {
   std::vector<T> items;
@@ -38,13 +36,16 @@ struct Document {
   double pixel = 0;                ///< of an image: the side of its pixels, where they are squares
   double dots_per_inch = 0;        ///< of an image that says so
   std::vector<std::string> notes;  ///< what repair or reprojection changed, one sentence each
+  std::vector<std::uint64_t> indices;  ///< of the items in the file, if some were left out
+
+  std::uint64_t index_of(std::size_t i) const { return indices.empty() ? i : indices[i]; }
 };
 
 /// A document without items that has all else of another.
 template <class To, class From>
 Document<To> empty_like(const Document<From>& from) {
-  return {{},        from.crs_wkt, from.geographic,    from.y_down,
-          from.unit, from.pixel,   from.dots_per_inch, from.notes};
+  return {{},         from.crs_wkt,       from.geographic, from.y_down, from.unit,
+          from.pixel, from.dots_per_inch, from.notes,      from.indices};
 }
 
 /// What a file says of a feature besides its geometry: names and values as text, in their order.

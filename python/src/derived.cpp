@@ -126,7 +126,7 @@ nb::dict certificate(const AxisOf& self, double tolerance, int samples, double c
   result["corners_without_leaf"] = from.corners_without_leaf;
   result["reflex_vertices"] = from.reflex_vertices;
   result["reflex_without_contact"] = from.reflex_without_contact;
-  result["worst"] = nb::make_tuple(from.worst_x, from.worst_y);
+  result["worst"] = nb::make_tuple(from.worst.x, from.worst.y);
   return result;
 }
 

@@ -118,6 +118,7 @@ struct Format {
   bool has_layers = false;
   bool has_filters = false;
   bool has_loose_curves = false;
+  bool gdal_chooses = false;  ///< GDAL reads it instead where layers or attributes choose
 
   // Writing.
   bool geographic = false;  ///< longitudes and latitudes instead of a local projection

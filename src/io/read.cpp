@@ -64,7 +64,7 @@ Result<Document<Feature>> read_any(const std::string& path, const ReadOptions& o
     if ((*source)->failure()) return *(*source)->failure();
     format = nullptr;
   }
-  if (format == nullptr || (format->extensions == ".csv" && refused(*format, options, path)))
+  if (format == nullptr || (format->gdal_chooses && refused(*format, options, path)))
     format = &others;
   if (const auto error = refused(*format, options, path)) return *error;
   return format->read({path, source ? *source : nullptr}, options);
@@ -83,41 +83,43 @@ std::optional<std::size_t> not_finite(const std::vector<double>& numbers) {
   return static_cast<std::size_t>(bad - numbers.begin());
 }
 
-std::optional<Error> find_not_finite(const Document<Feature>& dataset) {
-  const auto error = [](std::size_t feature, std::size_t ring, std::size_t vertex,
-                        const char* text) {
-    Error result{ErrorCode::not_finite, text, in_feature(feature)};
-    result.place.ring = ring;
-    result.place.vertex = vertex;
-    return result;
-  };
-  const auto look_at = [&](std::size_t i, const auto& lines) -> std::optional<Error> {
-    for (std::size_t k = 0; k < lines.size(); ++k) {
-      if (auto at = not_finite(lines[k].points))
-        return error(i, k, *at, "a coordinate is not a finite number");
-      if (auto at = not_finite(lines[k].bulges))
-        return error(i, k, *at, "a bulge is not a finite number");
-    }
-    return std::nullopt;
-  };
-  for (std::size_t i = 0; i < dataset.items.size(); ++i) {
-    const Feature& feature = dataset.items[i];
-    if (auto bad = look_at(i, feature.rings)) return bad;
-    if (auto bad = look_at(i, feature.chains)) return bad;
-    for (std::size_t k = 0; k < feature.contours.size(); ++k) {
-      const Contour& contour = feature.contours[k];
-      if (auto at = not_finite(contour.points)) {
-        return error(i, k, *at, "a control point is not a finite number");
-      }
-      if (auto at = not_finite(contour.weights)) {
-        return error(i, k, *at, "a weight is not a finite number");
-      }
-      for (const CurvePiece& piece : contour.pieces) {
-        if (!std::isfinite(piece.bulge)) {
-          return error(i, k, piece.first, "a bulge is not a finite number");
-        }
-      }
-    }
+Error error_not_finite(std::size_t line, std::size_t vertex, const char* what) {
+  Error error{ErrorCode::not_finite, fmt::format("{} is not a finite number", what), {}};
+  error.place.ring = line;
+  error.place.vertex = vertex;
+  return error;
+}
+
+/// The first number of rings or of chains that is not finite.
+template <class Lines>
+std::optional<Error> not_finite_in(const Lines& lines) {
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    if (auto at = not_finite(lines[k].points)) return error_not_finite(k, *at, "a coordinate");
+    if (auto at = not_finite(lines[k].bulges)) return error_not_finite(k, *at, "a bulge");
+  }
+  return std::nullopt;
+}
+
+std::optional<Error> not_finite_in(const std::vector<Contour>& contours) {
+  for (std::size_t k = 0; k < contours.size(); ++k) {
+    const Contour& contour = contours[k];
+    if (auto at = not_finite(contour.points)) return error_not_finite(k, *at, "a control point");
+    if (auto at = not_finite(contour.weights)) return error_not_finite(k, *at, "a weight");
+    for (const CurvePiece& piece : contour.pieces)
+      if (!std::isfinite(piece.bulge)) return error_not_finite(k, piece.first, "a bulge");
+  }
+  return std::nullopt;
+}
+
+std::optional<Error> not_finite_in(const Document<Feature>& document) {
+  for (std::size_t i = 0; i < document.items.size(); ++i) {
+    const Feature& feature = document.items[i];
+    auto error = not_finite_in(feature.rings);
+    if (!error) error = not_finite_in(feature.chains);
+    if (!error) error = not_finite_in(feature.contours);
+    if (!error) continue;
+    error->place.feature = i;
+    return error;
   }
   return std::nullopt;
 }
@@ -127,48 +129,56 @@ bool has_curves(const Feature& feature) {
          std::ranges::any_of(feature.rings, [](const Ring& ring) { return !ring.bulges.empty(); });
 }
 
-void drop_empty_features(Document<Feature>& dataset) {
-  const auto has_no_point = [](const Feature& feature) {
-    return std::ranges::all_of(feature.rings,
-                               [](const Ring& ring) { return ring.points.empty(); }) &&
-           std::ranges::all_of(
-               feature.contours,
-               [](const Contour& contour) { return contour.pieces.empty() && !contour.open; }) &&
-           feature.chains.empty();
-  };
-  const std::size_t dropped = std::erase_if(dataset.items, has_no_point);
-  if (dropped > 0 && !dataset.items.empty()) {
-    dataset.notes.push_back(fmt::format("{} features are empty and were left out", dropped));
-  }
+bool is_empty(const Feature& feature) {
+  return feature.chains.empty() &&
+         std::ranges::all_of(feature.rings, [](const Ring& one) { return one.points.empty(); }) &&
+         std::ranges::all_of(feature.contours, [](const Contour& contour) {
+           return contour.pieces.empty() && !contour.open;
+         });
 }
 
-Result<Document<Feature>> finish(Document<Feature> dataset, const ReadOptions& options) {
-  if (auto error = find_not_finite(dataset)) return *error;
-  drop_empty_features(dataset);
-  if (dataset.items.empty())
+void drop_empty_features(Document<Feature>& document) {
+  std::vector<std::uint64_t> kept;
+  for (std::size_t i = 0; i < document.items.size(); ++i)
+    if (!is_empty(document.items[i])) kept.push_back(i);
+  const std::size_t dropped = document.items.size() - kept.size();
+  if (dropped == 0) return;
+  std::erase_if(document.items, is_empty);
+  document.indices = std::move(kept);
+  if (!document.items.empty())
+    document.notes.push_back(dropped == 1
+                                 ? "1 feature is empty and was left out"
+                                 : fmt::format("{} features are empty and were left out", dropped));
+}
+
+Result<Document<Feature>> finish(Document<Feature> document, const ReadOptions& options) {
+  if (auto error = not_finite_in(document)) return *error;
+  drop_empty_features(document);
+  if (document.items.empty())
     return Error{ErrorCode::empty,
                  options.loose ? "the file contains no geometry" : "there is no polygon",
                  {}};
   if (options.project) {
-    if (Status status = project_to_local(dataset); !status) return status.error();
+    if (Status status = project_to_local(document); !status) return status.error();
   }
   if (options.repair != RepairRule::none) {
-    for (std::size_t i = 0; i < dataset.items.size(); ++i) {
-      if (has_curves(dataset.items[i])) continue;  // see ReadOptions
-      Status status = repair(dataset.items[i], i, options.repair, dataset.notes);
+    for (std::size_t i = 0; i < document.items.size(); ++i) {
+      if (has_curves(document.items[i])) continue;  // see ReadOptions
+      Status status =
+          repair(document.items[i], document.index_of(i), options.repair, document.notes);
       if (!status) return status.error();
     }
   }
-  return dataset;
+  return document;
 }
 
 }  // namespace
 
-Result<Document<Feature>> read_dataset(const std::string& path, const ReadOptions& options) {
+Result<Document<Feature>> read_document(const std::string& path, const ReadOptions& options) {
   return guarded(path, [&]() -> Result<Document<Feature>> {
-    Result<Document<Feature>> dataset = read_any(path, options);
-    if (!dataset) return dataset;
-    return finish(std::move(*dataset), options);
+    Result<Document<Feature>> document = read_any(path, options);
+    if (!document) return document;
+    return finish(std::move(*document), options);
   });
 }
 

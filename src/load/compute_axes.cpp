@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "base/threads.h"
+#include "load/file_index.h"
 #include "load/progress.h"
 #include "medial/load.h"
 
@@ -57,7 +58,7 @@ Result<Document<AxisItem>> compute_axes(Document<ShapeItem> shapes, Options opti
     return AxisItem{std::move(from.shape), std::move(axis).value(), std::move(from.attributes)};
   };
   auto items = map_items<AxisItem>(weights, options.threads, compute_one, options.cancel);
-  if (!items) return std::move(items).error();
+  if (!items) return in_file_of(axes, std::move(items).error());
   axes.items = std::move(items).value();
 
   AxesReport sum;

@@ -5,7 +5,9 @@
 #include <string>
 #include <utility>
 
+#include "base/counted.h"
 #include "curve/least_squares.h"
+#include "load/file_index.h"
 #include "load/progress.h"
 #include "medial/load.h"
 #include "medial/methods.h"
@@ -42,10 +44,9 @@ void apply_rule(RepairRule rule, std::vector<Ring>& rings) {
   }
 }
 
-/// The boundary of a feature as contours, whatever it was read as.
-std::vector<Contour> contours_of(const Feature& feature) {
-  std::vector<Contour> contours = feature.contours;
-  for (const Ring& ring : feature.rings)
+/// The boundary as contours, whatever it was read as.
+std::vector<Contour> contours_of(const std::vector<Ring>& rings, std::vector<Contour> contours) {
+  for (const Ring& ring : rings)
     if (!ring.points.empty()) contours.push_back(contour_of(ring.points, ring.bulges, true));
   return contours;
 }
@@ -103,13 +104,16 @@ Result<Shape> smooth_shape(std::vector<Contour>& contours, const LoadOptions& op
 Result<ShapeItem> load_shape(Feature& feature, const LoadOptions& options, LoadReport& report) {
   ShapeItem item;
   item.attributes = std::move(feature.attributes);
-  if (options.keep_contours || options.fit > 0) item.contours = contours_of(feature);
+  const bool has_contours = options.keep_contours || options.fit > 0;
+  if (has_contours) item.contours = contours_of(feature.rings, feature.contours);
   std::vector<std::size_t> ring_begin{0};
   for (const Ring& ring : feature.rings)
     ring_begin.push_back(ring_begin.back() + ring.points.size());
   auto shape = shape_of(feature, options, report);
   if (!shape) return std::move(shape).error();
   keep_sources(*shape, feature, ring_begin);
+  const bool is_repaired = report.shapes.crossings + report.shapes.dropped_rings > 0;
+  if (has_contours && is_repaired) item.contours = contours_of(rings_of(*shape), {});
   if (options.fit > 0) shape = smooth_shape(item.contours, options);
   if (!shape) return std::move(shape).error();
   item.shape = std::move(shape).value();
@@ -126,9 +130,8 @@ double weight_of(const Feature& feature) {
 
 std::string note_of_crossings(std::size_t feature, const ShapeReport& report, std::size_t loops) {
   return "feature " + std::to_string(feature) + " was repaired: its edges cross in " +
-         std::to_string(report.crossings) + " places and are split there; " +
-         std::to_string(report.input_rings) + " rings before, " + std::to_string(loops) +
-         " loops after";
+         counted(report.crossings, "place") + " and are split there; " +
+         counted(report.input_rings, "ring") + " before, " + counted(loops, "loop") + " after";
 }
 
 }  // namespace
@@ -150,13 +153,14 @@ Result<Document<ShapeItem>> load_shapes(Document<Feature> features, const LoadOp
     return item;
   };
   auto items = map_items<ShapeItem>(weights, options.threads, load, options.cancel);
-  if (!items) return std::move(items).error();
+  if (!items) return in_file_of(features, std::move(items).error());
   shapes.items = std::move(items).value();
   LoadReport sum;
   for (std::size_t i = 0; i < count; ++i) {
     const ShapeReport& one = reports[i].shapes;
     if (one.crossings > 0)
-      shapes.notes.push_back(note_of_crossings(i, one, shapes.items[i].shape.loop_count()));
+      shapes.notes.push_back(
+          note_of_crossings(features.index_of(i), one, shapes.items[i].shape.loop_count()));
     sum.shapes += one;
     sum.arcs += reports[i].arcs;
   }

@@ -155,6 +155,7 @@ class Words(CommandLine):
                 ("'x' is not numbers separated by commas", "offset", "r.wkt", "--distance", "x"),
                 ("'1,2' is not 4 numbers separated by commas", "axis", "r.wkt", "--within", "1,2"),
                 ("'1,2' is not 4 numbers separated by commas", "voronoi", "r.wkt", "--frame", "1,2"),
+                ("--fit is for methods that follow smooth contours", "axis", "r.wkt", "--fit", "1"),
                 ("0 is not in [1 - 1e+06]", "measure", "r.wkt", "--samples", "0")):
             report = self.refuse("invalid_option", *line)
             self.assertIn(words, report)
@@ -165,6 +166,15 @@ class Words(CommandLine):
         # Curvatures so unlike that the method would go on for hours: it gives up.
         self.write("island.wkt", "POLYGON((0 0,10 0,14 5,10 9,4 8,0 6))")
         self.refuse("too_large", "axis", "island.wkt", "--method", "curve-axis", "--fit", "1e-7")
+
+    def test_features_count_as_in_the_file(self):
+        """What is empty is left out, and the others keep their numbers in errors and notes."""
+        crossing = "POLYGON EMPTY\n" + RECTANGLE + "\nPOLYGON ((0 0, 4 4, 4 0, 0 4, 0 0))\n"
+        self.write("some.wkt", crossing)
+        self.assertIn("feature 2, ring 0", self.refuse("crossing", "axis", "some.wkt"))
+        done = self.succeed("axis", "some.wkt", "--repair", "-o", "some.json")
+        self.assertIn("1 feature is empty and was left out", done.stderr.decode())
+        self.assertIn("feature 2 was repaired", done.stderr.decode())
 
     def test_coordinates(self):
         """The place of a coordinate that is too large or not finite is reported, whatever reads it."""

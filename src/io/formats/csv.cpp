@@ -154,6 +154,7 @@ Format csv_format() {
   Format format{".csv"};
   format.read = read_vertices;
   format.accepts = has_two_columns;
+  format.gdal_chooses = true;
   format.geographic = true;
   return format.writes<AxesOutput, VoronoiOutput, FeaturesOutput, CarvingOutput>(
       write_csv, write_csv, write_csv, write_csv);
