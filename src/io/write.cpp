@@ -95,7 +95,9 @@ Status write_offsets(const std::string& path, const std::string& format,
 Status write_carving(const std::string& path, const std::string& format,
                      const Document<CarveItem>& file, const MachineOptions& machine,
                      const WriteOptions& options) {
-  for (const double value : {machine.safe, machine.feed, machine.plunge})
+  for (const double value :
+       {machine.safe, machine.rapid, machine.carving.feed, machine.carving.plunge,
+        machine.clearing.feed, machine.clearing.plunge})
     if (!(value > 0) || !std::isfinite(value) || !(machine.chord >= 0))
       return Error{ErrorCode::invalid_option, "heights, feeds and chords must be positive", {}};
   return write_checked(path, format, {"nc"}, CarvingOutput{{file, options}, machine});

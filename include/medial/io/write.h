@@ -88,20 +88,46 @@ Status write_offsets(const std::string& path, const std::string& format,
 struct CarveItem {
   Shape shape;
   Carving carving;
+  Carving clearing = {};  ///< by an end mill before, see clearing_before(); or without paths
 };
 
-/// What a machine needs besides the paths; units of the input are taken for millimetres.
+struct CuttingSpeeds {
+  double feed = 1000;   ///< of cutting moves, units a minute
+  double plunge = 300;  ///< downwards
+  double spindle = 0;   ///< turns a minute; 0: the program does not set it
+};
+
+/// What a machine needs besides the paths. Lengths in units of the document.
 struct MachineOptions {
   double safe = 5;      ///< height of moves between paths, positive
-  double feed = 1000;   ///< of cutting moves, mm/min
-  double plunge = 300;  ///< downwards, mm/min
-  double spindle = 0;   ///< turns a minute; 0: the program does not set it
+  double rapid = 3000;  ///< of these moves, for the estimated time
+  CuttingSpeeds carving, clearing;
   double chord = 0;     ///< of without_arcs() for .csv; 0: 1e-6 of the tool's radius at the bottom
+  std::string post;     ///< "linuxcnc", "grbl", "mach3", or a template's text; empty: plain G-code
+  bool shaded = false;  ///< pictures: the surface after the cut, simulated, without the paths
 };
+/// The names of the templates that are built in.
+std::string post_names();
 
-/// Tool paths: .nc .gcode .ngc (G0 G1 G2 G3, absolute, millimetres, arcs by I and J), .csv (path,
-/// kind, x, y, z), .dxf (space polylines on a layer for each kind; passes at one depth as polylines
-/// with bulges and elevation), pictures of the cut.
+/// What a program does, as it is written.
+struct CutReport {
+  double own = 0;     ///< length of all passes in the plane, see Carving::own_length
+  double cut = 0;     ///< length of all moves in the material or at its depth
+  double travel = 0;  ///< in the plane, of lifted moves
+  double seconds = 0;
+  std::uint64_t moves = 0;
+  Box box;            ///< of the tool's centre
+  double lowest = 0;  ///< z
+};
+CutReport report_of(const Document<CarveItem>& file, const MachineOptions& machine);
+
+/// Makes a point of the drawing the origin, and turns y up where it points down.
+void place(Document<CarveItem>& file, Vec2 zero);
+
+/// Tool paths: .nc .gcode .ngc (G-code: G0 G1 G2 G3, absolute, G20 in inches and G21 otherwise, XY
+/// plane, arcs by I and J, six decimals), .csv (path, kind, x, y, z), .dxf (space polylines on a
+/// layer for each kind; passes at one depth as polylines with bulges and elevation), pictures of
+/// the cut. place() has been called. Errors: also invalid_option (a template without its parts).
 Status write_carving(const std::string& path, const std::string& format,
                      const Document<CarveItem>& file, const MachineOptions& machine = {},
                      const WriteOptions& options = {});
