@@ -204,10 +204,11 @@ class Carve(CommandLine):
             drawings[name] = self.path(self.write(name + ".wkt", text))
         sharp = {"maze.wkt", "plan.wkt", "square", "comb", "frame"}  # corners at all four sides
         for name, path in drawings.items():
-            for unit, post in (("mm", "linuxcnc"), ("in", "plain")):
+            # Its module in Python knows no table of tools, so the program with a change of tool has a pause instead.
+            for unit, post, options in (("mm", "linuxcnc", []), ("in", "plain", ["--tip", "0.02", "--depth", "0.05"])):
                 units = ["--units", "mm", "--output-units", unit]
                 x0, y0, x1, y1 = json.loads(self.succeed("info", path, "--json", *units).stdout)["extent"]
-                self.succeed("carve", path, *units, "--angle", "90", "--depth", "0.05", "--clear-tool", "0.4",
+                self.succeed("carve", path, *units, "--angle", "90", *options,
                              "--origin", "lower-left", "--post", post, "-o", "d.ngc")
                 read = json.loads(subprocess.run([python, program, self.path("d.ngc"), unit], capture_output=True,
                                                  check=True, cwd=self.folder.name).stdout)
