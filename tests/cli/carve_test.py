@@ -205,7 +205,7 @@ class Carve(CommandLine):
         sharp = {"maze.wkt", "plan.wkt", "square", "comb", "frame"}  # corners at all four sides
         for name, path in drawings.items():
             # Its module in Python knows no table of tools, so the program with a change of tool has a pause instead.
-            for unit, post, options in (("mm", "linuxcnc", []), ("in", "plain", ["--tip", "0.02", "--depth", "0.05"])):
+            for unit, post, options in (("mm", "linuxcnc", []), ("in", "plain", ["--pass-depth", "0"])):
                 units = ["--units", "mm", "--output-units", unit]
                 x0, y0, x1, y1 = json.loads(self.succeed("info", path, "--json", *units).stdout)["extent"]
                 self.succeed("carve", path, *units, "--angle", "90", *options,
