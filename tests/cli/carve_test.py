@@ -213,7 +213,7 @@ class Carve(CommandLine):
                 read = json.loads(subprocess.run([python, program, self.path("d.ngc"), unit], capture_output=True,
                                                  check=True, cwd=self.folder.name).stdout)
                 self.assertEqual(read["error"], "", name)
-                self.assertGreater(read["moves"], 10)
+                self.assertGreater(read["moves"], 4)
                 if name in sharp:
                     for low, high, size in zip(read["low"], read["high"], (x1 - x0, y1 - y0)):
                         self.assertAlmostEqual(low, 0, delta=1e-6)
