@@ -14,6 +14,8 @@ struct PathOptions {
   std::string from, to;             ///< "X,Y" or "RING/VERTEX"
   std::vector<std::string> widest;  ///< two of them, instead
   MainPathOptions path;
+
+  bool between_places() const { return !from.empty() || !to.empty() || !widest.empty(); }
 };
 
 /// --from, --to, --widest, --route, --trim.
