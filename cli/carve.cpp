@@ -88,7 +88,7 @@ Result<int> run_carve(const CarveArguments& arguments) {
   auto items = map_items<io::CarveItem>(
       weights_of(shapes->file), common.threads, [&](std::size_t i, int threads) {
         return carve_one(std::move(shapes->file.items[i].shape), arguments,
-                         engine_options(common, threads));
+                         engine_options(common, threads, shapes->file.corner_angle));
       });
   if (!items) return std::move(items).error();
   file.items = std::move(items).value();

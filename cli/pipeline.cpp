@@ -125,6 +125,7 @@ Result<LoadedShapes> load_shapes(const InputOptions& input, const CommonOptions&
   out.phases.end("read");
   LoadOptions options = input.source.load;
   options.repair = input.source.read.repair;
+  options.skip_invalid = input.source.read.skip_invalid;
   options.threads = common.threads;
   auto shapes =
       in_file(medial::load_shapes(std::move(features).value(), options, &out.report), input);
@@ -161,7 +162,7 @@ Result<LoadedAxes> compute_axes(LoadedShapes shapes, const InputOptions& input,
                                 const CommonOptions& common, Options options) {
   LoadedAxes out{{}, {}, shapes.report, std::move(shapes.phases)};
   Progress progress("medial axis", error_is_terminal() && !common.quiet);
-  options = engine_options(common, common.threads, std::move(options));
+  options = engine_options(common, common.threads, shapes.file.corner_angle, std::move(options));
   options.progress = progress.callback();
   auto axes =
       in_file(medial::compute_axes(std::move(shapes.file), std::move(options), &out.axes), input);
@@ -200,9 +201,13 @@ Result<LoadedAxes> load_axes(const InputOptions& input, const CommonOptions& com
   return compute_axes(std::move(shapes).value(), input, common, options);
 }
 
-Options engine_options(const CommonOptions& common, int threads, Options options) {
+double corner_angle(const CommonOptions& common, double of_input) {
+  return common.corner_angle.value_or(of_input > 0 ? of_input : Options{}.corner_angle);
+}
+
+Options engine_options(const CommonOptions& common, int threads, double of_input, Options options) {
   options.tolerance = common.tolerance;
-  options.corner_angle = common.corner_angle;
+  options.corner_angle = corner_angle(common, of_input);
   options.threads = threads;
   return options;
 }

@@ -38,13 +38,14 @@ struct Document {
   double pixel = 0;                ///< of an image: the side of its pixels, where they are squares
   double dots_per_inch = 0;        ///< of an image that says so
   std::vector<std::string> notes;  ///< what repair or reprojection changed, one sentence each
+  double corner_angle = 0;  ///< Options::corner_angle that suits this kind of input; 0: its default
 };
 
 /// A document without items that has all else of another.
 template <class To, class From>
 Document<To> empty_like(const Document<From>& from) {
-  return {{},        from.crs_wkt, from.geographic,    from.y_down,
-          from.unit, from.pixel,   from.dots_per_inch, from.notes};
+  return {{},         from.crs_wkt,       from.geographic, from.y_down,      from.unit,
+          from.pixel, from.dots_per_inch, from.notes,      from.corner_angle};
 }
 
 /// What a file says of a feature besides its geometry: names and values as text, in their order.
@@ -58,6 +59,7 @@ struct Feature {
   std::vector<Chain> chains;          ///< loose points and lines, if asked for
   std::vector<VertexSource> sources;  ///< of the rings' points, in order; empty: themselves
   std::int64_t id = 0;                ///< of the source, or its index
+  bool filled = false;                ///< a drawing: its fill rule decides, whatever crosses
   Attributes attributes;
 };
 

@@ -50,9 +50,10 @@ struct ShapeReport {
 };
 
 struct ShapeOptions {
-  /// Splits edges where they cross. The interior follows the non-zero rule for RingRole::winding,
-  /// the even-odd rule for others. Decides within the tolerance even if all edges are straight. O(n
-  /// log n + p) for p pairs of edges whose bounding boxes meet.
+  /// Splits edges where they cross or overlap, and ignores rings that enclose nothing. The interior
+  /// follows the non-zero rule for RingRole::winding, the even-odd rule for others. Decides within
+  /// the tolerance even if all edges are straight. O(n log n + p) for p pairs of edges whose
+  /// bounding boxes meet.
   bool node_crossings = false;
 };
 

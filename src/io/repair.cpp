@@ -326,10 +326,11 @@ Status repair(Feature& feature, std::size_t index, RepairRule rule,
   if (rule == RepairRule::none || feature.rings.empty()) return success();
   Repairer repairer(feature.rings, rule);
   if (repairer.valid()) return success();
-  Result<std::vector<Ring>> rings = repairer.repaired();
+  const Result<std::vector<Ring>> rings = repairer.repaired();
   if (!rings) {
-    rings.error().place = place;
-    return rings.error();
+    notes.push_back(fmt::format("feature {}: {}; its edges are split where they cross", index,
+                                rings.error().text));
+    return success();
   }
   if (rings->empty()) {
     return Error{ErrorCode::no_area, "nothing is left after the repair: no area is enclosed",
@@ -343,7 +344,7 @@ Status repair(Feature& feature, std::size_t index, RepairRule rule,
                   "area {:.10g} after",
                   index, rule_text(repairer.rule()), before.rings, before.vertices, before.area,
                   after.rings, after.vertices, after.area));
-  feature.rings = std::move(*rings);
+  feature.rings = *rings;
   return success();
 }
 

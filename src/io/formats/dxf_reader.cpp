@@ -398,6 +398,7 @@ class Features {
       join(layer, feature);
     }
     if (feature.contours.empty()) return;
+    feature.filled = true;
     feature.id = static_cast<std::int64_t>(dataset_.items.size());
     feature.attributes.emplace_back("layer", layer.name);
     dataset_.items.push_back(std::move(feature));
