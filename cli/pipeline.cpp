@@ -35,6 +35,19 @@ Result<T> in_file(Result<T> result, const InputOptions& input) {
   return result;
 }
 
+/// An error of what a shape is made of, with its cure.
+Error with_cure(Error error, const InputOptions& input) {
+  using enum ErrorCode;
+  const io::ReadOptions& read = input.source.read;
+  const bool tangled = error.code == crossing || error.code == overlap ||
+                       error.code == hole_outside || error.code == nested_outer;
+  const bool flat = error.code == no_area || error.code == too_few_points;
+  if ((tangled || flat) && read.repair == RepairRule::none && !io::is_image(input.path))
+    error.text += tangled ? "; --repair mends such rings"
+                          : "; --repair drops such rings, and so does --skip-invalid";
+  return error;
+}
+
 /// --stats beyond what every command has.
 Json statistics_of(const LoadedAxes& axes, const AxisSummary& summary) {
   const Statistics& counted = axes.axes.statistics;
@@ -129,7 +142,7 @@ Result<LoadedShapes> load_shapes(const InputOptions& input, const CommonOptions&
   options.threads = common.threads;
   auto shapes =
       in_file(medial::load_shapes(std::move(features).value(), options, &out.report), input);
-  if (!shapes) return std::move(shapes).error();
+  if (!shapes) return with_cure(std::move(shapes).error(), input);
   out.file = std::move(shapes).value();
   out.phases.end("shape");
   print_notes(out.file, input, common);
@@ -150,7 +163,7 @@ Status with_planar_graph(const LoosePieces& pieces, const FileArguments& argumen
   const InputOptions& input = arguments.input;
   const bool repair = input.source.read.repair != RepairRule::none;
   auto touching = in_file(medial::with_planar_graph(pieces, repair, use), input);
-  if (!touching) return std::move(touching).error();
+  if (!touching) return with_cure(std::move(touching).error(), input);
   if (*touching > 0 && !arguments.common.quiet)
     say("medial: {}: note: points and edges within {:.2g} of each other touch, as rounding "
         "does not tell them apart\n",

@@ -126,7 +126,7 @@ class Inputs(CommandLine):
             self.succeed("axis", name, "-o", "a.json")
             self.succeed("verify", name, "a.json")
         self.write("shared.wkt", "MULTIPOLYGON(((0 0,4 0,4 4,0 4,0 0)),((4 1,8 1,8 3,4 3,4 1)))")
-        self.refuse("overlap", "axis", "shared.wkt")
+        self.assertIn("--repair", self.refuse("overlap", "axis", "shared.wkt"))
 
     def test_invalid_features_are_left_out(self):
         self.write("some.wkt", "\n".join((
@@ -180,7 +180,7 @@ class Inputs(CommandLine):
         lines = "0 SECTION 2 ENTITIES 0 LINE 8 A 10 0 20 0 11 4 21 0 0 LINE 8 A 10 4 20 0 11 4 21 3 "
         lines += "0 LINE 8 A 10 4 20 3 11 0 21 0.1 0 ENDSEC 0 EOF"
         self.write("open.dxf", lines.replace(" ", "\n") + "\n")
-        self.refuse("empty", "info", "open.dxf")
+        self.assertIn("--close=GAP", self.refuse("empty", "info", "open.dxf"))
         self.succeed("info", "open.dxf", "--close")
         self.succeed("info", "open.dxf", "--close=0.2")
         self.refuse("empty", "info", "open.dxf", "--close=0.05")
