@@ -237,8 +237,7 @@ Command make_axis_command(CLI::App& program) {
   command->add_flag("--radius-as-z", arguments->write.radius_as_z,
                     "Drawings (.dxf): splines in space, with the radius as z.");
   command->add_flag("--mask", arguments->mask,
-                    "Images: write the axis as a mask of the image's pixels, one pixel wide\n"
-                    "(.png .pbm .pgm .tif).");
+                    "Images: write a mask of pixels (.png .pbm .pgm .tif).");
   add_method_options(*command, arguments->methods);
   add_exterior_options(
       *command, arguments->options,
