@@ -1,5 +1,7 @@
 // medial carve: tool paths of a V-shaped tool along the medial axis.
 
+#include "medial/carve.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,7 +15,6 @@
 #include "cli/commands.h"
 #include "cli/common.h"
 #include "cli/pipeline.h"
-#include "medial/carve.h"
 #include "medial/io/write.h"
 #include "medial/units.h"
 
@@ -213,7 +214,7 @@ Result<int> run_carve(const CarveArguments& given) {
   auto items = map_items<io::CarveItem>(
       weights_of(shapes->file), common.threads, [&](std::size_t i, int threads) {
         return carve_one(std::move(shapes->file.items[i].shape), arguments, options,
-                         engine_options(common, threads));
+                         engine_options(common, threads, shapes->file.corner_angle));
       });
   if (!items) return std::move(items).error();
   file.items = std::move(items).value();

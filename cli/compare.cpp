@@ -57,9 +57,10 @@ struct Reference {
   bool lenient = false;  ///< methods may refuse the kind of input
 };
 
-Result<Reference> reference_of(const Shape& shape, const CompareArguments& arguments) {
+Result<Reference> reference_of(const Shape& shape, double of_input,
+                               const CompareArguments& arguments) {
   Reference reference;
-  reference.options = engine_options(arguments.common, 0, arguments.options);
+  reference.options = engine_options(arguments.common, 0, of_input, arguments.options);
   reference.lenient = arguments.methods == "all";
   auto exact = compute(shape, reference.options);
   if (!exact) return std::move(exact).error();
@@ -223,7 +224,7 @@ Result<int> run_compare(const CompareArguments& arguments) {
   std::string text;
   for (std::size_t i = 0; i < file.items.size(); ++i) {
     const ShapeItem& item = file.items[i];
-    auto reference = reference_of(item.shape, arguments);
+    auto reference = reference_of(item.shape, file.corner_angle, arguments);
     if (!reference) {
       reference.error().place.feature = i;
       return std::move(reference).error();

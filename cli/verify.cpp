@@ -223,7 +223,7 @@ Result<std::vector<Certificate>> verify_all(const Document<ShapeItem>& shapes,
   const auto verify_one = [&](std::size_t i, int threads) {
     VerifyOptions options;
     options.tolerance = common.tolerance;
-    options.corner_angle = common.corner_angle;
+    options.corner_angle = corner_angle(common, shapes.corner_angle);
     options.samples_per_edge = arguments.samples;
     options.threads = threads;
     options.part = stored.items[i].part;
@@ -240,7 +240,11 @@ Result<int> run_verify(const VerifyArguments& arguments) {
   if (io::is_voronoi(axis_path)) return verify_voronoi(arguments);
   auto stored = read_stored(axis_path, io::read_native);
   if (!stored) return std::move(stored).error();
-  auto loaded = load_shapes(input, common);
+  InputOptions source = input;
+  // Axes of pixels are of the pixels' own boundary.
+  for (const AxisItem& item : stored->items)
+    if (is_of_pixels(item.axis.method)) source.source.read.smooth_contour = false;
+  auto loaded = load_shapes(source, common);
   if (!loaded) return std::move(loaded).error();
   const Document<ShapeItem>& shapes = loaded->file;
   const std::size_t count = shapes.items.size();

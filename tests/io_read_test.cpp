@@ -53,9 +53,10 @@ TEST_F(Io, ReadsEveryKindOfWellKnownText) {
   EXPECT_EQ(data->items[1].rings[2].role, RingRole::hole);
   EXPECT_TRUE(same(data->items[1].rings[0].points[2], {0.5, -1}));
   EXPECT_EQ(data->items[2].id, 2);
-  ASSERT_EQ(data->notes.size(), 2U);
+  ASSERT_EQ(data->notes.size(), 3U);
   EXPECT_NE(data->notes[0].find("2 geometries are no polygons"), std::string::npos);
   EXPECT_NE(data->notes[1].find("1 feature is empty"), std::string::npos);
+  EXPECT_NE(data->notes[2].find("closed by a straight edge"), std::string::npos);
 }
 
 TEST_F(Io, ReadsPlainCoordinates) {
@@ -381,7 +382,7 @@ TEST_F(Io, LocalProjectionsMeasureMetresAndGoBack) {
     ASSERT_TRUE(data.ok()) << to_string(data.error());
     EXPECT_FALSE(data->geographic);
     EXPECT_TRUE(is_local_projection(data->crs_wkt));
-    ASSERT_EQ(data->notes.size(), 1U);
+    ASSERT_EQ(data->notes.size(), 2U);  // closed; projected
     std::vector<Vec2> points = data->items[0].rings[0].points;
     if (size < 1) {
       const double meridian = distance(points[0], points[2]);
@@ -406,12 +407,12 @@ TEST_F(Io, WhatIsNotGeographicIsNotProjected) {
   EXPECT_EQ(code_of(read_document(write("a.wkt", "POLYGON((0 0,1000 0,1000 1000))"), options)),
             ErrorCode::invalid_option);
   const Result<Document<Feature>> utm =
-      read_document(write("b.wkt", "SRID=32633;POLYGON((0 0,1000 0,1000 1000))"), options);
+      read_document(write("b.wkt", "SRID=32633;POLYGON((0 0,1000 0,1000 1000,0 0))"), options);
   ASSERT_TRUE(utm.ok());
   EXPECT_TRUE(same(utm->items[0].rings[0].points[2], {1000, 1000}));
   EXPECT_EQ(utm->notes.size(), 1U);
   const Result<Document<Feature>> bare =
-      read_document(write("c.wkt", "POLYGON((0 0,1 0,1 1))"), options);
+      read_document(write("c.wkt", "POLYGON((0 0,1 0,1 1,0 0))"), options);
   ASSERT_TRUE(bare.ok());
   EXPECT_EQ(bare->notes.size(), 2U);  // taken as degrees; projected
 }

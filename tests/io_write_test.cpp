@@ -368,7 +368,7 @@ TEST_F(Io, SpatialIndexesMadeLaterAreWholeAndFindWhatIsThere) {
     item.shape = build_shape(std::vector<Ring>{star}).value();
     item.axis = compute(item.shape).value();
     const std::string name = path("index.gpkg");
-    const Status status = write_axes(name, "", file);
+    const Status status = write_axes(name, "", file, {.overwrite = true});
     ASSERT_TRUE(status.ok()) << to_string(status.error());
     const GDALDatasetUniquePtr data(
         GDALDataset::Open(name.c_str(), GDAL_OF_VECTOR | GDAL_OF_UPDATE));

@@ -37,6 +37,7 @@ struct Document {
   double dots_per_inch = 0;        ///< of an image that says so
   std::vector<std::string> notes;  ///< what repair or reprojection changed, one sentence each
   std::vector<std::uint64_t> indices;  ///< of the items in the file, if some were left out
+  double corner_angle = 0;  ///< Options::corner_angle that suits this kind of input; 0: its default
 
   std::uint64_t index_of(std::size_t i) const { return indices.empty() ? i : indices[i]; }
 };
@@ -44,8 +45,8 @@ struct Document {
 /// A document without items that has all else of another.
 template <class To, class From>
 Document<To> empty_like(const Document<From>& from) {
-  return {{},         from.crs_wkt,       from.geographic, from.y_down, from.unit,
-          from.pixel, from.dots_per_inch, from.notes,      from.indices};
+  return {{},         from.crs_wkt,       from.geographic, from.y_down,  from.unit,
+          from.pixel, from.dots_per_inch, from.notes,      from.indices, from.corner_angle};
 }
 
 /// What a file says of a feature besides its geometry: names and values as text, in their order.
@@ -59,6 +60,7 @@ struct Feature {
   std::vector<Chain> chains;          ///< loose points and lines, if asked for
   std::vector<VertexSource> sources;  ///< of the rings' points, in order; empty: themselves
   std::int64_t id = 0;                ///< of the source, or its index
+  bool filled = false;                ///< a drawing: its fill rule decides, whatever crosses
   Attributes attributes;
 };
 

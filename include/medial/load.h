@@ -44,8 +44,9 @@ struct LoadOptions {
   /// Splits edges that cross (ShapeOptions::node_crossings); the rule decides what is inside. Rings
   /// of straight edges alone are first tried as they are.
   RepairRule repair = RepairRule::none;
-  ArcOptions arcs;  ///< how free-form curves become arcs
-  double fit = 0;   ///< boundaries become smooth within this (fit_smooth_contour()); 0: no
+  ArcOptions arcs;            ///< how free-form curves become arcs
+  bool skip_invalid = false;  ///< leaves features out that make no shape, with a note each
+  double fit = 0;  ///< boundaries become smooth within this (fit_smooth_contour()); 0: no
   bool keep_contours = false;  ///< fills ShapeItem::contours, from rings as well
   int threads = 0;             ///< see Options, as the next two
   std::function<void(double)> progress = {};
@@ -59,8 +60,9 @@ struct LoadReport {
 };
 
 /// The shape of each feature, in order: fill rules, curves to arcs, repair. Notes say what a repair
-/// changed. Errors: those of approximate_by_arcs(), build_shape() and fit_smooth_contour(), with
-/// feature, ring and vertex; empty; cancelled.
+/// changed, and which features `skip_invalid` left out and why. Errors: those of
+/// approximate_by_arcs(), build_shape() and fit_smooth_contour(), with feature, ring and vertex;
+/// empty; cancelled.
 Result<Document<ShapeItem>> load_shapes(Document<Feature> features, const LoadOptions& options = {},
                                         LoadReport* report = nullptr);
 

@@ -46,8 +46,9 @@ struct ShapeReport {
 };
 
 struct ShapeOptions {
-  /// Splits edges where they cross; RingRole says what is inside then. Decides within the tolerance
-  /// even if all edges are straight. O(n log n + p) for p pairs of edges whose bounding boxes meet.
+  /// Splits edges where they cross or overlap, and ignores rings that enclose nothing; RingRole
+  /// says what is inside then. Decides within the tolerance even if all edges are straight. O(n log
+  /// n + p) for p pairs of edges whose bounding boxes meet.
   bool node_crossings = false;
 };
 

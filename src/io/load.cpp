@@ -47,6 +47,7 @@ Result<Document<ShapeItem>> load_shapes(const std::string& path, const SourceOpt
   if (!features) return std::move(features).error();
   LoadOptions load = options.load;
   load.repair = options.read.repair;
+  load.skip_invalid = options.read.skip_invalid;
   return naming_file(medial::load_shapes(std::move(features).value(), load, report), path);
 }
 

@@ -133,6 +133,8 @@ GlobeExtent extent_of(const Document<Feature>& dataset) {
           degrees(std::acos(std::clamp(cosine, -1.0, 1.0)))};
 }
 
+}  // namespace
+
 bool can_be_degrees(const Document<Feature>& dataset) {
   bool possible = true;
   for_each_point(dataset, [&possible](Vec2 point) {
@@ -140,8 +142,6 @@ bool can_be_degrees(const Document<Feature>& dataset) {
   });
   return possible;
 }
-
-}  // namespace
 
 Status project_to_local(Document<Feature>& dataset) {
   const GdalMessages messages;
@@ -157,9 +157,11 @@ Status project_to_local(Document<Feature>& dataset) {
     return Error{ErrorCode::unsupported, "the reference system is not understood", {}};
   }
   if (!can_be_degrees(dataset)) {
-    return Error{ErrorCode::invalid_option,
-                 "the coordinates are no degrees, so there is nothing to project",
-                 {}};
+    return Error{
+        ErrorCode::invalid_option,
+        "the coordinates are no degrees, so they cannot be projected: leave --project out, or "
+        "name their reference system by --crs EPSG:n",
+        {}};
   }
 
   const GlobeExtent extent = extent_of(dataset);

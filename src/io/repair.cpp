@@ -333,10 +333,11 @@ Status repair(Feature& feature, std::size_t index, RepairRule rule,
   if (rule == RepairRule::none || feature.rings.empty()) return success();
   Repairer repairer(feature.rings, rule);
   if (repairer.valid()) return success();
-  Result<std::vector<Ring>> rings = repairer.repaired();
+  const Result<std::vector<Ring>> rings = repairer.repaired();
   if (!rings) {
-    rings.error().place = place;
-    return rings.error();
+    notes.push_back(fmt::format("feature {}: {}; its edges are split where they cross", index,
+                                rings.error().text));
+    return success();
   }
   if (rings->empty()) {
     return Error{ErrorCode::no_area, "nothing is left after the repair: no area is enclosed",

@@ -16,9 +16,11 @@ namespace medial::io {
 
 struct ImageOptions {
   /// Pixels at or above this value are foreground. Nothing: half of the format's largest value (128
-  /// of 8 bits, 0.5 of real numbers, any set bit of 1 bit).
+  /// of 8 bits, 0.5 of real numbers, any set bit of 1 bit); of an image of zeros and ones, 1.
   std::optional<double> threshold;
   bool invert = false;  ///< pixels below the threshold are foreground instead
+  /// Of read_document(): a feature for each value but 0, with the attribute `value`.
+  bool labels = false;
 };
 
 struct ReadOptions {
@@ -26,6 +28,9 @@ struct ReadOptions {
   std::string where;  ///< attribute filter of OGR SQL; empty: all
   /// Of polygons of straight edges; features with curves stay as they are, for load_shapes().
   RepairRule repair = RepairRule::none;
+  /// Leaves out features that cannot be read, repaired or made a shape, with a note each.
+  bool skip_invalid = false;
+  std::string crs;       ///< "EPSG:n" or WKT, in place of the file's own; empty: that
   bool project = false;  ///< project_to_local() geographic coordinates
   /// Of loose curves (DXF): joins ends at most this far apart, in units of the input, and drops
   /// what stays open; infinity closes all. Nothing: 1e-6 of the bounding box's diagonal.
@@ -40,7 +45,8 @@ struct ReadOptions {
 
 /// Reads polygons and curved shapes, gzipped or not: .svg and .dxf as docs/inputs.md says; .wkt,
 /// .txt, .xy and medial's own .json by fast readers; images (see is_image()) as one feature, the
-/// outline of their foreground with y downwards, or placed where the file says; all else by GDAL.
+/// outline of their foreground with y downwards, or placed where the file says; the free cells of a
+/// ROS map (.yaml); all else by GDAL.
 /// Recognises WKT, GeoJSON, SVG, DXF, `x y` text and medial's own on standard input by their first
 /// characters. Errors: also no_area, invalid_option.
 Result<Document<Feature>> read_document(const std::string& path, const ReadOptions& options = {});
@@ -53,7 +59,7 @@ Result<Document<Feature>> read_text(const std::string& text, const std::string& 
 struct SourceOptions {
   ReadOptions read;  ///< its `repair` goes for features with curves as well
   std::string text;  ///< not empty: the outlines of this text in the font `path`, see read_text()
-  LoadOptions load;  ///< but for `repair`
+  LoadOptions load;  ///< but for `repair` and `skip_invalid`
   UnitOptions units;
 };
 
@@ -108,10 +114,11 @@ struct ImageFile {
   bool placed() const { return placement != unplaced; }
 };
 
-/// Whether a file begins like PNG, TIFF, PBM or PGM (P1, P2, P4, P5); false if it cannot be opened.
+/// Whether a file begins like an image of read_image(); false if it cannot be opened.
 bool is_image(const std::string& path);
 
-/// Reads a binary image: PBM (black is the foreground), PGM, PNG, TIFF or GeoTIFF. Of colours the
+/// Reads a binary image: PBM (set bits, black, are the foreground) and PGM (P1, P2, P4, P5),
+/// gzipped or not, or PNG, JPEG, BMP, WebP, GIF, TIFF and GeoTIFF through GDAL. Of colours the
 /// luminance counts (ITU-R BT.601); what is transparent or without data is background, inverted or
 /// not. Errors: also empty (no foreground).
 Result<ImageFile> read_image(const std::string& path, const ImageOptions& options = {});

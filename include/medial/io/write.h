@@ -35,6 +35,7 @@ std::string formats_of(DocumentKind kind);
 
 struct WriteOptions {
   double chord = 1e-3;       ///< chords stay within this share (> 0) of the bounding box diagonal
+  bool overwrite = false;    ///< replaces layers of the same name in a .gpkg that is there
   bool radius_as_z = false;  ///< drawings (.dxf) have the radius as z
   // pictures (.svg .pdf .png .ps)
   double width = 1024;    ///< of the picture, in pixels or points, in [16, 8000]
