@@ -34,11 +34,11 @@ Result<T> naming_file(Result<T> result, const std::string& path) {
 }  // namespace
 
 Result<Document<Feature>> read_features(const std::string& path, const SourceOptions& options) {
-  auto features = read_source(path, options);
-  if (features)
-    if (Status done = convert_units(*features, options.units); !done)
-      features = std::move(done).error();
-  return naming_file(std::move(features), path);
+  auto features = naming_file(read_source(path, options), path);
+  if (!features) return features;
+  if (Status done = convert_units(*features, options.units); !done)
+    return naming_file<Document<Feature>>(std::move(done).error(), path);
+  return features;
 }
 
 Result<Document<ShapeItem>> load_shapes(const std::string& path, const SourceOptions& options,

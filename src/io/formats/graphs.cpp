@@ -160,7 +160,7 @@ class NodelinkTables final : public GraphTables {
   std::string members(std::size_t table, std::span<const Value> values) const {
     std::string text;
     each_value(table, values, [&](std::size_t i, const Value& value) {
-      text += "," + json_quoted(tables_[table].columns[i].name) + ":";
+      text += fmt::format(",{}:", json_quoted(tables_[table].columns[i].name));
       if (const auto* words = std::get_if<std::string>(&value))
         text += json_quoted(*words);
       else if (const auto* whole = std::get_if<std::int64_t>(&value))

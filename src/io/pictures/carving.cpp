@@ -100,7 +100,8 @@ Status write_picture(Target& target, const CarvingOutput& output) {
   }
   const auto draw = [&](Canvas& canvas) {
     if (output.machine.shaded)
-      return canvas.image(shaded(surface_after(output.document, canvas.frame()), canvas.frame()));
+      return canvas.image(
+          shaded(surface_after(output.document, canvas.viewport()), canvas.viewport()));
     constexpr Color wood{0.93, 0.86, 0.74}, bottom{0.36, 0.22, 0.12}, outline{0.25, 0.25, 0.3};
     const int levels = target.format == "png" ? 32 : 12;
     for (const CarveItem& item : items) {

@@ -35,14 +35,14 @@ struct Move {
 
 class Surface {
  public:
-  explicit Surface(const PictureFrame& frame)
-      : frame_(frame),
-        columns_(static_cast<std::int64_t>(frame.width)),
-        rows_(static_cast<std::int64_t>(frame.height)),
+  explicit Surface(const Viewport& viewport)
+      : viewport_(viewport),
+        columns_(static_cast<std::int64_t>(viewport.width)),
+        rows_(static_cast<std::int64_t>(viewport.height)),
         heights_(static_cast<std::size_t>(columns_ * rows_), 0.0) {}
 
   void cut(const Carving& carving, const ToolPath& path) {
-    const std::vector<ToolPoint> points = without_arcs(path, 0.1 / frame_.scale);
+    const std::vector<ToolPoint> points = without_arcs(path, 0.1 / viewport_.scale);
     for (std::size_t i = 0; i + 1 < points.size(); ++i)
       cut(Move{points[i].point, points[i + 1].point - points[i].point, -points[i].z,
                points[i].z - points[i + 1].z, carving.tip_radius, carving.slope});
@@ -53,8 +53,8 @@ class Surface {
   void cut(const Move& move) {
     const double radius = move.tip + move.slope * std::max(move.deep, move.deep + move.deeper);
     if (!(radius > 0)) return;
-    const Vec2 a = frame_(move.from), b = frame_(move.from + move.way);
-    const double wide = radius * frame_.scale;
+    const Vec2 a = viewport_(move.from), b = viewport_(move.from + move.way);
+    const double wide = radius * viewport_.scale;
     const auto index = [](double place, std::int64_t count) {
       return std::clamp(static_cast<std::int64_t>(std::floor(place)), std::int64_t{0}, count);
     };
@@ -70,18 +70,18 @@ class Surface {
   }
   /// The middle of a pixel in the plane.
   Vec2 place(std::int64_t x, std::int64_t y) const {
-    return frame_.plane_at({static_cast<double>(x) + 0.5, static_cast<double>(y) + 0.5});
+    return viewport_.plane_at({static_cast<double>(x) + 0.5, static_cast<double>(y) + 0.5});
   }
 
-  const PictureFrame& frame_;
+  const Viewport& viewport_;
   std::int64_t columns_, rows_;
   std::vector<double> heights_;
 };
 
 }  // namespace
 
-std::vector<double> surface_after(const Document<CarveItem>& file, const PictureFrame& frame) {
-  Surface surface(frame);
+std::vector<double> surface_after(const Document<CarveItem>& file, const Viewport& viewport) {
+  Surface surface(viewport);
   for (const CarveItem& item : file.items)
     for_each_path(item, [&](const Carving& carving, const ToolPath& path, const char*) {
       surface.cut(carving, path);
@@ -89,9 +89,9 @@ std::vector<double> surface_after(const Document<CarveItem>& file, const Picture
   return surface.take();
 }
 
-std::vector<std::uint32_t> shaded(const std::vector<double>& heights, const PictureFrame& frame) {
-  const auto columns = static_cast<std::size_t>(frame.width);
-  const auto rows = static_cast<std::size_t>(frame.height);
+std::vector<std::uint32_t> shaded(const std::vector<double>& heights, const Viewport& viewport) {
+  const auto columns = static_cast<std::size_t>(viewport.width);
+  const auto rows = static_cast<std::size_t>(viewport.height);
   const double deepest = std::min(*std::ranges::min_element(heights), -1e-300);
   constexpr Color wood{0.93, 0.86, 0.74}, bottom{0.62, 0.45, 0.28};
   const double light_across = -0.45, light_down = -0.45;  // where light comes from, in the picture
@@ -100,8 +100,8 @@ std::vector<std::uint32_t> shaded(const std::vector<double>& heights, const Pict
   for (std::size_t y = 0; y < rows; ++y) {
     for (std::size_t x = 0; x < columns; ++x) {
       const auto at = [&](std::size_t c, std::size_t r) { return heights[r * columns + c]; };
-      const double across = frame.scale * (at(std::min(x + 1, columns - 1), y) - at(x, y));
-      const double down = frame.scale * (at(x, std::min(y + 1, rows - 1)) - at(x, y));
+      const double across = viewport.scale * (at(std::min(x + 1, columns - 1), y) - at(x, y));
+      const double down = viewport.scale * (at(x, std::min(y + 1, rows - 1)) - at(x, y));
       const double facing = (light_up - across * light_across - down * light_down) /
                             std::sqrt(1 + across * across + down * down);
       const double share = at(x, y) / deepest;
