@@ -456,17 +456,19 @@ Status check_output(const std::string& path, const std::string& format,
 
 namespace {
 
-/// What is asked for a picture alone, where the output is another file.
+/// What is asked for a picture alone, where the output is another file. Nodes are a layer of
+/// GeoPackages, too.
 Status check_picture_options(const FileArguments& arguments) {
   const io::WriteOptions& write = arguments.write;
-  const bool asked = write.disks > 0 || write.contacts || write.nodes || !write.shape;
+  const bool asked = write.disks > 0 || write.contacts || !write.shape;
   const std::string& output = arguments.output;
-  if (!asked || output.empty()) return success();
+  if ((!asked && !write.nodes) || output.empty()) return success();
   const std::string extension = fs::path(output).extension().string();
   const std::string format = output == "-"       ? arguments.format
                              : extension.empty() ? extension
                                                  : extension.substr(1);
   if (lists("svg pdf png ps", lower(format))) return success();
+  if (!asked && lower(format) == "gpkg") return success();
   return invalid_option(fmt::format(
       "--disks, --contacts, --nodes and --no-shape are for pictures, which {} is not", output));
 }

@@ -82,9 +82,10 @@ TEST(Load, ARepairSaysWhatItChangedAndLeavesValidFeaturesAlone) {
   ASSERT_TRUE(loaded.ok()) << to_string(loaded.error());
   EXPECT_EQ(report.shapes.crossings, 2U);
   ASSERT_EQ(loaded->notes.size(), 1U);
-  EXPECT_EQ(loaded->notes[0],
-            "feature 1 was repaired: its edges cross in 2 places and are split there; 2 rings "
-            "before, 1 loop after");
+  EXPECT_EQ(
+      loaded->notes[0],
+      "feature 1 was repaired: its edges cross or overlap in 2 places and are split there; 2 rings "
+      "before, 1 loop after");
   EXPECT_EQ(loaded->items[0].shape.points.size(), 4U);
 }
 

@@ -184,6 +184,12 @@ void fit(const Outline& outline, Spline& spline) {
   std::size_t edge = 0;
   for (std::size_t i = 0; i < n; ++i) spline.control()[i] = outline.at(spline.begin(i), edge);
   equations.solve(spline.control());
+  // Along an axis the influence of far points decays to values that no coordinate may have.
+  const double least = outline.length() * 0x1p-60;
+  for (Vec2& p : spline.control()) {
+    if (std::abs(p.x) < least) p.x = 0;
+    if (std::abs(p.y) < least) p.y = 0;
+  }
 }
 
 /// The knots with one more in the middle of each span that strays from the outline; as many as

@@ -381,8 +381,9 @@ class Features {
       std::string text = "there is no closed curve";
       for (const std::string& note : dataset_.notes) text += "; " + note;
       if (open_ > 0)
-        text += "; --close=GAP joins ends that are further apart, --close ends each curve where it "
-                "began";
+        text +=
+            "; --close=GAP joins ends that are further apart, --close ends each curve where it "
+            "began";
       return Error{ErrorCode::empty, text, {}};
     }
     return std::move(dataset_);

@@ -60,7 +60,8 @@ Result<Viewport> viewport_for(const Box& box, double width, bool y_down) {
   viewport.scale = size.x > 0 ? (viewport.width - 2 * margin) / size.x : 1;
   // A needle gets a picture of moderate height: its width gives way.
   const double height = size.x > 0 ? size.y * viewport.scale : 4 * viewport.width;
-  viewport.height = std::ceil(std::clamp(height + 2 * margin, viewport.width / 8, 4 * viewport.width));
+  viewport.height =
+      std::ceil(std::clamp(height + 2 * margin, viewport.width / 8, 4 * viewport.width));
   if (size.y > 0 && size.y * viewport.scale + 2 * margin > viewport.height)
     viewport.scale = (viewport.height - 2 * margin) / size.y;
   if (!(viewport.scale > 0) || !std::isfinite(viewport.scale) || !std::isfinite(viewport.height))

@@ -48,8 +48,8 @@ struct Viewport {
   double bulge(double of_plane) const { return -up * of_plane; }
 };
 
-/// The viewport of a picture of a box, of moderate height. Errors: invalid_option (width), unsupported
-/// (a box that no picture can hold).
+/// The viewport of a picture of a box, of moderate height. Errors: invalid_option (width),
+/// unsupported (a box that no picture can hold).
 Result<Viewport> viewport_for(const Box& box, double width, bool y_down);
 
 /// Goes on along an arc of the picture, within 7e-8 radii.
