@@ -53,14 +53,14 @@ std::vector<Disk> sample(const MedialAxis& axis, const Branch& branch, double ch
   return result;
 }
 
-std::vector<Vec2> line_of(const AxisItem& item, const Branch& branch, const WriteOptions& options) {
-  double chord = chord_of(item, options);
-  if (options.simplify > 0) chord = std::min(chord, 0.5 * options.simplify);
+std::vector<Vec2> line_of(const MedialAxis& axis, const Branch& branch, double chord,
+                          double simplify) {
+  if (simplify > 0) chord = std::min(chord, 0.5 * simplify);
   std::vector<Vec2> points, kept;
-  for (const Disk& disk : sample(item.axis, branch, chord)) points.push_back(disk.center);
-  if (!(options.simplify > 0)) return points;
+  for (const Disk& disk : sample(axis, branch, chord)) points.push_back(disk.center);
+  if (!(simplify > 0)) return points;
   const auto excess = [&](std::uint32_t i, std::uint32_t first, std::uint32_t last) {
-    return distance_to_segment(points[i], points[first], points[last]) - options.simplify + chord;
+    return distance_to_segment(points[i], points[first], points[last]) - simplify + chord;
   };
   for (const std::uint32_t i : ops::simplified(static_cast<std::uint32_t>(points.size()), excess))
     kept.push_back(points[i]);

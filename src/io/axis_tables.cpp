@@ -52,9 +52,10 @@ Status add_branches(TableSink& sink, const Row& row, const WriteOptions& options
   const std::vector<Branch>& all = row.branches;
   std::array<std::vector<Vec2>, 1> parts;
   std::vector<Value> values(branch_columns().size());
+  const double chord = chord_of(row.item, options);
   for (std::size_t i = 0; i < all.size(); ++i) {
     const Branch& branch = all[i];
-    parts[0] = line_of(row.item, branch, options);
+    parts[0] = line_of(axis, branch, chord, options.simplify);
     double total = 0;
     double smallest = std::numeric_limits<double>::infinity();
     double largest = 0;

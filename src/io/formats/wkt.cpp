@@ -372,8 +372,9 @@ Status write_wkt(Target& target, const AxesOutput& output) {
     const auto all = branches(item.axis);
     target.out->put(all.empty() ? "MULTILINESTRING EMPTY\n" : "MULTILINESTRING ");
     if (all.empty()) continue;
+    const double chord = chord_of(item, output.options);
     put_bracketed(*target.out, all, [&](const Branch& branch) {
-      put_placed(target, line_of(item, branch, output.options));
+      put_placed(target, line_of(item.axis, branch, chord, output.options.simplify));
     });
     target.out->put('\n');
   }
