@@ -128,7 +128,7 @@ Json json_of(const Row& row) {
           {"failure", row.failure}};
 }
 
-/// What verify() looked at, and how far the axis is from the reference, which it did not.
+/// What verify() checked, and how far the axis is from the reference, which it does not check.
 std::string verdict_of(const Row& row) {
   const bool exact = row.axis.resolution == 0;
   const char* checked = exact ? "disks, graph, cover" : "radii, graph";

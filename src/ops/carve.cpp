@@ -117,7 +117,7 @@ class ClearedBefore {
   double least_ = 0, reach_ = 0;
 };
 
-/// The parts of a path that are not cleared yet, looked at every `spacing`.
+/// The parts of a path that are not cleared yet, sampled every `spacing`.
 std::vector<std::vector<ToolPoint>> parts_left(std::vector<ToolPoint> path,
                                                const ClearedBefore& cleared, double spacing) {
   if (cleared.is_nothing()) return {std::move(path)};
