@@ -85,7 +85,7 @@ int main(int argc, char** argv) {
   const std::string path =
       argc > 1 ? argv[1]
                : (test::data_folder() / "packaged/A_gis/gshhg/new_guinea.wkt.gz").string();
-  const auto dataset = io::read_dataset(path);
+  const auto dataset = io::read_document(path);
   if (!dataset) {
     std::printf("%s\n", to_string(dataset.error()).c_str());
     return 1;

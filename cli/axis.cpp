@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <memory>
 #include <tuple>
 #include <variant>
@@ -9,6 +10,9 @@
 #include "cli/commands.h"
 #include "cli/common.h"
 #include "cli/pipeline.h"
+#include "cli/prune_options.h"
+#include "medial/query.h"
+#include "medial/raster.h"
 
 namespace medial::cli {
 namespace {
@@ -44,21 +48,77 @@ struct AxisArguments : FileArguments {
   Options options;
   MethodArguments methods;
   double fit = 0;  ///< for curve-axis: polygons become smooth within this distance; 0: they do not
+  bool mask = false;  ///< the axis as an image of the input's size
 };
 
+/// The pixels of an image that an axis passes through.
+void draw_pixels(const MedialAxis& axis, const io::PixelPlacement& t, Image& image) {
+  const double side = std::hypot(t[1], t[4]), area = t[1] * t[5] - t[2] * t[4];
+  for (const Edge& edge : axis.edges) {
+    for (const Disk& disk : sample_by_step(axis, edge, 0.25 * side)) {
+      const double x = disk.center.x - t[0], y = disk.center.y - t[3];
+      const auto column = static_cast<std::int64_t>(std::floor((x * t[5] - y * t[2]) / area));
+      const auto row = static_cast<std::int64_t>(std::floor((y * t[1] - x * t[4]) / area));
+      if (column >= 0 && row >= 0 && column < image.width() && row < image.height())
+        image.set(static_cast<std::uint32_t>(column), static_cast<std::uint32_t>(row));
+    }
+  }
+}
+
+/// The axes as lines one pixel wide, in an image like the one that they are of.
+Status write_mask(const Document<AxisItem>& axes, const AxisArguments& arguments) {
+  io::ImageOptions options = arguments.input.source.read.image;
+  if (options.labels) options = {.threshold = 1};
+  auto file = io::read_image(arguments.input.path, options);
+  if (!file) return std::move(file).error();
+  Image drawn(file->image.width(), file->image.height());
+  for (const AxisItem& item : axes.items) draw_pixels(item.axis, file->placement, drawn);
+  const auto lines = thin(drawn);
+  if (!lines) return lines.error();
+  return io::write_image(arguments.output, *lines, *file);
+}
+
+/// Leaves of the axes of an image what a person would draw, and says so.
+Status prune_image(LoadedAxes& axes, const AxisArguments& arguments) {
+  if (axes.file.items.empty() || is_of_pixels(axes.file.items[0].axis.method)) return success();
+  const auto options = image_pruning(axes.file, arguments.input);
+  if (!options) return success();
+  note_specks(axes.file, arguments.input, arguments.common);
+  const auto report = prune_all(axes.file, *options, arguments.common.threads);
+  if (!report) return report.error();
+  if (!arguments.common.quiet)
+    say("medial: {}: note: {} of {} branches matter (`prune --prominence {:g}`) and are kept; "
+        "--smooth-contour keeps all of the smooth outline's, --pixel-outline those of the "
+        "pixels' stairs\n",
+        arguments.input.path, report->branches, report->branches_before, image_prominence);
+  return success();
+}
+
 Result<int> run_axis(const AxisArguments& arguments) {
-  Status writable = check_output(arguments, io::formats_of(io::DocumentKind::axes));
+  Status writable = check_output(
+      arguments, io::formats_of(arguments.mask ? io::DocumentKind::image : io::DocumentKind::axes));
   if (!writable) return std::move(writable).error();
+  if (arguments.mask && (arguments.output.empty() || !io::is_image(arguments.input.path)))
+    return invalid_option("--mask is for images, and needs -o with the name of one");
   Options options = arguments.options;
   options.method = arguments.methods.method();
   InputOptions input = arguments.input;
+  if (is_of_pixels(name_of(options.method))) input.source.read.smooth_contour = input.whole_smooth;
   input.source.load.keep_contours = info_of(options.method).contours;
-  if (input.source.load.keep_contours) input.source.load.fit = arguments.fit;
+  if (arguments.fit > 0 && !input.source.load.keep_contours)
+    return invalid_option(
+        "--fit is for methods that follow smooth contours: add "
+        "--method curve-axis");
+  input.source.load.fit = arguments.fit;
   auto shapes = load_shapes(input, arguments.common);
   if (!shapes) return std::move(shapes).error();
   auto axes = compute_axes(std::move(shapes).value(), input, arguments.common, options);
   if (!axes) return std::move(axes).error();
-  return finish_axes(*axes, arguments);
+  if (Status pruned = prune_image(*axes, arguments); !pruned) return std::move(pruned).error();
+  if (!arguments.mask) return finish_axes(*axes, arguments);
+  Status written = write_mask(axes->file, arguments);
+  if (!written) return std::move(written).error();
+  return exit_success;
 }
 
 /// Which method, and what decides its random choices.
@@ -180,6 +240,8 @@ Command make_axis_command(CLI::App& program) {
   add_output_options(*command, *arguments, io::formats_of(io::DocumentKind::axes));
   command->add_flag("--radius-as-z", arguments->write.radius_as_z,
                     "Drawings (.dxf): splines in space, with the radius as z.");
+  command->add_flag("--mask", arguments->mask,
+                    "Images: write a mask of pixels (.png .pbm .pgm .tif).");
   add_method_options(*command, arguments->methods);
   add_exterior_options(
       *command, arguments->options,
@@ -191,6 +253,7 @@ Command make_axis_command(CLI::App& program) {
                     "Make every combinatorial decision certain: which sites a disk touches, and\n"
                     "which nodes an edge joins. --stats counts how it was decided. Ties within\n"
                     "the tolerance that are not exact get nodes of their own.");
+  add_simplify_option(*command, arguments->write);
   add_picture_options(*command, arguments->write);
   add_common_options(*command, arguments->common);
   command->footer(
@@ -198,9 +261,10 @@ Command make_axis_command(CLI::App& program) {
       "lengths are in the units of the input, or in metres with --project.\n"
       "\n"
       "Formats: .json is medial's own, lossless, and read back by every command; .geojson,\n"
-      ".gpkg, .shp and .fgb hold one line per branch with the radius at both ends; .csv\n"
-      "has the header edge,x,y,r; .dxf holds polylines and exact splines; pictures show\n"
-      "the axis coloured by radius.\n"
+      ".gpkg, .shp and .fgb hold one line per branch with its nodes and the radius at both\n"
+      "ends; .graphml, .nodelink (JSON) and .edgelist the graph of branches, as networkx reads\n"
+      "it; .csv has the header edge,x,y,r; .dxf holds polylines and exact splines; pictures\n"
+      "show the axis coloured by radius.\n"
       "\n"
       "Examples:\n"
       "  medial axis plan.geojson -o plan.svg --disks 200\n"

@@ -4,7 +4,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
 #include <memory>
+#include <optional>
+#include <sstream>
 
 #include "cli/commands.h"
 #include "cli/common.h"
@@ -18,14 +24,89 @@ namespace {
 /// In millimetres: no usual tool cuts so deep, so the input's units are hardly millimetres.
 constexpr double unlikely_depth = 50;
 
+/// What is given, in units of the result; the rest has defaults in millimetres.
+struct MachineArguments {
+  std::optional<double> safe, rapid, pass_depth, clear_pass_depth;
+  std::optional<double> feed, plunge, clear_feed, clear_plunge;
+  double spindle = 0, clear_spindle = 0;
+  std::string post;
+};
+
 struct CarveArguments : FileArguments {
-  io::MachineOptions machine;
+  MachineArguments machine;
   CarveOptions carve;
+  double clear_tool = 0;
+  std::string origin, preview;
   Options options;  ///< exterior and margin
 };
 
+/// The point of a box at so much of its width and height.
+struct NamedOrigin {
+  const char* name;
+  double across, up;
+};
+constexpr std::array<NamedOrigin, 6> origins{{{"lower-left", 0, 0},
+                                              {"lower-right", 1, 0},
+                                              {"upper-left", 0, 1},
+                                              {"upper-right", 1, 1},
+                                              {"center", 0.5, 0.5},
+                                              {"centre", 0.5, 0.5}}};
+
+/// X,Y of the drawing; nothing where the text is no such pair.
+std::optional<Vec2> point_of(const std::string& text) {
+  const std::size_t comma = text.find(',');
+  Vec2 p;
+  if (comma == std::string::npos || !CLI::detail::lexical_cast(text.substr(0, comma), p.x) ||
+      !CLI::detail::lexical_cast(text.substr(comma + 1), p.y) || !std::isfinite(p.x + p.y))
+    return std::nullopt;
+  return p;
+}
+
+/// The place of the drawing that becomes 0,0. By default its own origin, or the lower left corner
+/// where y is turned up.
+Vec2 zero_of(const Document<ShapeItem>& file, const std::string& origin) {
+  if (const auto point = point_of(origin)) return *point;
+  if (origin == "drawing" || (origin.empty() && !file.y_down)) return {};
+  Box box = Box::nothing();
+  for (const ShapeItem& item : file.items)
+    if (!item.shape.points.empty()) box.add(bounding_box(item.shape));
+  const auto found = std::ranges::find(origins, origin, &NamedOrigin::name);
+  const NamedOrigin& named = found == origins.end() ? origins[0] : *found;
+  const double up = file.y_down ? 1 - named.up : named.up;
+  const Vec2 size = box.high - box.low;
+  return box.low + Vec2{named.across * size.x, up * size.y};
+}
+
+/// Options with the defaults of hobby machines in wood.
+io::MachineOptions machine_of(const CarveArguments& arguments, Unit unit) {
+  const MachineArguments& given = arguments.machine;
+  const double one = 1 / millimetres(unit);  // a millimetre
+  const auto or_else = [](const std::optional<double>& value, double other) {
+    return value ? *value : other;
+  };
+  io::MachineOptions machine;
+  machine.safe = or_else(given.safe, 5 * one);
+  machine.rapid = or_else(given.rapid, 3000 * one);
+  machine.carving = {or_else(given.feed, 1000 * one), or_else(given.plunge, 300 * one),
+                     given.spindle};
+  machine.clearing = {or_else(given.clear_feed, machine.carving.feed),
+                      or_else(given.clear_plunge, machine.carving.plunge), given.clear_spindle};
+  machine.chord = arguments.carve.chord;
+  machine.post = given.post;
+  return machine;
+}
+
+/// A pass as deep as half of an end mill is wide; 2 mm of a V.
+CarveOptions carve_options(const CarveArguments& arguments, Unit unit) {
+  CarveOptions options = arguments.carve;
+  options.cleared = arguments.clear_tool;
+  options.pass_depth = arguments.machine.pass_depth.value_or(
+      options.angle == 0 ? options.tool / 2 : 2 / millimetres(unit));
+  return options;
+}
+
 Result<io::CarveItem> carve_one(Shape shape, const CarveArguments& arguments,
-                                const Options& options) {
+                                const CarveOptions& carving_options, const Options& options) {
   if (arguments.options.exterior) {
     auto around = surroundings(shape, arguments.options.margin);
     if (!around) return std::move(around).error();
@@ -33,82 +114,129 @@ Result<io::CarveItem> carve_one(Shape shape, const CarveArguments& arguments,
   }
   auto axis = compute(shape, options);
   if (!axis) return std::move(axis).error();
-  auto carving = carve(*axis, arguments.carve);
+  auto carving = carve(*axis, carving_options);
   if (!carving) return std::move(carving).error();
-  return io::CarveItem{std::move(shape), std::move(carving).value()};
+  io::CarveItem item{std::move(shape), std::move(carving).value()};
+  if (arguments.clear_tool > 0) {
+    auto clearing = carve(
+        *axis,
+        clearing_before(carving_options, arguments.clear_tool,
+                        arguments.machine.clear_pass_depth.value_or(0.5 * arguments.clear_tool)));
+    if (!clearing) return std::move(clearing).error();
+    item.clearing = std::move(clearing).value();
+  }
+  return item;
 }
 
 Result<int> finish_carve(const Document<io::CarveItem>& file, const CarveArguments& arguments,
                          const Phases& phases) {
-  std::uint64_t paths = 0, moves = 0;
-  double cut = 0, travel = 0, unordered = 0, deepest = 0;
+  std::uint64_t paths = 0;
+  double unordered = 0, deepest = 0;
   for (const io::CarveItem& item : file.items) {
-    const Carving& c = item.carving;
-    paths += c.paths.size();
-    for (const ToolPath& path : c.paths) moves += path.points.size() - 1;
-    cut += c.cut_length;
-    travel += c.travel_length;
-    unordered += c.travel_unordered;
-    deepest = std::max(deepest, c.deepest);
+    for (const Carving* c : {&item.carving, &item.clearing}) {
+      paths += c->paths.size();
+      unordered += c->travel_unordered;
+      deepest = std::max(deepest, c->deepest);
+    }
   }
+  if (!is_talkative(arguments)) return exit_success;
+  const io::CutReport report = io::report_of(file, machine_of(arguments, file.unit));
   const std::string& input = arguments.input.path;
+  const std::string unit = name_of(file.unit);
   if (deepest * millimetres(file.unit) > unlikely_depth && !arguments.common.quiet)
     say("medial: {}: note: the cut is {:.3g} {} deep; --units says what the input is in, --depth "
         "limits the cut\n",
-        input, deepest, name_of(file.unit));
+        input, deepest, unit);
+  const auto seconds = static_cast<std::uint64_t>(std::ceil(report.seconds));
   return finish(
       arguments,
       {{"input", input},
+       {"unit", unit},
        {"features", file.items.size()},
        {"paths", paths},
-       {"moves", moves},
+       {"moves", report.moves},
        {"deepest", deepest},
-       {"cut_length", cut},
-       {"travel_length", travel},
-       {"travel_unordered", unordered}},
+       {"passes_length", report.own},
+       {"cut_length", report.cut},
+       {"travel_length", report.travel},
+       {"travel_unordered", unordered},
+       {"seconds_cutting", report.seconds}},
       phases,
-      fmt::format("{}: {}, {} of {}, deepest {:.6g}; cut {:.6g}, travel {:.6g} (unordered {:.6g})",
+      fmt::format("{}: {}, {} of {}, deepest {:.6g} {}; cut {:.6g}, travel {:.6g} (unordered "
+                  "{:.6g}), {:.3g} times the passes' own {:.6g}; about {} min {} s",
                   input, counted(file.items.size(), "feature"), counted(paths, "path"),
-                  counted(moves, "move"), deepest, cut, travel, unordered));
+                  counted(report.moves, "move"), deepest, unit, report.cut, report.travel,
+                  unordered, (report.cut + report.travel) / std::max(report.own, 1e-300),
+                  report.own, seconds / 60, seconds % 60));
 }
 
-Result<int> run_carve(const CarveArguments& arguments) {
+Status write_preview(const CarveArguments& arguments, const Document<io::CarveItem>& file,
+                     io::MachineOptions machine) {
+  if (arguments.preview.empty()) return success();
+  machine.shaded = true;
+  return io::write_carving(arguments.preview, {}, file, machine, arguments.write);
+}
+
+/// The text of a template from a file, or a known name as it is.
+Status read_post(std::string& post) {
+  const std::string known = io::post_names();
+  if (post.empty() || (", " + known + ",").find(", " + post + ",") != std::string::npos)
+    return success();
+  std::ifstream file(post, std::ios::binary);
+  std::stringstream text;
+  if (!(text << file.rdbuf()))
+    return invalid_option("--post is " + known + " or the name of a template that can be read");
+  post = text.str();
+  return success();
+}
+
+Result<int> run_carve(const CarveArguments& given) {
+  CarveArguments arguments = given;
   const CommonOptions& common = arguments.common;
-  Status writable = check_output(arguments, io::formats_of(io::DocumentKind::carving));
-  if (!writable) return std::move(writable).error();
-  InputOptions input = arguments.input;
-  UnitOptions& units = input.source.units;
+  Status possible = check_output(arguments, io::formats_of(io::DocumentKind::carving));
+  if (possible)
+    possible =
+        check_output(arguments.preview, {}, ".png .svg .pdf .ps", arguments.input.path, false);
+  if (possible) possible = read_post(arguments.machine.post);
+  if (!possible) return std::move(possible).error();
+  UnitOptions& units = arguments.input.source.units;
+  const bool usual = units.wanted == Unit::unknown || units.wanted == Unit::millimetre ||
+                     units.wanted == Unit::inch;
+  if (!usual) return invalid_option("G-code is in mm or in: --output-units takes one of them");
   units.assumed = Unit::millimetre;
   if (units.wanted == Unit::unknown) units.wanted = Unit::millimetre;
-  auto shapes = load_shapes(input, common);
+  auto shapes = load_shapes(arguments.input, common);
   if (!shapes) return std::move(shapes).error();
-  Document<io::CarveItem> file;  // of a machine, without a reference system
-  file.y_down = shapes->file.y_down;
-  file.unit = shapes->file.unit;
+  auto file = empty_like<io::CarveItem>(shapes->file);
+  file.crs_wkt.clear();  // a machine has no reference system
+  const Vec2 zero = zero_of(shapes->file, arguments.origin);
+  const CarveOptions options = carve_options(arguments, file.unit);
   auto items = map_items<io::CarveItem>(
       weights_of(shapes->file), common.threads, [&](std::size_t i, int threads) {
-        return carve_one(std::move(shapes->file.items[i].shape), arguments,
-                         engine_options(common, threads));
+        return carve_one(std::move(shapes->file.items[i].shape), arguments, options,
+                         engine_options(common, threads, shapes->file.corner_angle));
       });
   if (!items) return std::move(items).error();
   file.items = std::move(items).value();
+  io::place(file, zero);
   shapes->phases.end("carve");
+  const io::MachineOptions machine = machine_of(arguments, file.unit);
   Status written =
       write_output(arguments, shapes->phases, [&](const auto& path, const auto& format) {
-        io::MachineOptions machine = arguments.machine;
-        machine.chord = arguments.carve.chord;
         return io::write_carving(path, format, file, machine, arguments.write);
       });
+  if (written) written = write_preview(arguments, file, machine);
   if (!written) return std::move(written).error();
   return finish_carve(file, arguments, shapes->phases);
 }
 
-void add_length(CLI::App& command, const char* name, double& value, const char* text,
-                const char* help) {
+template <class T>
+void add_length(CLI::App& command, const char* name, T& value, const char* text, const char* help) {
   add_value(command, name, value, text, a_positive_number(), help);
 }
 
-void add_tool_options(CLI::App& command, CarveOptions& carve) {
+void add_tool_options(CLI::App& command, CarveArguments& arguments) {
+  CarveOptions& carve = arguments.carve;
   add_value(command, "--angle", carve.angle, "A REQUIRED", in_range(0, 170),
             "Between the sides of the V-shaped tool, in degrees, in [1, 170]; or 0 for an\n"
             "end mill, which clears pockets.")
@@ -120,8 +248,13 @@ void add_tool_options(CLI::App& command, CarveOptions& carve) {
              "The tool's diameter; of a V its largest, which limits the depth.");
   add_length(command, "--tip", carve.tip, "D",
              "The diameter of a V's flat tip (default: a point).");
-  add_length(command, "--pass-depth", carve.pass_depth, "Z",
-             "The depth of one pass: several, from the surface down (default: all in one).");
+  add_value(command, "--pass-depth", arguments.machine.pass_depth, "Z", in_range(0, 1e9, true),
+            "The depth of one pass (default: 2 mm, of an end mill half its diameter; 0: all\n"
+            "in one).");
+  carve.ramp = 20;
+  add_value(command, "--ramp", carve.ramp, "A", in_range(0.1, 90),
+            "The steepest way into the material, along the path, in degrees (default: 20;\n"
+            "90: straight down).");
   add_length(command, "--step", carve.step, "S",
              "Between the passes that clear a flat bottom (default: half of the tip's\n"
              "diameter, which leaves nothing; of a pointed tool a 20th of its radius at the\n"
@@ -132,14 +265,60 @@ void add_tool_options(CLI::App& command, CarveOptions& carve) {
              "the tool's radius at the bottom).");
 }
 
-void add_machine_options(CLI::App& command, io::MachineOptions& machine) {
+void add_clearing_options(CLI::App& command, CarveArguments& arguments) {
+  const OptionGroup group(command, "Clearing before a V");
+  CLI::Option* tool =
+      command
+          .add_option("--clear-tool", arguments.clear_tool,
+                      "First clear flat bottoms by an end mill of this diameter; the V then cuts\n"
+                      "walls, corners and what the mill leaves. Needs --depth or --tool.")
+          ->check(a_positive_number())
+          ->option_text("D");
+  MachineArguments& machine = arguments.machine;
+  const auto add = [&](const char* name, auto& value, const char* text, const char* help) {
+    add_value(command, name, value, text, a_positive_number(), help)->needs(tool);
+  };
+  add("--clear-pass-depth", machine.clear_pass_depth, "Z",
+      "The depth of one pass (default: half of the diameter).");
+  add("--clear-feed", machine.clear_feed, "F", "As --feed, of the mill (default: --feed).");
+  add("--clear-plunge", machine.clear_plunge, "F", "As --plunge (default: --plunge).");
+  add("--clear-spindle", machine.clear_spindle, "S", "As --spindle.");
+}
+
+void add_machine_options(CLI::App& command, CarveArguments& arguments) {
   const OptionGroup group(command, "G-code");
-  add_length(command, "--feed", machine.feed, "F", "Of cutting moves, mm/min (default: 1000).");
+  MachineArguments& machine = arguments.machine;
+  add_length(command, "--feed", machine.feed, "F",
+             "Of cutting moves, units a minute (default: 1000 mm).");
   add_length(command, "--plunge", machine.plunge, "F",
-             "Straight downwards, mm/min (default: 300).");
-  add_length(command, "--safe", machine.safe, "Z", "The height of other moves, mm (default: 5).");
+             "Straight downwards, units a minute (default: 300 mm).");
+  add_length(command, "--rapid", machine.rapid, "F",
+             "Of other moves, for the estimated time (default: 3000 mm).");
+  add_length(command, "--safe", machine.safe, "Z", "The height of other moves (default: 5 mm).");
   add_length(command, "--spindle", machine.spindle, "S",
              "Turns per minute (default: not started).");
+  const auto check = [](const std::string& text) {
+    const bool known = text == "drawing" || point_of(text) ||
+                       std::ranges::find(origins, text, &NamedOrigin::name) != origins.end();
+    return known ? std::string() : "'" + text + "' is neither a corner, center, drawing nor X,Y";
+  };
+  command
+      .add_option("--origin", arguments.origin,
+                  "What becomes 0,0: lower-left, lower-right, upper-left, upper-right or center\n"
+                  "of the shapes, drawing, or the point X,Y of it (default: lower-left where y\n"
+                  "points down in the file, else drawing).")
+      ->check(CLI::Validator(check, ""))
+      ->option_text("WHERE");
+  command
+      .add_option("--post", machine.post,
+                  "What stands around the moves: " + io::post_names() +
+                      " (default:\nplain), or the name of a template, see docs/carve.md.")
+      ->option_text("NAME");
+  command
+      .add_option("--preview", arguments.preview,
+                  "Also write a picture of the surface after the cut, simulated.")
+      ->check(a_name())
+      ->option_text("PICTURE");
 }
 
 }  // namespace
@@ -149,12 +328,13 @@ Command make_carve_command(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "carve", "Plan tool paths: V-carving along the axis, pockets along offsets.");
   add_input_options(*command, arguments->input);
-  add_tool_options(*command, arguments->carve);
+  add_tool_options(*command, *arguments);
+  add_clearing_options(*command, *arguments);
   add_exterior_options(
       *command, arguments->options,
       "Cut what lies around the shape and in its holes, up to a rectangle, so that the\n"
       "shape stands out: the rectangle's edges become walls as well.");
-  add_machine_options(*command, arguments->machine);
+  add_machine_options(*command, *arguments);
   add_output_options(*command, *arguments, io::formats_of(io::DocumentKind::carving),
                      "for example nc");
   add_width_option(*command, arguments->write.width);

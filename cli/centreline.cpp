@@ -14,6 +14,7 @@
 #include "cli/lines.h"
 #include "cli/pipeline.h"
 #include "medial/io/write.h"
+#include "medial/prune.h"
 #include "medial/query.h"
 
 namespace medial::cli {
@@ -22,6 +23,7 @@ namespace {
 struct CentrelineArguments : FileArguments {
   PathOptions path;
   CentreLineOptions line;
+  bool all = false;  ///< the whole network
   double clearance = 0;
   double collapse = 0;  ///< a width
   Options options;      ///< of the axis
@@ -58,9 +60,53 @@ Status make_lines(Document<AxisItem>& file, const Paths& paths,
     for (const AxisPath& path : paths[i])
       append(all, centre_line(item.shape, item.axis, path, arguments.line));
     item.axis = std::move(all);
+    item.part = true;
     return success();
   };
   return for_each_item(std::vector<double>(file.items.size(), 1.0), arguments.common.threads, make);
+}
+
+/// The axis without forks in corners: of a shape like a network all of its ways, with the cycles.
+Result<MedialAxis> network_of(const MedialAxis& axis, double trim) {
+  PruneOptions options;
+  options.measure = PruneMeasure::significance;
+  options.threshold = trim;
+  return prune(axis, options);
+}
+
+Status make_networks(Document<AxisItem>& file, const CentrelineArguments& arguments) {
+  return for_each_item(edge_weights_of(file), arguments.common.threads,
+                       [&](std::size_t i, int) -> Status {
+                         AxisItem& item = file.items[i];
+                         auto network = network_of(item.axis, arguments.path.path.trim);
+                         if (!network) return std::move(network).error();
+                         item.axis = std::move(network).value();
+                         item.part = true;
+                         return success();
+                       });
+}
+
+/// Says how much of the networks the main paths leave out.
+Status note_what_is_left_out(const Document<AxisItem>& file, const Paths& paths,
+                             const CentrelineArguments& arguments) {
+  if (arguments.common.quiet || arguments.path.between_places()) return success();
+  auto lengths = map_items<double>(
+      edge_weights_of(file), arguments.common.threads, [&](std::size_t i, int) -> Result<double> {
+        auto network = network_of(file.items[i].axis, arguments.path.path.trim);
+        if (!network) return std::move(network).error();
+        return total_length(*network);
+      });
+  if (!lengths) return std::move(lengths).error();
+  double whole = 0, chosen = 0;
+  for (const double length : *lengths) whole += length;
+  for (const auto& each : paths)
+    for (const AxisPath& path : each) chosen += path.length;
+  constexpr double worth_a_note = 0.99;
+  if (chosen < worth_a_note * whole)
+    say("medial: {}: note: the main paths are {:.6g} long, the whole network {:.6g}; --all keeps "
+        "it\n",
+        arguments.input.path, chosen, whole);
+  return success();
 }
 
 Json json_of(const std::vector<AxisPath>& paths, const Attributes& attributes) {
@@ -229,12 +275,22 @@ Result<int> run_centreline(const CentrelineArguments& arguments) {
   if (!axes) return std::move(axes).error();
   if (arguments.collapse > 0) return run_collapse(std::move(axes).value(), arguments);
   if (arguments.clearance > 0) {
-    for (AxisItem& item : axes->file.items)
+    for (AxisItem& item : axes->file.items) {
       item.axis = clearance_part(item.axis, arguments.clearance);
+      item.part = true;
+    }
+    return finish_axes(*axes, arguments);
+  }
+  if (arguments.all) {
+    Status networks = make_networks(axes->file, arguments);
+    if (!networks) return std::move(networks).error();
+    axes->phases.end("lines");
     return finish_axes(*axes, arguments);
   }
   auto paths = choose_paths(axes->file, arguments.path, common.threads);
   if (!paths) return std::move(paths).error();
+  Status noted = note_what_is_left_out(axes->file, *paths, arguments);
+  if (!noted) return std::move(noted).error();
   Status made = make_lines(axes->file, *paths, arguments);
   if (!made) return std::move(made).error();
   axes->phases.end("lines");
@@ -259,6 +315,12 @@ Command make_centreline_command(CLI::App& program) {
   add_value(*command, "--smooth", arguments->line.smooth, "RADII", in_range(0, 1000),
             "Average the line over so many of its mean radii (Gaussian weights). It\n"
             "stays inside the shape.");
+  CLI::Option* all = command->add_flag(
+      "--all", arguments->all,
+      "Instead of a line: the whole network, all ways around holes included, without\n"
+      "forks in corners (see --trim).");
+  for (const char* other : {"--from", "--to", "--widest", "--extend", "--smooth", "--route"})
+    all->excludes(other);
   CLI::Option* clearance =
       add_value(*command, "--clearance", arguments->clearance, "R", a_positive_number(),
                 "Instead of a line: all of the axis where a disk of this radius has room.");
@@ -268,11 +330,14 @@ Command make_centreline_command(CLI::App& program) {
                 "as layers, or as shapes with lines in .json. Formats:\n" +
                     std::string(collapse_formats))
           ->excludes(clearance);
+  clearance->excludes(all);
+  collapse->excludes(all);
   for (CLI::Option* option : {clearance, collapse})
     for (const char* place : {"--from", "--to", "--widest"}) option->excludes(place);
   add_exterior_options(*command, arguments->options,
                        "Lines of what lies around the shape and in its holes, within a rectangle.")
       ->excludes(collapse);
+  add_simplify_option(*command, arguments->write);
   add_picture_options(*command, arguments->write);
   add_common_options(*command, arguments->common);
   command->footer(
@@ -287,6 +352,7 @@ Command make_centreline_command(CLI::App& program) {
       "  medial centreline rivers.geojson --project --extend --smooth 1 -o lines.gpkg\n"
       "  medial centreline river.wkt --from 0/12 --to 0/873 -o line.svg\n"
       "  medial centreline plan.geojson --widest 2,3 40,12 -o way.csv\n"
+      "  medial centreline roads.gpkg --all --simplify 0.5 -o network.gpkg\n"
       "  medial centreline plan.geojson --clearance 0.6 -o reachable.svg\n"
       "  medial centreline rivers.geojson --project --collapse 50 -o rivers.gpkg");
   return command_of(command, arguments, run_centreline);

@@ -141,6 +141,19 @@ void add_unit_options(CLI::App& command, UnitOptions& units) {
             "what the file says of its dots per inch).");
 }
 
+void add_outline_options(CLI::App& command, InputOptions& input) {
+  input.source.read.smooth_contour = true;
+  CLI::Option* smooth =
+      command.add_flag("--smooth-contour", input.whole_smooth,
+                       "Images: all of the axis of the smooth curve within half a pixel of the\n"
+                       "pixels' boundary, which stands for it (default: `axis` and `prune` keep\n"
+                       "what a person would draw).");
+  command
+      .add_flag("!--pixel-outline", input.source.read.smooth_contour,
+                "Images: the pixels' boundary as it is, with a branch at each of its stairs.")
+      ->excludes(smooth);
+}
+
 }  // namespace
 
 OptionGroup::OptionGroup(CLI::App& command, std::string_view name)
@@ -189,14 +202,21 @@ void add_input_options(CLI::App& command, InputOptions& input) {
                 "even-odd or non-zero instead of refusing them; a note says what changed.")
       ->check(CLI::IsMember({"make-valid", "even-odd", "non-zero"}).description(""))
       ->each([&read](const std::string& rule) { read.repair = rules.at(rule); });
+  command.add_flag("--skip-invalid", read.skip_invalid,
+                   "Leave out features that make no shape, instead of refusing the file: a\n"
+                   "note on each says why, and one how many.");
+  command
+      .add_option("--crs", read.crs,
+                  "The reference system of the coordinates, in place of the file's own.")
+      ->option_text("EPSG:N");
   command.add_flag("--project", read.project,
                    "Longitudes and latitudes: compute in a fitting local projection, in\n"
                    "metres. Formats of GIS, .wkt and .csv get longitudes and latitudes again;\n"
                    "radii and lengths stay in metres.");
   add_image_options(command, read.image);
-  command.add_flag("--smooth-contour", read.smooth_contour,
-                   "Images: a smooth curve within half a pixel instead of the pixels'\n"
-                   "boundary.");
+  command.add_flag("--labels", read.image.labels,
+                   "Images: a feature for the pixels of each value but 0.");
+  add_outline_options(command, input);
   add_curve_options(command, input);
   add_unit_options(command, input.source.units);
 }
@@ -229,6 +249,9 @@ void add_output_options(CLI::App& command, FileArguments& arguments, const std::
                   "- is standard output, see --format. Without -o, only a summary is\n"
                   "printed.",
                   formats));
+  if (lists(formats, "gpkg"))
+    command.add_flag("--overwrite", arguments.write.overwrite,
+                     "Replace layers of the same name in a .gpkg that is there; others stay.");
   add_format_option(command, arguments.format, piped);
 }
 
@@ -257,7 +280,7 @@ void add_common_options(CLI::App& command, CommonOptions& common) {
             "what the coordinates' spacing allows).");
   add_value(command, "--corner-angle", common.corner_angle, "A", in_range(0, 10),
             "Where an arc is involved, convex joints below this angle, in degrees, are\n"
-            "smooth and not corners, at most 10 (default: 0.01).");
+            "smooth and not corners, at most 10 (default: 1 for fonts and .svg, else 0.01).");
   add_value(command, "--chord", common.chord, "C", in_range(smallest_chord, 1),
             "Where curves are written as points, chords stay within this fraction\n"
             "of the diagonal of the bounding box (default: 1e-3).");
@@ -278,8 +301,15 @@ void add_picture_options(CLI::App& command, io::WriteOptions& write) {
   add_value(command, "--disks", write.disks, "N", in_range(0, most_disks),
             "Draw about N maximal disks, spread over the axis (default: 0).");
   command.add_flag("--contacts", write.contacts, "Draw where the nodes' disks touch the boundary.");
-  command.add_flag("--nodes", write.nodes, "Draw the nodes, by kind.");
+  command.add_flag("--nodes", write.nodes,
+                   "Draw the nodes, by kind; in .gpkg and graphs also those inside of branches.");
   command.add_flag("!--no-shape", write.shape, "Leave the shape out.");
+}
+
+void add_simplify_option(CLI::App& command, io::WriteOptions& write) {
+  add_value(command, "--simplify", write.simplify, "E", a_positive_number(),
+            "Lines in tables, .wkt and graphs have few points within E, in units of the\n"
+            "input, of the axis (default: chords, see --chord). Their ends stay.");
 }
 
 CLI::Option* add_exterior_options(CLI::App& command, Options& options, const std::string& help) {
@@ -424,7 +454,29 @@ Status check_output(const std::string& path, const std::string& format,
   return json ? invalid_option("--json and -o - both need standard output") : success();
 }
 
+namespace {
+
+/// What is asked for a picture alone, where the output is another file. Nodes are a layer of
+/// GeoPackages, too.
+Status check_picture_options(const FileArguments& arguments) {
+  const io::WriteOptions& write = arguments.write;
+  const bool asked = write.disks > 0 || write.contacts || !write.shape;
+  const std::string& output = arguments.output;
+  if ((!asked && !write.nodes) || output.empty()) return success();
+  const std::string extension = fs::path(output).extension().string();
+  const std::string format = output == "-"       ? arguments.format
+                             : extension.empty() ? extension
+                                                 : extension.substr(1);
+  if (lists("svg pdf png ps", lower(format))) return success();
+  if (!asked && lower(format) == "gpkg") return success();
+  return invalid_option(fmt::format(
+      "--disks, --contacts, --nodes and --no-shape are for pictures, which {} is not", output));
+}
+
+}  // namespace
+
 Status check_output(const FileArguments& arguments, const std::string& known_formats) {
+  if (Status asked = check_picture_options(arguments); !asked) return asked;
   return check_output(arguments.output, arguments.format, known_formats, arguments.input.path,
                       arguments.common.json);
 }

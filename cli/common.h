@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -31,18 +32,19 @@ constexpr int exit_error = 2;
 
 /// Where shapes come from.
 struct InputOptions {
-  std::string path;    ///< of a file; with a text, of the font
-  std::string font;    ///< as given
-  std::string repair;  ///< the name of source.read.repair
-  std::string close;   ///< source.read.close as text
+  std::string path;           ///< of a file; with a text, of the font
+  std::string font;           ///< as given
+  std::string repair;         ///< the name of source.read.repair
+  std::string close;          ///< source.read.close as text
+  bool whole_smooth = false;  ///< --smooth-contour was given: of images the whole axis
   io::SourceOptions source;
 };
 
 /// What every command takes.
 struct CommonOptions {
-  int threads = 0;             ///< 0: all of the machine
-  double tolerance = 0;        ///< relative to the diagonal; 0: the library's default
-  double corner_angle = 0.01;  ///< degrees
+  int threads = 0;                     ///< 0: all of the machine
+  double tolerance = 0;                ///< relative to the diagonal; 0: the library's default
+  std::optional<double> corner_angle;  ///< degrees; nothing: what suits the kind of input
   double chord = io::WriteOptions{}.chord;
   bool stats = false;
   bool json = false;
@@ -79,6 +81,8 @@ void add_report_options(CLI::App& command, CommonOptions& common);
 /// --threshold and --invert.
 void add_image_options(CLI::App& command, io::ImageOptions& options);
 void add_picture_options(CLI::App& command, io::WriteOptions& write);
+/// --simplify, for commands that write axes as lines.
+void add_simplify_option(CLI::App& command, io::WriteOptions& write);
 /// --width alone. Its help gives the default, which is what `width` holds.
 void add_width_option(CLI::App& command, double& width);
 /// --exterior, with this help, and --margin. Returns the former.

@@ -93,7 +93,7 @@ Command make_distance_command(CLI::App& program) {
   command->add_flag("--cracks", arguments->cracks,
                     "Measure to the boundary of the pixels' squares, not to the centre of\n"
                     "the nearest background pixel.");
-  command->add_flag("!--open", arguments->options.frame,
+  command->add_flag("!--open", arguments->options.outside_is_background,
                     "Pixels outside of the image are not background.");
   add_threads_option(*command, arguments->common.threads);
   add_report_options(*command, arguments->common);

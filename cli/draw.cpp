@@ -31,6 +31,7 @@ Command make_draw_command(CLI::App& program) {
   auto arguments = std::make_shared<DrawArguments>();
   CLI::App* command = program.add_subcommand("draw", "Draw shapes and their medial axes.");
   add_input_options(*command, arguments->input);
+  arguments->input.source.read.smooth_contour = false;  // what a file holds, as it is
   add_output_option(*command, arguments->output, "PICTURE REQUIRED",
                     fmt::format("The picture; its extension chooses the format: {}\n"
                                 "- is standard output, see --format.",

@@ -190,6 +190,7 @@ Command make_info_command(CLI::App& program) {
   auto arguments = std::make_shared<FileArguments>();
   CLI::App* command = program.add_subcommand("info", "Summarise a file of polygons or axes.");
   add_input_options(*command, arguments->input);
+  arguments->input.source.read.smooth_contour = false;  // counts and areas are those of the pixels
   add_common_options(*command, arguments->common);
   command->footer(
       "For polygons: features, outer rings, holes, vertices, extent, area, what was\n"

@@ -22,13 +22,13 @@ struct LegalArguments {
 constexpr double largest_slack = 1;
 constexpr std::size_t most_offences_shown = 20;
 
-Json place_of(const AxisFrame& frame) {
-  return {{"x", frame.disk.center.x}, {"y", frame.disk.center.y}, {"r", frame.disk.radius}};
+Json place_of(const AxisJet& jet) {
+  return {{"x", jet.disk.center.x}, {"y", jet.disk.center.y}, {"r", jet.disk.radius}};
 }
 
 Json json_of(const Legality& one, std::size_t branch, double slack) {
-  Json object = {{"branch", branch}, {"frames", one.frames}};
-  if (one.frames == 0) return object;
+  Json object = {{"branch", branch}, {"frames", one.jets}};
+  if (one.jets == 0) return object;
   object["legal"] = one.legal(slack);
   object["strictly_legal"] = one.strictly_legal(slack);
   object["steepness"] = one.steepness;
@@ -41,7 +41,7 @@ Json json_of(const Legality& one, std::size_t branch, double slack) {
 /// Which restriction a branch breaks, and where.
 std::string offence(const Legality& one, std::size_t feature, std::size_t branch, double slack) {
   const bool steep = one.steepness > slack;
-  const AxisFrame& at = steep ? one.steepest : one.sharpest;
+  const AxisJet& at = steep ? one.steepest : one.sharpest;
   return fmt::format(
       "feature {}, branch {}: {} at ({:.10g}, {:.10g})", feature, branch,
       steep
@@ -68,7 +68,7 @@ Verdict judge(const Document<AxisItem>& file, double slack, bool listed) {
     for (std::size_t branch = 0; branch < branches.size(); ++branch) {
       const Legality& one = branches[branch];
       if (listed) list.push_back(json_of(one, branch, slack));
-      if (one.frames == 0) continue;
+      if (one.jets == 0) continue;
       ++verdict.judged;
       verdict.strict += one.strictly_legal(slack) ? 1 : 0;
       if (one.legal(slack)) {

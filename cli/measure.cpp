@@ -106,7 +106,8 @@ Result<Measured> measure(const AxisItem& item, const std::vector<AxisPath>& path
     Line& line = out.lines.emplace_back();
     line.path = path;
     line.profile = widths_along(item.axis, path, even_lengths(path.length, arguments.samples));
-    line.transects = widths_along(item.axis, path, transect_lengths(path.length, arguments));
+    line.transects =
+        transects_along(item.shape, item.axis, path, transect_lengths(path.length, arguments));
     line.necks = necks_of(item.axis, path, arguments.widening);
     all.pieces.insert(all.pieces.end(), path.pieces.begin(), path.pieces.end());
     all.length += path.length;
@@ -236,22 +237,22 @@ std::string summary_of(const std::vector<Measured>& all) {
 /// feature,line,along,x,y,width,span and both feet. Places of a local projection become longitudes
 /// and latitudes again; widths stay in metres.
 Result<std::string> profile_csv(const std::vector<Measured>& all, const std::string& crs_wkt) {
-  std::optional<io::BackToGeographic> back;
-  if (io::is_local_projection(crs_wkt)) {
-    auto made = io::BackToGeographic::make(crs_wkt);
-    if (!made) return std::move(made).error();
-    back = std::move(made).value();
-  }
+  std::vector<Vec2> places;
+  for (const Measured& one : all)
+    for (const Line& line : one.lines)
+      for (const LocalWidth& width : line.profile)
+        places.insert(places.end(), {width.disk.center, width.feet[0], width.feet[1]});
+  if (Status placed = io::back_to_geographic(crs_wkt, places); !placed)
+    return std::move(placed).error();
+  auto place = places.begin();
   std::string text = "feature,line,along,x,y,width,span,left_x,left_y,right_x,right_y\n";
   for (std::size_t i = 0; i < all.size(); ++i) {
     for (std::size_t k = 0; k < all[i].lines.size(); ++k) {
       for (const LocalWidth& width : all[i].lines[k].profile) {
-        std::vector<Vec2> places{width.disk.center, width.feet[0], width.feet[1]};
-        if (back)
-          if (Status placed = back->transform(places); !placed) return std::move(placed).error();
+        const Vec2 center = *place++, left = *place++, right = *place++;
         fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{},{},{},{}\n", i, k,
-                       width.along, places[0].x, places[0].y, width.width(), width.span(),
-                       places[1].x, places[1].y, places[2].x, places[2].y);
+                       width.along, center.x, center.y, width.width(), width.span(), left.x, left.y,
+                       right.x, right.y);
       }
     }
   }

@@ -150,7 +150,8 @@ Result<Document<io::OffsetItem>> offset_each(const OffsetArguments& arguments) {
   std::vector<ShapeItem>& items = shapes->file.items;
   Document<io::OffsetItem> file = empty_like<io::OffsetItem>(shapes->file);
   const auto offset_item = [&](std::size_t i, int threads) -> Result<io::OffsetItem> {
-    auto offsets = offset_one(items[i].shape, arguments, engine_options(common, threads));
+    auto offsets =
+        offset_one(items[i].shape, arguments, engine_options(common, threads, file.corner_angle));
     if (!offsets) return std::move(offsets).error();
     return io::OffsetItem{std::move(items[i].shape), std::move(offsets).value(),
                           std::move(items[i].attributes)};
@@ -159,6 +160,11 @@ Result<Document<io::OffsetItem>> offset_each(const OffsetArguments& arguments) {
   if (!computed) return std::move(computed).error();
   file.items = std::move(computed).value();
   return file;
+}
+
+bool is_empty(const Document<io::OffsetItem>& file) {
+  return std::ranges::all_of(file.items,
+                             [](const auto& item) { return item.offsets.regions.empty(); });
 }
 
 Result<int> run_offset(const OffsetArguments& arguments) {
@@ -174,6 +180,9 @@ Result<int> run_offset(const OffsetArguments& arguments) {
   const auto file = arguments.loose ? buffer_all(arguments) : offset_each(arguments);
   if (!file) return file.error();
   phases.end("offset");
+  if (is_empty(*file) && !arguments.common.quiet)
+    say("medial: {}: note: the result is empty: no shape is as wide as that distance\n",
+        arguments.input.path);
   Status written = write_output(arguments, phases, [&](const auto& path, const auto& format) {
     return io::write_offsets(path, format, *file, write_options(arguments), arguments.chords);
   });

@@ -35,6 +35,19 @@ Result<T> in_file(Result<T> result, const InputOptions& input) {
   return result;
 }
 
+/// An error of what a shape is made of, with its cure.
+Error with_cure(Error error, const InputOptions& input) {
+  using enum ErrorCode;
+  const io::ReadOptions& read = input.source.read;
+  const bool tangled = error.code == crossing || error.code == overlap ||
+                       error.code == hole_outside || error.code == nested_outer;
+  const bool flat = error.code == no_area || error.code == too_few_points;
+  if ((tangled || flat) && read.repair == RepairRule::none && !io::is_image(input.path))
+    error.text += tangled ? "; --repair mends such rings"
+                          : "; --repair drops such rings, and so does --skip-invalid";
+  return error;
+}
+
 /// --stats beyond what every command has.
 Json statistics_of(const LoadedAxes& axes, const AxisSummary& summary) {
   const Statistics& counted = axes.axes.statistics;
@@ -125,10 +138,11 @@ Result<LoadedShapes> load_shapes(const InputOptions& input, const CommonOptions&
   out.phases.end("read");
   LoadOptions options = input.source.load;
   options.repair = input.source.read.repair;
+  options.skip_invalid = input.source.read.skip_invalid;
   options.threads = common.threads;
   auto shapes =
       in_file(medial::load_shapes(std::move(features).value(), options, &out.report), input);
-  if (!shapes) return std::move(shapes).error();
+  if (!shapes) return with_cure(std::move(shapes).error(), input);
   out.file = std::move(shapes).value();
   out.phases.end("shape");
   print_notes(out.file, input, common);
@@ -149,7 +163,7 @@ Status with_planar_graph(const LoosePieces& pieces, const FileArguments& argumen
   const InputOptions& input = arguments.input;
   const bool repair = input.source.read.repair != RepairRule::none;
   auto touching = in_file(medial::with_planar_graph(pieces, repair, use), input);
-  if (!touching) return std::move(touching).error();
+  if (!touching) return with_cure(std::move(touching).error(), input);
   if (*touching > 0 && !arguments.common.quiet)
     say("medial: {}: note: points and edges within {:.2g} of each other touch, as rounding "
         "does not tell them apart\n",
@@ -161,7 +175,7 @@ Result<LoadedAxes> compute_axes(LoadedShapes shapes, const InputOptions& input,
                                 const CommonOptions& common, Options options) {
   LoadedAxes out{{}, {}, shapes.report, std::move(shapes.phases)};
   Progress progress("medial axis", error_is_terminal() && !common.quiet);
-  options = engine_options(common, common.threads, std::move(options));
+  options = engine_options(common, common.threads, shapes.file.corner_angle, std::move(options));
   options.progress = progress.callback();
   auto axes =
       in_file(medial::compute_axes(std::move(shapes.file), std::move(options), &out.axes), input);
@@ -200,9 +214,13 @@ Result<LoadedAxes> load_axes(const InputOptions& input, const CommonOptions& com
   return compute_axes(std::move(shapes).value(), input, common, options);
 }
 
-Options engine_options(const CommonOptions& common, int threads, Options options) {
+double corner_angle(const CommonOptions& common, double of_input) {
+  return common.corner_angle.value_or(of_input > 0 ? of_input : Options{}.corner_angle);
+}
+
+Options engine_options(const CommonOptions& common, int threads, double of_input, Options options) {
   options.tolerance = common.tolerance;
-  options.corner_angle = common.corner_angle;
+  options.corner_angle = corner_angle(common, of_input);
   options.threads = threads;
   return options;
 }

@@ -49,8 +49,11 @@ Result<LoadedAxes> compute_axes(LoadedShapes shapes, const InputOptions& input,
 Result<LoadedAxes> load_axes(const InputOptions& input, const CommonOptions& common,
                              double specks = 0, const Options& options = {});
 
+/// --corner-angle, or what suits the kind of input: Document::corner_angle.
+double corner_angle(const CommonOptions& common, double of_input);
 /// The common options of all engines.
-Options engine_options(const CommonOptions& common, int threads, Options options = {});
+Options engine_options(const CommonOptions& common, int threads, double of_input,
+                       Options options = {});
 
 /// How much work each item is, for for_each_item(): by its shape's points, or by its axis's edges.
 template <class Item>

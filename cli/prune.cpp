@@ -101,6 +101,25 @@ Result<PruneOptions> prune_options(const PruneArguments& arguments) {
   return options;
 }
 
+std::optional<PruneOptions> image_pruning(const Document<AxisItem>& file,
+                                          const InputOptions& input) {
+  if (file.pixel == 0 || input.whole_smooth || !input.source.read.smooth_contour)
+    return std::nullopt;
+  return PruneOptions{.threshold = image_prominence};
+}
+
+void note_specks(const Document<AxisItem>& file, const InputOptions& input,
+                 const CommonOptions& common) {
+  if (file.pixel == 0 || common.quiet) return;
+  std::size_t specks = 0;
+  for (const AxisItem& item : file.items)
+    specks += item.shape.loop_count() - without_specks(item.shape, speck_share).loop_count();
+  if (specks > 0)
+    say("medial: {}: note: {} of the image are specks, each with an axis or a cycle of its own; "
+        "`medial prune --specks` leaves them out\n",
+        input.path, counted(specks, "part or hole", "parts and holes"));
+}
+
 Result<PruneReport> prune_all(Document<AxisItem>& file, const PruneOptions& options, int threads) {
   std::vector<PruneReport> reports(file.items.size());
   const auto prune_one = [&](std::size_t i, int) -> Status {
@@ -108,6 +127,7 @@ Result<PruneReport> prune_all(Document<AxisItem>& file, const PruneOptions& opti
     auto pruned = prune(axis, options, &reports[i]);
     if (!pruned) return std::move(pruned).error();
     axis = std::move(pruned).value();
+    file.items[i].part = true;
     return success();
   };
   Status done = for_each_item(edge_weights_of(file), threads, prune_one);
@@ -166,7 +186,7 @@ Result<int> run_prune(const PruneCommandArguments& arguments) {
   const CommonOptions& common = arguments.common;
   if (arguments.preview && (arguments.output.empty() || arguments.prune.keep))
     return invalid_option("--preview needs -o with the name of a picture, and no --keep");
-  const auto options = prune_options(arguments.prune);
+  auto options = prune_options(arguments.prune);
   if (!options) return options.error();
   Status writable =
       check_output(arguments, arguments.preview ? io::formats_of(io::DocumentKind::preview)
@@ -174,11 +194,15 @@ Result<int> run_prune(const PruneCommandArguments& arguments) {
   if (!writable) return std::move(writable).error();
   auto axes = load_axes(arguments.input, common, arguments.prune.specks, arguments.options);
   if (!axes) return std::move(axes).error();
+  if (axes->file.pixel > 0 && options->measure == PruneMeasure::prominence && !options->keep &&
+      !options->threshold)
+    options->threshold = image_prominence;
   if (arguments.preview) {
     Status written = write_previews(axes->file, *options, arguments);
     if (!written) return std::move(written).error();
     return exit_success;
   }
+  if (arguments.prune.specks == 0) note_specks(axes->file, arguments.input, common);
   const auto report = prune_all(axes->file, *options, common.threads);
   if (!report) return report.error();
   axes->phases.end("prune");
@@ -207,6 +231,7 @@ Command make_prune_command(CLI::App& program) {
       "--preview", arguments->preview,
       "One picture over thresholds instead: none, a quarter, a half, the chosen one,\n"
       "twice and four times it.");
+  add_simplify_option(*command, arguments->write);
   add_picture_options(*command, arguments->write);
   add_common_options(*command, arguments->common);
   command->footer(

@@ -20,6 +20,16 @@ struct PruneArguments {
   double specks = 0;        ///< share of without_specks(); 0: they stay
 };
 
+/// The threshold of prominence for images: that of prune_measures() loses knobs of a key.
+constexpr double image_prominence = 0.15;
+/// What a person would draw of an image, unless options choose; of other documents nothing.
+std::optional<PruneOptions> image_pruning(const Document<AxisItem>& file,
+                                          const InputOptions& input);
+
+/// A note on the specks of images, which --specks leaves out.
+void note_specks(const Document<AxisItem>& file, const InputOptions& input,
+                 const CommonOptions& common);
+
 /// An option for every measure, --by, --keep, --tips and --specks.
 void add_prune_options(CLI::App& command, PruneArguments& arguments);
 /// Errors: invalid_option.

@@ -59,8 +59,7 @@ Certificate merge(const std::vector<Certificate>& certificates) {
   for (std::size_t i = 0; i < certificates.size(); ++i) {
     const Certificate& one = certificates[i];
     if (one.largest_residual >= all.largest_residual) {
-      all.worst_x = one.worst_x;
-      all.worst_y = one.worst_y;
+      all.worst = one.worst;
     }
     each_number([&](const char*, auto number, bool is_sum) {
       all.*number = is_sum ? all.*number + one.*number : std::max(all.*number, one.*number);
@@ -77,7 +76,7 @@ Certificate merge(const std::vector<Certificate>& certificates) {
 Json json_of(const Certificate& c) {
   Json object = {{"passed", c.passed}, {"failures", c.failures}};
   each_number([&](const char* name, auto number, bool) { object[name] = c.*number; });
-  object["worst"] = {{"x", c.worst_x}, {"y", c.worst_y}};
+  object["worst"] = {{"x", c.worst.x}, {"y", c.worst.y}};
   return object;
 }
 
@@ -93,35 +92,39 @@ void add_verdict(Rows& rows, const std::vector<std::string>& failures, bool pass
   rows.add("verdict", passed ? "passed" : "FAILED");
 }
 
-std::string verdict_table(const Certificate& c, std::size_t features) {
+std::string verdict_table(const Certificate& c, std::size_t features, bool part) {
   Rows rows(24);
   const auto length = [](double value) { return fmt::format("{:.3g}", value); };
   const bool exact = c.resolution == 0;
   rows.add("features", features);
+  if (part)
+    rows.add("part", "pruned, cut or smoothed: leaves, corners, coverage and area are not checked");
   rows.add("disks checked", c.disks_checked);
   if (!exact)
     rows.add("sampled",
              fmt::format("pixels of side {:.6g}; judged by half a diagonal", c.resolution));
   rows.add("tolerance", length(c.tolerance));
-  rows.add("largest |distance - r|", worst_text(c.largest_residual, c.worst_x, c.worst_y));
+  rows.add("largest |distance - r|", worst_text(c.largest_residual, c.worst.x, c.worst.y));
   rows.add("largest intrusion", length(c.largest_intrusion));
   if (exact) {
     rows.add("largest contact gap", length(c.largest_contact_gap));
-    rows.add("largest uncovered", length(c.largest_uncovered));
-    rows.add("area",
-             fmt::format("{:.10g} of the disks, {:.10g} of the shape", c.disks_area, c.shape_area));
+    if (!part) {
+      rows.add("largest uncovered", length(c.largest_uncovered));
+      rows.add("area", fmt::format("{:.10g} of the disks, {:.10g} of the shape", c.disks_area,
+                                   c.shape_area));
+    }
   }
   rows.add("connected parts",
            fmt::format("{} for {}", c.graph_parts, counted(c.components, "component")));
   rows.add("cycles", fmt::format("{} for {}", c.cycles, counted(c.holes, "hole")));
-  if (exact)
+  if (exact && !part)
     rows.add("convex corners",
              fmt::format("{}, {} without a leaf", c.convex_corners, c.corners_without_leaf));
   if (c.curvature_leaves > 0) rows.add("leaves at arcs", c.curvature_leaves);
   if (c.blunt_joints > 0)
     rows.add("blunt joints",
              fmt::format("{}, up to {:.3g} degrees", c.blunt_joints, c.largest_blunt_angle));
-  if (exact)
+  if (exact && !part)
     rows.add("reflex vertices",
              fmt::format("{}, {} without a contact", c.reflex_vertices, c.reflex_without_contact));
   add_verdict(rows, c.failures, c.passed);
@@ -134,13 +137,13 @@ Json json_of(const VoronoiCertificate& c) {
           {"tolerance", c.tolerance},
           {"largest_residual", c.largest_residual},
           {"largest_contact_gap", c.largest_contact_gap},
-          {"worst", {{"x", c.worst_x}, {"y", c.worst_y}}},
+          {"worst", {{"x", c.worst.x}, {"y", c.worst.y}}},
           {"disks_checked", c.disks_checked},
           {"sites", c.sites},
           {"faces", c.faces},
           {"broken_faces", c.broken_faces},
           {"faces_area", c.faces_area},
-          {"frame_area", c.frame_area}};
+          {"frame_area", c.enclosure_area}};
 }
 
 std::string verdict_table(const VoronoiCertificate& c) {
@@ -148,11 +151,11 @@ std::string verdict_table(const VoronoiCertificate& c) {
   rows.add("sites", c.sites);
   rows.add("disks checked", c.disks_checked);
   rows.add("tolerance", fmt::format("{:.3g}", c.tolerance));
-  rows.add("largest |distance - r|", worst_text(c.largest_residual, c.worst_x, c.worst_y));
+  rows.add("largest |distance - r|", worst_text(c.largest_residual, c.worst.x, c.worst.y));
   rows.add("largest contact gap", fmt::format("{:.3g}", c.largest_contact_gap));
   rows.add("faces", fmt::format("{}, {} broken", c.faces, c.broken_faces));
-  rows.add("area",
-           fmt::format("{:.10g} of the faces, {:.10g} of the frame", c.faces_area, c.frame_area));
+  rows.add("area", fmt::format("{:.10g} of the faces, {:.10g} of the enclosure", c.faces_area,
+                               c.enclosure_area));
   add_verdict(rows, c.failures, c.passed);
   return rows.text();
 }
@@ -191,9 +194,9 @@ Result<int> verify_voronoi(const VerifyArguments& arguments) {
   Phases phases;
   auto stored = read_stored(arguments.axis_path, io::read_voronoi);
   if (!stored) return std::move(stored).error();
-  if (stored->items.size() != 1 || !stored->items.front().diagram.frame)
+  if (stored->items.size() != 1 || !stored->items.front().diagram.enclosure)
     return error_at(ErrorCode::unsupported, arguments.axis_path,
-                    "is of polygons alone (--method lee); only diagrams within a frame can be "
+                    "is of polygons alone (--method lee); only diagrams within an enclosure can be "
                     "verified");
   auto pieces = load_loose(arguments.input, common);
   if (!pieces) return std::move(pieces).error();
@@ -220,9 +223,10 @@ Result<std::vector<Certificate>> verify_all(const Document<ShapeItem>& shapes,
   const auto verify_one = [&](std::size_t i, int threads) {
     VerifyOptions options;
     options.tolerance = common.tolerance;
-    options.corner_angle = common.corner_angle;
+    options.corner_angle = corner_angle(common, shapes.corner_angle);
     options.samples_per_edge = arguments.samples;
     options.threads = threads;
+    options.part = stored.items[i].part;
     return verify(shapes.items[i].shape, stored.items[i].axis, options);
   };
   return map_items<Certificate>(weights_of(shapes), common.threads, verify_one);
@@ -236,7 +240,11 @@ Result<int> run_verify(const VerifyArguments& arguments) {
   if (io::is_voronoi(axis_path)) return verify_voronoi(arguments);
   auto stored = read_stored(axis_path, io::read_native);
   if (!stored) return std::move(stored).error();
-  auto loaded = load_shapes(input, common);
+  InputOptions source = input;
+  // Axes of pixels are of the pixels' own boundary.
+  for (const AxisItem& item : stored->items)
+    if (is_of_pixels(item.axis.method)) source.source.read.smooth_contour = false;
+  auto loaded = load_shapes(source, common);
   if (!loaded) return std::move(loaded).error();
   const Document<ShapeItem>& shapes = loaded->file;
   const std::size_t count = shapes.items.size();
@@ -257,11 +265,14 @@ Result<int> run_verify(const VerifyArguments& arguments) {
   loaded->phases.end("verify");
   const Certificate all = merge(*certificates);
   Json object = {{"input", input.path}, {"axis", axis_path}, {"features", count}};
+  const bool part =
+      std::ranges::any_of(stored->items, [](const AxisItem& item) { return item.part; });
+  object["part"] = part;
   object.update(json_of(all));
   object["certificates"] = Json::array();
   for (const Certificate& one : *certificates) object["certificates"].push_back(json_of(one));
   return finish(common, std::move(object), loaded->phases,
-                common.quiet ? std::string() : verdict_table(all, count), {},
+                common.quiet ? std::string() : verdict_table(all, count, part), {},
                 all.passed ? exit_success : exit_failed_verdict);
 }
 
@@ -282,9 +293,12 @@ Command make_verify_command(CLI::App& program) {
       "order. The report gives the largest |distance to the boundary - radius|, the largest\n"
       "intrusion of the boundary into a disk, whether the graph is connected with one\n"
       "cycle per hole, whether every convex corner has its leaf and every boundary point\n"
-      "its disk, and both areas. Lengths are in the units of the input.\n"
+      "its disk, and both areas. Lengths are in the units of the input. Of an axis that was\n"
+      "pruned, cut or smoothed it checks what holds of every part: disks, contacts, and no\n"
+      "more cycles than holes.\n"
       "For a diagram of `medial voronoi`: samples of every edge against the nearest of all\n"
-      "sites, faces closed and oriented consistently, and their areas against the frame's.\n"
+      "sites, faces closed and oriented consistently, and their areas against that of the\n"
+      "enclosure.\n"
       "Give the same --layer, --where, --repair, --project and options of curves as for the\n"
       "axis.\n"
       "\n"

@@ -17,7 +17,7 @@ namespace {
 
 struct VoronoiArguments : FileArguments {
   std::string method = "disks";
-  std::vector<double> frame;
+  std::vector<double> enclosure;
   double margin = 0;
   NearestArguments nearest;
 };
@@ -35,16 +35,16 @@ Result<Diagrams> compute_together(const VoronoiArguments& arguments) {
   auto pieces = load_loose(arguments.input, common);
   if (!pieces) return std::move(pieces).error();
   out.phases.end("read");
-  std::optional<Box> frame;
-  if (const auto& box = arguments.frame; !box.empty())
-    frame = Box{{box[0], box[1]}, {box[2], box[3]}};
+  std::optional<Box> enclosure;
+  if (const auto& box = arguments.enclosure; !box.empty())
+    enclosure = Box{{box[0], box[1]}, {box[2], box[3]}};
   io::VoronoiItem item;
   Status computed = with_planar_graph(*pieces, arguments, [&](PlanarGraph& graph) -> Status {
     out.phases.end("shape");
     auto diagram = voronoi_diagram(
         graph,
         {.tolerance = common.tolerance, .threads = common.threads, .margin = arguments.margin},
-        frame);
+        enclosure);
     if (!diagram) return std::move(diagram).error();
     item.diagram = std::move(diagram).value();
     return success();
@@ -109,15 +109,16 @@ Result<int> finish_voronoi(const Diagrams& diagrams, const VoronoiArguments& arg
 
 Result<int> run_voronoi(const VoronoiArguments& arguments) {
   const bool by_lee = arguments.method == "lee";
-  const bool framed = !arguments.frame.empty() || arguments.margin > 0;
+  const bool enclosed = !arguments.enclosure.empty() || arguments.margin > 0;
   if (arguments.nearest.any()) {
-    if (by_lee || framed)
-      return invalid_option("the nearest site is that of the whole plane: no frame, not by lee");
+    if (by_lee || enclosed)
+      return invalid_option(
+          "the nearest site is that of the whole plane: no enclosure, not by lee");
     return run_nearest(arguments, arguments.nearest);
   }
   Status writable = check_output(arguments, io::formats_of(io::DocumentKind::voronoi));
   if (!writable) return std::move(writable).error();
-  if (by_lee && framed) return invalid_option("the method lee has no frame but its polygons");
+  if (by_lee && enclosed) return invalid_option("the method lee has no enclosure but its polygons");
   auto diagrams = by_lee ? compute_by_lee(arguments) : compute_together(arguments);
   if (!diagrams) return std::move(diagrams).error();
   Status written =
@@ -138,17 +139,17 @@ Command make_voronoi_command(CLI::App& program) {
   add_output_options(*command, *arguments, io::formats_of(io::DocumentKind::voronoi));
   command
       ->add_option("--method", arguments->method,
-                   "The method: disks (default), of everything in the file together, within a\n"
-                   "frame; or lee, inside each polygon.")
+                   "The method: disks (default), of everything in the file together, within an\n"
+                   "enclosure; or lee, inside each polygon.")
       ->check(CLI::IsMember({"disks", "lee"}))
       ->option_text("NAME");
   add_value(*command, "--margin", arguments->margin, "M", a_positive_number(),
-            "The distance from the input's bounding box to the frame, in units of the\n"
+            "The distance from the input's bounding box to the enclosure, in units of the\n"
             "input (default: half of the box's longer side).");
   add_list_option(
-      *command, "--frame", 4,
-      [arguments](const std::vector<double>& frame) { arguments->frame = frame; },
-      "The frame itself: low x, low y, high x, high y, in units of the input. It must\n"
+      *command, "--enclosure,--frame", 4,
+      [arguments](const std::vector<double>& box) { arguments->enclosure = box; },
+      "The enclosure itself: low x, low y, high x, high y, in units of the input. It must\n"
       "hold the input.")
       ->excludes("--margin")
       ->option_text("X,Y,X,Y");
@@ -158,7 +159,7 @@ Command make_voronoi_command(CLI::App& program) {
   command->footer(
       "Every point, and every segment and arc between its ends, has a face: the places\n"
       "that are nearer to it than to all others, bounded by exact curves and by the\n"
-      "frame. Edges may meet in ends; where they cross, --repair splits them. In plain\n"
+      "enclosure. Edges may meet in ends; where they cross, --repair splits them. In plain\n"
       "text, blocks between blank lines are chains, and a single block a list of points.\n"
       "\n"
       "With --method lee, polygons without holes and without arcs: every segment and every\n"

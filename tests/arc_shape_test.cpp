@@ -545,6 +545,73 @@ TEST(ArcCrossings, RandomDisksAreVerified) {
   }
 }
 
+// Overlaps: edges that lie on each other count as often as they run there.
+
+TEST(ArcOverlaps, StripsWithCommonArcsByBothRules) {
+  // Disks whose boundaries share arcs: the same circle from other starts, and a half of it.
+  const Ring half{{{-1, 0}, {1, 0}}, RingRole::any, {1, 0}};
+  const Rings same{circle({0, 0}, 1), circle({0, 0}, 1, 0.3)};
+  EXPECT_NEAR(area(*noded(same, RingRole::winding)), pi, 1e-13);
+  EXPECT_EQ(noded(same, RingRole::any).error().code, ErrorCode::no_area);
+  const Rings cut{circle({0, 0}, 1), half};
+  ShapeReport report;
+  const auto rest = noded(cut, RingRole::any, &report);
+  ASSERT_TRUE(rest) << to_string(rest.error());
+  EXPECT_NEAR(area(*rest), pi / 2, 1e-13);
+  EXPECT_EQ(report.input_rings, 2u);
+  const auto all = noded(cut, RingRole::winding);
+  ASSERT_TRUE(all) << to_string(all.error());
+  EXPECT_NEAR(area(*all), pi, 1e-13);
+  EXPECT_EQ(all->loop_count(), 1u);
+}
+
+TEST(ArcOverlaps, OppositeOrientationsCancel) {
+  const Rings square = *test::rings_of_wkt("POLYGON((0 0,4 0,4 4,0 4,0 0))");
+  Ring back = square[0];
+  std::reverse(back.points.begin(), back.points.end());
+  EXPECT_EQ(noded({square[0], back}, RingRole::winding).error().code, ErrorCode::no_area);
+  const Rings two = *test::rings_of_wkt(
+      "MULTIPOLYGON(((0 0,4 0,4 4,0 4,0 0)),((4 1,8 1,8 3,4 3,4 1)),((9 9,9 9,9 9)))");
+  const auto joined = noded(two, RingRole::winding);
+  ASSERT_TRUE(joined) << to_string(joined.error());
+  EXPECT_EQ(joined->loop_count(), 1u);
+  EXPECT_EQ(joined->points.size(), 8u);
+  EXPECT_DOUBLE_EQ(area(*joined), 24);
+}
+
+TEST(ArcOverlaps, RandomBlocksOnAGridHaveTheAreaOfTheirCells) {
+  test::Random random(8);
+  for (int round = 0; round < 100; ++round) {
+    Rings rings;
+    std::array<std::array<int, 8>, 8> cells{};
+    const auto count = random.integer(2, 9);
+    for (int k = 0; k < count; ++k) {
+      const auto x = random.integer(0, 6), y = random.integer(0, 6);
+      const auto right = random.integer(x + 1, 8), top = random.integer(y + 1, 8);
+      const auto at = [](auto a, auto b) {
+        return Vec2{static_cast<double>(a), static_cast<double>(b)};
+      };
+      rings.push_back({{at(x, y), at(right, y), at(right, top), at(x, top)}});
+      for (auto i = x; i < right; ++i)
+        for (auto j = y; j < top; ++j)
+          ++cells[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
+    }
+    double any = 0, odd = 0;
+    for (const auto& column : cells)
+      for (const int cell : column) any += cell > 0 ? 1 : 0, odd += cell % 2;
+    const auto by_winding = noded(rings, RingRole::winding),
+               by_parity = noded(rings, RingRole::any);
+    ASSERT_TRUE(by_winding) << round << ": " << to_string(by_winding.error());
+    EXPECT_NEAR(area(*by_winding), any, 1e-9) << round;
+    if (odd > 0) {
+      ASSERT_TRUE(by_parity) << round << ": " << to_string(by_parity.error());
+      EXPECT_NEAR(area(*by_parity), odd, 1e-9) << round;
+    } else {
+      EXPECT_FALSE(by_parity);
+    }
+  }
+}
+
 // Shapes of few spacings of their coordinates.
 
 TEST(ArcShape, SoSmallFarAwayIsAShapeOrATypedError) {

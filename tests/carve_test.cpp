@@ -204,6 +204,102 @@ TEST(Carve, PassesInDepthTakeOffNoMoreThanAsked) {
   EXPECT_GT(several, carve_count / 50);
 }
 
+TEST(Carve, RampsGoDownAlongThePath) {
+  const Shape square = shape_of(test::rectangle(10, 8));
+  for (const CarveOptions& straight :
+       {CarveOptions{.angle = 0, .depth = 3, .tool = 2, .pass_depth = 1},
+        CarveOptions{.angle = 60, .depth = 3, .tip = 0.5, .pass_depth = 1}}) {
+    CarveOptions options = straight;
+    options.ramp = 10;
+    const Carving plain = carving_of(square, straight), ramped = carving_of(square, options);
+    EXPECT_NEAR(ramped.own_length, plain.own_length, 1e-9);
+    EXPECT_GT(ramped.cut_length, plain.cut_length);
+    EXPECT_LE(gouge_of(square, ramped, 1e-6), 1e-9);
+    double level = 0;
+    std::size_t ramps = 0;
+    for (std::size_t k = 0; k < ramped.paths.size(); ++k) {
+      const ToolPath& path = ramped.paths[k];
+      level = -1.0 * path.pass;
+      if (path.kind != ToolPathKind::ramp) {  // nothing else goes down below what is cut
+        const bool follows =
+            k > 0 && ramped.paths[k - 1].points.back().point == path.points[0].point;
+        EXPECT_TRUE(follows || path.points[0].z >= level - 1e-9) << k;
+        continue;
+      }
+      ++ramps;
+      EXPECT_EQ(path.points.front().z, level);
+      EXPECT_NEAR(path.points.back().z, ramped.paths[k + 1].points.front().z, 1e-12);
+      for (std::size_t i = 0; i + 1 < path.points.size(); ++i) {
+        const ToolPoint &from = path.points[i], &to = path.points[i + 1];
+        EXPECT_LE(from.z - to.z,
+                  std::tan(10 * std::numbers::pi / 180) * distance(from.point, to.point) + 1e-9);
+      }
+    }
+    EXPECT_GE(ramps, 3U);
+    const test::Cutter cutter{ramped.tip_radius, ramped.slope};
+    for (const Vec2 p : {Vec2{5, 5}, Vec2{1.5, 5}, Vec2{2, 7}})
+      EXPECT_NEAR(cutter.depth_at(p, ramped.paths), cutter.depth_at(p, plain.paths), 1e-9);
+  }
+}
+
+TEST(Carve, PassesFollowTheWayOfOne) {
+  for (std::uint64_t seed = 0; seed < carve_count / 4; ++seed) {
+    const RandomShape random = test::random_any(seed);
+    SCOPED_TRACE(random.kind + " " + std::to_string(seed));
+    const auto axis = compute(shape_of(random.rings));
+    ASSERT_TRUE(axis.ok());
+    const double deepest = axis->nodes[deepest_node(*axis)].disk.radius;
+    const auto one = carve(*axis, {.angle = 60});
+    const auto many = carve(*axis, {.angle = 60, .pass_depth = 0.1 * deepest});
+    ASSERT_TRUE(one.ok() && many.ok());
+    EXPECT_LE(many->own_length, many->passes * one->own_length * (1 + 1e-9));
+    EXPECT_EQ(many->cut_length, many->own_length);  // without ways in between
+    EXPECT_GE(many->passes, 10U);
+  }
+}
+
+TEST(Carve, AMillClearsBeforeAVAndTouchesNoWall) {
+  std::size_t cleared = 0;
+  double shorter = 0, longer = 0;
+  for (std::uint64_t seed = 0; seed < carve_count / 4; ++seed) {
+    const RandomShape random = test::random_any(seed);
+    SCOPED_TRACE(random.kind + " " + std::to_string(seed));
+    const Shape shape = shape_of(random.rings);
+    if (shape.points.size() > 60) continue;
+    const Box box = bounding_box(shape);
+    const auto axis = compute(shape);
+    ASSERT_TRUE(axis.ok());
+    const double deepest = axis->nodes[deepest_node(*axis)].disk.radius;
+    if (deepest < 1e-2 * diagonal(box)) continue;
+    CarveOptions options{.angle = 60, .depth = 0.4 * deepest, .chord = 1e-4 * deepest};
+    if (seed % 2 == 0) options.tip = 0.1 * deepest;
+    const double diameter = 0.6 * deepest;
+    const auto alone = carve(*axis, options);
+    const auto mill = carve(*axis, clearing_before(options, diameter, 0.15 * deepest));
+    options.cleared = diameter;
+    const auto after = carve(*axis, options);
+    ASSERT_TRUE(alone.ok() && mill.ok() && after.ok());
+    cleared += mill->paths.empty() ? 0 : 1;
+    shorter += after->own_length;
+    longer += alone->own_length;
+    const test::Cutter v{alone->tip_radius, alone->slope}, flat{mill->tip_radius, 0};
+    const double left = (3 * options.chord + (options.tip > 0 ? 0 : alone->step)) / alone->slope;
+    test::Random numbers(seed);
+    for (int i = 0; i < 100; ++i) {
+      const Vec2 p{numbers.between(box.low.x, box.high.x), numbers.between(box.low.y, box.high.y)};
+      const double room = std::max(clearance(shape, p), 0.0);
+      const double milled = flat.depth_at(p, mill->paths);
+      EXPECT_LE(milled, std::min(room / alone->slope, options.depth) + 1e-6 * deepest);
+      EXPECT_NEAR(std::max(milled, v.depth_at(p, after->paths)), v.depth_at(p, alone->paths),
+                  left + 1e-6 * deepest)
+          << p.x << " " << p.y;
+    }
+    if (HasFailure()) return;
+  }
+  EXPECT_GT(cleared, carve_count / 40);
+  EXPECT_LT(shorter, 0.7 * longer);
+}
+
 TEST(Carve, OtherUnitsChangeTheScaleOnly) {
   const auto axis = compute(shape_of(test::rectangle(10, 6)));
   ASSERT_TRUE(axis.ok());

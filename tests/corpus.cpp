@@ -1,4 +1,4 @@
-// Runs every polygon file of a data folder through read_dataset, build_shape, compute and verify,
+// Runs every polygon file of a data folder through read_document, build_shape, compute and verify,
 // and prints a table. A folder can have a README.md with a table `| file | what | size | ...` whose
 // third column counts the invalid features: what is valid must be verified.
 //

@@ -1,5 +1,7 @@
 // The curve axis against the exact engine on arcs within 1e-9, every rule of the control process,
 // and smooth fits.
+#include "methods/curve_axis/curve_axis.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -53,7 +55,7 @@ void add(CurveAxisRules& sum, const CurveAxisRules& part) {
   sum.dissolved += part.dissolved;
   sum.abandoned += part.abandoned;
   sum.retreats += part.retreats;
-  sum.outside_frame += part.outside_frame;
+  sum.outside_box += part.outside_box;
   sum.resumed += part.resumed;
   sum.ends += part.ends;
   sum.meetings += part.meetings;
@@ -137,7 +139,7 @@ TEST(CurveAxis, AgreesWithTheExactEngine) {
   EXPECT_GT(applied.dissolved, 0U);
   EXPECT_GT(applied.abandoned, 0U);
   EXPECT_GT(applied.retreats, 0U);
-  EXPECT_GT(applied.outside_frame, 0U);
+  EXPECT_GT(applied.outside_box, 0U);
   EXPECT_GT(applied.ends, 0U);
   EXPECT_GT(applied.meetings, 0U);
 }
@@ -165,10 +167,10 @@ TEST(CurveAxis, TellsTheCurvaturesOfItsBoundary) {
   ASSERT_TRUE(result.ok());
   std::size_t checked = 0;
   for (const Branch& branch : branches(result->axis)) {
-    for (const AxisFrame& frame : frames_along(result->axis, branch)) {
+    for (const AxisJet& frame : jets_along(result->axis, branch)) {
       const double x = frame.disk.center.x;
       if (std::abs(x) > 1.2) continue;  // near the tips differences lose their meaning
-      const BoundaryFrame left = boundary_at(frame, Side::left);
+      const BoundaryJet left = boundary_at(frame, Side::left);
       // Of an ellipse: a b / (a^2 sin^2 + b^2 cos^2)^(3/2).
       const double cosine = left.point.x / 2, sine = left.point.y;
       const double wanted = 2 / std::pow(4 * sine * sine + cosine * cosine, 1.5);
@@ -215,7 +217,7 @@ std::vector<CurvatureError> curvature_errors(const Contour& contour) {
       one.edges.push_back({{to - 1, to}, {0, 0}, {}, 1});
       branch.steps.push_back({to - 1, true});
     }
-    const std::vector<AxisFrame> frames = frames_along(one, branch);
+    const std::vector<AxisJet> frames = jets_along(one, branch);
     EXPECT_EQ(frames.size() + 2, points.size());
     // What moving the disks by 1e-13 changes, over what they are off by.
     constexpr double moved = 1e-13, off = 1e-16;
@@ -224,7 +226,7 @@ std::vector<CurvatureError> curvature_errors(const Contour& contour) {
       node.disk.center.y += random.between(-moved, moved);
       node.disk.radius += random.between(-moved, moved);
     }
-    const std::vector<AxisFrame> others = frames_along(one, branch);
+    const std::vector<AxisJet> others = jets_along(one, branch);
     EXPECT_EQ(others.size(), frames.size());
     for (std::size_t i = 0; i < std::min(frames.size(), others.size()); ++i) {
       if (std::abs(frames[i].radius_rate) > 0.95) continue;  // the feet are nearly one

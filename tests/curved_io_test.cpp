@@ -29,7 +29,7 @@ class CurvedDxf : public CurvedIo {
  protected:
   void SetUp() override {
     CurvedIo::SetUp();
-    const Result<Document<Feature>> data = read_dataset(write("empty.dxf", ""));
+    const Result<Document<Feature>> data = read_document(write("empty.dxf", ""));
     if (!data && to_string(data.error()).find("without DXF") != std::string::npos)
       GTEST_SKIP() << "built without DXF";
   }
@@ -204,7 +204,7 @@ TEST_F(CurvedDxf, OfTheDataFolder) {
     if (!fs::exists(data / folder)) continue;
     for (const auto& entry : fs::directory_iterator(data / folder)) {
       const std::string name = entry.path().filename().string();
-      const Result<Document<Feature>> drawing = read_dataset(entry.path().string());
+      const Result<Document<Feature>> drawing = read_document(entry.path().string());
       ++files;
       if (std::ranges::find(nothing, name) != nothing.end()) {
         ASSERT_FALSE(drawing.ok()) << name;
@@ -485,7 +485,7 @@ TEST_F(CurvedIo, PicturesAreReadBackAsCircles) {
   WriteOptions options;
   options.width = 1000;
   ASSERT_TRUE(write_axes(path("a.svg"), "", file, options).ok());
-  const Result<Document<Feature>> picture = read_dataset(path("a.svg"));
+  const Result<Document<Feature>> picture = read_document(path("a.svg"));
   ASSERT_TRUE(picture.ok()) << to_string(picture.error());
   const Contour* outline = nullptr;
   for (const Feature& feature : picture->items) {
@@ -549,7 +549,7 @@ TEST_F(CurvedIo, DamagedFilesAreReadOrRefused) {
             text.resize(random() % 8 == 0 ? at : text.size());
         }
       }
-      const Result<Document<Feature>> data = read_dataset(write(name, text));
+      const Result<Document<Feature>> data = read_document(write(name, text));
       ++(data ? read : refusals);
       if (data) continue;
       EXPECT_NE(data.error().code, ErrorCode::internal) << to_string(data.error());

@@ -13,6 +13,7 @@
 #include "medial/medial.h"
 #include "support/contours.h"
 #include "support/curve_check.h"
+#include "support/curve_errors.h"
 #include "support/random_shapes.h"
 
 namespace medial {

@@ -474,7 +474,7 @@ TEST(Features, KeepUnderSymmetries) {
     for (std::size_t i = 1; i < test::symmetries().size(); ++i) {
       // Far from the origin the shape is another one: its coordinates are rounded.
       const test::Symmetry& symmetry = test::symmetries()[i];
-      if (norm({symmetry.dx, symmetry.dy}) > 10 * symmetry.scale() * before.boundary) continue;
+      if (norm(Vec2{symmetry.dx, symmetry.dy}) > 10 * symmetry.scale() * before.boundary) continue;
       SCOPED_TRACE(random.kind + " " + std::to_string(seed) + " " + test::symmetries()[i].name);
       const AxisFeatures after = describe(axis_of(test::symmetric(random.rings, i)));
       const double scale = test::symmetries()[i].scale();

@@ -308,7 +308,7 @@ std::optional<std::string> fault_of_pack(const std::string& path) {
 /// What is wrong about how a file is taken, if anything.
 std::optional<std::string> fault_of_file(const std::string& path) {
   if (path.ends_with(".mpk")) return fault_of_pack(path);
-  const auto dataset = io::read_dataset(path);
+  const auto dataset = io::read_document(path);
   if (!dataset && !is_refusal(dataset.error().code)) return to_string(dataset.error());
   if (dataset) {
     for (const Feature& feature : dataset->items) {

@@ -202,7 +202,7 @@ int run(const Settings& settings) {
       if (is_font(file))
         row = examine_font(file, settings);
       else
-        examine_dataset(io::read_dataset(file.string()), file.stem().string(), settings, row);
+        examine_dataset(io::read_document(file.string()), file.stem().string(), settings, row);
       print(file.filename().string(), row);
       all.cases += row.cases;
       all.verified += row.verified;

@@ -19,6 +19,7 @@
 #include <sstream>
 #include <tuple>
 
+#include "io/back_to_geographic.h"
 #include "medial/io/read.h"
 #include "medial/io/write.h"
 #include "medial/query.h"
@@ -32,14 +33,14 @@ namespace fs = std::filesystem;
 
 TEST_F(Io, ReadsEveryKindOfWellKnownText) {
   const Result<Document<Feature>> data =
-      read_dataset(write("a.wkt",
-                         "SRID=4326;polygon z((0 0 9,1 0 9,1 1e0 9,0 0 9))\r\n"
-                         "MULTIPOLYGON M (((0 0 1,+1 0 2,.5 -1. 3)),EMPTY,"
-                         "((2 2,3 2,3 3),(2.1 2.1,2.2 2.1,2.2 2.2)))\n\n"
-                         "GeometryCollection(POINT(1 2),GEOMETRYCOLLECTION("
-                         "POLYGONZM((0 0 1 2,1 0 1 2,1 1 1 2))),"
-                         "LINESTRING(0 0,1 1))\n"
-                         "POLYGON EMPTY\n"));
+      read_document(write("a.wkt",
+                          "SRID=4326;polygon z((0 0 9,1 0 9,1 1e0 9,0 0 9))\r\n"
+                          "MULTIPOLYGON M (((0 0 1,+1 0 2,.5 -1. 3)),EMPTY,"
+                          "((2 2,3 2,3 3),(2.1 2.1,2.2 2.1,2.2 2.2)))\n\n"
+                          "GeometryCollection(POINT(1 2),GEOMETRYCOLLECTION("
+                          "POLYGONZM((0 0 1 2,1 0 1 2,1 1 1 2))),"
+                          "LINESTRING(0 0,1 1))\n"
+                          "POLYGON EMPTY\n"));
   ASSERT_TRUE(data.ok()) << to_string(data.error());
   ASSERT_EQ(data->items.size(), 3U);
   EXPECT_TRUE(data->geographic);
@@ -52,13 +53,14 @@ TEST_F(Io, ReadsEveryKindOfWellKnownText) {
   EXPECT_EQ(data->items[1].rings[2].role, RingRole::hole);
   EXPECT_TRUE(same(data->items[1].rings[0].points[2], {0.5, -1}));
   EXPECT_EQ(data->items[2].id, 2);
-  ASSERT_EQ(data->notes.size(), 2U);
+  ASSERT_EQ(data->notes.size(), 3U);
   EXPECT_NE(data->notes[0].find("2 geometries are no polygons"), std::string::npos);
-  EXPECT_NE(data->notes[1].find("1 features are empty"), std::string::npos);
+  EXPECT_NE(data->notes[1].find("1 feature is empty"), std::string::npos);
+  EXPECT_NE(data->notes[2].find("closed by a straight edge"), std::string::npos);
 }
 
 TEST_F(Io, ReadsPlainCoordinates) {
-  const Result<Document<Feature>> data = read_dataset(
+  const Result<Document<Feature>> data = read_document(
       write("a.txt", "# outer\n0 0\n4,0\n 4 ; 3 # corner\r\n\t0\t3\n\n\n# hole\n1 1\n2 1\n2 2"));
   ASSERT_TRUE(data.ok()) << to_string(data.error());
   ASSERT_EQ(data->items.size(), 1U);
@@ -80,7 +82,7 @@ TEST_F(Io, NumbersAreRoundedCorrectly) {
     values.push_back(value);
     text << value << (i % 2 == 0 ? " " : "\n");
   }
-  const Result<Document<Feature>> data = read_dataset(write("a.xy", text.str()));
+  const Result<Document<Feature>> data = read_document(write("a.xy", text.str()));
   ASSERT_TRUE(data.ok()) << to_string(data.error());
   const auto& points = data->items[0].rings[0].points;
   ASSERT_EQ(points.size(), values.size() / 2);
@@ -96,7 +98,7 @@ TEST_F(Io, NumbersMayStandAcrossTheWindowsOfTheReader) {
             "-7.5e-1,";
   }
   text += "0 0))";
-  const Result<Document<Feature>> data = read_dataset(write("a.wkt", text));
+  const Result<Document<Feature>> data = read_document(write("a.wkt", text));
   ASSERT_TRUE(data.ok()) << to_string(data.error());
   const auto& points = data->items[0].rings[0].points;
   ASSERT_EQ(points.size(), 60001U);
@@ -107,7 +109,7 @@ TEST_F(Io, NumbersMayStandAcrossTheWindowsOfTheReader) {
 
 TEST_F(Io, ErrorsOfTextsNameTheLine) {
   const auto refused = [this](const std::string& name, const std::string& text) {
-    const Result<Document<Feature>> data = read_dataset(write(name, text));
+    const Result<Document<Feature>> data = read_document(write(name, text));
     EXPECT_FALSE(data.ok()) << text;
     return data.ok() ? Error{} : data.error();
   };
@@ -154,33 +156,33 @@ TEST_F(Io, ErrorsOfTextsNameTheLine) {
 
 TEST_F(Io, BracketsNestWithoutRecursion) {
   const std::string deep(std::size_t{100} << 20, '(');
-  EXPECT_EQ(code_of(read_dataset(write("a.wkt", deep))), ErrorCode::malformed);
-  EXPECT_EQ(code_of(read_dataset(write("b.wkt", "POLYGON" + deep.substr(0, 1 << 20)))),
+  EXPECT_EQ(code_of(read_document(write("a.wkt", deep))), ErrorCode::malformed);
+  EXPECT_EQ(code_of(read_document(write("b.wkt", "POLYGON" + deep.substr(0, 1 << 20)))),
             ErrorCode::malformed);
-  EXPECT_EQ(code_of(read_dataset(write("c.wkt", "POINT" + deep.substr(0, 1 << 20)))),
+  EXPECT_EQ(code_of(read_document(write("c.wkt", "POINT" + deep.substr(0, 1 << 20)))),
             ErrorCode::malformed);
   std::string collections;
   for (int i = 0; i < 200000; ++i) collections += "GEOMETRYCOLLECTION(";
   collections += "POLYGON((0 0,1 0,1 1))";
-  EXPECT_EQ(code_of(read_dataset(write("d.wkt", collections))), ErrorCode::malformed);
+  EXPECT_EQ(code_of(read_document(write("d.wkt", collections))), ErrorCode::malformed);
   collections += std::string(200000, ')');
-  EXPECT_TRUE(read_dataset(write("e.wkt", collections)).ok());
-  EXPECT_EQ(code_of(read_dataset(
+  EXPECT_TRUE(read_document(write("e.wkt", collections)).ok());
+  EXPECT_EQ(code_of(read_document(
                 write("f.wkt", "CURVEPOLYGON" + std::string(1000, '(') + std::string(1000, ')')))),
             ErrorCode::unsupported);
-  EXPECT_EQ(code_of(read_dataset(write("g.json", std::string(std::size_t{1} << 20, '[')))),
+  EXPECT_EQ(code_of(read_document(write("g.json", std::string(std::size_t{1} << 20, '[')))),
             ErrorCode::malformed);
   EXPECT_FALSE(
-      read_dataset(write("h.json", "{\"medial\":1,\"items\":" + std::string(1 << 20, '['))).ok());
+      read_document(write("h.json", "{\"medial\":1,\"items\":" + std::string(1 << 20, '['))).ok());
 }
 
 TEST_F(Io, MissingFilesAndDirectoriesAreUnreadable) {
   for (const char* name :
        {"none.wkt", "none.txt", "none.json", "none.geojson", "none.gpkg", "none"}) {
-    EXPECT_EQ(code_of(read_dataset(path(name))), ErrorCode::unreadable) << name;
+    EXPECT_EQ(code_of(read_document(path(name))), ErrorCode::unreadable) << name;
   }
   fs::create_directory(path("folder.wkt"));
-  EXPECT_EQ(code_of(read_dataset(path("folder.wkt"))), ErrorCode::unreadable);
+  EXPECT_EQ(code_of(read_document(path("folder.wkt"))), ErrorCode::unreadable);
   EXPECT_FALSE(read_native(path("none.json")).ok());
   EXPECT_FALSE(is_native(path("none.json")));
 }
@@ -189,7 +191,7 @@ TEST_F(Io, FormatsWithoutAttributesRefuseFilters) {
   const std::string file = write("a.wkt", "POLYGON((0 0,1 0,1 1))");
   ReadOptions options;
   options.where = "a = 1";
-  EXPECT_EQ(code_of(read_dataset(file, options)), ErrorCode::invalid_option);
+  EXPECT_EQ(code_of(read_document(file, options)), ErrorCode::invalid_option);
 }
 
 // ------------------------------------------------------------------------------------ any prefix
@@ -198,7 +200,7 @@ TEST_F(Io, FormatsWithoutAttributesRefuseFilters) {
 void expect_typed_errors(const std::string& name, const std::string& content, std::size_t whole) {
   for (std::size_t size = 0; size <= content.size(); ++size) {
     std::ofstream(name, std::ios::binary | std::ios::trunc) << content.substr(0, size);
-    const Result<Document<Feature>> data = read_dataset(name);
+    const Result<Document<Feature>> data = read_document(name);
     if (size >= whole) {
       EXPECT_TRUE(data.ok()) << size << " " << to_string(data.error());
     } else {
@@ -260,7 +262,7 @@ constexpr const char* collection =
 {"type":"Feature","id":7,"properties":{"name":"c","n":3},"geometry":null}]})";
 
 TEST_F(Io, ReadsFeaturesWithAttributes) {
-  const Result<Document<Feature>> data = read_dataset(write("a.geojson", collection));
+  const Result<Document<Feature>> data = read_document(write("a.geojson", collection));
   ASSERT_TRUE(data.ok()) << to_string(data.error());
   ASSERT_EQ(data->items.size(), 2U);
   EXPECT_TRUE(data->geographic);
@@ -276,26 +278,26 @@ TEST_F(Io, ReadsFeaturesWithAttributes) {
 
   ReadOptions options;
   options.where = "n = 2";
-  const Result<Document<Feature>> filtered = read_dataset(path("a.geojson"), options);
+  const Result<Document<Feature>> filtered = read_document(path("a.geojson"), options);
   ASSERT_TRUE(filtered.ok());
   EXPECT_EQ(filtered->items.size(), 1U);
   options.where = "n = 9";
-  EXPECT_EQ(code_of(read_dataset(path("a.geojson"), options)), ErrorCode::empty);
+  EXPECT_EQ(code_of(read_document(path("a.geojson"), options)), ErrorCode::empty);
   options.where = "no such thing";
-  EXPECT_EQ(code_of(read_dataset(path("a.geojson"), options)), ErrorCode::invalid_option);
+  EXPECT_EQ(code_of(read_document(path("a.geojson"), options)), ErrorCode::invalid_option);
   options.where.clear();
   options.layer = "none";
-  EXPECT_EQ(code_of(read_dataset(path("a.geojson"), options)), ErrorCode::invalid_option);
+  EXPECT_EQ(code_of(read_document(path("a.geojson"), options)), ErrorCode::invalid_option);
 }
 
 TEST_F(Io, FilesThatHoldNoPolygonsAreUnsupported) {
-  EXPECT_EQ(code_of(read_dataset(write("a.geojson", R"({"type":"Point","coordinates":[1,2]})"))),
+  EXPECT_EQ(code_of(read_document(write("a.geojson", R"({"type":"Point","coordinates":[1,2]})"))),
             ErrorCode::unsupported);
-  EXPECT_EQ(code_of(read_dataset(write("a.bin", std::string("\x7f\x45\x4c\x46 garbage", 12)))),
+  EXPECT_EQ(code_of(read_document(write("a.bin", std::string("\x7f\x45\x4c\x46 garbage", 12)))),
             ErrorCode::unsupported);
-  EXPECT_EQ(code_of(read_dataset(write("a.gpkg", "garbage"))), ErrorCode::malformed);
-  EXPECT_EQ(code_of(read_dataset(write("a.shp", "garbage"))), ErrorCode::malformed);
-  EXPECT_EQ(code_of(read_dataset(write("a.fgb", "fgb"))), ErrorCode::malformed);
+  EXPECT_EQ(code_of(read_document(write("a.gpkg", "garbage"))), ErrorCode::malformed);
+  EXPECT_EQ(code_of(read_document(write("a.shp", "garbage"))), ErrorCode::malformed);
+  EXPECT_EQ(code_of(read_document(write("a.fgb", "fgb"))), ErrorCode::malformed);
 }
 
 /// Runs an action with a file as standard input and gives what it wrote to standard output.
@@ -336,7 +338,7 @@ TEST_F(Io, StandardInputIsRecognised) {
   for (const auto& [name, text] : inputs) {
     const std::string result = in_child(write(name, text), [] {
       const bool native = is_native("-");
-      const Result<Document<Feature>> data = read_dataset("-");
+      const Result<Document<Feature>> data = read_document("-");
       std::printf(
           "%d %s", native ? 1 : 0,
           data.ok() ? std::to_string(data->items.size()).c_str() : name_of(data.error().code));
@@ -375,12 +377,12 @@ TEST_F(Io, LocalProjectionsMeasureMetresAndGoBack) {
                                    {20.0, 10.0, 30.0},
                                    {100.0, 89.0, 0.5}}) {
     const std::string file = write("a.wkt", degrees(x, y, size));
-    const Result<Document<Feature>> plain = read_dataset(file);
-    const Result<Document<Feature>> data = read_dataset(file, options);
+    const Result<Document<Feature>> plain = read_document(file);
+    const Result<Document<Feature>> data = read_document(file, options);
     ASSERT_TRUE(data.ok()) << to_string(data.error());
     EXPECT_FALSE(data->geographic);
     EXPECT_TRUE(is_local_projection(data->crs_wkt));
-    ASSERT_EQ(data->notes.size(), 1U);
+    ASSERT_EQ(data->notes.size(), 2U);  // closed; projected
     std::vector<Vec2> points = data->items[0].rings[0].points;
     if (size < 1) {
       const double meridian = distance(points[0], points[2]);
@@ -402,15 +404,15 @@ TEST_F(Io, LocalProjectionsMeasureMetresAndGoBack) {
 TEST_F(Io, WhatIsNotGeographicIsNotProjected) {
   ReadOptions options;
   options.project = true;
-  EXPECT_EQ(code_of(read_dataset(write("a.wkt", "POLYGON((0 0,1000 0,1000 1000))"), options)),
+  EXPECT_EQ(code_of(read_document(write("a.wkt", "POLYGON((0 0,1000 0,1000 1000))"), options)),
             ErrorCode::invalid_option);
   const Result<Document<Feature>> utm =
-      read_dataset(write("b.wkt", "SRID=32633;POLYGON((0 0,1000 0,1000 1000))"), options);
+      read_document(write("b.wkt", "SRID=32633;POLYGON((0 0,1000 0,1000 1000,0 0))"), options);
   ASSERT_TRUE(utm.ok());
   EXPECT_TRUE(same(utm->items[0].rings[0].points[2], {1000, 1000}));
   EXPECT_EQ(utm->notes.size(), 1U);
   const Result<Document<Feature>> bare =
-      read_dataset(write("c.wkt", "POLYGON((0 0,1 0,1 1))"), options);
+      read_document(write("c.wkt", "POLYGON((0 0,1 0,1 1,0 0))"), options);
   ASSERT_TRUE(bare.ok());
   EXPECT_EQ(bare->notes.size(), 2U);  // taken as degrees; projected
 }
@@ -451,7 +453,7 @@ TEST_F(Io, RepairFollowsTheRule) {
                                          {RepairRule::non_zero, c.nonzero}}) {
       ReadOptions options;
       options.repair = rule;
-      const Result<Document<Feature>> data = read_dataset(file, options);
+      const Result<Document<Feature>> data = read_document(file, options);
       ASSERT_TRUE(data.ok()) << to_string(data.error());
       EXPECT_NEAR(area_of(data->items[0]), expected, 1e-12) << static_cast<int>(rule);
     }
@@ -461,22 +463,22 @@ TEST_F(Io, RepairFollowsTheRule) {
 TEST_F(Io, RepairTellsWhatItChangedAndLeavesTheRest) {
   ReadOptions options;
   options.repair = RepairRule::make_valid;
-  const Result<Document<Feature>> data = read_dataset(
+  const Result<Document<Feature>> data = read_document(
       write("a.wkt", "POLYGON((0.1 0,1 0,1 1.7,0.1 0))\nPOLYGON((0 0,2 2,2 0,0 2,0 0))"), options);
   ASSERT_TRUE(data.ok());
   EXPECT_EQ(data->items[0].rings[0].points,
             (std::vector<Vec2>{{0.1, 0}, {1, 0}, {1, 1.7}, {0.1, 0}}));
   ASSERT_EQ(data->notes.size(), 1U);
   EXPECT_EQ(data->notes[0],
-            "feature 1 was repaired by MakeValid: 1 rings, 4 vertices, area 0 before; 2 rings, 6 "
+            "feature 1 was repaired by MakeValid: 1 ring, 4 vertices, area 0 before; 2 rings, 6 "
             "vertices, "
             "area 2 after");
-  EXPECT_EQ(code_of(read_dataset(write("b.wkt", "POLYGON((0 0,1 1,2 2,0 0))"), options)),
+  EXPECT_EQ(code_of(read_document(write("b.wkt", "POLYGON((0 0,1 1,2 2,0 0))"), options)),
             ErrorCode::no_area);
 
   options.repair = RepairRule::even_odd;
   const Result<Document<Feature>> loose =
-      read_dataset(write("c.txt", "0 0\n4 0\n4 4\n0 4\n\n1 1\n2 1\n2 2\n1 2\n"), options);
+      read_document(write("c.txt", "0 0\n4 0\n4 4\n0 4\n\n1 1\n2 1\n2 2\n1 2\n"), options);
   ASSERT_TRUE(loose.ok());
   EXPECT_NEAR(area_of(loose->items[0]), 15, 1e-12);
 }
@@ -486,7 +488,7 @@ TEST_F(Io, RepairTellsWhatItChangedAndLeavesTheRest) {
 TEST_F(Io, CompressedTextIsReadAndItsTruncationNoticed) {
   const fs::path file = test::data_folder() / "packaged" / "A_gis" / "gshhg" / "sao_tome.wkt.gz";
   if (!fs::exists(file)) GTEST_SKIP() << "no data folder: set MEDIAL_DATA";
-  const Result<Document<Feature>> data = read_dataset(file.string());
+  const Result<Document<Feature>> data = read_document(file.string());
   ASSERT_TRUE(data.ok()) << to_string(data.error());
   ASSERT_EQ(data->items.size(), 1U);
   EXPECT_EQ(data->items[0].rings.at(0).points.size(), 999U);
@@ -494,14 +496,14 @@ TEST_F(Io, CompressedTextIsReadAndItsTruncationNoticed) {
   std::ifstream stream(file, std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
   for (std::size_t size = 0; size < bytes.size(); size += size < 64 ? 1 : 97) {
-    const Result<Document<Feature>> part = read_dataset(write("a.wkt.gz", bytes.substr(0, size)));
+    const Result<Document<Feature>> part = read_document(write("a.wkt.gz", bytes.substr(0, size)));
     ASSERT_FALSE(part.ok()) << size;
     EXPECT_TRUE(part.error().code == ErrorCode::malformed || part.error().code == ErrorCode::empty)
         << size;
   }
   std::string damaged = bytes;
   damaged[damaged.size() / 2] = static_cast<char>(damaged[damaged.size() / 2] ^ 0x55);
-  EXPECT_EQ(code_of(read_dataset(write("b.wkt.gz", damaged))), ErrorCode::malformed);
+  EXPECT_EQ(code_of(read_document(write("b.wkt.gz", damaged))), ErrorCode::malformed);
 }
 
 TEST_F(Io, EveryFileOfTheDataFolderIsReadOrRefused) {
@@ -509,7 +511,7 @@ TEST_F(Io, EveryFileOfTheDataFolderIsReadOrRefused) {
   std::size_t read = 0;
   for (const auto& entry : fs::recursive_directory_iterator(test::data_folder())) {
     if (!entry.is_regular_file() || entry.file_size() > (std::uintmax_t{2} << 20)) continue;
-    const Result<Document<Feature>> data = read_dataset(entry.path().string());
+    const Result<Document<Feature>> data = read_document(entry.path().string());
     if (data.ok()) {
       ++read;
     } else {

@@ -262,7 +262,7 @@ TEST_F(CurvedIo, SvgOfTheDataFolderCountsAsListed) {
     std::string name;
     std::size_t paths = 0, subpaths = 0, lines = 0, arcs = 0, cubics = 0, quadratics = 0;
     fields >> name >> paths >> subpaths >> lines >> arcs >> cubics >> quadratics;
-    const Result<Document<Feature>> data = read_dataset((folder / name).string());
+    const Result<Document<Feature>> data = read_document((folder / name).string());
     ASSERT_TRUE(data.ok()) << to_string(data.error());
     ++files;
     if (!data->notes.empty()) continue;  // something is not filled

@@ -72,7 +72,7 @@ TEST_F(Io, NativeFilesLoseNothing) {
   ASSERT_TRUE(write_axes(path("b.json"), "", *read).ok());
   EXPECT_EQ(content("a.json"), content("b.json"));
 
-  const Result<Document<Feature>> data = read_dataset(path("a.json"));
+  const Result<Document<Feature>> data = read_document(path("a.json"));
   ASSERT_TRUE(data.ok()) << to_string(data.error());
   EXPECT_EQ(data->items.size(), 3U);
   EXPECT_EQ(data->items[0].rings[0].points, file.items[0].shape.points);
@@ -368,7 +368,7 @@ TEST_F(Io, SpatialIndexesMadeLaterAreWholeAndFindWhatIsThere) {
     item.shape = build_shape(std::vector<Ring>{star}).value();
     item.axis = compute(item.shape).value();
     const std::string name = path("index.gpkg");
-    const Status status = write_axes(name, "", file);
+    const Status status = write_axes(name, "", file, {.overwrite = true});
     ASSERT_TRUE(status.ok()) << to_string(status.error());
     const GDALDatasetUniquePtr data(
         GDALDataset::Open(name.c_str(), GDAL_OF_VECTOR | GDAL_OF_UPDATE));
@@ -490,7 +490,7 @@ TEST_F(Io, LayersOfAFileAreChosenByName) {
   ReadOptions options;
   for (const char* layer : {"", "one", "two"}) {
     options.layer = layer;
-    const Result<Document<Feature>> data = read_dataset(path("a.gpkg"), options);
+    const Result<Document<Feature>> data = read_document(path("a.gpkg"), options);
     ASSERT_TRUE(data.ok()) << to_string(data.error());
     ASSERT_EQ(data->items.size(), 1U);
     EXPECT_FALSE(data->geographic);
@@ -507,7 +507,7 @@ TEST_F(Io, GisFormatsOfProjectedAxesAreInDegreesWithRadiiInMetres) {
   ReadOptions options;
   options.project = true;
   const Result<Document<Feature>> data =
-      read_dataset(write("a.wkt", degrees(10, 50, 0.1)), options);
+      read_document(write("a.wkt", degrees(10, 50, 0.1)), options);
   ASSERT_TRUE(data.ok());
   Document<AxisItem> file = two_items();  // its units are metres around the middle of the triangle
   file.crs_wkt = data->crs_wkt;

@@ -102,6 +102,38 @@ TEST(Necks, AreNoneInConvexShapes) {
   }
 }
 
+TEST(Transects, LieAcrossTheCourse) {
+  // Beside a neck the disks touch its corners only; the line runs straight through all the same.
+  const auto [shape, axis] = computed(bottle(1));
+  const AxisPath path = main_paths(axis)[0];
+  const std::vector<double> at = even(path.length, 7);
+  const auto found = transects_along(shape, axis, path, at);
+  ASSERT_EQ(found.size(), at.size());
+  std::size_t swung = 0;
+  const auto by_feet = widths_along(axis, path, at);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const Vec2 center = found[i].disk.center;
+    const double half = center.x > 4 && center.x < 6 ? 0.5 : 2;
+    EXPECT_NEAR(found[i].span(), 2 * half, 1e-9);
+    for (const Vec2 end : found[i].feet) EXPECT_NEAR(end.x, center.x, 1e-9);
+    swung += std::fabs(by_feet[i].feet[0].x - center.x) > 0.1 ? 1 : 0;
+  }
+  EXPECT_GT(swung, 0U);
+}
+
+TEST(Transects, EndOnArcs) {
+  const auto [shape, axis] = computed({test::circle({0, 0}, 5), test::circle({1, 0}, 2)});
+  const AxisPath path = main_paths(axis)[0];
+  for (const LocalWidth& at : transects_along(shape, axis, path, even(path.length, 20))) {
+    const double outer = std::min(std::fabs(norm(at.feet[0]) - 5), std::fabs(norm(at.feet[1]) - 5));
+    const double inner = std::min(std::fabs(distance(at.feet[0], {1, 0}) - 2),
+                                  std::fabs(distance(at.feet[1], {1, 0}) - 2));
+    EXPECT_LT(outer, 1e-9);
+    EXPECT_LT(inner, 1e-9);
+    EXPECT_GE(at.span(), at.disk.radius);
+  }
+}
+
 TEST(Necks, AroundAHole) {
   // An eccentric circular hole: one widest and one narrowest place.
   const auto [shape, axis] = computed({test::circle({0, 0}, 5), test::circle({1, 0}, 2)});

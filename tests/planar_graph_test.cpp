@@ -56,7 +56,7 @@ double area_of(const std::vector<Vec2>& outline) {
 /// What is wrong with a diagram, empty if nothing: every sample of every edge is at its radius from
 /// its sites and no nearer to any other; faces are closed, counter-clockwise, and fill the frame.
 std::string fault_of(const VoronoiDiagram& diagram) {
-  const Box frame = *diagram.frame;
+  const Box frame = *diagram.enclosure;
   const double size = diagonal(frame);
   const double tolerance = std::max(1e-13 * size, 4 * diagram.tolerance);
   for (std::size_t e = 0; e < diagram.edges.size(); ++e) {
@@ -82,7 +82,7 @@ std::string fault_of(const VoronoiDiagram& diagram) {
   }
   double area = 0;
   std::size_t uses = 0, sides = 0;
-  for (const VoronoiEdge& edge : diagram.edges) sides += edge.frame ? 1 : 2;
+  for (const VoronoiEdge& edge : diagram.edges) sides += edge.on_enclosure ? 1 : 2;
   for (std::size_t site = 0; site < diagram.sites.size(); ++site) {
     const auto face = diagram.face(site);
     uses += face.size();
@@ -132,7 +132,7 @@ TEST(PlanarGraph, TwoPointsHaveOneBisector) {
   EXPECT_EQ(fault_of(diagram), "");
   std::size_t inner = 0;
   for (const VoronoiEdge& edge : diagram.edges) {
-    if (edge.frame) continue;
+    if (edge.on_enclosure) continue;
     ++inner;
     for (const std::uint32_t node : edge.node)
       EXPECT_NEAR(diagram.nodes[node].disk.center.x, 1, 1e-14);
@@ -249,7 +249,7 @@ TEST(PlanarGraph, ManyPointsHaveAsManyEdgesAsATriangulation) {
   const auto diagram = diagram_of(chains, Box{{-1e5, -1e5}, {1e5, 1e5}});
   // By Euler's formula, with h neighbours outside: 3 n - 3 - h edges, and 2 n - 2 - h nodes inside.
   std::size_t inner = 0, crossings = 0, corners = 0;
-  for (const VoronoiEdge& edge : diagram.edges) inner += edge.frame ? 0 : 1;
+  for (const VoronoiEdge& edge : diagram.edges) inner += edge.on_enclosure ? 0 : 1;
   for (const Node& node : diagram.nodes) {
     const Vec2 p = node.disk.center;
     const bool on_x = std::abs(p.x) == 1e5, on_y = std::abs(p.y) == 1e5;
@@ -565,7 +565,7 @@ TEST(PlanarGraph, SpoiltDiagramsAreNotVerified) {
     const auto one_of = [&](const auto& elements) {
       return static_cast<std::size_t>(uniform(random) * static_cast<double>(elements.size()));
     };
-    const double size = diagonal(*made->frame);
+    const double size = diagonal(*made->enclosure);
     const auto refused = [&](const auto& spoil) {
       VoronoiDiagram diagram = *made;
       spoil(diagram);
@@ -584,12 +584,12 @@ TEST(PlanarGraph, SpoiltDiagramsAreNotVerified) {
     EXPECT_TRUE(refused([&](auto& d) {
       d.face_edges[one_of(d.face_edges)] = static_cast<std::uint32_t>(d.edges.size());
     }));
-    EXPECT_TRUE(refused([&](auto& d) { d.frame->high.x += 1e-3 * size; }));
-    EXPECT_TRUE(refused([&](auto& d) { d.frame.reset(); }));
+    EXPECT_TRUE(refused([&](auto& d) { d.enclosure->high.x += 1e-3 * size; }));
+    EXPECT_TRUE(refused([&](auto& d) { d.enclosure.reset(); }));
     if (made->sites.size() > 1) {
       EXPECT_TRUE(refused([&](auto& d) {
         for (auto& edge : d.edges)
-          if (!edge.frame) return static_cast<void>(edge.site[0] = edge.site[1]);
+          if (!edge.on_enclosure) return static_cast<void>(edge.site[0] = edge.site[1]);
       }));
     }
   }
@@ -694,10 +694,10 @@ std::vector<double> numbers_of(const VoronoiDiagram& diagram) {
     numbers.insert(numbers.end(), {node.disk.center.x, node.disk.center.y, node.disk.radius,
                                    static_cast<double>(node.kind)});
   for (const VoronoiEdge& edge : diagram.edges)
-    numbers.insert(numbers.end(),
-                   {double(edge.node[0]), double(edge.node[1]), double(edge.site[0]),
-                    double(edge.site[1]), edge.control.center.x, edge.control.center.y,
-                    edge.control.radius, edge.weight, double(edge.spoke), double(edge.frame)});
+    numbers.insert(numbers.end(), {double(edge.node[0]), double(edge.node[1]), double(edge.site[0]),
+                                   double(edge.site[1]), edge.control.center.x,
+                                   edge.control.center.y, edge.control.radius, edge.weight,
+                                   double(edge.spoke), double(edge.on_enclosure)});
   numbers.insert(numbers.end(), diagram.face_begin.begin(), diagram.face_begin.end());
   numbers.insert(numbers.end(), diagram.face_edges.begin(), diagram.face_edges.end());
   return numbers;

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "medial/shape.h"
+#include "methods/raster/disks.h"
 
 namespace medial {
 namespace {
@@ -104,7 +105,7 @@ std::uint64_t looked_up(const Image& image, std::int64_t x, std::int64_t y,
   std::uint64_t nearest = std::numeric_limits<std::uint64_t>::max();
   if (!image.at(x, y)) return 0;
   const bool cracks = options.to == DistanceTo::cracks;
-  const std::int64_t border = options.frame || cracks ? 1 : 0;
+  const std::int64_t border = options.outside_is_background || cracks ? 1 : 0;
   for (std::int64_t v = -border; v < image.height() + border; ++v) {
     for (std::int64_t u = -border; u < image.width() + border; ++u) {
       if (image.at(u, v)) continue;

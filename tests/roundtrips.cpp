@@ -140,7 +140,7 @@ int run(const Settings& settings) {
     if (font)
       examine_font(file, settings.every, row);
     else
-      examine_all(io::read_dataset(file.string()), file.filename().string(), row);
+      examine_all(io::read_document(file.string()), file.filename().string(), row);
     std::fflush(stdout);
   }
   std::printf("%-10s %6s %9s %10s %10s %8s %7s %9s\n", "kind", "files", "features", "vertices",

@@ -51,14 +51,14 @@ TEST(Sides, OfExactEdgesAreTheirSites) {
   for_shapes([&](const Shape&, const MedialAxis& axis, double size) {
     for (const Edge& edge : axis.edges) {
       for (const double t : {0.25, 0.5, 0.75}) {
-        const AxisFrame frame = frame_at(axis, edge, t);
+        const AxisJet jet = jet_at(axis, edge, t);
         // Where a foot is hardly distinct from the other, or the edge is but rounding, so is the
         // rate.
-        if (length(axis, edge) < 1e-5 * size || std::abs(frame.radius_rate) > 1 - 1e-6) continue;
+        if (length(axis, edge) < 1e-5 * size || std::abs(jet.radius_rate) > 1 - 1e-6) continue;
         for (const Side side : {Side::left, Side::right}) {
           const Site& site = axis.sites[edge.site[side == Side::left ? 0 : 1]];
-          const BoundaryFrame boundary = boundary_at(frame, side);
-          EXPECT_LE(distance(boundary.point, foot(site, frame.disk.center)), 1e-9 * size);
+          const BoundaryJet boundary = boundary_at(jet, side);
+          EXPECT_LE(distance(boundary.point, foot(site, jet.disk.center)), 1e-9 * size);
           if (site.kind == SiteKind::vertex) {
             EXPECT_NEAR(boundary.rate, 0, 1e-4);
           } else if (boundary.rate > 1e-3) {
@@ -78,7 +78,7 @@ TEST(Sides, EveryBranchOfAnExactAxisIsLegal) {
   std::size_t checked = 0;
   for_shapes([&](const Shape&, const MedialAxis& axis, double) {
     for (const Legality& one : legality(axis)) {
-      if (one.frames == 0) continue;
+      if (one.jets == 0) continue;
       EXPECT_TRUE(one.legal(0)) << one.steepness << " " << one.bend;
       ++checked;
     }
@@ -123,12 +123,12 @@ TEST(Sides, RatesAndCurvaturesAreDerivatives) {
   const Edge& edge = axis.edges[0];
   const double h = 1e-5;
   for (const double t : {0.2, 0.5, 0.9}) {
-    const double step = length(axis, edge) > 0 ? distance(frame_at(axis, edge, t + h).disk.center,
-                                                          frame_at(axis, edge, t - h).disk.center)
+    const double step = length(axis, edge) > 0 ? distance(jet_at(axis, edge, t + h).disk.center,
+                                                          jet_at(axis, edge, t - h).disk.center)
                                                : 0;
     for (const Side side : {Side::left, Side::right}) {
-      const auto at = [&](double u) { return boundary_at(frame_at(axis, edge, u), side); };
-      const BoundaryFrame here = at(t), before = at(t - h), after = at(t + h);
+      const auto at = [&](double u) { return boundary_at(jet_at(axis, edge, u), side); };
+      const BoundaryJet here = at(t), before = at(t - h), after = at(t + h);
       const double moved = distance(before.point, after.point);
       EXPECT_NEAR(here.rate, moved / step, 1e-7);
       EXPECT_NEAR(distance(here.tangent, (1 / moved) * (after.point - before.point)), 0, 1e-7);
@@ -136,7 +136,7 @@ TEST(Sides, RatesAndCurvaturesAreDerivatives) {
       EXPECT_NEAR(here.curvature, side == Side::left ? -turn : turn, 1e-6);
       EXPECT_DOUBLE_EQ(here.radius_of_curvature(), 1 / here.curvature);
       // (8) as the paper has it, with our sign of the curvature of the axis.
-      const AxisFrame f = frame_at(axis, edge, t);
+      const AxisJet f = jet_at(axis, edge, t);
       const double s = std::sqrt(1 - f.radius_rate * f.radius_rate);
       const double k = side == Side::left ? f.curvature : -f.curvature;
       EXPECT_NEAR(here.radius_of_curvature(),
@@ -193,13 +193,13 @@ TEST(Sides, WhatAPacksErrorExplainsIsNotIllegal) {
     return found.front();
   };
   EXPECT_GT(judge(0.6, 1e-6).bend, 0.1);  // K R = 1.2: no axis
-  EXPECT_EQ(judge(0.6, 0.3).frames, 0U);
-  EXPECT_EQ(judge(0.02, 1e-6).frames, 3U);
+  EXPECT_EQ(judge(0.6, 0.3).jets, 0U);
+  EXPECT_EQ(judge(0.02, 1e-6).jets, 3U);
   EXPECT_TRUE(judge(0.02, 1e-6).legal(1e-9));
 }
 
-/// A branch of points has the frames of the curve that they lie on, to the second order.
-TEST(Sides, SampledBranchesHaveFramesToo) {
+/// A branch of points has the jets of the curve that they lie on, to the second order.
+TEST(Sides, SampledBranchesHaveJetsToo) {
   const MedialAxis exact = axis_of({{0, 0}, 1}, {{2, 1}, 1.3}, {{5, 1}, 1.1}, 0.8);
   MedialAxis sampled;
   sampled.resolution = 0.01;
@@ -212,7 +212,7 @@ TEST(Sides, SampledBranchesHaveFramesToo) {
   }
   const auto found = legality(sampled), wanted = legality(exact, 500);
   ASSERT_EQ(found.size(), 1U);
-  EXPECT_EQ(found[0].frames, sampled.nodes.size() - 2);
+  EXPECT_EQ(found[0].jets, sampled.nodes.size() - 2);
   EXPECT_NEAR(found[0].steepness, wanted[0].steepness, 0.002);
   EXPECT_NEAR(found[0].bend, wanted[0].bend, 0.002);
   const std::vector<Contour> outline = boundary_of(sampled);

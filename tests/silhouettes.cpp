@@ -20,6 +20,7 @@
 #include "curve/least_squares.h"
 #include "medial/io/read.h"
 #include "medial/medial.h"
+#include "methods/curve_axis/curve_axis.h"
 
 namespace medial::test {
 namespace {

@@ -137,7 +137,7 @@ def help_of(program, *command):
 def commands_and_options(program):
     listed = re.findall(r"^  ([a-z]+) {3,}", help_of(program), re.MULTILINE)
     help_texts = [help_of(program)] + [help_of(program, command) for command in listed]
-    return listed, set(re.findall(r"(?<!\S)(?:-[a-z],)?(--[a-z][a-z-]*[a-z])", "\n".join(help_texts)))
+    return listed, set(re.findall(r"(?<![^\s,])(--[a-z][a-z-]*[a-z])", "\n".join(help_texts)))
 
 
 def faults_of_manual(listed, known):

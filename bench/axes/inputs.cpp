@@ -16,7 +16,7 @@ std::string coast_path(const std::string& name) {
 
 Input coast(const std::string& name, std::size_t vertices) {
   return {name, Family::coast, vertices, [name]() -> Result<std::vector<Ring>> {
-            auto dataset = io::read_dataset(coast_path(name));
+            auto dataset = io::read_document(coast_path(name));
             if (!dataset) return dataset.error();
             std::vector<Ring> rings = std::move(dataset->items.at(0).rings);
             for (Ring& ring : rings) {  // the peers want no closing point

@@ -2,38 +2,15 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "medial/geometry.h"
+#include "medial/statistics.h"
 
 namespace medial {
-
-/// What an engine counted and how long it took.
-struct Statistics {
-  std::uint64_t queries = 0;            ///< nearest-site queries
-  std::uint64_t apollonius = 0;         ///< disks computed from three sites
-  std::uint64_t brackets = 0;           ///< nodes found by bracketing, where the closed form failed
-  std::uint64_t precision_retries = 0;  ///< nodes recomputed in higher precision
-  std::uint64_t bridges = 0;            ///< disks that connected a hole
-  std::uint64_t exact_filtered = 0;     ///< Options::exact: decided in double with error bounds,
-  std::uint64_t exact_precise = 0;      ///< in 256 bits with error bounds,
-  std::uint64_t exact_rational = 0;     ///< in rational arithmetic with square roots
-  std::uint64_t exact_ties = 0;         ///< sites beyond three that a node's disk touches exactly
-  std::uint64_t exact_changes = 0;      ///< decisions in double precision that were wrong
-  double largest_residual = 0;          ///< largest |distance - radius| over the nodes' contacts
-  double seconds_sites = 0;
-  double seconds_tree = 0;
-  double seconds_connect = 0;
-  double seconds_walk = 0;
-  double seconds_collect = 0;
-  double seconds_exact = 0;
-  double seconds = 0;  ///< all of compute()
-  int threads = 1;
-
-  /// Adds the counts and times of another part of the work; `threads` stays.
-  Statistics& operator+=(const Statistics& part);
-};
 
 enum class SiteKind : std::uint8_t {
   segment,  ///< a straight edge of the shape, both ends included
@@ -41,7 +18,7 @@ enum class SiteKind : std::uint8_t {
   arc,      ///< a circular edge, both ends included
 };
 
-/// What a maximal disk can touch. Convex vertices and smooth joints are no sites.
+/// What a maximal disk can touch.
 struct Site {
   Vec2 start;                ///< of a vertex: == end
   Vec2 end;                  ///< the interior lies on the left of start -> end
@@ -67,11 +44,10 @@ struct Node {
   NodeKind kind = NodeKind::leaf;
 };
 
-/// A piece of the axis between two sites: the rational quadratic Bezier curve in (x, y, r) with
-/// control points node[0], `control`, node[1] and weights 1, `weight`, 1. It is the exact bisector:
-/// a line (two segments), a parabola (a segment and a vertex or an arc; weight 1), a line whose
-/// radius is a hyperbola (two vertices; weight >= 1), or with an arc an ellipse, a hyperbola, a
-/// line or a circle.
+/// A piece of the axis: the centres of the maximal disks that touch its two sites. As a curve in
+/// (x, y, r) it is the rational quadratic Bezier curve with control points node[0], `control`,
+/// node[1] and weights 1, `weight`, 1. Its centres lie on a line (two segments, two vertices), a
+/// parabola (a segment and a vertex), or with an arc on any conic, which may be a line or a circle.
 struct Edge {
   std::array<std::uint32_t, 2> node;  ///< from, to
   std::array<std::uint32_t, 2> site;  ///< on the left and on the right of from -> to; or no_site
@@ -81,14 +57,13 @@ struct Edge {
 
 /// The medial axis transform: a graph of exact curves in (x, y, r).
 ///
-/// A sampled axis has a `resolution` above 0. Of `potential` that is about the longest step along
-/// the axis: each node's radius is its exact distance to the boundary, edges are straight and name
-/// the nearest site on each side. On a grid of square pixels it is the side of a pixel: nodes,
-/// ordered by y, then x, are centres of medial pixels (of `ridge`, points between them where there
-/// is no room for pixels), with radii within half a pixel's diagonal of the distance to the
-/// boundary; edges are straight, to one of eight neighbours, with the control point in the middle
-/// and weight 1; their sites are two that the disk of the first node touches within a few pixels,
-/// or both no_site. docs/ridge.md says which pixels are linked.
+/// A sampled axis has a `resolution` above 0. Of points it is about the longest step along the
+/// axis: each node's radius is its exact distance to the boundary, and straight edges name the
+/// nearest site on each side. Of pixels it is a pixel's side: nodes, ordered by y, then x, are
+/// centres of medial pixels (of `ridge` also points between pixels), with radii within half a
+/// pixel's diagonal of the distance to the boundary; edges lead straight to one of eight
+/// neighbours; their sites are two that the disk of the first node touches within a few pixels, or
+/// both no_site.
 struct MedialAxis {
   std::string method;     ///< the engine's name: see name_of(Method)
   double tolerance = 0;   ///< bound of |distance - radius|, in units of the input
@@ -101,5 +76,49 @@ struct MedialAxis {
   std::vector<Edge> edges;
   Statistics statistics;
 };
+
+/// From node[0] to node[1], the part of the boundary that the edge's disks cut off grows.
+struct VoronoiEdge : Edge {
+  /// Straight, from the common point of its two sites, perpendicular to an edge. All other edges
+  /// are the medial axis (Lee, Corollary 3).
+  bool spoke = false;
+  /// On the enclosure, counter-clockwise; site[1] is no_site, radii are distances from site[0].
+  bool on_enclosure = false;
+};
+
+/// A Voronoi diagram, of a polygon inside of it, or of a planar graph within an enclosure.
+///
+/// Of a polygon: a face for each of n segments and m reflex vertices (Lee, Definition 6). Edges of
+/// length 0 between cocircular elements make 2 (n + m) - 3 edges in all (Lemma 3). Nodes are the
+/// n + m - 2 Voronoi points, the corners and the reflex vertices, where two spokes begin.
+///
+/// Of a planar graph: sites are its points, in their order, then its edges without their ends. A
+/// point's face is empty where the edges around it leave no place nearest to it. Nodes of radius 0
+/// are points at which edges begin. Edges from one corner of the enclosure to another lie on it.
+struct VoronoiDiagram {
+  std::string method;
+  double tolerance = 0;
+  std::vector<Site> sites;
+  std::vector<Node> nodes;
+  std::vector<VoronoiEdge> edges;
+  /// The face of site i is face_edges [face_begin[i], face_begin[i + 1]), in the order of the feet:
+  /// forward along a segment, clockwise around a reflex vertex. In a planar graph that is once
+  /// around the face, clockwise: forward along an edge's left side, then back along its right one.
+  std::vector<std::uint32_t> face_begin;
+  std::vector<std::uint32_t> face_edges;
+  std::optional<Box> enclosure = {};  ///< of a planar graph's diagram
+  Statistics statistics;
+
+  std::span<const std::uint32_t> face(std::size_t site) const {
+    return std::span(face_edges).subspan(face_begin[site], face_begin[site + 1] - face_begin[site]);
+  }
+};
+
+/// Samples an edge from its node[0] to its node[1], as sample_by_chord() of an axis.
+std::vector<Disk> sample_by_chord(const VoronoiDiagram& diagram, const VoronoiEdge& edge,
+                                  double chord);
+
+/// A planar graph's face as a counter-clockwise polygon within `chord` of it; empty where it is.
+std::vector<Vec2> face_outline(const VoronoiDiagram& diagram, std::size_t site, double chord);
 
 }  // namespace medial

@@ -8,21 +8,24 @@
 
 namespace medial {
 
-/// A tool and its limits; lengths in units of the input.
+/// Lengths in units of the input.
 struct CarveOptions {
   double angle = 90;  ///< between the sides of the cone, in degrees, in [0, 170]; 0: an end mill
   double depth = 0;   ///< at most; 0: as deep as the tool reaches; required for an end mill
   double tool = 0;    ///< largest diameter, which limits the depth of a cone; 0: no limit
   double tip = 0;     ///< diameter of the cone's flat tip, below `tool`; an end mill's is `tool`
   double pass_depth = 0;  ///< of one pass at most; 0: all in one; cut from the surface down
+  double ramp = 90;       ///< steepest way into the material, in degrees, in (0, 90]; 90: straight
   /// Between the passes that clear a flat bottom; 0: half of the tip's diameter, which leaves
   /// nothing, or for a pointed tip a 20th of the cone's radius at that depth, which leaves ridges.
   double step = 0;
   /// How far straight moves may be above the axis, at least 1e-8 diagonals of its sites; 0: 1e-5.
   double chord = 0;
+  double allowance = 0;  ///< of an end mill: kept from the boundary besides
+  /// Diameter of an end mill that has cleared flat bottoms with clearing_before(); 0: none has.
+  double cleared = 0;
 };
 
-/// A place of the tip.
 struct ToolPoint {
   Vec2 point;
   double z = 0;      ///< 0 on the surface, negative below; chords may begin a little above it
@@ -33,6 +36,7 @@ enum class ToolPathKind : std::uint8_t {
   clearing,  ///< a flat bottom, inside of its wall
   wall,      ///< along the foot of the walls around a flat bottom
   groove,    ///< along the axis
+  ramp,      ///< down to where the next path begins
 };
 
 /// Moves without lifting the tool.
@@ -49,24 +53,35 @@ struct Carving {
   double tip_radius = 0;        ///< of the tool
   double slope = 0;             ///< tangent of half of the angle
   double step = 0;              ///< between clearing passes
+  std::uint32_t passes = 0;     ///< in depth
+  double own_length = 0;        ///< of all passes, in the plane, without ramps and ways between
   double cut_length = 0;        ///< in the plane
   double travel_length = 0;     ///< in the plane, of lifted moves from path to path
   double travel_unordered = 0;  ///< the same if branches and rings came as the axis numbers them
 };
 
-/// Plans the paths of one tool in one shape, in O(n log n + size of the result). With c(p) the
-/// clearance of a point, t the radius of the tip and m = tan(angle / 2), the tool may be at p where
-/// c(p) >= t, at the depth min((c(p) - t) / m, depth). The paths
-/// - never go deeper, but for rounding (a few 1e-15 of the size);
-/// - leave nothing that the tool could reach, but 3 chords / m along curved edges of the axis, and
-///   ridges of step / m on flat bottoms where the tip is a point or `step` exceeds its radius.
-///   Errors: invalid_option, unsupported (an axis that is sampled or of the exterior), too_large
-///   (more than 1e6 clearing passes, or 1e4 in depth).
+/// Plans the paths of one tool in one shape. With c(p) the clearance of a point, t the radius of
+/// the tip and m = tan(angle / 2), the tool may be at p where c(p) >= t, at most at the depth
+/// min((c(p) - t) / m, depth). No path goes deeper, but for rounding (a few 1e-15 of the size).
+/// Together they cut all that the tool can reach, except for 3 chords / m along curved edges of the
+/// axis, and for ridges of step / m on flat bottoms where the tip is a point or `step` exceeds its
+/// radius. Every pass takes off at most `pass_depth`: it follows the paths of the last one, as deep
+/// as it may, where the pass before left something; so all passes are at most as long as one times
+/// their number. O(n log n + size of the result). Errors:
+/// invalid_option, unsupported (an axis that is sampled or of the exterior), too_large (more than
+/// 1e6 clearing passes, or 1e4 in depth).
 Result<Carving> carve(const MedialAxis& axis, const CarveOptions& options);
+
+/// The options of an end mill that clears the flat bottoms of a V-shaped tool before it, so that no
+/// wall is touched. The V needs a depth, its own or its tool's.
+CarveOptions clearing_before(const CarveOptions& v, double diameter, double pass_depth);
 
 /// Options and carvings in other units: every length times `factor` > 0.
 CarveOptions scaled(CarveOptions options, double factor);
 Carving scaled(Carving carving, double factor);
+
+/// A carving whose point `zero` becomes the origin, and with y turned round where `mirrored`.
+Carving placed(Carving carving, Vec2 zero, bool mirrored);
 
 /// The points of a path with its arcs as chords, at most `chord` > 0 away and never nearer to the
 /// boundary: inside of arcs that turn left, outside of those that turn right.

@@ -1,7 +1,7 @@
 #pragma once
 
-// Ways along an axis of any method: main paths, routes, centre lines, wide and narrow parts. The
-// reach of a path is its length plus the radii at its two ends.
+// Ways along an axis: main paths, routes, centre lines, wide and narrow parts. The reach of a path
+// is its length plus the radii at its two ends.
 
 #include <span>
 
@@ -11,7 +11,6 @@
 
 namespace medial {
 
-/// A point of the axis.
 struct EdgePlace {
   std::uint32_t edge = 0;
   double t = 0;  ///< parameter on the edge, in [0, 1]
@@ -30,17 +29,15 @@ struct AxisPath {
   bool closed = false;   ///< the last piece ends where the first one begins
   double length = 0;     ///< in the plane
   double narrowest = 0;  ///< the smallest radius along it
-  double gap = 0;        ///< of a main path around holes: how much longer the largest reach may be
+  double gap = 0;        ///< of a main path: how much longer the largest reach may be
 };
 
 /// The place of the smallest or largest radius on an edge; the middle where it is constant. O(1).
 EdgePlace narrowest_place(const MedialAxis& axis, std::uint32_t edge);
 EdgePlace widest_place(const MedialAxis& axis, std::uint32_t edge);
-
 /// The pieces as an axis, exactly: all sites, edges in the order and direction of the pieces;
 /// pieces that end at one place share a node. O(pieces).
 MedialAxis part_of(const MedialAxis& axis, std::span<const PathPiece> pieces);
-
 /// The axis where its radius is at least `clearance`, cut exactly; single nodes stay. O(edges).
 MedialAxis clearance_part(const MedialAxis& axis, double clearance);
 
@@ -54,24 +51,25 @@ enum class Route : std::uint8_t {
   roomy,     ///< the least integral of ds / r, the quasihyperbolic length (Gehring, Palka 1976)
 };
 
-/// The best way between two places, and the shortest of those with the largest `narrowest`. O(edges
-/// log edges). Errors: invalid_option (a place off the axis, or no way between them).
+/// The best way between two places; and the widest one, along which the largest disk can move. O(n
+/// log n). Errors: invalid_option (a place off the axis, or no way between them).
 Result<AxisPath> path_between(const MedialAxis& axis, EdgePlace from, EdgePlace to,
                               Route route = Route::shortest);
 Result<AxisPath> widest_path(const MedialAxis& axis, EdgePlace from, EdgePlace to);
 
 struct MainPathOptions {
-  /// Cuts ends back out of corners, to a branching node from whose disk the rest protrudes by less
-  /// than `trim` radii; of several in a row where most of these is left. A corner of the angle a
-  /// protrudes by 1 / sin(a / 2) - 1 radii: 1 cuts corners of more than 60 degrees, 0 none.
+  /// Keeps ends out of corners: cuts them back to a branching node from whose disk the rest
+  /// protrudes by less than `trim` radii, of several in a row to the one with the most to spare. A
+  /// corner of the angle a protrudes by 1 / sin(a / 2) - 1 radii: 1 cuts those above 60 degrees.
   double trim = 1;
   Route route = Route::roomy;
 };
 
-/// The main path of each connected part with an edge, by increasing lowest node: along the given
-/// route between the two ends that are farthest apart (by the largest reach of a shortest way
-/// between them), trimmed unless nothing would remain. A bare cycle is its own main path. O(n),
-/// with holes at most 100 searches of O(n log n).
+/// The main path of each connected part with an edge, by increasing lowest node. It joins the two
+/// ends of the axis whose shortest way has the largest reach, along `route`, and is trimmed unless
+/// nothing would remain. A part that is a cycle only is its own main path. O(n). With holes a
+/// search of O(n log n) for each end that may be one of the two, at most 100; AxisPath::gap bounds
+/// what better ends could add.
 std::vector<AxisPath> main_paths(const MedialAxis& axis, const MainPathOptions& options = {});
 
 struct CentreLineOptions {
@@ -82,12 +80,11 @@ struct CentreLineOptions {
 };
 
 /// A path as an axis of one chain of exact edges. Extensions are straight, with the site where they
-/// end on both sides. A smoothed line is sampled: straight edges without sites, nodes with their
-/// distance to the boundary as radius. O(path + sites), smoothed O(samples log n).
+/// end on both sides. A smoothed line is sampled: straight edges without sites. O(path + sites),
+/// smoothed O(samples log n).
 MedialAxis centre_line(const Shape& shape, const MedialAxis& axis, const AxisPath& path,
                        const CentreLineOptions& options = {});
 
-/// A shape with its narrow parts collapsed.
 struct CollapsedShape {
   Shape polygons;  ///< the union of the maximal disks that stay; arcs of half the width face lines
   MedialAxis lines;  ///< the axis of the narrow parts, from polygon to polygon; without corners

@@ -11,7 +11,7 @@ struct CurvePiece {
   double bulge = 0;          ///< of an arc (degree 1): see Ring
 };
 
-/// A free-form boundary: pieces end to end. A straight piece closes a contour whose ends differ.
+/// A curve of pieces end to end. A straight piece closes a contour whose ends differ.
 struct Contour {
   std::vector<Vec2> points;     ///< control points; neighbouring pieces share one
   std::vector<double> weights;  ///< of each control point, positive; empty: all 1
@@ -39,7 +39,7 @@ struct Contour {
 
 /// The edges of a closed ring or an open chain, without those of zero length; `bulges` as in Ring.
 Contour contour_of(std::span<const Vec2> points, std::span<const double> bulges, bool closed);
-
+/// The same curve from its end to its start, with its role.
 Contour reversed(const Contour& contour);
 
 struct ArcOptions {
@@ -48,7 +48,6 @@ struct ArcOptions {
   int threads = 0;       ///< see Options
 };
 
-/// What approximate_by_arcs() did.
 struct ArcReport {
   std::uint64_t pieces = 0;    ///< of the contours
   std::uint64_t spirals = 0;   ///< pieces of monotone curvature without inflection

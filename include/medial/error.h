@@ -33,16 +33,15 @@ enum class ErrorCode : std::uint8_t {
   internal,        ///< a broken promise of the library itself: please report
 };
 
-/// The name of a code as it is spelled above, for example "crossing".
-const char* name_of(ErrorCode code);
+const char* name_of(ErrorCode code);  ///< as it is spelled above
 
-/// Where it went wrong; every part is optional.
+/// Where it went wrong; every part is optional. Indices count from 0.
 struct Place {
   std::string file;
-  std::optional<std::uint64_t> feature;  ///< index of the feature (shape) in the file, from 0
-  std::optional<std::uint64_t> ring;     ///< index of the ring in the input, from 0
-  std::optional<std::uint64_t> vertex;   ///< index of the vertex in that ring, from 0
-  std::optional<std::uint64_t> face;     ///< index of the face of a mesh, from 0
+  std::optional<std::uint64_t> feature;  ///< index in the file
+  std::optional<std::uint64_t> ring;     ///< index in the feature, or in what was given
+  std::optional<std::uint64_t> vertex;   ///< index in the ring
+  std::optional<std::uint64_t> face;     ///< index in the mesh
   std::optional<Vec2> point;             ///< coordinates, in units of the input
   std::optional<double> z;               ///< the third coordinate of the point, in space
   std::optional<std::uint64_t> line;     ///< line of a text file, from 1

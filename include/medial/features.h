@@ -1,8 +1,7 @@
 #pragma once
 
-// The features of a shape by its axis, of any method: points, branches, and the primitives of
-// branches, after Blum and Nagel (Pattern Recognition 10, 1978) and Volkmann and St. Clair (Section
-// II.A.1, Figs 4 to 7), see docs/features.md. And how alike two shapes are by these.
+// The features of a shape by its axis: points, branches, and their primitives, after Blum and Nagel
+// (1978) and Volkmann and St. Clair (Section II.A.1, Figs 4 to 7); and how alike two shapes are.
 
 #include "medial/axis.h"
 #include "medial/shape.h"
@@ -45,8 +44,8 @@ const char* name_of(PointKind kind);
 const char* name_of(Primitive primitive);
 const char* name_of(Variation variation);
 
-/// How a run, a part of a branch, is classified, by numbers without a unit. Its slope, bend,
-/// turning and spiral come from least-squares quadratics of its radius and direction by length.
+/// How a run, a part of a branch, is classified, by numbers without a unit: from least-squares
+/// quadratics of its radius and its direction by length.
 struct FeatureOptions {
   double parallel = 0.05;  ///< a worm's radius changes by at most this times the run's length ...
   double even = 0.1;       ///< ... and times its mean; other runs without bend are wedges
@@ -56,7 +55,6 @@ struct FeatureOptions {
   double shortest = 0.25;  ///< shorter runs, by their mean radius, join a neighbour
 };
 
-/// A place on a branch.
 struct AxisPlace {
   std::uint32_t edge = 0;
   double t = 0;  ///< parameter on that edge
@@ -85,19 +83,16 @@ struct BoundarySection {
   double length = 0;
 };
 
-/// One branch, from its deeper end to the other; of equally deep ones from a branching point to an
-/// end; a closed one from where its longest run starts.
+/// One branch from its deeper end, of equally deep ones from a branching point; a closed one from
+/// where its longest run starts.
 struct BranchFeatures {
-  std::uint32_t branch = 0;  ///< index in branches(axis)
-  bool reversed = false;     ///< whether it runs against branches(axis)
-  bool closed = false;       ///< without an end or branching point (Fig 5)
-  std::uint32_t from = 0;    ///< node
-  std::uint32_t to = 0;      ///< node
-  PointKind from_kind = PointKind::normal;
-  PointKind to_kind = PointKind::normal;
+  std::uint32_t branch = 0;        ///< index in branches(axis)
+  bool reversed = false;           ///< whether it runs against branches(axis)
+  bool closed = false;             ///< without an end or branching point (Fig 5)
+  std::uint32_t from = 0, to = 0;  ///< nodes
+  PointKind from_kind = PointKind::normal, to_kind = PointKind::normal;
   double length = 0;
-  double smallest_radius = 0;
-  double largest_radius = 0;
+  double smallest_radius = 0, largest_radius = 0;
   double mean_width = 0;        ///< twice the mean radius along the branch
   double turning = 0;           ///< radians, positive to the left
   double absolute_turning = 0;  ///< without signs: how much it bends in all
@@ -113,15 +108,12 @@ struct BranchFeatures {
   std::uint32_t run_count = 0;
 };
 
-/// The features of one axis.
 struct AxisFeatures {
   std::vector<PointKind> points;         ///< of each node
   std::vector<BranchFeatures> branches;  ///< in the order of branches(axis); without length: none
   std::vector<PrimitiveRun> runs;        ///< branch after branch
   // Of the whole.
-  std::uint64_t ends = 0;
-  std::uint64_t branchings = 0;
-  std::uint64_t closed_branches = 0;
+  std::uint64_t ends = 0, branchings = 0, closed_branches = 0;
   std::uint64_t components = 0;
   std::uint64_t cycles = 0;  ///< independent ones: the shape's holes
   double length = 0;
@@ -133,10 +125,9 @@ struct AxisFeatures {
   std::array<std::array<double, variation_count>, primitive_count> share{};
 };
 
-/// Describes an axis. Exact branches are cut where the signs of dR/ds, its derivative, the
-/// curvature and its derivative change, sampled ones at every node; then runs are merged by
-/// FeatureOptions. Does not depend on rotation, scale, translation, numbering and direction of the
-/// input but for rounding; reflection swaps left and right. O(n log n), memory O(n).
+/// Describes an axis: cuts exact branches where the signs of dR/ds, its derivative, the curvature
+/// and its derivative change, sampled ones at every node; then merges runs by FeatureOptions.
+/// Depends on shape alone, but for rounding; reflection swaps left and right. O(n log n).
 AxisFeatures describe(const MedialAxis& axis, const FeatureOptions& options = {});
 
 /// A shape in a few numbers without units, the same for rotated, scaled and mirrored images:

@@ -4,10 +4,9 @@
 #include <cmath>
 #include <limits>
 
-// Points, disks and boxes of the plane, in the units of the input.
+// Points, disks and boxes of the plane and vectors of space, in the units of the input.
 namespace medial {
 
-/// A point or vector.
 struct Vec2 {
   double x = 0;
   double y = 0;
@@ -47,7 +46,6 @@ struct Box {
     return {{endless, endless}, {-endless, -endless}};
   }
   bool is_nothing() const { return !(low.x <= high.x); }
-  /// Grows to hold a point, or another box.
   void add(Vec2 p) { add(Box{p, p}); }
   void add(const Box& box) {
     low = {std::min(low.x, box.low.x), std::min(low.y, box.low.y)};
@@ -58,5 +56,28 @@ struct Box {
 inline double diagonal(const Box& box) {
   return std::hypot(box.high.x - box.low.x, box.high.y - box.low.y);
 }
+
+struct Vec3 {
+  double x = 0;
+  double y = 0;
+  double z = 0;
+
+  constexpr double operator[](int axis) const { return axis == 0 ? x : axis == 1 ? y : z; }
+  constexpr double& operator[](int axis) { return axis == 0 ? x : axis == 1 ? y : z; }
+
+  friend constexpr Vec3 operator+(Vec3 a, Vec3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+  friend constexpr Vec3 operator-(Vec3 a, Vec3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+  friend constexpr Vec3 operator*(double s, Vec3 a) { return {s * a.x, s * a.y, s * a.z}; }
+  friend constexpr Vec3 operator-(Vec3 a) { return {-a.x, -a.y, -a.z}; }
+  friend constexpr bool operator==(Vec3, Vec3) = default;
+};
+
+constexpr double dot(Vec3 a, Vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+constexpr Vec3 cross(Vec3 a, Vec3 b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+constexpr double squared_norm(Vec3 a) { return dot(a, a); }
+inline double norm(Vec3 a) { return std::sqrt(dot(a, a)); }
+inline double distance(Vec3 a, Vec3 b) { return norm(a - b); }
 
 }  // namespace medial

@@ -1,7 +1,6 @@
 #pragma once
 
-// From the features of a file to shapes, planar graphs and axes, many at a time. No files here:
-// medial/io/read.h begins with a file's name.
+// From the features of a file to shapes, planar graphs and axes. medial/io/read.h reads files.
 
 #include "medial/compute.h"
 #include "medial/document.h"
@@ -45,12 +44,13 @@ struct LoadOptions {
   /// Splits edges that cross (ShapeOptions::node_crossings); the rule decides what is inside. Rings
   /// of straight edges alone are first tried as they are.
   RepairRule repair = RepairRule::none;
-  ArcOptions arcs;  ///< how free-form curves become arcs
-  double fit = 0;   ///< boundaries become smooth within this (fit_smooth_contour()); 0: no
-  bool keep_contours = false;                 ///< fills ShapeItem::contours, from rings as well
-  int threads = 0;                            ///< see Options
-  std::function<void(double)> progress = {};  ///< the share that is done, from any thread
-  const std::atomic<bool>* cancel = nullptr;  ///< when true: ErrorCode::cancelled
+  ArcOptions arcs;            ///< how free-form curves become arcs
+  bool skip_invalid = false;  ///< leaves features out that make no shape, with a note each
+  double fit = 0;  ///< boundaries become smooth within this (fit_smooth_contour()); 0: no
+  bool keep_contours = false;  ///< fills ShapeItem::contours, from rings as well
+  int threads = 0;             ///< see Options, as the next two
+  std::function<void(double)> progress = {};
+  const std::atomic<bool>* cancel = nullptr;
 };
 
 /// Summed over all features.
@@ -60,20 +60,20 @@ struct LoadReport {
 };
 
 /// The shape of each feature, in order: fill rules, curves to arcs, repair. Notes say what a repair
-/// changed. Errors: those of approximate_by_arcs(), build_shape() and fit_smooth_contour(), with
-/// feature, ring and vertex; empty; cancelled.
+/// changed, and which features `skip_invalid` left out and why. Errors: those of
+/// approximate_by_arcs(), build_shape() and fit_smooth_contour(), with feature, ring and vertex;
+/// empty; cancelled.
 Result<Document<ShapeItem>> load_shapes(Document<Feature> features, const LoadOptions& options = {},
                                         LoadReport* report = nullptr);
 
-/// Points, lines and boundaries as they are, without making shapes of them.
+/// Points, lines and boundaries as they are.
 struct LoosePieces {
   std::vector<Chain> chains;
   std::vector<std::uint32_t> feature;  ///< of each chain
   Document<Attributes> features;
 };
 
-/// All of one feature, or of all in order, as chains. Errors: those of approximate_by_arcs().
-Result<std::vector<Chain>> chains_of(const Feature& feature, const ArcOptions& options = {});
+/// All that features hold, in order, as chains. Errors: those of approximate_by_arcs().
 Result<LoosePieces> load_loose(Document<Feature> features, const ArcOptions& options = {});
 
 /// Errors: those of build_planar_graph(), with feature, ring in it, and vertex.
@@ -81,9 +81,9 @@ Result<PlanarGraph> planar_graph_of(const LoosePieces& pieces,
                                     const PlanarGraphOptions& options = {});
 
 /// Calls use(graph) with planar_graph_of(pieces). After an error `unsupported` with ring and point,
-/// for things that rounding cannot separate, calls it again with graphs in which they touch, for
-/// increasing distances (PlanarGraphOptions::reach). Returns the distance, 0 for none. Errors:
-/// those of planar_graph_of(), and the last one of `use`.
+/// for things that rounding cannot separate, again with graphs in which they touch (by increasing
+/// PlanarGraphOptions::reach). Returns that reach, or 0. Errors: those of planar_graph_of(), and
+/// the last one of `use`.
 Result<double> with_planar_graph(const LoosePieces& pieces, bool node_crossings,
                                  const std::function<Status(PlanarGraph& graph)>& use);
 

@@ -2,13 +2,10 @@
 
 // How wide a shape is, by its axis: profiles, transects, necks, means, largest disks.
 
-#include <span>
-
 #include "medial/centreline.h"
 
 namespace medial {
 
-/// The width at one place of the axis.
 struct LocalWidth {
   double along = 0;  ///< the length of the path up to here
   Disk disk;
@@ -23,6 +20,12 @@ struct LocalWidth {
 std::vector<LocalWidth> widths_along(const MedialAxis& axis, const AxisPath& path,
                                      std::span<const double> lengths);
 
+/// The same with transects across the path's course over a disk's diameter, from boundary to
+/// boundary: their ends in place of the feet, which swing to and fro where single vertices stick
+/// in. O(path + lengths * boundary).
+std::vector<LocalWidth> transects_along(const Shape& shape, const MedialAxis& axis,
+                                        const AxisPath& path, std::span<const double> lengths);
+
 /// The maximum inscribed circle; of equal ones, that of the lowest edge. Requires a node. O(edges).
 Disk deepest_disk(const MedialAxis& axis);
 
@@ -30,8 +33,7 @@ Disk deepest_disk(const MedialAxis& axis);
 struct Neck {
   EdgePlace place;
   LocalWidth width;
-  /// The largest radius in reach of both sides without passing anything as narrow.
-  double opens_to = 0;
+  double opens_to = 0;       ///< the largest radius that both sides reach through wider parts only
   bool around_hole = false;  ///< both sides lead to the same disk: cutting here separates nothing
   /// By how much the width grows on both sides.
   double prominence() const { return 2 * (opens_to - width.disk.radius); }
@@ -42,7 +44,6 @@ struct Neck {
 /// parallel walls the middle. O(edges log edges).
 std::vector<Neck> necks(const MedialAxis& axis, double widening = 1.1);
 
-/// Mean widths of a shape.
 struct MeanWidth {
   double length = 0;          ///< of the line
   double area = 0;            ///< of the shape, by its axis
@@ -55,10 +56,9 @@ struct MeanWidth {
 MeanWidth mean_width(const MedialAxis& axis, const AxisPath& path);
 
 /// At most `count` disks without overlap, by decreasing radius, none smaller than `smallest`: each
-/// is the deepest disk of the shape less the disks before it, to the rounding of the coordinates;
-/// the first is the maximum inscribed circle. Needs no axis: branch and bound over squares. O(n)
-/// for the boundary's tree, then O(log n + k) for each square examined and k disks before, of which
-/// real outlines need tens to hundreds for each disk.
+/// is the deepest disk of the shape less the disks before it, to the rounding of the coordinates.
+/// By branch and bound over squares, without an axis: O(n), then O(log n + k) for each square
+/// examined and k disks before; real outlines need tens to hundreds of squares for each disk.
 std::vector<Disk> largest_disjoint_disks(const Shape& shape, std::size_t count,
                                          double smallest = 0);
 

@@ -18,8 +18,7 @@ enum class RidgeSearch : std::uint8_t {
 enum class RidgeRule : std::uint8_t {
   /// The axis passes between the pixel and one of its four neighbours, whose nearest edges are two
   /// places of the boundary; the pixel is the nearer one to equidistance, and within one pixel of
-  /// the axis. Beside the boundary, as
-  /// `difference`.
+  /// the axis. Beside the boundary, as `difference`.
   crossing,
   /// The report's: the distances to the nearest and the second nearest edge, which do not meet at a
   /// concave vertex, differ by less than one pixel. Takes whole regions at details finer than
@@ -68,8 +67,8 @@ struct Brushfire {
   medial::Brushfire family = medial::Brushfire::simultaneous;
 };
 
-/// Valleys of a potential after Ahuja and Chuang; see docs/potential.md. The size is
-/// the larger side of the bounding box.
+/// Valleys of a potential after Ahuja and Chuang (docs/potential.md). The size is the longer side
+/// of the bounding box.
 struct Potential {
   /// n of the force that finds the points, in [1, 4096], any real number; 0: chosen for each point
   /// (the algorithm MAT-Generalized-Polygonal).
@@ -78,8 +77,9 @@ struct Potential {
   /// axis take their place.
   double base_order = 0;
   double step = 0.01;  ///< the longest step, as a share of the size, in [1e-4, 0.1]
-  /// Coarse to fine: refines the skeleton of a polygon this close to the border, as a share of the
-  /// size in [0, 0.2], without branches that the polygon does not have; 0: all. Whole axes only.
+  /// Above 0, from coarse to fine: the skeleton of a polygon that is this close to the border (a
+  /// share of the size, at most 0.2), refined on polygons ever closer to it. Details that the first
+  /// polygon leaves out get no branch. Of whole axes only.
   double coarse = 0;
   /// theta_min in degrees: how much the force may still turn with the order. In (0, 90].
   double angle = 2.56;
@@ -119,9 +119,9 @@ struct MethodInfo {
   const char* name;     ///< on the command line and in MedialAxis::method
   const char* summary;  ///< a few words
   Sampling sampling = Sampling::curves;
-  bool holes = true;      ///< shapes with holes
-  bool arcs = true;       ///< boundaries with arcs
-  bool exterior = true;   ///< Options::exterior
+  bool holes = false;     ///< shapes with holes
+  bool arcs = false;      ///< boundaries with arcs
+  bool exterior = false;  ///< Options::exterior
   bool part = false;      ///< computes a part of an axis
   bool contours = false;  ///< follows smooth contours in place of a shape
   bool threads = false;   ///< uses several threads
@@ -164,52 +164,5 @@ class PotentialField {
   explicit PotentialField(std::unique_ptr<Parts> parts);
   std::unique_ptr<Parts> parts_;
 };
-
-/// A point of the axis as the generation process of method::CurveAxis finds it.
-struct CurveAxisPoint {
-  double length = 0;  ///< along its branch, from the branch's first point
-  Disk disk;
-  double left = 0;   ///< where the disk touches the boundary: index of the contour's piece plus the
-  double right = 0;  ///< parameter on it, in [0, number of pieces)
-};
-
-/// How often each rule of the control process was applied (Section 5.2 of the paper).
-struct CurveAxisRules {
-  std::uint64_t maxima = 0;         ///< positive maxima of curvature on the boundary
-  std::uint64_t skipped = 0;        ///< maxima on boundary that was scanned already
-  std::uint64_t larger = 0;         ///< conflicts that ended a generation (Fig 5a)
-  std::uint64_t smaller = 0;        ///< conflicts that took a point from an older branch (Fig 5b)
-  std::uint64_t junctions = 0;      ///< conflicts at equal radius: merged, redirected (Fig 6)
-  std::uint64_t dissolved = 0;      ///< junctions undone, as their third branch was too long
-  std::uint64_t abandoned = 0;      ///< maxima that belong to no leaf of the axis (Fig 9b)
-  std::uint64_t retreats = 0;       ///< generations stopped by restriction (10) (Fig 7a)
-  std::uint64_t outside_frame = 0;  ///< generations stopped by the frame (Fig 7b)
-  std::uint64_t resumed = 0;        ///< generations resumed where boundary was left
-  std::uint64_t ends = 0;           ///< the end in the last maximum (Fig 8)
-  std::uint64_t meetings = 0;       ///< the end where two branches meet head-on
-};
-
-struct CurveAxis {
-  /// The points as a graph without sites; `resolution` is the largest step. Edges are quadratics
-  /// with the axis's tangents at their ends, off by the fourth power of the step in between.
-  MedialAxis axis;
-  /// The discrete parametric axis: one for each chain of edges between leaves and branchings.
-  std::vector<std::vector<CurveAxisPoint>> branches;
-  CurveAxisRules rules;
-};
-
-/// The medial axis of one smooth closed curve, followed from the boundary's maxima of curvature:
-/// Shaked and Bruckstein, "The Curve Axis", 1996. Each point is a zero of (14), as exact as the
-/// curve. The contour has any orientation; its pieces join with one direction and, to a hundredth,
-/// one curvature. Time grows with the number of points, and with the square of that of maxima.
-///
-/// Errors: not_finite, invalid_option, cancelled, too_large (20,000 pieces, 2^21 points, some
-/// seconds of work), unsupported (not smooth, with the place; more than one contour; no maximum of
-/// curvature, as for a circle; a disk that the boundary enters by more than 1e-5 of the size, or
-/// boundary that no branch reaches: the method has gone astray), crossing and others of
-/// build_shape().
-Result<CurveAxis> compute_curve_axis(std::span<const Contour> contours,
-                                     const method::CurveAxis& options = {},
-                                     const std::atomic<bool>* cancel = nullptr);
 
 }  // namespace medial

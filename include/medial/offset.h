@@ -17,24 +17,21 @@ struct OffsetRegion {
   std::uint32_t parent = no_region;  ///< the one around it at the next smaller clearance, if any
 };
 
-/// Offset curves and how they nest.
 struct Offsets {
   /// By increasing clearance, parents first; those of one clearance are disjoint but for rounding.
   std::vector<OffsetRegion> regions;
   double tolerance = 0;  ///< of the axes: about what a curve's clearance is off by
   /// Of buffers: the region of the smallest distance around each point of the planar graph.
   std::vector<std::uint32_t> region_of_point = {};
-  double seconds_axis = 0;    ///< to compute axes
-  double seconds_curves = 0;  ///< to walk along them
+  double seconds_axis = 0, seconds_curves = 0;  ///< to compute axes, and to walk along them
 };
 
 /// The regions {clearance > c} for all `clearances` at once, of an axis of the interior. Duplicates
 /// count once; values of at least the largest radius have no region; a corridor exactly 2 c wide
-/// belongs to none. Rings are within a few tolerances of the distance c from the boundary. They
-/// have at most an edge for each site whose Voronoi cell they cross, and for each gap of the feet
-/// that an arc closes; edges turn by at most a half circle. O(n log m + size of the result) for n
-/// sites and m clearances. Errors: invalid_option (a clearance that is not positive and finite),
-/// unsupported (an axis that is sampled or of the exterior).
+/// belongs to none. Rings are within a few tolerances of the distance c from the boundary; edges
+/// turn by at most a half circle. O(n log m + size of the result) for n sites and m clearances.
+/// Errors: invalid_option (a clearance that is not positive and finite), unsupported (an axis that
+/// is sampled or of the exterior).
 Result<Offsets> inward_offsets(const MedialAxis& axis, std::span<const double> clearances);
 
 /// The same of a shape; a negative clearance c gives the shape grown by -c. Ignores `exterior` and
@@ -53,8 +50,7 @@ Result<Offsets> offset_curves(const PlanarGraph& planar_graph, std::span<const d
 /// Errors: invalid_option (first or step not positive), too_large (over 1e6 passes).
 Result<std::vector<double>> offset_passes(const MedialAxis& axis, double first, double step);
 
-/// The length of all rings, and the area that they enclose.
-double length(const OffsetRegion& region);
+double length(const OffsetRegion& region);  ///< of all rings
 double area(const OffsetRegion& region);
 
 }  // namespace medial

@@ -8,7 +8,7 @@
 
 #include "medial/axis.h"
 #include "medial/error.h"
-#include "medial/image.h"
+#include "medial/raster.h"
 #include "medial/shape.h"
 
 namespace medial {
@@ -32,9 +32,9 @@ struct PackReport {
   double quantum = 0;          ///< step of the numbers, in units of the input
 };
 
-/// Codes axes: drops branches that the disk at their base, grown by a part of the error, covers
-/// (erosion thickness); makes polylines of disks of the others. O(n log n). Errors: invalid_option
-/// (an error that is not positive, or below 2^-40 of the coordinates), not_finite.
+/// Drops branches that the disk at their base, grown by a part of the error, covers (erosion
+/// thickness); codes the others as polylines of disks. O(n log n). Errors: invalid_option (an error
+/// that is not positive, or below 2^-40 of the coordinates), not_finite.
 Result<ShapeCode> encode_axes(std::span<const MedialAxis> axes, const PackOptions& options,
                               PackReport* report = nullptr);
 
@@ -43,7 +43,7 @@ Result<ShapeCode> encode_axes(std::span<const MedialAxis> axes, const PackOption
 /// unsupported.
 Result<std::vector<MedialAxis>> decode_axes(const ShapeCode& code);
 
-/// The boundary simplified within `error` (Douglas and Peucker), to compare sizes; has no decoder.
+/// The boundary simplified within `error` (Douglas, Peucker), to compare sizes; without a decoder.
 Result<ShapeCode> encode_boundary(std::span<const Shape> shapes, double error);
 
 struct SquareReport {

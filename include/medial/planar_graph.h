@@ -11,18 +11,16 @@ struct Chain {
   bool closed = false;              ///< an edge leads from the last point to the first
 };
 
-/// A segment or an arc of at most a half circle of a PlanarGraph.
+/// A segment, or an arc of at most a half circle.
 struct PlanarGraphEdge {
-  std::uint32_t from = 0;  ///< index of a point
-  std::uint32_t to = 0;
+  std::uint32_t from = 0, to = 0;  ///< indices of points
   double bulge = 0;
   VertexSource source;  ///< chain of the input, and the vertex in it before the edge
 };
 
 /// A point without any edge.
 struct LonePoint {
-  std::uint32_t point = 0;
-  std::uint32_t face = 0;
+  std::uint32_t point = 0, face = 0;
 };
 
 /// Points, segments and arcs that share ends only: a plane graph.
@@ -54,14 +52,13 @@ struct PlanarGraph {
 
 struct PlanarGraphOptions {
   bool node_crossings = false;  ///< splits edges where they cross: see ShapeOptions
-  /// What comes this close touches. 0: the tolerance among arcs; exact contact only without.
+  /// What comes this close touches: points become one, edges pass through them. Not less than the
+  /// tolerance where there are arcs; otherwise 0 stands for exact contact.
   double reach = 0;
 };
 
-/// What build_planar_graph() found and mended.
 struct PlanarGraphReport {
-  std::uint64_t input_chains = 0;
-  std::uint64_t input_points = 0;
+  std::uint64_t input_chains = 0, input_points = 0;
   std::uint64_t repeated_points = 0;  ///< points that repeat another, or lie on an end
   std::uint64_t repeated_edges = 0;   ///< edges that repeat another, in either direction
   std::uint64_t touching_places = 0;  ///< points that several edges share
@@ -69,12 +66,10 @@ struct PlanarGraphReport {
   std::uint64_t crossings = 0;        ///< places where edges crossed (PlanarGraphOptions)
 };
 
-/// Makes a planar graph of loose pieces. O(n log n).
-///
-/// Drops repeated points and edges. Edges may share ends; an edge is split where an end or a point
-/// lies inside it. Decisions are exact, or within the tolerance with arcs, and arcs are split and
-/// straightened, as in build_shape(). Errors: not_finite, crossing, overlap, unsupported (with
-/// chain, vertex and point), empty, too_large.
+/// Makes a planar graph of loose pieces: drops repeated points and edges, and splits an edge where
+/// an end or a point lies inside it. Decisions are exact, or within the tolerance with arcs, and
+/// arcs are split and straightened, as in build_shape(). O(n log n). Errors: not_finite, crossing,
+/// overlap, unsupported (with chain, vertex and point), empty, too_large.
 Result<PlanarGraph> build_planar_graph(std::span<const Chain> chains,
                                        const PlanarGraphOptions& options = {},
                                        PlanarGraphReport* report = nullptr);

@@ -29,7 +29,7 @@ enum class PruneMeasure : std::uint8_t {
   scale,      ///< points: grown by this factor >= 1, another grown disk covers it (Giesen et al.)
 };
 
-/// All measures, and their names as spelled above.
+/// All measures; their names as spelled above.
 const std::vector<PruneMeasure>& prune_measures();
 const char* name_of(PruneMeasure measure);
 std::optional<PruneMeasure> prune_measure_from(std::string_view name);
@@ -39,16 +39,16 @@ double default_threshold(PruneMeasure measure);
 struct PruneOptions {
   PruneMeasure measure = PruneMeasure::prominence;
   std::optional<double> threshold = {};  ///< nothing: the default of the measure
-  /// Instead, keep at most this many branches, those that matter most; but always the cycles.
+  /// In place of a threshold: keep at most this many branches, those that matter most. More stay
+  /// only where the cycles alone, which always stay, have more.
   std::optional<std::uint64_t> keep = {};
   bool tips = false;  ///< extend each end to a tip, along the way that reaches farthest
 };
 
-/// What prune() did; branches as branches() counts them.
+/// Branches as branches() counts them.
 struct PruneReport {
   double threshold = 0;  ///< what was kept matters at least so much
-  std::uint64_t edges_before = 0, edges = 0;
-  std::uint64_t branches_before = 0, branches = 0;
+  std::uint64_t edges_before = 0, edges = 0, branches_before = 0, branches = 0;
   std::uint64_t cuts = 0;  ///< edges cut in their inside
 };
 
@@ -61,14 +61,12 @@ class PruneOrder {
   PruneOrder(const MedialAxis& axis, PruneMeasure measure, bool tips = false);
   ~PruneOrder();
   PruneOrder(PruneOrder&&) noexcept;
-
   /// The largest threshold that keeps some of an edge. Infinite on cycles and between them.
   double of_edge(std::uint32_t edge) const;
-  /// What matters at least `threshold`, by increasing edge. O(n).
+  /// What matters at least `threshold`, by increasing edge; as an axis with nodes and edges in
+  /// their order and all sites; its branches, and its edges that are cut in their inside. O(n).
   std::vector<PathPiece> parts(double threshold) const;
-  /// The same as an axis: nodes and edges in their order, all sites. O(n).
   MedialAxis at(double threshold) const;
-  /// The number of its branches, and of its edges that are cut in their inside. O(n).
   std::uint64_t branches_at(double threshold) const;
   std::uint64_t cuts_at(double threshold) const;
   /// The lowest threshold that keeps at most so many branches, or else the fewest. O(n log n).
@@ -79,7 +77,7 @@ class PruneOrder {
   std::unique_ptr<Parts> parts_;
 };
 
-/// Prunes an axis: see PruneOrder. Errors: invalid_option (a threshold that is negative or no
+/// PruneOrder::at() the threshold. Errors: invalid_option (a threshold that is negative or no
 /// number, or both a threshold and a number of branches).
 Result<MedialAxis> prune(const MedialAxis& axis, const PruneOptions& options = {},
                          PruneReport* report = nullptr);

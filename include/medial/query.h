@@ -47,13 +47,11 @@ struct Step {
 /// Blum's medial branch: a chain of edges between leaves and branchings, or a closed chain.
 struct Branch {
   std::vector<Step> steps;
-  std::uint32_t from = 0;  ///< node
-  std::uint32_t to = 0;    ///< node; == from for a closed chain
+  std::uint32_t from = 0, to = 0;  ///< nodes; one and the same for a closed chain
 };
 
-/// All branches, each edge in exactly one, ordered by their lowest edge. O(edges).
+/// All branches, each edge in exactly one, ordered by their lowest edge; or their number. O(edges).
 std::vector<Branch> branches(const MedialAxis& axis);
-/// Their number, with a few bytes of memory per node. O(edges).
 std::uint64_t branch_count(const MedialAxis& axis);
 
 /// The node of the largest radius (the lowest index among equals): its disk is the maximum

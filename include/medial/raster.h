@@ -6,9 +6,57 @@
 #include <string_view>
 
 #include "medial/contour.h"
-#include "medial/image.h"
 
 namespace medial {
+
+/// Whether the diagonal is below 2^16 pixels, as required: then squared distances fit 32 bits.
+bool fits_image(std::uint64_t width, std::uint64_t height);
+
+/// A binary image: one bit per pixel, set in the foreground. Rows go from the top down; pixel (x,
+/// y) is the square [x, x + 1] x [y, y + 1]. Connectedness is by eight neighbours in the foreground
+/// and by four in the background, to which all outside of the image belongs.
+class Image {
+ public:
+  Image() = default;
+  Image(std::uint32_t width, std::uint32_t height)
+      : width_(width),
+        height_(height),
+        stride_((std::size_t{width} + 63) / 64),
+        words_(stride_ * height, 0) {}
+
+  std::uint32_t width() const { return width_; }
+  std::uint32_t height() const { return height_; }
+  /// Whether a pixel is foreground; false outside of the image.
+  bool at(std::int64_t x, std::int64_t y) const {
+    if (x < 0 || y < 0 || x >= width_ || y >= height_) return false;
+    const auto column = static_cast<std::size_t>(x);
+    return (row(static_cast<std::uint32_t>(y))[column / 64] >> (column % 64)) & 1;
+  }
+  void set(std::uint32_t x, std::uint32_t y, bool value = true) {
+    std::uint64_t& word = row(y)[x / 64];
+    const std::uint64_t bit = std::uint64_t{1} << (x % 64);
+    word = value ? word | bit : word & ~bit;
+  }
+
+  /// A row, or all rows, as words: pixel x is bit x % 64 of word x / 64. Bits beyond the width must
+  /// stay 0.
+  std::span<std::uint64_t> row(std::uint32_t y) {
+    return std::span(words_).subspan(y * stride_, stride_);
+  }
+  std::span<const std::uint64_t> row(std::uint32_t y) const {
+    return std::span(words_).subspan(y * stride_, stride_);
+  }
+  std::span<const std::uint64_t> words() const { return words_; }
+
+  std::uint64_t count() const;  ///< of foreground pixels
+  friend bool operator==(const Image&, const Image&) = default;
+
+ private:
+  std::uint32_t width_ = 0;
+  std::uint32_t height_ = 0;
+  std::size_t stride_ = 0;
+  std::vector<std::uint64_t> words_;
+};
 
 struct Topology {
   std::uint64_t components = 0;  ///< of the foreground, by eight neighbours
@@ -21,11 +69,10 @@ Topology topology(const Image& image);
 
 /// How a fire keeps components, holes and end points (Volkmann and St. Clair 1987, Section II.B.1).
 enum class Brushfire : std::uint8_t {
-  sequential,    ///< decides pixel after pixel (Rosenfeld and Kak 1982); a pass goes through four
-                 ///< subfields in turn
+  sequential,    ///< pixel after pixel, in four subfields in turn (Rosenfeld and Kak 1982)
   sides,         ///< from the north, south, west and east in turn (Rosenfeld 1975)
-  marking,       ///< marks all border pixels, then deletes them; alternates two kinds of marks, so
-                 ///< that lines two pixels wide shrink to one (Guo and Hall 1989, algorithm A1)
+  marking,       ///< marks border pixels, then deletes them, by two rules in turn (Guo and Hall
+                 ///< 1989, algorithm A1): lines two pixels wide shrink to one
   simultaneous,  ///< from all sides at once; of pixels that may not all go, the critical cliques,
                  ///< one stays (Bertrand and Couprie 2008)
 };
@@ -36,10 +83,8 @@ std::optional<Brushfire> brushfire_from(std::string_view name);
 
 struct BrushfireOptions {
   Brushfire family = Brushfire::simultaneous;
-  /// Called after each pass with the share of pixels that are decided, in [0, 1]; must not throw.
-  std::function<void(double)> progress = {};
-  /// Set to true, it ends the work after the pass with ErrorCode::cancelled.
-  const std::atomic<bool>* cancel = nullptr;
+  std::function<void(double)> progress = {};  ///< after each pass: the share of decided pixels
+  const std::atomic<bool>* cancel = nullptr;  ///< see Options; after a pass
 };
 
 /// Thins the foreground to lines by a brushfire. The result is part of the image and has its
@@ -50,22 +95,20 @@ Result<Image> thin(const Image& image, const BrushfireOptions& options = {});
 /// What the distance of a pixel's centre is measured to.
 enum class DistanceTo : std::uint8_t {
   pixels,  ///< the centre of the nearest background pixel, as usual for images
-  cracks,  ///< the boundary of the foreground pixels' squares: the radius of the largest disk
-           ///< inside
+  cracks,  ///< the boundary of the foreground pixels' squares
 };
 
 struct DistanceOptions {
   DistanceTo to = DistanceTo::pixels;
-  bool frame = true;  ///< pixels outside of the image are background; always so to cracks
-  int threads = 0;    ///< see Options
+  bool outside_is_background = true;  ///< outside of the image; always so to cracks
+  int threads = 0;                    ///< see Options
 };
 
 /// The distance of every pixel, row after row.
 struct DistanceMap {
-  std::uint32_t width = 0;
-  std::uint32_t height = 0;
-  /// Squared distances in pixels, exact integers; to cracks four times that. 0 in the background;
-  /// `unbounded` without any.
+  std::uint32_t width = 0, height = 0;
+  /// Squared distances in pixels, exact integers; to cracks four times that. Of background pixels
+  /// 0; everywhere `unbounded` if there is no background.
   std::vector<std::uint32_t> squared;
   DistanceTo to = DistanceTo::pixels;
 
@@ -78,16 +121,10 @@ struct DistanceMap {
   double at(std::uint32_t x, std::uint32_t y) const;
 };
 
-/// The exact Euclidean distance transform (Meijster, Roerdink and Hesselink 2000; Felzenszwalb and
+/// The exact Euclidean distance from the centre of each foreground pixel to the background, as
+/// DistanceOptions::to measures it (Meijster, Roerdink and Hesselink 2000; Felzenszwalb and
 /// Huttenlocher 2012). O(pixels). Errors: invalid_option, too_large, out_of_memory.
 Result<DistanceMap> distance_transform(const Image& image, const DistanceOptions& options = {});
-
-/// The pixels whose centres lie inside the disks around the pixels `centers`, with the distances to
-/// pixels as radii: what an axis of pixels retains of its image. Disks are open, so none reaches a
-/// background pixel. Requires equal sizes. O(sum of the radii).
-Image union_of_disks(const Image& centers, const DistanceMap& distances);
-/// The same for any disks, in coordinates of pixels, as an image of this size.
-Image union_of_disks(std::uint32_t width, std::uint32_t height, std::span<const Disk> disks);
 
 /// The exact boundary of the foreground pixels' squares, with y downwards: one ring around each
 /// component and each hole, as topology() counts them, in the order of their topmost, then leftmost

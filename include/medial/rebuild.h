@@ -1,10 +1,8 @@
 #pragma once
 
-// From an axis back to its shape: exactly, from tangents of sampled disks, or as pixels.
-
 #include "medial/axis.h"
 #include "medial/error.h"
-#include "medial/image.h"
+#include "medial/raster.h"
 #include "medial/shape.h"
 
 namespace medial {
@@ -30,22 +28,20 @@ struct RebuildReport {
   std::uint64_t medial_points = 0;  ///< of tangents and hulls: points on the axis that were used
   std::uint64_t crossings = 0;      ///< where the new boundary crossed itself, and was split
 };
-
 /// The shape of an axis. An exact one gives back its shape, with ends of sites bit for bit; a
 /// pruned one the union of its disks; that of an exterior the surroundings within the enclosure.
 /// O(n log n). Errors: empty (an axis without nodes), those of build_shape().
 Result<Shape> rebuild(const MedialAxis& axis, const RebuildOptions& options = {},
                       RebuildReport* report = nullptr);
 
-/// The union of the disks as pixels.
 struct DiskImage {
   Image image;
   double pixel = 0;  ///< side, in units of the input
   Vec2 corner;       ///< of the image, where x and y are smallest
 };
 
-/// The pixels whose centres lie in one of the disks, in an image of `pixels` along the longer side
-/// of the disks' box, with a margin of one around. The first row has the largest y, or with
+/// The union of the disks: the pixels whose centres lie in one of them, `pixels` along the longer
+/// side of their box, with a margin of one around. The first row has the largest y, or with
 /// `y_down` the smallest. Where radii exceed a pixel, every point a tenth of a pixel inside the
 /// union is covered. Errors: empty, invalid_option (pixels is 0 or above 32768).
 Result<DiskImage> rebuild_image(const MedialAxis& axis, std::uint32_t pixels, bool y_down = false);

@@ -20,8 +20,7 @@ enum class RingRole : std::uint8_t {
 /// A ring as a file gives it: any orientation, closed or not, cleaned or not.
 ///
 /// Edge i goes from points[i] to the next point. Its bulge is the tangent of a quarter of the angle
-/// it spans: 0 straight, 1 a half circle, positive where it turns left. Well-conditioned for all
-/// radii.
+/// it spans: 0 straight, 1 a half circle, positive where it turns left.
 struct Ring {
   std::vector<Vec2> points;
   RingRole role = RingRole::any;
@@ -30,14 +29,11 @@ struct Ring {
 
 /// Where a vertex of a Shape comes from: ring and vertex of the input, from 0.
 struct VertexSource {
-  std::uint32_t ring = 0;
-  std::uint32_t vertex = 0;
+  std::uint32_t ring = 0, vertex = 0;
 };
 
-/// What build_shape() cleaned or rearranged.
 struct ShapeReport {
-  std::uint64_t input_rings = 0;
-  std::uint64_t input_points = 0;
+  std::uint64_t input_rings = 0, input_points = 0;
   std::uint64_t closing_points = 0;     ///< last points equal to the first, dropped
   std::uint64_t unclosed_rings = 0;     ///< rings without a closing point
   std::uint64_t repeated_points = 0;    ///< zero-length edges, dropped
@@ -50,9 +46,9 @@ struct ShapeReport {
 };
 
 struct ShapeOptions {
-  /// Splits edges where they cross. The interior follows the non-zero rule for RingRole::winding,
-  /// the even-odd rule for others. Decides within the tolerance even if all edges are straight. O(n
-  /// log n + p) for p pairs of edges whose bounding boxes meet.
+  /// Splits edges where they cross or overlap, and ignores rings that enclose nothing; RingRole
+  /// says what is inside then. Decides within the tolerance even if all edges are straight. O(n log
+  /// n + p) for p pairs of edges whose bounding boxes meet.
   bool node_crossings = false;
 };
 
@@ -85,10 +81,8 @@ struct Shape {
 /// One loop of a shape, or all, as rings.
 Ring ring_of(const Shape& shape, std::size_t loop);
 std::vector<Ring> rings_of(const Shape& shape);
-
-/// The bounding box, arcs included. O(n).
+/// The bounding box, arcs included; the area without holes. O(n).
 Box bounding_box(const Shape& shape);
-/// The area without holes, in squared units of the input. O(n).
 double area(const Shape& shape);
 
 /// Cleans, checks, orients and nests rings into a Shape. O(n log n).

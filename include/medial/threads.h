@@ -5,8 +5,7 @@ namespace medial {
 /// The largest number of threads that options accept.
 constexpr int most_threads = 1024;
 
-/// The number of threads for a request: 0 means all of the machine, and most_threads is the limit.
-/// 1 where the library is built without threads (MEDIAL_THREADS=OFF).
+/// The number of threads for a request: 0 means all of the machine. 1 in a build without threads.
 int effective_threads(int requested);
 
 /// For programs whose address space or number of processes is limited: tries how many threads the

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "medial/axis.h"
-#include "medial/diagram.h"
 #include "medial/planar_graph.h"
 
 namespace medial {
@@ -15,25 +14,22 @@ struct Certificate {
   double largest_contact_gap = 0;  ///< max |distance to an edge's own two sites - r|
   double largest_uncovered = 0;    ///< max distance from a boundary sample to the union of disks
   double shape_area = 0;
-  double disks_area = 0;      ///< area of the union of the disks
+  double disks_area = 0;      ///< of the union of the disks
   double worst_legality = 0;  ///< max excess over Shaked and Bruckstein's (9), (10); no unit
   std::uint64_t disks_checked = 0;
-  std::uint64_t components = 0;   ///< of the shape
-  std::uint64_t graph_parts = 0;  ///< connected parts of the graph
-  std::uint64_t holes = 0;
-  std::uint64_t cycles = 0;  ///< independent cycles of the graph
-  std::uint64_t convex_corners = 0;
-  std::uint64_t corners_without_leaf = 0;
+  std::uint64_t components = 0, holes = 0;    ///< of the shape
+  std::uint64_t graph_parts = 0, cycles = 0;  ///< of the graph: connected parts, independent cycles
+  std::uint64_t convex_corners = 0, corners_without_leaf = 0;
+  std::uint64_t reflex_vertices = 0, reflex_without_contact = 0;
   std::uint64_t curvature_leaves = 0;  ///< at the centre of an arc of locally largest curvature
   std::uint64_t blunt_joints = 0;      ///< convex, with an arc, below the corner angle: no leaf
   double largest_blunt_angle = 0;      ///< among them, in degrees
-  std::uint64_t reflex_vertices = 0;
-  std::uint64_t reflex_without_contact = 0;
-  double worst_x = 0;  ///< where the largest residual is
-  double worst_y = 0;
-  bool passed = false;                ///< all demands hold
-  std::vector<std::string> failures;  ///< one sentence for each demand that does not hold
-  std::uint64_t unresolved = 0;       ///< failures that only say that pixels miss parts or cycles
+  Vec2 worst;                          ///< where the largest residual is
+  bool passed = false;                 ///< all demands hold
+  std::vector<std::string> failures;   ///< one sentence for each demand that does not hold
+  /// How many of the failures say only that the graph of a sampled axis has other parts or cycles
+  /// than the shape, which happens where the shape is narrower than a pixel.
+  std::uint64_t unresolved = 0;
 };
 
 struct VerifyOptions {
@@ -43,61 +39,56 @@ struct VerifyOptions {
   int samples_per_edge = 8;    ///< points inside every edge, in [0, 2^20]
   double corner_angle = 0.01;  ///< that the axis was computed with; see Options
   int threads = 0;             ///< see Options; more than 1024 count as 1024
+  /// The axis is a part of the shape's: pruned, cut or smoothed. Checks what holds of every part:
+  /// disks, contacts, sides, and no more cycles than holes; the other counts are only reported.
+  bool part = false;
 };
 
 /// Checks an axis against its shape. Shares no code with the engines: it has its own distance
 /// search, area and count of cycles. O(n log n) expected. A shape that compute() refuses as
-/// unsupported does not pass.
+/// unsupported does not pass. At a blunt joint the boundary may be uncovered by the radius times
+/// the joint's angle.
 ///
-/// Of a sampled axis it checks indices and kinds, each radius within half a pixel's diagonal of the
-/// distance to the boundary, and one connected part per component and one cycle per hole, which
-/// places narrower than a pixel can break; the failures name the resolution. It leaves contacts,
-/// corners, coverage and area at 0. Of an axis of the exterior it checks disks, contacts and sides
-/// only, as the edges at the enclosure are missing.
-///
-/// At a blunt joint the boundary may be uncovered by the radius times the joint's angle.
+/// Of a sampled axis it checks indices, kinds, connected parts and cycles, and each radius within
+/// half a pixel's diagonal of the distance to the boundary; it leaves contacts, corners, coverage
+/// and area at 0. Of an axis of the exterior it checks disks, contacts and sides only, as the edges
+/// at the enclosure are missing.
 Certificate verify(const Shape& shape, const MedialAxis& axis, const VerifyOptions& options = {});
 
-/// What verify() measured of a Voronoi diagram. Lengths and areas in units of the input.
 struct VoronoiCertificate {
   double tolerance = 0;            ///< bound of the residuals
   double largest_residual = 0;     ///< max |distance to the nearest site - r|, samples of all edges
   double largest_contact_gap = 0;  ///< max |distance to an edge's own sites - r|
-  double worst_x = 0;              ///< where the largest residual is
-  double worst_y = 0;
+  Vec2 worst;                      ///< where the largest residual is
   std::uint64_t disks_checked = 0;
   std::uint64_t sites = 0;
   std::uint64_t faces = 0;         ///< that are not empty
   std::uint64_t broken_faces = 0;  ///< not closed, not counter-clockwise, or of other sites' edges
-  double frame_area = 0;
+  double enclosure_area = 0;
   double faces_area = 0;  ///< the sum of all
   bool passed = false;
   std::vector<std::string> failures;
 };
 
-/// Checks the diagram of a planar graph, with the distance search of the function above: its sites
-/// are the graph's; every sample of an edge is at its radius from the edge's sites and no nearer to
-/// any other; edges of the enclosure lie on it; each face is one closed counter-clockwise walk
-/// along edges of its site; every edge is in the faces of both of its sites; the diagram is
-/// connected; the faces' areas add up to the enclosure's. So the faces fill it without overlap, and
-/// each holds what is nearest to its site. A diagram without an enclosure (of a polygon) does not
-/// pass. O(n log n) expected. Uses all options but the corner angle.
+/// Checks the diagram of a planar graph: its sites are the graph's; every sample of an edge is at
+/// its radius from the edge's sites and no nearer to any other; edges of the enclosure lie on it;
+/// each face is one closed counter-clockwise walk along edges of its site; every edge is in the
+/// faces of both of its sites; the diagram is connected; the faces' areas add up to the
+/// enclosure's. So the faces fill it without overlap, and each holds what is nearest to its site.
+/// Without an enclosure (of a polygon) none passes. O(n log n) expected. Ignores the corner angle.
 VoronoiCertificate verify(const PlanarGraph& planar_graph, const VoronoiDiagram& diagram,
                           const VerifyOptions& options = {});
 
 struct ShapeDistance {
-  double area = 0;         ///< of the first
-  double other_area = 0;   ///< of the second
-  double from_first = 0;   ///< largest distance from the first's boundary to the second's
-  double from_second = 0;  ///< and back
-  Vec2 worst;              ///< where on a boundary the larger of the two is
+  double area = 0, other_area = 0;         ///< of the first shape and of the second
+  double from_first = 0, from_second = 0;  ///< largest distance of a boundary from the other one
+  Vec2 worst;                              ///< where on a boundary the larger of the two is
   /// The Hausdorff distance of the two boundaries.
   double hausdorff() const { return from_first > from_second ? from_first : from_second; }
 };
 
-/// Measures both boundaries, at their vertices and at `samples` points inside each edge: a lower
-/// bound, less than the distance of two samples too small. 0 if both are empty, infinite if one is.
-/// O(n log n) expected.
+/// Measures at the vertices and at `samples` points inside each edge: a lower bound, less than the
+/// distance of two samples too small. 0 if both are empty, infinite if one is. O(n log n) expected.
 ShapeDistance shape_distance(const Shape& first, const Shape& second, int samples = 7);
 
 }  // namespace medial

@@ -7,7 +7,8 @@
 #include <vector>
 
 #include "medial/error.h"
-#include "medial/vec3.h"
+#include "medial/geometry.h"
+#include "medial/statistics.h"
 
 namespace medial {
 
@@ -17,19 +18,16 @@ struct TriangleMesh {
   std::vector<std::array<std::uint32_t, 3>> faces;  ///< indices into vertices
 };
 
-/// The Betti numbers of something in space.
+/// Betti numbers.
 struct VoxelTopology {
   std::uint64_t components = 0;
   std::int64_t tunnels = 0;
   std::uint64_t cavities = 0;
-
   friend bool operator==(const VoxelTopology&, const VoxelTopology&) = default;
 };
 
-/// What build_solid() repaired.
 struct MeshReport {
-  std::uint64_t input_vertices = 0;
-  std::uint64_t input_faces = 0;
+  std::uint64_t input_vertices = 0, input_faces = 0;
   std::uint64_t joined_vertices = 0;  ///< that had the coordinates of an earlier one
   std::uint64_t unused_vertices = 0;
   std::uint64_t dropped_faces = 0;    ///< with two corners in one place
@@ -38,8 +36,7 @@ struct MeshReport {
 };
 
 /// A bounded part of space with a closed surface: every edge has two faces, every vertex one fan of
-/// faces, faces share corners and edges only, and their normals point out of the solid. Only
-/// vertices that build_solid() parted have equal coordinates.
+/// faces, faces share corners and edges only, and their normals point out of the solid.
 struct Solid {
   TriangleMesh surface;
   std::vector<std::uint32_t> source;  ///< for each face, its index in the input
@@ -54,7 +51,7 @@ struct Solid {
 /// non_manifold, crossing, overlap (of faces beyond corners and edges), no_area, out_of_memory.
 Result<Solid> build_solid(TriangleMesh mesh);
 
-/// How the two nearest faces of a voxel are found. Both give the same answers, bit for bit.
+/// How the two nearest faces of a voxel are found, with the same answers, bit for bit.
 enum class FaceSearch : std::uint8_t {
   tree,         ///< a tree of boxes over the faces
   sorted_list,  ///< the report's: all faces, nearly sorted by lower bounds; O(faces) a voxel
@@ -74,17 +71,15 @@ struct VoxelOptions {
   double angle = 30;
   FaceSearch search = FaceSearch::tree;
   Thinning thinning = Thinning::sheets;
-  int threads = 0;  ///< at most 1024; 0: all of the machine. The result is the same, byte for byte
   std::uint64_t memory = std::uint64_t{4} << 30U;  ///< of the computation, in bytes, about
-  /// Called with the share done, in [0, 1], at last 1, by one thread at a time. Must not throw.
-  std::function<void(double)> progress = {};
-  const std::atomic<bool>* cancel = nullptr;  ///< when true: ErrorCode::cancelled
+  int threads = 0;                                 ///< see Options, as the next two
+  std::function<void(double)> progress = {};       ///< by one thread at a time
+  const std::atomic<bool>* cancel = nullptr;
 };
 
 /// A voxel of the axis: its centre has two points of the surface nearly nearest to it.
 struct Voxel {
   static constexpr std::uint32_t no_face = std::numeric_limits<std::uint32_t>::max();
-
   std::array<std::uint32_t, 3> cell = {};  ///< column, row, layer: x, y, z
   Vec3 center;
   double radius = 0;   ///< distance from the centre to the surface
@@ -92,25 +87,6 @@ struct Voxel {
   std::array<std::uint32_t, 2> face = {no_face, no_face};  ///< of the input, of the two feet
 };
 
-struct VoxelStatistics {
-  std::uint64_t surface_voxels = 0;
-  std::uint64_t interior_voxels = 0;
-  std::uint64_t bounded_sets = 0;    ///< of interior voxels
-  std::uint64_t tested_voxels = 0;   ///< whose two nearest feet were computed
-  std::uint64_t medial_voxels = 0;   ///< below the tolerance, before thinning
-  std::uint64_t bridge_voxels = 0;   ///< added to keep the topology
-  std::uint64_t face_distances = 0;  ///< computed
-  double seconds_tree = 0;
-  double seconds_digitize = 0;
-  double seconds_first = 0;  ///< first medial voxel of each bounded set
-  double seconds_follow = 0;
-  double seconds_bridge = 0;
-  double seconds_thin = 0;
-  double seconds = 0;  ///< all of compute_voxels()
-  int threads = 1;
-};
-
-/// The medial axis of a solid on a grid.
 struct VoxelAxis {
   double resolution = 0;                    ///< edge of a voxel
   Vec3 origin;                              ///< low corner of the cell (0, 0, 0)
@@ -124,10 +100,10 @@ struct VoxelAxis {
   VoxelStatistics statistics;
 };
 
-/// The medial axis of a solid by ridge following, extended to space (docs/voxels.md): interior
-/// voxels with the topology of all interior voxels, by construction. Memory: O(voxels of surface
-/// and axis + volume / 512). Errors: invalid_option, cancelled, empty (no solid), too_large,
-/// malformed (a solid that build_solid() did not make), out_of_memory.
+/// The medial axis of a solid by ridge following (docs/voxels.md): interior voxels with the
+/// topology of all interior voxels, by construction. Memory: O(voxels of surface and axis + volume
+/// / 512). Errors: invalid_option, cancelled, empty (no solid), too_large, malformed (not by
+/// build_solid()), out_of_memory.
 Result<VoxelAxis> compute_voxels(const Solid& solid, const VoxelOptions& options = {});
 
 }  // namespace medial

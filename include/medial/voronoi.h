@@ -1,7 +1,7 @@
 #pragma once
 
+#include "medial/axis.h"
 #include "medial/compute.h"
-#include "medial/diagram.h"
 #include "medial/planar_graph.h"
 
 namespace medial {
@@ -11,16 +11,15 @@ namespace medial {
 Result<VoronoiDiagram> voronoi_diagram(const Shape& shape, const Options& options = {});
 
 /// The Voronoi diagram of a planar graph's points, segments and arcs, by the engine `disks`
-/// (docs/voronoi.md): that of the whole plane, cut off at `frame`. Without a frame, Options::margin
-/// sets its distance from the planar graph's bounding box, as for an exterior. Also uses tolerance,
-/// threads, progress and cancel. O(n log n) expected. Errors: invalid_option (also a frame that the
-/// planar graph touches or leaves), cancelled, empty, too_large, unsupported (coordinates, as in
-/// compute(); among edges, a point nearer to another one or to an edge than rounding can separate,
-/// 64 tolerances, with its place: see PlanarGraphOptions::reach), out_of_memory, internal.
+/// (docs/voronoi.md): that of the whole plane, cut off at `enclosure`, or without one at
+/// Options::margin from the bounding box. Also uses tolerance, threads, progress and cancel. O(n
+/// log n) expected. Errors: those of compute(); invalid_option (an enclosure that the planar graph
+/// touches or leaves), unsupported (a point nearer to another one or to an edge than rounding can
+/// separate, 64 tolerances, with its place: see PlanarGraphOptions::reach).
 Result<VoronoiDiagram> voronoi_diagram(const PlanarGraph& planar_graph, const Options& options = {},
-                                       const std::optional<Box>& frame = {});
+                                       const std::optional<Box>& enclosure = {});
 
-/// The sites of a planar graph's diagram without the diagram, for a SiteLocator. O(n).
+/// The sites of a planar graph's diagram, for a SiteLocator. O(n).
 std::vector<Site> sites_of(const PlanarGraph& planar_graph);
 
 struct NearestSite {
@@ -28,7 +27,6 @@ struct NearestSite {
   Vec2 foot;  ///< its nearest point
   double distance = 0;
 };
-
 /// Finds the nearest site in O(log n) expected, after O(n log n). Keeps a copy of what it needs.
 class SiteLocator {
  public:

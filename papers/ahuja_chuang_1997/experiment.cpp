@@ -92,7 +92,7 @@ std::string order_name(double order) {
 Result<std::vector<NamedShape>> largest_shapes(const std::vector<std::string>& files) {
   std::vector<NamedShape> shapes;
   for (const std::string& path : files) {
-    const auto file = io::read_dataset(path);
+    const auto file = io::read_document(path);
     if (!file) return file.error();
     Shape largest;
     for (const Feature& feature : file->items) {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "medial/axis.h"
-#include "medial/image.h"
+#include "medial/raster.h"
 #include "medial/shape.h"
 
 namespace medial::papers {

@@ -16,6 +16,7 @@
 #include "medial/medial.h"
 #include "methods/lee/lee.h"
 #include "papers/table.h"
+#include "tests/support/corridors.h"
 
 namespace medial::papers {
 namespace {
@@ -70,14 +71,13 @@ Ring regular(std::size_t n) {
   });
 }
 
-/// The corridors of a random spanning tree of a grid, 6 wide in cells of 10; each cell but the last
-/// is open to the right or upwards. Walked along the wall.
+/// The corridors of a random spanning tree: each cell but the last is open to the right or upwards.
 Ring maze(std::size_t n) {
   constexpr double corners_per_cell = 1.75;
   const auto side = std::max<std::size_t>(
       2, static_cast<std::size_t>(std::sqrt(static_cast<double>(n) / corners_per_cell)));
   enum : std::size_t { below, right, above, left };
-  std::vector<std::array<bool, 4>> open(side * side, {false, false, false, false});
+  std::vector<test::OpenSides> open(side * side, test::OpenSides{});
   Random random(1982);
   for (std::size_t cell = 0; cell + 1 < side * side; ++cell) {
     const bool last_column = cell % side + 1 == side, last_row = cell / side + 1 == side;
@@ -85,27 +85,7 @@ Ring maze(std::size_t n) {
     open[cell][upwards ? above : right] = true;
     open[upwards ? cell + side : cell + 1][upwards ? below : left] = true;
   }
-  Ring ring;
-  std::size_t cell = 0, at = below;
-  bool through_passage = false;
-  do {
-    const bool is_open = open[cell][at];
-    if (is_open == through_passage) {
-      const double x = 10 * static_cast<double>(cell % side);
-      const double y = 10 * static_cast<double>(cell / side);
-      ring.points.push_back(
-          {x + (at == right || at == above ? 8 : 2), y + (at == above || at == left ? 8 : 2)});
-    }
-    if (is_open) {
-      const std::array<std::size_t, 4> neighbour{cell - side, cell + 1, cell + side, cell - 1};
-      cell = neighbour[at];
-      at = (at + 3) % 4;
-    } else {
-      at = (at + 1) % 4;
-    }
-    through_passage = is_open;
-  } while (cell != 0 || at != below);
-  return ring;
+  return {test::walls_of(open, side)};
 }
 
 /// One shape of one size.

@@ -381,11 +381,11 @@ Status decision(const std::filesystem::path& path, Rule rule) {
       const Segment& active = control.segments()[static_cast<std::size_t>(d.active)];
       const double largest = 0.35 * stage.boundary.size();
       if (active.branch.size() < 40) return;
-      if (rule != Rule::outside_frame &&
+      if (rule != Rule::outside_box &&
           (d.point.disk.radius > largest ||
            (d.neighbour >= 0 && last_of(control, d.neighbour).disk.radius > largest)))
         return;
-      figure.emplace(stage.frame(rule == Rule::outside_frame ? 1.5 : 1));
+      figure.emplace(stage.frame(rule == Rule::outside_box ? 1.5 : 1));
       figure->thin();
       draw_boundary(*figure, stage.boundary);
       std::size_t which = 0;
@@ -399,7 +399,7 @@ Status decision(const std::filesystem::path& path, Rule rule) {
         draw_disk(*figure, which == 0 ? d.point : last);
         ++which;
       }
-      if (rule == Rule::outside_frame) {
+      if (rule == Rule::outside_box) {
         figure->thin();
         const Vec2 low = stage.boundary.low(), high = stage.boundary.high();
         figure->dashed(std::array{low, Vec2{high.x, low.y}, high, Vec2{low.x, high.y}, low});
@@ -483,7 +483,7 @@ Result<bool> run_shaked_bruckstein_1996(const Request& request) {
       [&] { return decision(at("fig5b.svg"), Rule::smaller); },
       [&] { return junction(at("fig6.svg"), true); },
       [&] { return decision(at("fig7a.svg"), Rule::retreat); },
-      [&] { return decision(at("fig7b.svg"), Rule::outside_frame); },
+      [&] { return decision(at("fig7b.svg"), Rule::outside_box); },
       [&] { return ending(at("fig8.svg")); }, [&] { return result(at("fig9a.svg"), animal()); },
       [&] { return result(at("fig9b.svg"), bean()); });
   if (!drawn) return drawn.error();

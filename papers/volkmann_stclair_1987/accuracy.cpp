@@ -11,6 +11,7 @@
 #include "medial/io/read.h"
 #include "medial/query.h"
 #include "medial/raster.h"
+#include "methods/raster/disks.h"
 #include "papers/table.h"
 #include "papers/volkmann_stclair_1987/volkmann.h"
 

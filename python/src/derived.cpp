@@ -71,6 +71,7 @@ CarveOptions carve_options(const nb::dict& given) {
                        : name == "pass_depth" ? &options.pass_depth
                        : name == "step"       ? &options.step
                        : name == "chord"      ? &options.chord
+                       : name == "ramp"       ? &options.ramp
                                               : nullptr;
     if (to == nullptr) throw nb::type_error(("carve() has no option '" + name + "'").c_str());
     *to = nb::cast<double>(value);
@@ -84,7 +85,7 @@ nb::tuple carved(const AxisOf& self, const nb::dict& given) {
   Carving carving = value_of(run(
       self.axis.edges.size(), [&](const std::atomic<bool>*) { return carve(self.axis, options); }));
   nb::list paths;
-  constexpr std::array<const char*, 3> kinds{"clearing", "wall", "groove"};
+  constexpr std::array<const char*, 4> kinds{"clearing", "wall", "groove", "ramp"};
   for (ToolPath& path : carving.paths)
     paths.append(nb::make_tuple(kinds[static_cast<std::size_t>(path.kind)], path.pass,
                                 rows_of<double>(std::move(path.points))));
@@ -126,7 +127,7 @@ nb::dict certificate(const AxisOf& self, double tolerance, int samples, double c
   result["corners_without_leaf"] = from.corners_without_leaf;
   result["reflex_vertices"] = from.reflex_vertices;
   result["reflex_without_contact"] = from.reflex_without_contact;
-  result["worst"] = nb::make_tuple(from.worst_x, from.worst_y);
+  result["worst"] = nb::make_tuple(from.worst.x, from.worst.y);
   return result;
 }
 

@@ -40,7 +40,9 @@ Loaded load(std::vector<Ring> rings, std::vector<Contour> contours,
   options.keep_contours = keep_contours;
   options.threads = threads;
   Document<Feature> document;
-  document.items.push_back({std::move(rings), std::move(contours), {}, {}, 0, {}});
+  Feature& feature = document.items.emplace_back();
+  feature.rings = std::move(rings);
+  feature.contours = std::move(contours);
   auto loaded = value_of(run(size, [&](const std::atomic<bool>* cancel) {
     options.cancel = cancel;
     return load_shapes(std::move(document), options);

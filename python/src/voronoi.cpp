@@ -88,7 +88,7 @@ nb::tuple edge_columns(const VoronoiOf& self) {
     nodes.push_back(edge.node);
     sites.push_back(edge.site);
     spoke.push_back(edge.spoke ? 1 : 0);
-    frame.push_back(edge.frame ? 1 : 0);
+    frame.push_back(edge.on_enclosure ? 1 : 0);
   }
   return nb::make_tuple(rows_of<std::uint32_t>(std::move(nodes)),
                         rows_of<std::uint32_t>(std::move(sites)), array_of(std::move(spoke)),
@@ -123,7 +123,7 @@ nb::dict checked(const VoronoiOf& self) {
   result["largest_residual"] = from.largest_residual;
   result["largest_contact_gap"] = from.largest_contact_gap;
   result["faces"] = from.faces;
-  result["frame_area"] = from.frame_area;
+  result["frame_area"] = from.enclosure_area;
   result["faces_area"] = from.faces_area;
   return result;
 }
@@ -191,7 +191,7 @@ void bind_voronoi(nb::module_& module) {
       .def("verify", &checked)
       .def("locator", [](const VoronoiOf& self) { return SiteLocator(self.diagram.sites); })
       .def("frame", [](const VoronoiOf& self) {
-        const Box box = self.diagram.frame.value_or(Box{});
+        const Box box = self.diagram.enclosure.value_or(Box{});
         return std::array{box.low.x, box.low.y, box.high.x, box.high.y};
       });
   nb::class_<SiteLocator>(module, "SiteLocator").def("nearest", &nearest_sites);

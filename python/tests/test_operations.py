@@ -13,7 +13,7 @@ def test_prune(rectangle):
     a = medial.axis(bump)
     assert medial.prune(a, "erosion", 0.5).branch_count == 1
     assert medial.prune(a, keep=5).branch_count <= 5
-    assert set(medial.prune_measures()) >= {"prominence", "erosion", "scale"}
+    assert set(medial.prune_measures()) >= {"prominence", "erosion", "scale-axis"}
     with pytest.raises(medial.MedialError):
         medial.prune(a, "nonsense")
     assert medial.smooth(bump, "erosion", 0.5).area < 18.1

@@ -1,8 +1,7 @@
-#include "medial/diagram.h"
-
 #include <algorithm>
 
 #include "base/compat.h"
+#include "medial/axis.h"
 #include "medial/query.h"
 
 namespace medial {

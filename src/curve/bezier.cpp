@@ -156,23 +156,6 @@ CurvaturePolynomials curvature_polynomials(const Bezier& curve) {
   return result;
 }
 
-namespace {
-double value_at(const Polynomial& p, double t) {
-  double value = 0;
-  for (int i = 0; i <= p.degree; ++i) {
-    value += p.c[i] * std::pow(t, i) * std::pow(1 - t, p.degree - i);
-  }
-  return value;
-}
-}  // namespace
-
-double curvature_derivative(const Bezier& curve, double t) {
-  // d/dt (E W^2 S^(-3/2)) = W ((E'W + 2EW') S - 3/2 E W S') S^(-5/2).
-  const CurvaturePolynomials polynomials = curvature_polynomials(curve);
-  const double w = curve.rational ? value_at(from_bernstein(curve.w.data(), curve.degree), t) : 1;
-  return w * value_at(polynomials.apex, t) * std::pow(value_at(polynomials.speed, t), -2.5);
-}
-
 Station station_at(const Bezier& curve, double t, Side side) {
   const Jet jet = evaluate(curve, t);
   const double speed = norm(jet.first);

@@ -39,8 +39,6 @@ void split(const Bezier& curve, double t, Bezier& before, Bezier& after);
 
 /// Signed curvature of a jet, positive where it turns to the left. Infinite at a cusp.
 double curvature(const Jet& jet);
-/// Its derivative by the parameter at t, from the numerator polynomials. For checks, not for speed.
-double curvature_derivative(const Bezier& curve, double t);
 
 /// The polynomials whose zeros split a curve into spirals. With homogeneous coordinates (X, Y, W),
 /// the tangent is along (U, V) = (X'W - XW', Y'W - YW'), and with S = U^2 + V^2 and E = UV' - VU'

@@ -91,11 +91,4 @@ double certified_error(const Bezier& curve, const Arc& arc, double rounding);
 /// the joint.
 double certified_error(const Bezier& curve, const Biarc& biarc, double rounding);
 
-/// Algorithm 2: the largest normal distance at `samples` inner parameters for each arc. An estimate
-/// from below.
-double sampled_error(const Bezier& curve, const Biarc& biarc, int samples);
-/// The alternative of the paper's footnote 2: the largest distance at all zeros of the distance's
-/// derivative. Exact but for rounding.
-double extremal_error(const Bezier& curve, const Biarc& biarc);
-
 }  // namespace medial::curve

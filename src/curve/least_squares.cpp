@@ -184,6 +184,12 @@ void fit(const Outline& outline, Spline& spline) {
   std::size_t edge = 0;
   for (std::size_t i = 0; i < n; ++i) spline.control()[i] = outline.at(spline.begin(i), edge);
   equations.solve(spline.control());
+  // Along an axis the influence of far points decays to values that no coordinate may have.
+  const double least = outline.length() * 0x1p-60;
+  for (Vec2& p : spline.control()) {
+    if (std::abs(p.x) < least) p.x = 0;
+    if (std::abs(p.y) < least) p.y = 0;
+  }
 }
 
 /// The knots with one more in the middle of each span that strays from the outline; as many as
@@ -204,7 +210,7 @@ std::vector<double> refined(const Outline& outline, const Spline& spline, double
 
 }  // namespace
 
-Result<Contour> smoothed_contour(std::span<const Vec2> polygon, double tolerance) {
+Result<std::vector<Vec2>> points_to_fit(std::span<const Vec2> polygon, double tolerance) {
   if (!(tolerance > 0) || !std::isfinite(tolerance))
     return Error{ErrorCode::invalid_option, "the tolerance of the fit must be positive", {}};
   std::vector<Vec2> points;
@@ -216,7 +222,13 @@ Result<Contour> smoothed_contour(std::span<const Vec2> polygon, double tolerance
   while (points.size() > 1 && points.back() == points.front()) points.pop_back();
   if (points.size() < 3)
     return Error{ErrorCode::too_few_points, "fewer than three distinct points", {}};
-  const Outline outline(std::move(points));
+  return points;
+}
+
+Result<Contour> smoothed_contour(std::span<const Vec2> polygon, double tolerance) {
+  auto points = points_to_fit(polygon, tolerance);
+  if (!points) return std::move(points).error();
+  const Outline outline(std::move(points).value());
   constexpr std::size_t fewest = 8;
   std::vector<double> knots;
   for (std::size_t i = 0; i < fewest; ++i)

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <vector>
 
+#include "curve/least_squares.h"
 #include "medial/contour.h"
 
 namespace medial {
@@ -83,17 +84,9 @@ double deviation(const Contour& contour, std::size_t i) {
 }  // namespace
 
 Result<Contour> fit_smooth_contour(std::span<const Vec2> polygon, double tolerance) {
-  if (!(tolerance > 0) || !std::isfinite(tolerance))
-    return Error{ErrorCode::invalid_option, "the tolerance of the fit must be positive", {}};
-  std::vector<Vec2> points;
-  for (const Vec2 p : polygon) {
-    if (!std::isfinite(p.x) || !std::isfinite(p.y))
-      return Error{ErrorCode::not_finite, "a coordinate is not finite", {}};
-    if (points.empty() || !(points.back() == p)) points.push_back(p);
-  }
-  while (points.size() > 1 && points.back() == points.front()) points.pop_back();
-  if (points.size() < 3)
-    return Error{ErrorCode::too_few_points, "fewer than three distinct points", {}};
+  auto checked = points_to_fit(polygon, tolerance);
+  if (!checked) return std::move(checked).error();
+  std::vector<Vec2> points = std::move(checked).value();
   while (true) {
     Contour contour = spline_through(points);
     std::vector<Vec2> finer;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ops/disk_lines.h"
+
 namespace medial::io {
 
 namespace {
@@ -17,6 +19,13 @@ bool is_nearly_straight(const MedialAxis& axis, const Edge& edge, double chord) 
   const double radius = edge.control.radius - (a.radius + 0.5 * (b.radius - a.radius));
   const double factor = edge.weight / (1 + edge.weight);
   return factor * (norm(aside) + std::fabs(radius)) <= chord;
+}
+
+double distance_to_segment(Vec2 p, Vec2 a, Vec2 b) {
+  const Vec2 along = b - a;
+  const double square = dot(along, along);
+  const double t = square > 0 ? std::clamp(dot(p - a, along) / square, 0.0, 1.0) : 0.0;
+  return distance(p, a + t * along);
 }
 
 }  // namespace
@@ -42,6 +51,21 @@ std::vector<Disk> sample(const MedialAxis& axis, const Branch& branch, double ch
     result.insert(result.end(), samples.begin() + (result.empty() ? 0 : 1), samples.end());
   }
   return result;
+}
+
+std::vector<Vec2> line_of(const MedialAxis& axis, const Branch& branch, double chord,
+                          double simplify) {
+  if (simplify > 0) chord = std::min(chord, 0.5 * simplify);
+  std::vector<Vec2> points, kept;
+  for (const Disk& disk : sample(axis, branch, chord)) points.push_back(disk.center);
+  if (!(simplify > 0)) return points;
+  const auto excess = [&](std::uint32_t i, std::uint32_t first, std::uint32_t last) {
+    return distance_to_segment(points[i], points[first], points[last]) - simplify + chord;
+  };
+  for (const std::uint32_t i : ops::simplified(static_cast<std::uint32_t>(points.size()), excess))
+    kept.push_back(points[i]);
+  // A cycle stays one, however small.
+  return branch.from == branch.to && kept.size() < 4 ? points : kept;
 }
 
 }  // namespace medial::io

@@ -14,6 +14,11 @@ double chord_of(const AxisItem& item, const WriteOptions& options);
 /// `samples`, which spares an allocation for each edge.
 void sample(const MedialAxis& axis, const Edge& edge, double chord, std::vector<Disk>& samples);
 
+/// The line of a branch as tables have it, its chords within `chord`; simplified within `simplify`
+/// of the curve if that is positive (WriteOptions).
+std::vector<Vec2> line_of(const MedialAxis& axis, const Branch& branch, double chord,
+                          double simplify);
+
 /// The samples of a branch, each node of it once.
 std::vector<Disk> sample(const MedialAxis& axis, const Branch& branch, double chord);
 

@@ -19,8 +19,8 @@ constexpr std::size_t branch_table = 0, node_table = 1;
 const std::vector<Column>& branch_columns() {
   constexpr ColumnType whole = ColumnType::whole, real = ColumnType::real, text = ColumnType::text;
   static const std::vector<Column> columns{
-      {"feature", whole}, {"branch", whole},   {"r_from", real},
-      {"r_to", real},     {"length", real},    {"r_min", real},
+      {"feature", whole}, {"branch", whole},   {"from_node", whole}, {"to_node", whole},
+      {"r_from", real},   {"r_to", real},      {"length", real},     {"r_min", real},
       {"r_max", real},    {"site_left", text}, {"site_right", text}};
   return columns;
 }
@@ -38,17 +38,24 @@ std::string site_text(const MedialAxis& axis, std::uint32_t site) {
   return fmt::format("{}/{}", axis.sites[site].ring, axis.sites[site].vertex);
 }
 
-Status add_branches(TableSink& sink, std::size_t index, const AxisItem& item,
-                    std::span<const Value> attributes, const WriteOptions& options) {
-  const MedialAxis& axis = item.axis;
-  const double chord = chord_of(item, options);
-  const std::vector<Branch> all = branches(axis);
+/// A feature on its way to the tables.
+struct Row {
+  std::size_t feature = 0;
+  std::uint64_t first_node = 0;  ///< nodes are numbered on from feature to feature
+  const AxisItem& item;
+  const std::vector<Branch>& branches;
+  std::span<const Value> attributes;
+};
+
+Status add_branches(TableSink& sink, const Row& row, const WriteOptions& options) {
+  const MedialAxis& axis = row.item.axis;
+  const std::vector<Branch>& all = row.branches;
   std::array<std::vector<Vec2>, 1> parts;
   std::vector<Value> values(branch_columns().size());
+  const double chord = chord_of(row.item, options);
   for (std::size_t i = 0; i < all.size(); ++i) {
     const Branch& branch = all[i];
-    parts[0].clear();
-    for (const Disk& disk : sample(axis, branch, chord)) parts[0].push_back(disk.center);
+    parts[0] = line_of(axis, branch, chord, options.simplify);
     double total = 0;
     double smallest = std::numeric_limits<double>::infinity();
     double largest = 0;
@@ -62,33 +69,45 @@ Status add_branches(TableSink& sink, std::size_t index, const AxisItem& item,
     }
     const Step& first = branch.steps.front();
     const auto& site = axis.edges[first.edge].site;
-    values[0] = whole(index);
-    values[1] = whole(i);
-    values[2] = axis.nodes[branch.from].disk.radius;
-    values[3] = axis.nodes[branch.to].disk.radius;
-    values[4] = total;
-    values[5] = smallest;
-    values[6] = largest;
-    values[7] = site_text(axis, site[first.forward ? 0 : 1]);
-    values[8] = site_text(axis, site[first.forward ? 1 : 0]);
-    if (Status added = sink.add(branch_table, values, attributes, parts); !added) return added;
+    values = {whole(row.feature),
+              whole(i),
+              whole(row.first_node + branch.from),
+              whole(row.first_node + branch.to),
+              axis.nodes[branch.from].disk.radius,
+              axis.nodes[branch.to].disk.radius,
+              total,
+              smallest,
+              largest,
+              site_text(axis, site[first.forward ? 0 : 1]),
+              site_text(axis, site[first.forward ? 1 : 0])};
+    if (Status added = sink.add(branch_table, values, row.attributes, parts); !added) return added;
   }
   return success();
 }
 
-Status add_nodes(TableSink& sink, std::size_t index, const AxisItem& item,
-                 std::span<const Value> attributes) {
+/// Of each node, whether it lies inside of a branch: there the axis only passes to another site.
+std::vector<bool> inner_nodes(const MedialAxis& axis, const std::vector<Branch>& branches) {
+  std::vector<bool> inner(axis.nodes.size(), false);
+  for (const Branch& branch : branches)
+    for (std::size_t i = 0; i + 1 < branch.steps.size(); ++i)
+      inner[axis.edges[branch.steps[i].edge].node[branch.steps[i].forward ? 1 : 0]] = true;
+  return inner;
+}
+
+Status add_nodes(TableSink& sink, const Row& row, bool all) {
   constexpr std::array<const char*, 3> kinds{"leaf", "site_change", "branching"};
   std::array<std::vector<Vec2>, 1> parts;
   std::vector<Value> values(node_columns().size());
-  for (std::size_t i = 0; i < item.axis.nodes.size(); ++i) {
-    const Node& node = item.axis.nodes[i];
+  const std::vector<bool> inner = inner_nodes(row.item.axis, row.branches);
+  for (std::size_t i = 0; i < row.item.axis.nodes.size(); ++i) {
+    if (inner[i] && !all) continue;
+    const Node& node = row.item.axis.nodes[i];
     parts[0].assign(1, node.disk.center);
-    values[0] = whole(index);
-    values[1] = whole(i);
+    values[0] = whole(row.feature);
+    values[1] = whole(row.first_node + i);
     values[2] = node.disk.radius;
     values[3] = kinds[static_cast<std::size_t>(node.kind)];
-    if (Status added = sink.add(node_table, values, attributes, parts); !added) return added;
+    if (Status added = sink.add(node_table, values, row.attributes, parts); !added) return added;
   }
   return success();
 }
@@ -96,7 +115,7 @@ Status add_nodes(TableSink& sink, std::size_t index, const AxisItem& item,
 }  // namespace
 
 TableSource tables_of(const AxesOutput& output, const std::string& format) {
-  const bool nodes = format == "gpkg";
+  const bool nodes = format != "shp" && format != "fgb" && format != "geojson";
   std::vector<Column> own = branch_columns();
   own.insert(own.end(), node_columns().begin(), node_columns().end());
   const AttributeColumns attributes(output.document, own);
@@ -105,12 +124,16 @@ TableSource tables_of(const AxesOutput& output, const std::string& format) {
   if (nodes)
     source.tables.push_back({"nodes", GeometryKind::point, attributes.appended_to(node_columns())});
   source.fill = [&output, attributes, nodes](TableSink& sink) {
+    std::uint64_t first_node = 0;
     for (std::size_t i = 0; i < output.document.items.size(); ++i) {
       const AxisItem& item = output.document.items[i];
       const std::vector<Value> values = attributes.values_of(item.attributes);
-      if (Status added = add_branches(sink, i, item, values, output.options); !added) return added;
-      if (!nodes) continue;
-      if (Status added = add_nodes(sink, i, item, values); !added) return added;
+      const std::vector<Branch> all = branches(item.axis);
+      const Row row{i, first_node, item, all, values};
+      if (Status added = add_branches(sink, row, output.options); !added) return added;
+      if (nodes)
+        if (Status added = add_nodes(sink, row, output.options.nodes); !added) return added;
+      first_node += item.axis.nodes.size();
     }
     return success();
   };

@@ -86,6 +86,8 @@ class Target {
   OutputStream* out = nullptr;  ///< null: the format makes the file `path`
   std::string path;
   std::string unit;  ///< of lengths, by its name; empty: unknown, or the reference system says
+  bool adds_to_file = false;  ///< to the file `path`, which may hold other layers
+  bool overwrite = false;     ///< layers of the same name
   OutputCrs crs;
 
   /// Points of the document become points of the output. Where one cannot be projected, the error
@@ -118,10 +120,12 @@ struct Format {
   bool has_layers = false;
   bool has_filters = false;
   bool has_loose_curves = false;
+  bool gdal_chooses = false;  ///< GDAL reads it instead where layers or attributes choose
 
   // Writing.
-  bool geographic = false;  ///< longitudes and latitudes instead of a local projection
-  bool own_files = false;   ///< a library makes the file, maybe with companions
+  bool geographic = false;   ///< longitudes and latitudes instead of a local projection
+  bool own_files = false;    ///< a library makes the file, maybe with companions
+  bool adds_layers = false;  ///< to a file that is there; `own_files` then
   std::tuple<Writer<AxesOutput>, Writer<ShapesOutput>, Writer<VoronoiOutput>, Writer<OffsetsOutput>,
              Writer<CarvingOutput>, Writer<FeaturesOutput>, Writer<LayersOutput>,
              Writer<FieldOutput>, Writer<PreviewOutput>, Writer<VoxelsOutput>,
@@ -160,6 +164,9 @@ Format fgb_format();
 Format wkt_format();
 Format csv_format();
 Format xy_format();
+Format graphml_format();
+Format nodelink_format();
+Format edgelist_format();
 Format gcode_format();
 Format dxf_format();
 Format svg_format();
@@ -176,5 +183,6 @@ Format pgm_format();
 Format pbm_format();
 Format gdal_format();   ///< whatever else GDAL reads
 Format image_format();  ///< images, by their first bytes
+Format ros_map_format();
 
 }  // namespace medial::io

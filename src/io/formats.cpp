@@ -7,17 +7,18 @@ namespace medial::io {
 
 const std::vector<Format>& formats() {
   static const std::vector<Format> all{
-      json_format(), geojson_format(), gpkg_format(), shp_format(),   fgb_format(),
-      wkt_format(),  csv_format(),     xy_format(),   gcode_format(),
+      json_format(),     geojson_format(), gpkg_format(), shp_format(),     fgb_format(),
+      wkt_format(),      csv_format(),     xy_format(),   graphml_format(), nodelink_format(),
+      edgelist_format(), gcode_format(),
 #ifdef MEDIAL_DXF
       dxf_format(),
 #endif
-      svg_format(),  pdf_format(),     png_format(),  ps_format(),    ply_format(),
-      vtk_format(),  obj_format(),
+      svg_format(),      pdf_format(),     png_format(),  ps_format(),      ply_format(),
+      vtk_format(),      obj_format(),
 #ifdef MEDIAL_MESH
       stl_format(),
 #endif
-      off_format(),  tif_format(),     pgm_format(),  pbm_format()};
+      off_format(),      ros_map_format(), tif_format(),  pgm_format(),     pbm_format()};
   return all;
 }
 

@@ -78,7 +78,11 @@ void add_polygon(const OGRCurvePolygon& polygon, std::vector<Ring>& rings) {
 
 void register_gdal() {
   static std::once_flag once;
-  std::call_once(once, [] { GDALAllRegister(); });
+  std::call_once(once, [] {
+    // Nothing is written beside what is read.
+    CPLSetConfigOption("CPL_VSIL_GZIP_WRITE_PROPERTIES", "NO");
+    GDALAllRegister();
+  });
 }
 
 MemoryFile::MemoryFile(std::string& bytes)
@@ -236,6 +240,18 @@ void set_crs(const OGRSpatialReference& reference, Document<Feature>& dataset) {
     describe_units(reference, dataset);
   }
   CPLFree(text);
+}
+
+Status read_crs_by_name(const std::string& name, Document<Feature>& dataset) {
+  const GdalMessages messages;
+  OGRSpatialReference reference;
+  if (reference.SetFromUserInput(
+          name.c_str(), OGRSpatialReference::SET_FROM_USER_INPUT_LIMITATIONS_get()) != OGRERR_NONE)
+    return Error{ErrorCode::invalid_option,
+                 fmt::format("'{}' names no reference system; EPSG:n or WKT does", name),
+                 {}};
+  set_crs(reference, dataset);
+  return success();
 }
 
 void read_crs_of_epsg(int code, Document<Feature>& dataset) {

@@ -67,5 +67,10 @@ Status add_wkt(const std::string& text, bool loose, Feature& feature);
 void set_crs(const OGRSpatialReference& reference, Document<Feature>& dataset);
 void read_crs_of_epsg(int code, Document<Feature>& dataset);
 void read_crs_of_wkt(const std::string& wkt, Document<Feature>& dataset);
+/// The same by "EPSG:n" or WKT. Errors: invalid_option (it names none).
+Status read_crs_by_name(const std::string& name, Document<Feature>& dataset);
+
+/// Whether all coordinates may be longitudes and latitudes.
+bool can_be_degrees(const Document<Feature>& dataset);
 
 }  // namespace medial::io

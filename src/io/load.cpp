@@ -17,7 +17,7 @@ Result<Document<Feature>> read_source(const std::string& path, const SourceOptio
   if (!options.text.empty())
     return chooses ? refused("layer, where, project and close are not for a text")
                    : read_text(options.text, path);
-  if (read.loose || !is_native(path)) return read_dataset(path, read);
+  if (read.loose || !is_native(path)) return read_document(path, read);
   if (chooses || read.repair != RepairRule::none)
     return refused("layer, where, repair, project and close are not for medial's own format");
   auto native = read_native(path);
@@ -34,11 +34,11 @@ Result<T> naming_file(Result<T> result, const std::string& path) {
 }  // namespace
 
 Result<Document<Feature>> read_features(const std::string& path, const SourceOptions& options) {
-  auto features = read_source(path, options);
-  if (features)
-    if (Status done = convert_units(*features, options.units); !done)
-      features = std::move(done).error();
-  return naming_file(std::move(features), path);
+  auto features = naming_file(read_source(path, options), path);
+  if (!features) return features;
+  if (Status done = convert_units(*features, options.units); !done)
+    return naming_file<Document<Feature>>(std::move(done).error(), path);
+  return features;
 }
 
 Result<Document<ShapeItem>> load_shapes(const std::string& path, const SourceOptions& options,
@@ -47,6 +47,7 @@ Result<Document<ShapeItem>> load_shapes(const std::string& path, const SourceOpt
   if (!features) return std::move(features).error();
   LoadOptions load = options.load;
   load.repair = options.read.repair;
+  load.skip_invalid = options.read.skip_invalid;
   return naming_file(medial::load_shapes(std::move(features).value(), load, report), path);
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "io/back_to_geographic.h"
 #include "medial/axis.h"
 #include "medial/io/read.h"
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "io/back_to_geographic.h"
 #include "io/gdal_support.h"
 #include "io/path_builder.h"
 #include "io/place.h"
@@ -132,6 +133,8 @@ GlobeExtent extent_of(const Document<Feature>& dataset) {
           degrees(std::acos(std::clamp(cosine, -1.0, 1.0)))};
 }
 
+}  // namespace
+
 bool can_be_degrees(const Document<Feature>& dataset) {
   bool possible = true;
   for_each_point(dataset, [&possible](Vec2 point) {
@@ -139,8 +142,6 @@ bool can_be_degrees(const Document<Feature>& dataset) {
   });
   return possible;
 }
-
-}  // namespace
 
 Status project_to_local(Document<Feature>& dataset) {
   const GdalMessages messages;
@@ -156,9 +157,11 @@ Status project_to_local(Document<Feature>& dataset) {
     return Error{ErrorCode::unsupported, "the reference system is not understood", {}};
   }
   if (!can_be_degrees(dataset)) {
-    return Error{ErrorCode::invalid_option,
-                 "the coordinates are no degrees, so there is nothing to project",
-                 {}};
+    return Error{
+        ErrorCode::invalid_option,
+        "the coordinates are no degrees, so they cannot be projected: leave --project out, or "
+        "name their reference system by --crs EPSG:n",
+        {}};
   }
 
   const GlobeExtent extent = extent_of(dataset);
@@ -187,7 +190,8 @@ Status project_to_local(Document<Feature>& dataset) {
   const double tolerance =
       std::max(relative_tolerance * 2 * radians(extent.reach) * earth_radius, least_tolerance);
   for (std::size_t i = 0; i < dataset.items.size(); ++i) {
-    if (!transform_feature(*transformation, tolerance, dataset.items[i])) return failed(i);
+    if (!transform_feature(*transformation, tolerance, dataset.items[i]))
+      return failed(dataset.index_of(i));
   }
   set_crs(local, dataset);
   dataset.notes.push_back(fmt::format("projected to metres by the {} projection at {:.4f}, {:.4f}",
@@ -201,16 +205,11 @@ bool is_local_projection(const std::string& crs_wkt) {
          crs_wkt.starts_with(fmt::format("PROJCS[\"{}\"", local_name));
 }
 
-struct BackToGeographic::Transformation {
-  Transformer transformer;
-  std::string crs_wkt;
-};
-
-BackToGeographic::BackToGeographic(std::unique_ptr<Transformation> transformation)
-    : transformation_(std::move(transformation)) {}
-BackToGeographic::~BackToGeographic() = default;
-BackToGeographic::BackToGeographic(BackToGeographic&&) noexcept = default;
-BackToGeographic& BackToGeographic::operator=(BackToGeographic&&) noexcept = default;
+Status back_to_geographic(const std::string& crs_wkt, std::vector<Vec2>& points) {
+  if (!is_local_projection(crs_wkt)) return success();
+  auto back = BackToGeographic::make(crs_wkt);
+  return back ? back->transform(points) : std::move(back).error();
+}
 
 Result<BackToGeographic> BackToGeographic::make(const std::string& crs_wkt) {
   const GdalMessages messages;
@@ -221,23 +220,21 @@ Result<BackToGeographic> BackToGeographic::make(const std::string& crs_wkt) {
   }
   OGRSpatialReference geographic;
   geographic.CopyGeogCSFrom(&local);
-  auto result = std::make_unique<Transformation>();
-  result->transformer = transformer(local, geographic);
-  if (!result->transformer) {
+  BackToGeographic back;
+  back.transformation_ = transformer(local, geographic);
+  if (!back.transformation_) {
     return Error{ErrorCode::unsupported, "the local projection cannot be undone", {}};
   }
   Document<Feature> named;
   set_crs(geographic, named);
-  result->crs_wkt = std::move(named.crs_wkt);
-  return BackToGeographic(std::move(result));
+  back.crs_wkt_ = std::move(named.crs_wkt);
+  return back;
 }
 
 Status BackToGeographic::transform(std::vector<Vec2>& points) const {
   const GdalMessages messages;
-  if (transform_points(*transformation_->transformer, points)) return success();
+  if (transform_points(*transformation_, points)) return success();
   return Error{ErrorCode::unsupported, "a point of the axis has no longitude and latitude", {}};
 }
-
-const std::string& BackToGeographic::crs_wkt() const { return transformation_->crs_wkt; }
 
 }  // namespace medial::io

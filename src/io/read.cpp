@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "io/format.h"
 #include "io/format_name.h"
 #include "io/formats/json.h"
+#include "io/gdal_support.h"
 #include "io/guarded.h"
 #include "io/place.h"
 #include "io/repair.h"
@@ -38,6 +40,14 @@ const Format* format_of_text(std::string_view text) {
   return row == formats().end() ? nullptr : &*row;
 }
 
+bool is_font(std::string_view beginning) {
+  using namespace std::string_view_literals;
+  constexpr std::array begins{"\0\1\0\0"sv,       "OTTO"sv,        "ttcf"sv,
+                              "true\0"sv,         "wOFF"sv,        "wOF2"sv,
+                              "%!PS-AdobeFont"sv, "%!FontType1"sv, "\x80\1"sv};
+  return std::ranges::any_of(begins, [&](auto text) { return beginning.starts_with(text); });
+}
+
 std::optional<Error> refused(const Format& format, const ReadOptions& options,
                              const std::string& path) {
   const auto error = [&path](const char* text) {
@@ -55,7 +65,14 @@ Result<Document<Feature>> read_any(const std::string& path, const ReadOptions& o
   static const Format image = image_format(), others = gdal_format();
   Result<std::shared_ptr<TextSource>> source = TextSource::open(path);
   const std::string_view beginning = source ? (*source)->lookahead(sniffed) : std::string_view();
+  if (is_font(beginning))
+    return Error{ErrorCode::unsupported,
+                 "this is a font, not a shape: --text TEXT --font FILE draws a text with it",
+                 in_file(path)};
   const Format* format = path == "-" ? format_of_text(beginning) : format_of_name(path);
+  // Plain text may hold what another format begins like.
+  if (format != nullptr && lists_extension(format->extensions, "txt"))
+    if (const Format* other = format_of_text(beginning)) format = other;
   if (image.sniff(beginning)) {
     format = &image;
   } else if (format != nullptr && !source) {
@@ -64,7 +81,9 @@ Result<Document<Feature>> read_any(const std::string& path, const ReadOptions& o
     if ((*source)->failure()) return *(*source)->failure();
     format = nullptr;
   }
-  if (format == nullptr || (format->extensions == ".csv" && refused(*format, options, path)))
+  if (format == nullptr && source && beginning.empty() && !(*source)->failure())
+    return Error{ErrorCode::empty, "there is nothing to read", in_file(path)};
+  if (format == nullptr || (format->gdal_chooses && refused(*format, options, path)))
     format = &others;
   if (const auto error = refused(*format, options, path)) return *error;
   return format->read({path, source ? *source : nullptr}, options);
@@ -83,43 +102,106 @@ std::optional<std::size_t> not_finite(const std::vector<double>& numbers) {
   return static_cast<std::size_t>(bad - numbers.begin());
 }
 
-std::optional<Error> find_not_finite(const Document<Feature>& dataset) {
-  const auto error = [](std::size_t feature, std::size_t ring, std::size_t vertex,
-                        const char* text) {
-    Error result{ErrorCode::not_finite, text, in_feature(feature)};
-    result.place.ring = ring;
-    result.place.vertex = vertex;
-    return result;
-  };
-  const auto look_at = [&](std::size_t i, const auto& lines) -> std::optional<Error> {
-    for (std::size_t k = 0; k < lines.size(); ++k) {
-      if (auto at = not_finite(lines[k].points))
-        return error(i, k, *at, "a coordinate is not a finite number");
-      if (auto at = not_finite(lines[k].bulges))
-        return error(i, k, *at, "a bulge is not a finite number");
-    }
-    return std::nullopt;
-  };
-  for (std::size_t i = 0; i < dataset.items.size(); ++i) {
-    const Feature& feature = dataset.items[i];
-    if (auto bad = look_at(i, feature.rings)) return bad;
-    if (auto bad = look_at(i, feature.chains)) return bad;
-    for (std::size_t k = 0; k < feature.contours.size(); ++k) {
-      const Contour& contour = feature.contours[k];
-      if (auto at = not_finite(contour.points)) {
-        return error(i, k, *at, "a control point is not a finite number");
-      }
-      if (auto at = not_finite(contour.weights)) {
-        return error(i, k, *at, "a weight is not a finite number");
-      }
-      for (const CurvePiece& piece : contour.pieces) {
-        if (!std::isfinite(piece.bulge)) {
-          return error(i, k, piece.first, "a bulge is not a finite number");
-        }
-      }
-    }
+Error error_not_finite(std::size_t line, std::size_t vertex, const char* what) {
+  Error error{ErrorCode::not_finite, fmt::format("{} is not a finite number", what), {}};
+  error.place.ring = line;
+  error.place.vertex = vertex;
+  return error;
+}
+
+/// The first number of rings or of chains that is not finite.
+template <class Lines>
+std::optional<Error> not_finite_in(const Lines& lines) {
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    if (auto at = not_finite(lines[k].points)) return error_not_finite(k, *at, "a coordinate");
+    if (auto at = not_finite(lines[k].bulges)) return error_not_finite(k, *at, "a bulge");
   }
   return std::nullopt;
+}
+
+std::optional<Error> not_finite_in(const std::vector<Contour>& contours) {
+  for (std::size_t k = 0; k < contours.size(); ++k) {
+    const Contour& contour = contours[k];
+    if (auto at = not_finite(contour.points)) return error_not_finite(k, *at, "a control point");
+    if (auto at = not_finite(contour.weights)) return error_not_finite(k, *at, "a weight");
+    for (const CurvePiece& piece : contour.pieces)
+      if (!std::isfinite(piece.bulge)) return error_not_finite(k, piece.first, "a bulge");
+  }
+  return std::nullopt;
+}
+
+Status check_finite(const Feature& feature, std::size_t index) {
+  auto error = not_finite_in(feature.rings);
+  if (!error) error = not_finite_in(feature.chains);
+  if (!error) error = not_finite_in(feature.contours);
+  if (!error) return success();
+  error->place.feature = index;
+  return *error;
+}
+
+/// Leaves the other features out; those that stay keep their numbers in the file. Returns how many
+/// went.
+std::size_t keep(Document<Feature>& document, const std::vector<bool>& kept) {
+  const auto staying = static_cast<std::size_t>(std::ranges::count(kept, true));
+  const std::size_t before = document.items.size();
+  if (staying == before) return 0;
+  std::vector<Feature> items;
+  std::vector<std::uint64_t> indices;
+  for (std::size_t i = 0; i < before; ++i) {
+    if (!kept[i]) continue;
+    indices.push_back(document.index_of(i));
+    items.push_back(std::move(document.items[i]));
+  }
+  document.items = std::move(items);
+  document.indices = std::move(indices);
+  return before - staying;
+}
+
+/// Checks all features, or mends them. With `skip_invalid` those that fail are left out, with a
+/// note each and one on all.
+template <class Check>
+Status check_each(Document<Feature>& document, bool skip_invalid, const Check& check) {
+  std::vector<bool> valid;
+  for (std::size_t i = 0; i < document.items.size(); ++i) {
+    const Status status = check(document.items[i], document.index_of(i));
+    if (!status && !skip_invalid) return status;
+    valid.push_back(status.ok());
+    if (!status) document.notes.push_back("left out: " + to_string(status.error()));
+  }
+  const std::size_t before = document.items.size(), dropped = keep(document, valid);
+  if (dropped == 0) return success();
+  if (document.items.empty())
+    return Error{ErrorCode::empty, "no feature is valid, so nothing is left", {}};
+  document.notes.push_back(
+      fmt::format("{} of {} features are invalid and were left out", dropped, before));
+  return success();
+}
+
+/// Polygons with rings that do not end where they began: noted, as build_shape() closes them.
+void note_unclosed_rings(Document<Feature>& dataset) {
+  std::size_t unclosed = 0;
+  for (const Feature& feature : dataset.items)
+    unclosed += static_cast<std::size_t>(std::ranges::count_if(feature.rings, [](const Ring& ring) {
+      return (ring.role == RingRole::outer || ring.role == RingRole::hole) &&
+             ring.points.size() > 2 && ring.points.front() != ring.points.back();
+    }));
+  if (unclosed > 0)
+    dataset.notes.push_back(
+        fmt::format("{} without its first point at the end, closed by a straight edge",
+                    unclosed == 1 ? "1 ring is" : fmt::format("{} rings are", unclosed)));
+}
+
+/// The reference system that is asked for, or the one of the file if its numbers can be degrees.
+Status settle_crs(Document<Feature>& dataset, const std::string& crs) {
+  if (!crs.empty()) return read_crs_by_name(crs, dataset);
+  if (!dataset.geographic || can_be_degrees(dataset)) return success();
+  dataset.crs_wkt.clear();
+  dataset.geographic = false;
+  dataset.unit = Unit::unknown;
+  dataset.notes.push_back(
+      "the coordinates are no degrees, whatever the format says: they are taken as plane "
+      "coordinates without a reference system; --crs EPSG:n names theirs");
+  return success();
 }
 
 bool has_curves(const Feature& feature) {
@@ -127,48 +209,54 @@ bool has_curves(const Feature& feature) {
          std::ranges::any_of(feature.rings, [](const Ring& ring) { return !ring.bulges.empty(); });
 }
 
-void drop_empty_features(Document<Feature>& dataset) {
-  const auto has_no_point = [](const Feature& feature) {
-    return std::ranges::all_of(feature.rings,
-                               [](const Ring& ring) { return ring.points.empty(); }) &&
-           std::ranges::all_of(
-               feature.contours,
-               [](const Contour& contour) { return contour.pieces.empty() && !contour.open; }) &&
-           feature.chains.empty();
-  };
-  const std::size_t dropped = std::erase_if(dataset.items, has_no_point);
-  if (dropped > 0 && !dataset.items.empty()) {
-    dataset.notes.push_back(fmt::format("{} features are empty and were left out", dropped));
-  }
+bool is_empty(const Feature& feature) {
+  return feature.chains.empty() &&
+         std::ranges::all_of(feature.rings, [](const Ring& one) { return one.points.empty(); }) &&
+         std::ranges::all_of(feature.contours, [](const Contour& contour) {
+           return contour.pieces.empty() && !contour.open;
+         });
 }
 
-Result<Document<Feature>> finish(Document<Feature> dataset, const ReadOptions& options) {
-  if (auto error = find_not_finite(dataset)) return *error;
-  drop_empty_features(dataset);
-  if (dataset.items.empty())
+void drop_empty_features(Document<Feature>& document) {
+  std::vector<bool> kept;
+  for (const Feature& feature : document.items) kept.push_back(!is_empty(feature));
+  const std::size_t dropped = keep(document, kept);
+  if (dropped > 0 && !document.items.empty())
+    document.notes.push_back(dropped == 1
+                                 ? "1 feature is empty and was left out"
+                                 : fmt::format("{} features are empty and were left out", dropped));
+}
+
+Result<Document<Feature>> finish(Document<Feature> document, const ReadOptions& options) {
+  if (Status finite = check_each(document, options.skip_invalid, check_finite); !finite)
+    return std::move(finite).error();
+  drop_empty_features(document);
+  if (document.items.empty())
     return Error{ErrorCode::empty,
                  options.loose ? "the file contains no geometry" : "there is no polygon",
                  {}};
+  note_unclosed_rings(document);
+  if (Status settled = settle_crs(document, options.crs); !settled) return settled.error();
   if (options.project) {
-    if (Status status = project_to_local(dataset); !status) return status.error();
+    if (Status status = project_to_local(document); !status) return status.error();
   }
   if (options.repair != RepairRule::none) {
-    for (std::size_t i = 0; i < dataset.items.size(); ++i) {
-      if (has_curves(dataset.items[i])) continue;  // see ReadOptions
-      Status status = repair(dataset.items[i], i, options.repair, dataset.notes);
-      if (!status) return status.error();
-    }
+    Status repaired = check_each(document, options.skip_invalid, [&](Feature& feature, auto index) {
+      if (has_curves(feature) || feature.filled) return success();  // see ReadOptions
+      return repair(feature, index, options.repair, document.notes);
+    });
+    if (!repaired) return std::move(repaired).error();
   }
-  return dataset;
+  return document;
 }
 
 }  // namespace
 
-Result<Document<Feature>> read_dataset(const std::string& path, const ReadOptions& options) {
+Result<Document<Feature>> read_document(const std::string& path, const ReadOptions& options) {
   return guarded(path, [&]() -> Result<Document<Feature>> {
-    Result<Document<Feature>> dataset = read_any(path, options);
-    if (!dataset) return dataset;
-    return finish(std::move(*dataset), options);
+    Result<Document<Feature>> document = read_any(path, options);
+    if (!document) return document;
+    return finish(std::move(*document), options);
   });
 }
 

@@ -8,6 +8,7 @@
 #include <memory>
 #include <span>
 
+#include "base/counted.h"
 #include "io/place.h"
 
 namespace medial::io {
@@ -76,21 +77,27 @@ Counts counts_of(const std::vector<Ring>& rings) {
   return counts;
 }
 
-/// How often closed rings wind around points. Takes O(n / points_per_run + crossed runs) for each
-/// point.
+std::string described(const Counts& counts) {
+  return fmt::format("{}, {} vertices, area {:.10g}", counted(counts.rings, "ring"),
+                     counts.vertices, counts.area);
+}
+
+/// How often closed rings wind around points. Takes O(n / points_per_block + crossed blocks) for
+/// each point.
 class Winding {
  public:
   explicit Winding(const std::vector<std::vector<Vec2>>& rings) {
     for (const std::vector<Vec2>& ring : rings) {
-      for (std::size_t begin = 0; begin + 1 < ring.size(); begin += points_per_run) {
-        Run run{std::span(ring).subspan(begin, std::min(points_per_run + 1, ring.size() - begin)),
-                0, 0, 0};
+      for (std::size_t begin = 0; begin + 1 < ring.size(); begin += points_per_block) {
+        Block block{
+            std::span(ring).subspan(begin, std::min(points_per_block + 1, ring.size() - begin)), 0,
+            0, 0};
         const auto [low, high] =
-            std::ranges::minmax_element(run.points, {}, [](Vec2 p) { return p.y; });
-        run.low = low->y;
-        run.high = high->y;
-        run.right = std::ranges::max_element(run.points, {}, [](Vec2 p) { return p.x; })->x;
-        runs_.push_back(run);
+            std::ranges::minmax_element(block.points, {}, [](Vec2 p) { return p.y; });
+        block.low = low->y;
+        block.high = high->y;
+        block.right = std::ranges::max_element(block.points, {}, [](Vec2 p) { return p.x; })->x;
+        blocks_.push_back(block);
       }
     }
   }
@@ -102,11 +109,11 @@ class Winding {
   };
   Number around(Vec2 p) const {
     Number number;
-    for (const Run& run : runs_) {
-      if (run.high < p.y || run.low > p.y || run.right < p.x) continue;
-      for (std::size_t i = 0; i + 1 < run.points.size(); ++i) {
-        const Vec2 a = run.points[i];
-        const Vec2 b = run.points[i + 1];
+    for (const Block& block : blocks_) {
+      if (block.high < p.y || block.low > p.y || block.right < p.x) continue;
+      for (std::size_t i = 0; i + 1 < block.points.size(); ++i) {
+        const Vec2 a = block.points[i];
+        const Vec2 b = block.points[i + 1];
         if ((a.y <= p.y) == (b.y <= p.y)) continue;
         const bool upwards = a.y <= p.y;
         if ((cross(b - a, p - a) > 0) != upwards) continue;
@@ -118,12 +125,12 @@ class Winding {
   }
 
  private:
-  static constexpr std::size_t points_per_run = 64;
-  struct Run {
+  static constexpr std::size_t points_per_block = 64;
+  struct Block {
     std::span<const Vec2> points;
     double low, high, right;
   };
-  std::vector<Run> runs_;
+  std::vector<Block> blocks_;
 };
 
 class Repairer {
@@ -326,10 +333,11 @@ Status repair(Feature& feature, std::size_t index, RepairRule rule,
   if (rule == RepairRule::none || feature.rings.empty()) return success();
   Repairer repairer(feature.rings, rule);
   if (repairer.valid()) return success();
-  Result<std::vector<Ring>> rings = repairer.repaired();
+  const Result<std::vector<Ring>> rings = repairer.repaired();
   if (!rings) {
-    rings.error().place = place;
-    return rings.error();
+    notes.push_back(fmt::format("feature {}: {}; its edges are split where they cross", index,
+                                rings.error().text));
+    return success();
   }
   if (rings->empty()) {
     return Error{ErrorCode::no_area, "nothing is left after the repair: no area is enclosed",
@@ -337,12 +345,8 @@ Status repair(Feature& feature, std::size_t index, RepairRule rule,
   }
   const Counts before = counts_of(feature.rings);
   const Counts after = counts_of(*rings);
-  notes.push_back(
-      fmt::format("feature {} was repaired {}: {} rings, {} vertices, area {:.10g} before; {} "
-                  "rings, {} vertices, "
-                  "area {:.10g} after",
-                  index, rule_text(repairer.rule()), before.rings, before.vertices, before.area,
-                  after.rings, after.vertices, after.area));
+  notes.push_back(fmt::format("feature {} was repaired {}: {} before; {} after", index,
+                              rule_text(repairer.rule()), described(before), described(after)));
   feature.rings = std::move(*rings);
   return success();
 }

@@ -14,7 +14,8 @@ namespace medial::io {
 ///   even_odd    what an odd number of rings encloses; roles and orientations do not count
 ///   non_zero    what the rings wind around a number of times that is not zero; orientations count
 /// Rings that are valid by the rule are left as they are. What changed becomes a note.
-/// Errors: not_finite, no_area (nothing is left), internal (GEOS gives up).
+/// Where GEOS gives up the rings stay as well, for load_shapes() to node them. Errors: not_finite,
+/// no_area (nothing is left).
 Status repair(Feature& feature, std::size_t index, RepairRule rule,
               std::vector<std::string>& notes);
 

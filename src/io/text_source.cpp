@@ -45,10 +45,8 @@ Result<std::shared_ptr<TextSource>> TextSource::open(const std::string& path) {
   };
   struct stat status {};
   if (!standard && stat(path.c_str(), &status) != 0) return failed();
-  if (S_ISDIR(status.st_mode)) {
-    errno = EISDIR;
-    return failed();
-  }
+  if (!standard && S_ISDIR(status.st_mode))
+    return Error{ErrorCode::unreadable, "this is a directory: name a file in it", in_file(path)};
   auto handle = std::make_unique<Handle>();
   errno = 0;
   handle->file = standard ? gzdopen(dup(STDIN_FILENO), "rb") : gzopen(path.c_str(), "rb");

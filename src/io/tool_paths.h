@@ -2,15 +2,19 @@
 
 #include <vector>
 
-#include "medial/carve.h"
-#include "medial/shape.h"
+#include "medial/io/write.h"
 
 namespace medial::io {
 
 const char* name_of(ToolPathKind kind);
 
-/// A path with y upwards, as machines have it.
-std::vector<ToolPoint> upright_path(const ToolPath& path, bool y_down);
+/// Calls visit(carving, path, kind) for all paths in the order of cutting. The kind of an end
+/// mill's that goes before is "mill".
+template <class Visit>
+void for_each_path(const CarveItem& item, const Visit& visit) {
+  for (const ToolPath& path : item.clearing.paths) visit(item.clearing, path, "mill");
+  for (const ToolPath& path : item.carving.paths) visit(item.carving, path, name_of(path.kind));
+}
 
 /// A path in the plane, a bulge for each point.
 Ring line_of(const std::vector<ToolPoint>& points);

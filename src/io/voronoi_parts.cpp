@@ -11,7 +11,7 @@ const char* name_of(SiteKind kind) {
 }
 
 const char* name_of(const VoronoiEdge& edge) {
-  return edge.frame ? "frame" : edge.spoke ? "spoke" : "edge";
+  return edge.on_enclosure ? "frame" : edge.spoke ? "spoke" : "edge";
 }
 
 std::int64_t number_of(std::uint32_t site) {
@@ -19,13 +19,13 @@ std::int64_t number_of(std::uint32_t site) {
 }
 
 double chord_of(const VoronoiItem& item, const WriteOptions& options) {
-  const Box box = item.diagram.frame ? *item.diagram.frame : bounding_box(item.shape);
+  const Box box = item.diagram.enclosure ? *item.diagram.enclosure : bounding_box(item.shape);
   return options.chord * diagonal(box);
 }
 
 std::vector<Vec2> ring_of_face(const VoronoiDiagram& diagram, std::uint32_t k, double chord) {
   std::vector<Vec2> ring;
-  if (diagram.frame) {
+  if (diagram.enclosure) {
     ring = face_outline(diagram, k, chord);
     if (!ring.empty()) ring.push_back(ring.front());
     return ring;

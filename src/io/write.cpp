@@ -55,6 +55,15 @@ Status write_document(const std::string& path, const std::string& asked, const S
     Result<PendingFile> pending = PendingFile::create(path);
     if (!pending) return std::move(pending).error();
     target.path = pending->path();
+    target.adds_to_file = format->adds_layers;
+    if constexpr (requires { output.options.overwrite; })
+      target.overwrite = output.options.overwrite;
+    // A library adds to a copy: what is there stays whole whatever happens.
+    std::error_code failed;
+    if (format->adds_layers && std::filesystem::exists(path, failed))
+      std::filesystem::copy_file(path, target.path, failed);
+    if (failed)
+      return Error{ErrorCode::unwritable, "cannot copy what is there: " + failed.message(), {}};
     Status written = write();
     return written ? pending->commit() : written;
   });
@@ -95,7 +104,9 @@ Status write_offsets(const std::string& path, const std::string& format,
 Status write_carving(const std::string& path, const std::string& format,
                      const Document<CarveItem>& file, const MachineOptions& machine,
                      const WriteOptions& options) {
-  for (const double value : {machine.safe, machine.feed, machine.plunge})
+  for (const double value :
+       {machine.safe, machine.rapid, machine.carving.feed, machine.carving.plunge,
+        machine.clearing.feed, machine.clearing.plunge})
     if (!(value > 0) || !std::isfinite(value) || !(machine.chord >= 0))
       return Error{ErrorCode::invalid_option, "heights, feeds and chords must be positive", {}};
   return write_checked(path, format, {"nc"}, CarvingOutput{{file, options}, machine});

@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "base/threads.h"
+#include "load/file_index.h"
 #include "load/progress.h"
 #include "medial/load.h"
 
@@ -14,7 +15,8 @@ namespace {
 /// How far an axis of pixels of an interior is from one part for each component and one cycle for
 /// each hole of its shape, by the Euler characteristic.
 std::uint64_t unresolved_in(const AxisItem& item) {
-  const auto& [shape, axis, attributes, contours] = item;
+  const Shape& shape = item.shape;
+  const MedialAxis& axis = item.axis;
   if (!is_of_pixels(axis.method) || axis.exterior > 0) return 0;
   const auto count = [](std::size_t n) { return static_cast<std::int64_t>(n); };
   return static_cast<std::uint64_t>(std::abs(count(axis.nodes.size()) - count(axis.edges.size()) -
@@ -56,7 +58,7 @@ Result<Document<AxisItem>> compute_axes(Document<ShapeItem> shapes, Options opti
     return AxisItem{std::move(from.shape), std::move(axis).value(), std::move(from.attributes)};
   };
   auto items = map_items<AxisItem>(weights, options.threads, compute_one, options.cancel);
-  if (!items) return std::move(items).error();
+  if (!items) return in_file_of(axes, std::move(items).error());
   axes.items = std::move(items).value();
 
   AxesReport sum;

@@ -5,10 +5,13 @@
 #include <string>
 #include <utility>
 
+#include "base/counted.h"
 #include "curve/least_squares.h"
+#include "load/file_index.h"
 #include "load/progress.h"
 #include "medial/load.h"
 #include "medial/methods.h"
+#include "shape/clean.h"
 
 namespace medial {
 namespace {
@@ -42,18 +45,18 @@ void apply_rule(RepairRule rule, std::vector<Ring>& rings) {
   }
 }
 
-/// The boundary of a feature as contours, whatever it was read as.
-std::vector<Contour> contours_of(const Feature& feature) {
-  std::vector<Contour> contours = feature.contours;
-  for (const Ring& ring : feature.rings)
+/// The boundary as contours, whatever it was read as.
+std::vector<Contour> contours_of(const std::vector<Ring>& rings, std::vector<Contour> contours) {
+  for (const Ring& ring : rings)
     if (!ring.points.empty()) contours.push_back(contour_of(ring.points, ring.bulges, true));
   return contours;
 }
 
 /// Whether a repair may help.
 bool is_tangled(const Error& error) {
-  constexpr ErrorCode codes[] = {ErrorCode::crossing, ErrorCode::overlap, ErrorCode::hole_outside,
-                                 ErrorCode::nested_outer};
+  constexpr ErrorCode codes[] = {ErrorCode::crossing,     ErrorCode::overlap,
+                                 ErrorCode::hole_outside, ErrorCode::nested_outer,
+                                 ErrorCode::no_area,      ErrorCode::too_few_points};
   return std::find(std::begin(codes), std::end(codes), error.code) != std::end(codes);
 }
 
@@ -72,9 +75,9 @@ Result<Shape> shape_of(Feature& feature, const LoadOptions& options, LoadReport&
   const bool repaired = options.repair != RepairRule::none;
   if (!repaired || !curved) {
     auto shape = build_shape(rings, &report.shapes);
-    if (shape || !repaired || !is_tangled(shape.error())) return shape;
+    if (shape || !(repaired || feature.filled) || !is_tangled(shape.error())) return shape;
   }
-  apply_rule(options.repair, rings);
+  if (repaired) apply_rule(options.repair, rings);
   report.shapes = {};
   return build_shape(rings, {.node_crossings = true}, &report.shapes);
 }
@@ -103,13 +106,16 @@ Result<Shape> smooth_shape(std::vector<Contour>& contours, const LoadOptions& op
 Result<ShapeItem> load_shape(Feature& feature, const LoadOptions& options, LoadReport& report) {
   ShapeItem item;
   item.attributes = std::move(feature.attributes);
-  if (options.keep_contours || options.fit > 0) item.contours = contours_of(feature);
+  const bool has_contours = options.keep_contours || options.fit > 0;
+  if (has_contours) item.contours = contours_of(feature.rings, feature.contours);
   std::vector<std::size_t> ring_begin{0};
   for (const Ring& ring : feature.rings)
     ring_begin.push_back(ring_begin.back() + ring.points.size());
   auto shape = shape_of(feature, options, report);
   if (!shape) return std::move(shape).error();
   keep_sources(*shape, feature, ring_begin);
+  const bool is_repaired = report.shapes.crossings + report.shapes.dropped_rings > 0;
+  if (has_contours && is_repaired) item.contours = contours_of(rings_of(*shape), {});
   if (options.fit > 0) shape = smooth_shape(item.contours, options);
   if (!shape) return std::move(shape).error();
   item.shape = std::move(shape).value();
@@ -125,10 +131,67 @@ double weight_of(const Feature& feature) {
 }
 
 std::string note_of_crossings(std::size_t feature, const ShapeReport& report, std::size_t loops) {
-  return "feature " + std::to_string(feature) + " was repaired: its edges cross in " +
-         std::to_string(report.crossings) + " places and are split there; " +
-         std::to_string(report.input_rings) + " rings before, " + std::to_string(loops) +
-         " loops after";
+  return "feature " + std::to_string(feature) + " was repaired: its edges cross or overlap in " +
+         counted(report.crossings, "place") + " and are split there; " +
+         counted(report.input_rings, "ring") + " before, " + counted(loops, "loop") + " after";
+}
+
+/// A feature's shape, or why it has none; and what was left out of it.
+struct Attempt {
+  ShapeItem item;
+  std::optional<Error> error;
+  std::vector<std::string> notes;
+};
+
+/// Leaves out the rings of a polygon that enclose no area, with a note each. Their sources go, too,
+/// as they count points.
+void drop_rings_without_area(Feature& feature, std::size_t index, Attempt& attempt) {
+  std::vector<Ring> rings;
+  for (std::size_t i = 0; i < feature.rings.size(); ++i) {
+    ShapeReport ignored;
+    const auto clean_ring = clean(std::span(&feature.rings[i], 1), ignored);
+    if (clean_ring || (clean_ring.error().code != ErrorCode::too_few_points &&
+                       clean_ring.error().code != ErrorCode::no_area)) {
+      rings.push_back(std::move(feature.rings[i]));
+      continue;
+    }
+    Error error = clean_ring.error();
+    error.place.feature = index;
+    error.place.ring = i;
+    attempt.notes.push_back("left out: " + to_string(error));
+  }
+  if (!attempt.notes.empty()) feature.sources.clear();
+  feature.rings = std::move(rings);
+}
+
+/// Takes over the valid items; the features with an error are left out, with a note each and one on
+/// all.
+Status take_valid(std::vector<Attempt> attempts, const Document<Feature>& features,
+                  Document<ShapeItem>& shapes) {
+  std::vector<std::uint64_t> indices;
+  std::optional<Error> first;
+  for (std::size_t i = 0; i < attempts.size(); ++i) {
+    Attempt& attempt = attempts[i];
+    std::move(attempt.notes.begin(), attempt.notes.end(), std::back_inserter(shapes.notes));
+    if (!attempt.error) {
+      shapes.items.push_back(std::move(attempt.item));
+      indices.push_back(features.index_of(i));
+      continue;
+    }
+    attempt.error->place.feature = features.index_of(i);
+    shapes.notes.push_back("left out: " + to_string(*attempt.error));
+    if (!first) first = std::move(attempt.error);
+  }
+  const std::size_t dropped = attempts.size() - shapes.items.size();
+  if (dropped == 0) return success();
+  if (shapes.items.empty()) {
+    first->text += "; no feature is valid, so nothing is left";
+    return *first;
+  }
+  shapes.indices = std::move(indices);
+  shapes.notes.push_back(std::to_string(dropped) + " of " + std::to_string(attempts.size()) +
+                         " features are invalid and were left out");
+  return success();
 }
 
 }  // namespace
@@ -142,24 +205,37 @@ Result<Document<ShapeItem>> load_shapes(Document<Feature> features, const LoadOp
   std::vector<double> weights;
   for (const Feature& feature : features.items) weights.push_back(weight_of(feature));
   SharedProgress progress(options.progress, std::accumulate(weights.begin(), weights.end(), 0.0));
-  const auto load = [&](std::size_t i, int threads) {
+  const auto load = [&](std::size_t i, int threads) -> Result<Attempt> {
     LoadOptions own = options;
     own.arcs.threads = threads;
-    auto item = load_shape(features.items[i], own, reports[i]);
+    Attempt attempt;
+    Feature& feature = features.items[i];
+    if (options.skip_invalid) drop_rings_without_area(feature, features.index_of(i), attempt);
+    auto item = load_shape(feature, own, reports[i]);
     if (const auto done = progress.part(weights[i])) done(1);
-    return item;
+    if (item) {
+      attempt.item = std::move(item).value();
+      return attempt;
+    }
+    // What a drawing paints may be nothing.
+    const bool paints_nothing = feature.filled && item.error().code == ErrorCode::no_area;
+    if (!options.skip_invalid && !(paints_nothing && count > 1)) return std::move(item).error();
+    attempt.error = std::move(item).error();
+    return attempt;
   };
-  auto items = map_items<ShapeItem>(weights, options.threads, load, options.cancel);
-  if (!items) return std::move(items).error();
-  shapes.items = std::move(items).value();
+  auto items = map_items<Attempt>(weights, options.threads, load, options.cancel);
+  if (!items) return in_file_of(features, std::move(items).error());
   LoadReport sum;
   for (std::size_t i = 0; i < count; ++i) {
     const ShapeReport& one = reports[i].shapes;
-    if (one.crossings > 0)
-      shapes.notes.push_back(note_of_crossings(i, one, shapes.items[i].shape.loop_count()));
+    if (const Attempt& attempt = (*items)[i]; one.crossings > 0 && !attempt.error)
+      shapes.notes.push_back(
+          note_of_crossings(features.index_of(i), one, attempt.item.shape.loop_count()));
     sum.shapes += one;
     sum.arcs += reports[i].arcs;
   }
+  if (Status taken = take_valid(std::move(items).value(), features, shapes); !taken)
+    return std::move(taken).error();
   if (report != nullptr) *report = sum;
   return shapes;
 }

@@ -35,13 +35,12 @@ Error in_terms_of_features(const LoosePieces& pieces, Error error) {
   if (!error.place.ring || *error.place.ring >= pieces.feature.size()) return error;
   const std::uint32_t feature = pieces.feature[*error.place.ring];
   const auto first = std::lower_bound(pieces.feature.begin(), pieces.feature.end(), feature);
-  error.place.feature = feature;
+  error.place.feature = pieces.features.index_of(feature);
   *error.place.ring -= static_cast<std::uint64_t>(first - pieces.feature.begin());
   return error;
 }
 
-}  // namespace
-
+/// All of a feature as chains. Errors: those of approximate_by_arcs().
 Result<std::vector<Chain>> chains_of(const Feature& feature, const ArcOptions& options) {
   std::vector<Chain> chains = feature.chains;
   for (const Ring& ring : feature.rings) chains.push_back({ring.points, ring.bulges, true});
@@ -59,13 +58,15 @@ Result<std::vector<Chain>> chains_of(const Feature& feature, const ArcOptions& o
   return chains;
 }
 
+}  // namespace
+
 Result<LoosePieces> load_loose(Document<Feature> features, const ArcOptions& options) {
   LoosePieces pieces;
   pieces.features = empty_like<Attributes>(features);
   for (std::uint32_t i = 0; i < features.items.size(); ++i) {
     auto chains = chains_of(features.items[i], options);
     if (!chains) {
-      chains.error().place.feature = i;
+      chains.error().place.feature = features.index_of(i);
       return std::move(chains).error();
     }
     std::move(chains->begin(), chains->end(), std::back_inserter(pieces.chains));

@@ -1,4 +1,5 @@
 #include <array>
+#include <bit>
 
 #include "base/in_flight.h"
 #include "medial/raster.h"

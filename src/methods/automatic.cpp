@@ -32,8 +32,8 @@ bool is_lee_faster(const Problem& problem) {
 Result<Outcome> run_automatic(const Problem& problem) {
   if (is_lee_faster(problem)) {
     auto axis = lee::run(problem);
-    if (axis && (problem.is_cancelled() ||
-                 has_right_topology(problem.shape, axis->nodes.size(), axis->edges.size())))
+    if (axis &&
+        (problem.is_cancelled() || has_right_topology(problem.shape, axis->nodes, axis->edges)))
       return outcome_of(std::move(axis));
   }
   return disks::run(problem);

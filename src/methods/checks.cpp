@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/arc.h"
+#include "base/disjoint_sets.h"
 #include "base/threads.h"
 #include "shape/limits.h"
 
@@ -108,10 +109,34 @@ bool has_arcs(const Shape& shape) {
   return std::any_of(shape.bulges.begin(), shape.bulges.end(), [](double b) { return b != 0; });
 }
 
-bool has_right_topology(const Shape& shape, std::size_t nodes, std::size_t edges) {
-  const auto signed_size = [](std::size_t n) { return static_cast<std::int64_t>(n); };
-  return signed_size(nodes) - signed_size(edges) ==
-         signed_size(shape.component_count()) - signed_size(shape.hole_count());
+template <class E>
+bool has_right_topology(const Shape& shape, std::span<const Node> nodes, std::span<const E> edges) {
+  struct Count {
+    std::uint64_t nodes = 0, edges = 0, holes = 0;
+  };
+  std::vector<Count> counts(shape.component_count());
+  for (std::size_t i = 0; i < shape.loop_count(); ++i)
+    if (shape.hole[i]) ++counts[shape.component[i]].holes;
+  for (const Node& node : nodes) {
+    if (node.component >= counts.size()) return false;
+    ++counts[node.component].nodes;
+  }
+  DisjointSets parts(nodes.size());
+  for (const E& edge : edges) {
+    const auto [from, to] = edge.node;
+    if (nodes[from].component != nodes[to].component) return false;
+    ++counts[nodes[from].component].edges;
+    parts.join(from, to);
+  }
+  // As no edge leaves its component and each component has a node, so many parts are one for each;
+  // a connected graph has edges - nodes + 1 independent cycles.
+  return parts.count() == counts.size() &&
+         std::all_of(counts.begin(), counts.end(), [](const Count& count) {
+           return count.nodes > 0 && count.edges + 1 == count.nodes + count.holes;
+         });
 }
+
+template bool has_right_topology(const Shape&, std::span<const Node>, std::span<const Edge>);
+template bool has_right_topology(const Shape&, std::span<const Node>, std::span<const VoronoiEdge>);
 
 }  // namespace medial

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "medial/compute.h"
 #include "medial/error.h"
@@ -18,7 +20,14 @@ bool has_arcs(const Shape& shape);
 /// The options that every exact computation has: the tolerance and the number of threads.
 std::optional<Error> refuse(const Options& options);
 
-/// The Euler characteristic: one connected part for each component, one cycle for each hole.
-bool has_right_topology(const Shape& shape, std::size_t nodes, std::size_t edges);
+/// Whether a graph has one connected part for each component of the shape, with one independent
+/// cycle for each of its holes. For Edge and VoronoiEdge. O(n), nearly.
+template <class E>
+bool has_right_topology(const Shape& shape, std::span<const Node> nodes, std::span<const E> edges);
+template <class E>
+bool has_right_topology(const Shape& shape, const std::vector<Node>& nodes,
+                        const std::vector<E>& edges) {
+  return has_right_topology(shape, std::span(nodes), std::span(edges));
+}
 
 }  // namespace medial

@@ -82,9 +82,11 @@ Result<MedialAxis> compute(const Shape& shape, const Options& options,
     MedialAxis& axis = outcome->axis;
     axis.statistics.threads = method.info.threads ? effective_threads(options.threads) : 1;
     if (problem.is_cancelled()) return Error{ErrorCode::cancelled, "cancelled", {}};
-    if (outcome->connected && !has_right_topology(shape, axis.nodes.size(), axis.edges.size()))
+    if (outcome->connected && !has_right_topology(shape, axis.nodes, axis.edges))
       return error_of_wrong_axis(
-          axis, "the axis does not have one cycle for each hole: please report this shape");
+          axis,
+          "the axis does not have one part for each component and one cycle for each hole: please "
+          "report this shape");
 #ifdef MEDIAL_HAS_EXACT
     if (options.exact)
       if (auto error = make_certain(problem, *outcome)) return std::move(*error);

@@ -18,7 +18,7 @@ std::optional<Error> error_if_refused(const Problem& problem, const MedialAxis& 
   Error error{ErrorCode::unsupported,
               "rounding alone decides which of the arcs here, of almost one circle, a disk touches",
               {}};
-  error.place.point = Vec2{certificate.worst_x, certificate.worst_y};
+  error.place.point = certificate.worst;
   return error;
 }
 

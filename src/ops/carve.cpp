@@ -4,15 +4,18 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <span>
 
 #include "base/arc.h"
+#include "base/box_tree.h"
 #include "base/compat.h"
 #include "base/in_flight.h"
 #include "base/numbers.h"
 #include "medial/measure.h"
 #include "medial/offset.h"
 #include "ops/groove.h"
+#include "ops/tool_planner.h"
 
 namespace medial {
 namespace {
@@ -74,55 +77,90 @@ std::vector<ToolPoint> path_from(const Ring& ring, const RingPlace& place, doubl
   return path;
 }
 
-/// Puts paths one after the other, and joins those that are safely near.
-class Planner {
+/// Where another tool was: within `reach` of the rings of a region, or inside of it.
+class ClearedBefore {
  public:
-  explicit Planner(Carving& carving) : carving_(carving) {}
-
-  void begin_pass(std::uint32_t pass) { pass_ = pass; }
-
-  Vec2 at() const {
-    return carving_.paths.empty() ? Vec2{} : carving_.paths.back().points.back().point;
-  }
-  bool started() const { return !carving_.paths.empty(); }
-
-  /// `reach`: up to what length the straight way to the path is inside of what is or may be cut at
-  /// its depth; below 0: the tool is lifted.
-  void add(ToolPathKind kind, std::vector<ToolPoint> points, double reach) {
-    if (points.size() < 2) return;
-    for (std::size_t i = 0; i + 1 < points.size(); ++i)
-      carving_.cut_length +=
-          arc_length(distance(points[i].point, points[i + 1].point), points[i].bulge);
-    if (started()) {
-      const double way = distance(at(), points.front().point);
-      if (way <= reach) {
-        auto& last = carving_.paths.back();
-        carving_.cut_length += way;
-        if (kind == last.kind) {
-          last.points.insert(last.points.end(), points.begin(), points.end());
-        } else {
-          points.insert(points.begin(), last.points.back());
-          points.front().bulge = 0;
-          carving_.paths.push_back({kind, std::move(points), pass_});
+  ClearedBefore() = default;
+  /// `least`: the clearance of the rings.
+  ClearedBefore(const Offsets& rings, double least, double reach) : least_(least), reach_(reach) {
+    std::vector<Box> boxes;
+    for (const OffsetRegion& region : rings.regions)
+      for (const Ring& ring : region.rings)
+        for (std::size_t i = 0; i < ring.points.size(); ++i) {
+          edges_.push_back(edge_of(ring, i));
+          Box box{edges_.back().start, edges_.back().start};
+          const double length = arc_length(norm(edges_.back().chord()), edges_.back().bulge);
+          box.low = box.low - length * Vec2{1, 1};
+          box.high = box.high + length * Vec2{1, 1};
+          boxes.push_back(box);
         }
-        return;
-      }
-      carving_.travel_length += way;
-    }
-    carving_.paths.push_back({kind, std::move(points), pass_});
+    if (!boxes.empty()) tree_.emplace(boxes);
+  }
+
+  bool is_nothing() const { return !tree_; }
+  /// Whether all around a place has been cut, by its clearance or by what is near.
+  bool contains(double clearance) const { return tree_ && clearance >= least_; }
+  bool contains(Vec2 p) const {
+    bool near = false;
+    if (!tree_ || !(reach_ > 0)) return false;
+    const Vec2 wide = reach_ * Vec2{1, 1};
+    tree_->find({p - wide, p + wide}, [&](std::uint32_t i) {
+      const Vec2 q = point_at_share(edges_[i], nearest_share(edges_[i], p));
+      near = near || distance(p, q) <= reach_;
+    });
+    return near;
   }
 
  private:
-  Carving& carving_;
-  std::uint32_t pass_ = 0;
+  std::vector<BulgeArc> edges_;
+  std::optional<BoxTree> tree_;
+  double least_ = 0, reach_ = 0;
 };
+
+/// The parts of a path that are not cleared yet, sampled every `spacing`.
+std::vector<std::vector<ToolPoint>> parts_left(std::vector<ToolPoint> path,
+                                               const ClearedBefore& cleared, double spacing) {
+  if (cleared.is_nothing()) return {std::move(path)};
+  std::vector<std::vector<ToolPoint>> parts;
+  bool open = false;
+  for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+    const BulgeArc edge{path[i].point, path[i + 1].point, path[i].bulge};
+    constexpr double most = 1e5;
+    const double pieces =
+        std::clamp(std::ceil(arc_length(norm(edge.chord()), edge.bulge) / spacing), 1.0, most);
+    const auto at = [&](double k) {
+      return k < pieces ? point_at_share(edge, k / pieces) : edge.end;
+    };
+    double begun = 0;
+    const auto add = [&](double end) {
+      if (!open || !(end > begun)) return;
+      parts.back().back().bulge = std::tan(std::atan(edge.bulge) * (end - begun) / pieces);
+      parts.back().push_back({at(end), path[i].z, 0});
+    };
+    for (double k = 0; k < pieces; k += 1) {
+      const bool needed = !cleared.contains(at(k)) || !cleared.contains(at(k + 1));
+      if (needed && !open) {
+        parts.push_back({{at(k), path[i].z, 0}});
+        begun = k;
+      } else if (!needed) {
+        add(k);
+      }
+      open = needed;
+    }
+    add(pieces);
+  }
+  return parts;
+}
 
 /// Flat bottoms: the rings of the offsets from `flat_from` on, inner ones first, the wall last.
 class Floors {
  public:
-  Floors(const Offsets& offsets, double flat_from, double z, Planner& planner)
+  Floors(const Offsets& offsets, const ClearedBefore& cleared, const Carving& carving, double z,
+         ops::Planner& planner)
       : offsets_(offsets),
-        flat_from_(flat_from),
+        cleared_(cleared),
+        flat_from_(carving.flat_from),
+        step_(carving.step),
         z_(z),
         planner_(planner),
         children_(offsets.regions.size()) {
@@ -188,20 +226,30 @@ class Floors {
       const RingPlace place = nearest_place(*left[k], from);
       if (place.squared_distance < nearest.squared_distance) nearest = place, next = k;
     }
+    const Ring& ring = *left[next];
+    left.erase(left.begin() + static_cast<std::ptrdiff_t>(next));
+    const bool wall = region.parent == no_region;
+    if (!wall && cleared_.contains(region.clearance)) return;
+    auto path = path_from(ring, nearest, z_);
+    if (wall) return add(ToolPathKind::wall, std::move(path), region.clearance);
+    for (auto& part : parts_left(std::move(path), cleared_, 0.5 * step_))
+      add(ToolPathKind::clearing, std::move(part), region.clearance);
+  }
+  /// Of points of one clearance.
+  void add(ToolPathKind kind, std::vector<ToolPoint> path, double clearance) {
     // The tool may be where the clearance is at least flat_from: around a place of clearance c
     // within c - flat_from.
-    const double reach =
-        last_clearance_ < 0 ? -1 : (last_clearance_ - flat_from_) + (region.clearance - flat_from_);
     constexpr double rounding = 1 + 1e-9;
-    planner_.add(region.parent == no_region ? ToolPathKind::wall : ToolPathKind::clearing,
-                 path_from(*left[next], nearest, z_), rounding * reach);
-    last_clearance_ = region.clearance;
-    left.erase(left.begin() + static_cast<std::ptrdiff_t>(next));
+    const double reach =
+        last_clearance_ < 0 ? -1 : (last_clearance_ - flat_from_) + (clearance - flat_from_);
+    planner_.add(kind, std::move(path), rounding * reach);
+    last_clearance_ = clearance;
   }
 
   const Offsets& offsets_;
-  double flat_from_, z_;
-  Planner& planner_;
+  const ClearedBefore& cleared_;
+  double flat_from_, step_, z_;
+  ops::Planner& planner_;
   std::vector<std::vector<std::uint32_t>> children_;
   double last_clearance_ = -1;  ///< of the last ring
 };
@@ -238,18 +286,31 @@ double step_at(const CarveOptions& options, double tip, double flat_from) {
   return options.step > 0 ? options.step : tip > 0 ? tip : flat_from / 20;
 }
 
-/// One trail of grooves as a path of the tool. `depth_of` is how deep it may go in a disk.
+/// One trail of grooves as a path of the tool, down to `floor`. `depth_of` is how deep it may go
+/// in a disk.
 template <class DepthOf>
 std::vector<ToolPoint> path_along(const std::vector<ops::GrooveStep>& trail,
-                                  const ops::Grooves& grooves, const DepthOf& depth_of) {
+                                  const ops::Grooves& grooves, const DepthOf& depth_of,
+                                  double floor) {
   std::vector<ToolPoint> points;
+  const auto add = [&](Vec2 p, double deep) {
+    const ToolPoint point{p, -std::min(deep, floor), 0};
+    if (points.empty() || !(points.back().point == p) || points.back().z != point.z)
+      points.push_back(point);
+  };
   for (const ops::GrooveStep& step : trail) {
     const auto& disks = grooves.parts[step.part].disks;
+    const auto disk = [&](std::size_t k) { return disks[step.forward ? k : disks.size() - 1 - k]; };
     for (std::size_t k = 0; k < disks.size(); ++k) {
-      const Disk& disk = disks[step.forward ? k : disks.size() - 1 - k];
-      const ToolPoint point{disk.center, -depth_of(disk), 0};
-      if (points.empty() || !(points.back().point == point.point) || points.back().z != point.z)
-        points.push_back(point);
+      const double deep = depth_of(disk(k));
+      if (k > 0) {
+        const double before = depth_of(disk(k - 1));
+        if ((before < floor) != (deep < floor) && before != deep) {
+          const Vec2 from = disk(k - 1).center, to = disk(k).center;
+          add(from + (floor - before) / (deep - before) * (to - from), floor);
+        }
+      }
+      add(disk(k).center, deep);
     }
   }
   return points;
@@ -263,56 +324,85 @@ Result<Offsets> floor_rings(const MedialAxis& axis, double flat_from, double ste
   return inward_offsets(axis, *rings);
 }
 
-Result<Carving> plan(const MedialAxis& axis, const CarveOptions& options) {
+/// What a tool is, and how deep it may go at most.
+struct Tool {
+  bool mill;
+  double depth;  ///< infinite where nothing limits it
+};
+Tool tool_of(const CarveOptions& options, Carving& carving) {
   const double radius = options.tool > 0 ? options.tool / 2 : infinity;
-  const bool mill = options.angle == 0;
-  Carving carving;
-  carving.slope = mill ? 0 : std::tan(options.angle * std::numbers::pi / 360);
-  carving.tip_radius = mill ? radius : options.tip / 2;
-  const double tip = carving.tip_radius, slope = carving.slope;
-  double depth = options.depth > 0 ? options.depth : infinity;
-  if (!mill) depth = std::min(depth, (radius - tip) / slope);
-  carving.flat_from = mill ? tip : tip + depth * slope;  // infinite where nothing limits the depth
-  const double chord = options.chord > 0 ? options.chord : 1e-5 * diagonal(box_of(axis));
+  const Tool tool{options.angle == 0, options.depth > 0 ? options.depth : infinity};
+  carving.slope = tool.mill ? 0 : std::tan(options.angle * std::numbers::pi / 360);
+  carving.tip_radius = tool.mill ? radius : options.tip / 2;
+  const double tip = carving.tip_radius;
+  const double depth =
+      tool.mill ? tool.depth : std::min(tool.depth, (radius - tip) / carving.slope);
+  carving.flat_from = tool.mill ? tip + options.allowance : tip + depth * carving.slope;
   if (std::isfinite(carving.flat_from)) carving.step = step_at(options, tip, carving.flat_from);
+  return {tool.mill, depth};
+}
+
+/// What options.cleared says, of flat bottoms that begin at the clearance `floor`.
+Result<ClearedBefore> cleared_before(const MedialAxis& axis, const CarveOptions& options,
+                                     const Carving& carving) {
+  const double radius = options.cleared / 2;
+  if (!(radius > 0) || !std::isfinite(carving.flat_from)) return ClearedBefore{};
+  const double least = radius + carving.flat_from - carving.tip_radius;
+  auto rings = inward_offsets(axis, std::vector<double>{least});
+  if (!rings) return std::move(rings).error();
+  constexpr double rounding = 1 - 1e-9;
+  return ClearedBefore(*rings, least,
+                       rounding * (radius - std::max(carving.step, carving.tip_radius)));
+}
+
+Result<Carving> plan(const MedialAxis& axis, const CarveOptions& options) {
+  Carving carving;
+  const Tool tool = tool_of(options, carving);
+  const double tip = carving.tip_radius, slope = carving.slope;
+  const double chord = options.chord > 0 ? options.chord : 1e-5 * diagonal(box_of(axis));
 
   // As deep as the widest place lets the tool go.
-  double lowest = depth;
-  if (!mill) lowest = std::min(depth, std::max(deepest_disk(axis).radius - tip, 0.0) / slope);
+  double lowest = tool.depth;
+  if (!tool.mill) lowest = std::min(lowest, std::max(deepest_disk(axis).radius - tip, 0.0) / slope);
   constexpr double most_passes = 1e4, rounding = 1e-9;
   const double passes =
       options.pass_depth > 0 ? std::max(1.0, std::ceil(lowest / options.pass_depth - rounding)) : 1;
   if (!(passes <= most_passes))
     return Error{ErrorCode::too_large, "there would be more than 1e4 passes in depth", {}};
+  carving.passes = static_cast<std::uint32_t>(passes);
 
-  Planner planner(carving);
-  double cleared = tip;  // the clearance up to which grooves are cut
-  for (std::uint32_t pass = 0; pass < static_cast<std::uint32_t>(passes); ++pass) {
-    const bool last = pass + 1 == static_cast<std::uint32_t>(passes);
-    const double floor = last ? depth : (pass + 1) * options.pass_depth;
-    const double flat_from = last ? carving.flat_from : mill ? tip : tip + floor * slope;
-    planner.begin_pass(pass);
-    const auto offsets = floor_rings(axis, flat_from, step_at(options, tip, flat_from));
-    if (!offsets) return offsets.error();
+  const auto offsets = floor_rings(axis, carving.flat_from, carving.step);
+  if (!offsets) return offsets.error();
+  const auto before = cleared_before(axis, options, carving);
+  if (!before) return before.error();
+  const double straight = 90;
+  ops::Planner planner(
+      carving, options.ramp < straight ? std::tan(options.ramp * std::numbers::pi / 180) : infinity,
+      chord);
+  double cleared = tool.mill ? carving.flat_from : tip;  // the clearance up to which all is cut
+  for (std::uint32_t pass = 0; pass < carving.passes; ++pass) {
+    const bool last = pass + 1 == carving.passes;
+    const double floor = last ? tool.depth : (pass + 1) * options.pass_depth;
+    planner.begin_pass(pass, -(pass * options.pass_depth));
     if (!offsets->regions.empty()) {
       carving.deepest = std::max(carving.deepest, floor);
-      Floors(*offsets, flat_from, -floor, planner).cut_all();
+      Floors(*offsets, *before, carving, -floor, planner).cut_all();
     }
     // An end mill needs the axis only where it is just as wide.
-    const ops::Grooves grooves = ops::grooves_of(axis, cleared, flat_from, chord);
+    const ops::Grooves grooves = ops::grooves_of(axis, cleared, carving.flat_from, chord);
     const Vec2 start = planner.started() || grooves.parts.empty()
                            ? planner.at()
                            : grooves.parts[0].disks[0].center;
     const auto depth_of = [&](const Disk& disk) {
       // Chords are lifted, in narrow places above the surface.
-      const double deep = mill ? floor : std::min((disk.radius - tip) / slope, floor);
-      carving.deepest = std::max(carving.deepest, deep);
+      const double deep = tool.mill ? floor : (disk.radius - tip) / slope;
+      carving.deepest = std::max(carving.deepest, std::min(deep, floor));
       return deep;
     };
     for (const auto& trail : ops::trails_of(grooves, start))
-      planner.add(ToolPathKind::groove, path_along(trail, grooves, depth_of), -1);
+      planner.add(ToolPathKind::groove, path_along(trail, grooves, depth_of, floor), -1);
     carving.travel_unordered += unordered_travel(*offsets, grooves);
-    if (!mill) cleared = flat_from;
+    if (!tool.mill) cleared = tip + floor * slope;
   }
   return carving;
 }
@@ -327,8 +417,8 @@ Result<Carving> carve(const MedialAxis& axis, const CarveOptions& options) {
   if (axis.nodes.empty()) return Error{ErrorCode::empty, "the axis is empty", {}};
   if (!(options.angle >= 0 && options.angle <= 170))
     return invalid_carving("the angle must be in [0, 170]");
-  for (const double value :
-       {options.depth, options.tool, options.tip, options.pass_depth, options.step, options.chord})
+  for (const double value : {options.depth, options.tool, options.tip, options.pass_depth,
+                             options.step, options.chord, options.allowance, options.cleared})
     if (!(value >= 0) || !std::isfinite(value))
       return invalid_carving("depths, diameters, step and chord must be finite and not negative");
   if (options.angle == 0 && !(options.depth > 0 && options.tool > 0))
@@ -337,6 +427,8 @@ Result<Carving> carve(const MedialAxis& axis, const CarveOptions& options) {
     return invalid_carving("the angle must be 0 or in [1, 170]");
   if (options.angle > 0 && options.tool > 0 && !(options.tip < options.tool))
     return invalid_carving("the tip must be smaller than the tool");
+  if (!(options.ramp > 0 && options.ramp <= 90))
+    return invalid_carving("the ramp must be in (0, 90] degrees");
   constexpr double smallest_chord = 1e-8;  // the moves grow as the root of one over it
   if (options.chord > 0 && options.chord < smallest_chord * diagonal(box_of(axis)))
     return invalid_carving("the chord must be at least 1e-8 of the diagonal of the axis's sites");
@@ -347,9 +439,22 @@ Result<Carving> carve(const MedialAxis& axis, const CarveOptions& options) {
   }
 }
 
+CarveOptions clearing_before(const CarveOptions& v, double diameter, double pass_depth) {
+  const double slope = std::tan(v.angle * std::numbers::pi / 360);
+  double depth = v.depth > 0 ? v.depth : infinity;
+  if (v.tool > 0) depth = std::min(depth, (v.tool - v.tip) / 2 / slope);
+  CarveOptions mill = v;
+  mill.angle = mill.tip = mill.step = mill.cleared = 0;
+  mill.depth = std::isfinite(depth) ? depth : 0;
+  mill.tool = diameter;
+  mill.pass_depth = pass_depth;
+  mill.allowance = mill.depth * slope;
+  return mill;
+}
+
 CarveOptions scaled(CarveOptions options, double factor) {
   for (double* length : {&options.depth, &options.tool, &options.tip, &options.pass_depth,
-                         &options.step, &options.chord})
+                         &options.step, &options.chord, &options.allowance, &options.cleared})
     *length *= factor;
   return options;
 }
@@ -362,8 +467,20 @@ Carving scaled(Carving carving, double factor) {
     }
   }
   for (double* length : {&carving.deepest, &carving.flat_from, &carving.tip_radius, &carving.step,
-                         &carving.cut_length, &carving.travel_length, &carving.travel_unordered})
+                         &carving.own_length, &carving.cut_length, &carving.travel_length,
+                         &carving.travel_unordered})
     *length *= factor;
+  return carving;
+}
+
+Carving placed(Carving carving, Vec2 zero, bool mirrored) {
+  const double up = mirrored ? -1 : 1;
+  for (ToolPath& path : carving.paths) {
+    for (ToolPoint& point : path.points) {
+      point.point = {point.point.x - zero.x, up * (point.point.y - zero.y)};
+      point.bulge *= up;
+    }
+  }
   return carving;
 }
 

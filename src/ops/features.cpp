@@ -38,7 +38,7 @@ const Site* site_beside(const MedialAxis& axis, const Step& step, Side side) {
 
 /// The direction in which a step begins or ends.
 Vec2 tangent_at(const MedialAxis& axis, const Step& step, bool end) {
-  const Vec2 tangent = frame_at(axis, axis.edges[step.edge], step.forward == end ? 1 : 0).tangent;
+  const Vec2 tangent = jet_at(axis, axis.edges[step.edge], step.forward == end ? 1 : 0).tangent;
   return step.forward ? tangent : -tangent;
 }
 

@@ -103,16 +103,16 @@ void HalfEdges::link_by_site(std::span<const HalfEdge> leaving) {
     next_[in_left[k].half] = out_left[(k + shift) % out_left.size()].half;
 }
 
-AxisFrame HalfEdges::frame(HalfEdge half, bool at_end) const {
+AxisJet HalfEdges::jet(HalfEdge half, bool at_end) const {
   const bool forward = half % 2 == 0;
-  const AxisFrame frame = frame_at(axis_, edge(half), forward == at_end ? 1 : 0);
-  return forward ? frame : frame.reversed();
+  const AxisJet jet = jet_at(axis_, edge(half), forward == at_end ? 1 : 0);
+  return forward ? jet : jet.reversed();
 }
 
 Vec2 HalfEdges::touch(HalfEdge half, bool at_end) const {
   if (exact(half))
     return touch_of(axis_, axis_.sites[right_site(half)], disk(half, at_end).center, at_end);
-  return boundary_at(frame(half, at_end), Side::right).point;
+  return boundary_at(jet(half, at_end), Side::right).point;
 }
 
 double HalfEdges::direction(HalfEdge half) const {
@@ -131,7 +131,7 @@ double HalfEdges::direction(HalfEdge half) const {
       return std::atan2(out.y, out.x);
     }
   }
-  const Vec2 tangent = frame(half, false).tangent;
+  const Vec2 tangent = jet(half, false).tangent;
   return std::atan2(tangent.y, tangent.x);
 }
 
@@ -158,8 +158,8 @@ double HalfEdges::gap(HalfEdge half) const {
   if (angle <= std::numbers::pi || exact(half) || around_an_end) return angle;
   // Samples: a step backwards, or more than a half circle? The tangents and rates decide: a foot
   // is acos(-R_a) away from the direction in which the axis leaves.
-  const AxisFrame back = frame(twin(half), false), on = frame(after, false);
-  const auto to_foot = [](const AxisFrame& f) {
+  const AxisJet back = jet(twin(half), false), on = jet(after, false);
+  const auto to_foot = [](const AxisJet& f) {
     return std::acos(std::clamp(-f.radius_rate, -1.0, 1.0));
   };
   const double expected = left_turn(back.tangent, on.tangent) - to_foot(back) - to_foot(on);
@@ -175,8 +175,8 @@ std::array<Vec2, 2> feet_at(const MedialAxis& axis, const Edge& edge, double t, 
   if (by_sites)
     return {foot(axis.sites[edge.site[0]], disk.center),
             foot(axis.sites[edge.site[1]], disk.center)};
-  const AxisFrame frame = frame_at(axis, edge, t);
-  return {boundary_at(frame, Side::left).point, boundary_at(frame, Side::right).point};
+  const AxisJet jet = jet_at(axis, edge, t);
+  return {boundary_at(jet, Side::left).point, boundary_at(jet, Side::right).point};
 }
 
 Vec2 touch_of(const MedialAxis& axis, const Site& site, Vec2 center, bool ends) {

@@ -62,8 +62,8 @@ class HalfEdges {
   }
   std::uint32_t right_site(HalfEdge half) const { return edge(half).site[1 - half % 2]; }
 
-  /// The frame where a half edge begins, or where it ends; in its direction.
-  AxisFrame frame(HalfEdge half, bool at_end) const;
+  /// The jet where a half edge begins, or where it ends; in its direction.
+  AxisJet jet(HalfEdge half, bool at_end) const;
   /// Where the disk at an end of a half edge touches the boundary on the right.
   Vec2 touch(HalfEdge half, bool at_end) const;
   /// The angle of the disk's arc, counter-clockwise, from where the right side of a half edge ends

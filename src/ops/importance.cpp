@@ -191,7 +191,7 @@ double Importance::at(std::uint32_t e, double s) const {
       return share(r, size);
     case angle: {
       if (!(r > 0)) {  // the limit, in a corner
-        const double rate = std::min(std::abs(frame_at(axis_, edge, t).radius_rate), 1.0);
+        const double rate = std::min(std::abs(jet_at(axis_, edge, t).radius_rate), 1.0);
         return 2 * degrees * std::acos(rate);
       }
       const auto [left, right] = feet(edge, t, disk);

@@ -201,9 +201,9 @@ void LevelWalk::find_crossing(std::uint32_t index, double level) {
   }
 }
 
-std::vector<LevelLoop> LevelWalk::loops_at(double level, std::size_t k) {
-  std::vector<LevelLoop> loops;
-  const auto keep = [&](LevelLoop loop) {
+std::vector<OffsetRing> LevelWalk::loops_at(double level, std::size_t k) {
+  std::vector<OffsetRing> loops;
+  const auto keep = [&](OffsetRing loop) {
     const bool curved = std::any_of(loop.ring.bulges.begin(), loop.ring.bulges.end(),
                                     [](double bulge) { return bulge != 0; });
     if (!curved) loop.ring.bulges.clear();
@@ -294,8 +294,8 @@ void LevelWalk::pass_node(HalfEdge half, double level, RingBuilder& builder) con
 }
 
 /// The loop that begins where a half edge rises above the level.
-LevelLoop LevelWalk::loop_from(HalfEdge first, double level) {
-  LevelLoop loop{{}, halves_.to(first), halves_.right_site(first)};
+OffsetRing LevelWalk::loop_from(HalfEdge first, double level) {
+  OffsetRing loop{{}, halves_.to(first), halves_.right_site(first)};
   RingBuilder builder(axis_, level, loop.ring);
   builder.begin(loop.site, rise_[first]);
   bool risen = true;  // the walk goes on from where the half edge rises, not from its start
@@ -316,9 +316,9 @@ LevelLoop LevelWalk::loop_from(HalfEdge first, double level) {
 }
 
 /// The loop on the right of which a face lies that is nowhere below the level.
-LevelLoop LevelWalk::loop_around(HalfEdge last, double level) const {
+OffsetRing LevelWalk::loop_around(HalfEdge last, double level) const {
   const HalfEdge first = halves_.next(last);
-  LevelLoop loop{{}, halves_.to(first), halves_.right_site(first)};
+  OffsetRing loop{{}, halves_.to(first), halves_.right_site(first)};
   RingBuilder builder(axis_, level, loop.ring);
   const bool one_site = halves_.right_site(last) == loop.site;
   const Vec2 start = offset_at(loop.site, halves_.disk(last, true), level, Part::start);

@@ -16,7 +16,7 @@
 namespace medial::ops {
 
 /// A closed curve of all points of one clearance, with the larger clearance on its left.
-struct LevelLoop {
+struct OffsetRing {
   Ring ring;
   std::uint32_t node = 0;  ///< of the axis: in the region on the left
   /// One that the loop is an offset of; no_site for a circle around a node without edges.
@@ -50,10 +50,10 @@ class LevelWalk {
   enum class Part : std::uint8_t { start, end };
 
   void bin_crossings(std::span<const double> levels);
-  std::vector<LevelLoop> loops_at(double level, std::size_t k);
+  std::vector<OffsetRing> loops_at(double level, std::size_t k);
   void find_crossing(std::uint32_t edge, double level);
-  LevelLoop loop_from(HalfEdge first, double level);
-  LevelLoop loop_around(HalfEdge last, double level) const;
+  OffsetRing loop_from(HalfEdge first, double level);
+  OffsetRing loop_around(HalfEdge last, double level) const;
   void pass_node(HalfEdge half, double level, RingBuilder& builder) const;
   bool pass_joints(std::uint32_t before, std::uint32_t after, double level,
                    RingBuilder& builder) const;

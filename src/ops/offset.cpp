@@ -20,8 +20,8 @@
 namespace medial {
 namespace {
 
-using ops::LevelLoop;
 using ops::LevelWalk;
+using ops::OffsetRing;
 
 double enclosed_area(const Ring& ring) {
   double doubled = 0;
@@ -51,12 +51,12 @@ class Regions {
   /// Appends the regions of a level to `out`: of the loops with one key the one that encloses most
   /// is the outer ring. `lower` gives for the key of a region one level up its key now.
   template <class KeyOf, class Lower>
-  void add(double clearance, std::vector<LevelLoop> loops, const KeyOf& key_of, const Lower& lower,
+  void add(double clearance, std::vector<OffsetRing> loops, const KeyOf& key_of, const Lower& lower,
            std::vector<OffsetRegion>& out) {
     std::vector<std::uint32_t> keys;
     std::vector<double> largest;
     const std::size_t begin = out.size();
-    for (LevelLoop& loop : loops) {
+    for (OffsetRing& loop : loops) {
       const std::uint32_t key = key_of(loop);
       if (region_of_[key] == no_region || region_of_[key] < begin) {
         region_of_[key] = static_cast<std::uint32_t>(out.size());
@@ -122,18 +122,18 @@ void add_inward(const MedialAxis& axis, std::span<const double> levels, Regions&
   LevelWalk walk(axis);
   const auto bins = bins_of(walk, axis.edges.size(), levels, true);
   DisjointSets sets(axis.nodes.size());
-  walk.run(levels, [&](std::size_t k, std::vector<LevelLoop> loops) {
+  walk.run(levels, [&](std::size_t k, std::vector<OffsetRing> loops) {
     for (const std::uint32_t e : bins[k]) sets.join(axis.edges[e].node[0], axis.edges[e].node[1]);
     regions.add(
-        levels[k], std::move(loops), [&](const LevelLoop& loop) { return sets.find(loop.node); },
+        levels[k], std::move(loops), [&](const OffsetRing& loop) { return sets.find(loop.node); },
         [&](std::uint32_t node) { return sets.find(node); }, out);
   });
 }
 
 /// Which components of the shape the exterior's sites belong to.
 struct Surroundings {
-  static constexpr std::uint32_t frame = 0xFFFFFFFF;
-  std::vector<std::uint32_t> of_site;  ///< of each site: the component, or `frame`
+  static constexpr std::uint32_t enclosure = 0xFFFFFFFF;
+  std::vector<std::uint32_t> of_site;  ///< of each site: the component, or `enclosure`
   std::vector<std::uint32_t> of_part;  ///< of each component of the exterior: one that it touches
   /// Components of the shape that touch: neighbours along the boundary of the exterior.
   std::vector<std::pair<std::uint32_t, std::uint32_t>> touching;
@@ -144,7 +144,7 @@ struct Surroundings {
 /// Sites are numbered in the order of the points, a vertex before the edge that starts there.
 Surroundings surroundings_of(const Shape& shape, const Exterior& exterior, const MedialAxis& axis) {
   const auto component_at = [&](std::size_t point) {
-    return exterior.of_enclosure[point] ? Surroundings::frame
+    return exterior.of_enclosure[point] ? Surroundings::enclosure
                                         : shape.component[exterior.of_loop[point]];
   };
   Surroundings around;
@@ -173,14 +173,14 @@ Surroundings surroundings_of(const Shape& shape, const Exterior& exterior, const
 std::vector<std::uint32_t> add_outward(const MedialAxis& axis, const Surroundings& around,
                                        std::span<const double> levels, Regions& regions,
                                        std::vector<OffsetRegion>& out) {
-  const auto component_of = [&](const LevelLoop& loop) {
+  const auto component_of = [&](const OffsetRing& loop) {
     return loop.site != no_site ? around.of_site[loop.site]
                                 : around.of_part[axis.nodes[loop.node].component];
   };
   LevelWalk walk(axis);
-  std::vector<std::vector<LevelLoop>> loops(levels.size());
+  std::vector<std::vector<OffsetRing>> loops(levels.size());
   walk.run(levels,
-           [&](std::size_t k, std::vector<LevelLoop> found) { loops[k] = std::move(found); });
+           [&](std::size_t k, std::vector<OffsetRing> found) { loops[k] = std::move(found); });
   const auto bins = bins_of(walk, axis.edges.size(), levels, false);
   DisjointSets sets(around.components);
   for (const auto& [one, other] : around.touching) sets.join(one, other);
@@ -189,17 +189,18 @@ std::vector<std::uint32_t> add_outward(const MedialAxis& axis, const Surrounding
     for (const std::uint32_t e : bins[k]) {
       const std::uint32_t left = around.of_site[axis.edges[e].site[0]];
       const std::uint32_t right = around.of_site[axis.edges[e].site[1]];
-      if (left != Surroundings::frame && right != Surroundings::frame) sets.join(left, right);
+      if (left != Surroundings::enclosure && right != Surroundings::enclosure)
+        sets.join(left, right);
     }
-    std::vector<LevelLoop> own;
-    for (LevelLoop& loop : loops[k]) {
-      if (component_of(loop) == Surroundings::frame) continue;  // the frame's own offset
+    std::vector<OffsetRing> own;
+    for (OffsetRing& loop : loops[k]) {
+      if (component_of(loop) == Surroundings::enclosure) continue;  // the enclosure's own offset
       reverse(loop.ring);
       own.push_back(std::move(loop));
     }
     regions.add(
         -levels[k], std::move(own),
-        [&](const LevelLoop& loop) { return sets.find(component_of(loop)); },
+        [&](const OffsetRing& loop) { return sets.find(component_of(loop)); },
         [&](std::uint32_t component) { return sets.find(component); }, out);
     if (k > 0) continue;
     for (const std::uint32_t component : around.of_point)
@@ -216,7 +217,7 @@ Surroundings surroundings_of(const PlanarGraph& planar_graph, const Shape& surro
   Surroundings around;
   around.components = planar_graph.points.size();
   const auto component_of = [&](std::uint32_t point) {
-    return point == no_index ? Surroundings::frame : sets.find(point);
+    return point == no_index ? Surroundings::enclosure : sets.find(point);
   };
   for (std::uint32_t point = 0; point < planar_graph.points.size(); ++point)
     around.of_point.push_back(sets.find(point));
@@ -251,7 +252,7 @@ std::vector<double> increasing(std::vector<double> values) {
 
 /// No distance is larger than that, in diagonals.
 constexpr double farthest = 1e5;
-/// How many times the largest distance the frame is away: more than twice, so that no curve is
+/// How many times the largest distance the enclosure is away: more than twice, so that no curve is
 /// nearer to it.
 constexpr double reach = 2.5;
 

@@ -24,9 +24,9 @@ struct OutlinePiece {
 };
 
 /// The walk around the axis, with the boundary on its right.
-class Outliner {
+class BoundaryWalk {
  public:
-  explicit Outliner(const MedialAxis& axis) : axis_(axis), halves_(axis) {}
+  explicit BoundaryWalk(const MedialAxis& axis) : axis_(axis), halves_(axis) {}
 
   std::vector<Contour> run() {
     std::vector<Contour> contours;
@@ -209,6 +209,6 @@ class Outliner {
 
 }  // namespace
 
-std::vector<Contour> boundary_of(const MedialAxis& axis) { return Outliner(axis).run(); }
+std::vector<Contour> boundary_of(const MedialAxis& axis) { return BoundaryWalk(axis).run(); }
 
 }  // namespace medial

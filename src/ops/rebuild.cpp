@@ -16,8 +16,8 @@
 #include "base/random.h"
 #include "medial/compute.h"
 #include "medial/query.h"
-#include "medial/raster.h"
 #include "medial/sides.h"
+#include "methods/raster/disks.h"
 #include "ops/half_edges.h"
 #include "ops/hull_outline.h"
 

@@ -16,21 +16,21 @@ namespace {
 
 using ops::PowerSeries;
 
-/// The frame of a curve with these derivatives by any parameter.
+/// The jet of a curve with these derivatives by any parameter.
 /// Control points that are `tolerance` off change R_a by about tolerance / speed, R_aa and K_A by
 /// tolerance / speed^2; a curve has four of them, each of three numbers.
-AxisFrame frame_of(const Disk& disk, const Curve::Derivatives& d, double tolerance) {
-  AxisFrame frame{disk, {0, 0}, 0, 0, 0, 0, 0};
+AxisJet jet_of(const Disk& disk, const Curve::Derivatives& d, double tolerance) {
+  AxisJet jet{disk, {0, 0}, 0, 0, 0, 0, 0};
   const double speed = norm(d.first);
-  if (!(speed > 0)) return frame;
-  frame.tangent = (1 / speed) * d.first;
-  frame.radius_rate = d.radius_first / speed;
-  frame.radius_bend =
-      (d.radius_second - frame.radius_rate * dot(frame.tangent, d.second)) / (speed * speed);
-  frame.curvature = cross(frame.tangent, d.second) / (speed * speed);
-  frame.rate_error = 8 * tolerance / speed;
-  frame.bend_error = frame.rate_error / speed;
-  return frame;
+  if (!(speed > 0)) return jet;
+  jet.tangent = (1 / speed) * d.first;
+  jet.radius_rate = d.radius_first / speed;
+  jet.radius_bend =
+      (d.radius_second - jet.radius_rate * dot(jet.tangent, d.second)) / (speed * speed);
+  jet.curvature = cross(jet.tangent, d.second) / (speed * speed);
+  jet.rate_error = 8 * tolerance / speed;
+  jet.bend_error = jet.rate_error / speed;
+  return jet;
 }
 
 /// The derivatives of the parabola through three disks, by the length of its chords, in the middle.
@@ -48,9 +48,9 @@ Curve::Derivatives through(const Disk& before, const Disk& here, const Disk& aft
 
 /// What disks that are off by `error`, as a pack's are, leave open of the differences across two
 /// steps: 2 error / h of each first one, 4 error / (h0 h1) of the second.
-void leave_open(AxisFrame& frame, double h0, double h1, double error) {
-  frame.rate_error = 4 * error / std::min(h0, h1);
-  frame.bend_error = 8 * error / (h0 * h1);
+void leave_open(AxisJet& jet, double h0, double h1, double error) {
+  jet.rate_error = 4 * error / std::min(h0, h1);
+  jet.bend_error = 8 * error / (h0 * h1);
 }
 
 /// The derivatives of the polynomial through some disks, by the length of the chords between them,
@@ -113,16 +113,16 @@ double weight_at(std::span<const Disk* const> disks, std::size_t at) {
   return std::sqrt(product);
 }
 
-/// The frames at the inner nodes of a branch whose nodes are exact, from seven nodes each: those
+/// The jets at the inner nodes of a branch whose nodes are exact, from seven nodes each: those
 /// around it whose roughness counts least, for differences across a jump of the third derivative
 /// are off by the step times it.
-std::vector<AxisFrame> frames_of_exact_nodes(const MedialAxis& axis, const Branch& branch) {
+std::vector<AxisJet> jets_of_exact_nodes(const MedialAxis& axis, const Branch& branch) {
   std::vector<const Disk*> disks = {&axis.nodes[branch.from].disk};
   for (const Step& step : branch.steps) {
     const Disk* next = &axis.nodes[head_of(axis, step)].disk;
     if (!(next->center == disks.back()->center)) disks.push_back(next);
   }
-  std::vector<AxisFrame> frames;
+  std::vector<AxisJet> jets;
   constexpr std::size_t window = 7, aside = window / 2;
   const std::size_t count = disks.size(), width = std::min(window, count);
   std::vector<double> rough(count - width + 1);
@@ -144,9 +144,9 @@ std::vector<AxisFrame> frames_of_exact_nodes(const MedialAxis& axis, const Branc
       least = std::min(least, error);
     }
     const std::span<const Disk* const> near(disks.data() + first, width);
-    frames.push_back(frame_of(*disks[i], through(near, i - first), 0));
+    jets.push_back(jet_of(*disks[i], through(near, i - first), 0));
   }
-  return frames;
+  return jets;
 }
 
 /// A series of a Bezier curve's coordinate at t + u, from its three weighted control values.
@@ -161,26 +161,34 @@ PowerSeries quadratic(double c0, double c1, double c2, double t, std::size_t siz
 
 }  // namespace
 
-AxisFrame frame_at(const MedialAxis& axis, const Edge& edge, double t) {
-  const Curve curve = curve_of(axis, edge);
-  return frame_of(curve.at(t), curve.derivatives(t), axis.resolution > 0 ? 0 : axis.tolerance);
+AxisJet AxisJet::reversed() const {
+  AxisJet back = *this;
+  back.tangent = -tangent;
+  back.radius_rate = -radius_rate;
+  back.curvature = -curvature;
+  return back;
 }
 
-BoundaryFrame boundary_at(const AxisFrame& frame, Side side) {
+AxisJet jet_at(const MedialAxis& axis, const Edge& edge, double t) {
+  const Curve curve = curve_of(axis, edge);
+  return jet_of(curve.at(t), curve.derivatives(t), axis.resolution > 0 ? 0 : axis.tolerance);
+}
+
+BoundaryJet boundary_at(const AxisJet& jet, Side side) {
   // One side is the other one's mirror image: the normal and the curvature change their signs.
   const double sign = side == Side::left ? 1 : -1;
-  const double radius = frame.disk.radius;
-  const double rate = std::clamp(frame.radius_rate, -1.0, 1.0);
+  const double radius = jet.disk.radius;
+  const double rate = std::clamp(jet.radius_rate, -1.0, 1.0);
   const double s = std::sqrt((1 - rate) * (1 + rate));
-  const Vec2 normal = sign * left_of(frame.tangent);
-  const Vec2 outwards = s * normal - rate * frame.tangent;
-  const double turn = sign * frame.curvature;
+  const Vec2 normal = sign * left_of(jet.tangent);
+  const Vec2 outwards = s * normal - rate * jet.tangent;
+  const double turn = sign * jet.curvature;
 
-  BoundaryFrame boundary;
-  boundary.point = frame.disk.center + radius * outwards;
-  boundary.tangent = s * frame.tangent + rate * normal;
+  BoundaryJet boundary;
+  boundary.point = jet.disk.center + radius * outwards;
+  boundary.tangent = s * jet.tangent + rate * normal;
   // l_a s = 1 - R_a^2 - R (R_aa + K_A s): the numerator of (6) and the denominator of (7).
-  const double bend = frame.radius_bend + turn * s;
+  const double bend = jet.radius_bend + turn * s;
   const double shrink = s * s - radius * bend;
   boundary.rate = shrink / s;
   boundary.curvature = -bend / shrink;
@@ -222,11 +230,10 @@ std::vector<double> boundary_curvatures(const MedialAxis& axis, const Edge& edge
   return out;
 }
 
-std::vector<AxisFrame> frames_along(const MedialAxis& axis, const Branch& branch,
-                                    int samples_per_edge) {
-  std::vector<AxisFrame> frames;
-  if (axis.resolution > 0 && axis.method == "curve-axis")
-    return frames_of_exact_nodes(axis, branch);
+std::vector<AxisJet> jets_along(const MedialAxis& axis, const Branch& branch,
+                                int samples_per_edge) {
+  std::vector<AxisJet> jets;
+  if (axis.resolution > 0 && axis.method == "curve-axis") return jets_of_exact_nodes(axis, branch);
   if (axis.resolution > 0) {
     const auto end_of = [&](Step step) -> const Disk& {
       return axis.nodes[head_of(axis, step)].disk;
@@ -236,24 +243,24 @@ std::vector<AxisFrame> frames_along(const MedialAxis& axis, const Branch& branch
       const Disk& here = end_of(branch.steps[i]);
       const Disk& after = end_of(branch.steps[i + 1]);
       if (!(before->center == here.center) && !(here.center == after.center)) {
-        frames.push_back(frame_of(here, through(*before, here, after), 0));
+        jets.push_back(jet_of(here, through(*before, here, after), 0));
         if (axis.method == "pack")
-          leave_open(frames.back(), distance(before->center, here.center),
+          leave_open(jets.back(), distance(before->center, here.center),
                      distance(here.center, after.center), axis.resolution);
       }
       before = &here;
     }
-    return frames;
+    return jets;
   }
   for (const Step& step : branch.steps) {
     const Edge& edge = axis.edges[step.edge];
     for (int i = 1; i <= samples_per_edge; ++i) {
       const double t = static_cast<double>(i) / (samples_per_edge + 1);
-      const AxisFrame frame = frame_at(axis, edge, step.forward ? t : 1 - t);
-      if (!(frame.tangent == Vec2{0, 0})) frames.push_back(step.forward ? frame : frame.reversed());
+      const AxisJet jet = jet_at(axis, edge, step.forward ? t : 1 - t);
+      if (!(jet.tangent == Vec2{0, 0})) jets.push_back(step.forward ? jet : jet.reversed());
     }
   }
-  return frames;
+  return jets;
 }
 
 std::vector<Legality> legality(const MedialAxis& axis, int samples_per_edge) {
@@ -262,21 +269,21 @@ std::vector<Legality> legality(const MedialAxis& axis, int samples_per_edge) {
   std::vector<Legality> all;
   for (const Branch& branch : branches(axis)) {
     Legality one{lowest, lowest, 0, {}, {}};
-    for (const AxisFrame& frame : frames_along(axis, branch, samples_per_edge)) {
-      const double rate = frame.radius_rate, radius = frame.disk.radius;
+    for (const AxisJet& jet : jets_along(axis, branch, samples_per_edge)) {
+      const double rate = jet.radius_rate, radius = jet.disk.radius;
       const double square = (1 - rate) * (1 + rate);
       const double s = std::sqrt(std::max(square, 0.0));
       // A root is the less certain the closer it is to 0: sqrt(x + e) - sqrt(x) <= sqrt(e).
-      const double square_error = 4 * frame.rate_error;
+      const double square_error = 4 * jet.rate_error;
       const double root_error = std::min(std::sqrt(square_error), square_error / s);
-      const double turn = std::abs(frame.curvature) * radius;
-      const double error = square_error + 2 * radius * frame.bend_error + turn * root_error;
+      const double turn = std::abs(jet.curvature) * radius;
+      const double error = square_error + 2 * radius * jet.bend_error + turn * root_error;
       if (!(error < most_error)) continue;
-      ++one.frames;
-      const double steepness = std::abs(rate) - 1 - frame.rate_error;
-      const double bend = turn * s - (square - radius * frame.radius_bend) - error;
-      if (steepness > one.steepness) one.steepness = steepness, one.steepest = frame;
-      if (bend > one.bend) one.bend = bend, one.sharpest = frame;
+      ++one.jets;
+      const double steepness = std::abs(rate) - 1 - jet.rate_error;
+      const double bend = turn * s - (square - radius * jet.radius_bend) - error;
+      if (steepness > one.steepness) one.steepness = steepness, one.steepest = jet;
+      if (bend > one.bend) one.bend = bend, one.sharpest = jet;
     }
     all.push_back(one);
   }

@@ -3,6 +3,7 @@
 #include "base/in_flight.h"
 #include "medial/shape.h"
 #include "shape/clean.h"
+#include "shape/fill.h"
 #include "shape/nest.h"
 #include "shape/splice.h"
 #include "shape/sweep.h"
@@ -38,7 +39,8 @@ Result<Arrangement> arrange(CleanRings cleaned, const ShapeOptions& options, Sha
   return insert_splits(std::move(cleaned), std::move(swept).value());
 }
 
-Result<Shape> build(std::span<const Ring> rings, const ShapeOptions& options, ShapeReport& report) {
+Result<Shape> build_once(std::span<const Ring> rings, const ShapeOptions& options,
+                         ShapeReport& report) {
   Result<CleanRings> cleaned = clean(rings, report);
   if (!cleaned) return std::move(cleaned).error();
 
@@ -53,6 +55,25 @@ Result<Shape> build(std::span<const Ring> rings, const ShapeOptions& options, Sh
   if (auto error = nest(arrangement, *loops)) return std::move(*error);
   if (auto error = check_roles(rings, arrangement, *loops)) return std::move(*error);
   return assemble(arrangement, *loops);
+}
+
+/// Whether rings that are cut into a planar graph may still make a shape.
+bool may_be_filled(const Error& error) {
+  return error.code != ErrorCode::not_finite && error.code != ErrorCode::too_large &&
+         error.code != ErrorCode::empty && error.code != ErrorCode::out_of_memory;
+}
+
+Result<Shape> build(std::span<const Ring> rings, const ShapeOptions& options, ShapeReport& report) {
+  Result<Shape> shape = build_once(rings, options, report);
+  if (shape || !options.node_crossings || !may_be_filled(shape.error())) return shape;
+  report = {};
+  const Result<FilledRings> filled = fill(rings, report);
+  if (!filled) return filled.error();
+  ShapeReport of_filled;
+  shape = build_once(filled->rings, options, of_filled);
+  if (!shape) return shape;
+  for (VertexSource& source : shape->sources) source = filled->sources[source.ring][source.vertex];
+  return shape;
 }
 
 }  // namespace

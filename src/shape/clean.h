@@ -11,6 +11,13 @@ namespace medial {
 
 inline constexpr std::uint32_t no_index = std::numeric_limits<std::uint32_t>::max();
 
+/// What an edge counts in a fill rule: how often rings of the role `winding` run along it, forwards
+/// less backwards, and whether an odd number of other rings does.
+struct EdgeWeight {
+  std::int32_t winding = 0;
+  bool odd = false;
+};
+
 /// The rings of the input without what does not matter: ring i is points[begin[i], begin[i + 1]).
 /// Edge v runs from vertex v to next(v). In each ring there are at least three vertices (two where
 /// it has arcs), neighbours differ, and no vertex lies in the inside of a straight run or, to
@@ -24,6 +31,7 @@ struct CleanRings {
   std::vector<VertexSource> sources;  ///< sources[v].ring is also the index in `begin`
   std::vector<std::uint32_t> begin;
   bool open = false;
+  std::vector<EdgeWeight> weights;  ///< of chains' edges, where a fill rule wants them; else empty
 
   /// no_index where an open chain has no more.
   std::uint32_t next(std::uint32_t vertex) const {

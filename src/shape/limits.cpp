@@ -36,8 +36,8 @@ std::optional<Error> beyond_limits(std::span<const Vec2> points, double largest,
               "the largest) without being 0",
               {}};
   error.place.point = p;
-  constexpr std::uint32_t of_frame = 0xFFFFFFFF;
-  if (i < sources.size() && sources[i].ring != of_frame) {
+  constexpr std::uint32_t of_enclosure = 0xFFFFFFFF;
+  if (i < sources.size() && sources[i].ring != of_enclosure) {
     error.place.ring = sources[i].ring;
     error.place.vertex = sources[i].vertex;
   }

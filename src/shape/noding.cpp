@@ -48,7 +48,12 @@ Noding::Noding(const CleanRings& cleaned, double reach)
   nodes_.resize(cleaned.points.size());
   for (std::size_t v = 0; v < nodes_.size(); ++v) {
     const Vec2 point = cleaned.points[v];
-    nodes_[v] = {point, to_local(point), cleaned.bulges[v], cleaned.sources[v], cleaned.sources[v]};
+    nodes_[v] = {point,
+                 to_local(point),
+                 cleaned.bulges[v],
+                 cleaned.sources[v],
+                 cleaned.sources[v],
+                 cleaned.weights.empty() ? EdgeWeight{} : cleaned.weights[v]};
   }
 }
 
@@ -92,6 +97,7 @@ NodedRings Noding::monotone() const {
     result.sources.push_back(node.source);
     result.originals.push_back(node.original);
     result.edge_bulges.push_back(nodes_[edge].bulge);
+    result.weights.push_back(nodes_[edge].weight);
     result.edges.push_back(edge);
   };
   for (std::uint32_t ring = 0; ring + 1 < begin_.size(); ++ring) {
@@ -248,12 +254,18 @@ std::uint64_t Noding::drop_repeated() {
   ranges::sort(edges, {}, &Edge::key);
   std::vector<bool> drop(nodes_.size(), false);
   std::uint64_t dropped = 0;
+  std::uint32_t kept = 0;  // of those equal to the edge before
   for (std::size_t i = 1; i < edges.size(); ++i) {
     const Edge &a = edges[i - 1], &b = edges[i];
+    if (!drop[a.node]) kept = a.node;
     if (a.low != b.low || a.high != b.high) continue;
     const double apart = (b.bulge - a.bulge) / 2 * frame_.scale * distance(a.low, a.high);
     if (apart > 2 * tolerance_) continue;
     drop[b.node] = true;
+    const bool same = nodes_[kept].original == nodes_[b.node].original;
+    const EdgeWeight extra = nodes_[b.node].weight;
+    nodes_[kept].weight.winding += same ? extra.winding : -extra.winding;
+    nodes_[kept].weight.odd = nodes_[kept].weight.odd != extra.odd;
     ++dropped;
   }
   if (dropped == 0) return 0;

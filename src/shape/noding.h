@@ -25,6 +25,7 @@ struct NodedRings {
   std::vector<std::uint32_t> edges;   ///< the edge that a piece is of
   std::vector<bool> passing;          ///< vertices that are there for the sweep only
   std::vector<std::uint32_t> rings;   ///< of each ring of the outline, that of the input
+  std::vector<EdgeWeight> weights;    ///< of the edge that a piece is of
 };
 
 /// An edge touches a point: a vertex of the NodedRings, or (no_index) a point in local
@@ -66,8 +67,9 @@ class Noding {
   std::optional<Error> apply(const NodedRings& noded, std::span<const TouchedPoint> contacts,
                              std::span<const Merge> merges);
 
-  /// Drops edges of chains that are there twice, to the tolerance; those before and after become
-  /// chains of their own. O(n log n). Returns how many.
+  /// Drops edges of chains that are there twice, to the tolerance, adding their weights to those
+  /// that stay; the edges before and after become chains of their own. O(n log n). Returns how
+  /// many.
   std::uint64_t drop_repeated();
 
  private:
@@ -77,6 +79,7 @@ class Noding {
     double bulge = 0;
     VertexSource source;
     VertexSource edge_source;
+    EdgeWeight weight;
   };
 
   /// Where an edge is cut.

@@ -13,6 +13,7 @@
 #include "shape/arc_sweep.h"
 #include "shape/clean.h"
 #include "shape/errors.h"
+#include "shape/fill.h"
 #include "shape/splice.h"
 #include "shape/sweep.h"
 
@@ -26,6 +27,7 @@ struct InputEdge {
   Vec2 from, to;
   double bulge = 0;
   VertexSource source;
+  EdgeWeight weight = {};
 };
 struct InputPoint {
   Vec2 point;
@@ -38,7 +40,8 @@ struct Input {
   std::vector<InputPoint> points;
 };
 
-Result<Input> input_of(std::span<const Chain> chains, PlanarGraphReport& report) {
+Result<Input> input_of(std::span<const Chain> chains, std::span<const EdgeWeight> weights,
+                       PlanarGraphReport& report) {
   report.input_chains = chains.size();
   double largest = 0;
   for (const Chain& chain : chains) {
@@ -54,6 +57,7 @@ Result<Input> input_of(std::span<const Chain> chains, PlanarGraphReport& report)
   input.edges.reserve(report.input_points);
   for (std::uint32_t c = 0; c < chains.size(); ++c) {
     const Chain& chain = chains[c];
+    const EdgeWeight weight = weights.empty() ? EdgeWeight{} : weights[c];
     const std::size_t edges_before = input.edges.size(), count = chain.points.size();
     const auto at = [&](std::size_t i) {
       return Vec2{chain.points[i].x + 0.0, chain.points[i].y + 0.0};  // makes -0 to 0
@@ -65,7 +69,7 @@ Result<Input> input_of(std::span<const Chain> chains, PlanarGraphReport& report)
                         chain.points[i]);
       if (i + 1 == count && (!chain.closed || count == 1)) break;
       InputEdge edge{at(i), at(i + 1 == count ? 0 : i + 1),
-                     i < chain.bulges.size() ? chain.bulges[i] : 0, source};
+                     i < chain.bulges.size() ? chain.bulges[i] : 0, source, weight};
       if (!std::isfinite(edge.bulge))
         return error_at(ErrorCode::not_finite, "a bulge is not a finite number", source, edge.from);
       if (edge.from == edge.to) {
@@ -81,8 +85,8 @@ Result<Input> input_of(std::span<const Chain> chains, PlanarGraphReport& report)
       }
       const Vec2 middle = apex({edge.from, edge.to, edge.bulge});
       const double half = std::clamp(half_bulge(edge.bulge), -1.0, 1.0);
-      input.edges.push_back({edge.from, middle, half, source});
-      input.edges.push_back({middle, edge.to, half, source});
+      input.edges.push_back({edge.from, middle, half, source, weight});
+      input.edges.push_back({middle, edge.to, half, source, weight});
     }
     if (count > 0 && input.edges.size() == edges_before) input.points.push_back({at(0), {c, 0}});
   }
@@ -118,10 +122,12 @@ CleanRings cleaned_of(const Input& input) {
   const bool has_arcs = std::any_of(input.edges.begin(), input.edges.end(),
                                     [](const InputEdge& edge) { return edge.bulge != 0; });
   if (has_arcs) cleaned.bulges.reserve(count);
-  const auto add = [&](Vec2 point, double bulge) {
+  cleaned.weights.reserve(count);
+  const auto add = [&](Vec2 point, double bulge, EdgeWeight weight) {
     const auto ring = static_cast<std::uint32_t>(cleaned.begin.size() - 1);
     cleaned.sources.push_back({ring, 0});
     cleaned.points.push_back(point);
+    cleaned.weights.push_back(weight);
     if (has_arcs) cleaned.bulges.push_back(bulge);
   };
   const auto begin = [&] {
@@ -129,12 +135,12 @@ CleanRings cleaned_of(const Input& input) {
   };
   for (const InputEdge& edge : input.edges) {
     begin();
-    add(edge.from, edge.bulge);
-    add(edge.to, 0);
+    add(edge.from, edge.bulge, edge.weight);
+    add(edge.to, 0, {});
   }
   for (const InputPoint& point : input.points) {
     begin();
-    add(point.point, 0);
+    add(point.point, 0, {});
   }
   begin();
   return cleaned;
@@ -343,7 +349,8 @@ void add_loops(const Faces& faces, const std::vector<Part>& parts, PlanarGraph& 
 
 /// Numbers points and edges as the result does: without the places that are there for the sweep
 /// only, where an arc has an upright tangent.
-PlanarGraph assemble(const Input& input, const Faces& faces, const NodedRings* noded) {
+PlanarGraph assemble(const Input& input, const Faces& faces, const NodedRings* noded,
+                     std::vector<EdgeWeight>* weights) {
   const CleanRings& cleaned = faces.cleaned_;
   const auto passing = [&](std::uint32_t v) { return noded != nullptr && noded->passing[v]; };
   const auto source_of_ring = [&](std::uint32_t ring) {
@@ -382,6 +389,7 @@ PlanarGraph assemble(const Input& input, const Faces& faces, const NodedRings* n
     const std::uint32_t from = point_at(link.from), to = point_at(faces.links[last].to);
     planar_graph.edges.push_back(
         {from, to, bulge, source_of_ring(cleaned.sources[link.edge].ring)});
+    if (weights != nullptr) weights->push_back(noded->weights[link.edge]);
   }
   add_loops(faces, parts, planar_graph);
   for (const LonePoint& lone : faces.lone)
@@ -412,7 +420,7 @@ Error in_terms_of_input(Error error, const Input& input) {
 }
 
 Result<PlanarGraph> build_once(const Input& input, const PlanarGraphOptions& options,
-                               PlanarGraphReport& report) {
+                               PlanarGraphReport& report, std::vector<EdgeWeight>* weights) {
   CleanRings cleaned = cleaned_of(input);
   if (options.node_crossings || options.reach > 0) cleaned.bulges.resize(cleaned.points.size());
   if (!cleaned.bulges.empty()) {
@@ -424,7 +432,7 @@ Result<PlanarGraph> build_once(const Input& input, const PlanarGraphOptions& opt
     report.repeated_edges += swept->repeated_edges;
     Faces faces(swept->noded.cleaned, swept->sweep);
     faces.run();
-    return assemble(input, faces, &swept->noded);
+    return assemble(input, faces, &swept->noded, weights);
   }
   Result<Sweep> swept = sweep(cleaned);
   if (!swept) return in_terms_of_input(std::move(swept).error(), input);
@@ -432,20 +440,20 @@ Result<PlanarGraph> build_once(const Input& input, const PlanarGraphOptions& opt
   report.split_edges = swept->splits.size();
   Faces faces(cleaned, *swept);
   faces.run();
-  return assemble(input, faces, nullptr);
+  return assemble(input, faces, nullptr, nullptr);
 }
 
 Result<PlanarGraph> build(std::span<const Chain> chains, const PlanarGraphOptions& options,
                           PlanarGraphReport& report) {
-  Result<Input> input = input_of(chains, report);
+  Result<Input> input = input_of(chains, {}, report);
   if (!input) return std::move(input).error();
   const std::uint64_t points = input->points.size();
-  Result<PlanarGraph> planar_graph = build_once(*input, options, report);
+  Result<PlanarGraph> planar_graph = build_once(*input, options, report, nullptr);
   if (!planar_graph && planar_graph.error().code == ErrorCode::overlap) {
     // Rare, so looked for only now: edges that are there twice.
     const std::size_t before = input->edges.size();
     drop_repeated(*input, report);
-    if (input->edges.size() < before) planar_graph = build_once(*input, options, report);
+    if (input->edges.size() < before) planar_graph = build_once(*input, options, report, nullptr);
   }
   if (planar_graph) report.repeated_points += points - planar_graph->lone_points.size();
   return planar_graph;
@@ -464,6 +472,19 @@ Result<PlanarGraph> build_planar_graph(std::span<const Chain> chains,
   } catch (...) {
     return error_in_flight();
   }
+}
+
+Result<WeightedGraph> build_weighted_graph(std::span<const Chain> chains,
+                                           std::span<const EdgeWeight> weights, double reach,
+                                           PlanarGraphReport& report) {
+  Result<Input> input = input_of(chains, weights, report);
+  if (!input) return std::move(input).error();
+  WeightedGraph result;
+  Result<PlanarGraph> graph =
+      build_once(*input, {.node_crossings = true, .reach = reach}, report, &result.weights);
+  if (!graph) return std::move(graph).error();
+  result.graph = std::move(graph).value();
+  return result;
 }
 
 Box bounding_box(const PlanarGraph& planar_graph) {

@@ -153,8 +153,7 @@ void check_sampled_disks(const Problem& problem, Certificate& certificate) {
     nodes.add(run);
   certificate.disks_checked = nodes.disks;
   certificate.largest_residual = nodes.residual.value;
-  certificate.worst_x = nodes.residual.where.x;
-  certificate.worst_y = nodes.residual.where.y;
+  certificate.worst = nodes.residual.where;
   certificate.largest_intrusion = nodes.intrusion.value;
   const Worst& worst = nodes.residual;
   report_worst(worst, "nodes have a radius that is not the distance to the boundary", "node",
@@ -194,8 +193,7 @@ void check_disks(const Problem& problem, int samples_per_edge, Certificate& cert
   residual.add(edges.residual);
   certificate.disks_checked = nodes.disks + edges.disks;
   certificate.largest_residual = residual.value;
-  certificate.worst_x = residual.where.x;
-  certificate.worst_y = residual.where.y;
+  certificate.worst = residual.where;
   certificate.largest_intrusion = std::max(nodes.intrusion.value, edges.intrusion.value);
   certificate.largest_contact_gap = edges.contact.value;
   certificate.worst_legality = edges.legality.value;

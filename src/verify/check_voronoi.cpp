@@ -48,11 +48,11 @@ class VoronoiCheck {
   void run() {
     certificate_.sites = diagram_.sites.size();
     if (!check_values() || !check_sites()) return;
-    frame_ = *diagram_.frame;
+    enclosure_ = *diagram_.enclosure;
     constexpr double default_relative = 1e-13;
     const double relative = options_.tolerance > 0 ? options_.tolerance : default_relative;
-    tolerance_ =
-        std::max({relative * diagonal(frame_), 4 * spacing_in(frame_), 4 * diagram_.tolerance});
+    tolerance_ = std::max(
+        {relative * diagonal(enclosure_), 4 * spacing_in(enclosure_), 4 * diagram_.tolerance});
     certificate_.tolerance = tolerance_;
     check_disks();
     check_faces();
@@ -69,13 +69,13 @@ class VoronoiCheck {
              std::isfinite(disk.radius);
     };
     const std::size_t sites = diagram_.sites.size(), nodes = diagram_.nodes.size();
-    bool sound = diagram_.frame.has_value() && diagram_.face_begin.size() == sites + 1;
-    if (!diagram_.frame) fail("The diagram has no frame: it is none of a planar graph.");
+    bool sound = diagram_.enclosure.has_value() && diagram_.face_begin.size() == sites + 1;
+    if (!diagram_.enclosure) fail("The diagram has no enclosure: it is none of a planar graph.");
     for (const Node& node : diagram_.nodes)
       sound = sound && finite(node.disk) && node.disk.radius >= 0;
     for (const VoronoiEdge& edge : diagram_.edges) {
       sound = sound && edge.node[0] < nodes && edge.node[1] < nodes && edge.site[0] < sites &&
-              (edge.frame ? edge.site[1] == no_site : edge.site[1] < sites) &&
+              (edge.on_enclosure ? edge.site[1] == no_site : edge.site[1] < sites) &&
               finite(edge.control) && std::isfinite(edge.weight) && edge.weight > 0;
     }
     for (std::size_t i = 0; sound && i < sites; ++i)
@@ -121,9 +121,9 @@ class VoronoiCheck {
       edges.push_back(edge_of(diagram_.sites[i]));
       arcs = arcs || edges.back().bulge != 0;
     }
-    const DistanceTree tree(edges, frame_, arcs);
+    const DistanceTree tree(edges, enclosure_, arcs);
     struct Findings {
-      Largest residual, contact, off_frame;
+      Largest residual, contact, off_enclosure;
       std::uint64_t disks = 0;
     };
     const int parts = 1 + std::clamp(options_.samples_per_edge, 0, 1 << 20);
@@ -139,7 +139,8 @@ class VoronoiCheck {
               const double own = distance_to_edge(disk.center, edge_of(diagram_.sites[site]));
               found.contact.add(std::abs(own - disk.radius), tolerance_, disk.center);
             }
-            if (edge.frame) found.off_frame.add(off_frame(disk.center), tolerance_, disk.center);
+            if (edge.on_enclosure)
+              found.off_enclosure.add(off_enclosure(disk.center), tolerance_, disk.center);
             ++found.disks;
           }
         });
@@ -147,13 +148,12 @@ class VoronoiCheck {
     for (const Findings& found : findings) {
       all.residual.add(found.residual);
       all.contact.add(found.contact);
-      all.off_frame.add(found.off_frame);
+      all.off_enclosure.add(found.off_enclosure);
       all.disks += found.disks;
     }
     certificate_.largest_residual = all.residual.value;
     certificate_.largest_contact_gap = all.contact.value;
-    certificate_.worst_x = all.residual.where.x;
-    certificate_.worst_y = all.residual.where.y;
+    certificate_.worst = all.residual.where;
     certificate_.disks_checked = all.disks;
     const auto tell = [&](const Largest& largest, const char* what) {
       if (largest.over > 0)
@@ -163,7 +163,7 @@ class VoronoiCheck {
     };
     tell(all.residual, "have a radius that is not the distance to the nearest site");
     tell(all.contact, "do not touch a site of their edge");
-    tell(all.off_frame, "of the frame's edges are off the frame");
+    tell(all.off_enclosure, "of the enclosure's edges are off it");
   }
 
   Disk disk_on(const VoronoiEdge& edge, double t) const {
@@ -174,9 +174,9 @@ class VoronoiCheck {
             scale * (a * from.radius + b * edge.control.radius + c * to.radius)};
   }
 
-  double off_frame(Vec2 p) const {
-    const double inside = std::min(
-        {p.x - frame_.low.x, frame_.high.x - p.x, p.y - frame_.low.y, frame_.high.y - p.y});
+  double off_enclosure(Vec2 p) const {
+    const double inside = std::min({p.x - enclosure_.low.x, enclosure_.high.x - p.x,
+                                    p.y - enclosure_.low.y, enclosure_.high.y - p.y});
     return std::abs(inside);
   }
 
@@ -209,14 +209,15 @@ class VoronoiCheck {
     return cross(p - from, r - from) + share * triangle;
   }
 
-  /// Closed walks, the right way around, that fill the frame; every edge in both of its faces.
+  /// Closed walks, the right way around, that fill the enclosure; every edge in both of its faces.
   void check_faces() {
     struct Findings {
       std::uint64_t faces = 0, broken = 0;
       double area = 0;
     };
     std::vector<std::uint8_t> used(2 * diagram_.edges.size());
-    const double whole = (frame_.high.x - frame_.low.x) * (frame_.high.y - frame_.low.y);
+    const double whole =
+        (enclosure_.high.x - enclosure_.low.x) * (enclosure_.high.y - enclosure_.low.y);
     constexpr double relative = 1e-9;
     const auto findings = in_blocks<Findings>(
         diagram_.sites.size(), block_size, [&](std::size_t site, Findings& found) {
@@ -247,7 +248,7 @@ class VoronoiCheck {
       certificate_.broken_faces += found.broken;
       certificate_.faces_area += found.area;
     }
-    certificate_.frame_area = whole;
+    certificate_.enclosure_area = whole;
     if (certificate_.broken_faces > 0)
       fail(sentence("%llu faces are no closed walks around their sites.",
                     static_cast<unsigned long long>(certificate_.broken_faces)));
@@ -259,8 +260,8 @@ class VoronoiCheck {
       fail(sentence("%llu sides of edges are not in one face.",
                     static_cast<unsigned long long>(missing)));
     if (!(std::abs(certificate_.faces_area - whole) <= relative * whole))
-      fail(sentence("The faces have an area of %.10g in a frame of %.10g.", certificate_.faces_area,
-                    whole));
+      fail(sentence("The faces have an area of %.10g in an enclosure of %.10g.",
+                    certificate_.faces_area, whole));
   }
 
   void check_connected() {
@@ -274,7 +275,7 @@ class VoronoiCheck {
   const VoronoiDiagram& diagram_;
   const VerifyOptions& options_;
   VoronoiCertificate& certificate_;
-  Box frame_;
+  Box enclosure_;
   double tolerance_ = 0;
 };
 

@@ -74,8 +74,9 @@ bool check_values(const Shape& shape, const MedialAxis& axis, Certificate& certi
 /// `corner_angle` in radians.
 void prepare(Problem& problem, double corner_angle, Certificate& certificate);
 
-/// Parts and cycles against components and holes; kinds of nodes against their degrees.
-void check_graph(const Problem& problem, Certificate& certificate);
+/// Parts and cycles against components and holes, of a part of an axis only that there are no more
+/// cycles than holes; kinds of nodes against their degrees.
+void check_graph(const Problem& problem, bool part, Certificate& certificate);
 /// Leaves at all convex corners, elsewhere at arcs of largest curvature only; a foot on every
 /// reflex vertex.
 void check_vertices(const Problem& problem, Certificate& certificate);

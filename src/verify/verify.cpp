@@ -57,12 +57,12 @@ void run_checks(const Shape& original, const MedialAxis& axis, const VerifyOptio
     certificate.tolerance = problem.tolerance;
   }
   prepare(problem, options.corner_angle * std::numbers::pi / 180, certificate);
-  check_graph(problem, certificate);
+  check_graph(problem, options.part, certificate);
   if (axis.resolution > 0) {
     check_sampled_disks(problem, certificate);
     return;
   }
-  if (axis.exterior != 0) {
+  if (axis.exterior != 0 || options.part) {
     check_disks(problem, options.samples_per_edge, certificate);
     return;
   }

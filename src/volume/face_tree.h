@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "medial/vec3.h"
+#include "medial/geometry.h"
 
 namespace medial::volume {
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "volume/predicates.h"
+
 namespace medial::volume {
 namespace {
 

@@ -3,9 +3,15 @@
 // Decisions in space that are exact for all finite coordinates.
 
 #include "medial/geometry.h"
-#include "medial/vec3.h"
 
 namespace medial::volume {
+
+/// The axis along which a vector is longest; of equals the first one.
+constexpr int longest_axis(Vec3 a) {
+  const auto size = [&a](int axis) { return a[axis] < 0 ? -a[axis] : a[axis]; };
+  const int best = size(1) > size(0) ? 1 : 0;
+  return size(2) > size(best) ? 2 : best;
+}
 
 /// The sign of the volume of the tetrahedron a, b, c, d: +1 if a, b, c turn counter-clockwise as
 /// seen from d, -1 clockwise, 0 if all lie in a plane. Exact for all coordinates whose products of

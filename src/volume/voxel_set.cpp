@@ -1,6 +1,7 @@
 #include "volume/voxel_set.h"
 
 #include <algorithm>
+#include <bit>
 
 namespace medial::volume {
 

@@ -42,7 +42,8 @@ Result<Box> enclosure_for(const PlanarGraph& planar_graph, const Options& option
     const bool holds = enclosure->low.x < box.low.x && enclosure->low.y < box.low.y &&
                        enclosure->high.x > box.high.x && enclosure->high.y > box.high.y;
     if (!holds || !(diagonal(*enclosure) <= most * std::max(largest, 1.0)))
-      return Error{ErrorCode::invalid_option, "the frame must hold all of the input inside", {}};
+      return Error{
+          ErrorCode::invalid_option, "the enclosure must hold all of the input inside", {}};
     return *enclosure;
   }
   double margin = margin_for(box, options.margin);
@@ -68,7 +69,7 @@ template <class E>
 Result<MedialAxis> run_around(const Problem& surroundings, std::vector<E>& edges) {
   MedialAxis axis = disks::run_two_sided(surroundings, edges);
   if (surroundings.is_cancelled()) return Error{ErrorCode::cancelled, "cancelled", {}};
-  if (!has_right_topology(surroundings.shape, axis.nodes.size(), edges.size()))
+  if (!has_right_topology(surroundings.shape, axis.nodes, edges))
     return Error{ErrorCode::internal,
                  "the diagram is not connected as it should be: please report this input",
                  {}};

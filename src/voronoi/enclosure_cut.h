@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "medial/diagram.h"
+#include "medial/axis.h"
 #include "medial/planar_graph.h"
 #include "voronoi/clip.h"
 

@@ -3,7 +3,6 @@
 #include <vector>
 
 #include "medial/axis.h"
-#include "medial/diagram.h"
 #include "medial/error.h"
 #include "voronoi/clip.h"
 

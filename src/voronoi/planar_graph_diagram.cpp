@@ -67,7 +67,7 @@ class Assembly {
     diagram_.method = std::move(axis_.method);
     diagram_.tolerance = axis_.tolerance;
     diagram_.statistics = axis_.statistics;
-    diagram_.frame = enclosure_;
+    diagram_.enclosure = enclosure_;
     return std::move(diagram_);
   }
 

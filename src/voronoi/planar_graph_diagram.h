@@ -4,7 +4,6 @@
 
 #include "axis/sites.h"
 #include "medial/axis.h"
-#include "medial/diagram.h"
 #include "medial/planar_graph.h"
 #include "medial/shape.h"
 

@@ -88,7 +88,7 @@ class Dual {
       make_faces();
     diagram_.method = "delaunay";
     diagram_.tolerance = tolerance_;
-    diagram_.frame = enclosure_;
+    diagram_.enclosure = enclosure_;
     if (has_ties_) set_kinds(diagram_);  // otherwise each was made with its own
     diagram_.statistics.seconds_collect = watch.lap();
     diagram_.statistics.seconds = all.lap();

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "medial/axis.h"
 #include "medial/compute.h"
-#include "medial/diagram.h"
 #include "medial/planar_graph.h"
 #include "medial/shape.h"
 

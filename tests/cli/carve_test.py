@@ -2,8 +2,10 @@
 
 import json
 import math
+import os
+import subprocess
 
-from support import CommandLine
+from support import DATA, FRAME, CommandLine, comb, star
 
 
 class Carve(CommandLine):
@@ -106,3 +108,113 @@ class Carve(CommandLine):
         self.refuse("invalid_option", "carve", "s.wkt", "--units", "mm", "--angle", "175")
         self.refuse("invalid_option", "carve", "s.wkt", "--units", "mm", "--angle", "90", "--tool", "1", "--tip", "2")
         self.refuse("unsupported", "carve", "s.wkt", "--angle", "90", "-o", "c.stl")
+
+    def lines(self, name):
+        return self.read(name).decode().splitlines()
+
+    def test_the_header_says_what_is_cut(self):
+        self.write("s.wkt", self.SQUARE)
+        self.succeed("carve", "s.wkt", "--angle", "60", "--depth", "3", "--units", "mm", "-o", "s.nc")
+        header = [line for line in self.lines("s.nc") if line.startswith("(")]
+        self.assertEqual(header[:3], ["(medial carve: s)", "(units: mm, z 0 on the surface)",
+                                      "(tool 1: V of 60 degrees, depth 3 in 2 passes)"])
+        deep = 3 * math.tan(math.pi / 6)
+        self.assertRegex(header[3], r"^\(bounds: X [0-9.]+ to [0-9.]+, Y [0-9.]+ to [0-9.]+, Z -3 to 5\)$")
+        self.assertRegex(header[4], r"about \d+ min \d+ s\)$")
+        # The time is that of the moves.
+        report = json.loads(self.succeed("carve", "s.wkt", "--angle", "60", "--depth", "3", "--units", "mm",
+                                         "--json").stdout)
+        seconds, feed = 0, 0
+        for kind, before, after, words in self.moves("s.nc"):
+            feed = words.get("F", feed)
+            way = math.dist([before[a] for a in "XYZ"], [after[a] for a in "XYZ"])
+            if kind > 1:
+                way = sum(math.dist(a, b) for a, b in zip(self.places((kind, before, after, words), 0.01),
+                                                          self.places((kind, before, after, words), 0.01)[1:]))
+            seconds += 60 * way / (3000 if kind == 0 else feed)
+        self.assertAlmostEqual(report["seconds_cutting"], seconds, delta=0.02 * seconds + 1)
+        self.assertGreater(report["cut_length"], 4 * deep)
+
+    def test_origin_and_inches(self):
+        self.write("s.svg", '<svg xmlns="http://www.w3.org/2000/svg" width="2in" viewBox="0 0 40 20">'
+                            '<rect x="10" y="5" width="20" height="10"/></svg>')
+        for origin, low, high in ((None, (0, 0), (1, 0.5)), ("lower-left", (0, 0), (1, 0.5)),
+                                  ("upper-right", (-1, -0.5), (0, 0)), ("center", (-0.5, -0.25), (0.5, 0.25)),
+                                  ("0,1", (0.5, 0.25), (1.5, 0.75))):
+            for unit, scale in (("in", 1), ("mm", 25.4)):
+                place = origin if origin != "0,1" or unit == "in" else "0,25.4"
+                options = ["--origin", place] if place else []
+                self.succeed("carve", "s.svg", "--angle", "90", "--output-units", unit, *options, "-o", "s.nc")
+                self.assertEqual([line for line in self.lines("s.nc") if line.startswith("G2")][0][:3],
+                                 "G20" if unit == "in" else "G21")
+                ends = [after for kind, _, after, _ in self.moves("s.nc") if kind == 1]
+                for axis, i in (("X", 0), ("Y", 1)):
+                    self.assertAlmostEqual(min(end[axis] for end in ends), scale * low[i], 5)
+                    self.assertAlmostEqual(max(end[axis] for end in ends), scale * high[i], 5)
+        self.refuse("invalid_option", "carve", "s.svg", "--angle", "90", "--origin", "middle")
+        self.refuse("invalid_option", "carve", "s.svg", "--angle", "90", "--output-units", "cm")
+
+    def test_passes_take_no_long_ways(self):
+        spanner = os.path.join(DATA, "spanner.svg")
+        for options in ([], ["--pass-depth", "0.2"], ["--scale", "3.7795", "--pass-depth", "1"], ["--tip", "0.5"]):
+            report = json.loads(self.succeed("carve", spanner, "--angle", "60", *options, "--json").stdout)
+            self.assertLessEqual(report["cut_length"] + report["travel_length"], 2 * report["passes_length"], options)
+
+    def test_an_end_mill_clears_before(self):
+        self.write("s.wkt", "POLYGON ((0 0, 40 0, 40 30, 0 30, 0 0))")
+        common = ["carve", "s.wkt", "--units", "mm", "--angle", "60", "--depth", "3"]
+        self.succeed(*common, "-o", "alone.nc")
+        self.succeed(*common, "--clear-tool", "6", "--clear-feed", "1500", "--clear-spindle", "12000",
+                     "--spindle", "18000", "--post", "linuxcnc", "-o", "both.nc")
+        lines = self.lines("both.nc")
+        tools = [i for i, line in enumerate(lines) if line.startswith("T")]
+        self.assertEqual([lines[i][:5] for i in tools], ["T1 M6", "T2 M6"])
+        self.assertEqual([line for line in lines if line.startswith("M3")], ["M3 S12000", "M3 S18000"])
+        self.assertTrue(any("F1500" in line for line in lines[tools[0]:tools[1]]))
+        self.assertFalse(any("F1500" in line for line in lines[tools[1]:]))
+        self.assertLess(len(lines), len(self.lines("alone.nc")))
+        self.refuse("invalid_option", "carve", "s.wkt", "--units", "mm", "--angle", "60", "--clear-tool", "6")
+        self.refuse("invalid_option", *common, "--clear-feed", "100")
+
+    def test_templates_and_preview(self):
+        self.write("s.wkt", self.SQUARE)
+        common = ["carve", "s.wkt", "--units", "mm", "--angle", "60"]
+        for post, end in (("plain", "M2"), ("linuxcnc", "M2"), ("grbl", "M30"), ("mach3", "M30")):
+            self.succeed(*common, "--post", post, "-o", "s.nc")
+            self.assertEqual(self.lines("s.nc")[-1], end)
+        self.write("own.post", "[start]\n%\n{header}\n{units}\n[tool]\n[cut]\nG0 Z{safe}\n[end]\nM5 {unknown}\n%\n")
+        self.succeed(*common, "--post", self.path("own.post"), "-o", "s.nc")
+        self.assertEqual(self.lines("s.nc")[0], "%")
+        self.assertEqual(self.lines("s.nc")[-2:], ["M5 {unknown}", "%"])
+        self.write("bad.post", "[start]\n")
+        self.refuse("invalid_option", *common, "--post", self.path("bad.post"), "-o", "t.nc")
+        self.refuse("invalid_option", *common, "--post", "nowhere", "-o", "t.nc")
+        self.succeed(*common, "--preview", "p.png", "--width", "200", "-o", "s.nc")
+        self.assertTrue(self.read("p.png").startswith(b"\x89PNG"))
+
+    def test_linuxcnc_reads_ten_drawings(self):
+        """LinuxCNC's own interpreter, where Debian's package linuxcnc-uspace is installed."""
+        python = "/usr/bin/python3"
+        program = os.path.join(os.path.dirname(os.path.abspath(__file__)), "linuxcnc_canon.py")
+        if not os.path.exists(python) or subprocess.run([python, "-c", "import gcode"], capture_output=True).returncode:
+            self.skipTest("LinuxCNC is not installed")
+        drawings = {name: os.path.join(DATA, name) for name in
+                    self.supported("bumps.wkt", "gear.wkt", "maze.wkt", "plan.wkt", "spanner.svg", "plate.dxf")}
+        for name, text in (("square", self.SQUARE), ("comb", comb(5)), ("star", star(30)), ("frame", FRAME)):
+            drawings[name] = self.path(self.write(name + ".wkt", text))
+        sharp = {"maze.wkt", "plan.wkt", "square", "comb", "frame"}  # corners at all four sides
+        for name, path in drawings.items():
+            # Its module in Python knows no table of tools, so the program with a change of tool has a pause instead.
+            for unit, post, options in (("mm", "linuxcnc", []), ("in", "plain", ["--pass-depth", "0"])):
+                units = ["--units", "mm", "--output-units", unit]
+                x0, y0, x1, y1 = json.loads(self.succeed("info", path, "--json", *units).stdout)["extent"]
+                self.succeed("carve", path, *units, "--angle", "90", *options,
+                             "--origin", "lower-left", "--post", post, "-o", "d.ngc")
+                read = json.loads(subprocess.run([python, program, self.path("d.ngc"), unit], capture_output=True,
+                                                 check=True, cwd=self.folder.name).stdout)
+                self.assertEqual(read["error"], "", name)
+                self.assertGreater(read["moves"], 4)
+                if name in sharp:
+                    for low, high, size in zip(read["low"], read["high"], (x1 - x0, y1 - y0)):
+                        self.assertAlmostEqual(low, 0, delta=1e-6)
+                        self.assertAlmostEqual(high, size, delta=1e-6)

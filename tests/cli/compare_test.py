@@ -13,7 +13,11 @@ class Compare(CommandLine):
         self.assertEqual([row["method"] for row in report],
                          ["disks", "biarc-dc", "lee", "ridge", "brushfire", "potential", "curve-axis"])
         self.assertIn("refused", report[-1])
+        table = self.succeed("compare", "island.wkt").stdout.decode().splitlines()
+        self.assertTrue(table[1].endswith("yes: disks, graph, cover"), table)
+        self.assertRegex(table[5], r"brushfire .* yes: radii, graph; up to \S+ away$")
         for row in report[:3]:
+            self.assertEqual(row["verified"], ["disks", "graph", "cover"])
             self.assertTrue(row["passed"], row)
             self.assertLess(row["hausdorff"], 1e-9)
         report = json.loads(self.succeed("compare", "island.wkt", "--fit", "0.5", "--methods", "disks,curve-axis",

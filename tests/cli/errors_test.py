@@ -155,6 +155,7 @@ class Words(CommandLine):
                 ("'x' is not numbers separated by commas", "offset", "r.wkt", "--distance", "x"),
                 ("'1,2' is not 4 numbers separated by commas", "axis", "r.wkt", "--within", "1,2"),
                 ("'1,2' is not 4 numbers separated by commas", "voronoi", "r.wkt", "--frame", "1,2"),
+                ("--fit is for methods that follow smooth contours", "axis", "r.wkt", "--fit", "1"),
                 ("0 is not in [1 - 1e+06]", "measure", "r.wkt", "--samples", "0")):
             report = self.refuse("invalid_option", *line)
             self.assertIn(words, report)
@@ -164,12 +165,21 @@ class Words(CommandLine):
         self.refuse("too_large", "measure", "r.wkt", "--spacing", "1e-300")
         # Curvatures so unlike that the method would go on for hours: it gives up.
         self.write("island.wkt", "POLYGON((0 0,10 0,14 5,10 9,4 8,0 6))")
-        self.refuse("too_large", "axis", "island.wkt", "--method", "curve-axis", "--fit", "1e-7")
+        self.refuse("too_large", "axis", "island.wkt", "--method", "curve-axis", "--fit", "1e-7", "--quiet")
+
+    def test_features_count_as_in_the_file(self):
+        """What is empty is left out, and the others keep their numbers in errors and notes."""
+        crossing = "POLYGON EMPTY\n" + RECTANGLE + "\nPOLYGON ((0 0, 4 4, 4 0, 0 4, 0 0))\n"
+        self.write("some.wkt", crossing)
+        self.assertIn("feature 2, ring 0", self.refuse("crossing", "axis", "some.wkt"))
+        done = self.succeed("axis", "some.wkt", "--repair", "-o", "some.json")
+        self.assertIn("1 feature is empty and was left out", done.stderr.decode())
+        self.assertIn("feature 2 was repaired", done.stderr.decode())
 
     def test_coordinates(self):
         """The place of a coordinate that is too large or not finite is reported, whatever reads it."""
         for name, text, command, words in (
-                ("far.wkt", "POLYGON ((0 0, 1e308 0, 1 1))", "voronoi", "ring 0, vertex 1 at (1e+308, 0)"),
+                ("far.wkt", "POLYGON ((0 0, 1e308 0, 1 1, 0 0))", "voronoi", "ring 0, vertex 1 at (1e+308, 0)"),
                 ("far.txt", "0 0\n-1e308 1e308\n", "voronoi", "at (-1e+308, 1e+308)")):
             self.write(name, text)
             report = self.refuse("unsupported", command, name)

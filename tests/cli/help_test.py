@@ -30,7 +30,7 @@ class Help(CommandLine):
         self.assertNotIn("Threads to use", page)
         self.assertIn("Threads to use", self.succeed("prune", "--help-all").stdout.decode())
         for command in self.commands():
-            self.assertLess(len(self.succeed(command, "--help").stdout.splitlines()), 75, command)
+            self.assertLess(len(self.succeed(command, "--help").stdout.splitlines()), 80, command)
 
     def test_help_of_a_command(self):
         page = self.succeed("prune", "--help").stdout

@@ -3,7 +3,7 @@
 import json
 import math
 
-from support import CommandLine
+from support import FRAME, CommandLine
 
 
 class Images(CommandLine):
@@ -33,14 +33,61 @@ class Images(CommandLine):
         self.assertAlmostEqual(info["area"], 19 + 1 / 256)  # the neck at the corner
         inverse = json.loads(self.succeed("info", "l.pbm", "--invert", "--json").stdout)
         self.assertAlmostEqual(inverse["area"], 29 + 1 / 256)
-        for options in ([], ["--smooth-contour"], ["--method", "brushfire"], ["--method", "ridge"]):
+        for options in (["--pixel-outline"], ["--smooth-contour"], ["--method", "brushfire"],
+                        ["--method", "ridge"]):
             with self.subTest(options=options):
                 self.succeed("axis", "l.pbm", *options, "-o", "axis.json")
-                shape = options if options == ["--smooth-contour"] else []
+                shape = options if len(options) == 1 else []
                 self.succeed("verify", "l.pbm", "axis.json", *shape)
         self.succeed("draw", "l.pbm", "-o", "l.svg")
         self.refuse("invalid_option", "info", "l.pbm", "--layer", "a")
         self.refuse("invalid_option", "info", "l.pbm", "--repair")
+
+    def test_default_is_what_a_person_would_draw(self):
+        """Of a disk of pixels with a bar: one line, not the branches of its stairs."""
+        inside = lambda x, y: (x - 30) ** 2 + (y - 30) ** 2 < 625 or (30 <= x < 110 and 24 <= y < 36)
+        rows = ["".join("1" if inside(x, y) else "0" for x in range(120)) for y in range(60)]
+        self.write("key.pbm", "P1\n120 60\n" + "\n".join(rows))
+        count = lambda *options: json.loads(
+            self.succeed("axis", "key.pbm", "--json", *options).stdout)["branches"]
+        self.assertEqual(count(), 1)
+        self.assertGreater(count("--smooth-contour"), 20)
+        self.assertGreater(count("--pixel-outline"), 20)
+        self.assertIn(b"--pixel-outline", self.succeed("axis", "key.pbm").stderr)
+        self.succeed("axis", "key.pbm", "--mask", "-o", "skeleton.png")
+        mask = json.loads(self.succeed("distance", "skeleton.png", "--json").stdout)
+        self.assertEqual((mask["width"], mask["height"], mask["components"]), (120, 60, 1))
+        self.assertLess(mask["foreground"], 110)
+        self.assertGreater(mask["foreground"], 60)
+        self.refuse("unsupported", "axis", "key.pbm", "--mask", "-o", "skeleton.svg")
+        self.refuse("invalid_option", "axis", self.write("a.wkt", FRAME), "--mask", "-o", "a.png")
+
+    def test_values(self):
+        """Masks of zeros and ones, labels, and grey values."""
+        self.write("mask.pgm", "P2\n4 3\n255\n0 0 0 0\n0 1 1 0\n0 0 0 0\n")
+        self.assertEqual(json.loads(self.succeed("distance", "mask.pgm", "--json").stdout)["foreground"], 2)
+        self.write("labels.pgm", "P2\n6 3\n255\n1 1 0 0 7 7\n1 1 0 0 7 7\n0 0 3 3 3 0\n")
+        self.assertIn("--labels", self.refuse("empty", "axis", "labels.pgm"))
+        self.succeed("axis", "labels.pgm", "--labels", "-o", "a.json")
+        self.assertEqual([item["attributes"] for item in json.loads(self.read("a.json"))["items"]],
+                         [[["value", "1"]], [["value", "3"]], [["value", "7"]]])
+        info = json.loads(self.succeed("info", "labels.pgm", "--labels", "--json").stdout)
+        self.assertEqual((info["features"], info["area"]), (3, 11))
+        self.write("grey.pgm", "P2\n3 1\n255\n0 100 200\n")
+        self.assertIn(b"from 128 on", self.succeed("info", "grey.pgm").stderr)
+        self.assertNotIn(b"from", self.succeed("info", "grey.pgm", "--threshold", "90").stderr)
+
+    def test_maps_of_robots(self):
+        """Free cells, in metres, with the origin in the lower left corner."""
+        self.write("map.pgm", b"P5\n4 3\n255\n" + bytes([0, 254, 254, 0, 205, 254, 254, 0, 0, 0, 0, 205]))
+        self.write("map.yaml", "image: map.pgm\nresolution: 0.5 # metres\norigin: [-10, 20, 0.0]\nnegate: 0\n"
+                   "occupied_thresh: 0.65\nfree_thresh: 0.196\n")
+        done = self.succeed("info", "map.yaml", "--json")
+        info = json.loads(done.stdout)
+        self.assertEqual((info["area"], info["extent"]), (1, [-9.5, 20.5, -8.5, 21.5]))
+        self.assertIn(b"unknown cells", done.stderr)
+        self.refuse("malformed", "axis", self.write("b.yaml", "image: map.pgm\n"))
+        self.refuse("invalid_option", "axis", "map.yaml", "--threshold", "3")
 
     def test_families(self):
         self.write("l.pbm", self.PICTURE)

@@ -1,6 +1,7 @@
 """Repair, projection, curves, drawings, texts and tables: options that every command shares."""
 
 import csv
+import gzip
 import json
 import math
 import os
@@ -105,18 +106,81 @@ class Inputs(CommandLine):
         self.refuse("invalid_option", "info", "ellipse.svg", "--close")
         self.write("moons.svg", '<svg><path d="M0 5a5 5 0 1 1 10 0a5 5 0 1 1-10 0zM6 5a5 5 0 1 1 10 0'
                    'a5 5 0 1 1-10 0z"/></svg>')
-        self.refuse("crossing", "info", "moons.svg")
-        for rule, parts in (("--repair", 1), ("--repair=non-zero", 1), ("--repair=even-odd", 2)):
-            mended = self.succeed("info", rule, "moons.svg", "--json")
+        for rule, parts in ([], 1), (["--repair"], 1), (["--repair=non-zero"], 1), (["--repair=even-odd"], 2):
+            mended = self.succeed("info", *rule, "moons.svg", "--json")
             self.assertEqual(json.loads(mended.stdout)["components"], parts, rule)
-            self.assertIn(b"cross in 2 places", mended.stderr)
+            self.assertIn(b"cross or overlap in 2 places", mended.stderr)
+
+    def test_fill_rules_need_no_repair(self):
+        """Outlines of a drawing that cross, overlap along edges and arcs, or enclose nothing."""
+        half = "a1 1 0 0 1 2 0"
+        for name, path, area in (
+                ("shared.svg", "M0 0h4v4h-4zM4 1h4v2h-4z", 24),
+                ("twice.svg", "M0 0h4v4h-4zM0 0h4v4h-4z", 16),
+                ("odd.svg", "M0 0h4v4h-4zM0 0h2v4h-2z", 8),
+                ("flat.svg", "M0 0h4v4h-4zM9 9h4h-4z", 16),
+                ("arcs.svg", f"M0 0{half}v-3h-2zM0 0{half}v3h-2z", 12)):
+            rule = ' fill-rule="evenodd"' if name == "odd.svg" else ""
+            self.write(name, f'<svg><path{rule} d="{path}"/></svg>')
+            self.assertAlmostEqual(json.loads(self.succeed("info", name, "--json").stdout)["area"], area, 9, name)
+            self.succeed("axis", name, "-o", "a.json")
+            self.succeed("verify", name, "a.json")
+        self.write("shared.wkt", "MULTIPOLYGON(((0 0,4 0,4 4,0 4,0 0)),((4 1,8 1,8 3,4 3,4 1)))")
+        self.assertIn("--repair", self.refuse("overlap", "axis", "shared.wkt"))
+
+    def test_invalid_features_are_left_out(self):
+        self.write("some.wkt", "\n".join((
+            "POLYGON((0 0,4 0,4 2,0 2,0 0))", BOW_TIE,
+            "MULTIPOLYGON(((10 0,14 0,14 2,10 2,10 0)),((20 0,20 0,20 0)))")))
+        self.refuse("crossing", "axis", "some.wkt")
+        done = self.succeed("axis", "some.wkt", "--skip-invalid", "--json")
+        notes = done.stderr.decode()
+        self.assertEqual(json.loads(done.stdout)["features"], 2)
+        self.assertIn("left out: feature 1", notes)
+        self.assertIn("feature 2, ring 1", notes)
+        self.assertIn("1 of 3 features are invalid", notes)
+        both = self.succeed("axis", "some.wkt", "--skip-invalid", "--repair", "--json")
+        self.assertEqual(json.loads(both.stdout)["features"], 3)
+        self.assertNotIn(b"left out: feature 1", both.stderr)
+        self.write("bad.wkt", BOW_TIE)
+        self.assertIn("no feature is valid", self.refuse("crossing", "axis", "bad.wkt", "--skip-invalid"))
+
+    def test_unclosed_rings_are_noted(self):
+        self.write("open.geojson", '{"type":"Polygon","coordinates":[[[0,0],[4,0],[4,2],[0,2]]]}')
+        self.assertIn(b"1 ring is without its first point", self.succeed("axis", "open.geojson").stderr)
+
+    def test_reference_systems(self):
+        """The numbers count more than what a format says of them."""
+        self.write("metres.geojson", '{"type":"Polygon","coordinates":[[[5e5,5e6],[500400,5e6],[500400,5000200],'
+                   '[5e5,5000200],[5e5,5e6]]]}')
+        done = self.succeed("axis", "metres.geojson", "-o", "a.json")
+        self.assertIn(b"--crs EPSG:n", done.stderr)
+        self.assertNotIn(b"--project", done.stderr)
+        self.assertIn("--crs", self.refuse("invalid_option", "axis", "metres.geojson", "--project"))
+        done = self.succeed("axis", "metres.geojson", "--crs", "EPSG:32632", "-o", "a.json")
+        self.assertNotIn(b"no degrees", done.stderr)
+        self.assertIn(b"UTM zone 32N", self.read("a.json"))
+        self.refuse("invalid_option", "axis", "metres.geojson", "--crs", "EPSG:99999999")
+
+    def test_what_is_no_shape_is_named(self):
+        self.assertIn("directory", self.refuse("unsupported", "axis", "."))
+        self.refuse("empty", "axis", "/dev/null")
+        self.assertIn("--text", self.refuse("unsupported", "axis", self.write("a.ttf", b"\0\1\0\0" + bytes(60))))
+        self.write("shape.txt", "POLYGON((0 0,4 0,4 2,0 2,0 0))")
+        self.assertEqual(json.loads(self.succeed("axis", "shape.txt", "--json").stdout)["sites"], 4)
+
+    def test_nothing_is_written_beside_inputs(self):
+        text = gzip.compress(GEOGRAPHIC.encode())
+        self.write("a.geojson.gz", text)
+        self.succeed("axis", "a.geojson.gz")
+        self.assertEqual(self.files(), ["a.geojson.gz"])
 
     def test_options_of_drawings(self):
         self.skip_without("DXF")
         lines = "0 SECTION 2 ENTITIES 0 LINE 8 A 10 0 20 0 11 4 21 0 0 LINE 8 A 10 4 20 0 11 4 21 3 "
         lines += "0 LINE 8 A 10 4 20 3 11 0 21 0.1 0 ENDSEC 0 EOF"
         self.write("open.dxf", lines.replace(" ", "\n") + "\n")
-        self.refuse("empty", "info", "open.dxf")
+        self.assertIn("--close=GAP", self.refuse("empty", "info", "open.dxf"))
         self.succeed("info", "open.dxf", "--close")
         self.succeed("info", "open.dxf", "--close=0.2")
         self.refuse("empty", "info", "open.dxf", "--close=0.05")
@@ -129,6 +193,12 @@ class Inputs(CommandLine):
             self.skipTest(font + " is not here")
         self.succeed("axis", "--text", "il", "--font", font, "-o", "a.json")
         self.succeed("verify", "--text", "il", "--font", font, "a.json")
+        few, many = (json.loads(self.succeed("axis", "--text", "Rg&8", "--font", font, *angle, "--json").stdout)
+                     for angle in ([], ["--corner-angle", "0.01"]))
+        self.assertLess(few["branches"], 40)
+        self.assertGreater(many["branches"], 60)
+        self.succeed("axis", "--text", "Rg&8", "--font", font, "-o", "b.json")
+        self.succeed("verify", "--text", "Rg&8", "--font", font, "b.json")
         self.refuse("invalid_option", "axis", "--text", "i")
         self.refuse("invalid_option", "axis", "--font", font)
         self.refuse("invalid_option", "axis")

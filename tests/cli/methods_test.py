@@ -15,7 +15,7 @@ class Methods(CommandLine):
         table = self.succeed("methods").stdout.decode()
         self.assertIn(table, documented)
         self.write("ring.wkt", FRAME)
-        self.write("plain.wkt", "POLYGON((0 0,10 0,14 5,10 9,4 8,0 6))")
+        self.write("plain.wkt", "POLYGON((0 0,10 0,14 5,10 9,4 8,0 6,0 0))")
         for method in json.loads(self.succeed("methods", "--json").stdout)["methods"]:
             self.assertIn(f"| {method['name']} |", table)
             takes = {"ring.wkt": method["holes"], "plain.wkt --exterior": method["exterior"]}
@@ -54,7 +54,7 @@ class Methods(CommandLine):
         self.assertEqual(by_lee["method"], "lee")
         self.assertEqual(by_lee["nodes"], by_disks["nodes"])
         self.assertAlmostEqual(by_lee["length"] / by_disks["length"], 1, places=12)
-        self.write("convex.wkt", "POLYGON((0 0,10 0,14 5,10 9,4 8,0 6))")
+        self.write("convex.wkt", "POLYGON((0 0,10 0,14 5,10 9,4 8,0 6,0 0))")
         for shape, method in (("convex.wkt", "lee"), ("teeth.wkt", "disks"), ("ring.wkt", "disks"), ("half.svg", "disks")):
             self.succeed("axis", shape, "--method", "auto", "-o", "auto.json")
             self.assertEqual(json.loads(self.succeed("info", "auto.json", "--json").stdout)["method"], method)
@@ -100,7 +100,7 @@ class Methods(CommandLine):
         self.assertEqual(report["nodes"]["leaf"], 2)
         self.assertAlmostEqual(report["length"], 2 * (18 - 64 / 18), places=6)  # between the centres of curvature
         self.succeed("legal", "curve.json")
-        self.write("triangle.wkt", "POLYGON((0 0,10 0,0 8))")
+        self.write("triangle.wkt", "POLYGON((0 0,10 0,0 8,0 0))")
         text = self.refuse("unsupported", "axis", "triangle.wkt", "--method", "curve-axis", "-o", "t.json")
         self.assertIn("corner", text)
         fit = re.search(r"--fit ([0-9.]+)", text).group(1)

@@ -91,11 +91,11 @@ class Units(CommandLine):
 
     def test_images(self):
         self.write("i.png", self.png(0))
-        self.assertEqual(self.size("i.png"), (8, "pixel"))
-        self.assertEqual(self.size("i.png", "--pixel-size", "0.5", "--units", "um"), (4, "um"))
+        self.assertEqual(self.size("i.png", "--pixel-outline"), (8, "pixel"))
+        self.assertEqual(self.size("i.png", "--pixel-outline", "--pixel-size", "0.5", "--units", "um"), (4, "um"))
         self.refuse("invalid_option", "axis", "i.png", "--output-units", "mm")
         self.write("i.png", self.png(2000))  # half a millimetre each
-        self.assertEqual(self.size("i.png"), (8, "pixel"))
-        size, unit = self.size("i.png", "--output-units", "mm")
+        self.assertEqual(self.size("i.png", "--pixel-outline"), (8, "pixel"))
+        size, unit = self.size("i.png", "--pixel-outline", "--output-units", "mm")
         self.assertAlmostEqual(size, 4, 9)
         self.assertEqual(unit, "mm")

@@ -35,7 +35,7 @@ class Voronoi(CommandLine):
         item = made["items"][0]
         self.assertEqual(len(item["faces"]), 16)
         self.assertEqual(item["frame"], [-3.5, -3.5, 10.5, 8.5])
-        framed = self.succeed("voronoi", "-", "--frame", "-1,-1,9,9", "-o", "-", "--format", "geojson", given=loose)
+        framed = self.succeed("voronoi", "-", "--enclosure", "-1,-1,9,9", "-o", "-", "--format", "geojson", given=loose)
         faces = [f for f in json.loads(framed.stdout)["features"] if f["properties"]["part"] == "face"]
         area = 0
         for face in faces:

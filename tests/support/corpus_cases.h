@@ -99,7 +99,7 @@ inline std::vector<Case> read_cases(const std::filesystem::path& path) {
   const std::string name = path.filename().string();
   if (name.ends_with(".tsv")) return read_table(path);
   if (name.ends_with(".txt")) return read_segments(path);
-  auto dataset = io::read_dataset(path.string());
+  auto dataset = io::read_document(path.string());
   // Lines and points are no input; a file of them makes no case.
   if (!dataset && dataset.error().code == ErrorCode::unsupported) return {};
   if (!dataset) return {{"file", {}, dataset.error(), {}}};

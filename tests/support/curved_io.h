@@ -19,7 +19,7 @@ class CurvedIo : public test::ScratchFolder {
  protected:
   Document<Feature> read(const std::string& name, const std::string& text,
                          const ReadOptions& options = {}) const {
-    Result<Document<Feature>> data = read_dataset(write(name, text), options);
+    Result<Document<Feature>> data = read_document(write(name, text), options);
     EXPECT_TRUE(data.ok()) << to_string(data.error());
     return data ? *data : Document<Feature>{};
   }
@@ -29,7 +29,7 @@ class CurvedIo : public test::ScratchFolder {
   }
   Error refused(const std::string& name, const std::string& text,
                 const ReadOptions& options = {}) const {
-    const Result<Document<Feature>> data = read_dataset(write(name, text), options);
+    const Result<Document<Feature>> data = read_document(write(name, text), options);
     EXPECT_FALSE(data.ok()) << text.substr(0, 200);
     if (data) return {};
     EXPECT_EQ(data.error().place.file, path(name));

@@ -117,9 +117,9 @@ class EdgesInForm {
 
 inline std::vector<SeparatingEdge> edges_in_form(const PlanarGraph& planar_graph,
                                                  const VoronoiDiagram& diagram, double near) {
-  EdgesInForm form(planar_graph, *diagram.frame, near);
+  EdgesInForm form(planar_graph, *diagram.enclosure, near);
   for (const VoronoiEdge& edge : diagram.edges)
-    if (!edge.frame)
+    if (!edge.on_enclosure)
       form.add(edge.site[0], edge.site[1], diagram.nodes[edge.node[0]].disk.center,
                diagram.nodes[edge.node[1]].disk.center);
   return form.edges();

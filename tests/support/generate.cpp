@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "support/corridors.h"
 #include "support/generate_parts.h"
 
 namespace medial::test {
@@ -131,8 +132,7 @@ Rings maze(std::size_t n, std::uint64_t seed) {
   constexpr double corners_per_cell = 1.761;
   const auto side = std::max<std::size_t>(
       2, static_cast<std::size_t>(std::sqrt(static_cast<double>(n) / corners_per_cell) + 0.5));
-  // Sides of a cell: 0 below, 1 right, 2 above, 3 left.
-  std::vector<std::array<bool, 4>> open(side * side, {false, false, false, false});
+  std::vector<OpenSides> open(side * side, OpenSides{});
   std::vector<std::size_t> walls(2 * side * side);
   std::iota(walls.begin(), walls.end(), std::size_t{0});
   Random random(seed);
@@ -147,30 +147,7 @@ Rings maze(std::size_t n, std::uint64_t seed) {
     open[cell][upwards ? 2 : 1] = true;
     open[other][upwards ? 0 : 3] = true;
   }
-  // Follow the wall on the right-hand side, that is with the corridor on the left. A closed side is
-  // walked along; an open one is the mouth of a passage, whose wall is followed to the next cell.
-  std::vector<Vec2> points;
-  points.reserve(n + n / 8);
-  std::size_t cell = 0;
-  std::size_t at = 0;
-  bool through_passage = false;
-  do {
-    const bool is_open = open[cell][at];
-    if (is_open == through_passage) {
-      const auto column = static_cast<double>(cell % side);
-      const auto row = static_cast<double>(cell / side);
-      points.push_back({10 * column + (at == 1 || at == 2 ? 8 : 2), 10 * row + (at >= 2 ? 8 : 2)});
-    }
-    if (is_open) {
-      const std::array<std::size_t, 4> neighbour{cell - side, cell + 1, cell + side, cell - 1};
-      cell = neighbour[at];
-      at = (at + 3) % 4;
-    } else {
-      at = (at + 1) % 4;
-    }
-    through_passage = is_open;
-  } while (cell != 0 || at != 0);
-  return {ring_of(std::move(points))};
+  return {ring_of(walls_of(open, side))};
 }
 
 Rings hole_grid(std::size_t k) {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-#include "medial/image.h"
+#include "medial/raster.h"
 
 namespace medial::test {
 

@@ -1,10 +1,8 @@
 #pragma once
 
-// Files as documents, images, meshes and packs. `-` is standard input to read_dataset(),
+// Files as documents, images, meshes and packs. `-` is standard input to read_document(),
 // read_image() and read_pack(). Errors of all: unreadable, malformed, unsupported, empty,
 // not_finite, too_large, out_of_memory.
-
-#include <memory>
 
 #include "medial/document.h"
 #include "medial/load.h"
@@ -18,9 +16,11 @@ namespace medial::io {
 
 struct ImageOptions {
   /// Pixels at or above this value are foreground. Nothing: half of the format's largest value (128
-  /// of 8 bits, 0.5 of real numbers, any set bit of 1 bit).
+  /// of 8 bits, 0.5 of real numbers, any set bit of 1 bit); of an image of zeros and ones, 1.
   std::optional<double> threshold;
   bool invert = false;  ///< pixels below the threshold are foreground instead
+  /// Of read_document(): a feature for each value but 0, with the attribute `value`.
+  bool labels = false;
 };
 
 struct ReadOptions {
@@ -28,6 +28,9 @@ struct ReadOptions {
   std::string where;  ///< attribute filter of OGR SQL; empty: all
   /// Of polygons of straight edges; features with curves stay as they are, for load_shapes().
   RepairRule repair = RepairRule::none;
+  /// Leaves out features that cannot be read, repaired or made a shape, with a note each.
+  bool skip_invalid = false;
+  std::string crs;       ///< "EPSG:n" or WKT, in place of the file's own; empty: that
   bool project = false;  ///< project_to_local() geographic coordinates
   /// Of loose curves (DXF): joins ends at most this far apart, in units of the input, and drops
   /// what stays open; infinity closes all. Nothing: 1e-6 of the bounding box's diagonal.
@@ -42,25 +45,25 @@ struct ReadOptions {
 
 /// Reads polygons and curved shapes, gzipped or not: .svg and .dxf as docs/inputs.md says; .wkt,
 /// .txt, .xy and medial's own .json by fast readers; images (see is_image()) as one feature, the
-/// outline of their foreground with y downwards, or placed where the file says; all else by GDAL.
+/// outline of their foreground with y downwards, or placed where the file says; the free cells of a
+/// ROS map (.yaml); all else by GDAL.
 /// Recognises WKT, GeoJSON, SVG, DXF, `x y` text and medial's own on standard input by their first
 /// characters. Errors: also no_area, invalid_option.
-Result<Document<Feature>> read_dataset(const std::string& path, const ReadOptions& options = {});
+Result<Document<Feature>> read_document(const std::string& path, const ReadOptions& options = {});
 
 /// The outlines of a UTF-8 text in one line, with the advances and kerning of a scalable font file
 /// (TrueType, OpenType, Type 1): a feature for each character with an outline, in font units, the
 /// baseline at y = 0. A character that the font lacks becomes its replacement, with a note.
 Result<Document<Feature>> read_text(const std::string& text, const std::string& font);
 
-/// How a file becomes shapes or planar graphs.
 struct SourceOptions {
   ReadOptions read;  ///< its `repair` goes for features with curves as well
   std::string text;  ///< not empty: the outlines of this text in the font `path`, see read_text()
-  LoadOptions load;  ///< but for `repair`
+  LoadOptions load;  ///< but for `repair` and `skip_invalid`
   UnitOptions units;
 };
 
-/// What a file holds, by read_dataset() or read_text(); of medial's .json shapes with their
+/// What a file holds, by read_document() or read_text(); of medial's .json shapes with their
 /// sources. Errors: theirs, with the file; invalid_option (an option that does not apply).
 Result<Document<Feature>> read_features(const std::string& path, const SourceOptions& options = {});
 
@@ -74,7 +77,6 @@ Result<LoosePieces> load_loose(const std::string& path, const SourceOptions& opt
 bool is_native(const std::string& path);
 Result<Document<AxisItem>> read_native(const std::string& path);
 
-/// A shape and its Voronoi diagram.
 struct VoronoiItem {
   Shape shape;
   VoronoiDiagram diagram;
@@ -86,41 +88,21 @@ struct VoronoiItem {
 bool is_voronoi(const std::string& path);
 Result<Document<VoronoiItem>> read_voronoi(const std::string& path);
 
-/// Projects longitudes and latitudes to metres in one local projection fitted to all features:
-/// where they lie within 300 km of their middle the transverse Mercator projection on its meridian
-/// (conformal: disks stay disks), elsewhere the azimuthal equal-area projection. A dataset without
-/// a reference system counts as WGS 84 if its coordinates can be degrees; a projected one only gets
-/// a note. Errors: invalid_option (no degrees), unsupported (points that cannot be projected).
+/// Projects longitudes and latitudes to metres in one local projection of all features: within 300
+/// km of their middle transverse Mercator (conformal: disks stay disks), else azimuthal equal-area.
+/// A document without a reference system counts as WGS 84 if its coordinates can be degrees; a
+/// projected one only gets a note. Errors: invalid_option (no degrees), unsupported (points that
+/// cannot be projected).
 Status project_to_local(Document<Feature>& dataset);
 
-/// Whether a reference system is one that project_to_local() made.
-bool is_local_projection(const std::string& crs_wkt);
-
-/// Takes points of a local projection back to longitude and latitude.
-class BackToGeographic {
- public:
-  /// Errors: unsupported (crs_wkt is no local projection).
-  static Result<BackToGeographic> make(const std::string& crs_wkt);
-  ~BackToGeographic();
-  BackToGeographic(BackToGeographic&&) noexcept;
-  BackToGeographic& operator=(BackToGeographic&&) noexcept;
-
-  /// In place, within 2 mm. Lengths and radii have no counterpart: they stay in metres.
-  Status transform(std::vector<Vec2>& points) const;
-  /// The geographic reference system, as WKT.
-  const std::string& crs_wkt() const;
-
- private:
-  struct Transformation;
-  explicit BackToGeographic(std::unique_ptr<Transformation> transformation);
-  std::unique_ptr<Transformation> transformation_;
-};
+/// Takes points of a reference system that project_to_local() made back to longitude and latitude,
+/// within 2 mm; those of any other stay. Errors: unsupported (a point that has no counterpart).
+Status back_to_geographic(const std::string& crs_wkt, std::vector<Vec2>& points);
 
 /// The upper left corner of pixel (c, r): (t[0] + c t[1] + r t[2], t[3] + c t[4] + r t[5]).
 using PixelPlacement = std::array<double, 6>;
 constexpr PixelPlacement unplaced = {0, 1, 0, 0, 0, 1};
 
-/// What a file of an image holds.
 struct ImageFile {
   Image image;
   PixelPlacement placement = unplaced;
@@ -132,12 +114,13 @@ struct ImageFile {
   bool placed() const { return placement != unplaced; }
 };
 
-/// Whether a file begins like PNG, TIFF, PBM or PGM (P1, P2, P4, P5); false if it cannot be opened.
+/// Whether a file begins like an image of read_image(); false if it cannot be opened.
 bool is_image(const std::string& path);
 
-/// Reads a binary image: PBM (set bits, black, are the foreground) and PGM, gzipped or not, or PNG,
-/// TIFF and GeoTIFF through GDAL. Of colours the luminance counts (ITU-R BT.601); what is
-/// transparent or without data is background, inverted or not. Errors: also empty (no foreground).
+/// Reads a binary image: PBM (set bits, black, are the foreground) and PGM (P1, P2, P4, P5),
+/// gzipped or not, or PNG, JPEG, BMP, WebP, GIF, TIFF and GeoTIFF through GDAL. Of colours the
+/// luminance counts (ITU-R BT.601); what is transparent or without data is background, inverted or
+/// not. Errors: also empty (no foreground).
 Result<ImageFile> read_image(const std::string& path, const ImageOptions& options = {});
 
 /// Reads a mesh by its extension and cuts polygons into triangles: .obj and .stl through Assimp, in
@@ -155,8 +138,9 @@ struct PackFile {
   bool y_down = false;
 };
 
-/// From a file or from bytes. Memory at most 256 times that of the bytes, and 64 KiB. Errors: also
-/// malformed (a wrong checksum included), unsupported (another version).
+/// From a file or from bytes. Takes at most 256 times the memory of the bytes, and 64 KiB. Of the
+/// errors, malformed stands for any damage, a wrong checksum included, and unsupported for a
+/// version that this library does not know; of bytes they have no file.
 Result<PackFile> read_pack(const std::string& path);
 Result<PackFile> unpack_bytes(std::span<const std::uint8_t> bytes);
 

@@ -1,11 +1,10 @@
 #pragma once
 
 // Documents as files and pictures. Functions write by the extension of `path`, or by `format` (an
-// extension without its dot) in its place; `-` is standard output, but of images and distances. A
-// file is written under a temporary name beside the target and renamed: there is never a partial
-// one. Formats of GIS, .wkt and .csv get longitudes and latitudes again where the reference system
-// is a local projection (project_to_local()); radii and lengths stay in metres. Errors of all:
-// unsupported, unwritable, invalid_option (chord, width), out_of_memory.
+// extension without its dot) in its place; `-` is standard output, but of images and distances.
+// There is never a partial file: it is written beside its target, then renamed. Formats of GIS,
+// .wkt and .csv get longitudes and latitudes again after project_to_local(); radii and lengths stay
+// in metres. Errors of all: unsupported, unwritable, invalid_option (chord, width), out_of_memory.
 
 #include "medial/carve.h"
 #include "medial/features.h"
@@ -36,17 +35,23 @@ std::string formats_of(DocumentKind kind);
 
 struct WriteOptions {
   double chord = 1e-3;       ///< chords stay within this share (> 0) of the bounding box diagonal
+  bool overwrite = false;    ///< replaces layers of the same name in a .gpkg that is there
   bool radius_as_z = false;  ///< drawings (.dxf) have the radius as z
   // pictures (.svg .pdf .png .ps)
   double width = 1024;    ///< of the picture, in pixels or points, in [16, 8000]
   int disks = 0;          ///< draw about this many maximal disks; 0: none
   bool contacts = false;  ///< draw the feet of the nodes' disks
   bool shape = true;      ///< draw the shape
-  bool nodes = false;     ///< draw the nodes by kind
+  bool nodes = false;     ///< draw the nodes by kind; tables have those between two edges as well
   bool titles = false;    ///< write each item's attribute "title" below its shape
+  /// Lines of axes in tables, .wkt and graphs have few points within this distance of the curve, in
+  /// units of the input; 0: chords. Their ends stay, so networks stay connected.
+  double simplify = 0;
 };
 
-/// Axes: exact in .json (native, docs/format.md) and .dxf, else chords; .gpkg also has the nodes.
+/// Axes: exact in .json (native, docs/format.md) and .dxf, else chords; .gpkg also has the nodes;
+/// .graphml, .nodelink (JSON, as networkx reads it) and .edgelist hold nodes and branches as a
+/// graph.
 Status write_axes(const std::string& path, const std::string& format,
                   const Document<AxisItem>& file, const WriteOptions& options = {});
 
@@ -60,13 +65,12 @@ Status write_shapes(const std::string& path, const std::string& format,
 Status write_voronoi(const std::string& path, const std::string& format,
                      const Document<VoronoiItem>& file, const WriteOptions& options = {});
 
-/// What the features that lie in one region of a buffer have in common.
+/// What features lie in one region of a buffer, and what they have in common.
 struct BufferSource {
   std::vector<std::uint32_t> features;  ///< in their order in the input
   Attributes attributes;                ///< of the first feature: those on which all agree
 };
 
-/// A shape, or a planar graph, and its offset curves.
 struct OffsetItem {
   Shape shape;
   Offsets offsets;
@@ -82,24 +86,49 @@ Status write_offsets(const std::string& path, const std::string& format,
                      const Document<OffsetItem>& file, const WriteOptions& options = {},
                      bool chords = false);
 
-/// A shape and the paths that carve it.
 struct CarveItem {
   Shape shape;
   Carving carving;
+  Carving clearing = {};  ///< by an end mill before, see clearing_before(); or without paths
 };
 
-/// What a machine needs besides the paths. Lengths in units of the input, taken for millimetres.
+struct CuttingSpeeds {
+  double feed = 1000;   ///< of cutting moves, units a minute
+  double plunge = 300;  ///< downwards
+  double spindle = 0;   ///< turns a minute; 0: the program does not set it
+};
+
+/// What a machine needs besides the paths. Lengths in units of the document.
 struct MachineOptions {
   double safe = 5;      ///< height of moves between paths, positive
-  double feed = 1000;   ///< of cutting moves, mm/min
-  double plunge = 300;  ///< downwards, mm/min
-  double spindle = 0;   ///< turns a minute; 0: the program does not set it
+  double rapid = 3000;  ///< of these moves, for the estimated time
+  CuttingSpeeds carving, clearing;
   double chord = 0;     ///< of without_arcs() for .csv; 0: 1e-6 of the tool's radius at the bottom
+  std::string post;     ///< "linuxcnc", "grbl", "mach3", or a template's text; empty: plain G-code
+  bool shaded = false;  ///< pictures: the surface after the cut, simulated, without the paths
 };
+/// The names of the templates that are built in.
+std::string post_names();
 
-/// Tool paths: .nc .gcode .ngc (plain G-code: G0 G1 G2 G3, absolute, millimetres, XY plane, arcs by
-/// I and J, six decimals), .csv (path, kind, x, y, z), .dxf (space polylines on a layer for each
-/// kind; passes at one depth as polylines with bulges and elevation), pictures of the cut.
+/// What a program does, as it is written.
+struct CutReport {
+  double own = 0;     ///< length of all passes in the plane, see Carving::own_length
+  double cut = 0;     ///< length of all moves in the material or at its depth
+  double travel = 0;  ///< in the plane, of lifted moves
+  double seconds = 0;
+  std::uint64_t moves = 0;
+  Box box;            ///< of the tool's centre
+  double lowest = 0;  ///< z
+};
+CutReport report_of(const Document<CarveItem>& file, const MachineOptions& machine);
+
+/// Makes a point of the drawing the origin, and turns y up where it points down.
+void place(Document<CarveItem>& file, Vec2 zero);
+
+/// Tool paths: .nc .gcode .ngc (G-code: G0 G1 G2 G3, absolute, G20 in inches and G21 otherwise, XY
+/// plane, arcs by I and J, six decimals), .csv (path, kind, x, y, z), .dxf (space polylines on a
+/// layer for each kind; passes at one depth as polylines with bulges and elevation), pictures of
+/// the cut. place() has been called. Errors: also invalid_option (a template without its parts).
 Status write_carving(const std::string& path, const std::string& format,
                      const Document<CarveItem>& file, const MachineOptions& machine = {},
                      const WriteOptions& options = {});
@@ -150,7 +179,6 @@ Status write_layers(const std::string& path, const std::string& format,
                     const Document<Layer>& layers, const Document<AxisItem>& background,
                     const WriteOptions& options = {});
 
-/// How a potential is drawn.
 struct FieldPictureOptions {
   double width = 800;      ///< of the picture, in pixels or points, in [16, 8000]
   int lines = 40;          ///< force lines start on a grid, so many along the longer side; 0: none
@@ -158,19 +186,16 @@ struct FieldPictureOptions {
   bool y_down = false;     ///< the y axis points down
 };
 
-/// Pictures of shapes with the potential of their borders, `fields` in the order of the shapes.
-/// Samples the potential once for each pixel, on all threads.
+/// Pictures of shapes with the potentials of their borders, sampled once for each pixel.
 Status write_field(const std::string& path, const std::string& format,
                    std::span<const Shape> shapes, std::span<const PotentialField> fields,
                    const FieldPictureOptions& options = {});
 
-/// One of several pictures of the same shapes: with other axes in them.
 struct PreviewPanel {
   std::string title;
   std::vector<MedialAxis> axes;
 };
-
-/// Pictures of the shapes, once for each panel, in rows, each with its axes and its title below.
+/// Pictures of the same shapes in rows, one for each panel, with its axes and its title below.
 Status write_preview(const std::string& path, const std::string& format,
                      std::span<const Shape> shapes, std::span<const PreviewPanel> panels,
                      double width, bool y_down);
@@ -188,14 +213,13 @@ struct DistanceFormat {
   double scale = 1;      ///< what is written is this times the value
 };
 
-/// Distances: .tif holds them as 32 bits (real numbers, or squared whole ones), placed as `source`;
-/// .png and .pgm as the nearest whole numbers of 16 bits. Errors: also invalid_option (16 bits do
-/// not hold the largest value, or there is no background at all).
+/// Distances: in 32 bits in .tif (real numbers, or squared whole ones), placed as `source`; in .png
+/// and .pgm as the nearest whole numbers of 16 bits. Errors: also invalid_option (16 bits do not
+/// hold the largest value, or there is no background).
 Status write_distances(const std::string& path, const DistanceMap& distances,
                        const ImageFile& source, const DistanceFormat& format = {});
 
-/// Bytes of a pack: the streams of its code compressed by zstd, one frame for all or one for each,
-/// whichever is shorter. Errors: internal. write_pack() writes them.
+/// The bytes of a pack, which write_pack() writes; compressed by zstd. Errors: internal.
 Result<std::vector<std::uint8_t>> pack_bytes(const PackFile& file);
 Status write_pack(const std::string& path, const std::vector<std::uint8_t>& bytes);
 
@@ -203,7 +227,6 @@ Status write_pack(const std::string& path, const std::vector<std::uint8_t>& byte
 std::size_t compressed_size(std::span<const std::uint8_t> bytes);
 std::size_t compressed_size(const ShapeCode& code);
 
-/// Writes a text as it is.
 Status write_text(const std::string& path, const std::string& text);
 
 /// Removes temporary files of writes under way; safe to call from a signal handler.

@@ -130,15 +130,15 @@ Status write_csv(Target& target, const CarvingOutput& output) {
     // Next to where offsets of two sides meet, a tangent may come nearer to the other side than its
     // arc does, by as much as it is away from that.
     constexpr double fine = 1e-6;
-    const Carving& carving = item.carving;
-    const double chord = output.machine.chord > 0
-                             ? output.machine.chord
-                             : fine * std::max(carving.tip_radius, carving.slope * carving.deepest);
-    for (const ToolPath& path : item.carving.paths) {
-      const std::string before = fmt::format("{},{}", id++, name_of(path.kind));
+    for_each_path(item, [&](const Carving& carving, const ToolPath& path, const char* kind) {
+      const double chord =
+          output.machine.chord > 0
+              ? output.machine.chord
+              : fine * std::max(carving.tip_radius, carving.slope * carving.deepest);
+      const std::string before = fmt::format("{},{}", id++, kind);
       for (const ToolPoint& point : without_arcs(path, chord))
         put_values(target, before, {point.point.x, point.point.y, point.z});
-    }
+    });
   }
   return success();
 }
@@ -154,6 +154,7 @@ Format csv_format() {
   Format format{".csv"};
   format.read = read_vertices;
   format.accepts = has_two_columns;
+  format.gdal_chooses = true;
   format.geographic = true;
   return format.writes<AxesOutput, VoronoiOutput, FeaturesOutput, CarvingOutput>(
       write_csv, write_csv, write_csv, write_csv);

@@ -380,6 +380,10 @@ class Features {
     if (dataset_.items.empty()) {
       std::string text = "there is no closed curve";
       for (const std::string& note : dataset_.notes) text += "; " + note;
+      if (open_ > 0)
+        text +=
+            "; --close=GAP joins ends that are further apart, --close ends each curve where it "
+            "began";
       return Error{ErrorCode::empty, text, {}};
     }
     return std::move(dataset_);
@@ -398,6 +402,7 @@ class Features {
       join(layer, feature);
     }
     if (feature.contours.empty()) return;
+    feature.filled = true;
     feature.id = static_cast<std::int64_t>(dataset_.items.size());
     feature.attributes.emplace_back("layer", layer.name);
     dataset_.items.push_back(std::move(feature));

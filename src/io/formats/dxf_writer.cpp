@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <set>
 #include <vector>
 
@@ -130,20 +131,22 @@ void write_space_polyline(DxfDrawing& drawing, const std::string& layer,
 }
 
 Status write_dxf(Target& target, const CarvingOutput& output) {
-  const std::vector<std::string> layers{"CLEARING", "WALL", "GROOVE"};
+  std::vector<std::string> layers{"CLEARING", "WALL", "GROOVE", "RAMP"};
+  const auto& items = output.document.items;
+  if (std::ranges::any_of(items, [](const auto& item) { return !item.clearing.paths.empty(); }))
+    layers.emplace_back("MILL");
   DxfDrawing drawing(*target.out, layers, output.document.unit);
-  for (const CarveItem& item : output.document.items) {
-    for (const ToolPath& path : item.carving.paths) {
-      const std::string& layer = layers[static_cast<std::size_t>(path.kind)];
-      const std::vector<ToolPoint> upright = upright_path(path, output.document.y_down);
-      const double z = upright.front().z;
-      if (!std::ranges::all_of(upright, [z](const ToolPoint& p) { return p.z == z; })) {
-        write_space_polyline(drawing, layer, upright);
-        continue;
+  for (const CarveItem& item : items) {
+    for_each_path(item, [&](const Carving&, const ToolPath& path, std::string layer) {
+      std::ranges::transform(layer, layer.begin(), [](unsigned char c) { return std::toupper(c); });
+      const double z = path.points.front().z;
+      if (!std::ranges::all_of(path.points, [z](const ToolPoint& p) { return p.z == z; })) {
+        write_space_polyline(drawing, layer, path.points);
+        return;
       }
-      const Ring line = line_of(upright);
+      const Ring line = line_of(path.points);
       drawing.polyline(layer, line.points, line.bulges, false, z);
-    }
+    });
   }
   return drawing.finish();
 }

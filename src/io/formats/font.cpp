@@ -115,6 +115,7 @@ Result<Document<Feature>> set_text(const std::vector<Character>& characters, FT_
   static const FT_Outline_Funcs functions{
       &GlyphPen::move_to, &GlyphPen::line_to, &GlyphPen::conic_to, &GlyphPen::cubic_to, 0, 0};
   Document<Feature> dataset;
+  dataset.corner_angle = drawn_corner_angle;
   std::set<std::string> missing;
   double x = 0;
   FT_UInt before = 0;
@@ -145,6 +146,7 @@ Result<Document<Feature>> set_text(const std::vector<Character>& characters, FT_
       if (!pen.contours.empty()) {
         Feature& feature = dataset.items.emplace_back();
         feature.contours = std::move(pen.contours);
+        feature.filled = true;
         feature.id = static_cast<std::int64_t>(i);
         feature.attributes = {{"character", characters[i].text},
                               {"position", fmt::format("{}", i)}};

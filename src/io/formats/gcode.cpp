@@ -1,4 +1,4 @@
-// Plain G-code.
+// G-code.
 
 #include <fmt/format.h>
 
@@ -6,7 +6,9 @@
 
 #include "base/arc.h"
 #include "io/format.h"
+#include "io/formats/gcode_posts.h"
 #include "io/tool_paths.h"
+#include "medial/units.h"
 
 namespace medial::io {
 
@@ -20,46 +22,57 @@ std::string decimal(double value) {
   return text == "-0" ? "0" : text;
 }
 
-class GCode {
+/// Moves of one tool after another, with what they add up to.
+class Moves {
  public:
-  GCode(OutputStream& out, const MachineOptions& machine) : out_(out), machine_(machine) {}
+  explicit Moves(const MachineOptions& machine) : machine_(machine) {
+    report_.box = Box::nothing();
+  }
 
-  void begin() {
-    line("(medial carve: millimetres, z 0 on the surface)");
-    line("G21 G90 G17 G94");
-    if (machine_.spindle > 0) line("M3 S" + decimal(machine_.spindle));
-    line("G0 Z" + decimal(machine_.safe));
-  }
-  void end() {
-    if (down_) lift();
-    if (machine_.spindle > 0) line("M5");
-    line("M2");
-  }
+  void use(const CuttingSpeeds& speeds) { speeds_ = speeds; }
   /// Goes to a place, down to its depth, and on; stays down where it is there already.
   void path(const std::vector<ToolPoint>& points) {
     const ToolPoint& first = points.front();
     if (!down_ || !(first.point == at_.point) || first.z != at_.z) {
-      if (down_) lift();
+      lift();
       line("G0 X" + decimal(first.point.x) + " Y" + decimal(first.point.y));
-      line("G1 Z" + decimal(first.z) + " F" + decimal(machine_.plunge));
-      feed_ = machine_.plunge;
-      down_ = true;
+      spend(started_ ? distance(at_.point, first.point) : 0, machine_.rapid, report_.travel);
+      line("G1 Z" + decimal(first.z) + " F" + decimal(speeds_.plunge));
+      spend(machine_.safe - first.z, speeds_.plunge, vertical_);
+      feed_ = speeds_.plunge;
+      down_ = started_ = true;
     }
     at_ = first;
+    note_place();
     for (std::size_t i = 1; i < points.size(); ++i) {
       move(points[i - 1].bulge, points[i]);
       at_ = points[i];
+      note_place();
     }
   }
+  void lift() {
+    if (!down_) return;
+    line("G0 Z" + decimal(machine_.safe));
+    spend(machine_.safe - at_.z, machine_.rapid, vertical_);
+    down_ = false;
+  }
+  /// The lines so far, which are taken away.
+  std::string take() { return std::exchange(text_, {}); }
+  const CutReport& report() const { return report_; }
 
  private:
   void line(const std::string& text) {
-    out_.put(std::string_view(text));
-    out_.put('\n');
+    text_ += text;
+    text_ += '\n';
   }
-  void lift() {
-    line("G0 Z" + decimal(machine_.safe));
-    down_ = false;
+  void note_place() {
+    report_.box.add(at_.point);
+    report_.lowest = std::min(report_.lowest, at_.z);
+  }
+  void spend(double way, double speed, double& sum) {
+    constexpr double minute = 60;
+    sum += way;
+    report_.seconds += minute * way / speed;
   }
   void move(double bulge, const ToolPoint& to) {
     const std::string x = decimal(to.point.x), y = decimal(to.point.y), z = decimal(to.z);
@@ -74,49 +87,145 @@ class GCode {
       const Vec2 center = (1 / curvature(arc)) * left_of(start_tangent(arc));
       text = (bulge > 0 ? "G3 X" : "G2 X") + x + " Y" + y + " I" + decimal(center.x) + " J" +
              decimal(center.y);
+      add_extent(arc);
     } else {
       text = "G1";
       if (!same_place) text += " X" + x + " Y" + y;
       if (!same_height) text += " Z" + z;
     }
-    const double feed = same_place && to.z < at_.z ? machine_.plunge : machine_.feed;
+    const double feed = same_place && to.z < at_.z ? speeds_.plunge : speeds_.feed;
     if (feed != feed_) text += " F" + decimal(feed);
     feed_ = feed;
     line(text);
+    ++report_.moves;
+    const double flat = arc_length(distance(at_.point, to.point), bulge);
+    spend(std::hypot(flat, to.z - at_.z), feed, report_.cut);
+  }
+  void add_extent(const BulgeArc& arc) {
+    for (const Vec2 side : {Vec2{1, 0}, Vec2{0, 1}, Vec2{-1, 0}, Vec2{0, -1}})
+      if (const auto point = parallel_point(arc, side)) report_.box.add(*point);
   }
 
-  OutputStream& out_;
   const MachineOptions& machine_;
+  CuttingSpeeds speeds_;
+  std::string text_;
+  CutReport report_;
+  double vertical_ = 0;
   ToolPoint at_;
-  bool down_ = false;
+  bool down_ = false, started_ = false;
   double feed_ = 0;
 };
 
+/// Of the tool of a carving.
+std::string description_of(const Carving& carving, const std::string& unit) {
+  if (carving.slope == 0)
+    return fmt::format("end mill, diameter {} {}", decimal(2 * carving.tip_radius), unit);
+  constexpr double degrees = 180 / std::numbers::pi;
+  std::string text =
+      fmt::format("V of {} degrees", decimal(2 * degrees * std::atan(carving.slope)));
+  if (carving.tip_radius > 0)
+    text += fmt::format(", tip {} {}", decimal(2 * carving.tip_radius), unit);
+  return text;
+}
+
+/// One tool at work.
+struct Section {
+  std::string description, moves;
+  double deepest = 0;
+  std::uint32_t passes = 0;
+  CuttingSpeeds speeds;
+};
+
+struct Program {
+  std::vector<Section> sections;  ///< in the order of cutting
+  CutReport report;
+};
+
+Program program_of(const Document<CarveItem>& file, const MachineOptions& machine) {
+  Program program;
+  Moves moves(machine);
+  double own = 0;
+  const auto add = [&](Carving CarveItem::*carving, const CuttingSpeeds& speeds) {
+    Section section{{}, {}, 0, 0, speeds};
+    moves.use(speeds);
+    for (const CarveItem& item : file.items) {
+      const Carving& one = item.*carving;
+      if (one.paths.empty()) continue;
+      section.description = description_of(one, name_of(file.unit));
+      section.deepest = std::max(section.deepest, one.deepest);
+      section.passes = std::max(section.passes, one.passes);
+      own += one.own_length;
+      for (const ToolPath& path : one.paths) moves.path(path.points);
+    }
+    moves.lift();
+    section.moves = moves.take();
+    if (!section.moves.empty()) program.sections.push_back(std::move(section));
+  };
+  add(&CarveItem::clearing, machine.clearing);
+  add(&CarveItem::carving, machine.carving);
+  program.report = moves.report();
+  program.report.own = own;
+  if (program.report.box.is_nothing()) program.report.box = {};
+  return program;
+}
+
+std::string header_of(const Program& program, const std::string& name, Unit unit, double safe) {
+  const CutReport& report = program.report;
+  const Box& box = report.box;
+  std::string text = fmt::format("(medial carve: {})\n", comment_of(name));
+  text += fmt::format("(units: {}, z 0 on the surface)\n", unit == Unit::inch ? "inches" : "mm");
+  int number = 0;
+  for (const Section& section : program.sections)
+    text += fmt::format(
+        "(tool {}: {}, depth {} in {})\n", ++number, section.description, decimal(section.deepest),
+        section.passes == 1 ? "one pass" : fmt::format("{} passes", section.passes));
+  text += fmt::format("(bounds: X {} to {}, Y {} to {}, Z {} to {})\n", decimal(box.low.x),
+                      decimal(box.high.x), decimal(box.low.y), decimal(box.high.y),
+                      decimal(report.lowest), decimal(safe));
+  const auto seconds = static_cast<std::int64_t>(std::ceil(report.seconds));
+  text += fmt::format("(cut {:.6g}, travel {:.6g}, about {} min {} s)", report.cut, report.travel,
+                      seconds / 60, seconds % 60);
+  return text;
+}
+
 Status write_gcode(Target& target, const CarvingOutput& output) {
-  GCode program(*target.out, output.machine);
-  program.begin();
-  for (const CarveItem& item : output.document.items)
-    for (const ToolPath& path : item.carving.paths)
-      program.path(upright_path(path, output.document.y_down));
-  program.end();
+  const MachineOptions& machine = output.machine;
+  const Document<CarveItem>& file = output.document;
+  const bool inches = file.unit == Unit::inch;
+  const Program program = program_of(file, machine);
+  auto post = PostTemplate::make(machine.post);
+  if (!post) return std::move(post).error();
+  PostValues values{{"header", header_of(program, target.name, file.unit, machine.safe)},
+                    {"units", inches ? "G20" : "G21"},
+                    {"tolerance", inches ? "0.0004" : "0.01"},
+                    {"safe", decimal(machine.safe)}};
+  const auto put = [&](PostPart part) {
+    target.out->put(std::string_view(post->fill(part, values)));
+  };
+  put(PostPart::start);
+  int number = 0;
+  for (const Section& section : program.sections) {
+    values["tool"] = std::to_string(++number);
+    values["description"] = section.description;
+    values["spindle"] = section.speeds.spindle > 0 ? "M3 S" + decimal(section.speeds.spindle) : "";
+    values["stop"] = section.speeds.spindle > 0 ? "M5" : "";
+    if (program.sections.size() > 1) put(PostPart::tool);
+    put(PostPart::cut);
+    target.out->put(std::string_view(section.moves));
+  }
+  put(PostPart::end);
   return success();
 }
 
 }  // namespace
 
-const char* name_of(ToolPathKind kind) {
-  constexpr std::array<const char*, 3> names{"clearing", "wall", "groove"};
-  return names[static_cast<std::size_t>(kind)];
+CutReport report_of(const Document<CarveItem>& file, const MachineOptions& machine) {
+  return program_of(file, machine).report;
 }
 
-std::vector<ToolPoint> upright_path(const ToolPath& path, bool y_down) {
-  std::vector<ToolPoint> points = path.points;
-  if (!y_down) return points;
-  for (ToolPoint& point : points) {
-    point.point.y = -point.point.y;
-    point.bulge = -point.bulge;
-  }
-  return points;
+const char* name_of(ToolPathKind kind) {
+  constexpr std::array<const char*, 4> names{"clearing", "wall", "groove", "ramp"};
+  return names[static_cast<std::size_t>(kind)];
 }
 
 Ring line_of(const std::vector<ToolPoint>& points) {
@@ -126,6 +235,17 @@ Ring line_of(const std::vector<ToolPoint>& points) {
     line.bulges.push_back(point.bulge);
   }
   return line;
+}
+
+void place(Document<CarveItem>& file, Vec2 zero) {
+  const double up = file.y_down ? -1 : 1;
+  for (CarveItem& item : file.items) {
+    for (Vec2& p : item.shape.points) p = {p.x - zero.x, up * (p.y - zero.y)};
+    for (double& bulge : item.shape.bulges) bulge *= up;
+    item.carving = placed(std::move(item.carving), zero, file.y_down);
+    item.clearing = placed(std::move(item.clearing), zero, file.y_down);
+  }
+  file.y_down = false;
 }
 
 Format gcode_format() { return Format{".nc .gcode .ngc"}.writes<CarvingOutput>(write_gcode); }

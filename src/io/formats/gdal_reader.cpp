@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <charconv>
 #include <cstring>
+#include <filesystem>
 
 #include "io/format.h"
 #include "io/format_name.h"
@@ -104,13 +105,18 @@ class GdalReader {
   }
 
   Error cannot_open(const std::string& name, const std::string& failure) const {
+    std::error_code ignored;
+    if (std::filesystem::is_directory(name, ignored))
+      return error(ErrorCode::unsupported, "this is a directory: name a file in it");
     const bool known = known_extension(name) || GDALIdentifyDriverEx(name.c_str(), GDAL_OF_VECTOR,
                                                                      nullptr, nullptr) != nullptr;
     if (known) {
       return error(ErrorCode::malformed,
                    failure.empty() ? "the content is not what the format says" : failure);
     }
-    return error(ErrorCode::unsupported, "this is none of the vector formats that GDAL knows");
+    return error(ErrorCode::unsupported,
+                 "this is no image, no drawing and none of the vector formats that GDAL knows; "
+                 "medial axis --help lists what is read");
   }
 
   Result<OGRLayer*> choose_layer(GDALDataset& source) {

@@ -63,7 +63,8 @@ class GdalTables final : public TableSink {
   GdalTables(Target& target, const TableSource& source, GDALDataset& dataset,
              const GdalMessages& messages)
       : TableSink(target), source_(source), messages_(messages) {
-    for (OGRLayer* layer : dataset.GetLayers()) layers_.push_back(layer);
+    const int count = dataset.GetLayerCount(), own = static_cast<int>(source.tables.size());
+    for (int i = count - own; i < count; ++i) layers_.push_back(dataset.GetLayer(i));
   }
 
  private:
@@ -95,6 +96,25 @@ class GdalTables final : public TableSink {
   std::vector<OGRLayer*> layers_;
 };
 
+/// Layers of the same name as a table go, if they may.
+Status make_room(GDALDataset& dataset, const Target& target, const TableSource& source) {
+  for (const Table& table : source.tables) {
+    for (int i = dataset.GetLayerCount(); i-- > 0;) {
+      if (!EQUAL(dataset.GetLayer(i)->GetName(), table.name.c_str())) continue;
+      if (!target.overwrite)
+        return Error{
+            ErrorCode::unwritable,
+            fmt::format("the file has a layer '{}' already; --overwrite replaces it", table.name),
+            {}};
+      if (dataset.DeleteLayer(i) != OGRERR_NONE)
+        return Error{ErrorCode::unwritable,
+                     fmt::format("the layer '{}' cannot be replaced", table.name),
+                     {}};
+    }
+  }
+  return success();
+}
+
 Status create_layers(GDALDataset& dataset, const Target& target, const TableSource& source,
                      const GdalMessages& messages) {
   const bool several = target.format == "gpkg";
@@ -122,8 +142,13 @@ Status make_dataset(const std::string& path, Target& target, const TableSource& 
     return Error{
         ErrorCode::unsupported, fmt::format("this GDAL cannot write {}", target.format), {}};
   const GdalMessages messages;
-  GDALDatasetUniquePtr dataset(driver->Create(path.c_str(), 0, 0, 0, GDT_Unknown, nullptr));
+  const bool adds = target.adds_to_file && std::filesystem::exists(path);
+  GDALDatasetUniquePtr dataset(
+      adds
+          ? GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_UPDATE | GDAL_OF_VERBOSE_ERROR)
+          : driver->Create(path.c_str(), 0, 0, 0, GDT_Unknown, nullptr));
   if (!dataset) return cannot_write(messages);
+  if (Status room = adds ? make_room(*dataset, target, source) : success(); !room) return room;
   if (Status created = create_layers(*dataset, target, source, messages); !created) return created;
   GdalTables tables(target, source, *dataset, messages);
   const bool transactions = dataset->TestCapability(ODsCTransactions) != 0;
@@ -210,7 +235,7 @@ Status make_file(Target& target, const std::function<Status(const std::string&)>
 
 Format gpkg_format() {
   Format format{".gpkg"};
-  format.own_files = true;
+  format.own_files = format.adds_layers = true;
   return with_tables<put_gdal_tables>(format);
 }
 

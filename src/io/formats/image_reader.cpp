@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <map>
 #include <memory>
 #include <string_view>
 
 #include "io/format.h"
+#include "io/formats/rasters.h"
 #include "io/gdal_support.h"
 #include "io/guarded.h"
 #include "io/place.h"
@@ -18,7 +21,7 @@ namespace medial::io {
 
 namespace {
 
-constexpr std::size_t image_sniffed = 8;
+constexpr std::size_t image_sniffed = 12;
 constexpr std::size_t png_header = 4096;  // what a PNG says of itself stands before
 constexpr std::size_t longest_image = std::size_t{1} << 32U;
 
@@ -31,8 +34,44 @@ bool begins_like_pnm(std::string_view text) {
 bool begins_like_raster(std::string_view text) {
   using namespace std::string_view_literals;
   return text.starts_with("\x89PNG\r\n\x1a\n"sv) || text.starts_with("II*\0"sv) ||
-         text.starts_with("MM\0*"sv) || text.starts_with("II+\0"sv) || text.starts_with("MM\0+"sv);
+         text.starts_with("MM\0*"sv) || text.starts_with("II+\0"sv) ||
+         text.starts_with("MM\0+"sv) || text.starts_with("\xff\xd8\xff"sv) ||
+         text.starts_with("GIF8"sv) ||
+         (text.starts_with("BM"sv) && text.size() > 9 && text.substr(6, 4) == "\0\0\0\0"sv) ||
+         (text.starts_with("RIFF"sv) && text.size() > 11 && text.substr(8, 4) == "WEBP"sv);
 }
+
+/// What the pixels of an image hold, as far as the choice of a threshold needs it.
+class Values {
+ public:
+  void add(double value) {
+    if (value == last_ || std::isnan(value)) return;
+    last_ = value;
+    if (different_ < 3 &&
+        std::find(some_.begin(), some_.begin() + different_, value) == some_.begin() + different_)
+      some_[static_cast<std::size_t>(different_++)] = value;
+    largest_ = std::max(largest_, value);
+  }
+  /// A mask of zeros and ones has its foreground in the ones.
+  bool is_mask() const { return largest_ == 1 && different_ <= 2; }
+  std::vector<std::string> notes(double threshold) const {
+    if (different_ < 3) return {};
+    return {
+        fmt::format("the image has more than two values: pixels from {:g} on are its "
+                    "foreground; --threshold chooses another, --labels takes each value for "
+                    "a feature",
+                    threshold)};
+  }
+
+ private:
+  std::array<double, 3> some_{};
+  int different_ = 0;
+  double largest_ = 0;
+  double last_ = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// Of each pixel the value as a label, row by row; 0 is background.
+using Labels = std::vector<std::uint32_t>;
 
 Error too_large_image(std::uint64_t width, std::uint64_t height) {
   return {ErrorCode::too_large,
@@ -45,7 +84,27 @@ class PnmReader {
  public:
   PnmReader(TextSource& source, const ImageOptions& options) : source_(source), options_(options) {}
 
-  Result<Image> read() {
+  Result<ImageFile> read(Labels& labels) {
+    Result<Image> image = read_values();
+    if (!image) return image.error();
+    ImageFile file;
+    file.image = std::move(*image);
+    if (values_.empty()) return file;
+    Values seen;
+    std::ranges::for_each(values_, [&](std::uint16_t value) { seen.add(value); });
+    if (!options_.threshold && seen.is_mask()) threshold_ = 1;
+    if (!options_.threshold && !options_.labels) file.notes = seen.notes(threshold_);
+    if (options_.labels) labels.assign(values_.begin(), values_.end());
+    for (std::size_t i = 0; i < values_.size(); ++i)
+      if (options_.labels ? values_[i] > 0 : is_foreground(values_[i]))
+        file.image.set(static_cast<std::uint32_t>(i % file.image.width()),
+                       static_cast<std::uint32_t>(i / file.image.width()));
+    return file;
+  }
+
+ private:
+  /// Bitmaps as an image; graymaps as values_, and an empty image of their size.
+  Result<Image> read_values() {
     source_.skip();
     const char kind = static_cast<char>(source_.peek());
     source_.skip();
@@ -63,7 +122,6 @@ class PnmReader {
     return read_raw(std::move(image), bits, largest);
   }
 
- private:
   bool is_foreground(double value) const { return (value >= threshold_) != options_.invert; }
 
   void skip_space_and_comments() {
@@ -100,10 +158,17 @@ class PnmReader {
         } else if (!read_count(value) || value > largest) {
           return source_.error(ErrorCode::malformed, "expected a value up to the largest one");
         }
-        if (is_foreground(static_cast<double>(value))) image.set(x, y);
+        put(bits, static_cast<std::uint16_t>(value), x, y, image);
       }
     }
     return image;
+  }
+
+  void put(bool bits, std::uint16_t value, std::uint32_t x, std::uint32_t y, Image& image) {
+    if (!bits)
+      values_.push_back(value);
+    else if (is_foreground(value))
+      image.set(x, y);
   }
 
   Result<Image> read_raw(Image image, bool bits, std::uint64_t largest) {
@@ -124,7 +189,7 @@ class PnmReader {
         const unsigned value = bits               ? row[x / 8] >> (7 - x % 8) & 1U
                                : value_bytes == 1 ? row[x]
                                                   : row[2UL * x] * 256U + row[2UL * x + 1];
-        if (is_foreground(value)) image.set(x, y);
+        put(bits, static_cast<std::uint16_t>(value), x, y, image);
       }
     }
     return image;
@@ -133,6 +198,7 @@ class PnmReader {
   TextSource& source_;
   const ImageOptions& options_;
   double threshold_ = 0;
+  std::vector<std::uint16_t> values_;
 };
 
 /// The bands of a raster, and how they tell foreground.
@@ -176,14 +242,35 @@ class Bands {
     }
     if (alpha_ != nullptr && !read_band(*alpha_, y, count, width, part_)) return false;
     for (std::size_t i = 0; i < pixels; ++i) {
-      if (!is_foreground(values_[i]) || (alpha_ != nullptr && part_[i] < half_alpha())) continue;
+      if (alpha_ != nullptr && part_[i] < half_alpha()) continue;
+      if (!is_nodata(values_[i])) seen_.add(luminance_of(values_[i]));
+      if (!is_foreground(values_[i])) continue;
       image.set(static_cast<std::uint32_t>(i % image.width()),
                 static_cast<std::uint32_t>(y) + static_cast<std::uint32_t>(i / image.width()));
     }
     return true;
   }
 
-  double threshold() const { return threshold_; }
+  /// Whether what was read was a mask of zeros and ones, which is to be read again.
+  bool has_become_mask() {
+    if (options_.threshold || options_.labels || threshold_ <= 1 || !seen_.is_mask()) return false;
+    threshold_ = 1;
+    return true;
+  }
+  std::vector<std::string> notes() const {
+    return options_.threshold || options_.labels ? std::vector<std::string>()
+                                                 : seen_.notes(threshold_);
+  }
+
+  /// Whether the values of the first band could be appended.
+  bool append_labels(int y, int count, int width, Labels& labels) {
+    if (!read_band(*colors_[0], y, count, width, part_)) return false;
+    for (const double value : part_)
+      labels.push_back(is_nodata(value) || !(value >= 0.5 && value < 4294967295.0)
+                           ? 0
+                           : static_cast<std::uint32_t>(std::lround(value)));
+    return true;
+  }
 
  private:
   static bool read_band(GDALRasterBand& band, int y, int count, int width,
@@ -214,16 +301,24 @@ class Bands {
   double default_threshold() const { return table_ != nullptr ? 128 : half_range(*colors_[0]); }
   double half_alpha() const { return half_range(*alpha_); }
 
+  bool is_nodata(double value) const {
+    if (has_nodata_ != 0 && value == nodata_ && table_ == nullptr) return true;
+    return std::isnan(value);
+  }
+  /// Of a table of colours that of the entry; nothing where it is transparent.
+  double luminance_of(double value) const {
+    if (table_ == nullptr) return value;
+    const GDALColorEntry* entry = value >= 0 && value < table_->GetColorEntryCount()
+                                      ? table_->GetColorEntry(static_cast<int>(value))
+                                      : nullptr;
+    if (entry == nullptr || entry->c4 < 128) return std::numeric_limits<double>::quiet_NaN();
+    return 0.299 * entry->c1 + 0.587 * entry->c2 + 0.114 * entry->c3;
+  }
   bool is_foreground(double value) const {
-    if (has_nodata_ != 0 && value == nodata_ && table_ == nullptr) return false;
-    if (std::isnan(value)) return false;
-    if (table_ != nullptr) {
-      if (!(value >= 0 && value < table_->GetColorEntryCount())) return false;
-      const GDALColorEntry* entry = table_->GetColorEntry(static_cast<int>(value));
-      if (entry->c4 < 128) return false;
-      value = 0.299 * entry->c1 + 0.587 * entry->c2 + 0.114 * entry->c3;
-    }
-    return (value >= threshold_) != options_.invert;
+    if (is_nodata(value)) return false;
+    if (options_.labels) return value != 0;
+    value = luminance_of(value);
+    return !std::isnan(value) && (value >= threshold_) != options_.invert;
   }
 
   const ImageOptions& options_;
@@ -233,6 +328,7 @@ class Bands {
   double nodata_ = 0;
   int has_nodata_ = 0;
   double threshold_ = 0;
+  Values seen_;
   std::vector<double> values_, part_;
 };
 
@@ -269,13 +365,27 @@ double dots_per_inch_of(GDALDataset& dataset) {
   return unit[0] == '2' ? dots : unit[0] == '3' ? dots * centimetres_per_inch : 0;
 }
 
-Result<ImageFile> read_raster(const std::string& name, const ImageOptions& options) {
+/// All rows into the image and, if asked for, the labels. What is wrong, or nothing.
+const char* read_rows(Bands& bands, const ImageOptions& options, Image& image, Labels& labels) {
+  constexpr int rows_at_once = 64;
+  const auto width = static_cast<int>(image.width()), height = static_cast<int>(image.height());
+  for (int y = 0; y < height; y += rows_at_once) {
+    const int count = std::min(rows_at_once, height - y);
+    if (!bands.read(y, count, image) ||
+        (options.labels && !bands.append_labels(y, count, width, labels)))
+      return "its pixels cannot be read";
+  }
+  return nullptr;
+}
+
+Result<ImageFile> read_raster(const std::string& name, const ImageOptions& options,
+                              Labels& labels) {
   register_gdal();
   const GdalMessages messages;
   const auto failure = [&messages](const char* otherwise) {
     return messages.failure().empty() ? std::string(otherwise) : messages.failure();
   };
-  const char* const drivers[] = {"PNG", "GTiff", nullptr};
+  const char* const drivers[] = {"PNG", "GTiff", "JPEG", "BMP", "WEBP", "GIF", nullptr};
   const std::unique_ptr<GDALDataset> dataset(GDALDataset::Open(
       name.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, drivers));
   if (!dataset) return Error{ErrorCode::malformed, failure("this is no image"), {}};
@@ -285,13 +395,12 @@ Result<ImageFile> read_raster(const std::string& name, const ImageOptions& optio
   ImageFile file;
   Bands bands(*dataset, options);
   if (!bands.usable()) return Error{ErrorCode::unsupported, "its pixels are no numbers", {}};
-  file.image = Image(static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height));
-  constexpr int rows_at_once = 64;
-  for (int y = 0; y < static_cast<int>(height); y += rows_at_once) {
-    if (!bands.read(y, std::min(rows_at_once, static_cast<int>(height) - y), file.image) ||
-        !messages.failure().empty())
-      return Error{ErrorCode::malformed, failure("its pixels cannot be read"), {}};
-  }
+  do {
+    file.image = Image(static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height));
+    const char* problem = read_rows(bands, options, file.image, labels);
+    if (problem != nullptr || !messages.failure().empty())
+      return Error{ErrorCode::malformed, failure(problem), {}};
+  } while (bands.has_become_mask());
   PixelPlacement placement = unplaced;
   if (dataset->GetGeoTransform(placement.data()) == CE_None) {
     if (!std::ranges::all_of(placement, [](double t) { return std::isfinite(t); }) ||
@@ -307,6 +416,7 @@ Result<ImageFile> read_raster(const std::string& name, const ImageOptions& optio
   }
   file.dots_per_inch = dots_per_inch_of(*dataset);
   file.notes = messages.warnings();
+  std::ranges::move(bands.notes(), std::back_inserter(file.notes));
   return file;
 }
 
@@ -314,23 +424,18 @@ bool begins_like_image(std::string_view text) {
   return begins_like_pnm(text) || begins_like_raster(text);
 }
 
-Result<ImageFile> read_pixels(const Input& input, const ImageOptions& options) {
+Result<ImageFile> read_pixels(const Input& input, const ImageOptions& options, Labels& labels) {
   TextSource& source = *input.source;
   const std::string_view beginning = source.lookahead(image_sniffed);
   if (source.failure()) return *source.failure();
-  if (begins_like_pnm(beginning)) {
-    Result<Image> image = PnmReader(source, options).read();
-    if (!image) return image.error();
-    ImageFile file;
-    file.image = std::move(*image);
-    return file;
-  }
+  if (begins_like_pnm(beginning)) return PnmReader(source, options).read(labels);
   if (beginning.empty()) return Error{ErrorCode::empty, "there is nothing to read", {}};
   if (!begins_like_raster(beginning))
-    return Error{ErrorCode::unsupported, "this is no PNG, TIFF, PBM or PGM", {}};
+    return Error{
+        ErrorCode::unsupported, "this is no PNG, JPEG, BMP, WebP, GIF, TIFF, PBM or PGM", {}};
   const double dots = dots_per_inch_of_png(source.lookahead(png_header));
   const auto read = [&](const std::string& name) {
-    Result<ImageFile> file = read_raster(name, options);
+    Result<ImageFile> file = read_raster(name, options, labels);
     if (file && dots > 0) file->dots_per_inch = dots;
     return file;
   };
@@ -345,55 +450,119 @@ Result<ImageFile> read_pixels(const Input& input, const ImageOptions& options) {
 }
 
 /// An image with a foreground.
-Result<ImageFile> read_foreground(const Input& input, const ImageOptions& options) {
+Result<ImageFile> read_foreground(const Input& input, const ImageOptions& options, Labels& labels) {
   return guarded(input.path, [&]() -> Result<ImageFile> {
-    Result<ImageFile> file = read_pixels(input, options);
-    if (file && file->image.count() == 0) {
+    Result<ImageFile> file = read_pixels(input, options, labels);
+    if (file && file->image.count() == 0)
       return Error{ErrorCode::empty,
                    options.invert ? "no pixel is below the threshold, so there is no foreground"
-                                  : "no pixel reaches the threshold, so there is no foreground",
+                                  : "no pixel reaches the threshold, so there is no foreground; "
+                                    "--threshold chooses another, --labels takes each value for a "
+                                    "feature",
                    {}};
-    }
     return file;
   });
 }
 
-/// The outline of an image's foreground as one feature.
+/// The outline of an image's foreground, moved by an offset.
+Result<Feature> outline_of(const Image& image, Vec2 offset, const ReadOptions& options) {
+  Feature feature;
+  const auto move = [offset](std::vector<Vec2>& points) {
+    for (Vec2& p : points) p = p + offset;
+  };
+  if (options.smooth_contour) {
+    Result<std::vector<Contour>> contours = smooth_outline(image);
+    if (!contours) return contours.error();
+    feature.contours = std::move(*contours);
+    for (Contour& contour : feature.contours) move(contour.points);
+  } else {
+    Result<std::vector<Ring>> rings = pixel_outline(image);
+    if (!rings) return rings.error();
+    feature.rings = std::move(*rings);
+    for (Ring& ring : feature.rings) move(ring.points);
+  }
+  return feature;
+}
+
+/// A part of a label image.
+struct Region {
+  std::uint32_t left, top, right, bottom;  ///< inclusive
+};
+
+std::map<std::uint32_t, Region> regions_of(std::span<const std::uint32_t> labels,
+                                           std::uint32_t width) {
+  std::map<std::uint32_t, Region> regions;
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    if (labels[i] == 0) continue;
+    const auto x = static_cast<std::uint32_t>(i % width), y = static_cast<std::uint32_t>(i / width);
+    Region& region = regions.try_emplace(labels[i], Region{x, y, x, y}).first->second;
+    region.left = std::min(region.left, x);
+    region.right = std::max(region.right, x);
+    region.bottom = y;
+  }
+  return regions;
+}
+
+/// A feature for each label.
+Status add_labelled(std::span<const std::uint32_t> labels, std::uint32_t width,
+                    const ReadOptions& options, std::vector<Feature>& features) {
+  for (const auto& [label, region] : regions_of(labels, width)) {
+    Image part(region.right - region.left + 1, region.bottom - region.top + 1);
+    for (std::uint32_t y = 0; y < part.height(); ++y)
+      for (std::uint32_t x = 0; x < part.width(); ++x)
+        if (labels[std::size_t{region.top + y} * width + region.left + x] == label) part.set(x, y);
+    auto feature = outline_of(
+        part, {static_cast<double>(region.left), static_cast<double>(region.top)}, options);
+    if (!feature) return std::move(feature).error();
+    feature->id = label;
+    feature->attributes = {{"value", std::to_string(label)}};
+    features.push_back(std::move(*feature));
+  }
+  return success();
+}
+
 Result<Document<Feature>> read_outline(const Input& input, const ReadOptions& options) {
   if (options.repair != RepairRule::none)
     return Error{ErrorCode::invalid_option, "an image has nothing to repair", in_file(input.path)};
-  Result<ImageFile> file = read_foreground(input, options.image);
+  Labels labels;
+  Result<ImageFile> file = read_foreground(input, options.image, labels);
   if (!file) return file.error();
-  const PixelPlacement& t = file->placement;
-  const auto place = [&t, placed = file->placed()](std::vector<Vec2>& points) {
-    if (!placed) return;
-    for (Vec2& p : points) p = {t[0] + p.x * t[1] + p.y * t[2], t[3] + p.x * t[4] + p.y * t[5]};
-  };
-  Document<Feature> dataset;
-  dataset.crs_wkt = std::move(file->crs_wkt);
-  dataset.geographic = file->geographic;
-  dataset.y_down = !file->placed();
-  if (!file->placed()) dataset.unit = Unit::pixel;
-  dataset.dots_per_inch = file->dots_per_inch;
-  dataset.notes = std::move(file->notes);
-  Feature& feature = dataset.items.emplace_back();
-  if (options.smooth_contour) {
-    Result<std::vector<Contour>> contours = smooth_outline(file->image);
-    if (!contours) return contours.error();
-    feature.contours = std::move(*contours);
-    for (Contour& contour : feature.contours) place(contour.points);
-  } else {
-    Result<std::vector<Ring>> rings = pixel_outline(file->image);
-    if (!rings) return rings.error();
-    feature.rings = std::move(*rings);
-    for (Ring& ring : feature.rings) place(ring.points);
-  }
-  const bool square = t[2] == 0 && t[4] == 0 && std::abs(t[1]) == std::abs(t[5]);
-  if (square && !options.project) dataset.pixel = std::abs(t[1]);
-  return dataset;
+  return outline_document(std::move(*file), labels, options);
 }
 
 }  // namespace
+
+Result<Document<Feature>> outline_document(ImageFile file, std::span<const std::uint32_t> labels,
+                                           const ReadOptions& options) {
+  const PixelPlacement& t = file.placement;
+  Document<Feature> dataset;
+  dataset.crs_wkt = std::move(file.crs_wkt);
+  dataset.geographic = file.geographic;
+  dataset.y_down = !file.placed();
+  if (!file.placed()) dataset.unit = Unit::pixel;
+  dataset.dots_per_inch = file.dots_per_inch;
+  dataset.notes = std::move(file.notes);
+  if (!labels.empty()) {
+    Status added = add_labelled(labels, file.image.width(), options, dataset.items);
+    if (!added) return std::move(added).error();
+  } else {
+    auto feature = outline_of(file.image, {0, 0}, options);
+    if (!feature) return std::move(feature).error();
+    dataset.items.push_back(std::move(*feature));
+  }
+  const auto place = [&t](std::vector<Vec2>& points) {
+    for (Vec2& p : points) p = {t[0] + p.x * t[1] + p.y * t[2], t[3] + p.x * t[4] + p.y * t[5]};
+  };
+  if (file.placed())
+    for (Feature& feature : dataset.items) {
+      for (Contour& contour : feature.contours) place(contour.points);
+      for (Ring& ring : feature.rings) place(ring.points);
+    }
+  const bool square =
+      t[1] * t[1] + t[4] * t[4] == t[2] * t[2] + t[5] * t[5] && t[1] * t[2] + t[4] * t[5] == 0;
+  if (square && !options.project) dataset.pixel = std::hypot(t[1], t[4]);
+  return dataset;
+}
 
 Format image_format() {
   Format format;
@@ -405,7 +574,10 @@ Format image_format() {
 Result<ImageFile> read_image(const std::string& path, const ImageOptions& options) {
   Result<std::shared_ptr<TextSource>> source = TextSource::open(path);
   if (!source) return source.error();
-  return read_foreground({path, *source}, options);
+  if (options.labels)
+    return Error{ErrorCode::invalid_option, "labels make features, not one image", in_file(path)};
+  Labels none;
+  return read_foreground({path, *source}, options, none);
 }
 
 bool is_image(const std::string& path) {

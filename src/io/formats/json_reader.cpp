@@ -250,7 +250,8 @@ AxisItem read_item(json::value value) {
              }},
       Member{"shape", [&](json::value v) { read_shape(v, item.shape); }},
       Member{"contours", [&](json::value v) { append_all(v, item.contours, read_contour); }},
-      Member{"axis", [&](json::value v) { read_axis(v, item.axis, unresolved); }});
+      Member{"axis", [&](json::value v) { read_axis(v, item.axis, unresolved); }},
+      Member{"part", [&](json::value v) { item.part = v.get_bool(); }});
   demand(item.contours.empty() || (item.shape.points.empty() && item.axis.nodes.empty()),
          "an item has both contours and a shape");
   check_shape(item.shape);

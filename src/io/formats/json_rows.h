@@ -164,13 +164,6 @@ std::vector<Item> read_items(json::document& document, const char* version, std:
   return items;
 }
 
-template <class Number>
-std::vector<Number> read_integers(json::value array) {
-  std::vector<Number> numbers;
-  append_all(array, numbers, integer<Number>);
-  return numbers;
-}
-
 inline SiteKind site_kind(std::uint32_t code) {
   demand(code <= static_cast<std::uint32_t>(SiteKind::arc), "an unknown kind of site");
   return static_cast<SiteKind>(code);

@@ -27,7 +27,7 @@ VoronoiEdge read_voronoi_edge(json::value value) {
   const auto part = row.index<std::uint32_t>();
   demand(part <= 2, "an unknown part of a Voronoi diagram");
   edge.spoke = part == 1;
-  edge.frame = part == 2;
+  edge.on_enclosure = part == 2;
   edge.control.center = row.point();
   edge.control.radius = row.real();
   edge.weight = row.real();
@@ -41,7 +41,8 @@ void check(const VoronoiDiagram& diagram) {
   for (const VoronoiEdge& edge : diagram.edges) {
     for (const std::uint32_t node : edge.node) demand(node < nodes, "there is no such node");
     demand(edge.site[0] < sites, "there is no such site");
-    demand(edge.frame ? edge.site[1] == no_site : edge.site[1] < sites, "there is no such site");
+    demand(edge.on_enclosure ? edge.site[1] == no_site : edge.site[1] < sites,
+           "there is no such site");
     demand(edge.weight > 0, "a weight is not positive");
   }
   for (const std::uint32_t edge : diagram.face_edges)
@@ -71,7 +72,7 @@ VoronoiItem read_voronoi_item(json::value value) {
              [&](json::value v) {
                Row row(v);
                const Vec2 low = row.point();
-               diagram.frame = Box{low, row.point()};
+               diagram.enclosure = Box{low, row.point()};
                row.end();
              }},
       Member{"attributes",
@@ -96,7 +97,7 @@ void put_diagram(OutputStream& out, const VoronoiItem& item) {
   const VoronoiDiagram& diagram = item.diagram;
   put_member(out, "{\"method\":", diagram.method);
   put_member(out, ",\"tolerance\":", diagram.tolerance);
-  if (const auto& box = diagram.frame) {
+  if (const auto& box = diagram.enclosure) {
     out.put(",\"frame\":");
     put_row(out, box->low.x, box->low.y, box->high.x, box->high.y);
   }
@@ -111,7 +112,7 @@ void put_diagram(OutputStream& out, const VoronoiItem& item) {
   put_lines(out, diagram.nodes, [&](const Node& node) { put_node(out, node); });
   out.put(",\n\"edges\":");
   put_lines(out, diagram.edges, [&](const VoronoiEdge& edge) {
-    const int part = edge.frame ? 2 : edge.spoke ? 1 : 0;
+    const int part = edge.on_enclosure ? 2 : edge.spoke ? 1 : 0;
     put_row(out, edge.node[0], edge.node[1], number_of(edge.site[0]), number_of(edge.site[1]), part,
             edge.control.center.x, edge.control.center.y, edge.control.radius, edge.weight);
   });

@@ -174,7 +174,10 @@ Status put_file(Target& target, const Document<Item>& file) {
       put_axis(out, item.shape, item.axis);
     else
       put_axis(out, item.shape, MedialAxis{});
-    out.put("}}");
+    out.put('}');
+    if constexpr (std::is_same_v<Item, AxisItem>)
+      if (item.part) out.put(",\n\"part\":true");
+    out.put('}');
   });
   return success();
 }

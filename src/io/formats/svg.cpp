@@ -302,6 +302,7 @@ void Element::add_feature() {
   Feature feature;
   feature.contours = contours();
   if (feature.contours.empty()) return;
+  feature.filled = true;
   feature.id = static_cast<std::int64_t>(drawing_.dataset.items.size());
   if (std::string id = attribute(node_, "id"); !id.empty()) {
     feature.attributes.emplace_back("id", std::move(id));
@@ -445,6 +446,7 @@ Result<Document<Feature>> read_svg(const Input& input, const ReadOptions& option
     return error(refused.error);
   }
   Document<Feature>& dataset = drawing.dataset;
+  dataset.corner_angle = drawn_corner_angle;
   dataset.y_down = true;
   dataset.unit = document->unit();
   if (dataset.items.empty()) {

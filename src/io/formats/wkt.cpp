@@ -369,14 +369,12 @@ void put_placed(Target& target, std::vector<Vec2> points) {
 /// A MULTILINESTRING of branches per item.
 Status write_wkt(Target& target, const AxesOutput& output) {
   for (const AxisItem& item : output.document.items) {
-    const double chord = chord_of(item, output.options);
     const auto all = branches(item.axis);
     target.out->put(all.empty() ? "MULTILINESTRING EMPTY\n" : "MULTILINESTRING ");
     if (all.empty()) continue;
+    const double chord = chord_of(item, output.options);
     put_bracketed(*target.out, all, [&](const Branch& branch) {
-      std::vector<Vec2> points;
-      for (const Disk& disk : sample(item.axis, branch, chord)) points.push_back(disk.center);
-      put_placed(target, std::move(points));
+      put_placed(target, line_of(item.axis, branch, chord, output.options.simplify));
     });
     target.out->put('\n');
   }

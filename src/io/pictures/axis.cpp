@@ -54,7 +54,7 @@ bool runs_straight(const MedialAxis& axis, const Edge& edge) {
 
 /// Cuts an edge where its radius passes from shade to shade, about: take(shade, piece).
 template <class Take>
-void cut(const MedialAxis& axis, const Edge& edge, const PictureFrame& frame, double largest,
+void cut(const MedialAxis& axis, const Edge& edge, const Viewport& viewport, double largest,
          Take take) {
   const Curve curve(axis, edge);
   const bool straight = runs_straight(axis, edge);
@@ -68,7 +68,9 @@ void cut(const MedialAxis& axis, const Edge& edge, const PictureFrame& frame, do
     const Homogeneous a = curve.blossom(t0, t0);
     const Homogeneous b = curve.blossom(t0, t1);
     const Homogeneous c = curve.blossom(t1, t1);
-    const auto place = [&frame](const Homogeneous& p) { return frame({p.x / p.w, p.y / p.w}); };
+    const auto place = [&viewport](const Homogeneous& p) {
+      return viewport({p.x / p.w, p.y / p.w});
+    };
     const double radius = std::max(curve.radius(0.5 * (t0 + t1)), 0.0);
     const int index =
         largest > 0 ? static_cast<int>(std::lround(radius / largest * (shade_count - 1))) : 0;
@@ -85,7 +87,7 @@ void draw_axes(Canvas& canvas, const Document<AxisItem>& file, double largest) {
   std::vector<Cells> cells(shade_count, Cells(canvas.cell()));
   for (const AxisItem& item : file.items) {
     for (const Edge& edge : item.axis.edges) {
-      cut(item.axis, edge, canvas.frame(), largest, [&](int index, const Piece& piece) {
+      cut(item.axis, edge, canvas.viewport(), largest, [&](int index, const Piece& piece) {
         const auto i = static_cast<std::size_t>(index);
         if (cells[i].add(piece)) pieces[i].push_back(piece);
       });
@@ -127,7 +129,7 @@ void draw_disks(Canvas& canvas, const Document<AxisItem>& file, int count) {
 }
 
 void draw_feet(Canvas& canvas, const Document<AxisItem>& file) {
-  const PictureFrame& frame = canvas.frame();
+  const Viewport& viewport = canvas.viewport();
   canvas.line_width(0.35);
   for (const bool feet : {false, true}) {
     canvas.color(foot_color, feet ? 1.0 : 0.35);
@@ -138,11 +140,11 @@ void draw_feet(Canvas& canvas, const Document<AxisItem>& file) {
           if (!(disk.radius > 0)) continue;
           for (const std::uint32_t site : edge.site) {
             if (site == no_site) continue;
-            const Vec2 touch = frame(foot(item.axis.sites[site], disk.center));
+            const Vec2 touch = viewport(foot(item.axis.sites[site], disk.center));
             if (feet) {
               canvas.dot(touch, canvas.thickness(1.8));
             } else {
-              canvas.move_to(frame(disk.center));
+              canvas.move_to(viewport(disk.center));
               canvas.line_to(touch);
             }
             canvas.count_piece(feet);
@@ -161,7 +163,7 @@ void draw_nodes(Canvas& canvas, const Document<AxisItem>& file) {
     for (const AxisItem& item : file.items) {
       for (const Node& node : item.axis.nodes) {
         if (node.kind != kind) continue;
-        canvas.dot(canvas.frame()(node.disk.center), radius);
+        canvas.dot(canvas.viewport()(node.disk.center), radius);
         canvas.count_piece(true);
       }
     }
@@ -177,7 +179,7 @@ void draw_titles(Canvas& canvas, const Document<AxisItem>& file) {
     extent.add(item.shape);
     for (const Node& node : item.axis.nodes) extent.add(node.disk.center);  // of exteriors
     const Box box = extent.box();
-    const Vec2 low = canvas.frame()(box.low), high = canvas.frame()(box.high);
+    const Vec2 low = canvas.viewport()(box.low), high = canvas.viewport()(box.high);
     const Vec2 below{midpoint(low, high).x,
                      std::max(low.y, high.y) + 1.3e-3 * height * canvas.longer_side()};
     for (const auto& [name, value] : item.attributes)

@@ -9,14 +9,14 @@
 namespace medial::io {
 
 void Canvas::edge_to(Vec2 from, Vec2 to, double bulge) {
-  const Vec2 end = frame_(to);
-  bulge == 0 ? line_to(end) : arc_to({frame_(from), end, frame_.bulge(bulge)});
+  const Vec2 end = viewport_(to);
+  bulge == 0 ? line_to(end) : arc_to({viewport_(from), end, viewport_.bulge(bulge)});
 }
 
 void Canvas::trace(const Ring& ring, bool closed) {
   const std::size_t count = ring.points.size();
   if (count == 0) return;
-  move_to(frame_(ring.points[0]));
+  move_to(viewport_(ring.points[0]));
   for (std::size_t i = 0; i + (closed ? 0 : 1) < count; ++i)
     edge_to(ring.points[i], ring.points[i + 1 == count ? 0 : i + 1],
             ring.bulges.empty() ? 0 : ring.bulges[i]);
@@ -29,7 +29,7 @@ void Canvas::trace(const Shape& shape) {
 
 void Canvas::trace(std::span<const Vec2> line) {
   for (std::size_t i = 0; i < line.size(); ++i)
-    i == 0 ? move_to(frame_(line[i])) : line_to(frame_(line[i]));
+    i == 0 ? move_to(viewport_(line[i])) : line_to(viewport_(line[i]));
 }
 
 void Canvas::tapered(Vec2 a, double radius_a, Vec2 b, double radius_b) {
@@ -39,13 +39,13 @@ void Canvas::tapered(Vec2 a, double radius_a, Vec2 b, double radius_b) {
     return;
   }
   // Both tangents touch at this angle from the way back.
-  const Vec2 from = frame_(a), to = frame_(b);
+  const Vec2 from = viewport_(a), to = viewport_(b);
   const double along = std::atan2(to.y - from.y, to.x - from.x);
   const double aside = std::acos((radius_a - radius_b) / way);
   cairo_new_sub_path(context_);
-  cairo_arc(context_, from.x, from.y, radius_a * frame_.scale, along + aside,
+  cairo_arc(context_, from.x, from.y, radius_a * viewport_.scale, along + aside,
             along - aside + 2 * std::numbers::pi);
-  cairo_arc(context_, to.x, to.y, radius_b * frame_.scale, along - aside, along + aside);
+  cairo_arc(context_, to.x, to.y, radius_b * viewport_.scale, along - aside, along + aside);
   cairo_close_path(context_);
 }
 
@@ -61,16 +61,16 @@ void Canvas::trace_coarsely(const Shape& shape, std::size_t loop, Each each) {
   const std::size_t begin = shape.loop_begin[loop];
   const std::size_t end = shape.loop_begin[loop + 1];
   const double smallest = cell();
-  Vec2 last = frame_(shape.points[begin]);
+  Vec2 last = viewport_(shape.points[begin]);
   move_to(last);
   for (std::size_t k = begin; k < end; ++k) {
-    const Vec2 p = frame_(shape.points[k + 1 == end ? begin : k + 1]);
+    const Vec2 p = viewport_(shape.points[k + 1 == end ? begin : k + 1]);
     const double bulge = shape.bulge(k);
     if (distance(p, last) < smallest) continue;
     if (bulge == 0) {
       line_to(p);
     } else {
-      arc_to({frame_(shape.points[k]), p, frame_.bulge(bulge)});
+      arc_to({viewport_(shape.points[k]), p, viewport_.bulge(bulge)});
     }
     last = p;
     each(p);
@@ -121,7 +121,7 @@ void Canvas::piece_to(const Piece& piece) {
 }
 
 void Canvas::image(std::vector<std::uint32_t> pixels) {
-  const int columns = static_cast<int>(frame_.width), rows = static_cast<int>(frame_.height);
+  const int columns = static_cast<int>(viewport_.width), rows = static_cast<int>(viewport_.height);
   cairo_surface_t* surface =
       cairo_image_surface_create_for_data(reinterpret_cast<unsigned char*>(pixels.data()),
                                           CAIRO_FORMAT_RGB24, columns, rows, 4 * columns);
@@ -141,7 +141,7 @@ void Canvas::use_font(double size) {
 
 void Canvas::text(Vec2 at, double thousandths, const std::string& words) {
   use_font(1e-3 * thousandths * longer_side());
-  move_to(frame_(at));
+  move_to(viewport_(at));
   cairo_show_text(context_, words.c_str());
 }
 
@@ -156,30 +156,30 @@ void Canvas::centred_text(Vec2 middle, double thousandths, const std::string& wo
 
 void draw_scale_bar(Canvas& canvas, const std::string& unit) {
   if (unit.empty()) return;
-  const PictureFrame& frame = canvas.frame();
+  const Viewport& viewport = canvas.viewport();
   constexpr double longest = 0.2, margin = 0.03, below = 0.01, letters = 13;
-  const double most = longest * frame.width / frame.scale;
+  const double most = longest * viewport.width / viewport.scale;
   const double power = std::pow(10, std::floor(std::log10(most)));
   const double length = power * (most >= 5 * power ? 5 : most >= 2 * power ? 2 : 1);
-  const Vec2 from{margin * frame.width, frame.height - below * frame.width};
-  const Vec2 to = from + Vec2{length * frame.scale, 0};
+  const Vec2 from{margin * viewport.width, viewport.height - below * viewport.width};
+  const Vec2 to = from + Vec2{length * viewport.scale, 0};
   canvas.color(outline_color);
   canvas.line_width(1.5);
   canvas.move_to(from);
   canvas.line_to(to);
   canvas.stroke();
-  canvas.use_font(1e-3 * letters * frame.width);
-  canvas.move_to(to + Vec2{below * frame.width, 0});
+  canvas.use_font(1e-3 * letters * viewport.width);
+  canvas.move_to(to + Vec2{below * viewport.width, 0});
   cairo_show_text(canvas.context(), fmt::format("{:g} {}", length, unit).c_str());
 }
 
 Status write_canvas(Target& target, const Box& box, double width, bool y_down,
                     const std::function<void(Canvas&)>& draw, double fineness) {
-  const Result<PictureFrame> frame = frame_for(box, width, y_down);
-  if (!frame) return frame.error();
-  return write_surface(*target.out, target.format, frame->width, frame->height,
+  const Result<Viewport> viewport = viewport_for(box, width, y_down);
+  if (!viewport) return viewport.error();
+  return write_surface(*target.out, target.format, viewport->width, viewport->height,
                        [&](cairo_t* context) {
-                         Canvas canvas(context, *frame, fineness);
+                         Canvas canvas(context, *viewport, fineness);
                          draw(canvas);
                          draw_scale_bar(canvas, target.unit);
                        });

@@ -11,7 +11,7 @@
 
 #include "io/format.h"
 #include "io/pictures/color.h"
-#include "io/pictures/frame.h"
+#include "io/pictures/viewport.h"
 #include "medial/shape.h"
 
 namespace medial::io {
@@ -55,14 +55,14 @@ class Cells {
 class Canvas {
  public:
   /// `fineness`: a factor of all line widths.
-  Canvas(cairo_t* context, const PictureFrame& frame, double fineness = 1)
+  Canvas(cairo_t* context, const Viewport& viewport, double fineness = 1)
       : context_(context),
-        frame_(frame),
+        viewport_(viewport),
         fineness_(fineness),
         pixels_(cairo_surface_get_type(cairo_get_target(context)) == CAIRO_SURFACE_TYPE_IMAGE) {}
 
   cairo_t* context() { return context_; }
-  const PictureFrame& frame() const { return frame_; }
+  const Viewport& viewport() const { return viewport_; }
   /// How far apart places are that differ to the eye: a fraction of a pixel, or in pictures that
   /// can be enlarged, of the thinnest line, which hides what is smaller at any size.
   double cell() const { return pixels_ ? 0.25 : thickness(0.1); }
@@ -70,9 +70,9 @@ class Canvas {
   double thickness(double thousandths) const {
     return thousandths * 1e-3 * fineness_ * longer_side();
   }
-  double longer_side() const { return std::max(frame_.width, frame_.height); }
+  double longer_side() const { return std::max(viewport_.width, viewport_.height); }
   void line_width(double thousandths) { cairo_set_line_width(context_, thickness(thousandths)); }
-  void width_in_units(double units) { cairo_set_line_width(context_, units * frame_.scale); }
+  void width_in_units(double units) { cairo_set_line_width(context_, units * viewport_.scale); }
   void color(const Color& c, double alpha = 1) {
     cairo_set_source_rgba(context_, c.red, c.green, c.blue, alpha);
   }
@@ -93,7 +93,7 @@ class Canvas {
   void trace(const Ring& ring, bool closed = true);
   void trace(const Shape& shape);
   void trace(std::span<const Vec2> line);
-  void circle(Vec2 center, double radius) { dot(frame_(center), radius * frame_.scale); }
+  void circle(Vec2 center, double radius) { dot(viewport_(center), radius * viewport_.scale); }
   /// Adds the convex hull of two disks.
   void tapered(Vec2 a, double radius_a, Vec2 b, double radius_b);
 
@@ -125,7 +125,7 @@ class Canvas {
   void trace_coarsely(const Shape& shape, std::size_t loop, Each each);
 
   cairo_t* context_;
-  PictureFrame frame_;
+  Viewport viewport_;
   double fineness_;
   bool pixels_;
   int batch_ = 0;

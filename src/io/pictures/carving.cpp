@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 
+#include "io/pictures/cut_surface.h"
 #include "io/pictures/pictures.h"
 #include "io/tool_paths.h"
 
@@ -35,6 +36,16 @@ void add_groove(Canvas& canvas, const Carving& carving, const ToolPath& path, do
     const double share1 = over1 < 0 ? over0 / (over0 - over1) : 1;
     canvas.tapered(from.point + share0 * (to.point - from.point), wide(over0),
                    from.point + share1 * (to.point - from.point), wide(over1));
+  }
+}
+
+/// What an end mill has cleared before, down to a level.
+void fill_cleared(Canvas& canvas, const Carving& clearing, double depth) {
+  canvas.width_in_units(2 * clearing.tip_radius);
+  for (const ToolPath& path : clearing.paths) {
+    if (!(-path.points.back().z > depth)) continue;
+    canvas.trace(line_of(path.points), false);
+    canvas.stroke();
   }
 }
 
@@ -88,6 +99,9 @@ Status write_picture(Target& target, const CarvingOutput& output) {
     deepest = std::max(deepest, item.carving.deepest);
   }
   const auto draw = [&](Canvas& canvas) {
+    if (output.machine.shaded)
+      return canvas.image(
+          shaded(surface_after(output.document, canvas.viewport()), canvas.viewport()));
     constexpr Color wood{0.93, 0.86, 0.74}, bottom{0.36, 0.22, 0.12}, outline{0.25, 0.25, 0.3};
     const int levels = target.format == "png" ? 32 : 12;
     for (const CarveItem& item : items) {
@@ -97,8 +111,10 @@ Status write_picture(Target& target, const CarvingOutput& output) {
         canvas.color({wood.red + t * (bottom.red - wood.red),
                       wood.green + t * (bottom.green - wood.green),
                       wood.blue + t * (bottom.blue - wood.blue)});
+        fill_cleared(canvas, item.clearing, deepest * level / levels);
         fill_level(canvas, item.carving, walls, deepest * level / levels);
       }
+      draw_paths(canvas, item.clearing.paths);
       draw_paths(canvas, item.carving.paths);
       canvas.color(outline);
       canvas.line_width(1.2);

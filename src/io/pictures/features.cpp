@@ -46,9 +46,9 @@ class FeaturesPicture {
   FeaturesPicture(Canvas& canvas, const FeaturesOutput& output)
       : canvas_(canvas),
         context_(canvas.context()),
-        frame_(canvas.frame()),
+        viewport_(canvas.viewport()),
         output_(output),
-        line_(width_share * canvas.frame().width),
+        line_(width_share * canvas.viewport().width),
         drawn_(primitive_count, Cells(cell())) {}
 
   void draw() {
@@ -81,15 +81,15 @@ class FeaturesPicture {
   void draw_shape(const Shape& shape) {
     for (std::size_t i = 0; i < shape.loop_count(); ++i) {
       const std::size_t begin = shape.loop_begin[i], end = shape.loop_begin[i + 1];
-      const Vec2 first = frame_(shape.points[begin]);
+      const Vec2 first = viewport_(shape.points[begin]);
       canvas_.move_to(first);
       Vec2 last = first;
       for (std::size_t k = begin; k < end; ++k) {
         // Nobody sees less than an eighth of the outline's width, however near.
         const Vec2 to = shape.points[k + 1 == end ? begin : k + 1];
-        if (distance(frame_(to), last) < 0.1 * line_) continue;
+        if (distance(viewport_(to), last) < 0.1 * line_) continue;
         canvas_.edge_to(shape.points[k], to, shape.bulge(k));
-        last = frame_(to);
+        last = viewport_(to);
       }
       canvas_.close();
     }
@@ -103,9 +103,9 @@ class FeaturesPicture {
   /// What runs look like, and where their labels and cuts are.
   void collect_runs(const MedialAxis& axis, const AxisFeatures& features) {
     const std::vector<Branch> all = branches(axis);
-    const double chord = 0.1 / frame_.scale;  // a tenth of a pixel
+    const double chord = 0.1 / viewport_.scale;  // a tenth of a pixel
     // What is shorter than the marks at its ends has none: they would hide everything.
-    const double shortest = 2 * mark_radius * line_ / frame_.scale;
+    const double shortest = 2 * mark_radius * line_ / viewport_.scale;
     std::vector<bool>& marked = marked_.emplace_back(axis.nodes.size(), false);
     for (const BranchFeatures& branch : features.branches) {
       const Branch& chain = all[branch.branch];
@@ -117,11 +117,12 @@ class FeaturesPicture {
         used_[primitive] = true;
         if (k > 0 && run.length >= shortest &&
             features.runs[branch.first_run + k - 1].length >= shortest)
-          cuts_.push_back(frame_(lines[k].front().center));
-        const Vec2 from = frame_(lines[k].front().center), to = frame_(lines[k].back().center);
+          cuts_.push_back(viewport_(lines[k].front().center));
+        const Vec2 from = viewport_(lines[k].front().center),
+                   to = viewport_(lines[k].back().center);
         if (lines[k].size() == 2 && !drawn_[primitive].add({from, from, to})) continue;
         std::vector<Vec2>& path = paths_[primitive].emplace_back();
-        for (const Disk& disk : lines[k]) path.push_back(frame_(disk.center));
+        for (const Disk& disk : lines[k]) path.push_back(viewport_(disk.center));
         if (output_.own.names) add_label(run, lines[k]);
       }
     }
@@ -147,7 +148,7 @@ class FeaturesPicture {
 
   /// A label at the middle of a run, if the run is longer in the picture than the words are high.
   void add_label(const PrimitiveRun& run, const std::vector<Disk>& line) {
-    const double length = run.length * frame_.scale;
+    const double length = run.length * viewport_.scale;
     if (length < 2 * font_size()) return;
     double left = 0.5 * run.length;
     for (std::size_t i = 0; i + 1 < line.size(); ++i) {
@@ -157,7 +158,8 @@ class FeaturesPicture {
         continue;
       }
       const double t = step > 0 ? std::min(left / step, 1.0) : 0;
-      labels_.push_back({length, frame_(line[i].center + t * (line[i + 1].center - line[i].center)),
+      labels_.push_back({length,
+                         viewport_(line[i].center + t * (line[i + 1].center - line[i].center)),
                          words_for(run)});
       return;
     }
@@ -189,7 +191,7 @@ class FeaturesPicture {
       std::vector<Vec2> places;
       for (std::size_t i = 0; i < features.points.size(); ++i)
         if (features.points[i] == drawn && marked[i])
-          places.push_back(frame_(axis.nodes[i].disk.center));
+          places.push_back(viewport_(axis.nodes[i].disk.center));
       once(places);
       draw_dots(places, mark_radius, drawn == PointKind::end ? end_color : branching);
     }
@@ -212,7 +214,7 @@ class FeaturesPicture {
       cairo_text_extents_t extents;
       cairo_text_extents(context_, label.words.c_str(), &extents);
       const double wide = extents.width, high = font_size();
-      const double x = std::clamp(label.at.x - 0.5 * wide, line_, frame_.width - wide - line_);
+      const double x = std::clamp(label.at.x - 0.5 * wide, line_, viewport_.width - wide - line_);
       const double y = label.at.y - 0.5 * high;
       const Box box{{x, y - 0.6 * high}, {x + wide, y + 0.4 * high}};
       const bool covered = std::ranges::any_of(taken, [&box](const Box& other) {
@@ -235,7 +237,7 @@ class FeaturesPicture {
   void draw_legend() {
     canvas_.use_font(font_size());
     double x = font_size();
-    const double y = frame_.height + font_size();
+    const double y = viewport_.height + font_size();
     for (std::size_t i = 0; i < used_.size(); ++i) {
       if (!used_[i]) continue;
       std::string words = name_of(static_cast<Primitive>(i));
@@ -254,7 +256,7 @@ class FeaturesPicture {
 
   Canvas& canvas_;
   cairo_t* context_;
-  const PictureFrame& frame_;
+  const Viewport& viewport_;
   const FeaturesOutput& output_;
   double line_;
   std::array<bool, primitive_count> used_{};
@@ -269,11 +271,11 @@ class FeaturesPicture {
 
 Status write_picture(Target& target, const FeaturesOutput& output) {
   const Document<AxisItem>& axes = output.document;
-  const Result<PictureFrame> frame = frame_for(box_of(axes), output.options.width, axes.y_down);
-  if (!frame) return frame.error();
-  const double height = frame->height + std::ceil(legend_height * frame->width);
-  return write_surface(*target.out, target.format, frame->width, height, [&](cairo_t* context) {
-    Canvas canvas(context, *frame);
+  const Result<Viewport> viewport = viewport_for(box_of(axes), output.options.width, axes.y_down);
+  if (!viewport) return viewport.error();
+  const double height = viewport->height + std::ceil(legend_height * viewport->width);
+  return write_surface(*target.out, target.format, viewport->width, height, [&](cairo_t* context) {
+    Canvas canvas(context, *viewport);
     FeaturesPicture(canvas, output).draw();
     draw_scale_bar(canvas, target.unit);
   });

@@ -16,12 +16,12 @@ constexpr int most_lines = 1000;
 /// The brighter the lower the potential, by its logarithm; white outside. One a pixel, in rows.
 std::vector<std::uint32_t> brightness(std::span<const PotentialField> fields,
                                       const Canvas& canvas) {
-  const auto columns = static_cast<std::size_t>(canvas.frame().width);
-  const auto rows = static_cast<std::size_t>(canvas.frame().height);
+  const auto columns = static_cast<std::size_t>(canvas.viewport().width);
+  const auto rows = static_cast<std::size_t>(canvas.viewport().height);
   std::vector<double> values(columns * rows, std::numeric_limits<double>::quiet_NaN());
   parallel_for(rows, [&](std::size_t row) {
     for (std::size_t column = 0; column < columns; ++column) {
-      const Vec2 p = canvas.frame().plane_at(
+      const Vec2 p = canvas.viewport().plane_at(
           {static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5});
       for (const PotentialField& field : fields) {
         const auto found = field.at(p);

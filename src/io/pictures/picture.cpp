@@ -71,7 +71,7 @@ Status write_picture(Target& target, const VoronoiOutput& output) {
     own.axis.sites = item.diagram.sites;
     own.axis.nodes = item.diagram.nodes;
     for (const VoronoiEdge& edge : item.diagram.edges)
-      if (!edge.spoke && !edge.frame) own.axis.edges.push_back(edge);
+      if (!edge.spoke && !edge.on_enclosure) own.axis.edges.push_back(edge);
   }
   return draw_picture(target, axes, output.options, &output.document, nullptr);
 }

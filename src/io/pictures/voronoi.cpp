@@ -23,7 +23,7 @@ Color pastel(double hue) {
 }
 
 bool runs_straight(const VoronoiDiagram& diagram, const VoronoiEdge& edge) {
-  if (edge.spoke || edge.frame) return true;
+  if (edge.spoke || edge.on_enclosure) return true;
   const SiteKind kind = diagram.sites[edge.site[0]].kind;
   return kind == diagram.sites[edge.site[1]].kind && kind != SiteKind::arc;
 }
@@ -32,9 +32,9 @@ bool runs_straight(const VoronoiDiagram& diagram, const VoronoiEdge& edge) {
 void trace_edge(Canvas& canvas, const VoronoiDiagram& diagram, const VoronoiEdge& edge,
                 bool forward) {
   const auto place = [&](std::uint32_t node) {
-    return canvas.frame()(diagram.nodes[node].disk.center);
+    return canvas.viewport()(diagram.nodes[node].disk.center);
   };
-  Piece piece{place(edge.node[0]), canvas.frame()(edge.control.center), place(edge.node[1]),
+  Piece piece{place(edge.node[0]), canvas.viewport()(edge.control.center), place(edge.node[1]),
               edge.weight, runs_straight(diagram, edge)};
   if (!forward) std::swap(piece.from, piece.to);
   canvas.piece_to(piece);
@@ -43,7 +43,7 @@ void trace_edge(Canvas& canvas, const VoronoiDiagram& diagram, const VoronoiEdge
 }  // namespace
 
 void draw_faces(Canvas& canvas, const Document<VoronoiItem>& file) {
-  const PictureFrame& frame = canvas.frame();
+  const Viewport& viewport = canvas.viewport();
   for (const VoronoiItem& item : file.items) {
     const VoronoiDiagram& diagram = item.diagram;
     for (std::uint32_t site = 0; site < diagram.sites.size(); ++site) {
@@ -52,9 +52,9 @@ void draw_faces(Canvas& canvas, const Document<VoronoiItem>& file) {
       canvas.color(vertex ? grey : pastel(std::fmod(hue_step * site, 1.0)));
       if (diagram.face(site).empty()) continue;
       const VoronoiEdge& first = diagram.edges[diagram.face(site).front()];
-      canvas.move_to(
-          frame(diagram.frame ? diagram.nodes[first.node[first.site[1] == site ? 0 : 1]].disk.center
-                              : diagram.sites[site].start));
+      canvas.move_to(viewport(
+          diagram.enclosure ? diagram.nodes[first.node[first.site[1] == site ? 0 : 1]].disk.center
+                            : diagram.sites[site].start));
       for (const std::uint32_t e : diagram.face(site))
         trace_edge(canvas, diagram, diagram.edges[e], diagram.edges[e].site[1] == site);
       canvas.close();
@@ -66,8 +66,8 @@ void draw_faces(Canvas& canvas, const Document<VoronoiItem>& file) {
   for (const VoronoiItem& item : file.items) {
     for (const VoronoiEdge& edge : item.diagram.edges) {
       if (!edge.spoke) continue;
-      canvas.move_to(frame(item.diagram.nodes[edge.node[0]].disk.center));
-      canvas.line_to(frame(item.diagram.nodes[edge.node[1]].disk.center));
+      canvas.move_to(viewport(item.diagram.nodes[edge.node[0]].disk.center));
+      canvas.line_to(viewport(item.diagram.nodes[edge.node[1]].disk.center));
       canvas.count_piece(false);
     }
   }
@@ -75,22 +75,22 @@ void draw_faces(Canvas& canvas, const Document<VoronoiItem>& file) {
 }
 
 void draw_sites(Canvas& canvas, const Document<VoronoiItem>& file) {
-  const PictureFrame& frame = canvas.frame();
+  const Viewport& viewport = canvas.viewport();
   canvas.color(outline_color);
   canvas.line_width(1.6);
   for (const bool points : {false, true}) {
     for (const VoronoiItem& item : file.items) {
-      if (!item.diagram.frame) continue;
+      if (!item.diagram.enclosure) continue;
       for (const Site& site : item.diagram.sites) {
         if ((site.kind == SiteKind::vertex) != points) continue;
         if (points) {
-          canvas.dot(frame(site.start), canvas.thickness(2));
+          canvas.dot(viewport(site.start), canvas.thickness(2));
         } else {
-          canvas.move_to(frame(site.start));
+          canvas.move_to(viewport(site.start));
           if (site.bulge == 0)
-            canvas.line_to(frame(site.end));
+            canvas.line_to(viewport(site.end));
           else
-            canvas.arc_to({frame(site.start), frame(site.end), frame.bulge(site.bulge)});
+            canvas.arc_to({viewport(site.start), viewport(site.end), viewport.bulge(site.bulge)});
         }
         canvas.count_piece(points);
       }

@@ -154,10 +154,10 @@ Control::Stop Control::grow(int segment) {
       tell({Decision::Rule::retreat, segment, there.value_or(here), -1});
       return Stop::retreat;
     }
-    if (!is_in_frame(there->disk.center)) {
-      ++rules_.outside_frame;
-      tell({Decision::Rule::outside_frame, segment, *there, -1});
-      return Stop::frame;
+    if (!is_in_box(there->disk.center)) {
+      ++rules_.outside_box;
+      tell({Decision::Rule::outside_box, segment, *there, -1});
+      return Stop::outside;
     }
     const int before = segment;
     if (const std::optional<Stop> stop = resolve_conflicts(segment, here, *there)) return *stop;
@@ -165,7 +165,7 @@ Control::Stop Control::grow(int segment) {
   }
 }
 
-bool Control::is_in_frame(Vec2 p) const {
+bool Control::is_in_box(Vec2 p) const {
   return p.x >= boundary_.low().x && p.x <= boundary_.high().x && p.y >= boundary_.low().y &&
          p.y <= boundary_.high().y;
 }

@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "medial/methods.h"
+#include "methods/curve_axis/curve_axis.h"
 #include "methods/curve_axis/generate.h"
 
 namespace medial::curve_axis {
@@ -26,7 +26,7 @@ class Control;
 
 /// A rule of the control process that is about to be carried out, for pictures of it.
 struct Decision {
-  enum class Rule { larger, smaller, junction, retreat, outside_frame, end };
+  enum class Rule { larger, smaller, junction, retreat, outside_box, end };
   Rule rule;
   int active;          ///< the segment that grows
   AxisPoint point;     ///< its next point; of a junction: the third branch's first one
@@ -53,7 +53,7 @@ class Control {
   const CurveAxisRules& rules() const { return rules_; }
 
  private:
-  enum class Stop { conflict, retreat, frame, exhausted, complete };
+  enum class Stop { conflict, retreat, outside, exhausted, complete };
   /// A foot of the active segment on boundary that a neighbour has scanned.
   struct Conflict {
     int neighbour = -1;
@@ -67,7 +67,7 @@ class Control {
   int start(double maximum);
   /// Generates axis points until a rule stops the branch, or the branches behind its junctions.
   Stop grow(int segment);
-  bool is_in_frame(Vec2 p) const;
+  bool is_in_box(Vec2 p) const;
   /// Conflicts of the step from `here` to `there`, by the radii on one boundary point: the older
   /// branch gives way (Fig 5b), growth stops (Fig 5a), or `segment` becomes that of a
   /// junction (Fig 6).

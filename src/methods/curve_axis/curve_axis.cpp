@@ -48,7 +48,7 @@ constexpr double bend_between = 1e-4;
 constexpr double disk_rounding = 3e-16;
 /// Points much nearer to each other than their neighbours add rounding to differences, little else.
 constexpr double shortest_step = 0.25;
-/// The least number of ways between points on a smooth run: frames_along() takes seven points.
+/// The least number of ways between points on a smooth run: jets_along() takes seven points.
 constexpr std::size_t smooth_run = 6;
 /// How often the way between two points of the generation is halved at most.
 constexpr int most_halvings = 12;

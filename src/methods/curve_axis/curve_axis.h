@@ -2,10 +2,61 @@
 
 #include "methods/problem.h"
 
-namespace medial::curve_axis {
+namespace medial {
+
+/// A point of the axis as the generation process of method::CurveAxis finds it.
+struct CurveAxisPoint {
+  double length = 0;  ///< along its branch, from the branch's first point
+  Disk disk;
+  double left = 0;   ///< where the disk touches the boundary: index of the contour's piece plus the
+  double right = 0;  ///< parameter on it, in [0, number of pieces)
+};
+
+/// How often each rule of the control process was applied (Section 5.2 of the paper).
+struct CurveAxisRules {
+  std::uint64_t maxima = 0;       ///< positive maxima of curvature on the boundary
+  std::uint64_t skipped = 0;      ///< maxima on boundary that was scanned already
+  std::uint64_t larger = 0;       ///< conflicts that ended a generation (Fig 5a)
+  std::uint64_t smaller = 0;      ///< conflicts that took a point from an older branch (Fig 5b)
+  std::uint64_t junctions = 0;    ///< conflicts at equal radius: merged, redirected (Fig 6)
+  std::uint64_t dissolved = 0;    ///< junctions undone, as their third branch was too long
+  std::uint64_t abandoned = 0;    ///< maxima that belong to no leaf of the axis (Fig 9b)
+  std::uint64_t retreats = 0;     ///< generations stopped by restriction (10) (Fig 7a)
+  std::uint64_t outside_box = 0;  ///< generations that left the bounding box (Fig 7b)
+  std::uint64_t resumed = 0;      ///< generations resumed where boundary was left
+  std::uint64_t ends = 0;         ///< the end in the last maximum (Fig 8)
+  std::uint64_t meetings = 0;     ///< the end where two branches meet head-on
+};
+
+struct CurveAxis {
+  /// A graph without sites through all points of the branches; `resolution` is the largest step
+  /// between two of them. Each edge is a quadratic with the axis's tangents at its ends, so between
+  /// them it misses the axis by a multiple of the fourth power of the step.
+  MedialAxis axis;
+  /// The discrete parametric axis: one for each chain of edges between leaves and branchings.
+  std::vector<std::vector<CurveAxisPoint>> branches;
+  CurveAxisRules rules;
+};
+
+/// The medial axis of one smooth closed curve, followed from the boundary's maxima of curvature:
+/// Shaked and Bruckstein, "The Curve Axis", 1996. Each point is a zero of (14), as exact as the
+/// curve. The contour has any orientation; its pieces join with one direction and, to a hundredth,
+/// one curvature. Time grows with the number of points, and with the square of that of maxima.
+///
+/// Errors: not_finite, invalid_option, cancelled, too_large (20,000 pieces, 2^21 points, some
+/// seconds of work), unsupported (not smooth, with the place; more than one contour; no maximum of
+/// curvature, as for a circle; a disk that the boundary enters by more than 1e-5 of the size, or
+/// boundary that no branch reaches: the method has gone astray), crossing and others of
+/// build_shape().
+Result<CurveAxis> compute_curve_axis(std::span<const Contour> contours,
+                                     const method::CurveAxis& options = {},
+                                     const std::atomic<bool>* cancel = nullptr);
+
+namespace curve_axis {
 
 /// The method `curve-axis` (docs/curve-axis.md) on the problem's contours, or on the shape's own
 /// loops. Errors: those of compute_curve_axis().
 Result<MedialAxis> run(const Problem& problem);
 
-}  // namespace medial::curve_axis
+}  // namespace curve_axis
+}  // namespace medial

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "medial/axis.h"
-#include "medial/diagram.h"
 #include "methods/disks/boundary.h"
 #include "methods/disks/walk.h"
 

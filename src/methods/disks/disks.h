@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "medial/diagram.h"
+#include "medial/axis.h"
 #include "methods/problem.h"
 
 namespace medial::disks {

@@ -6,7 +6,6 @@
 
 #include "base/local_frame.h"
 #include "medial/axis.h"
-#include "medial/diagram.h"
 #include "methods/lee/diagram.h"
 
 namespace medial::lee {

@@ -3,7 +3,6 @@
 #include <vector>
 
 #include "medial/axis.h"
-#include "medial/diagram.h"
 #include "methods/lee/conquer.h"
 #include "methods/problem.h"
 

@@ -1,7 +1,7 @@
+#include "methods/raster/disks.h"
+
 #include <algorithm>
 #include <cmath>
-
-#include "medial/raster.h"
 
 namespace medial {
 namespace {

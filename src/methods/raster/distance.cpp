@@ -32,12 +32,12 @@ constexpr std::size_t strip_words = 16;
 
 /// Both scans of the columns of words [first, last): down, counting from the background above, and
 /// up again, taking the smaller count. `distances` has rows of whole words.
-void scan_columns(const Image& image, std::size_t first, std::size_t last, bool frame,
+void scan_columns(const Image& image, std::size_t first, std::size_t last, bool border,
                   ColumnDistance* distances) {
   const std::size_t stride = image.row(0).size() * 64;
   const std::size_t width = (last - first) * 64;
   std::array<ColumnDistance, strip_words * 64> before;
-  before.fill(frame ? 0 : no_background);
+  before.fill(border ? 0 : no_background);
   const ColumnDistance* above = before.data();
   for (std::uint32_t y = 0; y < image.height(); ++y) {
     ColumnDistance* const here = distances + y * stride + first * 64;
@@ -122,12 +122,12 @@ std::int64_t square(std::int64_t value) { return value * value; }
 /// Distances to pixels in the run [begin, end) of foreground pixels of a row. What lies beyond the
 /// background pixels at both ends of the run is further away than those.
 void measure_pixels(const ColumnDistance* column, std::int64_t begin, std::int64_t end,
-                    std::int64_t width, bool frame, Envelope& envelope, std::uint32_t* out) {
+                    std::int64_t width, bool border, Envelope& envelope, std::uint32_t* out) {
   envelope.clear();
-  if (begin > 0 || frame) envelope.add({begin - 1, 0});
+  if (begin > 0 || border) envelope.add({begin - 1, 0});
   for (std::int64_t x = begin; x < end; ++x)
     if (column[x] != no_background) envelope.add({x, square(column[x])});
-  if (end < width || frame) envelope.add({end, 0});
+  if (end < width || border) envelope.add({end, 0});
   if (envelope.empty()) {
     std::fill(out + begin, out + end, DistanceMap::unbounded);
     return;
@@ -160,13 +160,13 @@ DistanceMap transform(const Image& image, const DistanceOptions& options) {
   map.to = options.to;
   map.squared.resize(std::size_t{map.width} * map.height);
   if (map.squared.empty()) return map;
-  const bool frame = options.frame || options.to == DistanceTo::cracks;
+  const bool border = options.outside_is_background || options.to == DistanceTo::cracks;
 
   const std::size_t words = image.row(0).size();
   const auto columns = uninitialized<ColumnDistance[]>(words * 64 * map.height);
   const std::size_t strips = (words + strip_words - 1) / strip_words;
   parallel_for(strips, [&](std::size_t strip) {
-    scan_columns(image, strip * strip_words, std::min(words, (strip + 1) * strip_words), frame,
+    scan_columns(image, strip * strip_words, std::min(words, (strip + 1) * strip_words), border,
                  columns.get());
   });
   const std::int64_t width = map.width;
@@ -180,7 +180,7 @@ DistanceMap transform(const Image& image, const DistanceOptions& options) {
                      if (options.to == DistanceTo::cracks) {
                        measure_cracks(column, begin, end, envelope, out);
                      } else {
-                       measure_pixels(column, begin, end, width, frame, envelope, out);
+                       measure_pixels(column, begin, end, width, border, envelope, out);
                      }
                    });
     }

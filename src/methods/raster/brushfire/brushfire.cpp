@@ -1,5 +1,6 @@
 #include "methods/raster/brushfire/brushfire.h"
 
+#include <bit>
 #include <cmath>
 
 #include "axis/pixel_graph.h"

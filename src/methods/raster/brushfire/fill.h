@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "base/grid.h"
-#include "medial/image.h"
+#include "medial/raster.h"
 #include "medial/shape.h"
 
 namespace medial::brushfire {

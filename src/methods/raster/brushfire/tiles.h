@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "medial/image.h"
+#include "medial/raster.h"
 
 namespace medial::brushfire {
 

@@ -30,7 +30,7 @@ class Extent {
 Box box_of(const Document<AxisItem>& file);
 
 /// How the plane lies in a picture: in its middle, aspect kept.
-struct PictureFrame {
+struct Viewport {
   double width = 0;
   double height = 0;
   double scale = 1;  ///< from units of the input to those of the picture
@@ -48,9 +48,9 @@ struct PictureFrame {
   double bulge(double of_plane) const { return -up * of_plane; }
 };
 
-/// The frame of a picture of a box, of moderate height. Errors: invalid_option (width), unsupported
-/// (a box that no picture can hold).
-Result<PictureFrame> frame_for(const Box& box, double width, bool y_down);
+/// The viewport of a picture of a box, of moderate height. Errors: invalid_option (width),
+/// unsupported (a box that no picture can hold).
+Result<Viewport> viewport_for(const Box& box, double width, bool y_down);
 
 /// Goes on along an arc of the picture, within 7e-8 radii.
 void arc_to(cairo_t* context, const BulgeArc& arc);

@@ -1,4 +1,4 @@
-#include "io/pictures/frame.h"
+#include "io/pictures/viewport.h"
 
 #include <cairo-pdf.h>
 #include <cairo-ps.h>
@@ -44,28 +44,29 @@ Box box_of(const Document<AxisItem>& file) {
   return extent.box();
 }
 
-Result<PictureFrame> frame_for(const Box& box, double width, bool y_down) {
+Result<Viewport> viewport_for(const Box& box, double width, bool y_down) {
   constexpr double smallest = 16;
   constexpr double largest = 8000;  // four times as high stays below Cairo's 32767
   if (!(width >= smallest && width <= largest))
     return Error{ErrorCode::invalid_option,
                  fmt::format("the width of a picture lies between {} and {}", smallest, largest),
                  {}};
-  PictureFrame frame;
-  frame.width = std::floor(width);
-  frame.up = y_down ? -1 : 1;
-  frame.center = midpoint(box.low, box.high);
+  Viewport viewport;
+  viewport.width = std::floor(width);
+  viewport.up = y_down ? -1 : 1;
+  viewport.center = midpoint(box.low, box.high);
   const Vec2 size = box.high - box.low;
-  const double margin = 0.03 * frame.width;
-  frame.scale = size.x > 0 ? (frame.width - 2 * margin) / size.x : 1;
+  const double margin = 0.03 * viewport.width;
+  viewport.scale = size.x > 0 ? (viewport.width - 2 * margin) / size.x : 1;
   // A needle gets a picture of moderate height: its width gives way.
-  const double height = size.x > 0 ? size.y * frame.scale : 4 * frame.width;
-  frame.height = std::ceil(std::clamp(height + 2 * margin, frame.width / 8, 4 * frame.width));
-  if (size.y > 0 && size.y * frame.scale + 2 * margin > frame.height)
-    frame.scale = (frame.height - 2 * margin) / size.y;
-  if (!(frame.scale > 0) || !std::isfinite(frame.scale) || !std::isfinite(frame.height))
+  const double height = size.x > 0 ? size.y * viewport.scale : 4 * viewport.width;
+  viewport.height =
+      std::ceil(std::clamp(height + 2 * margin, viewport.width / 8, 4 * viewport.width));
+  if (size.y > 0 && size.y * viewport.scale + 2 * margin > viewport.height)
+    viewport.scale = (viewport.height - 2 * margin) / size.y;
+  if (!(viewport.scale > 0) || !std::isfinite(viewport.scale) || !std::isfinite(viewport.height))
     return Error{ErrorCode::unsupported, "the coordinates are too large or too small to draw", {}};
-  return frame;
+  return viewport;
 }
 
 void arc_to(cairo_t* context, const BulgeArc& arc) {

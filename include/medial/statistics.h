@@ -1,0 +1,47 @@
+#pragma once
+
+// Diagnostics: what computations counted and how long they took, in seconds. No result depends on
+// it.
+
+#include <cstdint>
+
+namespace medial {
+
+/// Of compute().
+struct Statistics {
+  std::uint64_t queries = 0;            ///< nearest-site queries
+  std::uint64_t apollonius = 0;         ///< disks computed from three sites
+  std::uint64_t brackets = 0;           ///< nodes found by bracketing, where the closed form failed
+  std::uint64_t precision_retries = 0;  ///< nodes recomputed in higher precision
+  std::uint64_t bridges = 0;            ///< disks that connected a hole
+  std::uint64_t exact_filtered = 0;     ///< Options::exact: decided in double with error bounds,
+  std::uint64_t exact_precise = 0;      ///< in 256 bits with error bounds,
+  std::uint64_t exact_rational = 0;     ///< in rational arithmetic with square roots
+  std::uint64_t exact_ties = 0;         ///< sites beyond three that a node's disk touches exactly
+  std::uint64_t exact_changes = 0;      ///< decisions in double precision that were wrong
+  double largest_residual = 0;          ///< largest |distance - radius| over the nodes' contacts
+  double seconds_sites = 0, seconds_tree = 0, seconds_connect = 0;
+  double seconds_walk = 0, seconds_collect = 0, seconds_exact = 0;
+  double seconds = 0;  ///< all of compute()
+  int threads = 1;
+
+  /// Adds the counts and times of another part of the work; `threads` stays.
+  Statistics& operator+=(const Statistics& part);
+};
+
+/// Of compute_voxels().
+struct VoxelStatistics {
+  std::uint64_t surface_voxels = 0, interior_voxels = 0;
+  std::uint64_t bounded_sets = 0;    ///< of interior voxels
+  std::uint64_t tested_voxels = 0;   ///< whose two nearest feet were computed
+  std::uint64_t medial_voxels = 0;   ///< below the tolerance, before thinning
+  std::uint64_t bridge_voxels = 0;   ///< added to keep the topology
+  std::uint64_t face_distances = 0;  ///< computed
+  double seconds_tree = 0, seconds_digitize = 0;
+  double seconds_first = 0;  ///< first medial voxel of each bounded set
+  double seconds_follow = 0, seconds_bridge = 0, seconds_thin = 0;
+  double seconds = 0;  ///< all of compute_voxels()
+  int threads = 1;
+};
+
+}  // namespace medial
