@@ -124,7 +124,7 @@ Result<Outcome> attempt(const Problem& problem, bool two_sided, std::optional<do
   if (!two_sided) axis.sites = problem.result_sites();
   axis.statistics.seconds_collect += watch.lap();
   axis.statistics.seconds = all.lap();
-  if (!two_sided && !has_right_topology(problem.shape, axis.nodes.size(), edges.size()))
+  if (!two_sided && !has_right_topology(problem.shape, axis.nodes, edges))
     return error_of_wrong_axis(
         axis, "the axis does not have one cycle for each hole: please report this shape");
   for (const std::uint32_t edge : loose_edges)
