@@ -80,12 +80,16 @@ double Certainty::error_of_three(std::uint32_t third) const {
 double Certainty::error_at_joint(bool on_right) const {
   const std::uint32_t own = on_right ? span_.right : span_.left;
   const std::uint32_t next = on_right ? own + 1 : own - 1;
-  const Contact a = contact(site(own).is_vertex() ? next : own),
-                b = contact(on_right ? span_.left : span_.right);
+  const std::uint32_t edge = site(own).is_vertex() ? next : own;
+  const Contact a = contact(edge), b = contact(on_right ? span_.left : span_.right);
   const double closing = 1 - dot(a.toward, b.toward);
   if (!(closing > 0)) return unknown;
+  // The centre lies on the normal at the joint.
+  const Vec2 joint = site(own).is_vertex() ? site(own).point : site(next).point;
+  const double beside = std::abs(dot(site(edge).direction, to_.center - joint)) + a.unsure;
   const double within =
-      2.01 * (std::abs(b.residual) + b.unsure + std::abs(a.residual) + a.unsure) / closing;
+      2.01 * (std::abs(b.residual) + b.unsure + std::abs(a.residual) + a.unsure + 2 * beside) /
+      closing;
   return 2 * within < to_.radius * closing ? within + rounding : unknown;
 }
 
