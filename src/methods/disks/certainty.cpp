@@ -11,6 +11,9 @@ constexpr double unknown = std::numeric_limits<double>::infinity();
 /// The tolerance decides what one disk touches only where it is so small against the disk.
 constexpr double small_tolerance = 0x1p-16;
 
+/// How far a disk may be off, against its radius, for the next step to begin at it.
+constexpr double well_known = 0x1p-10;
+
 double taxicab_norm(Vec2 v) { return std::abs(v.x) + std::abs(v.y); }
 
 }  // namespace
@@ -20,9 +23,13 @@ Certainty::Certainty(const Boundary& boundary, double tolerance, const Span& spa
     : boundary_(boundary), span_(span), from_(from), to_(event.disk) {
   using Kind = Event::Kind;
   const bool ties = tolerance <= small_tolerance * to_.radius;
+  const auto is_near = [&](std::uint32_t i) {
+    const double away = std::sqrt(site::squared_distance(site(i), to_.center));
+    return std::abs(away - to_.radius) <= tolerance;
+  };
   if (event.kind == Kind::at_node) {
     error_ = span.error;
-    certain_ = ties;
+    certain_ = ties && is_near(span.right) && is_near(span.left);
     return;
   }
   const std::uint32_t fourth = event.kind == Kind::pass_right  ? span.right + 1
@@ -34,10 +41,10 @@ Certainty::Certainty(const Boundary& boundary, double tolerance, const Span& spa
   const bool stays = squared_norm(to_.center - from_.center) <= tolerance * tolerance &&
                      std::abs(to_.radius - from_.radius) <= tolerance;
   if (stays) {
-    certain_ = ties;
+    certain_ = touches(fourth, tolerance);
     return;
   }
-  certain_ = (error_ < unknown || touches(fourth, tolerance)) &&
+  certain_ = (error_ <= well_known * to_.radius || touches(fourth, tolerance)) &&
              (moves_forward() || comes_before(fourth) || (ties && is_one_tie(0.5 * tolerance)));
 }
 
