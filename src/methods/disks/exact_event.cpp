@@ -53,7 +53,7 @@ class ExactEvents::Search {
     for (;;) {
       for (const std::uint32_t site : candidates) consider(site);
       candidates = best_ ? intruders() : std::vector<std::uint32_t>{};
-      if (best_ && candidates.empty()) return Found{site_, rounded()};
+      if (best_ && candidates.empty()) return Found{site_, rounded(), is_well_known()};
       std::erase_if(candidates, [&](std::uint32_t site) { return is_seen(site); });
       if (!candidates.empty()) continue;
       // Only carriers were touched, beside their sites: look further around.
@@ -123,6 +123,13 @@ class ExactEvents::Search {
     return {
         {static_cast<double>(best_->center.x.value), static_cast<double>(best_->center.y.value)},
         static_cast<double>(best_->radius.value)};
+  }
+
+  /// Whether 256 bits tell the best disk to all digits of a double: not between sites that are
+  /// parallel but for some 1e-60.
+  bool is_well_known() const {
+    const Number &x = best_->center.x, &y = best_->center.y;
+    return x.error + y.error + best_->radius.error <= 0x1p-60L * best_->radius.largest;
   }
 
   /// Sites that the best disk reaches over, with their neighbours; none if there are none.

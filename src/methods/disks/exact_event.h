@@ -55,6 +55,7 @@ class ExactEvents {
   struct Found {
     std::uint32_t site = 0;
     Disk disk;
+    bool well_known = true;  ///< the disk: to all of its digits
   };
   /// The site in a span that a disk touches together with the span's two, and its disk, which
   /// keeps clear of all sites in the span. `from`: about the disk of the span's node; `hint`: a

@@ -115,6 +115,8 @@ class Walker {
       ++chunk_.statistics.exact_changes;
       return {};
     }
+    // Between sites that are all but parallel, double's disk is as good as any.
+    if (!found->well_known && event.site == found->site) return event;
     error = Certainty::rounding;
     event.disk = found->disk;
     event.site = found->site;
