@@ -21,6 +21,14 @@ struct AxesOf {
 
   std::size_t size() const { return node_begin.size() - 1; }
 
+  void reserve(double times) {
+    const auto more = [times](auto& values) {
+      values.reserve(static_cast<std::size_t>(times * static_cast<double>(values.size())));
+    };
+    more(nodes), more(edges), more(sites);
+    more(node_begin), more(edge_begin), more(site_begin);
+    more(tolerance), more(resolution);
+  }
   void add(const MedialAxis& axis) {
     nodes.insert(nodes.end(), axis.nodes.begin(), axis.nodes.end());
     edges.insert(edges.end(), axis.edges.begin(), axis.edges.end());
@@ -91,12 +99,11 @@ Features features_of(const Coordinates& coordinates, const Values<std::int64_t>&
   return all;
 }
 
-/// The axes of features [first, last) on `threads` threads each.
-AxesOf axes_of_range(const Features& features, std::size_t first, std::size_t last, Options options,
-                     const std::atomic<bool>* cancel) {
-  AxesOf result;
+/// Appends the axes of features [first, last).
+void add_range(const Features& features, std::size_t first, std::size_t last,
+               const Options& options, AxesOf& result) {
   std::vector<Ring> rings;
-  for (std::size_t i = first; i < last && !*cancel; ++i) {
+  for (std::size_t i = first; i < last && !*options.cancel; ++i) {
     features.rings(i, rings);
     auto shape = build_shape(rings);
     auto axis = shape ? compute(*shape, options) : Result<MedialAxis>(std::move(shape).error());
@@ -108,7 +115,6 @@ AxesOf axes_of_range(const Features& features, std::size_t first, std::size_t la
     result.errors.emplace_back(static_cast<std::int64_t>(i), std::move(axis).error());
     result.end_feature(0, 0);
   }
-  return result;
 }
 
 template <class T>
@@ -156,10 +162,15 @@ std::unique_ptr<AxesOf> axes_of(const Coordinates& coordinates, const Values<std
                                 const Options& options, const nb::object& progress) {
   const Features features = features_of(coordinates, ring, polygon, feature);
   const std::size_t count = features.count(), blocks = (count + block - 1) / block;
-  std::vector<AxesOf> parts(blocks);
+  // One thread computes block after block, and needs no parts to be joined.
+  const bool in_order = effective_threads(options.threads) == 1;
+  std::vector<AxesOf> parts(in_order ? 1 : blocks);
   std::vector<double> weights;
   for (std::size_t b = 0; b < blocks; ++b)
     weights.push_back(features.weight(b * block, std::min(count, (b + 1) * block)) + 1);
+  // What the first block needs, extrapolated to all; more than is used costs no memory.
+  const double expected =
+      blocks == 0 ? 0 : 1.05 * std::accumulate(weights.begin(), weights.end(), 0.0) / weights[0];
   const bool reports = !progress.is_none();
   auto done = run(features.points.size(), [&](const std::atomic<bool>* cancel) {
     const auto one_block = [&](std::size_t b, int threads) -> Status {
@@ -167,7 +178,8 @@ std::unique_ptr<AxesOf> axes_of(const Coordinates& coordinates, const Values<std
       own.threads = threads;
       own.cancel = cancel;
       const std::size_t last = std::min(count, (b + 1) * block);
-      parts[b] = axes_of_range(features, b * block, last, own, cancel);
+      add_range(features, b * block, last, own, parts[in_order ? 0 : b]);
+      if (in_order && b == 0) parts[0].reserve(expected);
       if (reports) {
         const nb::gil_scoped_acquire held;
         try {
@@ -182,7 +194,15 @@ std::unique_ptr<AxesOf> axes_of(const Coordinates& coordinates, const Values<std
   });
   value_of(std::move(done));
   return std::make_unique<AxesOf>(
-      without_lock([&] { return blocks == 0 ? AxesOf{} : joined(parts); }));
+      without_lock([&] { return parts.empty() ? AxesOf{} : joined(parts); }));
+}
+
+/// The nodes and edges of a feature, in the memory of the one before.
+void take_graph(const AxesOf& all, std::size_t i, MedialAxis& axis) {
+  axis.nodes.assign(all.nodes.begin() + all.node_begin[i],
+                    all.nodes.begin() + all.node_begin[i + 1]);
+  axis.edges.assign(all.edges.begin() + all.edge_begin[i],
+                    all.edges.begin() + all.edge_begin[i + 1]);
 }
 
 MedialAxis axis_of(const AxesOf& all, std::size_t i) {
@@ -206,8 +226,9 @@ nb::tuple lines_of(const AxesOf& all, double chord, bool relative) {
   std::vector<std::int64_t> line_begin{0}, feature_begin{0};
   without_lock([&] {
     disks.reserve(all.edges.size() * 2);
+    MedialAxis axis;
     for (std::size_t i = 0; i < all.size(); ++i) {
-      const MedialAxis axis = axis_of(all, i);
+      take_graph(all, i, axis);
       Box box = Box::nothing();
       for (const Node& node : axis.nodes) box.add(node.disk.center);
       const double own = relative && !axis.nodes.empty() ? chord * diagonal(box) : chord;
@@ -234,8 +255,9 @@ nb::tuple lines_of(const AxesOf& all, double chord, bool relative) {
 Array<double, 2> summary(const AxesOf& all) {
   std::vector<std::array<double, 4>> rows;
   without_lock([&] {
+    MedialAxis axis;
     for (std::size_t i = 0; i < all.size(); ++i) {
-      const MedialAxis axis = axis_of(all, i);
+      take_graph(all, i, axis);
       if (axis.nodes.empty()) {
         rows.push_back({std::nan(""), std::nan(""), std::nan(""), std::nan("")});
         continue;
