@@ -23,7 +23,7 @@ VENV := build/python/venv
 BENCH_BOOST := build/boost-1.81
 SOURCES = $(shell git ls-files '*.h' '*.cpp')
 
-.PHONY: help setup build demo check test papers bench bench-flo-mat bench-images fuzz fuzz-coverage certain silhouettes corpus offsets tsan serial portable python wheels docs format lint clean install
+.PHONY: help setup build demo check test papers bench bench-flo-mat bench-images fuzz fuzz-coverage certain silhouettes corpus offsets tsan serial portable python python-leaks spark wheels docs format lint clean install
 .DEFAULT_GOAL := help
 
 help:     ## list the targets
@@ -60,8 +60,14 @@ python: setup   ## build the Python package, install it into an environment, run
 	@tools/python.sh install $(VENV) $(RELEASE)
 	@tools/docs.sh gallery $(VENV)
 
+python-leaks: python    ## a million calls of the Python package, which may not take more memory
+	@tools/python.sh leaks $(VENV) $(RELEASE)
+
+spark: python   ## test the Python package on Spark, Sedona, Dask and DuckDB (PyPI, Maven, Java 17)
+	@tools/python.sh spark build/python/engines $(RELEASE)
+
 wheels: setup   ## build the wheels of the Python package, checked by auditwheel: out/wheels
-	@tools/wheels.sh out/wheels
+	@tools/wheels.sh out/wheels $(JOBS)
 
 docs: python    ## the documentation as a static site: out/docs
 	@tools/docs.sh site $(VENV)
