@@ -19,7 +19,7 @@
 #include <sstream>
 #include <tuple>
 
-#include "io/back_to_geographic.h"
+#include "io/gis/back_to_geographic.h"
 #include "medial/io/read.h"
 #include "medial/io/write.h"
 #include "medial/query.h"
