@@ -169,7 +169,7 @@ TEST_F(Io, BracketsNestWithoutRecursion) {
   EXPECT_TRUE(read_document(write("e.wkt", collections)).ok());
   EXPECT_EQ(code_of(read_document(
                 write("f.wkt", "CURVEPOLYGON" + std::string(1000, '(') + std::string(1000, ')')))),
-            ErrorCode::unsupported);
+            ErrorCode::malformed);
   EXPECT_EQ(code_of(read_document(write("g.json", std::string(std::size_t{1} << 20, '[')))),
             ErrorCode::malformed);
   EXPECT_FALSE(
