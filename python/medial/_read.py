@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cache
 from typing import Any
@@ -108,19 +108,21 @@ def _from_polygons(polygons: Sequence[Sequence[Any]]) -> Rings:
 def from_wkb(values: Sequence[bytes | None] | npt.NDArray[Any]) -> Ragged:
     """The polygons of well-known binary, one feature for each value; None is an error of its feature."""
     missing = [i for i, value in enumerate(values) if value is None]
-    if missing:
-        values = [value or b"" for value in values]
-    sizes = np.fromiter((len(value) for value in values if value is not None), np.int64, len(values))
+    present: Sequence[bytes] | npt.NDArray[Any] = [value or b"" for value in values] if missing else values  # type: ignore[assignment]
+    sizes = np.fromiter((len(value) for value in present), np.int64, len(values))
     offsets = np.zeros(len(values) + 1, np.int64)
     np.cumsum(sizes, out=offsets[1:])
-    return from_wkb_buffer(np.frombuffer(b"".join(values), np.uint8), offsets, missing)
+    return from_wkb_buffer(np.frombuffer(b"".join(present), np.uint8), offsets, missing)
 
 
-def from_wkb_buffer(data: npt.NDArray[np.uint8], offsets: Indices, missing: Sequence[int] = ()) -> Ragged:
+def from_wkb_buffer(data: npt.NDArray[np.uint8], offsets: Indices, missing: Iterable[int] = ()) -> Ragged:
     """The same from one buffer, as Arrow holds it; `missing` features have no bytes."""
     features = Ragged(*_core.read_wkb(np.ascontiguousarray(data), np.ascontiguousarray(offsets, np.int64)))
     features.failed += [("the geometry is missing", "empty", int(i), None, None, None) for i in missing]
     return features
+
+
+_WORD = re.compile(r"\s*(?:([A-Za-z]+)|([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)|([(),;=]))")
 
 
 @cache
