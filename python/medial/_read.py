@@ -235,8 +235,8 @@ def read(x: Any) -> Rings:
     wkb = getattr(type(x), "__module__", "").startswith("shapely.") and getattr(x, "wkb", None)
     if wkb:
         return from_wkb([wkb]).one(0)
-    if hasattr(x, "__geo_interface__"):
-        return _from_polygons(list(_polygons_of(x.__geo_interface__)))
+    if geometry := getattr(x, "__geo_interface__", None):
+        return _from_polygons(list(_polygons_of(geometry)))
     if isinstance(x, Mapping):
         return _from_polygons(list(_polygons_of(x)))
     if isinstance(x, (Sequence, np.ndarray)) and len(x):
@@ -283,7 +283,8 @@ def chains_of(x: Any) -> tuple[Floats, Indices, npt.NDArray[np.uint8]]:
     if isinstance(x, np.ndarray) and x.ndim == 2 and x.dtype != object:
         points = rows(x)
         return points, np.arange(len(points) + 1), np.zeros(len(points), np.uint8)
-    if hasattr(x, "__geo_interface__") and "features" not in x.__geo_interface__:
+    geometry = getattr(x, "__geo_interface__", None)
+    if geometry and "features" not in geometry:
         add_any(x)
     elif len(x) and not hasattr(x[0], "__geo_interface__") and len(x[0]) and _is_point(x[0]):
         return chains_of(rows(x))
