@@ -14,7 +14,7 @@ cd "$(dirname "$0")/.."
 task=$1 folder=$2 tree=${3:-}
 python=${PYTHON:-python3}
 needed="nanobind numpy pytest hypothesis mypy"
-wished="shapely geopandas pyarrow networkx scipy igraph matplotlib scikit-image trimesh tqdm zstandard pandas-stubs"
+wished="shapely geopandas pyarrow networkx scipy igraph matplotlib scikit-image trimesh tqdm zstandard pandas-stubs pyright"
 
 environment() {
   [ -x "$folder/bin/python" ] || "$python" -m venv "$folder" || return 1
@@ -72,6 +72,11 @@ case $task in
     "$run" -m pytest -q -p no:cacheprovider --doctest-modules -o doctest_optionflags="ELLIPSIS NORMALIZE_WHITESPACE" \
       --doctest-ignore-import-errors --pyargs medial
     "$run" -m mypy --strict --ignore-missing-imports -p medial
+    if "$run" -m pyright --version > /dev/null 2>&1; then
+      (cd "$OLDPWD" && "$run" -m pyright --pythonpath "$run")
+    else
+      echo "python: skipped, pyright: it cannot be had"
+    fi
     ;;
   spark)
     engines

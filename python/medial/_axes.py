@@ -222,11 +222,9 @@ def ragged(x: Any) -> Ragged:
     if hasattr(x, "__arrow_c_array__"):
         pyarrow = need("pyarrow", "all")
         return _from_arrow(x if isinstance(x, pyarrow.Array) else pyarrow.array(x))
-    if hasattr(x, "columns") and hasattr(x, "geometry"):
-        x = x.geometry
-    if hasattr(x, "to_wkb"):  # a GeoSeries or a GeometryArray
-        x = x.to_wkb()
-        return from_wkb(np.asarray(x, dtype=object))
+    series = getattr(x, "geometry", x) if hasattr(x, "columns") else x
+    if to_wkb := getattr(series, "to_wkb", None):  # a GeoSeries or a GeometryArray
+        return from_wkb(np.asarray(to_wkb(), dtype=object))
     values = list(x) if not isinstance(x, np.ndarray) else x
     first = next((value for value in values if value is not None), None)
     if type(first).__module__.startswith("shapely."):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cache
 from typing import Any
@@ -108,19 +108,21 @@ def _from_polygons(polygons: Sequence[Sequence[Any]]) -> Rings:
 def from_wkb(values: Sequence[bytes | None] | npt.NDArray[Any]) -> Ragged:
     """The polygons of well-known binary, one feature for each value; None is an error of its feature."""
     missing = [i for i, value in enumerate(values) if value is None]
-    if missing:
-        values = [value or b"" for value in values]
-    sizes = np.fromiter((len(value) for value in values if value is not None), np.int64, len(values))
+    present: Sequence[bytes] | npt.NDArray[Any] = [value or b"" for value in values] if missing else values  # type: ignore[assignment]
+    sizes = np.fromiter((len(value) for value in present), np.int64, len(values))
     offsets = np.zeros(len(values) + 1, np.int64)
     np.cumsum(sizes, out=offsets[1:])
-    return from_wkb_buffer(np.frombuffer(b"".join(values), np.uint8), offsets, missing)
+    return from_wkb_buffer(np.frombuffer(b"".join(present), np.uint8), offsets, missing)
 
 
-def from_wkb_buffer(data: npt.NDArray[np.uint8], offsets: Indices, missing: Sequence[int] = ()) -> Ragged:
+def from_wkb_buffer(data: npt.NDArray[np.uint8], offsets: Indices, missing: Iterable[int] = ()) -> Ragged:
     """The same from one buffer, as Arrow holds it; `missing` features have no bytes."""
     features = Ragged(*_core.read_wkb(np.ascontiguousarray(data), np.ascontiguousarray(offsets, np.int64)))
     features.failed += [("the geometry is missing", "empty", int(i), None, None, None) for i in missing]
     return features
+
+
+_WORD = re.compile(r"\s*(?:([A-Za-z]+)|([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)|([(),;=]))")
 
 
 @cache
@@ -233,8 +235,8 @@ def read(x: Any) -> Rings:
     wkb = getattr(type(x), "__module__", "").startswith("shapely.") and getattr(x, "wkb", None)
     if wkb:
         return from_wkb([wkb]).one(0)
-    if hasattr(x, "__geo_interface__"):
-        return _from_polygons(list(_polygons_of(x.__geo_interface__)))
+    if geometry := getattr(x, "__geo_interface__", None):
+        return _from_polygons(list(_polygons_of(geometry)))
     if isinstance(x, Mapping):
         return _from_polygons(list(_polygons_of(x)))
     if isinstance(x, (Sequence, np.ndarray)) and len(x):
@@ -281,7 +283,8 @@ def chains_of(x: Any) -> tuple[Floats, Indices, npt.NDArray[np.uint8]]:
     if isinstance(x, np.ndarray) and x.ndim == 2 and x.dtype != object:
         points = rows(x)
         return points, np.arange(len(points) + 1), np.zeros(len(points), np.uint8)
-    if hasattr(x, "__geo_interface__") and "features" not in x.__geo_interface__:
+    geometry = getattr(x, "__geo_interface__", None)
+    if geometry and "features" not in geometry:
         add_any(x)
     elif len(x) and not hasattr(x[0], "__geo_interface__") and len(x[0]) and _is_point(x[0]):
         return chains_of(rows(x))
