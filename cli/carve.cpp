@@ -15,8 +15,8 @@
 #include "cli/commands.h"
 #include "cli/common.h"
 #include "cli/pipeline.h"
+#include "medial/document.h"
 #include "medial/io/write.h"
-#include "medial/units.h"
 
 namespace medial::cli {
 namespace {

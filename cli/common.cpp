@@ -15,8 +15,8 @@
 #include <optional>
 #include <system_error>
 
+#include "medial/document.h"
 #include "medial/threads.h"
-#include "medial/units.h"
 
 namespace medial::cli {
 namespace {

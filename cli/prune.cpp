@@ -165,21 +165,22 @@ double scaled_threshold(PruneMeasure measure, double chosen, double factor) {
 Status write_previews(const Document<AxisItem>& file, const PruneOptions& options,
                       const PruneCommandArguments& arguments) {
   const double chosen = options.threshold.value_or(default_threshold(options.measure));
-  std::vector<double> thresholds;
-  std::vector<io::PreviewPanel> panels;
+  std::vector<Panel> panels;
+  Box box = Box::nothing();
   for (const double factor : {0.0, 0.25, 0.5, 1.0, 2.0, 4.0}) {
-    thresholds.push_back(scaled_threshold(options.measure, chosen, factor));
-    panels.push_back({fmt::format("{} {:.3g}", name_of(options.measure), thresholds.back()), {}});
+    const double threshold = scaled_threshold(options.measure, chosen, factor);
+    Panel& panel = panels.emplace_back();
+    panel.title = fmt::format("{} {:.3g}", name_of(options.measure), threshold);
+    for (const AxisItem& item : file.items) {
+      auto pruned = prune(
+          item.axis, {.measure = options.measure, .threshold = threshold, .tips = options.tips});
+      if (!pruned) return std::move(pruned).error();
+      panel.items.push_back({item.shape, std::move(pruned).value(), {}});
+      if (!item.shape.points.empty()) box.add(bounding_box(item.shape));
+      for (const Node& node : item.axis.nodes) box.add(node.disk.center);
+    }
   }
-  std::vector<Shape> shapes;
-  for (const AxisItem& item : file.items) {
-    shapes.push_back(item.shape);
-    const PruneOrder order(item.axis, options.measure, options.tips);
-    for (std::size_t i = 0; i < panels.size(); ++i)
-      panels[i].axes.push_back(order.at(thresholds[i]));
-  }
-  return io::write_preview(arguments.output, arguments.format, shapes, panels,
-                           arguments.write.width, file.y_down);
+  return write_panels(arguments, file, box, std::move(panels), arguments.write.width);
 }
 
 Result<int> run_prune(const PruneCommandArguments& arguments) {
@@ -189,7 +190,7 @@ Result<int> run_prune(const PruneCommandArguments& arguments) {
   auto options = prune_options(arguments.prune);
   if (!options) return options.error();
   Status writable =
-      check_output(arguments, arguments.preview ? io::formats_of(io::DocumentKind::preview)
+      check_output(arguments, arguments.preview ? io::formats_of(io::DocumentKind::field)
                                                 : io::formats_of(io::DocumentKind::axes));
   if (!writable) return std::move(writable).error();
   auto axes = load_axes(arguments.input, common, arguments.prune.specks, arguments.options);

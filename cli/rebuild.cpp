@@ -1,7 +1,5 @@
 // medial rebuild and medial smooth: from axes back to shapes.
 
-#include "medial/rebuild.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,6 +13,7 @@
 #include "medial/io/read.h"
 #include "medial/io/write.h"
 #include "medial/query.h"
+#include "medial/sides.h"
 #include "medial/verify.h"
 
 namespace medial::cli {
@@ -149,13 +148,8 @@ Status write_pixels(const Document<AxisItem>& axes, const RebuildArguments& argu
     image.error().place.feature = 0;
     return std::move(image).error();
   }
-  io::ImageFile placed;
-  placed.crs_wkt = axes.crs_wkt;
-  const double h = image->pixel;
-  const double height = h * image->image.height();
-  placed.placement =
-      axes.y_down ? io::PixelPlacement{image->corner.x, h, 0, image->corner.y, 0, h}
-                  : io::PixelPlacement{image->corner.x, h, 0, image->corner.y + height, 0, -h};
+  const io::ImageFile placed{{{}, image->placement}, axes.crs_wkt};
+  const double h = image->placement[1];
   object["pixel"] = h;
   object["pixels"] = image->image.count();
   object["area"] = static_cast<double>(image->image.count()) * h * h;

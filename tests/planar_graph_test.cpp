@@ -28,7 +28,7 @@ namespace {
 using Chains = std::vector<Chain>;
 
 PlanarGraph planar_graph_of(const Chains& chains, const PlanarGraphOptions& options = {},
-                            PlanarGraphReport* report = nullptr) {
+                            ShapeReport* report = nullptr) {
   auto planar_graph = build_planar_graph(chains, options, report);
   EXPECT_TRUE(planar_graph.ok()) << (planar_graph ? "" : to_string(planar_graph.error()));
   return planar_graph ? std::move(planar_graph).value() : PlanarGraph{};
@@ -334,7 +334,7 @@ TEST(PlanarGraph, WhatIsNearBesideEdgesIsRightOrRefused) {
 }
 
 TEST(PlanarGraph, WhatIsThereTwiceIsThereOnce) {
-  PlanarGraphReport report;
+  ShapeReport report;
   const PlanarGraph planar_graph = planar_graph_of({{{{0, 0}, {1, 0}}},
                                                     {{{1, 0}, {0, 0}}},
                                                     {{{0, 0}}},
@@ -350,7 +350,7 @@ TEST(PlanarGraph, WhatIsThereTwiceIsThereOnce) {
 }
 
 TEST(PlanarGraph, EndsMayTouchEdges) {
-  PlanarGraphReport report;
+  ShapeReport report;
   const PlanarGraph planar_graph =
       planar_graph_of({{{{0, 0}, {4, 0}}}, {{{2, 0}, {2, 3}}}, {{{1, 0}}}}, {}, &report);
   EXPECT_EQ(planar_graph.edges.size(), 4u);
@@ -386,7 +386,7 @@ TEST(PlanarGraph, CrossingsAreRefusedWithTheirPlaceOrNoded) {
   ASSERT_TRUE(refused.error().place.point.has_value());
   EXPECT_EQ(*refused.error().place.point, (Vec2{1, 1}));
   EXPECT_NE(refused.error().text.find("chain 2"), std::string::npos) << refused.error().text;
-  PlanarGraphReport report;
+  ShapeReport report;
   const PlanarGraph planar_graph = planar_graph_of(chains, {.node_crossings = true}, &report);
   EXPECT_EQ(planar_graph.edges.size(), 4u);
   EXPECT_EQ(report.crossings, 1u);
@@ -424,7 +424,7 @@ TEST(PlanarGraph, OverlapsAreThereOnceIfAskedFor) {
     double expected = 0;
     for (const auto& [kind, which, where] : steps)
       expected += kind == 2 ? std::numbers::pi / 18 * (20 + which) : 1;
-    PlanarGraphReport report;
+    ShapeReport report;
     const PlanarGraph planar_graph = planar_graph_of(chains, {.node_crossings = true}, &report);
     double length = 0;
     for (const PlanarGraphEdge& edge : planar_graph.edges) {

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "io/back_to_geographic.h"
 #include "io/format.h"
 #include "io/format_name.h"
 #include "io/formats/json.h"

@@ -9,7 +9,7 @@
 #include "io/format_name.h"
 #include "io/guarded.h"
 #include "io/place.h"
-#include "medial/units.h"
+#include "medial/document.h"
 
 namespace medial::io {
 
@@ -129,12 +129,6 @@ Status write_field(const std::string& path, const std::string& format,
                    std::span<const Shape> shapes, std::span<const PotentialField> fields,
                    const FieldPictureOptions& options) {
   return write_document(path, format, {"svg"}, {}, FieldOutput{shapes, fields, options});
-}
-
-Status write_preview(const std::string& path, const std::string& format,
-                     std::span<const Shape> shapes, std::span<const PreviewPanel> panels,
-                     double width, bool y_down) {
-  return write_document(path, format, {"svg"}, {}, PreviewOutput{shapes, panels, width, y_down});
 }
 
 Status write_voxels(const std::string& path, const std::string& format, const VoxelAxis& axis,

@@ -74,7 +74,7 @@ Result<Shape> shape_of(Feature& feature, const LoadOptions& options, LoadReport&
   }
   const bool repaired = options.repair != RepairRule::none;
   if (!repaired || !curved) {
-    auto shape = build_shape(rings, &report.shapes);
+    auto shape = build_shape(rings, {}, &report.shapes);
     if (shape || !(repaired || feature.filled) || !is_tangled(shape.error())) return shape;
   }
   if (repaired) apply_rule(options.repair, rings);

@@ -1,7 +1,7 @@
-#include "medial/units.h"
-
 #include <array>
 #include <cmath>
+
+#include "medial/document.h"
 
 namespace medial {
 namespace {

@@ -155,9 +155,7 @@ struct PruneOrder::Parts {
 };
 
 PruneOrder::PruneOrder(const MedialAxis& axis, PruneMeasure measure, bool tips)
-    : parts_(std::make_unique<Parts>(axis, measure, tips)) {}
-PruneOrder::~PruneOrder() = default;
-PruneOrder::PruneOrder(PruneOrder&&) noexcept = default;
+    : parts_(std::make_shared<Parts>(axis, measure, tips)) {}
 
 double PruneOrder::of_edge(std::uint32_t edge) const { return parts_->inner[edge]; }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "axis/curve.h"
+#include "axis/steps.h"
 #include "base/compat.h"
 #include "base/numbers.h"
 #include "base/quadrature.h"

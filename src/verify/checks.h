@@ -53,8 +53,8 @@ std::string sentence(const char* format, ...) __attribute__((format(printf, 1, 2
 constexpr std::size_t block_size = 1024;
 
 /// Runs a check on so many threads; what it throws is a failure, and none at all a pass.
-template <class OneCertificate, class Check>
-void certify(int threads, OneCertificate& certificate, const Check& check) {
+template <class Check>
+void certify(int threads, DiskCertificate& certificate, const Check& check) {
   try {
     on_threads(threads, check);
   } catch (const std::exception& failure) {

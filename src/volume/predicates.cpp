@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "base/predicates.h"
+#include "base/vec3.h"
 
 // g++ 12 warns, wrongly, of limbs inside cpp_int where its moves are inlined here.
 #if defined(__GNUC__) && !defined(__clang__)

@@ -9,6 +9,7 @@
 
 #include "base/in_flight.h"
 #include "base/predicates.h"
+#include "base/vec3.h"
 #include "medial/volume.h"
 #include "shape/limits.h"
 #include "volume/face_tree.h"

@@ -9,7 +9,7 @@
 #include <fstream>
 
 #include "io/gdal_support.h"
-#include "medial/units.h"
+#include "medial/document.h"
 
 namespace medial::io {
 

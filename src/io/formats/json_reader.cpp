@@ -5,7 +5,7 @@
 #include "io/formats/json.h"
 #include "io/formats/json_rows.h"
 #include "io/gdal_support.h"
-#include "medial/units.h"
+#include "medial/document.h"
 
 namespace medial::io {
 

@@ -9,7 +9,7 @@
 #include "io/text_source.h"
 #include "medial/io/read.h"
 #include "medial/io/write.h"
-#include "medial/rebuild.h"
+#include "medial/sides.h"
 #include "ops/code_bytes.h"
 
 namespace medial::io {

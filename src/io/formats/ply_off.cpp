@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "base/predicates.h"
+#include "base/vec3.h"
 #include "io/formats/meshes.h"
 #include "shape/limits.h"
 

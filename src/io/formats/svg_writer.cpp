@@ -9,7 +9,7 @@
 #include "io/formats/svg.h"
 #include "io/pictures/pictures.h"
 #include "io/ring_text.h"
-#include "medial/units.h"
+#include "medial/document.h"
 
 namespace medial::io {
 

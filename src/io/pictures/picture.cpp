@@ -79,9 +79,9 @@ Status write_picture(Target& target, const VoronoiOutput& output) {
 Format picture_format(const char* extension) {
   return Format{extension}
       .writes<AxesOutput, ShapesOutput, VoronoiOutput, LayersOutput, OffsetsOutput, CarvingOutput,
-              FeaturesOutput, FieldOutput, PreviewOutput>(
-          write_picture, write_picture, write_picture, write_picture, write_picture, write_picture,
-          write_picture, write_picture, write_picture);
+              FeaturesOutput, FieldOutput>(write_picture, write_picture, write_picture,
+                                           write_picture, write_picture, write_picture,
+                                           write_picture, write_picture, write_picture);
 }
 
 Format pdf_format() { return picture_format(".pdf"); }
