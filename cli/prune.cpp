@@ -19,19 +19,20 @@ namespace {
 
 /// What each measure judges, in the order of PruneMeasure.
 constexpr std::array measure_helps = {
-    "Branches by the geometric mean of significance and of the same by R",
-    "Branches by how far the shape reaches out beyond the disk where they\n"
-    "begin, by that disk's radius (Ho and Dyer)",
-    "Branches by their longest way to an end, by that radius",
-    "Branches by the boundary beyond that disk, by its chord",
-    "Points by their radius, by R",
+    "Branches by the geometric mean of --significance and --erosion",
+    "Branches by how far the shape reaches beyond the disk where they\n"
+    "begin, relative to that disk's radius (Ho and Dyer)",
+    "Branches by their longest way to an end, relative to that radius",
+    "Branches by the boundary beyond that disk, relative to its chord",
+    "Points by their radius, relative to R",
     "Points by the angle between the radii to the boundary, in degrees",
-    "Points by erosion thickness: how far the shape reaches out, by R",
-    "Points by the length of the boundary beyond, by 2 pi R",
-    "Points by that length minus its chord, by 2 R",
-    "Points by the area that would be lost, by that of the shape",
-    "The lambda medial axis: the smallest circle around the feet, by R",
-    "The scale axis: the growth that hides a disk in another, from 1 up",
+    "Points by erosion thickness: how far the shape reaches beyond the\n"
+    "disk, relative to R",
+    "Points by the length of the boundary beyond, relative to 2 pi R",
+    "Points by that length minus its chord, relative to 2 R",
+    "Points by the area that would be lost, relative to the shape's",
+    "Lambda medial axis: the smallest circle around the feet, relative to R",
+    "Scale axis: the growth at which another disk covers this one, from 1 up",
 };
 
 }  // namespace
@@ -58,7 +59,7 @@ void add_prune_options(CLI::App& command, PruneArguments& arguments) {
                                     "(default: prominence).")
                         ->option_text("MEASURE");
   CLI::Option* keep = add_value(command, "--keep", arguments.keep, "N", a_whole_number(),
-                                "The most important branches, so many at most for each\n"
+                                "The most important branches, at most N for each\n"
                                 "feature, instead of a threshold.");
   for (CLI::Option* option : options) {
     by->excludes(option);
@@ -166,19 +167,18 @@ Status write_previews(const Document<AxisItem>& file, const PruneOptions& option
                       const PruneCommandArguments& arguments) {
   const double chosen = options.threshold.value_or(default_threshold(options.measure));
   std::vector<Panel> panels;
-  Box box = Box::nothing();
+  std::vector<double> thresholds;
   for (const double factor : {0.0, 0.25, 0.5, 1.0, 2.0, 4.0}) {
-    const double threshold = scaled_threshold(options.measure, chosen, factor);
-    Panel& panel = panels.emplace_back();
-    panel.title = fmt::format("{} {:.3g}", name_of(options.measure), threshold);
-    for (const AxisItem& item : file.items) {
-      auto pruned = prune(
-          item.axis, {.measure = options.measure, .threshold = threshold, .tips = options.tips});
-      if (!pruned) return std::move(pruned).error();
-      panel.items.push_back({item.shape, std::move(pruned).value(), {}});
-      if (!item.shape.points.empty()) box.add(bounding_box(item.shape));
-      for (const Node& node : item.axis.nodes) box.add(node.disk.center);
-    }
+    thresholds.push_back(scaled_threshold(options.measure, chosen, factor));
+    panels.push_back({fmt::format("{} {:.3g}", name_of(options.measure), thresholds.back()), {}});
+  }
+  Box box = Box::nothing();
+  for (const AxisItem& item : file.items) {
+    if (!item.shape.points.empty()) box.add(bounding_box(item.shape));
+    for (const Node& node : item.axis.nodes) box.add(node.disk.center);
+    const PruneOrder order(item.axis, options.measure, options.tips);
+    for (std::size_t i = 0; i < panels.size(); ++i)
+      panels[i].items.push_back({item.shape, order.at(thresholds[i]), {}});
   }
   return write_panels(arguments, file, box, std::move(panels), arguments.write.width);
 }

@@ -258,7 +258,7 @@ void add_rebuild_options(CLI::App& command, RebuildArguments& arguments) {
             "With --tangents: points on the axis, about (default: the samples, or\n"
             "1000 of an exact axis).");
   add_value(command, "--pixels", arguments.pixels, "N", in_range(1, 32768),
-            fmt::format("The union of the disks as an image, its longer side so many\n"
+            fmt::format("The union of the disks as an image with a longer side of N\n"
                         "pixels: {}",
                         image_formats))
       ->excludes(tangents);

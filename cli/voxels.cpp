@@ -170,7 +170,7 @@ void add_own_options(CLI::App& command, VoxelArguments& arguments) {
             "Instead of that: the edge of a voxel, in units of the input.")
       ->excludes(voxels);
   add_value(command, "--angle", options.angle, "A", in_range(1.0, 120.0, true),
-            "In degrees: two feet of a voxel count as two if they lie so far apart as\n"
+            "In degrees: two feet of a voxel count as two if they are this far apart as\n"
             "seen from it, 1 to 120 (default: 30). Smaller angles give the axis of\n"
             "the faces as they are; meshes of curved surfaces need larger ones.");
   add_choice<Thinning>(

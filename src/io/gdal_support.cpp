@@ -209,7 +209,7 @@ Status add_wkt(const std::string& text, bool loose, Feature& feature) {
   const std::unique_ptr<OGRGeometry> geometry(read);
   if (code != OGRERR_NONE || !geometry) {
     return Error{ErrorCode::malformed,
-                 messages.failure().empty() ? "this is no well-known text" : messages.failure(),
+                 messages.failure().empty() ? "this is not well-known text" : messages.failure(),
                  {}};
   }
   GeometryCounts counts;
@@ -248,7 +248,7 @@ Status read_crs_by_name(const std::string& name, Document<Feature>& dataset) {
   if (reference.SetFromUserInput(
           name.c_str(), OGRSpatialReference::SET_FROM_USER_INPUT_LIMITATIONS_get()) != OGRERR_NONE)
     return Error{ErrorCode::invalid_option,
-                 fmt::format("'{}' names no reference system; EPSG:n or WKT does", name),
+                 fmt::format("'{}' does not name a reference system; use EPSG:n or WKT", name),
                  {}};
   set_crs(reference, dataset);
   return success();

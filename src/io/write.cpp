@@ -32,8 +32,8 @@ Status write_document(const std::string& path, const std::string& asked, const S
   const Format* format = find_format(target.format, Output::kind);
   if (format == nullptr)
     return Error{ErrorCode::unsupported,
-                 fmt::format("'{}' is no format to write here; known are {}", target.format,
-                             formats_of(Output::kind)),
+                 fmt::format("'{}' is not a format that can be written here; use one of {}",
+                             target.format, formats_of(Output::kind)),
                  in_file(path)};
   const bool stream = is_stream(path);
   target.name = stream ? standard.name : std::filesystem::path(path).stem().string();

@@ -253,7 +253,7 @@ class Collapse {
 
 Result<CollapsedShape> collapse_narrow(const MedialAxis& axis, double width, double trim) {
   if (!(width > 0) || !std::isfinite(width) || !(trim >= 0))
-    return Error{ErrorCode::invalid_option, "a width to collapse is a positive number", {}};
+    return Error{ErrorCode::invalid_option, "the width to collapse must be positive", {}};
   const DividedAxis divided = divided_at(axis, 0.5 * width);
   Collapse collapse(divided, 0.5 * width, trim);
   collapse.run();

@@ -246,10 +246,10 @@ double PruneOrder::threshold_of(std::uint64_t branches) const {
 Result<MedialAxis> prune(const MedialAxis& axis, const PruneOptions& options, PruneReport* report) {
   if (options.threshold && options.keep)
     return Error{ErrorCode::invalid_option,
-                 "both a threshold of pruning and a number of branches to keep",
+                 "a pruning threshold and a number of branches to keep exclude each other",
                  {}};
   if (options.threshold && !(*options.threshold >= 0))
-    return Error{ErrorCode::invalid_option, "a threshold of pruning is not a number from 0 up", {}};
+    return Error{ErrorCode::invalid_option, "a pruning threshold must not be negative", {}};
   const PruneOrder order(axis, options.measure, options.tips);
   const double threshold = options.keep
                                ? order.threshold_of(*options.keep)

@@ -375,7 +375,7 @@ Result<Shape> rebuild(const MedialAxis& axis, const RebuildOptions& options,
                       RebuildReport* report) {
   if (axis.nodes.empty()) return Error{ErrorCode::empty, "an axis without nodes", {}};
   if (!(options.chord >= 0))
-    return Error{ErrorCode::invalid_option, "chord is not a number from 0 up", {}};
+    return Error{ErrorCode::invalid_option, "the chord must not be negative", {}};
   const bool by_outline = options.by == RebuildBy::outline;
   const bool of_pixels =
       by_outline && axis.resolution > 0 && options.points == 0 && is_of_pixels(axis.method);

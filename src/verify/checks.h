@@ -1,8 +1,10 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <exception>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -44,6 +46,33 @@ struct Problem {
   }
   bool is_blunt(std::uint32_t i) const { return joint[i] == Joint::blunt; }
   const Disk& disk(std::uint32_t node) const { return axis.nodes[node].disk; }
+};
+
+/// The largest of something, and where.
+struct Worst {
+  double value = 0;
+  Vec2 where;
+  std::size_t index = 0;   ///< of the node, edge ... there
+  std::uint64_t over = 0;  ///< how many are over the tolerance
+
+  void add(double amount, double tolerance, Vec2 point, std::size_t i = 0) {
+    // What cannot even be computed is as wrong as can be.
+    if (std::isnan(amount)) amount = std::numeric_limits<double>::infinity();
+    if (amount > tolerance) ++over;
+    if (amount > value) {
+      value = amount;
+      where = point;
+      index = i;
+    }
+  }
+  void add(const Worst& other) {
+    over += other.over;
+    if (other.value > value) {
+      const std::uint64_t all = over;
+      *this = other;
+      over = all;
+    }
+  }
 };
 
 /// A sentence in printf's manner.

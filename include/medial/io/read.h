@@ -25,7 +25,7 @@ struct ImageOptions {
 struct ReadOptions {
   std::string layer;  ///< name of the layer; empty: the first
   std::string where;  ///< attribute filter of OGR SQL; empty: all
-  /// Of polygons of straight edges; features with curves stay as they are, for load_shapes().
+  /// make_valid repairs polygons of straight edges by GEOS; all else is left to load_shapes().
   RepairRule repair = RepairRule::none;
   /// Leaves out features that cannot be read, repaired or made a shape, with a note each.
   bool skip_invalid = false;

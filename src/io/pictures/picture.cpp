@@ -81,7 +81,7 @@ Format picture_format(const char* extension) {
       .writes<AxesOutput, ShapesOutput, VoronoiOutput, LayersOutput, OffsetsOutput, CarvingOutput,
               FeaturesOutput, FieldOutput>(write_picture, write_picture, write_picture,
                                            write_picture, write_picture, write_picture,
-                                           write_picture, write_picture, write_picture);
+                                           write_picture, write_picture);
 }
 
 Format pdf_format() { return picture_format(".pdf"); }
