@@ -148,7 +148,9 @@ Status write_pixels(const Document<AxisItem>& axes, const RebuildArguments& argu
     image.error().place.feature = 0;
     return std::move(image).error();
   }
-  const io::ImageFile placed{{{}, image->placement}, axes.crs_wkt};
+  io::ImageFile placed;
+  placed.crs_wkt = axes.crs_wkt;
+  placed.placement = image->placement;
   const double h = image->placement[1];
   object["pixel"] = h;
   object["pixels"] = image->image.count();

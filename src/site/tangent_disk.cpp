@@ -4,10 +4,25 @@
 #include <limits>
 #include <optional>
 
-#include "base/vector.h"
-
 namespace medial::site {
 namespace {
+
+/// The solver's own arithmetic, for double and for the 113-bit type.
+template <class Real>
+struct Vector {
+  Real x, y;
+  friend Vector operator-(const Vector& a, const Vector& b) { return {a.x - b.x, a.y - b.y}; }
+  friend Vector operator+(const Vector& a, const Vector& b) { return {a.x + b.x, a.y + b.y}; }
+  friend Vector operator*(const Real& s, const Vector& a) { return {s * a.x, s * a.y}; }
+};
+template <class Real>
+Real dot(const Vector<Real>& a, const Vector<Real>& b) {
+  return a.x * b.x + a.y * b.y;
+}
+template <class Real>
+Real cross(const Vector<Real>& a, const Vector<Real>& b) {
+  return a.x * b.y - a.y * b.x;
+}
 
 /// A carrier: a disk at d from `point` with radius r touches it if
 /// round (d.d - r r) = 2 flat (normal.d - r). A line has round = 0, a point flat = 0.

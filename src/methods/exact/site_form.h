@@ -5,7 +5,6 @@
 
 #include <cmath>
 
-#include "base/vector.h"
 #include "medial/geometry.h"
 #include "methods/exact/numbers.h"
 
@@ -28,6 +27,22 @@ struct ApproximateRoots {
   Bounded<Real> root(const Bounded<Real>& square) { return root_of(square); }
 };
 
+template <class Number>
+struct Vector {
+  Number x, y;
+
+  friend Vector operator+(const Vector& a, const Vector& b) { return {a.x + b.x, a.y + b.y}; }
+  friend Vector operator-(const Vector& a, const Vector& b) { return {a.x - b.x, a.y - b.y}; }
+  friend Vector operator*(const Number& s, const Vector& a) { return {s * a.x, s * a.y}; }
+};
+template <class Number>
+Number dot(const Vector<Number>& a, const Vector<Number>& b) {
+  return a.x * b.x + a.y * b.y;
+}
+template <class Number>
+Number cross(const Vector<Number>& a, const Vector<Number>& b) {
+  return a.x * b.y - a.y * b.x;
+}
 template <class Number>
 Vector<Number> left_of(const Vector<Number>& a) {
   return {-a.y, a.x};
