@@ -21,9 +21,9 @@ LAYERS = {
     "verify": ["verify"],
     "methods": ["compute", "methods", "raster"],
     "voronoi": ["voronoi"],
-    "ops": ["carve", "centreline", "features", "measure", "offset", "pack", "prune", "rebuild", "sides"],
+    "ops": ["carve", "centreline", "features", "measure", "offset", "pack", "prune", "sides"],
     "volume": ["volume"],
-    "load": ["document", "load", "units"],
+    "load": ["document", "load"],
     "text": ["io/*"],
     "io": [],
     "all": ["medial"],
@@ -87,9 +87,14 @@ def main():
 
     faults = []
     core = ROOT / "include" / "medial"
-    whole = {name for _, name in INCLUDE.findall((core / "medial.h").read_text())}
+    whole, open_ends = set(), ["medial/medial.h"]
+    while open_ends:
+        name = open_ends.pop()
+        whole.add(name)
+        names = {name for _, name in INCLUDE.findall((ROOT / "include" / name).read_text())}
+        open_ends += [name for name in names if name.startswith("medial/") and name not in whole]
     faults += [f"include/medial/medial.h does not include {path.name}" for path in sorted(core.glob("*.h"))
-               if path.name != "medial.h" and f"medial/{path.name}" not in whole]
+               if f"medial/{path.name}" not in whole]
     files = sources("include") + sources("src")
     for path in files:
         faults += [f"{path.relative_to(ROOT)}: {fault}" for fault in faults_of(path)]

@@ -53,13 +53,6 @@ struct FieldOutput {
   std::span<const PotentialField> fields;
   const FieldPictureOptions& options;
 };
-struct PreviewOutput {
-  static constexpr DocumentKind kind = DocumentKind::preview;
-  std::span<const Shape> shapes;
-  std::span<const PreviewPanel> panels;
-  double width;
-  bool y_down;
-};
 struct VoxelsOutput {
   static constexpr DocumentKind kind = DocumentKind::voxels;
   const VoxelAxis& axis;
@@ -130,8 +123,8 @@ struct Format {
   bool adds_layers = false;  ///< to a file that is there; `own_files` then
   std::tuple<Writer<AxesOutput>, Writer<ShapesOutput>, Writer<VoronoiOutput>, Writer<OffsetsOutput>,
              Writer<CarvingOutput>, Writer<FeaturesOutput>, Writer<LayersOutput>,
-             Writer<FieldOutput>, Writer<PreviewOutput>, Writer<VoxelsOutput>,
-             Writer<DistancesOutput>, Writer<ImageOutput>>
+             Writer<FieldOutput>, Writer<VoxelsOutput>, Writer<DistancesOutput>,
+             Writer<ImageOutput>>
       writers{};
   unsigned kinds = 0;  ///< of documents that are written, a bit each
 

@@ -218,7 +218,7 @@ Status settle_crs(Document<Feature>& dataset, const std::string& crs) {
   dataset.geographic = false;
   dataset.unit = Unit::unknown;
   dataset.notes.push_back(
-      "the coordinates are no degrees, whatever the format says: they are taken as plane "
+      "the coordinates are not degrees, whatever the format says: they are taken as plane "
       "coordinates without a reference system; --crs EPSG:n names theirs");
   return success();
 }
@@ -259,10 +259,10 @@ Result<Document<Feature>> finish(Document<Feature> document, const ReadOptions& 
   if (options.project) {
     if (Status status = project_to_local(document); !status) return status.error();
   }
-  if (options.repair != RepairRule::none) {
+  if (options.repair == RepairRule::make_valid) {
     Status repaired = check_each(document, options.skip_invalid, [&](Feature& feature, auto index) {
       if (has_curves(feature) || feature.filled) return success();  // see ReadOptions
-      return repair(feature, index, options.repair, document.notes);
+      return make_valid(feature, index, document.notes);
     });
     if (!repaired) return std::move(repaired).error();
   }
@@ -334,7 +334,7 @@ Result<TriangleMesh> read_mesh(const std::string& path) {
   const Format* format = find_format(extension, DocumentKind::mesh);
   if (format == nullptr)
     return Error{ErrorCode::unsupported,
-                 fmt::format("'{}' is no mesh format; known are {}", extension,
+                 fmt::format("'{}' is not a mesh format; known are {}", extension,
                              formats_of(DocumentKind::mesh)),
                  in_file(path)};
   return guarded(path, [&]() -> Result<TriangleMesh> {

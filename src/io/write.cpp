@@ -10,7 +10,7 @@
 #include "io/guarded.h"
 #include "io/place.h"
 #include "io/reference_system.h"
-#include "medial/units.h"
+#include "medial/document.h"
 
 namespace medial::io {
 
@@ -35,8 +35,8 @@ Status write_document(const Destination& destination, const std::string& asked,
   const Format* format = find_format(target.format, Output::kind);
   if (format == nullptr)
     return Error{ErrorCode::unsupported,
-                 fmt::format("'{}' is no format to write here; known are {}", target.format,
-                             formats_of(Output::kind)),
+                 fmt::format("'{}' is not a format that can be written here; use one of {}",
+                             target.format, formats_of(Output::kind)),
                  in_file(path)};
   const bool stream = is_stream(path);
   target.name = stream ? standard.name : std::filesystem::path(path).stem().string();
@@ -132,12 +132,6 @@ Status write_field(const std::string& path, const std::string& format,
                    std::span<const Shape> shapes, std::span<const PotentialField> fields,
                    const FieldPictureOptions& options) {
   return write_document(path, format, {"svg"}, {}, FieldOutput{shapes, fields, options});
-}
-
-Status write_preview(const std::string& path, const std::string& format,
-                     std::span<const Shape> shapes, std::span<const PreviewPanel> panels,
-                     double width, bool y_down) {
-  return write_document(path, format, {"svg"}, {}, PreviewOutput{shapes, panels, width, y_down});
 }
 
 Status write_voxels(const std::string& path, const std::string& format, const VoxelAxis& axis,

@@ -3,8 +3,9 @@
 // Documents as files and pictures. Functions write by the extension of `path`, or by `format` (an
 // extension without its dot) in its place; `-` is standard output, but of images and distances.
 // There is never a partial file: it is written beside its target, then renamed. Formats of GIS,
-// .wkt and .csv get longitudes and latitudes again after project_to_local(); radii and lengths stay
-// in metres. Errors of all: unsupported, unwritable, invalid_option (chord, width), out_of_memory.
+// .wkt and .csv get longitudes and latitudes again after ReadOptions::project; radii and lengths
+// stay in metres. Errors of all: unsupported, unwritable, invalid_option (chord, width),
+// out_of_memory.
 
 #include "medial/carve.h"
 #include "medial/features.h"
@@ -32,7 +33,6 @@ enum class DocumentKind : std::uint8_t {
   features,
   layers,
   field,
-  preview,
   voxels,
   distances,
   image,
@@ -199,15 +199,6 @@ struct FieldPictureOptions {
 Status write_field(const std::string& path, const std::string& format,
                    std::span<const Shape> shapes, std::span<const PotentialField> fields,
                    const FieldPictureOptions& options = {});
-
-struct PreviewPanel {
-  std::string title;
-  std::vector<MedialAxis> axes;
-};
-/// Pictures of the same shapes in rows, one for each panel, with its axes and its title below.
-Status write_preview(const std::string& path, const std::string& format,
-                     std::span<const Shape> shapes, std::span<const PreviewPanel> panels,
-                     double width, bool y_down);
 
 /// An axis of voxels: .ply (binary) and .vtk (legacy, text) have points with radius and quality,
 /// and edges; .obj points and edges; .png three views of solid and axis, `width` pixels wide.

@@ -4,7 +4,7 @@
 #include "axis/statistics.h"
 #include "io/formats/json.h"
 #include "io/formats/json_rows.h"
-#include "medial/units.h"
+#include "medial/document.h"
 
 namespace medial::io {
 
@@ -245,7 +245,7 @@ AxisItem read_item(json::value value) {
       value.get_object(),
       Member{"attributes",
              [&](json::value v) {
-               read_attributes(v, "an attribute is no pair of texts", item.attributes);
+               read_attributes(v, "an attribute is not a pair of strings", item.attributes);
              }},
       Member{"shape", [&](json::value v) { read_shape(v, item.shape); }},
       Member{"contours", [&](json::value v) { append_all(v, item.contours, read_contour); }},

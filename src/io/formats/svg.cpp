@@ -23,7 +23,7 @@
 
 #include "io/formats/svg_document.h"
 #include "io/formats/svg_path.h"
-#include "medial/units.h"
+#include "medial/document.h"
 
 namespace medial::io {
 

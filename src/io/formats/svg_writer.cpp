@@ -8,7 +8,7 @@
 #include "base/arc.h"
 #include "io/formats/svg.h"
 #include "io/ring_text.h"
-#include "medial/units.h"
+#include "medial/document.h"
 
 namespace medial::io {
 

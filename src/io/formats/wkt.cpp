@@ -99,7 +99,7 @@ class WktReader {
                      {}};
       }
       dataset_.notes.push_back(
-          fmt::format("{} geometries are no polygons and were left out", others_));
+          fmt::format("{} geometries are not polygons and were left out", others_));
     }
     return std::move(dataset_);
   }

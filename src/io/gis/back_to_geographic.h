@@ -4,11 +4,15 @@
 #include <string>
 #include <vector>
 
-#include "medial/error.h"
+#include "medial/document.h"
 
 class OGRCoordinateTransformation;
 
 namespace medial::io {
+
+/// See ReadOptions::project. Errors: invalid_option (no degrees), unsupported (points that cannot
+/// be projected).
+Status project_to_local(Document<Feature>& document);
 
 /// Whether a reference system is one that project_to_local() made.
 bool is_local_projection(const std::string& crs_wkt);

@@ -1,4 +1,3 @@
-#include "medial/io/build_info.h"
 
 #include <cairo.h>
 #include <fmt/format.h>

@@ -114,9 +114,10 @@ class GdalReader {
       return error(ErrorCode::malformed,
                    failure.empty() ? "the content is not what the format says" : failure);
     }
-    return error(ErrorCode::unsupported,
-                 "this is no image, no drawing and none of the vector formats that GDAL knows; "
-                 "medial axis --help lists what is read");
+    return error(
+        ErrorCode::unsupported,
+        "this is neither an image nor a drawing nor one of the vector formats that GDAL knows; "
+        "medial axis --help lists what is read");
   }
 
   Result<OGRLayer*> choose_layer(GDALDataset& source) {
@@ -188,7 +189,7 @@ class GdalReader {
     }
     if (counts_.others > 0) {
       dataset_.notes.push_back(
-          fmt::format("{} geometries are no polygons and were left out", counts_.others));
+          fmt::format("{} geometries are not polygons and were left out", counts_.others));
     }
     if (without_geometry_ > 0) {
       dataset_.notes.push_back(

@@ -191,7 +191,7 @@ Status describe_crs(const std::string& name, Document<Feature>& dataset) {
   if (reference.SetFromUserInput(
           name.c_str(), OGRSpatialReference::SET_FROM_USER_INPUT_LIMITATIONS_get()) != OGRERR_NONE)
     return Error{ErrorCode::invalid_option,
-                 fmt::format("'{}' names no reference system; EPSG:n or WKT does", name),
+                 fmt::format("'{}' does not name a reference system; use EPSG:n or WKT", name),
                  {}};
   set_crs(reference, dataset);
   return success();

@@ -138,7 +138,7 @@ Status project_to_local(Document<Feature>& dataset) {
   if (!can_be_degrees(dataset)) {
     return Error{
         ErrorCode::invalid_option,
-        "the coordinates are no degrees, so they cannot be projected: leave --project out, or "
+        "the coordinates are not degrees, so they cannot be projected: leave out --project, or "
         "name their reference system by --crs EPSG:n",
         {}};
   }
@@ -194,8 +194,9 @@ Result<BackToGeographic> BackToGeographic::make(const std::string& crs_wkt) {
   const GdalMessages messages;
   OGRSpatialReference local;
   if (!is_local_projection(crs_wkt) || local.importFromWkt(crs_wkt.c_str()) != OGRERR_NONE) {
-    return Error{
-        ErrorCode::unsupported, "the reference system is no local projection of medial's", {}};
+    return Error{ErrorCode::unsupported,
+                 "the reference system is not a local projection made by medial",
+                 {}};
   }
   OGRSpatialReference geographic;
   geographic.CopyGeogCSFrom(&local);

@@ -8,7 +8,7 @@
 
 #include "io/gis/gdal_support.h"
 #include "io/gis/make_file.h"
-#include "medial/units.h"
+#include "medial/document.h"
 
 namespace medial::io {
 

@@ -80,9 +80,9 @@ Format with_pictures(Format format) {
   Writer<ShapesOutput> shapes = std::get<Writer<ShapesOutput>>(format.writers);
   if (shapes == nullptr) shapes = write_picture;
   return format.writes<AxesOutput, ShapesOutput, VoronoiOutput, LayersOutput, OffsetsOutput,
-                       CarvingOutput, FeaturesOutput, FieldOutput, PreviewOutput>(
+                       CarvingOutput, FeaturesOutput, FieldOutput>(
       write_picture, shapes, write_picture, write_picture, write_picture, write_picture,
-      write_picture, write_picture, write_picture);
+      write_picture, write_picture);
 }
 
 }  // namespace medial::io

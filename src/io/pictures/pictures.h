@@ -24,7 +24,6 @@ Status write_picture(Target& target, const CarvingOutput& output);
 /// Shapes with their runs coloured by primitive, and their names.
 Status write_picture(Target& target, const FeaturesOutput& output);
 Status write_picture(Target& target, const FieldOutput& output);
-Status write_picture(Target& target, const PreviewOutput& output);
 
 // The parts of a picture of axes.
 

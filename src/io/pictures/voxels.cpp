@@ -11,6 +11,7 @@
 #include <memory>
 #include <vector>
 
+#include "base/vec3.h"
 #include "io/gis/rasters.h"
 #include "io/pictures/pictures.h"
 #include "medial/geometry.h"

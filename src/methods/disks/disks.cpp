@@ -4,6 +4,7 @@
 #include <atomic>
 #include <optional>
 
+#include "axis/statistics.h"
 #include "base/memory.h"
 #include "base/stopwatch.h"
 #include "methods/checks.h"
