@@ -16,6 +16,10 @@ void describe_crs(Document<Feature>& document);
 /// The same of the one that is named. Errors: invalid_option (it names none).
 Status describe_crs(const std::string& name, Document<Feature>& document);
 
+/// See ReadOptions::project. Errors: invalid_option (no degrees), unsupported (points that cannot
+/// be projected).
+Status project_to_local(Document<Feature>& document);
+
 /// The reference system of an output: that of the document, or its longitudes and latitudes again
 /// where that is a local projection of project_to_local(). Errors: unsupported (a local projection
 /// that cannot be undone).

@@ -34,7 +34,7 @@ Status project_to_local(Document<Feature>&) { return missing("GDAL", "project");
 Status back_to_geographic(const std::string&, std::vector<Vec2>&) { return success(); }
 
 /// load_shapes() mends these by noding.
-Status repair(Feature&, std::size_t, RepairRule, std::vector<std::string>&) { return success(); }
+Status make_valid(Feature&, std::size_t, std::vector<std::string>&) { return success(); }
 
 Result<Document<Feature>> read_text(const std::string&, const std::string&) {
   return missing("FreeType", "draw a text");
