@@ -546,7 +546,7 @@ TEST(Adversarial, VerticalEdgesAndEqualX) {
 /// What a ring becomes where another ring, far away, has the sweep decide.
 Result<Shape> swept(const Ring& ring, ShapeReport& report) {
   const Ring far{{{1000, 1000}, {1001, 1000}, {1000, 1001}}};
-  Result<Shape> shape = build_shape(std::vector<Ring>{ring, far}, &report);
+  Result<Shape> shape = build_shape(std::vector<Ring>{ring, far}, {}, &report);
   if (!shape) return shape;
   const std::size_t size = shape->points.size() - 3;
   shape->points.resize(size);
@@ -570,7 +570,7 @@ TEST(SmallPolygons, AreWhatTheSweepMakesOfThem) {
     for (std::uint64_t k = 3 + random() % 6; k > 0; --k)
       ring.points.push_back({coordinate(), coordinate()});
     ShapeReport report, expected_report;
-    const Result<Shape> shape = build_shape(std::span(&ring, 1), &report);
+    const Result<Shape> shape = build_shape(std::span(&ring, 1), {}, &report);
     const Result<Shape> expected = swept(ring, expected_report);
     ASSERT_EQ(shape.ok(), expected.ok()) << i;
     EXPECT_EQ(report.reversed_rings, expected_report.reversed_rings) << i;
