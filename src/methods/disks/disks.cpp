@@ -54,7 +54,8 @@ std::optional<Graph> graph_of(const Problem& problem, double walk_tolerance, Dec
   Stopwatch watch;
 #ifdef MEDIAL_HAS_EXACT
   const bool takes_exact =
-      decides != Decides::in_double && !boundary.has_arcs && !boundary.two_sided;
+      !boundary.two_sided &&
+      (decides == Decides::in_precise || (decides == Decides::in_stages && !boundary.has_arcs));
 #else
   constexpr bool takes_exact = false;
 #endif
@@ -139,14 +140,15 @@ Result<Outcome> attempt(const Problem& problem, bool two_sided, std::optional<do
 
 Result<Outcome> run(const Problem& problem) {
   std::optional<Error> error;
-  // To another share of the tolerance, what misled the walk may be one contact, or two.
+  // Next to arcs double decides. To another share of the tolerance, what misled it may be one
+  // contact, or two; in 256 bits it is what the shape has.
   struct Attempt {
     std::optional<double> share;
     Decides decides = Decides::in_double;
   };
   std::vector<Attempt> attempts{{{}, Decides::in_stages}, {{}, Decides::in_precise}, {}};
   if (!problem.shape.bulges.empty())
-    attempts = {{}, {in_centers_share}, {0.25}, {0.0625}, {0.5}, {1.0}};
+    attempts = {{}, {in_centers_share}, {1.0}, {1.0, Decides::in_precise}};
   for (const auto& [share, decides] : attempts) {
     std::vector<Edge> edges;
     Result<Outcome> outcome = attempt(problem, false, share, decides, edges);
@@ -155,7 +157,8 @@ Result<Outcome> run(const Problem& problem) {
       continue;
     }
     outcome->axis.edges = std::move(edges);
-    const bool is_doubtful = outcome->in_centers || (error && decides == Decides::in_double);
+    const bool is_doubtful =
+        outcome->in_centers || (error && (share || decides == Decides::in_double));
     if (!is_doubtful || problem.is_cancelled()) return outcome;
     if (outcome->in_centers && !share) continue;  // a finer one is due
     auto refused = error_if_refused(problem, outcome->axis);

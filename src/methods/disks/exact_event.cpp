@@ -46,12 +46,16 @@ class ExactEvents::Search {
   Search(const ExactEvents& events, const Span& span, const Disk& from)
       : events_(events), outline_(events.sites_.outline()), span_(span), from_(from) {}
 
-  std::optional<Found> run(std::uint32_t hint) {
+  std::optional<Found> run(std::uint32_t hint, bool all_around) {
     std::vector<std::uint32_t> candidates{span_.right + 1, span_.left - 1, span_.right + 2,
                                           span_.left - 2, hint};
     double reach = from_.radius + rounding;
     for (;;) {
-      for (const std::uint32_t site : candidates) consider(site);
+      for (const std::uint32_t site : candidates)
+        if (all_around)
+          consider_at_joint(site);
+        else
+          consider(site);
       candidates = best_ ? intruders() : std::vector<std::uint32_t>{};
       if (best_ && candidates.empty()) return Found{site_, rounded(), is_well_known()};
       std::erase_if(candidates, [&](std::uint32_t site) { return is_seen(site); });
@@ -125,6 +129,19 @@ class ExactEvents::Search {
         static_cast<double>(best_->radius.value)};
   }
 
+  /// Makes a site the best if the disk that grows where the span's ends join touches it before the
+  /// best so far.
+  void consider_at_joint(std::uint32_t site) {
+    if (is_seen(site)) return;
+    seen_.insert(site);
+    const std::uint32_t before = name(span_.left), after = name(span_.right), third = name(site);
+    const auto disk = exact::disk_bounds<Precise>(outline_, {before, after, third}, Disk{});
+    if (!disk || (best_ && !(best_->radius - disk->radius).positive())) return;
+    if (!is_touched(site, *disk)) return;
+    best_ = disk;
+    site_ = site;
+  }
+
   /// Whether 256 bits tell the best disk to all digits of a double: not between sites that are
   /// parallel but for some 1e-60.
   bool is_well_known() const {
@@ -188,7 +205,12 @@ class ExactEvents::Search {
 
 std::optional<ExactEvents::Found> ExactEvents::next(const Span& span, const Disk& from,
                                                     std::uint32_t hint) const {
-  return Search(*this, span, from).run(hint);
+  return Search(*this, span, from).run(hint, false);
+}
+
+std::optional<ExactEvents::Found> ExactEvents::start(const Span& whole, const Disk& about,
+                                                     std::uint32_t hint) const {
+  return Search(*this, whole, about).run(hint, true);
 }
 
 }  // namespace medial::disks
@@ -203,6 +225,11 @@ std::optional<ExactSites::Touch> ExactSites::first_touch(Vec2, const Boundary&,
 }
 
 std::optional<ExactEvents::Found> ExactEvents::next(const Span&, const Disk&, std::uint32_t) const {
+  return std::nullopt;
+}
+
+std::optional<ExactEvents::Found> ExactEvents::start(const Span&, const Disk&,
+                                                     std::uint32_t) const {
   return std::nullopt;
 }
 

@@ -61,6 +61,8 @@ class ExactEvents {
   /// keeps clear of all sites in the span. `from`: about the disk of the span's node; `hint`: a
   /// site to begin with, if it lies in the span. None where the span has no such disk.
   std::optional<Found> next(const Span& span, const Disk& from, std::uint32_t hint) const;
+  /// The site that the disk touches first that grows where the ends of a run join smoothly.
+  std::optional<Found> start(const Span& whole, const Disk& about, std::uint32_t hint) const;
 
  private:
   const ExactSites& sites_;

@@ -65,6 +65,7 @@ class Walker {
   void follow(Span span) {
     if (!is_open(span)) return;
     for (;;) {
+      if (is_exact() && joins_pieces(span) && !is_open(span)) return;
       const Disk from = chunk_.nodes[span.node];
       double error = 0;
       const Event event = next_event(span, from, error);
@@ -94,11 +95,26 @@ class Walker {
     }
   }
 
+  bool is_exact() const { return context_.exact != nullptr && context_.exact->always; }
+
+  /// Passes on to the last piece of an arc that the boundary has in several, which are one site of
+  /// the shape. Whether there were any.
+  bool joins_pieces(Span& span) const {
+    const Span before = span;
+    const auto same = [&](std::uint32_t i) {
+      return element(i) != Element::bridge &&
+             boundary_.originals[i] == boundary_.originals[i + 1] && element(i + 1) == element(i);
+    };
+    while (span.left - span.right > 1 && same(span.right)) ++span.right;
+    while (span.left - span.right > 1 && same(span.left - 1)) --span.left;
+    return span.right != before.right || span.left != before.left;
+  }
+
   /// What ends the edge of a span: decided in double where that is certain, otherwise in 256 bits.
   /// `error` gets how far the exact disk may be.
   Event next_event(const Span& span, const Disk& from, double& error) {
     Event event;
-    if (context_.exact == nullptr || !context_.exact->always) {
+    if (!is_exact()) {
       event = EventSearch(context_, contacts_, chunk_.statistics, span, from).next();
       if (context_.exact == nullptr) return event;
       const Certainty certainty(boundary_, context_.tolerance, span, from, event);
@@ -153,9 +169,26 @@ class Walker {
       radius = smaller;
     }
     const Disk disk = disk_of(radius);
+    if (is_exact()) {
+      start_exactly(whole, disk, touched);
+      return;
+    }
     const std::uint32_t node = add_node(disk);
     if (touched != Hit::none) touched = contacts_.owner(touched, disk.center, whole);
     split({run.first, run.last, node}, disk, touched, true);
+  }
+
+  /// start_at_smooth_place() in 256 bits; `about` and `hint` are what double takes for it.
+  void start_exactly(const Span& whole, const Disk& about, std::uint32_t hint) {
+    ++chunk_.statistics.exact_precise;
+    const auto found = context_.exact->start(whole, about, hint);
+    if (!found) {
+      ++chunk_.statistics.exact_changes;
+      return;
+    }
+    const std::uint32_t node = add_node(found->disk);
+    push({whole.right, found->site, node, whole.left, Certainty::rounding},
+         {found->site, whole.left, node, whole.right, Certainty::rounding});
   }
 
   /// Whether a walk is needed between the two sites; where they are neighbours, ends the axis
