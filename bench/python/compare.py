@@ -111,7 +111,7 @@ def of_image(module, name, size):
     function = getattr(importlib.import_module(module), name)
     image, small = picture(size), np.eye(8, dtype=bool)
     function(small)
-    pathlib.Path("/proc/self/clear_refs").write_text("5")  # the peak begins anew
+    pathlib.Path("/proc/self/clear_refs").write_text("5")  # forgets the peak so far
     before = kilobytes("VmRSS")
     function(image)
     memory = kilobytes("VmHWM") - before
