@@ -1,13 +1,14 @@
 #!/usr/bin/env python3
 """Measures the Python package beside its peers, on one thread, by processor time.
 
-    compare.py [COUNT]
+    compare.py [COUNT [POLYGON.wkt]]
 
 Peers that are not installed are left out: pip install pygeoops centerline scikit-image.
 """
 
 import multiprocessing
-import resource
+import pathlib
+import subprocess
 import sys
 import time
 
@@ -68,10 +69,39 @@ def one():
         row(f"a rectangle, {method}", 20_000, seconds(lambda: [medial.axis(rectangle, method) for _ in range(20_000)]))
 
 
+def large(path):
+    """What Python adds to the library's own time."""
+    print(f"\n## {pathlib.Path(path).name}, one thread\n\n| | s |\n| --- | ---: |")
+    points = shapely.get_coordinates(shapely.from_wkt(pathlib.Path(path).read_text()))
+    shape = medial.Shape(points)
+    inside = medial.axis(shape, threads=1)
+
+    def line(name, work):
+        print(f"| {name} | {seconds(work, 5):.4g} |")
+
+    line("the axis of the shape", lambda: medial.axis(shape, threads=1))
+    line("the shape of coordinates", lambda: medial.Shape(points))
+    line("the axis of coordinates", lambda: medial.axis(points, threads=1))
+    line("its nodes and edges as arrays", lambda: (inside.nodes["x"].sum(), inside.edges["weight"].sum()))
+    line("the largest circle, of coordinates", lambda: medial.maximum_inscribed_circle(points))
+    line("shapely.maximum_inscribed_circle", lambda: shapely.maximum_inscribed_circle(shapely.Polygon(points)))
+
+
+def imports():
+    code = "import numpy, time; begin = time.process_time(); import medial; print(time.process_time() - begin)"
+    took = [float(subprocess.check_output([sys.executable, "-c", code])) for _ in range(20)]
+    print(f"\n`import medial` after NumPy: {1000 * min(took):.1f} ms")
+
+
 def picture(size):
     from skimage import data, transform
 
     return transform.resize((~data.horse()).astype(float), (size, size), order=0) > 0.5
+
+
+def kilobytes(name):
+    status = pathlib.Path("/proc/self/status").read_text()
+    return int(next(line for line in status.splitlines() if line.startswith(name)).split()[1])
 
 
 def of_image(module, name, size):
@@ -81,15 +111,16 @@ def of_image(module, name, size):
     function = getattr(importlib.import_module(module), name)
     image, small = picture(size), np.eye(8, dtype=bool)
     function(small)
-    before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    pathlib.Path("/proc/self/clear_refs").write_text("5")  # forgets the peak so far
+    before = kilobytes("VmRSS")
     function(image)
-    memory = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before
+    memory = kilobytes("VmHWM") - before
     return 1000 * seconds(lambda: function(image), 2), memory / 1024
 
 
 def images():
     print("\n## Images: milliseconds (megabytes)\n\n| pixels | | scikit-image | here | times |\n| --- | --- | ---: | ---: | ---: |")
-    new = multiprocessing.get_context("spawn")
+    new = multiprocessing.get_context("spawn")  # a process for each measurement
     for size in (512, 1024, 2048, 4096):
         for name in ("medial_axis", "skeletonize"):
             numbers = []
@@ -104,4 +135,7 @@ def images():
 if __name__ == "__main__":
     many()
     one()
+    imports()
+    if len(sys.argv) > 2:
+        large(sys.argv[2])
     images()

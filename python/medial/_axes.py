@@ -19,7 +19,7 @@ from ._shape import load
 
 
 class Axes:
-    """The axes of many features as one struct of arrays; made by :func:`axes`.
+    """The axes of many features as one struct of arrays; made by `axes`.
 
     Feature i has the nodes from ``node_begin[i]`` to ``node_begin[i + 1]``, and edges and sites
     in the same way. Indices in edges count within the feature.
@@ -42,17 +42,17 @@ class Axes:
 
     @property
     def nodes(self) -> Records:
-        """As :attr:`MedialAxis.nodes`, of all features."""
+        """As `MedialAxis.nodes`, of all features."""
         return records(self._core.nodes(), NODE)
 
     @property
     def edges(self) -> Records:
-        """As :attr:`MedialAxis.edges`, of all features."""
+        """As `MedialAxis.edges`, of all features."""
         return records(self._core.edges(), EDGE)
 
     @property
     def sites(self) -> Records:
-        """As :attr:`MedialAxis.sites`, of all features."""
+        """As `MedialAxis.sites`, of all features."""
         return records(self._core.sites(), SITE)
 
     @property
@@ -271,12 +271,12 @@ def axes(
     Parameters
     ----------
     x : features
-        A GeoSeries or GeoDataFrame, a sequence of anything that :func:`axis` takes but curves,
+        A GeoSeries or GeoDataFrame, a sequence of anything that `axis` takes but curves,
         well-known binary in a sequence or an Arrow array, a GeoArrow array of polygons or
         multipolygons, or what ``shapely.to_ragged_array`` returns: ``(coordinates, offsets)``
         with or without the geometry type before them.
     method : str, optional
-        See :func:`axis`.
+        See `axis`.
     on_error : {"raise", "ignore"}
         Whether the first feature that has no axis raises; otherwise ``Axes.errors`` has it.
     threads : int, optional

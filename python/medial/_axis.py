@@ -36,7 +36,7 @@ _CoreAxis = _core.Axis
 class MedialAxis:
     """The medial axis transform of a shape: a graph of exact curves in (x, y, radius).
 
-    Made by :func:`axis`. It cannot change: operations such as :meth:`prune` return another one.
+    Made by `axis`. It cannot change: operations such as `prune` return another one.
 
     Attributes
     ----------
@@ -206,7 +206,7 @@ class MedialAxis:
 
     def prune(self, measure: str = "prominence", threshold: float | None = None, *,
               keep: int | None = None, tips: bool = False) -> MedialAxis:  # fmt: skip
-        """The part that matters: see :func:`medial.prune`."""
+        """The part that matters: see `medial.prune`."""
         core, _ = _core.pruned(self._core, measure, threshold, keep, tips)
         return MedialAxis._of(core)
 
@@ -215,7 +215,7 @@ class MedialAxis:
         return MedialAxis._of(_core.clearance_part(self._core, clearance))
 
     def verify(self, **given: Any) -> Any:
-        """The measured errors: see :func:`medial.verify`."""
+        """The measured errors: see `medial.verify`."""
         from ._operations import verify
 
         return verify(self, **given)
@@ -230,7 +230,7 @@ class MedialAxis:
         return shapely.from_ragged_array(kind, points, (begin, np.array([0, len(begin) - 1])))[0]
 
     def to_geopandas(self, chord: float | None = None, crs: Any = None) -> Any:
-        """A GeoDataFrame with a row for each branch, as :attr:`branches` and its line."""
+        """A GeoDataFrame with a row for each branch, as `branches` and its line."""
         geopandas, shapely = need("geopandas", "geo"), need("shapely", "geo")
         table = self.branches
         points, begin = self.lines(chord)
@@ -338,7 +338,7 @@ class MedialAxis:
         return True
 
     def __iter__(self) -> Iterator[Floats]:
-        """The branches, as :meth:`sample` gives them."""
+        """The branches, as `sample` gives them."""
         return iter(self.sample())
 
     def __repr__(self) -> str:
@@ -387,10 +387,10 @@ def axis(
     x : geometry
         A shapely Polygon or MultiPolygon, anything with ``__geo_interface__``, GeoJSON as a
         mapping, well-known binary or text, an SVG path, coordinates as rows of x and y, a list
-        of rings (holes by the even-odd rule), a :class:`Contour` or a list of them, or a
-        :class:`Shape`.
+        of rings (holes by the even-odd rule), a `Contour` or a list of them, or a
+        `Shape`.
     method : str, optional
-        A name of :func:`methods`; the default is ``medial.options.method``.
+        A name of `methods`; the default is ``medial.options.method``.
     bulges : array, optional
         Of each coordinate's edge: the tangent of a quarter of the angle it spans; 0 straight.
     repair : {"make_valid", "even_odd", "non_zero"}, optional

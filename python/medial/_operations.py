@@ -29,7 +29,7 @@ def prune(x: Any, measure: str = "prominence", threshold: float | None = None, *
     ----------
     x : MedialAxis or geometry
     measure : str
-        A name of :func:`prune_measures`.
+        A name of `prune_measures`.
     threshold : float, optional
         The default is that of the measure.
     keep : int, optional
@@ -48,7 +48,7 @@ def prune(x: Any, measure: str = "prominence", threshold: float | None = None, *
 
 
 def prune_measures() -> dict[str, float]:
-    """The measures of :func:`prune` with their default thresholds."""
+    """The measures of `prune` with their default thresholds."""
     return dict(_core.prune_measures())
 
 
@@ -222,7 +222,7 @@ def centerline(x: Any, start: Sequence[float] | None = None, end: Sequence[float
     start, end : (x, y), optional
         Where the line begins and ends, instead of the two ends that are farthest apart.
     trim, route, extend, smooth
-        See :func:`centerlines`.
+        See `centerlines`.
 
     Examples
     --------
@@ -259,7 +259,7 @@ def widest_path(x: Any, start: Sequence[float], end: Sequence[float], *, extend:
 
 
 def width_profile(x: Any, samples: int | npt.ArrayLike = 100, **given: Any) -> Widths:
-    """The width along the centre line; further options are those of :func:`centerline`.
+    """The width along the centre line; further options are those of `centerline`.
 
     Examples
     --------
@@ -726,7 +726,7 @@ def unpack(code: Pack) -> MedialAxis:
 
 
 class Field:
-    """The generalised potential of a charged border; made by :func:`field`."""
+    """The generalised potential of a charged border; made by `field`."""
 
     def __init__(self, core: _core.Field) -> None:
         self._core = core

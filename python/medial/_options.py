@@ -16,7 +16,7 @@ class Settings:
     Attributes
     ----------
     method : str
-        The method of :func:`axis` and :func:`axes`; :func:`methods` lists them.
+        The method of `axis` and `axes`; `methods` lists them.
     threads : int
         Threads to use; 0: all of the machine.
     chord : float

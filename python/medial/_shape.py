@@ -19,12 +19,12 @@ _CoreShape = _core.Shape
 class Shape:
     """A bounded region of the plane, of straight and circular edges.
 
-    Made by operations such as :func:`rebuild`, or from anything that :func:`axis` takes.
+    Made by operations such as `rebuild`, or from anything that `axis` takes.
 
     Parameters
     ----------
     x : geometry
-        See :func:`axis`.
+        See `axis`.
     bulges : array, optional
         Of each edge, for one ring: the tangent of a quarter of the angle it spans.
     repair : {"make_valid", "even_odd", "non_zero"}, optional

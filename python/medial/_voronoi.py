@@ -24,7 +24,7 @@ class NearestSites(NamedTuple):
 
 
 class Voronoi:
-    """The Voronoi diagram of points, segments and arcs, within a frame; made by :func:`voronoi`.
+    """The Voronoi diagram of points, segments and arcs, within a frame; made by `voronoi`.
 
     Sites are the points first, then the edges between them, in an order of their own: the fields
     ``ring`` and ``vertex`` of a site are the line and the vertex of the input, from 0.
@@ -38,12 +38,12 @@ class Voronoi:
 
     @property
     def sites(self) -> Records:
-        """As :attr:`MedialAxis.sites`; kind vertex: a point."""
+        """As `MedialAxis.sites`; kind vertex: a point."""
         return records(self._core.sites(), SITE)
 
     @property
     def nodes(self) -> Records:
-        """As :attr:`MedialAxis.nodes`."""
+        """As `MedialAxis.nodes`."""
         return records(self._core.nodes(), NODE)
 
     @property

@@ -1,6 +1,6 @@
 """Operations on many features at once: arrays in, arrays out.
 
-Each function takes what :func:`medial.axes` takes, computes on several threads without the
+Each function takes what `medial.axes` takes, computes on several threads without the
 interpreter's lock, and makes no Python object for a feature. What fails is raised, or kept by
 feature with ``on_error="ignore"``.
 
@@ -158,7 +158,7 @@ def _each(
 
 def axis(x: Any, method: str | None = None, *, chord: float | None = None, on_error: str = "raise",
          threads: int | None = None, progress: Any = False) -> Geometries:  # fmt: skip
-    """The medial axes as lines: multi line strings. :func:`medial.axes` returns them as graphs."""
+    """The medial axes as lines: multi line strings. `medial.axes` returns them as graphs."""
     found = axes(x, method, on_error=on_error, threads=threads, progress=progress)
     points, lines, features = found.lines(chord)
     return Geometries(points, (lines, features), found.errors)
@@ -167,7 +167,7 @@ def axis(x: Any, method: str | None = None, *, chord: float | None = None, on_er
 def centerline(x: Any, method: str | None = None, *, trim: float = 1, route: str = "roomy", extend: bool = False,
                smooth: float = 0, chord: float | None = None, on_error: str = "raise",
                threads: int | None = None, progress: Any = False) -> Geometries:  # fmt: skip
-    """The centre lines, as :func:`medial.centerline`: line strings."""
+    """The centre lines, as `medial.centerline`: line strings."""
     given = {"trim": trim, "route": route, "extend": extend, "smooth": smooth, "chord": chord, "share": options.chord}
     return Geometries(*_each(x, "centerline", given, method, on_error, threads, progress))
 
@@ -181,7 +181,7 @@ def width(x: Any, samples: int = 100, method: str | None = None, *, trim: float 
 
 def inscribed_circles(x: Any, count: int = 1, smallest: float = 0, *, on_error: str = "raise",
                       threads: int | None = None, progress: Any = False) -> Table:  # fmt: skip
-    """The largest circles without overlap, as :func:`medial.inscribed_circles`."""
+    """The largest circles without overlap, as `medial.inscribed_circles`."""
     given = {"count": count, "smallest": float(smallest)}
     return Table(*_each(x, "inscribed_circles", given, None, on_error, threads, progress), ("x", "y", "radius"))
 
@@ -196,7 +196,7 @@ def offset(x: Any, distance: float, *, chord: float | None = None, on_error: str
 def prune(x: Any, measure: str = "prominence", threshold: float | None = None, method: str | None = None, *,
           keep: int | None = None, tips: bool = False, chord: float | None = None, on_error: str = "raise",
           threads: int | None = None, progress: Any = False) -> Geometries:  # fmt: skip
-    """The pruned axes, as :func:`medial.prune`: multi line strings."""
+    """The pruned axes, as `medial.prune`: multi line strings."""
     given = {"measure": measure, "threshold": threshold, "keep": keep, "tips": tips, "chord": chord,
              "share": options.chord}  # fmt: skip
     return Geometries(*_each(x, "prune", given, method, on_error, threads, progress))

@@ -74,7 +74,7 @@ class MedialAccessor:
         return frame.set_geometry(self._back(frame.geometry.to_numpy(), frame.index))
 
     def centerline(self, **given: Any) -> Any:
-        """A GeoSeries of LineStrings; options as :func:`medial.arrays.centerline`."""
+        """A GeoSeries of LineStrings; options as `medial.arrays.centerline`."""
         return self._back(arrays.centerline(self._metric(), **given).to_shapely())
 
     centreline = centerline
@@ -106,7 +106,7 @@ class MedialAccessor:
         return self._back(parts)
 
     def prune(self, measure: str = "prominence", threshold: float | None = None, **given: Any) -> Any:
-        """A GeoSeries of the pruned axes; options as :func:`medial.arrays.prune`."""
+        """A GeoSeries of the pruned axes; options as `medial.arrays.prune`."""
         return self._back(arrays.prune(self._metric(), measure, threshold, **given).to_shapely())
 
     def _frame(self, columns: dict[str, Any], geometries: Any, index: Any) -> Any:

@@ -1,7 +1,7 @@
 """Skeletons and distances of images, with the signatures of scikit-image.
 
 The functions take what scikit-image's take and return the same types; results differ where
-:doc:`the table </images>` says. :func:`axis` makes exact vector graphs of labelled regions.
+:doc:`the table </images>` says. `axis` makes exact vector graphs of labelled regions.
 """
 
 from __future__ import annotations
@@ -186,7 +186,7 @@ def axis(
     smooth : bool
         Whether boundaries become smooth curves within half a pixel of the pixels' edges.
     measure, threshold : optional
-        How axes are pruned (:func:`medial.prune`); None: not at all.
+        How axes are pruned (`medial.prune`); None: not at all.
 
     Examples
     --------

@@ -158,7 +158,7 @@ def axis(df: DataFrame, column: str = "geometry", into: str = "axis", *, method:
         The name of the new column: a struct of `geometry` (multi line strings), `length`, the
         largest disk's `radius`, `x` and `y`, and `error`.
     method : str, optional
-        See :func:`medial.axis`.
+        See `medial.axis`.
     chord : float, optional
         How far lines may be from curves.
     graph : bool
@@ -179,7 +179,7 @@ def _lines(df: DataFrame, column: str, into: str, make: Callable[[Any], arrays.G
 
 
 def centerline(df: DataFrame, column: str = "geometry", into: str = "centerline", **given: Any) -> DataFrame:
-    """The centre lines as line strings; options as :func:`medial.arrays.centerline`."""
+    """The centre lines as line strings; options as `medial.arrays.centerline`."""
     return _lines(df, column, into, lambda x: arrays.centerline(x, on_error="ignore", threads=1, **given))
 
 
@@ -189,7 +189,7 @@ def offset(df: DataFrame, distance: float, column: str = "geometry", into: str =
 
 
 def prune(df: DataFrame, column: str = "geometry", into: str = "pruned", **given: Any) -> DataFrame:
-    """The pruned axes as multi line strings; options as :func:`medial.arrays.prune`."""
+    """The pruned axes as multi line strings; options as `medial.arrays.prune`."""
     return _lines(df, column, into, lambda x: arrays.prune(x, on_error="ignore", threads=1, **given))
 
 

@@ -1,7 +1,8 @@
 # %% [markdown]
 # # Roads from polygons, as a graph
 #
-# Surveys draw roads as areas. The axis of the area is their network; pruning leaves out the corners.
+# Surveys draw roads as areas. The axis of the area is their network; pruning by erosion leaves out the
+# corners, which protrude by less than a road is wide.
 
 # %%
 import shapely
@@ -13,7 +14,7 @@ area = shapely.union_all([shapely.LineString(street).buffer(3, cap_style="flat")
 import networkx
 import medial
 
-axis = medial.axis(area).prune()
+axis = medial.axis(area).prune("erosion", 1)
 graph = axis.to_networkx(branches=True)
 start = min(graph, key=lambda node: graph.nodes[node]["x"] + graph.nodes[node]["y"])
 end = max(graph, key=lambda node: graph.nodes[node]["x"] + graph.nodes[node]["y"])
