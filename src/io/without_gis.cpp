@@ -8,9 +8,9 @@ namespace medial::io {
 
 namespace {
 
-Error no_gis(const char* what) {
+Error missing(const char* libraries, const char* work) {
   return {ErrorCode::unsupported,
-          std::string("this build has no GDAL and GEOS, and cannot ") + what,
+          std::string("this build has no ") + libraries + ", and cannot " + work,
           {}};
 }
 
@@ -29,11 +29,15 @@ Result<OutputCrs> output_crs_of(const std::string& crs_wkt, Unit unit) {
 
 std::string urn_of_crs(const std::string&) { return {}; }
 
-Status project_to_local(Document<Feature>&) { return no_gis("project"); }
+Status project_to_local(Document<Feature>&) { return missing("GDAL", "project"); }
 
 Status back_to_geographic(const std::string&, std::vector<Vec2>&) { return success(); }
 
 /// load_shapes() mends these by noding.
 Status repair(Feature&, std::size_t, RepairRule, std::vector<std::string>&) { return success(); }
+
+Result<Document<Feature>> read_text(const std::string&, const std::string&) {
+  return missing("FreeType", "draw a text");
+}
 
 }  // namespace medial::io
