@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from . import _core
+from ._svg_path import contours_of
 
 _ROLES = {"any": 0, "outer": 1, "hole": 2, "winding": 3}
 Point = tuple[float, float]
@@ -78,7 +79,7 @@ class Contour:
         [<medial.Contour: 3 pieces>]
         """
         contours = []
-        for core in _core.path_contours(path):
+        for core in contours_of(path):
             contour = Contour.__new__(Contour)
             contour._core = core
             contours.append(contour)

@@ -514,11 +514,11 @@ class Carving:
         return self.numbers["deepest"]
 
     def to_gcode(self, *, safe: float = 5, feed: float = 1000, plunge: float = 300,
-                 spindle: float = 0, post: str = "", y_down: bool = False) -> str:  # fmt: skip
-        """The paths as G-code in millimetres, as the command line writes them."""
-        machine = {"safe": safe, "feed": feed, "plunge": plunge, "spindle": spindle, "post": post}
-        paths = [rows for _, rows in self.paths]
-        return _core.gcode(self.numbers, paths, max(self.passes, default=-1) + 1, machine, y_down)
+                 spindle: float = 0, y_down: bool = False) -> str:  # fmt: skip
+        """The paths as plain G-code in millimetres, as the command line writes them."""
+        from ._gcode import program
+
+        return program(self.paths, safe, feed, plunge, spindle, y_down)
 
     def __iter__(self) -> Iterator[tuple[str, Floats]]:
         return iter(self.paths)

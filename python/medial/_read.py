@@ -183,7 +183,9 @@ class _WellKnownText:
 
 def _from_text(text: str) -> Rings:
     if re.match(r"\s*[Mm][\s\d.+-]", text):
-        return Rings(contours=_core.path_contours(text))
+        from ._svg_path import contours_of
+
+        return Rings(contours=contours_of(text))
     return _from_polygons(_WellKnownText(text).polygons())
 
 

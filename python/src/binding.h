@@ -196,6 +196,5 @@ void bind_features(nb::module_& module);
 void bind_voronoi(nb::module_& module);
 void bind_images(nb::module_& module);
 void bind_solids(nb::module_& module);
-void bind_texts(nb::module_& module);
 
 }  // namespace medial::python

@@ -61,7 +61,6 @@ NB_MODULE(_core, module) {
   bind_voronoi(module);
   bind_images(module);
   bind_solids(module);
-  bind_texts(module);
 }
 
 }  // namespace medial::python
