@@ -110,6 +110,11 @@ Result<int> run_axis(const AxisArguments& arguments) {
         "--fit is for methods that follow smooth contours: add "
         "--method curve-axis");
   input.source.load.fit = arguments.fit;
+  if (!arguments.mask) {
+    const auto streamed = stream_axes(arguments, input, options);
+    if (!streamed) return streamed.error();
+    if (*streamed) return **streamed;
+  }
   auto shapes = load_shapes(input, arguments.common);
   if (!shapes) return std::move(shapes).error();
   auto axes = compute_axes(std::move(shapes).value(), input, arguments.common, options);

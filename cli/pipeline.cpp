@@ -7,8 +7,10 @@
 
 #include "medial/document.h"
 #include "medial/features.h"
+#include "medial/io/stream.h"
 #include "medial/measure.h"
 #include "medial/query.h"
+#include "medial/threads.h"
 
 namespace medial::cli {
 namespace {
@@ -19,7 +21,8 @@ void print_notes(const std::vector<std::string>& notes, const InputOptions& inpu
   for (const std::string& note : notes) say("medial: {}: note: {}\n", input.path, note);
 }
 
-void print_notes(const Document<ShapeItem>& file, const InputOptions& input,
+template <class Item>
+void print_notes(const Document<Item>& file, const InputOptions& input,
                  const CommonOptions& common) {
   print_notes(file.notes, input, common);
   if (file.geographic && !input.source.read.project && !common.quiet) {
@@ -27,6 +30,14 @@ void print_notes(const Document<ShapeItem>& file, const InputOptions& input,
         "distorts distances; --project computes in metres\n",
         input.path);
   }
+}
+
+void note_unresolved(const AxesReport& report, const InputOptions& input,
+                     const CommonOptions& common) {
+  if (report.unresolved > 0 && !common.quiet)
+    say("medial: {}: note: the grid does not resolve {} of the shape's parts or holes; a smaller "
+        "--resolution may\n",
+        input.path, report.unresolved);
 }
 
 template <class T>
@@ -182,10 +193,7 @@ Result<LoadedAxes> compute_axes(LoadedShapes shapes, const InputOptions& input,
   if (!axes) return std::move(axes).error();
   out.file = std::move(axes).value();
   out.phases.end("axis");
-  if (out.axes.unresolved > 0 && !common.quiet)
-    say("medial: {}: note: the grid does not resolve {} of the shape's parts or holes; a smaller "
-        "--resolution may\n",
-        input.path, out.axes.unresolved);
+  note_unresolved(out.axes, input, common);
   return out;
 }
 
@@ -234,10 +242,13 @@ std::vector<double> edge_weights_of(const Document<AxisItem>& file) {
 
 AxisSummary summarize(const Document<AxisItem>& file) {
   AxisSummary summary;
-  summary.features = file.items.size();
-  summary.deepest.radius = -1;
-  for (std::size_t i = 0; i < file.items.size(); ++i) {
-    const MedialAxis& axis = file.items[i].axis;
+  add_to(summary, file);
+  return summary;
+}
+
+void add_to(AxisSummary& summary, const Document<AxisItem>& more) {
+  for (const AxisItem& item : more.items) {
+    const MedialAxis& axis = item.axis;
     summary.sites += axis.sites.size();
     summary.edges += axis.edges.size();
     summary.branches += branch_count(axis);
@@ -246,14 +257,14 @@ AxisSummary summarize(const Document<AxisItem>& file) {
       ++(node.kind == NodeKind::leaf          ? summary.leaves
          : node.kind == NodeKind::site_change ? summary.site_changes
                                               : summary.branchings);
+    const std::uint64_t feature = summary.features++;
     if (axis.nodes.empty()) continue;
     const Disk disk = deepest_disk(axis);
     if (disk.radius > summary.deepest.radius) {
       summary.deepest = disk;
-      summary.deepest_feature = i;
+      summary.deepest_feature = feature;
     }
   }
-  return summary;
 }
 
 Json to_json(const AxisSummary& summary) {
@@ -303,14 +314,11 @@ Status write_panels(const FileArguments& arguments, const DocumentInfo& info, co
   return io::write_axes(arguments.output, arguments.format, file, options);
 }
 
-Result<int> finish_axes(LoadedAxes& axes, const FileArguments& arguments) {
-  Status written =
-      write_output(arguments, axes.phases, [&](const std::string& path, const std::string& format) {
-        return io::write_axes(path, format, axes.file, write_options(arguments));
-      });
-  if (!written) return std::move(written).error();
-  if (!is_talkative(arguments)) return exit_success;
-  const AxisSummary summary = summarize(axes.file);
+namespace {
+
+/// Prints a summary, statistics or both.
+Result<int> print_summary(LoadedAxes& axes, const AxisSummary& summary,
+                          const FileArguments& arguments) {
   Json object = {{"input", arguments.input.path}};
   if (!arguments.output.empty()) object["output"] = arguments.output;
   object.update(to_json(summary));
@@ -318,6 +326,63 @@ Result<int> finish_axes(LoadedAxes& axes, const FileArguments& arguments) {
   return finish(arguments, std::move(object), axes.phases,
                 fmt::format("{}: {}", arguments.input.path, describe(summary, axes.file.unit)),
                 arguments.common.stats ? statistics_of(axes, summary) : Json());
+}
+
+}  // namespace
+
+Result<std::optional<int>> stream_axes(
+    const FileArguments& arguments, const InputOptions& input, Options options,
+    const std::function<Status(Document<AxisItem>& part)>& change) {
+  const CommonOptions& common = arguments.common;
+  if (arguments.output.empty()) return std::optional<int>();
+  const bool talkative = is_talkative(arguments);
+  AxisSummary summary;
+  Progress progress("medial axis", error_is_terminal() && !common.quiet);
+  options = engine_options(common, 1, 0, std::move(options));
+  io::StreamOptions stream;
+  stream.source = input.source;
+  stream.write = write_options(arguments);
+  stream.threads = common.threads;
+  stream.compute = [&](Document<ShapeItem> shapes, int threads,
+                       AxesReport& axes_report) -> Result<Document<AxisItem>> {
+    Options own = options;
+    own.threads = threads;
+    auto axes = medial::compute_axes(std::move(shapes), std::move(own), &axes_report);
+    if (!axes || !change) return axes;
+    if (Status changed = change(*axes); !changed) return std::move(changed).error();
+    return axes;
+  };
+  stream.visit = [&](const Document<AxisItem>& part) {
+    if (talkative) add_to(summary, part);
+  };
+  stream.progress = progress.counting_callback();
+  LoadedAxes axes;
+  auto report =
+      in_file(io::stream_axes(input.path, arguments.output, arguments.format, stream), input);
+  if (!report) return with_cure(std::move(report).error(), input);
+  if (!*report) return std::optional<int>();
+  axes.phases.end("stream");
+  io::StreamReport& done = **report;
+  axes.report = done.load;
+  axes.axes = done.axes;
+  axes.axes.statistics.threads = effective_threads(common.threads);
+  axes.file = std::move(done.document);
+  print_notes(axes.file, input, common);
+  note_unresolved(axes.axes, input, common);
+  if (!talkative) return std::optional<int>(exit_success);
+  auto printed = print_summary(axes, summary, arguments);
+  if (!printed) return std::move(printed).error();
+  return std::optional<int>(*printed);
+}
+
+Result<int> finish_axes(LoadedAxes& axes, const FileArguments& arguments) {
+  Status written =
+      write_output(arguments, axes.phases, [&](const std::string& path, const std::string& format) {
+        return io::write_axes(path, format, axes.file, write_options(arguments));
+      });
+  if (!written) return std::move(written).error();
+  if (!is_talkative(arguments)) return exit_success;
+  return print_summary(axes, summarize(axes.file), arguments);
 }
 
 }  // namespace medial::cli

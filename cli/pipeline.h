@@ -4,6 +4,7 @@
 // how axes are summarised.
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -73,12 +74,14 @@ struct AxisSummary {
   std::uint64_t edges = 0;
   std::uint64_t branches = 0;
   double length = 0;
-  Disk deepest;  ///< the largest disk of all
+  Disk deepest{{}, -1};  ///< the largest disk of all
   std::uint64_t deepest_feature = 0;
 
   std::uint64_t nodes() const { return leaves + site_changes + branchings; }
 };
 AxisSummary summarize(const Document<AxisItem>& file);
+/// Takes further features into account.
+void add_to(AxisSummary& summary, const Document<AxisItem>& more);
 Json to_json(const AxisSummary& summary);
 
 /// Writes a file by write(path, format), unless there is none, and ends the phase "write".
@@ -99,6 +102,13 @@ struct Panel {
 /// A picture of panels in rows, `width` pixels wide, each in a place as large as `box`.
 Status write_panels(const FileArguments& arguments, const DocumentInfo& info, const Box& box,
                     std::vector<Panel> panels, double width);
+
+/// What load_shapes(), compute_axes(), `change` and finish_axes() do together, in constant memory,
+/// where the file is large and the formats allow it; otherwise nothing. Of `options`, this sets
+/// what the common options hold. Errors: theirs.
+Result<std::optional<int>> stream_axes(
+    const FileArguments& arguments, const InputOptions& input, Options options = {},
+    const std::function<Status(Document<AxisItem>& part)>& change = nullptr);
 
 /// The end of a command that made axes: writes them, and prints a summary, statistics or both.
 /// Returns the exit status.

@@ -193,6 +193,15 @@ Result<int> run_prune(const PruneCommandArguments& arguments) {
       check_output(arguments, arguments.preview ? io::formats_of(io::DocumentKind::field)
                                                 : io::formats_of(io::DocumentKind::axes));
   if (!writable) return std::move(writable).error();
+  if (!arguments.preview && arguments.prune.specks == 0 && !common.stats) {
+    const auto change = [&options](Document<AxisItem>& part) -> Status {
+      const auto report = prune_all(part, *options, 1);
+      return report ? success() : Status(report.error());
+    };
+    const auto streamed = stream_axes(arguments, arguments.input, arguments.options, change);
+    if (!streamed) return streamed.error();
+    if (*streamed) return **streamed;
+  }
   auto axes = load_axes(arguments.input, common, arguments.prune.specks, arguments.options);
   if (!axes) return std::move(axes).error();
   if (axes->file.pixel > 0 && options->measure == PruneMeasure::prominence && !options->keep &&

@@ -121,14 +121,24 @@ std::function<void(double)> Progress::callback() {
   return [this](double share) { redraw(std::clamp(share, 0.0, 1.0)); };
 }
 
-void Progress::redraw(double share) {
+std::function<void(double, std::uint64_t)> Progress::counting_callback() {
+  if (!shown_) return {};
+  return [this](double share, std::uint64_t features) { redraw(share, features); };
+}
+
+void Progress::redraw(double share, std::uint64_t features) {
   const std::unique_lock lock(drawing_, std::try_to_lock);
-  if (!lock || watch_.seconds() < next_draw_) return;
-  next_draw_ = watch_.seconds() + seconds_between_draws;
+  const double passed = watch_.seconds();
+  if (!lock || passed < next_draw_) return;
+  next_draw_ = passed + seconds_between_draws;
+  std::string rate;
+  if (features > 0 && share > 0)
+    rate = fmt::format(", {:.3g} features/s, {:.0f} s left{:6}",
+                       share * static_cast<double>(features) / passed, passed / share - passed, "");
   const int filled = static_cast<int>(std::lround(share * bar_width));
   bar_visible.store(true);
-  say_text(fmt::format("\r{} [{:#<{}}{:.<{}}] {:3.0f} %", label_, "", filled, "",
-                       bar_width - filled, 100 * share));
+  say_text(fmt::format("\r{} [{:#<{}}{:.<{}}] {:3.0f} %{}", label_, "", filled, "",
+                       bar_width - filled, 100 * share, rate));
 }
 
 Activity::Activity(const std::string& doing, const std::string& path) {

@@ -71,9 +71,11 @@ class Progress {
   /// Takes the share in [0, 1] that is done, from any thread; empty if nothing is shown. The
   /// Progress must outlive it.
   std::function<void(double)> callback();
+  /// The same for work on so many features: it shows how many a second, and the time left, too.
+  std::function<void(double, std::uint64_t)> counting_callback();
 
  private:
-  void redraw(double share);
+  void redraw(double share, std::uint64_t features = 0);
 
   std::string label_;
   bool shown_;

@@ -46,6 +46,8 @@ struct LoadOptions {
   RepairRule repair = RepairRule::none;
   ArcOptions arcs;            ///< how free-form curves become arcs
   bool skip_invalid = false;  ///< leaves features out that make no shape, with a note each
+  bool part =
+      false;       ///< of a larger document: no note on how many are left out; all of them may be
   double fit = 0;  ///< boundaries become smooth within this (fit_smooth_contour()); 0: no
   bool keep_contours = false;  ///< fills ShapeItem::contours, from rings as well
   int threads = 0;             ///< see Options, as the next two
@@ -57,6 +59,9 @@ struct LoadOptions {
 struct LoadReport {
   ShapeReport shapes;
   ArcReport arcs;
+  std::uint64_t features = 0, left_out = 0;
+
+  LoadReport& operator+=(const LoadReport& part);
 };
 
 /// The shape of each feature, in order: fill rules, curves to arcs, repair. Notes say what a repair

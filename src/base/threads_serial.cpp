@@ -1,5 +1,6 @@
 #include <utility>
 
+#include "base/pipeline.h"
 #include "base/threads.h"
 
 namespace medial {
@@ -39,6 +40,13 @@ void TaskGroup::wait() {
     tasks_->waiting.pop_back();
     next();
   }
+}
+
+void run_pipeline(int /*requested*/, std::size_t /*window*/,
+                  const std::function<std::shared_ptr<void>()>& next,
+                  std::span<const PipelineStage> stages) {
+  while (const std::shared_ptr<void> task = next())
+    for (const PipelineStage& stage : stages) stage.run(task.get());
 }
 
 }  // namespace medial

@@ -2,12 +2,14 @@
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/parallel_invoke.h>
+#include <oneapi/tbb/parallel_pipeline.h>
 #include <oneapi/tbb/task_arena.h>
 #include <oneapi/tbb/task_group.h>
 
 #include <thread>
 #include <utility>
 
+#include "base/pipeline.h"
 #include "base/threads.h"
 
 namespace medial {
@@ -117,6 +119,26 @@ void TaskGroup::wait() {
     tasks_->waiting.pop_back();
     next();
   }
+}
+
+void run_pipeline(int requested, std::size_t window,
+                  const std::function<std::shared_ptr<void>()>& next,
+                  std::span<const PipelineStage> stages) {
+  using Task = std::shared_ptr<void>;
+  constexpr auto in_order = tbb::filter_mode::serial_in_order;
+  tbb::filter<void, Task> chain(in_order, [&next](tbb::flow_control& control) {
+    Task task = next();
+    if (task == nullptr) control.stop();
+    return task;
+  });
+  for (const PipelineStage& stage : stages)
+    chain = chain & tbb::filter<Task, Task>(stage.in_order ? in_order : tbb::filter_mode::parallel,
+                                            [&stage](Task task) {
+                                              stage.run(task.get());
+                                              return task;
+                                            });
+  const tbb::filter<Task, void> end(tbb::filter_mode::parallel, [](const Task&) {});
+  on_threads(requested, [&] { tbb::parallel_pipeline(window, chain & end); });
 }
 
 }  // namespace medial

@@ -6,7 +6,6 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <map>
 #include <set>
 #include <string_view>
 
@@ -29,24 +28,28 @@ bool spells(const std::string& text, Number& value) {
 }  // namespace
 
 AttributeColumns::AttributeColumns(const Document<AxisItem>& file, std::span<const Column> own) {
-  std::map<std::string, std::size_t> index;
-  for (const AxisItem& item : file.items) {
-    for (const auto& [name, value] : item.attributes) {
-      const auto [found, inserted] = index.try_emplace(name, columns_.size());
-      if (inserted) {
-        names_.push_back(name);
-        columns_.push_back({name, ColumnType::whole});
-      }
-      ColumnType& type = columns_[found->second].type;
-      std::int64_t whole = 0;
-      double real = 0;
-      if (type == ColumnType::whole && !spells(value, whole)) type = ColumnType::real;
-      if (type == ColumnType::real && !(spells(value, real) && std::isfinite(real)) &&
-          !spells(value, whole)) {
-        type = ColumnType::text;
-      }
+  for (const AxisItem& item : file.items) add(item.attributes);
+  name_apart(own);
+}
+
+void AttributeColumns::add(const Attributes& attributes) {
+  for (const auto& [name, value] : attributes) {
+    const auto [found, inserted] = index_.try_emplace(name, columns_.size());
+    if (inserted) {
+      names_.push_back(name);
+      columns_.push_back({name, ColumnType::whole});
     }
+    ColumnType& type = columns_[found->second].type;
+    std::int64_t whole = 0;
+    double real = 0;
+    if (type == ColumnType::whole && !spells(value, whole)) type = ColumnType::real;
+    if (type == ColumnType::real && !(spells(value, real) && std::isfinite(real)) &&
+        !spells(value, whole))
+      type = ColumnType::text;
   }
+}
+
+void AttributeColumns::name_apart(std::span<const Column> own) {
   std::set<std::string> taken{"fid", "ogc_fid", "geom"};
   for (const Column& column : own) taken.insert(column.name);
   for (std::size_t k = 0; k < columns_.size(); ++k) {
@@ -63,7 +66,7 @@ std::vector<Column> AttributeColumns::appended_to(std::vector<Column> columns) c
 std::vector<Value> AttributeColumns::values_of(const Attributes& item) const {
   std::vector<Value> values(columns_.size());
   for (const auto& [name, value] : item) {
-    const auto k = static_cast<std::size_t>(std::ranges::find(names_, name) - names_.begin());
+    const std::size_t k = index_.at(name);
     std::int64_t whole = 0;
     double real = 0;
     if (columns_[k].type == ColumnType::whole && spells(value, whole)) {

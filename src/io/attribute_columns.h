@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -13,9 +14,14 @@ namespace medial::io {
 /// every value is the usual spelling of a number becomes numbers again (so "007" stays a text).
 class AttributeColumns {
  public:
+  AttributeColumns() = default;
   /// Of the items of a document; an attribute that is named as one of the writer's `own` columns
   /// gets another name.
   AttributeColumns(const Document<AxisItem>& file, std::span<const Column> own);
+
+  /// Takes the attributes of one item into account; name_apart() follows when there are no more.
+  void add(const Attributes& attributes);
+  void name_apart(std::span<const Column> own);
 
   /// The columns of a table, and these.
   std::vector<Column> appended_to(std::vector<Column> columns) const;
@@ -23,8 +29,9 @@ class AttributeColumns {
   std::vector<Value> values_of(const Attributes& item) const;
 
  private:
-  std::vector<std::string> names_;  ///< in the input
-  std::vector<Column> columns_;     ///< in the output, named differently from the writer's own
+  std::map<std::string, std::size_t> index_;  ///< by the names in the input
+  std::vector<std::string> names_;            ///< in the input
+  std::vector<Column> columns_;  ///< in the output, named differently from the writer's own
 };
 
 }  // namespace medial::io

@@ -115,22 +115,29 @@ Status add_nodes(TableSink& sink, const Row& row, bool all) {
 
 }  // namespace
 
-TableSource tables_of(const AxesOutput& output, const std::string& format) {
-  const bool nodes = format != "shp" && format != "fgb" && format != "geojson";
+std::vector<Column> own_axis_columns() {
   std::vector<Column> own = branch_columns();
   own.insert(own.end(), node_columns().begin(), node_columns().end());
-  const AttributeColumns attributes(output.document, own);
+  return own;
+}
+
+TableSource tables_of(const AxesOutput& output, const Target& target) {
+  const bool nodes = target.format != "shp" && target.format != "fgb" && target.format != "geojson";
+  const auto attributes = target.columns ? target.columns
+                                         : std::make_shared<const AttributeColumns>(
+                                               output.document, own_axis_columns());
   TableSource source;
-  source.tables.push_back({"axis", GeometryKind::line, attributes.appended_to(branch_columns())});
+  source.tables.push_back({"axis", GeometryKind::line, attributes->appended_to(branch_columns())});
   if (nodes)
-    source.tables.push_back({"nodes", GeometryKind::point, attributes.appended_to(node_columns())});
-  source.fill = [&output, attributes, nodes](TableSink& sink) {
-    std::uint64_t first_node = 0;
+    source.tables.push_back(
+        {"nodes", GeometryKind::point, attributes->appended_to(node_columns())});
+  source.fill = [&output, attributes, nodes, part = target.part](TableSink& sink) {
+    std::uint64_t first_node = part.node;
     for (std::size_t i = 0; i < output.document.items.size(); ++i) {
       const AxisItem& item = output.document.items[i];
-      const std::vector<Value> values = attributes.values_of(item.attributes);
+      const std::vector<Value> values = attributes->values_of(item.attributes);
       const std::vector<Branch> all = branches(item.axis);
-      const Row row{i, first_node, item, all, values};
+      const Row row{part.feature + i, first_node, item, all, values};
       if (Status added = add_branches(sink, row, output.options); !added) return added;
       if (nodes)
         if (Status added = add_nodes(sink, row, output.options.nodes); !added) return added;

@@ -10,6 +10,7 @@
 #include <tuple>
 #include <vector>
 
+#include "io/feature_reader.h"
 #include "io/output.h"
 #include "io/output_crs.h"
 #include "io/text_source.h"
@@ -71,12 +72,23 @@ struct ImageOutput {
   const ImageFile& source;
 };
 
+/// Which part of a document is written, and what its items are numbered from.
+struct Part {
+  bool begins = true, ends = true;
+  std::uint64_t feature = 0, node = 0, edge = 0;
+};
+
+class AttributeColumns;
+
 /// Where a document goes: a stream, or the path of a file that the format makes by itself.
 class Target {
  public:
-  std::string format;           ///< the extension without its dot
-  std::string name;             ///< of the file without its extension
-  OutputStream* out = nullptr;  ///< null: the format makes the file `path`
+  Part part;
+  bool arcs = false;                                ///< whether parts may have arcs
+  std::shared_ptr<const AttributeColumns> columns;  ///< of all parts; null: the document is whole
+  std::string format;                               ///< the extension without its dot
+  std::string name;                                 ///< of the file without its extension
+  OutputStream* out = nullptr;                      ///< null: the format makes the file `path`
   std::string path;
   std::string unit;  ///< of lengths, by its name; empty: unknown, or the reference system says
   bool adds_to_file = false;  ///< to the file `path`, which may hold other layers
@@ -98,8 +110,25 @@ class Target {
 template <class Output>
 using Writer = Status (*)(Target& target, const Output& output);
 using Reader = Result<Document<Feature>> (*)(const Input& input, const ReadOptions& options);
+using Opener = Result<std::unique_ptr<FeatureReader>> (*)(const Input& input,
+                                                          const ReadOptions& options);
 using MeshReader = Result<TriangleMesh> (*)(const Input& input);
 using Sniff = bool (*)(std::string_view beginning);
+
+/// Writes a document of axes in parts.
+class PartWriter {
+ public:
+  PartWriter() = default;
+  PartWriter(const PartWriter&) = delete;
+  PartWriter& operator=(const PartWriter&) = delete;
+  virtual ~PartWriter() = default;
+
+  /// Makes a part ready, on any thread.
+  virtual Result<std::shared_ptr<void>> prepare(const AxesOutput& output, const Part& part) = 0;
+  /// Adds what prepare() made, in the order of parts.
+  virtual Status add(void* prepared) = 0;
+  virtual Status finish() = 0;
+};
 
 struct Format {
   std::string_view extensions;  ///< each with its dot, apart by blanks
@@ -107,6 +136,7 @@ struct Format {
   // Reading.
   std::string_view also_read = "";  ///< extensions that are not written
   Reader read = nullptr;
+  Opener open = nullptr;  ///< of formats that can be read feature by feature
   MeshReader read_mesh = nullptr;
   Sniff sniff = nullptr;    ///< whether a text without a name begins like this format
   Sniff accepts = nullptr;  ///< what a file of this extension must begin like; GDAL reads others
@@ -126,6 +156,10 @@ struct Format {
              Writer<FieldOutput>, Writer<VoxelsOutput>, Writer<DistancesOutput>,
              Writer<ImageOutput>>
       writers{};
+  /// Axes in parts: by the writer of all where it is null and `in_parts` is set, which must write
+  /// a comma in front of each row but those of the first part.
+  Result<std::unique_ptr<PartWriter>> (*write_parts)(Target& target) = nullptr;
+  bool in_parts = false;
   unsigned kinds = 0;  ///< of documents that are written, a bit each
 
   /// Adds writers: functions of (Target&, const SomeOutput&).

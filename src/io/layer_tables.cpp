@@ -13,8 +13,8 @@ GeometryKind geometry_of(LayerKind kind) {
 }  // namespace
 
 /// In the one collection of a GeoJSON file rows name their layer.
-TableSource tables_of(const LayersOutput& output, const std::string& format) {
-  const bool named = format == "geojson";
+TableSource tables_of(const LayersOutput& output, const Target& target) {
+  const bool named = target.format == "geojson";
   std::vector<Column> own{{"feature", ColumnType::whole}, {"layer", ColumnType::text}};
   for (const Layer& layer : output.document.items)
     for (const std::string& field : layer.fields) own.push_back({field, ColumnType::real});

@@ -6,11 +6,13 @@
 #include <array>
 #include <cmath>
 
+#include "io/checks.h"
 #include "io/degrees.h"
 #include "io/format.h"
 #include "io/format_name.h"
 #include "io/formats/json.h"
 #include "io/guarded.h"
+#include "io/open.h"
 #include "io/place.h"
 #include "io/reference_system.h"
 #include "io/repair.h"
@@ -76,9 +78,10 @@ std::optional<Error> refused(const Format& format, const ReadOptions& options,
   return std::nullopt;
 }
 
-Result<Document<Feature>> read_any(const std::string& path,
-                                   const Result<std::shared_ptr<TextSource>>& source,
-                                   const ReadOptions& options) {
+/// The row that reads a file.
+Result<const Format*> format_of(const std::string& path,
+                                const Result<std::shared_ptr<TextSource>>& source,
+                                const ReadOptions& options) {
   const std::string_view beginning = source ? (*source)->lookahead(sniffed) : std::string_view();
   if (is_font(beginning))
     return Error{ErrorCode::unsupported,
@@ -104,123 +107,15 @@ Result<Document<Feature>> read_any(const std::string& path,
     return Error{ErrorCode::unsupported, "this build has no GDAL and reads other formats only",
                  in_file(path)};
   if (const auto error = refused(*format, options, path)) return *error;
-  return format->read({path, source ? *source : nullptr}, options);
+  return format;
 }
 
-std::optional<std::size_t> not_finite(const std::vector<Vec2>& points) {
-  const auto bad = std::ranges::find_if(
-      points, [](Vec2 p) { return !std::isfinite(p.x) || !std::isfinite(p.y); });
-  if (bad == points.end()) return std::nullopt;
-  return static_cast<std::size_t>(bad - points.begin());
-}
-
-std::optional<std::size_t> not_finite(const std::vector<double>& numbers) {
-  const auto bad = std::ranges::find_if_not(numbers, [](double x) { return std::isfinite(x); });
-  if (bad == numbers.end()) return std::nullopt;
-  return static_cast<std::size_t>(bad - numbers.begin());
-}
-
-Error error_not_finite(std::size_t line, std::size_t vertex, const char* what) {
-  Error error{ErrorCode::not_finite, fmt::format("{} is not a finite number", what), {}};
-  error.place.ring = line;
-  error.place.vertex = vertex;
-  return error;
-}
-
-/// The first number of rings or of chains that is not finite.
-template <class Lines>
-std::optional<Error> not_finite_in(const Lines& lines) {
-  for (std::size_t k = 0; k < lines.size(); ++k) {
-    if (auto at = not_finite(lines[k].points)) return error_not_finite(k, *at, "a coordinate");
-    if (auto at = not_finite(lines[k].bulges)) return error_not_finite(k, *at, "a bulge");
-  }
-  return std::nullopt;
-}
-
-std::optional<Error> not_finite_in(const std::vector<Contour>& contours) {
-  for (std::size_t k = 0; k < contours.size(); ++k) {
-    const Contour& contour = contours[k];
-    if (auto at = not_finite(contour.points)) return error_not_finite(k, *at, "a control point");
-    if (auto at = not_finite(contour.weights)) return error_not_finite(k, *at, "a weight");
-    for (const CurvePiece& piece : contour.pieces)
-      if (!std::isfinite(piece.bulge)) return error_not_finite(k, piece.first, "a bulge");
-  }
-  return std::nullopt;
-}
-
-Status check_finite(const Feature& feature, std::size_t index) {
-  auto error = not_finite_in(feature.rings);
-  if (!error) error = not_finite_in(feature.chains);
-  if (!error) error = not_finite_in(feature.contours);
-  if (!error) return success();
-  error->place.feature = index;
-  return *error;
-}
-
-/// Leaves the other features out; those that stay keep their numbers in the file. Returns how many
-/// went.
-std::size_t keep(Document<Feature>& document, const std::vector<bool>& kept) {
-  const auto staying = static_cast<std::size_t>(std::ranges::count(kept, true));
-  const std::size_t before = document.items.size();
-  if (staying == before) return 0;
-  std::vector<Feature> items;
-  std::vector<std::uint64_t> indices;
-  for (std::size_t i = 0; i < before; ++i) {
-    if (!kept[i]) continue;
-    indices.push_back(document.index_of(i));
-    items.push_back(std::move(document.items[i]));
-  }
-  document.items = std::move(items);
-  document.indices = std::move(indices);
-  return before - staying;
-}
-
-/// Checks all features, or mends them. With `skip_invalid` those that fail are left out, with a
-/// note each and one on all.
-template <class Check>
-Status check_each(Document<Feature>& document, bool skip_invalid, const Check& check) {
-  std::vector<bool> valid;
-  for (std::size_t i = 0; i < document.items.size(); ++i) {
-    const Status status = check(document.items[i], document.index_of(i));
-    if (!status && !skip_invalid) return status;
-    valid.push_back(status.ok());
-    if (!status) document.notes.push_back("left out: " + to_string(status.error()));
-  }
-  const std::size_t before = document.items.size(), dropped = keep(document, valid);
-  if (dropped == 0) return success();
-  if (document.items.empty())
-    return Error{ErrorCode::empty, "no feature is valid, so nothing is left", {}};
-  document.notes.push_back(
-      fmt::format("{} of {} features are invalid and were left out", dropped, before));
-  return success();
-}
-
-/// Polygons with rings that do not end where they began: noted, as build_shape() closes them.
-void note_unclosed_rings(Document<Feature>& dataset) {
-  std::size_t unclosed = 0;
-  for (const Feature& feature : dataset.items)
-    unclosed += static_cast<std::size_t>(std::ranges::count_if(feature.rings, [](const Ring& ring) {
-      return (ring.role == RingRole::outer || ring.role == RingRole::hole) &&
-             ring.points.size() > 2 && ring.points.front() != ring.points.back();
-    }));
-  if (unclosed > 0)
-    dataset.notes.push_back(
-        fmt::format("{} without its first point at the end, closed by a straight edge",
-                    unclosed == 1 ? "1 ring is" : fmt::format("{} rings are", unclosed)));
-}
-
-/// The reference system that is asked for, or the one of the file if its numbers can be degrees.
-Status settle_crs(Document<Feature>& dataset, const std::string& crs) {
-  if (!crs.empty()) return describe_crs(crs, dataset);
-  describe_crs(dataset);
-  if (!dataset.geographic || can_be_degrees(dataset)) return success();
-  dataset.crs_wkt.clear();
-  dataset.geographic = false;
-  dataset.unit = Unit::unknown;
-  dataset.notes.push_back(
-      "the coordinates are not degrees, whatever the format says: they are taken as plane "
-      "coordinates without a reference system; --crs EPSG:n names theirs");
-  return success();
+Result<Document<Feature>> read_any(const std::string& path,
+                                   const Result<std::shared_ptr<TextSource>>& source,
+                                   const ReadOptions& options) {
+  const Result<const Format*> format = format_of(path, source, options);
+  if (!format) return format.error();
+  return (*format)->read({path, source ? *source : nullptr}, options);
 }
 
 bool has_curves(const Feature& feature) {
@@ -228,34 +123,12 @@ bool has_curves(const Feature& feature) {
          std::ranges::any_of(feature.rings, [](const Ring& ring) { return !ring.bulges.empty(); });
 }
 
-bool is_empty(const Feature& feature) {
-  return feature.chains.empty() &&
-         std::ranges::all_of(feature.rings, [](const Ring& one) { return one.points.empty(); }) &&
-         std::ranges::all_of(feature.contours, [](const Contour& contour) {
-           return contour.pieces.empty() && !contour.open;
-         });
-}
-
-void drop_empty_features(Document<Feature>& document) {
-  std::vector<bool> kept;
-  for (const Feature& feature : document.items) kept.push_back(!is_empty(feature));
-  const std::size_t dropped = keep(document, kept);
-  if (dropped > 0 && !document.items.empty())
-    document.notes.push_back(dropped == 1
-                                 ? "1 feature is empty and was left out"
-                                 : fmt::format("{} features are empty and were left out", dropped));
-}
-
 Result<Document<Feature>> finish(Document<Feature> document, const ReadOptions& options) {
-  if (Status finite = check_each(document, options.skip_invalid, check_finite); !finite)
-    return std::move(finite).error();
-  drop_empty_features(document);
-  if (document.items.empty())
-    return Error{ErrorCode::empty,
-                 options.loose ? "the file contains no geometry" : "there is no polygon",
-                 {}};
-  note_unclosed_rings(document);
-  if (Status settled = settle_crs(document, options.crs); !settled) return settled.error();
+  FeatureChecks checks(options);
+  if (Status checked = checks.check(document); !checked) return std::move(checked).error();
+  if (Status complete = checks.finish(document); !complete) return std::move(complete).error();
+  if (Status settled = settle_crs(document, options.crs, can_be_degrees(document)); !settled)
+    return settled.error();
   if (options.project) {
     if (Status status = project_to_local(document); !status) return status.error();
   }
@@ -270,6 +143,28 @@ Result<Document<Feature>> finish(Document<Feature> document, const ReadOptions& 
 }
 
 }  // namespace
+
+Status settle_crs(Document<Feature>& dataset, const std::string& crs, bool degrees) {
+  if (!crs.empty()) return describe_crs(crs, dataset);
+  describe_crs(dataset);
+  if (!dataset.geographic || degrees) return success();
+  dataset.crs_wkt.clear();
+  dataset.geographic = false;
+  dataset.unit = Unit::unknown;
+  dataset.notes.push_back(
+      "the coordinates are not degrees, whatever the format says: they are taken as plane "
+      "coordinates without a reference system; --crs EPSG:n names theirs");
+  return success();
+}
+
+Result<std::unique_ptr<FeatureReader>> open_features(const std::string& path,
+                                                     const ReadOptions& options) {
+  auto source = TextSource::open(path);
+  const Result<const Format*> format = format_of(path, source, options);
+  if (!format) return format.error();
+  if ((*format)->open == nullptr) return std::unique_ptr<FeatureReader>();
+  return (*format)->open({path, source ? *source : nullptr}, options);
+}
 
 Result<Document<Feature>> read_document(const std::string& path, const ReadOptions& options) {
   return guarded(path, [&]() -> Result<Document<Feature>> {

@@ -66,18 +66,21 @@ struct TableSource {
   std::function<Status(TableSink& sink)> fill;  ///< adds all rows
 };
 
+/// The columns that tables of axes have besides the attributes.
+std::vector<Column> own_axis_columns();
+
 /// Of axes: a line for each branch, and for a GeoPackage the nodes as a second table. Of features:
 /// for a GeoPackage all tables, else the one of the options. Of layers: a table each. Lengths and
 /// radii are in the units of the document.
-TableSource tables_of(const AxesOutput& output, const std::string& format);
-TableSource tables_of(const FeaturesOutput& output, const std::string& format);
-TableSource tables_of(const LayersOutput& output, const std::string& format);
+TableSource tables_of(const AxesOutput& output, const Target& target);
+TableSource tables_of(const FeaturesOutput& output, const Target& target);
+TableSource tables_of(const LayersOutput& output, const Target& target);
 
 using PutTables = Status (*)(Target& target, const TableSource& source);
 
 template <PutTables put, class Output>
 Status write_tables(Target& target, const Output& output) {
-  return put(target, tables_of(output, target.format));
+  return put(target, tables_of(output, target));
 }
 
 /// A format that holds tables, written by `put`.

@@ -168,7 +168,7 @@ void drop_rings_without_area(Feature& feature, std::size_t index, Attempt& attem
 
 /// Takes over the valid items; the features with an error are left out, with a note each and one on
 /// all.
-Status take_valid(std::vector<Attempt> attempts, const Document<Feature>& features,
+Status take_valid(std::vector<Attempt> attempts, const Document<Feature>& features, bool part,
                   Document<ShapeItem>& shapes) {
   std::vector<std::uint64_t> indices;
   std::optional<Error> first;
@@ -186,17 +186,26 @@ Status take_valid(std::vector<Attempt> attempts, const Document<Feature>& featur
   }
   const std::size_t dropped = attempts.size() - shapes.items.size();
   if (dropped == 0) return success();
-  if (shapes.items.empty()) {
+  if (shapes.items.empty() && !part) {
     first->text += "; no feature is valid, so nothing is left";
     return *first;
   }
   shapes.indices = std::move(indices);
+  if (part) return success();
   shapes.notes.push_back(std::to_string(dropped) + " of " + std::to_string(attempts.size()) +
                          " features are invalid and were left out");
   return success();
 }
 
 }  // namespace
+
+LoadReport& LoadReport::operator+=(const LoadReport& part) {
+  shapes += part.shapes;
+  arcs += part.arcs;
+  features += part.features;
+  left_out += part.left_out;
+  return *this;
+}
 
 Result<Document<ShapeItem>> load_shapes(Document<Feature> features, const LoadOptions& options,
                                         LoadReport* report) {
@@ -236,8 +245,10 @@ Result<Document<ShapeItem>> load_shapes(Document<Feature> features, const LoadOp
     sum.shapes += one;
     sum.arcs += reports[i].arcs;
   }
-  if (Status taken = take_valid(std::move(items).value(), features, shapes); !taken)
+  if (Status taken = take_valid(std::move(items).value(), features, options.part, shapes); !taken)
     return std::move(taken).error();
+  sum.features = count;
+  sum.left_out = count - shapes.items.size();
   if (report != nullptr) *report = sum;
   return shapes;
 }

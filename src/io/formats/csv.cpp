@@ -48,8 +48,8 @@ void put_disks(Target& target, const std::string& before, const std::vector<Disk
 /// A row for each sample; edges count through all items. Samples of an edge follow each other, the
 /// nodes first and last.
 Status write_csv(Target& target, const AxesOutput& output) {
-  put_names(target, "edge,x,y,r");
-  std::uint64_t id = 0;
+  if (target.part.begins) put_names(target, "edge,x,y,r");
+  std::uint64_t id = target.part.edge;
   std::vector<Disk> samples;
   for (const AxisItem& item : output.document.items) {
     const double chord = chord_of(item, output.options);
@@ -155,7 +155,7 @@ Format csv_format() {
   format.read = read_vertices;
   format.accepts = has_two_columns;
   format.gdal_chooses = true;
-  format.geographic = true;
+  format.geographic = format.in_parts = true;
   return format.writes<AxesOutput, VoronoiOutput, FeaturesOutput, CarvingOutput>(
       write_csv, write_csv, write_csv, write_csv);
 }

@@ -32,7 +32,9 @@ void put_real(OutputStream& out, double value) {
 /// coordinates, end().
 class Collection {
  public:
-  explicit Collection(Target& target, bool named = false) : target_(target), out_(*target.out) {
+  explicit Collection(Target& target, bool named = false)
+      : target_(target), out_(*target.out), first_feature_(target.part.begins) {
+    if (!target.part.begins) return;
     out_.put("{\"type\":\"FeatureCollection\",");
     if (named) out_.put(fmt::format("\"name\":{},", json_quoted(target.name)));
     const std::string urn = urn_of_crs(target.crs.wkt);
@@ -80,14 +82,14 @@ class Collection {
   void end() { out_.put("}}"); }
   /// Behind the last feature.
   Status finish() {
-    out_.put("\n]}\n");
+    if (target_.part.ends) out_.put("\n]}\n");
     return success();
   }
 
  private:
   Target& target_;
   OutputStream& out_;
-  bool first_feature_ = true;
+  bool first_feature_;
   bool first_member_ = true;
 };
 
@@ -255,9 +257,10 @@ Status write_geojson(Target& target, const VoronoiOutput& output) {
 }  // namespace
 
 Format geojson_format() {
-  return with_tables<put_geojson>(native_reading(".geojson"))
-      .writes<ShapesOutput, OffsetsOutput, VoronoiOutput>(write_geojson, write_geojson,
-                                                          write_geojson);
+  Format format = native_reading(".geojson");
+  format.in_parts = true;
+  return with_tables<put_geojson>(format).writes<ShapesOutput, OffsetsOutput, VoronoiOutput>(
+      write_geojson, write_geojson, write_geojson);
 }
 
 }  // namespace medial::io

@@ -9,7 +9,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "io/output.h"
+#include "io/format.h"
 #include "medial/document.h"
 
 namespace medial::io {
@@ -93,11 +93,21 @@ inline std::vector<std::size_t> numbers_below(std::size_t count) {
   return numbers;
 }
 
-/// The items of a document, and the end of its file.
+/// The items of a document, and the end of its file; or a part of them.
+template <class Range, class Put>
+void put_items(OutputStream& out, const Part& part, const Range& items, const Put& put) {
+  if (part.begins) out.put('[');
+  std::string_view separator = part.begins ? "\n" : ",\n";
+  for (const auto& item : items) {
+    out.put(separator);
+    separator = ",\n";
+    put(item);
+  }
+  if (part.ends) out.put("\n]}\n");
+}
 template <class Range, class Put>
 void put_items(OutputStream& out, const Range& items, const Put& put) {
-  put_list(out, items, put, "\n", ",\n", "\n");
-  out.put("}\n");
+  put_items(out, Part{}, items, put);
 }
 
 inline void put_attributes(OutputStream& out, const Attributes& attributes) {

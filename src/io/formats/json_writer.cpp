@@ -157,17 +157,25 @@ void put_axis(OutputStream& out, const Shape& shape, const MedialAxis& axis) {
   put_statistics(out, axis.statistics);
 }
 
+/// What stands before the items.
 template <class Item>
-Status put_file(Target& target, const Document<Item>& file) {
+void put_head(Target& target, const Document<Item>& file) {
   OutputStream& out = *target.out;
-  const bool arcs =
-      std::ranges::any_of(file.items, [](const Item& item) { return !item.shape.bulges.empty(); });
+  const bool arcs = target.arcs || std::ranges::any_of(file.items, [](const Item& item) {
+                      return !item.shape.bulges.empty();
+                    });
   put_member(out, "{\"medial\":", arcs ? native_version : 1);
   if (!file.crs_wkt.empty()) put_member(out, ",\n\"crs\":", file.crs_wkt);
   put_unit(target);
   if (file.y_down) out.put(",\n\"y_down\":true");
   out.put(",\n\"items\":");
-  put_items(out, file.items, [&](const Item& item) {
+}
+
+template <class Item>
+Status put_file(Target& target, const Document<Item>& file) {
+  OutputStream& out = *target.out;
+  if (target.part.begins) put_head(target, file);
+  put_items(out, target.part, file.items, [&](const Item& item) {
     out.put('{');
     put_attributes_and_shape(out, item.attributes, item.shape);
     if constexpr (std::is_same_v<Item, AxisItem>)
@@ -215,6 +223,7 @@ Status write_json(Target& target, const ShapesOutput& output) {
 Format json_format() {
   Format format = native_reading(".json");
   format.sniff = begins_like_native;
+  format.in_parts = true;
   return format.writes<AxesOutput, ShapesOutput, VoronoiOutput, OffsetsOutput, FeaturesOutput>(
       write_json, write_json, write_json, write_json, write_json);
 }

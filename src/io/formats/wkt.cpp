@@ -74,37 +74,40 @@ std::string without_dimension(const std::string& name) {
   return name;
 }
 
-class WktReader {
+class WktReader final : public FeatureReader {
  public:
-  WktReader(TextSource& source, bool loose) : source_(source), loose_(loose) {}
+  WktReader(std::shared_ptr<TextSource> source, bool loose)
+      : source_(std::move(source)), loose_(loose) {}
 
-  Result<Document<Feature>> read() {
-    for (;;) {
+  Result<bool> read(std::size_t points, Document<Feature>& document) override {
+    dataset_ = &document;
+    for (std::size_t count = 0; count < points;) {
       skip_separators();
-      if (source_.peek() < 0) break;
+      if (source_->peek() < 0) return finish();
       Feature feature;
       feature.id = static_cast<std::int64_t>(feature_);
       if (Status status = read_feature(feature); !status) return located(status.error());
-      dataset_.items.push_back(std::move(feature));
+      polygons_ = polygons_ || !feature.rings.empty() || !feature.chains.empty();
+      count += point_count(feature);
+      document.items.push_back(std::move(feature));
       ++feature_;
     }
-    if (source_.failure()) return *source_.failure();
-    if (others_ > 0) {
-      const bool polygons = std::ranges::any_of(dataset_.items, [](const Feature& feature) {
-        return !feature.rings.empty() || !feature.chains.empty();
-      });
-      if (!polygons) {
-        return Error{ErrorCode::unsupported,
-                     fmt::format("no polygons, only other geometries ({} of them)", others_),
-                     {}};
-      }
-      dataset_.notes.push_back(
-          fmt::format("{} geometries are not polygons and were left out", others_));
-    }
-    return std::move(dataset_);
+    return true;
   }
 
  private:
+  Result<bool> finish() {
+    if (source_->failure()) return *source_->failure();
+    if (others_ > 0 && !polygons_)
+      return Error{ErrorCode::unsupported,
+                   fmt::format("no polygons, only other geometries ({} of them)", others_),
+                   {}};
+    if (others_ > 0)
+      dataset_->notes.push_back(
+          fmt::format("{} geometries are not polygons and were left out", others_));
+    return false;
+  }
+
   Error located(Error error) const {
     error.place.feature = feature_;
     return error;
@@ -116,30 +119,30 @@ class WktReader {
   }
 
   Error expected(std::string_view what) {
-    const std::string found = source_.next_as_text();
-    return source_.error(ErrorCode::malformed,
-                         fmt::format("expected {} but found {}", what, found));
+    const std::string found = source_->next_as_text();
+    return source_->error(ErrorCode::malformed,
+                          fmt::format("expected {} but found {}", what, found));
   }
 
   void skip_separators() {
-    for (source_.skip_space(); source_.peek() == ';'; source_.skip_space()) source_.skip();
+    for (source_->skip_space(); source_->peek() == ';'; source_->skip_space()) source_->skip();
   }
 
   /// Goes past `c` if it is next, after blanks.
   bool accept(char c) {
-    source_.skip_space();
-    if (source_.peek() != c) return false;
-    source_.skip();
+    source_->skip_space();
+    if (source_->peek() != c) return false;
+    source_->skip();
     return true;
   }
 
   /// A word in capitals; empty if there is none.
   std::string read_word() {
-    source_.skip_space();
+    source_->skip_space();
     std::string word;
-    while (word.size() < longest_word && is_letter(source_.peek())) {
-      word.push_back(upper(source_.peek()));
-      source_.skip();
+    while (word.size() < longest_word && is_letter(source_->peek())) {
+      word.push_back(upper(source_->peek()));
+      source_->skip();
     }
     return word;
   }
@@ -167,21 +170,21 @@ class WktReader {
   }
 
   Status read_srid() {
-    source_.skip();  // '='
+    source_->skip();  // '='
     double code = 0;
-    source_.skip_space();
+    source_->skip_space();
     constexpr int largest = std::numeric_limits<int>::max();
-    if (source_.read_number(code) != TextSource::Number::read || !(code >= 0 && code <= largest) ||
+    if (source_->read_number(code) != TextSource::Number::read || !(code >= 0 && code <= largest) ||
         code != std::floor(code)) {
       return expected("a whole number after SRID=");
     }
     if (!accept(';')) return expected("';' after the SRID");
     if (srid_ && *srid_ != static_cast<int>(code)) {
-      return source_.error(ErrorCode::unsupported, "two coordinate reference systems in one file");
+      return source_->error(ErrorCode::unsupported, "two coordinate reference systems in one file");
     }
     if (!srid_) {
       srid_ = static_cast<int>(code);
-      dataset_.crs_wkt = fmt::format("EPSG:{}", *srid_);
+      dataset_->crs_wkt = fmt::format("EPSG:{}", *srid_);
     }
     return success();
   }
@@ -190,7 +193,7 @@ class WktReader {
     std::uint64_t depth = 0;  // of collections: a number instead of recursion
     for (;;) {
       std::string name = read_word();
-      if (name == "SRID" && depth == 0 && source_.peek() == '=') {
+      if (name == "SRID" && depth == 0 && source_->peek() == '=') {
         if (Status status = read_srid(); !status) return status;
         name = read_word();
       }
@@ -198,7 +201,7 @@ class WktReader {
       const Kind kind = kind_of(name);
       if (kind == Kind::unknown) {
         if (name.empty()) return expected("the name of a geometry");
-        return source_.error(ErrorCode::malformed, fmt::format("'{}' names no geometry", name));
+        return source_->error(ErrorCode::malformed, fmt::format("'{}' names no geometry", name));
       }
       Result<bool> body = open_body();
       if (!body) return body.error();
@@ -230,8 +233,8 @@ class WktReader {
     if (kind == Kind::point) return add_line();
     if (kind == Kind::multicurve) return read_named_list(Kind::line, add_curve);
     if (is_curve(kind)) return add_curve(kind);
-    source_.skip_space();
-    if (kind == Kind::multipoint && source_.peek() != '(' && !is_letter(source_.peek())) {
+    source_->skip_space();
+    if (kind == Kind::multipoint && source_->peek() != '(' && !is_letter(source_->peek())) {
       std::vector<Vec2> points;  // without brackets of their own
       Status status = read_points(points);
       for (const Vec2 p : points) feature.chains.push_back({{p}});
@@ -254,7 +257,7 @@ class WktReader {
       const bool named = !word.empty() && word != "Z" && word != "M" && word != "ZM";
       const Kind kind = named ? kind_of(word) : bare;
       if (kind == Kind::unknown)
-        return source_.error(ErrorCode::malformed, fmt::format("'{}' names no geometry", word));
+        return source_->error(ErrorCode::malformed, fmt::format("'{}' names no geometry", word));
       Result<bool> body = open_body();
       if (!body) return body.error();
       if (!*body) continue;
@@ -274,11 +277,11 @@ class WktReader {
     std::vector<Vec2> points;
     if (Status status = read_points(points); !status) return status;
     if (kind == Kind::circular && points.size() % 2 == 0)
-      return source_.error(ErrorCode::malformed, "a circular string has an even number of points");
+      return source_->error(ErrorCode::malformed, "a circular string has an even number of points");
     constexpr double rounding = 1e-14;
     if (!ring.points.empty() &&
         distance(ring.points.back(), points[0]) > rounding * norm(points[0]))
-      return source_.error(ErrorCode::malformed, "the parts of a compound curve do not join");
+      return source_->error(ErrorCode::malformed, "the parts of a compound curve do not join");
     add_piece(points, kind == Kind::circular, ring);
     return success();
   }
@@ -337,30 +340,30 @@ class WktReader {
       std::size_t count = 0;
       int next = 0;
       do {
-        source_.skip_space();
+        source_->skip_space();
         if (count == ordinates.size()) return expected("',' or ')' after four numbers");
-        switch (source_.read_number(ordinates[count])) {
+        switch (source_->read_number(ordinates[count])) {
           case TextSource::Number::read:
             break;
           case TextSource::Number::none:
             return expected("a number");
           case TextSource::Number::not_finite:
-            return at_vertex(source_.error(ErrorCode::not_finite,
-                                           count < 2 ? "a coordinate is not a finite number"
-                                                     : "an ordinate is not a finite number"),
+            return at_vertex(source_->error(ErrorCode::not_finite,
+                                            count < 2 ? "a coordinate is not a finite number"
+                                                      : "an ordinate is not a finite number"),
                              points.size());
           case TextSource::Number::too_long:
-            return source_.error(ErrorCode::malformed, "a number is too long");
+            return source_->error(ErrorCode::malformed, "a number is too long");
         }
         ++count;
-        next = source_.peek();
+        next = source_->peek();
         if (next > ' ' && next != ',' && next != ')') return expected("a blank, ',' or ')'");
-        source_.skip_space();
-        next = source_.peek();
+        source_->skip_space();
+        next = source_->peek();
       } while (next != ',' && next != ')');
       if (count < 2) return expected("a second coordinate");
       points.push_back({ordinates[0], ordinates[1]});
-      source_.skip();
+      source_->skip();
       if (next == ')') return success();
     }
   }
@@ -368,20 +371,21 @@ class WktReader {
   /// Goes past the brackets that close what is open.
   Status skip_balanced() {
     for (std::uint64_t depth = 1; depth > 0;) {
-      const int next = source_.peek();
+      const int next = source_->peek();
       if (next < 0) return expected("')'");
       if (next == '(') ++depth;
       if (next == ')') --depth;
-      source_.skip();
+      source_->skip();
     }
     return success();
   }
 
-  TextSource& source_;
+  const std::shared_ptr<TextSource> source_;
   const bool loose_;
-  Document<Feature> dataset_;
+  Document<Feature>* dataset_ = nullptr;  ///< that is being filled
   std::uint64_t feature_ = 0;
   std::uint64_t others_ = 0;
+  bool polygons_ = false;  ///< whether there was one
   std::optional<int> srid_;
 };
 
@@ -398,8 +402,13 @@ bool begins_like_wkt(std::string_view text) {
   return kind_of(without_dimension(word)) != Kind::unknown;
 }
 
+Result<std::unique_ptr<FeatureReader>> open_wkt(const Input& input, const ReadOptions& options) {
+  return std::unique_ptr<FeatureReader>(new WktReader(input.source, options.loose));
+}
+
 Result<Document<Feature>> read_wkt(const Input& input, const ReadOptions& options) {
-  return WktReader(*input.source, options.loose).read();
+  WktReader reader(input.source, options.loose);
+  return read_to_end(reader);
 }
 
 // Writing.
@@ -527,8 +536,9 @@ Status write_wkt(Target& target, const LayersOutput& output) {
 Format wkt_format() {
   Format format{".wkt"};
   format.read = read_wkt;
+  format.open = open_wkt;
   format.sniff = begins_like_wkt;
-  format.geographic = true;
+  format.geographic = format.in_parts = true;
   return format.writes<AxesOutput, ShapesOutput, OffsetsOutput, VoronoiOutput, LayersOutput>(
       write_wkt, write_wkt, write_wkt, write_wkt, write_wkt);
 }

@@ -10,6 +10,8 @@
 #include <charconv>
 #include <cstring>
 #include <filesystem>
+#include <iterator>
+#include <set>
 
 #include "io/format.h"
 #include "io/format_name.h"
@@ -68,12 +70,17 @@ void swap_axes(Line& line) {
   for (double& bulge : line.bulges) bulge = -bulge;
 }
 
-class GdalReader {
+class GdalReader final : public FeatureReader {
  public:
   GdalReader(std::string shown, const ReadOptions& options)
       : shown_(std::move(shown)), options_(options) {}
 
-  Result<Document<Feature>> read(const std::string& name) {
+  ~GdalReader() override {
+    const GdalMessages unheard;
+    source_.reset();
+  }
+
+  Status open(const std::string& name) {
     register_gdal();
     const GdalMessages messages;
     const unsigned flags = GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR;
@@ -82,21 +89,34 @@ class GdalReader {
                                                  "Y_POSSIBLE_NAMES=y,lat,latitude,northing",
                                                  nullptr};
     const bool table = lower_case(name).ends_with(".csv");
-    const GDALDatasetUniquePtr source(
+    source_.reset(
         GDALDataset::Open(name.c_str(), flags, nullptr, table ? columns.data() : nullptr));
-    if (!source) return cannot_open(name, messages.failure());
-    Result<OGRLayer*> layer = choose_layer(*source);
+    if (!source_) return cannot_open(name, messages.failure());
+    Result<OGRLayer*> layer = choose_layer(*source_);
     if (!layer) return layer.error();
+    layer_ = *layer;
     if (!options_.where.empty() &&
-        (*layer)->SetAttributeFilter(options_.where.c_str()) != OGRERR_NONE) {
+        layer_->SetAttributeFilter(options_.where.c_str()) != OGRERR_NONE) {
       return error(ErrorCode::invalid_option, fmt::format("the filter '{}' does not work: {}",
                                                           options_.where, messages.failure()));
     }
-    read_crs(**layer);
-    read_features(**layer);
-    if (!messages.failure().empty()) return error(ErrorCode::malformed, messages.failure());
-    for (const std::string& warning : messages.warnings()) dataset_.notes.push_back(warning);
-    return summarised();
+    read_crs();
+    layer_->ResetReading();
+    return heard(messages);
+  }
+
+  Result<bool> read(std::size_t points, Document<Feature>& document) override {
+    const GdalMessages messages;
+    document.crs_wkt = common_.crs_wkt;
+    document.geographic = common_.geographic;
+    document.unit = common_.unit;
+    const bool more = read_features(points, document.items);
+    if (Status fine = heard(messages); !fine) return std::move(fine).error();
+    if (!more)
+      if (Status complete = finish(); !complete) return std::move(complete).error();
+    std::ranges::move(common_.notes, std::back_inserter(document.notes));
+    common_.notes.clear();
+    return more;
   }
 
  private:
@@ -131,29 +151,31 @@ class GdalReader {
     OGRLayer* layer = source.GetLayer(0);
     if (layer == nullptr) return error(ErrorCode::malformed, "the first layer cannot be read");
     if (source.GetLayerCount() > 1) {
-      dataset_.notes.push_back(fmt::format("layer '{}' was read, out of: {}",
-                                           utf8(layer->GetName()), layer_names(source)));
+      common_.notes.push_back(fmt::format("layer '{}' was read, out of: {}", utf8(layer->GetName()),
+                                          layer_names(source)));
     }
     return layer;
   }
 
-  void read_crs(OGRLayer& layer) {
-    const OGRSpatialReference* reference = layer.GetSpatialRef();
+  void read_crs() {
+    const OGRSpatialReference* reference = layer_->GetSpatialRef();
     if (reference == nullptr) return;
-    set_crs(*reference, dataset_);
+    set_crs(*reference, common_);
     const std::vector<int>& axes = reference->GetDataAxisToSRSAxisMapping();
     latitude_first_ =
         axes.size() >= 2 && axes[0] == 1 && axes[1] == 2 &&
         (reference->EPSGTreatsAsLatLong() || reference->EPSGTreatsAsNorthingEasting());
   }
 
-  void read_features(OGRLayer& layer) {
-    std::int64_t index = 0;
-    for (const OGRFeatureUniquePtr& source : layer) {
+  /// False at the end of the layer.
+  bool read_features(std::size_t points, std::vector<Feature>& items) {
+    for (std::size_t count = 0; count < points;) {
+      const OGRFeatureUniquePtr source(layer_->GetNextFeature());
+      if (source == nullptr) return false;
       const OGRGeometry* geometry = source->GetGeometryRef();
       Feature feature;
-      feature.id = source->GetFID() == OGRNullFID ? index : source->GetFID();
-      ++index;
+      feature.id = source->GetFID() == OGRNullFID ? index_ : source->GetFID();
+      ++index_;
       if (geometry == nullptr) {
         ++without_geometry_;
         continue;
@@ -173,12 +195,23 @@ class GdalReader {
         feature.attributes.emplace_back(utf8(source->GetFieldDefnRef(i)->GetNameRef()),
                                         field_text(*source, i));
       }
-      dataset_.items.push_back(std::move(feature));
+      count += point_count(feature);
+      any_ = true;
+      items.push_back(std::move(feature));
     }
+    return true;
   }
 
-  Result<Document<Feature>> summarised() {
-    if (dataset_.items.empty()) {
+  /// An error among the messages; its warnings become notes, each once.
+  Status heard(const GdalMessages& messages) {
+    if (!messages.failure().empty()) return error(ErrorCode::malformed, messages.failure());
+    for (const std::string& warning : messages.warnings())
+      if (warnings_.insert(warning).second) common_.notes.push_back(warning);
+    return success();
+  }
+
+  Status finish() {
+    if (!any_) {
       if (counts_.others > 0) {
         return error(
             ErrorCode::unsupported,
@@ -188,20 +221,25 @@ class GdalReader {
                                                             : "no feature passes the filter");
     }
     if (counts_.others > 0) {
-      dataset_.notes.push_back(
+      common_.notes.push_back(
           fmt::format("{} geometries are not polygons and were left out", counts_.others));
     }
     if (without_geometry_ > 0) {
-      dataset_.notes.push_back(
+      common_.notes.push_back(
           fmt::format("{} features have no geometry and were left out", without_geometry_));
     }
-    return std::move(dataset_);
+    return success();
   }
 
   std::string shown_;
-  const ReadOptions& options_;
-  Document<Feature> dataset_;
+  const ReadOptions options_;
+  GDALDatasetUniquePtr source_;
+  OGRLayer* layer_ = nullptr;
+  Document<Feature> common_;  ///< what holds for all features, and notes to come
+  std::set<std::string> warnings_;
   GeometryCounts counts_;
+  std::int64_t index_ = 0;
+  bool any_ = false;  ///< whether a feature has been read
   std::uint64_t without_geometry_ = 0;
   bool latitude_first_ = false;
 };
@@ -220,7 +258,9 @@ Result<Document<Feature>> read_bytes(const Input& input, const ReadOptions& opti
   if (bytes.empty()) return error(ErrorCode::empty, "there is nothing to read");
   const MemoryFile file(bytes);
   if (file.name().empty()) return error(ErrorCode::unreadable, "cannot be kept in memory");
-  return GdalReader(input.path, options).read(file.name());
+  GdalReader reader(input.path, options);
+  if (Status opened = reader.open(file.name()); !opened) return std::move(opened).error();
+  return read_to_end(reader);
 }
 
 /// GDAL's name of a file: compressed files are read through.
@@ -234,15 +274,25 @@ std::string gdal_name(const std::string& path) {
   return path;
 }
 
-Result<Document<Feature>> read_vectors(const Input& input, const ReadOptions& options) {
-  if (input.path == "-") return read_bytes(input, options);
+Result<std::unique_ptr<FeatureReader>> open_vectors(const Input& input,
+                                                    const ReadOptions& options) {
   struct stat status {};
   const bool special = input.path.starts_with("/vsi") || input.path.find(':') != std::string::npos;
   if (!special && stat(input.path.c_str(), &status) != 0) {
     return Error{ErrorCode::unreadable, fmt::format("cannot open: {}", std::strerror(errno)),
                  in_file(input.path)};
   }
-  return GdalReader(input.path, options).read(gdal_name(input.path));
+  auto reader = std::make_unique<GdalReader>(input.path, options);
+  if (Status opened = reader->open(gdal_name(input.path)); !opened)
+    return std::move(opened).error();
+  return std::unique_ptr<FeatureReader>(std::move(reader));
+}
+
+Result<Document<Feature>> read_vectors(const Input& input, const ReadOptions& options) {
+  if (input.path == "-") return read_bytes(input, options);
+  auto reader = open_vectors(input, options);
+  if (!reader) return std::move(reader).error();
+  return read_to_end(**reader);
 }
 
 }  // namespace
@@ -250,6 +300,7 @@ Result<Document<Feature>> read_vectors(const Input& input, const ReadOptions& op
 Format gdal_format() {
   Format format;
   format.read = read_vectors;
+  format.open = open_vectors;
   format.has_layers = format.has_filters = format.reads_others = true;
   return format;
 }

@@ -5,6 +5,8 @@
 #include <array>
 #include <filesystem>
 #include <fstream>
+#include <mutex>
+#include <optional>
 
 #include "io/gis/gdal_support.h"
 #include "io/gis/make_file.h"
@@ -57,44 +59,6 @@ std::unique_ptr<OGRGeometry> geometry_of(GeometryKind kind,
   return polygon;
 }
 
-class GdalTables final : public TableSink {
- public:
-  GdalTables(Target& target, const TableSource& source, GDALDataset& dataset,
-             const GdalMessages& messages)
-      : TableSink(target), source_(source), messages_(messages) {
-    const int count = dataset.GetLayerCount(), own = static_cast<int>(source.tables.size());
-    for (int i = count - own; i < count; ++i) layers_.push_back(dataset.GetLayer(i));
-  }
-
- private:
-  Status put(std::size_t table, std::span<const Value> first, std::span<const Value> rest,
-             std::span<std::vector<Vec2>> parts) override {
-    OGRFeature feature(layers_[table]->GetLayerDefn());
-    int field = 0;
-    for (const auto values : {first, rest})
-      for (const Value& value : values) set(feature, field++, value);
-    feature.SetGeometryDirectly(geometry_of(source_.tables[table].kind, parts).release());
-    if (layers_[table]->CreateFeature(&feature) != OGRERR_NONE) return cannot_write(messages_);
-    return success();
-  }
-
-  static void set(OGRFeature& feature, int field, const Value& value) {
-    if (const auto* number = std::get_if<std::int64_t>(&value)) {
-      feature.SetField(field, static_cast<GIntBig>(*number));
-    } else if (const auto* decimal = std::get_if<double>(&value)) {
-      feature.SetField(field, *decimal);
-    } else if (const auto* words = std::get_if<std::string>(&value)) {
-      feature.SetField(field, words->c_str());
-    } else {
-      feature.SetFieldNull(field);
-    }
-  }
-
-  const TableSource& source_;
-  const GdalMessages& messages_;
-  std::vector<OGRLayer*> layers_;
-};
-
 /// Layers of the same name as a table go, if they may.
 Status make_room(GDALDataset& dataset, const Target& target, const TableSource& source) {
   for (const Table& table : source.tables) {
@@ -131,14 +95,16 @@ std::unique_ptr<OGRSpatialReference> reference_of(const OutputCrs& crs) {
 Status create_layers(GDALDataset& dataset, const Target& target, const TableSource& source,
                      const GdalMessages& messages) {
   const bool several = target.format == "gpkg";
-  // An index is left to who reads: row by row it takes three times as long as all else.
+  // An index is left to who reads: row by row it takes three times as long as all else, and that of
+  // a FlatGeobuf needs memory for all rows.
+  const bool unindexed = several || (target.columns != nullptr && target.format == "fgb");
   std::array<char, 17> no_index{"SPATIAL_INDEX=NO"};
   std::array<char*, 2> options{no_index.data(), nullptr};
   const auto reference = reference_of(target.crs);
   for (const Table& table : source.tables) {
     OGRLayer* layer =
         dataset.CreateLayer((several ? table.name : target.name).c_str(), reference.get(),
-                            type_of(table.kind), several ? options.data() : nullptr);
+                            type_of(table.kind), unindexed ? options.data() : nullptr);
     if (layer == nullptr) return cannot_write(messages);
     for (const Column& column : table.columns) {
       OGRFieldDefn field(column.name.c_str(), type_of(column.type));
@@ -148,8 +114,65 @@ Status create_layers(GDALDataset& dataset, const Target& target, const TableSour
   return success();
 }
 
-/// A dataset with its layers and what fills them.
-Status make_dataset(const std::string& path, Target& target, const TableSource& source) {
+void set_field(OGRFeature& feature, int field, const Value& value) {
+  if (const auto* number = std::get_if<std::int64_t>(&value)) {
+    feature.SetField(field, static_cast<GIntBig>(*number));
+  } else if (const auto* decimal = std::get_if<double>(&value)) {
+    feature.SetField(field, *decimal);
+  } else if (const auto* words = std::get_if<std::string>(&value)) {
+    feature.SetField(field, words->c_str());
+  } else {
+    feature.SetFieldNull(field);
+  }
+}
+
+/// A row of a table as a feature of its layer.
+struct GdalRow {
+  std::size_t table;
+  OGRFeatureUniquePtr feature;
+};
+
+/// A file with a layer for each table. GDAL reports to the thread that calls, so every function
+/// listens by itself.
+class GdalFile {
+ public:
+  GdalFile() = default;
+  GdalFile(const GdalFile&) = delete;
+  GdalFile& operator=(const GdalFile&) = delete;
+  ~GdalFile() {
+    const GdalMessages unheard;
+    dataset_.reset();
+  }
+
+  Status open(const std::string& path, const Target& target, const TableSource& source);
+
+  /// On any thread.
+  GdalRow row(std::size_t table, std::span<const Value> first, std::span<const Value> rest,
+              std::span<const std::vector<Vec2>> parts) const {
+    OGRFeatureUniquePtr feature(new OGRFeature(definitions_[table]));
+    int field = 0;
+    for (const auto values : {first, rest})
+      for (const Value& value : values) set_field(*feature, field++, value);
+    feature->SetGeometryDirectly(geometry_of(kinds_[table], parts).release());
+    return {table, std::move(feature)};
+  }
+  Status add(const GdalRow& row) {
+    return layers_[row.table]->CreateFeature(row.feature.get()) == OGRERR_NONE
+               ? success()
+               : Status(Error{ErrorCode::unwritable, "cannot write", {}});
+  }
+  /// Closing writes, too.
+  Status close();
+
+ private:
+  GDALDatasetUniquePtr dataset_;
+  bool transactions_ = false;
+  std::vector<OGRLayer*> layers_;
+  std::vector<OGRFeatureDefn*> definitions_;
+  std::vector<GeometryKind> kinds_;
+};
+
+Status GdalFile::open(const std::string& path, const Target& target, const TableSource& source) {
   register_gdal();
   GDALDriver* driver = GetGDALDriverManager()->GetDriverByName(driver_of(target.format));
   if (driver == nullptr)
@@ -157,21 +180,137 @@ Status make_dataset(const std::string& path, Target& target, const TableSource& 
         ErrorCode::unsupported, fmt::format("this GDAL cannot write {}", target.format), {}};
   const GdalMessages messages;
   const bool adds = target.adds_to_file && std::filesystem::exists(path);
-  GDALDatasetUniquePtr dataset(
-      adds
-          ? GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_UPDATE | GDAL_OF_VERBOSE_ERROR)
-          : driver->Create(path.c_str(), 0, 0, 0, GDT_Unknown, nullptr));
-  if (!dataset) return cannot_write(messages);
-  if (Status room = adds ? make_room(*dataset, target, source) : success(); !room) return room;
-  if (Status created = create_layers(*dataset, target, source, messages); !created) return created;
-  GdalTables tables(target, source, *dataset, messages);
-  const bool transactions = dataset->TestCapability(ODsCTransactions) != 0;
-  if (transactions) dataset->StartTransaction();
-  if (Status filled = source.fill(tables); !filled) return filled;
-  if (transactions) dataset->CommitTransaction();  // a failure is among the messages
-  dataset.reset();                                 // closing writes, too
+  dataset_.reset(adds ? GDALDataset::Open(path.c_str(),
+                                          GDAL_OF_VECTOR | GDAL_OF_UPDATE | GDAL_OF_VERBOSE_ERROR)
+                      : driver->Create(path.c_str(), 0, 0, 0, GDT_Unknown, nullptr));
+  if (!dataset_) return cannot_write(messages);
+  if (Status room = adds ? make_room(*dataset_, target, source) : success(); !room) return room;
+  if (Status created = create_layers(*dataset_, target, source, messages); !created) return created;
+  const int count = dataset_->GetLayerCount(), own = static_cast<int>(source.tables.size());
+  for (int i = count - own; i < count; ++i) {
+    layers_.push_back(dataset_->GetLayer(i));
+    definitions_.push_back(layers_.back()->GetLayerDefn());
+  }
+  for (const Table& table : source.tables) kinds_.push_back(table.kind);
+  transactions_ = dataset_->TestCapability(ODsCTransactions) != 0;
+  if (transactions_) dataset_->StartTransaction();
   return messages.failure().empty() ? success() : cannot_write(messages);
 }
+
+Status GdalFile::close() {
+  const GdalMessages messages;
+  if (transactions_) dataset_->CommitTransaction();
+  dataset_.reset();
+  return messages.failure().empty() ? success() : cannot_write(messages);
+}
+
+/// The rows go into the file, or into a list.
+class GdalTables final : public TableSink {
+ public:
+  GdalTables(Target& target, GdalFile& file, std::vector<GdalRow>* list = nullptr)
+      : TableSink(target), file_(file), list_(list) {}
+
+ private:
+  Status put(std::size_t table, std::span<const Value> first, std::span<const Value> rest,
+             std::span<std::vector<Vec2>> parts) override {
+    GdalRow row = file_.row(table, first, rest, parts);
+    if (list_ == nullptr) return file_.add(row);
+    list_->push_back(std::move(row));
+    return success();
+  }
+
+  GdalFile& file_;
+  std::vector<GdalRow>* list_;
+};
+
+/// Runs work(), with GDAL's words for what it could not write.
+template <class Work>
+Status heard(const Work& work) {
+  const GdalMessages messages;
+  Status done = work();
+  if (messages.failure().empty() || (!done && done.error().code != ErrorCode::unwritable))
+    return done;
+  return cannot_write(messages);
+}
+
+Status make_dataset(const std::string& path, Target& target, const TableSource& source) {
+  GdalFile file;
+  if (Status opened = file.open(path, target, source); !opened) return opened;
+  GdalTables tables(target, file);
+  if (Status filled = heard([&] { return source.fill(tables); }); !filled) return filled;
+  return file.close();
+}
+
+Status copy_to(OutputStream& out, const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::array<char, 65536> bytes{};
+  while (file.read(bytes.data(), bytes.size()) || file.gcount() > 0)
+    out.put(std::string_view(bytes.data(), static_cast<std::size_t>(file.gcount())));
+  return file.bad() ? Status(Error{ErrorCode::unwritable, "cannot read what was made", {}})
+                    : success();
+}
+
+Result<PendingFile> temporary_file(const Target& target) {
+  const auto folder = std::filesystem::temp_directory_path();
+  return PendingFile::create((folder / (target.name + "." + target.format)).string());
+}
+
+/// Axes in parts, whose rows become features of GDAL on all threads.
+class GdalParts final : public PartWriter {
+ public:
+  static Result<std::unique_ptr<PartWriter>> make(Target& target) {
+    std::unique_ptr<GdalParts> parts(new GdalParts(target));
+    const Document<AxisItem> nothing;
+    const WriteOptions options;
+    const TableSource source = tables_of(AxesOutput{nothing, options}, target);
+    std::string path = target.path;
+    if (target.out != nullptr) {
+      Result<PendingFile> made = temporary_file(target);
+      if (!made) return std::move(made).error();
+      path = made->path();
+      parts->temporary_.emplace(std::move(*made));
+    }
+    if (Status opened = parts->file_.open(path, target, source); !opened)
+      return std::move(opened).error();
+    return std::unique_ptr<PartWriter>(std::move(parts));
+  }
+
+  Result<std::shared_ptr<void>> prepare(const AxesOutput& output, const Part& part) override {
+    auto rows = std::make_shared<std::vector<GdalRow>>();
+    Target own;
+    own.part = part;
+    own.columns = target_.columns;
+    own.format = target_.format;
+    own.crs = target_.crs;
+    std::unique_lock<std::mutex> alone(projecting_, std::defer_lock);
+    if (own.crs.changes_points()) alone.lock();
+    GdalTables tables(own, file_, rows.get());
+    Status filled = heard([&] { return tables_of(output, own).fill(tables); });
+    if (!filled) return std::move(filled).error();
+    return std::shared_ptr<void>(std::move(rows));
+  }
+
+  Status add(void* prepared) override {
+    return heard([&]() -> Status {
+      for (const GdalRow& row : *static_cast<const std::vector<GdalRow>*>(prepared))
+        if (Status added = file_.add(row); !added) return added;
+      return success();
+    });
+  }
+
+  Status finish() override {
+    if (Status closed = file_.close(); !closed || !temporary_) return closed;
+    return copy_to(*target_.out, temporary_->path());
+  }
+
+ private:
+  explicit GdalParts(Target& target) : target_(target) {}
+
+  Target& target_;
+  std::optional<PendingFile> temporary_;
+  GdalFile file_;
+  std::mutex projecting_;
+};
 
 Status put_gdal_tables(Target& target, const TableSource& source) {
   if (source.tables.size() != 1 && target.format != "gpkg")
@@ -191,31 +330,30 @@ Status put_gdal_tables(Target& target, const TableSource& source) {
 
 Status make_file(Target& target, const std::function<Status(const std::string&)>& make) {
   if (target.out == nullptr) return make(target.path);
-  const auto folder = std::filesystem::temp_directory_path();
-  Result<PendingFile> made =
-      PendingFile::create((folder / (target.name + "." + target.format)).string());
+  Result<PendingFile> made = temporary_file(target);
   if (!made) return std::move(made).error();
   if (Status status = make(made->path()); !status) return status;
-  std::ifstream file(made->path(), std::ios::binary);
-  std::array<char, 65536> bytes{};
-  while (file.read(bytes.data(), bytes.size()) || file.gcount() > 0)
-    target.out->put(std::string_view(bytes.data(), static_cast<std::size_t>(file.gcount())));
-  return file.bad() ? Status(Error{ErrorCode::unwritable, "cannot read what was made", {}})
-                    : success();
+  return copy_to(*target.out, made->path());
 }
 
 Format gpkg_format() {
   Format format{".gpkg"};
   format.own_files = format.adds_layers = true;
+  format.write_parts = GdalParts::make;
   return with_tables<put_gdal_tables>(format);
 }
 
 Format shp_format() {
   Format format{".shp"};
   format.own_files = true;
+  format.write_parts = GdalParts::make;
   return with_tables<put_gdal_tables>(format);
 }
 
-Format fgb_format() { return with_tables<put_gdal_tables>(Format{".fgb"}); }
+Format fgb_format() {
+  Format format{".fgb"};
+  format.write_parts = GdalParts::make;
+  return with_tables<put_gdal_tables>(format);
+}
 
 }  // namespace medial::io

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <span>
+
+namespace medial {
+
+/// A stage that all tasks pass; one after another in their order, or several at once.
+struct PipelineStage {
+  bool in_order;
+  std::function<void(void* task)> run;
+};
+
+/// Passes tasks through stages on effective_threads(requested) threads: `next` makes one after
+/// another until it returns null. At most `window` of them are under way, so that those behind a
+/// slow one go on until so many wait for it.
+void run_pipeline(int requested, std::size_t window,
+                  const std::function<std::shared_ptr<void>()>& next,
+                  std::span<const PipelineStage> stages);
+
+}  // namespace medial

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "medial/document.h"
+#include "medial/error.h"
+
+namespace medial::io {
+
+/// The features of a file, one after another.
+class FeatureReader {
+ public:
+  FeatureReader() = default;
+  FeatureReader(const FeatureReader&) = delete;
+  FeatureReader& operator=(const FeatureReader&) = delete;
+  virtual ~FeatureReader() = default;
+
+  /// Appends features to the document's items until they have `points` points or the file ends, and
+  /// sets what holds for all of them, as far as it is known; notes are those that are new. False:
+  /// the end, there are no more. Errors: those of reading the format.
+  virtual Result<bool> read(std::size_t points, Document<Feature>& document) = 0;
+};
+
+/// All of them.
+inline Result<Document<Feature>> read_to_end(FeatureReader& reader) {
+  Document<Feature> document;
+  constexpr std::size_t many = std::size_t{1} << 20;
+  for (;;) {
+    Result<bool> more = reader.read(many, document);
+    if (!more) return std::move(more).error();
+    if (!*more) return document;
+  }
+}
+
+inline std::size_t point_count(const Feature& feature) {
+  std::size_t count = 1;
+  for (const Ring& ring : feature.rings) count += ring.points.size();
+  for (const Contour& contour : feature.contours) count += contour.points.size();
+  for (const Chain& chain : feature.chains) count += chain.points.size();
+  return count;
+}
+
+}  // namespace medial::io

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "io/format.h"
+
+namespace medial::io {
+
+/// Opens a file to be read feature by feature; null: its format is read as a whole. Errors: those
+/// of read_document().
+Result<std::unique_ptr<FeatureReader>> open_features(const std::string& path,
+                                                     const ReadOptions& options);
+
+/// The reference system that is asked for, or the one of the file if its numbers can be degrees.
+Status settle_crs(Document<Feature>& document, const std::string& crs, bool degrees);
+
+}  // namespace medial::io

@@ -1,0 +1,362 @@
+#include "medial/io/stream.h"
+
+#include <fmt/format.h>
+#include <sys/stat.h>
+
+#include <atomic>
+#include <mutex>
+
+#include "base/in_flight.h"
+#include "base/pipeline.h"
+#include "io/attribute_columns.h"
+#include "io/checks.h"
+#include "io/degrees.h"
+#include "io/format.h"
+#include "io/format_name.h"
+#include "io/open.h"
+#include "io/tables.h"
+#include "io/write_target.h"
+#include "medial/threads.h"
+
+namespace medial::io {
+
+namespace {
+
+constexpr std::size_t points_of_part = 8192;  // some megabytes with their axes
+constexpr double long_work = 50'000;          // points that are worth several threads
+/// How many parts may wait for a slow one.
+std::size_t window_of(int threads) { return 6 + 2 * static_cast<std::size_t>(threads); }
+
+bool is_large_file(const std::string& path, std::uint64_t least) {
+  struct stat status {};
+  return stat(path.c_str(), &status) == 0 && S_ISREG(status.st_mode) &&
+         static_cast<std::uint64_t>(status.st_size) >= least;
+}
+
+bool needs_all_features(const SourceOptions& source) {
+  const UnitOptions& units = source.units;
+  return source.read.project || source.read.loose || source.read.repair != RepairRule::none ||
+         !source.text.empty() || source.load.fit > 0 || source.load.keep_contours ||
+         units.given != Unit::unknown || units.wanted != Unit::unknown || units.scale != 1 ||
+         units.pixel_size > 0 || units.assumed != Unit::unknown;
+}
+
+/// The reader's next features, checked, with their numbers in the file. Nothing: there are no more.
+class PartReader {
+ public:
+  PartReader(std::unique_ptr<FeatureReader> reader, const ReadOptions& options)
+      : reader_(std::move(reader)), checks_(options) {}
+
+  Result<std::optional<Document<Feature>>> next() {
+    if (!more_) return std::optional<Document<Feature>>();
+    Document<Feature> part;
+    const Result<bool> more = reader_->read(points_of_part, part);
+    if (!more) return more.error();
+    more_ = *more;
+    for (std::size_t i = 0; i < part.items.size(); ++i) part.indices.push_back(read_++);
+    if (Status checked = checks_.check(part); !checked) return std::move(checked).error();
+    return std::optional(std::move(part));
+  }
+  Status finish(Document<Feature>& document) const { return checks_.finish(document); }
+
+ private:
+  std::unique_ptr<FeatureReader> reader_;
+  FeatureChecks checks_;
+  bool more_ = true;
+  std::uint64_t read_ = 0;
+};
+
+/// What has to be known of all features before the first one is written.
+struct Survey {
+  Document<Feature> common;  ///< without items
+  AttributeColumns columns;
+  std::uint64_t features = 0;
+  double points = 0;
+  bool arcs = false;
+};
+
+Result<Survey> survey_of(PartReader reader, const std::string& crs) {
+  Survey survey;
+  bool degrees = true;
+  for (;;) {
+    auto part = reader.next();
+    if (!part) return std::move(part).error();
+    if (!*part) break;
+    Document<Feature>& features = **part;
+    Document<Feature>& common = survey.common;
+    if (!features.crs_wkt.empty()) common.crs_wkt = features.crs_wkt;
+    common.geographic = common.geographic || features.geographic;
+    if (features.unit != Unit::unknown) common.unit = features.unit;
+    std::ranges::move(features.notes, std::back_inserter(common.notes));
+    degrees = degrees && can_be_degrees(features);
+    for (const Feature& feature : features.items) {
+      survey.columns.add(feature.attributes);
+      survey.points += static_cast<double>(point_count(feature));
+      survey.arcs = survey.arcs || std::ranges::any_of(feature.rings, [](const Ring& ring) {
+                      return !ring.bulges.empty();
+                    });
+    }
+    survey.features += features.items.size();
+  }
+  if (Status complete = reader.finish(survey.common); !complete) return std::move(complete).error();
+  if (Status settled = settle_crs(survey.common, crs, degrees); !settled)
+    return std::move(settled).error();
+  survey.columns.name_apart(own_axis_columns());
+  return survey;
+}
+
+/// Parts as text, by the writer of whole documents.
+class TextParts final : public PartWriter {
+ public:
+  TextParts(Target& target, const Format& format)
+      : target_(target), writer_(std::get<Writer<AxesOutput>>(format.writers)) {}
+
+  Result<std::shared_ptr<void>> prepare(const AxesOutput& output, const Part& part) override {
+    auto text = std::make_shared<std::string>();
+    OutputStream out = OutputStream::to(*text);
+    Target own;
+    own.part = part;
+    own.arcs = target_.arcs;
+    own.columns = target_.columns;
+    own.format = target_.format;
+    own.name = target_.name;
+    own.unit = target_.unit;
+    own.crs = target_.crs;
+    own.out = &out;
+    std::unique_lock<std::mutex> alone(projecting_, std::defer_lock);
+    if (own.crs.changes_points()) alone.lock();
+    if (Status written = writer_(own, output); !written) return std::move(written).error();
+    if (!own.status()) return own.status().error();
+    if (Status complete = out.finish(); !complete) return std::move(complete).error();
+    return std::shared_ptr<void>(std::move(text));
+  }
+
+  Status add(void* prepared) override {
+    std::string_view text = *static_cast<const std::string*>(prepared);
+    // Of rows that commas divide, the very first one has none.
+    if (!any_ && text.starts_with(",\n")) text.remove_prefix(1);
+    any_ = any_ || (begun_ && !text.empty());
+    begun_ = true;
+    target_.out->put(text);
+    return success();
+  }
+
+  Status finish() override { return success(); }
+
+ private:
+  Target& target_;
+  const Writer<AxesOutput> writer_;
+  std::mutex projecting_;
+  bool begun_ = false, any_ = false;
+};
+
+/// A part of the file on its way.
+struct PartTask {
+  Document<Feature> features;
+  double points = 0;
+  LoadReport load;
+  AxesReport report;
+  Document<AxisItem> axes;
+  Part numbers{false, false};
+  std::shared_ptr<void> prepared;
+  std::optional<Error> error;
+  bool unwritable = false;  ///< whether the error is one of the output
+};
+
+/// Reads, computes and writes all parts of a file.
+class AxesStream {
+ public:
+  AxesStream(PartReader reader, const Survey& survey, const StreamOptions& options,
+             PartWriter& writer)
+      : reader_(std::move(reader)), survey_(survey), options_(options), writer_(writer) {
+    report.document = empty_like<AxisItem>(survey.common);
+    common_ = report.document;
+    common_.notes.clear();
+  }
+
+  Status run() {
+    if (Status begun = write_frame({true, false}); !begun) return begun;
+    const auto stage = [this](bool in_order, void (AxesStream::*work)(PartTask&)) {
+      return PipelineStage{in_order, [this, work](void* task) {
+                             PartTask& part = *static_cast<PartTask*>(task);
+                             if (part.error || failed_.load()) return;
+                             try {
+                               (this->*work)(part);
+                             } catch (...) {
+                               part.error = error_in_flight();
+                             }
+                           }};
+    };
+    const std::array stages{
+        stage(false, &AxesStream::compute), stage(true, &AxesStream::number),
+        stage(false, &AxesStream::prepare), stage(true, &AxesStream::add),
+        PipelineStage{true, [this](void* task) { take_error(*static_cast<PartTask*>(task)); }}};
+    run_pipeline(
+        options_.threads, window_of(effective_threads(options_.threads)), [this] { return next(); },
+        stages);
+    if (report.load.features > 0 && report.load.left_out == report.load.features)
+      input_error = Error{ErrorCode::empty, "no feature is valid, so nothing is left", {}};
+    if (input_error) return *input_error;
+    if (output_error_) return *output_error_;
+    if (report.load.left_out > 0)
+      report.document.notes.push_back(fmt::format("{} of {} features are invalid and were left out",
+                                                  report.load.left_out, report.load.features));
+    if (Status ended = write_frame({false, true}); !ended) return ended;
+    return writer_.finish();
+  }
+
+  StreamReport report;
+  std::optional<Error> input_error;  ///< why run() failed, if not for the output
+
+ private:
+  std::shared_ptr<void> next() {
+    if (ended_ || failed_.load()) return nullptr;
+    auto part = reader_.next();
+    if (part && !*part) return nullptr;
+    auto task = std::make_shared<PartTask>();
+    if (!part) {
+      task->error = std::move(part).error();
+      ended_ = true;
+      return task;
+    }
+    task->features = std::move(**part);
+    for (const Feature& feature : task->features.items)
+      task->points += static_cast<double>(point_count(feature));
+    task->features.crs_wkt = common_.crs_wkt;
+    task->features.geographic = common_.geographic;
+    task->features.unit = common_.unit;
+    task->features.notes.clear();  // the survey has them
+    return task;
+  }
+
+  void compute(PartTask& part) {
+    if (part.features.items.empty()) return;
+    const int threads = part.points >= long_work ? options_.threads : 1;
+    LoadOptions load = options_.source.load;
+    load.skip_invalid = options_.source.read.skip_invalid;
+    load.part = true;
+    load.threads = threads;
+    auto shapes = load_shapes(std::move(part.features), load, &part.load);
+    if (!shapes) {
+      part.error = std::move(shapes).error();
+      return;
+    }
+    if (shapes->items.empty()) {
+      part.axes.notes = std::move(shapes->notes);
+      return;
+    }
+    auto axes = options_.compute(std::move(*shapes), threads, part.report);
+    if (axes)
+      part.axes = std::move(*axes);
+    else
+      part.error = std::move(axes).error();
+  }
+
+  void number(PartTask& part) {
+    part.numbers = next_;
+    next_.feature += part.axes.items.size();
+    for (const AxisItem& item : part.axes.items) {
+      next_.node += item.axis.nodes.size();
+      next_.edge += item.axis.edges.size();
+    }
+    report.load += part.load;
+    report.axes.statistics += part.report.statistics;
+    report.axes.unresolved += part.report.unresolved;
+    std::ranges::move(part.axes.notes, std::back_inserter(report.document.notes));
+    if (options_.visit) options_.visit(part.axes);
+  }
+
+  void prepare(PartTask& part) {
+    auto prepared = writer_.prepare({part.axes, options_.write}, part.numbers);
+    if (!prepared) return fail_to_write(part, std::move(prepared).error());
+    part.prepared = std::move(*prepared);
+    part.axes = {};
+  }
+
+  void add(PartTask& part) {
+    if (Status added = writer_.add(part.prepared.get()); !added)
+      return fail_to_write(part, std::move(added).error());
+    part.prepared.reset();
+    done_ += part.points;
+    if (options_.progress)
+      options_.progress(std::min(1.0, done_ / survey_.points), survey_.features);
+  }
+
+  /// The first error in the order of the file is the one that counts.
+  void take_error(PartTask& part) {
+    if (!part.error || failed_.exchange(true)) return;
+    (part.unwritable ? output_error_ : input_error) = std::move(part.error);
+  }
+
+  static void fail_to_write(PartTask& part, Error error) {
+    part.error = std::move(error);
+    part.unwritable = true;
+  }
+
+  /// What stands before the first part, or behind the last one.
+  Status write_frame(const Part& part) {
+    auto prepared = writer_.prepare({common_, options_.write}, part);
+    return prepared ? writer_.add(prepared->get()) : Status(std::move(prepared).error());
+  }
+
+  PartReader reader_;
+  const Survey& survey_;
+  const StreamOptions& options_;
+  PartWriter& writer_;
+  Document<AxisItem> common_;
+  Part next_{false, false};
+  double done_ = 0;
+  bool ended_ = false;                ///< nothing more is read
+  std::atomic<bool> failed_ = false;  ///< parts behind the first error do nothing
+  std::optional<Error> output_error_;
+};
+
+}  // namespace
+
+Result<std::optional<StreamReport>> stream_axes(const std::string& path, const Destination& target,
+                                                const std::string& format,
+                                                const StreamOptions& options) {
+  const Format* row = find_format(format_name(target.path, format), DocumentKind::axes);
+  const bool in_parts = row != nullptr && (row->in_parts || row->write_parts != nullptr);
+  // What has gone to a pipe cannot be taken back after an error.
+  if (!in_parts || (is_stream(target.path) && target.text == nullptr) ||
+      !is_large_file(path, options.least_bytes) || needs_all_features(options.source))
+    return std::optional<StreamReport>();
+  const ReadOptions& read = options.source.read;
+  auto first = open_features(path, read);
+  if (!first) return std::move(first).error();
+  if (*first == nullptr) return std::optional<StreamReport>();
+  auto survey = survey_of(PartReader(std::move(*first), read), read.crs);
+  if (!survey) return std::move(survey).error();
+  std::optional<StreamReport> report;
+  std::optional<Error> input_error;
+  const auto write = [&](Target& to, const Format& chosen) -> Status {
+    auto again = open_features(path, read);
+    if (!again) return std::move(again).error();
+    to.columns = std::make_shared<const AttributeColumns>(std::move(survey->columns));
+    to.arcs = survey->arcs;
+    std::unique_ptr<PartWriter> writer;
+    if (chosen.write_parts != nullptr) {
+      auto made = chosen.write_parts(to);
+      if (!made) return std::move(made).error();
+      writer = std::move(*made);
+    } else {
+      writer = std::make_unique<TextParts>(to, chosen);
+    }
+    AxesStream stream(PartReader(std::move(*again), read), *survey, options, *writer);
+    Status done = stream.run();
+    report = std::move(stream.report);
+    input_error = std::move(stream.input_error);
+    return done;
+  };
+  const Document<Feature>& common = survey->common;
+  Status done = write_target(
+      target, format,
+      {DocumentKind::axes, "json", "medial", common.crs_wkt, common.unit, options.write.overwrite},
+      write);
+  if (input_error) return *input_error;
+  if (!done) return std::move(done).error();
+  return report;
+}
+
+}  // namespace medial::io

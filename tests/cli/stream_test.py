@@ -1,0 +1,92 @@
+"""Files of many features, read, computed and written part by part."""
+
+import gzip
+import json
+import random
+import sqlite3
+
+from support import CommandLine
+
+
+def footprints(count, seed=1):
+    """L-shapes on a grid, as rings."""
+    chance = random.Random(seed)
+    for i in range(count):
+        x, y = 30 * (i % 200), 30 * (i // 200)
+        a, b, c, d = (round(chance.uniform(low, low + 5), 2) for low in (10, 10, 3, 3))
+        yield [(x + u, y + v) for u, v in ((0, 0), (a, 0), (a, c), (d + 1, c), (d + 1, b), (d, b + 1), (0, b + 1), (0, 0))]
+
+
+def wkt(rings):
+    return "".join("POLYGON ((" + ", ".join(f"{x!r} {y!r}" for x, y in ring) + "))\n" for ring in rings)
+
+
+def geojson(rings):
+    features = [
+        {
+            "type": "Feature",
+            "properties": {"number": i, "name": f"house {i % 97}", "code": "007" if i % 2 else str(i)},
+            "geometry": {"type": "Polygon", "coordinates": [ring]},
+        }
+        for i, ring in enumerate(rings)
+    ]
+    crs = {"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::25832"}}
+    return json.dumps({"type": "FeatureCollection", "crs": crs, "features": features})
+
+
+class Stream(CommandLine):
+    """A file above 1 MiB goes part by part; compressed below that, it is read as a whole."""
+
+    def both_ways(self, name, text, output, *more):
+        """The names of the outputs, and what standard error says, of the file in parts and whole."""
+        self.write(name, text)
+        self.write(name + ".gz", gzip.compress(text.encode()))
+        self.assertGreater(len(text), 1 << 20)
+        self.assertLess(len(self.read(name + ".gz")), 1 << 20)
+        said = {}
+        for folder, source in (("whole_", name + ".gz"), ("parts_", name), ("one_", name)):
+            threads = "1" if folder == "one_" else "2"
+            done = self.run_medial("axis", source, "-o", folder + "a." + output, "--threads", threads, *more)
+            said[folder] = done.returncode, done.stderr.decode().replace(source, "FILE")
+        self.assertEqual(said["whole_"], said["parts_"])
+        self.assertEqual(said["whole_"], said["one_"])
+        return said["whole_"]
+
+    def assert_same(self, output):
+        whole, parts, one = (self.read(f"{way}_a.{output}").replace(f"{way}_a".encode(), b"a")
+                             for way in ("whole", "parts", "one"))  # fmt: skip
+        self.assertTrue(whole == parts, output)
+        self.assertTrue(whole == one, output)
+
+    def test_bytes_are_those_of_the_whole(self):
+        text = wkt(footprints(12000))
+        for output in ("csv", "wkt", "json", "geojson"):
+            self.assertEqual(self.both_ways("f.wkt", text, output)[0], 0)
+            self.assert_same(output)
+
+    def test_attributes_and_reference_systems_are_those_of_the_whole(self):
+        text = geojson(footprints(5000))
+        self.both_ways("f.geojson", text, "geojson")
+        self.assert_same("geojson")
+        self.both_ways("f.geojson", text, "gpkg")
+        for table in ("axis", "nodes"):
+            rows = []
+            for way in ("whole", "parts", "one"):
+                with sqlite3.connect(self.path(f"{way}_a.gpkg")) as database:
+                    rows.append(database.execute(f"SELECT * FROM {table} ORDER BY fid").fetchall())
+            self.assertGreater(len(rows[0]), 5000)
+            self.assertTrue(rows[0] == rows[1] == rows[2], table)
+
+    def test_errors_are_those_of_the_whole_and_leave_nothing(self):
+        rings = list(footprints(12000))
+        rings[7000] = [(0, 0), (2, 2), (2, 0), (0, 2), (0, 0)]
+        rings[4000] = rings[8000] = [(0, 0), (1, 0), (2, 0), (0, 0)]
+        status, said = self.both_ways("f.wkt", wkt(rings), "geojson")
+        self.assertEqual(status, 2)
+        self.assertIn("feature 4000", said)
+        self.assertEqual(self.files(), ["f.wkt", "f.wkt.gz"])
+        status, said = self.both_ways("f.wkt", wkt(rings), "geojson", "--skip-invalid")
+        self.assertEqual(status, 0)
+        self.assertIn("feature 7000", said)
+        self.assertIn("3 of 12000 features are invalid", said)
+        self.assert_same("geojson")
