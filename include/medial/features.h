@@ -1,8 +1,7 @@
 #pragma once
 
-// The features of a shape by its axis: points, branches, and their primitives, after Blum and Nagel
-// (1978) and Volkmann and St. Clair (Section II.A.1, Figs 4 to 7); how alike two shapes are, and
-// how they interlock.
+// The features of a shape by its axis, after Blum and Nagel (1978) and Volkmann and St. Clair
+// (Section II.A.1, Figs 4 to 7); how alike two shapes are, and how they interlock.
 
 #include "medial/axis.h"
 #include "medial/shape.h"
@@ -45,8 +44,7 @@ const char* name_of(PointKind kind);
 const char* name_of(Primitive primitive);
 const char* name_of(Variation variation);
 
-/// How a run, a part of a branch, is classified, by numbers without a unit: from least-squares
-/// quadratics of its radius and its direction by length.
+/// How a run, a part of a branch, is classified: by quadratics of radius and direction by length.
 struct FeatureOptions {
   double parallel = 0.05;  ///< a worm's radius changes by at most this times the run's length ...
   double even = 0.1;       ///< ... and times its mean; other runs without bend are wedges
@@ -123,9 +121,8 @@ struct AxisFeatures {
 AxisFeatures describe(const MedialAxis& axis, const FeatureOptions& options = {});
 
 /// A shape in a few numbers without units, the same for rotated, scaled and mirrored images:
-/// distributions over the axis by their quantiles. A piece of the axis counts by its length, less
-/// where its erosion thickness is close to the noise of the boundary. Lengths are over the root
-/// mean square distance from the axis's centre.
+/// distributions over the axis by their quantiles. Pieces count by their lengths, less near the
+/// noise of the boundary. Lengths are over the root mean square distance from the axis's centre.
 struct ShapeSignature {
   static constexpr std::size_t quantiles = 24;
   using Quantiles = std::array<double, quantiles>;
@@ -148,8 +145,7 @@ ShapeSignature signature_of(const MedialAxis& axis, const AxisFeatures& features
 /// 0 for the same shape, about 1 for two shapes at random; symmetric.
 double dissimilarity(const ShapeSignature& a, const ShapeSignature& b);
 
-/// Where a shape lies: turned by `angle` (radians) about the origin, after x -> -x if `mirrored`,
-/// then moved.
+/// Where a shape lies: x -> -x if mirrored, then turned about the origin (radians), then moved.
 struct Placement {
   double angle = 0;
   bool mirrored = false;

@@ -83,9 +83,8 @@ struct Potential {
   double angle = 2.56;
   /// e_min: how far a point may still move with the order, as a share of the size. In (0, 0.1].
   double movement = 0.0005;
-  std::optional<Vec2> from = {};  ///< only the branch to which the force leads from this place
-  /// Only what lies in this box, connected or not.
-  std::optional<Box> within = {};
+  std::optional<Vec2> from = {};   ///< only the branch to which the force leads from this place
+  std::optional<Box> within = {};  ///< only what lies in this box, connected or not
   bool whole() const { return !from && !within; }
 };
 
