@@ -53,7 +53,7 @@ class Nest(CommandLine):
         self.assertEqual(len(report["placements"]), 2)
         self.assertGreater(report["placements"][0]["saved"], 600)
         self.assertGreaterEqual(report["placements"][0]["gap"], 1)
-        self.assertIn("<svg", self.read("pair.svg"))
+        self.assertIn(b"<svg", self.read("pair.svg"))
         self.refuse("empty", "nest", "square.wkt", "square.wkt")
 
 
