@@ -183,6 +183,9 @@ void add_grid_options(CLI::App& command, MethodArguments& arguments) {
       "edges differ by less than a pixel.");
 }
 
+/// A base order for which points of the exact axis stand.
+constexpr double exact_start_order = 4096;
+
 /// The options of potential.
 void add_potential_options(CLI::App& command, method::Potential& options) {
   const OptionGroup group(command, "Potential fields (--method potential)");
@@ -192,9 +195,16 @@ void add_potential_options(CLI::App& command, method::Potential& options) {
       ->option_text("N");
   command
       .add_option("--base-order", options.base_order,
-                  "The order of the force lines that are followed first (default: the order).\n"
-                  "1 is the paper's; above 24 the exact axis takes their place.")
+                  "The order of the force lines that are followed first: 1 is the paper's\n"
+                  "(default: the order, but 24 at most).")
       ->option_text("N");
+  command.add_flag(
+      "--exact-start",
+      [&options](std::int64_t count) {
+        if (count > 0) options.base_order = exact_start_order;
+      },
+      "Start on the exact axis instead of following force lines (default: above 2,000\n"
+      "edges, at orders above 24).");
   add_list_option(
       command, "--from", 2,
       [&options](const std::vector<double>& xy) {

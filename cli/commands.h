@@ -32,10 +32,10 @@ Command command_of(CLI::App* app, std::shared_ptr<Arguments> arguments,
 using MakeCommand = Command(CLI::App& program);
 MakeCommand make_axis_command, make_verify_command, make_info_command, make_legal_command,
     make_draw_command, make_prune_command, make_smooth_command, make_rebuild_command,
-    make_features_command, make_match_command, make_pack_command, make_unpack_command,
-    make_voronoi_command, make_distance_command, make_voxels_command, make_methods_command,
-    make_field_command, make_compare_command, make_offset_command, make_centreline_command,
-    make_measure_command, make_carve_command, make_doctor_command, make_help_command,
-    make_completion_command;
+    make_features_command, make_match_command, make_nest_command, make_pack_command,
+    make_unpack_command, make_voronoi_command, make_distance_command, make_voxels_command,
+    make_methods_command, make_field_command, make_compare_command, make_offset_command,
+    make_centreline_command, make_measure_command, make_carve_command, make_doctor_command,
+    make_help_command, make_completion_command;
 
 }  // namespace medial::cli

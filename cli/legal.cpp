@@ -1,8 +1,10 @@
-// medial legal: can these functions be medial axes at all?
+// medial legal: can these functions be medial axes at all? And the boundary's curvature by them.
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <memory>
 
 #include "cli/commands.h"
@@ -17,6 +19,8 @@ struct LegalArguments {
   std::string path;
   CommonOptions common;
   double slack = 1e-9;
+  std::string curvature;  ///< a path, or empty
+  io::WriteOptions write;
 };
 
 constexpr double largest_slack = 1;
@@ -104,13 +108,85 @@ std::string text_of(const Verdict& verdict, const Document<AxisItem>& file) {
   return rows.text();
 }
 
+using Curvatures = std::vector<std::vector<FootCurvature>>;  // by branch
+
+/// feature,branch,side and the disk, its foot, the curvature there and its derivative.
+std::string curvature_csv(const std::vector<Curvatures>& all) {
+  std::string text = "feature,branch,side,axis_x,axis_y,r,x,y,curvature,slope\n";
+  for (std::size_t i = 0; i < all.size(); ++i)
+    for (std::size_t k = 0; k < all[i].size(); ++k)
+      for (const FootCurvature& at : all[i][k])
+        fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{},{},{}\n", i, k,
+                       at.side == Side::left ? "left" : "right", at.disk.center.x, at.disk.center.y,
+                       at.disk.radius, at.foot.x, at.foot.y, at.curvature, at.slope);
+  return text;
+}
+
+template <class Act>
+void each_foot(const std::vector<Curvatures>& all, const Act& act) {
+  for (std::uint32_t i = 0; i < all.size(); ++i)
+    for (const auto& branch : all[i])
+      for (const FootCurvature& at : branch) act(i, at);
+}
+
+/// From feet a line towards the centre of curvature, as long as the curvature is large: into the
+/// shape where it is convex. The largest curvature but for a twentieth is 5 % of the size long.
+io::Layer curvature_comb(const std::vector<Curvatures>& all) {
+  constexpr double apart = 0.003;  // teeth, as a share of the size
+  std::vector<double> sizes;
+  Box box{{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
+  each_foot(all, [&](std::uint32_t, const FootCurvature& at) {
+    sizes.push_back(std::abs(at.curvature));
+    box.low = {std::min(box.low.x, at.foot.x), std::min(box.low.y, at.foot.y)};
+    box.high = {std::max(box.high.x, at.foot.x), std::max(box.high.y, at.foot.y)};
+  });
+  io::Layer comb{"curvature", io::LayerKind::lines, {"curvature", "slope", "r"}, {}};
+  if (sizes.empty()) return comb;
+  const auto large = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() * 19 / 20);
+  std::nth_element(sizes.begin(), large, sizes.end());
+  if (!(*large > 0)) return comb;
+  const double size = distance(box.low, box.high), longest = 0.05 * size;
+  Vec2 last{INFINITY, INFINITY};
+  each_foot(all, [&](std::uint32_t i, const FootCurvature& at) {
+    if (!(at.disk.radius > 0) || distance(at.foot, last) < apart * size) return;
+    last = at.foot;
+    const Vec2 inwards = (1 / at.disk.radius) * (at.disk.center - at.foot);
+    const double tooth = std::clamp(longest / *large * at.curvature, -longest, longest);
+    comb.features.push_back(
+        {i, {{at.foot, at.foot + tooth * inwards}}, {at.curvature, at.slope, at.disk.radius}});
+  });
+  return comb;
+}
+
+Status write_curvatures(const Document<AxisItem>& file, const LegalArguments& arguments) {
+  if (arguments.curvature.empty()) return success();
+  std::vector<Curvatures> all;
+  for (const AxisItem& item : file.items) {
+    Curvatures& own = all.emplace_back();
+    for (const Branch& branch : branches(item.axis))
+      own.push_back(curvatures_along(item.axis, branch));
+  }
+  if (arguments.curvature.ends_with(".csv"))
+    return io::write_text(arguments.curvature, curvature_csv(all));
+  auto layers = empty_like<io::Layer>(file);
+  layers.items.push_back(curvature_comb(all));
+  return io::write_layers(arguments.curvature, {}, layers, file, arguments.write);
+}
+
 Result<int> run_legal(const LegalArguments& arguments) {
   Phases phases;
+  if (Status writable =
+          check_output(arguments.curvature, {}, ".csv " + io::formats_of(io::DocumentKind::layers),
+                       arguments.path, arguments.common.json);
+      !writable)
+    return std::move(writable).error();
   const auto file = io::read_native(arguments.path);
   if (!file) return file.error();
   phases.end("read");
   Verdict verdict = judge(*file, arguments.slack, arguments.common.json);
   phases.end("legal");
+  if (Status written = write_curvatures(*file, arguments); !written)
+    return std::move(written).error();
   const bool legal = verdict.offences.empty();
   return finish(arguments.common,
                 {{"axis", arguments.path},
@@ -139,6 +215,11 @@ Command make_legal_command(CLI::App& program) {
   add_value(*command, "--slack", arguments->slack, "S", in_range(0, largest_slack),
             "By how much the restrictions may be missed, no unit (default: 1e-9); more\n"
             "for samples, whose derivatives are differences.");
+  add_value(*command, "--curvature", arguments->curvature, "FILE", a_name(),
+            "Write the boundary's curvature at the feet of the disks, and its derivative\n"
+            "along the boundary: .csv, or as a comb of lines, as long as the curvature:\n" +
+                io::formats_of(io::DocumentKind::layers));
+  add_width_option(*command, arguments->write.width);
   add_report_options(*command, arguments->common);
   command->footer(
       "A curve with a radius function is the medial axis of some shape only if the radius\n"
@@ -152,7 +233,8 @@ Command make_legal_command(CLI::App& program) {
       "\n"
       "Examples:\n"
       "  medial axis plan.geojson -o plan.json && medial legal plan.json\n"
-      "  medial legal --json drawn.json");
+      "  medial legal --json drawn.json\n"
+      "  medial legal curve.json --slack 0.01 --curvature comb.png");
   return command_of(command, arguments, run_legal);
 }
 

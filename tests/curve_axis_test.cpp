@@ -244,6 +244,30 @@ std::vector<CurvatureError> curvature_errors(const Contour& contour) {
   return errors;
 }
 
+/// (7) and its derivative by the length of the boundary, on all of an ellipse.
+TEST(CurveAxis, TellsCurvaturesAndTheirSlopes) {
+  const double a = 2, b = 1;
+  const Contour contour = ellipse(a, b);
+  const auto found = compute_curve_axis({&contour, 1});
+  ASSERT_TRUE(found.ok());
+  double worst_curvature = 0, worst_slope = 0;
+  std::size_t feet = 0;
+  for (const Branch& branch : branches(found->axis))
+    for (const FootCurvature& at : curvatures_along(found->axis, branch)) {
+      const double angle = std::atan2(at.foot.y / b, at.foot.x / a);
+      const double s = std::sin(angle), c = std::cos(angle);
+      const double square = a * a * s * s + b * b * c * c;
+      const double curvature = a * b / std::pow(square, 1.5);
+      const double slope = -3 * a * b * (a * a - b * b) * s * c / std::pow(square, 3);
+      worst_curvature = std::max(worst_curvature, std::abs(at.curvature - curvature));
+      worst_slope = std::max(worst_slope, std::abs(at.slope - slope));
+      ++feet;
+    }
+  EXPECT_GT(feet, 500U);
+  EXPECT_LT(worst_curvature, 1e-7);
+  EXPECT_LT(worst_slope, 1e-4);
+}
+
 TEST(CurveAxis, TellsTheCurvaturesOfSplines) {
   std::vector<CurvatureError> errors;
   for (const std::uint64_t seed : {2U, 3U, 4U, 6U, 7U, 8U, 19U}) {

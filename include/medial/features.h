@@ -1,7 +1,7 @@
 #pragma once
 
-// The features of a shape by its axis: points, branches, and their primitives, after Blum and Nagel
-// (1978) and Volkmann and St. Clair (Section II.A.1, Figs 4 to 7); and how alike two shapes are.
+// The features of a shape by its axis, after Blum and Nagel (1978) and Volkmann and St. Clair
+// (Section II.A.1, Figs 4 to 7); how alike two shapes are, and how they interlock.
 
 #include "medial/axis.h"
 #include "medial/shape.h"
@@ -35,7 +35,7 @@ enum class Variation : std::uint8_t {
   straight,
   spiral_out_right,
   right_circular,
-  spiral_in_right,
+  spiral_in_right
 };
 constexpr int variation_count = 7;
 
@@ -44,8 +44,7 @@ const char* name_of(PointKind kind);
 const char* name_of(Primitive primitive);
 const char* name_of(Variation variation);
 
-/// How a run, a part of a branch, is classified, by numbers without a unit: from least-squares
-/// quadratics of its radius and its direction by length.
+/// How a run, a part of a branch, is classified: by quadratics of radius and direction by length.
 struct FeatureOptions {
   double parallel = 0.05;  ///< a worm's radius changes by at most this times the run's length ...
   double even = 0.1;       ///< ... and times its mean; other runs without bend are wedges
@@ -66,19 +65,16 @@ struct PrimitiveRun {
   Primitive primitive = Primitive::worm;
   Variation variation = Variation::straight;
   AxisPlace from, to;
-  double length = 0;
-  double mean_radius = 0;
-  double slope = 0;    ///< mean rate of the radius
-  double bend = 0;     ///< by how much the rate of the radius changes from end to end
-  double turning = 0;  ///< radians, positive to the left
-  double spiral = 0;   ///< change of the curvature over its mean; 0 in a straight run
+  double length = 0, mean_radius = 0;
+  double slope = 0, bend = 0;  ///< the mean rate of the radius, and by how much that changes
+  double turning = 0;          ///< radians, positive to the left
+  double spiral = 0;           ///< change of the curvature over its mean; 0 in a straight run
 };
 
 /// What a branch's disks touch on one side, with the interior on its left.
 struct BoundarySection {
-  std::uint32_t ring = no_site;          ///< of the input; no_site where the axis names no sites
-  std::uint32_t first_vertex = no_site;  ///< of the sites at both ends: vertex of the input
-  std::uint32_t last_vertex = no_site;
+  std::uint32_t ring = no_site;  ///< of the input; no_site where the axis names no sites
+  std::uint32_t first_vertex = no_site, last_vertex = no_site;  ///< of the sites at both ends
   Vec2 from, to;
   double length = 0;
 };
@@ -91,11 +87,9 @@ struct BranchFeatures {
   bool closed = false;             ///< without an end or branching point (Fig 5)
   std::uint32_t from = 0, to = 0;  ///< nodes
   PointKind from_kind = PointKind::normal, to_kind = PointKind::normal;
-  double length = 0;
-  double smallest_radius = 0, largest_radius = 0;
-  double mean_width = 0;        ///< twice the mean radius along the branch
-  double turning = 0;           ///< radians, positive to the left
-  double absolute_turning = 0;  ///< without signs: how much it bends in all
+  double length = 0, smallest_radius = 0, largest_radius = 0;
+  double mean_width = 0;                     ///< twice the mean radius along the branch
+  double turning = 0, absolute_turning = 0;  ///< radians, positive to the left; without signs
   double area = 0;  ///< of the shape's part whose nearest boundary the branch stands for
   /// Erosion thickness (Liu et al. 2011) in radii of the disk at its base: how far the branch and
   /// all beyond it reach out of that disk. Infinite on cycles and between them.
@@ -113,14 +107,10 @@ struct AxisFeatures {
   std::vector<BranchFeatures> branches;  ///< in the order of branches(axis); without length: none
   std::vector<PrimitiveRun> runs;        ///< branch after branch
   // Of the whole.
-  std::uint64_t ends = 0, branchings = 0, closed_branches = 0;
-  std::uint64_t components = 0;
+  std::uint64_t ends = 0, branchings = 0, closed_branches = 0, components = 0;
   std::uint64_t cycles = 0;  ///< independent ones: the shape's holes
-  double length = 0;
-  double area = 0;      ///< of the shape
-  double boundary = 0;  ///< length of the shape's boundary
-  double largest_radius = 0;
-  double mean_width = 0;
+  double length = 0, largest_radius = 0, mean_width = 0;
+  double area = 0, boundary = 0;  ///< of the shape, and the length of its boundary
   /// Length of the runs of each class over the length of all: by primitive and variation.
   std::array<std::array<double, variation_count>, primitive_count> share{};
 };
@@ -131,21 +121,17 @@ struct AxisFeatures {
 AxisFeatures describe(const MedialAxis& axis, const FeatureOptions& options = {});
 
 /// A shape in a few numbers without units, the same for rotated, scaled and mirrored images:
-/// distributions over the axis by their quantiles. A piece of the axis counts by its length, less
-/// where its erosion thickness is close to the noise of the boundary. Lengths are over the root
-/// mean square distance from the axis's centre.
+/// distributions over the axis by their quantiles. Pieces count by their lengths, less near the
+/// noise of the boundary. Lengths are over the root mean square distance from the axis's centre.
 struct ShapeSignature {
   static constexpr std::size_t quantiles = 24;
   using Quantiles = std::array<double, quantiles>;
-  Quantiles center{};     ///< distances from the centre
-  Quantiles pairs{};      ///< distances between two places of the axis
-  Quantiles depth{};      ///< how far from the middle of the shape along the axis
-  Quantiles radius{};     ///< radii, over their mean
-  double thickness = 0;   ///< logarithm of the mean radius
-  double length = 0;      ///< logarithm of the axis's length
-  double ends = 0;        ///< log(1 + ends), each counted as its branch is
-  double cycles = 0;      ///< log(1 + holes)
-  double elongation = 0;  ///< logarithm of the quotient of the axes of inertia
+  Quantiles center{}, pairs{};       ///< distances from the centre; between two places of the axis
+  Quantiles depth{}, radius{};       ///< ways from the axis's middle; radii, over their mean
+  double thickness = 0, length = 0;  ///< logarithms of the mean radius and of the axis's length
+  double ends = 0;                   ///< log(1 + ends), each counted as its branch is
+  double cycles = 0;                 ///< log(1 + holes)
+  double elongation = 0;             ///< logarithm of the quotient of the axes of inertia
 };
 
 constexpr double speck_share = 0.1;  ///< of without_specks()
@@ -158,5 +144,22 @@ ShapeSignature signature_of(const MedialAxis& axis, const AxisFeatures& features
 
 /// 0 for the same shape, about 1 for two shapes at random; symmetric.
 double dissimilarity(const ShapeSignature& a, const ShapeSignature& b);
+
+/// Where a shape lies: x -> -x if mirrored, then turned about the origin (radians), then moved.
+struct Placement {
+  double angle = 0;
+  bool mirrored = false;
+  Vec2 move = {};
+  Vec2 bay = {};     ///< the bottom of the bay, of either shape, that a peninsula lies in
+  double saved = 0;  ///< by how much the convex hull of both is smaller than their own hulls
+  double gap = 0;    ///< the least distance between the shapes
+};
+Shape placed(const Shape& shape, const Placement& at);
+
+/// Where the shapes interlock: bays of each (branches of its exterior's axis) are paired with
+/// peninsulas of the other. At most `best` placements of the second shape that save area, those
+/// that save most first. Errors: those of compute(); unsupported (shapes of several components).
+Result<std::vector<Placement>> nest(const Shape& fixed, const Shape& moving, double gap = 0,
+                                    bool mirror = true, std::size_t best = 5);
 
 }  // namespace medial

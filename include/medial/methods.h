@@ -10,13 +10,11 @@ namespace medial {
 
 /// Which pixels `ridge` takes for medial.
 enum class RidgeRule : std::uint8_t {
-  /// The axis passes between the pixel and one of its four neighbours, whose nearest edges are two
-  /// places of the boundary; the pixel is the nearer one to equidistance, and within one pixel of
-  /// the axis. Beside the boundary, as `difference`.
+  /// The axis passes between the pixel and one of its four neighbours, and the pixel is the nearer
+  /// to equidistance, within one pixel of the axis. Beside the boundary, as `difference`.
   crossing,
-  /// The report's: the distances to the nearest and the second nearest edge, which do not meet at a
-  /// concave vertex, differ by less than one pixel. Takes whole regions at details finer than
-  /// pixels, and at small angles.
+  /// The report's: the distances to the two nearest edges that do not meet at a concave vertex
+  /// differ by less than one pixel. Takes whole regions at fine details and at small angles.
   difference,
 };
 
@@ -69,8 +67,8 @@ struct Potential {
   /// n of the force that finds the points, in [1, 4096], any real number; 0: chosen for each point
   /// (the algorithm MAT-Generalized-Polygonal).
   double order = 0;
-  /// The order of the first force lines, in [1, 4096]; 0: `order`. Above 24 points of the exact
-  /// axis take their place.
+  /// The order of the first force lines, in [1, 4096]. Above 24 points of the exact axis take their
+  /// place. 0: that of `order`, 24 at most; for higher orders on the exact axis above 2,000 edges.
   double base_order = 0;
   double step = 0.01;  ///< the longest step, as a share of the size, in [1e-4, 0.1]
   /// Above 0, from coarse to fine: the skeleton of a polygon that is this close to the border (a
@@ -81,9 +79,8 @@ struct Potential {
   double angle = 2.56;
   /// e_min: how far a point may still move with the order, as a share of the size. In (0, 0.1].
   double movement = 0.0005;
-  std::optional<Vec2> from = {};  ///< only the branch to which the force leads from this place
-  /// Only what lies in this box, connected or not.
-  std::optional<Box> within = {};
+  std::optional<Vec2> from = {};   ///< only the branch to which the force leads from this place
+  std::optional<Box> within = {};  ///< only what lies in this box, connected or not
   bool whole() const { return !from && !within; }
 };
 

@@ -44,6 +44,16 @@ BoundaryJet boundary_at(const AxisJet& jet, Side side);
 std::vector<double> boundary_curvatures(const MedialAxis& axis, const Edge& edge, double t,
                                         Side side, int order);
 
+struct FootCurvature {
+  Side side = Side::left;
+  Disk disk;
+  Vec2 foot;
+  double curvature = 0, slope = 0;  ///< (7), and its derivative with the interior on the left
+};
+/// At the feet of jets_along(), but at reflex vertices: by power series of exact edges, of samples
+/// by polynomials through five feet of a side, the left one first.
+std::vector<FootCurvature> curvatures_along(const MedialAxis& axis, const Branch& branch);
+
 /// The jets along a branch in its direction, but on edges of length 0: of an exact axis
 /// `samples_per_edge` inside of every edge, of a sampled one at every inner node from its
 /// neighbours, seven nodes of a curve axis and three of others.

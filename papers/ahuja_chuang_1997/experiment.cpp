@@ -59,18 +59,44 @@ std::vector<NamedShape> regions() {
                              {3, 8}})}};
 }
 
+/// Numbers in [0, 1), the same each time.
+class Noise {
+ public:
+  explicit Noise(std::uint32_t seed) : state_(seed) {}
+  double next() {
+    state_ = state_ * 1664525U + 1013904223U;
+    return static_cast<double>(state_ >> 8U) / 16777216.0;
+  }
+
+ private:
+  std::uint32_t state_;
+};
+
 /// A band with teeth of noise on its long sides, `edges` edges in all.
 Shape noisy_band(int teeth, double height) {
   std::vector<Vec2> points;
   const double step = 10.0 / teeth;
-  std::uint32_t state = 7;
-  const auto noise = [&] {
-    state = state * 1664525U + 1013904223U;
-    return height * (static_cast<double>(state >> 8U) / 16777216.0 - 0.5);
-  };
+  Noise source(7);
+  const auto noise = [&] { return height * (source.next() - 0.5); };
   for (int i = 0; i <= teeth; ++i) points.push_back({i * step, -1 + noise()});
   for (int i = teeth; i >= 0; --i) points.push_back({i * step, 1 + noise()});
   return shape_of(points);
+}
+
+/// Polygons with 7 to 31 corners in even directions around their middle, at random distances.
+std::vector<NamedShape> polygons(int count) {
+  std::vector<NamedShape> shapes;
+  for (int i = 0; i < count; ++i) {
+    const int corners = 7 + 24 * i / std::max(count - 1, 1);
+    Noise noise(static_cast<std::uint32_t>(i + 1));
+    std::vector<Vec2> points;
+    for (int k = 0; k < corners; ++k) {
+      const double angle = 2 * std::numbers::pi * k / corners, radius = 4 + 6 * noise.next();
+      points.push_back({radius * std::cos(angle), radius * std::sin(angle)});
+    }
+    shapes.emplace_back(fmt::format("polygon {}", i + 1), shape_of(std::move(points)));
+  }
+  return shapes;
 }
 
 double size_of(const Shape& shape) {
@@ -345,7 +371,8 @@ Result<bool> run_ahuja_chuang_1997(const Request& request) {
   const auto further = largest_shapes(request.files);
   if (!further) return further.error();
   std::vector<NamedShape> shapes = regions();
-  shapes.insert(shapes.end(), further->begin(), further->end());
+  for (const auto& more : {polygons(request.quick ? 2 : 20), *further})
+    shapes.insert(shapes.end(), more.begin(), more.end());
   Table largest(distance_columns("{:.3f}")), mean(distance_columns("{:.4f}"));
   bool passed = true;
   for (const NamedShape& shape : shapes) passed = add_distances(shape, largest, mean) && passed;

@@ -66,3 +66,20 @@ class Legal(CommandLine):
         self.assertIn(b"too steep a radius", done.stdout)
         self.refuse("unreadable", "legal", "nothing.json")
         self.refuse("invalid_option", "legal", "frame.json", "--slack", "nan")
+
+    def test_curvature(self):
+        """Straight edges have no curvature; the comb is a picture."""
+        self.write("stadium.wkt", "CURVEPOLYGON(COMPOUNDCURVE((0 0,8 0),CIRCULARSTRING(8 0,10 2,8 4),(8 4,0 4),"
+                                  "CIRCULARSTRING(0 4,-2 2,0 0)))")
+        self.succeed("axis", "stadium.wkt", "-o", "stadium.json")
+        self.succeed("legal", "stadium.json", "--slack", "1e-6", "--curvature", "k.csv")
+        lines = self.read("k.csv").decode().splitlines()
+        self.assertEqual(lines[0], "feature,branch,side,axis_x,axis_y,r,x,y,curvature,slope")
+        self.assertGreater(len(lines), 10)
+        for line in lines[1:]:
+            curvature, slope = map(float, line.split(",")[-2:])
+            self.assertAlmostEqual(curvature, 0, delta=1e-6)
+            self.assertAlmostEqual(slope, 0, delta=1e-6)
+        self.succeed("legal", "stadium.json", "--slack", "1e-6", "--curvature", "comb.svg")
+        self.assertIn(b"<svg", self.read("comb.svg"))
+        self.refuse("unsupported", "legal", "stadium.json", "--curvature", "comb.doc")

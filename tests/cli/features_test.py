@@ -42,6 +42,21 @@ class Features(CommandLine):
         self.refuse("unsupported", "features", "long.wkt", "-o", "f.dxf")
 
 
+class Nest(CommandLine):
+    def test_nest(self):
+        """A peg goes into its slot, and keeps its distance; squares have no bay."""
+        self.write("slot.wkt", "POLYGON ((0 0, 60 0, 60 40, 42 40, 38 12, 22 12, 18 40, 0 40, 0 0))")
+        self.write("tee.wkt", "POLYGON ((0 0, 14 0, 17 30, 45 33, 45 47, -28 47, -28 33, -3 30, 0 0))")
+        self.write("square.wkt", "POLYGON ((0 0, 3 0, 3 3, 0 3, 0 0))")
+        report = json.loads(self.succeed("nest", "slot.wkt", "tee.wkt", "--gap", "1", "--best", "2", "-o", "pair.svg",
+                                         "--json").stdout)
+        self.assertEqual(len(report["placements"]), 2)
+        self.assertGreater(report["placements"][0]["saved"], 600)
+        self.assertGreaterEqual(report["placements"][0]["gap"], 1)
+        self.assertIn(b"<svg", self.read("pair.svg"))
+        self.refuse("empty", "nest", "square.wkt", "square.wkt")
+
+
 class Match(CommandLine):
     def test_match(self):
         """The rectangle turned is the rectangle; the square is further away."""

@@ -6,9 +6,13 @@
 namespace medial::potential {
 namespace {
 
-/// The unit direction of the valley at a place near its floor: the eigenvector of the derivatives'
-/// larger eigenvalue, after what is but growth along the force. The other one, across the valley,
-/// is negative.
+Vec2 blend(Vec2 direction, Vec2 force) {
+  const Vec2 sum = direction + unit(force);
+  return norm(sum) > 0.2 ? unit(sum) : unit(force);
+}
+
+}  // namespace
+
 Vec2 valley_direction(const Force& force, double order) {
   // The Hessian of V^(-1/n), nearly a distance, is that of the potential and this.
   const double growth = (order + 1) / force.potential(order);
@@ -17,13 +21,6 @@ Vec2 valley_direction(const Force& force, double order) {
   const double angle = 0.5 * std::atan2(force.xy + growth * f.x * f.y, half);
   return {std::cos(angle), std::sin(angle)};
 }
-
-Vec2 blend(Vec2 direction, Vec2 force) {
-  const Vec2 sum = direction + unit(force);
-  return norm(sum) > 0.2 ? unit(sum) : unit(force);
-}
-
-}  // namespace
 
 bool contains(const Box& box, Vec2 p) {
   return p.x >= box.low.x && p.x <= box.high.x && p.y >= box.low.y && p.y <= box.high.y;

@@ -24,6 +24,11 @@ Vec2 unit(Vec2 v);
 
 bool contains(const Box& box, Vec2 p);
 
+/// The unit direction of the valley at a place near its floor: the eigenvector of the derivatives'
+/// larger eigenvalue, after what is but growth along the force. The other one, across the valley,
+/// is negative.
+Vec2 valley_direction(const Force& force, double order);
+
 /// Force lines of one order, that end in a skeleton and become part of it.
 class ForceLines {
  public:

@@ -17,6 +17,7 @@
 #include "medial/verify.h"
 #include "methods/potential/charges.h"
 #include "methods/potential/coarse_to_fine.h"
+#include "methods/potential/force_lines.h"
 #include "methods/potential/limit.h"
 #include "methods/potential/region.h"
 #include "methods/potential/skeleton.h"
@@ -101,6 +102,26 @@ std::vector<ValleyPoint> shifted(const Skeleton& skeleton, const Charges& charge
   return points;
 }
 
+/// Where the valleys through two points meet: their junction, if that is no further from either
+/// than they are apart. Points on a line that joined another valley early leave its corner out.
+std::optional<Successor> junction_between(Evaluator& evaluator, const Successor& a,
+                                          const Successor& b) {
+  constexpr double broad = 64;  // an order whose valleys are wider than points are off
+  const auto valley_at = [&](const Successor& point) {
+    evaluator.place(point.place);
+    return valley_direction(evaluator.force(broad), broad);
+  };
+  if (!(a.radius > 0 && b.radius > 0)) return std::nullopt;
+  const Vec2 along_a = valley_at(a), along_b = valley_at(b), between = b.place - a.place;
+  const double sine = cross(along_a, along_b), gap = norm(between);
+  const double t = cross(between, along_b) / sine, u = cross(between, along_a) / sine;
+  if (!(std::max(std::abs(t), std::abs(u)) <= 1.5 * gap)) return std::nullopt;
+  const Vec2 place = a.place + t * along_a;
+  const double radius = evaluator.place(place).distance;
+  const bool is_inside = std::abs(radius - a.radius) <= 2 * gap;
+  return is_inside ? std::optional<Successor>({place, radius, a.order}) : std::nullopt;
+}
+
 /// The successors of all points, and of further ones between them where they part.
 struct Refined {
   std::vector<Successor> points;
@@ -124,7 +145,12 @@ Refined successors_of(const Skeleton& skeleton, const Charges& charges,
       const auto [from, to] = skeleton.links[i];
       const auto halve = [&](const auto& self, const ValleyPoint& a, const Successor& at_a,
                              const ValleyPoint& b, const Successor& at_b, int depth) -> void {
-        if (depth == 0 || distance(at_a.place, at_b.place) <= widest_gap * options.step) return;
+        if (distance(at_a.place, at_b.place) <= widest_gap * options.step) return;
+        if (depth == 0) {
+          const auto junction = junction_between(evaluator, at_a, at_b);
+          if (junction) between[i].push_back(*junction);
+          return;
+        }
         ValleyPoint middle = is_fixed(a) ? b : a;
         middle.kind = ValleyPoint::Kind::valley;
         middle.place = midpoint(a.place, b.place);
@@ -199,6 +225,10 @@ std::array<std::uint32_t, 2> sites_beside(const Successor& inner, Vec2 along, co
   return is_left ? std::array{touched[0], across} : std::array{across, touched[0]};
 }
 
+/// Where an axis near the medial axis is asked for, lines make those of so many edges at most: more
+/// lines cost seconds, as each of their forces is a sum over more edges.
+constexpr std::size_t most_lined = 2000;
+
 /// How the points of an axis are found; what verify() refuses is found in the next way.
 enum class Way : std::uint8_t {
   lines,   ///< by force lines, or from coarse to fine
@@ -272,18 +302,31 @@ class Tracing {
     return joined(successors_of(limit, charges, search(region, limit)));
   }
 
-  /// By force lines, or from coarse to fine; nothing where these do not connect all.
+  /// The order of the first force lines.
+  double lines_order() const {
+    if (own_.base_order > 0) return own_.base_order;
+    return own_.order > 0 ? std::min(own_.order, line_order) : line_order;
+  }
+
+  /// By force lines, or from coarse to fine; nothing where these do not connect all. Between
+  /// parallel sides low orders have a force where higher ones have none left.
   std::optional<Skeleton> traced(const Region& region, const Charges& charges) const {
     SkeletonOptions options;
-    options.order = own_.base_order > 0 ? own_.base_order : own_.order;
-    if (options.order == 0) options.order = limit_order;
+    options.order = lines_order();
     options.step = own_.step * region.size;
     options.cancel = problem_.options.cancel;
+    const bool to_the_axis = own_.order == 0 || own_.order > line_order;
+    if (to_the_axis) options.least_turn = 0;
     if (own_.coarse > 0)
       return trace_coarse_to_fine(region, charges, options, own_.coarse * region.size);
     if (options.order > line_order) return std::nullopt;
-    Skeleton skeleton = trace_valleys(region, charges, options);
-    return skeleton.whole ? std::optional(std::move(skeleton)) : std::nullopt;
+    constexpr double ratio = 4;
+    for (; options.order >= 1; options.order /= ratio) {
+      Skeleton skeleton = trace_valleys(region, charges, options);
+      if (skeleton.whole) return skeleton;
+      if (!to_the_axis || problem_.is_cancelled()) break;
+    }
+    return std::nullopt;
   }
 
   SuccessorOptions search(const Region& region, const Skeleton& skeleton) const {
@@ -339,6 +382,14 @@ class Tracing {
   std::vector<Skeleton> limits_;  ///< of all components, once they are needed
 };
 
+bool follows_lines(const Problem& problem) {
+  const auto& own = problem.own<method::Potential>();
+  if (!own.whole()) return false;
+  if (own.coarse > 0 || (own.order > 0 && own.order <= line_order)) return true;
+  return own.base_order == 0 ? problem.shape.points.size() <= most_lined
+                             : own.base_order <= line_order;
+}
+
 }  // namespace
 
 std::optional<Error> refuse(const Problem& problem) {
@@ -364,10 +415,9 @@ Result<MedialAxis> run(const Problem& problem) {
   Stopwatch watch;
   Tracing tracing(problem);
   const double setting_up = watch.lap();
-  const bool by_lines = own.whole() && (own.base_order > 0 || own.order > 0 || own.coarse > 0);
   Certificate certificate;
   for (const Way way : {Way::lines, Way::limit, Way::unmoved}) {
-    if (way == Way::lines ? !by_lines : own.coarse > 0) continue;
+    if (way == Way::lines ? !follows_lines(problem) : own.coarse > 0) continue;
     Result<MedialAxis> axis = tracing.run(way);
     if (!axis) return axis;
     axis->statistics.seconds_sites = setting_up;

@@ -39,9 +39,6 @@ double turn_around(const site::LoopEdges& loop, std::uint32_t bend, double k) {
   return sum;
 }
 
-/// A bend that turns by less is the end of no valley of low order.
-constexpr double least_turn = 0.25;
-
 }  // namespace
 
 std::size_t Region::edges() const {
@@ -93,10 +90,10 @@ std::vector<Region> regions_of(const Problem& problem, double chord) {
           const auto next = numbers.joints[loop.begin() + loop.next(i)];
           const double k = curvature(arc);
           if (here == site::Joint::smooth && next == site::Joint::smooth &&
-              curvature_of(loop.before(i)) < k && curvature_of(loop.next(i)) <= k &&
-              turn_around(loop, i, k) >= least_turn) {
+              curvature_of(loop.before(i)) < k && curvature_of(loop.next(i)) <= k) {
             const Vec2 t = start_tangent(arc);
-            region.bends.push_back({arc.start + (1 / k) * left_of(t), 1 / k});
+            region.bends.push_back(
+                {{arc.start + (1 / k) * left_of(t), 1 / k}, turn_around(loop, i, k)});
           }
         }
         const int chords = chords_of(arc, chord);

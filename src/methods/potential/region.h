@@ -9,6 +9,12 @@
 
 namespace medial::potential {
 
+/// A smooth arc of locally largest curvature.
+struct Bend {
+  Disk circle;
+  double turn = 0;  ///< of the border where it is at least half as curved, in radians
+};
+
 /// One component of a shape in the local frame: its border as charged pieces, loop after loop, the
 /// outer one first.
 struct Region {
@@ -19,10 +25,10 @@ struct Region {
   std::vector<Charge> pieces;
   std::vector<PieceLoop> loops;
   std::vector<std::uint32_t> corners;  ///< pieces that begin at a convex corner, ascending
-  std::vector<Disk> bends;             ///< the circles of smooth arcs of locally largest curvature
-  double chord = 0;                    ///< how far chords are from their arcs at most
-  double bend = 0;                     ///< half of the largest turn between chords of one arc
-  double size = 0;                     ///< the larger side of its bounding box
+  std::vector<Bend> bends;
+  double chord = 0;  ///< how far chords are from their arcs at most
+  double bend = 0;   ///< half of the largest turn between chords of one arc
+  double size = 0;   ///< the larger side of its bounding box
   /// How many edges the pieces are of.
   std::size_t edges() const;
   std::size_t holes() const { return loops.size() - 1; }

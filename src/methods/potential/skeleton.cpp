@@ -134,12 +134,20 @@ class Tracer {
     }
   }
 
+  /// By the side of what is nearest.
+  bool is_inside(Vec2 p) const {
+    const Charge& piece = region_.pieces[charges_.nearest(p).piece];
+    return cross(piece.end - piece.start, p - piece.start) > 0;
+  }
+
   void trace_bends() {
-    for (const auto& [center, bend] : region_.bends) {
+    for (const auto& [circle, turn] : region_.bends) {
+      if (turn < options_.least_turn) continue;
+      const auto& [center, bend] = circle;
       double radius = 0;
       const Force force = lines_.force_at(center, radius);
       // Only the centre of a maximal disk is a leaf; chords are a little nearer than their arc.
-      if (!(radius > 0.99 * bend - region_.chord)) continue;
+      if (!(radius > 0.99 * bend - region_.chord && is_inside(center))) continue;
       const Trail trail = lines_.follow(center, unit(force.force), ForceLines::merge_share);
       const std::uint32_t leaf =
           graph_.add_point({center, radius, unit(force.force), ValleyPoint::Kind::valley});

@@ -45,6 +45,9 @@ struct SkeletonOptions {
   double order = 1;  ///< of the potential
   double step = 0;   ///< longest, in units of the frame
   double bend = 0;   ///< the slope of a valley's floor that chords of arcs may make
+  /// Of bends that lines start from, in radians. One that turns by less than a quarter is the end
+  /// of no valley of low order, but may be the end of a branch of the axis.
+  double least_turn = 0.25;
   const std::atomic<bool>* cancel = nullptr;  ///< ends the work early: the skeleton is not whole
 };
 

@@ -7,8 +7,10 @@
 namespace medial::potential {
 namespace {
 
-/// Valleys of an order from here on are sharp enough that the next order can be doubled at once.
+/// Valleys of an order from here on are sharp enough for a much higher order at once.
 constexpr double searched_below = 32;
+/// From order to order of one point.
+constexpr double ratio = 4;
 
 /// The angle between two forces.
 double angle_between(Vec2 a, Vec2 b) { return std::atan2(std::abs(cross(a, b)), dot(a, b)); }
@@ -144,7 +146,7 @@ Successor generalized_successor(Evaluator& evaluator, const ValleyPoint& point,
     result.place = successor(evaluator, here, options.order, options);
   } else {
     // The valley's own order says nothing of what a higher one would change.
-    double order = 2 * options.least_order;
+    double order = ratio * options.least_order;
     if (order < searched_below) {
       evaluator.place(here.place);
       order =
@@ -158,7 +160,7 @@ Successor generalized_successor(Evaluator& evaluator, const ValleyPoint& point,
       here.place = result.place;
       if (order >= options.most_order || still) break;
       here.tangent = direction_of(evaluator, here, order);
-      order = std::min(2 * order, options.most_order);
+      order = std::min(ratio * order, options.most_order);
     }
   }
   result.radius = evaluator.place(result.place).distance;

@@ -1,0 +1,284 @@
+// Bays paired with peninsulas, as Volkmann and St. Clair (1987, Section I) propose for nesting.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+#include "medial/compute.h"
+#include "medial/features.h"
+#include "medial/query.h"
+
+namespace medial {
+namespace {
+
+/// The tip of a peninsula or the bottom of a bay. Two that fit look in opposite directions.
+struct Frame {
+  Vec2 place;
+  Vec2 way;          ///< out of the bay; towards the peninsula's tip
+  double score = 0;  ///< how far the branch and all beyond it reach
+};
+
+/// What is asked of a shape again and again.
+struct Part {
+  const Shape& shape;
+  double size = 0;
+  std::vector<Disk> disks;  ///< that cover it but for dents below a thousandth, large ones first
+  std::vector<Vec2> hull;
+  std::vector<Frame> bays, peninsulas;
+};
+
+constexpr std::size_t most_frames = 10;
+
+/// The convex hull, counter-clockwise (Andrew's monotone chain).
+std::vector<Vec2> hull_of(std::vector<Vec2> points) {
+  const auto less = [](Vec2 a, Vec2 b) { return a.x < b.x || (a.x == b.x && a.y < b.y); };
+  std::sort(points.begin(), points.end(), less);
+  std::vector<Vec2> hull;
+  for (const bool back : {false, true}) {
+    const std::size_t first = hull.size();
+    for (const Vec2 p : points) {
+      while (hull.size() >= first + 2 &&
+             cross(hull.back() - hull[hull.size() - 2], p - hull.back()) <= 0)
+        hull.pop_back();
+      hull.push_back(p);
+    }
+    hull.pop_back();
+    if (!back) std::reverse(points.begin(), points.end());
+  }
+  return hull;
+}
+
+double area_of(const std::vector<Vec2>& polygon) {
+  double twice = 0;
+  for (std::size_t i = 2; i < polygon.size(); ++i)
+    twice += cross(polygon[i - 1] - polygon[0], polygon[i] - polygon[0]);
+  return twice / 2;
+}
+
+/// The frames of the branches that reach furthest, at their shallower ends. Bays look to where a
+/// branch is deep, peninsulas away from it.
+std::vector<Frame> frames_of(const MedialAxis& axis, double size, bool bays) {
+  std::vector<Frame> frames;
+  const std::vector<Branch> all = branches(axis);
+  for (const BranchFeatures& one : describe(axis).branches) {
+    if (one.closed || one.from == one.to) continue;
+    const Disk &base = axis.nodes[one.from].disk, &tip = axis.nodes[one.to].disk;
+    // As far along the branch as its direction is to count.
+    Vec2 towards = base.center;
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const Step& step : all[one.branch].steps) {
+      const Vec2 p = disk_at(axis, axis.edges[step.edge], 0.5).center;
+      const double off = std::abs(distance(p, tip.center) - 0.1 * size);
+      if (off < nearest && distance(p, tip.center) > 0.02 * size) towards = p, nearest = off;
+    }
+    const Vec2 way = towards - tip.center;
+    const double length = norm(way), reach = std::min(one.significance * base.radius, size);
+    if (!(length > 0 && reach > 0.01 * size)) continue;
+    frames.push_back({tip.center, ((bays ? 1 : -1) / length) * way, reach});
+  }
+  std::stable_sort(frames.begin(), frames.end(),
+                   [](const Frame& a, const Frame& b) { return a.score > b.score; });
+  frames.resize(std::min(frames.size(), most_frames));
+  return frames;
+}
+
+Result<Part> part_of(const Shape& shape) {
+  if (shape.component_count() != 1)
+    return Error{ErrorCode::unsupported, "only single parts can be nested", {}};
+  const auto inner = compute(shape);
+  if (!inner) return inner.error();
+  Options around;
+  around.exterior = true;
+  const auto outer = compute(shape, around);
+  if (!outer) return outer.error();
+  const Box box = bounding_box(shape);
+  Part part{shape, distance(box.low, box.high), {}, {}, {}, {}};
+  std::vector<Vec2> points(shape.points.begin(), shape.points.end());
+  for (const Node& node : inner->nodes) part.disks.push_back(node.disk);
+  for (const Edge& edge : inner->edges)
+    for (const Disk& disk : sample_by_step(*inner, edge, 0.02 * part.size))
+      part.disks.push_back(disk);
+  if (!shape.bulges.empty())  // what bulges out lies on disks
+    for (const Disk& disk : part.disks)
+      for (int i = 0; i < 32; ++i) {
+        const double angle = 2 * std::numbers::pi * i / 32;
+        points.push_back(disk.center + disk.radius * Vec2{std::cos(angle), std::sin(angle)});
+      }
+  std::stable_sort(part.disks.begin(), part.disks.end(),
+                   [](const Disk& a, const Disk& b) { return a.radius > b.radius; });
+  part.hull = hull_of(std::move(points));
+  part.bays = frames_of(*outer, part.size, true);
+  part.peninsulas = frames_of(*inner, part.size, false);
+  return part;
+}
+
+/// How a placement moves points.
+class Motion {
+ public:
+  explicit Motion(const Placement& at)
+      : cosine_(std::cos(at.angle)),
+        sine_(std::sin(at.angle)),
+        flip_(at.mirrored ? -1 : 1),
+        move_(at.move) {}
+  Vec2 turned(Vec2 p) const {
+    p.x *= flip_;
+    return {cosine_ * p.x - sine_ * p.y, sine_ * p.x + cosine_ * p.y};
+  }
+  Vec2 of(Vec2 p) const { return turned(p) + move_; }
+  Vec2 back(Vec2 p) const {
+    const Vec2 q = p - move_;
+    return {flip_ * (cosine_ * q.x + sine_ * q.y), cosine_ * q.y - sine_ * q.x};
+  }
+
+ private:
+  double cosine_, sine_, flip_;
+  Vec2 move_;
+};
+
+class Nesting {
+ public:
+  Nesting(const Part& fixed, const Part& moving, double gap)
+      : fixed_(fixed), moving_(moving), gap_(gap) {}
+
+  /// The least distance between the shapes: disks tell, as their union is the shape. Below `enough`
+  /// any number that is.
+  double distance_at(const Placement& at, double enough) const {
+    const Motion motion(at);
+    double least = std::numeric_limits<double>::infinity();
+    for (const Disk& disk : moving_.disks) {
+      least = std::min(least, -clearance(fixed_.shape, motion.of(disk.center)) - disk.radius);
+      if (least < enough) return least;
+    }
+    for (const Vec2 p : fixed_.shape.points) {
+      least = std::min(least, -clearance(moving_.shape, motion.back(p)));
+      if (least < enough) return least;
+    }
+    return least;
+  }
+
+  bool fits(const Placement& at) const { return distance_at(at, gap_) >= gap_; }
+
+  double saved_at(const Placement& at) const {
+    const Motion motion(at);
+    std::vector<Vec2> points = fixed_.hull;
+    for (const Vec2 p : moving_.hull) points.push_back(motion.of(p));
+    return area_of(fixed_.hull) + area_of(moving_.hull) - area_of(hull_of(std::move(points)));
+  }
+
+  /// The peninsula laid into the bay, and drawn out until the shapes do not overlap.
+  std::optional<Placement> start(const Frame& own, const Frame& other, bool mirrored) const {
+    Placement at;
+    at.mirrored = mirrored;
+    const Vec2 way = Motion(at).turned(other.way);
+    at.angle = std::atan2(cross(way, -own.way), dot(way, -own.way));
+    at.move = own.place - Motion(at).turned(other.place);
+    at.bay = own.place;
+    const Vec2 first = at.move;
+    const double furthest = fixed_.size + moving_.size, step = 0.02 * moving_.size;
+    for (double far = 0; far < furthest; far += step) {
+      at.move = first + far * own.way;
+      if (fits(at)) return at;
+    }
+    return std::nullopt;
+  }
+
+  /// Moves and turns while that saves area, by ever smaller steps.
+  void improve(Placement& at) const {
+    at.saved = saved_at(at);
+    for (double share = 0.08; share > 5e-4; share /= 2) {
+      for (int moved = 1; moved > 0;) {
+        moved = 0;
+        for (const Placement& next : neighbours(at, share)) {
+          const double saved = saved_at(next);
+          if (!(saved > at.saved) || !fits(next)) continue;
+          at = next;
+          at.saved = saved;
+          ++moved;
+        }
+      }
+    }
+  }
+
+ private:
+  std::array<Placement, 6> neighbours(const Placement& at, double share) const {
+    std::array<Placement, 6> next;
+    next.fill(at);
+    const double step = share * moving_.size;
+    next[0].move.x += step;
+    next[1].move.x -= step;
+    next[2].move.y += step;
+    next[3].move.y -= step;
+    const Vec2 middle = Motion(at).of(moving_.disks.front().center);
+    for (const std::size_t i : {4U, 5U}) {  // about the largest disk
+      next[i].angle += i == 4 ? share : -share;
+      next[i].move = next[i].move + middle - Motion(next[i]).of(moving_.disks.front().center);
+    }
+    return next;
+  }
+
+  const Part& fixed_;
+  const Part& moving_;
+  double gap_;
+};
+
+bool is_near(const Placement& a, const Placement& b, double size) {
+  return a.mirrored == b.mirrored && distance(a.move, b.move) < 0.05 * size &&
+         std::abs(std::remainder(a.angle - b.angle, 2 * std::numbers::pi)) < 0.05;
+}
+
+}  // namespace
+
+Shape placed(const Shape& shape, const Placement& at) {
+  const Motion motion(at);
+  std::vector<Ring> rings = rings_of(shape);
+  for (Ring& ring : rings) {
+    for (Vec2& p : ring.points) p = motion.of(p);
+    if (at.mirrored)
+      for (double& bulge : ring.bulges) bulge = -bulge;
+  }
+  return *build_shape(rings);
+}
+
+Result<std::vector<Placement>> nest(const Shape& fixed, const Shape& moving, double gap,
+                                    bool mirror, std::size_t best) {
+  const auto one = part_of(fixed), two = part_of(moving);
+  if (!one) return one.error();
+  if (!two) return two.error();
+  // Disks that are sampled leave dents.
+  const Nesting nesting(*one, *two, gap + 1e-4 * std::min(one->size, two->size));
+  std::vector<Placement> found;
+  const auto pair = [&](const std::vector<Frame>& own, const std::vector<Frame>& other) {
+    for (const Frame& a : own)
+      for (const Frame& b : other)
+        for (const bool mirrored : {false, true}) {
+          if (mirrored && !mirror) continue;
+          auto at = nesting.start(a, b, mirrored);
+          if (!at) continue;
+          at->saved = nesting.saved_at(*at);
+          found.push_back(*at);
+        }
+  };
+  pair(one->bays, two->peninsulas);
+  pair(one->peninsulas, two->bays);
+  const auto more = [](const Placement& a, const Placement& b) { return a.saved > b.saved; };
+  std::stable_sort(found.begin(), found.end(), more);
+  constexpr std::size_t most_improved = 12;
+  found.resize(std::min(found.size(), std::max(most_improved, best)));
+  for (Placement& at : found) nesting.improve(at);
+  std::stable_sort(found.begin(), found.end(), more);
+  std::vector<Placement> kept;
+  for (Placement& at : found) {
+    if (kept.size() == best || !(at.saved > 0)) break;
+    if (std::any_of(kept.begin(), kept.end(),
+                    [&](const Placement& other) { return is_near(at, other, two->size); }))
+      continue;
+    at.gap = nesting.distance_at(at, -std::numeric_limits<double>::infinity());
+    kept.push_back(at);
+  }
+  return kept;
+}
+
+}  // namespace medial

@@ -1,0 +1,78 @@
+// Bays paired with peninsulas.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "medial/features.h"
+
+namespace medial {
+namespace {
+
+Shape shape_of(std::vector<Vec2> points) {
+  Ring ring;
+  ring.points = std::move(points);
+  return *build_shape(std::vector<Ring>{ring});
+}
+/// A block with a slot from above that narrows from 24 to 16, and a T whose stem is 14 to 20 wide.
+Shape slotted() {
+  return shape_of({{0, 0}, {60, 0}, {60, 40}, {42, 40}, {38, 12}, {22, 12}, {18, 40}, {0, 40}});
+}
+Shape tee() {
+  return shape_of({{0, 0}, {14, 0}, {17, 30}, {45, 33}, {45, 47}, {-28, 47}, {-28, 33}, {-3, 30}});
+}
+
+/// Both shapes as one make a shape: nothing crosses, and the areas add up.
+void expect_apart(const Shape& fixed, const Shape& moved) {
+  std::vector<Ring> rings = rings_of(fixed);
+  for (Ring& ring : rings_of(moved)) rings.push_back(ring);
+  const auto both = build_shape(rings);
+  ASSERT_TRUE(both.ok());
+  EXPECT_NEAR(area(*both), area(fixed) + area(moved), 1e-6);
+}
+
+TEST(Nest, APegGoesIntoItsSlot) {
+  const Shape block = slotted(), peg = tee();
+  for (const bool swapped : {false, true}) {
+    const Shape &fixed = swapped ? peg : block, &moving = swapped ? block : peg;
+    const auto found = nest(fixed, moving);
+    ASSERT_TRUE(found.ok());
+    ASSERT_FALSE(found->empty());
+    // The stem is 30 long and 17 wide, and goes in all but a little.
+    EXPECT_GT(found->front().saved, 700);
+    EXPECT_TRUE(std::is_sorted(found->begin(), found->end(),
+                               [](const auto& a, const auto& b) { return a.saved > b.saved; }));
+    for (const Placement& at : *found) {
+      EXPECT_GT(at.gap, 0);
+      expect_apart(fixed, placed(moving, at));
+    }
+  }
+}
+
+TEST(Nest, KeepsAGapAndDoesNotMirrorUnasked) {
+  const auto found = nest(slotted(), tee(), 1, false, 1);
+  ASSERT_TRUE(found.ok());
+  ASSERT_EQ(found->size(), 1U);
+  EXPECT_GE(found->front().gap, 1);
+  EXPECT_FALSE(found->front().mirrored);
+}
+
+TEST(Nest, ConvexShapesHaveNoBays) {
+  const Shape square = shape_of({{0, 0}, {2, 0}, {2, 2}, {0, 2}});
+  const auto found = nest(square, square);
+  ASSERT_TRUE(found.ok());
+  EXPECT_TRUE(found->empty());
+}
+
+TEST(Nest, APlacementMirrorsTurnsAndMoves) {
+  const Shape shape = shape_of({{0, 0}, {4, 0}, {0, 1}});
+  const Shape moved = placed(shape, {.angle = std::acos(0.0), .mirrored = true, .move = {5, 5}});
+  EXPECT_NEAR(area(moved), area(shape), 1e-12);
+  const Box box = bounding_box(moved);
+  EXPECT_NEAR(box.low.x, 4, 1e-12);
+  EXPECT_NEAR(box.low.y, 1, 1e-12);
+}
+
+}  // namespace
+}  // namespace medial
