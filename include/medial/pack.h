@@ -7,9 +7,7 @@
 #include <span>
 
 #include "medial/axis.h"
-#include "medial/error.h"
 #include "medial/raster.h"
-#include "medial/shape.h"
 
 namespace medial {
 
@@ -21,6 +19,8 @@ struct PackOptions {
   /// Largest change, in units of the input; positive. Unpacked shape and original lie within this
   /// distance of each other; what lies deeper inside is in both.
   double error = 0;
+  double quantum_share = 0.3;  ///< of `error`: what quantisation takes; below 15/16
+  double prune_share = 0.9;    ///< of the rest: what dropping branches takes; in (0, 15/16]
 };
 
 struct PackReport {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "medial/axis.h"
 #include "medial/compute.h"
 #include "medial/planar_graph.h"
 

@@ -257,10 +257,6 @@ constexpr double rounding = std::numbers::sqrt2 / 2 + 0.5;
 /// Of the error: rebuild() makes chords of the hulls' arcs within so much.
 constexpr double chord_share = 1.0 / 16;
 
-/// Of the error, what quantisation takes; of the rest, what dropping branches takes.
-constexpr double quantum_share = 0.3, prune_share = 0.9;
-static_assert(quantum_share < 1 - chord_share && prune_share <= 1 - ops::sample_share);
-
 /// Of the axes' extent. The number of disks along a curve grows as the root of one over the error.
 constexpr double smallest_error = 1e-9;
 
@@ -274,7 +270,10 @@ Result<ShapeCode> encode_axes(std::span<const MedialAxis> axes, const PackOption
                               PackReport* report) {
   if (!(options.error > 0) || !std::isfinite(options.error))
     return Error{ErrorCode::invalid_option, "the error is not a positive number", {}};
-  const float quantum = float_below(quantum_share * options.error / rounding);
+  if (!(options.quantum_share > 0 && options.quantum_share < 1 - chord_share) ||
+      !(options.prune_share > 0 && options.prune_share <= 1 - ops::sample_share))
+    return Error{ErrorCode::invalid_option, "a share of the error is out of range", {}};
+  const float quantum = float_below(options.quantum_share * options.error / rounding);
   if (!(quantum >= std::numeric_limits<float>::min())) return too_small();
   // What rounding, and chords when disks become polygons, leave for the polylines.
   const double left = (1 - chord_share) * options.error - rounding * static_cast<double>(quantum);
@@ -293,7 +292,7 @@ Result<ShapeCode> encode_axes(std::span<const MedialAxis> axes, const PackOption
       if (!std::isfinite(node.disk.center.x) || !std::isfinite(node.disk.center.y) ||
           !std::isfinite(node.disk.radius))
         return Error{ErrorCode::not_finite, "a disk of the axis is not finite", {}};
-    const DiskGraph graph = ops::disk_lines(axis, prune_share * left, left);
+    const DiskGraph graph = ops::disk_lines(axis, options.prune_share * left, left);
     counted.disks += graph.junctions.size();
     for (const DiskLine& line : graph.lines) counted.disks += line.disks.size() - 2;
     counted.lines += graph.lines.size();
