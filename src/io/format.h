@@ -113,6 +113,8 @@ struct Format {
   bool has_layers = false;
   bool has_filters = false;
   bool has_loose_curves = false;
+  bool by_content = false;    ///< `sniff` decides, whatever the file's name
+  bool reads_others = false;  ///< what no other row reads
   bool gdal_chooses = false;  ///< GDAL reads it instead where layers or attributes choose
 
   // Writing.
@@ -163,13 +165,10 @@ Format edgelist_format();
 Format gcode_format();
 Format dxf_format();
 Format svg_format();
-Format pdf_format();
 Format png_format();
-Format ps_format();
 Format ply_format();
 Format vtk_format();
 Format obj_format();
-Format stl_format();
 Format off_format();
 Format tif_format();
 Format pgm_format();
@@ -177,5 +176,9 @@ Format pbm_format();
 Format gdal_format();   ///< whatever else GDAL reads
 Format image_format();  ///< images, by their first bytes
 Format ros_map_format();
+/// The row, with pictures by Cairo of every kind of document that it does not write and but voxels.
+Format with_pictures(Format format);
+/// The row, with meshes that Assimp reads.
+Format with_meshes(Format format);
 
 }  // namespace medial::io

@@ -53,6 +53,14 @@ struct ReadOptions {
 /// characters. Errors: also no_area, invalid_option.
 Result<Document<Feature>> read_document(const std::string& path, const ReadOptions& options = {});
 
+/// The same of a text in memory, as of standard input.
+Result<Document<Feature>> read_document_text(std::string_view text,
+                                             const ReadOptions& options = {});
+
+/// The subpaths of the path data of SVG, the attribute `d`: contours of the non-zero rule, open
+/// where `loose` is set and they are not closed. Errors: malformed.
+Result<std::vector<Contour>> read_path_data(std::string_view text, bool loose = false);
+
 /// The outlines of a UTF-8 text in one line, with the advances and kerning of a scalable font file
 /// (TrueType, OpenType, Type 1): a feature for each character with an outline, in font units, the
 /// baseline at y = 0. A character that the font lacks becomes its replacement, with a note.
@@ -78,6 +86,7 @@ Result<LoosePieces> load_loose(const std::string& path, const SourceOptions& opt
 /// Whether the file begins like medial's own JSON; and its content.
 bool is_native(const std::string& path);
 Result<Document<AxisItem>> read_native(const std::string& path);
+Result<Document<AxisItem>> read_native_text(std::string_view text);
 
 struct VoronoiItem {
   Shape shape;

@@ -4,7 +4,6 @@
 #include "axis/statistics.h"
 #include "io/formats/json.h"
 #include "io/formats/json_rows.h"
-#include "io/gdal_support.h"
 #include "medial/document.h"
 
 namespace medial::io {
@@ -313,9 +312,7 @@ namespace {
 Result<Document<Feature>> read_native_features(const Input& input, const ReadOptions&) {
   Result<Document<AxisItem>> file = read_native(*input.source);
   if (!file) return file.error();
-  Document<Feature> dataset = dataset_of(std::move(*file));
-  read_crs_of_wkt(std::string(dataset.crs_wkt), dataset);
-  return dataset;
+  return dataset_of(std::move(*file));
 }
 
 }  // namespace

@@ -8,9 +8,6 @@
 
 namespace medial::io {
 
-/// A row that draws every kind of document but voxels, by Cairo.
-Format picture_format(const char* extension);
-
 /// Shapes and axes: edges are drawn as what they are, straight lines and cubic Bezier curves that
 /// equal the parabolas, coloured by radius (dark: thin, bright: thick). Errors: invalid_option
 /// (width).

@@ -10,8 +10,8 @@
 #include <string_view>
 
 #include "io/format.h"
-#include "io/formats/rasters.h"
-#include "io/gdal_support.h"
+#include "io/gis/gdal_support.h"
+#include "io/gis/rasters.h"
 #include "io/guarded.h"
 #include "io/place.h"
 #include "io/text_source.h"
@@ -568,6 +568,7 @@ Format image_format() {
   Format format;
   format.read = read_outline;
   format.sniff = begins_like_image;
+  format.by_content = true;
   return format;
 }
 

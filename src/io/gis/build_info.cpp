@@ -18,7 +18,7 @@
 #endif
 
 #include "io/format.h"
-#include "io/gdal_support.h"
+#include "io/gis/gdal_support.h"
 
 namespace medial::io {
 namespace {

@@ -13,7 +13,7 @@
 
 #include "io/format.h"
 #include "io/format_name.h"
-#include "io/gdal_support.h"
+#include "io/gis/gdal_support.h"
 #include "io/place.h"
 
 namespace medial::io {
@@ -250,7 +250,7 @@ Result<Document<Feature>> read_vectors(const Input& input, const ReadOptions& op
 Format gdal_format() {
   Format format;
   format.read = read_vectors;
-  format.has_layers = format.has_filters = true;
+  format.has_layers = format.has_filters = format.reads_others = true;
   return format;
 }
 

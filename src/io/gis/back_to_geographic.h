@@ -10,10 +10,6 @@ class OGRCoordinateTransformation;
 
 namespace medial::io {
 
-/// See ReadOptions::project. Errors: invalid_option (no degrees), unsupported (points that cannot
-/// be projected).
-Status project_to_local(Document<Feature>& document);
-
 /// Whether a reference system is one that project_to_local() made.
 bool is_local_projection(const std::string& crs_wkt);
 

@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "io/format.h"
-#include "io/formats/rasters.h"
+#include "io/gis/rasters.h"
 #include "io/place.h"
 
 namespace medial::io {

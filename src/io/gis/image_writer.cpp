@@ -6,9 +6,9 @@
 #include <cmath>
 #include <memory>
 
-#include "io/formats/gis.h"
-#include "io/formats/rasters.h"
-#include "io/gdal_support.h"
+#include "io/gis/gdal_support.h"
+#include "io/gis/make_file.h"
+#include "io/gis/rasters.h"
 
 namespace medial::io {
 
