@@ -3,10 +3,7 @@
 // Ways along an axis: main paths, routes, centre lines, wide and narrow parts. The reach of a path
 // is its length plus the radii at its two ends.
 
-#include <span>
-
 #include "medial/axis.h"
-#include "medial/error.h"
 #include "medial/shape.h"
 
 namespace medial {

@@ -4,8 +4,6 @@
 // (Volkmann and St. Clair, Section II.A.3), images as maximal squares (Ahuja, Davis, Milgram and
 // Rosenfeld 1978). Packs are files of codes: medial/io/read.h and write.h.
 
-#include <span>
-
 #include "medial/axis.h"
 #include "medial/raster.h"
 

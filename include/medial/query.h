@@ -1,7 +1,6 @@
 #pragma once
 
 #include <memory>
-#include <span>
 
 #include "medial/axis.h"
 #include "medial/shape.h"

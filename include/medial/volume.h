@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "medial/error.h"
-#include "medial/geometry.h"
 #include "medial/statistics.h"
 
 namespace medial {

@@ -74,7 +74,7 @@ class Images(CommandLine):
         info = json.loads(self.succeed("info", "labels.pgm", "--labels", "--json").stdout)
         self.assertEqual((info["features"], info["area"]), (3, 11))
         self.write("grey.pgm", "P2\n3 1\n255\n0 100 200\n")
-        self.assertIn(b"from 128 on", self.succeed("info", "grey.pgm").stderr)
+        self.assertIn(b"of at least 128", self.succeed("info", "grey.pgm").stderr)
         self.assertNotIn(b"from", self.succeed("info", "grey.pgm", "--threshold", "90").stderr)
 
     def test_maps_of_robots(self):

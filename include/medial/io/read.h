@@ -4,10 +4,8 @@
 // read_image() and read_pack(). Errors of all: unreadable, malformed, unsupported, empty,
 // not_finite, too_large, out_of_memory.
 
-#include "medial/document.h"
 #include "medial/load.h"
 #include "medial/pack.h"
-#include "medial/raster.h"
 #include "medial/volume.h"
 #include "medial/voronoi.h"
 

@@ -10,7 +10,6 @@
 #include "medial/carve.h"
 #include "medial/features.h"
 #include "medial/io/read.h"
-#include "medial/methods.h"
 #include "medial/offset.h"
 
 namespace medial::io {
