@@ -28,7 +28,7 @@ double derivative_at_zero(const std::array<double, window>& places,
 }
 
 /// The length of a curve between two of its points with these curvatures, from their chord.
-double arc_length(const BoundaryJet& a, const BoundaryJet& b) {
+double length_between(const BoundaryJet& a, const BoundaryJet& b) {
   const double chord = distance(a.point, b.point);
   const double turn = 0.5 * (a.curvature + b.curvature) * chord;
   return chord * (1 + turn * turn / 24);
@@ -41,7 +41,7 @@ void add_samples(const std::vector<AxisJet>& jets, Side side, std::vector<FootCu
   for (const AxisJet& jet : jets) {
     feet.push_back(boundary_at(jet, side));
     const bool first = feet.size() == 1;
-    places.push_back(first ? 0 : places.back() + arc_length(feet[feet.size() - 2], feet.back()));
+    places.push_back(first ? 0 : places.back() + length_between(feet[feet.size() - 2], feet.back()));
   }
   for (std::size_t i = 0; i < feet.size(); ++i) {
     if (feet.size() < window || !std::isfinite(feet[i].curvature)) continue;
