@@ -148,7 +148,11 @@ std::string unknown_words(const CLI::App& command, const std::string& otherwise)
   const auto unknown = std::ranges::find_if(
       extra, [](const std::string& word) { return word.size() > 1 && word[0] == '-'; });
   if (unknown != extra.end()) return unknown_option(*unknown, command);
-  return extra.empty() ? otherwise : "unexpected argument: " + extra.back();
+  if (extra.empty()) return otherwise;
+  const std::string text = "unexpected argument: " + extra.back();
+  double number = 0;
+  if (!CLI::detail::lexical_cast(extra.back(), number)) return text;
+  return text + "; an optional value follows its option after '=', as in --option=" + extra.back();
 }
 
 std::string no_number(const std::string& text, const CLI::App& command) {

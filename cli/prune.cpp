@@ -179,7 +179,7 @@ Status write_previews(const Document<AxisItem>& file, const PruneOptions& option
       panels[i].axes.push_back(order.at(thresholds[i]));
   }
   return io::write_preview(arguments.output, arguments.format, shapes, panels,
-                           arguments.write.width, file.y_down);
+                           arguments.write.width, file.y_down, file.unit);
 }
 
 Result<int> run_prune(const PruneCommandArguments& arguments) {

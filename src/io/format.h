@@ -59,6 +59,7 @@ struct PreviewOutput {
   std::span<const PreviewPanel> panels;
   double width;
   bool y_down;
+  Unit unit;
 };
 struct VoxelsOutput {
   static constexpr DocumentKind kind = DocumentKind::voxels;

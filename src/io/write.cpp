@@ -128,13 +128,15 @@ Status write_layers(const std::string& path, const std::string& format,
 Status write_field(const std::string& path, const std::string& format,
                    std::span<const Shape> shapes, std::span<const PotentialField> fields,
                    const FieldPictureOptions& options) {
-  return write_document(path, format, {"svg"}, {}, FieldOutput{shapes, fields, options});
+  return write_document(path, format, {"svg"}, {}, FieldOutput{shapes, fields, options},
+                        options.unit);
 }
 
 Status write_preview(const std::string& path, const std::string& format,
                      std::span<const Shape> shapes, std::span<const PreviewPanel> panels,
-                     double width, bool y_down) {
-  return write_document(path, format, {"svg"}, {}, PreviewOutput{shapes, panels, width, y_down});
+                     double width, bool y_down, Unit unit) {
+  return write_document(path, format, {"svg"}, {},
+                        PreviewOutput{shapes, panels, width, y_down, unit}, unit);
 }
 
 Status write_voxels(const std::string& path, const std::string& format, const VoxelAxis& axis,

@@ -170,6 +170,7 @@ struct Layer {
   LayerKind kind = LayerKind::lines;
   std::vector<std::string> fields;
   std::vector<LayerFeature> features;
+  std::optional<std::size_t> label = {};  ///< the field that pictures write beside each feature
 };
 
 /// Layers of measurements: .geojson and .wkt (all layers one after another, .geojson with a member
@@ -184,6 +185,7 @@ struct FieldPictureOptions {
   int lines = 40;          ///< force lines start on a grid, so many along the longer side; 0: none
   bool brightness = true;  ///< the lower the potential, by its logarithm, the brighter a point
   bool y_down = false;     ///< the y axis points down
+  Unit unit = Unit::unknown;
 };
 
 /// Pictures of shapes with the potentials of their borders, sampled once for each pixel.
@@ -198,7 +200,7 @@ struct PreviewPanel {
 /// Pictures of the same shapes in rows, one for each panel, with its axes and its title below.
 Status write_preview(const std::string& path, const std::string& format,
                      std::span<const Shape> shapes, std::span<const PreviewPanel> panels,
-                     double width, bool y_down);
+                     double width, bool y_down, Unit unit = Unit::unknown);
 
 /// An axis of voxels: .ply (binary) and .vtk (legacy, text) have points with radius and quality,
 /// and edges; .obj points and edges; .png three views of solid and axis, `width` pixels wide.
