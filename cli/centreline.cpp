@@ -326,6 +326,32 @@ Result<int> run_centreline(const CentrelineArguments& arguments) {
   return finish_lines(*paths, *axes, arguments);
 }
 
+/// Options of lines; returns --all.
+CLI::Option* add_line_options(CLI::App& command, CentrelineArguments& arguments) {
+  add_path_options(command, arguments.path);
+  command.add_flag("--extend", arguments.line.extend, "Extend both ends to the boundary.");
+  add_value(command, "--smooth", arguments.line.smooth, "RADII", in_range(0, 1000),
+            "Average the line over so many of its mean radii (Gaussian weights). It\n"
+            "stays inside the shape.");
+  CLI::Option* all = command.add_flag(
+      "--all", arguments.all,
+      "Instead of a line: the whole network, all ways around holes included, without\n"
+      "forks in corners (see --trim).");
+  for (const char* other : {"--from", "--to", "--widest", "--extend", "--smooth", "--route"})
+    all->excludes(other);
+  command
+      .add_option_function<std::string>(
+          "--loops",
+          [&arguments](const std::string& what) { arguments.keep_loops = what == "keep"; },
+          "Keep the other ways around holes that leave the line and come back to it, such\n"
+          "as a river's side channels, without its tributaries: keep, or drop (default).")
+      ->check(CLI::IsMember({"keep", "drop"}))
+      ->option_text("WHAT")
+      ->excludes(all);
+  for (const char* other : {"--extend", "--smooth"}) command.get_option("--loops")->excludes(other);
+  return all;
+}
+
 }  // namespace
 
 Command make_centreline_command(CLI::App& program) {
@@ -335,28 +361,7 @@ Command make_centreline_command(CLI::App& program) {
   command->alias("centerline");
   add_input_options(*command, arguments->input);
   add_output_options(*command, *arguments, io::formats_of(io::DocumentKind::axes));
-  add_path_options(*command, arguments->path);
-  command->add_flag("--extend", arguments->line.extend, "Extend both ends to the boundary.");
-  add_value(*command, "--smooth", arguments->line.smooth, "RADII", in_range(0, 1000),
-            "Average the line over so many of its mean radii (Gaussian weights). It\n"
-            "stays inside the shape.");
-  CLI::Option* all = command->add_flag(
-      "--all", arguments->all,
-      "Instead of a line: the whole network, all ways around holes included, without\n"
-      "forks in corners (see --trim).");
-  for (const char* other : {"--from", "--to", "--widest", "--extend", "--smooth", "--route"})
-    all->excludes(other);
-  command
-      ->add_option_function<std::string>(
-          "--loops",
-          [arguments](const std::string& what) { arguments->keep_loops = what == "keep"; },
-          "Keep the other ways around holes that leave the line and come back to it, such\n"
-          "as a river's side channels, without its tributaries: keep, or drop (default).")
-      ->check(CLI::IsMember({"keep", "drop"}))
-      ->option_text("WHAT")
-      ->excludes(all);
-  for (const char* other : {"--extend", "--smooth"})
-    command->get_option("--loops")->excludes(other);
+  CLI::Option* all = add_line_options(*command, *arguments);
   CLI::Option* clearance =
       add_value(*command, "--clearance", arguments->clearance, "R", a_positive_number(),
                 "Instead of a line: all of the axis where a disk of this radius has room.");

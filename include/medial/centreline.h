@@ -72,8 +72,7 @@ struct MainPathOptions {
 /// what better ends could add.
 std::vector<AxisPath> main_paths(const MedialAxis& axis, const MainPathOptions& options = {});
 
-/// What a path leaves out of the ways around holes that leave it and come back, as whole edges: the
-/// side channels of a river, without its tributaries. O(n).
+/// The ways around holes that leave a path and come back, without the path: whole edges. O(n).
 std::vector<PathPiece> side_channels(const MedialAxis& axis, const AxisPath& path);
 
 struct CentreLineOptions {
