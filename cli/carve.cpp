@@ -32,9 +32,7 @@ struct MachineArguments {
   std::string post;
 };
 
-struct TabArguments {
-  std::uint32_t count = 0;
-  double spacing = 0;
+struct TabArguments : TabOptions {
   std::optional<double> width, height;
   bool wanted() const { return count > 0 || spacing > 0; }
 };
@@ -121,7 +119,7 @@ Result<Tabs> tabs_for(const Shape& shape, const MedialAxis& axis, const CarveArg
   if (!(bottom > 0)) return invalid_option("tabs need --depth, how thick the material is");
   const double height = arguments.tabs.height.value_or(std::min(2 * one, bottom / 2));
   if (height >= bottom) return invalid_option("--tab-height must be below the depth");
-  auto lines = place_tabs(shape, axis, arguments.tabs.count, arguments.tabs.spacing);
+  auto lines = place_tabs(shape, axis, arguments.tabs);
   if (!lines) return std::move(lines).error();
   return Tabs{std::move(lines).value(), arguments.tabs.width.value_or(6 * one), bottom - height};
 }

@@ -86,9 +86,6 @@ void add_curve_options(CLI::App& command, InputOptions& input) {
                   "character is a feature.")
       ->option_text("TEXT");
   command.add_option("--font", input.font, "The font file of --text.")->option_text("FILE");
-  add_value(command, "--font-size", input.source.font_size, "S", a_positive_number(),
-            "How large its letters are: the em, in --units (default: in font units).")
-      ->needs("--font");
   ArcOptions& arcs = input.source.load.arcs;
   add_value(command, "--arc-tolerance", arcs.tolerance, "T",
             in_range(smallest_arc_tolerance, largest_arc_tolerance),

@@ -317,7 +317,7 @@ TEST(Carve, TabsStandAndNothingElseDoes) {
   const Shape around = surroundings(part, 4).value();
   const auto axis = compute(around);
   ASSERT_TRUE(axis.ok());
-  const auto lines = place_tabs(around, *axis, 4);
+  const auto lines = place_tabs(around, *axis, {.count = 4});
   ASSERT_TRUE(lines.ok());
   ASSERT_EQ(lines->size(), 4U);  // the window has nothing in it
   const double depth = 3, high = 1;
@@ -330,7 +330,7 @@ TEST(Carve, TabsStandAndNothingElseDoes) {
       {v, false},
       {after, true}};
   for (auto& [options, cleared] : tools) {
-    const Carving plain = carving_of(around, options);
+    const Carving plain = carving_of(around, cleared ? v : options);
     options.tabs = tabs;
     const Carving carving = carving_of(around, options);
     EXPECT_LE(gouge_of(around, carving, 1e-6), 1e-6);
@@ -345,7 +345,8 @@ TEST(Carve, TabsStandAndNothingElseDoes) {
     const double beside = 1 + carving.slope * high;  // where the bottom begins
     test::Random random(3);
     std::size_t on_tabs = 0, bottom = 0;
-    for (int i = 0; i < 1500; ++i) {
+    const double left = cleared ? 5e-3 : 1e-6;  // chords of grooves
+    for (int i = 0; i < 300; ++i) {
       const Vec2 p{random.between(-4, 30), random.between(-4, 16)};
       const double off = distance_to(tabs, p), room = clearance(around, p);
       if (room < 0) continue;
@@ -357,7 +358,7 @@ TEST(Carve, TabsStandAndNothingElseDoes) {
           EXPECT_NEAR(cut_at(p), std::min(cutter.depth_at(p, plain.paths), tabs.top), 1e-6);
         }
       } else if (off > beside + 2 * carving.tip_radius) {
-        EXPECT_NEAR(cut_at(p), cutter.depth_at(p, plain.paths), 1e-6) << p.x << " " << p.y;
+        EXPECT_NEAR(cut_at(p), cutter.depth_at(p, plain.paths), left) << p.x << " " << p.y;
         bottom += cut_at(p) > depth - 1e-6 ? 1 : 0;
       }
       // Beside a tab all is cut that a tool there reaches.
@@ -366,8 +367,8 @@ TEST(Carve, TabsStandAndNothingElseDoes) {
         EXPECT_NEAR(cut_at(p), depth, 1e-6);
       }
     }
-    EXPECT_GT(on_tabs, 30U);
-    EXPECT_GT(bottom, 100U);
+    EXPECT_GT(on_tabs, 5U);
+    EXPECT_GT(bottom, 20U);
   }
 }
 
@@ -377,18 +378,18 @@ TEST(Carve, TabsTieAllThatComesLoose) {
                                 {.points = {{40, 45}, {49, 45}, {49, 54}, {40, 54}}},
                                 {.points = {{51, 45}, {60, 45}, {60, 54}, {51, 54}}}});
   const auto axis = compute(shape);
-  const auto lines = place_tabs(shape, *axis, 1);
+  const auto lines = place_tabs(shape, *axis, {.count = 1});
   ASSERT_TRUE(lines.ok());
   const auto outside = std::ranges::count_if(*lines, [](const TabLine& line) {
     const auto on_frame = [](Vec2 p) { return std::min({p.x, p.y, 100 - p.x, 100 - p.y}) < 1e-9; };
     return on_frame(line[0]) || on_frame(line[2]);
   });
   EXPECT_GE(outside, 1);
-  EXPECT_EQ(place_tabs(shape, *axis, 0, 4)->size(), 18U);
-  EXPECT_TRUE(
-      place_tabs(shape_of(test::rectangle(3, 3)), *compute(shape_of(test::rectangle(3, 3))), 2)
-          ->empty());
-  EXPECT_EQ(place_tabs(shape, *axis, 0).error().code, ErrorCode::invalid_option);
+  EXPECT_EQ(place_tabs(shape, *axis, {.spacing = 4})->size(), 18U);
+  EXPECT_TRUE(place_tabs(shape_of(test::rectangle(3, 3)), *compute(shape_of(test::rectangle(3, 3))),
+                         {.count = 2})
+                  ->empty());
+  EXPECT_EQ(place_tabs(shape, *axis, {}).error().code, ErrorCode::invalid_option);
   CarveOptions bad{.angle = 90, .depth = 1};
   bad.tabs = {*lines, 0, 0.5};
   EXPECT_EQ(carve(*axis, bad).error().code, ErrorCode::invalid_option);

@@ -3,6 +3,10 @@
 // Carving with a V-shaped tool. Its tip follows the axis where the cone is as wide as the disk, so
 // inner corners come out sharp. Wider parts get a flat bottom, cleared along offsets.
 
+#include <array>
+#include <cstdint>
+#include <vector>
+
 #include "medial/axis.h"
 #include "medial/error.h"
 #include "medial/shape.h"
@@ -11,10 +15,18 @@ namespace medial {
 
 /// The middle of a tab: from one side, over the centre of a maximal disk, to the other.
 using TabLine = std::array<Vec2, 3>;
+
 /// Bars of material that are left across what is cut, so that no part comes loose.
 struct Tabs {
   std::vector<TabLine> lines = {};
-  double width = 0, top = 0;  ///< how wide, above 0, and how deep below the surface they begin
+  double width = 0;  ///< positive where there are lines
+  double top = 0;    ///< how deep their upper side lies below the surface
+};
+
+/// How many tabs each part has that would come loose.
+struct TabOptions {
+  std::uint32_t count = 0;
+  double spacing = 0;  ///< along the part's boundary, where the count is 0
 };
 
 /// Lengths in units of the input.
@@ -78,16 +90,17 @@ struct Carving {
 /// axis, and for ridges of step / m on flat bottoms where the tip is a point or `step` exceeds its
 /// radius. Every pass takes off at most `pass_depth`: it follows the paths of the last one, as deep
 /// as it may, where the pass before left something; so all passes are at most as long as one times
-/// their number. Tabs stay. O(n log n + size of the result). Errors:
+/// their number. O(n log n + size of the result). Errors:
 /// invalid_option, unsupported (an axis that is sampled or of the exterior), too_large (more than
 /// 1e6 clearing passes, or 1e4 in depth).
 Result<Carving> carve(const MedialAxis& axis, const CarveOptions& options);
 
-/// Places for tabs at what comes loose where a shape is cut through: at each hole `count`, or with
-/// 0 one for each `spacing` of it; evenly, but rather where sides are near and not at corners. More
-/// tie parts to the rest that are tied to each other only. Errors: invalid_option, unsupported.
+/// Tabs for the parts that come loose when a shape is cut through: its holes. A tab stands where a
+/// maximal disk touches the part and another loop; evenly around the part, but the nearer the sides
+/// the better, and not at corners. Further tabs tie parts to the rest that are tied to each other
+/// only. Of the exact axis of the shape. O(n log n). Errors: invalid_option, unsupported.
 Result<std::vector<TabLine>> place_tabs(const Shape& shape, const MedialAxis& axis,
-                                        std::uint32_t count, double spacing = 0);
+                                        const TabOptions& options);
 
 /// The options of an end mill that clears the flat bottoms of a V-shaped tool before it, so that no
 /// wall is touched. The V needs a depth, its own or its tool's.

@@ -72,7 +72,8 @@ struct MainPathOptions {
 /// what better ends could add.
 std::vector<AxisPath> main_paths(const MedialAxis& axis, const MainPathOptions& options = {});
 
-/// The ways around holes that leave a path and come back, without the path: whole edges. O(n).
+/// What a path leaves out of the ways around holes that leave it and come back, as whole edges: the
+/// side channels of a river, without its tributaries. O(n).
 std::vector<PathPiece> side_channels(const MedialAxis& axis, const AxisPath& path);
 
 struct CentreLineOptions {

@@ -97,11 +97,12 @@ std::vector<TabPlace> places_of(const Shape& shape, const MedialAxis& axis,
 
 /// The best place in each equal part of each hole: near the part's middle, and short.
 std::vector<const TabPlace*> spread(const std::vector<TabPlace>& places, const SitePlaces& sites,
-                                    std::uint32_t wanted, double spacing) {
+                                    const TabOptions& options) {
   std::map<std::pair<std::uint32_t, double>, std::pair<double, const TabPlace*>> best;
   for (const TabPlace& place : places) {
     const double length = sites.length(place.loop);
-    const double count = wanted > 0 ? wanted : std::max(1.0, std::ceil(length / spacing));
+    const double count =
+        options.count > 0 ? options.count : std::max(1.0, std::ceil(length / options.spacing));
     const double part = std::min(std::floor(count * place.along / length), count - 1);
     const double off = std::abs(place.along - (part + 0.5) * length / count);
     const double cost = off + place.radius + (place.at_corner ? length / count : 0);
@@ -284,14 +285,14 @@ void spare_tabs(Carving& carving) {
 }  // namespace ops
 
 Result<std::vector<TabLine>> place_tabs(const Shape& shape, const MedialAxis& axis,
-                                        std::uint32_t count, double spacing) {
+                                        const TabOptions& options) {
   if (axis.resolution > 0 || axis.exterior > 0)
     return Error{ErrorCode::unsupported, "tabs need an exact axis of the shape itself", {}};
-  if (count == 0 && !(spacing > 0 && std::isfinite(spacing)))
+  if (options.count == 0 && !(options.spacing > 0 && std::isfinite(options.spacing)))
     return Error{ErrorCode::invalid_option, "tabs need a count or a spacing above 0", {}};
   const SitePlaces sites(shape, axis);
   const std::vector<TabPlace> places = places_of(shape, axis, sites);
-  std::vector<const TabPlace*> chosen = spread(places, sites, count, spacing);
+  std::vector<const TabPlace*> chosen = spread(places, sites, options);
   tie(places, shape.loop_count(), chosen);
   std::vector<TabLine> lines;
   for (const TabPlace* place : chosen) lines.push_back(place->line);

@@ -52,15 +52,13 @@ struct ReadOptions {
 Result<Document<Feature>> read_document(const std::string& path, const ReadOptions& options = {});
 
 /// The outlines of a UTF-8 text in one line, with the advances and kerning of a scalable font file
-/// (TrueType, OpenType, Type 1): a feature for each character with an outline, in font units or
-/// with an em of `size`, the baseline at y = 0. What the font lacks is replaced, with a note.
-Result<Document<Feature>> read_text(const std::string& text, const std::string& font,
-                                    double size = 0);
+/// (TrueType, OpenType, Type 1): a feature for each character with an outline, in font units, the
+/// baseline at y = 0. A character that the font lacks becomes its replacement, with a note.
+Result<Document<Feature>> read_text(const std::string& text, const std::string& font);
 
 struct SourceOptions {
   ReadOptions read;  ///< its `repair` goes for features with curves as well
   std::string text;  ///< not empty: the outlines of this text in the font `path`, see read_text()
-  double font_size = 0;
   LoadOptions load;  ///< but for `repair` and `skip_invalid`
   UnitOptions units;
 };
