@@ -22,8 +22,12 @@ constexpr std::size_t line_width = 80;
 
 /// Groups of options that pages list by name only: those of many commands or of one method.
 bool is_folded(const std::string& group) {
-  constexpr std::array shared = {input_group, curve_group, picture_group, common_group,
-                                 std::string_view("Units")};
+  constexpr std::array shared = {input_group,
+                                 curve_group,
+                                 picture_group,
+                                 common_group,
+                                 std::string_view("Units"),
+                                 std::string_view("Clearing before a V")};
   return std::ranges::find(shared, group) != shared.end() ||
          group.find("(--method") != std::string::npos;
 }
