@@ -32,8 +32,14 @@ struct MachineArguments {
   std::string post;
 };
 
+struct TabArguments : TabOptions {
+  std::optional<double> width, height;
+  bool wanted() const { return count > 0 || spacing > 0; }
+};
+
 struct CarveArguments : FileArguments {
   MachineArguments machine;
+  TabArguments tabs;
   CarveOptions carve;
   double clear_tool = 0;
   std::string origin, preview;
@@ -105,8 +111,37 @@ CarveOptions carve_options(const CarveArguments& arguments, Unit unit) {
   return options;
 }
 
+/// Tabs of 6 mm, 2 mm high but at most half of the depth.
+Result<Tabs> tabs_for(const Shape& shape, const MedialAxis& axis, const CarveArguments& arguments,
+                      const CarveOptions& options, Unit unit) {
+  if (!arguments.tabs.wanted()) return Tabs{};
+  const double bottom = clearing_before(options, 0, 0).depth, one = 1 / millimetres(unit);
+  if (!(bottom > 0)) return invalid_option("tabs need --depth, how thick the material is");
+  const double height = arguments.tabs.height.value_or(std::min(2 * one, bottom / 2));
+  if (height >= bottom) return invalid_option("--tab-height must be below the depth");
+  auto lines = place_tabs(shape, axis, arguments.tabs);
+  if (!lines) return std::move(lines).error();
+  return Tabs{std::move(lines).value(), arguments.tabs.width.value_or(6 * one), bottom - height};
+}
+
+/// All shapes as one, for what lies around them together: around each alone would be through its
+/// neighbours.
+Status unite(std::vector<ShapeItem>& items) {
+  std::vector<Ring> rings;
+  for (const ShapeItem& item : items)
+    for (Ring& ring : rings_of(item.shape)) {
+      ring.role = RingRole::winding;
+      rings.push_back(std::move(ring));
+    }
+  auto shape = build_shape(rings, {.node_crossings = true});
+  if (!shape) return std::move(shape).error();
+  items.resize(1);
+  items[0].shape = std::move(shape).value();
+  return success();
+}
+
 Result<io::CarveItem> carve_one(Shape shape, const CarveArguments& arguments,
-                                const CarveOptions& carving_options, const Options& options) {
+                                CarveOptions carving_options, const Options& options, Unit unit) {
   if (arguments.options.exterior) {
     auto around = surroundings(shape, arguments.options.margin);
     if (!around) return std::move(around).error();
@@ -114,6 +149,9 @@ Result<io::CarveItem> carve_one(Shape shape, const CarveArguments& arguments,
   }
   auto axis = compute(shape, options);
   if (!axis) return std::move(axis).error();
+  auto tabs = tabs_for(shape, *axis, arguments, carving_options, unit);
+  if (!tabs) return std::move(tabs).error();
+  carving_options.tabs = std::move(tabs).value();
   auto carving = carve(*axis, carving_options);
   if (!carving) return std::move(carving).error();
   io::CarveItem item{std::move(shape), std::move(carving).value()};
@@ -130,23 +168,27 @@ Result<io::CarveItem> carve_one(Shape shape, const CarveArguments& arguments,
 
 Result<int> finish_carve(const Document<io::CarveItem>& file, const CarveArguments& arguments,
                          const Phases& phases) {
-  std::uint64_t paths = 0;
+  std::uint64_t paths = 0, tabs = 0;
   double unordered = 0, deepest = 0;
   for (const io::CarveItem& item : file.items) {
+    tabs += item.carving.tabs.lines.size();
     for (const Carving* c : {&item.carving, &item.clearing}) {
       paths += c->paths.size();
       unordered += c->travel_unordered;
       deepest = std::max(deepest, c->deepest);
     }
   }
-  if (!is_talkative(arguments)) return exit_success;
-  const io::CutReport report = io::report_of(file, machine_of(arguments, file.unit));
   const std::string& input = arguments.input.path;
   const std::string unit = name_of(file.unit);
   if (deepest * millimetres(file.unit) > unlikely_depth && !arguments.common.quiet)
     say("medial: {}: note: the cut is {:.3g} {} deep; --units gives the unit of the input, --depth "
         "limits the cut\n",
         input, deepest, unit);
+  if (arguments.tabs.wanted() && tabs == 0 && !arguments.common.quiet)
+    say("medial: {}: note: there are no tabs, as nothing comes loose: there are no holes{}\n",
+        input, arguments.options.exterior ? "" : "; --exterior cuts around shapes");
+  if (!is_talkative(arguments)) return exit_success;
+  const io::CutReport report = io::report_of(file, machine_of(arguments, file.unit));
   const auto seconds = static_cast<std::uint64_t>(std::ceil(report.seconds));
   return finish(
       arguments,
@@ -154,6 +196,7 @@ Result<int> finish_carve(const Document<io::CarveItem>& file, const CarveArgumen
        {"unit", unit},
        {"features", file.items.size()},
        {"paths", paths},
+       {"tabs", tabs},
        {"moves", report.moves},
        {"deepest", deepest},
        {"passes_length", report.own},
@@ -199,6 +242,8 @@ Result<int> run_carve(const CarveArguments& given) {
         check_output(arguments.preview, {}, ".png .svg .pdf .ps", arguments.input.path, false);
   if (possible) possible = read_post(arguments.machine.post);
   if (!possible) return std::move(possible).error();
+  if (!arguments.tabs.wanted() && (arguments.tabs.width || arguments.tabs.height))
+    return invalid_option("--tab-width and --tab-height need --tabs or --tab-spacing");
   UnitOptions& units = arguments.input.source.units;
   const bool usual = units.wanted == Unit::unknown || units.wanted == Unit::millimetre ||
                      units.wanted == Unit::inch;
@@ -207,14 +252,19 @@ Result<int> run_carve(const CarveArguments& given) {
   if (units.wanted == Unit::unknown) units.wanted = Unit::millimetre;
   auto shapes = load_shapes(arguments.input, common);
   if (!shapes) return std::move(shapes).error();
+  if (shapes->file.items.empty())
+    return error_at(ErrorCode::empty, arguments.input.path, "there is no shape to cut");
+  if (arguments.options.exterior && shapes->file.items.size() > 1)
+    if (Status united = unite(shapes->file.items); !united) return std::move(united).error();
   auto file = empty_like<io::CarveItem>(shapes->file);
+  file.indices.clear();
   file.crs_wkt.clear();  // a machine has no reference system
   const Vec2 zero = zero_of(shapes->file, arguments.origin);
   const CarveOptions options = carve_options(arguments, file.unit);
   auto items = map_items<io::CarveItem>(
       weights_of(shapes->file), common.threads, [&](std::size_t i, int threads) {
         return carve_one(std::move(shapes->file.items[i].shape), arguments, options,
-                         engine_options(common, threads, shapes->file.corner_angle));
+                         engine_options(common, threads, shapes->file.corner_angle), file.unit);
       });
   if (!items) return std::move(items).error();
   file.items = std::move(items).value();
@@ -263,6 +313,29 @@ void add_tool_options(CLI::App& command, CarveArguments& arguments) {
              "How far straight moves may be off the axis's curves, always upwards (default:\n"
              "1e-5 of the diagonal), and in .csv off arcs, always inwards (default: 1e-6 of\n"
              "the tool's radius at the bottom).");
+}
+
+void add_tab_options(CLI::App& command, CarveArguments& arguments) {
+  const OptionGroup group(command, "Tabs");
+  TabArguments& tabs = arguments.tabs;
+  CLI::Option* count =
+      command
+          .add_option(
+              "--tabs", tabs.count,
+              "Leave so many bars at each part that would come loose: at each hole, with\n"
+              "--exterior around each shape. They lie on the bottom, from side to side, and\n"
+              "need --depth.")
+          ->check(CLI::Range(1, 1000))
+          ->option_text("N");
+  command
+      .add_option("--tab-spacing", tabs.spacing,
+                  "The same, one for each so long part of the boundary.")
+      ->check(a_positive_number())
+      ->option_text("L")
+      ->excludes(count);
+  add_length(command, "--tab-width", tabs.width, "W", "How wide they are (default: 6 mm).");
+  add_length(command, "--tab-height", tabs.height, "H",
+             "How high, above the bottom (default: 2 mm, at most half of the depth).");
 }
 
 void add_clearing_options(CLI::App& command, CarveArguments& arguments) {
@@ -330,6 +403,7 @@ Command make_carve_command(CLI::App& program) {
   add_input_options(*command, arguments->input);
   add_tool_options(*command, *arguments);
   add_clearing_options(*command, *arguments);
+  add_tab_options(*command, *arguments);
   add_exterior_options(
       *command, arguments->options,
       "Cut what lies around the shape and in its holes, up to a rectangle, so that the\n"
@@ -350,6 +424,8 @@ Command make_carve_command(CLI::App& program) {
       "  medial carve spanner.svg --angle 60 -o spanner.nc\n"
       "  medial carve plate.dxf --angle 90 --depth 3 -o plate.svg\n"
       "  medial carve plate.dxf --angle 0 --tool 4 --depth 2 --feed 800 -o pocket.gcode\n"
+      "  medial carve part.svg --angle 0 --tool 3 --depth 6 --exterior --margin 4 --tabs 4 \\\n"
+      "    -o part.nc\n"
       "  medial carve spanner.svg --angle 60 --output-units in -o spanner.nc\n"
       "  medial carve --text Axis --font serif.ttf --angle 60 -o - --format csv");
   return command_of(command, arguments, run_carve);

@@ -24,6 +24,7 @@ struct CentrelineArguments : FileArguments {
   PathOptions path;
   CentreLineOptions line;
   bool all = false;  ///< the whole network
+  bool keep_loops = false;
   double clearance = 0;
   double collapse = 0;  ///< a width
   Options options;      ///< of the axis
@@ -57,8 +58,15 @@ Status make_lines(Document<AxisItem>& file, const Paths& paths,
     all.tolerance = item.axis.tolerance;
     all.sites = item.axis.sites;
     all.resolution = item.axis.resolution;
-    for (const AxisPath& path : paths[i])
-      append(all, centre_line(item.shape, item.axis, path, arguments.line));
+    for (const AxisPath& path : paths[i]) {
+      if (arguments.keep_loops) {
+        std::vector<PathPiece> pieces = side_channels(item.axis, path);
+        pieces.insert(pieces.begin(), path.pieces.begin(), path.pieces.end());
+        append(all, part_of(item.axis, pieces));
+      } else {
+        append(all, centre_line(item.shape, item.axis, path, arguments.line));
+      }
+    }
     item.axis = std::move(all);
     item.part = true;
     return success();
@@ -86,23 +94,40 @@ Status make_networks(Document<AxisItem>& file, const CentrelineArguments& argume
                        });
 }
 
-/// Says how much of the networks the main paths leave out.
+/// What main paths leave out of one axis, as lengths.
+struct LeftOut {
+  double network = 0;   ///< of the whole
+  double channels = 0;  ///< around holes
+};
+
+/// Says how much of the networks and of the ways around holes the main paths leave out.
 Status note_what_is_left_out(const Document<AxisItem>& file, const Paths& paths,
                              const CentrelineArguments& arguments) {
   if (arguments.common.quiet || arguments.path.between_places()) return success();
-  auto lengths = map_items<double>(
-      edge_weights_of(file), arguments.common.threads, [&](std::size_t i, int) -> Result<double> {
-        auto network = network_of(file.items[i].axis, arguments.path.path.trim);
-        if (!network) return std::move(network).error();
-        return total_length(*network);
-      });
-  if (!lengths) return std::move(lengths).error();
-  double whole = 0, chosen = 0;
-  for (const double length : *lengths) whole += length;
-  for (const auto& each : paths)
-    for (const AxisPath& path : each) chosen += path.length;
-  constexpr double worth_a_note = 0.99;
-  if (chosen < worth_a_note * whole)
+  auto each = map_items<LeftOut>(edge_weights_of(file), arguments.common.threads,
+                                 [&](std::size_t i, int) -> Result<LeftOut> {
+                                   const MedialAxis& axis = file.items[i].axis;
+                                   auto network = network_of(axis, arguments.path.path.trim);
+                                   if (!network) return std::move(network).error();
+                                   LeftOut out{total_length(*network), 0};
+                                   for (const AxisPath& path : paths[i])
+                                     for (const PathPiece& piece : side_channels(axis, path))
+                                       out.channels += length(axis, axis.edges[piece.edge]);
+                                   return out;
+                                 });
+  if (!each) return std::move(each).error();
+  double whole = 0, channels = 0, chosen = 0;
+  for (const LeftOut& one : *each) whole += one.network, channels += one.channels;
+  for (const auto& of_item : paths)
+    for (const AxisPath& path : of_item) chosen += path.length;
+  constexpr double worth_a_note = 0.01;
+  const bool kept = arguments.keep_loops;
+  if (channels > worth_a_note * chosen)
+    say("medial: {}: note: the main paths are {:.6g} long, the other ways around holes {:.6g}; "
+        "{}\n",
+        arguments.input.path, chosen, channels,
+        kept ? "both are kept" : "--loops=keep keeps them, --all the whole network");
+  else if (whole - chosen > worth_a_note * whole)
     say("medial: {}: note: the main paths are {:.6g} long, the whole network {:.6g}; --all keeps "
         "it\n",
         arguments.input.path, chosen, whole);
@@ -301,6 +326,32 @@ Result<int> run_centreline(const CentrelineArguments& arguments) {
   return finish_lines(*paths, *axes, arguments);
 }
 
+/// Options of lines; returns --all.
+CLI::Option* add_line_options(CLI::App& command, CentrelineArguments& arguments) {
+  add_path_options(command, arguments.path);
+  command.add_flag("--extend", arguments.line.extend, "Extend both ends to the boundary.");
+  add_value(command, "--smooth", arguments.line.smooth, "RADII", in_range(0, 1000),
+            "Average the line over so many of its mean radii (Gaussian weights). It\n"
+            "stays inside the shape.");
+  CLI::Option* all = command.add_flag(
+      "--all", arguments.all,
+      "Instead of a line: the whole network, all ways around holes included, without\n"
+      "forks in corners (see --trim).");
+  for (const char* other : {"--from", "--to", "--widest", "--extend", "--smooth", "--route"})
+    all->excludes(other);
+  command
+      .add_option_function<std::string>(
+          "--loops",
+          [&arguments](const std::string& what) { arguments.keep_loops = what == "keep"; },
+          "Keep the other ways around holes that leave the line and come back to it, such\n"
+          "as a river's side channels, without its tributaries: keep, or drop (default).")
+      ->check(CLI::IsMember({"keep", "drop"}))
+      ->option_text("WHAT")
+      ->excludes(all);
+  for (const char* other : {"--extend", "--smooth"}) command.get_option("--loops")->excludes(other);
+  return all;
+}
+
 }  // namespace
 
 Command make_centreline_command(CLI::App& program) {
@@ -310,17 +361,7 @@ Command make_centreline_command(CLI::App& program) {
   command->alias("centerline");
   add_input_options(*command, arguments->input);
   add_output_options(*command, *arguments, io::formats_of(io::DocumentKind::axes));
-  add_path_options(*command, arguments->path);
-  command->add_flag("--extend", arguments->line.extend, "Extend both ends to the boundary.");
-  add_value(*command, "--smooth", arguments->line.smooth, "RADII", in_range(0, 1000),
-            "Average the line over this many mean radii (Gaussian weights). It\n"
-            "stays inside the shape.");
-  CLI::Option* all = command->add_flag(
-      "--all", arguments->all,
-      "Instead of a line: the whole network, all ways around holes included, without\n"
-      "forks in corners (see --trim).");
-  for (const char* other : {"--from", "--to", "--widest", "--extend", "--smooth", "--route"})
-    all->excludes(other);
+  CLI::Option* all = add_line_options(*command, *arguments);
   CLI::Option* clearance =
       add_value(*command, "--clearance", arguments->clearance, "R", a_positive_number(),
                 "Instead of a line: all of the axis where a disk of this radius has room.");
@@ -333,7 +374,7 @@ Command make_centreline_command(CLI::App& program) {
   clearance->excludes(all);
   collapse->excludes(all);
   for (CLI::Option* option : {clearance, collapse})
-    for (const char* place : {"--from", "--to", "--widest"}) option->excludes(place);
+    for (const char* place : {"--from", "--to", "--widest", "--loops"}) option->excludes(place);
   add_exterior_options(*command, arguments->options,
                        "Lines of what lies around the shape and in its holes, within a rectangle.")
       ->excludes(collapse);
@@ -353,6 +394,7 @@ Command make_centreline_command(CLI::App& program) {
       "  medial centreline river.wkt --from 0/12 --to 0/873 -o line.svg\n"
       "  medial centreline plan.geojson --widest 2,3 40,12 -o way.csv\n"
       "  medial centreline roads.gpkg --all --simplify 0.5 -o network.gpkg\n"
+      "  medial centreline amazon.wkt --loops keep -o channels.geojson\n"
       "  medial centreline plan.geojson --clearance 0.6 -o reachable.svg\n"
       "  medial centreline rivers.geojson --project --collapse 50 -o rivers.gpkg");
   return command_of(command, arguments, run_centreline);

@@ -308,7 +308,7 @@ void add_picture_options(CLI::App& command, io::WriteOptions& write) {
 
 void add_simplify_option(CLI::App& command, io::WriteOptions& write) {
   add_value(command, "--simplify", write.simplify, "E", a_positive_number(),
-            "Lines in tables, .wkt and graphs have few points within E, in units of the\n"
+            "Lines of GIS formats, .wkt and graphs have few points within E, in units of the\n"
             "input, of the axis (default: chords, see --chord). Their ends stay.");
 }
 
@@ -462,13 +462,17 @@ Status check_picture_options(const FileArguments& arguments) {
   const io::WriteOptions& write = arguments.write;
   const bool asked = write.disks > 0 || write.contacts || !write.shape;
   const std::string& output = arguments.output;
-  if ((!asked && !write.nodes) || output.empty()) return success();
+  if ((!asked && !write.nodes && write.simplify == 0) || output.empty()) return success();
   const std::string extension = fs::path(output).extension().string();
   const std::string format = output == "-"       ? arguments.format
                              : extension.empty() ? extension
                                                  : extension.substr(1);
+  if (write.simplify > 0 && lists("json csv dxf svg pdf png ps", lower(format)))
+    return invalid_option("--simplify is for lines of GIS formats, .wkt and graphs: ." +
+                          lower(format) + " has the curves themselves, or samples");
   if (lists("svg pdf png ps", lower(format))) return success();
-  if (!asked && lower(format) == "gpkg") return success();
+  if (!asked && (!write.nodes || lists("gpkg graphml nodelink edgelist", lower(format))))
+    return success();
   return invalid_option(fmt::format(
       "--disks, --contacts, --nodes and --no-shape are for pictures, which {} is not", output));
 }

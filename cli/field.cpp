@@ -35,6 +35,7 @@ Result<int> run_field(const FieldArguments& arguments) {
   }
   io::FieldPictureOptions picture = arguments.picture;
   picture.y_down = file->file.y_down;
+  picture.unit = file->file.unit;
   Status written = io::write_field(arguments.output, {}, shapes, fields, picture);
   if (!written) return std::move(written).error();
   file->phases.end("draw");

@@ -22,8 +22,12 @@ constexpr std::size_t line_width = 80;
 
 /// Groups of options that pages list by name only: those of many commands or of one method.
 bool is_folded(const std::string& group) {
-  constexpr std::array shared = {input_group, curve_group, picture_group, common_group,
-                                 std::string_view("Units")};
+  constexpr std::array shared = {input_group,
+                                 curve_group,
+                                 picture_group,
+                                 common_group,
+                                 std::string_view("Units"),
+                                 std::string_view("Clearing before a V")};
   return std::ranges::find(shared, group) != shared.end() ||
          group.find("(--method") != std::string::npos;
 }
@@ -148,7 +152,11 @@ std::string unknown_words(const CLI::App& command, const std::string& otherwise)
   const auto unknown = std::ranges::find_if(
       extra, [](const std::string& word) { return word.size() > 1 && word[0] == '-'; });
   if (unknown != extra.end()) return unknown_option(*unknown, command);
-  return extra.empty() ? otherwise : "unexpected argument: " + extra.back();
+  if (extra.empty()) return otherwise;
+  const std::string text = "unexpected argument: " + extra.back();
+  double number = 0;
+  if (!CLI::detail::lexical_cast(extra.back(), number)) return text;
+  return text + "; an optional value follows its option after '=', as in --option=" + extra.back();
 }
 
 std::string no_number(const std::string& text, const CLI::App& command) {

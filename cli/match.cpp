@@ -145,6 +145,7 @@ Result<int> run_match(const MatchArguments& arguments) {
   Phases phases;
   auto asked = signatures_of(arguments.input, arguments.common, false);
   if (!asked) return std::move(asked).error();
+  if (asked->empty()) return error_at(ErrorCode::empty, path, "holds no shape");
   const auto candidates = candidates_of(arguments);
   if (!candidates) return candidates.error();
   using Ranked = std::pair<double, const NamedSignature*>;

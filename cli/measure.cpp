@@ -18,6 +18,7 @@
 #include "medial/io/read.h"
 #include "medial/io/write.h"
 #include "medial/query.h"
+#include "medial/units.h"
 
 namespace medial::cli {
 namespace {
@@ -234,9 +235,10 @@ std::string summary_of(const std::vector<Measured>& all) {
   return text;
 }
 
-/// feature,line,along,x,y,width,span and both feet. Places of a local projection become longitudes
-/// and latitudes again; widths stay in metres.
-Result<std::string> profile_csv(const std::vector<Measured>& all, const std::string& crs_wkt) {
+/// feature,line,along,x,y,width,span, both feet, and the unit if it is known. Places of a local
+/// projection become longitudes and latitudes again; widths stay in metres.
+Result<std::string> profile_csv(const std::vector<Measured>& all, const std::string& crs_wkt,
+                                Unit unit) {
   std::vector<Vec2> places;
   for (const Measured& one : all)
     for (const Line& line : one.lines)
@@ -245,21 +247,25 @@ Result<std::string> profile_csv(const std::vector<Measured>& all, const std::str
   if (Status placed = io::back_to_geographic(crs_wkt, places); !placed)
     return std::move(placed).error();
   auto place = places.begin();
-  std::string text = "feature,line,along,x,y,width,span,left_x,left_y,right_x,right_y\n";
+  const std::string known = name_of(unit), end = known.empty() ? "\n" : "," + known + "\n";
+  std::string text = "feature,line,along,x,y,width,span,left_x,left_y,right_x,right_y";
+  text += known.empty() ? "\n" : ",unit\n";
   for (std::size_t i = 0; i < all.size(); ++i) {
     for (std::size_t k = 0; k < all[i].lines.size(); ++k) {
       for (const LocalWidth& width : all[i].lines[k].profile) {
         const Vec2 center = *place++, left = *place++, right = *place++;
-        fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{},{},{},{}\n", i, k,
+        fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{},{},{},{}{}", i, k,
                        width.along, center.x, center.y, width.width(), width.span(), left.x, left.y,
-                       right.x, right.y);
+                       right.x, right.y, end);
       }
     }
   }
   return text;
 }
 
-std::vector<Plot> profile_plots(const std::vector<Measured>& all, const std::string& name) {
+std::vector<Plot> profile_plots(const std::vector<Measured>& all, const std::string& name,
+                                Unit unit) {
+  const std::string in = unit == Unit::unknown ? "" : fmt::format(" [{}]", name_of(unit));
   constexpr std::size_t most_plots = 24;
   std::vector<Plot> plots;
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -268,8 +274,8 @@ std::vector<Plot> profile_plots(const std::vector<Measured>& all, const std::str
       Plot plot;
       plot.logarithmic = false;
       plot.title = all.size() > 1 ? fmt::format("feature {}", i) : name;
-      plot.x_label = "length along the centre line";
-      plot.y_label = "width";
+      plot.x_label = "length along the centre line" + in;
+      plot.y_label = "width" + in;
       Series width{"width", {}, false, false}, span{"foot to foot", {}, false, false};
       Series mean{"mean by length", {}, true, false};
       for (const LocalWidth& at : line.profile) {
@@ -292,9 +298,9 @@ std::vector<Plot> profile_plots(const std::vector<Measured>& all, const std::str
 Document<io::Layer> layers_of(const Document<AxisItem>& file, const std::vector<Measured>& all,
                               const MeasureArguments& arguments) {
   auto layers = empty_like<io::Layer>(file);
-  io::Layer transects{"transects", io::LayerKind::lines, {"line", "along", "width", "span"}, {}};
-  io::Layer necks{"necks", io::LayerKind::lines, {"width", "opens_to", "around_hole"}, {}};
-  io::Layer disks{"disks", io::LayerKind::disks, {"r", "rank"}, {}};
+  io::Layer transects{"transects", io::LayerKind::lines, {"line", "along", "width", "span"}, {}, 2};
+  io::Layer necks{"necks", io::LayerKind::lines, {"width", "opens_to", "around_hole"}, {}, 0};
+  io::Layer disks{"disks", io::LayerKind::disks, {"r", "rank"}, {}, 0};
   for (std::uint32_t i = 0; i < all.size(); ++i) {
     for (std::size_t k = 0; k < all[i].lines.size(); ++k) {
       for (const LocalWidth& at : all[i].lines[k].transects) {
@@ -326,7 +332,7 @@ Status write_measures(Document<AxisItem>& file, const std::vector<Measured>& all
                       const MeasureArguments& arguments) {
   if (arguments.output.empty()) return success();
   if (arguments.format == "csv" || arguments.output.ends_with(".csv")) {
-    const auto text = profile_csv(all, file.crs_wkt);
+    const auto text = profile_csv(all, file.crs_wkt, file.unit);
     if (!text) return text.error();
     return arguments.output == "-" ? print(*text) : io::write_text(arguments.output, *text);
   }
@@ -389,7 +395,7 @@ Result<int> run_measure(const MeasureArguments& given) {
   if (Status written = write_measures(axes->file, *all, arguments); !written)
     return std::move(written).error();
   if (!arguments.plot.empty()) {
-    Status plotted = write_plots(arguments.plot, profile_plots(*all, input.path));
+    Status plotted = write_plots(arguments.plot, profile_plots(*all, input.path, axes->file.unit));
     if (!plotted) return std::move(plotted).error();
   }
   return finish_measure(*all, *axes, arguments);

@@ -15,6 +15,7 @@
 #include "support/computed.h"
 #include "support/cut.h"
 #include "support/random_shapes.h"
+#include "verify/boundary_edge.h"
 
 namespace medial {
 namespace {
@@ -300,6 +301,100 @@ TEST(Carve, AMillClearsBeforeAVAndTouchesNoWall) {
   }
   EXPECT_GT(cleared, carve_count / 40);
   EXPECT_LT(shorter, 0.7 * longer);
+}
+
+double distance_to(const Tabs& tabs, Vec2 p) {
+  double least = INFINITY;
+  for (const TabLine& line : tabs.lines)
+    for (const std::size_t k : {0, 1})
+      least = std::min(least, verify_detail::distance_to_segment(p, line[k], line[k + 1]));
+  return least;
+}
+
+TEST(Carve, TabsStandAndNothingElseDoes) {
+  // A part with round ends and a window in it, cut out by a mill, by a V, and by both.
+  const Shape part =
+      shape_of({{.points = {{0, 0}, {20, 0}, {20, 12}, {0, 12}}, .bulges = {0, 1, 0, 0}},
+                {.points = {{5, 4}, {9, 4}, {9, 8}, {5, 8}}}});
+  const Shape around = surroundings(part, 4).value();
+  const auto axis = compute(around);
+  ASSERT_TRUE(axis.ok());
+  const auto lines = place_tabs(around, *axis, {.count = 4});
+  ASSERT_TRUE(lines.ok());
+  ASSERT_EQ(lines->size(), 4U);  // the window has nothing in it
+  const double depth = 3, high = 1;
+  const Tabs tabs{*lines, 2, depth - high};
+  const CarveOptions v{.angle = 60, .depth = depth, .tip = 0.5, .pass_depth = 0.8};
+  CarveOptions after = v;
+  after.cleared = 1.6;
+  std::vector<std::pair<CarveOptions, bool>> tools{
+      {{.angle = 0, .depth = depth, .tool = 1.5, .pass_depth = 1, .ramp = 10}, false},
+      {v, false},
+      {after, true}};
+  for (auto& [options, cleared] : tools) {
+    const Carving plain = carving_of(around, cleared ? v : options);
+    options.tabs = tabs;
+    const Carving carving = carving_of(around, options);
+    EXPECT_LE(gouge_of(around, carving, 1e-6), 1e-6);
+    EXPECT_NEAR(carving.own_length, plain.own_length, cleared ? INFINITY : 1e-9 * plain.own_length);
+    const test::Cutter cutter{carving.tip_radius, carving.slope};
+    std::vector<ToolPath> mill;
+    if (cleared) mill = carving_of(around, clearing_before(options, after.cleared, 1)).paths;
+    const auto cut_at = [&](Vec2 p) {
+      return std::max(cutter.depth_at(p, carving.paths),
+                      test::Cutter{after.cleared / 2, 0}.depth_at(p, mill));
+    };
+    const double beside = 1 + carving.slope * high;  // where the bottom begins
+    test::Random random(3);
+    std::size_t on_tabs = 0, bottom = 0;
+    const double left = cleared ? 5e-3 : 1e-6;  // chords of grooves
+    for (int i = 0; i < 300; ++i) {
+      const Vec2 p{random.between(-4, 30), random.between(-4, 16)};
+      const double off = distance_to(tabs, p), room = clearance(around, p);
+      if (room < 0) continue;
+      if (off < 1) {
+        EXPECT_LE(cut_at(p), tabs.top + 1e-6) << p.x << " " << p.y;
+        ++on_tabs;
+        // A mill leaves nothing above them; a V leaves what it would reach from nearer to the wall.
+        if (carving.slope == 0) {
+          EXPECT_NEAR(cut_at(p), std::min(cutter.depth_at(p, plain.paths), tabs.top), 1e-6);
+        }
+      } else if (off > beside + 2 * carving.tip_radius) {
+        EXPECT_NEAR(cut_at(p), cutter.depth_at(p, plain.paths), left) << p.x << " " << p.y;
+        bottom += cut_at(p) > depth - 1e-6 ? 1 : 0;
+      }
+      // Beside a tab all is cut that a tool there reaches.
+      const double reach = beside + carving.tip_radius;
+      if (off > reach && room > carving.tip_radius + carving.slope * depth) {
+        EXPECT_NEAR(cut_at(p), depth, 1e-6);
+      }
+    }
+    EXPECT_GT(on_tabs, 5U);
+    EXPECT_GT(bottom, 20U);
+  }
+}
+
+TEST(Carve, TabsTieAllThatComesLoose) {
+  // Two squares side by side in a wide frame: a tab of each goes to the other one.
+  const Shape shape = shape_of({test::rectangle(100, 100)[0],
+                                {.points = {{40, 45}, {49, 45}, {49, 54}, {40, 54}}},
+                                {.points = {{51, 45}, {60, 45}, {60, 54}, {51, 54}}}});
+  const auto axis = compute(shape);
+  const auto lines = place_tabs(shape, *axis, {.count = 1});
+  ASSERT_TRUE(lines.ok());
+  const auto outside = std::ranges::count_if(*lines, [](const TabLine& line) {
+    const auto on_frame = [](Vec2 p) { return std::min({p.x, p.y, 100 - p.x, 100 - p.y}) < 1e-9; };
+    return on_frame(line[0]) || on_frame(line[2]);
+  });
+  EXPECT_GE(outside, 1);
+  EXPECT_EQ(place_tabs(shape, *axis, {.spacing = 4})->size(), 18U);
+  EXPECT_TRUE(place_tabs(shape_of(test::rectangle(3, 3)), *compute(shape_of(test::rectangle(3, 3))),
+                         {.count = 2})
+                  ->empty());
+  EXPECT_EQ(place_tabs(shape, *axis, {}).error().code, ErrorCode::invalid_option);
+  CarveOptions bad{.angle = 90, .depth = 1};
+  bad.tabs = {*lines, 0, 0.5};
+  EXPECT_EQ(carve(*axis, bad).error().code, ErrorCode::invalid_option);
 }
 
 TEST(Carve, OtherUnitsChangeTheScaleOnly) {

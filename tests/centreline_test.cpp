@@ -142,6 +142,50 @@ TEST(MainPath, TakesTheRoomySideOfAnIsland) {
   EXPECT_LE(shortest.length, roomy.length + 1e-12);
 }
 
+TEST(SideChannels, AreTheOtherWaysAroundHolesAndNoTributaries) {
+  // A river with two islands, a tributary, and a tributary with an island of its own.
+  const auto [shape, axis] =
+      computed({test::ring_of({{0, 0},
+                               {20, 0},
+                               {20, -30},
+                               {24, -30},
+                               {24, 0},
+                               {60, 0},
+                               {60, -10},
+                               {55, -10},
+                               {55, -20},
+                               {67, -20},
+                               {67, -10},
+                               {62, -10},
+                               {62, 0},
+                               {100, 0},
+                               {100, 8},
+                               {0, 8}}),
+                test::ring_of({{30, 3}, {30, 5}, {40, 5}, {40, 3}}),
+                test::ring_of({{70, 2}, {70, 5}, {80, 5}, {80, 2}}),
+                test::ring_of({{59, -17}, {59, -13}, {63, -13}, {63, -17}})});
+  const AxisPath path = only_path(axis);
+  const std::vector<PathPiece> channels = side_channels(axis, path);
+  ASSERT_FALSE(channels.empty());
+  double beside = 0;
+  for (const PathPiece& piece : channels) {
+    const Disk disk = disk_at(axis, axis.edges[piece.edge], 0.5);
+    EXPECT_GT(disk.center.y, -1);  // none of a tributary
+    EXPECT_TRUE((disk.center.x > 25 && disk.center.x < 45) ||
+                (disk.center.x > 65 && disk.center.x < 85));
+    beside += length(axis, axis.edges[piece.edge]);
+  }
+  EXPECT_GT(beside, 20);
+  EXPECT_LT(beside, 50);
+  // With them, there is a cycle for each of the two islands.
+  std::vector<PathPiece> all = path.pieces;
+  all.insert(all.end(), channels.begin(), channels.end());
+  const MedialAxis network = part_of(axis, all);
+  EXPECT_EQ(network.edges.size() + 1 - network.nodes.size(), 2U);
+  const auto simple = computed({test::ring_of({{0, 0}, {30, 0}, {30, 8}, {0, 8}})});
+  EXPECT_TRUE(side_channels(simple.axis, only_path(simple.axis)).empty());
+}
+
 /// The largest reach between any two leaves by Floyd and Warshall's algorithm.
 double reach_by_all_pairs(const MedialAxis& axis) {
   const std::size_t n = axis.nodes.size();

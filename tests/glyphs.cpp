@@ -1,13 +1,16 @@
 // Runs glyphs of fonts and features of drawings through the readers, approximate_by_arcs,
 // build_shape, compute and verify, and prints a table.
 //
-//   medial_glyphs [--every N] [--save DIR] PATH...
+//   medial_glyphs [--every N] [--save DIR] [--ends] PATH...
 //
 // PATH is a font (every character it has is a case), an .svg or .dxf drawing, packed or not (every
 // feature is), or a folder of both. --every N takes each N-th glyph only. --save writes the rings
 // of what fails and of what is refused (lines `x y bulge` at full precision). Exit status: 0; 1
 // where a case failed; 2 for a wrong call; 77 (what ctest takes for a skipped test) where there is
 // no font and no drawing.
+//
+// --ends compares the axes' ends with those a person would draw instead: one in each corner that
+// turns by more than 15 degrees, none at other joints.
 
 #include <ft2build.h>
 
@@ -18,10 +21,12 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "base/arc.h"
 #include "medial/io/read.h"
 #include "medial/medial.h"
 #include "support/examine.h"
@@ -39,11 +44,22 @@ struct Settings {
   std::vector<fs::path> paths;
   std::size_t every = 1;
   std::optional<fs::path> saved;
+  bool ends = false;
+};
+
+/// Ends of axes at the boundary, by the corner angle that joints are smooth below.
+struct Ends {
+  double corner_angle = 0;
+  std::size_t glyphs = 0, as_drawn = 0;
+  std::size_t corners = 0;   ///< that a person would take for one
+  std::size_t missed = 0;    ///< of these, without an end
+  std::size_t whiskers = 0;  ///< ends elsewhere
 };
 
 struct Row {
   std::size_t cases = 0, verified = 0, refused = 0, failed = 0;
   std::map<std::string, std::size_t> codes;  ///< of the refused
+  std::vector<Ends> ends{{1}, {0.01}};
 };
 
 bool has_extension(const fs::path& path, std::initializer_list<const char*> extensions) {
@@ -142,11 +158,66 @@ void examine_feature(const Feature& feature, const std::string& name, const Sett
   }
 }
 
+/// The convex corners that turn by more than 15 degrees.
+std::vector<Vec2> drawn_corners(const Shape& shape) {
+  const double sharp = 15 * std::numbers::pi / 180;
+  std::vector<Vec2> corners;
+  for (std::size_t i = 0; i < shape.loop_count(); ++i) {
+    const std::uint32_t begin = shape.loop_begin[i], end = shape.loop_begin[i + 1];
+    for (std::uint32_t k = begin; k < end; ++k) {
+      const std::uint32_t before = k == begin ? end - 1 : k - 1,
+                          next = k + 1 == end ? begin : k + 1;
+      const BulgeArc in{shape.points[before], shape.points[k], shape.bulge(before)};
+      const BulgeArc out{shape.points[k], shape.points[next], shape.bulge(k)};
+      if (signed_angle(end_tangent(in), start_tangent(out)) > sharp)
+        corners.push_back(shape.points[k]);
+    }
+  }
+  return corners;
+}
+
+/// Compares the ends of radius 0 with the corners. What cannot be computed counts for nothing.
+void compare_ends(Feature feature, Ends& ends) {
+  Document<Feature> one;
+  one.items.push_back(std::move(feature));
+  const auto shapes = load_shapes(std::move(one));
+  if (!shapes) return;
+  const Shape& shape = shapes->items[0].shape;
+  Options options;
+  options.threads = 1;
+  options.corner_angle = ends.corner_angle;
+  const auto axis = compute(shape, options);
+  if (!axis) return;
+  const std::vector<Vec2> corners = drawn_corners(shape);
+  const double near = 1e-6 * diagonal(bounding_box(shape));
+  std::vector<Vec2> found;
+  for (const Node& node : axis->nodes)
+    if (node.kind == NodeKind::leaf && node.disk.radius < near) found.push_back(node.disk.center);
+  const auto lacks = [near](const std::vector<Vec2>& places, Vec2 p) {
+    return std::none_of(places.begin(), places.end(),
+                        [&](Vec2 q) { return distance(p, q) < near; });
+  };
+  const auto count = [&lacks](const std::vector<Vec2>& of, const std::vector<Vec2>& in) {
+    return static_cast<std::size_t>(
+        std::count_if(of.begin(), of.end(), [&](Vec2 p) { return lacks(in, p); }));
+  };
+  const std::size_t missed = count(corners, found), whiskers = count(found, corners);
+  ++ends.glyphs;
+  ends.as_drawn += missed + whiskers == 0 ? 1 : 0;
+  ends.corners += corners.size();
+  ends.missed += missed;
+  ends.whiskers += whiskers;
+}
+
 void examine_dataset(const Result<Document<Feature>>& dataset, const std::string& name,
                      const Settings& settings, Row& row) {
   if (dataset) {
     for (const Feature& feature : dataset->items)
-      examine_feature(feature, name + "_" + std::to_string(feature.id), settings, row);
+      if (settings.ends) {
+        ++row.cases;
+        for (Ends& ends : row.ends) compare_ends(feature, ends);
+      } else
+        examine_feature(feature, name + "_" + std::to_string(feature.id), settings, row);
     return;
   }
   ++row.cases;
@@ -184,6 +255,16 @@ std::vector<fs::path> files_at(const fs::path& path) {
   return files;
 }
 
+void print_ends(const std::string& name, const Row& row) {
+  for (const Ends& ends : row.ends)
+    std::printf("%-40s %6.2f %7zu %7.1f%% %8zu %7zu %9zu\n", name.c_str(), ends.corner_angle,
+                ends.glyphs,
+                100 * static_cast<double>(ends.as_drawn) /
+                    static_cast<double>(std::max<std::size_t>(ends.glyphs, 1)),
+                ends.corners, ends.missed, ends.whiskers);
+  std::fflush(stdout);
+}
+
 void print(const std::string& name, const Row& row) {
   std::string codes;
   for (const auto& [code, count] : row.codes) codes += code + " " + std::to_string(count) + " ";
@@ -193,8 +274,13 @@ void print(const std::string& name, const Row& row) {
 }
 
 int run(const Settings& settings) {
-  std::printf("%-46s %8s %8s %8s %7s  %s\n", "file", "cases", "verified", "refused", "FAILED",
-              "refused with");
+  if (settings.ends)
+    std::printf("%-40s %6s %7s %8s %8s %7s %9s\n", "file", "angle", "glyphs", "as drawn", "corners",
+                "missed", "whiskers");
+  else
+    std::printf("%-46s %8s %8s %8s %7s  %s\n", "file", "cases", "verified", "refused", "FAILED",
+                "refused with");
+  const auto print_row = settings.ends ? print_ends : print;
   Row all;
   for (const fs::path& path : settings.paths) {
     for (const fs::path& file : files_at(path)) {
@@ -203,7 +289,14 @@ int run(const Settings& settings) {
         row = examine_font(file, settings);
       else
         examine_dataset(io::read_document(file.string()), file.stem().string(), settings, row);
-      print(file.filename().string(), row);
+      print_row(file.filename().string(), row);
+      for (std::size_t i = 0; i < row.ends.size(); ++i) {
+        Ends& sum = all.ends[i];
+        const Ends& one = row.ends[i];
+        for (const auto count :
+             {&Ends::glyphs, &Ends::as_drawn, &Ends::corners, &Ends::missed, &Ends::whiskers})
+          sum.*count += one.*count;
+      }
       all.cases += row.cases;
       all.verified += row.verified;
       all.refused += row.refused;
@@ -215,7 +308,7 @@ int run(const Settings& settings) {
     std::printf("no font and no drawing: skipped\n");
     return 77;
   }
-  print("all", all);
+  print_row("all", all);
   return all.failed == 0 ? 0 : 1;
 }
 
@@ -229,6 +322,8 @@ int main(int count, char** arguments) {
     const std::string argument = arguments[i];
     if (argument == "--save" && i + 1 < count) {
       settings.saved = arguments[++i];
+    } else if (argument == "--ends") {
+      settings.ends = true;
     } else if (argument == "--every" && i + 1 < count) {
       const std::string value = arguments[++i];
       const auto [end, problem] =
@@ -240,7 +335,7 @@ int main(int count, char** arguments) {
     }
   }
   if (!understood || settings.paths.empty()) {
-    std::fprintf(stderr, "usage: medial_glyphs [--every N] [--save DIR] PATH...\n");
+    std::fprintf(stderr, "usage: medial_glyphs [--every N] [--save DIR] [--ends] PATH...\n");
     return 2;
   }
   return medial::test::run(settings);

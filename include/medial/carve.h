@@ -3,10 +3,31 @@
 // Carving with a V-shaped tool. Its tip follows the axis where the cone is as wide as the disk, so
 // inner corners come out sharp. Wider parts get a flat bottom, cleared along offsets.
 
+#include <array>
+#include <cstdint>
+#include <vector>
+
 #include "medial/axis.h"
 #include "medial/error.h"
+#include "medial/shape.h"
 
 namespace medial {
+
+/// The middle of a tab: from one side, over the centre of a maximal disk, to the other.
+using TabLine = std::array<Vec2, 3>;
+
+/// Bars of material that are left across what is cut, so that no part comes loose.
+struct Tabs {
+  std::vector<TabLine> lines = {};
+  double width = 0;  ///< positive where there are lines
+  double top = 0;    ///< how deep their upper side lies below the surface
+};
+
+/// How many tabs each part has that would come loose.
+struct TabOptions {
+  std::uint32_t count = 0;
+  double spacing = 0;  ///< along the part's boundary, where the count is 0
+};
 
 /// Lengths in units of the input.
 struct CarveOptions {
@@ -24,6 +45,7 @@ struct CarveOptions {
   double allowance = 0;  ///< of an end mill: kept from the boundary besides
   /// Diameter of an end mill that has cleared flat bottoms with clearing_before(); 0: none has.
   double cleared = 0;
+  Tabs tabs = {};  ///< to be left standing, see place_tabs()
 };
 
 struct ToolPoint {
@@ -58,6 +80,7 @@ struct Carving {
   double cut_length = 0;        ///< in the plane
   double travel_length = 0;     ///< in the plane, of lifted moves from path to path
   double travel_unordered = 0;  ///< the same if branches and rings came as the axis numbers them
+  Tabs tabs;                    ///< as in the options
 };
 
 /// Plans the paths of one tool in one shape. With c(p) the clearance of a point, t the radius of
@@ -71,6 +94,13 @@ struct Carving {
 /// invalid_option, unsupported (an axis that is sampled or of the exterior), too_large (more than
 /// 1e6 clearing passes, or 1e4 in depth).
 Result<Carving> carve(const MedialAxis& axis, const CarveOptions& options);
+
+/// Tabs for the parts that come loose when a shape is cut through: its holes. A tab stands where a
+/// maximal disk touches the part and another loop; evenly around the part, but the nearer the sides
+/// the better, and not at corners. Further tabs tie parts to the rest that are tied to each other
+/// only. Of the exact axis of the shape. O(n log n). Errors: invalid_option, unsupported.
+Result<std::vector<TabLine>> place_tabs(const Shape& shape, const MedialAxis& axis,
+                                        const TabOptions& options);
 
 /// The options of an end mill that clears the flat bottoms of a V-shaped tool before it, so that no
 /// wall is touched. The V needs a depth, its own or its tool's.

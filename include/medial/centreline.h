@@ -66,6 +66,10 @@ struct MainPathOptions {
 /// what better ends could add.
 std::vector<AxisPath> main_paths(const MedialAxis& axis, const MainPathOptions& options = {});
 
+/// What a path leaves out of the ways around holes that leave it and come back, as whole edges: the
+/// side channels of a river, without its tributaries. O(n).
+std::vector<PathPiece> side_channels(const MedialAxis& axis, const AxisPath& path);
+
 struct CentreLineOptions {
   /// Extend both ends to the boundary: straight, or if that is far to the nearest place ahead.
   bool extend = false;

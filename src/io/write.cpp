@@ -135,7 +135,7 @@ Status write_layers(const Destination& target, const std::string& format,
 Status write_field(const std::string& path, const std::string& format,
                    std::span<const Shape> shapes, std::span<const PotentialField> fields,
                    const FieldPictureOptions& options) {
-  return write_document(path, format, {FieldOutput::kind, "svg"},
+  return write_document(path, format, {FieldOutput::kind, "svg", "medial", {}, options.unit},
                         FieldOutput{shapes, fields, options});
 }
 

@@ -166,10 +166,50 @@ void drop_rings_without_area(Feature& feature, std::size_t index, Attempt& attem
   feature.rings = std::move(rings);
 }
 
+/// The polygon of a feature that a ring belongs to, from its outer ring on; all rings where they do
+/// not say what they are.
+std::pair<std::size_t, std::size_t> polygon_around(const std::vector<Ring>& rings,
+                                                   std::size_t ring) {
+  const auto is = [&rings](std::size_t i, RingRole role) { return rings[i].role == role; };
+  if (!is(0, RingRole::outer)) return {0, rings.size()};
+  std::size_t begin = ring, end = ring + 1;
+  while (begin > 0 && !is(begin, RingRole::outer)) --begin;
+  while (end < rings.size() && is(end, RingRole::hole)) ++end;
+  return {begin, end};
+}
+
+/// The shape of a feature without those of its polygons that are invalid, alone or with others:
+/// while there is an error, the polygon that it names is left out. O(n log n) for each.
+Result<ShapeItem> load_valid_polygons(Feature left, std::size_t index, const LoadOptions& options,
+                                      LoadReport& report, Attempt& attempt) {
+  std::vector<std::size_t> numbers(left.rings.size());  // of the rings that are left
+  std::iota(numbers.begin(), numbers.end(), std::size_t{0});
+  constexpr std::size_t most = 1000;
+  for (std::size_t dropped = 0;; ++dropped) {
+    Feature feature = left;
+    report = {};
+    auto item = load_shape(feature, options, report);
+    if (item || dropped == most || !item.error().place.ring) return item;
+    const auto [begin, end] = polygon_around(left.rings, *item.error().place.ring);
+    if (begin == 0 && end == left.rings.size()) return item;
+    left.sources.clear();  // which count points
+    Error error = std::move(item).error();
+    error.place.feature = index;
+    error.place.ring = numbers[*error.place.ring];
+    attempt.notes.push_back("left out with its polygon: " + to_string(error));
+    const auto drop = [begin = begin, end = end](auto& list) {
+      const auto at = [&](std::size_t i) { return list.begin() + static_cast<std::ptrdiff_t>(i); };
+      list.erase(at(begin), at(end));
+    };
+    drop(left.rings);
+    drop(numbers);
+  }
+}
+
 /// Takes over the valid items; the features with an error are left out, with a note each and one on
 /// all.
-Status take_valid(std::vector<Attempt> attempts, const Document<Feature>& features, bool part,
-                  Document<ShapeItem>& shapes) {
+Status take_valid(std::vector<Attempt> attempts, const Document<Feature>& features,
+                  const LoadOptions& options, Document<ShapeItem>& shapes) {
   std::vector<std::uint64_t> indices;
   std::optional<Error> first;
   for (std::size_t i = 0; i < attempts.size(); ++i) {
@@ -186,14 +226,15 @@ Status take_valid(std::vector<Attempt> attempts, const Document<Feature>& featur
   }
   const std::size_t dropped = attempts.size() - shapes.items.size();
   if (dropped == 0) return success();
-  if (shapes.items.empty() && !part) {
+  if (shapes.items.empty() && !options.part && !options.skip_invalid) {
     first->text += "; no feature is valid, so nothing is left";
     return *first;
   }
   shapes.indices = std::move(indices);
-  if (part) return success();
+  if (options.part) return success();
   shapes.notes.push_back(std::to_string(dropped) + " of " + std::to_string(attempts.size()) +
-                         " features are invalid and were left out");
+                         " features are invalid and were left out" +
+                         (is_tangled(*first) ? "; --repair mends such rings" : ""));
   return success();
 }
 
@@ -221,15 +262,20 @@ Result<Document<ShapeItem>> load_shapes(Document<Feature> features, const LoadOp
     own.arcs.threads = threads;
     Attempt attempt;
     Feature& feature = features.items[i];
+    const bool filled = feature.filled;
     if (options.skip_invalid) drop_rings_without_area(feature, features.index_of(i), attempt);
-    auto item = load_shape(feature, own, reports[i]);
+    const bool by_polygon =
+        options.skip_invalid && feature.rings.size() > 1 && feature.contours.empty();
+    auto item = by_polygon ? load_valid_polygons(std::move(feature), features.index_of(i), own,
+                                                 reports[i], attempt)
+                           : load_shape(feature, own, reports[i]);
     if (const auto done = progress.part(weights[i])) done(1);
     if (item) {
       attempt.item = std::move(item).value();
       return attempt;
     }
     // What a drawing paints may be nothing.
-    const bool paints_nothing = feature.filled && item.error().code == ErrorCode::no_area;
+    const bool paints_nothing = filled && item.error().code == ErrorCode::no_area;
     if (!options.skip_invalid && !(paints_nothing && count > 1)) return std::move(item).error();
     attempt.error = std::move(item).error();
     return attempt;
@@ -245,7 +291,7 @@ Result<Document<ShapeItem>> load_shapes(Document<Feature> features, const LoadOp
     sum.shapes += one;
     sum.arcs += reports[i].arcs;
   }
-  if (Status taken = take_valid(std::move(items).value(), features, options.part, shapes); !taken)
+  if (Status taken = take_valid(std::move(items).value(), features, options, shapes); !taken)
     return std::move(taken).error();
   sum.features = count;
   sum.left_out = count - shapes.items.size();

@@ -15,6 +15,7 @@
 #include "medial/measure.h"
 #include "medial/offset.h"
 #include "ops/groove.h"
+#include "ops/tabs.h"
 #include "ops/tool_planner.h"
 
 namespace medial {
@@ -82,7 +83,9 @@ class ClearedBefore {
  public:
   ClearedBefore() = default;
   /// `least`: the clearance of the rings.
-  ClearedBefore(const Offsets& rings, double least, double reach) : least_(least), reach_(reach) {
+  ClearedBefore(const Offsets& rings, double least, double reach, const Tabs& tabs,
+                double beside_tabs)
+      : least_(least), reach_(reach), tabs_(tabs), beside_tabs_(beside_tabs) {
     std::vector<Box> boxes;
     for (const OffsetRegion& region : rings.regions)
       for (const Ring& ring : region.rings)
@@ -98,11 +101,16 @@ class ClearedBefore {
   }
 
   bool is_nothing() const { return !tree_; }
+  /// Whether all around a ring of a clearance has been cut.
+  bool contains_ring(double clearance) const {
+    return tree_ && tabs_.lines.empty() && clearance >= least_;
+  }
   /// Whether all around a place has been cut, by its clearance or by what is near.
-  bool contains(double clearance) const { return tree_ && clearance >= least_; }
-  bool contains(Vec2 p) const {
+  bool contains(Vec2 p, double clearance) const {
+    if (!tree_ || ops::distance_to(tabs_, p) < beside_tabs_) return false;
+    if (clearance >= least_) return true;
+    if (!(reach_ > 0)) return false;
     bool near = false;
-    if (!tree_ || !(reach_ > 0)) return false;
     const Vec2 wide = reach_ * Vec2{1, 1};
     tree_->find({p - wide, p + wide}, [&](std::uint32_t i) {
       const Vec2 q = point_at_share(edges_[i], nearest_share(edges_[i], p));
@@ -115,10 +123,12 @@ class ClearedBefore {
   std::vector<BulgeArc> edges_;
   std::optional<BoxTree> tree_;
   double least_ = 0, reach_ = 0;
+  Tabs tabs_;
+  double beside_tabs_ = 0;  ///< where the other tool was not
 };
 
-/// The parts of a path that are not cleared yet, sampled every `spacing`.
-std::vector<std::vector<ToolPoint>> parts_left(std::vector<ToolPoint> path,
+/// The parts of a path at one clearance that are not cleared yet, sampled every `spacing`.
+std::vector<std::vector<ToolPoint>> parts_left(std::vector<ToolPoint> path, double clearance,
                                                const ClearedBefore& cleared, double spacing) {
   if (cleared.is_nothing()) return {std::move(path)};
   std::vector<std::vector<ToolPoint>> parts;
@@ -138,7 +148,8 @@ std::vector<std::vector<ToolPoint>> parts_left(std::vector<ToolPoint> path,
       parts.back().push_back({at(end), path[i].z, 0});
     };
     for (double k = 0; k < pieces; k += 1) {
-      const bool needed = !cleared.contains(at(k)) || !cleared.contains(at(k + 1));
+      const bool needed =
+          !cleared.contains(at(k), clearance) || !cleared.contains(at(k + 1), clearance);
       if (needed && !open) {
         parts.push_back({{at(k), path[i].z, 0}});
         begun = k;
@@ -229,10 +240,10 @@ class Floors {
     const Ring& ring = *left[next];
     left.erase(left.begin() + static_cast<std::ptrdiff_t>(next));
     const bool wall = region.parent == no_region;
-    if (!wall && cleared_.contains(region.clearance)) return;
+    if (!wall && cleared_.contains_ring(region.clearance)) return;
     auto path = path_from(ring, nearest, z_);
     if (wall) return add(ToolPathKind::wall, std::move(path), region.clearance);
-    for (auto& part : parts_left(std::move(path), cleared_, 0.5 * step_))
+    for (auto& part : parts_left(std::move(path), region.clearance, cleared_, 0.5 * step_))
       add(ToolPathKind::clearing, std::move(part), region.clearance);
   }
   /// Of points of one clearance.
@@ -351,8 +362,9 @@ Result<ClearedBefore> cleared_before(const MedialAxis& axis, const CarveOptions&
   auto rings = inward_offsets(axis, std::vector<double>{least});
   if (!rings) return std::move(rings).error();
   constexpr double rounding = 1 - 1e-9;
-  return ClearedBefore(*rings, least,
-                       rounding * (radius - std::max(carving.step, carving.tip_radius)));
+  const double reach = rounding * (radius - std::max(carving.step, carving.tip_radius));
+  return ClearedBefore(*rings, least, reach, options.tabs,
+                       options.tabs.width / 2 + radius + std::max(reach, 0.0));
 }
 
 Result<Carving> plan(const MedialAxis& axis, const CarveOptions& options) {
@@ -404,7 +416,17 @@ Result<Carving> plan(const MedialAxis& axis, const CarveOptions& options) {
     carving.travel_unordered += unordered_travel(*offsets, grooves);
     if (!tool.mill) cleared = tip + floor * slope;
   }
+  carving.tabs = options.tabs;
+  ops::spare_tabs(carving);
   return carving;
+}
+
+Tabs scaled(Tabs tabs, double factor) {
+  for (TabLine& line : tabs.lines)
+    for (Vec2& p : line) p = factor * p;
+  tabs.width *= factor;
+  tabs.top *= factor;
+  return tabs;
 }
 
 }  // namespace
@@ -429,6 +451,8 @@ Result<Carving> carve(const MedialAxis& axis, const CarveOptions& options) {
     return invalid_carving("the tip must be smaller than the tool");
   if (!(options.ramp > 0 && options.ramp <= 90))
     return invalid_carving("the ramp must be in (0, 90] degrees");
+  if (!options.tabs.lines.empty() && !(options.tabs.width > 0 && options.tabs.top >= 0))
+    return invalid_carving("tabs need a width above 0, and a top below the surface");
   constexpr double smallest_chord = 1e-8;  // the moves grow as the root of one over it
   if (options.chord > 0 && options.chord < smallest_chord * diagonal(box_of(axis)))
     return invalid_carving("the chord must be at least 1e-8 of the diagonal of the axis's sites");
@@ -456,6 +480,7 @@ CarveOptions scaled(CarveOptions options, double factor) {
   for (double* length : {&options.depth, &options.tool, &options.tip, &options.pass_depth,
                          &options.step, &options.chord, &options.allowance, &options.cleared})
     *length *= factor;
+  options.tabs = scaled(std::move(options.tabs), factor);
   return options;
 }
 
@@ -470,17 +495,21 @@ Carving scaled(Carving carving, double factor) {
                          &carving.own_length, &carving.cut_length, &carving.travel_length,
                          &carving.travel_unordered})
     *length *= factor;
+  carving.tabs = scaled(std::move(carving.tabs), factor);
   return carving;
 }
 
 Carving placed(Carving carving, Vec2 zero, bool mirrored) {
   const double up = mirrored ? -1 : 1;
+  const auto moved = [&](Vec2 p) { return Vec2{p.x - zero.x, up * (p.y - zero.y)}; };
   for (ToolPath& path : carving.paths) {
     for (ToolPoint& point : path.points) {
-      point.point = {point.point.x - zero.x, up * (point.point.y - zero.y)};
+      point.point = moved(point.point);
       point.bulge *= up;
     }
   }
+  for (TabLine& line : carving.tabs.lines)
+    for (Vec2& p : line) p = moved(p);
   return carving;
 }
 

@@ -192,6 +192,42 @@ class Carve(CommandLine):
         self.succeed(*common, "--preview", "p.png", "--width", "200", "-o", "s.nc")
         self.assertTrue(self.read("p.png").startswith(b"\x89PNG"))
 
+    def test_several_shapes_stand_out_together(self):
+        """What lies around one is not cut through its neighbour."""
+        self.write("two.wkt", "POLYGON((0 0,10 0,10 10,0 10,0 0))\nPOLYGON((14 0,24 0,24 10,14 10,14 0))")
+        self.succeed("carve", "two.wkt", "--units", "mm", "--angle", "0", "--tool", "2", "--depth", "1", "--exterior",
+                     "--margin", "8", "-o", "t.nc")
+        places = [place for move in self.moves("t.nc") if move[0] > 0 for place in self.places(move, 0.2)]
+        for x, y, z in places:
+            off = min(math.hypot(max(left - x, x - left - 10, 0), max(-y, y - 10, 0)) for left in (0, 14))
+            self.assertTrue(z >= 0 or off > 1 - 1e-5, (x, y, z))
+        self.assertTrue(any(10.9 < x < 13.1 and 0 < y < 10 and z < 0 for x, y, z in places))
+
+    def test_tabs_stand_in_every_format(self):
+        self.write("s.wkt", "POLYGON ((0 0, 40 0, 40 30, 0 30, 0 0))")
+        common = ["carve", "s.wkt", "--units", "mm", "--angle", "0", "--tool", "3", "--depth", "6", "--pass-depth", "2",
+                  "--exterior", "--margin", "4"]
+        tabs = ["--tabs", "4", "--tab-width", "5", "--tab-height", "2.5"]
+        report = json.loads(self.succeed(*common, *tabs, "--json", "-o", "s.nc").stdout)
+        self.assertEqual(report["tabs"], 4)
+        places = [place for move in self.moves("s.nc") if move[0] > 0 for place in self.places(move, 0.1)]
+        raised = [z for _, _, z in places if abs(z + 3.5) < 1e-6]
+        self.assertGreater(len(raised), 100)
+        self.assertGreater(sum(z < -5.9 for _, _, z in places), 100)
+        # Around the part, the bottom is interrupted four times; straight up and down beside each tab.
+        steep = [move for move in self.moves("s.nc") if move[0] == 1 and move[1]["Z"] == -6 and move[2]["Z"] == -3.5]
+        self.assertTrue(all(move[1]["X"] == move[2]["X"] and move[1]["Y"] == move[2]["Y"] for move in steep))
+        self.assertGreaterEqual(len(steep), 8)
+        for name in self.supported("t.csv", "t.dxf", "t.png", "t.svg"):
+            self.succeed(*common, "-o", "plain" + name)
+            self.succeed(*common, *tabs, "-o", name)
+            self.assertNotEqual(self.read("plain" + name), self.read(name))
+        self.assertIn(b"no tabs", self.succeed("carve", "s.wkt", "--units", "mm", "--angle", "60", "--depth", "2", "--tabs",
+                                              "2", "-o", "u.nc").stderr)
+        self.refuse("invalid_option", *common, "--tab-width", "5")
+        self.refuse("invalid_option", *common, "--tabs", "4", "--tab-height", "6")
+        self.refuse("invalid_option", "carve", "s.wkt", "--units", "mm", "--angle", "60", "--tabs", "4")
+
     def test_linuxcnc_reads_ten_drawings(self):
         """LinuxCNC's own interpreter, where Debian's package linuxcnc-uspace is installed."""
         python = "/usr/bin/python3"
@@ -205,7 +241,9 @@ class Carve(CommandLine):
         sharp = {"maze.wkt", "plan.wkt", "square", "comb", "frame"}  # corners at all four sides
         for name, path in drawings.items():
             # Its module in Python knows no table of tools, so the program with a change of tool has a pause instead.
-            for unit, post, options in (("mm", "linuxcnc", []), ("in", "plain", ["--pass-depth", "0"])):
+            tabs = ["--depth", "1", "--exterior", "--margin", "2", "--tabs", "3", "--tab-width", "1"]
+            for unit, post, options in (("mm", "linuxcnc", []), ("in", "plain", ["--pass-depth", "0"]),
+                                        ("mm", "linuxcnc", tabs)):
                 units = ["--units", "mm", "--output-units", unit]
                 x0, y0, x1, y1 = json.loads(self.succeed("info", path, "--json", *units).stdout)["extent"]
                 self.succeed("carve", path, *units, "--angle", "90", *options,
@@ -214,7 +252,7 @@ class Carve(CommandLine):
                                                  check=True, cwd=self.folder.name).stdout)
                 self.assertEqual(read["error"], "", name)
                 self.assertGreater(read["moves"], 4)
-                if name in sharp:
+                if name in sharp and options is not tabs:
                     for low, high, size in zip(read["low"], read["high"], (x1 - x0, y1 - y0)):
                         self.assertAlmostEqual(low, 0, delta=1e-6)
                         self.assertAlmostEqual(high, size, delta=1e-6)

@@ -35,6 +35,20 @@ class Centreline(CommandLine):
         self.refuse("invalid_option", "centreline", "frame.wkt", "--widest", "1,1", "2,2", "--clearance", "1")
         self.refuse("invalid_option", "centreline", "frame.wkt", "--collapse", "0")
 
+    def test_side_channels(self):
+        self.write("river.wkt", "POLYGON((0 0,60 0,60 8,0 8,0 0),(25 2,35 2,35 4,25 4,25 2))")
+        line = self.succeed("centreline", "river.wkt", "-o", "line.wkt")
+        self.assertIn(b"--loops=keep", line.stderr)
+        self.assertIn(b"both are kept", self.succeed("centreline", "river.wkt", "--loops", "keep", "-o",
+                                                     "both.geojson").stderr)
+        ends = [(f["properties"]["from_node"], f["properties"]["to_node"])
+                for f in json.loads(self.read("both.geojson"))["features"]]
+        self.assertEqual(len(ends), 4)  # before, after and on both sides of the island
+        self.assertEqual(len({frozenset(pair) for pair in ends}), 3)
+        self.refuse("invalid_option", "centreline", "river.wkt", "--loops", "keep", "--smooth", "1")
+        self.refuse("invalid_option", "centreline", "river.wkt", "--loops", "keep", "--all")
+        self.refuse("invalid_option", "centreline", "river.wkt", "--all", "--simplify", "1", "-o", "n.svg")
+
     def test_clearance_and_collapse(self):
         self.write("frame.wkt", FRAME)
         report = json.loads(self.succeed("centreline", "frame.wkt", "--clearance", "1.1", "--json").stdout)
@@ -80,6 +94,16 @@ class Measure(CommandLine):
         self.assertEqual(len(json.loads(self.read("m.geojson"))["features"]), 9)
         for extension in ("svg", "png", "pdf"):
             self.succeed("measure", "rectangle.wkt", "--plot", "plot." + extension)
+        plain = self.succeed("measure", "rectangle.wkt", "--samples", "1", "-o", "-", "--format", "csv").stdout
+        metres = self.succeed("measure", "rectangle.wkt", "--units", "m", "--samples", "1", "-o", "-", "--format", "csv")
+        self.assertNotIn(b"unit", plain)
+        self.assertEqual({row["unit"] for row in self.rows(metres.stdout)}, {"m"})
+        # The numbers stand in the picture.
+        self.succeed("measure", "rectangle.wkt", "--disks", "1", "-o", "one.svg")
+        self.succeed("measure", "rectangle.wkt", "--disks", "2", "-o", "two.svg")
+        glyphs = [self.read(name).count(b"<use") + self.read(name).count(b"<text") for name in ("one.svg", "two.svg")]
+        paths = [self.read(name).count(b"<path") for name in ("one.svg", "two.svg")]
+        self.assertTrue(glyphs[1] > glyphs[0] or paths[1] > paths[0] + 1)
         self.refuse("unsupported", "measure", "rectangle.wkt", "--transects", "7", "--disks", "2", "-o", "m.fgb",
                     nothing_new=True)
         self.refuse("invalid_option", "measure", "rectangle.wkt", "--widening", "1")

@@ -1,7 +1,9 @@
 """Images as input; `medial distance`."""
 
+import base64
 import json
 import math
+import struct
 
 from support import FRAME, CommandLine
 
@@ -76,6 +78,54 @@ class Images(CommandLine):
         self.write("grey.pgm", "P2\n3 1\n255\n0 100 200\n")
         self.assertIn(b"of at least 128", self.succeed("info", "grey.pgm").stderr)
         self.assertNotIn(b"from", self.succeed("info", "grey.pgm", "--threshold", "90").stderr)
+
+    # One picture, 40 x 30: an L upside down in white.
+    FORMATS = {
+        "jpg":
+            "/9j/4AAQSkZJRgABAQAAAQABAAD/2wBDAAMCAgMCAgMDAwMEAwMEBQgFBQQEBQoHBwYIDAoMDAsKCwsNDhIQDQ4RDgsLEBYQERMU"
+            "FRUVDA8XGBYUGBIUFRT/wAALCAAeACgBAREA/8QAGQAAAgMBAAAAAAAAAAAAAAAAAAkGBwgK/8QALRAAAQQBAwEFCQEBAAAAAAAA"
+            "AQIDBAUGAAcRCAkSOHa0GBkxQVZXlZbT1CH/2gAIAQEAAD8AqnsVPFPlPkyV66Dpum9+FTtytl8+xCsdjsWV/j9hVRXZalJZQ6/G"
+            "caQpZSlRCQpYJIBPHPAPw0ov3Km9/wBU7f8A5Gd/j0e5U3v+qdv/AMjO/wAesv8AVB0v5V0mZ/X4hl9hT2NlNrG7Vt2keddZDS3X"
+            "Wgklxps97vMrPHBHBH/fiBqDsVPFPlPkyV66Dpz1tbQaCqm2dnNj11bCZXJlTJbqWmWGkJKluLWogJSlIJKiQAASdVr7WOyH3k2/"
+            "/aIP9dHtY7IfeTb/APaIP9dKL7XbcLFdyupLG7PEMmp8qrWsSjRnJlJPamModEyYotlbalAKCVoPd554UD8xqQdip4p8p8mSvXQd"
+            "NU6sfCxvJ5MufQva5rNGjUgwrcLKttbV2zxDJrjFbJ1kxnJlJPdhvLaKkqLZW2pJKSpCD3eeOUg/IalVt1N7w39VNrLPdfOLGtms"
+            "rjSocvI5jrL7S0lK21oU4QpKkkgpIIIJB1WujRr/2Q==",
+        "webp":
+            "UklGRjQAAABXRUJQVlA4TCcAAAAvJ0AHAA8w//M///MfeDDTtk2+wS7VMcm7FUFE/ydgAxyp0xag7BEA",
+        "tif":
+            "SUkqACwAAAB4nGNgAIL/cMCAFwwdddjAqLqBU0dsvI2qo6W6YQAAgx3ATgAJAAABAwABAAAAKAAAAAEBAwABAAAAHgAAAAIBAwAB"
+            "AAAACAAAAAMBAwABAAAACAAAAAYBAwABAAAAAQAAABEBBAABAAAACAAAABYBAwABAAAAHgAAABcBBAABAAAAIwAAABwBAwABAAAA"
+            "AQAAAAAAAAA=",
+        "gif":
+            "R0lGODdhKAAeAIEAAAAAAP///wAAAAAAACwAAAAAKAAeAEAIdQABCBQYoKDBgwMTKlzIUOHBhxAjSmxIUGIAihgzWryYsePCjR5D"
+            "DtxI0iJGkCJTqlw50iTLkyVjIqQosybHhjZlwpz4kqbLnkCDVuQpNCHKoi1zktyp9CfDpkt9QiX6dCrVj06RHkUKYKvWrEW9ch1L"
+            "tizSgAA7",
+        "png":
+            "iVBORw0KGgoAAAANSUhEUgAAACgAAAAeCAAAAAB7tgMBAAAAMklEQVR42mNkYGBgYPjPAAOMDDgAEwORYAAVMqJ5BqeaoeCZYaWQ"
+            "BWtMjQbPwCscVgAAVqcCNJV+H3oAAAAASUVORK5CYII=",
+    }
+
+    def test_formats(self):
+        """JPEG (lossy), WebP, TIFF, GIF, PNG and BMP hold the same picture."""
+        self.write("l.pgm", "P2\n40 30\n255\n" + "\n".join(
+            " ".join("255" if 5 <= x < 35 and (5 <= y < 15 or x < 15 and y < 25) else "0" for x in range(40))
+            for y in range(30)))
+        wanted = json.loads(self.succeed("info", "l.pgm", "--json").stdout)
+        self.assertEqual(wanted["area"], 450)
+        files = {name: base64.b64decode(text) for name, text in self.FORMATS.items()}
+        rows = [bytes([0, 1][5 <= x < 35 and (5 <= y < 15 or x < 15 and y < 25)] for x in range(40))
+                for y in range(29, -1, -1)]
+        files["bmp"] = (struct.pack("<2sIHHI", b"BM", 54 + 8 + 1200, 0, 0, 62) +
+                        struct.pack("<IiiHHIIiiII", 40, 40, 30, 1, 8, 0, 1200, 0, 0, 2, 2) +
+                        b"\0\0\0\0\xff\xff\xff\0" + b"".join(rows))
+        for extension, data in files.items():
+            with self.subTest(extension=extension):
+                name = "l." + extension
+                self.write(name, data)
+                info = json.loads(self.succeed("info", name, "--json").stdout)
+                self.assertEqual((info["area"], info["extent"]), (wanted["area"], wanted["extent"]))
+                self.succeed("axis", name, "-o", extension + ".json")
+                self.succeed("verify", name, extension + ".json")
 
     def test_maps_of_robots(self):
         """Free cells, in metres, with the origin in the lower left corner."""

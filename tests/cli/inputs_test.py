@@ -142,8 +142,20 @@ class Inputs(CommandLine):
         both = self.succeed("axis", "some.wkt", "--skip-invalid", "--repair", "--json")
         self.assertEqual(json.loads(both.stdout)["features"], 3)
         self.assertNotIn(b"left out: feature 1", both.stderr)
+        # Of several polygons those that cross themselves, or each other.
+        self.write("parts.wkt", "MULTIPOLYGON(((0 0,4 0,4 2,0 2,0 0)),((10 0,14 4,14 0,10 4,10 0)),"
+                   "((20 0,24 0,24 2,20 2,20 0),(21 0.5,23 0.5,23 1.5,21 1.5,21 0.5)),((23 1,28 1,28 3,23 3,23 1)))")
+        left = self.succeed("info", "parts.wkt", "--skip-invalid", "--json")
+        self.assertEqual([json.loads(left.stdout)[name] for name in ("components", "holes")], [2, 0])
+        self.assertEqual(left.stderr.count(b"left out with its polygon"), 2)
+        self.assertIn(b"feature 0, ring 1", left.stderr)
+        # Nothing may be left: then the result is empty, and the note names the cure.
         self.write("bad.wkt", BOW_TIE)
-        self.assertIn("no feature is valid", self.refuse("crossing", "axis", "bad.wkt", "--skip-invalid"))
+        for name in self.supported("bad.json", "bad.geojson", "bad.gpkg", "bad.csv", "bad.svg"):
+            notes = self.succeed("axis", "bad.wkt", "--skip-invalid", "-o", name).stderr.decode()
+            self.assertIn("1 of 1 features are invalid and were left out; --repair", notes)
+        for command in (["carve", "--angle", "60"], ["match", "some.wkt"]):
+            self.refuse("empty", command[0], "bad.wkt", "--skip-invalid", "--quiet", *command[1:])
 
     def test_unclosed_rings_are_noted(self):
         self.write("open.geojson", '{"type":"Polygon","coordinates":[[[0,0],[4,0],[4,2],[0,2]]]}')

@@ -178,6 +178,7 @@ struct Layer {
   LayerKind kind = LayerKind::lines;
   std::vector<std::string> fields;
   std::vector<LayerFeature> features;
+  std::optional<std::size_t> label = {};  ///< the field that pictures write beside each feature
 };
 
 /// Layers of measurements: .geojson and .wkt (all layers one after another, .geojson with a member
@@ -192,6 +193,7 @@ struct FieldPictureOptions {
   int lines = 40;          ///< force lines start on a grid, so many along the longer side; 0: none
   bool brightness = true;  ///< the lower the potential, by its logarithm, the brighter a point
   bool y_down = false;     ///< the y axis points down
+  Unit unit = Unit::unknown;
 };
 
 /// Pictures of shapes with the potentials of their borders, sampled once for each pixel.

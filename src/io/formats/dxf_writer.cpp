@@ -130,6 +130,22 @@ void write_space_polyline(DxfDrawing& drawing, const std::string& layer,
   groups.dxfString(8, layer);
 }
 
+/// A path as it is, or where arcs and changes of height come together, its flat and its other
+/// parts in turn.
+std::vector<std::vector<ToolPoint>> parts_by_height(const std::vector<ToolPoint>& path) {
+  if (std::ranges::none_of(path, [](const ToolPoint& p) { return p.bulge != 0; })) return {path};
+  std::vector<std::vector<ToolPoint>> parts;
+  bool flat = false;
+  for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+    const bool level = path[i].z == path[i + 1].z;
+    if (parts.empty() || level != flat) parts.push_back({path[i]});
+    parts.back().back().bulge = path[i].bulge;
+    parts.back().push_back({path[i + 1].point, path[i + 1].z, 0});
+    flat = level;
+  }
+  return parts;
+}
+
 Status write_dxf(Target& target, const CarvingOutput& output) {
   std::vector<std::string> layers{"CLEARING", "WALL", "GROOVE", "RAMP"};
   const auto& items = output.document.items;
@@ -139,13 +155,15 @@ Status write_dxf(Target& target, const CarvingOutput& output) {
   for (const CarveItem& item : items) {
     for_each_path(item, [&](const Carving&, const ToolPath& path, std::string layer) {
       std::ranges::transform(layer, layer.begin(), [](unsigned char c) { return std::toupper(c); });
-      const double z = path.points.front().z;
-      if (!std::ranges::all_of(path.points, [z](const ToolPoint& p) { return p.z == z; })) {
-        write_space_polyline(drawing, layer, path.points);
-        return;
+      for (const auto& part : parts_by_height(path.points)) {
+        const double z = part.front().z;
+        if (!std::ranges::all_of(part, [z](const ToolPoint& p) { return p.z == z; })) {
+          write_space_polyline(drawing, layer, part);
+          continue;
+        }
+        const Ring line = line_of(part);
+        drawing.polyline(layer, line.points, line.bulges, false, z);
       }
-      const Ring line = line_of(path.points);
-      drawing.polyline(layer, line.points, line.bulges, false, z);
     });
   }
   return drawing.finish();

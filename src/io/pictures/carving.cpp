@@ -9,6 +9,11 @@ namespace medial::io {
 
 namespace {
 
+/// Tabs, where paths rise, are drawn above the cut.
+double lowest_of(const ToolPath& path) {
+  return std::ranges::min_element(path.points, {}, &ToolPoint::z)->z;
+}
+
 using Walls = std::vector<std::vector<const ToolPath*>>;  // of each pass
 
 Walls walls_of(const Carving& carving) {
@@ -43,7 +48,7 @@ void add_groove(Canvas& canvas, const Carving& carving, const ToolPath& path, do
 void fill_cleared(Canvas& canvas, const Carving& clearing, double depth) {
   canvas.width_in_units(2 * clearing.tip_radius);
   for (const ToolPath& path : clearing.paths) {
-    if (!(-path.points.back().z > depth)) continue;
+    if (!(lowest_of(path) < -depth)) continue;
     canvas.trace(line_of(path.points), false);
     canvas.stroke();
   }
@@ -54,11 +59,11 @@ void fill_cleared(Canvas& canvas, const Carving& clearing, double depth) {
 void fill_level(Canvas& canvas, const Carving& carving, const Walls& walls, double depth) {
   for (const auto& of_pass : walls) {
     for (const ToolPath* wall : of_pass)
-      if (-wall->points.front().z > depth) canvas.trace(line_of(wall->points));
+      if (lowest_of(*wall) < -depth) canvas.trace(line_of(wall->points));
     canvas.fill_even_odd();
   }
   for (const ToolPath& path : carving.paths) {
-    const double over = -path.points.front().z - depth;
+    const double over = -lowest_of(path) - depth;
     if (path.kind != ToolPathKind::wall || !(over > 0)) continue;
     canvas.width_in_units(2 * (carving.tip_radius + carving.slope * over));
     canvas.trace(line_of(path.points), false);
@@ -67,6 +72,18 @@ void fill_level(Canvas& canvas, const Carving& carving, const Walls& walls, doub
   for (const ToolPath& path : carving.paths)
     if (path.kind == ToolPathKind::groove) add_groove(canvas, carving, path, depth);
   canvas.fill();
+}
+
+/// Bars that are left, as high as their upper side.
+void draw_tabs(Canvas& canvas, const Tabs& tabs, const Color& top) {
+  canvas.color(top);
+  canvas.width_in_units(tabs.width);
+  cairo_set_line_cap(canvas.context(), CAIRO_LINE_CAP_BUTT);
+  for (const TabLine& line : tabs.lines) {
+    canvas.trace(std::span<const Vec2>(line));
+    canvas.stroke();
+  }
+  cairo_set_line_cap(canvas.context(), CAIRO_LINE_CAP_ROUND);
 }
 
 /// The paths, and the ways through the air between them.
@@ -103,17 +120,21 @@ Status write_picture(Target& target, const CarvingOutput& output) {
       return canvas.image(
           shaded(surface_after(output.document, canvas.viewport()), canvas.viewport()));
     constexpr Color wood{0.93, 0.86, 0.74}, bottom{0.36, 0.22, 0.12}, outline{0.25, 0.25, 0.3};
+    const auto shade = [&](double t) {
+      return Color{wood.red + t * (bottom.red - wood.red),
+                   wood.green + t * (bottom.green - wood.green),
+                   wood.blue + t * (bottom.blue - wood.blue)};
+    };
     const int levels = target.format == "png" ? 32 : 12;
     for (const CarveItem& item : items) {
       const Walls walls = walls_of(item.carving);
       for (int level = 0; level < levels; ++level) {
         const double t = (level + 0.5) / levels;
-        canvas.color({wood.red + t * (bottom.red - wood.red),
-                      wood.green + t * (bottom.green - wood.green),
-                      wood.blue + t * (bottom.blue - wood.blue)});
+        canvas.color(shade(t));
         fill_cleared(canvas, item.clearing, deepest * level / levels);
         fill_level(canvas, item.carving, walls, deepest * level / levels);
       }
+      if (deepest > 0) draw_tabs(canvas, item.carving.tabs, shade(item.carving.tabs.top / deepest));
       draw_paths(canvas, item.clearing.paths);
       draw_paths(canvas, item.carving.paths);
       canvas.color(outline);

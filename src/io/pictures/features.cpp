@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "io/features_tables.h"
+#include "io/pictures/labels.h"
 #include "io/pictures/pictures.h"
 #include "medial/query.h"
 
@@ -204,33 +205,16 @@ class FeaturesPicture {
 
   double font_size() const { return 15 * line_; }
 
-  /// The names of the longest runs, where they cover no other name.
+  /// The names of the longest runs, where they cover no other name, and no line if they can.
   void draw_names() {
-    canvas_.use_font(font_size());
+    Labels names(canvas_, font_size());
+    for (const auto& of_primitive : paths_)
+      for (const std::vector<Vec2>& path : of_primitive)
+        for (std::size_t k = 1; k < path.size(); ++k) names.avoid(path[k - 1], path[k]);
     std::ranges::stable_sort(labels_, std::greater{}, &Label::length);
-    std::vector<Box> taken;
-    for (const Label& label : labels_) {
-      if (taken.size() >= most_names) break;
-      cairo_text_extents_t extents;
-      cairo_text_extents(context_, label.words.c_str(), &extents);
-      const double wide = extents.width, high = font_size();
-      const double x = std::clamp(label.at.x - 0.5 * wide, line_, viewport_.width - wide - line_);
-      const double y = label.at.y - 0.5 * high;
-      const Box box{{x, y - 0.6 * high}, {x + wide, y + 0.4 * high}};
-      const bool covered = std::ranges::any_of(taken, [&box](const Box& other) {
-        return box.low.x < other.high.x && other.low.x < box.high.x && box.low.y < other.high.y &&
-               other.low.y < box.high.y;
-      });
-      if (covered) continue;
-      taken.push_back(box);
-      cairo_move_to(context_, x, y);
-      cairo_text_path(context_, label.words.c_str());
-      cairo_set_line_width(context_, 4 * line_);
-      canvas_.color(paper_color);
-      cairo_stroke_preserve(context_);
-      canvas_.color(text_color);
-      cairo_fill(context_);
-    }
+    int count = 0;
+    for (const Label& label : labels_)
+      if (count < most_names && names.put(label.at, label.words, text_color)) ++count;
   }
 
   /// The colours of the primitives that occur, in a line below.

@@ -1,5 +1,8 @@
+#include <fmt/format.h>
+
 #include <array>
 
+#include "io/pictures/labels.h"
 #include "io/pictures/pictures.h"
 
 namespace medial::io {
@@ -42,6 +45,37 @@ void draw_lines_and_disks(Canvas& canvas, const Document<Layer>& layers) {
         canvas.circle(feature.parts[0][0], feature.values[0]);
       }
       canvas.stroke();
+    }
+  }
+}
+
+void draw_numbers(Canvas& canvas, const Document<AxisItem>& file, const Document<Layer>& layers) {
+  constexpr double letters = 13;  // thousandths of the picture's longer side
+  constexpr int most = 200;
+  Labels labels(canvas, canvas.thickness(letters));
+  const auto line = [&](Vec2 a, Vec2 b) {
+    labels.avoid(canvas.viewport()(a), canvas.viewport()(b));
+  };
+  for (const AxisItem& item : file.items)
+    for (std::size_t i = 0; i < item.shape.loop_count(); ++i)
+      for (std::uint32_t k = item.shape.loop_begin[i]; k < item.shape.loop_begin[i + 1]; ++k)
+        line(item.shape.points[k],
+             item.shape
+                 .points[k + 1 < item.shape.loop_begin[i + 1] ? k + 1 : item.shape.loop_begin[i]]);
+  for (const AxisItem& item : file.items)
+    for (const Edge& edge : item.axis.edges)
+      line(item.axis.nodes[edge.node[0]].disk.center, item.axis.nodes[edge.node[1]].disk.center);
+  std::size_t kind = 0;
+  int count = 0;
+  for (const Layer& layer : layers.items) {
+    if (layer.kind == LayerKind::polygons) continue;
+    const Color& color = layer_colors[++kind % layer_colors.size()];
+    if (!layer.label) continue;
+    for (const LayerFeature& feature : layer.features) {
+      const std::vector<Vec2>& part = feature.parts[0];
+      const Vec2 at = canvas.viewport()(midpoint(part.front(), part.back()));
+      const std::string number = fmt::format("{:.4g}", feature.values[*layer.label]);
+      if (count < most && labels.put(at, number, color)) ++count;
     }
   }
 }

@@ -40,6 +40,7 @@ Status draw_picture(Target& target, const Document<AxisItem>& file, const WriteO
     if (options.contacts) draw_feet(canvas, file);
     draw_axes(canvas, file, largest);
     if (layers != nullptr) draw_lines_and_disks(canvas, *layers);
+    if (layers != nullptr) draw_numbers(canvas, file, *layers);
     if (options.nodes) draw_nodes(canvas, file);
     if (options.titles) draw_titles(canvas, file);
   };

@@ -39,6 +39,8 @@ void draw_nodes(Canvas& canvas, const Document<AxisItem>& file);
 void draw_titles(Canvas& canvas, const Document<AxisItem>& file);
 void draw_polygons(Canvas& canvas, const Document<Layer>& layers);
 void draw_lines_and_disks(Canvas& canvas, const Document<Layer>& layers);
+/// The numbers of layers that have a label, where there is room.
+void draw_numbers(Canvas& canvas, const Document<AxisItem>& file, const Document<Layer>& layers);
 /// Every face filled with a colour, and the spokes.
 void draw_faces(Canvas& canvas, const Document<VoronoiItem>& file);
 /// The sites of planar graphs.

@@ -1,0 +1,302 @@
+#include "ops/tabs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "base/arc.h"
+#include "base/box_tree.h"
+#include "base/disjoint_sets.h"
+#include "base/numbers.h"
+#include "medial/query.h"
+
+namespace medial {
+namespace {
+
+double distance_to_segment(Vec2 p, Vec2 a, Vec2 b) {
+  const Vec2 way = b - a;
+  const double square = squared_norm(way);
+  const double share = square > 0 ? std::clamp(dot(p - a, way) / square, 0.0, 1.0) : 0;
+  return distance(p, a + share * way);
+}
+double distance_to_line(Vec2 p, const TabLine& line) {
+  return std::min(distance_to_segment(p, line[0], line[1]),
+                  distance_to_segment(p, line[1], line[2]));
+}
+
+/// A disk between two loops: a tab may stand there.
+struct TabPlace {
+  std::uint32_t loop = 0, across = 0;
+  double along = 0;  ///< of its foot on `loop`
+  double radius = 0;
+  bool at_corner = false;  ///< that foot is a vertex
+  TabLine line;
+};
+
+/// Where the sites of an axis lie on the boundary of its shape.
+class SitePlaces {
+ public:
+  SitePlaces(const Shape& shape, const MedialAxis& axis) : axis_(axis) {
+    loop_.resize(axis.sites.size());
+    begin_.resize(axis.sites.size());
+    std::uint32_t loop = 0, point = 0;
+    lengths_.resize(shape.loop_count());
+    for (std::size_t i = 0; i < axis.sites.size(); ++i) {
+      while (loop + 1 < shape.loop_count() && point >= shape.loop_begin[loop + 1]) ++loop;
+      const Site& site = axis.sites[i];
+      loop_[i] = loop;
+      begin_[i] = lengths_[loop];
+      if (site.kind == SiteKind::vertex) continue;  // it comes before the edge that begins there
+      lengths_[loop] += arc_length(distance(site.start, site.end), site.bulge);
+      ++point;
+    }
+  }
+  std::uint32_t loop(std::uint32_t site) const { return loop_[site]; }
+  double length(std::uint32_t loop) const { return lengths_[loop]; }
+  /// Of a point of the site: the length of its loop up to there.
+  double along(std::uint32_t site, Vec2 p) const {
+    const Site& on = axis_.sites[site];
+    if (on.kind == SiteKind::vertex || p == on.start) return begin_[site];
+    const BulgeArc edge{on.start, on.end, on.bulge};
+    return begin_[site] + arc_length(distance(on.start, p), partial_bulge(edge, on.start, p));
+  }
+
+ private:
+  const MedialAxis& axis_;
+  std::vector<std::uint32_t> loop_;
+  std::vector<double> begin_, lengths_;
+};
+
+/// Disks that touch a hole and another loop, seen from the hole.
+std::vector<TabPlace> places_of(const Shape& shape, const MedialAxis& axis,
+                                const SitePlaces& sites) {
+  std::vector<TabPlace> places;
+  constexpr int pieces = 16;  // of an edge
+  for (const Edge& edge : axis.edges) {
+    if (sites.loop(edge.site[0]) == sites.loop(edge.site[1])) continue;
+    for (int k = 1; k < pieces; ++k) {
+      const Disk disk = disk_at(axis, edge, static_cast<double>(k) / pieces);
+      for (const int side : {0, 1}) {
+        const std::uint32_t here = edge.site[side], there = edge.site[1 - side];
+        if (!shape.hole[sites.loop(here)]) continue;
+        const Vec2 from = foot(axis.sites[here], disk.center);
+        places.push_back({sites.loop(here),
+                          sites.loop(there),
+                          sites.along(here, from),
+                          disk.radius,
+                          axis.sites[here].kind == SiteKind::vertex,
+                          {from, disk.center, foot(axis.sites[there], disk.center)}});
+      }
+    }
+  }
+  return places;
+}
+
+/// The best place in each equal part of each hole: near the part's middle, and short.
+std::vector<const TabPlace*> spread(const std::vector<TabPlace>& places, const SitePlaces& sites,
+                                    const TabOptions& options) {
+  std::map<std::pair<std::uint32_t, double>, std::pair<double, const TabPlace*>> best;
+  for (const TabPlace& place : places) {
+    const double length = sites.length(place.loop);
+    const double count =
+        options.count > 0 ? options.count : std::max(1.0, std::ceil(length / options.spacing));
+    const double part = std::min(std::floor(count * place.along / length), count - 1);
+    const double off = std::abs(place.along - (part + 0.5) * length / count);
+    const double cost = off + place.radius + (place.at_corner ? length / count : 0);
+    auto& found = best.try_emplace({place.loop, part}, infinity, nullptr).first->second;
+    if (cost < found.first) found = {cost, &place};
+  }
+  std::vector<const TabPlace*> chosen;
+  for (const auto& [key, found] : best) chosen.push_back(found.second);
+  return chosen;
+}
+
+/// Adds the shortest places that tie loose loops to the rest.
+void tie(const std::vector<TabPlace>& places, std::size_t loops,
+         std::vector<const TabPlace*>& chosen) {
+  DisjointSets tied(loops);
+  for (const TabPlace* place : chosen) tied.join(place->loop, place->across);
+  std::vector<const TabPlace*> others;
+  for (const TabPlace& place : places)
+    if (tied.find(place.loop) != tied.find(place.across)) others.push_back(&place);
+  std::ranges::stable_sort(others, {}, [](const TabPlace* place) { return place->radius; });
+  for (const TabPlace* place : others)
+    if (tied.join(place->loop, place->across)) chosen.push_back(place);
+}
+
+/// A move, and the parts of it that would cut into tabs.
+class Crossing {
+ public:
+  /// `reach`: from the middle line of a tab to the tool's centre beside it.
+  Crossing(const BulgeArc& move, std::vector<const TabLine*> near, double reach)
+      : move_(move),
+        near_(std::move(near)),
+        reach_(reach),
+        length_(arc_length(norm(move.chord()), move.bulge)) {
+    collect(0, 1);
+  }
+  /// Shares of the move, in its order.
+  const std::vector<std::pair<double, double>>& inside() const { return inside_; }
+
+ private:
+  /// How far the place at a share is beyond the reach of all tabs, but for rounding.
+  double excess(double share) const {
+    double least = infinity;
+    for (const TabLine* line : near_)
+      least = std::min(least, distance_to_line(point_at_share(move_, share), *line));
+    constexpr double rounding = 1 - 1e-9;
+    return least - rounding * reach_;
+  }
+  /// The excess changes no faster than the way, so most parts are decided by their middle. What is
+  /// as short as `finest` and enters and leaves a tab again goes no deeper into it than
+  /// finest^2 / (8 reach), below 1e-8 of the reach.
+  void collect(double from, double to) {
+    constexpr double finest = 1.0 / 4096;
+    const double middle = (from + to) / 2, half = (to - from) / 2 * length_;
+    const double over = excess(middle);
+    if (over >= half) return;
+    if (over <= -half) return add(from, to);
+    if (half > finest * reach_) {
+      collect(from, middle);
+      return collect(middle, to);
+    }
+    const bool begins = excess(from) < 0, ends = excess(to) < 0;
+    if (begins && ends) return add(from, to);
+    if (begins) return add(from, edge(from, to));
+    if (ends) add(edge(to, from), to);
+  }
+  /// Where a tab's reach ends, between a share inside and one outside.
+  double edge(double in, double out) const {
+    constexpr int halvings = 60;
+    for (int k = 0; k < halvings; ++k) {
+      const double middle = (in + out) / 2;
+      (excess(middle) < 0 ? in : out) = middle;
+    }
+    return out;
+  }
+  void add(double from, double to) {
+    if (!inside_.empty() && inside_.back().second == from)
+      inside_.back().second = to;
+    else
+      inside_.emplace_back(from, to);
+  }
+
+  BulgeArc move_;
+  std::vector<const TabLine*> near_;
+  double reach_, length_;
+  std::vector<std::pair<double, double>> inside_;
+};
+
+/// Lifts paths over tabs.
+class Lift {
+ public:
+  explicit Lift(const Carving& carving)
+      : tabs_(carving.tabs),
+        reach_(carving.tabs.width / 2 + carving.tip_radius +
+               carving.slope * std::max(carving.deepest - carving.tabs.top, 0.0)) {
+    std::vector<Box> boxes;
+    for (const TabLine& line : tabs_.lines) {
+      Box box{line[0], line[0]};
+      box.add(line[1]);
+      box.add(line[2]);
+      boxes.push_back(wider(box));
+    }
+    tree_.emplace(boxes);
+  }
+
+  std::vector<ToolPoint> operator()(const std::vector<ToolPoint>& path) const {
+    std::vector<ToolPoint> out;
+    for (std::size_t i = 0; i + 1 < path.size(); ++i) add_move(path[i], path[i + 1], out);
+    return out;
+  }
+
+ private:
+  Box wider(const Box& box) const {
+    const Vec2 by = reach_ * Vec2{1, 1};
+    return {box.low - by, box.high + by};
+  }
+  std::vector<const TabLine*> near(const BulgeArc& move) const {
+    Box box{move.start, move.start};
+    box.add(move.end);
+    for (const Vec2 side : {Vec2{1, 0}, Vec2{0, 1}, Vec2{-1, 0}, Vec2{0, -1}})
+      if (const auto point = parallel_point(move, side)) box.add(*point);
+    std::vector<const TabLine*> found;
+    tree_->find(box, [&](std::uint32_t i) { found.push_back(&tabs_.lines[i]); });
+    return found;
+  }
+  static void put(Vec2 p, double z, std::vector<ToolPoint>& out) {
+    if (out.empty() || !(out.back().point == p) || out.back().z != z) out.push_back({p, z, 0});
+  }
+  void add_move(const ToolPoint& from, const ToolPoint& to, std::vector<ToolPoint>& out) const {
+    const BulgeArc move{from.point, to.point, from.bulge};
+    const bool above = std::min(from.z, to.z) >= -tabs_.top;
+    std::vector<double> ends{0};
+    std::vector<std::pair<double, double>> inside;
+    if (!above && !(move.start == move.end)) {
+      if (auto lines = near(move); !lines.empty())
+        inside = Crossing(move, std::move(lines), reach_).inside();
+    } else if (!above && ops::distance_to(tabs_, from.point) < reach_) {
+      inside = {{0, 1}};
+    }
+    const double level = (-tabs_.top - from.z) / (to.z - from.z);  // where a slope comes up to it
+    for (const auto& [begin, end] : inside) {
+      for (const double share : {begin, level, end})
+        if (share > ends.back() && share < 1 && share <= end) ends.push_back(share);
+    }
+    ends.push_back(1);
+    for (std::size_t k = 0; k + 1 < ends.size(); ++k) {
+      const double middle = (ends[k] + ends[k + 1]) / 2;
+      const bool lifted = std::ranges::any_of(
+          inside, [&](const auto& part) { return part.first <= middle && middle <= part.second; });
+      const auto z = [&](double share) {
+        const double plain = share < 1 ? from.z + share * (to.z - from.z) : to.z;
+        return lifted ? std::max(plain, -tabs_.top) : plain;
+      };
+      put(point_at_share(move, ends[k]), z(ends[k]), out);
+      out.back().bulge = std::tan((ends[k + 1] - ends[k]) * std::atan(move.bulge));
+      put(point_at_share(move, ends[k + 1]), z(ends[k + 1]), out);
+    }
+  }
+
+  const Tabs& tabs_;
+  double reach_;
+  std::optional<BoxTree> tree_;
+};
+
+}  // namespace
+
+namespace ops {
+
+double distance_to(const Tabs& tabs, Vec2 p) {
+  double least = infinity;
+  for (const TabLine& line : tabs.lines) least = std::min(least, distance_to_line(p, line));
+  return least;
+}
+
+void spare_tabs(Carving& carving) {
+  if (carving.tabs.lines.empty() || carving.deepest <= carving.tabs.top) return;
+  const Lift lift(carving);
+  for (ToolPath& path : carving.paths) path.points = lift(path.points);
+}
+
+}  // namespace ops
+
+Result<std::vector<TabLine>> place_tabs(const Shape& shape, const MedialAxis& axis,
+                                        const TabOptions& options) {
+  if (axis.resolution > 0 || axis.exterior > 0)
+    return Error{ErrorCode::unsupported, "tabs need an exact axis of the shape itself", {}};
+  if (options.count == 0 && !(options.spacing > 0 && std::isfinite(options.spacing)))
+    return Error{ErrorCode::invalid_option, "tabs need a count or a spacing above 0", {}};
+  const SitePlaces sites(shape, axis);
+  const std::vector<TabPlace> places = places_of(shape, axis, sites);
+  std::vector<const TabPlace*> chosen = spread(places, sites, options);
+  tie(places, shape.loop_count(), chosen);
+  std::vector<TabLine> lines;
+  for (const TabPlace* place : chosen) lines.push_back(place->line);
+  return lines;
+}
+
+}  // namespace medial
