@@ -39,7 +39,8 @@ namespace method {
 /// Walks along the axis and searches a tree over the boundary: the fastest.
 struct Disks {};
 
-/// The randomised divide and conquer of Aichholzer et al. as published: O(n log n) to O(n^2).
+/// The randomised divide and conquer of Aichholzer et al., with their balanced cuts: O(n log n)
+/// expected.
 struct BiarcDc {
   std::uint64_t seed = 1;  ///< the same seed gives the same result, byte for byte
 };
