@@ -29,29 +29,34 @@ Report report_of(const Division& division) {
   return report;
 }
 
-/// Where rounding alone may decide what disks touch, if anywhere: at an arc so small that its
-/// directions have few digits, or at one that the next two arcs continue on almost the same circle.
-/// O(n).
+/// Where rounding alone may decide what disks touch, if anywhere: at an edge so short that its
+/// direction has few digits, at an arc as small, or at arcs of almost one circle, three in a row or
+/// two that turn far. O(n).
 std::optional<Vec2> doubtful_place(const Problem& problem) {
   const Shape& shape = problem.shape;
-  if (shape.bulges.empty()) return std::nullopt;
   constexpr double few_digits = 0x1p-24;   // of the size
-  constexpr double near_circle = 1 << 12;  // tolerances
+  constexpr double short_edge = 0x1p-6;    // of that
+  constexpr double near_circle = 1 << 16;  // tolerances
+  constexpr double far_turn = 0.25;        // the sum of two bulges: about a radian
   const double least = few_digits * diagonal(problem.box);
   const double near = near_circle * problem.joint_tolerance;
   for (std::size_t loop = 0; loop < shape.loop_count(); ++loop) {
     const auto points = shape.loop(loop);
+    const std::size_t n = points.size();
+    const auto bulge = [&](std::size_t i) { return shape.bulge(shape.loop_begin[loop] + i % n); };
     const auto curvature_of = [&](std::size_t i) {
-      return curvature(
-          {points[i], points[(i + 1) % points.size()], shape.bulge(shape.loop_begin[loop] + i)});
+      return curvature({points[i % n], points[(i + 1) % n], bulge(i)});
     };
     const auto is_near = [&](double one, double next) {
       return one > 0 && next > 0 && std::abs(one - next) <= near * one * next;
     };
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      const double one = curvature_of(i), next = curvature_of((i + 1) % points.size());
-      if (std::abs(one) * least > 1 ||
-          (is_near(one, next) && is_near(next, curvature_of((i + 2) % points.size()))))
+    for (std::size_t i = 0; i < n; ++i) {
+      if (distance(points[i], points[(i + 1) % n]) < short_edge * least) return points[i];
+      if (bulge(i) == 0) continue;
+      const double one = curvature_of(i), next = curvature_of(i + 1);
+      if (std::abs(one) * least > 1) return points[i];
+      if (is_near(one, next) &&
+          (bulge(i) + bulge(i + 1) > far_turn || is_near(next, curvature_of(i + 2))))
         return points[i];
     }
   }

@@ -5,11 +5,10 @@
 
 namespace medial::biarc_dc {
 
-/// Whether an axis is right as far as its nodes can tell: no disk reaches over a site by more than
-/// `slack`; the disks at both ends of an edge touch the edge's two sites; each convex corner is a
-/// leaf. Two such disks contain all disks of the edge between them, but for what lies between the
-/// feet on the two sites; where that may be a hole, the disk in the middle counts as well.
-/// O(n log n) expected, a tenth of the whole.
+/// Whether an axis is right as far as this can tell: no disk of a node or in the middle of an edge
+/// reaches over a site by more than `slack`, or is too small for rounding not to matter; an edge's
+/// disks touch its two sites; each convex corner is a leaf, and each other leaf is the centre of an
+/// arc of locally largest curvature. O(n log n) expected, a fifth of the whole.
 bool is_sound(const Skeleton& skeleton, const Context& context, double slack);
 
 }  // namespace medial::biarc_dc
