@@ -76,7 +76,7 @@ Json statistics_of(const LoadedAxes& axes, const AxisSummary& summary) {
                  {"input_rings", cleaned.input_rings},
                  {"input_points", cleaned.input_points},
                  {"cleaned", to_json(cleaned)}};
-  if (counted.seconds_exact > 0)
+  if (counted.exact_filtered + counted.exact_precise > 0)
     object["exact"] = {{"filtered", counted.exact_filtered},
                        {"precise", counted.exact_precise},
                        {"rational", counted.exact_rational},

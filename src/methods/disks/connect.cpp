@@ -6,6 +6,7 @@
 
 #include "base/numbers.h"
 #include "base/threads.h"
+#include "methods/disks/exact_event.h"
 #include "site/first_touch.h"
 
 namespace medial::disks {
@@ -89,13 +90,16 @@ std::uint32_t facing_site(const Boundary& loops, const site::FirstTouch& first_t
 class Connector {
  public:
   Connector(const Shape& shape, const Boundary& loops, const site::FirstTouch& first_touch,
-            double furthest, double typical, double tolerance)
+            double furthest, double typical, double tolerance, const ExactSites* exact,
+            double least)
       : shape_(shape),
         loops_(loops),
         first_touch_(first_touch),
         furthest_(furthest),
         typical_(typical),
-        tolerance_(tolerance) {}
+        tolerance_(tolerance),
+        exact_(exact),
+        least_(least) {}
 
   /// Prepares for these holes.
   void begin(std::span<const std::uint32_t> holes) {
@@ -133,6 +137,8 @@ class Connector {
       touch = first_touch_.find(foot, outreach, radius, component, own.first, own.last);
     }
     if (touch) radius = touch->radius;
+    if (exact_ != nullptr && radius <= least_)
+      if (const auto bridge = exact_bridge(hole, foot, radius)) return *bridge;
     found_.push_back(radius);
     Bridge bridge{{foot + radius * outreach, radius}, hole, touch ? touch->site : own.first};
     if (loops_.two_sided && touch)
@@ -143,6 +149,29 @@ class Connector {
   }
 
  private:
+  /// The bridge among all sites that a disk from `foot` nearly reaches.
+  std::optional<Bridge> exact_bridge(std::uint32_t hole, Vec2 foot, double radius) const {
+    constexpr double rounding = 0x1p-46;
+    const Boundary::SiteRange own = loops_.runs[hole];
+    std::vector<std::uint32_t> near;
+    const auto add = [&](std::uint32_t site, const Boundary::SiteRange& run) {
+      if (site < own.first || site > own.last) near.push_back(site);
+      // Searches find edges only.
+      const std::uint32_t after = site == run.last ? run.first : site + 1;
+      if (loops_.elements[after] == Element::vertex && (after < own.first || after > own.last))
+        near.push_back(after);
+    };
+    first_touch_.near(foot + radius * outreach, radius + rounding, shape_.component[hole],
+                      [&](std::uint32_t site) {
+                        const Boundary::SiteRange run = run_of(loops_, site);
+                        add(site, run);
+                        add(site == run.first ? run.last : site - 1, run);
+                      });
+    std::sort(near.begin(), near.end());
+    const auto touch = exact_->first_touch(foot, loops_, near);
+    if (!touch) return std::nullopt;
+    return Bridge{{foot + touch->radius * outreach, touch->radius}, hole, touch->site};
+  }
   /// A disk that reaches beyond the furthest point of all crosses the boundary, however its centre
   /// is rounded.
   double largest_radius(Vec2 foot) const {
@@ -164,6 +193,8 @@ class Connector {
   const Boundary& loops_;
   const site::FirstTouch& first_touch_;
   const double furthest_, typical_, tolerance_;
+  const ExactSites* exact_;
+  double least_;
   site::FirstTouch::Region region_;
   double expected_ = 0;        ///< radius: twice the middle one of the last run; 0 before the first
   std::vector<double> found_;  ///< radii of the run under way
@@ -312,6 +343,7 @@ class Splicer {
 }  // namespace
 
 std::vector<Bridge> connecting_disks(const Shape& shape, const Boundary& loops, double tolerance,
+                                     const ExactSites* exact, double least,
                                      std::uint64_t& queries) {
   std::vector<std::uint32_t> holes;
   for (std::uint32_t loop = 0; loop < shape.loop_count(); ++loop)
@@ -350,7 +382,7 @@ std::vector<Bridge> connecting_disks(const Shape& shape, const Boundary& loops, 
   std::vector<Bridge> bridges(holes.size());
   constexpr std::size_t together = 16;
   parallel_ranges(holes.size(), 4 * together, [&](std::size_t begin, std::size_t last) {
-    Connector connector(shape, loops, first_touch, furthest, typical, tolerance);
+    Connector connector(shape, loops, first_touch, furthest, typical, tolerance, exact, least);
     for (; begin < last; begin += together) {
       const std::size_t end = std::min(begin + together, last);
       connector.begin(std::span(holes).subspan(begin, end - begin));

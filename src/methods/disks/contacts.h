@@ -12,13 +12,16 @@
 
 namespace medial::disks {
 
+class ExactEvents;
+
 /// What a walk goes by.
 struct WalkContext {
   const Boundary& boundary;
   const std::vector<Bridge>& bridges;
   const site::BoundaryTree& tree;
-  double tolerance = 0;     ///< in the local frame
-  double radius_limit = 0;  ///< no disk inside the shape is larger
+  double tolerance = 0;                ///< in the local frame
+  double radius_limit = 0;             ///< no disk inside the shape is larger
+  const ExactEvents* exact = nullptr;  ///< none: double decides
   const std::atomic<bool>* cancel = nullptr;
   std::function<void(std::uint64_t)> finished_sites;  ///< gets the number of further finished sites
 };
@@ -29,6 +32,8 @@ struct Span {
   std::uint32_t right;
   std::uint32_t left;
   std::uint32_t node;
+  std::uint32_t third = ~std::uint32_t{0};  ///< another site that the node's disk touches, if known
+  double error = 0;                         ///< how far the exact disk is from the node's, at most
 };
 
 /// Which sites of a span a disk touches: searches, and what is left to decide when the tree has

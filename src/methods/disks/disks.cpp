@@ -6,9 +6,11 @@
 
 #include "base/memory.h"
 #include "base/stopwatch.h"
+#include "methods/checks.h"
 #include "methods/disks/boundary.h"
 #include "methods/disks/collect.h"
 #include "methods/disks/connect.h"
+#include "methods/disks/exact_event.h"
 #include "methods/disks/merge_ties.h"
 #include "methods/disks/near_circle.h"
 #include "methods/disks/walk.h"
@@ -46,11 +48,20 @@ Error error_of_too_many_arcs(const Box& box) {
 
 /// Connects the holes of the boundary, walks it, and joins what the walk finds. Nothing where the
 /// caller cancels.
-std::optional<Graph> graph_of(const Problem& problem, double walk_tolerance, Boundary& boundary,
-                              Statistics& statistics) {
+std::optional<Graph> graph_of(const Problem& problem, double walk_tolerance, Decides decides,
+                              Boundary& boundary, Statistics& statistics) {
   Stopwatch watch;
+#ifdef MEDIAL_HAS_EXACT
+  const bool takes_exact =
+      decides != Decides::in_double && !boundary.has_arcs && !boundary.two_sided;
+#else
+  constexpr bool takes_exact = false;
+#endif
+  const bool always_exact = decides == Decides::in_precise;
+  const ExactSites sites(problem);
   const std::vector<Bridge> bridges =
-      connecting_disks(problem.shape, boundary, walk_tolerance, statistics.queries);
+      connecting_disks(problem.shape, boundary, walk_tolerance, takes_exact ? &sites : nullptr,
+                       always_exact ? problem.radius_limit : exact_bridges, statistics.queries);
   if (!bridges.empty()) boundary = connect(problem.shape, boundary, bridges);
   statistics.bridges = bridges.size();
   statistics.seconds_connect = watch.lap();
@@ -60,8 +71,10 @@ std::optional<Graph> graph_of(const Problem& problem, double walk_tolerance, Bou
   statistics.seconds_tree = watch.lap();
 
   std::atomic<std::uint64_t> finished = 0;
+  const ExactEvents exact(sites, boundary, tree, always_exact);
   auto chunks = walk({boundary, bridges, tree, walk_tolerance, problem.radius_limit,
-                      problem.options.cancel, reporter(problem.options, boundary, finished)});
+                      takes_exact ? &exact : nullptr, problem.options.cancel,
+                      reporter(problem.options, boundary, finished)});
   statistics.seconds_walk = watch.lap();
   if (problem.is_cancelled()) return std::nullopt;
 
@@ -77,7 +90,7 @@ std::optional<Graph> graph_of(const Problem& problem, double walk_tolerance, Bou
 /// tolerance, which by default depends on the shape. The edges are returned apart from the axis.
 template <class E>
 Result<Outcome> attempt(const Problem& problem, bool two_sided, std::optional<double> share,
-                        std::vector<E>& edges) {
+                        Decides decides, std::vector<E>& edges) {
   Outcome outcome;
   MedialAxis& axis = outcome.axis;
   axis.method = "disks";
@@ -93,9 +106,11 @@ Result<Outcome> attempt(const Problem& problem, bool two_sided, std::optional<do
   const double usual_share = boundary.has_arcs ? 1 : fine_share;
   axis.statistics.seconds_sites = watch.lap();
 
-  auto graph = graph_of(problem, share.value_or(usual_share) * problem.fine_tolerance, boundary,
-                        axis.statistics);
+  auto graph = graph_of(problem, share.value_or(usual_share) * problem.fine_tolerance, decides,
+                        boundary, axis.statistics);
   if (!graph) return outcome;
+  if (graph->statistics.exact_changes > 0)
+    return Error{ErrorCode::internal, "the walk lost its way: please report this shape", {}};
   watch.lap();
   if (!two_sided && !outcome.in_centers) outcome.in_centers = is_in_centers(boundary, *graph, near);
   constexpr double loose = 0x1p-20;  // of the size: no near tie is that far off
@@ -109,6 +124,9 @@ Result<Outcome> attempt(const Problem& problem, bool two_sided, std::optional<do
   if (!two_sided) axis.sites = problem.result_sites();
   axis.statistics.seconds_collect += watch.lap();
   axis.statistics.seconds = all.lap();
+  if (!two_sided && !has_right_topology(problem.shape, axis.nodes, edges))
+    return error_of_wrong_axis(
+        axis, "the axis does not have one cycle for each hole: please report this shape");
   for (const std::uint32_t edge : loose_edges)
     if (!touches_its_sites(axis, edges[edge], slack))
       return error_of_wrong_axis(
@@ -121,12 +139,16 @@ Result<Outcome> attempt(const Problem& problem, bool two_sided, std::optional<do
 Result<Outcome> run(const Problem& problem) {
   std::optional<Error> error;
   // To another share of the tolerance, what misled the walk may be one contact, or two.
-  std::vector<std::optional<double>> shares{std::nullopt, 1.0};
+  struct Attempt {
+    std::optional<double> share;
+    Decides decides = Decides::in_double;
+  };
+  std::vector<Attempt> attempts{{{}, Decides::in_stages}, {{}, Decides::in_precise}, {}, {1.0}};
   if (!problem.shape.bulges.empty())
-    shares = {std::nullopt, in_centers_share, 0.25, 0.0625, 0.5, 1.0};
-  for (const auto& share : shares) {
+    attempts = {{}, {in_centers_share}, {0.25}, {0.0625}, {0.5}, {1.0}};
+  for (const auto& [share, decides] : attempts) {
     std::vector<Edge> edges;
-    Result<Outcome> outcome = attempt(problem, false, share, edges);
+    Result<Outcome> outcome = attempt(problem, false, share, decides, edges);
     if (!outcome) {
       if (!error) error = std::move(outcome).error();
       continue;
@@ -142,7 +164,7 @@ Result<Outcome> run(const Problem& problem) {
 
 template <class E>
 MedialAxis run_two_sided(const Problem& problem, std::vector<E>& edges) {
-  return std::move(attempt(problem, true, std::nullopt, edges)->axis);
+  return std::move(attempt(problem, true, std::nullopt, Decides::in_double, edges)->axis);
 }
 
 template MedialAxis run_two_sided(const Problem&, std::vector<Edge>&);

@@ -1,7 +1,9 @@
 #include "methods/disks/walk.h"
 
 #include "base/threads.h"
+#include "methods/disks/certainty.h"
 #include "methods/disks/events.h"
+#include "methods/disks/exact_event.h"
 #include "site/tangent_disk.h"
 
 namespace medial::disks {
@@ -64,12 +66,16 @@ class Walker {
     if (!is_open(span)) return;
     for (;;) {
       const Disk from = chunk_.nodes[span.node];
-      const Event event = EventSearch(context_, contacts_, chunk_.statistics, span, from).next();
+      double error = 0;
+      const Event event = next_event(span, from, error);
       switch (event.kind) {
+        case Event::Kind::none:
+          return;
         case Event::Kind::pass_right:
         case Event::Kind::pass_left: {
           span.node = arrive(span, from, event.disk);
-          event.kind == Event::Kind::pass_right ? ++span.right : --span.left;
+          span.error = error;
+          span.third = event.kind == Event::Kind::pass_right ? span.right++ : span.left--;
           if (!is_open(span)) return;
           break;
         }
@@ -80,11 +86,45 @@ class Walker {
           // On a shape that crosses itself nothing may be left to touch.
           if (event.site <= span.right || event.site >= span.left) return;
           const std::uint32_t node = arrive(span, from, event.disk);
-          push({event.site, span.left, node}, {span.right, event.site, node});
+          push({event.site, span.left, node, span.right, error},
+               {span.right, event.site, node, span.left, error});
           return;
         }
       }
     }
+  }
+
+  /// What ends the edge of a span: decided in double where that is certain, otherwise in 256 bits.
+  /// `error` gets how far the exact disk may be.
+  Event next_event(const Span& span, const Disk& from, double& error) {
+    Event event;
+    if (context_.exact == nullptr || !context_.exact->always) {
+      event = EventSearch(context_, contacts_, chunk_.statistics, span, from).next();
+      if (context_.exact == nullptr) return event;
+      const Certainty certainty(boundary_, context_.tolerance, span, from, event);
+      error = certainty.error();
+      if (certainty.is_certain()) {
+        ++chunk_.statistics.exact_filtered;
+        return event;
+      }
+    }
+    ++chunk_.statistics.exact_precise;
+    const auto found = context_.exact->next(span, from, event.site);
+    if (!found) {
+      // What led here was wrong.
+      ++chunk_.statistics.exact_changes;
+      return {};
+    }
+    // Between sites that are all but parallel, double's disk is as good as any.
+    if (!found->well_known && event.site == found->site) return event;
+    error = Certainty::rounding;
+    event.disk = found->disk;
+    event.site = found->site;
+    event.kind =
+        found->site == span.right + 1 && boundary_.is_smooth(span.right)   ? Event::Kind::pass_right
+        : found->site + 1 == span.left && boundary_.is_smooth(found->site) ? Event::Kind::pass_left
+                                                                           : Event::Kind::contact;
+    return event;
   }
 
   /// The disk that grows at the smooth place where a run begins and ends, until it touches
@@ -151,8 +191,11 @@ class Walker {
   }
 
   bool coincide(const Disk& a, const Disk& b) const {
-    return squared_norm(a.center - b.center) <= context_.tolerance * context_.tolerance &&
-           std::abs(a.radius - b.radius) <= context_.tolerance;
+    // Where a shape is hardly wider than the tolerance, that is no tie.
+    constexpr double of_radius = 0x1p-10;
+    const double slack = std::min(context_.tolerance, of_radius * std::max(a.radius, b.radius));
+    return squared_norm(a.center - b.center) <= slack * slack &&
+           std::abs(a.radius - b.radius) <= slack;
   }
 
   std::uint32_t add_node(const Disk& disk) {
@@ -198,12 +241,19 @@ class Walker {
     child.parent_node = span.node;
     child.nodes.push_back(chunk_.nodes[span.node]);
     tasks_.run([&context = context_, fork_size = fork_size_, &tasks = tasks_, &child, span] {
-      Walker(context, fork_size, tasks, child).walk_span({span.right, span.left, 0});
+      Walker(context, fork_size, tasks, child)
+          .walk_span({span.right, span.left, 0, span.third, span.error});
     });
   }
 
   void split(const Span& span, const Disk& disk, std::uint32_t sure, bool all_around) {
     contacts_.split(span, disk, sure, all_around, parts_);
+    // The disks of a tie are as far off as rounding leaves each three of its contacts open.
+    constexpr double spread = 16;
+    for (Span& part : parts_) {
+      part.error = span.error + spread * context_.tolerance;
+      part.third = part.right != span.right ? span.right : span.left;
+    }
     stack_.insert(stack_.end(), parts_.begin(), parts_.end());
   }
 

@@ -39,15 +39,6 @@ double near(const Bounded<Real>& number) {
 }
 double near(const RootNumber& number) { return static_cast<double>(number.bounded().value); }
 
-/// See Bounded<Precise>::tighten().
-template <class... Numbers>
-void tighten(Numbers&... numbers) {
-  const auto one = [](auto& number) {
-    if constexpr (requires { number.tighten(); }) number.tighten();
-  };
-  (one(numbers), ...);
-}
-
 template <class Number>
 struct Row {
   Number x, y, r;  ///< factors of the centre and the radius
@@ -97,7 +88,9 @@ class Kernel {
     }
     for (Number& coordinate : disk) coordinate = coordinate / three.scale;
     if (!disk[2].positive()) return std::nullopt;
-    return DiskBounds<Precise>{three.origin + Vector<Number>{disk[0], disk[1]}, disk[2]};
+    DiskBounds<Precise> found{three.origin + Vector<Number>{disk[0], disk[1]}, disk[2]};
+    tighten(found.center.x, found.center.y, found.radius);
+    return found;
   }
 
   /// `a` and `b` are joined: the disk that touches their joint and `third`.

@@ -1,0 +1,50 @@
+#pragma once
+
+#include "methods/disks/events.h"
+
+namespace medial::disks {
+
+/// Whether an event that was found in double is certain (docs/disks.md, How it is decided). For
+/// shapes of segments.
+class Certainty {
+ public:
+  Certainty(const Boundary& boundary, double tolerance, const Span& span, const Disk& from,
+            const Event& event);
+
+  /// How far the exact disk of the event may be: infinite where it may not exist.
+  double error() const { return error_; }
+  bool is_certain() const { return certain_; }
+
+  /// What rounding a centre of the local frame moves it by, at most.
+  static constexpr double rounding = 0x1p-51;
+
+ private:
+  /// A contact of the event's disk: the unit vector from the foot, and what is left to touch.
+  struct Contact {
+    Vec2 toward;
+    double residual;
+    double unsure;  ///< by how much the residual may be off
+  };
+
+  const site::Site& site(std::uint32_t i) const { return boundary_.sites[i]; }
+  Contact contact(std::uint32_t i) const;
+  bool touches(std::uint32_t third, double slack) const;
+  double error_of_three(std::uint32_t third) const;
+  double error_at_joint(bool on_right) const;
+  /// Whether the feet move forward, further than the disks may be off.
+  bool moves_forward() const;
+  /// Whether the node's disk, which touches `third` of the span, is before that of the event,
+  /// which touches `fourth`: seen by the four contacts of one disk.
+  bool comes_before(std::uint32_t fourth) const;
+  /// Whether the event's disk touches what the node's does: the two become one in the end.
+  bool is_one_tie(double slack) const;
+
+  const Boundary& boundary_;
+  const Span& span_;
+  const Disk& from_;
+  const Disk& to_;
+  double error_ = 0;
+  bool certain_ = false;
+};
+
+}  // namespace medial::disks

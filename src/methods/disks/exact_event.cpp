@@ -1,0 +1,211 @@
+#include "methods/disks/exact_event.h"
+
+#ifdef MEDIAL_HAS_EXACT
+
+#include <algorithm>
+#include <unordered_set>
+#include <vector>
+
+#include "methods/exact/disk_bounds.h"
+#include "methods/exact/touch.h"
+
+namespace medial::disks {
+
+using exact::Precise;
+using PreciseDisk = exact::DiskBounds<Precise>;
+using Number = Bounded<Precise>;
+using Hit = Contacts::Hit;
+
+const exact::SiteLoops& ExactSites::outline() const {
+  std::call_once(once_, [&] { outline_ = exact::outline_of(problem_); });
+  return outline_;
+}
+
+std::optional<ExactSites::Touch> ExactSites::first_touch(
+    Vec2 foot, const Boundary& boundary, std::span<const std::uint32_t> sites) const {
+  std::optional<PreciseDisk> best;
+  std::uint32_t touched = 0;
+  for (const std::uint32_t site : sites) {
+    const exact::ExactSite& exact_site = outline().sites[boundary.originals[site]];
+    const auto disk = exact::disk_from(foot, outreach, exact_site);
+    if (!disk || !exact::may_have_foot(exact_site, *disk)) continue;
+    const int smaller = best ? (best->radius - disk->radius).sign().value_or(0) : 1;
+    // Where an edge is touched in its end, so is the vertex there, which stands for both.
+    if (smaller < 0 || (smaller == 0 && boundary.elements[site] == Element::edge)) continue;
+    best = disk;
+    touched = site;
+  }
+  if (!best) return std::nullopt;
+  return Touch{touched, static_cast<double>(best->radius.value)};
+}
+
+/// The search of one question. By docs/disks.md, Lemma 2, the disk is the only one that touches
+/// the two sites and a third one between them, in this order around it, and keeps clear of all.
+class ExactEvents::Search {
+ public:
+  Search(const ExactEvents& events, const Span& span, const Disk& from)
+      : events_(events), outline_(events.sites_.outline()), span_(span), from_(from) {}
+
+  std::optional<Found> run(std::uint32_t hint) {
+    std::vector<std::uint32_t> candidates{span_.right + 1, span_.left - 1, span_.right + 2,
+                                          span_.left - 2, hint};
+    double reach = from_.radius + rounding;
+    for (;;) {
+      for (const std::uint32_t site : candidates) consider(site);
+      candidates = best_ ? intruders() : std::vector<std::uint32_t>{};
+      if (best_ && candidates.empty()) return Found{site_, rounded(), is_well_known()};
+      std::erase_if(candidates, [&](std::uint32_t site) { return is_seen(site); });
+      if (!candidates.empty()) continue;
+      // Only carriers were touched, beside their sites: look further around.
+      if (reach > furthest) return std::nullopt;
+      reach *= 4;
+      events_.tree_.within(from_.center, reach, span_.right + 1, span_.left - 1, candidates);
+    }
+  }
+
+ private:
+  /// What distances in double may be off by, and the coordinates of a rounded centre.
+  static constexpr double rounding = 0x1p-47;
+  /// No two points of the local frame are further apart.
+  static constexpr double furthest = 8;
+
+  const exact::ExactSite& exact_site(std::uint32_t i) const { return outline_.sites[name(i)]; }
+  std::uint32_t name(std::uint32_t i) const { return events_.boundary_.originals[i]; }
+  bool is_bridge(std::uint32_t i) const { return events_.boundary_.elements[i] == Element::bridge; }
+  bool is_inside(std::uint32_t i) const { return i > span_.right && i < span_.left; }
+  bool is_seen(std::uint32_t i) const {
+    return !is_inside(i) || is_bridge(i) || seen_.count(i) > 0;
+  }
+
+  /// Whether one disk of the bisector comes before another one: by the foot on an edge, or between
+  /// two vertices by the centre.
+  bool comes_before(const PreciseDisk& a, const PreciseDisk& b) const {
+    const exact::ExactSite &right = exact_site(span_.right), &left = exact_site(span_.left);
+    int forward = 0;
+    if (!right.is_vertex()) forward = exact::further_along(right, a, b).value_or(0);
+    if (forward == 0 && !left.is_vertex()) forward = exact::further_along(left, b, a).value_or(0);
+    if (right.is_vertex() && left.is_vertex()) {
+      const auto chord =
+          exact::exact_vector<Number>(left.start) - exact::exact_vector<Number>(right.start);
+      forward = cross(b.center - a.center, chord).sign().value_or(0);
+    }
+    return forward > 0;
+  }
+
+  /// Whether a disk lies behind that of the node, by more than that is off.
+  bool is_behind(const PreciseDisk& disk) const {
+    constexpr double clear = 0x1p-8;  // of the radius: more than any node is off
+    const double slack =
+        std::min(span_.error, clear * from_.radius) +
+        std::min(8 * events_.sites_.problem_.fine_tolerance, clear * from_.radius) + 0x1p-50;
+    const PreciseDisk from{exact::exact_vector<Number>(from_.center), Number(from_.radius)};
+    const auto away = disk.center - from.center;
+    return (dot(away, away) - Number(slack) * Number(slack)).positive() && comes_before(disk, from);
+  }
+
+  /// Makes a site the best if it is touched before the best so far.
+  void consider(std::uint32_t site) {
+    if (is_seen(site)) return;
+    seen_.insert(site);
+    const std::uint32_t right = name(span_.right), left = name(span_.left), third = name(site);
+    if (third == right || third == left) return;
+    const auto disk = exact::disk_bounds<Precise>(outline_, {right, third, left}, Disk{});
+    if (!disk) return;
+    if ((Number(events_.sites_.problem_.radius_limit) - disk->radius).sign() == -1) return;
+    if (is_behind(*disk) || (best_ && !comes_before(*disk, *best_))) return;
+    for (const std::uint32_t i : {span_.right, site, span_.left})
+      if (!is_touched(i, *disk)) return;
+    best_ = disk;
+    site_ = site;
+  }
+
+  Disk rounded() const {
+    return {
+        {static_cast<double>(best_->center.x.value), static_cast<double>(best_->center.y.value)},
+        static_cast<double>(best_->radius.value)};
+  }
+
+  /// Whether 256 bits tell the best disk to all digits of a double: not between sites that are
+  /// parallel but for some 1e-60.
+  bool is_well_known() const {
+    const Number &x = best_->center.x, &y = best_->center.y;
+    return x.error + y.error + best_->radius.error <= 0x1p-60L * best_->radius.largest;
+  }
+
+  /// Sites that the best disk reaches over, with their neighbours; none if there are none.
+  std::vector<std::uint32_t> intruders() {
+    const Disk disk = rounded();
+    std::vector<std::uint32_t> found;
+    const auto add = [&](std::uint32_t site) {
+      for (const std::uint32_t i : {site, site - 1, site + 1}) found.push_back(i);
+    };
+    const Hit hit =
+        events_.tree_.nearest(disk.center, disk.radius - rounding, span_.right + 1, span_.left - 1);
+    if (hit) {
+      add(hit.site);
+      if (!is_seen(hit.site)) return found;
+    }
+    std::vector<std::uint32_t> near;
+    events_.tree_.within(disk.center, disk.radius + rounding, span_.right + 1, span_.left - 1,
+                         near);
+    for (const std::uint32_t site : near)
+      if (!is_bridge(site) && exact::clearance(exact_site(site), *best_) < 0) add(site);
+    return found;
+  }
+
+  /// Whether a disk that touches a site's carrier touches the site, in the part of it that bridges
+  /// leave between them.
+  bool is_touched(std::uint32_t site, const PreciseDisk& disk) const {
+    if (!exact::may_have_foot(exact_site(site), disk)) return false;
+    const bool too_early = site > 0 && is_bridge(site - 1) && beyond(site - 1, site, disk) == -1;
+    const bool too_late = site + 1 < events_.boundary_.sites.size() && is_bridge(site + 1) &&
+                          beyond(site + 1, site, disk) == 1;
+    return !too_early && !too_late;
+  }
+
+  /// Whether a disk's foot on a site lies further along than that of the bridge beside it.
+  int beyond(std::uint32_t place, std::uint32_t site, const PreciseDisk& disk) const {
+    const auto bridge = bridge_disk(events_.boundary_.originals[place]);
+    if (!bridge) return 0;
+    return exact::further_along(exact_site(site), *bridge, disk).value_or(0);
+  }
+
+  std::optional<PreciseDisk> bridge_disk(std::uint32_t bridge) const {
+    const auto [first, second] = events_.boundary_.bridge_places[bridge];
+    // The hole begins after the first place, where the bridge's disk touches it.
+    return exact::disk_from(events_.boundary_.sites[first + 1].point, outreach,
+                            exact_site(first - 1));
+  }
+
+  const ExactEvents& events_;
+  const exact::SiteLoops& outline_;
+  const Span span_;
+  const Disk from_;
+  std::unordered_set<std::uint32_t> seen_;
+  std::optional<PreciseDisk> best_;
+  std::uint32_t site_ = 0;
+};
+
+std::optional<ExactEvents::Found> ExactEvents::next(const Span& span, const Disk& from,
+                                                    std::uint32_t hint) const {
+  return Search(*this, span, from).run(hint);
+}
+
+}  // namespace medial::disks
+
+#else
+
+namespace medial::disks {
+
+std::optional<ExactSites::Touch> ExactSites::first_touch(Vec2, const Boundary&,
+                                                         std::span<const std::uint32_t>) const {
+  return std::nullopt;
+}
+
+std::optional<ExactEvents::Found> ExactEvents::next(const Span&, const Disk&, std::uint32_t) const {
+  return std::nullopt;
+}
+
+}  // namespace medial::disks
+
+#endif

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <optional>
+
+#include "methods/exact/site_form.h"
+
+namespace medial::exact {
+
+/// Whether the foot of a disk's centre on the carrier of an edge may lie between the edge's ends:
+/// false only where it surely lies beyond one of them. Always true for a vertex.
+bool may_have_foot(const ExactSite& site, const DiskBounds<Precise>& disk);
+
+/// Whether a disk keeps clear of a site, all of it and seen from either side: 1, reaches over it:
+/// -1, or touches it, as far as 256 bits can tell: 0.
+int clearance(const ExactSite& site, const DiskBounds<Precise>& disk);
+
+/// The disk that grows at `foot` in a direction until it touches a site; none where it never does.
+std::optional<DiskBounds<Precise>> disk_from(Vec2 foot, Vec2 direction, const ExactSite& site);
+
+}  // namespace medial::exact
