@@ -63,6 +63,14 @@ std::optional<Vec2> doubtful_place(const Problem& problem) {
   return std::nullopt;
 }
 
+Error refusal_at(std::optional<Vec2> place) {
+  Error error{ErrorCode::unsupported,
+              "rounding alone decides what a disk touches here: use the method disks",
+              {}};
+  error.place.point = place;
+  return error;
+}
+
 struct Attempt {
   MedialAxis axis;
   bool is_certain = false;
@@ -82,9 +90,7 @@ Result<Attempt> attempt(const Problem& problem, std::uint64_t seed, Report* repo
   Context context{outline, tree, problem.fine_tolerance, problem.radius_limit, axis.statistics};
 
   const auto division = divide(context, seed, problem.options);
-  if (!division)
-    return Error{
-        ErrorCode::internal, "a part of the shape cannot be divided: please report this shape", {}};
+  if (!division) return refusal_at(problem.frame.to_input(*context.stuck));
   if (report != nullptr) *report = report_of(*division);
   context.statistics.seconds_walk = watch.lap();
   if (problem.is_cancelled()) return Attempt{std::move(axis), true};
@@ -104,23 +110,19 @@ Result<Attempt> attempt(const Problem& problem, std::uint64_t seed, Report* repo
 Result<MedialAxis> run(const Problem& problem, Report* report) {
   constexpr std::uint64_t most_attempts = 4;
   const std::optional<Vec2> doubtful = doubtful_place(problem);
-  Error refused{ErrorCode::unsupported, "rounding alone decides what a disk touches here", {}};
-  refused.place.point = doubtful;
-  std::optional<Error> broken;
+  std::optional<Error> refused;
   for (std::uint64_t i = 0; i < most_attempts; ++i) {
     auto tried = attempt(problem, problem.own<method::BiarcDc>().seed + i, report);
     if (!tried) {
-      broken = std::move(tried).error();
+      refused = std::move(tried).error();
       continue;
     }
     if ((!doubtful && tried->is_certain) || problem.is_cancelled()) return std::move(tried->axis);
     const auto error = error_if_refused(problem, tried->axis);
     if (!error) return std::move(tried->axis);
-    refused.place = error->place;
-    broken.reset();
+    refused = refusal_at(error->place.point);
   }
-  if (broken && !doubtful) return std::move(*broken);
-  return refused;
+  return std::move(*refused);
 }
 
 }  // namespace medial::biarc_dc

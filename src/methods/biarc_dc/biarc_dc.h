@@ -21,8 +21,8 @@ struct Report {
 
 /// The method `biarc-dc` (docs/biarc-dc.md). Cut short, with any content, where the caller cancels.
 /// An axis that rounding may have misled, or that is not sound (sound.h), is verified; where that
-/// fails the method restarts with another seed. Errors: unsupported, with the place, where no
-/// attempt passes; internal where no disk divides a part of the shape. Expected O(n log n).
+/// fails, or no disk divides a part of the shape, the method restarts with another seed. Error:
+/// unsupported, with the place, where no attempt passes. Expected O(n log n).
 Result<MedialAxis> run(const Problem& problem, Report* report = nullptr);
 
 }  // namespace medial::biarc_dc

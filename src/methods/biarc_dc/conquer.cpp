@@ -134,10 +134,11 @@ class Nodes {
   std::vector<std::uint32_t> parent_;
 };
 
+/// Of a site that a cutting disk divides, both parts count as one.
 bool between_same_sites(const SiteOutline& outline, const Bone& a, const Bone& b) {
   const auto same = [&](std::uint32_t x, std::uint32_t y) {
     return x == y ||
-           (!outline.cutting_disks.empty() && outline.originals[x] == outline.originals[y]);
+           (outline.originals[x] == outline.originals[y] && outline.is_cut(x) && outline.is_cut(y));
   };
   return (same(a.right, b.right) && same(a.left, b.left)) ||
          (same(a.right, b.left) && same(a.left, b.right));

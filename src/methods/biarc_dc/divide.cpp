@@ -56,7 +56,11 @@ class Divider {
         continue;
       }
       const auto base = base_shape_of(subshape, context_.outline, disks_, context_.tolerance);
-      if (!base && !find_parts(subshape)) return false;
+      if (!base && !find_parts(subshape)) {
+        const Element& element = subshape.elements.front();
+        stuck = context_.site(element).at(element.from);
+        return false;
+      }
       if (!base) division.divided_elements += subshape.size();
       list.pop_back();
       if (!base)
@@ -71,6 +75,7 @@ class Divider {
 
   /// The result, once there is nothing left to divide.
   Division division;
+  std::optional<Vec2> stuck;  ///< a place of a sub-shape that no disk divides
   std::vector<Disk>& disks() { return disks_.own; }
   const Statistics& statistics() const { return context_.statistics; }
 
@@ -303,6 +308,9 @@ std::optional<Division> divide(Context& context, std::uint64_t seed, const Optio
     if (options.progress)
       options.progress(static_cast<double>(++finished) / static_cast<double>(tasks.size()));
   });
+  context.stuck = first.stuck;
+  for (const auto& task : tasks)
+    if (!context.stuck) context.stuck = task->stuck;
   if (failed) return std::nullopt;
   for (auto& task : tasks) {
     append(task->division, task->disks(), known.size(), all);

@@ -45,6 +45,7 @@ struct Context {
   double tolerance = 0;     ///< in the local frame
   double radius_limit = 0;  ///< no disk inside the shape is larger
   Statistics statistics{};
+  std::optional<Vec2> stuck{};         ///< a place of a sub-shape that no disk divides, if any
   std::vector<std::uint32_t> found{};  ///< of a search
   std::vector<Touch> touches{};        ///< of a disk,
   std::vector<const Touch*> run{};     ///< and those of one place

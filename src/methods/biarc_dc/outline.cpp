@@ -14,8 +14,8 @@ Boundary boundary_of(const Problem& problem, std::vector<disks::Bridge>& bridges
                      Statistics& statistics) {
   Boundary loops = disks::loops_boundary(problem, false);
   if (problem.shape.hole_count() == 0) return loops;
-  bridges =
-      disks::connecting_disks(problem.shape, loops, problem.fine_tolerance, statistics.queries);
+  bridges = disks::connecting_disks(problem.shape, loops, problem.fine_tolerance, nullptr, 0,
+                                    statistics.queries);
   statistics.bridges = bridges.size();
   return disks::connect(problem.shape, loops, bridges);
 }

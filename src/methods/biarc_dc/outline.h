@@ -32,6 +32,11 @@ struct SiteOutline {
   std::vector<SiteRange> cycles;          ///< one for each component
   std::vector<Disk> cutting_disks;
   std::vector<std::uint32_t> component;  ///< of each cutting disk
+
+  /// Whether a cutting disk's arc is beside a site, which then is mostly a part of one.
+  bool is_cut(std::uint32_t site) const {
+    return disk_after[site] != none || (site > 0 && disk_after[site - 1] != none);
+  }
 };
 
 SiteOutline outline_of(const Problem& problem, Statistics& statistics);

@@ -55,15 +55,13 @@ class Checker {
     return {scale * (from.center + to.center + inner * control.point.center),
             scale * (from.radius + to.radius + inner * control.point.radius)};
   }
-  /// Whether a cutting disk has divided a site: edges at one part may have grown into the other.
-  bool is_cut(std::uint32_t site) const {
-    return outline_.disk_after[site] != none || (site > 0 && outline_.disk_after[site - 1] != none);
-  }
   bool touches_both(const Skeleton::Bone& edge, const Disk& disk) const {
     for (const std::uint32_t site : {edge.right, edge.left}) {
       const site::Site& own = outline_.sites[site];
-      const double away = is_cut(site) ? site::carrier_distance(own, disk.center)
-                                       : std::sqrt(site::squared_distance(own, disk.center));
+      // Edges at one part of a cut site may have grown into the other.
+      const double away = outline_.is_cut(site)
+                              ? site::carrier_distance(own, disk.center)
+                              : std::sqrt(site::squared_distance(own, disk.center));
       if (!(std::abs(away - disk.radius) <= slack_)) return false;
     }
     return true;
