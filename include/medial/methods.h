@@ -48,8 +48,9 @@ struct BiarcDc {
 /// Lee's divide and conquer: merges Voronoi diagrams of lists of segments and reflex vertices.
 struct Lee {};
 
-/// The one with the least processor time for any number of threads (docs/lee.md): `lee` for convex,
-/// nearly convex or smooth polygons without holes; `disks` for all others, and where `lee` fails.
+/// The one with the least processor time for any number of threads (docs/lee.md): `lee` for nearly
+/// convex polygons without holes and smooth ones of at most 20,000 vertices; `disks` for all
+/// others, and where `lee` fails.
 struct Auto {};
 
 /// Ridge following on a grid of pixels, as Volkmann and St. Clair have it.

@@ -31,13 +31,13 @@ Report report_of(const Division& division) {
 
 /// Where rounding alone may decide what disks touch, if anywhere: at an edge so short that its
 /// direction has few digits, at an arc as small, or at arcs of almost one circle, three in a row or
-/// two that turn far. O(n).
+/// two that turn by about half a circle. O(n).
 std::optional<Vec2> doubtful_place(const Problem& problem) {
   const Shape& shape = problem.shape;
   constexpr double few_digits = 0x1p-24;   // of the size
   constexpr double short_edge = 0x1p-6;    // of that
   constexpr double near_circle = 1 << 16;  // tolerances
-  constexpr double far_turn = 0.25;        // the sum of two bulges: about a radian
+  constexpr double far_turn = 0.75;        // the sum of two bulges: about half a circle
   const double least = few_digits * diagonal(problem.box);
   const double near = near_circle * problem.joint_tolerance;
   for (std::size_t loop = 0; loop < shape.loop_count(); ++loop) {
