@@ -65,7 +65,7 @@ std::optional<Vec2> doubtful_place(const Problem& problem) {
 
 Error refusal_at(std::optional<Vec2> place) {
   Error error{ErrorCode::unsupported,
-              "rounding alone decides what a disk touches here: use the method disks",
+              "what a disk touches here depends on rounding alone: use the method disks",
               {}};
   error.place.point = place;
   return error;

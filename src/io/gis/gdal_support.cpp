@@ -1,0 +1,218 @@
+#include "io/gis/gdal_support.h"
+
+#include <cpl_vsi.h>
+#include <fmt/format.h>
+#include <gdal_priv.h>
+#include <ogr_geometry.h>
+#include <ogr_spatialref.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <mutex>
+
+#include "io/reference_system.h"
+#include "io/ring_text.h"
+
+namespace medial::io {
+
+namespace {
+
+/// Appends the points of a piece of a ring; its first one is the last of the piece before.
+void add_curve(const OGRSimpleCurve& curve, Ring& ring) {
+  std::vector<Vec2> points;
+  points.reserve(static_cast<std::size_t>(curve.getNumPoints()));
+  for (int i = 0; i < curve.getNumPoints(); ++i) points.push_back({curve.getX(i), curve.getY(i)});
+  add_piece(points, wkbFlatten(curve.getGeometryType()) == wkbCircularString, ring);
+}
+
+void add_ring(const OGRCurve& source, Ring& ring) {
+  if (wkbFlatten(source.getGeometryType()) == wkbCompoundCurve) {
+    for (const OGRCurve* part : *source.toCompoundCurve()) add_curve(*part->toSimpleCurve(), ring);
+  } else {
+    add_curve(*source.toSimpleCurve(), ring);
+  }
+}
+
+void add_polygon(const OGRCurvePolygon& polygon, std::vector<Ring>& rings) {
+  RingRole role = RingRole::outer;
+  for (const OGRCurve* source : polygon) {
+    Ring& ring = rings.emplace_back();
+    ring.role = role;
+    role = RingRole::hole;
+    add_ring(*source, ring);
+  }
+}
+
+}  // namespace
+
+void register_gdal() {
+  static std::once_flag once;
+  std::call_once(once, [] {
+    // Nothing is written beside what is read.
+    CPLSetConfigOption("CPL_VSIL_GZIP_WRITE_PROPERTIES", "NO");
+    GDALAllRegister();
+  });
+}
+
+MemoryFile::MemoryFile(std::string& bytes)
+    : name_(fmt::format("/vsimem/medial_{}", static_cast<const void*>(&bytes))) {
+  VSILFILE* file = VSIFileFromMemBuffer(name_.c_str(), reinterpret_cast<GByte*>(bytes.data()),
+                                        bytes.size(), FALSE);
+  if (file == nullptr)
+    name_.clear();
+  else
+    VSIFCloseL(file);
+}
+
+MemoryFile::~MemoryFile() {
+  if (!name_.empty()) VSIUnlink(name_.c_str());
+}
+
+GdalMessages::GdalMessages() { CPLPushErrorHandlerEx(&GdalMessages::collect, this); }
+
+GdalMessages::~GdalMessages() {
+  CPLPopErrorHandler();
+  CPLErrorReset();
+}
+
+void CPL_STDCALL GdalMessages::collect(CPLErr level, CPLErrorNum, const char* text) {
+  auto* self = static_cast<GdalMessages*>(CPLGetErrorHandlerUserData());
+  if (level == CE_Debug || level == CE_None) return;
+  std::string line = text;
+  std::ranges::replace_if(
+      line, [](unsigned char c) { return c < ' '; }, ' ');
+  while (!line.empty() && (line.back() == '.' || line.back() == ' ')) line.pop_back();
+  constexpr std::size_t enough = 20;  // a broken file can warn at each of its features
+  if (level == CE_Warning) {
+    if (self->warnings_.size() < enough &&
+        std::ranges::find(self->warnings_, line) == self->warnings_.end()) {
+      self->warnings_.push_back(std::move(line));
+    }
+  } else if (self->failure_.empty()) {
+    self->failure_ = std::move(line);
+  }
+}
+
+namespace {
+
+/// Appends a point or a line; false where the geometry is neither.
+bool add_chain(const OGRGeometry& part, std::vector<Chain>& chains) {
+  switch (wkbFlatten(part.getGeometryType())) {
+    case wkbPoint: {
+      const OGRPoint* point = part.toPoint();
+      if (!point->IsEmpty()) chains.push_back({{{point->getX(), point->getY()}}});
+      return true;
+    }
+    case wkbLineString:
+    case wkbCircularString:
+    case wkbCompoundCurve: {
+      Ring line;
+      add_ring(*part.toCurve(), line);
+      if (!line.points.empty())
+        chains.push_back({std::move(line.points), std::move(line.bulges), false});
+      return true;
+    }
+    default:
+      return false;
+  }
+}
+
+}  // namespace
+
+void add_loose(const OGRGeometry& geometry, Feature& feature, GeometryCounts& counts) {
+  std::vector<const OGRGeometry*> waiting{&geometry};
+  while (!waiting.empty()) {
+    const OGRGeometry* part = waiting.back();
+    waiting.pop_back();
+    if (add_chain(*part, feature.chains)) continue;
+    const OGRwkbGeometryType type = wkbFlatten(part->getGeometryType());
+    if (type == wkbMultiPoint || type == wkbMultiLineString || type == wkbMultiCurve ||
+        type == wkbGeometryCollection) {
+      const OGRGeometryCollection* collection = part->toGeometryCollection();
+      for (int i = collection->getNumGeometries(); i > 0; --i)
+        waiting.push_back(collection->getGeometryRef(i - 1));
+      continue;
+    }
+    add_rings(*part, feature.rings, counts);
+  }
+}
+
+void add_rings(const OGRGeometry& geometry, std::vector<Ring>& rings, GeometryCounts& counts) {
+  std::vector<const OGRGeometry*> waiting{&geometry};
+  while (!waiting.empty()) {
+    const OGRGeometry* part = waiting.back();
+    waiting.pop_back();
+    switch (wkbFlatten(part->getGeometryType())) {
+      case wkbPolygon:
+      case wkbTriangle:
+      case wkbCurvePolygon:
+        add_polygon(*part->toCurvePolygon(), rings);
+        break;
+      case wkbMultiPolygon:
+      case wkbMultiSurface:
+      case wkbGeometryCollection: {
+        const OGRGeometryCollection* collection = part->toGeometryCollection();
+        for (int i = collection->getNumGeometries(); i > 0; --i) {
+          waiting.push_back(collection->getGeometryRef(i - 1));
+        }
+        break;
+      }
+      default:
+        ++counts.others;
+    }
+  }
+}
+
+namespace {
+
+void describe_units(const OGRSpatialReference& reference, Document<Feature>& dataset) {
+  dataset.geographic = reference.IsGeographic() != 0;
+  if (dataset.geographic)
+    dataset.unit = Unit::degree;
+  else
+    dataset.unit = unit_of_length(1e3 * reference.GetLinearUnits());
+}
+
+}  // namespace
+
+void set_crs(const OGRSpatialReference& reference, Document<Feature>& dataset) {
+  char* text = nullptr;
+  const char* const options[] = {"FORMAT=WKT2_2019", "MULTILINE=NO", nullptr};
+  if (reference.exportToWkt(&text, options) == OGRERR_NONE && text != nullptr) {
+    dataset.crs_wkt = text;
+    describe_units(reference, dataset);
+  }
+  CPLFree(text);
+}
+
+Status describe_crs(const std::string& name, Document<Feature>& dataset) {
+  const GdalMessages messages;
+  OGRSpatialReference reference;
+  if (reference.SetFromUserInput(
+          name.c_str(), OGRSpatialReference::SET_FROM_USER_INPUT_LIMITATIONS_get()) != OGRERR_NONE)
+    return Error{ErrorCode::invalid_option,
+                 fmt::format("'{}' does not name a reference system; use EPSG:n or WKT", name),
+                 {}};
+  set_crs(reference, dataset);
+  return success();
+}
+
+void describe_crs(Document<Feature>& dataset) {
+  const std::string& name = dataset.crs_wkt;
+  if (name.empty() || dataset.geographic || dataset.unit != Unit::unknown) return;
+  const GdalMessages messages;
+  OGRSpatialReference reference;
+  const bool coded = name.starts_with("EPSG:");
+  if (coded && reference.importFromEPSG(std::atoi(name.c_str() + 5)) == OGRERR_NONE) {
+    set_crs(reference, dataset);
+  } else if (coded) {
+    dataset.notes.push_back(fmt::format("the reference system {} is not known", name));
+    dataset.crs_wkt.clear();
+  } else if (reference.importFromWkt(name.c_str()) == OGRERR_NONE) {
+    describe_units(reference, dataset);
+  } else {
+    dataset.notes.push_back("the reference system is not understood");
+  }
+}
+
+}  // namespace medial::io

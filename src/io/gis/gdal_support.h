@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cpl_error.h>
+
+#include <string>
+#include <vector>
+
+#include "medial/io/read.h"
+
+class OGRGeometry;
+class OGRSpatialReference;
+
+namespace medial::io {
+
+/// Registers GDAL's drivers, once.
+void register_gdal();
+
+/// Collects what GDAL reports on this thread while the object lives; nothing is printed.
+class GdalMessages {
+ public:
+  GdalMessages();
+  ~GdalMessages();
+  GdalMessages(const GdalMessages&) = delete;
+  GdalMessages& operator=(const GdalMessages&) = delete;
+
+  /// The first failure, in GDAL's words on one line; empty if there was none.
+  const std::string& failure() const { return failure_; }
+  /// Different warnings, in order.
+  const std::vector<std::string>& warnings() const { return warnings_; }
+
+ private:
+  static void CPL_STDCALL collect(CPLErr level, CPLErrorNum number, const char* text);
+  std::string failure_;
+  std::vector<std::string> warnings_;
+};
+
+/// Bytes as a file in memory, as long as both live.
+class MemoryFile {
+ public:
+  explicit MemoryFile(std::string& bytes);
+  ~MemoryFile();
+  MemoryFile(const MemoryFile&) = delete;
+  MemoryFile& operator=(const MemoryFile&) = delete;
+  /// Empty where there is none.
+  const std::string& name() const { return name_; }
+
+ private:
+  std::string name_;
+};
+
+/// What a geometry held besides polygons.
+struct GeometryCounts {
+  std::uint64_t others = 0;  ///< geometries that are no polygons
+};
+
+/// Appends the rings of all polygons in a geometry, outer rings before their holes. Circular arcs
+/// stay arcs.
+void add_rings(const OGRGeometry& geometry, std::vector<Ring>& rings, GeometryCounts& counts);
+
+/// The same for a planar graph: also its lines, open or closed, and points, as chains.
+void add_loose(const OGRGeometry& geometry, Feature& feature, GeometryCounts& counts);
+
+/// Sets crs_wkt, geographic and the unit; a reference system that is not understood becomes a note.
+void set_crs(const OGRSpatialReference& reference, Document<Feature>& dataset);
+
+}  // namespace medial::io

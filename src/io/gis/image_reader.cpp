@@ -1,0 +1,589 @@
+#include <fmt/format.h>
+#include <gdal_priv.h>
+#include <ogr_spatialref.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <memory>
+#include <string_view>
+
+#include "io/format.h"
+#include "io/gis/gdal_support.h"
+#include "io/gis/rasters.h"
+#include "io/guarded.h"
+#include "io/place.h"
+#include "io/text_source.h"
+#include "medial/io/read.h"
+
+namespace medial::io {
+
+namespace {
+
+constexpr std::size_t image_sniffed = 12;
+constexpr std::size_t png_header = 4096;  // what a PNG says of itself stands before
+constexpr std::size_t longest_image = std::size_t{1} << 32U;
+
+bool begins_like_pnm(std::string_view text) {
+  return text.size() > 2 && text[0] == 'P' &&
+         (text[1] == '1' || text[1] == '2' || text[1] == '4' || text[1] == '5') &&
+         (text[2] == '#' || std::isspace(static_cast<unsigned char>(text[2])));
+}
+
+bool begins_like_raster(std::string_view text) {
+  using namespace std::string_view_literals;
+  return text.starts_with("\x89PNG\r\n\x1a\n"sv) || text.starts_with("II*\0"sv) ||
+         text.starts_with("MM\0*"sv) || text.starts_with("II+\0"sv) ||
+         text.starts_with("MM\0+"sv) || text.starts_with("\xff\xd8\xff"sv) ||
+         text.starts_with("GIF8"sv) ||
+         (text.starts_with("BM"sv) && text.size() > 9 && text.substr(6, 4) == "\0\0\0\0"sv) ||
+         (text.starts_with("RIFF"sv) && text.size() > 11 && text.substr(8, 4) == "WEBP"sv);
+}
+
+/// What the pixels of an image hold, as far as the choice of a threshold needs it.
+class Values {
+ public:
+  void add(double value) {
+    if (value == last_ || std::isnan(value)) return;
+    last_ = value;
+    if (different_ < 3 &&
+        std::find(some_.begin(), some_.begin() + different_, value) == some_.begin() + different_)
+      some_[static_cast<std::size_t>(different_++)] = value;
+    largest_ = std::max(largest_, value);
+  }
+  /// A mask of zeros and ones has its foreground in the ones.
+  bool is_mask() const { return largest_ == 1 && different_ <= 2; }
+  std::vector<std::string> notes(double threshold) const {
+    if (different_ < 3) return {};
+    return {
+        fmt::format("the image has more than two values: pixels of at least {:g} are its "
+                    "foreground; --threshold chooses another, --labels takes each value for "
+                    "a feature",
+                    threshold)};
+  }
+
+ private:
+  std::array<double, 3> some_{};
+  int different_ = 0;
+  double largest_ = 0;
+  double last_ = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// Of each pixel the value as a label, row by row; 0 is background.
+using Labels = std::vector<std::uint32_t>;
+
+Error too_large_image(std::uint64_t width, std::uint64_t height) {
+  return {ErrorCode::too_large,
+          fmt::format("{} x {} pixels: the diagonal must be below 2^16 pixels", width, height),
+          {}};
+}
+
+/// Portable bitmaps and graymaps, plain and raw.
+class PnmReader {
+ public:
+  PnmReader(TextSource& source, const ImageOptions& options) : source_(source), options_(options) {}
+
+  Result<ImageFile> read(Labels& labels) {
+    Result<Image> image = read_values();
+    if (!image) return image.error();
+    ImageFile file;
+    file.image = std::move(*image);
+    if (values_.empty()) return file;
+    Values seen;
+    std::ranges::for_each(values_, [&](std::uint16_t value) { seen.add(value); });
+    if (!options_.threshold && seen.is_mask()) threshold_ = 1;
+    if (!options_.threshold && !options_.labels) file.notes = seen.notes(threshold_);
+    if (options_.labels) labels.assign(values_.begin(), values_.end());
+    for (std::size_t i = 0; i < values_.size(); ++i)
+      if (options_.labels ? values_[i] > 0 : is_foreground(values_[i]))
+        file.image.set(static_cast<std::uint32_t>(i % file.image.width()),
+                       static_cast<std::uint32_t>(i / file.image.width()));
+    return file;
+  }
+
+ private:
+  /// Bitmaps as an image; graymaps as values_, and an empty image of their size.
+  Result<Image> read_values() {
+    source_.skip();
+    const char kind = static_cast<char>(source_.peek());
+    source_.skip();
+    const bool bits = kind == '1' || kind == '4';
+    std::uint64_t width = 0, height = 0, largest = 1;
+    if (!read_count(width) || !read_count(height) || (!bits && !read_count(largest)))
+      return source_.error(ErrorCode::malformed, "the header is broken");
+    if (width == 0 || height == 0) return source_.error(ErrorCode::malformed, "without any pixel");
+    if (!fits_image(width, height)) return too_large_image(width, height);
+    if (largest == 0 || largest > 65535)
+      return source_.error(ErrorCode::malformed, "the largest value must be in [1, 65535]");
+    threshold_ = options_.threshold.value_or(0.5 * static_cast<double>(largest + 1));
+    Image image(static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height));
+    if (kind == '1' || kind == '2') return read_plain(std::move(image), bits, largest);
+    return read_raw(std::move(image), bits, largest);
+  }
+
+  bool is_foreground(double value) const { return (value >= threshold_) != options_.invert; }
+
+  void skip_space_and_comments() {
+    source_.skip_space();
+    while (source_.peek() == '#') {
+      while (source_.peek() != -1 && source_.peek() != '\n') source_.skip();
+      source_.skip_space();
+    }
+  }
+
+  bool read_count(std::uint64_t& value) {
+    skip_space_and_comments();
+    if (source_.peek() < '0' || source_.peek() > '9') return false;
+    value = 0;
+    while (source_.peek() >= '0' && source_.peek() <= '9') {
+      value = value * 10 + static_cast<std::uint64_t>(source_.peek() - '0');
+      if (value > 1'000'000'000) return false;
+      source_.skip();
+    }
+    return true;
+  }
+
+  Result<Image> read_plain(Image image, bool bits, std::uint64_t largest) {
+    for (std::uint32_t y = 0; y < image.height(); ++y) {
+      for (std::uint32_t x = 0; x < image.width(); ++x) {
+        std::uint64_t value = 0;
+        if (bits) {  // digits need nothing between them
+          skip_space_and_comments();
+          if (source_.peek() != '0' && source_.peek() != '1')
+            return source_.error(ErrorCode::malformed,
+                                 "expected 0 or 1 instead of " + source_.next_as_text());
+          value = source_.peek() == '1';
+          source_.skip();
+        } else if (!read_count(value) || value > largest) {
+          return source_.error(ErrorCode::malformed, "expected a value up to the largest one");
+        }
+        put(bits, static_cast<std::uint16_t>(value), x, y, image);
+      }
+    }
+    return image;
+  }
+
+  void put(bool bits, std::uint16_t value, std::uint32_t x, std::uint32_t y, Image& image) {
+    if (!bits)
+      values_.push_back(value);
+    else if (is_foreground(value))
+      image.set(x, y);
+  }
+
+  Result<Image> read_raw(Image image, bool bits, std::uint64_t largest) {
+    if (source_.peek() == -1)
+      return source_.error(ErrorCode::malformed, "the file ends in its header");
+    source_.skip();
+    const std::size_t value_bytes = bits ? 0 : largest > 255 ? 2 : 1;
+    const std::size_t row_bytes =
+        bits ? (std::size_t{image.width()} + 7) / 8 : value_bytes * image.width();
+    std::string bytes;
+    source_.read_all(bytes, row_bytes * image.height());
+    if (source_.failure()) return *source_.failure();
+    if (bytes.size() < row_bytes * image.height())
+      return source_.error(ErrorCode::malformed, "the file ends before its last pixel");
+    for (std::uint32_t y = 0; y < image.height(); ++y) {
+      const auto* const row = reinterpret_cast<const unsigned char*>(bytes.data()) + y * row_bytes;
+      for (std::uint32_t x = 0; x < image.width(); ++x) {
+        const unsigned value = bits               ? row[x / 8] >> (7 - x % 8) & 1U
+                               : value_bytes == 1 ? row[x]
+                                                  : row[2UL * x] * 256U + row[2UL * x + 1];
+        put(bits, static_cast<std::uint16_t>(value), x, y, image);
+      }
+    }
+    return image;
+  }
+
+  TextSource& source_;
+  const ImageOptions& options_;
+  double threshold_ = 0;
+  std::vector<std::uint16_t> values_;
+};
+
+/// The bands of a raster, and how they tell foreground.
+class Bands {
+ public:
+  Bands(GDALDataset& dataset, const ImageOptions& options) : options_(options) {
+    const int count = dataset.GetRasterCount();
+    for (int i = 1; i <= count; ++i) {
+      GDALRasterBand* const band = dataset.GetRasterBand(i);
+      if (band->GetColorInterpretation() == GCI_AlphaBand) {
+        alpha_ = band;
+      } else if (colors_.size() < 3) {
+        colors_.push_back(band);
+      }
+    }
+    if (colors_.size() == 2) colors_.pop_back();
+    if (colors_.empty()) return;
+    table_ = colors_[0]->GetColorTable();
+    nodata_ = colors_[0]->GetNoDataValue(&has_nodata_);
+    threshold_ = options.threshold.value_or(default_threshold());
+  }
+
+  bool usable() const {
+    return !colors_.empty() && GDALDataTypeIsComplex(colors_[0]->GetRasterDataType()) == 0;
+  }
+
+  /// Whether the rows [y, y + count) could be read into the image.
+  bool read(int y, int count, Image& image) {
+    const auto width = static_cast<int>(image.width());
+    const std::size_t pixels = image.width() * static_cast<std::size_t>(count);
+    values_.resize(pixels);
+    if (colors_.size() == 1) {
+      if (!read_band(*colors_[0], y, count, width, values_)) return false;
+    } else {
+      std::fill(values_.begin(), values_.end(), 0);
+      constexpr std::array luminance = {0.299, 0.587, 0.114};
+      for (std::size_t c = 0; c < colors_.size(); ++c) {
+        if (!read_band(*colors_[c], y, count, width, part_)) return false;
+        for (std::size_t i = 0; i < pixels; ++i) values_[i] += luminance[c] * part_[i];
+      }
+    }
+    if (alpha_ != nullptr && !read_band(*alpha_, y, count, width, part_)) return false;
+    for (std::size_t i = 0; i < pixels; ++i) {
+      if (alpha_ != nullptr && part_[i] < half_alpha()) continue;
+      if (!is_nodata(values_[i])) seen_.add(luminance_of(values_[i]));
+      if (!is_foreground(values_[i])) continue;
+      image.set(static_cast<std::uint32_t>(i % image.width()),
+                static_cast<std::uint32_t>(y) + static_cast<std::uint32_t>(i / image.width()));
+    }
+    return true;
+  }
+
+  /// Whether what was read was a mask of zeros and ones, which is to be read again.
+  bool has_become_mask() {
+    if (options_.threshold || options_.labels || threshold_ <= 1 || !seen_.is_mask()) return false;
+    threshold_ = 1;
+    return true;
+  }
+  std::vector<std::string> notes() const {
+    return options_.threshold || options_.labels ? std::vector<std::string>()
+                                                 : seen_.notes(threshold_);
+  }
+
+  /// Whether the values of the first band could be appended.
+  bool append_labels(int y, int count, int width, Labels& labels) {
+    if (!read_band(*colors_[0], y, count, width, part_)) return false;
+    for (const double value : part_)
+      labels.push_back(is_nodata(value) || !(value >= 0.5 && value < 4294967295.0)
+                           ? 0
+                           : static_cast<std::uint32_t>(std::lround(value)));
+    return true;
+  }
+
+ private:
+  static bool read_band(GDALRasterBand& band, int y, int count, int width,
+                        std::vector<double>& values) {
+    values.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(count));
+    return band.RasterIO(GF_Read, 0, y, width, count, values.data(), width, count, GDT_Float64, 0,
+                         0, nullptr) == CE_None;
+  }
+
+  /// Half of one more than the largest value of a type.
+  static double half_range(GDALRasterBand& band) {
+    if (const char* bits = band.GetMetadataItem("NBITS", "IMAGE_STRUCTURE"))
+      return std::ldexp(0.5, std::clamp(std::atoi(bits), 1, 32));
+    switch (band.GetRasterDataType()) {
+      case GDT_Byte:
+        return 128;
+      case GDT_UInt16:
+      case GDT_Int16:
+        return 32768 / (band.GetRasterDataType() == GDT_Int16 ? 2.0 : 1.0);
+      case GDT_UInt32:
+        return 2147483648.0;
+      case GDT_Int32:
+        return 1073741824.0;
+      default:
+        return 0.5;
+    }
+  }
+  double default_threshold() const { return table_ != nullptr ? 128 : half_range(*colors_[0]); }
+  double half_alpha() const { return half_range(*alpha_); }
+
+  bool is_nodata(double value) const {
+    if (has_nodata_ != 0 && value == nodata_ && table_ == nullptr) return true;
+    return std::isnan(value);
+  }
+  /// Of a table of colours that of the entry; nothing where it is transparent.
+  double luminance_of(double value) const {
+    if (table_ == nullptr) return value;
+    const GDALColorEntry* entry = value >= 0 && value < table_->GetColorEntryCount()
+                                      ? table_->GetColorEntry(static_cast<int>(value))
+                                      : nullptr;
+    if (entry == nullptr || entry->c4 < 128) return std::numeric_limits<double>::quiet_NaN();
+    return 0.299 * entry->c1 + 0.587 * entry->c2 + 0.114 * entry->c3;
+  }
+  bool is_foreground(double value) const {
+    if (is_nodata(value)) return false;
+    if (options_.labels) return value != 0;
+    value = luminance_of(value);
+    return !std::isnan(value) && (value >= threshold_) != options_.invert;
+  }
+
+  const ImageOptions& options_;
+  std::vector<GDALRasterBand*> colors_;
+  GDALRasterBand* alpha_ = nullptr;
+  const GDALColorTable* table_ = nullptr;
+  double nodata_ = 0;
+  int has_nodata_ = 0;
+  double threshold_ = 0;
+  Values seen_;
+  std::vector<double> values_, part_;
+};
+
+/// What a PNG says of its resolution, before its first pixels (the chunk pHYs).
+double dots_per_inch_of_png(std::string_view bytes) {
+  using namespace std::string_view_literals;
+  const auto number = [&](std::size_t at) {
+    std::uint32_t value = 0;
+    for (std::size_t i = at; i < at + 4; ++i)
+      value = value << 8U | static_cast<unsigned char>(bytes[i]);
+    return value;
+  };
+  constexpr std::size_t signature = 8, frame = 12, header = 8, size = 9;
+  constexpr double inches_per_metre = 1 / 0.0254;
+  if (!bytes.starts_with("\x89PNG"sv)) return 0;
+  for (std::size_t at = signature; at + header + size <= bytes.size(); at += frame + number(at)) {
+    const std::string_view name = bytes.substr(at + 4, 4), data = bytes.substr(at + header);
+    if (name == "IDAT") break;
+    if (name != "pHYs" || data[size - 1] != 1) continue;
+    const std::uint32_t across = number(at + header), down = number(at + header + 4);
+    return across == down ? across / inches_per_metre : 0;
+  }
+  return 0;
+}
+
+/// The same of a TIFF.
+double dots_per_inch_of(GDALDataset& dataset) {
+  const char* across = dataset.GetMetadataItem("TIFFTAG_XRESOLUTION");
+  const char* down = dataset.GetMetadataItem("TIFFTAG_YRESOLUTION");
+  const char* unit = dataset.GetMetadataItem("TIFFTAG_RESOLUTIONUNIT");
+  if (across == nullptr || down == nullptr || unit == nullptr || !EQUAL(across, down)) return 0;
+  const double dots = CPLAtof(across);
+  constexpr double centimetres_per_inch = 2.54;
+  return unit[0] == '2' ? dots : unit[0] == '3' ? dots * centimetres_per_inch : 0;
+}
+
+/// All rows into the image and, if asked for, the labels. What is wrong, or nothing.
+const char* read_rows(Bands& bands, const ImageOptions& options, Image& image, Labels& labels) {
+  constexpr int rows_at_once = 64;
+  const auto width = static_cast<int>(image.width()), height = static_cast<int>(image.height());
+  for (int y = 0; y < height; y += rows_at_once) {
+    const int count = std::min(rows_at_once, height - y);
+    if (!bands.read(y, count, image) ||
+        (options.labels && !bands.append_labels(y, count, width, labels)))
+      return "its pixels cannot be read";
+  }
+  return nullptr;
+}
+
+Result<ImageFile> read_raster(const std::string& name, const ImageOptions& options,
+                              Labels& labels) {
+  register_gdal();
+  const GdalMessages messages;
+  const auto failure = [&messages](const char* otherwise) {
+    return messages.failure().empty() ? std::string(otherwise) : messages.failure();
+  };
+  const char* const drivers[] = {"PNG", "GTiff", "JPEG", "BMP", "WEBP", "GIF", nullptr};
+  const std::unique_ptr<GDALDataset> dataset(GDALDataset::Open(
+      name.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, drivers));
+  if (!dataset) return Error{ErrorCode::malformed, failure("this is no image"), {}};
+  const auto width = static_cast<std::uint64_t>(dataset->GetRasterXSize());
+  const auto height = static_cast<std::uint64_t>(dataset->GetRasterYSize());
+  if (!fits_image(width, height)) return too_large_image(width, height);
+  ImageFile file;
+  Bands bands(*dataset, options);
+  if (!bands.usable()) return Error{ErrorCode::unsupported, "its pixels are not numbers", {}};
+  do {
+    file.image = Image(static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height));
+    const char* problem = read_rows(bands, options, file.image, labels);
+    if (problem != nullptr || !messages.failure().empty())
+      return Error{ErrorCode::malformed, failure(problem), {}};
+  } while (bands.has_become_mask());
+  PixelPlacement placement = unplaced;
+  if (dataset->GetGeoTransform(placement.data()) == CE_None) {
+    if (!std::ranges::all_of(placement, [](double t) { return std::isfinite(t); }) ||
+        placement[1] * placement[5] == placement[2] * placement[4])
+      return Error{ErrorCode::malformed, "its pixels lie nowhere: the placement is degenerate", {}};
+    file.placement = placement;
+  }
+  if (const OGRSpatialReference* reference = dataset->GetSpatialRef()) {
+    Document<Feature> described;
+    set_crs(*reference, described);
+    file.crs_wkt = std::move(described.crs_wkt);
+    file.geographic = described.geographic;
+  }
+  file.dots_per_inch = dots_per_inch_of(*dataset);
+  file.notes = messages.warnings();
+  std::ranges::move(bands.notes(), std::back_inserter(file.notes));
+  return file;
+}
+
+bool begins_like_image(std::string_view text) {
+  return begins_like_pnm(text) || begins_like_raster(text);
+}
+
+Result<ImageFile> read_pixels(const Input& input, const ImageOptions& options, Labels& labels) {
+  TextSource& source = *input.source;
+  const std::string_view beginning = source.lookahead(image_sniffed);
+  if (source.failure()) return *source.failure();
+  if (begins_like_pnm(beginning)) return PnmReader(source, options).read(labels);
+  if (beginning.empty()) return Error{ErrorCode::empty, "there is nothing to read", {}};
+  if (!begins_like_raster(beginning))
+    return Error{
+        ErrorCode::unsupported, "this is not a PNG, JPEG, BMP, WebP, GIF, TIFF, PBM or PGM", {}};
+  const double dots = dots_per_inch_of_png(source.lookahead(png_header));
+  const auto read = [&](const std::string& name) {
+    Result<ImageFile> file = read_raster(name, options, labels);
+    if (file && dots > 0) file->dots_per_inch = dots;
+    return file;
+  };
+  if (input.path != "-") return read(input.path);
+  std::string bytes;
+  source.read_all(bytes, longest_image);
+  if (bytes.size() > longest_image)
+    return Error{ErrorCode::too_large, "more than 4 GiB on standard input", {}};
+  const MemoryFile file(bytes);
+  if (file.name().empty()) return Error{ErrorCode::unreadable, "cannot be kept in memory", {}};
+  return read(file.name());
+}
+
+/// An image with a foreground.
+Result<ImageFile> read_foreground(const Input& input, const ImageOptions& options, Labels& labels) {
+  return guarded(input.path, [&]() -> Result<ImageFile> {
+    Result<ImageFile> file = read_pixels(input, options, labels);
+    if (file && file->image.count() == 0)
+      return Error{ErrorCode::empty,
+                   options.invert ? "no pixel is below the threshold, so there is no foreground"
+                                  : "no pixel reaches the threshold, so there is no foreground; "
+                                    "--threshold chooses another, --labels takes each value for a "
+                                    "feature",
+                   {}};
+    return file;
+  });
+}
+
+/// The outline of an image's foreground, moved by an offset.
+Result<Feature> outline_of(const Image& image, Vec2 offset, const ReadOptions& options) {
+  Feature feature;
+  const auto move = [offset](std::vector<Vec2>& points) {
+    for (Vec2& p : points) p = p + offset;
+  };
+  if (options.smooth_contour) {
+    Result<std::vector<Contour>> contours = smooth_outline(image);
+    if (!contours) return contours.error();
+    feature.contours = std::move(*contours);
+    for (Contour& contour : feature.contours) move(contour.points);
+  } else {
+    Result<std::vector<Ring>> rings = pixel_outline(image);
+    if (!rings) return rings.error();
+    feature.rings = std::move(*rings);
+    for (Ring& ring : feature.rings) move(ring.points);
+  }
+  return feature;
+}
+
+/// A part of a label image.
+struct Region {
+  std::uint32_t left, top, right, bottom;  ///< inclusive
+};
+
+std::map<std::uint32_t, Region> regions_of(std::span<const std::uint32_t> labels,
+                                           std::uint32_t width) {
+  std::map<std::uint32_t, Region> regions;
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    if (labels[i] == 0) continue;
+    const auto x = static_cast<std::uint32_t>(i % width), y = static_cast<std::uint32_t>(i / width);
+    Region& region = regions.try_emplace(labels[i], Region{x, y, x, y}).first->second;
+    region.left = std::min(region.left, x);
+    region.right = std::max(region.right, x);
+    region.bottom = y;
+  }
+  return regions;
+}
+
+/// A feature for each label.
+Status add_labelled(std::span<const std::uint32_t> labels, std::uint32_t width,
+                    const ReadOptions& options, std::vector<Feature>& features) {
+  for (const auto& [label, region] : regions_of(labels, width)) {
+    Image part(region.right - region.left + 1, region.bottom - region.top + 1);
+    for (std::uint32_t y = 0; y < part.height(); ++y)
+      for (std::uint32_t x = 0; x < part.width(); ++x)
+        if (labels[std::size_t{region.top + y} * width + region.left + x] == label) part.set(x, y);
+    auto feature = outline_of(
+        part, {static_cast<double>(region.left), static_cast<double>(region.top)}, options);
+    if (!feature) return std::move(feature).error();
+    feature->id = label;
+    feature->attributes = {{"value", std::to_string(label)}};
+    features.push_back(std::move(*feature));
+  }
+  return success();
+}
+
+Result<Document<Feature>> read_outline(const Input& input, const ReadOptions& options) {
+  if (options.repair != RepairRule::none)
+    return Error{ErrorCode::invalid_option, "--repair is not for images", in_file(input.path)};
+  Labels labels;
+  Result<ImageFile> file = read_foreground(input, options.image, labels);
+  if (!file) return file.error();
+  return outline_document(std::move(*file), labels, options);
+}
+
+}  // namespace
+
+Result<Document<Feature>> outline_document(ImageFile file, std::span<const std::uint32_t> labels,
+                                           const ReadOptions& options) {
+  const PixelPlacement& t = file.placement;
+  Document<Feature> dataset;
+  dataset.crs_wkt = std::move(file.crs_wkt);
+  dataset.geographic = file.geographic;
+  dataset.y_down = !file.placed();
+  if (!file.placed()) dataset.unit = Unit::pixel;
+  dataset.dots_per_inch = file.dots_per_inch;
+  dataset.notes = std::move(file.notes);
+  if (!labels.empty()) {
+    Status added = add_labelled(labels, file.image.width(), options, dataset.items);
+    if (!added) return std::move(added).error();
+  } else {
+    auto feature = outline_of(file.image, {0, 0}, options);
+    if (!feature) return std::move(feature).error();
+    dataset.items.push_back(std::move(*feature));
+  }
+  const auto place = [&t](std::vector<Vec2>& points) {
+    for (Vec2& p : points) p = {t[0] + p.x * t[1] + p.y * t[2], t[3] + p.x * t[4] + p.y * t[5]};
+  };
+  if (file.placed())
+    for (Feature& feature : dataset.items) {
+      for (Contour& contour : feature.contours) place(contour.points);
+      for (Ring& ring : feature.rings) place(ring.points);
+    }
+  const bool square =
+      t[1] * t[1] + t[4] * t[4] == t[2] * t[2] + t[5] * t[5] && t[1] * t[2] + t[4] * t[5] == 0;
+  if (square && !options.project) dataset.pixel = std::hypot(t[1], t[4]);
+  return dataset;
+}
+
+Format image_format() {
+  Format format;
+  format.read = read_outline;
+  format.sniff = begins_like_image;
+  format.by_content = true;
+  return format;
+}
+
+Result<ImageFile> read_image(const std::string& path, const ImageOptions& options) {
+  Result<std::shared_ptr<TextSource>> source = TextSource::open(path);
+  if (!source) return source.error();
+  if (options.labels)
+    return Error{ErrorCode::invalid_option, "labels make features, not one image", in_file(path)};
+  Labels none;
+  return read_foreground({path, *source}, options, none);
+}
+
+bool is_image(const std::string& path) {
+  const Result<std::shared_ptr<TextSource>> source = TextSource::open(path);
+  return source && begins_like_image((*source)->lookahead(image_sniffed));
+}
+
+}  // namespace medial::io
