@@ -33,8 +33,7 @@ namespace method {
 /// Walks along the axis and searches a tree over the boundary: the fastest.
 struct Disks {};
 
-/// The randomised divide and conquer of Aichholzer et al., with their balanced cuts: O(n log n)
-/// expected.
+/// The randomised divide and conquer of Aichholzer et al., with balanced cuts: O(n log n) expected.
 struct BiarcDc {
   std::uint64_t seed = 1;  ///< the same seed gives the same result, byte for byte
 };
@@ -42,9 +41,8 @@ struct BiarcDc {
 /// Lee's divide and conquer: merges Voronoi diagrams of lists of segments and reflex vertices.
 struct Lee {};
 
-/// The one with the least processor time for any number of threads (docs/lee.md): `lee` for nearly
-/// convex polygons without holes and smooth ones of at most 20,000 vertices; `disks` for all
-/// others, and where `lee` fails.
+/// The one with the least processor time (docs/lee.md): `lee` for nearly convex polygons without
+/// holes and small smooth ones; `disks` for all others, and where `lee` fails.
 struct Auto {};
 
 /// Ridge following on a grid of pixels, as Volkmann and St. Clair have it.

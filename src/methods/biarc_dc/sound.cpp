@@ -120,7 +120,8 @@ bool is_sound(const Skeleton& skeleton, const Context& context, double slack) {
   const Checker checker(skeleton, context, slack);
   std::vector<std::uint8_t> degree(skeleton.nodes.size());
   for (const Skeleton::Bone& edge : skeleton.edges)
-    for (const std::uint32_t node : {edge.from, edge.to}) degree[node] += degree[node] < 2 ? 1 : 0;
+    for (const std::uint32_t node : {edge.from, edge.to})
+      if (degree[node] < 2) ++degree[node];
   const auto corners = std::count_if(skeleton.nodes.begin(), skeleton.nodes.end(),
                                      [](const Disk& disk) { return disk.radius == 0; });
   const auto is_node_right = [&](std::size_t i) {
