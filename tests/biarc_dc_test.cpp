@@ -54,13 +54,15 @@ std::size_t leaf_count(const MedialAxis& axis, double together) {
   return count;
 }
 
-/// Whether every node of `a` is near a node of `b`: a sentence for the first that is not.
-std::string missing_node(const MedialAxis& a, const MedialAxis& b, double together) {
+/// Whether every node of `a`, or only its leaves and branchings, is near a node of `b`: a sentence
+/// for the first that is not.
+std::string missing_node(const MedialAxis& a, const MedialAxis& b, double together, bool all) {
   std::vector<Disk> nodes;
   for (const Node& node : b.nodes) nodes.push_back(node.disk);
   std::sort(nodes.begin(), nodes.end(),
             [](const Disk& p, const Disk& q) { return p.center.x < q.center.x; });
   for (const Node& node : a.nodes) {
+    if (!all && node.kind == NodeKind::site_change) continue;
     const double x = node.disk.center.x;
     auto near = std::lower_bound(nodes.begin(), nodes.end(), x - together,
                                  [](const Disk& p, double low) { return p.center.x < low; });
@@ -104,32 +106,38 @@ std::vector<std::string> compare(const Shape& shape, std::uint64_t seed, double 
         failures.push_back("another edge between sites " + std::to_string(sites[0]) + " and " +
                            std::to_string(sites[1]));
     }
-  for (const std::string& missing :
-       {missing_node(*axis, *other, together * size), missing_node(*other, *axis, together * size)})
+  // Parts of an arc that a cutting disk divides may count as one.
+  const bool all = shape.hole_count() == 0;
+  for (const std::string& missing : {missing_node(*axis, *other, together * size, all),
+                                     missing_node(*other, *axis, together * size, all)})
     if (!missing.empty()) failures.push_back(missing);
   return failures;
 }
 
-/// Compares the shapes without holes among `count` random ones.
+/// Compares `count` random shapes. Gaps of some tolerances between holes may be refused.
 void compare_all(RandomShape (*make)(std::uint64_t), std::uint64_t count, double together,
-                 std::size_t fewest) {
-  std::size_t compared = 0;
+                 std::size_t fewest_holes) {
+  std::size_t with_holes = 0;
   int failed = 0;
   for (std::uint64_t seed = 0; seed < count && failed < 5; ++seed) {
     const RandomShape random = make(seed);
     const auto shape = build_shape(random.rings);
-    if (!shape || shape->hole_count() > 0) continue;
-    ++compared;
+    if (!shape) continue;
     const auto failures = compare(*shape, seed + 1, together);
-    if (failures.empty()) continue;
+    if (failures.empty()) {
+      with_holes += shape->hole_count() > 0 ? 1 : 0;
+      continue;
+    }
+    const bool is_refused = failures.front().find("[unsupported]") != std::string::npos;
+    if (is_refused && std::string(random.kind) == "near-touching holes") continue;
     ++failed;
     ADD_FAILURE() << random.kind << ", seed " << seed << ": " << failures.front();
   }
-  EXPECT_GE(compared, fewest);
+  EXPECT_GE(with_holes, fewest_holes);
 }
 
-TEST(BiarcDc, AgreesWithDisksOnPolygons) { compare_all(random_shape, 1500, 1e-7, 1000); }
-TEST(BiarcDc, AgreesWithDisksOnArcShapes) { compare_all(random_arc_shape, 900, 1e-6, 500); }
+TEST(BiarcDc, AgreesWithDisksOnPolygons) { compare_all(random_shape, 1500, 1e-7, 250); }
+TEST(BiarcDc, AgreesWithDisksOnArcShapes) { compare_all(random_arc_shape, 900, 1e-6, 120); }
 
 /// Reflex vertices beside slight arcs; joints of arcs of some roundings' length; regular polygons
 /// of bulged sides, whose centre every sub-shape puts elsewhere by some tolerances.
@@ -209,7 +217,7 @@ TEST(BiarcDc, DoubtfulAxesAreVerifiedOrUnsupported) {
   };
   EXPECT_TRUE(is_right(random_arc_shape(3627).rings));
   EXPECT_TRUE(is_right(random_arc_shape(4787).rings));
-  EXPECT_FALSE(is_right(random_arc_shape(11728).rings));
+  EXPECT_TRUE(is_right(random_arc_shape(11728).rings));
   int right = 0;
   for (std::uint64_t seed = 0; seed < 30; ++seed) {
     SCOPED_TRACE(seed);
@@ -288,13 +296,55 @@ TEST(BiarcDc, EndsInTheCentreOfTheArcOfLargestCurvature) {
 }
 #endif
 
-TEST(BiarcDc, RefusesHoles) {
-  const auto shape = build_shape(hole_grid(1));
-  ASSERT_TRUE(shape.ok());
-  const auto axis = compute(*shape, options_for(method::BiarcDc{}));
-  ASSERT_FALSE(axis.ok());
-  EXPECT_EQ(axis.error().code, ErrorCode::unsupported);
-  EXPECT_NE(axis.error().text.find("disks"), std::string::npos);
+/// Holes side by side, nested components, holes whose cutting disks divide one long wall; one hole
+/// with an arc where its cutting disk touches it.
+TEST(BiarcDc, CutsHolesOpen) {
+  for (const Rings& rings : {hole_grid(1), hole_grid(9), nested_squares(6),
+                             Rings{rectangle(1, 1)[0], stadium({0.3, 0.4}, {0.7, 0.5}, 0.1)},
+                             Rings{circle({0, 0}, 2, 0.5), circle({0.3, 0.1}, 1, 0.25)}}) {
+    const auto shape = build_shape(rings);
+    ASSERT_TRUE(shape.ok());
+    EXPECT_EQ(compare(*shape, 5, 1e-9), std::vector<std::string>{}) << shape->hole_count();
+    const auto axis = compute(*shape, options_for(method::BiarcDc{}));
+    ASSERT_TRUE(axis.ok());
+    EXPECT_EQ(axis->statistics.bridges, shape->hole_count());
+  }
+}
+
+/// However an axis branches, divisions scan O(n log n) elements in all.
+TEST(BiarcDc, CutsAreBalanced) {
+  Rings star = {ring_of({})};
+  for (int i = 0; i < 3000; ++i) {
+    const double angle = 2 * std::numbers::pi * i / 3000, radius = i % 2 == 0 ? 1 : 0.5;
+    star[0].points.push_back({radius * std::cos(angle), radius * std::sin(angle)});
+  }
+  std::vector<Rings> all{star, comb(2000), maze(5000), hole_grid(25)};
+#ifdef MEDIAL_BENCH_SHAPES
+  all.push_back(*approximate_by_arcs(papers::snowflake(4), {.tolerance = 1e-5}));
+  all.push_back(*approximate_by_arcs(papers::tree(5), {.tolerance = 1e-4}));
+#endif
+  for (const Rings& rings : all) {
+    const auto shape = build_shape(rings);
+    ASSERT_TRUE(shape.ok());
+    Report report;
+    ASSERT_TRUE(biarc_dc::run({*shape, options_for(method::BiarcDc{})}, &report).ok());
+    const auto n = static_cast<double>(shape->points.size() + 4 * shape->hole_count());
+    EXPECT_LT(static_cast<double>(report.divided_elements), 3 * n * std::log2(n)) << n;
+  }
+}
+
+TEST(BiarcDc, ThreadsDoNotChangeTheResult) {
+  for (const Rings& rings : {comb(5000), hole_grid(40), nested_squares(40)}) {
+    const auto shape = build_shape(rings);
+    ASSERT_TRUE(shape.ok());
+    const auto one = compute(*shape, options_for(method::BiarcDc{3}));
+    ASSERT_TRUE(one.ok());
+    for (const int threads : {2, 5}) {
+      const auto several = compute(*shape, {.method = method::BiarcDc{3}, .threads = threads});
+      ASSERT_TRUE(several.ok());
+      EXPECT_TRUE(identical(*one, *several)) << threads;
+    }
+  }
 }
 
 TEST(BiarcDc, CanBeCancelled) {

@@ -31,7 +31,7 @@ namespace method {
 /// Walks along the axis and searches a tree over the boundary: the fastest.
 struct Disks {};
 
-/// The randomised divide and conquer of Aichholzer et al. as published: O(n log n) to O(n^2).
+/// The randomised divide and conquer of Aichholzer et al., with balanced cuts: O(n log n) expected.
 struct BiarcDc {
   std::uint64_t seed = 1;  ///< the same seed gives the same result, byte for byte
 };
@@ -39,8 +39,8 @@ struct BiarcDc {
 /// Lee's divide and conquer: merges Voronoi diagrams of lists of segments and reflex vertices.
 struct Lee {};
 
-/// The one with the least processor time for any number of threads (docs/lee.md): `lee` for convex,
-/// nearly convex or smooth polygons without holes; `disks` for all others, and where `lee` fails.
+/// The one with the least processor time (docs/lee.md): `lee` for nearly convex polygons without
+/// holes and small smooth ones; `disks` for all others, and where `lee` fails.
 struct Auto {};
 
 /// Ridge following on a grid of pixels, as Volkmann and St. Clair have it.

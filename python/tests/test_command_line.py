@@ -26,8 +26,7 @@ def run(*arguments):
     return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, check=True)
 
 
-CASES = [(method, wkt) for method in ("disks", "potential", "ridge") for wkt in WKT]
-CASES += [("biarc-dc", WKT[0]), ("biarc-dc", WKT[2])]  # which takes no holes
+CASES = [(method, wkt) for method in ("disks", "biarc-dc", "potential", "ridge") for wkt in WKT]
 
 
 @pytest.mark.parametrize(("method", "wkt"), CASES)

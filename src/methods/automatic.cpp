@@ -9,10 +9,10 @@
 namespace medial {
 namespace {
 
-/// Of the vertices of coasts and mazes about half are reflex, of smooth shapes less than a third.
-/// O(n).
+/// As measured (docs/lee.md). Of the vertices of coasts and mazes about half are reflex, of smooth
+/// shapes less than a third; large ones gain only where nearly all is convex. O(n).
 bool is_lee_faster(const Problem& problem) {
-  constexpr double most_reflex = 0.4;
+  constexpr std::size_t large = 20000;
   const Shape& shape = problem.shape;
   if (shape.hole_count() > 0 || has_arcs(shape) || problem.options.exact) return false;
   std::size_t reflex = 0;
@@ -24,6 +24,7 @@ bool is_lee_faster(const Problem& problem) {
       reflex += cross(at - before, after - at) <= 0 ? 1 : 0;  // rounding does not matter
     }
   }
+  const double most_reflex = shape.points.size() <= large ? 0.4 : 0.01;
   return static_cast<double>(reflex) <= most_reflex * static_cast<double>(shape.points.size());
 }
 

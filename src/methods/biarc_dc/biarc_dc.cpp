@@ -10,6 +10,7 @@
 #include "methods/biarc_dc/divide.h"
 #include "methods/biarc_dc/maximal_disk.h"
 #include "methods/biarc_dc/outline.h"
+#include "methods/biarc_dc/sound.h"
 #include "methods/refusal.h"
 
 namespace medial::biarc_dc {
@@ -24,69 +25,84 @@ Report report_of(const Division& division) {
   report.branching_disks = division.branching_disks;
   report.multi_branchings = division.multi_branchings;
   report.only_vertices = division.only_vertices;
+  report.divided_elements = division.divided_elements;
   return report;
 }
 
-/// Where rounding alone may decide what disks touch, if anywhere: at an arc so small that its
-/// directions have few digits, or at one that the next arc continues on almost the same circle.
-/// O(n).
+/// Where rounding alone may decide what disks touch, if anywhere: at an edge so short that its
+/// direction has few digits, at an arc as small, or at arcs of almost one circle, three in a row or
+/// two that turn by about half a circle. O(n).
 std::optional<Vec2> doubtful_place(const Problem& problem) {
   const Shape& shape = problem.shape;
-  if (shape.bulges.empty()) return std::nullopt;
   constexpr double few_digits = 0x1p-24;   // of the size
-  constexpr double near_circle = 1 << 12;  // tolerances
+  constexpr double short_edge = 0x1p-6;    // of that
+  constexpr double near_circle = 1 << 16;  // tolerances
+  constexpr double far_turn = 0.75;        // the sum of two bulges: about half a circle
   const double least = few_digits * diagonal(problem.box);
   const double near = near_circle * problem.joint_tolerance;
   for (std::size_t loop = 0; loop < shape.loop_count(); ++loop) {
     const auto points = shape.loop(loop);
+    const std::size_t n = points.size();
+    const auto bulge = [&](std::size_t i) { return shape.bulge(shape.loop_begin[loop] + i % n); };
     const auto curvature_of = [&](std::size_t i) {
-      return curvature(
-          {points[i], points[(i + 1) % points.size()], shape.bulge(shape.loop_begin[loop] + i)});
+      return curvature({points[i % n], points[(i + 1) % n], bulge(i)});
     };
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      const double one = curvature_of(i), next = curvature_of((i + 1) % points.size());
-      const bool small = std::abs(one) * least > 1;
-      if (small || (one > 0 && next > 0 && std::abs(one - next) <= near * one * next))
+    const auto is_near = [&](double one, double next) {
+      return one > 0 && next > 0 && std::abs(one - next) <= near * one * next;
+    };
+    for (std::size_t i = 0; i < n; ++i) {
+      if (distance(points[i], points[(i + 1) % n]) < short_edge * least) return points[i];
+      if (bulge(i) == 0) continue;
+      const double one = curvature_of(i), next = curvature_of(i + 1);
+      if (std::abs(one) * least > 1) return points[i];
+      if (is_near(one, next) &&
+          (bulge(i) + bulge(i + 1) > far_turn || is_near(next, curvature_of(i + 2))))
         return points[i];
     }
   }
   return std::nullopt;
 }
 
-/// Whether a disk is touched by so many sites that rounding may decide what it is.
-bool has_large_ties(const MedialAxis& axis) {
-  constexpr std::uint32_t many = 8;
-  std::vector<std::uint32_t> degree(axis.nodes.size());
-  return std::any_of(axis.edges.begin(), axis.edges.end(), [&](const Edge& edge) {
-    return ++degree[edge.node[0]] > many || ++degree[edge.node[1]] > many;
-  });
+Error refusal_at(std::optional<Vec2> place) {
+  Error error{ErrorCode::unsupported,
+              "what a disk touches here depends on rounding alone: use the method disks",
+              {}};
+  error.place.point = place;
+  return error;
 }
 
+struct Attempt {
+  MedialAxis axis;
+  bool is_certain = false;
+};
+
 /// Aichholzer et al., Section 3: sites, divide by random maximal disks, conquer, curves.
-Result<MedialAxis> attempt(const Problem& problem, std::uint64_t seed, Report* report) {
+Result<Attempt> attempt(const Problem& problem, std::uint64_t seed, Report* report) {
   MedialAxis axis;
   axis.method = "biarc-dc";
   axis.tolerance = problem.tolerance;
   Stopwatch all, watch;
 
-  const SiteOutline outline = outline_of(problem);
-  Context context{outline, problem.fine_tolerance, problem.radius_limit};
-  context.statistics.seconds_sites = watch.lap();
+  const SiteOutline outline = outline_of(problem, axis.statistics);
+  axis.statistics.seconds_sites = watch.lap();
+  const site::BoundaryTree tree(outline.sites);
+  axis.statistics.seconds_tree = watch.lap();
+  Context context{outline, tree, problem.fine_tolerance, problem.radius_limit, axis.statistics};
 
-  const auto division = divide(context, seed, problem.options.cancel, problem.options.progress);
-  if (!division)
-    return Error{
-        ErrorCode::internal, "a part of the shape cannot be divided: please report this shape", {}};
+  const auto division = divide(context, seed, problem.options);
+  if (!division) return refusal_at(problem.frame.to_input(*context.stuck));
   if (report != nullptr) *report = report_of(*division);
   context.statistics.seconds_walk = watch.lap();
+  if (problem.is_cancelled()) return Attempt{std::move(axis), true};
 
   const Skeleton skeleton = conquer(context, *division);
   axis.statistics = context.statistics;
+  const bool is_certain = is_sound(skeleton, context, problem.local_tolerance());
   add_curves(skeleton, context, problem.frame, axis);
   axis.sites = problem.result_sites();
   axis.statistics.seconds_collect = watch.lap();
   axis.statistics.seconds = all.lap();
-  return axis;
+  return Attempt{std::move(axis), is_certain};
 }
 
 }  // namespace
@@ -94,20 +110,19 @@ Result<MedialAxis> attempt(const Problem& problem, std::uint64_t seed, Report* r
 Result<MedialAxis> run(const Problem& problem, Report* report) {
   constexpr std::uint64_t most_attempts = 4;
   const std::optional<Vec2> doubtful = doubtful_place(problem);
-  Error refused{ErrorCode::unsupported, "what a disk touches here depends on rounding alone", {}};
-  refused.place.point = doubtful;
+  std::optional<Error> refused;
   for (std::uint64_t i = 0; i < most_attempts; ++i) {
-    auto axis = attempt(problem, problem.own<method::BiarcDc>().seed + i, report);
-    if (!axis && !doubtful) return axis;
-    refused.place.point = doubtful;
-    if (!axis) continue;
-    const bool certain = !doubtful && (problem.shape.bulges.empty() || !has_large_ties(*axis));
-    if (certain || problem.is_cancelled()) return axis;
-    const auto error = error_if_refused(problem, *axis);
-    if (!error) return axis;
-    refused.place = error->place;
+    auto tried = attempt(problem, problem.own<method::BiarcDc>().seed + i, report);
+    if (!tried) {
+      refused = std::move(tried).error();
+      continue;
+    }
+    if ((!doubtful && tried->is_certain) || problem.is_cancelled()) return std::move(tried->axis);
+    const auto error = error_if_refused(problem, tried->axis);
+    if (!error) return std::move(tried->axis);
+    refused = refusal_at(error->place.point);
   }
-  return refused;
+  return std::move(*refused);
 }
 
 }  // namespace medial::biarc_dc

@@ -15,15 +15,14 @@ struct Report {
   std::uint64_t random_disks = 0;                           ///< divisions by maximaldisk,
   std::uint64_t branching_disks = 0;                        ///< and by maximaldisk*
   std::uint64_t multi_branchings = 0;                       ///< disks with four contacts or more
-  std::uint64_t only_vertices = 0;  ///< divided sub-shapes with reflex vertices only
+  std::uint64_t only_vertices = 0;     ///< divided sub-shapes with reflex vertices only
+  std::uint64_t divided_elements = 0;  ///< of all divided sub-shapes together
 };
 
-/// The method `biarc-dc` (docs/biarc-dc.md). Requires what compute() has checked: a shape without
-/// holes. Cut short, with any content, where the caller cancels. An axis that rounding may have
-/// misled is verified; where that fails the method restarts with another seed. Errors: unsupported,
-/// with the place, where no attempt passes; internal where no disk divides a part of the shape.
-/// Expected O(n log n) where the diameter of the axis is proportional to n, and O(n^2) in the worst
-/// case.
+/// The method `biarc-dc` (docs/biarc-dc.md). Cut short, with any content, where the caller cancels.
+/// An axis that rounding may have misled, or that is not sound (sound.h), is verified; where that
+/// fails, or no disk divides a part of the shape, the method restarts with another seed. Error:
+/// unsupported, with the place, where no attempt passes. Expected O(n log n).
 Result<MedialAxis> run(const Problem& problem, Report* report = nullptr);
 
 }  // namespace medial::biarc_dc

@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "axis/node_kinds.h"
+#include "axis/statistics.h"
+#include "base/threads.h"
 #include "site/bisector.h"
 #include "site/tangent_disk.h"
 
@@ -17,12 +19,12 @@ namespace {
 using Bone = Skeleton::Bone;
 using site::Site;
 
-/// Evaluates base cases one by one; the first nodes are the dividing disks.
+/// Evaluates base cases one by one. The first nodes are the dividing disks, its own follow.
 class Evaluator {
  public:
-  Evaluator(Context& context, const Division& division) : context_(context) {
-    skeleton.nodes = division.disks;
-    skeleton.component = division.component;
+  Evaluator(const Context& shared, const Division& division)
+      : context_(shared), nodes_{division.disks, {}} {
+    context_.statistics = {};
   }
 
   void evaluate(const BaseShape& base) {
@@ -76,29 +78,43 @@ class Evaluator {
     }
   }
 
-  Skeleton skeleton;
+  /// Appends what was evaluated.
+  void append_to(Skeleton& skeleton, Statistics& statistics) {
+    const std::size_t known = nodes_.earlier.size();
+    const auto shift = static_cast<std::uint32_t>(skeleton.nodes.size() - known);
+    for (Bone& edge : edges_)
+      for (std::uint32_t* const node : {&edge.from, &edge.to})
+        if (*node >= known) *node += shift;
+    skeleton.nodes.insert(skeleton.nodes.end(), nodes_.own.begin(), nodes_.own.end());
+    skeleton.component.insert(skeleton.component.end(), component_.begin(), component_.end());
+    skeleton.edges.insert(skeleton.edges.end(), edges_.begin(), edges_.end());
+    statistics += context_.statistics;
+  }
 
  private:
   const Site& site(std::uint32_t i) const { return context_.outline.sites[i]; }
 
   std::uint32_t add_node(const Disk& disk, const BaseShape& base) {
-    skeleton.nodes.push_back(disk);
-    skeleton.component.push_back(base.component);
-    return static_cast<std::uint32_t>(skeleton.nodes.size() - 1);
+    component_.push_back(base.component);
+    return nodes_.add(disk);
   }
   void add_edge(std::uint32_t from, std::uint32_t to, std::uint32_t right, std::uint32_t left) {
-    skeleton.edges.push_back({from, to, right, left});
+    edges_.push_back({from, to, right, left});
   }
 
   /// The branching of a base case, or the passage to another site: what comes first on the way from
   /// the dividing disk after the third site.
   std::uint32_t add_meeting_node(const BaseShape& base) {
-    const Subshape subshape{{base.element.begin(), base.element.end()}, base.component};
-    const auto meeting = branching_disk(context_, subshape, 2, skeleton.nodes);
-    return meeting ? add_node(meeting->disk, base) : base.element[2].disk_after;
+    const Subshape subshape{base.element, base.component};
+    const std::uint32_t last = base.element[2].disk_after;
+    const auto meeting = branching_disk(context_, subshape, {0, 2, nodes_[last]}, nodes_);
+    return meeting ? add_node(meeting->disk, base) : last;
   }
 
-  Context& context_;
+  Context context_;
+  DiskList nodes_;
+  std::vector<std::uint32_t> component_;  ///< of its own nodes
+  std::vector<Bone> edges_;
 };
 
 /// Nodes that turned out to be one.
@@ -118,8 +134,14 @@ class Nodes {
   std::vector<std::uint32_t> parent_;
 };
 
-bool between_same_sites(const Bone& a, const Bone& b) {
-  return (a.right == b.right && a.left == b.left) || (a.right == b.left && a.left == b.right);
+/// Of a site that a cutting disk divides, both parts count as one.
+bool between_same_sites(const SiteOutline& outline, const Bone& a, const Bone& b) {
+  const auto same = [&](std::uint32_t x, std::uint32_t y) {
+    return x == y ||
+           (outline.originals[x] == outline.originals[y] && outline.is_cut(x) && outline.is_cut(y));
+  };
+  return (same(a.right, b.right) && same(a.left, b.left)) ||
+         (same(a.right, b.left) && same(a.left, b.right));
 }
 
 /// Takes out the edges without length, whose ends become one node.
@@ -224,7 +246,7 @@ void join_ties(const Context& context, Skeleton& skeleton) {
 }
 
 /// Takes out the nodes that only divide an edge: both edges become one.
-void dissolve(Skeleton& skeleton) {
+void dissolve(const SiteOutline& outline, Skeleton& skeleton) {
   struct Ends {
     std::array<std::uint32_t, 2> edge{none, none};
     std::uint32_t count = 0;
@@ -241,7 +263,7 @@ void dissolve(Skeleton& skeleton) {
     if (ends[n].count != 2) continue;
     const auto [kept, gone] = ends[n].edge;
     Bone &first = skeleton.edges[kept], &second = skeleton.edges[gone];
-    if (kept == gone || !between_same_sites(first, second)) continue;
+    if (kept == gone || !between_same_sites(outline, first, second)) continue;
     const std::uint32_t far = second.from == n ? second.to : second.from;
     (first.from == n ? first.from : first.to) = far;
     for (std::uint32_t& edge : ends[far].edge)
@@ -273,40 +295,49 @@ void compact(Skeleton& skeleton) {
 }  // namespace
 
 Skeleton conquer(Context& context, const Division& division) {
-  Evaluator evaluator(context, division);
-  for (const BaseShape& base : division.base_shapes) evaluator.evaluate(base);
-  Skeleton& skeleton = evaluator.skeleton;
+  constexpr std::size_t block = 4096;
+  const std::size_t count = division.base_shapes.size();
+  std::vector<std::optional<Evaluator>> blocks((count + block - 1) / block);
+  parallel_for(blocks.size(), [&](std::size_t b) {
+    Evaluator& evaluator = blocks[b].emplace(context, division);
+    for (std::size_t i = b * block; i < std::min(count, (b + 1) * block); ++i)
+      evaluator.evaluate(division.base_shapes[i]);
+  });
+  Skeleton skeleton{division.disks, division.component, {}};
+  for (auto& evaluator : blocks) evaluator->append_to(skeleton, context.statistics);
   contract(context, division, skeleton);
   join_ties(context, skeleton);
-  dissolve(skeleton);
+  dissolve(context.outline, skeleton);
   compact(skeleton);
-  return std::move(skeleton);
+  return skeleton;
 }
 
 void add_curves(const Skeleton& skeleton, const Context& context, const LocalFrame& frame,
                 MedialAxis& axis) {
   const SiteOutline& outline = context.outline;
-  std::vector<std::uint8_t> degree(skeleton.nodes.size());
-  double largest_residual = 0;
-  axis.edges.reserve(skeleton.edges.size());
-  for (const Bone& edge : skeleton.edges) {
+  axis.edges.resize(skeleton.edges.size());
+  constexpr std::size_t block = 4096;
+  const auto residuals = in_blocks<double>(axis.edges.size(), block, [&](std::size_t i, double& r) {
+    const Bone& edge = skeleton.edges[i];
     const Disk &from = skeleton.nodes[edge.from], &to = skeleton.nodes[edge.to];
     for (const std::uint32_t site : {edge.left, edge.right})
       for (const Disk* disk : {&from, &to})
-        largest_residual = std::max(
-            largest_residual,
-            std::abs(site::carrier_distance(outline.sites[site], disk->center) - disk->radius));
-    for (const std::uint32_t node : {edge.from, edge.to})
-      if (degree[node] < 3) ++degree[node];
+        r = std::max(
+            r, std::abs(site::carrier_distance(outline.sites[site], disk->center) - disk->radius));
     const site::Control control =
         site::control_of(outline.sites[edge.left], outline.sites[edge.right], from, to);
-    axis.edges.push_back(
-        {{edge.from, edge.to},
-         {outline.originals[edge.left], outline.originals[edge.right]},
-         {frame.to_input(control.point.center), frame.inverse * control.point.radius},
-         control.weight});
-  }
+    axis.edges[i] = {{edge.from, edge.to},
+                     {outline.originals[edge.left], outline.originals[edge.right]},
+                     {frame.to_input(control.point.center), frame.inverse * control.point.radius},
+                     control.weight};
+  });
+  double largest_residual = 0;
+  for (const double residual : residuals) largest_residual = std::max(largest_residual, residual);
   axis.statistics.largest_residual = frame.inverse * largest_residual;
+  std::vector<std::uint8_t> degree(skeleton.nodes.size());
+  for (const Bone& edge : skeleton.edges)
+    for (const std::uint32_t node : {edge.from, edge.to})
+      if (degree[node] < 3) ++degree[node];
   axis.nodes.reserve(skeleton.nodes.size());
   for (std::size_t i = 0; i < skeleton.nodes.size(); ++i) {
     const Disk& disk = skeleton.nodes[i];

@@ -1,21 +1,15 @@
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <utility>
 
 #include "methods/biarc_dc/maximal_disk.h"
+#include "methods/disks/boundary.h"
 
 namespace medial::biarc_dc {
 namespace {
 
 using site::Site;
-
-/// An element that a disk touches within the tolerance.
-struct Touch {
-  std::size_t element = 0;
-  double parameter = 0;    ///< of the nearest point
-  double distance = 0;     ///< to it
-  bool on_circle = false;  ///< all of the element lies on the disk's circle
-  bool is_sure = false;
-};
 
 bool names(const Place& place, std::size_t element, const Subshape& subshape) {
   return element == place.element || (place.at_joint && element == subshape.next(place.element));
@@ -28,37 +22,61 @@ Seam seam_at(const Subshape& subshape, const Place& place) {
   return {i, next, subshape.elements[i].to, subshape.elements[next].from};
 }
 
-/// All touched elements in boundary order; those of sure contacts always.
-std::vector<Touch> touched_elements(const Context& context, const Subshape& subshape,
-                                    const MaximalDisk& maximal) {
+/// How a disk touches an element, if it does within the tolerance.
+std::optional<Touch> touch_of(const Context& context, const Subshape& subshape, std::size_t i,
+                              const MaximalDisk& maximal) {
   // A disk as large as an arc's circle that touches the arc covers all of it.
   constexpr double same_circle = 1e-7;
   const Disk& disk = maximal.disk;
   const double reach = disk.radius + context.tolerance;
-  std::vector<Touch> touches;
-  for (std::size_t i = 0; i < subshape.size(); ++i) {
-    const Element& element = subshape.elements[i];
-    const Site& site = context.site(element);
-    const bool is_sure = std::any_of(maximal.contacts.begin(), maximal.contacts.end(),
-                                     [&](const Place& place) { return names(place, i, subshape); });
-    if (!is_sure && site::squared_distance(site, disk.center) > reach * reach) continue;
-    Touch touch{i, 0, 0, false, is_sure};
-    if (!site.is_vertex())
-      touch.parameter =
-          std::clamp(site::foot_parameter(site, disk.center), element.from, element.to);
-    touch.distance = distance(site.at(touch.parameter), disk.center);
-    if (!is_sure && touch.distance > reach) continue;
-    if (std::abs(site.curvature * disk.radius - 1) <= same_circle) {
-      const auto on_circle = [&](double s) {
-        return std::abs(distance(site.at(s), disk.center) - disk.radius) <= context.tolerance;
-      };
-      // A disk through both ends only ends beside the centre of the arc.
-      touch.on_circle = on_circle(element.from) && on_circle(element.to) &&
-                        on_circle(0.5 * (element.from + element.to));
-    }
-    touches.push_back(touch);
+  const Element& element = subshape.elements[i];
+  const Site& site = context.site(element);
+  const auto contacts = maximal.contacts();
+  const bool is_sure = std::any_of(contacts.begin(), contacts.end(),
+                                   [&](const Place& place) { return names(place, i, subshape); });
+  const auto is_beyond = [&] {
+    return is_far(site, disk.center, reach) ||
+           site::squared_distance(site, disk.center) > reach * reach;
+  };
+  if (!is_sure && is_beyond()) return std::nullopt;
+  Touch touch{i, 0, 0, false};
+  if (!site.is_vertex())
+    touch.parameter = std::clamp(site::foot_parameter(site, disk.center), element.from, element.to);
+  touch.distance = distance(site.at(touch.parameter), disk.center);
+  if (!is_sure && touch.distance > reach) return std::nullopt;
+  if (std::abs(site.curvature * disk.radius - 1) <= same_circle) {
+    const auto on_circle = [&](double s) {
+      return std::abs(distance(site.at(s), disk.center) - disk.radius) <= context.tolerance;
+    };
+    // A disk through both ends only ends beside the centre of the arc.
+    touch.on_circle = on_circle(element.from) && on_circle(element.to) &&
+                      on_circle(0.5 * (element.from + element.to));
   }
-  return touches;
+  return touch;
+}
+
+/// All touched elements in boundary order; those of known contacts always.
+void find_touched(Context& context, const Subshape& subshape, const MaximalDisk& maximal,
+                  std::vector<Touch>& touches) {
+  touches.clear();
+  const auto look_at = [&](std::size_t i) {
+    if (const auto touch = touch_of(context, subshape, i, maximal)) touches.push_back(*touch);
+  };
+  if (subshape.size() <= most_scanned) {
+    for (std::size_t i = 0; i < subshape.size(); ++i) look_at(i);
+    return;
+  }
+  constexpr double a_little_more = 1 + 0x1p-40;
+  context.tree.within(maximal.disk.center,
+                      a_little_more * (maximal.disk.radius + context.tolerance),
+                      subshape.elements.front().site, subshape.elements.back().site, context.found);
+  for (const Place& place : maximal.contacts())
+    for (const std::size_t i : {place.element, subshape.next(place.element)})
+      if (names(place, i, subshape)) context.found.push_back(subshape.elements[i].site);
+  std::sort(context.found.begin(), context.found.end());
+  context.found.erase(std::unique(context.found.begin(), context.found.end()), context.found.end());
+  for (const std::uint32_t site : context.found)
+    if (const std::size_t i = subshape.find(site); i < subshape.size()) look_at(i);
 }
 
 /// Where a run of touched elements, joined without a corner, is really touched if no contact is
@@ -91,28 +109,57 @@ Seam contact_in_run(const Context& context, const Subshape& subshape,
   return seam_at(subshape, {run[0]->element, false, run[0]->parameter});
 }
 
+/// Of the copies of a reflex vertex, and of edges that end there, only what has the disk in its
+/// range of directions is touched.
+void drop_other_copies(Context& context, const Subshape& subshape, Vec2 center,
+                       const DiskList& disks, std::vector<Seam>& seams) {
+  constexpr double same_place = 16;  // tolerances
+  const auto point_of = [&](std::size_t i, double parameter) {
+    return context.site(subshape.elements[i]).at(parameter);
+  };
+  const auto is_other = [&](const Seam& seam) {
+    if (seam.first != seam.last) return false;
+    const Site& site = context.site(subshape.elements[seam.first]);
+    if (seam.to > 0 && seam.to < site.length) return false;
+    const Vec2 point = point_of(seam.last, seam.to);
+    const auto is_here = [&](Vec2 p) {
+      return distance(p, point) <= same_place * context.tolerance;
+    };
+    const auto here = std::count_if(seams.begin(), seams.end(), [&](const Seam& one) {
+      return is_here(point_of(one.last, one.to)) || is_here(point_of(one.first, one.from));
+    });
+    if (here < 2) return false;
+    return site.is_vertex() ? !faces(context, subshape, seam.first, center, disks)
+                            : !disks::faces_edge(site, center);
+  };
+  context.seams.clear();
+  std::remove_copy_if(seams.begin(), seams.end(), std::back_inserter(context.seams), is_other);
+  if (context.seams.size() < seams.size()) seams = context.seams;
+}
+
 }  // namespace
 
-std::optional<std::vector<Seam>> contacts_of(const Context& context, const Subshape& subshape,
-                                             const MaximalDisk& maximal) {
-  const std::vector<Touch> touches = touched_elements(context, subshape, maximal);
+bool find_contacts(Context& context, const Subshape& subshape, const MaximalDisk& maximal,
+                   const DiskList& disks, std::vector<Seam>& seams) {
+  seams.clear();
+  std::vector<Touch>& touches = context.touches;
+  find_touched(context, subshape, maximal, touches);
   const std::size_t count = touches.size();
   const bool all =
       count == subshape.size() &&
       std::all_of(touches.begin(), touches.end(), [](const Touch& t) { return t.on_circle; });
-  if (all) return std::nullopt;
-  std::vector<Seam> seams;
-  if (count == 0) return seams;
+  if (all) return false;
+  if (count == 0) return true;
 
   /// Whether a touched element continues the one before in the list.
   const auto continues = [&](std::size_t j) {
     const std::size_t before = subshape.before(touches[j].element);
-    return touches[(j + count - 1) % count].element == before &&
+    return touches[j == 0 ? count - 1 : j - 1].element == before &&
            context.joins_smoothly(subshape.elements[before]);
   };
   std::size_t begin = 0;
   while (begin + 1 < count && continues(begin)) ++begin;
-  std::vector<const Touch*> run;
+  std::vector<const Touch*>& run = context.run;
   for (std::size_t step = 0; step < count;) {
     run.clear();
     do run.push_back(&touches[(begin + step++) % count]);
@@ -120,7 +167,11 @@ std::optional<std::vector<Seam>> contacts_of(const Context& context, const Subsh
 
     const auto is_on_circle = [](const Touch* touch) { return touch->on_circle; };
     const auto first_on = std::find_if(run.begin(), run.end(), is_on_circle);
-    if (first_on != run.end()) {
+    const bool ends = std::none_of(run.begin(), run.end(), [&](const Touch* touch) {
+      return ends_elsewhere(subshape, context.outline, touch->element, maximal.disk,
+                            context.tolerance);
+    });
+    if (first_on != run.end() && ends) {
       const auto last_on = std::find_if(run.rbegin(), run.rend(), is_on_circle);
       const std::size_t last = subshape.before((*first_on)->element),
                         first = subshape.next((*last_on)->element);
@@ -130,12 +181,13 @@ std::optional<std::vector<Seam>> contacts_of(const Context& context, const Subsh
     const std::size_t before = seams.size();
     for (const Touch* touch : run)
       for (const bool at_joint : {false, true})
-        for (const Place& place : maximal.contacts)
+        for (const Place& place : maximal.contacts())
           if (place.element == touch->element && place.at_joint == at_joint)
             seams.push_back(seam_at(subshape, place));
     if (seams.size() == before) seams.push_back(contact_in_run(context, subshape, run));
   }
-  return seams;
+  if (seams.size() > 1) drop_other_copies(context, subshape, maximal.disk.center, disks, seams);
+  return true;
 }
 
 }  // namespace medial::biarc_dc

@@ -1,45 +1,160 @@
 #include "methods/biarc_dc/divide.h"
 
 #include <algorithm>
+#include <atomic>
+#include <cmath>
 #include <optional>
+#include <utility>
 
+#include "axis/statistics.h"
 #include "base/random.h"
+#include "base/threads.h"
 
 namespace medial::biarc_dc {
 namespace {
 
-/// Random disks tried on a sub-shape before all its branchings are.
+/// Random disks tried on a small sub-shape before all its branchings are.
 constexpr int most_tries = 8;
 
+/// A cut of a large sub-shape is taken if none of the parts has more than this share of it.
+constexpr double most_share = 0.75;
+
+/// Sub-shapes of so many elements are divided by one task to the end.
+constexpr std::size_t task_size = 4096;
+
+/// A disk, where it touches, and the part that has most elements: from one seam to the next.
+struct Cut {
+  MaximalDisk maximal;
+  std::vector<Seam> seams;
+  std::size_t heaviest = 0;
+  std::size_t weight = 0;
+
+  const Seam& begin() const { return seams[heaviest]; }
+  const Seam& end() const { return seams[heaviest + 1 == seams.size() ? 0 : heaviest + 1]; }
+  Gate gate() const { return {begin().first, end().last, maximal.disk}; }
+};
+
+/// Divides a list of sub-shapes.
 class Divider {
  public:
-  Divider(Context& context, std::uint64_t seed) : context_(context), random_(seed) {}
+  /// `earlier`: the dividing disks around the list.
+  Divider(const Context& shared, std::span<const Disk> earlier, std::uint64_t seed)
+      : context_(shared), random_(seed), disks_{earlier, {}} {
+    context_.statistics = {};
+  }
 
-  /// The parts that a disk divides the sub-shape into, all of them smaller; nothing where rounding
+  /// Divides the last sub-shape of the list until none is left; those of at most `small` elements
+  /// are passed on. False where rounding leaves a sub-shape that no disk divides.
+  bool divide(Parts& list, std::size_t small, Parts* passed_on, const std::atomic<bool>* cancel) {
+    while (!list.empty()) {
+      if (cancel != nullptr && cancel->load(std::memory_order_relaxed)) return true;
+      const Subshape subshape = list.back();
+      if (subshape.size() <= small) {
+        passed_on->begin(subshape.component);
+        passed_on->add(subshape.elements);
+        list.pop_back();
+        continue;
+      }
+      const auto base = base_shape_of(subshape, context_.outline, disks_, context_.tolerance);
+      if (!base && !find_parts(subshape)) {
+        const Element& element = subshape.elements.front();
+        stuck = context_.site(element).at(element.from);
+        return false;
+      }
+      if (!base) division.divided_elements += subshape.size();
+      list.pop_back();
+      if (!base)
+        list.append(parts_);
+      else if (base->base_case == BaseCase::cap)
+        ++division.caps;
+      else
+        division.base_shapes.push_back(*base);
+    }
+    return true;
+  }
+
+  /// The result, once there is nothing left to divide.
+  Division division;
+  std::optional<Vec2> stuck;  ///< a place of a sub-shape that no disk divides
+  std::vector<Disk>& disks() { return disks_.own; }
+  const Statistics& statistics() const { return context_.statistics; }
+
+ private:
+  /// The parts that a disk divides the sub-shape into, all of them smaller. False where rounding
   /// leaves no such disk.
-  std::optional<std::vector<Subshape>> parts_of(const Subshape& subshape) {
+  bool find_parts(const Subshape& subshape) {
+    if (subshape.size() > most_scanned) {
+      const Cut cut = balanced_cut(subshape);
+      if (cut.seams.size() > 1 && divides(cut.maximal.disk, subshape, cut.seams)) {
+        ++(cut.maximal.count == 3 ? division.branching_disks : division.random_disks);
+        return true;
+      }
+    }
     for (int tries = 0; tries < most_tries; ++tries) {
       const std::optional<Place> place = random_place(subshape);
       if (!place) break;
-      const MaximalDisk maximal = maximal_disk(context_, subshape, *place);
-      if (auto parts = parts_by(maximal, subshape)) {
+      const MaximalDisk maximal = maximal_disk(context_, subshape, *place, disks_);
+      if (divides(maximal, subshape)) {
         ++division.random_disks;
-        return parts;
+        return true;
       }
-      if (const auto arc = artificial_arc_behind(maximal, subshape))
-        if (auto parts = parts_by_branching(subshape, *arc)) return parts;
+      const auto arc = artificial_arc_behind(maximal, subshape);
+      if (arc && divides_by_branching(subshape, *arc)) return true;
     }
     const std::uint32_t begin = random_.below(static_cast<std::uint32_t>(subshape.size()));
-    for (std::size_t step = 0, i = begin; step < subshape.size(); ++step, i = subshape.next(i)) {
-      if (subshape.elements[i].is_joined()) continue;
-      if (auto parts = parts_by_branching(subshape, i)) return parts;
-    }
-    return std::nullopt;
+    for (std::size_t step = 0, i = begin; step < subshape.size(); ++step, i = subshape.next(i))
+      if (!subshape.elements[i].is_joined() && divides_by_branching(subshape, i)) return true;
+    return false;
   }
 
-  Division division;
+  /// The paper's cut and walk: of some random disks the one whose parts are most alike, and from
+  /// there a walk along the axis, into the part that has most elements, until none has too many.
+  /// O(sqrt n) disks in expectation.
+  Cut balanced_cut(const Subshape& subshape) {
+    const auto most = static_cast<std::size_t>(most_share * static_cast<double>(subshape.size()));
+    const auto tries = static_cast<int>(0.5 * std::sqrt(static_cast<double>(subshape.size())));
+    Cut best{{}, {}, 0, subshape.size() + 1};
+    for (int i = 0; i < tries && best.weight > most; ++i) {
+      const std::optional<Place> place = random_place(subshape);
+      if (!place) break;
+      Cut cut = cut_by(maximal_disk(context_, subshape, *place, disks_), subshape);
+      if (cut.seams.size() > 1 && cut.weight < best.weight) best = std::move(cut);
+    }
+    while (best.weight > most) {
+      const auto gate = best.seams.empty() ? some_gate(subshape) : best.gate();
+      const auto next = gate ? branching_disk(context_, subshape, *gate, disks_) : std::nullopt;
+      if (!next) break;
+      Cut cut = cut_by(*next, subshape);
+      if (cut.seams.size() < 2 || cut.weight >= best.weight) break;
+      best = std::move(cut);
+    }
+    return best;
+  }
 
- private:
+  Cut cut_by(const MaximalDisk& maximal, const Subshape& subshape) {
+    Cut cut{maximal, {}, 0, 0};
+    if (!find_contacts(context_, subshape, maximal, disks_, cut.seams)) cut.seams.clear();
+    for (std::size_t j = 0; j < cut.seams.size(); ++j) {
+      const Seam& end = cut.seams[j + 1 == cut.seams.size() ? 0 : j + 1];
+      const std::size_t weight = subshape.count(cut.seams[j].first, end.last);
+      if (weight <= cut.weight) continue;
+      cut.weight = weight;
+      cut.heaviest = j;
+    }
+    return cut;
+  }
+
+  /// From a random artificial arc into the sub-shape.
+  std::optional<Gate> some_gate(const Subshape& subshape) {
+    std::size_t i = random_.below(static_cast<std::uint32_t>(subshape.size()));
+    for (std::size_t step = 0; step < subshape.size(); ++step, i = subshape.next(i))
+      if (!subshape.elements[i].is_joined()) return gate_after(subshape, i);
+    return std::nullopt;
+  }
+  Gate gate_after(const Subshape& subshape, std::size_t i) const {
+    return {subshape.next(i), i, disks_[subshape.elements[i].disk_after]};
+  }
+
   /// A random arc's joint with a reflex vertex, or else its middle; none if there are only reflex
   /// vertices.
   std::optional<Place> random_place(const Subshape& subshape) {
@@ -59,89 +174,149 @@ class Divider {
     return std::nullopt;
   }
 
-  /// Splits at a disk; nothing if that does not make all parts smaller.
-  std::optional<std::vector<Subshape>> parts_by(const MaximalDisk& maximal,
-                                                const Subshape& subshape) {
-    const auto found = contacts_of(context_, subshape, maximal);
-    const std::vector<Seam> seams = found.value_or(std::vector<Seam>());
-    if (found && (seams.empty() || (seams.size() == 1 && seams[0].first == seams[0].last)))
-      return std::nullopt;
-    const auto disk = static_cast<std::uint32_t>(division.disks.size());
-    std::vector<Subshape> parts = split(subshape, seams, disk);
-    const std::size_t whole = subshape.measure();
-    for (const Subshape& part : parts)
-      if (part.measure() >= whole) return std::nullopt;
-    division.disks.push_back(maximal.disk);
+  bool divides(const MaximalDisk& maximal, const Subshape& subshape) {
+    if (find_contacts(context_, subshape, maximal, disks_, seams_)) {
+      if (seams_.empty() || (seams_.size() == 1 && seams_[0].first == seams_[0].last)) return false;
+    } else {
+      seams_.clear();
+    }
+    return divides(maximal.disk, subshape, seams_);
+  }
+
+  /// Splits at a disk. False if that does not make all parts smaller.
+  bool divides(const Disk& disk, const Subshape& subshape, const std::vector<Seam>& seams) {
+    const auto number = static_cast<std::uint32_t>(disks_.earlier.size() + disks_.own.size());
+    parts_.clear();
+    split(subshape, seams, number, parts_);
+    // A part has no joints but those of the whole.
+    for (std::size_t i = 0; i < parts_.size(); ++i)
+      if (parts_[i].size() >= subshape.size() && parts_[i].measure() >= subshape.measure())
+        return false;
+    disks_.own.push_back(disk);
     division.component.push_back(subshape.component);
     if (seams.size() >= 4) ++division.multi_branchings;
     // An artificial arc beside what is cut out belongs to the same disk.
     for (const Seam& seam : seams)
       for (std::size_t i = seam.last; i != seam.first; i = subshape.next(i))
         if (!subshape.elements[i].is_joined())
-          division.equal.push_back({subshape.elements[i].disk_after, disk});
-    return parts;
+          division.equal.push_back({subshape.elements[i].disk_after, number});
+    return true;
   }
 
-  std::optional<std::vector<Subshape>> parts_by_branching(const Subshape& subshape,
-                                                          std::size_t artificial_arc) {
-    const auto maximal = branching_disk(context_, subshape, artificial_arc, division.disks);
-    if (!maximal) return std::nullopt;
-    auto parts = parts_by(*maximal, subshape);
-    if (parts) ++division.branching_disks;
-    return parts;
+  bool divides_by_branching(const Subshape& subshape, std::size_t artificial_arc) {
+    const auto maximal =
+        branching_disk(context_, subshape, gate_after(subshape, artificial_arc), disks_);
+    if (!maximal || !divides(*maximal, subshape)) return false;
+    ++division.branching_disks;
+    return true;
   }
 
   /// The artificial arc between the two elements that a non-reducing disk touches.
   std::optional<std::size_t> artificial_arc_behind(const MaximalDisk& maximal,
                                                    const Subshape& subshape) const {
-    if (maximal.contacts.size() != 2) return std::nullopt;
-    const std::size_t a = maximal.contacts[0].element, b = maximal.contacts[1].element;
+    if (maximal.count != 2) return std::nullopt;
+    const std::size_t a = maximal.place[0].element, b = maximal.place[1].element;
     for (const auto& [from, to] : {std::pair{a, b}, std::pair{b, a}})
       if (!subshape.elements[from].is_joined() && subshape.next(from) == to) return from;
     return std::nullopt;
   }
 
-  Context& context_;
+  Context context_;
   Random random_;
+  DiskList disks_;
+  Parts parts_;              ///< of the last division
+  std::vector<Seam> seams_;  ///< of the last disk
 };
+
+Parts whole_shape(const SiteOutline& outline) {
+  Parts parts;
+  for (std::uint32_t c = 0; c < outline.cycles.size(); ++c) {
+    parts.begin(c);
+    for (std::uint32_t i = outline.cycles[c].first; i <= outline.cycles[c].last; ++i)
+      parts.add({i, outline.disk_after[i], 0, outline.sites[i].length});
+  }
+  return parts;
+}
+
+/// Appends what a task made of its sub-shapes. The disks that it knew are the first `known` ones.
+void append(Division& part, const std::vector<Disk>& disks, std::size_t known, Division& all) {
+  const auto shift = static_cast<std::uint32_t>(all.disks.size() - known);
+  const auto renumber = [&](std::uint32_t& disk) {
+    if (disk != none && disk >= known) disk += shift;
+  };
+  for (auto& [one, other] : part.equal) {
+    renumber(one);
+    renumber(other);
+  }
+  for (BaseShape& base : part.base_shapes)
+    for (Element& element : base.element) renumber(element.disk_after);
+  const auto add = [](const auto& more, auto& to) {
+    to.insert(to.end(), more.begin(), more.end());
+  };
+  add(disks, all.disks);
+  add(part.component, all.component);
+  add(part.equal, all.equal);
+  add(part.base_shapes, all.base_shapes);
+  all.caps += part.caps;
+  all.random_disks += part.random_disks;
+  all.branching_disks += part.branching_disks;
+  all.multi_branchings += part.multi_branchings;
+  all.only_vertices += part.only_vertices;
+  all.divided_elements += part.divided_elements;
+}
+
+/// Where lists of about task_size elements begin, and the end.
+std::vector<std::size_t> task_begins(const Parts& parts) {
+  std::vector<std::size_t> begins{0};
+  std::size_t elements = 0;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    elements += parts[i].size();
+    if (elements < task_size && i + 1 < parts.size()) continue;
+    begins.push_back(i + 1);
+    elements = 0;
+  }
+  return begins;
+}
 
 }  // namespace
 
-std::optional<Division> divide(Context& context, std::uint64_t seed,
-                               const std::atomic<bool>* cancel,
-                               const std::function<void(double)>& progress) {
-  Divider divider(context, seed);
-  Division& division = divider.division;
+std::optional<Division> divide(Context& context, std::uint64_t seed, const Options& options) {
   const SiteOutline& outline = context.outline;
-  std::vector<Subshape> stack;
-  for (std::uint32_t c = 0; c < outline.loops.size(); ++c) {
-    Subshape& whole = stack.emplace_back();
-    whole.component = c;
-    for (std::uint32_t i = outline.loops[c].first; i <= outline.loops[c].last; ++i)
-      whole.elements.push_back({i, none, 0, outline.sites[i].length});
-  }
-  constexpr std::size_t report_interval = 4096;
-  std::size_t finished = 0;
-  while (!stack.empty()) {
-    if (cancel != nullptr && cancel->load(std::memory_order_relaxed)) break;
-    const Subshape subshape = std::move(stack.back());
-    stack.pop_back();
-    const auto base = base_shape_of(subshape, outline, division.disks, context.tolerance);
-    if (!base) {
-      auto parts = divider.parts_of(subshape);
-      if (!parts) return std::nullopt;
-      std::move(parts->begin(), parts->end(), std::back_inserter(stack));
-      continue;
+  Division all;
+  all.disks = outline.cutting_disks;
+  all.component = outline.component;
+
+  Parts large = whole_shape(outline), small;
+  Divider first(context, outline.cutting_disks, seed);
+  bool divided = first.divide(large, task_size, &small, options.cancel);
+  append(first.division, first.disks(), all.disks.size(), all);
+  context.statistics += first.statistics();
+
+  const std::vector<std::size_t> begins = task_begins(small);
+  std::vector<std::optional<Divider>> tasks(begins.size() - 1);
+  std::atomic<std::size_t> finished = 0;
+  const std::vector<Disk> known = all.disks;
+  std::atomic<bool> failed = !divided;
+  parallel_for(tasks.size(), [&](std::size_t t) {
+    Divider& divider = tasks[t].emplace(context, known, Random(seed + t).next());
+    Parts list;
+    for (std::size_t i = begins[t]; i < begins[t + 1]; ++i) {
+      list.begin(small[i].component);
+      list.add(small[i].elements);
     }
-    if (base->base_case == BaseCase::cap)
-      ++division.caps;
-    else
-      division.base_shapes.push_back(*base);
-    if (progress && ++finished % report_interval == 0)
-      progress(std::min(
-          1.0, static_cast<double>(finished) / static_cast<double>(2 * outline.sites.size())));
+    if (failed || !divider.divide(list, 0, nullptr, options.cancel)) failed = true;
+    if (options.progress)
+      options.progress(static_cast<double>(++finished) / static_cast<double>(tasks.size()));
+  });
+  context.stuck = first.stuck;
+  for (const auto& task : tasks)
+    if (!context.stuck) context.stuck = task->stuck;
+  if (failed) return std::nullopt;
+  for (auto& task : tasks) {
+    append(task->division, task->disks(), known.size(), all);
+    context.statistics += task->statistics();
   }
-  return division;
+  return all;
 }
 
 }  // namespace medial::biarc_dc

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "methods/disks/boundary.h"
+#include "site/bisector.h"
 #include "site/tangent_disk.h"
 
 namespace medial::biarc_dc {
@@ -35,7 +37,8 @@ double slack(const Context& context, const Bisector& bisector, const Disk& from)
 /// Whether a disk reaches over a closed site by more than `slack`.
 bool overlaps(const Disk& disk, const Site& site, double slack) {
   const double reach = disk.radius - slack;
-  return reach > 0 && site::squared_distance(site, disk.center) < reach * reach;
+  return reach > 0 && !is_far(site, disk.center, reach) &&
+         site::squared_distance(site, disk.center) < reach * reach;
 }
 bool touches(const Disk& disk, const Site& site, double slack) {
   return std::abs(std::sqrt(site::squared_distance(site, disk.center)) - disk.radius) <= slack;
@@ -138,8 +141,7 @@ struct EndDisk {
 /// The disk that touches the boundary at the last place that a foot moving on an element gets to,
 /// `forward` or backward, and touches the carrier of `other`.
 std::optional<EndDisk> disk_at_end(const Context& context, const Subshape& subshape, std::size_t i,
-                                   bool forward, const Site& other,
-                                   const std::vector<Disk>& disks) {
+                                   bool forward, const Site& other, const DiskList& disks) {
   const Element& element = subshape.elements[i];
   const Site& own = context.site(element);
   const std::size_t neighbor = forward ? subshape.next(i) : subshape.before(i);
@@ -170,9 +172,28 @@ std::optional<EndDisk> disk_at_end(const Context& context, const Subshape& subsh
   return EndDisk{{foot + radius * normal, radius}, radius * largest <= 1 + widest};
 }
 
+/// Of the copies of a reflex vertex that cutting disks leave, the one that a disk around `center`
+/// touches.
+std::size_t facing_copy(Context& context, const Subshape& subshape, std::size_t k, Vec2 center,
+                        const DiskList& disks) {
+  if (context.outline.cutting_disks.empty() || faces(context, subshape, k, center, disks)) return k;
+  constexpr double same_place = 0x1p-48;
+  const Vec2 point = context.site(subshape.elements[k]).point;
+  context.tree.within(point, same_place, subshape.elements.front().site,
+                      subshape.elements.back().site, context.found);
+  for (const std::uint32_t site : context.found) {
+    const std::size_t copy = subshape.find(site);
+    if (copy < subshape.size() && context.outline.sites[site].is_vertex() &&
+        faces(context, subshape, copy, center, disks))
+      return copy;
+  }
+  return k;
+}
+
 /// Where a disk touches element `k`, or its neighbour if the nearest point of both is their joint
 /// within rounding but lies inside of the neighbour.
-Place place_on(const Context& context, const Subshape& subshape, std::size_t k, const Disk& disk) {
+Place place_on(Context& context, const Subshape& subshape, std::size_t k, const Disk& disk,
+               const DiskList& disks) {
   int direction = 0;
   for (std::size_t step = 0; step < subshape.size(); ++step) {
     const Element& element = subshape.elements[k];
@@ -190,6 +211,8 @@ Place place_on(const Context& context, const Subshape& subshape, std::size_t k, 
       };
       goes_on = joins_next && lies_inside(next);
       goes_back = !goes_on && joins_before && lies_inside(before);
+      if (!goes_on && !goes_back)
+        return {facing_copy(context, subshape, k, disk.center, disks), false, 0};
     } else {
       s = site::foot_parameter(site, disk.center);
       goes_back = s <= 0 && joins_before;
@@ -208,7 +231,7 @@ Place place_on(const Context& context, const Subshape& subshape, std::size_t k, 
 /// nearly touched by one disk, three that enclose small angles may ask for a disk there; the
 /// dividing disk, which they touch within the tolerance, is their branching then.
 const Disk* disk_passed(const Context& context, const Subshape& subshape, std::size_t k,
-                        const Disk& disk, const std::vector<Disk>& disks) {
+                        const Disk& disk, const DiskList& disks) {
   constexpr double rounding = 0x1p-50;
   const Element& element = subshape.elements[k];
   const Element& before = subshape.elements[subshape.before(k)];
@@ -222,43 +245,153 @@ const Disk* disk_passed(const Context& context, const Subshape& subshape, std::s
 
 }  // namespace
 
-MaximalDisk maximal_disk(Context& context, const Subshape& subshape, const Place& place) {
-  ++context.statistics.queries;
-  const std::size_t i = place.element, n = subshape.size();
-  const Element& own = subshape.elements[i];
-  const std::size_t after = subshape.next(i), before = subshape.before(i);
-  std::size_t base = i;  // the arc whose normal the disk has
-  double parameter = place.parameter;
-  if (place.at_joint) {
-    base = context.site(own).is_vertex() ? after : i;
-    parameter = base == i ? context.site(own).length : 0;
-  }
-  const Site& arc = context.site(subshape.elements[base]);
-  const Vec2 foot = arc.at(parameter), normal = arc.normal_at(parameter);
-  double radius = context.radius_limit;
-  if (arc.curvature > 0) radius = std::min(radius, 1 / arc.curvature);
+bool faces(const Context& context, const Subshape& subshape, std::size_t k, Vec2 center,
+           const DiskList& disks) {
+  const Element &own = subshape.elements[k], &before = subshape.elements[subshape.before(k)];
+  const Vec2 vertex = context.site(own).point;
+  const Vec2 first = before.is_joined() ? context.site(before).end_normal()
+                                        : disks[before.disk_after].center - vertex;
+  const Vec2 last = own.is_joined() ? context.site(subshape.elements[subshape.next(k)]).normal()
+                                    : disks[own.disk_after].center - vertex;
+  return disks::in_wedge(first, last, center - vertex);
+}
 
-  // What joins the place smoothly is touched nowhere else. (Two neighbours of monotonic curvature
-  // have nested circles, and a disk that touches both sides of a reflex vertex has it inside.)
-  const auto is_beside = [&](std::size_t k) {
-    if (k == i) return true;
-    if (place.at_joint && k == after) return true;
-    if (k == after || (place.at_joint && k == subshape.next(after)))
-      return context.joins_smoothly(subshape.elements[subshape.before(k)]);
-    return k == before && context.joins_smoothly(subshape.elements[before]);
-  };
-  std::size_t touched = n;
-  Disk disk{foot + radius * normal, radius};
-  for (std::size_t step = 1, k = after; step < n; ++step, k = subshape.next(k)) {
-    const Site& site = context.site(subshape.elements[k]);
-    if (!overlaps(disk, site, context.rounding()) || is_beside(k)) continue;
-    const double smaller = site::touching_radius(foot, normal, site);
-    if (!(smaller > 0 && smaller < disk.radius)) continue;
-    disk = {foot + smaller * normal, smaller};
-    touched = k;
+namespace {
+
+/// The sites from one element of a sub-shape to another, in boundary order, and those of other
+/// sub-shapes in between.
+struct Range {
+  std::uint32_t first, last;
+  std::optional<std::pair<std::uint32_t, std::uint32_t>> rest = {};  ///< past the list's end
+
+  Range(const Subshape& subshape, std::size_t from, std::size_t to)
+      : first(subshape.elements[from].site), last(subshape.elements[to].site) {
+    if (from <= to) return;
+    rest = {subshape.elements.front().site, last};
+    last = subshape.elements.back().site;
   }
-  MaximalDisk result{disk, {place}};
-  if (touched < n) result.contacts.push_back(place_on(context, subshape, touched, disk));
+  /// The site nearest to a disk's centre, of those that it overlaps by more than `slack`.
+  site::BoundaryTree::Hit nearest(const site::BoundaryTree& tree, const Disk& disk,
+                                  double slack) const {
+    const auto hit = tree.nearest(disk.center, disk.radius - slack, first, last);
+    if (!rest) return hit;
+    const double reach = hit ? std::sqrt(hit.squared_distance) : disk.radius - slack;
+    const auto other = tree.nearest(disk.center, reach, rest->first, rest->second);
+    return other ? other : hit;
+  }
+};
+
+/// The disk at one place of a sub-shape's boundary, while elements make it smaller.
+struct DiskAtPlace {
+  Context& context;
+  const Subshape& subshape;
+  const Place& place;
+  Vec2 foot, normal;
+  Disk disk{};
+  std::size_t touched = subshape.size();
+
+  DiskAtPlace(Context& a_context, const Subshape& a_subshape, const Place& a_place)
+      : context(a_context), subshape(a_subshape), place(a_place) {
+    std::size_t base = place.element;  // the arc whose normal the disk has
+    double parameter = place.parameter;
+    if (place.at_joint) {
+      if (context.site(subshape.elements[base]).is_vertex()) base = subshape.next(base);
+      parameter = base == place.element ? context.site(subshape.elements[base]).length : 0;
+    }
+    const Site& arc = context.site(subshape.elements[base]);
+    foot = arc.at(parameter);
+    normal = arc.normal_at(parameter);
+    const double largest = context.radius_limit;
+    set(arc.curvature > 0 ? std::min(largest, 1 / arc.curvature) : largest);
+  }
+  void set(double radius) { disk = {foot + radius * normal, radius}; }
+
+  /// What joins the place smoothly is touched nowhere else. (Two neighbours of monotonic curvature
+  /// have nested circles, and a disk that touches both sides of a reflex vertex has it inside.)
+  /// So many elements after the one of the place, in boundary order, and before it are left out.
+  std::size_t beside_after() const {
+    const std::size_t k = place.at_joint ? subshape.next(place.element) : place.element;
+    return (place.at_joint ? 1 : 0) + (context.joins_smoothly(subshape.elements[k]) ? 1 : 0);
+  }
+  std::size_t beside_before() const {
+    return context.joins_smoothly(subshape.elements[subshape.before(place.element)]) ? 1 : 0;
+  }
+
+  /// Whether the site makes the disk smaller.
+  bool shrink(std::uint32_t site) {
+    if (place.at_joint && context.ends_at(site, foot)) return false;
+    const double smaller = site::touching_radius(foot, normal, context.outline.sites[site]);
+    if (!(smaller > 0 && smaller < disk.radius)) return false;
+    set(smaller);
+    return true;
+  }
+
+  void scan() {
+    const std::size_t n = subshape.size(), end = n - beside_before();
+    for (std::size_t step = 1 + beside_after(); step < end; ++step) {
+      const std::size_t k = (place.element + step) % n;
+      const std::uint32_t site = subshape.elements[k].site;
+      if (overlaps(disk, context.outline.sites[site], context.rounding()) && shrink(site))
+        touched = k;
+    }
+  }
+
+  /// The same by the tree. A disk that is maximal in the sub-shape is so in the shape: it does not
+  /// matter which sites make it smaller, as long as the last one is of the sub-shape. False where
+  /// rounding has it otherwise.
+  bool search() {
+    const std::size_t n = subshape.size();
+    const Range range(subshape, (place.element + 1 + beside_after()) % n,
+                      (place.element + n - 1 - beside_before()) % n);
+    std::uint32_t last = none;
+    while (const auto hit = range.nearest(context.tree, disk, context.rounding())) {
+      if (!shrink(hit.site)) return false;
+      last = hit.site;
+    }
+    if (last != none) touched = subshape.find(last);
+    return last == none || touched < n;
+  }
+};
+
+/// Of an arc whose own circle reaches over nothing but for rounding, the neighbour with a smaller
+/// circle, if there is one: the axis ends in the centre of that.
+std::optional<Place> rounder_neighbor(const Context& context, const Subshape& subshape,
+                                      const Place& place) {
+  const auto is_smooth = [&](std::size_t k) {
+    const Element& element = subshape.elements[k];
+    return element.is_joined() && context.outline.joints[element.site] == Joint::smooth;
+  };
+  const std::size_t i = place.element, before = subshape.before(i), after = subshape.next(i);
+  std::size_t roundest = i;
+  const auto take_if_rounder = [&](std::size_t k) {
+    const double bend = context.site(subshape.elements[k]).curvature;
+    if (bend > context.site(subshape.elements[roundest]).curvature) roundest = k;
+  };
+  if (is_smooth(before)) take_if_rounder(before);
+  if (is_smooth(i)) take_if_rounder(after);
+  if (roundest == i) return std::nullopt;
+  const Element& element = subshape.elements[roundest];
+  return Place{roundest, false, 0.5 * (element.from + element.to)};
+}
+
+}  // namespace
+
+MaximalDisk maximal_disk(Context& context, const Subshape& subshape, const Place& place,
+                         const DiskList& disks) {
+  ++context.statistics.queries;
+  DiskAtPlace at(context, subshape, place);
+  const double largest = at.disk.radius;
+  if (subshape.size() <= most_scanned || !at.search()) {
+    at.set(largest);
+    at.scan();
+  }
+  if (at.touched == subshape.size())
+    if (const auto rounder = rounder_neighbor(context, subshape, place))
+      return maximal_disk(context, subshape, *rounder, disks);
+  MaximalDisk result{at.disk};
+  result.add(place);
+  if (at.touched < subshape.size())
+    result.add(place_on(context, subshape, at.touched, at.disk, disks));
   return result;
 }
 
@@ -272,13 +405,13 @@ struct Stop {
   std::optional<Place> third = {};
 };
 
-/// The walk from one artificial arc to what it ends at, between the two elements beside the arc.
+/// The walk from a gate to what it ends at, between the gate's two elements.
 struct BranchWalk {
   Context& context;
   const Subshape& subshape;
-  const std::vector<Disk>& disks;
-  std::size_t left, right;  ///< elements
-  const Disk& from = disks[subshape.elements[left].disk_after];
+  const DiskList& disks;
+  std::size_t right, left;  ///< elements
+  Disk from;
   Bisector bisector{context.site(subshape.elements[right]), context.site(subshape.elements[left])};
   double low = bisector.position(from.center);
   std::size_t after = subshape.next(right), before = subshape.before(left);
@@ -312,64 +445,101 @@ struct BranchWalk {
   /// Where arcs of one circle lie between the two, the axis ends in its centre. Joints so near to
   /// each other would leave the disk open.
   std::optional<Stop> apex() const {
-    const Site& next = context.site(subshape.elements[after]);
-    if (!(next.curvature > 0 && 1 / next.curvature <= context.radius_limit)) return std::nullopt;
+    const double bend = context.site(subshape.elements[after]).curvature;
+    if (!(bend > 0 && 1 / bend <= context.radius_limit)) return std::nullopt;
+    std::size_t roundest = after;
     for (std::size_t k = right; k != left; k = subshape.next(k)) {
       const Element& element = subshape.elements[k];
-      const double bend = std::abs(context.site(element).curvature - next.curvature);
+      const double own = context.site(element).curvature;
       if (!(element.is_joined() && context.outline.joints[element.site] == Joint::smooth &&
-            (k == right || bend <= same_curvature * next.curvature)))
+            (k == right || std::abs(own - bend) <= same_curvature * bend)))
         return std::nullopt;
+      if (k != right && own > context.site(subshape.elements[roundest]).curvature) roundest = k;
     }
-    const double radius = 1 / next.curvature;
-    const Disk disk{next.point + radius * next.normal(), radius};
+    const Site& arc = context.site(subshape.elements[roundest]);
+    const double radius = 1 / arc.curvature;
+    const Disk disk{arc.point + radius * arc.normal(), radius};
     return Stop{disk, std::max(low, bisector.position(disk.center)),
-                Place{after, false, 0.5 * next.length}};
+                Place{roundest, false, 0.5 * arc.length}};
   }
 
-  /// The scan: whatever the disk reaches over moves it back to where it touches that.
+  /// Whatever the disk reaches over moves it back to where it touches that.
+  void move_back(Stop& stop, std::size_t k) const {
+    const Site& site = context.site(subshape.elements[k]);
+    stop.disk = first_contact(context, bisector, from, site, stop.disk);
+    stop.position = bisector.position(stop.disk.center);
+    stop.third = Place{k, false, site::foot_parameter(site, stop.disk.center)};
+  }
+
+  /// Whether an element is, or ends in, another copy of the vertex `right` or `left`.
+  bool ends_at_vertex(std::size_t k) const {
+    for (const Site* site : {&bisector.right, &bisector.left})
+      if (site->is_vertex() && context.ends_at(subshape.elements[k].site, site->point)) return true;
+    return false;
+  }
+
   void scan(Stop& stop) const {
     for (std::size_t k = after; k != left; k = subshape.next(k)) {
       if ((k == after && passes_right) || (k == before && passes_left)) continue;
-      const Site& site = context.site(subshape.elements[k]);
-      if (!overlaps(stop.disk, site, context.rounding())) continue;
-      stop.disk = first_contact(context, bisector, from, site, stop.disk);
-      stop.position = bisector.position(stop.disk.center);
-      stop.third = Place{k, false, site::foot_parameter(site, stop.disk.center)};
+      if (overlaps(stop.disk, context.site(subshape.elements[k]), context.rounding()) &&
+          !ends_at_vertex(k))
+        move_back(stop, k);
     }
   }
 
+  /// The scan by the tree. False where rounding has it that an element in another sub-shape is
+  /// reached, or one twice.
+  bool search(Stop& stop) const {
+    const std::size_t first = passes_right ? subshape.next(after) : after,
+                      last = passes_left ? subshape.before(before) : before;
+    const Range range(subshape, first, last);
+    while (const auto hit = range.nearest(context.tree, stop.disk, context.rounding())) {
+      const double position = stop.position;
+      const std::size_t k = subshape.find(hit.site);
+      if (k == subshape.size() || ends_at_vertex(k)) return false;
+      move_back(stop, k);
+      if (!(stop.position < position)) return false;
+    }
+    return true;
+  }
+
+  /// The first disk from the gate on that touches a third place.
+  Stop first_stop() const {
+    if (const auto at_apex = apex()) return *at_apex;
+    const Stop at_end = end_of_feet();
+    Stop stop = at_end;
+    const bool is_large = after != left && subshape.count(after, before) > most_scanned;
+    if (is_large && search(stop)) return stop;
+    stop = at_end;
+    scan(stop);
+    return stop;
+  }
+
   /// The disk and its places on both elements and the third one, each once.
-  MaximalDisk result(Disk disk, const Place& third) const {
-    MaximalDisk maximal{disk, {}};
+  MaximalDisk result(const Disk& disk, const Place& third) const {
+    MaximalDisk maximal{disk};
     const auto add = [&](const Place& place) {
-      for (const Place& known : maximal.contacts)
+      for (const Place& known : maximal.contacts())
         if (known.element == place.element && known.at_joint == place.at_joint) return;
-      maximal.contacts.push_back(place);
+      maximal.add(place);
     };
     const bool right_at_joint = third.at_joint && third.element == right;
     const bool left_at_joint = third.at_joint && third.element == before;
-    if (!right_at_joint) add(place_on(context, subshape, right, disk));
-    add(third.at_joint ? third : place_on(context, subshape, third.element, disk));
-    if (!left_at_joint) add(place_on(context, subshape, left, disk));
+    if (!right_at_joint) add(place_on(context, subshape, right, disk, disks));
+    add(third.at_joint ? third : place_on(context, subshape, third.element, disk, disks));
+    if (!left_at_joint) add(place_on(context, subshape, left, disk, disks));
     return maximal;
   }
 };
 
 }  // namespace
 
-std::optional<MaximalDisk> branching_disk(Context& context, const Subshape& subshape, std::size_t i,
-                                          const std::vector<Disk>& disks) {
+std::optional<MaximalDisk> branching_disk(Context& context, const Subshape& subshape,
+                                          const Gate& gate, const DiskList& disks) {
   ++context.statistics.queries;
-  if (subshape.next(i) == i) return std::nullopt;
-  const BranchWalk walk{context, subshape, disks, i, subshape.next(i)};
-  Stop stop;
-  if (const auto apex = walk.apex()) {
-    stop = *apex;
-  } else {
-    stop = walk.end_of_feet();
-    walk.scan(stop);
-  }
+  if (gate.right == gate.left) return std::nullopt;
+  const BranchWalk walk{context, subshape, disks, gate.right, gate.left, gate.disk};
+  Stop stop = walk.first_stop();
   if (!stop.third) return std::nullopt;
   for (const std::size_t k : {walk.right, stop.third->element, walk.left}) {
     const Disk* const passed = disk_passed(context, subshape, k, stop.disk, disks);

@@ -1,30 +1,55 @@
 #include "methods/biarc_dc/outline.h"
 
-namespace medial::biarc_dc {
+#include "methods/disks/boundary.h"
+#include "methods/disks/connect.h"
 
-SiteOutline outline_of(const Problem& problem) {
-  const site::SiteNumbers& numbers = problem.numbers();
+namespace medial::biarc_dc {
+namespace {
+
+using disks::Boundary;
+using disks::Element;
+
+/// The boundary that the method disks walks along, with its disks between loops.
+Boundary boundary_of(const Problem& problem, std::vector<disks::Bridge>& bridges,
+                     Statistics& statistics) {
+  Boundary loops = disks::loops_boundary(problem, false);
+  if (problem.shape.hole_count() == 0) return loops;
+  bridges = disks::connecting_disks(problem.shape, loops, problem.fine_tolerance, nullptr, 0,
+                                    statistics.queries);
+  statistics.bridges = bridges.size();
+  return disks::connect(problem.shape, loops, bridges);
+}
+
+}  // namespace
+
+SiteOutline outline_of(const Problem& problem, Statistics& statistics) {
+  std::vector<disks::Bridge> bridges;
+  const Boundary boundary = boundary_of(problem, bridges, statistics);
   SiteOutline outline;
-  outline.sites.reserve(numbers.count);
-  outline.joints.reserve(numbers.count);
-  outline.originals.reserve(numbers.count);
-  const auto add = [&](const site::Site& site, std::uint32_t original, Joint joint) {
-    outline.sites.push_back(site);
-    outline.originals.push_back(original);
-    outline.joints.push_back(joint);
-  };
-  for (std::size_t l = 0; l < problem.shape.loop_count(); ++l) {
-    const site::LoopEdges loop(problem.shape, l, problem.frame);
+  outline.sites.reserve(boundary.sites.size());
+  outline.joints.reserve(boundary.sites.size());
+  outline.disk_after.reserve(boundary.sites.size());
+  outline.originals.reserve(boundary.sites.size());
+  outline.component.resize(bridges.size());
+  for (const disks::Bridge& bridge : bridges) outline.cutting_disks.push_back(bridge.disk);
+  for (const Boundary::SiteRange& run : boundary.runs) {
     const auto first = static_cast<std::uint32_t>(outline.sites.size());
-    for (std::uint32_t i = 0; i < loop.size(); ++i) {
-      const std::uint32_t number = numbers.edge[loop.begin() + i];
-      if (numbers.is_site(loop.begin() + i))
-        add(site::make_vertex(loop.local(i)), number - 1, Joint::reflex);
-      const site::Pieces pieces = loop.edge(i);
-      if (pieces.count == 2) add(pieces.first(), number, Joint::smooth);
-      add(pieces.last(), number, numbers.joints[loop.begin() + loop.next(i)]);
+    const auto component = static_cast<std::uint32_t>(outline.cycles.size());
+    for (std::uint32_t i = run.first; i <= run.last; ++i) {
+      if (boundary.elements[i] == Element::bridge) {
+        outline.disk_after.back() = boundary.originals[i];
+        outline.component[boundary.originals[i]] = component;
+        continue;
+      }
+      const std::uint32_t next = i == run.last ? run.first : i + 1;
+      const bool beside_vertex =
+          boundary.elements[i] == Element::vertex || boundary.elements[next] == Element::vertex;
+      outline.sites.push_back(boundary.sites[i]);
+      outline.joints.push_back(beside_vertex ? Joint::reflex : boundary.joint(i));
+      outline.disk_after.push_back(none);
+      outline.originals.push_back(boundary.originals[i]);
     }
-    outline.loops.push_back({first, static_cast<std::uint32_t>(outline.sites.size() - 1)});
+    outline.cycles.push_back({first, static_cast<std::uint32_t>(outline.sites.size() - 1)});
   }
   return outline;
 }

@@ -2,58 +2,61 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 
 namespace medial::biarc_dc {
 namespace {
 
-/// The elements with their kinds and what joins them, as BaseCase spells them.
-std::string spell(const Subshape& subshape, const SiteOutline& outline, std::size_t begin) {
-  std::string word;
+/// What an element is and what follows it, in three bits; a sub-shape's word has those of all its
+/// elements, after a leading 1.
+constexpr std::uint32_t letter(bool is_vertex, char follower) {
+  const std::uint32_t after = follower == '|' ? 0 : follower == '-' ? 1 : follower == '^' ? 2 : 3;
+  return 4 * (is_vertex ? 1U : 0U) + after;
+}
+
+constexpr std::uint32_t word_of(const char* spelling) {
+  std::uint32_t word = 1;
+  for (; spelling[0] != 0; spelling += 2) word = 8 * word + letter(spelling[0] == 'V', spelling[1]);
+  return word;
+}
+
+char follower_of(const Element& element, const SiteOutline& outline) {
+  if (!element.is_joined()) return '|';
+  const Joint joint = outline.joints[element.site];
+  return joint == Joint::smooth ? '-' : joint == Joint::reflex ? 'v' : '^';
+}
+
+/// The word of a sub-shape, read from element `begin` on.
+std::uint32_t word_of(const Subshape& subshape, const SiteOutline& outline, std::size_t begin) {
+  std::uint32_t word = 1;
   for (std::size_t step = 0, i = begin; step < subshape.size(); ++step, i = subshape.next(i)) {
     const Element& element = subshape.elements[i];
-    word += outline.sites[element.site].is_vertex() ? 'V' : 'S';
-    if (!element.is_joined()) {
-      word += '|';
-      continue;
-    }
-    switch (outline.joints[element.site]) {
-      case Joint::smooth:
-        word += '-';
-        break;
-      case Joint::corner:
-      case Joint::blunt:
-        word += '^';
-        break;
-      case Joint::reflex:
-        word += 'v';
-        break;
-    }
+    const bool is_vertex = outline.sites[element.site].is_vertex();
+    word = 8 * word + letter(is_vertex, follower_of(element, outline));
   }
   return word;
 }
 
 struct Spelling {
-  const char* word;
+  std::uint32_t word;
   BaseCase base_case;
 };
-constexpr std::array<Spelling, base_case_count - 1> spellings{{{"S-S|S|", BaseCase::a},
-                                                               {"S|S|", BaseCase::b},
-                                                               {"S|S|S|", BaseCase::c},
-                                                               {"S-S-S|", BaseCase::d},
-                                                               {"S^S|S|", BaseCase::e},
-                                                               {"S^S|V|", BaseCase::f},
-                                                               {"S-S|V|", BaseCase::g},
-                                                               {"S|V|", BaseCase::h},
-                                                               {"V|V|", BaseCase::i},
-                                                               {"S|S|V|", BaseCase::j},
-                                                               {"S|V|V|", BaseCase::k},
-                                                               {"V|V|V|", BaseCase::l},
-                                                               {"S^S|", BaseCase::m}}};
+constexpr std::array<Spelling, base_case_count - 1> spellings{{{word_of("S-S|S|"), BaseCase::a},
+                                                               {word_of("S|S|"), BaseCase::b},
+                                                               {word_of("S|S|S|"), BaseCase::c},
+                                                               {word_of("S-S-S|"), BaseCase::d},
+                                                               {word_of("S^S|S|"), BaseCase::e},
+                                                               {word_of("S^S|V|"), BaseCase::f},
+                                                               {word_of("S-S|V|"), BaseCase::g},
+                                                               {word_of("S|V|"), BaseCase::h},
+                                                               {word_of("V|V|"), BaseCase::i},
+                                                               {word_of("S|S|V|"), BaseCase::j},
+                                                               {word_of("S|V|V|"), BaseCase::k},
+                                                               {word_of("V|V|V|"), BaseCase::l},
+                                                               {word_of("S^S|"), BaseCase::m}}};
 
 /// Whether all of a sub-shape lies on its only dividing disk, or bends away from it: between two
 /// contacts, a boundary turns to the left by the angle between them.
-bool is_cap(const Subshape& subshape, const SiteOutline& outline, const std::vector<Disk>& disks,
+bool is_cap(const Subshape& subshape, const SiteOutline& outline, const DiskList& disks,
             double tolerance) {
   std::uint32_t disk = none;
   bool is_concave = true, has_corner = false, is_blunt = false;
@@ -77,14 +80,33 @@ bool is_cap(const Subshape& subshape, const SiteOutline& outline, const std::vec
   const auto touches = [&](Vec2 p) {
     return std::abs(distance(p, disks[disk].center) - disks[disk].radius) <= tolerance;
   };
-  return std::all_of(subshape.elements.begin(), subshape.elements.end(), [&](const Element& one) {
+  for (std::size_t i = 0; i < subshape.size(); ++i) {
+    const Element& one = subshape.elements[i];
     const site::Site& site = outline.sites[one.site];
-    return touches(site.at(one.from)) && touches(site.at(0.5 * (one.from + one.to))) &&
-           touches(site.at(one.to));
-  });
+    if (!(touches(site.at(one.from)) && touches(site.at(0.5 * (one.from + one.to))) &&
+          touches(site.at(one.to))) ||
+        ends_elsewhere(subshape, outline, i, disks[disk], tolerance))
+      return false;
+  }
+  return true;
 }
 
 }  // namespace
+
+bool ends_elsewhere(const Subshape& subshape, const SiteOutline& outline, std::size_t i,
+                    const Disk& disk, double tolerance) {
+  const site::Site& arc = outline.sites[subshape.elements[i].site];
+  if (!(arc.curvature > 0)) return false;
+  const auto is_flatter = [&](std::size_t joint, std::size_t neighbor) {
+    const Element& element = subshape.elements[joint];
+    return element.is_joined() && outline.joints[element.site] == Joint::smooth &&
+           outline.sites[subshape.elements[neighbor].site].curvature <= arc.curvature;
+  };
+  const std::size_t before = subshape.before(i);
+  if (!is_flatter(before, before) || !is_flatter(i, subshape.next(i))) return false;
+  const Vec2 center = arc.point + (1 / arc.curvature) * arc.normal();
+  return squared_norm(center - disk.center) > tolerance * tolerance;
+}
 
 std::size_t Subshape::measure() const {
   std::size_t joints = 0;
@@ -92,24 +114,37 @@ std::size_t Subshape::measure() const {
   return elements.size() + joints;
 }
 
-std::vector<Subshape> split(const Subshape& subshape, const std::vector<Seam>& seams,
-                            std::uint32_t disk) {
-  std::vector<Subshape> parts;
-  parts.reserve(seams.size());
-  const std::size_t n = subshape.size();
+std::size_t Subshape::find(std::uint32_t site) const {
+  const auto found =
+      std::lower_bound(elements.begin(), elements.end(), site,
+                       [](const Element& element, std::uint32_t s) { return element.site < s; });
+  if (found == elements.end() || found->site != site) return elements.size();
+  return static_cast<std::size_t>(found - elements.begin());
+}
+
+void Parts::append(const Parts& others) {
+  for (std::size_t i = 0; i < others.size(); ++i) {
+    begin(others[i].component);
+    add(others[i].elements);
+  }
+}
+
+void split(const Subshape& subshape, std::span<const Seam> seams, std::uint32_t disk,
+           Parts& parts) {
   for (std::size_t j = 0; j < seams.size(); ++j) {
     const Seam &begin = seams[j], &end = seams[j + 1 == seams.size() ? 0 : j + 1];
-    Subshape& part = parts.emplace_back();
-    part.component = subshape.component;
-    const std::size_t count = (end.last + n - begin.first) % n + 1;
-    part.elements.reserve(count);
-    for (std::size_t step = 0, i = begin.first; step < count; ++step, i = subshape.next(i))
-      part.elements.push_back(subshape.elements[i]);
-    part.elements.front().from = begin.from;
-    part.elements.back().to = end.to;
-    part.elements.back().disk_after = disk;
+    const std::size_t count = subshape.count(begin.first, end.last);
+    parts.begin(subshape.component);
+    // Of a part that passes the end of the list, what comes first there.
+    const bool wraps = begin.first > end.last;
+    if (wraps) parts.add(subshape.elements.first(end.last + 1));
+    parts.add(
+        subshape.elements.subspan(begin.first, wraps ? subshape.size() - begin.first : count));
+    parts.of_last(wraps ? end.last + 1 : 0).from = begin.from;
+    Element& last = parts.of_last(wraps ? end.last : count - 1);
+    last.to = end.to;
+    last.disk_after = disk;
   }
-  return parts;
 }
 
 const char* name_of(BaseCase base_case) {
@@ -119,13 +154,13 @@ const char* name_of(BaseCase base_case) {
 }
 
 std::optional<BaseShape> base_shape_of(const Subshape& subshape, const SiteOutline& outline,
-                                       const std::vector<Disk>& disks, double tolerance) {
+                                       const DiskList& disks, double tolerance) {
   BaseShape base;
   base.component = subshape.component;
   if (is_cap(subshape, outline, disks, tolerance)) return base;
   if (subshape.size() > 3) return std::nullopt;
   for (std::size_t begin = 0; begin < subshape.size(); ++begin) {
-    const std::string word = spell(subshape, outline, begin);
+    const std::uint32_t word = word_of(subshape, outline, begin);
     const auto* const found = std::find_if(spellings.begin(), spellings.end(),
                                            [&](const Spelling& s) { return word == s.word; });
     if (found == spellings.end()) continue;

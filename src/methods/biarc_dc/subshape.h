@@ -3,15 +3,13 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "medial/axis.h"
 #include "methods/biarc_dc/outline.h"
 
 namespace medial::biarc_dc {
-
-/// Names no disk, no site.
-constexpr std::uint32_t none = ~std::uint32_t{0};
 
 /// A non-artificial arc of a sub-shape, a part of one site, and what follows it: the joint that the
 /// outline has there, or the artificial arc of a dividing disk.
@@ -25,18 +23,63 @@ struct Element {
 };
 
 /// A sub-shape: its non-artificial arcs in boundary order, cyclically, with the artificial arcs in
-/// between. A site occurs at most once.
+/// between. A site occurs at most once, and the list begins with the lowest one, so the sites
+/// increase.
 struct Subshape {
-  std::vector<Element> elements;
+  std::span<const Element> elements;
   std::uint32_t component = 0;
 
   std::size_t size() const { return elements.size(); }
   std::size_t next(std::size_t i) const { return i + 1 == elements.size() ? 0 : i + 1; }
   std::size_t before(std::size_t i) const { return i == 0 ? elements.size() - 1 : i - 1; }
+  /// How many elements there are from one to another, both included.
+  std::size_t count(std::size_t first, std::size_t last) const {
+    return (last >= first ? last - first : last + elements.size() - first) + 1;
+  }
+  /// The element that is a part of a site; size() if there is none. O(log n).
+  std::size_t find(std::uint32_t site) const;
   /// What every division must make smaller: non-artificial arcs and the joints between them. Two
   /// contacts inside arcs add two arcs and no joint; so only a part of two arcs without a joint,
   /// the base cases b, h and i, leaves the other part as large as the whole (docs/biarc-dc.md).
   std::size_t measure() const;
+};
+
+/// Sub-shapes one after the other, in one array.
+class Parts {
+ public:
+  bool empty() const { return parts_.empty(); }
+  std::size_t size() const { return parts_.size(); }
+  Subshape operator[](std::size_t i) const {
+    const std::size_t end = i + 1 < parts_.size() ? parts_[i + 1].begin : elements_.size();
+    return {std::span(elements_).subspan(parts_[i].begin, end - parts_[i].begin),
+            parts_[i].component};
+  }
+  Subshape back() const { return (*this)[parts_.size() - 1]; }
+  void pop_back() {
+    elements_.resize(parts_.back().begin);
+    parts_.pop_back();
+  }
+  void clear() {
+    elements_.clear();
+    parts_.clear();
+  }
+  /// Begins a part, to which the elements are added that come next.
+  void begin(std::uint32_t component) { parts_.push_back({elements_.size(), component}); }
+  void add(const Element& element) { elements_.push_back(element); }
+  void add(std::span<const Element> elements) {
+    elements_.insert(elements_.end(), elements.begin(), elements.end());
+  }
+  void append(const Parts& others);
+  /// The element, counted in boundary order, of the last part.
+  Element& of_last(std::size_t i) { return elements_[parts_.back().begin + i]; }
+
+ private:
+  struct Part {
+    std::size_t begin = 0;
+    std::uint32_t component = 0;
+  };
+  std::vector<Element> elements_;
+  std::vector<Part> parts_;
 };
 
 /// A place where a dividing disk touches the boundary of a sub-shape: one part ends there, with the
@@ -50,9 +93,14 @@ struct Seam {
   double from = 0;
 };
 
-/// The sub-shapes into which a dividing disk with these seams, in boundary order, divides a shape.
-std::vector<Subshape> split(const Subshape& subshape, const std::vector<Seam>& seams,
-                            std::uint32_t disk);
+/// Appends the sub-shapes into which a dividing disk with these seams, in boundary order, divides a
+/// shape.
+void split(const Subshape& subshape, std::span<const Seam> seams, std::uint32_t disk, Parts& parts);
+
+/// Whether element `i` is an arc of locally largest curvature, where the axis ends, but not in the
+/// disk's centre. A disk that nearly all of such an arc touches may still be far from its end.
+bool ends_elsewhere(const Subshape& subshape, const SiteOutline& outline, std::size_t i,
+                    const Disk& disk, double tolerance);
 
 /// The base cases of Figs 5 and 6. S stands for an arc or segment, V for a reflex vertex, | for an
 /// artificial arc, - for a smooth joint and ^ for a convex corner.
@@ -84,8 +132,22 @@ struct BaseShape {
   std::array<Element, 3> element;
 };
 
+/// The dividing disks so far: those that a list goes on from, and its own.
+struct DiskList {
+  std::span<const Disk> earlier;
+  std::vector<Disk> own;
+
+  const Disk& operator[](std::uint32_t i) const {
+    return i < earlier.size() ? earlier[i] : own[i - earlier.size()];
+  }
+  std::uint32_t add(const Disk& disk) {
+    own.push_back(disk);
+    return static_cast<std::uint32_t>(earlier.size() + own.size() - 1);
+  }
+};
+
 /// Which base case a sub-shape is, if it is one. `disks`: the dividing disks.
 std::optional<BaseShape> base_shape_of(const Subshape& subshape, const SiteOutline& outline,
-                                       const std::vector<Disk>& disks, double tolerance);
+                                       const DiskList& disks, double tolerance);
 
 }  // namespace medial::biarc_dc
