@@ -26,7 +26,7 @@ PORT ?= 8000
 BENCH_BOOST := build/boost-1.81
 SOURCES = $(shell git ls-files '*.h' '*.cpp')
 
-.PHONY: help setup build demo check test papers bench bench-flo-mat bench-images fuzz fuzz-coverage certain silhouettes corpus offsets tsan serial portable python wheels web docs format lint clean install
+.PHONY: help setup build demo check test papers bench bench-flo-mat bench-images fuzz fuzz-coverage certain silhouettes corpus offsets tsan serial portable python python-leaks spark wheels web docs format lint clean install
 .DEFAULT_GOAL := help
 
 help:     ## list the targets
@@ -65,8 +65,14 @@ python: setup   ## build the Python package, install it into an environment, run
 	@tools/python.sh install $(VENV) $(RELEASE)
 	@tools/docs.sh gallery $(VENV)
 
+python-leaks: python    ## a million calls of the Python package, which may not take more memory
+	@tools/python.sh leaks $(VENV) $(RELEASE)
+
+spark: python   ## test the Python package on Spark, Sedona, Dask and DuckDB (PyPI, Maven, Java 17)
+	@tools/python.sh spark build/python/engines $(RELEASE)
+
 wheels: setup   ## build the wheels of the Python package, checked by auditwheel: out/wheels
-	@tools/wheels.sh out/wheels
+	@tools/wheels.sh out/wheels $(JOBS)
 
 web: setup      ## build the package for JavaScript and the studio, and serve it: make web PORT=8000
 	@tools/setup.sh web

@@ -31,7 +31,7 @@ std::vector<Ring> loose(std::vector<Ring> rings) {
 }
 
 Shape built(std::span<const Ring> rings, ShapeReport* report = nullptr) {
-  Result<Shape> shape = build_shape(rings, report);
+  Result<Shape> shape = build_shape(rings, {}, report);
   EXPECT_TRUE(shape.ok()) << (shape ? "" : to_string(shape.error()));
   if (!shape) return {};
   expect_contract(rings, *shape);
@@ -388,7 +388,7 @@ TEST(Magnitudes, WholeRangeOfDoubles) {
                                    {{{-m, 0}, {-1, -m / 2}, {m / 2, 1}, {0, m / 2}}},
                                    {{{0, 0}, {s, 0}, {s, s}, {0, s}}}};
   ShapeReport report;
-  const Result<Shape> shape = build_shape(rings, &report);
+  const Result<Shape> shape = build_shape(rings, {}, &report);
   ASSERT_TRUE(shape.ok()) << to_string(shape.error());
   EXPECT_EQ(shape->component_count(), 2U);
   EXPECT_EQ(shape->hole_count(), 0U);
@@ -430,7 +430,7 @@ TEST(Random, GridRingsAgainstBruteForce) {
       for (std::size_t i = 0; i < size; ++i) ring.points.push_back({coordinate(), coordinate()});
     }
     ShapeReport report;
-    const Result<Shape> shape = build_shape(rings, &report);
+    const Result<Shape> shape = build_shape(rings, {}, &report);
     const test::Faults faults = test::brute_force_faults(rings);
     if (shape) {
       EXPECT_TRUE(faults.none()) << "trial " << trial;
@@ -503,7 +503,7 @@ TEST(Adversarial, ManyVerticesOnOneEdge) {
   rings.push_back({{{-1, 0}, {4.0 * count, 0}, {4.0 * count, 9}, {-1, 9}}});
   for (int i = 0; i < count; ++i) rings.push_back({{{4.0 * i, 0}, {4.0 * i + 1, 1}, {4.0 * i, 2}}});
   ShapeReport report;
-  const Result<Shape> shape = build_shape(rings, &report);
+  const Result<Shape> shape = build_shape(rings, {}, &report);
   ASSERT_TRUE(shape.ok()) << to_string(shape.error());
   EXPECT_EQ(report.split_edges, static_cast<std::uint64_t>(count));
   EXPECT_EQ(shape->loop_count(), 1U);
@@ -519,7 +519,7 @@ TEST(Adversarial, ManyEdgesInOneVertex) {
     rings.push_back({{{0, 0}, {1e5, y}, {1e5, y + 2}}, RingRole::outer});
   }
   ShapeReport report;
-  const Result<Shape> shape = build_shape(rings, &report);
+  const Result<Shape> shape = build_shape(rings, {}, &report);
   ASSERT_TRUE(shape.ok()) << to_string(shape.error());
   EXPECT_EQ(report.touching_vertices, 1U);
   EXPECT_EQ(shape->component_count(), static_cast<std::size_t>(count));
@@ -539,6 +539,59 @@ TEST(Adversarial, VerticalEdgesAndEqualX) {
   const Result<Shape> shape = build_shape(rings);
   ASSERT_TRUE(shape.ok()) << to_string(shape.error());
   EXPECT_EQ(shape->hole_count(), 90000U);
+}
+
+// ------------------------------------------------------------------------------ small polygons
+
+/// What a ring becomes where another ring, far away, has the sweep decide.
+Result<Shape> swept(const Ring& ring, ShapeReport& report) {
+  const Ring far{{{1000, 1000}, {1001, 1000}, {1000, 1001}}};
+  Result<Shape> shape = build_shape(std::vector<Ring>{ring, far}, &report);
+  if (!shape) return shape;
+  const std::size_t size = shape->points.size() - 3;
+  shape->points.resize(size);
+  shape->sources.resize(size);
+  shape->loop_begin.pop_back();
+  shape->component.pop_back();
+  shape->hole.pop_back();
+  return shape;
+}
+
+TEST(SmallPolygons, AreWhatTheSweepMakesOfThem) {
+  std::mt19937_64 random(3);
+  int simple = 0, reversed = 0, refused = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    const int grid = i % 2 == 0 ? 5 : 1'000;  // many ties, and none
+    const auto coordinate = [&] {
+      return static_cast<double>(random() % static_cast<std::uint64_t>(grid));
+    };
+    Ring ring;
+    ring.role = i % 3 == 0 ? RingRole::outer : RingRole::any;
+    for (std::uint64_t k = 3 + random() % 6; k > 0; --k)
+      ring.points.push_back({coordinate(), coordinate()});
+    ShapeReport report, expected_report;
+    const Result<Shape> shape = build_shape(std::span(&ring, 1), &report);
+    const Result<Shape> expected = swept(ring, expected_report);
+    ASSERT_EQ(shape.ok(), expected.ok()) << i;
+    EXPECT_EQ(report.reversed_rings, expected_report.reversed_rings) << i;
+    EXPECT_EQ(report.touching_vertices, expected_report.touching_vertices) << i;
+    if (!shape) {
+      ++refused;
+      EXPECT_EQ(to_string(shape.error()), to_string(expected.error())) << i;
+      continue;
+    }
+    ++simple;
+    reversed += report.reversed_rings > 0 ? 1 : 0;
+    EXPECT_EQ(shape->points, expected->points) << i;
+    EXPECT_EQ(shape->loop_begin, expected->loop_begin) << i;
+    EXPECT_EQ(shape->component, expected->component) << i;
+    EXPECT_EQ(shape->hole, expected->hole) << i;
+    for (std::size_t v = 0; v < shape->sources.size(); ++v)
+      EXPECT_EQ(shape->sources[v].vertex, expected->sources[v].vertex) << i;
+  }
+  EXPECT_GT(simple, 2'000);
+  EXPECT_GT(reversed, 500);
+  EXPECT_GT(refused, 2'000);
 }
 
 }  // namespace

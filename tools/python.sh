@@ -5,6 +5,8 @@
 #   tools/python.sh options FOLDER        what CMake needs to build the package, if it has nanobind
 #   tools/python.sh install FOLDER TREE   put the package, built in TREE, into it
 #   tools/python.sh test FOLDER TREE      install it; run tests, examples and the check of types
+#   tools/python.sh spark FOLDER TREE     install it beside Spark, Dask and DuckDB, in FOLDER; run their tests
+#   tools/python.sh leaks FOLDER TREE     install it; a million calls, which may not take more memory
 #
 # `test` ends with status 77, which counts as skipped, where the environment cannot be made.
 set -euo pipefail
@@ -12,7 +14,7 @@ cd "$(dirname "$0")/.."
 task=$1 folder=$2 tree=${3:-}
 python=${PYTHON:-python3}
 needed="nanobind numpy pytest hypothesis mypy"
-wished="shapely geopandas pyarrow networkx scipy igraph matplotlib scikit-image trimesh tqdm zstandard pandas-stubs"
+wished="shapely geopandas pyarrow networkx scipy igraph matplotlib scikit-image trimesh tqdm zstandard pandas-stubs pyright"
 
 environment() {
   [ -x "$folder/bin/python" ] || "$python" -m venv "$folder" || return 1
@@ -23,6 +25,21 @@ environment() {
       "$folder/bin/python" -m pip install --quiet --disable-pip-version-check "$package" ||
         echo "python: $package cannot be had; what needs it is skipped"
     done
+}
+
+# The packages that bring an engine, and from Maven what Sedona needs, if it can be had.
+engines() {
+  [ -x "$folder/bin/python" ] || "$python" -m venv "$folder"
+  "$folder/bin/python" -m pip install --quiet --disable-pip-version-check numpy pytest pyspark==4.0.1 \
+    apache-sedona==1.8.0 pyarrow pandas shapely geopandas psutil dask-geopandas duckdb==1.5.5 duckdb-extension-spatial==1.5.5
+  local jar
+  mkdir -p "$folder/jars"
+  for jar in org.apache.sedona:sedona-spark-shaded-4.0_2.13:1.8.0 org.datasyslab:geotools-wrapper:1.8.1-33.1; do
+    mvn -q dependency:copy -Dartifact="$jar" -DoutputDirectory="$PWD/$folder/jars" ||
+      echo "python: $jar cannot be had; the test of Sedona's geometries is skipped"
+  done
+  MEDIAL_SEDONA_JARS=$(find "$PWD/$folder/jars" -name '*.jar' | paste -sd,)
+  export MEDIAL_SEDONA_JARS
 }
 
 install() {
@@ -53,7 +70,21 @@ case $task in
     [ -x "$run" ] || run="$folder/bin/python"
     "$run" -m pytest -q -p no:cacheprovider -rs .
     "$run" -m pytest -q -p no:cacheprovider --doctest-modules -o doctest_optionflags="ELLIPSIS NORMALIZE_WHITESPACE" \
-      --pyargs medial
+      --doctest-ignore-import-errors --pyargs medial
     "$run" -m mypy --strict --ignore-missing-imports -p medial
+    if "$run" -m pyright --version > /dev/null 2>&1; then
+      (cd "$OLDPWD" && "$run" -m pyright --pythonpath "$run")
+    else
+      echo "python: skipped, pyright: it cannot be had"
+    fi
+    ;;
+  spark)
+    engines
+    install
+    "$folder/bin/python" -m pytest -q -p no:cacheprovider -rs python/engine_tests
+    ;;
+  leaks)
+    install
+    MEDIAL_LEAK_CALLS=1000000 "$folder/bin/python" -m pytest -q -p no:cacheprovider -k leaks python/tests
     ;;
 esac

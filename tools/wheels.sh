@@ -1,40 +1,43 @@
 #!/usr/bin/env bash
 # Wheels of the Python package: one for 3.11, one of the stable ABI for 3.12 and later. Libraries that a
-# system may lack become part of them. Each is checked: its size, and an axis in a new environment
-# with NumPy only.
+# system may lack become part of them. Each is checked: its size, the system that it asks for, and
+# the tests in a new environment with NumPy only, on each version of Python that is here.
 #
-#   tools/wheels.sh FOLDER
+#   tools/wheels.sh FOLDER [JOBS]
 #
 # The lowest glibc is that of the build machine; to get lower, run this in a container of manylinux_2_28
 # with oneTBB and Boost installed.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 out=$1
+export CMAKE_BUILD_PARALLEL_LEVEL=${2:-$(nproc)}
 most=$((4 * 1024 * 1024))
 work=$PWD/build/wheels
 mkdir -p "$out" "$work"
 
-# The interpreters that are there, of those with a wheel of their own.
+# The interpreters that are here, of these versions.
 interpreters() {
   local version path
-  for version in 3.11 3.12; do
+  for version in "$@"; do
     for path in "$(command -v "python$version" || true)" "$HOME/.pyenv/versions/$version".*/bin/python; do
-      [ -x "$path" ] && "$path" -c "import sys; sys.exit(f'{sys.version_info[0]}.{sys.version_info[1]}' != '$version')" \
+      [ -x "$path" ] && "$path" -c "import sys; sys.exit('%d.%d' % sys.version_info[:2] != '$version')" \
         2> /dev/null && echo "$path" && break
     done
   done
 }
 
+# Installs a wheel where nothing else is but NumPy; then the tests, which skip what needs more.
 check() {
-  local wheel=$1 python=$2 size
+  local wheel=$1 python=$2 size bare=$work/bare
   size=$(stat -c %s "$wheel")
   [ "$size" -le "$most" ] || { echo "$wheel: $size bytes, more than $most"; exit 1; }
-  rm -rf "$work/bare"
-  "$python" -m venv "$work/bare"
-  "$work/bare/bin/pip" install --quiet --disable-pip-version-check "$wheel"
-  (cd "$work" && "$work/bare/bin/python" - <<'TEST'
+  rm -rf "$bare" "$work/tests"
+  "$python" -m venv "$bare"
+  "$bare/bin/pip" install --quiet --disable-pip-version-check "$wheel"
+  cp -r python/tests "$work/tests"
+  (cd "$work/tests" && "$bare/bin/python" - <<'TEST'
 import sys, medial
-assert medial.axis([(0, 0), (4, 0), (4, 2), (0, 2)]).branch_count == 5
+assert medial.axis([(0, 0), (4, 0), (4, 2), (0, 2)], exact=True).branch_count == 5
 assert not {"shapely", "pandas", "matplotlib"} & set(sys.modules)
 try:
     medial.axis([(0, 0), (4, 0), (4, 2)]).to_shapely()
@@ -42,10 +45,12 @@ except medial.MissingPackage as error:
     assert "pip install shapely" in str(error)
 TEST
   )
+  "$bare/bin/pip" install --quiet --disable-pip-version-check pytest hypothesis
+  (cd "$work/tests" && "$bare/bin/python" -m pytest -q -p no:cacheprovider .)
   echo "$(basename "$wheel"): $size bytes, runs with NumPy only on $("$python" -V)"
 }
 
-found=$(interpreters)
+found=$(interpreters 3.11 3.12)
 [ -n "$found" ] || { echo "wheels: neither Python 3.11 nor 3.12 is installed"; exit 1; }
 rm -f "$out"/*.whl
 for python in $found; do
@@ -59,9 +64,9 @@ for python in $found; do
 done
 for wheel in "$out"/*.whl; do
   "$tools/bin/auditwheel" show "$wheel" | grep -m1 "manylinux" || true
-  for python in $found; do
-    case $(basename "$wheel")-$("$python" -V) in
-      *cp311-cp311*3.11.* | *cp312-abi3*3.12.*) check "$wheel" "$python" ;;
-    esac
-  done
+  case $wheel in
+    *-abi3-*) versions="3.12 3.13 3.14" ;;
+    *) versions=3.11 ;;
+  esac
+  for python in $(interpreters $versions); do check "$wheel" "$python"; done
 done

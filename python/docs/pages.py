@@ -30,7 +30,7 @@ def copy_pages(gallery, pages):
         shutil.copy(path, target)
     shutil.copytree(gallery, pages / "python" / "gallery")
     home = (HERE / "index.md").read_text().replace("](../", "](").replace("](tut", "](python/tut")
-    home = re.sub(r"\]\((how_to|gallery|reference|images)", r"](python/\1", home)
+    home = re.sub(r"\]\((how_to|gallery|reference|images|five_lines)", r"](python/\1", home)
     (pages / "index.md").write_text(home)
     (pages / "python" / "index.md").unlink()
 
@@ -108,6 +108,7 @@ nav:
   - Home: index.md
   - Python:
       - Tutorial: python/tutorial.md
+      - In five lines: python/five_lines.md
       - Images: python/images.md
       - Reference: python/reference.md
   - How to:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager, suppress
 from typing import Any
 
 import numpy as np
@@ -11,7 +12,7 @@ import numpy.typing as npt
 from . import _core
 from ._axis import MedialAxis
 from ._errors import MedialError, need
-from ._options import computing, options
+from ._options import computing, log, options
 from ._read import Ragged, Rings, from_wkb, from_wkb_buffer, read
 from ._records import EDGE, NODE, SITE, Floats, Indices, Records, records
 from ._shape import load
@@ -72,7 +73,7 @@ class Axes:
     @property
     def errors(self) -> dict[int, MedialError]:
         """What went wrong, by feature; those have no nodes."""
-        return {row[2]: MedialError(*row) for row in self._core.errors()}
+        return self._input.errors(self._core.errors())
 
     @property
     def method(self) -> str:
@@ -179,15 +180,16 @@ def _from_arrow(array: Any) -> Ragged:
             array = pyarrow.concat_arrays(array.chunks)
     if isinstance(array, pyarrow.ExtensionArray):
         array = array.storage
-    if array.null_count:
-        raise MedialError("a geometry of the array is null", "empty")
     kind = array.type
     if pyarrow.types.is_binary(kind) or pyarrow.types.is_large_binary(kind):
         width = np.int32 if pyarrow.types.is_binary(kind) else np.int64
         buffers = array.buffers()
         first = array.offset
         offsets = np.frombuffer(buffers[1], width)[first : first + len(array) + 1].astype(np.int64)
-        return from_wkb_buffer(np.frombuffer(buffers[2], np.uint8), offsets)
+        missing = np.flatnonzero(array.is_null().to_numpy(zero_copy_only=False)) if array.null_count else ()
+        return from_wkb_buffer(np.frombuffer(buffers[2] or b"", np.uint8), offsets, missing)
+    if array.null_count:
+        raise MedialError("a geometry of the array is null", "empty")
     offsets_list: list[Indices] = []
     while pyarrow.types.is_list(array.type) or pyarrow.types.is_large_list(array.type):
         offsets = array.offsets.to_numpy().astype(np.int64)
@@ -213,44 +215,43 @@ def ragged(x: Any) -> Ragged:
         if not isinstance(offsets, tuple) or len(offsets) not in (2, 3):
             raise MedialError("offsets are (ring, polygon) or (ring, polygon, feature)", "malformed")
         flat = np.ascontiguousarray(np.asarray(coordinates, np.float64)[:, :2])
-        return Ragged(flat, *(np.ascontiguousarray(part, np.int64) for part in offsets))
+        ring, polygon, *feature = (np.ascontiguousarray(part, np.int64) for part in offsets)
+        return Ragged(flat, ring, polygon, feature[0] if feature else None)
     if hasattr(x, "__arrow_c_stream__") and not hasattr(x, "geometry"):
         return _from_arrow(x)
     if hasattr(x, "__arrow_c_array__"):
         pyarrow = need("pyarrow", "all")
         return _from_arrow(x if isinstance(x, pyarrow.Array) else pyarrow.array(x))
-    if hasattr(x, "columns") and hasattr(x, "geometry"):
-        x = x.geometry
-    if hasattr(x, "to_wkb"):  # a GeoSeries or a GeometryArray
-        x = x.to_wkb()
-        return from_wkb(np.asarray(x, dtype=object))
+    series = getattr(x, "geometry", x) if hasattr(x, "columns") else x
+    if to_wkb := getattr(series, "to_wkb", None):  # a GeoSeries or a GeometryArray
+        return from_wkb(np.asarray(to_wkb(), dtype=object))
     values = list(x) if not isinstance(x, np.ndarray) else x
-    if len(values) and type(values[0]).__module__.startswith("shapely."):
-        shapely = need("shapely", "geo")
-        return from_wkb(shapely.to_wkb(np.asarray(values, dtype=object)))
-    if len(values) and all(isinstance(value, bytes) for value in values):
+    first = next((value for value in values if value is not None), None)
+    if type(first).__module__.startswith("shapely."):
+        with suppress(TypeError):  # the others are something else
+            return from_wkb(need("shapely", "geo").to_wkb(np.fromiter(values, object, len(values))))
+    if isinstance(first, bytes) and all(value is None or isinstance(value, bytes) for value in values):
         return from_wkb(values)
     return _from_rings([read(value) for value in values])
 
 
-class _Progress:
-    """A progress bar of tqdm, or a function that is called with the share done."""
+@contextmanager
+def progress_of(wanted: Any, total: int) -> Iterator[Callable[[int], None] | None]:
+    """A bar of tqdm, or a function that is called with the share done, for counts of what is done."""
+    if not wanted:
+        yield None
+    elif callable(wanted):
+        done = 0
 
-    def __init__(self, wanted: Any, total: int) -> None:
-        self._done, self._total = 0, max(total, 1)
-        self._call = wanted if callable(wanted) else None
-        self._bar = None if self._call else need("tqdm.auto", "all").tqdm(total=total)
+        def report(count: int) -> None:
+            nonlocal done
+            done += count
+            wanted(done / max(total, 1))
 
-    def __call__(self, count: int) -> None:
-        self._done += count
-        if self._bar is not None:
-            self._bar.update(count)
-        elif self._call is not None:
-            self._call(self._done / self._total)
-
-    def close(self) -> None:
-        if self._bar is not None:
-            self._bar.close()
+        yield report
+    else:
+        with need("tqdm.auto", "all").tqdm(total=total) as bar:
+            yield bar.update
 
 
 def axes(
@@ -302,13 +303,10 @@ def axes(
     given = ragged(x)
     computed = computing(method, tolerance=tolerance, threads=threads, exterior=exterior,
                          margin=margin, own=own)  # fmt: skip
-    shown = _Progress(progress, len(given)) if progress else None
-    try:
+    with progress_of(progress, len(given)) as shown:
         core = _core.axes_of(given.coordinates, given.ring, given.polygon, given.feature, computed, shown)
-    finally:
-        if shown is not None:
-            shown.close()
     result = Axes(core, given)
+    log("%d features, %d errors", len(result), len(core.errors()))
     if on_error == "raise" and (errors := result.errors):
         raise errors[min(errors)]
     return result

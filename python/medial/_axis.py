@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Iterator
-from pathlib import Path as FilePath
+from os import PathLike, fspath
 from typing import Any
 
 import numpy as np
@@ -300,11 +300,11 @@ class MedialAxis:
 
     # Files and copies.
 
-    def save(self, path: str | FilePath) -> None:
+    def save(self, path: str | PathLike[str]) -> None:
         """Writes the shape and its axis in the native format, without loss."""
         from ._native import save
 
-        save(self, path)
+        save(self, fspath(path))
 
     def _state(self) -> tuple[Any, ...]:
         numbers = self.method, self.tolerance, self.resolution, self.exterior

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from dataclasses import dataclass
 from typing import Any
 
@@ -28,6 +29,13 @@ class Settings:
 
 
 options = Settings()
+
+
+def log(text: str, *values: object) -> None:
+    """A record of the logger "medial", for whoever has imported logging."""
+    logging = sys.modules.get("logging")
+    if logging is not None:
+        logging.getLogger("medial").debug(text, *values)
 
 
 def computing(

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -37,12 +38,19 @@ class Ragged:
     ring: Indices
     polygon: Indices
     feature: Indices | None = None
+    failed: list[Any] = field(default_factory=list)
 
     def __len__(self) -> int:
         return len(self.polygon if self.feature is None else self.feature) - 1
 
+    def errors(self, computed: list[Any]) -> dict[int, MedialError]:
+        """Errors by feature: of reading, and of what was computed then."""
+        return {row[2]: MedialError(*row) for row in (*computed, *self.failed)}
+
     def one(self, i: int) -> Rings:
         """The rings of one feature."""
+        if any(row[2] == i for row in self.failed):
+            raise self.errors([])[i]
         first, last = (i, i + 1) if self.feature is None else self.feature[i : i + 2]
         polygons = self.polygon[first : last + 1]
         begin = self.ring[polygons[0] : polygons[-1] + 1] if len(polygons) else self.ring[:0]
@@ -97,20 +105,32 @@ def _from_polygons(polygons: Sequence[Sequence[Any]]) -> Rings:
     return _from_lists([ring for polygon in polygons for ring in polygon], roles)
 
 
-def from_wkb(values: Sequence[bytes] | npt.NDArray[Any]) -> Ragged:
-    """The polygons of well-known binary, one feature for each value."""
-    sizes = np.fromiter((len(value) for value in values), np.int64, len(values))
+def from_wkb(values: Sequence[bytes | None] | npt.NDArray[Any]) -> Ragged:
+    """The polygons of well-known binary, one feature for each value; None is an error of its feature."""
+    missing = [i for i, value in enumerate(values) if value is None]
+    present: Sequence[bytes] | npt.NDArray[Any] = [value or b"" for value in values] if missing else values  # type: ignore[assignment]
+    sizes = np.fromiter((len(value) for value in present), np.int64, len(values))
     offsets = np.zeros(len(values) + 1, np.int64)
     np.cumsum(sizes, out=offsets[1:])
-    return from_wkb_buffer(np.frombuffer(b"".join(values), np.uint8), offsets)
+    return from_wkb_buffer(np.frombuffer(b"".join(present), np.uint8), offsets, missing)
 
 
-def from_wkb_buffer(data: npt.NDArray[np.uint8], offsets: Indices) -> Ragged:
-    """The same from one buffer, as Arrow holds it."""
-    return Ragged(*_core.read_wkb(np.ascontiguousarray(data), np.ascontiguousarray(offsets, np.int64)))
+def from_wkb_buffer(data: npt.NDArray[np.uint8], offsets: Indices, missing: Iterable[int] = ()) -> Ragged:
+    """The same from one buffer, as Arrow holds it; `missing` features have no bytes."""
+    features = Ragged(*_core.read_wkb(np.ascontiguousarray(data), np.ascontiguousarray(offsets, np.int64)))
+    features.failed += [("the geometry is missing", "empty", int(i), None, None, None) for i in missing]
+    return features
 
 
 _WORD = re.compile(r"\s*(?:([A-Za-z]+)|([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)|([(),;=]))")
+
+
+@cache
+def _rings() -> list[tuple[re.Pattern[str], int]]:
+    """Rings whose points have two or all three numbers, and how many."""
+    number = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
+    points = [(r"\s+".join([number] * columns), columns) for columns in (2, 3)]
+    return [(re.compile(rf"\s*\(\s*({p}(?:\s*,\s*{p})*+)\s*\)"), columns) for p, columns in points]
 
 
 class _WellKnownText:
@@ -121,7 +141,7 @@ class _WellKnownText:
         self._at = 0
 
     def _fail(self) -> MedialError:
-        return MedialError(f"this is no well-known text at place {self._at}", "malformed")
+        return MedialError(f"this is not well-known text at place {self._at}", "malformed")
 
     def _next(self) -> str:
         found = _WORD.match(self._text, self._at)
@@ -161,8 +181,17 @@ class _WellKnownText:
             raise self._fail()
         return numbers[:2]
 
+    def _ring(self) -> Any:
+        """A ring: at once, where all its points are alike, else number by number."""
+        for pattern, columns in _rings():
+            found = pattern.match(self._text, self._at)
+            if found is not None:
+                self._at = found.end()
+                return np.array(found[1].replace(",", " ").split(), np.float64).reshape(-1, columns)[:, :2]
+        return self._list(self._point)
+
     def _polygon(self) -> list[Any]:
-        return self._list(lambda: self._list(self._point))
+        return self._list(self._ring)
 
     def _geometry(self) -> list[Any]:
         name = self._next().upper()
@@ -206,8 +235,8 @@ def read(x: Any) -> Rings:
     wkb = getattr(type(x), "__module__", "").startswith("shapely.") and getattr(x, "wkb", None)
     if wkb:
         return from_wkb([wkb]).one(0)
-    if hasattr(x, "__geo_interface__"):
-        return _from_polygons(list(_polygons_of(x.__geo_interface__)))
+    if geometry := getattr(x, "__geo_interface__", None):
+        return _from_polygons(list(_polygons_of(geometry)))
     if isinstance(x, Mapping):
         return _from_polygons(list(_polygons_of(x)))
     if isinstance(x, (Sequence, np.ndarray)) and len(x):
@@ -254,7 +283,8 @@ def chains_of(x: Any) -> tuple[Floats, Indices, npt.NDArray[np.uint8]]:
     if isinstance(x, np.ndarray) and x.ndim == 2 and x.dtype != object:
         points = rows(x)
         return points, np.arange(len(points) + 1), np.zeros(len(points), np.uint8)
-    if hasattr(x, "__geo_interface__") and "features" not in x.__geo_interface__:
+    geometry = getattr(x, "__geo_interface__", None)
+    if geometry and "features" not in geometry:
         add_any(x)
     elif len(x) and not hasattr(x[0], "__geo_interface__") and len(x[0]) and _is_point(x[0]):
         return chains_of(rows(x))

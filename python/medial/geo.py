@@ -6,15 +6,13 @@ projection of each call, and taken back.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 
-from . import _operations
+from . import _operations, arrays
 from ._axes import Axes, axes
-from ._axis import MedialAxis
-from ._errors import MedialError, need
+from ._errors import need
 
 geopandas = need("geopandas", "geo")
 pandas = need("pandas", "geo")
@@ -61,18 +59,6 @@ class MedialAccessor:
         series = geopandas.GeoSeries(geometries, index=self._series.index if index is None else index, crs=local)
         return series.to_crs(self._crs) if self._local else series
 
-    def _each(self, work: Callable[[MedialAxis], Any], method: str | None = None) -> list[Any]:
-        all_axes = axes(self._metric(), method)
-        results = []
-        for i in range(len(all_axes)):
-            try:
-                results.append(work(all_axes[i]))
-            except MedialError as error:
-                error.feature = i
-                error.args = (*error.args[:2], i, *error.args[3:])
-                raise
-        return results
-
     def axes(self, method: str | None = None, **given: Any) -> Axes:
         """The axes as arrays, in metres where the reference system is geographic."""
         return axes(self._metric(), method, **given)
@@ -83,57 +69,49 @@ class MedialAccessor:
 
     def branches(self, chord: float | None = None) -> Any:
         """A GeoDataFrame with a row for each branch, with the index of its feature."""
-        tables = self._each(lambda a: a.to_geopandas(chord))
+        tables = [axis.to_geopandas(chord) for axis in axes(self._metric())]
         frame = pandas.concat(tables, keys=self._series.index, names=["feature"])
         return frame.set_geometry(self._back(frame.geometry.to_numpy(), frame.index))
 
     def centerline(self, **given: Any) -> Any:
-        """A GeoSeries of LineStrings; options as :func:`medial.centerline`."""
-        return self._back(self._each(lambda a: _operations.centerline(a, **given).to_shapely()))
+        """A GeoSeries of LineStrings; options as :func:`medial.arrays.centerline`."""
+        return self._back(arrays.centerline(self._metric(), **given).to_shapely())
 
     centreline = centerline
 
     def width(self, samples: int = 100, **given: Any) -> Any:
         """A table of the widths along the centre lines: mean, min, max, length."""
-
-        def row(of: MedialAxis) -> dict[str, float]:
-            line = _operations.centerline(of, **given)
-            widths = line.widths(samples).width
-            mean = float(np.trapezoid(widths, dx=1) / (samples - 1)) if samples > 1 else float(widths[0])
-            return {"mean": mean, "min": 2 * line.narrowest, "max": float(widths.max()), "length": line.length}
-
-        return pandas.DataFrame(self._each(row), index=self._series.index)
+        found = arrays.width(self._metric(), samples, **given)
+        return found.to_pandas().set_axis(self._series.index)
 
     def transects(self, count: int = 10, **given: Any) -> Any:
         """A GeoDataFrame of the lines from side to side, with their widths."""
-        found = self._each(lambda a: _operations.transects(a, count, **given))
+        found = [_operations.transects(axis, count, **given) for axis in axes(self._metric())]
         index = self._series.index.repeat([len(widths.along) for widths in found])
         lines = np.concatenate([widths.transects() for widths in found])
         columns = {"along": np.concatenate([w.along for w in found]), "width": np.concatenate([w.width for w in found])}
-        return geopandas.GeoDataFrame(columns, geometry=self._back(lines, index).to_numpy(), index=index, crs=self._crs)
+        return self._frame(columns, lines, index)
 
-    def inscribed_circles(self, k: int = 1, smallest: float = 0) -> Any:
+    def inscribed_circles(self, k: int = 1, smallest: float = 0, **given: Any) -> Any:
         """A GeoDataFrame of the centres and radii of the `k` largest circles of each feature."""
-        found = self._each(lambda a: _operations.inscribed_circles(a, k, smallest))
-        index = self._series.index.repeat([len(circles) for circles in found])
-        flat = [circle for circles in found for circle in circles]
-        points = shapely.points([[circle.x, circle.y] for circle in flat])
-        columns = {"radius": [circle.radius for circle in flat]}
-        return geopandas.GeoDataFrame(columns, geometry=self._back(points, index).to_numpy(), index=index, crs=self._crs)
+        found = arrays.inscribed_circles(self._metric(), k, smallest, **given)
+        index = self._series.index.take(found.feature)
+        return self._frame({"radius": found["radius"]}, shapely.points(found.values[:, :2]), index)
 
-    def offset(self, distance: float, chord: float | None = None) -> Any:
+    def offset(self, distance: float, chord: float | None = None, **given: Any) -> Any:
         """A GeoSeries of what is farther than a distance from the boundary; outwards if negative."""
+        parts = arrays.offset(self._metric(), distance, chord=chord, **given).to_shapely()
+        alone = shapely.get_num_geometries(parts) == 1
+        parts[alone] = shapely.get_geometry(parts[alone], 0)
+        return self._back(parts)
 
-        def region(of: MedialAxis) -> Any:
-            parts = [part.to_shapely(chord) for part in _operations.offset(of, distance)]
-            return parts[0] if len(parts) == 1 else shapely.MultiPolygon(parts)
+    def prune(self, measure: str = "prominence", threshold: float | None = None, **given: Any) -> Any:
+        """A GeoSeries of the pruned axes; options as :func:`medial.arrays.prune`."""
+        return self._back(arrays.prune(self._metric(), measure, threshold, **given).to_shapely())
 
-        return self._back(self._each(region))
-
-    def prune(self, measure: str = "prominence", threshold: float | None = None, *,
-              keep: int | None = None, chord: float | None = None) -> Any:  # fmt: skip
-        """A GeoSeries of the pruned axes."""
-        return self._back(self._each(lambda a: a.prune(measure, threshold, keep=keep).to_shapely(chord)))
+    def _frame(self, columns: dict[str, Any], geometries: Any, index: Any) -> Any:
+        geometry = self._back(geometries, index).to_numpy()
+        return geopandas.GeoDataFrame(columns, geometry=geometry, index=index, crs=self._crs)
 
 
 pandas.api.extensions.register_dataframe_accessor("medial")(MedialAccessor)

@@ -43,7 +43,7 @@ void take_own(Named& named, method::Ridge& own) {
   std::string search = "tree", rule = "crossing";
   take_grid(named, own.grid).take("collinear", own.collinear);
   named.take("search", search).take("rule", rule);
-  own.search = search == "tree" ? RidgeSearch::tree : RidgeSearch::sorted_list;
+  own.sorted_list = search != "tree";
   own.rule = rule == "crossing" ? RidgeRule::crossing : RidgeRule::difference;
 }
 void take_own(Named& named, method::Brushfire& own) {
@@ -133,18 +133,7 @@ std::pair<Array<double, 2>, Array<std::int64_t>> lines(const AxisOf& self, doubl
   std::vector<Disk> disks;
   std::vector<std::int64_t> begin{0};
   without_lock([&] {
-    for (const Branch& branch : branches(self.axis)) {
-      bool first = true;
-      for (const Step& piece : branch.steps) {
-        const Edge& edge = self.axis.edges[piece.edge];
-        std::vector<Disk> samples = step > 0 ? sample_by_step(self.axis, edge, step)
-                                             : sample_by_chord(self.axis, edge, chord);
-        if (!piece.forward) std::ranges::reverse(samples);
-        disks.insert(disks.end(), samples.begin() + (first ? 0 : 1), samples.end());
-        first = false;
-      }
-      begin.push_back(static_cast<std::int64_t>(disks.size()));
-    }
+    add_lines(self.axis, chord, step, disks, begin);
     return 0;
   });
   return {rows_of<double>(std::move(disks)), array_of(std::move(begin))};
@@ -265,6 +254,22 @@ Options options_of(const std::string& method, double tolerance, double corner_an
     named.finish(method);
   }
   return options;
+}
+
+void add_lines(const MedialAxis& axis, double chord, double step, std::vector<Disk>& disks,
+               std::vector<std::int64_t>& begin) {
+  for (const Branch& branch : branches(axis)) {
+    bool first = true;
+    for (const Step& piece : branch.steps) {
+      const Edge& edge = axis.edges[piece.edge];
+      std::vector<Disk> samples =
+          step > 0 ? sample_by_step(axis, edge, step) : sample_by_chord(axis, edge, chord);
+      if (!piece.forward) std::ranges::reverse(samples);
+      disks.insert(disks.end(), samples.begin() + (first ? 0 : 1), samples.end());
+      first = false;
+    }
+    begin.push_back(static_cast<std::int64_t>(disks.size()));
+  }
 }
 
 void bind_axes(nb::module_& module) {

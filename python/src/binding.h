@@ -185,11 +185,20 @@ std::vector<Ring> rings_of(const Coordinates& coordinates,
                            const std::optional<Values<std::uint8_t>>& roles,
                            const std::optional<Values<double>>& bulges);
 
+Route route_from(const std::string& name);
+PruneMeasure measure_from(const std::string& name);
+/// Appends a ring's points, closed, with arcs as chords.
+void add_outline(const Ring& ring, double chord, std::vector<Vec2>& points);
+/// Appends polylines along all branches, within a chord or with steps, and where each ends.
+void add_lines(const MedialAxis& axis, double chord, double step, std::vector<Disk>& disks,
+               std::vector<std::int64_t>& begin);
+
 // Each adds the functions and classes of its topic to the module.
 void bind_shapes(nb::module_& module);
 void bind_axes(nb::module_& module);
 void bind_collections(nb::module_& module);
 void bind_well_known_binary(nb::module_& module);
+void bind_batches(nb::module_& module);
 void bind_paths(nb::module_& module);
 void bind_derived(nb::module_& module);
 void bind_features(nb::module_& module);

@@ -55,6 +55,7 @@ NB_MODULE(_core, module) {
   bind_axes(module);
   bind_collections(module);
   bind_well_known_binary(module);
+  bind_batches(module);
   bind_paths(module);
   bind_derived(module);
   bind_features(module);

@@ -20,20 +20,7 @@ EdgePlace place_of(const AxisOf& self, const Place& place) {
   return {place.first, place.second};
 }
 
-Route route_from(const std::string& name) {
-  if (name == "roomy") return Route::roomy;
-  if (name == "shortest") return Route::shortest;
-  refuse(ErrorCode::invalid_option, "route is 'roomy' or 'shortest'");
-}
-
-/// The significance of each edge, and the pruned axis.
-PruneMeasure measure_from(const std::string& name) {
-  if (const auto measure = prune_measure_from(name)) return *measure;
-  throw Failure(Error{ErrorCode::invalid_option,
-                      "there is no measure '" + name + "'; medial.prune_measures() lists them",
-                      {}});
-}
-
+/// The pruned axis, and the threshold.
 nb::tuple pruned(const AxisOf& self, const std::string& measure, std::optional<double> threshold,
                  std::optional<std::uint64_t> keep, bool tips) {
   PruneReport report;
@@ -143,6 +130,19 @@ std::optional<Place> place_at(const AxisOf& self, const Point& p) {
 }
 
 }  // namespace
+
+Route route_from(const std::string& name) {
+  if (name == "roomy") return Route::roomy;
+  if (name == "shortest") return Route::shortest;
+  refuse(ErrorCode::invalid_option, "route is 'roomy' or 'shortest'");
+}
+
+PruneMeasure measure_from(const std::string& name) {
+  if (const auto measure = prune_measure_from(name)) return *measure;
+  throw Failure(Error{ErrorCode::invalid_option,
+                      "there is no measure '" + name + "'; medial.prune_measures() lists them",
+                      {}});
+}
 
 void bind_paths(nb::module_& module) {
   nb::class_<PathOf>(module, "Path")

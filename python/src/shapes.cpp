@@ -92,14 +92,7 @@ std::pair<Array<double, 2>, Array<std::int64_t>> outline(const Shape& shape, dou
   std::vector<Vec2> points;
   std::vector<std::int64_t> begin{0};
   for (std::size_t i = 0; i < shape.loop_count(); ++i) {
-    const Ring ring = ring_of(shape, i);
-    ToolPath path;
-    for (std::size_t k = 0; k <= ring.points.size(); ++k) {
-      const std::size_t at = k % ring.points.size();
-      path.points.push_back({ring.points[at], 0, ring.bulges.empty() ? 0 : ring.bulges[at]});
-    }
-    path.points.back().bulge = 0;
-    for (const ToolPoint& point : without_arcs(path, chord)) points.push_back(point.point);
+    add_outline(ring_of(shape, i), chord, points);
     begin.push_back(static_cast<std::int64_t>(points.size()));
   }
   return {rows_of<double>(std::move(points)), array_of(std::move(begin))};
@@ -168,6 +161,16 @@ std::vector<Ring> rings_of(const Coordinates& coordinates,
     if (bulges) rings[i].bulges.assign(bulges->data() + from, bulges->data() + to);
   }
   return rings;
+}
+
+void add_outline(const Ring& ring, double chord, std::vector<Vec2>& points) {
+  ToolPath path;
+  for (std::size_t k = 0; k <= ring.points.size(); ++k) {
+    const std::size_t at = k % ring.points.size();
+    path.points.push_back({ring.points[at], 0, ring.bulges.empty() ? 0 : ring.bulges[at]});
+  }
+  path.points.back().bulge = 0;
+  for (const ToolPoint& point : without_arcs(path, chord)) points.push_back(point.point);
 }
 
 void bind_shapes(nb::module_& module) {

@@ -3,7 +3,7 @@
 #include <bit>
 #include <cstring>
 
-#include "binding.h"
+#include "many.h"
 
 namespace medial::python {
 namespace {
@@ -16,11 +16,21 @@ class Reader {
   std::vector<Vec2> points;
   std::vector<std::int64_t> ring{0}, polygon{0}, feature{0};
 
-  /// Errors become those of feature i.
+  FeatureErrors errors;
+
+  /// A feature with an error is empty.
   void read(std::size_t i, std::span<const std::uint8_t> bytes) {
     rest_ = bytes;
     feature_ = i;
-    geometry(0);
+    const std::size_t sizes[] = {points.size(), ring.size(), polygon.size()};
+    try {
+      geometry(0);
+    } catch (const Failure& failure) {
+      errors.emplace_back(static_cast<std::int64_t>(i), failure.error());
+      points.resize(sizes[0]);
+      ring.resize(sizes[1]);
+      polygon.resize(sizes[2]);
+    }
     feature.push_back(static_cast<std::int64_t>(polygon.size()) - 1);
   }
 
@@ -95,11 +105,101 @@ nb::tuple read_all(const Values<std::uint8_t>& data, const Values<std::int64_t>&
     reader.read(i, bytes.subspan(begin, end - begin));
   }
   return nb::make_tuple(rows_of<double>(std::move(reader.points)), array_of(std::move(reader.ring)),
-                        array_of(std::move(reader.polygon)), array_of(std::move(reader.feature)));
+                        array_of(std::move(reader.polygon)), array_of(std::move(reader.feature)),
+                        list_of(reader.errors));
+}
+
+/// Writes the geometries of features: parts of parts of rows, of which x and y are taken. As many
+/// levels of offsets as the type is deep: a line string one, a line of lines two, polygons three.
+class Writer {
+ public:
+  Writer(const Values<double>& values, std::size_t columns,
+         const std::vector<Values<std::int64_t>>& levels)
+      : values_(values), columns_(columns), levels_(levels) {}
+
+  std::vector<std::uint8_t> bytes;
+  std::vector<std::int64_t> offsets{0};
+
+  void write() {
+    const std::size_t top = levels_.size() - 1;
+    for (std::size_t i = 0; i + 1 < levels_[top].shape(0); ++i) {
+      write(top, i);
+      offsets.push_back(static_cast<std::int64_t>(bytes.size()));
+    }
+  }
+
+ private:
+  template <class T>
+  void add(T number) {
+    const auto raw = std::bit_cast<std::array<std::uint8_t, sizeof(T)>>(number);
+    bytes.insert(bytes.end(), raw.begin(), raw.end());
+  }
+  void head(std::uint32_t type) {
+    add(static_cast<std::uint8_t>(std::endian::native == std::endian::little));
+    add(type);
+  }
+  std::pair<std::size_t, std::size_t> parts(std::size_t level, std::size_t i) const {
+    const std::int64_t* const begin = levels_[level].data() + i;
+    return {static_cast<std::size_t>(begin[0]), static_cast<std::size_t>(begin[1])};
+  }
+  void count(std::size_t level, std::size_t i) {
+    const auto [from, to] = parts(level, i);
+    add(static_cast<std::uint32_t>(to - from));
+  }
+  void rows(std::size_t i) {
+    count(0, i);
+    const auto [from, to] = parts(0, i);
+    for (std::size_t row = from; row < to; ++row)
+      for (std::size_t k = 0; k < 2; ++k) add(values_.data()[row * columns_ + k]);
+  }
+  void line(std::size_t i) {
+    head(2);
+    rows(i);
+  }
+  void polygon(std::size_t i) {
+    head(polygon_type);
+    count(1, i);
+    const auto [from, to] = parts(1, i);
+    for (std::size_t ring = from; ring < to; ++ring) rows(ring);
+  }
+  void write(std::size_t top, std::size_t i) {
+    if (top == 0) return line(i);
+    head(top == 1 ? 5 : multi_polygon_type);
+    count(top, i);
+    const auto [from, to] = parts(top, i);
+    for (std::size_t part = from; part < to; ++part) top == 1 ? line(part) : polygon(part);
+  }
+
+  const Values<double>& values_;
+  std::size_t columns_;
+  const std::vector<Values<std::int64_t>>& levels_;
+};
+
+/// Line strings, multi line strings or multi polygons as well-known binary: bytes and offsets.
+nb::tuple write_all(const Values<double>& values, std::size_t columns,
+                    const std::vector<Values<std::int64_t>>& levels) {
+  std::size_t below = columns < 2 ? 0 : values.shape(0) / columns;
+  bool fits = columns >= 2 && !levels.empty() && levels.size() <= 3;
+  for (const auto& level : levels) {
+    const auto begin = span_of(level);
+    fits = fits && !begin.empty() && begin.front() >= 0 && std::ranges::is_sorted(begin) &&
+           static_cast<std::size_t>(begin.back()) <= below;
+    below = level.shape(0) - 1;
+  }
+  if (!fits) refuse(ErrorCode::malformed, "the offsets do not fit the rows");
+  Writer writer(values, columns, levels);
+  without_lock([&] {
+    writer.write();
+    return 0;
+  });
+  return nb::make_tuple(array_of(std::move(writer.bytes)), array_of(std::move(writer.offsets)));
 }
 
 }  // namespace
 
-void bind_well_known_binary(nb::module_& module) { module.def("read_wkb", &read_all); }
+void bind_well_known_binary(nb::module_& module) {
+  module.def("read_wkb", &read_all);
+  module.def("write_wkb", &write_all);
+}
 
 }  // namespace medial::python

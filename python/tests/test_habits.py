@@ -18,7 +18,7 @@ import medial
 
 @st.composite
 def polygons(draw):
-    """Star-shaped polygons, some with a star-shaped hole around the same centre."""
+    """Star-shaped polygons with up to three star-shaped holes."""
 
     def star(count, low, high):
         seed = draw(st.integers(0, 2**32 - 1))
@@ -28,8 +28,9 @@ def polygons(draw):
         return np.stack([radii * np.cos(angles), radii * np.sin(angles)], axis=1)
 
     rings = [star(draw(st.integers(5, 40)), 2, 10)]
-    if draw(st.booleans()):
-        rings.append(0.05 * star(draw(st.integers(3, 12)), 2, 10))
+    places = [(0, 0), (0.9, 0.6), (-0.8, 0.7)]
+    for place in places[: draw(st.integers(0, 3))]:
+        rings.append(0.05 * star(draw(st.integers(3, 12)), 2, 10) + place)
     scale = draw(st.sampled_from([1e-3, 1.0, 1e4]))
     return [ring * scale for ring in rings]
 

@@ -15,6 +15,22 @@ namespace {
 
 using Allowed = tbb::global_control;
 
+/// Whether this thread works for run_on(1): then oneTBB, whose arenas and tasks take longer than
+/// the axis of a rectangle, is left out.
+thread_local bool alone = false;
+
+/// Sets `alone` as long as it lives.
+class Alone {
+ public:
+  explicit Alone(bool now) : before_(std::exchange(alone, now)) {}
+  ~Alone() { alone = before_; }
+  Alone(const Alone&) = delete;
+  Alone& operator=(const Alone&) = delete;
+
+ private:
+  bool before_;
+};
+
 /// How many threads, at most `wanted`, the system starts at the same time.
 std::size_t startable_threads(std::size_t wanted) {
   std::vector<std::thread> threads;
@@ -35,8 +51,8 @@ std::size_t startable_threads(std::size_t wanted) {
 }  // namespace
 
 int effective_threads(int requested) {
-  return requested > 0 ? std::min(requested, most_threads)
-                       : tbb::this_task_arena::max_concurrency();
+  if (requested > 0) return std::min(requested, most_threads);
+  return alone ? 1 : tbb::this_task_arena::max_concurrency();
 }
 
 void allow_startable_threads(int requested) {
@@ -52,14 +68,24 @@ void allow_startable_threads(int requested) {
 namespace threads {
 
 void run_ranges(std::size_t count, std::size_t grain, FunctionRef<std::size_t, std::size_t> work) {
+  if (alone || count <= grain) {
+    if (count > 0) work(0, count);
+    return;
+  }
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, grain),
                     [&](const auto& range) { work(range.begin(), range.end()); });
 }
 
-void run_both(FunctionRef<> first, FunctionRef<> second) { tbb::parallel_invoke(first, second); }
+void run_both(FunctionRef<> first, FunctionRef<> second) {
+  if (!alone) return tbb::parallel_invoke(first, second);
+  first();
+  second();
+}
 
 void run_on(int requested, FunctionRef<> work) {
   const int threads = effective_threads(requested);
+  const Alone scope(threads == 1);
+  if (alone) return work();
   // Without leave oneTBB gives no more threads than the machine has, and prints a warning.
   std::optional<Allowed> leave;
   if (threads > tbb::this_task_arena::max_concurrency())
@@ -70,14 +96,27 @@ void run_on(int requested, FunctionRef<> work) {
 }  // namespace threads
 
 struct TaskGroup::Tasks {
-  tbb::task_group group;
+  std::optional<tbb::task_group> group;
+  std::vector<std::function<void()>> waiting;  ///< without a group
 };
 
-TaskGroup::TaskGroup() : tasks_(std::make_unique<Tasks>()) {}
+TaskGroup::TaskGroup() : tasks_(std::make_unique<Tasks>()) {
+  if (!alone) tasks_->group.emplace();
+}
 TaskGroup::~TaskGroup() = default;
 
-void TaskGroup::run(std::function<void()> task) { tasks_->group.run(std::move(task)); }
+void TaskGroup::run(std::function<void()> task) {
+  if (tasks_->group) return tasks_->group->run(std::move(task));
+  tasks_->waiting.push_back(std::move(task));
+}
 
-void TaskGroup::wait() { tasks_->group.wait(); }
+void TaskGroup::wait() {
+  if (tasks_->group) tasks_->group->wait();
+  while (!tasks_->waiting.empty()) {
+    const std::function<void()> next = std::move(tasks_->waiting.back());
+    tasks_->waiting.pop_back();
+    next();
+  }
+}
 
 }  // namespace medial

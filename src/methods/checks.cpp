@@ -51,7 +51,8 @@ bool is_consistent(const Shape& shape) {
       const Vec2 a = start - points[0], b = end - points[0];
       doubled += cross(a, b);
       size += std::abs(a.x * b.y) + std::abs(a.y * b.x);
-      doubled += 2 * area_beside_chord({start, end, shape.bulge(shape.loop_begin[i] + j)});
+      if (!shape.bulges.empty())
+        doubled += 2 * area_beside_chord({start, end, shape.bulges[shape.loop_begin[i] + j]});
     }
     // Rounding may turn a needle around.
     const double rounding =

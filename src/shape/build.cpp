@@ -5,6 +5,7 @@
 #include "shape/clean.h"
 #include "shape/fill.h"
 #include "shape/nest.h"
+#include "shape/simple_polygon.h"
 #include "shape/splice.h"
 #include "shape/sweep.h"
 #include "shape/winding.h"
@@ -43,6 +44,8 @@ Result<Shape> build_once(std::span<const Ring> rings, const ShapeOptions& option
                          ShapeReport& report) {
   Result<CleanRings> cleaned = clean(rings, report);
   if (!cleaned) return std::move(cleaned).error();
+  if (!options.node_crossings)
+    if (auto shape = simple_polygon(rings, *cleaned, report)) return *std::move(shape);
 
   Result<Arrangement> arranged = arrange(std::move(cleaned).value(), options, report);
   if (!arranged) return std::move(arranged).error();
@@ -77,10 +80,6 @@ Result<Shape> build(std::span<const Ring> rings, const ShapeOptions& options, Sh
 }
 
 }  // namespace
-
-Result<Shape> build_shape(std::span<const Ring> rings, ShapeReport* report) {
-  return build_shape(rings, {}, report);
-}
 
 Result<Shape> build_shape(std::span<const Ring> rings, const ShapeOptions& options,
                           ShapeReport* report) {

@@ -1,0 +1,202 @@
+"""Operations on many features at once: arrays in, arrays out.
+
+Each function takes what :func:`medial.axes` takes, computes on several threads without the
+interpreter's lock, and makes no Python object for a feature. What fails is raised, or kept by
+feature with ``on_error="ignore"``.
+
+>>> import medial.arrays
+>>> two = [[(0, 0), (10, 0), (10, 2), (0, 2)], [(0, 0), (4, 0), (4, 1), (0, 1)]]
+>>> medial.arrays.width(two)["mean"]
+array([2., 1.])
+>>> medial.arrays.offset(two, 0.25)
+<medial.arrays.Geometries: 2 features, 10 rows>
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core
+from ._axes import axes, progress_of, ragged
+from ._errors import MedialError, need
+from ._options import computing, options
+from ._records import Floats, Indices
+
+__all__ = ["Geometries", "Table", "axis", "centerline", "inscribed_circles", "offset", "prune", "width"]
+
+
+class _Result:
+    """Rows of numbers, and offsets that divide them.
+
+    Attributes
+    ----------
+    values : array
+        Rows of numbers.
+    begin : tuple of arrays
+        Where parts begin: the first divides the rows, each further one the parts of the one before
+        it, the last belongs to the features. Empty where each feature has one row.
+    errors : dict
+        What went wrong, by feature.
+    """
+
+    __slots__ = ("begin", "errors", "values")
+
+    def __init__(self, values: Floats, begin: tuple[Indices, ...], errors: dict[int, MedialError]) -> None:
+        self.values, self.begin, self.errors = values, begin, errors
+
+    def __len__(self) -> int:
+        return len(self.begin[-1]) - 1 if self.begin else len(self.values)
+
+    @property
+    def ok(self) -> npt.NDArray[np.bool_]:
+        """Whether each feature has a result."""
+        good = np.ones(len(self), bool)
+        good[list(self.errors)] = False
+        return good
+
+    def __repr__(self) -> str:
+        failed = f", {len(self.errors)} errors" if self.errors else ""
+        return f"<medial.arrays.{type(self).__name__}: {len(self)} features, {len(self.values)} rows{failed}>"
+
+
+class Geometries(_Result):
+    """A geometry of each feature: rows of x, y, and of lines the radius."""
+
+    __slots__ = ()
+
+    def to_wkb(self) -> tuple[npt.NDArray[np.uint8], Indices]:
+        """Well-known binary: bytes, and where those of each feature begin."""
+        data, offsets = _core.write_wkb(self.values.reshape(-1), self.values.shape[1], list(self.begin))
+        return data, offsets
+
+    def to_shapely(self) -> npt.NDArray[Any]:
+        """An array of LineStrings, MultiLineStrings or MultiPolygons; None where there is an error."""
+        shapely = need("shapely", "geo")
+        kinds = shapely.GeometryType
+        kind = (kinds.LINESTRING, kinds.MULTILINESTRING, kinds.MULTIPOLYGON)[len(self.begin) - 1]
+        made: npt.NDArray[Any] = shapely.from_ragged_array(kind, np.ascontiguousarray(self.values[:, :2]), self.begin)
+        made[list(self.errors)] = None
+        return made
+
+    def to_arrow(self) -> Any:
+        """An Arrow array of well-known binary; null where there is an error."""
+        pyarrow = need("pyarrow", "all")
+        data, offsets = self.to_wkb()
+        large = offsets[-1] > np.iinfo(np.int32).max
+        kind = pyarrow.large_binary() if large else pyarrow.binary()
+        begin = pyarrow.py_buffer(offsets if large else offsets.astype(np.int32))
+        bits = np.packbits(self.ok, bitorder="little")
+        valid = pyarrow.py_buffer(bits) if self.errors else None
+        return pyarrow.Array.from_buffers(kind, len(self), [valid, begin, pyarrow.py_buffer(data)])
+
+
+class Table(_Result):
+    """Numbers of each feature: one row (of NaN where there is an error), or several.
+
+    Attributes
+    ----------
+    columns : tuple of str
+        The names of the columns of ``values``.
+    """
+
+    __slots__ = ("columns",)
+
+    def __init__(self, values: Floats, begin: tuple[Indices, ...], errors: dict[int, MedialError],
+                 columns: tuple[str, ...]) -> None:  # fmt: skip
+        super().__init__(values, begin, errors)
+        self.columns = columns
+
+    def __getitem__(self, name: str) -> Floats:
+        column: Floats = self.values[:, self.columns.index(name)]
+        return column
+
+    @property
+    def feature(self) -> Indices:
+        """The feature of each row."""
+        if not self.begin:
+            return np.arange(len(self.values))
+        return np.repeat(np.arange(len(self)), np.diff(self.begin[0]))
+
+    def to_pandas(self) -> Any:
+        """A DataFrame with a row for each row, indexed by feature."""
+        table = need("pandas", "all").DataFrame(self.values, columns=list(self.columns), index=self.feature)
+        return table.rename_axis("feature")
+
+    def to_arrow(self) -> Any:
+        """An Arrow array of structs, or of lists of them; null where there is an error."""
+        pyarrow = need("pyarrow", "all")
+        missing, names = ~self.ok, list(self.columns)
+        fields = [pyarrow.array(np.ascontiguousarray(column)) for column in self.values.T]
+        if not self.begin:
+            return pyarrow.StructArray.from_arrays(fields, names, mask=pyarrow.array(missing))
+        rows = pyarrow.StructArray.from_arrays(fields, names)
+        offsets = pyarrow.array(self.begin[0].astype(np.int32), mask=np.append(missing, False))
+        return pyarrow.ListArray.from_arrays(offsets, rows)
+
+
+def _each(
+    x: Any, operation: str, given: dict[str, Any], method: str | None, on_error: str,
+    threads: int | None, progress: Any,
+) -> tuple[Floats, tuple[Indices, ...], dict[int, MedialError]]:  # fmt: skip
+    """What an operation makes of features."""
+    if on_error not in ("raise", "ignore"):
+        raise ValueError("on_error is 'raise' or 'ignore'")
+    features = ragged(x)
+    computed = computing(method, threads=threads)
+    with progress_of(progress, len(features)) as shown:
+        flat, columns, begin, failed = _core.each_of(
+            features.coordinates, features.ring, features.polygon, features.feature, computed, operation, given, shown
+        )
+    errors = features.errors(failed)
+    if errors and on_error == "raise":
+        raise errors[min(errors)]
+    return flat.reshape(-1, columns), tuple(begin), errors
+
+
+def axis(x: Any, method: str | None = None, *, chord: float | None = None, on_error: str = "raise",
+         threads: int | None = None, progress: Any = False) -> Geometries:  # fmt: skip
+    """The medial axes as lines: multi line strings. :func:`medial.axes` returns them as graphs."""
+    found = axes(x, method, on_error=on_error, threads=threads, progress=progress)
+    points, lines, features = found.lines(chord)
+    return Geometries(points, (lines, features), found.errors)
+
+
+def centerline(x: Any, method: str | None = None, *, trim: float = 1, route: str = "roomy", extend: bool = False,
+               smooth: float = 0, chord: float | None = None, on_error: str = "raise",
+               threads: int | None = None, progress: Any = False) -> Geometries:  # fmt: skip
+    """The centre lines, as :func:`medial.centerline`: line strings."""
+    given = {"trim": trim, "route": route, "extend": extend, "smooth": smooth, "chord": chord, "share": options.chord}
+    return Geometries(*_each(x, "centerline", given, method, on_error, threads, progress))
+
+
+def width(x: Any, samples: int = 100, method: str | None = None, *, trim: float = 1, route: str = "roomy",
+          on_error: str = "raise", threads: int | None = None, progress: Any = False) -> Table:  # fmt: skip
+    """The mean, least and largest width along the centre lines, and their lengths."""
+    given = {"samples": samples, "trim": trim, "route": route}
+    return Table(*_each(x, "width", given, method, on_error, threads, progress), ("mean", "min", "max", "length"))
+
+
+def inscribed_circles(x: Any, count: int = 1, smallest: float = 0, *, on_error: str = "raise",
+                      threads: int | None = None, progress: Any = False) -> Table:  # fmt: skip
+    """The largest circles without overlap, as :func:`medial.inscribed_circles`."""
+    given = {"count": count, "smallest": float(smallest)}
+    return Table(*_each(x, "inscribed_circles", given, None, on_error, threads, progress), ("x", "y", "radius"))
+
+
+def offset(x: Any, distance: float, *, chord: float | None = None, on_error: str = "raise",
+           threads: int | None = None, progress: Any = False) -> Geometries:  # fmt: skip
+    """What is farther than a distance from the boundary, outwards if negative: multi polygons."""
+    given = {"distance": float(distance), "chord": chord, "share": options.chord}
+    return Geometries(*_each(x, "offset", given, None, on_error, threads, progress))
+
+
+def prune(x: Any, measure: str = "prominence", threshold: float | None = None, method: str | None = None, *,
+          keep: int | None = None, tips: bool = False, chord: float | None = None, on_error: str = "raise",
+          threads: int | None = None, progress: Any = False) -> Geometries:  # fmt: skip
+    """The pruned axes, as :func:`medial.prune`: multi line strings."""
+    given = {"measure": measure, "threshold": threshold, "keep": keep, "tips": tips, "chord": chord,
+             "share": options.chord}  # fmt: skip
+    return Geometries(*_each(x, "prune", given, method, on_error, threads, progress))
