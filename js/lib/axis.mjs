@@ -272,10 +272,10 @@ export class MedialAxis extends Handle {
 
 /** The medial axis of a shape. */
 export function axis(x, given = {}) {
-  const shape_options = { keepContours: given.method === "curve-axis" || undefined };
   const { bulges, repair, arcTolerance, fit, ...others } = given;
-  const plain = x instanceof Shape && !repair && !fit && !shape_options.keepContours;
-  const shape = plain ? x : new Shape(x, { ...shape_options, bulges, repair, arcTolerance, fit });
+  const keepContours = given.method === "curve-axis" || undefined;
+  const plain = x instanceof Shape && !repair && !fit;
+  const shape = plain ? x : new Shape(x, { bulges, repair, arcTolerance, fit, keepContours });
   return new MedialAxis(call("axis", shape.address, options(others)), shape);
 }
 

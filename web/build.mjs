@@ -1,0 +1,84 @@
+// Builds the studio: one page with its style, its program, the examples and the module in it, so that it
+// runs from a server as from a folder, and loads nothing afterwards.
+//
+//   node web/build.mjs TREE      reads TREE/package and TREE/npm, writes TREE/studio/index.html
+
+import { copyFile, mkdir, readFile, readdir, writeFile } from "node:fs/promises";
+import { createRequire } from "node:module";
+import { join, resolve } from "node:path";
+
+const tree = resolve(process.argv[2]);
+const web = import.meta.dirname;
+const data = join(web, "../data");
+const out = join(tree, "studio");
+const npm = join(tree, "npm/node_modules");
+const { build } = createRequire(join(npm, "/"))("esbuild");
+
+const text = (path) => readFile(path, "utf8");
+
+/** Shapes of data/ that a page can hold, and one drawn for it. */
+async function examples() {
+  const drawn = {
+    name: "Leaf", note: "curves, drawn by hand",
+    text: "M 3 52 C 12 18 44 0 78 6 C 96 9 112 22 118 44 C 104 38 96 40 90 46 C 98 50 104 58 104 70 C 94 62 84 60 76 64 C 72 84 50 96 24 86 C 34 82 38 76 36 70 C 26 70 10 66 3 52 Z",
+  };
+  const spanner = /<path[^>]*\sd="([^"]+)"/s.exec(await text(join(data, "spanner.svg")))?.[1];
+  const read = async (name) => (await text(join(data, name))).trim();
+  return [
+    drawn,
+    { name: "Bow tie", note: "two bumps of one size, after Volkmann and St. Clair", text: await read("bumps.wkt") },
+    { name: "Spanner", note: "arcs and cubic curves", text: spanner },
+    { name: "Plan", note: "one storey of a building", text: await read("plan.wkt") },
+    { name: "Gear", note: "24 involute teeth", text: await read("gear.wkt") },
+    { name: "Maze", note: "32 by 24 cells", text: await read("maze.wkt") },
+    { name: "Switzerland", note: "Natural Earth, public domain", text: await read("switzerland.geojson") },
+  ];
+}
+
+/** The modules of the page that are made here. */
+const made = (list) => ({
+  name: "made",
+  setup(builder) {
+    builder.onResolve({ filter: /examples\.mjs$/ }, () => ({ path: "examples", namespace: "made" }));
+    builder.onLoad({ filter: /.*/, namespace: "made" }, () => ({
+      contents: `export const examples = ${JSON.stringify(list)};`,
+    }));
+    builder.onResolve({ filter: /^medial-axis\// }, ({ path }) => ({
+      path: join(tree, "package", path.slice("medial-axis/".length)),
+    }));
+    builder.onResolve({ filter: /^node:/ }, ({ path }) => ({ path, external: true }));
+  },
+});
+
+const bundle = await build({
+  entryPoints: [join(web, "src/main.mjs")],
+  bundle: true, format: "esm", target: "es2022", minify: true, write: false, legalComments: "inline",
+  nodePaths: [npm], plugins: [made(await examples())], logLevel: "warning",
+});
+const style = await build({ entryPoints: [join(web, "style.css")], minify: true, write: false });
+
+const module = (await readFile(join(tree, "package/lib/medial.wasm"))).toString("base64");
+const script = bundle.outputFiles[0].text.replaceAll("</script", "<\\/script");
+const page = (await text(join(web, "index.html")))
+  .replace('<link rel="stylesheet" href="style.css">', () => `<style>${style.outputFiles[0].text}</style>`)
+  .replace('<script type="module" src="src/main.mjs"></script>', () => [
+    `<script>globalThis.MEDIAL_WASM = () => Uint8Array.from(atob("${module}"), (c) => c.charCodeAt(0));</script>`,
+    `<script type="module">${script}</script>`,
+  ].join("\n"));
+
+/** The licences of what is in the page besides the project's own. */
+async function licences() {
+  const parts = [];
+  for (const name of ["opentype.js", "dxf-parser", "loglevel"]) {
+    const file = (await readdir(join(npm, name))).find((one) => /^licen[cs]e/i.test(one));
+    const { license, version } = JSON.parse(await text(join(npm, name, "package.json")));
+    parts.push(`${name} ${version} (${license})\n\n${file ? await text(join(npm, name, file)) : ""}`);
+  }
+  return parts.join("\n----\n\n");
+}
+
+await mkdir(out, { recursive: true });
+await writeFile(join(out, "index.html"), page);
+await writeFile(join(out, "LICENSES.txt"), await licences());
+await copyFile(join(web, "../LICENSE"), join(out, "LICENSE.txt"));
+console.log(`the studio: ${join(out, "index.html")}, ${(page.length / 1e6).toFixed(2)} MB, of which the program ${(script.length / 1e6).toFixed(2)} MB`);

@@ -1,0 +1,336 @@
+// Draws the scene: the shape, what is switched on, the axis, and what the pointer is over.
+
+import { arc_of, next_of, point_of, size_of } from "./model.mjs";
+import { SHADES, clipped } from "./pieces.mjs";
+
+const FAR = 2e4; // pixels beyond which a canvas loses digits
+
+/** Colours of the style sheet, read again when light changes to dark. */
+export function read_theme() {
+  const style = getComputedStyle(document.documentElement);
+  const get = (name) => style.getPropertyValue(`--${name}`).trim();
+  const names = ["paper", "grid", "fill", "ink", "faint", "accent", "warm", "disk", "disk-line", "fire", "offset", "error"];
+  const theme = Object.fromEntries(names.map((name) => [name, get(name)]));
+  const stops = get("ramp").split(/\s+/).map((hex) => [1, 3, 5].map((i) => parseInt(hex.slice(i, i + 2), 16)));
+  theme.ramp = Array.from({ length: SHADES }, (_, i) => {
+    const at = (i / (SHADES - 1)) * (stops.length - 1);
+    const k = Math.min(stops.length - 2, Math.floor(at));
+    const mix = stops[k].map((v, d) => Math.round(v + (at - k) * (stops[k + 1][d] - v)));
+    return `rgb(${mix.join(" ")})`;
+  });
+  return theme;
+}
+
+/** Adds a ring to a path; of many points in one pixel only the first is drawn. */
+export function trace_ring(path, ring, camera) {
+  const { cx, cy, dx, dy, scale } = camera.transform;
+  const { xy, edges } = ring;
+  const n = size_of(ring);
+  const on_screen = (k) => [(xy[2 * k] - cx) * scale + dx, (cy - xy[2 * k + 1]) * scale + dy];
+  let [px, py] = on_screen(0);
+  if (far_ring(ring, camera)) return trace_far(path, ring, camera);
+  path.moveTo(px, py);
+  for (let i = 0; i < n; ++i) {
+    const j = i + 1 < n ? i + 1 : 0;
+    const x = (xy[2 * j] - cx) * scale + dx;
+    const y = (cy - xy[2 * j + 1]) * scale + dy;
+    const edge = edges.size ? edges.get(i) : undefined;
+    if (edge === undefined) {
+      if (Math.abs(x - px) + Math.abs(y - py) < 0.4 && j !== 0) continue;
+      path.lineTo(x, y);
+    } else if (typeof edge === "number") {
+      const arc = arc_of(point_of(ring, i), point_of(ring, j), edge);
+      const [ax, ay] = camera.toScreen(arc.cx, arc.cy);
+      path.arc(ax, ay, arc.radius * scale, -arc.begin, -arc.begin - arc.angle, arc.angle > 0);
+    } else {
+      path.bezierCurveTo(...camera.toScreen(edge[0], edge[1]), ...camera.toScreen(edge[2], edge[3]), x, y);
+    }
+    [px, py] = [x, y];
+  }
+  path.closePath();
+}
+
+function far_ring(ring, camera) {
+  if (camera.magnification < 20) return false;
+  const { xy } = ring;
+  for (let k = 0; k < xy.length; k += 2) {
+    const [x, y] = camera.toScreen(xy[k], xy[k + 1]);
+    if (Math.abs(x) > FAR || Math.abs(y) > FAR) return true;
+  }
+  return false;
+}
+
+/** The same of a ring that leaves the screen by far: cut to a box around it (Sutherland, Hodgman). */
+function trace_far(path, ring, camera) {
+  let points = flat_outline(ring, camera);
+  const pad = 100;
+  const sides = [
+    [0, -pad, 1], [0, camera.width + pad, -1], [1, -pad, 1], [1, camera.height + pad, -1],
+  ];
+  for (const [d, limit, sign] of sides) {
+    const inside = (p) => sign * (p[d] - limit) >= 0;
+    const next = [];
+    points.forEach((p, i) => {
+      const q = points[(i + 1) % points.length];
+      if (inside(p)) next.push(p);
+      if (inside(p) === inside(q)) return;
+      const t = (limit - p[d]) / (q[d] - p[d]);
+      next.push(p.map((v, k) => (k === d ? limit : v + t * (q[k] - v))));
+    });
+    points = next;
+    if (!points.length) return;
+  }
+  points.forEach(([x, y], i) => (i ? path.lineTo(x, y) : path.moveTo(x, y)));
+  path.closePath();
+}
+
+/** Points on the screen, with bent edges as chords that are finer the nearer the view is. */
+function flat_outline(ring, camera) {
+  const points = [];
+  for (let i = 0; i < size_of(ring); ++i) {
+    const [a, b] = [point_of(ring, i), point_of(ring, next_of(ring, i))];
+    points.push(camera.toScreen(...a));
+    const edge = ring.edges.get(i);
+    if (edge === undefined) continue;
+    const count = 512;
+    const arc = typeof edge === "number" ? arc_of(a, b, edge) : null;
+    for (let k = 1; k < count; ++k) {
+      const t = k / count;
+      const s = 1 - t;
+      if (arc) {
+        const at = arc.begin + t * arc.angle;
+        points.push(camera.toScreen(arc.cx + arc.radius * Math.cos(at), arc.cy + arc.radius * Math.sin(at)));
+      } else {
+        const w = [s * s * s, 3 * s * s * t, 3 * s * t * t, t * t * t];
+        const at = (d) => w[0] * a[d] + w[1] * edge[d] + w[2] * edge[2 + d] + w[3] * b[d];
+        points.push(camera.toScreen(at(0), at(1)));
+      }
+    }
+  }
+  return points;
+}
+
+/** A ring of the library, points with bulges, as a ring to draw. */
+export function ring_from({ points, bulges }) {
+  const xy = Float64Array.from(points.flat());
+  const edges = new Map();
+  bulges.forEach((bulge, i) => bulge && edges.set(i, bulge));
+  return { xy, edges };
+}
+
+function draw_grid(c, camera, theme, step) {
+  const [x0, y0, x1, y1] = camera.view;
+  c.strokeStyle = theme.grid;
+  c.lineWidth = 1;
+  c.beginPath();
+  for (let x = Math.ceil(x0 / step) * step; x <= x1; x += step) {
+    const [px] = camera.toScreen(x, 0);
+    c.moveTo(Math.round(px) + 0.5, 0);
+    c.lineTo(Math.round(px) + 0.5, camera.height);
+  }
+  for (let y = Math.ceil(y0 / step) * step; y <= y1; y += step) {
+    const [, py] = camera.toScreen(0, y);
+    c.moveTo(0, Math.round(py) + 0.5);
+    c.lineTo(camera.width, Math.round(py) + 0.5);
+  }
+  c.stroke();
+}
+
+/** A step of 1, 2 or 5 by a power of ten, about `pixels` wide on the screen. */
+export function nice_step(camera, pixels = 48) {
+  const wanted = pixels / camera.scale;
+  const power = 10 ** Math.floor(Math.log10(wanted));
+  return power * ([1, 2, 5].find((f) => f * power >= wanted) ?? 10);
+}
+
+function draw_pieces(c, pieces, camera, theme, width, alpha = 1) {
+  c.globalAlpha = alpha;
+  c.lineWidth = width;
+  c.lineCap = "round";
+  for (let shade = 0; shade < SHADES; ++shade) {
+    if (pieces.begin[shade] === pieces.begin[shade + 1]) continue;
+    c.strokeStyle = theme.ramp[shade];
+    c.beginPath();
+    pieces.trace(c, shade, camera);
+    c.stroke();
+  }
+  c.globalAlpha = 1;
+}
+
+function draw_regions(c, regions, camera, theme) {
+  c.strokeStyle = theme.offset;
+  c.lineWidth = 1.25;
+  c.beginPath();
+  for (const ring of regions) trace_ring(c, ring, camera);
+  c.stroke();
+}
+
+function draw_lines(c, lines, camera, colour, width) {
+  c.strokeStyle = colour;
+  c.lineWidth = width;
+  c.beginPath();
+  for (const line of lines) {
+    for (let k = 0; k + 1 < line.length; ++k) {
+      const part = clipped(...camera.toScreen(...line[k]), ...camera.toScreen(...line[k + 1]), -50, -50, camera.width + 50, camera.height + 50);
+      if (!part) continue;
+      c.moveTo(part[0], part[1]);
+      c.lineTo(part[2], part[3]);
+    }
+  }
+  c.stroke();
+}
+
+export function draw_disk(c, disk, camera, theme) {
+  const [x, y] = camera.toScreen(disk.x, disk.y);
+  const r = disk.radius * camera.scale;
+  if (r > 5e5) return;
+  c.beginPath();
+  c.arc(x, y, Math.max(r, 0.5), 0, 2 * Math.PI);
+  c.fillStyle = theme.disk;
+  c.fill();
+  c.strokeStyle = theme["disk-line"];
+  c.lineWidth = 1.5;
+  c.stroke();
+  c.beginPath();
+  for (const foot of disk.feet ?? []) {
+    c.moveTo(x, y);
+    c.lineTo(...camera.toScreen(...foot));
+  }
+  c.setLineDash([3, 3]);
+  c.lineWidth = 1;
+  c.stroke();
+  c.setLineDash([]);
+  dot(c, x, y, 3, theme["disk-line"]);
+  for (const foot of disk.feet ?? []) dot(c, ...camera.toScreen(...foot), 3.5, theme["disk-line"], theme.paper);
+}
+
+function dot(c, x, y, r, fill, ring) {
+  c.beginPath();
+  c.arc(x, y, r, 0, 2 * Math.PI);
+  c.fillStyle = fill;
+  c.fill();
+  if (!ring) return;
+  c.lineWidth = 1.5;
+  c.strokeStyle = ring;
+  c.stroke();
+}
+
+function draw_vertices(c, rings, camera, theme, hot) {
+  const [x0, y0, x1, y1] = camera.view;
+  const seen = [];
+  for (const ring of rings)
+    for (let k = 0; k < ring.xy.length && seen.length <= 1500; k += 2)
+      if (ring.xy[k] >= x0 && ring.xy[k] <= x1 && ring.xy[k + 1] >= y0 && ring.xy[k + 1] <= y1) seen.push(ring, k);
+  if (seen.length <= 1500) {
+    const size = seen.length > 500 ? 1.6 : 2.6;
+    let last = [-99, -99];
+    for (let i = 0; i < seen.length; i += 2) {
+      const [x, y] = camera.toScreen(seen[i].xy[seen[i + 1]], seen[i].xy[seen[i + 1] + 1]);
+      if (Math.hypot(x - last[0], y - last[1]) < 3 * size) continue; // dots would cover the line
+      last = [x, y];
+      dot(c, x, y, size, theme.paper, theme.ink);
+    }
+  }
+  if (!hot || !rings[hot.ring]) return;
+  const ring = rings[hot.ring];
+  if (hot.kind === "edge") {
+    c.beginPath();
+    draw_edge(c, ring, hot.index, camera);
+    c.strokeStyle = theme.accent;
+    c.lineWidth = 3;
+    c.stroke();
+  }
+  if (hot.kind === "vertex") dot(c, ...camera.toScreen(...point_of(ring, hot.index)), 5.5, theme.accent, theme.paper);
+  if (hot.handles) for (const { at } of hot.handles) dot(c, ...camera.toScreen(...at), 4.5, theme.paper, theme.accent);
+}
+
+function draw_edge(c, ring, i, camera) {
+  const j = next_of(ring, i);
+  const edge = ring.edges.get(i);
+  const [a, b] = [camera.toScreen(...point_of(ring, i)), camera.toScreen(...point_of(ring, j))];
+  c.moveTo(...a);
+  if (edge === undefined) c.lineTo(...b);
+  else if (typeof edge === "number") {
+    const arc = arc_of(point_of(ring, i), point_of(ring, j), edge);
+    c.arc(...camera.toScreen(arc.cx, arc.cy), arc.radius * camera.scale, -arc.begin, -arc.begin - arc.angle, arc.angle > 0);
+  } else c.bezierCurveTo(...camera.toScreen(edge[0], edge[1]), ...camera.toScreen(edge[2], edge[3]), ...b);
+}
+
+function draw_draft(c, draft, camera, theme) {
+  if (!draft?.points.length) return;
+  c.beginPath();
+  draft.points.forEach((p, i) => (i ? c.lineTo(...camera.toScreen(...p)) : c.moveTo(...camera.toScreen(...p))));
+  if (draft.closed) c.closePath();
+  c.strokeStyle = theme.accent;
+  c.lineWidth = 2;
+  c.stroke();
+  if (!draft.dots) return;
+  for (const p of draft.points) dot(c, ...camera.toScreen(...p), 3, theme.paper, theme.accent);
+}
+
+function draw_error(c, point, camera, theme) {
+  const [x, y] = camera.toScreen(...point);
+  c.strokeStyle = theme.error;
+  c.lineWidth = 2.5;
+  c.beginPath();
+  c.arc(x, y, 11, 0, 2 * Math.PI);
+  c.moveTo(x - 4, y - 4);
+  c.lineTo(x + 4, y + 4);
+  c.moveTo(x + 4, y - 4);
+  c.lineTo(x - 4, y + 4);
+  c.stroke();
+}
+
+/** What burns: the shape less what is nearer to the boundary than the fire has come. */
+function draw_fire(c, scene, camera, theme, shape) {
+  c.save();
+  c.clip(shape, "evenodd");
+  c.strokeStyle = theme.fire;
+  c.lineJoin = "round";
+  c.lineWidth = 2 * scene.fire * camera.scale;
+  c.stroke(shape);
+  c.restore();
+}
+
+export function draw(c, scene, camera, theme) {
+  const ratio = scene.ratio ?? 1;
+  c.setTransform(ratio, 0, 0, ratio, 0, 0);
+  c.fillStyle = theme.paper;
+  c.fillRect(0, 0, camera.width, camera.height);
+  if (scene.show.grid) draw_grid(c, camera, theme, scene.grid_step);
+  const shape = new Path2D();
+  for (const ring of scene.rings) trace_ring(shape, ring, camera);
+  c.fillStyle = theme.fill;
+  c.fill(shape, "evenodd");
+  if (scene.field) draw_field(c, scene.field, camera, shape);
+  if (scene.fire > 0) draw_fire(c, scene, camera, theme, shape);
+  if (scene.cells) draw_lines(c, scene.cells, camera, theme.faint, 1);
+  if (scene.regions) draw_regions(c, scene.regions, camera, theme);
+  if (scene.carving) draw_carving(c, scene.carving, camera, theme);
+  if (scene.whole) draw_pieces(c, scene.whole, camera, theme, 1, 0.28);
+  if (scene.pieces && scene.show.axis) draw_pieces(c, scene.pieces, camera, theme, scene.pieces.numbers.length > 7e5 ? 1 : 2.25, scene.stale ? 0.25 : 1);
+  for (const { pieces, alpha } of scene.others ?? []) draw_pieces(c, pieces, camera, theme, 1.25, alpha);
+  c.strokeStyle = theme.ink;
+  c.lineWidth = 1.5;
+  c.lineJoin = "round";
+  c.stroke(shape);
+  for (const disk of scene.disks ?? []) draw_disk(c, disk, camera, theme);
+  if (scene.show.vertices) draw_vertices(c, scene.rings, camera, theme, scene.hot);
+  draw_draft(c, scene.draft, camera, theme);
+  if (scene.error?.point) draw_error(c, scene.error.point, camera, theme);
+}
+
+function draw_field(c, field, camera, shape) {
+  c.save();
+  c.clip(shape, "evenodd");
+  const [x0, y0, x1, y1] = field.box;
+  const [left, top] = camera.toScreen(x0, y1);
+  c.imageSmoothingEnabled = true;
+  c.drawImage(field.image, left, top, (x1 - x0) * camera.scale, (y1 - y0) * camera.scale);
+  c.restore();
+}
+
+function draw_carving(c, carving, camera, theme) {
+  for (const { kind, points } of carving.paths)
+    draw_lines(c, [points.map(([x, y]) => [x, y])], camera, kind === "clearing" ? theme.faint : theme.warm, kind === "groove" ? 2 : 1.25);
+}

@@ -1,0 +1,326 @@
+// Starts the studio and connects its parts to the page.
+
+import * as medial from "medial-axis/lazy.mjs";
+
+import { code_for } from "./code.mjs";
+import { examples } from "./examples.mjs";
+import { geojson_of, rings_of_file, rings_of_text, rings_of_words, save, svg_of } from "./files.mjs";
+import { packed, unpacked } from "./link.mjs";
+import { count_of } from "./model.mjs";
+import { connect_panel } from "./panel.mjs";
+import { Player } from "./player.mjs";
+import { Studio } from "./studio.mjs";
+import { Tools } from "./tools.mjs";
+import { start_tour } from "./tour.mjs";
+
+const $ = (id) => document.getElementById(id);
+
+const begun = performance.now();
+await medial.init(globalThis.MEDIAL_WASM?.());
+const studio = new Studio($("plane"), medial);
+const tools = new Tools(studio, say);
+const player = new Player(studio);
+globalThis.studio = studio; // for the console, and for tests
+
+/** Tells screen readers. */
+function say(text) {
+  $("live").textContent = text;
+}
+
+let toast_ends;
+/** Shows a sentence for a while. */
+function tell(text, bad = false) {
+  $("toast").textContent = text;
+  $("toast").classList.toggle("bad", bad);
+  $("toast").hidden = false;
+  clearTimeout(toast_ends);
+  toast_ends = setTimeout(() => ($("toast").hidden = true), 4000);
+}
+
+function show(rings, name) {
+  if (!rings.length) return tell("There is no closed shape in it", true);
+  studio.change(rings);
+  studio.fit();
+  if (name) say(`${name}: ${count_of(rings)} vertices`);
+}
+
+async function open(file) {
+  try {
+    show(await rings_of_file(file), file.name);
+  } catch (error) {
+    tell(`${file.name}: ${error.text ?? error.message}`, true);
+  }
+}
+
+// Menus.
+
+for (const button of document.querySelectorAll("[data-menu]")) {
+  const menu = $(button.dataset.menu);
+  const items = () => [...menu.querySelectorAll("button")];
+  const close = (focus) => {
+    menu.hidden = true;
+    button.setAttribute("aria-expanded", "false");
+    if (focus) button.focus();
+  };
+  button.addEventListener("click", () => {
+    const closed = menu.hidden;
+    document.querySelectorAll(".menu").forEach((other) => (other.hidden = true));
+    menu.hidden = !closed;
+    menu.style.left = `${button.getBoundingClientRect().left}px`;
+    button.setAttribute("aria-expanded", String(closed));
+    if (closed) items()[0]?.focus();
+  });
+  menu.addEventListener("click", () => close(false));
+  menu.addEventListener("keydown", (event) => {
+    const at = items().indexOf(document.activeElement);
+    const to = { ArrowDown: at + 1, ArrowUp: at - 1, Home: 0, End: -1 }[event.key];
+    if (event.key === "Escape") close(true);
+    if (to === undefined) return;
+    event.preventDefault();
+    items().at(to % items().length).focus();
+  });
+  document.addEventListener("pointerdown", (event) => {
+    if (!menu.hidden && !menu.contains(event.target) && event.target.closest("[data-menu]") !== button) close(false);
+  });
+}
+
+const actions = {
+  new: () => {
+    studio.change([]);
+    tools.choose("freehand");
+  },
+  open: () => $("file").click(),
+  text: () => $("text").showModal(),
+  paste: () => $("paste").showModal(),
+  "save-svg": () => with_axis(() => save("medial.svg", svg_of(studio, studio.theme.ramp), "image/svg+xml")),
+  "save-png": () => studio.canvas.toBlob((blob) => save("medial.png", blob)),
+  "save-geojson": () => with_axis(() => save("medial.geojson", geojson_of(studio), "application/geo+json")),
+  "save-native": () => with_axis(() => save("medial.json", medial.dumps(studio.axis), "application/json")),
+  "save-gcode": () =>
+    with_axis(() => save("medial.nc", medial.carve(studio.axis, { angle: studio.settings.carve || 90 }).toGcode(), "text/plain")),
+  link: copy_link,
+  code: () => {
+    show_code("python");
+    $("code").showModal();
+  },
+};
+
+function with_axis(work) {
+  if (!studio.axis) return tell("Draw a shape first");
+  try {
+    work();
+  } catch (error) {
+    tell(error.text ?? error.message, true);
+  }
+}
+
+async function copy_link() {
+  const hash = await packed(studio.rings, changed_settings());
+  if (hash.length > 60_000) return tell("The shape is too large for an address; save a file instead", true);
+  history.replaceState(null, "", `#${hash}`);
+  try {
+    await navigator.clipboard.writeText(location.href);
+    tell("The link is copied");
+  } catch {
+    tell("The link is in the address bar");
+  }
+}
+
+const defaults = { ...studio.settings };
+const changed_settings = () =>
+  Object.fromEntries(Object.entries(studio.settings).filter(([name, value]) => value !== defaults[name]));
+
+$("file-menu").addEventListener("click", (event) => actions[event.target.closest("[data-do]")?.dataset.do]?.());
+$("file").addEventListener("change", () => {
+  if ($("file").files[0]) open($("file").files[0]);
+  $("file").value = "";
+});
+
+for (const { name, note, text } of examples) {
+  const button = document.createElement("button");
+  button.setAttribute("role", "menuitem");
+  button.innerHTML = `<span>${name}<small>${note}</small></span>`;
+  button.addEventListener("click", () => show(rings_of_text(text), name));
+  $("examples-menu").append(button);
+}
+
+// Dialogs.
+
+$("paste").addEventListener("close", () => {
+  if ($("paste").returnValue !== "ok") return;
+  try {
+    show(rings_of_text($("paste-text").value));
+  } catch (error) {
+    tell(`This is no shape: ${error.text ?? error.message}`, true);
+  }
+});
+$("text").addEventListener("close", async () => {
+  if ($("text").returnValue !== "ok") return;
+  try {
+    show(await rings_of_words($("text-words").value, $("text-font").files[0]));
+  } catch (error) {
+    tell(error.text ?? error.message, true);
+  }
+});
+
+function show_code(language) {
+  $("code-text").textContent = code_for(language, studio);
+  for (const tab of document.querySelectorAll("[data-code]")) tab.setAttribute("aria-selected", tab.dataset.code === language);
+}
+document.querySelector(".tabs").addEventListener("click", (event) => event.target.dataset.code && show_code(event.target.dataset.code));
+$("code-copy").addEventListener("click", async () => {
+  await navigator.clipboard.writeText($("code-text").textContent).catch(() => {});
+  tell("The code is copied");
+});
+
+const KEYS = [
+  ["V P R C F H", "choose a tool"], ["G", "snap"], ["0", "show all"], ["+  −", "zoom"], ["Ctrl Z", "undo"],
+  ["Ctrl Shift Z", "redo"], ["Tab", "next vertex"], ["arrows", "move vertex, or the view"], ["Shift arrows", "ten times as far"],
+  ["I", "insert a vertex"], ["Delete", "remove the vertex"], ["Enter", "close the polygon"], ["Esc", "let go"],
+  ["B", "fire"], ["L", "roll"], ["Ctrl O", "open"], ["Ctrl V", "paste a shape"], ["wheel, pinch", "zoom"], ["space, right button", "pan"],
+];
+$("keys").innerHTML = KEYS.map(([key, what]) => `<p><span>${what}</span><b>${key}</b></p>`).join("");
+$("help-open").addEventListener("click", () => $("help").showModal());
+
+// Tools and keys.
+
+const tool_buttons = document.querySelectorAll("[data-tool]");
+tool_buttons.forEach((button) => {
+  button.setAttribute("aria-label", button.title);
+  button.addEventListener("click", () => tools.choose(button.dataset.tool));
+});
+studio.addEventListener("tool", ({ detail }) => {
+  tool_buttons.forEach((button) => button.setAttribute("aria-pressed", String(button.dataset.tool === tools.tool)));
+  $("hint").textContent = detail;
+  $("hint").hidden = false;
+  clearTimeout(tools.hint_ends);
+  tools.hint_ends = setTimeout(() => ($("hint").hidden = true), 3500);
+});
+function snap() {
+  tools.snap = !tools.snap;
+  studio.scene.show.grid = tools.snap;
+  $("snap").setAttribute("aria-pressed", String(tools.snap));
+  studio.ask();
+}
+$("snap").setAttribute("aria-label", $("snap").title);
+$("zoom-fit").setAttribute("aria-label", $("zoom-fit").title);
+$("snap").addEventListener("click", snap);
+$("zoom-fit").addEventListener("click", () => studio.fit());
+$("zoom-out").addEventListener("click", () => studio.fit());
+$("undo").addEventListener("click", () => studio.undo());
+$("redo").addEventListener("click", () => studio.redo());
+$("panel-toggle").addEventListener("click", () => {
+  const closed = document.body.classList.toggle("no-panel");
+  $("panel-toggle").setAttribute("aria-expanded", String(!closed));
+});
+if (innerWidth <= 760) {
+  document.body.classList.add("no-panel");
+  $("panel-toggle").setAttribute("aria-expanded", "false");
+}
+
+const letters = { v: "select", p: "polygon", r: "rectangle", c: "circle", f: "freehand", h: "hand" };
+addEventListener("keydown", (event) => {
+  const typing = event.target.closest("input:not([type=range]):not([type=checkbox]), textarea, select, dialog, .menu");
+  if (typing) return;
+  const key = event.key.toLowerCase();
+  const control = event.ctrlKey || event.metaKey;
+  if (control && key === "z") event.shiftKey ? studio.redo() : studio.undo();
+  else if (control && key === "y") studio.redo();
+  else if (control && key === "o") actions.open();
+  else if (control || event.altKey) return;
+  else if (letters[key]) tools.choose(letters[key]);
+  else if (key === "g") snap();
+  else if (key === "n") actions.new();
+  else if (key === "b") player.toggle("fire");
+  else if (key === "l") player.toggle("roll");
+  else if (key === "0") studio.fit();
+  else if (key === "+" || key === "=") studio.camera.zoom(1.25), studio.ask();
+  else if (key === "-") studio.camera.zoom(0.8), studio.ask();
+  else if (key === "?") $("help").showModal();
+  else return;
+  event.preventDefault();
+});
+addEventListener("paste", (event) => {
+  if (event.target.closest("input, textarea")) return;
+  const file = event.clipboardData.files[0];
+  const text = event.clipboardData.getData("text");
+  if (file) return void open(file);
+  if (!text) return;
+  try {
+    show(rings_of_text(text));
+  } catch {
+    tell("What was pasted is no shape", true);
+  }
+});
+
+// Files that are dropped.
+
+addEventListener("dragover", (event) => {
+  event.preventDefault();
+  $("drop").hidden = false;
+});
+addEventListener("dragleave", (event) => event.relatedTarget || ($("drop").hidden = true));
+addEventListener("drop", (event) => {
+  event.preventDefault();
+  $("drop").hidden = true;
+  const [file] = event.dataTransfer.files;
+  if (file) open(file);
+});
+
+// The line below, and what the pointer is over.
+
+const short = (x) => (Math.abs(x) >= 1e5 || (Math.abs(x) < 1e-3 && x !== 0) ? x.toExponential(3) : String(+x.toPrecision(5)));
+studio.addEventListener("computed", () => {
+  const { axis, scene } = studio;
+  const counts = [`${count_of(studio.rings).toLocaleString("en")} vertices`];
+  if (axis && !scene.error) counts.push(`${axis.edges.length.toLocaleString("en")} edges`);
+  if (scene.error) counts.push(scene.error.text);
+  $("counts").textContent = counts.join(" · ");
+  $("counts").className = scene.error ? "failed" : "";
+  $("speed").textContent = `${studio.times.axis.toFixed(1)} ms`;
+});
+studio.addEventListener("derived", () => {
+  if (studio.branches !== undefined && studio.axis)
+    $("counts").textContent = `${count_of(studio.rings).toLocaleString("en")} vertices · ${studio.axis.edges.length.toLocaleString("en")} edges · ${studio.branches.toLocaleString("en")} branches`;
+});
+studio.addEventListener("drawn", () => {
+  const zoom = studio.camera.magnification;
+  $("zoom-out").textContent = zoom < 1e4 ? `${Math.round(100 * zoom)} %` : `${zoom.toExponential(1)} ×`;
+});
+studio.addEventListener("hover", ({ detail }) => {
+  if (player.running) return;
+  const disk = detail && studio.settings.disk && !studio.scene.draft ? studio.disk_at(detail) : null;
+  if (!studio.settings.disks) studio.scene.disks = disk ? [disk] : null;
+  $("where").textContent = detail ? `${short(detail[0])}, ${short(detail[1])}${disk ? ` · radius ${short(disk.radius)}` : ""}` : "";
+});
+studio.addEventListener("said", ({ detail }) => tell(detail));
+studio.addEventListener("changed", () => {
+  $("undo").disabled = !studio.history.canUndo;
+  $("redo").disabled = !studio.history.canRedo;
+});
+
+const panel = connect_panel(studio, tell);
+start_tour(studio, { show: (text) => show(rings_of_text(text)), panel, player });
+
+// What is shown first: the drawing of the address, or an example.
+
+async function first() {
+  const hash = location.hash.slice(1);
+  if (hash) {
+    try {
+      const { rings, settings } = await unpacked(hash);
+      Object.assign(studio.settings, settings);
+      panel.read();
+      return studio.change(rings);
+    } catch {
+      tell("The address holds no drawing that can be read", true);
+    }
+  }
+  studio.change(rings_of_text(examples[0].text));
+}
+await first();
+studio.fit();
+studio.frame();
+studio.opened = performance.now() - begun;
+performance.mark("first axis");
+addEventListener("hashchange", () => first().then(() => studio.fit()));

@@ -1,0 +1,350 @@
+// The studio in Chromium, from a folder: every tool, what is shown, files, links, memory.
+
+import assert from "node:assert/strict";
+import { existsSync } from "node:fs";
+import { readFile } from "node:fs/promises";
+import { createRequire } from "node:module";
+import { join } from "node:path";
+import { after, before, test } from "node:test";
+import { pathToFileURL } from "node:url";
+
+const npm = createRequire(join(process.env.MEDIAL_NPM, "node_modules", "/"));
+const { chromium } = npm("playwright-core");
+const address = pathToFileURL(join(process.env.MEDIAL_STUDIO, "index.html")).href;
+const BOX = "POLYGON ((0 0, 40 0, 40 20, 0 20, 0 0))";
+
+let browser;
+let page;
+const faults = [];
+
+async function open(options = {}, hash = "") {
+  const opened = await browser.newPage({ viewport: { width: 1200, height: 800 }, ...options });
+  opened.setDefaultTimeout(15000);
+  opened.on("pageerror", (error) => faults.push(error.stack));
+  opened.on("console", (message) => message.type() === "error" && faults.push(message.text()));
+  await opened.goto(address + hash);
+  await opened.waitForFunction(() => globalThis.studio?.opened);
+  return opened;
+}
+
+before(async () => {
+  browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", args: ["--no-sandbox"] });
+  page = await open();
+});
+after(async () => {
+  await browser?.close();
+  assert.deepEqual(faults, []);
+});
+
+/** Lets the studio draw what was asked for. */
+const settled = () => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+const rings = () => page.evaluate(() => studio.rings.map(({ xy, edges }) => ({ xy: [...xy], bent: edges.size })));
+const screen = (x, y) => page.evaluate(([px, py]) => studio.camera.toScreen(px, py), [x, y]);
+const edges = () => page.evaluate(() => studio.axis?.edges.length);
+
+async function paste(text) {
+  await page.click("[data-menu=file-menu]");
+  await page.click("[data-do=paste]");
+  await page.fill("#paste-text", text);
+  await page.click("#paste .primary");
+  await settled();
+}
+async function drag(from, to, steps = 4) {
+  await page.mouse.move(...from);
+  await page.mouse.down();
+  await page.mouse.move(...to, { steps });
+  await page.mouse.up();
+  await settled();
+}
+
+test("a vertex is dragged, and the axis follows; undo and redo", async () => {
+  await paste(BOX);
+  assert.equal(await edges(), 5);
+  const length = await page.evaluate(() => studio.axis.length);
+  await drag(await screen(40, 20), await screen(60, 30));
+  const [{ xy }] = await rings();
+  assert.ok(Math.abs(xy[4] - 60) < 1 && Math.abs(xy[5] - 30) < 1, String(xy));
+  assert.ok((await page.evaluate(() => studio.axis.length)) > length);
+  await page.keyboard.press("Control+z");
+  await settled();
+  assert.deepEqual((await rings())[0].xy, [0, 0, 40, 0, 40, 20, 0, 20]);
+  assert.equal(await page.evaluate(() => studio.axis.length), length);
+  await page.keyboard.press("Control+Shift+z");
+  await settled();
+  assert.ok((await rings())[0].xy[4] > 59);
+});
+
+test("an edge is dragged, and bent into an arc", async () => {
+  await paste(BOX);
+  await drag(await screen(12, 20), await screen(12, 30));
+  const [{ xy }] = await rings();
+  assert.ok(Math.abs(xy[5] - 30) < 1 && Math.abs(xy[7] - 30) < 1, String(xy));
+  await paste(BOX);
+  await page.mouse.move(...(await screen(12, 20)));
+  await settled();
+  await drag(await screen(20, 20), await screen(20, 30));
+  const arc = await page.evaluate(() => studio.rings[0].edges.get(2));
+  assert.ok(Math.abs(arc - 0.5) < 0.06, String(arc));
+});
+
+test("vertices are inserted and removed by double clicks, and by keys", async () => {
+  await paste(BOX);
+  await page.mouse.dblclick(...(await screen(10, 20)));
+  await settled();
+  assert.equal((await rings())[0].xy.length, 10);
+  await page.mouse.dblclick(...(await screen(10, 20)));
+  await settled();
+  assert.equal((await rings())[0].xy.length, 8);
+  await page.focus("#plane");
+  await page.keyboard.press("Escape");
+  await page.keyboard.press("Tab");
+  await page.keyboard.press("Shift+ArrowRight");
+  await settled();
+  assert.ok((await rings())[0].xy[0] > 0);
+  assert.match(await page.textContent("#live"), /ring 1, vertex 1/);
+  await page.keyboard.press("i");
+  await settled();
+  assert.equal((await rings())[0].xy.length, 10);
+  await page.keyboard.press("Delete");
+  await settled();
+  assert.equal((await rings())[0].xy.length, 8);
+});
+
+test("a hole is drawn, and dragged", async () => {
+  await paste(BOX);
+  await page.click("[data-tool=rectangle]");
+  await drag(await screen(10, 6), await screen(16, 14));
+  assert.equal((await rings()).length, 2);
+  assert.equal(await page.evaluate(() => studio.shape.holeCount), 1);
+  await drag(await screen(13, 10), await screen(23, 10));
+  const [, hole] = await rings();
+  assert.ok(Math.abs(Math.min(...hole.xy.filter((_, k) => k % 2 === 0)) - 20) < 1, String(hole.xy));
+});
+
+test("circle, polygon and freehand", async () => {
+  await page.keyboard.press("n");
+  await settled();
+  assert.equal((await rings()).length, 0);
+  await page.click("[data-tool=circle]");
+  await drag([500, 400], [600, 400]);
+  assert.deepEqual((await rings()).map(({ bent }) => bent), [4]);
+  assert.equal(await page.evaluate(() => studio.axis.nodes.length), 1);
+  await page.keyboard.press("n");
+  await page.keyboard.press("p");
+  for (const at of [[300, 300], [600, 320], [560, 560], [330, 500]]) await page.mouse.click(...at);
+  await page.mouse.click(300, 300);
+  await settled();
+  assert.equal((await rings())[0].xy.length, 8);
+  await page.keyboard.press("n");
+  await page.keyboard.press("f");
+  await page.mouse.move(700, 400);
+  await page.mouse.down();
+  for (let k = 0; k <= 40; ++k) {
+    const a = (k / 40) * 2 * Math.PI;
+    await page.mouse.move(500 + (200 + 20 * Math.cos(3 * a)) * Math.cos(a), 400 + 150 * Math.sin(a));
+  }
+  await page.mouse.up();
+  await settled();
+  const [curve] = await rings();
+  assert.ok(curve.bent >= 4, String(curve.bent));
+  assert.ok((await edges()) > 0);
+});
+
+test("edges that cross are shown, and the last axis stays", async () => {
+  await paste(BOX);
+  await drag(await screen(40, 20), await screen(-20, 8));
+  assert.equal(await page.evaluate(() => studio.scene.error.code), "crossing");
+  assert.match(await page.textContent("#counts"), /cross/);
+  assert.equal(await edges(), 5);
+  await page.keyboard.press("Control+z");
+  await settled();
+  assert.equal(await page.evaluate(() => studio.scene.error), null);
+});
+
+test("the disk under the pointer touches the boundary", async () => {
+  await paste(BOX);
+  await page.mouse.move(...(await screen(20, 14)));
+  await settled();
+  const [disk] = await page.evaluate(() => studio.scene.disks);
+  assert.ok(Math.abs(disk.radius - 10) < 1e-9);
+  assert.equal(disk.feet.length, 2);
+});
+
+test("settings: pruning, offsets, cells, field, centre line, disks, carving, certificate", async () => {
+  await paste("POLYGON ((0 0, 40 0, 40 20, 22 20, 20 21, 18 20, 0 20, 0 0))");
+  const branches = () => page.evaluate(() => studio.branches);
+  const before = await branches();
+  await page.locator("#threshold").fill("700");
+  await settled();
+  assert.ok((await branches()) < before);
+  await page.locator("#threshold").fill("0");
+  await page.locator("#offset").fill("250");
+  await settled();
+  assert.ok((await page.evaluate(() => studio.scene.regions.length)) >= 3);
+  for (const id of ["cells", "field", "center", "disks"]) await page.check(`#show-${id}`);
+  await page.locator("#carve").fill("60");
+  await settled();
+  const shown = await page.evaluate(() => {
+    const { cells, field, others, disks, carving } = studio.scene;
+    return [cells.length, field.image.width, others.length, disks.length, carving.paths.length];
+  });
+  for (const count of shown) assert.ok(count > 0, String(shown));
+  await page.click("#check");
+  assert.equal(await page.textContent("#certificate-state"), "Passed");
+  for (const id of ["cells", "field", "center", "disks"]) await page.uncheck(`#show-${id}`);
+  await page.locator("#carve").fill("0");
+  await page.locator("#offset").fill("0");
+});
+
+test("methods", async () => {
+  await paste("POLYGON ((0 0, 40 0, 40 20, 22 20, 20 12, 18 20, 0 20, 0 0))");
+  for (const method of ["lee", "biarc-dc", "ridge", "brushfire", "potential", "disks"]) {
+    await page.selectOption("#method", method);
+    await settled();
+    assert.equal(await page.evaluate(() => studio.axis.method), method);
+    assert.equal(await page.evaluate(() => studio.scene.error), null);
+  }
+  await page.selectOption("#compare", "ridge");
+  await settled();
+  assert.ok(await page.evaluate(() => studio.scene.others[0].pieces.numbers.length > 0));
+  await page.selectOption("#compare", "");
+});
+
+test("zoom to 1e12 keeps the place", async () => {
+  await paste(BOX);
+  const place = await screen(30, 10);
+  await page.evaluate(([x, y]) => {
+    for (let k = 0; k < 60; ++k) studio.camera.zoom(1.6, x, y);
+    studio.frame();
+  }, place);
+  assert.ok((await page.evaluate(() => studio.camera.magnification)) > 1e12);
+  const [x, y] = await screen(30, 10);
+  assert.ok(Math.hypot(x - place[0], y - place[1]) < 2, `${x}, ${y} for ${place}`);
+  await page.keyboard.press("0");
+});
+
+test("animations end where they began", async () => {
+  await paste(BOX);
+  await page.locator("#time").fill("500");
+  await settled();
+  assert.ok(Math.abs((await page.evaluate(() => studio.scene.fire)) - 5) < 1e-6);
+  await page.keyboard.press("l");
+  await page.waitForFunction(() => studio.scene.disks?.[0].radius > 0);
+  await page.keyboard.press("l");
+});
+
+test("files: saved, read again; links", async () => {
+  await paste(BOX);
+  const saved = {};
+  for (const kind of ["svg", "geojson", "native", "gcode", "png"]) {
+    await page.click("[data-menu=file-menu]");
+    const [download] = await Promise.all([page.waitForEvent("download"), page.click(`[data-do=save-${kind}]`)]);
+    saved[kind] = await readFile(await download.path());
+  }
+  assert.match(saved.svg.toString(), /^<svg [^]*<\/svg>\n$/);
+  assert.equal(JSON.parse(saved.geojson).features.length, 6);
+  assert.match(saved.gcode.toString(), /M2\n$/);
+  assert.equal(saved.png.subarray(1, 4).toString(), "PNG");
+  const give = async (name, buffer) => {
+    await page.setInputFiles("#file", { name, mimeType: "", buffer: Buffer.from(buffer) });
+    await page.waitForFunction(() => studio.rings.length > 0);
+    await settled();
+  };
+  await page.keyboard.press("n");
+  await give("shape.json", saved.native);
+  assert.equal(await page.evaluate(() => studio.shape.area), 800);
+  await page.keyboard.press("n");
+  await give("shape.svg", '<svg xmlns="http://www.w3.org/2000/svg"><g transform="scale(2)"><circle cx="5" cy="5" r="3"/><path d="M20 0h10v10h-10z"/></g></svg>');
+  assert.equal((await rings()).length, 2);
+  const area = await page.evaluate(() => studio.shape.area);
+  assert.ok(Math.abs(area - (400 + 36 * Math.PI)) < 0.05, String(area));
+  await page.keyboard.press("n");
+  await give("plate.dxf", await readFile(join(import.meta.dirname, "../../data/plate.dxf")));
+  assert.equal((await rings()).length, 6);
+  assert.equal(await page.evaluate(() => studio.shape.holeCount), 5);
+  await page.click("[data-menu=file-menu]");
+  await page.click("[data-do=link]");
+  await page.waitForFunction(() => location.hash.length > 40);
+  const again = await open({}, await page.evaluate(() => location.hash));
+  assert.deepEqual(await again.evaluate(() => studio.rings.map(({ xy }) => [...xy])), (await rings()).map(({ xy }) => xy));
+  await again.close();
+});
+
+test("a text becomes a shape, and a picture", async () => {
+  await page.click("[data-menu=file-menu]");
+  await page.click("[data-do=text]");
+  await page.fill("#text-words", "Oi");
+  await page.click("#text .primary");
+  await page.waitForFunction(() => studio.shape?.componentCount === 3);
+  assert.equal(await page.evaluate(() => studio.shape.holeCount), 1);
+  const font = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
+  if (!existsSync(font)) return;
+  await page.keyboard.press("n");
+  await page.click("[data-menu=file-menu]");
+  await page.click("[data-do=text]");
+  await page.setInputFiles("#text-font", font);
+  await page.click("#text .primary");
+  await page.waitForFunction(() => studio.shape?.componentCount === 3 && studio.rings.some(({ edges }) => edges.size));
+});
+
+test("code in four languages", async () => {
+  await paste(BOX);
+  await page.click("[data-menu=file-menu]");
+  await page.click("[data-do=code]");
+  for (const [language, text] of [["python", "medial.axis("], ["cpp", "medial::compute("], ["javascript", "medial.axis("], ["shell", "medial axis"]]) {
+    await page.click(`[data-code=${language}]`);
+    assert.ok((await page.textContent("#code-text")).includes(text), language);
+  }
+  await page.click("#code .primary");
+});
+
+test("the tour shows every paper", async () => {
+  await page.click("#tour-open");
+  const seen = [];
+  for (let k = 0; k < 7; ++k) {
+    await settled();
+    seen.push(await page.evaluate(() => studio.axis.method));
+    assert.equal(await page.evaluate(() => studio.scene.error), null, seen.at(-1));
+    await page.click("#tour-next");
+  }
+  assert.deepEqual(seen, ["disks", "ridge", "lee", "biarc-dc", "potential", "curve-axis", "disks"]);
+  assert.ok(await page.isHidden("#tour"));
+});
+
+test("a thousand edits keep the memory flat", async () => {
+  await paste(BOX);
+  const size = await page.evaluate(async () => {
+    const { Shape } = studio.medial;
+    const memory = () => new Shape([[0, 0], [1, 0], [1, 1]]) && studio.axis.nodes.view(Uint8Array).buffer.byteLength;
+    const edit = (k) => {
+      const ring = { xy: Float64Array.of(0, 0, 40, 0, 40, 20 + (k % 7), 0, 20), edges: new Map() };
+      studio.change([ring], false);
+      studio.compute();
+    };
+    for (let k = 0; k < 50; ++k) edit(k);
+    const before = memory();
+    for (let k = 0; k < 1000; ++k) edit(k);
+    return [before, memory()];
+  });
+  assert.equal(size[0], size[1]);
+});
+
+for (const colorScheme of ["light", "dark"])
+  test(`axe-core finds nothing (${colorScheme})`, async () => {
+    const own = await open({ colorScheme });
+    await own.addScriptTag({ path: npm.resolve("axe-core") });
+    const check = () => own.evaluate(async () => (await axe.run()).violations.map(({ id, nodes }) => `${id}: ${nodes[0].html.slice(0, 120)}`));
+    assert.deepEqual(await check(), []);
+    await own.click("#help-open");
+    assert.deepEqual(await check(), []);
+    await own.close();
+  });
+
+test("a phone", async () => {
+  const own = await open({ viewport: { width: 390, height: 780 }, hasTouch: true, isMobile: true });
+  const wide = await own.evaluate(() => document.documentElement.scrollWidth);
+  assert.equal(wide, 390);
+  await own.tap("#panel-toggle");
+  assert.ok(await own.isVisible("#method"));
+  await own.close();
+});
