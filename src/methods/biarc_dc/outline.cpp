@@ -6,13 +6,10 @@
 namespace medial::biarc_dc {
 namespace {
 
-using disks::Boundary;
-using disks::Element;
-
 /// The boundary that the method disks walks along, with its disks between loops.
-Boundary boundary_of(const Problem& problem, std::vector<disks::Bridge>& bridges,
-                     Statistics& statistics) {
-  Boundary loops = disks::loops_boundary(problem, false);
+disks::Boundary boundary_of(const Problem& problem, std::vector<disks::Bridge>& bridges,
+                            Statistics& statistics) {
+  disks::Boundary loops = disks::loops_boundary(problem, false);
   if (problem.shape.hole_count() == 0) return loops;
   bridges = disks::connecting_disks(problem.shape, loops, problem.fine_tolerance, nullptr, 0,
                                     statistics.queries);
@@ -24,7 +21,7 @@ Boundary boundary_of(const Problem& problem, std::vector<disks::Bridge>& bridges
 
 SiteOutline outline_of(const Problem& problem, Statistics& statistics) {
   std::vector<disks::Bridge> bridges;
-  const Boundary boundary = boundary_of(problem, bridges, statistics);
+  const disks::Boundary boundary = boundary_of(problem, bridges, statistics);
   SiteOutline outline;
   outline.sites.reserve(boundary.sites.size());
   outline.joints.reserve(boundary.sites.size());
@@ -32,18 +29,18 @@ SiteOutline outline_of(const Problem& problem, Statistics& statistics) {
   outline.originals.reserve(boundary.sites.size());
   outline.component.resize(bridges.size());
   for (const disks::Bridge& bridge : bridges) outline.cutting_disks.push_back(bridge.disk);
-  for (const Boundary::SiteRange& run : boundary.runs) {
+  for (const disks::Boundary::SiteRange& run : boundary.runs) {
     const auto first = static_cast<std::uint32_t>(outline.sites.size());
     const auto component = static_cast<std::uint32_t>(outline.cycles.size());
     for (std::uint32_t i = run.first; i <= run.last; ++i) {
-      if (boundary.elements[i] == Element::bridge) {
+      if (boundary.elements[i] == disks::Element::bridge) {
         outline.disk_after.back() = boundary.originals[i];
         outline.component[boundary.originals[i]] = component;
         continue;
       }
       const std::uint32_t next = i == run.last ? run.first : i + 1;
-      const bool beside_vertex =
-          boundary.elements[i] == Element::vertex || boundary.elements[next] == Element::vertex;
+      const bool beside_vertex = boundary.elements[i] == disks::Element::vertex ||
+                                 boundary.elements[next] == disks::Element::vertex;
       outline.sites.push_back(boundary.sites[i]);
       outline.joints.push_back(beside_vertex ? Joint::reflex : boundary.joint(i));
       outline.disk_after.push_back(none);
