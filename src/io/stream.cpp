@@ -194,8 +194,6 @@ class AxesStream {
     run_pipeline(
         options_.threads, window_of(effective_threads(options_.threads)), [this] { return next(); },
         stages);
-    if (report.load.features > 0 && report.load.left_out == report.load.features)
-      input_error = Error{ErrorCode::empty, "no feature is valid, so nothing is left", {}};
     if (input_error) return *input_error;
     if (output_error_) return *output_error_;
     if (report.load.left_out > 0)
