@@ -33,8 +33,6 @@ const std::vector<Format>& formats() {
 #ifdef MEDIAL_DXF
       dxf_format(),
 #endif
-#ifdef MEDIAL_GIS
-#endif
       with_pictures(svg_format()),
 #ifdef MEDIAL_GIS
       with_pictures(Format{".pdf"}),

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <mutex>
 
+#include "axis/statistics.h"
 #include "base/in_flight.h"
 #include "base/pipeline.h"
 #include "io/attribute_columns.h"

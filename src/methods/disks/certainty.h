@@ -4,7 +4,7 @@
 
 namespace medial::disks {
 
-/// Whether an event that was found in double is certain (docs/disks.md, How it is decided). For
+/// Whether an event that was found in double is certain (docs/exact.md, How disks decides). For
 /// shapes of segments.
 class Certainty {
  public:
